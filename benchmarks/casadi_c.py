@@ -40,11 +40,11 @@ def peer(name: str, folder: Path) -> Path:
     try:
         import casadi
 
-        from modeler.codegen.casadi_functions import casadi_functions
+        from modeler.codegen.casadi_functions import build_casadi_functions
     except ImportError as why:
         raise Missing("no casadi here") from why
     derivation = derive(lossy(name))
-    functions, _ = casadi_functions(derivation.model, derivation.base)
+    functions, _ = build_casadi_functions(derivation.model, derivation.base)
     own = next(f for f in functions if f.name() == "base_regressor")
     lines = casadi.CodeGenerator("peer", {"with_header": False})
     lines.add(own)

@@ -14,10 +14,10 @@ import numpy as np
 
 from benchmarks.excitation import FIVE, with_losses
 from modeler.api import compile_model, derive, generate
-from modeler.api.motion import bounds_of
-from modeler.excitation import Exciting, Solids, Wish, excite
+from modeler.api.motion import build_bounds
+from modeler.excitation import CollisionGeometry, ExcitingMotion, MotionRequest, design_motion
 from modeler.excitation.families import FAMILIES
-from modeler.report.robot_skeleton import Skeleton, poses, skeleton_of
+from modeler.report.robot_skeleton import Skeleton, build_skeleton, compute_poses
 from modeler.robot import read_robot
 
 MARGIN = 0.01  # m
@@ -25,7 +25,7 @@ FREE = 4  # every so manieth is looked for without clearance too
 _SAMPLES = 2000
 
 
-def least_distance(skeleton: Skeleton, solids: Solids, motion: Exciting) -> float:
+def least_distance(skeleton: Skeleton, solids: CollisionGeometry, motion: ExcitingMotion) -> float:
     """Of all pairs, at even times, m."""
     shapes = []
     for ends, radius in zip(solids.ends, solids.radius, strict=False):
@@ -38,10 +38,10 @@ def least_distance(skeleton: Skeleton, solids: Solids, motion: Exciting) -> floa
         made = coal.Capsule(radius, length) if length else coal.Sphere(radius)
         shapes.append((made, pose))
     times = np.linspace(0.0, motion.series.duration, _SAMPLES)
-    moving = [i for i, row in enumerate(skeleton.rows) if row.joint.moves]
+    moving = [i for i, row in enumerate(skeleton.rows) if row.joint.is_moving]
     least, request, result = np.inf, coal.DistanceRequest(), coal.DistanceResult()
-    for q in motion.series.at(times).motion(motion.x)[0]:
-        frames = poses(skeleton, q)
+    for q in motion.series.resample_at(times).evaluate_motion(motion.x)[0]:
+        frames = compute_poses(skeleton, q)
         placed = []
         for (shape, own), carrier in zip(shapes, solids.carriers, strict=False):
             T = own if carrier < 0 else frames[moving[carrier]] @ own
@@ -58,24 +58,27 @@ def main(first: int, count: int) -> None:
     for name in FIVE:
         robot = with_losses(read_robot(name))
         compiled = compile_model(generate(derive(robot)))
-        bounds = [bounds_of(robot, compiled, {}, {}), bounds_of(robot, compiled, {}, {}, MARGIN)]
-        subjects.append((name, skeleton_of(robot), compiled, bounds))
+        bounds = [
+            build_bounds(robot, compiled, {}, {}),
+            build_bounds(robot, compiled, {}, {}, MARGIN),
+        ]
+        subjects.append((name, build_skeleton(robot), compiled, bounds))
     conditions: dict[str, list[list[float]]] = {name: [[], []] for name in FIVE}
     for k in range(first, first + count):
         name, skeleton, compiled, both = subjects[k % len(subjects)]
-        wish = Wish(6.0, 3, starts=1, seed=k, family=[*FAMILIES][k % len(FAMILIES)])
+        wish = MotionRequest(6.0, 3, starts=1, seed=k, family=[*FAMILIES][k % len(FAMILIES)])
         solids = both[1].clearance.solids
         for n, bounds in enumerate(both):
             if n == 0 and k % FREE:
                 continue
             begun = time.process_time()
-            motion = excite(compiled, bounds, wish)
+            motion = design_motion(compiled, bounds, wish)
             cost[n] += time.process_time() - begun
             least = least_distance(skeleton, solids, motion)
             conditions[name][n].append(motion.quality.condition)
             hits[n] += least < 0.0
             if n:
-                near += least < MARGIN - 1e-6 or motion.nearest.bound > least + 1e-6
+                near += least < MARGIN - 1e-6 or motion.closest_approach.bound > least + 1e-6
         if (k + 1) % 10 == 0:
             print(f"{k + 1}: {hits}, nearer than told {near}", flush=True)
     print(

@@ -64,7 +64,7 @@ def nanoseconds(name: str, rounds: int) -> dict[str, tuple[float, float, float]]
         folder = Path(scratch)
         module = generate(derive(robot), folder / "module")
         bodies, chi = {}, dict[str, float]()
-        for joint in robot.moving:
+        for joint in robot.moving_joints:
             mass, centre, rotor = random.uniform(1, 5), random.uniform(-0.2, 0.2, 3), 0.1
             half = random.uniform(-0.1, 0.1, (3, 3))
             inertia = half @ half.T + 0.05 * np.eye(3)

@@ -17,10 +17,10 @@ from pathlib import Path
 from typing import Any
 
 from modeler.api import compile_model, derive, fit, generate, load, observe
-from modeler.diagnosis import Logs, add_effect, analysed, diagnose
+from modeler.diagnosis import LogSplit, add_effect, analyse_logs, diagnose
 from modeler.observation import Log, read_log
-from modeler.robot import robot_from_text
-from modeler.simulation import SimulationSettings, hidden_from_text, simulate, write_log
+from modeler.robot import parse_robot_text
+from modeler.simulation import SimulationSettings, parse_hidden_effect, simulate, write_log
 
 EFFECT, JOINT = "load_friction", "2"
 
@@ -42,7 +42,7 @@ def logs_of(folder: Path, duration: float) -> list[Log]:
     robot = load("demo-arm")
     spec = generate(derive(robot)).spec
     settings = SimulationSettings(
-        duration=duration, hidden=(hidden_from_text(f"{EFFECT}@{JOINT}"),)
+        duration=duration, hidden=(parse_hidden_effect(f"{EFFECT}@{JOINT}"),)
     )
     found = []
     for seed in (1, 2):
@@ -63,15 +63,15 @@ def measure(train: Log, other: Log) -> dict[str, float]:
         "diagnose, held-out log": warm(lambda: diagnose(model, compiled, [train], [other])),
     }
     for name, held in (("add, training only", ()), ("add, held-out log", (other,))):
-        logs = Logs([train], held)
+        logs = LogSplit([train], held)
         seconds[name] = warm(lambda logs=logs: add_effect(model, compiled, EFFECT, JOINT, logs))
-    better = add_effect(model, compiled, EFFECT, JOINT, Logs([train]))
+    better = add_effect(model, compiled, EFFECT, JOINT, LogSplit([train]))
     return seconds | parts(better.robot_text, train)
 
 
 def parts(text: str, train: Log) -> dict[str, float]:
     """Seconds of what `add` is made of, for the robot file with the effect."""
-    robot = robot_from_text(text, "arm with the effect")
+    robot = parse_robot_text(text, "arm with the effect")
     derivation = derive(robot)
     emitted = generate(derivation)
     compiled = compile_model(emitted)
@@ -81,7 +81,7 @@ def parts(text: str, train: Log) -> dict[str, float]:
         "- derive": warm(lambda: derive(robot)),
         "- emit C": warm(lambda: generate(derive(robot))) - warm(lambda: derive(robot)),
         "- C, cached": warm(lambda: compile_model(emitted)),
-        "- rows in the wide band": warm(lambda: analysed(compiled, [train], processing)),
+        "- rows in the wide band": warm(lambda: analyse_logs(compiled, [train], processing)),
         "- rows of the fit": warm(lambda: observe(compiled, [train], processing)),
         "- fit": warm(lambda: fit(derivation, emitted, observation)),
     }
@@ -110,7 +110,7 @@ def diagnose_times(
         with tempfile.TemporaryDirectory() as folder:
             log, model = Path(folder) / "log.parquet", Path(folder) / "model.json"
             hide = SimulationSettings(
-                duration=duration, hidden=(hidden_from_text(f"{EFFECT}@{JOINT}"),)
+                duration=duration, hidden=(parse_hidden_effect(f"{EFFECT}@{JOINT}"),)
             )
             write_log(log, simulate(load(name), hide))
             _command("fit", name, log, "--out", model)

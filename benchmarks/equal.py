@@ -21,7 +21,7 @@ from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
-from modeler.core.builtin import builtin_names, paper_names
+from modeler.core.builtin import list_builtin_robots, list_papers
 
 TOLERANCE = 1e-9
 ROUNDING = 1e-13
@@ -89,10 +89,10 @@ def main() -> int:
 
 def commands(scratch: Path, data: Path) -> Iterator[tuple[str, list[str]]]:
     """Names and the words of command lines."""
-    for robot in builtin_names():
+    for robot in list_builtin_robots():
         yield f"derive.{robot}", ["derive", robot]
     yield from simulated(scratch)
-    for paper in paper_names():
+    for paper in list_papers():
         yield f"reproduce.{paper}", ["reproduce", paper]
     if not data.is_dir():
         return

@@ -16,19 +16,19 @@ import numpy as np
 from scipy.optimize import differential_evolution, minimize
 
 from modeler.api import compile_model, derive, generate
-from modeler.api.motion import bounds_of as motion_bounds
-from modeler.cli.motion import bounds_of
+from modeler.api.motion import build_bounds as motion_bounds
+from modeler.cli.motion import parse_bounds
 from modeler.excitation import (
-    Task,
-    Wish,
-    condition,
-    default_harmonics,
-    excite,
-    random_motion,
-    task_of,
+    ExcitationTask,
+    MotionRequest,
+    build_task,
+    choose_harmonics,
+    compute_condition,
+    design_motion,
+    draw_random_motion,
 )
 from modeler.excitation.families import FAMILIES
-from modeler.robot import Robot, read_robot, robot_from_text, with_effects
+from modeler.robot import Robot, parse_robot_text, read_robot, replace_effects
 
 ROBOTS = ("scara", "ur10e", "tx40", "panda")
 FIVE = (*ROBOTS, "rx90")
@@ -46,29 +46,31 @@ class _Late(Exception):
 class _Watched:
     """The condition number of motions, and the best of those that keep the limits."""
 
-    def __init__(self, task: Task, seconds: float) -> None:
+    def __init__(self, task: ExcitationTask, seconds: float) -> None:
         self.task, self.seconds, self.begun = task, seconds, time.process_time()
         self.shape = (len(task.bounds.joints), task.series.values.shape[1])
-        self.unit = task.bounds.half[:, None] * np.ones(self.shape[1])
+        self.unit = task.bounds.half_range[:, None] * np.ones(self.shape[1])
         self.best, self.count = np.inf, 0
 
     def motion(self, flat: np.ndarray) -> np.ndarray:
         return flat.reshape(self.shape) * self.unit
 
     def shares(self, flat: np.ndarray) -> np.ndarray:
-        return self.task.kinematic(self.motion(flat)) / self.task.series.room
+        return self.task.compute_kinematic_shares(self.motion(flat)) / self.task.series.room
 
     def condition(self, flat: np.ndarray) -> float:
         if time.process_time() - self.begun > self.seconds:
             raise _Late
         self.count += 1
-        value = condition(self.task.rows(self.task.series.motion(self.motion(flat))))
+        value = compute_condition(
+            self.task.compute_rows(self.task.series.evaluate_motion(self.motion(flat)))
+        )
         if value < self.best and np.abs(self.shares(flat)).max() <= 1.0:
             self.best = value
         return value
 
 
-def slsqp(task: Task, seconds: float) -> _Watched:
+def slsqp(task: ExcitationTask, seconds: float) -> _Watched:
     watched, rng = _Watched(task, seconds), np.random.default_rng(0)
 
     def room(flat: np.ndarray) -> np.ndarray:
@@ -78,7 +80,7 @@ def slsqp(task: Task, seconds: float) -> _Watched:
 
     try:
         while True:
-            x = (random_motion(task, rng) / watched.unit).ravel()
+            x = (draw_random_motion(task, rng) / watched.unit).ravel()
             minimize(
                 lambda flat: np.log(watched.condition(flat)), x, method="SLSQP",
                 constraints={"type": "ineq", "fun": room}, options={"maxiter": 200},
@@ -87,15 +89,15 @@ def slsqp(task: Task, seconds: float) -> _Watched:
         return watched
 
 
-def evolution(task: Task, seconds: float) -> _Watched:
+def evolution(task: ExcitationTask, seconds: float) -> _Watched:
     watched = _Watched(task, seconds)
 
     def repaired(flat: np.ndarray) -> float:
         # Drawn back towards the middle of the ranges until the limits hold: better than penalties.
         x = watched.motion(flat)
         still = np.zeros_like(x)
-        still[:, 0] = task.bounds.middle
-        x = still + min(1.0, 0.999 * task.reach(still, x - still)) * (x - still)
+        still[:, 0] = task.bounds.mid_range
+        x = still + min(1.0, 0.999 * task.compute_reach(still, x - still)) * (x - still)
         return watched.condition((x / watched.unit).ravel())
 
     ranges = [(-1.0, 1.0)] * watched.unit.size
@@ -107,7 +109,7 @@ def evolution(task: Task, seconds: float) -> _Watched:
 
 
 def with_losses(robot: Robot) -> Robot:
-    return robot_from_text(with_effects(robot.text, _EFFECTS), robot.name)
+    return parse_robot_text(replace_effects(robot.text, _EFFECTS), robot.name)
 
 
 def main(names: list[str]) -> None:
@@ -118,12 +120,12 @@ def main(names: list[str]) -> None:
     for name in names:
         robot = with_losses(read_robot(name))
         compiled = compile_model(generate(derive(robot)))
-        bounds = bounds_of(robot, compiled, (), ())
-        wish = Wish(10.0, default_harmonics(bounds, 10.0), "condition")
+        bounds = parse_bounds(robot, compiled, (), ())
+        wish = MotionRequest(10.0, choose_harmonics(bounds, 10.0), "condition")
         begun = time.process_time()
-        ours = excite(compiled, bounds, wish)
+        ours = design_motion(compiled, bounds, wish)
         seconds = time.process_time() - begun
-        task = task_of(compiled, bounds, wish, None, None, None)
+        task = build_task(compiled, bounds, wish, None, None, None)
         peers = [peer(task, PATIENCE * seconds) for peer in (slsqp, evolution)]
         best, median = ours.random
         print(
@@ -146,10 +148,10 @@ def families(names: list[str]) -> None:
         cells = []
         for family in FAMILIES:
             for bounds, wide in zip(both, (10, 8), strict=True):
-                harmonics = default_harmonics(bounds, 10.0)
-                wish = Wish(10.0, harmonics, "condition", starts=3, family=family)
+                harmonics = choose_harmonics(bounds, 10.0)
+                wish = MotionRequest(10.0, harmonics, "condition", starts=3, family=family)
                 begun = time.process_time()
-                found = excite(compiled, bounds, wish)
+                found = design_motion(compiled, bounds, wish)
                 seconds = time.process_time() - begun
                 cells.append(f"{found.quality.condition:>{wide}.3g}{seconds:>8.1f}")
         print(f"{name:<10}" + "".join(cells), flush=True)

@@ -11,8 +11,8 @@ from typing import Any
 from benchmarks.line import Key, Line, Missing
 from modeler.api import compile_model, derive, generate, load, simulate
 from modeler.api.fleets import reduce_logs
-from modeler.core.jobs import Cluster, Workers, untold
-from modeler.fleet import fleet_of, named_logs
+from modeler.core.jobs import Cluster, Workers, ignore_progress
+from modeler.fleet import analyse_fleet, name_logs
 from modeler.simulation import write_log
 
 ROBOT = "panda"
@@ -27,8 +27,10 @@ class _Weighed(Workers):
     def __init__(self, workers: Workers, count: int) -> None:
         self._workers, self._count, self.moved = workers, count, 0
 
-    def each(self, work: Any, shared: Any, jobs: Sequence[Any], done: Any = untold) -> list[Any]:
-        found = self._workers.each(work, shared, jobs, done)
+    def map_jobs(
+        self, work: Any, shared: Any, jobs: Sequence[Any], done: Any = ignore_progress
+    ) -> list[Any]:
+        found = self._workers.map_jobs(work, shared, jobs, done)
         weights = [len(pickle.dumps(thing, 5)) for thing in (shared, *jobs, *found)]
         self.moved = self._count * weights[0] + sum(weights[1:])
         return found
@@ -58,7 +60,7 @@ def _measure(quick: bool) -> Mapping[str, float]:
         for seed, place in enumerate(places[:_FEW] if quick else places):
             place.parent.mkdir(exist_ok=True)
             write_log(place, simulate(robot, duration=_SECONDS, seed=seed, parameter_seed=1))
-        named = named_logs([(str(place), "") for place in places if place.exists()], None)
+        named = name_logs([(str(place), "") for place in places if place.exists()], None)
         size = sum(Path(each.place).stat().st_size for each in named)
         found["fleet_log_kb"] = size / _THOUSAND / len(named)
         for count in (0, *CLUSTERS):
@@ -69,7 +71,7 @@ def _measure(quick: bool) -> Mapping[str, float]:
                     begun = time.perf_counter()
                     given = reduce_logs(compiled, emitted, named, weighed)
                     taken.append(time.perf_counter() - begun)
-            fleets.append(fleet_of(emitted.spec, given).findings)
+            fleets.append(analyse_fleet(emitted.spec, given).findings)
             found[f"fleet_seconds.{name}"] = min(taken) / len(named)
             if count:
                 found[f"fleet_first_seconds.{name}"] = taken[0] / len(named)

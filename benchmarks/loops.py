@@ -11,8 +11,8 @@ import numpy as np
 
 from benchmarks.line import Key, Line, ratio
 from modeler.codegen import derive, generate, load as robot
-from modeler.derivation import random_states
-from modeler.runtime import CompiledModel, load
+from modeler.derivation import draw_random_states
+from modeler.runtime import CompiledModel, load_module
 
 ROBOTS = (
     "sr400", "dvrk-psm", "five-bar", "3rrr", "delta", "orthoglide-2003", "orthoglide-2012",
@@ -26,7 +26,7 @@ SAMPLES = 4000
 def motion(derivation, samples: int) -> list[np.ndarray]:
     """A smooth motion around home: q, qd, qdd of the coordinates."""
     model = derivation.model
-    states = random_states(model, 1, np.random.default_rng(1))
+    states = draw_random_states(model, 1, np.random.default_rng(1))
     places = list(model.closure.given) if model.closure else range(states[0].shape[1])
     q, qd, qdd = (x[0, list(places)] for x in states)
     way = np.sin(np.linspace(0, 6 * np.pi, samples))[:, None]
@@ -53,7 +53,7 @@ def loop_times(name: str) -> dict[str, float]:
     derived = time.perf_counter()
     emitted = generate(derivation)
     written = time.perf_counter()
-    compiled: CompiledModel = load(emitted.spec, emitted.files)
+    compiled: CompiledModel = load_module(emitted.spec, emitted.files)
     built = time.perf_counter()
     q, qd, qdd = motion(derivation, SAMPLES)
     W = compiled.observation(q, qd, qdd)
@@ -88,8 +88,8 @@ def _tiled(compiled: CompiledModel, motion: list[np.ndarray], W: np.ndarray) -> 
     status, least = np.zeros(SAMPLES, dtype=np.intc), [float("inf")] * 2
     for _ in range(15):
         ways = (
-            lambda: compiled._library.observation(motion, W, status),
-            lambda: compiled._tiles.fill(motion, W, True, status),
+            lambda: compiled._library.fill_observation(motion, W, status),
+            lambda: compiled._tiles.fill_samples(motion, W, True, status),
         )
         least = [min(least[k], best(way, 1)) for k, way in enumerate(ways)]
     return {"tile_us": 1e6 * least[1] / SAMPLES, "tile_ratio": least[0] / least[1]}

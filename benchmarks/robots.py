@@ -4,9 +4,9 @@ import dataclasses
 import functools
 
 from modeler.codegen import derive, generate
-from modeler.core.manifest import Emitted
+from modeler.core.manifest import EmittedModule
 from modeler.robot import EffectUse, Robot, read_robot
-from modeler.runtime import CompiledModel, load
+from modeler.runtime import CompiledModel, load_module
 
 ROBOTS = ("wrist", "puma560", "panda")
 EFFECTS = ("rotor_inertia", "viscous", "coulomb")
@@ -14,7 +14,7 @@ EFFECTS = ("rotor_inertia", "viscous", "coulomb")
 
 def with_losses(robot: Robot) -> Robot:
     """The robot with rotor inertia, viscous and Coulomb friction at every joint, nothing else."""
-    names = tuple(joint.name for joint in robot.moving)
+    names = tuple(joint.name for joint in robot.moving_joints)
     return dataclasses.replace(robot, effects=tuple(EffectUse(e, names) for e in EFFECTS))
 
 
@@ -25,7 +25,7 @@ def lossy(name: str) -> Robot:
 
 
 @functools.cache
-def emitted(name: str) -> Emitted:
+def emitted(name: str) -> EmittedModule:
     """Its C."""
     return generate(derive(lossy(name)))
 
@@ -34,4 +34,4 @@ def emitted(name: str) -> Emitted:
 def compiled(name: str) -> CompiledModel:
     """Its C, compiled."""
     module = emitted(name)
-    return load(module.spec, module.files)
+    return load_module(module.spec, module.files)

@@ -61,7 +61,7 @@ def _columns(quick: bool) -> Mapping[str, float]:
             times = []
             for W in places:
                 start = time.perf_counter()
-                model._tiles.fill(motion, W, dense=True)
+                model._tiles.fill_samples(motion, W, dense=True)
                 times.append(time.perf_counter() - start)
             ratios.append(times[1] / times[0])
         found[f"columns_over_rows.{name}"] = float(np.median(ratios))

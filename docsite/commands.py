@@ -4,7 +4,7 @@ import argparse
 
 from docsite.markdown import block, cell, code, table
 from modeler.cli.command_table import FAMILIES
-from modeler.cli.commands import commands_of, parser
+from modeler.cli.commands import build_parser, collect_command_parsers
 from modeler.core.estimators import ABOUT
 
 
@@ -17,7 +17,7 @@ def command_pages() -> dict[str, str]:
 
 def commands() -> dict[str, argparse.ArgumentParser]:
     """{name: parser} in the order of `modeler --help`."""
-    return commands_of(parser())
+    return collect_command_parsers(build_parser())
 
 
 def _subparsers(found: argparse.ArgumentParser) -> dict[str, argparse.ArgumentParser]:
@@ -29,13 +29,13 @@ def _subparsers(found: argparse.ArgumentParser) -> dict[str, argparse.ArgumentPa
 
 def _summaries() -> dict[str, str]:
     """{name: the line of `modeler --help`}."""
-    action = next(a for a in parser()._actions if isinstance(a, argparse._SubParsersAction))
+    action = next(a for a in build_parser()._actions if isinstance(a, argparse._SubParsersAction))
     return {choice.dest: choice.help or "" for choice in action._choices_actions}
 
 
 def _index(parsers: dict[str, argparse.ArgumentParser]) -> str:
     told = _summaries()
-    parts = [f"# Commands\n\n{cell(parser().description or '')}\n"]
+    parts = [f"# Commands\n\n{cell(build_parser().description or '')}\n"]
     for family, members in FAMILIES.items():
         rows = [
             (f"[`modeler {name}`]({name}.md)", cell(told[name]), code(_example(parsers[name])))

@@ -18,11 +18,11 @@ from docsite.markdown import block, cell, code, table
 from modeler import api
 from modeler.core.errors import DataError
 from modeler.core.figure import Picture
-from modeler.diagnosis import Diagnosis, Finding, lines
-from modeler.effects import CATALOGUE, Acts, Effect, Shape
-from modeler.report import diagnosis_page
-from modeler.report.figures import picture_figure
-from modeler.robot import Robot, robot_with_effects, with_effect
+from modeler.diagnosis import Diagnosis, Finding, format_lines
+from modeler.effects import CATALOGUE, Effect, EffectTarget, NonlinearParameter
+from modeler.report import build_diagnosis_page
+from modeler.report.figures import draw_picture
+from modeler.robot import Robot, insert_effect, replace_robot_effects
 from modeler.simulation import HIDDEN
 
 FAMILIES = {
@@ -192,16 +192,20 @@ def _shown(effect: Effect, scene: Scene) -> _Shown:
 
 
 @cache
-def _machine(name: str, effects: str | None) -> tuple[Robot, api.Derivation, api.Emitted]:
+def _machine(name: str, effects: str | None) -> tuple[Robot, api.Derivation, api.EmittedModule]:
     robot = api.load(name)
-    robot = robot if effects is None else robot_with_effects(robot, effects, "effects")
+    robot = robot if effects is None else replace_robot_effects(robot, effects, "effects")
     derivation = api.derive(robot)
     return robot, derivation, api.generate(derivation)
 
 
 def _picture(effect: Effect, found: Diagnosis) -> Picture:
     """Of the effect, or of that which the diagnosis finds in its place."""
-    drawn = [p for p in diagnosis_page(found).pictures() if not p.name.startswith("torque_")]
+    drawn = [
+        p
+        for p in build_diagnosis_page(found).collect_pictures()
+        if not p.name.startswith("torque_")
+    ]
     own = [p for p in drawn if p.name.startswith(f"evidence_{effect.id}")]
     return (own or drawn)[0]
 
@@ -215,7 +219,7 @@ def _small(picture: Picture) -> Picture:
 
 
 def _png(picture: Picture, size: tuple[float, float] | None = None) -> bytes:
-    figure, stream = picture_figure(picture), io.BytesIO()
+    figure, stream = draw_picture(picture), io.BytesIO()
     if size is not None:
         figure.set_size_inches(*size)
         for legend in figure.legends:
@@ -251,21 +255,29 @@ def _sentence(text: str) -> str:
 def _parameters(effect: Effect) -> list[str]:
     """Tables of parameters and of shapes, for every form."""
     acts = f"It {cell(effect.acts.value)}."
-    if effect.acts in (Acts.LINK, Acts.GRAVITY, Acts.WINDOW):  # one column for several parameters
+    if effect.acts in (
+        EffectTarget.LINK,
+        EffectTarget.GRAVITY,
+        EffectTarget.WINDOW,
+    ):  # one column for several parameters
         return [acts]
     columns: list[tuple[str, ...]] = []
-    shapes: dict[str, Shape] = {}
+    shapes: dict[str, NonlinearParameter] = {}
     for form in effect.forms:
         for c in form.columns:
             units = dict.fromkeys(cell(unit) for unit in (c.unit_revolute, c.unit_prismatic))
             sign = "not below 0" if c.nonnegative else "either sign"
             columns.append((code(c.prefix), code(c.equation.text), " or ".join(units), sign))
-        shapes |= {shape.name: shape for shape in form.free}
+        shapes |= {shape.name: shape for shape in form.free_parameters}
     head = ("parameter", "equation, times it", "unit: joint turns, slides", "sign")
     found = [f"{acts[:-1]}:", "", table(head, columns)]
     if shapes:
         rows = [
-            (code(s.name), cell(s.meaning), " or ".join(dict.fromkeys(map(s.unit, (False, True)))))
+            (
+                code(s.name),
+                cell(s.meaning),
+                " or ".join(dict.fromkeys(map(s.get_unit, (False, True)))),
+            )
             for s in shapes.values()
         ]
         found += ["", table(("shape", "what it is", "unit"), rows)]
@@ -279,7 +291,7 @@ def _scene_words(shown: _Shown, scene: Scene) -> str:
 
 def _told(found: Diagnosis) -> list[str]:
     """The verdict and what is said of each effect that is named, at 88 letters a line."""
-    said = lines(found)
+    said = format_lines(found)
     named = {finding.joint for finding in found.effects}
     of_effects = tuple(f"joint {joint}: " if joint else "the whole robot: " for joint in named)
     told = [said[0], *(line for line in said[1:] if line.startswith(of_effects or ("?",)))]
@@ -291,7 +303,7 @@ def _apart(effect: Effect, shown: _Shown) -> str:
     finding = next((f for f in shown.found.effects if f.effect == effect.id), None)
     if finding is None:
         return ""
-    ties = [_place(name, joint) for name, joint in finding.ties]
+    ties = [_place(name, joint) for name, joint in finding.equivalents]
     rivals = [
         (_place(name, joint), f"{100 * max(gain, 0.0):.3g} %")
         for name, joint, gain in shown.found.rivals
@@ -315,16 +327,16 @@ def _apart(effect: Effect, shown: _Shown) -> str:
 
 def _between(finding: Finding, shown: _Shown) -> str:
     """The effect and its strongest rival that a motion can tell from it; empty without one."""
-    from modeler.api.motion import question_of, subject_of
+    from modeler.api.motion import build_subject, parse_question
 
-    subject = subject_of(shown.model)
-    rivals = [*finding.ties, *((name, joint) for name, joint, _ in shown.found.rivals)]
+    subject = build_subject(shown.model)
+    rivals = [*finding.equivalents, *((name, joint) for name, joint, _ in shown.found.rivals)]
     for name, joint in rivals:
         if name == finding.effect or joint != finding.joint or joint is None:
             continue
         text = f"{finding.effect}@{finding.joint},{name}@{joint}"
         try:
-            question_of(subject, text)
+            parse_question(subject, text)
         except DataError:
             continue
         return text
@@ -337,19 +349,19 @@ def _place(name: str, joint: str | None) -> str:
 
 def _shapes(effect: Effect, found: Diagnosis) -> Mapping[str, float]:
     """What the diagnosis finds of the shapes that a robot file states, three digits."""
-    free = {shape.name for form in effect.forms for shape in form.free}
+    free = {shape.name for form in effect.forms for shape in form.free_parameters}
     picks = (f.pick for f in found.effects if f.effect == effect.id and f.pick is not None)
-    shapes = next((pick.candidate.shapes for pick in picks), {})
+    shapes = next((pick.candidate.nonlinear_parameters for pick in picks), {})
     return {name: float(f"{value:.3g}") for name, value in shapes.items() if name in free}
 
 
 def _written(effect: Effect, shapes: Mapping[str, float]) -> str:
     """The lines of a robot file that carry the effect, or why there are none."""
-    if effect.written:
-        joint = "21" if effect.acts is Acts.PASSIVE else "2"
-        text = with_effect('name = "arm"\n', effect.id, joint, shapes)
+    if effect.can_be_stated:
+        joint = "21" if effect.acts is EffectTarget.PASSIVE else "2"
+        text = insert_effect('name = "arm"\n', effect.id, joint, shapes)
         shaft = '\n[coupling]\n2 = "q1 + q2"  # the motor of joint 2 also turns with joint 1\n'
-        return block(text[text.index("[effects]") :] + shaft * effect.coupled, "toml")
+        return block(text[text.index("[effects]") :] + shaft * effect.is_coupled, "toml")
     if effect.hindrance:
         return f"No column carries it: {cell(effect.hindrance)}."
     return (

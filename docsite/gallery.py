@@ -11,9 +11,9 @@ from docsite.effects import Portrait
 from docsite.markdown import block, cell, code, table
 from modeler import formulas
 from modeler.codegen import Derivation, derive, generate
-from modeler.core.builtin import builtin_names, builtin_text
+from modeler.core.builtin import list_builtin_robots, read_builtin_robot
 from modeler.derivation import as_markdown
-from modeler.report import picture_bytes, show
+from modeler.report import render_picture, show
 from modeler.robot import read_robot
 
 WRITTEN = Path(__file__).resolve().parents[1] / "docs" / "robots"
@@ -48,7 +48,7 @@ def exhibit(name: str) -> Exhibit:
     robot = read_robot(name)
     derivation, shown = derive(robot), show(robot)
     sizes, functions = _emitted(derivation)
-    text = builtin_text(name)
+    text = read_builtin_robot(name)
     parts = [
         f"# {name}", "", f"**{cell(robot.title)}**", "", _notes(text), "", *_written_about(name),
         f"![{name}]({name}.png){{ width=420 }}", "", _counts(derivation), "",
@@ -62,7 +62,7 @@ def exhibit(name: str) -> Exhibit:
         name,
         robot.title,
         "\n".join(parts),
-        picture_bytes(shown.skeleton, shown.posture, ".png"),
+        render_picture(shown.skeleton, shown.posture, ".png"),
         len(robot.coordinates),
         derivation.base.rank,
         sum(lines for lines, _ in sizes.values()),
@@ -73,7 +73,7 @@ def coefficients(derivation: Derivation) -> list[str]:
     """The section of a robot whose paper numbers the coefficients of its closed form."""
     if not derivation.robot.terms:
         return []
-    found = formulas.coefficient_table(derivation.model, derivation.base)
+    found = formulas.build_coefficient_table(derivation.model, derivation.base)
     return ["## Coefficients", "", formulas.render.coefficients_markdown(found), ""]
 
 
@@ -138,7 +138,7 @@ def _written_about(name: str) -> list[str]:
 def exhibits() -> list[Exhibit]:
     """All built-in robots, as many at a time as there are processors."""
     with ProcessPoolExecutor() as pool:
-        return list(pool.map(exhibit, builtin_names()))
+        return list(pool.map(exhibit, list_builtin_robots()))
 
 
 def _notes(text: str) -> str:
@@ -148,7 +148,7 @@ def _notes(text: str) -> str:
 
 def _counts(derivation: Derivation) -> str:
     base = derivation.base
-    kinds = ", ".join(f"{n} {cell(kind)}" for kind, n in base.counts().items() if n)
+    kinds = ", ".join(f"{n} {cell(kind)}" for kind, n in base.count_by_kind().items() if n)
     return (
         f"{len(base.columns)} standard parameters, {base.rank} base parameters ({kinds}); proof: "
         f"{cell(base.proof.kind)}."

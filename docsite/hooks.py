@@ -9,7 +9,7 @@ from docsite.effects import effects_index, portraits
 from docsite.gallery import exhibits, gallery_front, gallery_index
 from docsite.interface import interface_pages
 from docsite.notebook import last_run, notebook_page
-from modeler.core.builtin import builtin_names
+from modeler.core.builtin import list_builtin_robots
 from modeler.effects import CATALOGUE
 
 if TYPE_CHECKING:  # tests read this file without it
@@ -24,7 +24,7 @@ KEPT = ("site.css", "iframe-worker/iframe-worker.js", "iframe-worker/LICENSE")
 def on_config(config: "MkDocsConfig") -> "MkDocsConfig":
     """Lists the made pages under the sections that begin with their index."""
     made: dict[str, list[Any]] = {
-        "gallery/robots/index.md": [f"gallery/robots/{name}.md" for name in builtin_names()],
+        "gallery/robots/index.md": [f"gallery/robots/{name}.md" for name in list_builtin_robots()],
         "gallery/effects/index.md": [
             {effect.id: f"gallery/effects/{effect.id}.md"} for effect in CATALOGUE
         ],

@@ -14,13 +14,13 @@ from pathlib import Path
 from typing import Any
 
 from modeler import api
-from modeler.core.manifest import Emitted
-from modeler.effects.catalogue import effect_named
+from modeler.core.manifest import EmittedModule
+from modeler.effects.catalogue import find_effect
 from modeler.estimation.model_file import IdentifiedModel
 from modeler.observation.log import Log
 from modeler.observation.read import read_log
 from modeler.observation.settings import Processing
-from modeler.robot.read import robot_from_text
+from modeler.robot.read import parse_robot_text
 from modeler.robot.robot import Robot
 from modeler.runtime.model import CompiledModel
 from modeler.simulation import SimulationSettings, simulate, write_log
@@ -31,7 +31,7 @@ class Chain:
     """A robot, its C, and the same compiled."""
 
     derivation: api.Derivation
-    emitted: Emitted
+    emitted: EmittedModule
     compiled: CompiledModel
     _logs: dict[str, Log] = field(default_factory=dict)
 
@@ -67,7 +67,7 @@ def chain_of(robot: str | Path | Robot) -> Chain:
 
 @lru_cache(maxsize=64)
 def _of_text(text: str, name: str) -> Chain:
-    derivation = api.derive(robot_from_text(text, name))
+    derivation = api.derive(parse_robot_text(text, name))
     emitted = api.generate(derivation)
     return Chain(derivation, emitted, api.compile_model(emitted))
 
@@ -82,7 +82,7 @@ def diagnose_case(folder: Path, withheld: Sequence[str] = ()) -> dict[str, Any]:
         folder: of a case of `tests/hidden_effects`, which names nothing of the package itself.
         withheld: effects that may not be named, nor those that are the same column.
     """
-    known = [effect for effect in map(effect_named, withheld) if effect is not None]
+    known = [effect for effect in map(find_effect, withheld) if effect is not None]
     same = [other for effect in known for other in effect.same_as]
     with _cache_of_its_own():
         model = chain_of(folder / "robot.toml").fit([folder / "train.parquet"])

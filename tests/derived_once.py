@@ -11,13 +11,13 @@ import pytest
 
 from modeler.codegen import emit as emission, workflow
 from modeler.codegen.emit import emit
-from modeler.core.manifest import Emitted
-from modeler.derivation import BaseParameters, SymbolicModel, base_parameters, derive_model
+from modeler.core.manifest import EmittedModule
+from modeler.derivation import BaseParameters, SymbolicModel, derive_base_parameters, derive_model
 from modeler.robot import Robot
 
 _MODELS: dict[str, list[tuple[Robot, SymbolicModel]]] = {}
 _BASES: dict[int, BaseParameters] = {}
-_EMITTED: dict[int, Emitted] = {}
+_EMITTED: dict[int, EmittedModule] = {}
 """By robot text, and by the model, which `_MODELS` keeps."""
 
 
@@ -32,13 +32,15 @@ def model_of(robot: Robot) -> SymbolicModel:
 
 def base_of(model: SymbolicModel, *more: Any, **named: Any) -> BaseParameters:
     if more or named:
-        return base_parameters(model, *more, **named)
+        return derive_base_parameters(model, *more, **named)
     if id(model) not in _BASES:
-        _BASES[id(model)] = base_parameters(model)
+        _BASES[id(model)] = derive_base_parameters(model)
     return _BASES[id(model)]
 
 
-def emitted_of(model: SymbolicModel, base: BaseParameters, *more: Any, **named: Any) -> Emitted:
+def emitted_of(
+    model: SymbolicModel, base: BaseParameters, *more: Any, **named: Any
+) -> EmittedModule:
     plain = (*more, *named.values()) in ((), (None, "double", False, None))
     if not plain or _BASES.get(id(model)) is not base:
         return emit(model, base, *more, **named)

@@ -45,7 +45,7 @@ def frames(robot, q):
     robot = read_robot(robot) if isinstance(robot, str) else robot
     if not isinstance(q, dict):
         q = {joint.name: value for joint, value in zip(robot.moving, q, strict=True)}
-    values = robot.symbol_values() | {f"q{joint}": value for joint, value in q.items()}
+    values = robot.evaluate_symbols() | {f"q{joint}": value for joint, value in q.items()}
     poses = {"0": np.eye(4)}
     for joint in robot.joints:
         cells = {

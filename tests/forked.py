@@ -19,7 +19,7 @@ from pathlib import Path
 from typing import Any, NoReturn
 
 from modeler.cli import main
-from modeler.cli.commands import parsed
+from modeler.cli.commands import parse_words
 from tests.repository import ROOT
 
 COMMANDS = (
@@ -89,7 +89,7 @@ def _child(
 def serve() -> None:
     """Answers every line with the exit status of what it asks for."""
     for command in COMMANDS:
-        parsed(command.split())[0].load()
+        parse_words(command.split())[0].load()
     for name in PACKAGES:
         importlib.import_module(name)
     with contextlib.redirect_stdout(None):  # what sympy remembers of a first derivation

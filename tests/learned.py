@@ -5,7 +5,7 @@ from collections.abc import Mapping
 import numpy as np
 from scipy.interpolate import BSpline
 
-from modeler.core.builtin import builtin_text
+from modeler.core.builtin import read_builtin_robot
 from modeler.core.law import Law
 
 
@@ -42,7 +42,7 @@ def text_with(robot: str, laws: Mapping[str, tuple[str, Law]], more: str = "") -
         laws: {joint: (equation, its law)}.
         more: lines of [effects].
     """
-    text, tables, lines = builtin_text(robot), [], more
+    text, tables, lines = read_builtin_robot(robot), [], more
     for k, (joint, (equation, law)) in enumerate(laws.items()):
         name, prefix = f"learned_{joint}", f"Law{'abcdef'[k]}"
         tables += [

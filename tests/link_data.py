@@ -3,7 +3,7 @@
 import numpy as np
 
 from modeler.api import compile_model, derive, generate
-from modeler.robot import robot_from_text
+from modeler.robot import parse_robot_text
 from modeler.runtime import CompiledModel
 from tests.bodies import ten_of_points
 
@@ -48,7 +48,7 @@ def text(
 
 def compiled(robot: str) -> CompiledModel:
     """Its C."""
-    return compile_model(generate(derive(robot_from_text(robot, "stated.toml"))))
+    return compile_model(generate(derive(parse_robot_text(robot, "stated.toml"))))
 
 
 def drawn(share: float, rng: np.random.Generator, values: dict[str, float]) -> dict[str, float]:

@@ -10,18 +10,18 @@ from typing import NamedTuple
 import numpy as np
 import pytest
 
-from modeler.core.manifest import Emitted
+from modeler.core.manifest import EmittedModule
 from modeler.derivation.model import SymbolicModel
 from modeler.derivation.result import BaseParameters
 from modeler.robot.read import read_robot
-from modeler.runtime.model import CompiledModel, load
+from modeler.runtime.model import CompiledModel, load_module
 from tests.derived_once import base_of, emitted_of, model_of
 
 
 class Module(NamedTuple):
     model: SymbolicModel
     base: BaseParameters
-    emitted: Emitted
+    emitted: EmittedModule
 
 
 @cache
@@ -34,7 +34,7 @@ def module(name: str) -> Module:
 @cache
 def compiled(name: str) -> CompiledModel:
     emitted = module(name).emitted
-    return load(emitted.spec, emitted.files)
+    return load_module(emitted.spec, emitted.files)
 
 
 @cache
@@ -43,10 +43,10 @@ def plain(name: str) -> CompiledModel:
     return loaded(module(name).emitted)
 
 
-def loaded(emitted: Emitted) -> CompiledModel:
+def loaded(emitted: EmittedModule) -> CompiledModel:
     """A module compiled as `plain` does, but with CFLAGS where they are set."""
     with unoptimised():
-        return load(emitted.spec, emitted.files)
+        return load_module(emitted.spec, emitted.files)
 
 
 @contextmanager

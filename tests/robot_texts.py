@@ -2,7 +2,7 @@
 
 from pathlib import Path
 
-from modeler.robot.read import robot_from_text
+from modeler.robot.read import parse_robot_text
 from modeler.robot.robot import Robot
 
 
@@ -34,4 +34,4 @@ BENNETT = text_of("bennett")
 def robot(text: str, **changes: str) -> Robot:
     """The robot of the text, with further tables appended: robot(ARM, limits="1 = ...")."""
     tables = "".join(f"\n[{name}]\n{lines}\n" for name, lines in changes.items())
-    return robot_from_text(text + tables, "test.toml")
+    return parse_robot_text(text + tables, "test.toml")

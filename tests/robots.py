@@ -9,15 +9,15 @@ from typing import Any
 
 import pytest
 
-from modeler.core.builtin import builtin_names, builtin_text
+from modeler.core.builtin import list_builtin_robots, read_builtin_robot
 from tests.rotation import ROTATING
 
-ROBOTS = builtin_names()
+ROBOTS = list_builtin_robots()
 
 
 def _with(*tables: str) -> tuple[str, ...]:
     head = re.compile(rf"^\[(?:{'|'.join(tables)})\]", re.M)
-    return tuple(name for name in ROBOTS if head.search(builtin_text(name)))
+    return tuple(name for name in ROBOTS if head.search(read_builtin_robot(name)))
 
 
 def _follows(text: str) -> bool:
@@ -28,7 +28,7 @@ def _follows(text: str) -> bool:
 
 _TOLD = _with("loops", "relations", "motors")
 
-TIED = tuple(name for name in ROBOTS if name in _TOLD or _follows(builtin_text(name)))
+TIED = tuple(name for name in ROBOTS if name in _TOLD or _follows(read_builtin_robot(name)))
 """Robots with relations or loops."""
 
 TREES = tuple(name for name in ROBOTS if name not in TIED)

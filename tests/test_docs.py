@@ -17,13 +17,13 @@ import pytest
 
 from modeler.cli import main
 from modeler.cli.command_table import FAMILIES
-from modeler.core.builtin import builtin_text
+from modeler.core.builtin import read_builtin_robot
 from modeler.core.errors import RobotError
 from modeler.effects.catalogue import CATALOGUE
-from modeler.effects.effect import MOTION, Acts
+from modeler.effects.effect import MOTION, EffectTarget
 from modeler.observation.settings import Processing
 from modeler.robot.conventions import COLUMNS
-from modeler.robot.read import _KEYS, robot_from_text
+from modeler.robot.read import _KEYS, parse_robot_text
 from modeler.simulation.hidden import HIDDEN
 from tests.rotation import ROTATING
 
@@ -335,9 +335,11 @@ def test_the_table_of_effects_on_loops_is_true():
                    text_of("docs/how-to/parallel-robots.md"), re.MULTILINE)
     )  # fmt: skip
     listed = {key: names.split(", ") for key, names in rows.items()}
-    joints = [e for e in CATALOGUE if e.acts in (Acts.JOINT, Acts.MOTOR)]
-    joints += [e for e in CATALOGUE if e.acts is Acts.POSITION and not e.hindrance]
-    has_c = [e for e in joints if e.acts is not Acts.POSITION and e.forms[0].names <= {*MOTION}]
+    joints = [e for e in CATALOGUE if e.acts in (EffectTarget.JOINT, EffectTarget.MOTOR)]
+    joints += [e for e in CATALOGUE if e.acts is EffectTarget.POSITION and not e.hindrance]
+    has_c = [
+        e for e in joints if e.acts is not EffectTarget.POSITION and e.forms[0].names <= {*MOTION}
+    ]
     assert set(listed["in `[effects]`, and added"]) == {e.id for e in has_c}
     without = {e.id for e in joints} - {e.id for e in has_c}
     assert set(listed["not in `[effects]`, not added"]) == without
@@ -349,9 +351,9 @@ def test_the_table_of_effects_on_loops_is_true():
     "name", ["q1", "qdd1", "M1", "ZZ1", "Fv1", "pi", "tanh", "double", "lambda"]
 )
 def test_reserved_names_are_refused(name):
-    text = builtin_text("two-link").replace("[symbols]", f"[symbols]\n{name} = 1.0")
+    text = read_builtin_robot("two-link").replace("[symbols]", f"[symbols]\n{name} = 1.0")
     with pytest.raises(RobotError, match=re.escape(f'"{name}"')):
-        robot_from_text(text, "reserved.toml")
+        parse_robot_text(text, "reserved.toml")
 
 
 def test_every_environment_variable_is_described():

@@ -14,7 +14,7 @@ import numpy as np
 from benchmarks.line import Missing
 from benchmarks.robots import compiled, lossy
 from modeler.robot import Robot
-from modeler.runtime import cache_folder
+from modeler.runtime import find_cache_folder
 
 SOURCE = Path(__file__).with_suffix(".cpp")
 FLAGS = (
@@ -40,7 +40,7 @@ def library(kind: str) -> Path:
     version = subprocess.run([compiler, "--version"], capture_output=True, text=True, check=True)
     words = [SOURCE.read_text(encoding="utf-8"), version.stdout, *FLAGS, *includes]
     digest = hashlib.sha256("\0".join(words).encode()).hexdigest()[:16]
-    made = cache_folder() / "benchmarks" / f"pinocchio-{kind}-{digest}.so"
+    made = find_cache_folder() / "benchmarks" / f"pinocchio-{kind}-{digest}.so"
     if not made.exists():
         made.parent.mkdir(parents=True, exist_ok=True)
         scratch = made.with_suffix(f".{os.getpid()}")
@@ -78,21 +78,21 @@ def write_model(robot: Robot, place: Path, bodies: Mapping[str, Sequence[float]]
         place: file to write.
         bodies: {joint: mass, centre, inertia there as xx xy yy xz yz zz, rotor inertia}.
     """
-    values = robot.symbol_values()
-    lines = [" ".join(repr(float(e.number(values))) for e in robot.gravity)]
+    values = robot.evaluate_symbols()
+    lines = [" ".join(repr(float(e.evaluate(values))) for e in robot.gravity)]
     places: dict[str, tuple[int, np.ndarray]] = {"0": (0, np.eye(4))}
     count = 0
     for joint in robot.joints:
         parent, before = places[joint.antecedent]
         numbers = values | {joint.variable: 0.0}
         placement = before @ _placement(joint, numbers)
-        if not joint.moves:
+        if not joint.is_moving:
             places[joint.name] = (parent, placement)
             continue
         count += 1
         cells = [*placement[:3, :3].ravel(), *placement[:3, 3]]
         cells += bodies.get(joint.name, [0.0] * 11)
-        turns = int(joint.angular)
+        turns = int(joint.is_revolute)
         lines.append(f"{parent} {turns} " + " ".join(repr(float(cell)) for cell in cells))
         places[joint.name] = (count, np.eye(4))
     place.write_text("\n".join(lines) + "\n", encoding="utf-8")
@@ -129,7 +129,7 @@ def check(kind: str, name: str, model: Path) -> None:
     peer.peer_model.restype = ctypes.c_void_p
     peer.peer_regressor.restype = ctypes.c_double
     handle = ctypes.c_void_p(peer.peer_model(os.fsencode(model)))
-    n = len(lossy(name).moving)
+    n = len(lossy(name).moving_joints)
     q, qd, qdd = np.random.default_rng(3).uniform(-2, 2, (3, n))
     theirs = np.empty((n, 10 * n))
     pointers = [ctypes.c_void_p(x.ctypes.data) for x in (q, qd, qdd, theirs)]

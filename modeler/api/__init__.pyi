@@ -1,27 +1,27 @@
-from .checks import compare as compare, contest as contest, free_run as free_run
+from .checks import compare as compare, compare_models as compare_models, free_run as free_run
 from .exporting import export as export
 from .fitting import (
     Load as Load,
+    assemble_model as assemble_model,
+    compare_methods as compare_methods,
     fit as fit,
     fit_gains as fit_gains,
-    identified as identified,
-    side_by_side as side_by_side,
 )
 from .fleets import fleet as fleet
 from .identifying import identify as identify
 from .improve import (
     add as add,
+    add_all as add_all,
     add_discoveries as add_discoveries,
-    auto as auto,
     diagnose as diagnose,
-    undo as undo,
+    remove_last as remove_last,
 )
 from .log_maps import (
     Mapped as Mapped,
-    file_and_span as file_and_span,
-    log_map as log_map,
-    look_at as look_at,
-    settled as settled,
+    build_log_map as build_log_map,
+    inspect_log as inspect_log,
+    parse_time_range as parse_time_range,
+    resolve_mapping as resolve_mapping,
 )
 from .model import (
     Model as Model,
@@ -32,21 +32,21 @@ from .model import (
 )
 from .motion import (
     check_motion as check_motion,
+    discriminating_motion as discriminating_motion,
     excite as excite,
-    forecast as forecast,
+    expected_sigmas as expected_sigmas,
     simulate as simulate,
-    tell_apart as tell_apart,
 )
 from .pages import write_report as write_report
 from .physical_parameters import physical as physical
-from .postures import at_home as at_home, home as home
+from .postures import home as home, home_posture as home_posture
 from .reexports import (
     Asked as Asked,
     Comparison as Comparison,
     CompiledModel as CompiledModel,
     Derivation as Derivation,
     Diagnosis as Diagnosis,
-    Emitted as Emitted,
+    EmittedModule as EmittedModule,
     Exported as Exported,
     FitResult as FitResult,
     FitWarning as FitWarning,
@@ -63,20 +63,20 @@ from .reexports import (
 )
 from .workflow import (
     AnyLog as AnyLog,
+    compile as compile,
     compile_model as compile_model,
     convert as convert,
+    define_effect as define_effect,
     derive as derive,
     effects as effects,
     estimators as estimators,
     generate as generate,
+    load_on_gpu as load_on_gpu,
     new_robot as new_robot,
     observe as observe,
-    on_gpu as on_gpu,
-    own_effect as own_effect,
     read_currents as read_currents,
     read_logs as read_logs,
-    recompile as recompile,
-    reduced as reduced,
+    reduced_model as reduced_model,
     robots as robots,
     save as save,
 )

@@ -10,11 +10,11 @@ import numpy as np
 import modeler.api.workflow as workflow
 from modeler import validation
 from modeler.api.log_maps import Mapped
-from modeler.api.workflow import AnyLog, Logs, are_long, sources_of, too_long
+from modeler.api.workflow import AnyLog, Logs, are_long, are_too_long, open_sources
 from modeler.core.errors import DataError
-from modeler.derivation import with_home
+from modeler.derivation import complete_home
 from modeler.estimation import FitResult, IdentifiedModel, ParameterEstimate
-from modeler.observation import Log, Observation, Processing, WholeLogNeeded, check_apart
+from modeler.observation import Log, Observation, Processing, WholeLogNeeded, check_no_overlap
 from modeler.robot import Robot
 from modeler.runtime import CompiledModel
 
@@ -32,18 +32,28 @@ def compare(
         logs: that it predicts.
         mapping: as of `read_logs`.
     """
-    (own,) = with_stated([model])
-    return compared(own, workflow.listed(logs), workflow.recompile(own), mapping)[0]
+    (fitted_model,) = resolve_models([model])
+    return compare_logs(
+        fitted_model, workflow.convert_to_list(logs), workflow.compile(fitted_model), mapping
+    )[0]
 
 
-def with_stated(things: Sequence[IdentifiedModel | Robot]) -> list[IdentifiedModel]:
-    """Models as they are, robots as `stated_model`, with the processing of the first model."""
+def resolve_models(things: Sequence[IdentifiedModel | Robot]) -> list[IdentifiedModel]:
+    """Models as they are, robots as `build_stated_model`.
+
+    With the processing of the first " "model.
+    """
     fitted = (thing.processing for thing in things if isinstance(thing, IdentifiedModel))
     first = next(fitted, None)
-    return [stated_model(own, first) if isinstance(own, Robot) else own for own in things]
+    return [
+        build_stated_model(model_or_robot, first)
+        if isinstance(model_or_robot, Robot)
+        else model_or_robot
+        for model_or_robot in things
+    ]
 
 
-def stated_model(robot: Robot, processing: Processing | None = None) -> IdentifiedModel:
+def build_stated_model(robot: Robot, processing: Processing | None = None) -> IdentifiedModel:
     """The values that the file of a robot states, as a model; those that it does not state are 0.
 
     Args:
@@ -53,8 +63,8 @@ def stated_model(robot: Robot, processing: Processing | None = None) -> Identifi
     Raises:
         DataError: the file states no value.
     """
-    robot = with_home(robot).in_text(robot) if robot.loops else robot
-    emitted = workflow.derived(robot.text, f"robot {robot.name} in the model file")[1]
+    robot = complete_home(robot).write_to_text(robot) if robot.loops else robot
+    emitted = workflow.derive_text(robot.text, f"robot {robot.name} in the model file")[1]
     spec, missing = emitted.spec, dict[str, dict[str, None]]()
     used = {term.parameter for base in spec.base for term in base.terms}
     for p in spec.standard:
@@ -69,28 +79,39 @@ def stated_model(robot: Robot, processing: Processing | None = None) -> Identifi
     chi = [sum(term.value * value[term.parameter] for term in base.terms) for base in spec.base]
     places = {", ".join(joints): "" for joints in missing.values()}
     listed = "; ".join(
-        f"{', '.join(effect for effect, own in missing.items() if ', '.join(own) == place)} of "
+        f"{', '.join(effect for effect, entry in missing.items() if ', '.join(entry) == place)} of "
         f"joint {place}"
         for place in places
     )
-    said = f"predicted with the values that the robot file of {robot.name} states"
+    source_sentence = f"predicted with the values that the robot file of {robot.name} states"
     none = float("nan")
     fit = FitResult(
-        robot=robot.name, method="stated", status="ok", samples=0, rows=0,
-        condition_number=none, condition_scaled=none, relative_error=none, essential_error=none,
-        joints=(), loads=(),
+        robot=robot.name,
+        method="stated",
+        status="ok",
+        samples=0,
+        rows=0,
+        condition_number=none,
+        condition_scaled=none,
+        relative_error=none,
+        essential_error=none,
+        joints=(),
+        loads=(),
         parameters=tuple(
-            ParameterEstimate(base.name, base.unit, own, None, True, "stated")
-            for base, own in zip(spec.base, chi, strict=True)
+            ParameterEstimate(base.name, base.unit, entry, None, True, "stated")
+            for base, entry in zip(spec.base, chi, strict=True)
         ),
         covariance=np.zeros((len(chi), len(chi))),
-        sentences=(said, *([f"not stated there and taken as 0: {listed}"] if listed else [])),
-        processing=processing or workflow.processing_of(robot.fit),
-    )  # fmt: skip
+        sentences=(
+            source_sentence,
+            *([f"not stated there and taken as 0: {listed}"] if listed else []),
+        ),
+        processing=processing or workflow.build_processing(robot.fit),
+    )
     return IdentifiedModel(robot.text, spec, emitted.code, fit, ())
 
 
-def compared(
+def compare_logs(
     model: IdentifiedModel,
     logs: Sequence[AnyLog],
     compiled: CompiledModel,
@@ -110,25 +131,27 @@ def compared(
     """
     if are_long(logs):
         try:
-            sources = sources_of(compiled, logs, mapping)
-            comparison, observation = validation.compare_long(model, sources, compiled, progress)
-            check_apart(observation.report.logs)
+            sources = open_sources(compiled, logs, mapping)
+            comparison, observation = validation.compare_long_logs(
+                model, sources, compiled, progress
+            )
+            check_no_overlap(observation.report.logs)
             return comparison, observation
         except WholeLogNeeded as error:
-            if too_long(logs):
+            if are_too_long(logs):
                 raise
             tell(f"{error}; read as a whole instead")
     read = workflow.read_logs(compiled, logs, mapping)
-    check_apart(read, places=[str(log) for log in logs])
+    check_no_overlap(read, places=[str(log) for log in logs])
     prediction, observation = validation.predict(model, read, compiled)
     return validation.compare(prediction), observation
 
 
-def contest(
+def compare_models(
     models: Mapping[str, IdentifiedModel | Robot] | Sequence[IdentifiedModel | Robot],
     logs: Logs,
     mapping: Mapped = (),
-) -> validation.Contest:
+) -> validation.ModelComparison:
     """Models side by side: the error of each by joint, and which is better beyond doubt.
 
     >>> contest({"all": model, "few": reduced(model)}, ["tue.parquet"]).names
@@ -146,26 +169,26 @@ def contest(
     if len(models) < 2:
         raise DataError(f"contest: got {len(models)} models; expected two at least")
     if isinstance(models, Mapping):
-        named = models
+        models_by_name = models
     elif len(models) <= len(ascii_uppercase):
-        named = dict(zip(ascii_uppercase, models, strict=False))
+        models_by_name = dict(zip(ascii_uppercase, models, strict=False))
     else:
         raise DataError(
             f"contest: got a list of {len(models)} models, more than there are letters; expected a "
             "mapping of names, each to a model"
         )
-    stated = dict(zip(named, with_stated(list(named.values())), strict=True))
-    compiled = [workflow.recompile(model) for model in stated.values()]
-    return contested(stated, compiled, logs, mapping)[0]
+    stated = dict(zip(models_by_name, resolve_models(list(models_by_name.values())), strict=True))
+    compiled = [workflow.compile(model) for model in stated.values()]
+    return compare_compiled_models(stated, compiled, logs, mapping)[0]
 
 
-def contested(
+def compare_compiled_models(
     models: Mapping[str, IdentifiedModel],
     compiled: Sequence[CompiledModel],
     logs: Logs,
     mapping: Mapped = (),
     places: Sequence[str] = (),
-) -> tuple[validation.Contest, list[Log]]:
+) -> tuple[validation.ModelComparison, list[Log]]:
     """The same of compiled models, and the logs.
 
     Args:
@@ -175,17 +198,17 @@ def contested(
         mapping: as of `read_logs`.
         places: what messages call the logs.
     """
-    read = [workflow.read_logs(own, logs, mapping) for own in compiled]
-    check_apart(read[0], places=places)
+    read = [workflow.read_logs(compiled_model, logs, mapping) for compiled_model in compiled]
+    check_no_overlap(read[0], places=places)
     names = list(models)
     predictions, _ = validation.predict_together(list(models.values()), compiled, read, names)
-    return validation.contest(names, predictions), read[0]
+    return validation.compare_models(names, predictions), read[0]
 
 
 def free_run(
     model: IdentifiedModel,
     logs: Logs,
-    asked: validation.FreeRunSettings | None = None,
+    settings: validation.FreeRunSettings | None = None,
     mapping: Mapped = (),
 ) -> validation.FreeRun:
     """Positions of the fitted robot under the logged torques, beside the logged ones.
@@ -197,16 +220,16 @@ def free_run(
     Args:
         model: fitted.
         logs: of motion that it was not fitted on.
-        asked: window in s, bound as a share of the range of motion, controller gains.
+        settings: window in s, bound as a share of the range of motion, controller gains.
         mapping: as of `read_logs`.
 
     Raises:
         DataError: a log cannot be run; says why.
     """
-    compiled = workflow.recompile(model)
-    return validation.free_run(
+    compiled = workflow.compile(model)
+    return validation.simulate_free_run(
         model,
         workflow.read_logs(compiled, logs, mapping),
         compiled,
-        asked or validation.FreeRunSettings(),
+        settings or validation.FreeRunSettings(),
     )

@@ -15,9 +15,9 @@ USUAL = 0.01
 """m between links of a robot whose file has [capsules]."""
 
 
-def with_clearance(
-    robot: Robot, compiled: CompiledModel, bounds: excitation.Bounds, margin: float | None
-) -> excitation.Bounds:
+def add_clearance(
+    robot: Robot, compiled: CompiledModel, bounds: excitation.MotionBounds, margin: float | None
+) -> excitation.MotionBounds:
     """The bounds, and that links stay so far from each other.
 
     Looked at are all links that share no joint and touch in some postures only.
@@ -38,16 +38,16 @@ def with_clearance(
     if not 0.0 <= margin < math.inf:
         raise DataError(f"clearance: got {margin:g} m; expected 0 or more")
     ranges = np.stack([bounds.lower, bounds.upper])
-    solids = _solids(robot, compiled)
-    found = excitation.without_neighbours(compiled, solids, margin, ranges, bounds.home)
-    return dataclasses.replace(bounds, clearance=found)
+    solids = _collect_solids(robot, compiled)
+    clearance = excitation.exclude_neighbours(compiled, solids, margin, ranges, bounds.home)
+    return dataclasses.replace(bounds, clearance=clearance)
 
 
-def _solids(robot: Robot, compiled: CompiledModel) -> excitation.Solids:
+def _collect_solids(robot: Robot, compiled: CompiledModel) -> excitation.CollisionGeometry:
     """All capsules, and all pairs of links that share no joint."""
-    moving, closure = [joint.name for joint in robot.moving], compiled.spec.closure
+    moving, closure = [joint.name for joint in robot.moving_joints], compiled.spec.closure
     at = {} if closure is None else dict(zip(closure.variables, closure.home, strict=True))
-    shapes = exports.capsules_on_links(robot, at)
+    shapes = exports.locate_capsules(robot, at)
     on, links = {row: carrier for row, carrier, _ in shapes}, [carrier for _, carrier, _ in shapes]
     joined = {frozenset((on.get(j.name), on.get(j.antecedent))) for j in robot.joints}
     joined |= {frozenset((on.get(loop.frame), on.get(loop.meets))) for loop in robot.loops}
@@ -61,7 +61,7 @@ def _solids(robot: Robot, compiled: CompiledModel) -> excitation.Solids:
     planes = np.array([*robot.planes.values()]).reshape(-1, 4)
     planes /= np.linalg.norm(planes[:, :3], axis=1)[:, None]
     places = [moving.index(link) if link in moving else excitation.BASE for link in links]
-    return excitation.Solids(
+    return excitation.CollisionGeometry(
         (*("base" if row == "0" else row for row, *_ in shapes), *robot.planes),
         np.array(places + [excitation.BASE] * len(planes)),
         np.array([(shape.start, shape.end) for *_, shape in shapes]),
@@ -70,11 +70,13 @@ def _solids(robot: Robot, compiled: CompiledModel) -> excitation.Solids:
     )  # fmt: skip
 
 
-def nearest_along(
+def find_nearest_along(
     compiled: CompiledModel, clearance: excitation.Clearance, motion: simulation.Reference
-) -> excitation.Nearest | None:
+) -> excitation.ClosestApproach | None:
     """The nearest two along a motion; None if there are none to look at."""
     if not len(clearance.solids.pairs):
         return None
-    curve, samples = simulation.curve_of(motion), max(excitation.SAMPLES, 2 * len(motion.time))
-    return excitation.nearest(compiled, clearance.solids, curve, float(motion.time[-1]), samples)
+    curve, samples = simulation.build_curve(motion), max(excitation.SAMPLES, 2 * len(motion.time))
+    return excitation.find_closest_approach(
+        compiled, clearance.solids, curve, float(motion.time[-1]), samples
+    )

@@ -6,14 +6,14 @@ from pathlib import Path
 
 import numpy as np
 
-from modeler.api.code_exports import OF_EQUATIONS, code_exported
-from modeler.api.workflow import compile_model, observe, recompile
+from modeler.api.code_exports import OF_EQUATIONS, export_code
+from modeler.api.workflow import compile, compile_model, observe
 from modeler.codegen import derive, generate
 from modeler.core.errors import DataError
-from modeler.core.files import write_unless_other
-from modeler.derivation import with_home
+from modeler.core.files import write_without_overwriting
+from modeler.derivation import complete_home
 from modeler.estimation import IdentifiedModel
-from modeler.exports import Equations, Exported, Torques, exported, format_of
+from modeler.exports import Equations, Exported, Torques, choose_format, export_robot
 from modeler.robot import Robot
 
 _STATES, _SEED = 200, 1
@@ -45,34 +45,36 @@ def export(
         RobotError: a mistake in the original.
         ModelerError: there is such a file, or it cannot be written.
     """
-    kind = format_of(to, str(like or ""), str(out or ""))
+    kind = choose_format(to, str(like or ""), str(out or ""))
     if kind in OF_EQUATIONS:
-        found = _of_equations(thing, kind, like)
+        result = _export_equations(thing, kind, like)
     else:
         if isinstance(thing, Robot) and thing.loops:
-            thing = with_home(thing).in_text(thing)
-        torques = _torques(thing) if isinstance(thing, IdentifiedModel) else None
-        equations = partial(_equations, thing) if isinstance(thing, Robot) else None
-        found = exported(thing, kind, None if like is None else Path(like), torques, equations)
+            thing = complete_home(thing).write_to_text(thing)
+        torques = _build_torque_function(thing) if isinstance(thing, IdentifiedModel) else None
+        equations = partial(_build_equations, thing) if isinstance(thing, Robot) else None
+        result = export_robot(thing, kind, None if like is None else Path(like), torques, equations)
     if out is not None:
-        for name, data in found.files.items():
-            write_unless_other(Path(out) / name, data, force)
-        if not found.files:
-            write_unless_other(Path(out), found.data, force)
-    return found
+        for name, data in result.files.items():
+            write_without_overwriting(Path(out) / name, data, force)
+        if not result.files:
+            write_without_overwriting(Path(out), result.data, force)
+    return result
 
 
-def _of_equations(thing: Robot | IdentifiedModel, kind: str, like: str | Path | None) -> Exported:
+def _export_equations(
+    thing: Robot | IdentifiedModel, kind: str, like: str | Path | None
+) -> Exported:
     if like is not None:
         raise DataError(f"--like {like}: is for robot files, and --to says {kind}; leave out one")
-    return code_exported(thing, kind)
+    return export_code(thing, kind)
 
 
-def _equations(robot: Robot) -> Equations:
+def _build_equations(robot: Robot) -> Equations:
     """Its parameters, and torques at random motion around home, which are asked for rarely."""
     emitted = generate(derive(robot))
 
-    def torques(beta: np.ndarray) -> np.ndarray:
+    def compute_torques(beta: np.ndarray) -> np.ndarray:
         compiled, rng = compile_model(emitted), np.random.default_rng(_SEED)
         home = [robot.home.get(joint.name, 0.0) for joint in robot.coordinates]
         q, qd, qdd = rng.uniform(-1.0, 1.0, (3, _STATES, len(home)))
@@ -81,10 +83,10 @@ def _equations(robot: Robot) -> Equations:
             q = q[compiled.closing_status(q) == 0]
         return np.asarray(compiled.inverse_dynamics(q, qd[: len(q)], qdd[: len(q)], beta))
 
-    return Equations(emitted.spec, torques)
+    return Equations(emitted.spec, compute_torques)
 
 
-def _torques(model: IdentifiedModel) -> Torques | None:
+def _build_torque_function(model: IdentifiedModel) -> Torques | None:
     """Torques of base parameters on the rows of the fit; None where its logs are not there."""
     find = getattr(model, "its_logs", None)  # of `api.model.Model`
     try:
@@ -96,10 +98,10 @@ def _torques(model: IdentifiedModel) -> Torques | None:
     rows: list[Callable[[np.ndarray], np.ndarray]] = []
     names = tuple(joint.name for joint in model.spec.joints)
 
-    def torques(beta: np.ndarray) -> tuple[np.ndarray, tuple[str, ...]]:
+    def compute_torques(beta: np.ndarray) -> tuple[np.ndarray, tuple[str, ...]]:
         if not rows:  # read when they are first asked for
-            seen = observe(recompile(model), logs, model.processing)
-            rows.append(lambda each: np.where(seen.used, seen.predicted(each), 0.0))
+            observation = observe(compile(model), logs, model.processing)
+            rows.append(lambda each: np.where(observation.used, observation.predict(each), 0.0))
         return rows[0](beta), names
 
-    return torques
+    return compute_torques

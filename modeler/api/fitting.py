@@ -10,22 +10,28 @@ import modeler.api.workflow as workflow
 from modeler import estimation
 from modeler.api.log_maps import Mapped
 from modeler.api.model import Model
-from modeler.api.steps import Steps, silent
+from modeler.api.steps import Steps, ignore_step
 from modeler.api.workflow import AnyLog, Logs
 from modeler.codegen import Derivation
 from modeler.core.errors import GAIN_METHOD, TWO_STEPS, DataError, Method
 from modeler.core.estimators import ABOUT
-from modeler.core.manifest import Emitted
-from modeler.numerics.least_squares import Compressed
-from modeler.observation import Doubt, Log, Observation, Processing, check_apart, observe
-from modeler.robot import Robot, joint_directions, near, robot_from_text, with_drive_gains
+from modeler.core.manifest import EmittedModule
+from modeler.numerics.least_squares import CompressedRegression
+from modeler.observation import DataWarning, Log, Observation, Processing, check_no_overlap, observe
+from modeler.robot import (
+    Robot,
+    compute_joint_directions,
+    parse_robot_text,
+    replace_drive_gains,
+    suggest_name,
+)
 from modeler.runtime import CompiledModel
 
 WITH_LOADS = ("weighted", "ordinary", "robust", "ridge")
 WITHOUT_LOADS = (*(m for m in ABOUT if m not in WITH_LOADS), TWO_STEPS)
 """Methods that know no loads."""
 
-BUILDABLE = tuple(method for method, about in ABOUT.items() if about.buildable)
+BUILDABLE = tuple(method for method, about in ABOUT.items() if about.is_consistent)
 """Methods that end in all standard parameters."""
 
 OF_WINDOWS = ("weighted", "ordinary")
@@ -51,7 +57,7 @@ class FitRequest:
     below: float | None = None
 
 
-def request_of(options: Mapping[str, Any]) -> FitRequest:
+def read_fit_request(options: Mapping[str, Any]) -> FitRequest:
     """The fit by `[fit]` of a robot file."""
     energy, below = options.get("model") == "energy", options.get("essential_below")
     return FitRequest(options.get("method", "weighted"), energy, options.get("window"), (), below)
@@ -71,105 +77,112 @@ class FitOutcome:
     """
 
     result: estimation.FitResult
-    told: Sequence[Doubt] = ()
+    warnings: Sequence[DataWarning] = ()
     refit: Callable[[np.ndarray], np.ndarray] | None = None
     lines: Sequence[str] = ()
     further: Mapping[str, Any] = dataclasses.field(default_factory=dict)
     equations: estimation.Equations | None = None
 
 
-def estimated(
-    asked: FitRequest, robot: Robot, compiled: CompiledModel, observation: Observation
+def run_estimator(
+    request: FitRequest, robot: Robot, compiled: CompiledModel, observation: Observation
 ) -> FitOutcome:
     """The fit that is asked for.
 
     Raises:
         DataError: choices that do not go together, or what the estimator refuses.
     """
-    _check(asked)
-    if asked.energy or asked.method == TWO_STEPS:
-        what = "the energy model" if asked.energy else f"method {asked.method}"
+    _check_request(request)
+    if request.energy or request.method == TWO_STEPS:
+        what = "the energy model" if request.energy else f"method {request.method}"
         unused = estimation.describe_unused_prior(compiled.spec, what, _UNUSED)
-    method: Any = asked.method
-    if asked.energy:
+    method: Any = request.method
+    if request.energy:
         energy = estimation.identify_energy(
-            compiled, observation, asked.window, method, asked.below
+            compiled, observation, request.window, method, request.below
         )
-        return FitOutcome(_with_sentences(energy.result, unused), refit=energy.without)
-    if asked.method == TWO_STEPS:
-        ways = estimation.Directions(joint_directions(robot))
+        return FitOutcome(_append_sentences(energy.result, unused), refit=energy.fit_without)
+    if request.method == TWO_STEPS:
+        ways = estimation.JointDirections(compute_joint_directions(robot))
         steps = estimation.two_step_result.identify_in_two_steps(
-            compiled, observation, ways, asked.below
+            compiled, observation, ways, request.below
         )
         further = {"two_step": steps.to_json()}
-        result = _with_sentences(steps.result, unused)
-        return FitOutcome(result, steps.doubts(), lines=steps.lines(), further=further)
-    if asked.payloads:
+        result = _append_sentences(steps.result, unused)
+        return FitOutcome(
+            result, steps.collect_warnings(), lines=steps.format_lines(), further=further
+        )
+    if request.payloads:
         result = estimation.identify_with_payloads(
-            compiled, observation, asked.payloads, method, asked.below
+            compiled, observation, request.payloads, method, request.below
         )
         current = estimation.are_currents(observation.report.logs)
-        told = estimation.known_doubts(compiled, observation, asked.payloads, current)
-        equations = estimation.loaded_equations(compiled, observation, asked.payloads).equations
-        return FitOutcome(result, told, equations=equations)
-    return FitOutcome(estimation.identify(observation, method, compiled, asked.below))
+        warnings = estimation.check_known_quantities(
+            compiled, observation, request.payloads, current
+        )
+        equations = estimation.build_loaded_equations(
+            compiled, observation, request.payloads
+        ).equations
+        return FitOutcome(result, warnings, equations=equations)
+    return FitOutcome(estimation.identify(observation, method, compiled, request.below))
 
 
 _UNUSED = ", nor the values of the robot file"
 
 
-def _with_sentences(fit: estimation.FitResult, more: Sequence[str]) -> estimation.FitResult:
-    return dataclasses.replace(fit, sentences=(*fit.sentences, *more))
+def _append_sentences(fit: estimation.FitResult, sentences: Sequence[str]) -> estimation.FitResult:
+    return dataclasses.replace(fit, sentences=(*fit.sentences, *sentences))
 
 
-def judged(
+def add_verdict(
     compiled: CompiledModel,
     observation: Observation,
-    way: FitOutcome,
-    data: Compressed | None = None,
+    outcome: FitOutcome,
+    data: CompressedRegression | None = None,
 ) -> estimation.FitResult:
     """Its result with the verdict, to which all that is found in the logs counts.
 
     Args:
         compiled: the robot.
         observation: that was fitted.
-        way: how.
+        outcome: how.
         data: all rows that were fitted, where the observation has a part of them only.
     """
-    told = [*way.told, *estimation.log_findings(compiled, observation)]
-    return estimation.with_verdict(
-        compiled, observation, way.result, told, way.equations, way.refit, data
+    warnings = [*outcome.warnings, *estimation.find_log_faults(compiled, observation)]
+    return estimation.judge_fit(
+        compiled, observation, outcome.result, warnings, outcome.equations, outcome.refit, data
     )
 
 
-def _check(asked: FitRequest) -> None:
+def _check_request(request: FitRequest) -> None:
     """Refuse choices that do not go together."""
-    if asked.method == GAIN_METHOD:
+    if request.method == GAIN_METHOD:
         raise DataError(
             f"fit: got method {GAIN_METHOD}, which reads the logs itself; call fit_gains with "
             "them and the mass of the load"
         )
     known = [*ABOUT, TWO_STEPS]
-    if asked.method not in known:
+    if request.method not in known:
         raise DataError(
-            f"fit: got method {asked.method}{near(str(asked.method), known)}; expected one of "
+            f"fit: got method {request.method}{suggest_name(str(request.method), known)}; expected "
+            "one of "
             f"{', '.join(known)}"
         )
-    if asked.payloads and (asked.energy or asked.method in WITHOUT_LOADS):
-        what = "the energy model" if asked.energy else f"method {asked.method}"
+    if request.payloads and (request.energy or request.method in WITHOUT_LOADS):
+        what = "the energy model" if request.energy else f"method {request.method}"
         raise DataError(f"fit: got payloads with {what}, which knows no loads; leave them out")
-    if asked.energy and asked.method not in OF_WINDOWS:
+    if request.energy and request.method not in OF_WINDOWS:
         raise DataError(
-            f"fit: got method {asked.method} for the energy model, whose rows are windows; "
+            f"fit: got method {request.method} for the energy model, whose rows are windows; "
             f"expected {' or '.join(OF_WINDOWS)}"
         )
-    if asked.window is not None and not asked.energy:
+    if request.window is not None and not request.energy:
         raise DataError("fit: got a window; only those of the energy model have a length")
 
 
 def fit(
     derivation: Derivation,
-    emitted: Emitted,
+    emitted: EmittedModule,
     observation: Observation,
     method: Method | Literal["two-step"] = "weighted",
     *,
@@ -210,28 +223,33 @@ def fit(
             f"fit: the observation has the base parameters {', '.join(observation.names)}, the C "
             f"{', '.join(names)}; expected the same; observe with this C"
         )
-    asked = FitRequest(method, energy, window, tuple(payloads), essential_below)
-    return fitted(asked, derivation, emitted, workflow.compile_model(emitted), observation)[0]
+    request = FitRequest(method, energy, window, tuple(payloads), essential_below)
+    return fit_observation(
+        request, derivation, emitted, workflow.compile_model(emitted), observation
+    )[0]
 
 
-def fitted(
-    asked: FitRequest,
+def fit_observation(
+    request: FitRequest,
     derivation: Derivation,
-    emitted: Emitted,
+    emitted: EmittedModule,
     compiled: CompiledModel,
     observation: Observation,
-    working: Steps = silent,
+    report_step: Steps = ignore_step,
 ) -> tuple[Model, FitOutcome]:
     """The same, and the way that was taken."""
-    with working("estimating"):
-        way = estimated(asked, derivation.robot, compiled, observation)
-    with working("judging the fit"):
-        result = judged(compiled, observation, way)
-    return identified(derivation, emitted, observation, result), way
+    with report_step("estimating"):
+        outcome = run_estimator(request, derivation.robot, compiled, observation)
+    with report_step("judging the fit"):
+        result = add_verdict(compiled, observation, outcome)
+    return assemble_model(derivation, emitted, observation, result), outcome
 
 
-def identified(
-    derivation: Derivation, emitted: Emitted, observation: Observation, result: estimation.FitResult
+def assemble_model(
+    derivation: Derivation,
+    emitted: EmittedModule,
+    observation: Observation,
+    result: estimation.FitResult,
 ) -> Model:
     """A fit with all that a model file holds.
 
@@ -244,7 +262,7 @@ def identified(
         spec=emitted.spec,
         sources=emitted.code,
         fit=result,
-        logs=estimation.provenance(observation.report),
+        logs=estimation.collect_provenance(observation.report),
     )
 
 
@@ -272,12 +290,12 @@ class Load:
 
     def __post_init__(self) -> None:
         """One log alone stands for a list of it."""
-        object.__setattr__(self, "logs", workflow.listed(self.logs))
+        object.__setattr__(self, "logs", workflow.convert_to_list(self.logs))
 
-    def payloads(self, loaded: Sequence[Log]) -> list[estimation.Payload]:
+    def build_payloads(self, loaded: Sequence[Log]) -> list[estimation.Payload]:
         """It, as the fit knows it; one for each log if it was taken off in between."""
         payload = estimation.Payload(tuple(log.name for log in loaded), self.link, self.mass)
-        return estimation.remounted(payload) if self.moved else [payload]
+        return estimation.separate_payload(payload) if self.moved else [payload]
 
 
 def fit_gains(
@@ -295,19 +313,19 @@ def fit_gains(
         DataError: logs of torques, rows given twice, or gains that the logs do not tell.
     """
     compiled = workflow.compile_model(workflow.generate(derivation))
-    return found_with_gains(
-        derivation, compiled, workflow.listed(logs), load, processing or Processing()
+    return identify_gains(
+        derivation, compiled, workflow.convert_to_list(logs), load, processing or Processing()
     )[0]
 
 
-def found_with_gains(
+def identify_gains(
     derivation: Derivation,
     compiled: CompiledModel,
     logs: Sequence[AnyLog],
     load: Load,
     processing: Processing,
     check: Callable[[Sequence[Log], Sequence[Log]], None] | None = None,
-    working: Steps = silent,
+    report_step: Steps = ignore_step,
     mapping: Mapped = (),
 ) -> tuple[Model, Observation]:
     """The same, and the observation that the model was fitted to.
@@ -318,54 +336,54 @@ def found_with_gains(
     """
     unused = estimation.describe_unused_prior(compiled.spec, f"method {GAIN_METHOD}", _UNUSED)
 
-    def observed(
+    def observe_logs(
         model: CompiledModel, processing: Processing
     ) -> tuple[Observation, list[estimation.Payload]]:
         bare, loaded = (workflow.read_currents(model, some, mapping) for some in (logs, load.logs))
         if check is None:
-            check_apart([*bare, *loaded])
+            check_no_overlap([*bare, *loaded])
         else:
             check(bare, loaded)
-        return observe(model, [*bare, *loaded], processing), load.payloads(loaded)
+        return observe(model, [*bare, *loaded], processing), load.build_payloads(loaded)
 
-    with working("finding the drive gains"):
-        observation, payloads = observed(compiled, processing)
-        found = estimation.identify_gains(compiled, observation, payloads)
+    with report_step("finding the drive gains"):
+        observation, payloads = observe_logs(compiled, processing)
+        gain_estimates = estimation.identify_gains(compiled, observation, payloads)
     choices = observation.report.choices
-    with working("reading the currents with these gains"):
-        gains = {joint: float(f"{gain:.7g}") for joint, gain in found.gains.items()}
-        text = with_drive_gains(derivation.robot.text, gains)
-        robot = robot_from_text(text, derivation.robot.name)
+    with report_step("reading the currents with these gains"):
+        gains = {joint: float(f"{gain:.7g}") for joint, gain in gain_estimates.gains.items()}
+        text = replace_drive_gains(derivation.robot.text, gains)
+        robot = parse_robot_text(text, derivation.robot.name)
         symbolic = dataclasses.replace(derivation.model, robot=robot)
         derivation = dataclasses.replace(derivation, robot=robot, model=symbolic)
         emitted = workflow.generate(derivation)
         again = workflow.compile_model(emitted)
         bands = observation.report.bands
-        observation, payloads = observed(again, observation.report.processing)
+        observation, payloads = observe_logs(again, observation.report.processing)
         report = dataclasses.replace(observation.report, choices=choices, lowered=bands)
         observation = dataclasses.replace(observation, report=report)
         result = estimation.identify_gains(again, observation, payloads).result
-    with working("judging the fit"):
-        apart = estimation.not_together(again, observation, payloads)
-        told = [Doubt(line, values=True) for line in apart]
-        equations = estimation.loaded_equations(again, observation, payloads).equations
-        result = judged(again, observation, FitOutcome(result, told, equations=equations))
-    if lines := estimation.deviations(compiled.spec, found):
+    with report_step("judging the fit"):
+        unseparated = estimation.find_heterogeneous_logs(again, observation, payloads)
+        warnings = [DataWarning(line, affects_values=True) for line in unseparated]
+        equations = estimation.build_loaded_equations(again, observation, payloads).equations
+        result = add_verdict(again, observation, FitOutcome(result, warnings, equations=equations))
+    if lines := estimation.describe_deviations(compiled.spec, gain_estimates):
         unused += (f"against the robot file: {'; '.join(lines)}",)
-    result = _with_sentences(result, unused)
-    return identified(derivation, emitted, observation, result), observation
+    result = _append_sentences(result, unused)
+    return assemble_model(derivation, emitted, observation, result), observation
 
 
 # All estimators on the same logs, side by side.
 
 
-def side_by_side(
+def compare_methods(
     robot: Robot | CompiledModel,
     logs: Logs,
     holdout: Logs = (),
     methods: Sequence[str] | None = None,
     progress: Callable[[float], None] | None = None,
-) -> estimation.SideBySide:
+) -> estimation.MethodComparison:
     """Every estimator on the same logs: values, errors, seconds, and what each says of itself.
 
     >>> found = side_by_side(compiled, ["mon.parquet"], methods=["weighted", "ridge"])
@@ -382,15 +400,17 @@ def side_by_side(
     Raises:
         DataError: an unknown method, rows given twice, or what the weighted fit raises.
     """
-    chosen = chosen_methods(methods)
+    chosen = select_methods(methods)
     compiled = (
         workflow.compile_model(workflow.generate(workflow.derive(robot)))
         if isinstance(robot, Robot)
         else robot
     )
-    observation, held = observe_held_out(compiled, logs, holdout)
-    tried = estimation.side_by_side(observation, compiled, held, chosen, progress)
-    return estimation.SideBySide(compiled.spec.robot, tried, tuple(observation.report.lines()))
+    observation, held_out = observe_held_out(compiled, logs, holdout)
+    tried = estimation.compare_methods(observation, compiled, held_out, chosen, progress)
+    return estimation.MethodComparison(
+        compiled.spec.robot, tried, tuple(observation.report.format_lines())
+    )
 
 
 def observe_held_out(
@@ -401,14 +421,18 @@ def observe_held_out(
     processing: Processing | None = None,
 ) -> tuple[Observation, Observation | None]:
     """Logs to fit, and held-out ones processed alike; None without any."""
-    given, kept = (workflow.read_logs(compiled, some, mapping) for some in (logs, holdout))
-    check_apart(given, kept)
-    observation = observe(compiled, given, processing)
-    held = observe(compiled, kept, observation.report.processing) if kept else None
-    return observation, held
+    training_logs, held_out_logs = (
+        workflow.read_logs(compiled, some, mapping) for some in (logs, holdout)
+    )
+    check_no_overlap(training_logs, held_out_logs)
+    observation = observe(compiled, training_logs, processing)
+    held_out = (
+        observe(compiled, held_out_logs, observation.report.processing) if held_out_logs else None
+    )
+    return observation, held_out
 
 
-def chosen_methods(names: Sequence[str] | None, where: str = "methods") -> list[Method]:
+def select_methods(names: Sequence[str] | None, where: str = "methods") -> list[Method]:
     """The estimators of these names, each once; all for None."""
     if names is None:
         return list(ABOUT)
@@ -417,7 +441,7 @@ def chosen_methods(names: Sequence[str] | None, where: str = "methods") -> list[
     if unknown or not names:
         got = unknown[0] if unknown else "nothing"
         raise DataError(
-            f"{where}: got {got}{near(got, list(ABOUT))}; expected some of "
+            f"{where}: got {got}{suggest_name(got, list(ABOUT))}; expected some of "
             f"{', '.join(ABOUT)}, with commas between"
         )
     return [*dict.fromkeys(chosen)]

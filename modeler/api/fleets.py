@@ -4,23 +4,23 @@ import dataclasses
 from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 
-from modeler.api.log_maps import Mapped, file_and_span, log_maps
-from modeler.api.workflow import AnyLog, compile_model, listed, read_logs
+from modeler.api.log_maps import Mapped, build_log_maps, parse_time_range
+from modeler.api.workflow import AnyLog, compile_model, convert_to_list, read_logs
 from modeler.codegen import derive, generate
-from modeler.core.errors import DataError, LoopError, file_and_window
-from modeler.core.jobs import Workers, open_workers, untold
-from modeler.core.manifest import Emitted
+from modeler.core.errors import DataError, LoopError, split_time_range
+from modeler.core.jobs import Workers, ignore_progress, open_workers
+from modeler.core.manifest import EmittedModule
 from modeler.fleet import (
     Fleet,
     LogJob,
+    LogName,
     LogSummary,
-    Named,
     SkippedLog,
-    fleet_of,
-    in_order,
-    named_logs,
+    analyse_fleet,
+    arrange_logs,
+    name_logs,
     reduce_log,
-    summary,
+    summarise_log,
 )
 from modeler.observation import Processing
 from modeler.robot import Robot
@@ -65,25 +65,32 @@ def fleet(
     emitted = generate(derive(robot))
     compiled = compile_model(emitted)
     if isinstance(logs, Mapping):
-        pairs = {Named(machine, period, f"{machine}, {period}"): log
-                 for machine, own in logs.items() for period, log in own.items()}  # fmt: skip
-        return fleet_of(emitted.spec, _reduced(compiled, pairs, processing, mapping, progress))
-    named = named_logs([file_and_at(str(place)) for place in listed(logs)], name)
+        pairs = {
+            LogName(machine, period, f"{machine}, {period}"): log
+            for machine, period_logs in logs.items()
+            for period, log in period_logs.items()
+        }
+        return analyse_fleet(
+            emitted.spec, _reduce_in_memory(compiled, pairs, processing, mapping, progress)
+        )
+    named_paths = name_logs([split_window(str(place)) for place in convert_to_list(logs)], name)
     with open_workers(dask, processes) as workers:
-        given = reduce_logs(compiled, emitted, named, workers, processing, mapping, progress)
-    return fleet_of(emitted.spec, given)
+        summaries = reduce_logs(
+            compiled, emitted, named_paths, workers, processing, mapping, progress
+        )
+    return analyse_fleet(emitted.spec, summaries)
 
 
-def file_and_at(place: str) -> tuple[str, str]:
+def split_window(place: str) -> tuple[str, str]:
     """A file and the window after it, "" without."""
-    path, at = file_and_window(place)
+    path, at = split_time_range(place)
     return path, at or ""
 
 
 def reduce_logs(
     compiled: CompiledModel,
-    emitted: Emitted,
-    named: Sequence[Named],
+    emitted: EmittedModule,
+    named_logs: Sequence[LogName],
     workers: Workers,
     processing: Processing | None = None,
     mapping: Mapped = (),
@@ -91,29 +98,29 @@ def reduce_logs(
 ) -> list[LogSummary | SkippedLog]:
     """The summaries of all logs, each with the cut-offs that its own noise asks for."""
     jobs = []
-    maps = log_maps(compiled, [each.place for each in named], mapping)
-    for each, names in zip(named, maps, strict=True):
-        path, span = file_and_span(each.place)
+    maps = build_log_maps(compiled, [each.place for each in named_logs], mapping)
+    for each, names in zip(named_logs, maps, strict=True):
+        path, span = parse_time_range(each.place)
         jobs.append(LogJob(each, str(Path(path).absolute()), span, processing, names))
     code = dataclasses.replace(emitted, files=emitted.code)
-    return workers.each(reduce_log, code, jobs, progress or untold)
+    return workers.map_jobs(reduce_log, code, jobs, progress or ignore_progress)
 
 
-def _reduced(
+def _reduce_in_memory(
     compiled: CompiledModel,
-    logs: Mapping[Named, AnyLog],
+    logs: Mapping[LogName, AnyLog],
     processing: Processing | None,
     mapping: Mapped,
     progress: Progress | None,
 ) -> list[LogSummary | SkippedLog]:
     """The same of logs at hand, in this process."""
-    found: list[LogSummary | SkippedLog] = []
-    for named in in_order(logs):
+    summaries: list[LogSummary | SkippedLog] = []
+    for named in arrange_logs(logs):
         try:
             [log] = read_logs(compiled, [logs[named]], mapping)
-            found.append(summary(compiled, log, named, processing))
+            summaries.append(summarise_log(compiled, log, named, processing))
         except (DataError, LoopError) as error:
-            found.append(SkippedLog(named, str(error)))
+            summaries.append(SkippedLog(named, str(error)))
         if progress is not None:
-            progress(len(found) / len(logs))
-    return found
+            progress(len(summaries) / len(logs))
+    return summaries

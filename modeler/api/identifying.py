@@ -7,17 +7,17 @@ from pathlib import Path
 from typing import Any, Literal
 
 from modeler.api import fitting, workflow
-from modeler.api.log_maps import Mapped, settled
-from modeler.api.long_logs import Telling, fit_if_long
+from modeler.api.log_maps import Mapped, resolve_mapping
+from modeler.api.long_logs import Reporter, fit_if_long
 from modeler.api.model import Model
-from modeler.api.steps import Steps, silent
-from modeler.api.workflow import AnyLog, Logs, listed, read_logs
+from modeler.api.steps import Steps, ignore_step
+from modeler.api.workflow import AnyLog, Logs, convert_to_list, read_logs
 from modeler.codegen import Derivation
 from modeler.core.errors import GAIN_METHOD, DataError, FitWarning, Method
-from modeler.core.manifest import Emitted
-from modeler.derivation import with_home
-from modeler.observation import Log, Observation, Processing, check_apart, observe
-from modeler.robot import Robot, read_robot, robot_with_effects
+from modeler.core.manifest import EmittedModule
+from modeler.derivation import complete_home
+from modeler.observation import Log, Observation, Processing, check_no_overlap, observe
+from modeler.robot import Robot, read_robot, replace_robot_effects
 from modeler.runtime import CompiledModel
 
 Effects = str | Sequence[str] | Mapping[str, Any]
@@ -34,7 +34,7 @@ def identify(
     effects: Effects | None = None,
     load: fitting.Load | None = None,
     processing: Processing | None = None,
-    steps: Steps = silent,
+    steps: Steps = ignore_step,
 ) -> Model:
     """The model of a robot from its logs: all that `modeler fit` does.
 
@@ -63,40 +63,49 @@ def identify(
         RobotError: a mistake in the robot file, or an effect that there is not.
         DataError: a log cannot be read, rows are given twice, or cannot be fitted.
     """
-    robot = robot_with(robot, effects)
-    given, held = listed(logs), listed(holdout)
+    robot = prepare_robot(robot, effects)
+    training_logs, held_out_logs = convert_to_list(logs), convert_to_list(holdout)
     stated = {**robot.fit, **({} if method is None else {"method": method})}
     with steps(f"deriving {robot.name}"):
         derivation = workflow.derive(robot)
         emitted = workflow.generate(derivation)
         compiled = workflow.compile_model(emitted)
-    mapping, kept = settled(compiled, given, mapping)
-    held = _in_memory(compiled, held, mapping)
-    given, asked = _in_memory(compiled, given, mapping), fitting.request_of(stated)
-    if asked.method == GAIN_METHOD and load is None:
+    mapping, stored_mapping = resolve_mapping(compiled, training_logs, mapping)
+    held_out_logs = _read_in_memory_logs(compiled, held_out_logs, mapping)
+    training_logs, request = (
+        _read_in_memory_logs(compiled, training_logs, mapping),
+        fitting.read_fit_request(stated),
+    )
+    if request.method == GAIN_METHOD and load is None:
         raise DataError(
             f"identify: method {GAIN_METHOD} finds the gains of drives from a weighed load; "
             "give load=Load(logs, mass)"
         )
 
-    def check(bare: Sequence[Log], loaded: Sequence[Log]) -> None:
-        others = () if asked.method == GAIN_METHOD else read_logs(compiled, held, mapping)
-        check_apart([*bare, *loaded], others)
+    def check_log_sets(bare: Sequence[Log], loaded: Sequence[Log]) -> None:
+        others = (
+            () if request.method == GAIN_METHOD else read_logs(compiled, held_out_logs, mapping)
+        )
+        check_no_overlap([*bare, *loaded], others)
 
-    made, _, _, loaded = fitted_on(
-        asked, derivation, emitted, compiled, given, load or fitting.Load((), None),
-        processing or workflow.processing_of(stated), mapping, check, Telling(steps),
+    model, _, _, loaded = fit_logs(
+        request, derivation, emitted, compiled, training_logs, load or fitting.Load((), None),
+        processing or workflow.build_processing(stated), mapping, check_log_sets, Reporter(steps),
     )  # fmt: skip
-    for line in made.warning:
+    for line in model.warning:
         warnings.warn(line, FitWarning, stacklevel=2)  # of who called
-    memory = [log for log in given if isinstance(log, Log)]
+    memory = [log for log in training_logs if isinstance(log, Log)]
     memory += [log for log in loaded if not log.path]
     return dataclasses.replace(
-        made, mapping=kept, given=tuple(memory), held_out=tuple(held), folder=str(Path.cwd())
+        model,
+        mapping=stored_mapping,
+        in_memory_logs=tuple(memory),
+        held_out=tuple(held_out_logs),
+        folder=str(Path.cwd()),
     )
 
 
-def robot_with(robot: Robot | str | Path, effects: Effects | None = None) -> Robot:
+def prepare_robot(robot: Robot | str | Path, effects: Effects | None = None) -> Robot:
     """A robot as fits take it: its [home] found if it has loops, with these effects.
 
     Raises:
@@ -104,11 +113,13 @@ def robot_with(robot: Robot | str | Path, effects: Effects | None = None) -> Rob
     """
     robot = robot if isinstance(robot, Robot) else read_robot(robot)
     if effects is not None:
-        robot = robot_with_effects(robot, effects, "effects")
-    return with_home(robot).in_text(robot) if robot.loops else robot
+        robot = replace_robot_effects(robot, effects, "effects")
+    return complete_home(robot).write_to_text(robot) if robot.loops else robot
 
 
-def _in_memory(compiled: CompiledModel, logs: Sequence[AnyLog], mapping: Mapped) -> list[AnyLog]:
+def _read_in_memory_logs(
+    compiled: CompiledModel, logs: Sequence[AnyLog], mapping: Mapped
+) -> list[AnyLog]:
     """Paths as they are, and what else there is as it was read."""
     paths = (str, Path)
     others = read_logs(compiled, [log for log in logs if not isinstance(log, paths)], mapping)
@@ -116,15 +127,22 @@ def _in_memory(compiled: CompiledModel, logs: Sequence[AnyLog], mapping: Mapped)
     return [log if isinstance(log, paths) else next(rest) for log in logs]
 
 
-def fitted_on(
-    asked: fitting.FitRequest, derivation: Derivation, emitted: Emitted, compiled: CompiledModel,
-    logs: Sequence[AnyLog], load: fitting.Load, processing: Processing, mapping: Mapped,
-    check: Callable[[Sequence[Log], Sequence[Log]], None], told: Telling,
-) -> tuple[Model, Observation, fitting.FitOutcome, list[Log]]:  # fmt: skip
+def fit_logs(
+    request: fitting.FitRequest,
+    derivation: Derivation,
+    emitted: EmittedModule,
+    compiled: CompiledModel,
+    logs: Sequence[AnyLog],
+    load: fitting.Load,
+    processing: Processing,
+    mapping: Mapped,
+    check: Callable[[Sequence[Log], Sequence[Log]], None],
+    reporter: Reporter,
+) -> tuple[Model, Observation, fitting.FitOutcome, list[Log]]:
     """The model of logs of any length, by any method.
 
     Args:
-        asked: how; the load comes to it.
+        request: how; the load comes to it.
         derivation: of the robot.
         emitted: its C.
         compiled: that, callable.
@@ -133,25 +151,29 @@ def fitted_on(
         processing: of the logs.
         mapping: as of `read_logs`.
         check: refuses logs, bare and loaded, that do not belong together.
-        told: what is told of it.
+        reporter: what is told of it.
 
     Returns:
         The model, what it was fitted to, how, and the loaded logs.
     """
-    if asked.method == GAIN_METHOD:
-        found = fitting.found_with_gains(
-            derivation, compiled, logs, load, processing, check, told.steps, mapping
+    if request.method == GAIN_METHOD:
+        gain_fit = fitting.identify_gains(
+            derivation, compiled, logs, load, processing, check, reporter.report_step, mapping
         )
-        return *found, fitting.FitOutcome(found[0].fit), []
+        return *gain_fit, fitting.FitOutcome(gain_fit[0].fit), []
     long = fit_if_long(
-        asked, derivation, emitted, compiled, logs, load.logs, processing, mapping, told
+        request, derivation, emitted, compiled, logs, load.logs, processing, mapping, reporter
     )
     if long is not None:
         return *long, fitting.FitOutcome(long[0].fit), []
-    with told.steps("building the observation matrix"):
+    with reporter.report_step("building the observation matrix"):
         read, loaded = (read_logs(compiled, some, mapping) for some in (logs, load.logs))
         check(read, loaded)
         observation = observe(compiled, [*read, *loaded], processing)
-    asked = dataclasses.replace(asked, payloads=tuple(load.payloads(loaded)) if loaded else ())
-    model, way = fitting.fitted(asked, derivation, emitted, compiled, observation, told.steps)
-    return model, observation, way, loaded
+    request = dataclasses.replace(
+        request, payloads=tuple(load.build_payloads(loaded)) if loaded else ()
+    )
+    model, outcome = fitting.fit_observation(
+        request, derivation, emitted, compiled, observation, reporter.report_step
+    )
+    return model, observation, outcome, loaded

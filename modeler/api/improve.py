@@ -8,12 +8,18 @@ from pathlib import Path
 
 from modeler import diagnosis
 from modeler.api.log_maps import Mapped
-from modeler.api.steps import Steps, silent
-from modeler.api.workflow import Logs, M, read_logs, recompile
+from modeler.api.steps import Steps, ignore_step
+from modeler.api.workflow import Logs, M, compile, read_logs
 from modeler.core.errors import DataError
 from modeler.estimation import IdentifiedModel
-from modeler.observation import check_apart
-from modeler.robot import Robot, SharedEffects, robot_from_text, shared_effects, with_own_effect
+from modeler.observation import check_no_overlap
+from modeler.robot import (
+    Robot,
+    SharedEffects,
+    collect_shared_effects,
+    insert_own_effect,
+    parse_robot_text,
+)
 from modeler.runtime import CompiledModel
 
 _NONE = SharedEffects()
@@ -46,14 +52,14 @@ def diagnose(
         effects_from: folder of files that `modeler effects --export` wrote, whose effects the robot
             may have too.
     """
-    more = shared_of(model, effects_from)
-    compiled, given = logs_of(model, logs, holdout, mapping, spread=True)
-    return missing(model, compiled, given, without, progress, discover, more)
+    shared_effects = read_shared_effects(model, effects_from)
+    compiled, log_sets = read_log_sets(model, logs, holdout, mapping, spread=True)
+    return find_missing(model, compiled, log_sets, without, progress, discover, shared_effects)
 
 
 def add_discoveries(
     model: M,
-    found: diagnosis.Diagnosis,
+    diagnosis_result: diagnosis.Diagnosis,
     logs: Logs,
     holdout: Logs = (),
     mapping: Mapped = (),
@@ -68,37 +74,50 @@ def add_discoveries(
 
     Args:
         model: as it was diagnosed.
-        found: the diagnosis, with `discover`.
+        diagnosis_result: the diagnosis, with `discover`.
         logs: to fit to.
         holdout: logs of other motion to judge on.
         mapping: as of `read_logs`.
         effects_from: as of the diagnosis.
     """
-    more = shared_of(model, effects_from)
-    compiled, given = logs_of(model, logs, holdout, mapping)
-    return like(model, discovered_added(model, compiled, given, found, more)[0])
+    shared_effects = read_shared_effects(model, effects_from)
+    compiled, log_sets = read_log_sets(model, logs, holdout, mapping)
+    return restore_class(
+        model, add_proposals(model, compiled, log_sets, diagnosis_result, shared_effects)[0]
+    )
 
 
-def discovered_added(
+def add_proposals(
     model: IdentifiedModel,
     compiled: CompiledModel,
-    logs: diagnosis.Logs,
-    found: diagnosis.Diagnosis,
+    logs: diagnosis.LogSplit,
+    diagnosis_result: diagnosis.Diagnosis,
     more: SharedEffects = _NONE,
 ) -> tuple[IdentifiedModel, tuple[str, ...]]:
     """The model with the first proposal of each joint and the effects that it stands beside.
 
     And a line on what is left out.
     """
-    firsts = [own.proposals[0] for own in found.discoveries or () if own.proposals]
+    firsts = [
+        discovery.proposals[0]
+        for discovery in diagnosis_result.discoveries or ()
+        if discovery.proposals
+    ]
     if not firsts:
         return model, ("left out: nothing was found",)
-    text = more.written(model.robot_text, [f.effect for f in [*found.effects, *found.refinements]])
+    text = more.insert_definitions(
+        model.robot_text,
+        [f.effect for f in [*diagnosis_result.effects, *diagnosis_result.refinements]],
+    )
     for first in firsts:
-        text = with_own_effect(text, first.finding.effect, first.definition)
-    replaced = {(name, own.finding.joint) for own in firsts for name in own.instead}
+        text = insert_own_effect(text, first.finding.effect, first.definition)
+    replaced = {
+        (name, discovery.finding.joint) for discovery in firsts for name in discovery.instead
+    }
     beside = [
-        f for f in (*found.effects, *found.refinements) if (f.effect, f.joint) not in replaced
+        f
+        for f in (*diagnosis_result.effects, *diagnosis_result.refinements)
+        if (f.effect, f.joint) not in replaced
     ]
     named = dataclasses.replace(model, robot_text=text)
     findings = [*beside, *(first.finding for first in firsts)]
@@ -113,7 +132,7 @@ def add(
     holdout: Logs = (),
     joint: str | None = None,
     mapping: Mapped = (),
-    law: diagnosis.LawAsked | None = None,
+    law: diagnosis.LawRequest | None = None,
     effects_from: str | Path | None = None,
 ) -> M:
     """The model with one effect more, fitted to the logs; `table("waterfall")` says what it gained.
@@ -137,16 +156,17 @@ def add(
         DataError: no such effect, one that is there already, cannot be told from the logs, or
             cannot be added.
     """
-    model = with_shared(model, shared_of(model, effects_from), effect)
-    compiled, given = logs_of(model, logs, holdout, mapping)
+    model = define_shared_effect(model, read_shared_effects(model, effects_from), effect)
+    compiled, log_sets = read_log_sets(model, logs, holdout, mapping)
     if effect == diagnosis.LEARNED:
-        return like(
-            model, diagnosis.add_learned(model, compiled, joint, given, law or diagnosis.ANY_LAW)
+        return restore_class(
+            model,
+            diagnosis.add_learned_law(model, compiled, joint, log_sets, law or diagnosis.ANY_LAW),
         )
-    return like(model, diagnosis.add_effect(model, compiled, effect, joint, given))
+    return restore_class(model, diagnosis.add_effect(model, compiled, effect, joint, log_sets))
 
 
-def auto(
+def add_all(
     model: M,
     logs: Logs,
     holdout: Logs = (),
@@ -174,12 +194,17 @@ def auto(
     Raises:
         DataError: nothing that can be added is missing.
     """
-    more = shared_of(model, effects_from)
-    compiled, given = logs_of(model, logs, holdout, mapping)
-    return like(model, auto_added(model, compiled, given, progress, silent, learned, more)[0])
+    shared_effects = read_shared_effects(model, effects_from)
+    compiled, log_sets = read_log_sets(model, logs, holdout, mapping)
+    return restore_class(
+        model,
+        add_all_missing(model, compiled, log_sets, progress, ignore_step, learned, shared_effects)[
+            0
+        ],
+    )
 
 
-def undo(model: M, logs: Logs, mapping: Mapped = ()) -> M:
+def remove_last(model: M, logs: Logs, mapping: Mapped = ()) -> M:
     """The model without the effect that was added last, fitted again to the logs.
 
     >>> better = add(model, "spring", ["mon.parquet"], joint="1")
@@ -189,21 +214,23 @@ def undo(model: M, logs: Logs, mapping: Mapped = ()) -> M:
     Raises:
         DataError: none was added.
     """
-    return like(model, diagnosis.undone(model, logs_of(model, logs, (), mapping)[1]))
+    return restore_class(
+        model, diagnosis.remove_last_effect(model, read_log_sets(model, logs, (), mapping)[1])
+    )
 
 
-def like(model: M, made: IdentifiedModel) -> M:
+def restore_class(model: M, result: IdentifiedModel) -> M:
     """What was made of a model, as an object of its class."""
-    found = {f.name: getattr(made, f.name) for f in dataclasses.fields(IdentifiedModel)}
-    return dataclasses.replace(model, **{**found, "mapping": model.mapping})
+    fields = {f.name: getattr(result, f.name) for f in dataclasses.fields(IdentifiedModel)}
+    return dataclasses.replace(model, **{**fields, "mapping": model.mapping})
 
 
-def auto_added(
+def add_all_missing(
     model: IdentifiedModel,
     compiled: CompiledModel,
-    logs: diagnosis.Logs,
+    logs: diagnosis.LogSplit,
     progress: Callable[[float], None] | None = None,
-    working: Steps = silent,
+    report_step: Steps = ignore_step,
     learned: bool = False,
     more: SharedEffects = _NONE,
 ) -> tuple[IdentifiedModel, tuple[str, ...], diagnosis.Diagnosis]:
@@ -212,30 +239,30 @@ def auto_added(
     Raises:
         DataError: nothing that can be added is missing.
     """
-    found = missing(model, compiled, logs, (), progress, more=more)
-    findings = [*found.effects, *found.refinements]
+    diagnosis_result = find_missing(model, compiled, logs, (), progress, more=more)
+    findings = [*diagnosis_result.effects, *diagnosis_result.refinements]
     named = dataclasses.replace(
-        model, robot_text=more.written(model.robot_text, [f.effect for f in findings])
+        model, robot_text=more.insert_definitions(model.robot_text, [f.effect for f in findings])
     )
-    with working("adding what is missing"):
+    with report_step("adding what is missing"):
         better, left_out = diagnosis.add_findings(named, compiled, findings, logs)
     better = model if better is named else better
     if learned:
-        with working("learning laws"):
-            better, idle = diagnosis.add_laws(better, recompile(better), logs)
+        with report_step("learning laws"):
+            better, idle = diagnosis.add_learned_laws(better, compile(better), logs)
         left_out = (*left_out, *idle)
     if better is model and not left_out:
         raise DataError(
             "auto: nothing is added, because nothing that can be added is missing in this model "
-            f"({found.sentences[0]})"
+            f"({diagnosis_result.sentences[0]})"
         )
-    return better, left_out, found
+    return better, left_out, diagnosis_result
 
 
-def missing(
+def find_missing(
     model: IdentifiedModel,
     compiled: CompiledModel,
-    logs: diagnosis.Logs,
+    logs: diagnosis.LogSplit,
     without: Sequence[str] = (),
     progress: Callable[[float], None] | None = None,
     equations: bool = False,
@@ -245,27 +272,27 @@ def missing(
 
     And those of a folder; why some of these are left out stands among its sentences.
     """
-    robot = _robot_of(model)
+    robot = _read_model_robot(model)
     known = diagnosis.StatedEffects((*robot.catalogue, *more.effects), robot.coupling)
-    found = diagnosis.diagnose(
-        model, compiled, logs.fitted, logs.held_out, without, progress=progress, known=known,
+    diagnosis_result = diagnosis.diagnose(
+        model, compiled, logs.training, logs.held_out, without, progress=progress, known=known,
         equations=equations,
     )  # fmt: skip
-    laws = {e.id: "a learned law, no physics" for e in more.effects if e.learned}
+    laws = {e.id: "a learned law, no physics" for e in more.effects if e.is_learned}
     left = [f"left out: {name} ({why})" for name, why in {**more.left_out, **laws}.items()]
-    return dataclasses.replace(found, sentences=(*found.sentences, *left))
+    return dataclasses.replace(diagnosis_result, sentences=(*diagnosis_result.sentences, *left))
 
 
-def _robot_of(model: IdentifiedModel) -> Robot:
-    return robot_from_text(model.robot_text, f"model of {model.spec.robot}, robot")
+def _read_model_robot(model: IdentifiedModel) -> Robot:
+    return parse_robot_text(model.robot_text, f"model of {model.spec.robot}, robot")
 
 
-def shared_of(model: IdentifiedModel, folder: str | Path | None) -> SharedEffects:
+def read_shared_effects(model: IdentifiedModel, folder: str | Path | None) -> SharedEffects:
     """Effects of a folder that the robot of the model may have too; without a folder none."""
-    return _NONE if folder is None else shared_effects(_robot_of(model), folder)
+    return _NONE if folder is None else collect_shared_effects(_read_model_robot(model), folder)
 
 
-def with_shared(model: M, more: SharedEffects, effect: str) -> M:
+def define_shared_effect(model: M, more: SharedEffects, effect: str) -> M:
     """The model whose robot file defines that effect, if it is one of a folder.
 
     Raises:
@@ -273,12 +300,14 @@ def with_shared(model: M, more: SharedEffects, effect: str) -> M:
     """
     if effect in more.left_out:
         raise DataError(f"{effect} of {more.left_out[effect]}; expected another effect")
-    return dataclasses.replace(model, robot_text=more.written(model.robot_text, [effect]))
+    return dataclasses.replace(
+        model, robot_text=more.insert_definitions(model.robot_text, [effect])
+    )
 
 
-def logs_of(
+def read_log_sets(
     model: IdentifiedModel, logs: Logs, holdout: Logs, mapping: Mapped = (), spread: bool = False
-) -> tuple[CompiledModel, diagnosis.Logs]:
+) -> tuple[CompiledModel, diagnosis.LogSplit]:
     """The robot of a model, compiled, and the logs that it is held against.
 
     Of long logs stretches where `spread` is true, see `read_logs`.
@@ -286,8 +315,8 @@ def logs_of(
     Raises:
         DataError: a log cannot be read, or rows are given twice.
     """
-    compiled = recompile(model)
+    compiled = compile(model)
     every = (read_logs(compiled, some, mapping, spread) for some in (logs, holdout))
-    given = diagnosis.Logs(*every)
-    check_apart(given.fitted, given.held_out)
-    return compiled, given
+    log_sets = diagnosis.LogSplit(*every)
+    check_no_overlap(log_sets.training, log_sets.held_out)
+    return compiled, log_sets

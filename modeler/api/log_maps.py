@@ -8,20 +8,20 @@ from pathlib import Path
 from typing import Any
 
 from modeler import observation
-from modeler.core.errors import DataError, ModelerError, file_and_window
-from modeler.core.manifest import Emitted
-from modeler.estimation import identify, log_findings, with_verdict
+from modeler.core.errors import DataError, ModelerError, split_time_range
+from modeler.core.manifest import EmittedModule
+from modeler.estimation import find_log_faults, identify, judge_fit
 from modeler.logs import (
     EITHER,
     InMemory,
     LogInspection,
     LogMap,
     LogTable,
-    blocks_of,
-    inspect_log,
-    map_from_table,
-    map_from_words,
-    windows_of,
+    build_map,
+    inspect_table,
+    open_blocks,
+    parse_map_options,
+    read_windows,
 )
 from modeler.observation import FINGER, LONG, WINDOW, WINDOWS
 from modeler.runtime import CompiledModel
@@ -33,7 +33,7 @@ Mapped = Mapping[str, Any] | Sequence[str] | LogMap
 _BETTER = 0.5  # of the error, that a guess must reach to be believed
 
 
-def log_map(compiled: CompiledModel | Emitted, mapping: Mapped = ()) -> LogMap:
+def build_log_map(compiled: CompiledModel | EmittedModule, mapping: Mapped = ()) -> LogMap:
     """Which columns of logs are ours: [log] of the robot file, and `mapping` over it.
 
     >>> log_map(compiled, ["q1=position_a:deg"]).entries(compiled.spec.joints)["q1"].columns
@@ -41,52 +41,60 @@ def log_map(compiled: CompiledModel | Emitted, mapping: Mapped = ()) -> LogMap:
     """
     if isinstance(mapping, LogMap):
         return mapping
-    stated = map_from_table(compiled.log, f"{compiled.spec.robot}: [log]")
-    return given_map(mapping).overriding(stated)
+    stated = build_map(compiled.log, f"{compiled.spec.robot}: [log]")
+    return parse_mapping(mapping).merge_over(stated)
 
 
-def given_map(mapping: Mapped) -> LogMap:
+def parse_mapping(mapping: Mapped) -> LogMap:
     """A mapping as it was given, by itself."""
     if isinstance(mapping, LogMap):
         return mapping
     if isinstance(mapping, Mapping):
-        return map_from_table(mapping, "mapping", strict=True)
-    return map_from_words([mapping] if isinstance(mapping, str) else mapping)
+        return build_map(mapping, "mapping", strict=True)
+    return parse_map_options([mapping] if isinstance(mapping, str) else mapping)
 
 
-def log_maps(compiled: CompiledModel, logs: Sequence[Any], mapping: Mapped = ()) -> list[LogMap]:
+def build_log_maps(
+    compiled: CompiledModel, logs: Sequence[Any], mapping: Mapped = ()
+) -> list[LogMap]:
     """The map of each log: that of all, and with `auto` under it what the log itself suggests.
 
     Raises:
         DataError: a wrong mapping, or a file that cannot be read.
     """
-    names = log_map(compiled, mapping)
+    names = build_log_map(compiled, mapping)
     if not names.auto:
         return [names] * len(logs)
     known: dict[tuple[str, ...], LogMap] = {}  # of columns, a guess: once for logs that are alike
-    found = []
+    maps = []
     for log in logs:
         if isinstance(log, observation.Log | SimulatedLog):
-            found.append(dataclasses.replace(names, auto=False))
+            maps.append(dataclasses.replace(names, auto=False))
             continue
-        seen = look_at(
+        inspection = inspect_log(
             log, compiled, LogMap(names=names.names, topic=names.topic, files=names.files)
         )
-        clock = next((part for part in seen.streams if part.clock), None)
-        if clock and not names.topic and [p.kind for p in seen.streams].count(clock.kind) > 1:
+        clock = next((part for part in inspection.streams if part.clock), None)
+        if clock and not names.topic and [p.kind for p in inspection.streams].count(clock.kind) > 1:
             names = dataclasses.replace(names, topic=clock.name)
-        key = (seen.suggested, seen.plain, *(c.name for c in seen.channels))
+        key = (
+            inspection.suggested,
+            inspection.suggested_without_ranges,
+            *(c.name for c in inspection.channels),
+        )
         if key not in known:
-            own, joints = _guessed(compiled, log, names, seen), compiled.spec.joints
-            alike = (m for m in known.values() if m.table(joints) == own.table(joints))
+            guess, joints = _guess_map(compiled, log, names, inspection), compiled.spec.joints
+            equal_maps = (
+                m for m in known.values() if m.build_table(joints) == guess.build_table(joints)
+            )
             more = " (of this log; the model keeps that of the first)" * bool(known)
-            told = tuple(line + more for line in own.told)
-            known[key] = next(alike, None) or dataclasses.replace(own, told=told)
-        found.append(known[key])
-    return found
+            messages = tuple(line + more for line in guess.guess_notes)
+            known[key] = next(equal_maps, None) or dataclasses.replace(guess, guess_notes=messages)
+        maps.append(known[key])
+    return maps
 
 
-def settled(
+def resolve_mapping(
     compiled: CompiledModel, logs: Sequence[Any], mapping: Mapped = ()
 ) -> tuple[Mapped, dict[str, Any]]:
     """The mapping with its guesses made, and what a model keeps of it, a table like [log].
@@ -97,120 +105,140 @@ def settled(
     The model keeps the map of the first log, with what the robot file says; nothing if that says
     it all. Where `auto` gives other logs other maps, they stay to be guessed.
     """
-    given = given_map(mapping)
-    if not given.auto and not given.table():
+    parsed_mapping = parse_mapping(mapping)
+    if not parsed_mapping.auto and not parsed_mapping.build_table():
         return mapping, {}
-    maps = log_maps(compiled, logs, mapping) or [log_map(compiled, mapping)]
-    alike = all(one is maps[0] for one in maps)
-    return maps[0] if alike else mapping, maps[0].table(compiled.spec.joints)
+    maps = build_log_maps(compiled, logs, mapping) or [build_log_map(compiled, mapping)]
+    is_same_map = all(one is maps[0] for one in maps)
+    return maps[0] if is_same_map else mapping, maps[0].build_table(compiled.spec.joints)
 
 
-def _guessed(
-    compiled: CompiledModel, place: str | Path | InMemory, names: LogMap, seen: LogInspection
+def _guess_map(
+    compiled: CompiledModel, place: str | Path | InMemory, names: LogMap, inspection: LogInspection
 ) -> LogMap:
-    """The guess, for what is not named yet, by the rule of `believed`."""
+    """The guess, for what is not named yet, by the rule of `choose_mapping`."""
     joints = compiled.spec.joints
-    there = {channel.name for channel in seen.channels}
-    taken = {o for o, e in names.entries(joints).items() if there & {*e.columns}}
-    taken |= {"time"} if names.rate else set()
+    column_names = {channel.name for channel in inspection.channels}
+    assigned = {o for o, e in names.expand_entries(joints).items() if column_names & {*e.columns}}
+    assigned |= {"time"} if names.rate else set()
 
-    def under(text: str) -> LogMap:
-        guess = _read(text)
+    def map_over_stated(text: str) -> LogMap:
+        guess = _parse_suggested(text)
         for layer in guess.layers:
-            own = guess.entries(joints)
-            left = {name: entry for name, entry in own.items() if name not in taken}
-            guess = dataclasses.replace(guess, layers=(layer if len(left) == len(own) else left,))
-        said = [f"{k} = {_shown(e)}" for k, e in guess.table(joints).items()]
-        told = f"--map auto took {'; '.join(said) or 'the columns as they are called'}"
-        lacking = [f"{o} (no column {e.columns[0]})" for o, e in names.entries(joints).items()
-                   if e.strict and not there & {*e.columns}]  # fmt: skip
-        told += f"; guessed too: {', '.join(lacking)}" if lacking else ""
+            entries = guess.expand_entries(joints)
+            left = {name: entry for name, entry in entries.items() if name not in assigned}
+            guess = dataclasses.replace(
+                guess, layers=(layer if len(left) == len(entries) else left,)
+            )
+        assignments = [f"{k} = {_format_entry(e)}" for k, e in guess.build_table(joints).items()]
+        message = f"--map auto took {'; '.join(assignments) or 'the columns as they are called'}"
+        missing = [
+            f"{o} (no column {e.columns[0]})"
+            for o, e in names.expand_entries(joints).items()
+            if e.strict and not column_names & {*e.columns}
+        ]
+        message += f"; guessed too: {', '.join(missing)}" if missing else ""
         # A name for a column that is not here is for other logs.
-        stated = dataclasses.replace(names, auto=False, layers=_present(names, there, joints))
-        either = tuple(line for line in seen.doubts if EITHER in line and "[deg]" in told)
-        return dataclasses.replace(stated.overriding(guess), told=(told, *either))
+        stated = dataclasses.replace(
+            names, auto=False, layers=_drop_absent_entries(names, column_names, joints)
+        )
+        either = tuple(
+            line for line in inspection.warnings if EITHER in line and "[deg]" in message
+        )
+        return dataclasses.replace(stated.merge_over(guess), guess_notes=(message, *either))
 
-    if seen.suggested == seen.plain:
-        return under(seen.plain)
+    if inspection.suggested == inspection.suggested_without_ranges:
+        return map_over_stated(inspection.suggested_without_ranges)
 
-    def hear(names: LogMap) -> Heard:
-        return _heard(compiled, place, names)
+    def fit_mapping(names: LogMap) -> MappingFit:
+        return _fit_mapping(compiled, place, names)
 
-    return believed(hear, under(seen.plain), under(seen.suggested))[1]
+    return choose_mapping(
+        fit_mapping,
+        map_over_stated(inspection.suggested_without_ranges),
+        map_over_stated(inspection.suggested),
+    )[1]
 
 
-def _present(names: LogMap, there: set[str], joints: Sequence[Any]) -> tuple[Any, ...]:
+def _drop_absent_entries(
+    names: LogMap, column_names: set[str], joints: Sequence[Any]
+) -> tuple[Any, ...]:
     """The layers, without entries whose columns are not there."""
-    entries = names.entries(joints)
-    missing = {o for o, e in entries.items() if not there & {*e.columns}}
+    entries = names.expand_entries(joints)
+    missing = {o for o, e in entries.items() if not column_names & {*e.columns}}
     if not missing:
         return names.layers
     return ({o: e for o, e in entries.items() if o not in missing},)
 
 
-def _shown(entry: Any) -> str:
+def _format_entry(entry: Any) -> str:
     return str(entry["column"] if isinstance(entry, dict) and "column" in entry else entry)
 
 
-def _read(text: str) -> LogMap:
+def _parse_suggested(text: str) -> LogMap:
     """The map of a suggested [log]."""
-    return map_from_table(tomllib.loads(text)["log"], "guessed [log]") if text else LogMap()
+    return build_map(tomllib.loads(text)["log"], "guessed [log]") if text else LogMap()
 
 
 @dataclass(frozen=True)
-class Heard:
+class MappingFit:
     """What a fit says: relative error, infinite without fit; doubts; if it is usable; its data."""
 
     error: float
     lines: tuple[str, ...] = ()
-    usable: bool = False
-    report: observation.DataReport | None = None
+    is_usable: bool = False
+    data_report: observation.DataReport | None = None
 
 
-def believed(
-    hear: Callable[[LogMap], Heard], plain: LogMap, guessed: LogMap | None
-) -> tuple[Heard, LogMap, bool]:
+def choose_mapping(
+    fit_mapping: Callable[[LogMap], MappingFit], plain: LogMap, guessed: LogMap | None
+) -> tuple[MappingFit, LogMap, bool]:
     """What is heard of a fit, the map that is believed, and whether the plain one will do.
 
     A guess by range is believed if it halves the error of the log as it stands, or alone is
     usable; what goes wrong under a guess is never told of the log.
     """
-    as_it_is = hear(plain)
+    plain_fit = fit_mapping(plain)
     if guessed is None:
-        return as_it_is, plain, False
-    heard = hear(guessed)
-    better = heard.error < _BETTER * as_it_is.error and heard.usable >= as_it_is.usable
-    if better or (heard.usable and not as_it_is.usable):
-        return heard, guessed, False
-    return as_it_is, plain, as_it_is.usable
+        return plain_fit, plain, False
+    guessed_fit = fit_mapping(guessed)
+    better = (
+        guessed_fit.error < _BETTER * plain_fit.error
+        and guessed_fit.is_usable >= plain_fit.is_usable
+    )
+    if better or (guessed_fit.is_usable and not plain_fit.is_usable):
+        return guessed_fit, guessed, False
+    return plain_fit, plain, plain_fit.is_usable
 
 
-def suggested_map(text: str, mapping: LogMap) -> LogMap:
+def merge_suggested_map(text: str, mapping: LogMap) -> LogMap:
     """A suggested [log], and a map over it."""
-    return mapping.overriding(_read(text))
+    return mapping.merge_over(_parse_suggested(text))
 
 
-def _heard(compiled: CompiledModel, place: str | Path | InMemory, names: LogMap) -> Heard:
+def _fit_mapping(
+    compiled: CompiledModel, place: str | Path | InMemory, names: LogMap
+) -> MappingFit:
     """A weighted fit, of a long log of its beginning."""
     try:
-        path, span = file_and_span(place) if isinstance(place, str | Path) else ("", None)
-        blocks = blocks_of(Path(path)) if path and span is None else None
+        path, span = parse_time_range(place) if isinstance(place, str | Path) else ("", None)
+        blocks = open_blocks(Path(path)) if path and span is None else None
         if blocks is not None and blocks.rows > LONG:
-            source = observation.source_of(Path(path), compiled.spec, names)
+            source = observation.open_source(Path(path), compiled.spec, names)
             assert source is not None  # it has blocks
-            log = source.window(0.0, LONG)
+            log = source.read_window(0.0, LONG)
         else:
-            log = read_mapped(place, compiled.spec, names)
+            log = read_mapped_log(place, compiled.spec, names)
         rows = observation.observe(compiled, [log])
         result = identify(rows, "weighted", compiled)
-        judged = with_verdict(compiled, rows, result, log_findings(compiled, rows))
+        result_with_verdict = judge_fit(compiled, rows, result, find_log_faults(compiled, rows))
     except ModelerError:
-        return Heard(float("inf"))
-    usable = judged.verdict is not None and judged.verdict.usable
-    return Heard(judged.relative_error, (), usable, rows.report)
+        return MappingFit(float("inf"))
+    usable = result_with_verdict.verdict is not None and result_with_verdict.verdict.usable
+    return MappingFit(result_with_verdict.relative_error, (), usable, rows.report)
 
 
-def read_mapped(
+def read_mapped_log(
     place: str | Path | InMemory, spec: Any, names: LogMap, where: str = "log",
     spread: bool = False,
 ) -> observation.Log:  # fmt: skip
@@ -219,22 +247,24 @@ def read_mapped(
     With `spread` a log too long to be diagnosed as a whole is read as stretches of it.
     """
     if not isinstance(place, str | Path):
-        return observation.log_in_memory(place, spec, names, where)
-    path, span = file_and_span(place)
+        return observation.read_log_in_memory(place, spec, names, where)
+    path, span = parse_time_range(place)
     if span is None:
-        source = observation.source_of(Path(path), spec, names) if spread else None
+        source = observation.open_source(Path(path), spec, names) if spread else None
         if source is None or source.rows <= observation.SPREAD:
             return observation.read_log(path, spec, names)
         return dataclasses.replace(observation.read_spread(source, spec), path=str(place))
-    source = observation.source_of(Path(path), spec, names)
+    source = observation.open_source(Path(path), spec, names)
     if source is not None and source.rows > (LONG if source.exact else 2 * LONG):
         part = observation.read_part(source, spec, *span)
     else:
-        part = observation.window(observation.read_log(path, spec, names), *span)
+        part = observation.cut_window(observation.read_log(path, spec, names), *span)
     return dataclasses.replace(part, path=str(place))
 
 
-def file_and_span(place: str | Path) -> tuple[str | Path, tuple[float | None, float | None] | None]:
+def parse_time_range(
+    place: str | Path,
+) -> tuple[str | Path, tuple[float | None, float | None] | None]:
     """The file of a log, and the seconds that `@start:end` after it means; None for all of it.
 
     >>> file_and_span("run.parquet@0:10")
@@ -243,7 +273,7 @@ def file_and_span(place: str | Path) -> tuple[str | Path, tuple[float | None, fl
     Raises:
         DataError: something else stands after the @.
     """
-    path, times = file_and_window(str(place))
+    path, times = split_time_range(str(place))
     if times is None:
         return place, None
     start, colon, end = times.partition(":")
@@ -259,9 +289,9 @@ def file_and_span(place: str | Path) -> tuple[str | Path, tuple[float | None, fl
     return path, (span[0], span[1])
 
 
-def look_at(
+def inspect_log(
     place: str | Path | InMemory,
-    compiled: CompiledModel | Emitted | None = None,
+    compiled: CompiledModel | EmittedModule | None = None,
     mapping: Mapped = (),
 ) -> LogInspection:
     """Channels, clock, gaps and doubts of a log.
@@ -277,16 +307,20 @@ def look_at(
     Raises:
         DataError: the file cannot be read, or has no rows in that piece.
     """
-    names = given_map(mapping) if compiled is None else log_map(compiled, mapping)
+    names = parse_mapping(mapping) if compiled is None else build_log_map(compiled, mapping)
     joints = () if compiled is None else compiled.spec.joints
     if not isinstance(place, str | Path):
-        held = observation.table_in_memory(place, joints, names, "log")
-        return inspect_log(held, names, joints, (None, None))
-    path, span = file_and_span(str(place))
-    blocks, span = blocks_of(Path(path)), span or (None, None)
+        table_in_memory = observation.build_table(place, joints, names, "log")
+        return inspect_table(table_in_memory, names, joints, (None, None))
+    path, span = parse_time_range(str(place))
+    blocks, span = open_blocks(Path(path)), span or (None, None)
     if blocks is None or blocks.rows <= LONG:
         table = LogTable(Path(path), names, joints, any_topic=True)
-        return inspect_log(table, names, joints, span)
-    seen = windows_of(blocks, WINDOWS, WINDOW)
-    every = (LogTable(Path(path), names, joints, part=own) for own in blocks.blocks(FINGER))
-    return inspect_log(LogTable(Path(path), names, joints, part=seen), names, joints, span, every)
+        return inspect_table(table, names, joints, span)
+    sample = read_windows(blocks, WINDOWS, WINDOW)
+    every = (
+        LogTable(Path(path), names, joints, part=block) for block in blocks.read_blocks(FINGER)
+    )
+    return inspect_table(
+        LogTable(Path(path), names, joints, part=sample), names, joints, span, every
+    )

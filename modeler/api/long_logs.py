@@ -8,28 +8,32 @@ from pathlib import Path
 from typing import TypeGuard
 
 from modeler import observation
-from modeler.api.fitting import FitOutcome, FitRequest, identified, judged
+from modeler.api.fitting import FitOutcome, FitRequest, add_verdict, assemble_model
 from modeler.api.log_maps import Mapped
 from modeler.api.model import Model
-from modeler.api.steps import Steps, silent
+from modeler.api.steps import Steps, ignore_step
 from modeler.api.workflow import (
     AnyLog,
     are_long as are_long,
+    are_too_long as are_too_long,
     check_fits_memory as check_fits_memory,
-    sources_of as sources_of,
-    too_long as too_long,
+    open_sources as open_sources,
 )
 from modeler.codegen import Derivation
 from modeler.core.errors import DataError, Method
 from modeler.core.jobs import Workers
-from modeler.core.manifest import Emitted
+from modeler.core.manifest import EmittedModule
 from modeler.estimation import OF_TRIANGLES, FitResult, long_logs as chunked
 from modeler.logs import LogMap
-from modeler.runtime import CompiledModel, compiled_once
+from modeler.runtime import CompiledModel, load_cached_model
+
+
+Progress = Callable[[str], AbstractContextManager[Callable[[float], None]]]
+"""Opens a step of this title whose share of done work can be reported."""
 
 
 @dataclass(frozen=True)
-class Telling:
+class Reporter:
     """What a fit tells while it runs, and who does the work.
 
     Attributes:
@@ -39,24 +43,22 @@ class Telling:
         cluster: gives workers for long logs; None: threads of this process.
     """
 
-    steps: Steps = silent
-    bar: Callable[[str], AbstractContextManager[Callable[[float], None]]] = lambda title: (
-        nullcontext(lambda share: None)
-    )
-    note: Callable[[str], None] = lambda line: None
+    report_step: Steps = ignore_step
+    show_progress: Progress = lambda title: nullcontext(lambda share: None)
+    print_note: Callable[[str], None] = lambda line: None
     cluster: AbstractContextManager[Workers] | None = None
 
 
 def fit_long(
     derivation: Derivation,
-    emitted: Emitted,
+    emitted: EmittedModule,
     compiled: CompiledModel,
     sources: Sequence[observation.Source],
     method: Method = "weighted",
     processing: observation.Processing | None = None,
     progress: Callable[[float], None] = lambda share: None,
     reducer: chunked.Reducer | None = None,
-) -> tuple[Model, chunked.Streamed]:
+) -> tuple[Model, chunked.StreamedLogs]:
     """The fitted model of logs of any length, in flat memory; see `estimation.long_logs.stream`.
 
     Args:
@@ -72,22 +74,22 @@ def fit_long(
     Raises:
         DataError: see `stream` and `identify_long`.
     """
-    streamed = chunked.stream(compiled, sources, processing, progress, reducer=reducer)
-    observation.check_apart(streamed.observation.report.logs)
-    result = judged_long(compiled, streamed, method)
-    return identified(derivation, emitted, streamed.observation, result), streamed
+    streamed = chunked.stream_logs(compiled, sources, processing, progress, reducer=reducer)
+    observation.check_no_overlap(streamed.observation.report.logs)
+    result = add_long_verdict(compiled, streamed, method)
+    return assemble_model(derivation, emitted, streamed.observation, result), streamed
 
 
 def fit_if_long(
-    asked: FitRequest,
+    request: FitRequest,
     derivation: Derivation,
-    emitted: Emitted,
+    emitted: EmittedModule,
     compiled: CompiledModel,
     logs: Sequence[AnyLog],
     loaded: Sequence[AnyLog],
     processing: observation.Processing,
     mapping: Mapped,
-    told: Telling,
+    reporter: Reporter,
 ) -> tuple[Model, observation.Observation] | None:
     """The model of long logs, read in chunks; None where all rows are to be in memory.
 
@@ -95,37 +97,42 @@ def fit_if_long(
         DataError: they are more rows than a way to fit that needs all of them may have.
     """
     every = [*logs, *loaded]
-    if told.cluster is None and not are_long(every):
+    if reporter.cluster is None and not are_long(every):
         return None
-    if loaded or asked != FitRequest(asked.method) or asked.method not in OF_TRIANGLES:
-        what = f"method {asked.method}" if asked.below is None else "--essential-below"
+    if loaded or request != FitRequest(request.method) or request.method not in OF_TRIANGLES:
+        what = f"method {request.method}" if request.below is None else "--essential-below"
         check_fits_memory(every, what)
         return None
     try:
-        with told.bar("reading and reducing") as bar, told.cluster or nullcontext() as workers:
-            sources = sources_of(compiled, logs, mapping)
-            reducer = None if workers is None else by_workers(workers, emitted)
-            here = [each.name for each in sources if not from_anywhere(each)]
+        with (
+            reporter.show_progress("reading and reducing") as bar,
+            reporter.cluster or nullcontext() as workers,
+        ):
+            sources = open_sources(compiled, logs, mapping)
+            reducer = None if workers is None else make_worker_reducer(workers, emitted)
+            here = [each.name for each in sources if not can_read_from_middle(each)]
             if workers is not None and here:
-                told.note(
+                reporter.print_note(
                     f"--dask: {', '.join(here)}: read and reduced by this process; workers can "
                     "begin in the middle of Parquet files only"
                 )
             model, streamed = fit_long(
-                derivation, emitted, compiled, sources, asked.method, processing, bar, reducer
+                derivation, emitted, compiled, sources, request.method, processing, bar, reducer
             )
     except observation.WholeLogNeeded as error:
-        if too_long(every):
+        if are_too_long(every):
             raise
-        told.note(f"{error}; read as a whole instead")
+        reporter.print_note(f"{error}; read as a whole instead")
         return None
     return model, streamed.observation
 
 
-def judged_long(compiled: CompiledModel, streamed: chunked.Streamed, method: Method) -> FitResult:
+def add_long_verdict(
+    compiled: CompiledModel, streamed: chunked.StreamedLogs, method: Method
+) -> FitResult:
     """The fit of long logs with its verdict."""
-    way = FitOutcome(chunked.identify_long(streamed, method, compiled))
-    return judged(compiled, streamed.observation, way, streamed.data)
+    outcome = FitOutcome(chunked.identify_long(streamed, method, compiled))
+    return add_verdict(compiled, streamed.observation, outcome, streamed.data)
 
 
 # The chunks of long logs, reduced by workers: other processes, or other machines.
@@ -136,17 +143,17 @@ _JOBS = 16  # merged where they are, before the result travels
 
 
 @dataclass(frozen=True, eq=False)
-class Shared:
+class ChunkJobContext:
     """What all jobs of a log share."""
 
-    emitted: Emitted
+    emitted: EmittedModule
     path: Path
     mapping: LogMap | None
     chosen: observation.LogChoices
     rows: int
 
 
-def by_workers(workers: Workers, emitted: Emitted) -> chunked.Reducer:
+def make_worker_reducer(workers: Workers, emitted: EmittedModule) -> chunked.Reducer:
     """A reducer of logs by workers, who read their rows of a Parquet file themselves.
 
     Logs of other formats are read from the beginning to the end: by this process. All logs are
@@ -158,50 +165,50 @@ def by_workers(workers: Workers, emitted: Emitted) -> chunked.Reducer:
         emitted: the C of the robot, which they compile, or take from their caches.
     """
 
-    def reducer(
+    def reduce_with_workers(
         model: CompiledModel, source: observation.Source, chosen: observation.LogChoices
-    ) -> Iterator[chunked.Partial]:
-        if not from_anywhere(source):
-            return chunked.by_threads(model, source, chosen)
+    ) -> Iterator[chunked.PartialFit]:
+        if not can_read_from_middle(source):
+            return chunked.reduce_by_threads(model, source, chosen)
         path, mapping = source.place
         code = replace(emitted, files=emitted.code)
-        shared = Shared(code, path.absolute(), mapping, chosen, source.rows)
-        count = -(-source.rows // chosen.own)
+        shared = ChunkJobContext(code, path.absolute(), mapping, chosen, source.rows)
+        count = -(-source.rows // chosen.chunk_rows)
         jobs = [range(k, min(k + _CHUNKS, count)) for k in range(0, count, _CHUNKS)]
-        begun = [
-            workers.begun(reduce_rows, shared, jobs[k : k + _JOBS], merged_in_time)
+        pending = [
+            workers.start_merge(reduce_rows, shared, jobs[k : k + _JOBS], merge_in_time)
             for k in range(0, len(jobs), _JOBS)
         ]
-        return _in_order(begun)
+        return _yield_in_order(pending)
 
-    return reducer
+    return reduce_with_workers
 
 
-def from_anywhere(source: observation.Source) -> TypeGuard[observation.FileSource]:
+def can_read_from_middle(source: observation.Source) -> TypeGuard[observation.FileSource]:
     """True of a log whose rows a worker can read by itself, from the middle of its file."""
     return isinstance(source, observation.FileSource) and source.exact
 
 
-def reduce_rows(shared: Shared, numbers: range) -> chunked.Partial:
+def reduce_rows(shared: ChunkJobContext, numbers: range) -> chunked.PartialFit:
     """Some chunks of a log, read and reduced by a worker.
 
     Raises:
         DataError: the worker does not see the file, or sees another.
     """
-    model, chosen = compiled_once(shared.emitted), shared.chosen
-    source = observation.source_of(shared.path, model.spec, shared.mapping)
+    model, chosen = load_cached_model(shared.emitted), shared.chosen
+    source = observation.open_source(shared.path, model.spec, shared.mapping)
     if source is None or source.rows != shared.rows:
         got = "none" if source is None else f"one of {source.rows} rows"
         raise DataError(
             f"{shared.path}: a worker sees {got}, expected a file of {shared.rows} rows; workers "
             "must see the logs by the same paths"
         )
-    parts = observation.chunks_between(source, numbers, chosen.own, chosen.beside)
-    made = (chunked.reduce_chunk(model, part, chosen) for part in parts)
-    return reduce(chunked.Partial.merged_with, made)
+    parts = observation.read_chunks_between(source, numbers, chosen.chunk_rows, chosen.margin_rows)
+    partials = (chunked.reduce_chunk(model, part, chosen) for part in parts)
+    return reduce(chunked.PartialFit.merged_with, partials)
 
 
-def merged_in_time(first: chunked.Partial, later: chunked.Partial) -> chunked.Partial:
+def merge_in_time(first: chunked.PartialFit, later: chunked.PartialFit) -> chunked.PartialFit:
     """Of rows of a log, and of those that follow them.
 
     Raises:
@@ -216,12 +223,14 @@ def merged_in_time(first: chunked.Partial, later: chunked.Partial) -> chunked.Pa
     return first.merged_with(later)
 
 
-def _in_order(begun: Sequence[Callable[[], chunked.Partial]]) -> Iterator[chunked.Partial]:
+def _yield_in_order(
+    pending: Sequence[Callable[[], chunked.PartialFit]],
+) -> Iterator[chunked.PartialFit]:
     """The results, one after the other, checked as those within each."""
-    last: chunked.Partial | None = None
-    for wait in begun:
-        found = wait()
+    last: chunked.PartialFit | None = None
+    for wait in pending:
+        partial = wait()
         if last is not None:
-            merged_in_time(last, found)
-        last = found
-        yield found
+            merge_in_time(last, partial)
+        last = partial
+        yield partial

@@ -16,16 +16,16 @@ from modeler import diagnosis, estimation, report, validation
 from modeler.api import checks, improve
 from modeler.api.exporting import export
 from modeler.api.log_maps import Mapped
-from modeler.api.predicting import predicted_torque
-from modeler.api.workflow import AnyLog, Logs, generate, listed, observe, recompile
+from modeler.api.predicting import predict_torque
+from modeler.api.workflow import AnyLog, Logs, compile, convert_to_list, generate, observe
 from modeler.core.errors import DataError
 from modeler.core.files import read_file
-from modeler.core.manifest import Emitted
-from modeler.core.table import labelled
+from modeler.core.manifest import EmittedModule
+from modeler.core.table import label_values
 from modeler.estimation import IdentifiedModel, ParameterEstimate, model_file
 from modeler.exports import Exported
 from modeler.observation import Log, Observation
-from modeler.robot import Robot, near, read_robot
+from modeler.robot import Robot, read_robot, suggest_name
 
 _SURE = NormalDist().inv_cdf(0.975)  # of a 95 % interval
 
@@ -52,7 +52,7 @@ class Parameter(ParameterEstimate):
         Raises:
             DataError: no such level.
         """
-        wide = _deviations(level)
+        wide = _compute_half_width(level)
         if self.sigma is None:
             return float("nan"), float("nan")
         if self.interval is not None:  # of an effect whose shapes were fitted too
@@ -70,7 +70,7 @@ class Parameter(ParameterEstimate):
         return f"{self.name} = {self.value:.6g} +- {self.sigma:.2g} {self.unit}{relation}"
 
 
-def _deviations(level: float) -> float:
+def _compute_half_width(level: float) -> float:
     """Half the width of an interval, in standard deviations."""
     if not 0.5 <= level < 1.0:
         raise DataError(
@@ -98,15 +98,15 @@ class Model(IdentifiedModel):
             may be relative to it.
     """
 
-    given: tuple[Log, ...] = ()
+    in_memory_logs: tuple[Log, ...] = ()
     held_out: tuple[AnyLog, ...] = ()
     folder: str = ""
 
     @classmethod
-    def of(cls, model: IdentifiedModel, **more: Any) -> Model:
+    def from_identified(cls, model: IdentifiedModel, **more: Any) -> Model:
         """The same model as one of this class."""
-        own = {f.name: getattr(model, f.name) for f in dataclasses.fields(IdentifiedModel)}
-        return cls(**own, **more)
+        fields = {f.name: getattr(model, f.name) for f in dataclasses.fields(IdentifiedModel)}
+        return cls(**fields, **more)
 
     def __repr__(self) -> str:
         return f"Model({self.summary().splitlines()[0].removeprefix('model of ')})"
@@ -119,10 +119,10 @@ class Model(IdentifiedModel):
         Raises:
             DataError: it is no parameter of the model; says which one holds it.
         """
-        found = self._parameters.get(name)
-        if found is None:
-            raise DataError(f'model["{name}"]: {self._absent(str(name))}')
-        return found
+        parameter = self._parameters.get(name)
+        if parameter is None:
+            raise DataError(f'model["{name}"]: {self._explain_absent(str(name))}')
+        return parameter
 
     def __contains__(self, name: object) -> bool:
         return name in self._parameters
@@ -134,18 +134,27 @@ class Model(IdentifiedModel):
 
     @cached_property
     def _parameters(self) -> dict[str, Parameter]:
-        sums = {base.name: report.relation(base) or base.column_of for base in self.spec.base}
-        found = {}
+        sums = {
+            base.name: report.format_relation(base) or base.column_of for base in self.spec.base
+        }
+        parameters = {}
         for one in (*self.fit.gains, *self.fit.parameters, *self.fit.loads):
             terms = sums.get(one.name, one.name)
             relation = "" if terms == one.name else f"{one.name} = {terms}"
-            found[one.name] = Parameter(**vars(one), relation=relation)
-        for own in self.fit.directions:
-            plain = own.name, own.unit, own.value, own.sigma, True, "estimated"
-            found.setdefault(own.name, Parameter(*plain, relation=own.relation))
-        return found
+            parameters[one.name] = Parameter(**vars(one), relation=relation)
+        for direction in self.fit.directions:
+            plain = (
+                direction.name,
+                direction.unit,
+                direction.value,
+                direction.sigma,
+                True,
+                "estimated",
+            )
+            parameters.setdefault(direction.name, Parameter(*plain, relation=direction.relation))
+        return parameters
 
-    def _absent(self, name: str) -> str:
+    def _explain_absent(self, name: str) -> str:
         """Why there is no parameter of that name."""
         holds = [b.name for b in self.spec.base if any(t.parameter == name for t in b.terms)]
         if holds:
@@ -159,14 +168,14 @@ class Model(IdentifiedModel):
         if name in self.spec.unidentifiable:
             return f"{name} has no effect on any torque of {self.spec.robot}, so no log tells it"
         known = list(self._parameters)
-        return f"no such parameter{near(name, known)}; expected one of {', '.join(known)}"
+        return f"no such parameter{suggest_name(name, known)}; expected one of {', '.join(known)}"
 
     @property
-    def _names(self) -> list[str]:
+    def _parameter_names(self) -> list[str]:
         return [parameter.name for parameter in self.fit.parameters]
 
     @property
-    def _sigmas(self) -> np.ndarray:
+    def _parameter_sigmas(self) -> np.ndarray:
         return np.array([np.nan if p.sigma is None else p.sigma for p in self.fit.parameters])
 
     @property
@@ -176,7 +185,7 @@ class Model(IdentifiedModel):
         >>> bool(model.params["Fv1"] == model["Fv1"].value)
         True
         """
-        return labelled(self.beta, self._names)
+        return label_values(self.beta, self._parameter_names)
 
     @property
     def bse(self) -> Any:
@@ -185,7 +194,7 @@ class Model(IdentifiedModel):
         >>> bool(model.bse["Fv1"] == model["Fv1"].sigma)
         True
         """
-        return labelled(self._sigmas, self._names)
+        return label_values(self._parameter_sigmas, self._parameter_names)
 
     def conf_int(self, level: float = 0.95) -> Any:
         """Their intervals: a DataFrame with the columns `lower` and `upper`.
@@ -199,8 +208,8 @@ class Model(IdentifiedModel):
         Raises:
             DataError: no such level.
         """
-        sides = np.array([self._parameters[name].conf_int(level) for name in self._names])
-        return labelled(sides, self._names, ["lower", "upper"])
+        sides = np.array([self._parameters[name].conf_int(level) for name in self._parameter_names])
+        return label_values(sides, self._parameter_names, ["lower", "upper"])
 
     def cov_params(self) -> Any:
         """Covariance of the base parameters: a DataFrame.
@@ -208,7 +217,7 @@ class Model(IdentifiedModel):
         >>> model.cov_params().shape
         (10, 10)
         """
-        return labelled(self.covariance, self._names, self._names)
+        return label_values(self.covariance, self._parameter_names, self._parameter_names)
 
     # Its logs, and others: what it predicts, how well.
 
@@ -227,8 +236,8 @@ class Model(IdentifiedModel):
 
         NaN where a row does not count. It needs the logs of the fit, found unchanged.
         """
-        rows = self._rows
-        return self._on_rows(rows.predicted(self.beta))
+        rows = self._fit_observation
+        return self._attach_row_labels(rows.predict(self.beta))
 
     @property
     def resid(self) -> Any:
@@ -237,19 +246,19 @@ class Model(IdentifiedModel):
         >>> list(model.resid.columns)
         ['tau1', 'tau2']
         """
-        rows = self._rows
-        return self._on_rows(rows.torque - rows.predicted(self.beta))
+        rows = self._fit_observation
+        return self._attach_row_labels(rows.torque - rows.predict(self.beta))
 
-    def _on_rows(self, values: np.ndarray) -> Any:
-        rows = self._rows
+    def _attach_row_labels(self, values: np.ndarray) -> Any:
+        rows = self._fit_observation
         logs = np.array(rows.logs)[rows.run]
         names = [f"tau{joint.name}" for joint in rows.joints]
         values = np.where(rows.used, values, np.nan)
-        return labelled(values, {"log": logs, "time": rows.time}, names)
+        return label_values(values, {"log": logs, "time": rows.time}, names)
 
     @cached_property
-    def _rows(self) -> Observation:
-        return observe(recompile(self), self.its_logs(None, "resid"), self.processing)
+    def _fit_observation(self) -> Observation:
+        return observe(compile(self), self.its_logs(None, "resid"), self.processing)
 
     def predict(self, log: AnyLog, mapping: Mapped = ()) -> Any:
         """Torque at every row of a log, in the log's own names and units; its torques are not read.
@@ -270,7 +279,7 @@ class Model(IdentifiedModel):
         Raises:
             DataError: the log cannot be read, or lacks a position.
         """
-        return predicted_torque(self, recompile(self), log, mapping)
+        return predict_torque(self, compile(self), log, mapping)
 
     def compare(self, logs: Logs | None = None, mapping: Mapped = ()) -> validation.Comparison:
         """Measured against predicted torque; None: on the logs that were held out.
@@ -278,7 +287,7 @@ class Model(IdentifiedModel):
         >>> model.compare().prediction.logs
         ('tue.parquet',)
         """
-        return checks.compare(self, self._others(logs, "compare"), mapping)
+        return checks.compare(self, self._select_test_logs(logs, "compare"), mapping)
 
     def error(self, logs: Logs | None = None, mapping: Mapped = ()) -> float:
         """Relative error of the torque, ||measured - predicted|| / ||measured||.
@@ -292,8 +301,8 @@ class Model(IdentifiedModel):
             logs: of motion that was not fitted; None: those that were held out.
             mapping: as of `read_logs`.
         """
-        given = self._others(logs, "error")
-        return checks.compare(self, given, mapping).relative_error
+        test_logs = self._select_test_logs(logs, "error")
+        return checks.compare(self, test_logs, mapping).relative_error
 
     def missing(
         self,
@@ -314,9 +323,9 @@ class Model(IdentifiedModel):
             without: effects that are not looked for, as "backlash" or "spring@2".
             mapping: as of `read_logs`.
         """
-        held = self.held_out if held_out is None else listed(held_out)
-        own = self.its_logs(logs, "missing")
-        return improve.diagnose(self, own, held, without, mapping=mapping)
+        held_out_logs = self.held_out if held_out is None else convert_to_list(held_out)
+        fit_logs = self.its_logs(logs, "missing")
+        return improve.diagnose(self, fit_logs, held_out_logs, without, mapping=mapping)
 
     def add(
         self,
@@ -338,15 +347,17 @@ class Model(IdentifiedModel):
             held_out: logs of other motion to judge on; None: those of `identify`.
             mapping: as of `read_logs`.
         """
-        held = self.held_out if held_out is None else tuple(listed(held_out))
-        own = self.its_logs(logs, "add")
+        held_out_logs = self.held_out if held_out is None else tuple(convert_to_list(held_out))
+        fit_logs = self.its_logs(logs, "add")
         if effect == "auto":
-            better = improve.auto(self, own, held, mapping=mapping)
+            better = improve.add_all(self, fit_logs, held_out_logs, mapping=mapping)
         else:
             place = None if joint is None else str(joint)
-            better = improve.add(self, effect, own, held, place, mapping)
-        given = tuple(log for log in own if isinstance(log, Log))
-        return dataclasses.replace(better, given=given or self.given, held_out=held)
+            better = improve.add(self, effect, fit_logs, held_out_logs, place, mapping)
+        memory_logs = tuple(log for log in fit_logs if isinstance(log, Log))
+        return dataclasses.replace(
+            better, in_memory_logs=memory_logs or self.in_memory_logs, held_out=held_out_logs
+        )
 
     def its_logs(self, logs: Logs | None, what: str) -> Sequence[AnyLog]:
         """Logs as they were given, or those of the fit.
@@ -359,29 +370,29 @@ class Model(IdentifiedModel):
             DataError: a log of the fit is not where it was, or has changed, or was no file.
         """
         if logs is not None:
-            return listed(logs)
+            return convert_to_list(logs)
         if self.fit.loads:
             why = "some logs of the fit carried a load, which is no part of the model"
-            raise DataError(f"{what}: {why}; {_ask(what)} without it")
-        return [self._found(log, what) for log in self.logs]
+            raise DataError(f"{what}: {why}; {_suggest_logs(what)} without it")
+        return [self._find_log(log, what) for log in self.logs]
 
-    def _found(self, log: model_file.LogProvenance, what: str) -> AnyLog:
-        for own in self.given:
-            if own.content == log.content and own.name == log.name:
-                return own
-        ask = _ask(what)
+    def _find_log(self, log: model_file.LogProvenance, what: str) -> AnyLog:
+        for memory_log in self.in_memory_logs:
+            if memory_log.content == log.content and memory_log.name == log.name:
+                return memory_log
+        ask = _suggest_logs(what)
         if not log.path:
             raise DataError(f"{what}: {log.name} was no file, and is not kept with a model; {ask}")
-        if place := log.place(self.folder):
+        if place := log.find_place(self.folder):
             return place
-        there = any(log.places(self.folder).values())
-        why = "has changed since it was fitted" if there else "is not there any more"
+        has_file = any(log.find_places(self.folder).values())
+        why = "has changed since it was fitted" if has_file else "is not there any more"
         raise DataError(f"{what}: {log.path} {why}; {ask}")
 
-    def _others(self, logs: Logs | None, what: str) -> Sequence[AnyLog]:
+    def _select_test_logs(self, logs: Logs | None, what: str) -> Sequence[AnyLog]:
         if logs is None and not self.held_out:
             raise DataError(f"{what}: no logs were held out; give some: {what}(logs)")
-        return self.held_out if logs is None else listed(logs)
+        return self.held_out if logs is None else convert_to_list(logs)
 
     # What it is made into.
 
@@ -401,9 +412,9 @@ class Model(IdentifiedModel):
         Raises:
             DataError: no such link, or a load that can be none.
         """
-        return estimation.with_load(self, mass, centre, link)
+        return estimation.add_known_load(self, mass, centre, link)
 
-    def to_c(self, folder: str | Path, force: bool = False) -> Emitted:
+    def to_c(self, folder: str | Path, force: bool = False) -> EmittedModule:
         """Its C, with its values, written to a folder; as `generate`.
 
         >>> model.to_c("arm_c").spec.prefix
@@ -430,7 +441,7 @@ class Model(IdentifiedModel):
         return {f.name: getattr(self, f.name) for f in dataclasses.fields(self)}
 
 
-def _ask(what: str) -> str:
+def _suggest_logs(what: str) -> str:
     if what == "resid":
         return "`compare(logs)` takes the logs of the fit"
     return f"give the logs of the fit: {what}(..., logs=[...])"
@@ -449,7 +460,7 @@ def open_model(path: str | Path) -> Model:
         ManifestError: missing, not a model file, of another format, damaged, or changed since it
             was saved.
     """
-    return Model.of(model_file.load_model(path), folder=str(Path(path).parent))
+    return Model.from_identified(model_file.load_model(path), folder=str(Path(path).parent))
 
 
 def open_robot(robot: str | Path) -> Robot:
@@ -473,10 +484,10 @@ def load(place: str | Path) -> Any:
         RobotError: no such file or name, or a mistake in a robot file.
         ManifestError: a model file that cannot be read.
     """
-    return open_model(place) if holds_model(place) else open_robot(place)
+    return open_model(place) if is_model_file(place) else open_robot(place)
 
 
-def holds_model(place: str | Path) -> bool:
+def is_model_file(place: str | Path) -> bool:
     """True of a model file, by its ending or because it begins as JSON does; False of a robot."""
     try:
         text = read_file(Path(place)) if Path(place).is_file() else b""

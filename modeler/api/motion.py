@@ -10,31 +10,31 @@ from typing import Any
 import numpy as np
 
 from modeler import excitation, simulation
-from modeler.api.clearance import USUAL, nearest_along, with_clearance
+from modeler.api.clearance import USUAL, add_clearance, find_nearest_along
 from modeler.api.log_maps import Mapped
 from modeler.api.workflow import (
     Logs,
+    build_processing,
+    compile,
     compile_model,
+    convert_to_list,
     derive,
     generate,
-    listed,
-    processing_of,
     read_logs,
-    recompile,
 )
 from modeler.core.errors import DataError
-from modeler.effects import effect_named
+from modeler.effects import find_effect
 from modeler.estimation import FitResult, IdentifiedModel, identify
 from modeler.numerics.filters import BANDWIDTH
-from modeler.observation import Log, Observation, Processing, check_apart, observe
-from modeler.robot import Limits, Robot, near, robot_from_text
+from modeler.observation import Log, Observation, Processing, check_no_overlap, observe
+from modeler.robot import Limits, Robot, parse_robot_text, suggest_name
 from modeler.runtime import CompiledModel
 from modeler.simulation import HiddenEffect, SimulatedLog, SimulationSettings
 
 Progress = Callable[[float], None]
 
 
-def _no_progress(share: float) -> None:
+def _ignore_progress(share: float) -> None:
     """Nobody looks."""
 
 
@@ -53,20 +53,30 @@ class Subject:
     robot: Robot
     compiled: CompiledModel
     sigma: np.ndarray | None = None
-    kept: np.ndarray | None = None
+    essential_columns: np.ndarray | None = None
     beta: np.ndarray | None = None
     cutoff: float = 0.0
 
-    def search(
-        self, bounds: excitation.Bounds, wish: excitation.Wish, progress: Progress = _no_progress,
-        known: excitation.Known | None = None,
-    ) -> excitation.Exciting:  # fmt: skip
+    def search_motion(
+        self,
+        bounds: excitation.MotionBounds,
+        wish: excitation.MotionRequest,
+        progress: Progress = _ignore_progress,
+        known: excitation.PriorInformation | None = None,
+    ) -> excitation.ExcitingMotion:
         """The motion that tells its parameters apart."""
-        return excitation.excite(
-            self.compiled, bounds, wish, self.sigma, self.kept, self.beta, progress, known
+        return excitation.design_motion(
+            self.compiled,
+            bounds,
+            wish,
+            self.sigma,
+            self.essential_columns,
+            self.beta,
+            progress,
+            known,
         )
 
-    def check_forecast(self, where: str = "") -> None:
+    def check_known_noise(self, where: str = "") -> None:
         """Refuse a robot of which too little is known; `where` begins the message."""
         if self.sigma is None or self.beta is None:
             raise DataError(
@@ -74,20 +84,24 @@ class Subject:
                 "the noise of its torques, which are not known; expected a model of `modeler fit`"
             )
 
-    def forecast(self, motion: excitation.Exciting, rate: float, encoders: "Encoders") -> FitResult:
-        """What a fit would say of a log of a motion; see `forecast`."""
-        log = self.forecast_log(motion, rate, encoders)
+    def predict_fit(
+        self, motion: excitation.ExcitingMotion, rate: float, encoders: "Encoders"
+    ) -> FitResult:
+        """What a fit would say of a log of a motion; see `predict_fit`."""
+        log = self.predict_log(motion, rate, encoders)
         return identify(observe(self.compiled, [log]), "weighted", self.compiled)
 
-    def forecast_log(self, motion: excitation.Exciting, rate: float, encoders: "Encoders") -> Log:
+    def predict_log(
+        self, motion: excitation.ExcitingMotion, rate: float, encoders: "Encoders"
+    ) -> Log:
         """The log of a motion that is to be expected."""
-        self.check_forecast()
+        self.check_known_noise()
         assert self.sigma is not None and self.beta is not None
-        spec, moves = self.compiled.spec, motion.sampled(rate)
+        spec, moves = self.compiled.spec, motion.sample_motion(rate)
         names = [joint.name for joint in spec.joints]
         q, qd, qdd = (np.column_stack([moves[p + j] for j in names]) for p in ("q", "qd", "qdd"))
-        read = excitation.signals(self.compiled, (q, qd, qdd), moves["time"])
-        rng = np.random.default_rng(int(motion.wish["seed"]))
+        read = excitation.compute_signals(self.compiled, (q, qd, qdd), moves["time"])
+        rng = np.random.default_rng(int(motion.request["seed"]))
         # White noise that leaves sigma behind the filter.
         power = 0.5 * rate / (BANDWIDTH * self.cutoff) if self.cutoff else 1.0
         driven = [joint.actuated for joint in spec.joints]
@@ -95,7 +109,7 @@ class Subject:
         tau = tau + driven * self.sigma * np.sqrt(power) * rng.normal(size=q.shape)
         return Log(
             "forecast", tuple(names), moves["time"],
-            encoders.read(q, [joint.unit for joint in spec.joints], rng), tau,
+            encoders.quantise_positions(q, [joint.unit for joint in spec.joints], rng), tau,
             extra={"temperature": np.zeros(len(q))},
         )  # fmt: skip
 
@@ -112,42 +126,46 @@ class Encoders:
     counts: int = 0
     noise: Any = 0.0
 
-    def read(self, q: np.ndarray, units: Sequence[str], rng: np.random.Generator) -> np.ndarray:
+    def quantise_positions(
+        self, q: np.ndarray, units: Sequence[str], rng: np.random.Generator
+    ) -> np.ndarray:
         """(n, J) positions as they are logged of exact ones (n, J)."""
         noise = np.asarray(self.noise, dtype=float)
         if self.counts < 0 or not np.all((noise >= 0.0) & np.isfinite(noise)):
             raise DataError(
                 f"encoders of {self.counts} counts and noise {self.noise}: expected neither below 0"
             )
-        seen = q + noise * rng.normal(size=q.shape)
+        noisy = q + noise * rng.normal(size=q.shape)
         step = np.array([2.0 * np.pi if unit == "rad" else 0.0 for unit in units])
         step = step / self.counts if self.counts else np.zeros(len(units))
-        return np.where(step > 0.0, np.round(seen / np.where(step > 0.0, step, 1.0)) * step, seen)
+        return np.where(step > 0.0, np.round(noisy / np.where(step > 0.0, step, 1.0)) * step, noisy)
 
-    def words(self) -> str:
+    def describe(self) -> str:
         """As "positions of 4096 counts a turn"."""
-        told = [f"of {self.counts} counts a turn"] if self.counts else []
-        told += [f"with noise of {self.noise:g} rad (m)"] if self.noise else []
-        return f"positions {' and '.join(told) or 'exact'}"
+        parts = [f"of {self.counts} counts a turn"] if self.counts else []
+        parts += [f"with noise of {self.noise:g} rad (m)"] if self.noise else []
+        return f"positions {' and '.join(parts) or 'exact'}"
 
 
-def subject_of(thing: Robot | IdentifiedModel) -> Subject:
+def build_subject(thing: Robot | IdentifiedModel) -> Subject:
     """A robot with the values that its file states, or a model with those that were fitted."""
     if isinstance(thing, Robot):
         compiled = compile_model(generate(derive(thing)))
         values = [parameter.nominal for parameter in compiled.spec.standard]
         known = None not in values  # the robot file may leave some open
         return Subject(thing, compiled, beta=compiled.base_parameters(values) if known else None)
-    robot = robot_from_text(thing.robot_text, f"model of {thing.spec.robot}, robot")
+    robot = parse_robot_text(thing.robot_text, f"model of {thing.spec.robot}, robot")
     sigma = np.array([joint.sigma for joint in thing.fit.joints])
     known = bool(np.all(np.isfinite(sigma)) and np.all(sigma > 0.0))
-    kept = np.flatnonzero([parameter.essential for parameter in thing.fit.parameters])
+    essential_columns = np.flatnonzero([parameter.essential for parameter in thing.fit.parameters])
     cutoff = thing.processing.parallel_cutoff or 0.0
-    return Subject(robot, recompile(thing), sigma if known else None, kept, thing.beta, cutoff)
+    return Subject(
+        robot, compile(thing), sigma if known else None, essential_columns, thing.beta, cutoff
+    )
 
 
 @dataclass(frozen=True, eq=False)
-class Recorded:
+class RecordedLogs:
     """Logs that there are, and what their fit says.
 
     Attributes:
@@ -164,54 +182,57 @@ class Recorded:
     processing: Processing
 
     @property
-    def known(self) -> excitation.Known:
+    def known_information(self) -> excitation.PriorInformation:
         """Their information W'S^-1 W, as a triangle, and how many rows a second has."""
-        seen = self.observation
-        sigma = np.array([joint.sigma for joint in self.fit.joints])[seen.row_joint]
+        observation = self.observation
+        sigma = np.array([joint.sigma for joint in self.fit.joints])[observation.row_joint]
         used = sigma > 0.0
-        steps = np.diff(seen.time)[np.diff(seen.segment) == 0]
-        R = np.asarray(np.linalg.qr(seen.W[used] / sigma[used, None], mode="r"))
-        return excitation.Known(R, 1.0 / float(np.median(steps)))
+        steps = np.diff(observation.time)[np.diff(observation.segment) == 0]
+        R = np.asarray(np.linalg.qr(observation.W[used] / sigma[used, None], mode="r"))
+        return excitation.PriorInformation(R, 1.0 / float(np.median(steps)))
 
-    def extended(
-        self, motion: excitation.Exciting, rate: float, encoders: Encoders
-    ) -> excitation.Exciting:
+    def predict_gain(
+        self, motion: excitation.ExcitingMotion, rate: float, encoders: Encoders
+    ) -> excitation.ExcitingMotion:
         """The motion, with what its log adds: by the fit of these logs and of a forecast of it."""
         compiled = self.subject.compiled
         if encoders == Encoders():  # as those of the logs
-            told = self.observation.report.bands.noise
-            seen = {n.joint: n.deviation for n in told if n.of == "positions"}
-            noise = [seen.get(joint.name, 0.0) for joint in compiled.spec.joints]
+            noise_estimates = self.observation.report.bands.noise
+            noise_by_joint = {n.joint: n.deviation for n in noise_estimates if n.of == "positions"}
+            noise = [noise_by_joint.get(joint.name, 0.0) for joint in compiled.spec.joints]
             encoders = Encoders(0, np.array(noise))
-        log = self.subject.forecast_log(motion, rate, encoders)
+        log = self.subject.predict_log(motion, rate, encoders)
         both = identify(observe(compiled, [*self.logs, log], self.processing), "weighted", compiled)
-        now, then = self.fit.parameters, both.parameters
-        gain = excitation.Gain(
-            tuple(p.name for p in now), tuple(p.unit for p in now),
-            tuple(p.sigma for p in now), tuple(p.sigma for p in then),
+        before, after = self.fit.parameters, both.parameters
+        gain = excitation.InformationGain(
+            tuple(p.name for p in before), tuple(p.unit for p in before),
+            tuple(p.sigma for p in before), tuple(p.sigma for p in after),
             tuple(log.name for log in self.logs),
             (self.fit.condition_scaled, both.condition_scaled),
         )  # fmt: skip
         return dataclasses.replace(motion, gain=gain)
 
 
-def recorded(subject: Subject, logs: Logs, mapping: Mapped = ()) -> Recorded:
+def fit_recorded_logs(subject: Subject, logs: Logs, mapping: Mapped = ()) -> RecordedLogs:
     """The logs of a robot, fitted as `modeler fit` does by itself: all parameters, weighted.
 
     Raises:
         DataError: a log cannot be read or fitted, or rows are given twice.
     """
-    compiled, read = subject.compiled, read_logs(subject.compiled, listed(logs), mapping)
-    check_apart(read)
-    processing = processing_of(subject.robot.fit)
+    compiled, read = subject.compiled, read_logs(subject.compiled, convert_to_list(logs), mapping)
+    check_no_overlap(read)
+    processing = build_processing(subject.robot.fit)
     observation = observe(compiled, read, processing)
     fit = identify(observation, "weighted", compiled)
     sigma = np.array([joint.sigma for joint in fit.joints])
     subject = dataclasses.replace(
-        subject, sigma=np.where(sigma > 0.0, sigma, sigma.max()), kept=None, beta=fit.beta,
+        subject,
+        sigma=np.where(sigma > 0.0, sigma, sigma.max()),
+        essential_columns=None,
+        beta=fit.beta,
         cutoff=fit.processing.parallel_cutoff or 0.0,
-    )  # fmt: skip
-    return Recorded(subject, read, observation, fit, processing)
+    )
+    return RecordedLogs(subject, read, observation, fit, processing)
 
 
 def excite(
@@ -223,9 +244,9 @@ def excite(
     limits: Mapping[str, Sequence[float]] | None = None,
     boxes: Mapping[str, Sequence[float]] | None = None,
     clearance: float | None = None,
-    progress: Progress = _no_progress,
+    progress: Progress = _ignore_progress,
     **wish: Any,
-) -> excitation.Exciting:
+) -> excitation.ExcitingMotion:
     """A motion within limits that tells the parameters apart (docs/how-to/excitation.md).
 
     >>> excite(robot, duration=4.0, harmonics=2, starts=1).sampled(100.0)["q1"].shape
@@ -249,19 +270,21 @@ def excite(
         DataError: limits or a wish that cannot be.
         RobotError: an empty range.
     """
-    subject = subject_of(thing)
-    bounds = bounds_of(subject.robot, subject.compiled, limits or {}, boxes or {}, clearance)
-    if not listed(logs):
-        return subject.search(bounds, _wish(bounds, wish), progress)
-    there = recorded(subject, logs, mapping)
-    asked = _wish(bounds, {"criterion": "information", **wish})
-    motion = there.subject.search(bounds, asked, progress, there.known)
-    return there.extended(motion, rate, Encoders())
+    subject = build_subject(thing)
+    bounds = build_bounds(subject.robot, subject.compiled, limits or {}, boxes or {}, clearance)
+    if not convert_to_list(logs):
+        return subject.search_motion(bounds, _build_wish(bounds, wish), progress)
+    recorded_logs = fit_recorded_logs(subject, logs, mapping)
+    request = _build_wish(bounds, {"criterion": "information", **wish})
+    motion = recorded_logs.subject.search_motion(
+        bounds, request, progress, recorded_logs.known_information
+    )
+    return recorded_logs.predict_gain(motion, rate, Encoders())
 
 
-def forecast(
+def expected_sigmas(
     model: IdentifiedModel,
-    motion: excitation.Exciting,
+    motion: excitation.ExcitingMotion,
     *,
     rate: float = 1000.0,
     counts: int = 0,
@@ -286,19 +309,19 @@ def forecast(
     Raises:
         DataError: no noise of torques is known, or such a log could not be fitted.
     """
-    return subject_of(model).forecast(motion, rate, Encoders(counts, noise))
+    return build_subject(model).predict_fit(motion, rate, Encoders(counts, noise))
 
 
-def tell_apart(
+def discriminating_motion(
     model: IdentifiedModel,
     first: str,
     second: str,
     *,
     limits: Mapping[str, Sequence[float]] | None = None,
     boxes: Mapping[str, Sequence[float]] | None = None,
-    progress: Progress = _no_progress,
+    progress: Progress = _ignore_progress,
     **wish: Any,
-) -> tuple[excitation.Exciting, excitation.Separation]:
+) -> tuple[excitation.ExcitingMotion, excitation.Discrimination]:
     """The motion along which two effects that the model lacks are least alike.
 
     Args:
@@ -313,22 +336,30 @@ def tell_apart(
     Raises:
         DataError: an effect or joint that is not there, or that the model has.
     """
-    subject = subject_of(model)
-    bounds = bounds_of(subject.robot, subject.compiled, limits or {}, boxes or {})
-    question = question_of(subject, f"{first},{second}", "tell_apart:")
-    return excitation.tell_apart(subject.compiled, bounds, _wish(bounds, wish), question, progress)
+    subject = build_subject(model)
+    bounds = build_bounds(subject.robot, subject.compiled, limits or {}, boxes or {})
+    question = parse_question(subject, f"{first},{second}", "tell_apart:")
+    return excitation.design_discriminating_motion(
+        subject.compiled, bounds, _build_wish(bounds, wish), question, progress
+    )
 
 
-def _wish(bounds: excitation.Bounds, given: Mapping[str, Any]) -> excitation.Wish:
-    known = [field.name for field in dataclasses.fields(excitation.Wish)]
-    for name in given:
+def _build_wish(
+    bounds: excitation.MotionBounds, options: Mapping[str, Any]
+) -> excitation.MotionRequest:
+    known = [field.name for field in dataclasses.fields(excitation.MotionRequest)]
+    for name in options:
         if name not in known:
             raise DataError(f"excite: got {name}; expected some of {', '.join(known)}")
-    duration = given.get("duration", excitation.Wish().duration)
-    return excitation.Wish(**{"harmonics": excitation.default_harmonics(bounds, duration), **given})
+    duration = options.get("duration", excitation.MotionRequest().duration)
+    return excitation.MotionRequest(
+        **{"harmonics": excitation.choose_harmonics(bounds, duration), **options}
+    )
 
 
-def question_of(subject: Subject, texts: str, where: str = "--between") -> excitation.Question:
+def parse_question(
+    subject: Subject, texts: str, where: str = "--between"
+) -> excitation.DiscriminationProblem:
     """Which two effects are to be told apart.
 
     Args:
@@ -342,13 +373,13 @@ def question_of(subject: Subject, texts: str, where: str = "--between") -> excit
     joints = [joint.name for joint in subject.compiled.spec.joints]
     catalogue = subject.robot.catalogue
     ids = [effect.id for effect in catalogue]
-    found = []
+    effect_pair = []
     for text in texts.split(","):
         name, _, joint = text.strip().partition("@")
-        effect = effect_named(name, catalogue)
+        effect = find_effect(name, catalogue)
         if effect is None:
             raise DataError(
-                f"{where} {text}: no such effect{near(name, ids)}; expected some of "
+                f"{where} {text}: no such effect{suggest_name(name, ids)}; expected some of "
                 f"{', '.join(ids)}"
             )
         if joint not in joints:
@@ -361,20 +392,22 @@ def question_of(subject: Subject, texts: str, where: str = "--between") -> excit
                 f"{where} {text}: the model has {effect.id} on joint {joint} already; expected "
                 "effects that it lacks"
             )
-        found.append((effect, joint))
-    if len(found) != 2 or found[0] == found[1]:
+        effect_pair.append((effect, joint))
+    if len(effect_pair) != 2 or effect_pair[0] == effect_pair[1]:
         raise DataError(f"{where} {texts}: expected two effects, as stribeck@2,spring@2")
     assert subject.beta is not None
-    return excitation.Question((found[0], found[1]), subject.beta, subject.sigma)
+    return excitation.DiscriminationProblem(
+        (effect_pair[0], effect_pair[1]), subject.beta, subject.sigma
+    )
 
 
-def bounds_of(
+def build_bounds(
     robot: Robot,
     compiled: CompiledModel,
     limits: Mapping[str, Sequence[float]],
     boxes: Mapping[str, Sequence[float]],
     clearance: float | None = None,
-) -> excitation.Bounds:
+) -> excitation.MotionBounds:
     """The limits of the robot file, with those that are given in their place.
 
     Args:
@@ -389,15 +422,15 @@ def bounds_of(
         RobotError: an empty range.
     """
     coordinates = [joint.name for joint in compiled.spec.joints]
-    moving = [joint.name for joint in robot.moving]
+    moving = [joint.name for joint in robot.moving_joints]
     form = "lower, upper, speed, acceleration"
     changes, torques = {}, {}
-    for name, given in limits.items():
-        values = _checked("limits", name, given, moving, (4, 5), form)
+    for name, numbers in limits.items():
+        values = _check_numbers("limits", name, numbers, moving, (4, 5), form)
         changes[name] = Limits(*values[:4])
         if len(values) == 5:
             torques[name] = values[4]
-    every = simulation.motion_limits(robot, changes)
+    every = simulation.collect_motion_limits(robot, changes)
     of = {name: every[moving.index(name)] for name in moving}
     lower, upper, speed, acceleration = np.array(
         [dataclasses.astuple(of[name])[:4] for name in coordinates]
@@ -413,10 +446,10 @@ def bounds_of(
             if place not in closure.given and name in stated
         ]
     corners = {
-        name: _checked("boxes", name, given, moving, (6,), "x0, x1, y0, y1, z0, z1")
-        for name, given in boxes.items()
+        name: _check_numbers("boxes", name, numbers, moving, (6,), "x0, x1, y0, y1, z0, z1")
+        for name, numbers in boxes.items()
     }
-    bounds = excitation.Bounds(
+    bounds = excitation.MotionBounds(
         tuple(coordinates), lower, upper, speed, acceleration,
         torque=np.array([torques.get(name, np.inf) for name in coordinates]),
         boxes=tuple(
@@ -426,27 +459,28 @@ def bounds_of(
         passive=tuple(passive), home=home,
         assumed=tuple(name for name in coordinates if name not in {**robot.limits, **changes}),
     )  # fmt: skip
-    return with_clearance(robot, compiled, bounds, clearance)
+    return add_clearance(robot, compiled, bounds, clearance)
 
 
-def _checked(
-    what: str, name: str, given: Sequence[float], names: list[str], counts: tuple[int, ...],
+def _check_numbers(
+    what: str, name: str, numbers: Sequence[float], names: list[str], counts: tuple[int, ...],
     form: str,
 ) -> list[float]:  # fmt: skip
     """The numbers, if they are as many as expected and the row is there."""
     if name not in names:
         raise DataError(
-            f"{what}: no moving joint {name}{near(name, names)}; expected one of {', '.join(names)}"
+            f"{what}: no moving joint {name}{suggest_name(name, names)}; expected one of "
+            f"{', '.join(names)}"
         )
-    values = [float(value) for value in given]
+    values = [float(value) for value in numbers]
     if len(values) not in counts or any(math.isnan(value) for value in values):
-        raise DataError(f"{what} of {name}: got {given}; expected {form}, numbers in SI units")
+        raise DataError(f"{what} of {name}: got {numbers}; expected {form}, numbers in SI units")
     return values
 
 
 def check_motion(
     robot: Robot, motion: str | Path, *, clearance: float = USUAL
-) -> excitation.Nearest | None:
+) -> excitation.ClosestApproach | None:
     """Where a motion brings two links, or a link and a plane, closest to each other.
 
     >>> check_motion(robot, "mon.parquet").pair  # its two links share a joint
@@ -464,10 +498,10 @@ def check_motion(
         DataError: the file has no motion of this robot.
     """
     compiled = compile_model(generate(derive(robot)))
-    bounds = bounds_of(robot, compiled, {}, {}, clearance)
+    bounds = build_bounds(robot, compiled, {}, {}, clearance)
     assert bounds.clearance is not None
     names = [joint.name for joint in compiled.spec.joints]
-    return nearest_along(compiled, bounds.clearance, simulation.read_motion(motion, names))
+    return find_nearest_along(compiled, bounds.clearance, simulation.read_motion(motion, names))
 
 
 # Measurements by simulation.
@@ -503,14 +537,14 @@ def simulate(
     """
     if path is not None:
         simulation.check_suffix(Path(path))
-    log = simulation.simulate(robot, settings_of(robot, hide, motion, settings), progress)
+    log = simulation.simulate(robot, build_settings(robot, hide, motion, settings), progress)
     if path is not None:
         simulation.write_log(Path(path), log)
     return log
 
 
-def settings_of(
-    robot: Robot, hide: Sequence[str | HiddenEffect], motion: str | Path, given: Mapping[str, Any]
+def build_settings(
+    robot: Robot, hide: Sequence[str | HiddenEffect], motion: str | Path, options: Mapping[str, Any]
 ) -> SimulationSettings:
     """Settings of a simulation; see `simulate`.
 
@@ -518,15 +552,15 @@ def settings_of(
         DataError: one that is none, or that cannot be.
     """
     known = {field.name for field in dataclasses.fields(SimulationSettings)}
-    for name in given:
+    for name in options:
         if name not in known:
             raise DataError(f"simulate: got {name}; expected some of {', '.join(sorted(known))}")
     hidden = tuple(
-        simulation.hidden_from_text(each) if isinstance(each, str) else each for each in hide
+        simulation.parse_hidden_effect(each) if isinstance(each, str) else each for each in hide
     )
     if not str(motion).endswith((".csv", ".parquet")):
-        return SimulationSettings(hidden=hidden, motion=str(motion), **given)
-    rate = given.get("rate", SimulationSettings().rate)
+        return SimulationSettings(hidden=hidden, motion=str(motion), **options)
+    rate = options.get("rate", SimulationSettings().rate)
     joints = [joint.name for joint in robot.coordinates]
-    commanded = simulation.at_rate(simulation.read_motion(motion, joints), rate)
-    return SimulationSettings(hidden=hidden, commanded=commanded, **given)
+    commanded = simulation.resample_motion(simulation.read_motion(motion, joints), rate)
+    return SimulationSettings(hidden=hidden, commanded=commanded, **options)

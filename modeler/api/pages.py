@@ -5,16 +5,23 @@ from pathlib import Path
 
 from modeler import report
 from modeler.core.files import write_atomically
-from modeler.core.result import presented
+from modeler.core.result import find_presentation
 from modeler.diagnosis import Diagnosis
-from modeler.estimation import IdentifiedModel, SideBySide
+from modeler.estimation import IdentifiedModel, MethodComparison
 from modeler.fleet import Fleet
 from modeler.logs import LogInspection
 from modeler.robot import Robot
-from modeler.validation import Comparison, Contest
+from modeler.validation import Comparison, ModelComparison
 
 Reported = (
-    Robot | LogInspection | IdentifiedModel | Comparison | Contest | Diagnosis | SideBySide | Fleet
+    Robot
+    | LogInspection
+    | IdentifiedModel
+    | Comparison
+    | ModelComparison
+    | Diagnosis
+    | MethodComparison
+    | Fleet
 )
 """What has a page."""
 
@@ -35,10 +42,10 @@ def write_report(thing: Reported, path: str | Path, notes: Sequence[str] = ()) -
     Raises:
         ModelerError: the place cannot be written.
     """
-    found = presented(type(thing))
-    if found is None or found.document is None:
+    presentation = find_presentation(type(thing))
+    if presentation is None or presentation.document is None:
         raise TypeError(f"write_report: got a {type(thing).__name__}, which has no page")
-    sheet = found.document(thing, notes)
+    sheet = presentation.document(thing, notes)
     if isinstance(sheet, report.Page):
         return report.write_page(Path(path), sheet)
     write_atomically(Path(path), sheet)

@@ -9,8 +9,8 @@ import numpy as np
 
 from modeler.codegen import Derivation, derive
 from modeler.core.errors import DataError, ModelerError
-from modeler.core.result import Presentation, Presented, present
-from modeler.core.table import Table, percent
+from modeler.core.result import Presentation, Result, register_presentations
+from modeler.core.table import Table, format_percent
 from modeler.estimation import IdentifiedModel
 from modeler.formulas import (
     VERIFIED,
@@ -21,19 +21,19 @@ from modeler.formulas import (
     KnownSets,
     KnownValues,
     PhysicalSystem,
-    Rated,
+    RatedSet,
+    build_physical_system,
     check_known,
     compare_cad,
-    easiest_set,
-    known_from_text,
-    known_sets,
-    physical_system,
-    rated,
-    smallest_number,
+    count_smallest_set,
+    find_easiest_set,
+    find_known_sets,
+    parse_known_values,
+    rate_sets,
     solve,
     values as rules,
 )
-from modeler.robot import Robot, robot_from_text
+from modeler.robot import Robot, parse_robot_text
 
 UNITS = {
     "mass": "kg", "length": "m", "centre": "m", "inertia": "kg m^2", "rotor inertia": "kg m^2",
@@ -59,11 +59,11 @@ class FittedSource:
 
     data: np.ndarray
     covariance: np.ndarray
-    aside: Mapping[str, str]
+    unidentified: Mapping[str, str]
 
 
 @dataclass(frozen=True, eq=False)
-class PhysicalValues(Presented):
+class PhysicalValues(Result):
     """Physical parameters of a model.
 
     Attributes:
@@ -79,18 +79,18 @@ class PhysicalValues(Presented):
     doubts: Mapping[str, str]
     tested: tuple[KnownAgainstFit, ...]
 
-    def sources(self, k: int) -> str:
+    def describe_sources(self, k: int) -> str:
         """From which the variance of parameter k mostly comes, "ZZ2R 80 %, am 15 %"."""
         shares = self.derived.shares[k]
         return ", ".join(
-            f"{self.derived.inputs[i]} {percent(shares[i])}"
+            f"{self.derived.inputs[i]} {format_percent(shares[i])}"
             for i in np.argsort(-shares)[:2]
             if shares[i] > 0.05
         )
 
 
 @dataclass(frozen=True, eq=False)
-class Physical(Presented):
+class Physical(Result):
     """What is known of the physical parameters of a robot (docs/how-to/physical-parameters.md).
 
     Attributes:
@@ -103,7 +103,7 @@ class Physical(Presented):
     derivation: Derivation
     fitted: FittedSource | None
 
-    def formulas(self, known: str | KnownValues) -> ClosedSolution:
+    def derive_formulas(self, known: str | KnownValues) -> ClosedSolution:
         """The other parameters in closed form, checked exactly on random robots.
 
         Args:
@@ -112,9 +112,11 @@ class Physical(Presented):
         Raises:
             RobotError: a name that is none.
         """
-        given = known_from_text(known, self.system, "known") if isinstance(known, str) else known
-        solution = solve(self.system, given.names)
-        good = rules.verify(solution)
+        known_values = (
+            parse_known_values(known, self.system, "known") if isinstance(known, str) else known
+        )
+        solution = solve(self.system, known_values.names)
+        good = rules.verify_solution(solution)
         if good != VERIFIED:
             raise ModelerError(
                 f"{self.system.robot}: the formulas failed {VERIFIED - good} of {VERIFIED} exact "
@@ -122,7 +124,7 @@ class Physical(Presented):
             )
         return solution
 
-    def values(self, known: str, near: str = "") -> PhysicalValues:
+    def compute_values(self, known: str, near: str = "") -> PhysicalValues:
         """Values of the other parameters from the fit; their `table()` lists them.
 
         Args:
@@ -133,38 +135,42 @@ class Physical(Presented):
             DataError: of a robot, or a known parameter without a value.
             RobotError: a name that is none.
         """
-        given = known_from_text(known, self.system, "known")
-        for name in given.names:
-            if name not in given.values:
+        known_values = parse_known_values(known, self.system, "known")
+        for name in known_values.names:
+            if name not in known_values.values:
                 raise DataError(f"known: no value of {name}; expected {name}=VALUE, SI units")
-        hints = known_from_text(near, self.system, "near")
-        return self.solved(self.formulas(given), given, hints.values)
+        hints = parse_known_values(near, self.system, "near")
+        return self.evaluate_solution(
+            self.derive_formulas(known_values), known_values, hints.values
+        )
 
-    def solved(
-        self, solution: ClosedSolution, given: KnownValues, near: Mapping[str, float]
+    def evaluate_solution(
+        self, solution: ClosedSolution, known_values: KnownValues, near: Mapping[str, float]
     ) -> PhysicalValues:
         """The values of formulas."""
-        fitted = self._with_values()
+        fitted = self._require_fitted()
         data = fitted.data.tolist()
         derived = rules.derive_values(
-            solution, data, fitted.covariance, given.values, given.sigmas, near
+            solution, data, fitted.covariance, known_values.values, known_values.sigmas, near
         )
         doubts = dict(derived.doubtful)
         for k, letter in enumerate(derived.letters):
-            for name, why in fitted.aside.items():
+            for name, why in fitted.unidentified.items():
                 if derived.slopes[k, derived.inputs.index(name)] != 0.0:
                     doubts[letter] = f"{letter} needs {name}, and {why}"
-        doubts |= rules.impossible(derived, self.system)
-        tested = check_known(solution, data, fitted.covariance, given.values, given.sigmas)
+        doubts |= rules.find_impossible(derived, self.system)
+        tested = check_known(
+            solution, data, fitted.covariance, known_values.values, known_values.sigmas
+        )
         return PhysicalValues(self.system, derived, doubts, tuple(tested))
 
-    def sets(
+    def find_known_sets(
         self, size: int | None = None, progress: Callable[[float], None] | None = None
     ) -> KnownSets:
         """All sets of `size` parameters from which the others follow; None: the smallest."""
-        return known_sets(self.system, size, progress or (lambda share: None))
+        return find_known_sets(self.system, size, progress or (lambda share: None))
 
-    def rated(self, found: KnownSets, cad: KnownValues) -> tuple[Rated, ...]:
+    def rank_sets(self, candidate_sets: KnownSets, cad: KnownValues) -> tuple[RatedSet, ...]:
         """The easiest of these sets, the least error first.
 
         Raises:
@@ -173,33 +179,37 @@ class Physical(Presented):
         missing = [x for x in self.system.letters if x not in cad.values]
         if missing:
             raise DataError(f"--cad: no value of {', '.join(missing)}; expected all parameters")
-        return rated(self.system, found.easiest, cad.values)
+        return rate_sets(self.system, candidate_sets.easiest, cad.values)
 
-    def cad(self, file: str | Path = NOMINAL) -> KnownValues:
+    def read_cad(self, file: str | Path = NOMINAL) -> KnownValues:
         """CAD values from a file, or, without one, those that the robot file states."""
         if str(file) != NOMINAL:
-            return rules.cad_from_file(Path(file), self.system)
+            return rules.read_cad_file(Path(file), self.system)
         robot = self.derivation.robot
-        return rules.cad_from_robot(robot, self.system, f"--cad, robot {self.system.robot}")
+        return rules.read_cad_example(robot, self.system, f"--cad, robot {self.system.robot}")
 
-    def against(self, cad: KnownValues | str | Path = NOMINAL) -> CadComparison:
+    def compare_with_cad(self, cad: KnownValues | str | Path = NOMINAL) -> CadComparison:
         """The identified quantities against CAD.
 
         Raises:
             DataError: of a robot.
         """
-        given = cad if isinstance(cad, KnownValues) else self.cad(cad)
-        fitted = self._with_values()
+        cad_values = cad if isinstance(cad, KnownValues) else self.read_cad(cad)
+        fitted = self._require_fitted()
         return compare_cad(
-            self.system, fitted.data.tolist(), fitted.covariance, given.values, given.sigmas,
-            fitted.aside,
-        )  # fmt: skip
+            self.system,
+            fitted.data.tolist(),
+            fitted.covariance,
+            cad_values.values,
+            cad_values.sigmas,
+            fitted.unidentified,
+        )
 
     def __reduce__(self) -> tuple[Any, ...]:
         """Found anew where it lands: rings of polynomials do not travel."""
-        return _again, (self.derivation, self.system.source, self.fitted)
+        return _rebuild_physical, (self.derivation, self.system.source, self.fitted)
 
-    def _with_values(self) -> FittedSource:
+    def _require_fitted(self) -> FittedSource:
         if self.fitted is None:
             raise DataError(
                 f"{self.system.robot}: a robot, with no identified values; expected a model"
@@ -215,24 +225,28 @@ def physical(thing: Robot | Derivation | IdentifiedModel, of: Source | None = No
 
     Args:
         thing: it.
-        of: what is identified: "base" or "coefficients"; None: see `physical_system`.
+        of: what is identified: "base" or "coefficients"; None: see `build_physical_system`.
 
     Raises:
         DataError: a model that lacks a base parameter.
     """
     model = thing if isinstance(thing, IdentifiedModel) else None
     if isinstance(thing, IdentifiedModel):
-        thing = robot_from_text(thing.robot_text, f"model of {thing.spec.robot}, robot_text")
+        thing = parse_robot_text(thing.robot_text, f"model of {thing.spec.robot}, robot_text")
     derivation = derive(thing) if isinstance(thing, Robot) else thing
-    system = physical_system(derivation.model, derivation.base, of)
-    return Physical(system, derivation, None if model is None else _fitted(system, model))
+    system = build_physical_system(derivation.model, derivation.base, of)
+    return Physical(
+        system, derivation, None if model is None else _compute_fitted_source(system, model)
+    )
 
 
-def _again(derivation: Derivation, of: Source, fitted: FittedSource | None) -> Physical:
-    return Physical(physical_system(derivation.model, derivation.base, of), derivation, fitted)
+def _rebuild_physical(derivation: Derivation, of: Source, fitted: FittedSource | None) -> Physical:
+    return Physical(
+        build_physical_system(derivation.model, derivation.base, of), derivation, fitted
+    )
 
 
-def _fitted(system: PhysicalSystem, model: IdentifiedModel) -> FittedSource:
+def _compute_fitted_source(system: PhysicalSystem, model: IdentifiedModel) -> FittedSource:
     """data = T beta, C = T C_beta T'."""
     names = [parameter.name for parameter in model.fit.parameters]
     missing = [name for name in system.base if name not in names]
@@ -246,52 +260,55 @@ def _fitted(system: PhysicalSystem, model: IdentifiedModel) -> FittedSource:
     aside = [k for k, i in enumerate(at) if model.fit.parameters[i].sigma is None]
     why: dict[str, str] = {}
     for i, name in enumerate(system.data):
-        told = [system.base[k] for k in aside if T[i, k] != 0.0]
-        if told:
-            why[name] = f"the fit set {', '.join(told)} aside"
+        fixed_parameters = [system.base[k] for k in aside if T[i, k] != 0.0]
+        if fixed_parameters:
+            why[name] = f"the fit set {', '.join(fixed_parameters)} aside"
     return FittedSource(T @ model.beta[at], T @ model.covariance[np.ix_(at, at)] @ T.T, why)
 
 
-def values_table(found: PhysicalValues) -> Table:
+def tabulate_values(values: PhysicalValues) -> Table:
     """Value, sigma and source of every parameter that is told."""
-    derived, rows = found.derived, []
+    derived, rows = values.derived, []
     for k, letter in enumerate(derived.letters):
-        unit, told = UNITS[found.system.kinds[letter]], letter not in found.doubts
+        unit, is_identified = UNITS[values.system.kinds[letter]], letter not in values.doubts
         value, sigma = float(derived.values[k]), float(derived.sigmas[k])
         rows.append(
-            (letter, value, sigma, unit, found.sources(k)) if told
-            else (letter, None, None, unit, found.doubts[letter])
+            (letter, value, sigma, unit, values.describe_sources(k)) if is_identified
+            else (letter, None, None, unit, values.doubts[letter])
         )  # fmt: skip
-    title = f"{found.system.robot}: physical parameters"
-    return Table.of(title, "parameter, value, sigma, unit, mostly from", rows)
+    title = f"{values.system.robot}: physical parameters"
+    return Table.build(title, "parameter, value, sigma, unit, mostly from", rows)
 
 
-def _values_summary(found: PhysicalValues) -> str:
-    told = len(found.derived.letters) - len(found.doubts)
-    first = f"{found.system.robot}: {told} of {len(found.derived.letters)} physical parameters told"
-    return "\n".join([first, *found.doubts.values()])
+def _summarise_values(values: PhysicalValues) -> str:
+    identified_count = len(values.derived.letters) - len(values.doubts)
+    first = (
+        f"{values.system.robot}: {identified_count} of {len(values.derived.letters)} "
+        "physical parameters told"
+    )
+    return "\n".join([first, *values.doubts.values()])
 
 
-def _physical_summary(found: Physical) -> str:
-    system, easiest = found.system, easiest_set(found.system)
+def _summarise_parameters(parameters: Physical) -> str:
+    system, easiest = parameters.system, find_easiest_set(parameters.system)
     first = (f"{system.robot}: {len(system.data)} identified quantities, {len(system.letters)} "
              f"physical parameters with an effect")  # fmt: skip
     return "\n".join([
         first,
-        f"at least {smallest_number(system)} must be known that all others follow: "
+        f"at least {count_smallest_set(system)} must be known that all others follow: "
         f"{','.join(easiest)}",
     ])  # fmt: skip
 
 
-def _symbols_table(found: Physical) -> Table:
-    system = found.system
+def _tabulate_symbols(parameters: Physical) -> Table:
+    system = parameters.system
     rows = [(x, system.kinds[x], UNITS[system.kinds[x]]) for x in system.letters]
-    return Table.of(f"{system.robot}: physical parameters", "parameter, kind, unit", rows)
+    return Table.build(f"{system.robot}: physical parameters", "parameter, kind, unit", rows)
 
 
-present({
-    PhysicalValues: Presentation("a set of physical parameters", _values_summary,
-                                 lambda v: {"values": lambda: values_table(v)}),
-    Physical: Presentation("a system of physical parameters", _physical_summary,
-                           lambda p: {"parameters": lambda: _symbols_table(p)}),
+register_presentations({
+    PhysicalValues: Presentation("a set of physical parameters", _summarise_values,
+                                 lambda v: {"values": lambda: tabulate_values(v)}),
+    Physical: Presentation("a system of physical parameters", _summarise_parameters,
+                           lambda p: {"parameters": lambda: _tabulate_symbols(p)}),
 })  # fmt: skip

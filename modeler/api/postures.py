@@ -4,8 +4,8 @@ import dataclasses
 from collections.abc import Mapping
 
 from modeler.core.errors import DataError
-from modeler.derivation import HomeModes, modes_near, written
-from modeler.robot import Robot, robot_from_text, with_home_text
+from modeler.derivation import HomeModes, express_as_home, find_modes_near
+from modeler.robot import Robot, parse_robot_text, replace_home
 
 
 def home(robot: Robot, near: Mapping[str, float] | None = None, anew: bool = False) -> HomeModes:
@@ -25,7 +25,7 @@ def home(robot: Robot, near: Mapping[str, float] | None = None, anew: bool = Fal
     """
     stated = {} if anew else dict(robot.home)
     if near is not None:
-        moving = [joint.name for joint in robot.moving]
+        moving = [joint.name for joint in robot.moving_joints]
         for name in near:
             if name not in moving:
                 raise DataError(
@@ -33,18 +33,18 @@ def home(robot: Robot, near: Mapping[str, float] | None = None, anew: bool = Fal
                 )
         names = {joint.name for joint in robot.coordinates}
         stated = {name: value for name, value in stated.items() if name in names} | dict(near)
-    return modes_near(dataclasses.replace(robot, home={}) if anew else robot, stated)
+    return find_modes_near(dataclasses.replace(robot, home={}) if anew else robot, stated)
 
 
-def chosen_mode(found: HomeModes, letter: str | None, best: bool = False) -> int:
+def select_mode(modes: HomeModes, letter: str | None, best: bool = False) -> int:
     """The place of the mode with that letter; without one, the robot's own, unless `best`.
 
     Raises:
         DataError: no such mode.
     """
     if letter is None:
-        return 0 if found.own is None or best else found.own
-    letters = [mode.letter for mode in found.modes]
+        return 0 if modes.stated_index is None or best else modes.stated_index
+    letters = [mode.letter for mode in modes.modes]
     if letter.upper() not in letters:
         raise DataError(
             f"--mode {letter}: there is no such mode; expected one of {', '.join(letters)}"
@@ -52,7 +52,7 @@ def chosen_mode(found: HomeModes, letter: str | None, best: bool = False) -> int
     return letters.index(letter.upper())
 
 
-def at_home(robot: Robot, found: HomeModes, letter: str | None = None) -> Robot:
+def home_posture(robot: Robot, modes: HomeModes, letter: str | None = None) -> Robot:
     """The robot with an assembly mode as its [home], in its file's text too.
 
     >>> at_home(load("five-bar"), home(load("five-bar")), "B").name
@@ -61,6 +61,6 @@ def at_home(robot: Robot, found: HomeModes, letter: str | None = None) -> Robot:
     Raises:
         DataError: no such mode.
     """
-    posture = found.modes[chosen_mode(found, letter)].posture
-    text = with_home_text(robot.text, robot.home, written(found.linkage, posture))
-    return robot_from_text(text, f"{robot.name} with its [home]")
+    posture = modes.modes[select_mode(modes, letter)].posture
+    text = replace_home(robot.text, robot.home, express_as_home(modes.linkage, posture))
+    return parse_robot_text(text, f"{robot.name} with its [home]")

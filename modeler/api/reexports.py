@@ -2,7 +2,7 @@
 
 from modeler.codegen import Derivation as Derivation
 from modeler.core.errors import FitWarning as FitWarning
-from modeler.core.manifest import Emitted as Emitted
+from modeler.core.manifest import EmittedModule as EmittedModule
 from modeler.diagnosis import Diagnosis as Diagnosis
 from modeler.estimation import (
     FitResult as FitResult,

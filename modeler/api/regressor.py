@@ -17,12 +17,12 @@ from sklearn.utils.validation import check_is_fitted, validate_data
 
 from modeler import observation, validation
 from modeler.api import fitting
-from modeler.api.identifying import robot_with
+from modeler.api.identifying import prepare_robot
 from modeler.api.log_maps import Mapped
-from modeler.api.workflow import Logs, compile_model, derived, listed, read_logs
+from modeler.api.workflow import Logs, compile_model, convert_to_list, derive_text, read_logs
 from modeler.codegen import Derivation
 from modeler.core.errors import DataError
-from modeler.core.manifest import Emitted
+from modeler.core.manifest import EmittedModule
 from modeler.logs import LEAST_ROWS
 from modeler.robot import Robot
 from modeler.runtime import CompiledModel
@@ -30,13 +30,13 @@ from modeler.runtime import CompiledModel
 Rows = tuple[np.ndarray, np.ndarray, np.ndarray]
 
 
-def _made(robot: Robot | str | Path) -> tuple[Derivation, Emitted, CompiledModel]:
-    found = robot_with(robot)
-    derivation, emitted = derived(found.text, found.name)
+def _compile_robot(robot: Robot | str | Path) -> tuple[Derivation, EmittedModule, CompiledModel]:
+    prepared_robot = prepare_robot(robot)
+    derivation, emitted = derive_text(prepared_robot.text, prepared_robot.name)
     return derivation, emitted, compile_model(emitted)
 
 
-def log_rows(robot: Robot | str | Path, logs: Logs, mapping: Mapped = ()) -> Rows:
+def read_log_rows(robot: Robot | str | Path, logs: Logs, mapping: Mapped = ()) -> Rows:
     """Logs as scikit-learn takes them.
 
     Args:
@@ -53,14 +53,14 @@ def log_rows(robot: Robot | str | Path, logs: Logs, mapping: Mapped = ()) -> Row
     Raises:
         DataError: a log cannot be read.
     """
-    read = read_logs(_made(robot)[2], listed(logs), mapping)
+    read = read_logs(_compile_robot(robot)[2], convert_to_list(logs), mapping)
     names = ["q", *(["qd"] if all(log.qd is not None for log in read) else [])]
     names += ["qdd"] if "qd" in names and all(log.qdd is not None for log in read) else []
-    made = [
+    row_blocks = [
         np.column_stack([log.time * 0 + k, log.time, *(getattr(log, n) for n in names), log.tau])
         for k, log in enumerate(read)
     ]
-    rows = np.concatenate(made)
+    rows = np.concatenate(row_blocks)
     rows = rows[np.isfinite(rows).all(axis=1)]  # what is missing is a gap
     torques = read[0].tau.shape[1]
     return rows[:, :-torques], rows[:, -torques:], rows[:, 0].astype(int)
@@ -69,7 +69,7 @@ def log_rows(robot: Robot | str | Path, logs: Logs, mapping: Mapped = ()) -> Row
 class TorqueRegressor(MultiOutputMixin, RegressorMixin, BaseEstimator):
     """The torque of a robot from its motion: fitted by any estimator, and predicted.
 
-    Rows are those of `log_rows`. Give whole logs to either side of a split: `GroupKFold`,
+    Rows are those of `read_log_rows`. Give whole logs to either side of a split: `GroupKFold`,
     `LeaveOneGroupOut`; what is missing of a log is a gap in it.
 
     Attributes:
@@ -98,11 +98,11 @@ class TorqueRegressor(MultiOutputMixin, RegressorMixin, BaseEstimator):
             DataError: see `identify`.
         """
         X, y = validate_data(self, X, y, multi_output=True, y_numeric=True, dtype=float)
-        derivation, emitted, compiled = _made(self.robot)
-        logs = [log for _, log in _logs(compiled, X, y)]
+        derivation, emitted, compiled = _compile_robot(self.robot)
+        logs = [log for _, log in _split_logs(compiled, X, y)]
         rows = observation.observe(compiled, logs, self.processing)
-        asked = fitting.FitRequest(self.method)
-        self.model_ = fitting.fitted(asked, derivation, emitted, compiled, rows)[0]
+        request = fitting.FitRequest(self.method)
+        self.model_ = fitting.fit_observation(request, derivation, emitted, compiled, rows)[0]
         return self
 
     def predict(self, X: Any) -> np.ndarray:
@@ -113,18 +113,19 @@ class TorqueRegressor(MultiOutputMixin, RegressorMixin, BaseEstimator):
         """
         check_is_fitted(self, "model_")
         X = validate_data(self, X, reset=False, dtype=float)
-        compiled = _made(self.robot)[2]
+        compiled = _compile_robot(self.robot)[2]
         torque = np.empty((len(X), len(compiled.spec.joints)))
-        for rows, log in _logs(compiled, X):
-            torque[rows], _ = validation.at_every_row(self.model_, log, compiled)
-        if lost := int(np.isnan(torque).any(axis=1).sum()):
+        for rows, log in _split_logs(compiled, X):
+            torque[rows], _ = validation.predict_every_row(self.model_, log, compiled)
+        if missing_rows := int(np.isnan(torque).any(axis=1).sum()):
             raise DataError(
-                f"predict: {lost} rows lie in pieces too short to differentiate; leave them out"
+                f"predict: {missing_rows} rows lie in pieces too short to differentiate; leave "
+                "them out"
             )
         return torque
 
 
-def _logs(
+def _split_logs(
     compiled: CompiledModel, X: np.ndarray, y: np.ndarray | None = None
 ) -> Iterator[tuple[np.ndarray, observation.Log]]:
     """The logs behind rows, and which rows are whose."""

@@ -7,6 +7,6 @@ Steps = Callable[[str], AbstractContextManager[None]]
 """Called with the title of a step, which lasts as long as the context."""
 
 
-def silent(title: str) -> AbstractContextManager[None]:
+def ignore_step(title: str) -> AbstractContextManager[None]:
     """Says nothing."""
     return nullcontext()

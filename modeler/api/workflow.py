@@ -8,37 +8,37 @@ from tempfile import TemporaryDirectory
 from typing import Any, TypeVar
 
 from modeler import observation
-from modeler.api.log_maps import Mapped, file_and_span, log_maps, read_mapped
+from modeler.api.log_maps import Mapped, build_log_maps, parse_time_range, read_mapped_log
 from modeler.codegen import (
     Derivation as Derivation,
     derive as derive,
     generate as generate_robot,
     load as load,
 )
-from modeler.core.builtin import builtin_names
+from modeler.core.builtin import list_builtin_robots
 from modeler.core.errors import ALSO, Also, DataError, Machine, ManifestError, Precision
 from modeler.core.estimators import ABOUT
 from modeler.core.files import write_atomically
-from modeler.core.manifest import Emitted, ModuleSpec
+from modeler.core.manifest import EmittedModule, ModuleSpec
 from modeler.core.table import Table
 from modeler.effects import CATALOGUE
 from modeler.estimation import (
     OF_TRIANGLES,
     IdentifiedModel,
     check_currents,
-    in_drive_units,
     model_file,
+    set_unit_gains,
 )
-from modeler.logs import Frame, LogMap, blocks_of
+from modeler.logs import Frame, LogMap, open_blocks
 from modeler.robot import (
     Robot,
     convert as convert,
+    insert_own_effect,
     new_robot as new_robot,
+    parse_robot_text,
     read_robot,
-    robot_from_text,
-    with_own_effect,
 )
-from modeler.runtime import CompiledModel, GpuModel, load as load_compiled, load_gpu
+from modeler.runtime import CompiledModel, GpuModel, load_gpu, load_module as load_compiled
 from modeler.simulation import SimulatedLog, write_log
 
 AnyLog = str | Path | observation.Log | SimulatedLog | Mapping[str, Any] | Frame
@@ -51,7 +51,7 @@ Logs = AnyLog | Sequence[AnyLog]
 """Logs; one alone stands for a list of it."""
 
 
-def listed(logs: Logs) -> Sequence[AnyLog]:
+def convert_to_list(logs: Logs) -> Sequence[AnyLog]:
     """One log alone as a list of it."""
     if isinstance(logs, str | Mapping) or hasattr(logs, "__arrow_c_stream__"):
         return [logs]
@@ -63,7 +63,7 @@ def listed(logs: Logs) -> Sequence[AnyLog]:
 M = TypeVar("M", bound=IdentifiedModel)
 
 
-def own_effect(robot: Robot, name: str, **definition: Any) -> Robot:
+def define_effect(robot: Robot, name: str, **definition: Any) -> Robot:
     """The robot with the definition of an effect that the catalogue lacks.
 
     >>> robot = own_effect(load("emps"), "fan", columns={"Kf": "v*abs(v)"}, nonnegative=True)
@@ -82,7 +82,7 @@ def own_effect(robot: Robot, name: str, **definition: Any) -> Robot:
     Raises:
         RobotError: a mistake in the definition, or an id that the robot has already.
     """
-    return robot_from_text(with_own_effect(robot.text, name, definition), robot.name)
+    return parse_robot_text(insert_own_effect(robot.text, name, definition), robot.name)
 
 
 def generate(
@@ -95,7 +95,7 @@ def generate(
     only: Sequence[str] = (),
     also: Sequence[Also] = (),
     measure: Machine | None = None,
-) -> Emitted:
+) -> EmittedModule:
     """The C module of a robot; of a model, with functions that have its fitted values.
 
     >>> "two_link.h" in generate(derivation).files
@@ -123,7 +123,7 @@ def generate(
     if isinstance(source, Derivation):
         derivation, fitted = source, None
     else:
-        derivation, fitted = emitted_anew(source)[0], model_file.fitted_spec(source)
+        derivation, fitted = emit_model(source)[0], model_file.build_fitted_spec(source)
     control = None
     if frames or only or also or measure:
         from modeler.codegen import Control  # who fits need not wait for it
@@ -134,7 +134,7 @@ def generate(
     )
 
 
-def compile_model(emitted: Emitted) -> CompiledModel:
+def compile_model(emitted: EmittedModule) -> CompiledModel:
     """The C module made callable; compiled once for the same content.
 
     >>> compile_model(emitted).gravity([[0.0, 0.0]], model.beta).shape
@@ -158,9 +158,9 @@ def read_logs(
             takes the guess of `look_at` for what is left open.
         spread: True if of a log of more than a million rows evenly spread stretches will do.
     """
-    given = listed(logs)
-    every = enumerate(zip(given, log_maps(compiled, given, mapping), strict=True))
-    return [_log(*each, compiled.spec, spread) for each in every]
+    log_list = convert_to_list(logs)
+    every = enumerate(zip(log_list, build_log_maps(compiled, log_list, mapping), strict=True))
+    return [_read_log(*each, compiled.spec, spread) for each in every]
 
 
 def read_currents(
@@ -175,21 +175,21 @@ def read_currents(
     Raises:
         DataError: a log gives a torque instead.
     """
-    spec, given = in_drive_units(compiled.spec), listed(logs)
-    every = enumerate(zip(given, log_maps(compiled, given, mapping), strict=True))
-    read = [_log(*each, spec) for each in every]
+    spec, log_list = set_unit_gains(compiled.spec), convert_to_list(logs)
+    every = enumerate(zip(log_list, build_log_maps(compiled, log_list, mapping), strict=True))
+    read = [_read_log(*each, spec) for each in every]
     check_currents(read, spec.joints)
     return read
 
 
-def _log(
-    number: int, named: tuple[AnyLog, LogMap], spec: ModuleSpec, spread: bool = False
+def _read_log(
+    number: int, log_and_map: tuple[AnyLog, LogMap], spec: ModuleSpec, spread: bool = False
 ) -> observation.Log:
-    log, names = named
+    log, names = log_and_map
     if isinstance(log, observation.Log):
         return log
     if not isinstance(log, SimulatedLog):
-        return read_mapped(log, spec, names, f"logs[{number}]", spread)
+        return read_mapped_log(log, spec, names, f"logs[{number}]", spread)
     with TemporaryDirectory() as folder:  # read as whoever gets the file will read it
         place = Path(folder) / f"{log.robot}-seed{log.settings.seed}.parquet"
         write_log(place, log)
@@ -200,7 +200,7 @@ def _log(
 # Long logs: whether some are, and their rows in blocks.
 
 
-def rows_of(places: Sequence[AnyLog]) -> int:
+def count_rows(places: Sequence[AnyLog]) -> int:
     """Rows of logs, as far as their files tell without being read; of CSV files about.
 
     Raises:
@@ -211,20 +211,20 @@ def rows_of(places: Sequence[AnyLog]) -> int:
         if isinstance(place, observation.Log):
             rows += place.rows
         elif isinstance(place, str | Path):
-            path, span = file_and_span(place)
-            blocks = blocks_of(Path(path)) if span is None else None
+            path, span = parse_time_range(place)
+            blocks = open_blocks(Path(path)) if span is None else None
             rows += 0 if blocks is None else blocks.rows
     return rows
 
 
 def are_long(places: Sequence[AnyLog]) -> bool:
     """True of logs whose fit reads them in chunks."""
-    return rows_of(places) > observation.LONG
+    return count_rows(places) > observation.LONG
 
 
-def too_long(places: Sequence[AnyLog]) -> bool:
+def are_too_long(places: Sequence[AnyLog]) -> bool:
     """True of logs that are not read at once, whatever for."""
-    return rows_of(places) > observation.MOST_WHOLE
+    return count_rows(places) > observation.MOST_WHOLE
 
 
 def check_fits_memory(places: Sequence[AnyLog], what: str) -> None:
@@ -233,23 +233,25 @@ def check_fits_memory(places: Sequence[AnyLog], what: str) -> None:
     Raises:
         DataError: they have more rows than that.
     """
-    if too_long(places):
+    if are_too_long(places):
         raise DataError(
-            f"fit: {what} keeps all rows in memory; got {rows_of(places)} rows, expected "
+            f"fit: {what} keeps all rows in memory; got {count_rows(places)} rows, expected "
             f"at most {observation.MOST_WHOLE}; give a part of the log, FILE@START:END, or take "
             f"--method {' or '.join(OF_TRIANGLES)}, which read logs of any length"
         )
 
 
-def processing_of(options: Mapping[str, Any]) -> observation.Processing:
+def build_processing(options: Mapping[str, Any]) -> observation.Processing:
     """The processing by options of `modeler fit`, or by `[fit]` of a robot file."""
     names = {"cutoff": "position_cutoff", "decimate": "decimation"}
-    own = {field.name for field in dataclasses.fields(observation.Processing)}
+    field_names = {field.name for field in dataclasses.fields(observation.Processing)}
     known = {names.get(name, name): value for name, value in options.items()}
-    return observation.Processing(**{name: value for name, value in known.items() if name in own})
+    return observation.Processing(
+        **{name: value for name, value in known.items() if name in field_names}
+    )
 
 
-def sources_of(
+def open_sources(
     compiled: CompiledModel, places: Sequence[AnyLog], mapping: Mapped = ()
 ) -> list[observation.Source]:
     """The rows of logs, in blocks where their format allows it.
@@ -257,13 +259,13 @@ def sources_of(
     Raises:
         DataError: a log cannot be read.
     """
-    found: list[observation.Source] = []
-    for place, names in zip(places, log_maps(compiled, places, mapping), strict=True):
+    sources: list[observation.Source] = []
+    for place, names in zip(places, build_log_maps(compiled, places, mapping), strict=True):
         source = None
-        if isinstance(place, str | Path) and file_and_span(place)[1] is None:
-            source = observation.source_of(Path(place), compiled.spec, names)
-        found.append(source or observation.MemorySource(read_logs(compiled, [place], names)[0]))
-    return found
+        if isinstance(place, str | Path) and parse_time_range(place)[1] is None:
+            source = observation.open_source(Path(place), compiled.spec, names)
+        sources.append(source or observation.MemorySource(read_logs(compiled, [place], names)[0]))
+    return sources
 
 
 def observe(
@@ -277,12 +279,12 @@ def observe(
     >>> observe(compiled, ["mon.parquet"]).W.shape[1]
     10
     """
-    given = read_logs(compiled, logs, mapping)
-    observation.check_apart(given)
-    return observation.observe(compiled, given, processing)
+    parsed_logs = read_logs(compiled, logs, mapping)
+    observation.check_no_overlap(parsed_logs)
+    return observation.observe(compiled, parsed_logs, processing)
 
 
-def recompile(model: IdentifiedModel) -> CompiledModel:
+def compile(model: IdentifiedModel) -> CompiledModel:
     """The compiled robot of a model, its C emitted anew from the robot text in the model.
 
     >>> recompile(model).spec.robot
@@ -294,15 +296,17 @@ def recompile(model: IdentifiedModel) -> CompiledModel:
         ManifestError: this version derives another manifest than the one that the values belong to.
     """
     otherwise = ", or use --run-embedded-c to run the C in the file if you trust its source"
-    emitted = emitted_anew(model, otherwise)[1]
+    emitted = emit_model(model, otherwise)[1]
     return compile_model(dataclasses.replace(emitted, log=model.mapping or emitted.log))
 
 
-def emitted_anew(model: IdentifiedModel, otherwise: str = "") -> tuple[Derivation, Emitted]:
+def emit_model(model: IdentifiedModel, otherwise: str = "") -> tuple[Derivation, EmittedModule]:
     """What the robot text of a model gives, if that is what its values belong to."""
-    derivation, emitted = derived(model.robot_text, f"robot {model.spec.robot} in the model file")
-    if emitted.spec.signature() != model.spec.signature():
-        what = "manifest" if _uncoded(emitted.spec) != _uncoded(model.spec) else "C"
+    derivation, emitted = derive_text(
+        model.robot_text, f"robot {model.spec.robot} in the model file"
+    )
+    if emitted.spec.compute_signature() != model.spec.compute_signature():
+        what = "manifest" if _remove_code(emitted.spec) != _remove_code(model.spec) else "C"
         raise ManifestError(
             f"model of {model.spec.robot}: its robot text gives another {what} than its values "
             "belong to: made by another version of modeler, or changed since; fit it again"
@@ -312,17 +316,17 @@ def emitted_anew(model: IdentifiedModel, otherwise: str = "") -> tuple[Derivatio
 
 
 @lru_cache(maxsize=4)
-def derived(text: str, where: str) -> tuple[Derivation, Emitted]:
+def derive_text(text: str, where: str) -> tuple[Derivation, EmittedModule]:
     """Of a robot file's text; the last ones are kept, for who asks again."""
-    derivation = derive(robot_from_text(text, where))
+    derivation = derive(parse_robot_text(text, where))
     return derivation, generate_robot(derivation)
 
 
-def _uncoded(spec: ModuleSpec) -> ModuleSpec:
+def _remove_code(spec: ModuleSpec) -> ModuleSpec:
     return dataclasses.replace(spec, code="")
 
 
-def reduced(model: M) -> M:
+def reduced_model(model: M) -> M:
     """The model with its essential parameters only, estimated anew; all others are 0.
 
     >>> len(reduced(model).beta) == len(model.beta)
@@ -331,8 +335,8 @@ def reduced(model: M) -> M:
     Raises:
         DataError: the model was saved by a version that kept none.
     """
-    found = model_file.with_essential_only(model, f"model of {model.spec.robot}")
-    return dataclasses.replace(model, fit=found.fit)
+    essential_model = model_file.keep_essential(model, f"model of {model.spec.robot}")
+    return dataclasses.replace(model, fit=essential_model.fit)
 
 
 def save(thing: IdentifiedModel | Robot, path: str | Path) -> Path:
@@ -360,13 +364,19 @@ def robots() -> Table:
     >>> "ur10e" in robots().column("name")
     True
     """
-    every = [read_robot(name) for name in builtin_names()]
+    every = [read_robot(name) for name in list_builtin_robots()]
     rows = [
-        (robot.name, robot.title, len(robot.coordinates), len(robot.moving), len(robot.loops),
-         ", ".join(use.effect for use in robot.effects))
+        (
+            robot.name,
+            robot.title,
+            len(robot.coordinates),
+            len(robot.moving_joints),
+            len(robot.loops),
+            ", ".join(use.effect for use in robot.effects),
+        )
         for robot in every
-    ]  # fmt: skip
-    return Table.of("built-in robots", "name, title, coordinates, joints, loops, effects", rows)
+    ]
+    return Table.build("built-in robots", "name, title, coordinates, joints, loops, effects", rows)
 
 
 def effects(robot: Robot | None = None) -> Table:
@@ -383,7 +393,7 @@ def effects(robot: Robot | None = None) -> Table:
          ", ".join(column.prefix for column in effect.columns), ", ".join(effect.aliases))
         for effect in known
     ]  # fmt: skip
-    return Table.of("physical effects", "effect, title, equation, parameters, also called", rows)
+    return Table.build("physical effects", "effect, title, equation, parameters, also called", rows)
 
 
 def estimators() -> Table:
@@ -394,10 +404,10 @@ def estimators() -> Table:
     """
     rows = [(a.id, a.title, a.law, a.source, a.avoid, a.motion) for a in ABOUT.values()]
     names = "method, title, law, source, when not to use it, noise of the motion"
-    return Table.of("estimators", names, rows)
+    return Table.build("estimators", names, rows)
 
 
-def on_gpu(derivation: Derivation) -> GpuModel:
+def load_on_gpu(derivation: Derivation) -> GpuModel:
     """The base regressor of a robot without loops on the graphics processor of this machine.
 
     It needs CuPy: `pip install "modeler-robotics[gpu]"`.

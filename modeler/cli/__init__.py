@@ -12,9 +12,9 @@ if TYPE_CHECKING:
     import argparse
 
 
-def parser() -> "argparse.ArgumentParser":
+def build_parser() -> "argparse.ArgumentParser":
     """The parser of all commands."""
-    from modeler.cli.commands import parser as all_commands
+    from modeler.cli.commands import build_parser as all_commands
 
     return all_commands()
 
@@ -26,16 +26,16 @@ def main(argv: Sequence[str] | None = None) -> int:
     os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
     # Everything that takes time is loaded where an interrupt is expected.
     try:
-        from modeler.cli.program import called, started
+        from modeler.cli.program import run_in_process, run_program
 
-        return started(sys.argv[1:]) if argv is None else called(argv)
+        return run_program(sys.argv[1:]) if argv is None else run_in_process(argv)
     except KeyboardInterrupt:
         sys.stderr.write("modeler: interrupted\n")
         return 130
     except Exception as error:
-        from modeler.core.errors import short_of_memory
+        from modeler.core.errors import is_out_of_memory
 
-        if not short_of_memory(error):
+        if not is_out_of_memory(error):
             raise
         sys.stderr.write(
             "modeler: memory: this process may not have more of it; expected room for all that is "

@@ -5,12 +5,12 @@ from collections.abc import Iterator
 from contextlib import contextmanager, suppress
 from pathlib import Path
 
-from modeler.cli.console import note
+from modeler.cli.console import print_note
 from modeler.cli.places import DemoFolder, FilePlace, Output
 
 
 @contextmanager
-def opened_page(args: argparse.Namespace) -> Iterator[None]:
+def open_page_when_done(args: argparse.Namespace) -> Iterator[None]:
     """What `--open` asked for is shown afterwards.
 
     A page that has no place gets one in a temporary folder, which stays if the command is done.
@@ -25,12 +25,12 @@ def opened_page(args: argparse.Namespace) -> Iterator[None]:
     try:
         yield
     except BaseException:
-        forget_page(args)
+        discard_page(args)
         raise
     _show_page(args)
 
 
-def forget_page(args: argparse.Namespace) -> None:
+def discard_page(args: argparse.Namespace) -> None:
     """There is no page after all."""
     if args.page_is_temporary:
         with suppress(OSError):  # not empty: the page was written
@@ -44,14 +44,14 @@ def _show_page(args: argparse.Namespace) -> None:
         return
     import webbrowser
 
-    page = _page(vars(args).get("report") or args.out)
+    page = _locate_page(vars(args).get("report") or args.out)
     if not page.is_file():
-        note("--open: no page was written, so none is shown")
+        print_note("--open: no page was written, so none is shown")
     elif not webbrowser.open(page.resolve().as_uri()):
-        note(f"--open: no browser was found; open {page} in one")
+        print_note(f"--open: no browser was found; open {page} in one")
 
 
-def _page(place: str) -> Path:
+def _locate_page(place: str) -> Path:
     if isinstance(place, DemoFolder):
         return Path(place) / "index.html"
     return place.file if isinstance(place, FilePlace) else Path(place)

@@ -42,7 +42,7 @@ from modeler.cli.shared_arguments import (
 )
 from modeler.cli.use_commands import EXPORT, GENERATE
 from modeler.core import errors
-from modeler.core.builtin import CONVENTIONS, EFFECTS, MOTIONS, SIMULATED, TEMPLATES, paper_names
+from modeler.core.builtin import CONVENTIONS, EFFECTS, MOTIONS, SIMULATED, TEMPLATES, list_papers
 from modeler.core.estimators import ABOUT, APART
 
 NOMINAL = ""
@@ -253,7 +253,7 @@ _LOAD = Group(
 )  # fmt: skip
 
 
-def _out_of_fit(args: argparse.Namespace) -> str:
+def _check_fit_output(args: argparse.Namespace) -> str:
     """A model is written of one method, and of several none."""
     alone = args.out is None and not args.method.several
     return "the following arguments are required: --out" if alone else ""
@@ -291,7 +291,7 @@ _FIT = Command(
               "15); left out: what an F-test misses"),
         _PROCESSING, _LOAD, DASK, *page(), pictures(),
     ),
-    lacks=_out_of_fit,
+    lacks=_check_fit_output,
 )  # fmt: skip
 
 _FREE_RUN = Group(
@@ -324,7 +324,7 @@ _COMPARE = Command(
     "modeler compare ur10e.model.json held_out.parquet --free-run --picture free_run",
     (
         value("model", "MODEL|ROBOT", places.RobotOrModel, ROBOT_OR_MODEL),
-        value("logs", "LOG", places.model_or_log,
+        value("logs", "LOG", places.parse_model_or_log,
               f"{LOGS}; before them perhaps further models or robot files, which are set beside "
               "the first", nargs="+"),
         MAP, *page(places.PageOrFolder), pictures(places.PictureFolder),
@@ -593,7 +593,7 @@ _REPRODUCE = Command(
     "modeler reproduce guegan-2003 --section methods",
     (
         value("paper", "PAPER", places.Word,
-              f"one of {', '.join(paper_names())}, or a robot of theirs"),
+              f"one of {', '.join(list_papers())}, or a robot of theirs"),
         choice("--section", ("print", "methods"), "what is printed, or methods; default: both"),
         pictures(),
     ),

@@ -8,8 +8,14 @@ from typing import Any, NoReturn
 
 from modeler import __version__
 from modeler.cli.command_table import COMMANDS, FAMILIES
-from modeler.cli.console import Loudness, write_stdout
-from modeler.cli.options import did_you_mean, find_option, options_of, unknown, usage_of
+from modeler.cli.console import Verbosity, write_stdout
+from modeler.cli.options import (
+    collect_options,
+    describe_unknown,
+    find_option,
+    format_usage,
+    suggest_name,
+)
 
 _EPILOG = """\
 example: modeler derive wrist
@@ -36,7 +42,7 @@ class _Parser(argparse.ArgumentParser):
     def usage(self) -> str | None:
         """Of a command; argparse writes that of all commands itself."""
         if self._stated is None and self._subparsers is None:
-            return usage_of(self)
+            return format_usage(self)
         return self._stated
 
     @usage.setter
@@ -46,57 +52,64 @@ class _Parser(argparse.ArgumentParser):
     def parse_known_args(self, args=None, namespace=None):  # type: ignore[no-untyped-def]
         if self._subparsers is not None:
             for word in takewhile(lambda word: word.startswith("--"), args):
-                if not any(name.startswith(word) for name in options_of(self)):
-                    self.error(self._unknown(word))
+                if not any(name.startswith(word) for name in collect_options(self)):
+                    self.error(self._describe_unknown(word))
             return super().parse_known_args(args, namespace)
         if self._intermixed or any(a.nargs == argparse.REMAINDER for a in self._actions):
             return super().parse_known_args(args, namespace)
         words = list(takewhile(lambda word: word != "--", args))
         for word in words:
             name = word.partition("=")[0]
-            if name[:2] == "--" and not any(full.startswith(name) for full in options_of(self)):
-                self.error(self._unknown(word))
-        self._intermixed, self.usage = True, usage_of(self)  # its arguments are hidden meanwhile
+            if name[:2] == "--" and not any(
+                full.startswith(name) for full in collect_options(self)
+            ):
+                self.error(self._describe_unknown(word))
+        self._intermixed, self.usage = (
+            True,
+            format_usage(self),
+        )  # its arguments are hidden meanwhile
         try:  # options and arguments in any order
-            found, rest = self.parse_known_intermixed_args(args, namespace)
+            arguments, rest = self.parse_known_intermixed_args(args, namespace)
         finally:
             self._intermixed = False
         if rest:
             options = [word for word in rest if word.startswith("-") and len(word) > 1]
             self.error(
-                self._unknown(options[0])
+                self._describe_unknown(options[0])
                 if options
                 else f"got {' '.join(rest)} as well; expected no more arguments"
             )
-        if lacks := found.lacks(found):
+        if lacks := arguments.lacks(arguments):
             self.error(lacks)
         typed = (find_option(self, word) for word in words)
-        found.given = frozenset(action.dest for action in typed if action is not None)
-        return found, rest
+        arguments.given = frozenset(action.dest for action in typed if action is not None)
+        return arguments, rest
 
-    def _unknown(self, option: str) -> str:
+    def _describe_unknown(self, option: str) -> str:
         """What is said of an option that is none."""
         name = option.partition("=")[0]
-        return f"unknown option {option}{did_you_mean(name, options_of(self))}"
+        return f"unknown option {option}{suggest_name(name, collect_options(self))}"
 
     def _check_value(self, action: argparse.Action, value: Any) -> None:
         if action.choices is None or value in action.choices:
             return
         if isinstance(action, argparse._SubParsersAction):
-            near = did_you_mean(value, COMMANDS)
+            near = suggest_name(value, COMMANDS)
             self.error(f"unknown command {value}{near}")
-        raise argparse.ArgumentError(action, unknown(value, [*map(str, action.choices)]))
+        raise argparse.ArgumentError(action, describe_unknown(value, [*map(str, action.choices)]))
 
     def format_help(self) -> str:
         """Of all commands: those that belong together under their title."""
         if self._subparsers is None:
             return super().format_help()
         (listed,) = (a for a in self._actions if isinstance(a, argparse._SubParsersAction))
-        told = {action.dest: action for action in listed._choices_actions}
+        actions_by_name = {action.dest: action for action in listed._choices_actions}
         text = self._get_formatter()
         text.add_usage(self.usage, self._actions, self._mutually_exclusive_groups)
         text.add_text(self.description)
-        sections = [(title, [told[c.name] for c in each]) for title, each in FAMILIES.items()]
+        sections = [
+            (title, [actions_by_name[c.name] for c in each]) for title, each in FAMILIES.items()
+        ]
         sections += [
             (group.title or "", [a for a in group._group_actions if a is not listed])
             for group in self._action_groups
@@ -128,7 +141,7 @@ class _Version(argparse.Action):
 
 
 @cache
-def parser() -> argparse.ArgumentParser:
+def build_parser() -> argparse.ArgumentParser:
     """The parser of all commands, the same each time; nothing may be added to it."""
     top: argparse.ArgumentParser = _Parser(
         prog="modeler",
@@ -142,9 +155,9 @@ def parser() -> argparse.ArgumentParser:
     for command in COMMANDS.values():
         command.add_to(commands)
     commands.choices["completion"].set_defaults(top=top)
-    _add_loudness(top)
+    _add_verbosity(top)
     for each in commands.choices.values():
-        _add_loudness(each).add_argument(
+        _add_verbosity(each).add_argument(
             "--progress",
             choices=("bar", "lines"),
             default="bar",
@@ -154,36 +167,40 @@ def parser() -> argparse.ArgumentParser:
     return top
 
 
-def commands_of(top: argparse.ArgumentParser) -> dict[str, argparse.ArgumentParser]:
+def collect_command_parsers(top: argparse.ArgumentParser) -> dict[str, argparse.ArgumentParser]:
     """The parser of each command."""
     (listed,) = (a for a in top._actions if isinstance(a, argparse._SubParsersAction))
     return dict(listed.choices)
 
 
-def _add_loudness(parser: argparse.ArgumentParser) -> argparse._ArgumentGroup:
+def _add_verbosity(parser: argparse.ArgumentParser) -> argparse._ArgumentGroup:
     """Before the command or after it; a command that is not told keeps what was said before."""
     group = parser.add_argument_group("what is told")
-    for loudness, short, text in (
-        (Loudness.QUIET, "-q", "results and errors only: no notes, no progress"),
-        (Loudness.VERBOSE, "-v", "every step with its seconds, versions, where an error came from"),
+    for verbosity, short, text in (
+        (Verbosity.QUIET, "-q", "results and errors only: no notes, no progress"),
+        (
+            Verbosity.VERBOSE,
+            "-v",
+            "every step with its seconds, versions, where an error came from",
+        ),
     ):
         group.add_argument(
-            short, f"--{loudness.value}", action="store_true", default=argparse.SUPPRESS, help=text
+            short, f"--{verbosity.value}", action="store_true", default=argparse.SUPPRESS, help=text
         )
     return group
 
 
-def parsed(words: Sequence[str]) -> tuple[argparse.Namespace, Loudness]:
+def parse_words(words: Sequence[str]) -> tuple[argparse.Namespace, Verbosity]:
     """The arguments of a command, and how much it tells.
 
     Wrong usage ends the program with status 2.
     """
-    top = parser()
+    top = build_parser()
     at = next((i for i, word in enumerate(words) if not word.startswith("-")), None)
     if at is not None and words[at] == "help":  # as other programs have it
         words = [*words[:at], *words[at + 1 :], "--help"]
     args = top.parse_args(words)
-    wanted = [loudness for loudness in Loudness if vars(args).pop(loudness.value, False)]
-    if len(wanted) > 1:
+    verbosities = [verbosity for verbosity in Verbosity if vars(args).pop(verbosity.value, False)]
+    if len(verbosities) > 1:
         top.error("got --quiet and --verbose; expected one of them")
-    return args, wanted[0] if wanted else Loudness.USUAL
+    return args, verbosities[0] if verbosities else Verbosity.NORMAL

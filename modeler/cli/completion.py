@@ -6,10 +6,10 @@ from collections.abc import Iterable, Sequence
 from pathlib import Path
 
 from modeler.cli import places
-from modeler.cli.commands import commands_of
-from modeler.cli.console import Json, say, say_lines
-from modeler.cli.options import ALL, METHODS, arguments_of, find_option, options_of
-from modeler.core.builtin import paper_names
+from modeler.cli.commands import collect_command_parsers
+from modeler.cli.console import Json, print_lines, print_result
+from modeler.cli.options import ALL, METHODS, collect_arguments, collect_options, find_option
+from modeler.core.builtin import list_papers
 from modeler.core.estimators import ABOUT
 from modeler.effects import CATALOGUE as EFFECTS
 
@@ -50,65 +50,71 @@ SCRIPTS = {"bash": _BASH, "zsh": _ZSH, "fish": _FISH}
 def run_completion(args: argparse.Namespace) -> Json:
     """Prints the script, or what the last word may become."""
     if args.words is None:
-        say(SCRIPTS[args.shell].rstrip())
+        print_result(SCRIPTS[args.shell].rstrip())
         return {"shell": args.shell, "script": SCRIPTS[args.shell]}
-    found = candidates(args.words[1:], args.top)
-    say_lines(found)
-    return found
+    completions = complete_words(args.words[1:], args.top)
+    print_lines(completions)
+    return completions
 
 
-def candidates(words: Sequence[str], top: argparse.ArgumentParser) -> list[str]:
+def complete_words(words: Sequence[str], top: argparse.ArgumentParser) -> list[str]:
     """What the last of the words may become, the others standing before it.
 
     Args:
         words: after the name of the program; bash cuts `--out=x` into three of them.
         top: the parser of all commands.
     """
-    words, before = _joined(words)
-    names = commands_of(top)
+    words, before = _split_at_equals(words)
+    names = collect_command_parsers(top)
     *typed, last = words or [""]
     command = next((word for word in typed if not word.startswith("-")), None)
     if command is None:
-        return _beginning(last, [*names, *options_of(top)] if last[:1] == "-" else names)
+        return _select_beginning(
+            last, [*names, *collect_options(top)] if last[:1] == "-" else names
+        )
     if command not in names:
         return []
-    found = _of_command(names[command], typed[typed.index(command) + 1 :], last)
-    return [before + each for each in found]
+    completions = _complete_command(names[command], typed[typed.index(command) + 1 :], last)
+    return [before + each for each in completions]
 
 
-def _joined(words: Sequence[str]) -> tuple[list[str], str]:
+def _split_at_equals(words: Sequence[str]) -> tuple[list[str], str]:
     """Words with `--option=value` as two, and what stands before the value in the last word."""
-    found: list[str] = []
+    parts: list[str] = []
     cut = False
     for word in words:
-        if word == "=" and found and found[-1].startswith("--"):
+        if word == "=" and parts and parts[-1].startswith("--"):
             cut = True
             continue
-        found.append(word)
+        parts.append(word)
     if cut and words[-1] == "=":
-        found.append("")
-    if not found:
+        parts.append("")
+    if not parts:
         return [], ""
-    name, equals, value = found[-1].partition("=")
+    name, equals, value = parts[-1].partition("=")
     if equals and name.startswith("--"):
-        return [*found[:-1], name, value], f"{name}="
-    return found, ""
+        return [*parts[:-1], name, value], f"{name}="
+    return parts, ""
 
 
-def _of_command(parser: argparse.ArgumentParser, typed: Sequence[str], last: str) -> list[str]:
+def _complete_command(
+    parser: argparse.ArgumentParser, typed: Sequence[str], last: str
+) -> list[str]:
     if last.startswith("-") and "--" not in typed:
-        shown = options_of(parser).items()
-        return _beginning(last, [name for name, a in shown if a.help != argparse.SUPPRESS])
-    option, count = _position(parser, typed)
+        option_items = collect_options(parser).items()
+        return _select_beginning(
+            last, [name for name, a in option_items if a.help != argparse.SUPPRESS]
+        )
+    option, count = _find_position(parser, typed)
     if option is None:
-        return _argument(parser, count, last)
-    found = _values(parser, option, last)
+        return _complete_argument(parser, count, last)
+    completions = _complete_values(parser, option, last)
     if option.nargs != "?":
-        return found
-    return sorted({*found, *_argument(parser, count, last)})
+        return completions
+    return sorted({*completions, *_complete_argument(parser, count, last)})
 
 
-def _position(
+def _find_position(
     parser: argparse.ArgumentParser, typed: Sequence[str]
 ) -> tuple[argparse.Action | None, int]:
     """The option whose value the next word would be, and how many arguments there are."""
@@ -126,41 +132,43 @@ def _position(
     return option, count
 
 
-def _argument(parser: argparse.ArgumentParser, count: int, last: str) -> list[str]:
+def _complete_argument(parser: argparse.ArgumentParser, count: int, last: str) -> list[str]:
     """Values of the argument after so many."""
-    arguments = arguments_of(parser)
+    arguments = collect_arguments(parser)
     if count >= len(arguments):
         if not arguments or arguments[-1].nargs not in ("+", "*"):
             return []
         count = len(arguments) - 1
-    return _values(parser, arguments[count], last)
+    return _complete_values(parser, arguments[count], last)
 
 
-def _values(parser: argparse.ArgumentParser, action: argparse.Action, last: str) -> list[str]:
+def _complete_values(
+    parser: argparse.ArgumentParser, action: argparse.Action, last: str
+) -> list[str]:
     if action.choices is not None:
-        return _beginning(last, map(str, action.choices))
+        return _select_beginning(last, map(str, action.choices))
     listed = _LISTED.get(action.dest)
     if listed is not None:
         earlier, comma, current = last.rpartition(",")
-        return [earlier + comma + each for each in _beginning(current, listed)]
-    return _places(action.type, last)
+        return [earlier + comma + each for each in _select_beginning(current, listed)]
+    return _complete_places(action.type, last)
 
 
-def _places(kind: object, last: str) -> list[str]:
+def _complete_places(kind: object, last: str) -> list[str]:
     """Names and files that an argument of that type takes."""
-    if kind is places.model_or_log:
-        return _files(last, (".json", *places.LOG_ENDINGS))
+    if kind is places.parse_model_or_log:
+        return _complete_files(last, (".json", *places.LOG_ENDINGS))
     if isinstance(kind, type) and issubclass(kind, places.OutputFolder):
-        return _files(last, ())
+        return _complete_files(last, ())
     if isinstance(kind, type) and issubclass(kind, places.FilePlace):
-        return [*_beginning(last, kind.names()), *_files(last, kind.endings)]
+        return [*_select_beginning(last, kind.names()), *_complete_files(last, kind.endings)]
     return []
 
 
-def _files(last: str, endings: tuple[str, ...]) -> list[str]:
+def _complete_files(last: str, endings: tuple[str, ...]) -> list[str]:
     """Folders, with / at the end, and files that end so."""
     folder, name = os.path.split(last)
-    found = []
+    paths = []
     try:
         with os.scandir(Path(folder).expanduser() if folder else ".") as entries:
             for entry in entries:
@@ -168,15 +176,15 @@ def _files(last: str, endings: tuple[str, ...]) -> list[str]:
                     continue
                 place = os.path.join(folder, entry.name)  # noqa: PTH118  keeps ./ and ~ as typed
                 if entry.is_dir():
-                    found.append(f"{place}/")
+                    paths.append(f"{place}/")
                 elif entry.name.lower().endswith(endings):
-                    found.append(place)
+                    paths.append(place)
     except OSError:
         return []
-    return sorted(found)
+    return sorted(paths)
 
 
-def _beginning(start: str, names: Iterable[str]) -> list[str]:
+def _select_beginning(start: str, names: Iterable[str]) -> list[str]:
     return [name for name in names if name.startswith(start)]
 
 
@@ -185,6 +193,6 @@ _LISTED: dict[str, Iterable[str]] = {
     **dict.fromkeys(("effect", "effects", "without", "between", "hide"), _EFFECT_IDS),
     "method": (*METHODS, ALL),
     "methods": ABOUT,
-    "paper": paper_names(),
+    "paper": list_papers(),
 }
 """Words that are names, by what the argument is called in the code."""

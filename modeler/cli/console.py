@@ -17,8 +17,8 @@ from typing import TYPE_CHECKING, Any
 
 from modeler import __version__
 from modeler.cli.places import OutputFolder
-from modeler.core.errors import ModelerError, on_one_line
-from modeler.core.files import Kind, destination, write_atomically
+from modeler.core.errors import ModelerError, flatten_message
+from modeler.core.files import DestinationKind, resolve_destination, write_atomically
 
 if TYPE_CHECKING:
     from modeler.core.figure import Picture
@@ -27,15 +27,15 @@ if TYPE_CHECKING:
 # How much is told beside the results: `--quiet` and `--verbose`.
 
 
-class Loudness(Enum):
+class Verbosity(Enum):
     """What goes to stderr: errors alone; notes and, on a terminal, progress; every step."""
 
     QUIET = "quiet"
-    USUAL = "usual"
+    NORMAL = "usual"
     VERBOSE = "verbose"
 
 
-_LOUDNESS: ContextVar[Loudness] = ContextVar("loudness", default=Loudness.USUAL)
+_LOUDNESS: ContextVar[Verbosity] = ContextVar("loudness", default=Verbosity.NORMAL)
 
 _FOR_PROGRAMS: ContextVar[bool] = ContextVar("for programs", default=False)
 """Whether progress is told in lines that a program reads, in place of a bar: `--progress lines`."""
@@ -47,28 +47,28 @@ _PACKAGES = (
 )  # fmt: skip
 
 
-def loudness() -> Loudness:
+def get_verbosity() -> Verbosity:
     """Of the command that runs."""
     return _LOUDNESS.get()
 
 
 @contextmanager
-def using_loudness(wanted: Loudness, for_programs: bool = False) -> Iterator[None]:
+def apply_verbosity(verbosity: Verbosity, for_programs: bool = False) -> Iterator[None]:
     """While this lasts, so much is told; warnings of libraries too.
 
     Args:
-        wanted: how much.
+        verbosity: how much.
         for_programs: True: progress as lines, even where little is told.
     """
     import warnings
 
-    before = _LOUDNESS.set(wanted)
+    before = _LOUDNESS.set(verbosity)
     lines = _FOR_PROGRAMS.set(for_programs)
     try:
         with warnings.catch_warnings():
-            if wanted is Loudness.QUIET:
+            if verbosity is Verbosity.QUIET:
                 warnings.simplefilter("ignore")
-            elif wanted is Loudness.VERBOSE:
+            elif verbosity is Verbosity.VERBOSE:
                 warnings.simplefilter("default")
             yield
     finally:
@@ -77,43 +77,43 @@ def using_loudness(wanted: Loudness, for_programs: bool = False) -> Iterator[Non
 
 
 @contextmanager
-def step(title: str) -> Iterator[None]:
+def announce_step(title: str) -> Iterator[None]:
     """Told with its seconds, if every step is."""
-    if loudness() is not Loudness.VERBOSE:
+    if get_verbosity() is not Verbosity.VERBOSE:
         yield
         return
-    begun = time.perf_counter()
+    start_time = time.perf_counter()
     print_error(f"{title} ...")
     how = "stopped"
     try:
         yield
         how = "done"
     finally:
-        print_error(f"{title}: {how} after {time.perf_counter() - begun:.2f} s")
+        print_error(f"{title}: {how} after {time.perf_counter() - start_time:.2f} s")
 
 
 @contextmanager
-def clock(title: str) -> Iterator[None]:
+def show_clock(title: str) -> Iterator[None]:
     """Title and seconds on a terminal, while what could draw a bar is itself being loaded."""
     stream = sys.stderr
     if _FOR_PROGRAMS.get():
-        _line(title, None)
+        _write_progress_line(title, None)
         yield
         return
-    if loudness() is Loudness.QUIET or stream is None or not stream.isatty():
+    if get_verbosity() is Verbosity.QUIET or stream is None or not stream.isatty():
         yield
         return
     import threading
 
     ended = threading.Event()
 
-    def tick() -> None:
-        begun = time.perf_counter()
+    def show_seconds() -> None:
+        start_time = time.perf_counter()
         while not ended.wait(_TICK):
-            _raw(f"\r{title} {time.perf_counter() - begun:.1f} s")
-        _raw(f"\r{' ' * (len(title) + 12)}\r")  # a console that knows no codes can do that
+            _write_stderr(f"\r{title} {time.perf_counter() - start_time:.1f} s")
+        _write_stderr(f"\r{' ' * (len(title) + 12)}\r")  # a console that knows no codes can do that
 
-    ticking = threading.Thread(target=tick, daemon=True)
+    ticking = threading.Thread(target=show_seconds, daemon=True)
     ticking.start()
     try:
         yield
@@ -124,27 +124,31 @@ def clock(title: str) -> Iterator[None]:
 
 def show_start(words: Sequence[str]) -> None:
     """The command as it was read, and the versions of what it runs with."""
-    if loudness() is not Loudness.VERBOSE:
+    if get_verbosity() is not Verbosity.VERBOSE:
         return
     from importlib.metadata import PackageNotFoundError, version
 
-    found = [f"modeler {__version__}", f"Python {platform.python_version()}", platform.platform()]
+    versions = [
+        f"modeler {__version__}",
+        f"Python {platform.python_version()}",
+        platform.platform(),
+    ]
     for name in _PACKAGES:
         with contextlib.suppress(PackageNotFoundError):
-            found.append(f"{name} {version(name)}")
+            versions.append(f"{name} {version(name)}")
     print_error(f"words: {' '.join(words)}")
-    print_error(", ".join(found))
+    print_error(", ".join(versions))
 
 
 def show_traceback() -> None:
     """Where the error that is being handled came from."""
-    if loudness() is Loudness.VERBOSE:
+    if get_verbosity() is Verbosity.VERBOSE:
         import traceback
 
-        _raw(traceback.format_exc())
+        _write_stderr(traceback.format_exc())
 
 
-def _raw(text: str) -> None:
+def _write_stderr(text: str) -> None:
     with contextlib.suppress(OSError, ValueError):
         if sys.stderr is not None:
             sys.stderr.write(text)
@@ -158,20 +162,20 @@ Json = Any
 """What a command returns for `--json`: dicts, lists, texts, numbers."""
 
 
-def say(text: str = "") -> None:
+def print_result(text: str = "") -> None:
     """One result, on stdout."""
     write_stdout(f"{text}\n")
 
 
-def say_lines(lines: Iterable[str], before: str = "") -> None:
+def print_lines(lines: Iterable[str], before: str = "") -> None:
     """Results line by line, each with the same words before it."""
     for line in lines:
-        say(before + line)
+        print_result(before + line)
 
 
 def show_next(commands: Sequence[str]) -> None:
     """The command to go on with, as the last line."""
-    say_lines(commands[:1], "next: ")
+    print_lines(commands[:1], "next: ")
 
 
 def draw_page(place: str | None, page: "Callable[[], Page]") -> None:
@@ -179,27 +183,27 @@ def draw_page(place: str | None, page: "Callable[[], Page]") -> None:
     if place is not None:
         from modeler.report import write_page  # pages take long to load
 
-        with working("drawing the page"):
+        with show_activity("drawing the page"):
             written = write_page(Path(place), page())
-        say(f"written: {written}")
+        print_result(f"written: {written}")
 
 
 def draw_pictures(place: str | None, pictures: "Callable[[], Sequence[Picture]]") -> None:
     """Writes pictures and their numbers, if a place for them is given."""
     if place is not None:
-        say(f"written: {written_pictures(place, pictures())}")
+        print_result(f"written: {write_pictures(place, pictures())}")
 
 
-def written_pictures(place: str, pictures: "Sequence[Picture]") -> str:
+def write_pictures(place: str, pictures: "Sequence[Picture]") -> str:
     """Writes pictures into a folder, or as plain data into a file; says where they are."""
     if not isinstance(place, OutputFolder):
-        from modeler.core.picture_file import pictures_text
+        from modeler.core.picture_file import format_pictures
 
-        write_atomically(Path(place), pictures_text(pictures))
+        write_atomically(Path(place), format_pictures(pictures))
         return place
     from modeler.report import write_files
 
-    with progress("drawing pictures") as bar:
+    with show_progress("drawing pictures") as bar:
         written = write_files(Path(place), pictures, bar)
     return f"{len(written)} files in {place}"
 
@@ -211,7 +215,7 @@ def write_stdout(text: str) -> None:
         ModelerError: it cannot be written, as on a full disk.
         BrokenPipeError: its reader has gone.
     """
-    with _stdout_told():
+    with _convert_stdout_errors():
         if sys.stdout is not None:
             sys.stdout.write(text)
 
@@ -224,7 +228,7 @@ def flush_stdout() -> None:
         BrokenPipeError: its reader has gone.
     """
     try:
-        with _stdout_told():
+        with _convert_stdout_errors():
             if sys.stdout is not None:
                 sys.stdout.flush()
     except (ModelerError, BrokenPipeError):
@@ -237,12 +241,12 @@ def flush_stdout() -> None:
 
 def print_error(text: str) -> None:
     """One line on stderr; if that cannot be written, the exit status has to do."""
-    _raw(f"modeler: {text}\n")
+    _write_stderr(f"modeler: {text}\n")
 
 
-def note(text: str) -> None:
+def print_note(text: str) -> None:
     """One line on stderr that is no error; none with --quiet."""
-    if loudness() is not Loudness.QUIET:
+    if get_verbosity() is not Verbosity.QUIET:
         print_error(text)
 
 
@@ -254,7 +258,7 @@ def escape_unprintable() -> None:
 
 
 @contextmanager
-def _stdout_told() -> Iterator[None]:
+def _convert_stdout_errors() -> Iterator[None]:
     try:
         yield
     except BrokenPipeError:
@@ -276,13 +280,13 @@ def run_command(args: argparse.Namespace, run: Callable[[argparse.Namespace], Js
     alone = args.json is not None and _is_stdout(args.json)
     stdout = sys.stdout
 
-    def tell(content: Json) -> None:
+    def write_result(content: Json) -> None:
         if args.json is None:
             return
-        from modeler.core.json import nulled  # it reads TOML too, which help need not
+        from modeler.core.json import convert_to_plain  # it reads TOML too, which help need not
 
-        told = with_schema(args.command, nulled(content))
-        text = json.dumps(told, indent=1, allow_nan=False) + "\n"
+        document = add_schema(args.command, convert_to_plain(content))
+        text = json.dumps(document, indent=1, allow_nan=False) + "\n"
         if alone:
             with contextlib.redirect_stdout(stdout):
                 write_stdout(text)
@@ -290,11 +294,11 @@ def run_command(args: argparse.Namespace, run: Callable[[argparse.Namespace], Js
         else:
             write_atomically(Path(args.json), text)
 
-    args.tell = tell
+    args.tell = write_result
     with contextlib.redirect_stdout(io.StringIO()) if alone else contextlib.nullcontext():
         content = run(args)
     if content is not None:
-        tell(content)
+        write_result(content)
     if hasattr(args, "after"):
         args.after(args)
 
@@ -303,7 +307,7 @@ SCHEMA = 1
 """Version of what `--json` writes; entries may come, a name that changes makes another version."""
 
 
-def with_schema(command: str, content: Json) -> Json:
+def add_schema(command: str, content: Json) -> Json:
     """An object says which schema of docs/schema describes it."""
     if not isinstance(content, dict):
         return content
@@ -315,32 +319,34 @@ def _is_stdout(place: str) -> bool:
     if place == "-":
         return True
     try:
-        found = destination(Path(place))
-        return found.kind is Kind.DESCRIPTOR and found.descriptor == sys.stdout.fileno()
+        target = resolve_destination(Path(place))
+        return (
+            target.kind is DestinationKind.DESCRIPTOR and target.descriptor == sys.stdout.fileno()
+        )
     except (AttributeError, OSError, ValueError, ModelerError):
         return False
 
 
 @contextmanager
-def progress(title: str) -> Iterator[Callable[[float], None]]:
+def show_progress(title: str) -> Iterator[Callable[[float], None]]:
     """A bar on stderr while something runs, if stderr is a terminal; call with the share done."""
-    with step(title), _bar(title, 1.0) as tell:
+    with announce_step(title), _show_bar(title, 1.0) as tell:
         yield tell
 
 
 @contextmanager
-def working(title: str) -> Iterator[None]:
+def show_activity(title: str) -> Iterator[None]:
     """A bar that says only that something runs, and for how long, if stderr is a terminal."""
-    with step(title), _bar(title, None):
+    with announce_step(title), _show_bar(title, None):
         yield
 
 
 @contextmanager
-def _bar(title: str, total: float | None) -> Iterator[Callable[[float], None]]:
+def _show_bar(title: str, total: float | None) -> Iterator[Callable[[float], None]]:
     """A bar on a terminal; it moves to and fro where nobody knows the share."""
-    hidden = loudness() is Loudness.QUIET or _SHOWN.get()
+    hidden = get_verbosity() is Verbosity.QUIET or _SHOWN.get()
     if _FOR_PROGRAMS.get() and not _SHOWN.get():
-        with _lines(title, total) as tell:
+        with _show_progress_lines(title, total) as tell:
             yield tell
         return
     if hidden or sys.stderr is None or not sys.stderr.isatty():
@@ -360,20 +366,20 @@ def _bar(title: str, total: float | None) -> Iterator[Callable[[float], None]]:
 
 
 @contextmanager
-def _lines(title: str, total: float | None) -> Iterator[Callable[[float], None]]:
+def _show_progress_lines(title: str, total: float | None) -> Iterator[Callable[[float], None]]:
     """The same in lines: one at the beginning, then one where there is another percent to tell."""
-    told = [time.monotonic(), 0.0]
+    last_shown = [time.monotonic(), 0.0]
 
-    def tell(share: float) -> None:
+    def show_share(share: float) -> None:
         now = time.monotonic()
-        if share >= told[1] + 0.01 and now >= told[0] + _PAUSE:
-            told[:] = now, share
-            _line(title, share)
+        if share >= last_shown[1] + 0.01 and now >= last_shown[0] + _PAUSE:
+            last_shown[:] = now, share
+            _write_progress_line(title, share)
 
     before = _SHOWN.set(True)
     try:
-        _line(title, None if total is None else 0.0)
-        yield tell
+        _write_progress_line(title, None if total is None else 0.0)
+        yield show_share
     finally:
         _SHOWN.reset(before)
 
@@ -381,5 +387,7 @@ def _lines(title: str, total: float | None) -> Iterator[Callable[[float], None]]
 _PAUSE = 0.1  # s between two lines
 
 
-def _line(title: str, share: float | None) -> None:
-    _raw(f"progress {'-' if share is None else f'{min(share, 1.0):.2f}'} {on_one_line(title)}\n")
+def _write_progress_line(title: str, share: float | None) -> None:
+    _write_stderr(
+        f"progress {'-' if share is None else f'{min(share, 1.0):.2f}'} {flatten_message(title)}\n"
+    )

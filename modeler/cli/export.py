@@ -5,7 +5,7 @@ from pathlib import Path
 
 from modeler.api.exporting import export
 from modeler.api.model import open_model
-from modeler.cli.console import Json, note, say, say_lines, working
+from modeler.cli.console import Json, print_lines, print_note, print_result, show_activity
 from modeler.cli.lists import read_robot_with_notes
 
 
@@ -14,21 +14,21 @@ def run_export(args: argparse.Namespace) -> Json:
     model = open_model(args.source) if Path(args.source).suffix.lower() == ".json" else None
     thing = read_robot_with_notes(args.source) if model is None else model
     for line in () if model is None else model.warning:
-        note(line)
-    with working(f"exporting {args.source}"):
-        found = export(thing, args.out, args.to, args.like, args.force)
-    first, *lines = found.summary().splitlines()
-    say(f"{first}, written to {args.out}")
-    changed = found.table("changed")
-    if found.like and len(changed):
-        same = len(found.values) - len(changed)
-        say_lines(
+        print_note(line)
+    with show_activity(f"exporting {args.source}"):
+        exported = export(thing, args.out, args.to, args.like, args.force)
+    first, *lines = exported.summary().splitlines()
+    print_result(f"{first}, written to {args.out}")
+    changed = exported.table("changed")
+    if exported.like and len(changed):
+        same = len(exported.values) - len(changed)
+        print_lines(
             [
                 "",
-                *changed.text().splitlines()[1:],
+                *changed.to_text().splitlines()[1:],
                 f"{same} others are as they were, in these digits",
                 "",
             ]
         )
-    say_lines(lines, "* ")
-    return {**found.to_dict(), "out": str(args.out)}
+    print_lines(lines, "* ")
+    return {**exported.to_dict(), "out": str(args.out)}

@@ -8,57 +8,63 @@ from pathlib import Path
 from typing import Any
 
 import modeler.api.fitting as fitting
-from modeler.api.identifying import fitted_on
-from modeler.api.log_maps import settled
-from modeler.api.long_logs import Telling
-from modeler.api.workflow import compile_model, derive, generate, processing_of
+from modeler.api.identifying import fit_logs
+from modeler.api.log_maps import resolve_mapping
+from modeler.api.long_logs import Reporter
+from modeler.api.workflow import build_processing, compile_model, derive, generate
 from modeler.cli.console import (
     Json,
     draw_page,
     draw_pictures,
-    note,
-    progress,
-    say,
-    say_lines,
+    print_lines,
+    print_note,
+    print_result,
+    show_activity,
     show_next,
-    working,
+    show_progress,
 )
-from modeler.cli.lists import robot_of, use_options_of
+from modeler.cli.lists import apply_stated_options, resolve_robot
 from modeler.cli.options import ALL, Methods
 from modeler.core.errors import GAIN_METHOD, DataError
 from modeler.core.files import write_atomically
 from modeler.core.jobs import Workers, open_workers
-from modeler.core.table import aligned
-from modeler.estimation import OF_TRIANGLES, IdentifiedModel, save_model, side_by_side
-from modeler.observation import Log, Observation, Processing, check_apart
-from modeler.report import after_fit, estimators_page, remarks_of, table_of, values_of
-from modeler.robot import read_robot, with_fitted
+from modeler.core.table import align_columns
+from modeler.estimation import OF_TRIANGLES, IdentifiedModel, compare_methods, save_model
+from modeler.observation import Log, Observation, Processing, check_no_overlap
+from modeler.report import (
+    build_estimators_page,
+    collect_remarks,
+    suggest_after_fit,
+    tabulate_estimates,
+    tabulate_estimators,
+)
+from modeler.robot import read_robot, replace_fitted_values
 
 
 def run_fit(args: argparse.Namespace) -> Json:
     """Fits, prints the table, saves the model."""
-    use_options_of(args, "fit", read_robot(args.robot).fit)
+    apply_stated_options(args, "fit", read_robot(args.robot).fit)
     args.method = Methods(args.method)
     _check_options(args)
-    processing = processing_of(vars(args))
+    processing = build_processing(vars(args))
     if args.method.several:
         return _compare_methods(args, processing)
-    robot = robot_of(args)
-    with working(f"deriving {robot.name}"):
+    robot = resolve_robot(args)
+    with show_activity(f"deriving {robot.name}"):
         derivation = derive(robot)
         emitted = generate(derivation)
         compiled = compile_model(emitted)
-    with working("looking at the logs"):
-        mapping, kept = settled(compiled, args.logs, args.map)
+    with show_activity("looking at the logs"):
+        mapping, stored_mapping = resolve_mapping(compiled, args.logs, args.map)
     load = fitting.Load(args.payload_log, args.payload_mass, args.payload_link, args.payload_moved)
     energy, below = args.model == "energy", args.essential_below
-    asked = fitting.FitRequest(args.method, energy, args.window, (), below)
-    model, observation, way, _ = fitted_on(
-        asked, derivation, emitted, compiled, args.logs, load, processing, mapping,
-        lambda logs, loaded: _check_given(args, logs, loaded),
-        Telling(working, progress, note, _cluster(args)),
+    request = fitting.FitRequest(args.method, energy, args.window, (), below)
+    model, observation, outcome, _ = fit_logs(
+        request, derivation, emitted, compiled, args.logs, load, processing, mapping,
+        lambda logs, loaded: _check_log_names(args, logs, loaded),
+        Reporter(show_activity, show_progress, print_note, _open_cluster(args)),
     )  # fmt: skip
-    return _written(args, kept, model, observation, way.lines) | way.further
+    return _write_model(args, stored_mapping, model, observation, outcome.lines) | outcome.further
 
 
 def _check_options(args: argparse.Namespace) -> None:
@@ -111,17 +117,18 @@ def _check_several(args: argparse.Namespace) -> None:
                 f"several methods, as in --method {ALL}, and of a model by `modeler compare`"
             )
         return
-    given = [name for name in _OF_ONE if getattr(args, name)]
-    given += ["model"] * (args.model != "torque")
-    if given:
+    unused_options = [name for name in _OF_ONE if getattr(args, name)]
+    unused_options += ["model"] * (args.model != "torque")
+    if unused_options:
         raise DataError(
-            f"--{given[0].replace('_', '-')}: got it with --method {args.method}, which compares "
+            f"--{unused_options[0].replace('_', '-')}: got it with --method {args.method}, which "
+            "compares "
             "methods and writes no model; leave it out, or choose one method"
         )
 
 
-def _check_given(args: argparse.Namespace, logs: Sequence[Log], loaded: Sequence[Log]) -> None:
-    check_apart([*logs, *loaded], places=[*args.logs, *args.payload_log])
+def _check_log_names(args: argparse.Namespace, logs: Sequence[Log], loaded: Sequence[Log]) -> None:
+    check_no_overlap([*logs, *loaded], places=[*args.logs, *args.payload_log])
     places = {log.name: place for place, log in zip(args.logs, logs, strict=True)}
     for place, log in zip(args.payload_log, loaded, strict=True):
         if log.name in places:
@@ -131,7 +138,7 @@ def _check_given(args: argparse.Namespace, logs: Sequence[Log], loaded: Sequence
             )
 
 
-def _cluster(args: argparse.Namespace) -> AbstractContextManager[Workers] | None:
+def _open_cluster(args: argparse.Namespace) -> AbstractContextManager[Workers] | None:
     """Of `--dask`; None without.
 
     Raises:
@@ -154,7 +161,7 @@ def _cluster(args: argparse.Namespace) -> AbstractContextManager[Workers] | None
     return open_workers(args.dask)
 
 
-def _written(
+def _write_model(
     args: argparse.Namespace,
     mapping: Mapping[str, Any],
     model: IdentifiedModel,
@@ -164,23 +171,23 @@ def _written(
     """Saves and prints the model, which keeps the mapping."""
     model = dataclasses.replace(model, mapping=mapping)
     save_model(args.out, model)
-    *told, verdict = model.fit.lines()
-    say_lines([*observation.report.lines(), "", *lines, *told])
-    say(f"written: {args.out}")
+    *result_lines, verdict = model.fit.format_lines()
+    print_lines([*observation.report.format_lines(), "", *lines, *result_lines])
+    print_result(f"written: {args.out}")
     if args.report is not None or args.picture is not None:
-        from modeler.report import fit_page  # pages take long to load
+        from modeler.report import build_fit_page  # pages take long to load
 
-        following = after_fit(args.out, args.logs, args.robot, model.fit, args.map)
-        page = fit_page(model, observation.report.lines(), args.out, following)
+        following = suggest_after_fit(args.out, args.logs, args.robot, model.fit, args.map)
+        page = build_fit_page(model, observation.report.format_lines(), args.out, following)
         draw_page(args.report, lambda: page)
-        draw_pictures(args.picture, page.pictures)
+        draw_pictures(args.picture, page.collect_pictures)
     if args.robot_out is not None:
-        text = with_fitted(model.robot_text, model.fit.standard)
+        text = replace_fitted_values(model.robot_text, model.fit.standard)
         write_atomically(Path(args.robot_out), text)
-        say(f"written: {args.robot_out}")
-    say(verdict)
+        print_result(f"written: {args.robot_out}")
+    print_result(verdict)
     logs = [*args.logs, *args.payload_log]
-    show_next(after_fit(args.out, logs, args.robot, model.fit, args.map))
+    show_next(suggest_after_fit(args.out, logs, args.robot, model.fit, args.map))
     return model.fit.to_json()
 
 
@@ -189,26 +196,29 @@ def _written(
 
 def _compare_methods(args: argparse.Namespace, processing: Processing) -> Json:
     """Prints what each estimator makes of the logs; writes no model."""
-    methods = fitting.chosen_methods(None if args.method == ALL else args.method.split(","))
-    robot = robot_of(args)
-    with working(f"deriving {robot.name}"):
+    methods = fitting.select_methods(None if args.method == ALL else args.method.split(","))
+    robot = resolve_robot(args)
+    with show_activity(f"deriving {robot.name}"):
         compiled = compile_model(generate(derive(robot)))
-    with working("building the observation matrix"):
-        observation, held = fitting.observe_held_out(
+    with show_activity("building the observation matrix"):
+        observation, held_out = fitting.observe_held_out(
             compiled, args.logs, args.holdout, args.map, processing
         )
-    with progress("fitting") as bar:
-        tried = side_by_side(observation, compiled, held, methods, bar)
-    lines = tuple(observation.report.lines())
-    tables = (aligned(table, (0,)) for table in (table_of(tried), values_of(tried)))
-    say_lines([*lines, *(row.rstrip() for table in tables for row in ("", *table)), ""])
-    say_lines(f"{method}: {remark}" for method, remark in remarks_of(tried))
+    with show_progress("fitting") as bar:
+        tried = compare_methods(observation, compiled, held_out, methods, bar)
+    lines = tuple(observation.report.format_lines())
+    tables = (
+        align_columns(table, (0,))
+        for table in (tabulate_estimators(tried), tabulate_estimates(tried))
+    )
+    print_lines([*lines, *(row.rstrip() for table in tables for row in ("", *table)), ""])
+    print_lines(f"{method}: {remark}" for method, remark in collect_remarks(tried))
     if args.report is not None or args.picture is not None:
-        page = estimators_page(args.robot, tried, lines)
+        page = build_estimators_page(args.robot, tried, lines)
         draw_page(args.report, lambda: page)
-        draw_pictures(args.picture, page.pictures)
+        draw_pictures(args.picture, page.collect_pictures)
     return {
         "training": list(args.logs),
         "holdout": list(args.holdout),
-        "methods": [own.to_json() for own in tried],
+        "methods": [trial.to_json() for trial in tried],
     }

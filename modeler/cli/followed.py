@@ -18,16 +18,16 @@ PATIENCE = 3.0
 """Seconds from the interrupt to the end by force."""
 
 
-def _follow() -> None:
+def _wait_for_parent() -> None:
     """Waits for the end of the other program."""
     while os.read(0, 4096):
         pass
-    _signal_all(signal.SIGINT)
+    _send_signal_to_all(signal.SIGINT)
     time.sleep(PATIENCE)
-    _signal_all(getattr(signal, "SIGKILL", signal.SIGTERM))
+    _send_signal_to_all(getattr(signal, "SIGKILL", signal.SIGTERM))
 
 
-def _signal_all(number: int) -> None:
+def _send_signal_to_all(number: int) -> None:
     """To this process and all that it started."""
     if hasattr(os, "killpg") and os.getpgrp() == os.getpid():
         os.killpg(0, number)
@@ -40,7 +40,7 @@ def _signal_all(number: int) -> None:
 if __name__ == "__main__":
     # A program that was itself started in the background ignores it, and passes that on.
     signal.signal(signal.SIGINT, signal.default_int_handler)
-    threading.Thread(target=_follow, daemon=True).start()
+    threading.Thread(target=_wait_for_parent, daemon=True).start()
 
     from modeler.cli import main
 

@@ -10,75 +10,79 @@ from modeler.cli.console import (
     Json,
     draw_page,
     draw_pictures,
-    progress,
-    say,
-    say_lines,
+    print_lines,
+    print_result,
+    show_activity,
     show_next,
-    working,
-    written_pictures,
+    show_progress,
+    write_pictures,
 )
-from modeler.cli.lists import use_options_of
+from modeler.cli.lists import apply_stated_options
 from modeler.core.errors import DataError
 from modeler.core.files import write_atomically
-from modeler.core.table import DIGITS, percent
+from modeler.core.table import DIGITS, format_percent
 from modeler.diagnosis import (
     ANY_LAW,
     LEARNED,
-    LawAsked,
+    LawRequest,
     add_effect,
-    add_learned,
-    added,
-    lines,
-    notes,
-    undone,
+    add_learned_law,
+    describe_additions,
+    describe_last_addition,
+    format_lines,
+    remove_last_effect,
 )
-from modeler.effects import Effect, effect_named
+from modeler.effects import Effect, find_effect
 from modeler.estimation import IdentifiedModel, load_model, save_model
-from modeler.robot import near, robot_from_text
+from modeler.robot import parse_robot_text, suggest_name
 
 _WIDTH = 40  # characters of the longest bar
 
 
 def run_diagnose(args: argparse.Namespace) -> Json:
     """Prints the verdict, the effects and what cannot be told."""
-    if args.add and not args.discover:
+    if args.add and not args.discover_equations:
         raise DataError("--add: adds what --discover finds; give both, or neither")
     if args.add is not (args.out is not None):
         raise DataError("--add, --out MODEL2: got one of them; give both, or neither")
     model = load_model(args.model)
-    robot = robot_from_text(model.robot_text, f"{args.model}, robot")
-    use_options_of(args, "diagnose", robot.diagnose)
-    more = improve.shared_of(model, args.effects_from)
-    _check_without(args, (*robot.catalogue, *more.effects), model)
-    with working("deriving the robot of the model"):
-        compiled, logs = improve.logs_of(model, args.logs, args.holdout, args.map, True)
-    with progress("looking for missing effects") as bar:
-        diagnosis = improve.missing(model, compiled, logs, args.without, bar, args.discover, more)
+    robot = parse_robot_text(model.robot_text, f"{args.model}, robot")
+    apply_stated_options(args, "diagnose", robot.diagnose)
+    shared_effects = improve.read_shared_effects(model, args.effects_from)
+    _check_without(args, (*robot.catalogue, *shared_effects.effects), model)
+    with show_activity("deriving the robot of the model"):
+        compiled, logs = improve.read_log_sets(model, args.logs, args.holdout, args.map, True)
+    with show_progress("looking for missing effects") as bar:
+        diagnosis = improve.find_missing(
+            model, compiled, logs, args.without, bar, args.discover_equations, shared_effects
+        )
     better, left_out = model, tuple[str, ...]()
     if args.add:
-        with working("adding what was found"):
-            better, left_out = improve.discovered_added(model, compiled, logs, diagnosis, more)
+        with show_activity("adding what was found"):
+            better, left_out = improve.add_proposals(
+                model, compiled, logs, diagnosis, shared_effects
+            )
         save_model(args.out, better)
-    following = report.after_diagnosis(
+    following = report.suggest_after_diagnosis(
         args.model, args.logs, args.holdout, diagnosis, args.effects_from
     )
     if args.report is not None or args.picture is not None:
-        shown = [Path(place).name for place in (*args.logs, *args.holdout)]
+        file_names = [Path(place).name for place in (*args.logs, *args.holdout)]
         provenance = [
             f"model: {model.spec.robot}, {len(model.beta)} base parameters, fitted on "
             f"{', '.join(log.name for log in model.logs)}",
-            f"logs explained: {', '.join(shown[: len(args.logs)])}",
+            f"logs explained: {', '.join(file_names[: len(args.logs)])}",
             *model.warning,
         ]
-        origin = report.Origin(args.model, shown, bool(diagnosis.held_out), following)
-        with working("drawing"):
-            page = report.diagnosis_page(diagnosis, provenance, origin)
-    say_lines([*lines(diagnosis), *model.warning])
+        origin = report.Origin(args.model, file_names, bool(diagnosis.held_out), following)
+        with show_activity("drawing"):
+            page = report.build_diagnosis_page(diagnosis, provenance, origin)
+    print_lines([*format_lines(diagnosis), *model.warning])
     draw_page(args.report, lambda: page)
-    draw_pictures(args.picture, lambda: page.pictures())
+    draw_pictures(args.picture, lambda: page.collect_pictures())
     if args.add:
-        say_lines([*waterfall(better), *added(better), *left_out])
-        say_lines([args.out], "written: ")
+        print_lines([*format_waterfall(better), *describe_last_addition(better), *left_out])
+        print_lines([args.out], "written: ")
         return diagnosis.to_json() | {"left_out": list(left_out)}
     show_next(following)
     return diagnosis.to_json()
@@ -94,9 +98,9 @@ def _check_without(
     passive = closure.variables if closure is not None else ()
     for text in args.without:
         name = text.partition("@")[0]
-        if effect_named(name, catalogue) is None:
+        if find_effect(name, catalogue) is None:
             raise DataError(
-                f"--without {text}: no such effect{near(name, known)}; expected one of "
+                f"--without {text}: no such effect{suggest_name(name, known)}; expected one of "
                 f"{', '.join(known)}"
             )
     for text in args.without:
@@ -119,56 +123,56 @@ def run_add(args: argparse.Namespace) -> Json:
             f"--effects-from {args.effects_from}: got it with {args.effect}; expected an effect of "
             "the folder, or auto"
         )
-    asked = _law_asked(args)
+    law = _parse_law(args)
     model = load_model(args.model)
-    more = improve.shared_of(model, args.effects_from)
-    with working("deriving the robot of the model"):
-        compiled, logs = improve.logs_of(model, args.logs, args.holdout, args.map)
+    shared_effects = improve.read_shared_effects(model, args.effects_from)
+    with show_activity("deriving the robot of the model"):
+        compiled, logs = improve.read_log_sets(model, args.logs, args.holdout, args.map)
     left_out: tuple[str, ...] = ()
     if args.effect == "auto":
-        with progress("looking for missing effects") as bar:
-            better, left_out, _ = improve.auto_added(
-                model, compiled, logs, bar, working, args.learned, more
+        with show_progress("looking for missing effects") as bar:
+            better, left_out, _ = improve.add_all_missing(
+                model, compiled, logs, bar, show_activity, args.learned, shared_effects
             )
     elif args.effect == LEARNED:
-        with progress("learning a law") as bar:
-            better = add_learned(model, compiled, args.joint, logs, asked, bar)
+        with show_progress("learning a law") as bar:
+            better = add_learned_law(model, compiled, args.joint, logs, law, bar)
     elif args.effect == "undo":
-        with working("fitting without the last effect"):
-            better = undone(model, logs)
+        with show_activity("fitting without the last effect"):
+            better = remove_last_effect(model, logs)
     else:
-        with working(f"adding {args.effect}"):
-            model = improve.with_shared(model, more, args.effect)
+        with show_activity(f"adding {args.effect}"):
+            model = improve.define_shared_effect(model, shared_effects, args.effect)
             better = add_effect(model, compiled, args.effect, args.joint, logs)
     save_model(args.out, better)
-    following = report.after_add(args.out, args.logs, args.holdout, better.fit)
+    following = report.suggest_after_add(args.out, args.logs, args.holdout, better.fit)
     places = [args.out]
     if args.robot_out is not None:
         write_atomically(Path(args.robot_out), better.robot_text)
         places.append(args.robot_out)
-    drawn = []
+    pictures = []
     if (args.report is not None or args.picture is not None) and better.history:
-        held = better.history[-1].held_out
-        origin = report.Origin(args.out, held or args.logs, bool(held), following)
-        page = report.additions_page(better, left_out, origin)
+        held_out = better.history[-1].held_out
+        origin = report.Origin(args.out, held_out or args.logs, bool(held_out), following)
+        page = report.build_history_page(better, left_out, origin)
         if args.report is not None:
             places.append(str(report.write_page(Path(args.report), page)))
-        drawn = page.pictures()
+        pictures = page.collect_pictures()
     if args.picture is not None:
-        places.append(written_pictures(args.picture, drawn))
-    say_lines([*waterfall(better), *added(better), *left_out])
-    own = (f"joint {j.name} {percent(j.relative_error)}" for j in better.fit.joints)
-    say(f"error of the model on the logs of the fit: {', '.join(own)}")
-    say_lines([*notes(better, max(1, len(model.history))), *model.warning])
+        places.append(write_pictures(args.picture, pictures))
+    print_lines([*format_waterfall(better), *describe_last_addition(better), *left_out])
+    joint_errors = (f"joint {j.name} {format_percent(j.relative_error)}" for j in better.fit.joints)
+    print_result(f"error of the model on the logs of the fit: {', '.join(joint_errors)}")
+    print_lines([*describe_additions(better, max(1, len(model.history))), *model.warning])
     if better.fit.verdict is not None:
-        say(f"now: {better.fit.verdict.line}")
-    say_lines(places, "written: ")
+        print_result(f"now: {better.fit.verdict.line}")
+    print_lines(places, "written: ")
     show_next(following)
     steps = [step.to_json() for step in better.history]
     return better.fit.to_json() | {"waterfall": steps, "left_out": list(left_out)}
 
 
-def _law_asked(args: argparse.Namespace) -> LawAsked:
+def _parse_law(args: argparse.Namespace) -> LawRequest:
     """What the options say of a law.
 
     Raises:
@@ -176,18 +180,18 @@ def _law_asked(args: argparse.Namespace) -> LawAsked:
     """
     rising = {"rising": 1, "falling": -1, None: 0}[args.monotone]
     of = tuple(part.strip() for part in (args.of or "").split(",") if part.strip())
-    asked = LawAsked(of, args.odd, rising)
-    if args.effect != LEARNED and asked != ANY_LAW:
+    law = LawRequest(of, args.odd, rising)
+    if args.effect != LEARNED and law != ANY_LAW:
         raise DataError(
             f"--of, --odd, --monotone: got them with {args.effect}; expected `modeler add MODEL "
             f"{LEARNED}`"
         )
     if args.learned and args.effect != "auto":
         raise DataError(f"--learned: got it with {args.effect}; expected `modeler add MODEL auto`")
-    return asked
+    return law
 
 
-def waterfall(model: IdentifiedModel) -> list[str]:
+def format_waterfall(model: IdentifiedModel) -> list[str]:
     """The error after every effect that was added, as bars."""
     if not model.history:
         return ["nothing is added: the model stays as it was fitted"]
@@ -199,11 +203,13 @@ def waterfall(model: IdentifiedModel) -> list[str]:
     lines = [f"{'':<30} {title}"]
     largest = max(step.error for step in model.history) or 1.0
     for step in model.history:
-        name = report.step_name(step) if step.effect else "model as fitted"
+        name = report.format_step_name(step) if step.effect else "model as fitted"
         bar = ("~" if step.learned else "#") * round(_WIDTH * step.error / largest)
-        fitted = f"(fit error {percent(step.training_error, DIGITS)}{', learned' * step.learned})"
-        lines.append(f"{name:<30} {percent(step.error, DIGITS):>8} {bar}  {fitted}")
-    if (parts := model.fall_shares) is not None:
+        fitted = (
+            f"(fit error {format_percent(step.training_error, DIGITS)}{', learned' * step.learned})"
+        )
+        lines.append(f"{name:<30} {format_percent(step.error, DIGITS):>8} {bar}  {fitted}")
+    if (parts := model.error_reduction_shares) is not None:
         lines.append(f"{'':<30} ~ learned, not physics")
         physics, learned = (100.0 * part for part in parts)
         lines.append(

@@ -6,23 +6,23 @@ from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from modeler.cli.console import Json, note, say, say_lines, working
-from modeler.cli.options import unknown
+from modeler.cli.console import Json, print_lines, print_note, print_result, show_activity
+from modeler.cli.options import describe_unknown
 from modeler.cli.places import Output, check_places
-from modeler.core.builtin import OTHER_PROGRAMS, builtin_names
+from modeler.core.builtin import OTHER_PROGRAMS, list_builtin_robots
 from modeler.core.errors import DataError, RobotError
 from modeler.core.estimators import ABOUT
-from modeler.core.files import check_writable, write_all_unless_other
-from modeler.core.json import entries
-from modeler.core.toml_cells import shown
-from modeler.effects import CATALOGUE, Effect, Form, effect_named
+from modeler.core.files import check_writable, write_all_without_overwriting
+from modeler.core.json import select_attributes
+from modeler.core.toml_cells import quote_value
+from modeler.effects import CATALOGUE, Effect, Form, find_effect
 from modeler.robot import (
     Robot,
-    exported_effect,
-    near,
+    export_effect,
+    parse_robot_text,
     read_robot,
-    robot_from_text,
-    robot_with_effects as with_given_effects,
+    replace_robot_effects as with_given_effects,
+    suggest_name,
 )
 
 if TYPE_CHECKING:
@@ -44,22 +44,22 @@ _AXES = {
 }  # fmt: skip
 
 
-def _curve(form: Form, shapes: Mapping[str, float]) -> tuple[str, list[float], list[float]]:
+def _sample_effect(form: Form, shapes: Mapping[str, float]) -> tuple[str, list[float], list[float]]:
     """The axis on which a form is drawn, points of it, and the first column there."""
     order = ("T", "t", "since", "load", "z", "q", "torque", "a", "v")
-    late = {"z"} if form.memory is not None and form.memory.kind == "lag" else set()
+    late = {"z"} if form.internal_state is not None and form.internal_state.kind == "lag" else set()
     axis = next((name for name in order if name in form.names - late), "v")
     laws = [column.equation.law for column in form.columns]
     ends = [abs(end) for law in laws if law is not None for end in (*law.low, *law.high)]
     reach = max(ends, default=math.pi if axis == "q" else 1.0)
     x = [reach * (2.0 * k / (_POINTS - 1) - 1.0) for k in range(_POINTS)]
-    return axis, x, [_torque(form, axis, at, shapes) for at in x]
+    return axis, x, [_compute_effect_torque(form, axis, at, shapes) for at in x]
 
 
-def _torque(form: Form, axis: str, x: float, shapes: Mapping[str, float]) -> float:
+def _compute_effect_torque(form: Form, axis: str, x: float, shapes: Mapping[str, float]) -> float:
     """The column that is drawn, at one point of the axis, other variables at 1; 0 where it ends."""
     values: dict[str, float] = {}
-    for shape in form.shapes:
+    for shape in form.nonlinear_parameters:
         values[shape.name] = shape.grid[-1] if shape.grid else 6.0
     values |= {**shapes} | dict.fromkeys((*form.names, "v", "load", "static", "z"), 1.0)
     if axis == "load":  # both directions, the load growing outwards
@@ -80,23 +80,23 @@ def _torque(form: Form, axis: str, x: float, shapes: Mapping[str, float]) -> flo
     return result if math.isfinite(result) else 0.0
 
 
-def robot_of(args: argparse.Namespace) -> Robot:
+def resolve_robot(args: argparse.Namespace) -> Robot:
     """The robot that the arguments mean; a [home] that is missing or poor is found, and told."""
-    robot = robot_with_effects(args)
+    robot = read_robot_with_effects(args)
     if not robot.loops:
         return robot
-    from modeler.derivation import with_home  # not needed by commands that answer at once
+    from modeler.derivation import complete_home  # not needed by commands that answer at once
 
-    with working(f"closing the loops of {robot.name}"):
-        home = with_home(robot)
-    if home.told:
-        say(home.told)
-    return home.in_text(robot)
+    with show_activity(f"closing the loops of {robot.name}"):
+        home = complete_home(robot)
+    if home.message:
+        print_result(home.message)
+    return home.write_to_text(robot)
 
 
 def check_own_file(robot: str, what: str) -> None:
     """What --write cannot write into is refused before any work."""
-    if robot in builtin_names():
+    if robot in list_builtin_robots():
         raise DataError(
             f"--write: {robot} is built in; save it with `modeler robots {robot}` "
             "as a file of your own, and write into that"
@@ -111,17 +111,17 @@ def check_own_file(robot: str, what: str) -> None:
         check_writable(path)
 
 
-def use_options_of(args: argparse.Namespace, head: str, stated: Mapping[str, Any]) -> None:
+def apply_stated_options(args: argparse.Namespace, head: str, stated: Mapping[str, Any]) -> None:
     """Options that the robot file states, where they were not typed."""
-    taken = {name: value for name, value in stated.items() if name not in args.given}
-    for name, value in taken.items():
+    applied = {name: value for name, value in stated.items() if name not in args.given}
+    for name, value in applied.items():
         setattr(args, name, value)
-    if taken:
-        listed = ", ".join(f"{name} = {shown(value)}" for name, value in taken.items())
-        note(f"by [{head}] of the robot file: {listed}")
+    if applied:
+        listed = ", ".join(f"{name} = {quote_value(value)}" for name, value in applied.items())
+        print_note(f"by [{head}] of the robot file: {listed}")
 
 
-def robot_with_effects(args: argparse.Namespace) -> Robot:
+def read_robot_with_effects(args: argparse.Namespace) -> Robot:
     """The robot that the arguments name, with the effects that they give it."""
     robot = read_robot_with_notes(args.robot)
     if args.effects is None:
@@ -133,9 +133,9 @@ def read_robot_with_notes(name: str) -> Robot:
     """The robot of that name or file; what reading it decided or left out, on stderr."""
     robot = read_robot(name)
     if len(robot.readings) > 1:
-        note("\n  * ".join([f"{name}, read as a robot file:", *robot.readings]))
+        print_note("\n  * ".join([f"{name}, read as a robot file:", *robot.readings]))
     elif robot.readings:
-        note(f"{name}: {robot.readings[0]}")
+        print_note(f"{name}: {robot.readings[0]}")
     return robot
 
 
@@ -143,16 +143,16 @@ def run_robots(args: argparse.Namespace) -> Json:
     """Prints the table of built-in robots, or one robot's file."""
     if args.robot is not None:
         text = read_robot_with_notes(args.robot).text
-        say(text.rstrip())
+        print_result(text.rstrip())
         return {"name": args.robot, "text": text}
-    robots = [read_robot(name) for name in builtin_names()]
+    robots = [read_robot(name) for name in list_builtin_robots()]
     width = max(len(robot.name) for robot in robots)
     for robot in robots:
         effects = ", ".join(use.effect for use in robot.effects) or "rigid links only"
         count = len(robot.coordinates)
-        tree = len(robot.moving)
+        tree = len(robot.moving_joints)
         joints = f"{count} joints" + (f" of {tree}" if tree > count else "")
-        say(f"{robot.name:<{width}}  {joints:<12}  {robot.title} ({effects})")
+        print_result(f"{robot.name:<{width}}  {joints:<12}  {robot.title} ({effects})")
     return [
         {
             "name": robot.name,
@@ -171,7 +171,7 @@ def run_effects(args: argparse.Namespace) -> Json:
         from modeler.estimation import load_model  # the catalogue needs no fits
 
         model = load_model(args.robot)
-        robot = robot_from_text(model.robot_text, f"{args.robot}, robot")
+        robot = parse_robot_text(model.robot_text, f"{args.robot}, robot")
     elif args.robot is not None:
         robot = read_robot(args.robot)
     if args.export is not None:
@@ -179,65 +179,74 @@ def run_effects(args: argparse.Namespace) -> Json:
             raise DataError(
                 f"--export {args.export}: expected --robot too, a robot or model that has it"
             )
-        return _export(args, robot, model)
+        return _export_effect(args, robot, model)
     known = CATALOGUE if robot is None else robot.catalogue
     chosen = known
     if args.effect is not None:
-        effect = effect_named(args.effect, known)
+        effect = find_effect(args.effect, known)
         if effect is None:
             names = [each.id for each in known]
             raise RobotError(
-                f"effects: got {args.effect}{near(args.effect, names)}; expected one of "
+                f"effects: got {args.effect}{suggest_name(args.effect, names)}; expected one of "
                 f"{', '.join(names)}, or one that the file of --robot defines"
             )
         chosen = (effect,)
-    facts = [_facts(effect) for effect in chosen]
+    facts = [_describe_effect(effect) for effect in chosen]
     for fact in facts:
-        say(f"{fact['id']:<22} {fact['equation']}")
-        say(f"  {fact['title']}")
+        print_result(f"{fact['id']:<22} {fact['equation']}")
+        print_result(f"  {fact['title']}")
         if args.effect is not None:
             for name, value in fact.items():
                 if name not in ("id", "equation", "title") and value:
-                    say(f"  {name:<12} {', '.join(value) if isinstance(value, list) else value}")
+                    print_result(
+                        f"  {name:<12} {', '.join(value) if isinstance(value, list) else value}"
+                    )
     return facts
 
 
-def _export(args: argparse.Namespace, robot: Robot, model: "IdentifiedModel | None") -> Json:
+def _export_effect(args: argparse.Namespace, robot: Robot, model: "IdentifiedModel | None") -> Json:
     """Writes the definition of one effect, and its page."""
     from modeler import report  # the catalogue needs no pages
 
-    text = exported_effect(robot, args.export)
-    effect = effect_named(args.export, robot.own_effects)
+    text = export_effect(robot, args.export)
+    effect = find_effect(args.export, robot.own_effects)
     assert effect is not None
-    found = [at.shapes for use in robot.effects if use.effect == effect.id for at in use.instances]
-    axis, x, y = _curve(effect.forms[0], found[0] if found else {})
+    instance_shapes = [
+        at.nonlinear_parameters
+        for use in robot.effects
+        if use.effect == effect.id
+        for at in use.instances
+    ]
+    axis, x, y = _sample_effect(effect.forms[0], instance_shapes[0] if instance_shapes else {})
     label = {"q": "position [rad or m]", "v": "speed [rad/s or m/s]"}.get(axis, _AXES[axis])
-    page = report.effect_page(effect, text, robot, model, (label, x, y))
+    page = report.build_effect_page(effect, text, robot, model, (label, x, y))
     args.out = [Output(Path(args.out or ".", f"{effect.id}{end}")) for end in (".toml", ".html")]
     check_places(args)
     places = [place.file for place in args.out]
-    write_all_unless_other(list(zip(places, (text, str(page)), strict=True)), args.force)
-    say_lines(map(str, places), "written: ")
-    return [_facts(effect)]
+    write_all_without_overwriting(list(zip(places, (text, str(page)), strict=True)), args.force)
+    print_lines(map(str, places), "written: ")
+    return [_describe_effect(effect)]
 
 
 def run_estimators(args: argparse.Namespace) -> Json:
     """Prints the list, or some of it."""
-    wanted = list(ABOUT) if args.methods is None else args.methods.split(",")
-    for name in wanted:
+    method_ids = list(ABOUT) if args.methods is None else args.methods.split(",")
+    for name in method_ids:
         if name not in ABOUT:
-            raise DataError(f"estimators: {unknown(name, list(ABOUT))}")
-    chosen = [about for about in ABOUT.values() if about.id in wanted]
+            raise DataError(f"estimators: {describe_unknown(name, list(ABOUT))}")
+    chosen = [about for about in ABOUT.values() if about.id in method_ids]
     for about in chosen:
-        say(f"{about.id:<10} {about.title}")
-        say(f"  law        {about.law}")
-        say(f"  source     {about.source}")
-        say(f"  not        {about.avoid}")
-        say(f"  assumes    {about.motion}")
-    return [{"method": a.id} | entries(a, "title law source avoid motion") for a in chosen]
+        print_result(f"{about.id:<10} {about.title}")
+        print_result(f"  law        {about.law}")
+        print_result(f"  source     {about.source}")
+        print_result(f"  not        {about.avoid}")
+        print_result(f"  assumes    {about.motion}")
+    return [
+        {"method": a.id} | select_attributes(a, "title law source avoid motion") for a in chosen
+    ]
 
 
-def _facts(effect: Effect) -> dict[str, str | list[str]]:
+def _describe_effect(effect: Effect) -> dict[str, str | list[str]]:
     return {
         "id": effect.id,
         "aliases": list(effect.aliases),
@@ -245,7 +254,7 @@ def _facts(effect: Effect) -> dict[str, str | list[str]]:
         "equation": effect.equation,
         "parameters": [column.prefix for column in effect.columns],
         "unit": [column.unit_revolute for column in effect.columns],
-        "shapes": [f"{s.name}: {s.meaning}" for f in effect.forms for s in f.free],
+        "shapes": [f"{s.name}: {s.meaning}" for f in effect.forms for s in f.free_parameters],
         "same_as": list(effect.same_as),
         "signature": effect.signature,
         "look_alikes": effect.look_alikes,

@@ -6,29 +6,41 @@ from collections.abc import Sequence
 from pathlib import Path
 
 import modeler.api.workflow as workflow
-from modeler.api.fitting import FitOutcome, judged
+from modeler.api.fitting import FitOutcome, add_verdict
 from modeler.api.log_maps import (
-    Heard,
-    believed,
-    file_and_span,
-    log_map,
-    log_maps,
-    look_at,
-    read_mapped,
-    suggested_map,
+    MappingFit,
+    build_log_map,
+    build_log_maps,
+    choose_mapping,
+    inspect_log,
+    merge_suggested_map,
+    parse_time_range,
+    read_mapped_log,
 )
-from modeler.api.long_logs import are_long, judged_long, too_long
-from modeler.cli.console import Json, say, say_lines, working, written_pictures
+from modeler.api.long_logs import add_long_verdict, are_long, are_too_long
+from modeler.cli.console import Json, print_lines, print_result, show_activity, write_pictures
 from modeler.cli.lists import check_own_file, read_robot_with_notes
-from modeler.core.errors import BuildError, DataError, ModelerError, on_one_line
+from modeler.core.errors import BuildError, DataError, ModelerError, flatten_message
 from modeler.core.files import write_atomically
-from modeler.core.json import nulled
-from modeler.core.table import aligned, percent
-from modeler.estimation import FitResult, identify, log_findings, stream
-from modeler.logs import LogInspection, LogMap, map_from_words, marks_of, most_of
-from modeler.observation import Observation, WholeLogNeeded, bands_of, noise_of_positions, source_of
-from modeler.report import channel_rows, clock_line, log_page, log_pictures, write_page
-from modeler.robot import with_log
+from modeler.core.json import convert_to_plain
+from modeler.core.table import align_columns, format_percent
+from modeler.estimation import FitResult, find_log_faults, identify, stream_logs
+from modeler.logs import LogInspection, LogMap, find_marks, keep_longest, parse_map_options
+from modeler.observation import (
+    Observation,
+    WholeLogNeeded,
+    build_bands,
+    estimate_position_noise,
+    open_source,
+)
+from modeler.report import (
+    build_log_page,
+    describe_clock,
+    draw_log_pictures,
+    tabulate_channels,
+    write_page,
+)
+from modeler.robot import replace_log_table
 from modeler.runtime import CompiledModel
 
 _WIDEST = 44  # letters of a cell
@@ -45,7 +57,7 @@ def run_log(args: argparse.Namespace) -> Json:
         check_own_file(args.robot, "columns of logs")
     if args.robot is not None:
         robot = read_robot_with_notes(args.robot)
-        with working(f"deriving {robot.name}"):
+        with show_activity(f"deriving {robot.name}"):
             described = workflow.generate(workflow.derive(robot))
             try:
                 compiled = workflow.compile_model(described)
@@ -53,100 +65,123 @@ def run_log(args: argparse.Namespace) -> Json:
                 if args.write:  # a guess is tried before it is written
                     raise
                 uncompiled = error
-    mapping = map_from_words(args.map) if described is None else log_map(described, args.map)
-    seen = look_at(args.log, described, args.map)
-    doubts = [*seen.doubts]
+    mapping = (
+        parse_map_options(args.map) if described is None else build_log_map(described, args.map)
+    )
+    inspection = inspect_log(args.log, described, args.map)
+    doubts = [*inspection.warnings]
     if uncompiled is not None:
-        doubts.append(f"not tried by a fit of {robot.name}: {on_one_line(str(uncompiled))}")
-    noise = noise_of_positions(seen.positions)
-    bands, marks = bands_of(noise), marks_of(seen)
+        doubts.append(f"not tried by a fit of {robot.name}: {flatten_message(str(uncompiled))}")
+    noise = estimate_position_noise(inspection.positions)
+    bands, marks = build_bands(noise), find_marks(inspection)
     if compiled is not None:
-        sure = suggested_map(seen.plain, mapping)
-        ranged = suggested_map(seen.suggested, mapping)
-        heard, _, stands = believed(
-            lambda names: _heard(compiled, args.log, names, seen), sure,
-            None if seen.suggested == seen.plain else ranged,
+        sure = merge_suggested_map(inspection.suggested_without_ranges, mapping)
+        ranged = merge_suggested_map(inspection.suggested, mapping)
+        mapping_fit, _, stands = choose_mapping(
+            lambda names: _fit_mapping(compiled, args.log, names, inspection), sure,
+            None if inspection.suggested == inspection.suggested_without_ranges else ranged,
         )  # fmt: skip
-        if heard.report is not None:
-            noise, bands = heard.report.noise, heard.report.bands
-            marks = most_of([*marks, *heard.report.logs[0].marks()])
+        if mapping_fit.data_report is not None:
+            noise, bands = mapping_fit.data_report.noise, mapping_fit.data_report.bands
+            marks = keep_longest([*marks, *mapping_fit.data_report.logs[0].collect_marks()])
         if stands:  # it fits as it is: a range alone is no doubt
-            doubts = [line for line in doubts if line not in seen.ranged]
-            seen = dataclasses.replace(seen, suggested=seen.plain)
-        more = [line for line in heard.lines if not line.endswith(tuple(doubts))]
-        doubts = [own for own in doubts if not any(own in line for line in more)] + more
-    said = [*noise.channel_lines(), *bands.chosen_by] if noise is not None else []
-    say_lines(_lines(seen, doubts, said))
+            doubts = [line for line in doubts if line not in inspection.range_warnings]
+            inspection = dataclasses.replace(
+                inspection, suggested=inspection.suggested_without_ranges
+            )
+        more = [line for line in mapping_fit.lines if not line.endswith(tuple(doubts))]
+        doubts = [doubt for doubt in doubts if not any(doubt in line for line in more)] + more
+    noise_lines = [*noise.format_channels(), *bands.chosen_by] if noise is not None else []
+    print_lines(_format_inspection(inspection, doubts, noise_lines))
     places = []
     if args.write and compiled is not None:
-        named = dataclasses.replace(map_from_words(args.map), auto=True)
-        table = log_maps(compiled, [args.log], named)[0].table(compiled.spec.joints)
+        guess_map = dataclasses.replace(parse_map_options(args.map), auto=True)
+        table = build_log_maps(compiled, [args.log], guess_map)[0].build_table(compiled.spec.joints)
         before = " in place of its own" if robot.log else ""
-        write_atomically(Path(args.robot), with_log(robot.text, table))
+        write_atomically(Path(args.robot), replace_log_table(robot.text, table))
         places.append(f"[log] in {args.robot}{before}")
     if args.report is not None:
-        with working("drawing the page"):
-            places.append(str(write_page(Path(args.report), log_page(seen, doubts, [], bands))))
+        with show_activity("drawing the page"):
+            places.append(
+                str(write_page(Path(args.report), build_log_page(inspection, doubts, [], bands)))
+            )
     if args.picture is not None:
-        places.append(written_pictures(args.picture, log_pictures(seen, bands)))
+        places.append(write_pictures(args.picture, draw_log_pictures(inspection, bands)))
     if places:
-        say(f"written: {', '.join(places)}")
+        print_result(f"written: {', '.join(places)}")
     plain = [dataclasses.asdict(mark) for mark in marks]
-    return nulled(seen.to_json() | {"doubts": doubts, "bands": bands, "marks": plain})
+    return convert_to_plain(
+        inspection.to_json() | {"doubts": doubts, "bands": bands, "marks": plain}
+    )
 
 
-def _lines(seen: LogInspection, doubts: Sequence[str], noise: Sequence[str]) -> list[str]:
-    lines = [f"{seen.name}: {seen.rows} rows"]
+def _format_inspection(
+    inspection: LogInspection, doubts: Sequence[str], noise: Sequence[str]
+) -> list[str]:
+    lines = [f"{inspection.name}: {inspection.rows} rows"]
     lines += [
         f"  {stream.name}  {stream.kind}, {stream.rows} messages{', the clock' * stream.clock}"
-        for stream in seen.streams
+        for stream in inspection.streams
     ]
-    lines.append("clock: none found" if seen.clock is None else f"clock {clock_line(seen.clock)}")
+    lines.append(
+        "clock: none found"
+        if inspection.clock is None
+        else f"clock {describe_clock(inspection.clock)}"
+    )
     rows = [
         [*(c if len(c) <= _WIDEST else f"...{c[3 - _WIDEST :]}" for c in cells), remarks]
-        for *cells, remarks in channel_rows(seen)
+        for *cells, remarks in tabulate_channels(inspection)
     ]
-    lines += ["", *(line.rstrip() for line in aligned(rows, (0, 1, 6))), ""]
-    lines += [*noise, *(f"note: {note}" for note in seen.notes)]
+    lines += ["", *(line.rstrip() for line in align_columns(rows, (0, 1, 6))), ""]
+    lines += [*noise, *(f"note: {note}" for note in inspection.notes)]
     lines += [f"doubt: {doubt}" for doubt in doubts] or ["no doubts"]
-    if seen.suggested:
-        told = "a mapping to start from, a guess: paste it into the robot file, or --map FILE.toml"
-        lines += ["", told, "", seen.suggested.rstrip()]
+    if inspection.suggested:
+        suggestion_title = (
+            "a mapping to start from, a guess: paste it into the robot file, or --map FILE.toml"
+        )
+        lines += ["", suggestion_title, "", inspection.suggested.rstrip()]
     return lines
 
 
-def _heard(compiled: CompiledModel, place: str, mapping: LogMap, seen: LogInspection) -> Heard:
+def _fit_mapping(
+    compiled: CompiledModel, place: str, mapping: LogMap, inspection: LogInspection
+) -> MappingFit:
     try:
-        with working("fitting"):
-            observation, result = _fitted(compiled, place, mapping)
-            found = log_findings(compiled, observation)
+        with show_activity("fitting"):
+            observation, result = _fit_log(compiled, place, mapping)
+            findings = find_log_faults(compiled, observation)
     except ModelerError as error:
         line = f"as a log of {compiled.spec.robot} it cannot be fitted: {error}"
-        return Heard(float("inf"), (line,))
+        return MappingFit(float("inf"), (line,))
     verdict = result.verdict
-    lines = [*observation.report.logs[0].notes, *(f.line for f in found if not f.unseen)]
+    lines = [
+        *observation.report.logs[0].notes,
+        *(f.line for f in findings if not f.is_undetectable),
+    ]
     if verdict is not None and not verdict.usable:
         lines += [*verdict.doubts, f"a fit of {observation.robot}: {verdict.line}"]
     elif result.relative_error > _POOR:
-        lines.append(f"a fit of {observation.robot} leaves {percent(result.relative_error)} of the "
-                     "torque unexplained")  # fmt: skip
-    fresh = [line for line in dict.fromkeys(lines) if not line.endswith(seen.notes)]
+        lines.append(
+            f"a fit of {observation.robot} leaves {format_percent(result.relative_error)} of the "
+            "torque unexplained"
+        )
+    fresh = [line for line in dict.fromkeys(lines) if not line.endswith(inspection.notes)]
     longer = [line for line in fresh if not any(o != line and o.endswith(line) for o in fresh)]
     usable = verdict is not None and verdict.usable
-    return Heard(result.relative_error, tuple(longer), usable, observation.report)
+    return MappingFit(result.relative_error, tuple(longer), usable, observation.report)
 
 
-def _fitted(compiled: CompiledModel, place: str, mapping: LogMap) -> tuple[Observation, FitResult]:
+def _fit_log(compiled: CompiledModel, place: str, mapping: LogMap) -> tuple[Observation, FitResult]:
     """A weighted fit with its verdict, of a long log in chunks."""
     if are_long([place]):
         try:
-            source = source_of(Path(file_and_span(place)[0]), compiled.spec, mapping)
+            source = open_source(Path(parse_time_range(place)[0]), compiled.spec, mapping)
             assert source is not None  # others are not known to be long
-            streamed = stream(compiled, [source])
-            return streamed.observation, judged_long(compiled, streamed, "weighted")
+            streamed = stream_logs(compiled, [source])
+            return streamed.observation, add_long_verdict(compiled, streamed, "weighted")
         except WholeLogNeeded:
-            if too_long([place]):
+            if are_too_long([place]):
                 raise
-    observation = workflow.observe(compiled, [read_mapped(place, compiled.spec, mapping)])
-    way = FitOutcome(identify(observation, "weighted", compiled))
-    return observation, judged(compiled, observation, way)
+    observation = workflow.observe(compiled, [read_mapped_log(place, compiled.spec, mapping)])
+    outcome = FitOutcome(identify(observation, "weighted", compiled))
+    return observation, add_verdict(compiled, observation, outcome)

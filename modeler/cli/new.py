@@ -4,10 +4,17 @@ import argparse
 import sys
 from pathlib import Path
 
-from modeler.cli.console import Json, print_error, say, say_lines, show_next
+from modeler.cli.console import Json, print_error, print_lines, print_result, show_next
 from modeler.core.builtin import CONVENTIONS, TEMPLATES
 from modeler.core.errors import RobotError
-from modeler.robot import Robot, check_new_robot, convert, lock_values, new_robot, template_robot
+from modeler.robot import (
+    Robot,
+    check_new_robot,
+    convert,
+    fill_template,
+    new_robot,
+    parse_lock_values,
+)
 
 _FILES = (
     "a URDF, MJCF or SYMORO file needs no new one: every command reads it, or `modeler convert`"
@@ -19,43 +26,46 @@ def run_new(args: argparse.Namespace) -> Json:
     out = Path(args.file)
     check_new_robot(out, args.force)
     words = ("template", "joints", "convention")
-    given = {key: value for key, value in vars(args).items() if key in words and value}
-    asked = not given and sys.stdin is not None and sys.stdin.isatty()
-    if asked:
-        given = _answers()
-    robot = new_robot(out, force=args.force, **given)
+    answers = {key: value for key, value in vars(args).items() if key in words and value}
+    is_interactive = not answers and sys.stdin is not None and sys.stdin.isatty()
+    if is_interactive:
+        answers = _ask_robot()
+    robot = new_robot(out, force=args.force, **answers)
     loops = ", loops that close" if robot.loops else ""
-    say(f"{robot.title}: {len(robot.moving)} joints{loops}, written to {out}; write your lengths")
+    print_result(
+        f"{robot.title}: {len(robot.moving_joints)} joints{loops}, written to {out}; write your "
+        "lengths"
+    )
     show_next([f"modeler derive {out}"])
-    if asked:
+    if is_interactive:
         print_error(_FILES)
-    return _about(robot, out)
+    return _describe_robot(robot, out)
 
 
-def _about(robot: Robot, out: Path) -> Json:
+def _describe_robot(robot: Robot, out: Path) -> Json:
     """What a script is told of a robot file that was written."""
-    joints, loops = ([one.name for one in many] for many in (robot.moving, robot.loops))
+    joints, loops = ([one.name for one in many] for many in (robot.moving_joints, robot.loops))
     return {"robot": robot.name, "out": str(out), "joints": joints, "loops": loops}
 
 
-def _answers() -> dict[str, str]:
+def _ask_robot() -> dict[str, str]:
     """What the user says of the robot; Enter takes what stands in brackets."""
-    found = {"template": _asked(f"kind: {', '.join(TEMPLATES)}", TEMPLATES[0], "template")}
-    if found["template"] == TEMPLATES[0]:
-        found["joints"] = _asked("joints from the base, R or P each", "RRRRRR", "joints")
-        told = f"whose table have you: {', '.join(CONVENTIONS)}"
-        found["convention"] = _asked(told, "khalil", "convention")
-    return found
+    answers = {"template": _ask_question(f"kind: {', '.join(TEMPLATES)}", TEMPLATES[0], "template")}
+    if answers["template"] == TEMPLATES[0]:
+        answers["joints"] = _ask_question("joints from the base, R or P each", "RRRRRR", "joints")
+        question = f"whose table have you: {', '.join(CONVENTIONS)}"
+        answers["convention"] = _ask_question(question, "khalil", "convention")
+    return answers
 
 
-def _asked(question: str, usual: str, key: str) -> str:
+def _ask_question(question: str, default: str, key: str) -> str:
     """An answer that a template can be made with; asked again until it is one."""
     while True:
-        sys.stderr.write(f"{question} [{usual}]: ")
+        sys.stderr.write(f"{question} [{default}]: ")
         sys.stderr.flush()
-        answer = sys.stdin.readline().strip() or usual
+        answer = sys.stdin.readline().strip() or default
         try:
-            template_robot("arm", **{key: answer})
+            fill_template("arm", **{key: answer})
             return answer
         except RobotError as error:
             print_error(str(error))
@@ -63,11 +73,13 @@ def _asked(question: str, usual: str, key: str) -> str:
 
 def run_convert(args: argparse.Namespace) -> Json:
     """Writes the robot file, when it has been read as one; prints the notes."""
-    lock = lock_values(args.lock)
+    lock = parse_lock_values(args.lock)
     robot = convert(args.file, args.out, args.base, args.tip, lock, args.exact_decimals, args.force)
     loops = f", {len(robot.loops)} loops" if robot.loops else ""
-    say(f"{robot.name}: {len(robot.moving)} joints{loops}, written to {args.out}")
-    say_lines(robot.readings, "* ")
+    print_result(f"{robot.name}: {len(robot.moving_joints)} joints{loops}, written to {args.out}")
+    print_lines(robot.readings, "* ")
     return {
-        **_about(robot, Path(args.out)), "file": str(args.file), "notes": list(robot.readings)
-    }  # fmt: skip
+        **_describe_robot(robot, Path(args.out)),
+        "file": str(args.file),
+        "notes": list(robot.readings),
+    }

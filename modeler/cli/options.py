@@ -43,7 +43,7 @@ class Argument:
         parser.add_argument(*self.names, **self.settings)
 
     @property
-    def title(self) -> str | None:
+    def group_title(self) -> str | None:
         """The group of the help that it stands in by itself; None: with all others."""
         kind, name = self.settings.get("type"), self.names[0]
         if name[0] != "-":
@@ -109,17 +109,19 @@ class Command:
         groups = [each for each in self.arguments if isinstance(each, Group)]
         for each in (*self.arguments, json):
             if isinstance(each, Argument):
-                if each.title is None:
+                if each.group_title is None:
                     each.add_to(parser)
                 else:
-                    titled[each.title].append(each)
-        own = [Group(title, None, tuple(options)) for title, options in titled.items() if options]
-        for group in (*own[:-1], *groups, own[-1]):
+                    titled[each.group_title].append(each)
+        titled_groups = [
+            Group(title, None, tuple(options)) for title, options in titled.items() if options
+        ]
+        for group in (*titled_groups[:-1], *groups, titled_groups[-1]):
             group.add_to(parser)
-        parser.set_defaults(load=partial(_imported, self.run), lacks=self.lacks)
+        parser.set_defaults(load=partial(_import_run, self.run), lacks=self.lacks)
 
 
-def _imported(place: str) -> Run:
+def _import_run(place: str) -> Run:
     module, _, function = place.partition(":")
     run: Run = getattr(import_module(f"modeler.cli.{module}"), function)
     return run
@@ -150,15 +152,15 @@ def flag(name: str, text: str) -> Argument:
     return Argument((name,), {"action": "store_true", "help": text})
 
 
-def did_you_mean(got: str, known: Iterable[str]) -> str:
+def suggest_name(got: str, known: Iterable[str]) -> str:
     """` (did you mean x?)` of a misspelt name, else nothing."""
     near = get_close_matches(got.lower(), known, 1)
     return f" (did you mean {near[0]}?)" if near else ""
 
 
-def unknown(got: str, known: Sequence[str]) -> str:
+def describe_unknown(got: str, known: Sequence[str]) -> str:
     """What is said of a word that is none of a few."""
-    return f"got {got}{did_you_mean(got, known)}; expected one of {', '.join(known)}"
+    return f"got {got}{suggest_name(got, known)}; expected one of {', '.join(known)}"
 
 
 class Methods(Word):
@@ -170,28 +172,28 @@ class Methods(Word):
         known = (*METHODS, ALL) if len(names) == 1 else tuple(ABOUT)
         for name in names:
             if name not in known:
-                raise argparse.ArgumentTypeError(unknown(name, known))
+                raise argparse.ArgumentTypeError(describe_unknown(name, known))
         return super().__new__(cls, text)
 
     @property
-    def several(self) -> bool:
+    def is_several(self) -> bool:
         """Whether they are compared, and no model is written."""
         return self == ALL or "," in self
 
 
-def options_of(parser: argparse.ArgumentParser) -> dict[str, argparse.Action]:
+def collect_options(parser: argparse.ArgumentParser) -> dict[str, argparse.Action]:
     """Every option by each of its names."""
     return {name: action for action in parser._actions for name in action.option_strings}
 
 
-def arguments_of(parser: argparse.ArgumentParser) -> list[argparse.Action]:
+def collect_arguments(parser: argparse.ArgumentParser) -> list[argparse.Action]:
     """What a command takes beside options, in order."""
     return [action for action in parser._actions if not action.option_strings]
 
 
 def find_option(parser: argparse.ArgumentParser, word: str) -> argparse.Action | None:
     """The option that a word names, which may be cut short; None if it names none, or several."""
-    known, name = options_of(parser), word.partition("=")[0]
+    known, name = collect_options(parser), word.partition("=")[0]
     if name in known:
         return known[name]
     meant = [known[full] for full in known if name.startswith("--") and full.startswith(name)]
@@ -204,7 +206,7 @@ def find_option(parser: argparse.ArgumentParser, word: str) -> argparse.Action |
 _WIDTH = 96
 
 
-def usage_of(parser: argparse.ArgumentParser) -> str:
+def format_usage(parser: argparse.ArgumentParser) -> str:
     """`modeler COMMAND ARGUMENT... --required VALUE [--option VALUE]`, wrapped."""
     options = [
         action
@@ -212,30 +214,30 @@ def usage_of(parser: argparse.ArgumentParser) -> str:
         if action.option_strings and action.help != argparse.SUPPRESS
     ]
     parts = [
-        *(_values(action) for action in arguments_of(parser)),
+        *(_format_values(action) for action in collect_arguments(parser)),
         *(
-            _option(action) if action.required else f"[{_option(action)}]"
+            _format_option(action) if action.required else f"[{_format_option(action)}]"
             for action in sorted(options, key=lambda a: (not a.required, a.dest != "out"))
         ),
     ]
-    return _wrapped(parser.prog, parts).replace("%", "%%")
+    return _wrap_parts(parser.prog, parts).replace("%", "%%")
 
 
-def _option(action: argparse.Action) -> str:
+def _format_option(action: argparse.Action) -> str:
     if isinstance(action, argparse.BooleanOptionalAction):
         return " | ".join(action.option_strings)
     name = action.option_strings[0]
-    return name if action.nargs == 0 else f"{name} {_values(action)}"
+    return name if action.nargs == 0 else f"{name} {_format_values(action)}"
 
 
-def _values(action: argparse.Action) -> str:
+def _format_values(action: argparse.Action) -> str:
     choices = "{" + ",".join(map(str, action.choices or ())) + "}"
     name = str(action.metavar or (choices if action.choices else action.dest.upper()))
     forms = {"?": f"[{name}]", "*": f"[{name} ...]", "+": f"{name} [{name} ...]"}
     return forms.get(str(action.nargs), name)
 
 
-def _wrapped(prog: str, parts: Sequence[str]) -> str:
+def _wrap_parts(prog: str, parts: Sequence[str]) -> str:
     """Lines of `_WIDTH` at most, broken between parts."""
     indent = " " * len("usage: modeler ")
     lines = [prog]

@@ -5,12 +5,19 @@ from pathlib import Path
 
 from modeler import formulas
 from modeler.api.physical_parameters import UNITS, Physical, PhysicalValues, physical
-from modeler.cli.console import Json, note, progress, say, say_lines, working
+from modeler.cli.console import (
+    Json,
+    print_lines,
+    print_note,
+    print_result,
+    show_activity,
+    show_progress,
+)
 from modeler.cli.lists import read_robot_with_notes
 from modeler.codegen import derive
 from modeler.core.errors import DataError
-from modeler.core.json import entries
-from modeler.core.table import percent
+from modeler.core.json import select_attributes
+from modeler.core.table import format_percent
 from modeler.estimation import load_model
 
 _SHOWN = 10
@@ -28,53 +35,57 @@ def run_physical(args: argparse.Namespace) -> Json:
         )
     model = load_model(args.source) if Path(args.source).suffix.lower() == ".json" else None
     thing = derive(read_robot_with_notes(args.source)) if model is None else model
-    with working(f"physical parameters of {args.source}"):
+    with show_activity(f"physical parameters of {args.source}"):
         subject = physical(thing, args.of)
     system = subject.system
     for line in () if model is None else model.warning:
-        note(line)
+        print_note(line)
     result: dict[str, Json] = {"robot": system.robot, "from": system.source}
     if args.known is not None:
-        result |= _known(args, subject)
-    cad = None if args.cad is None else subject.cad(args.cad)
+        result |= _print_known(args, subject)
+    cad = None if args.cad is None else subject.read_cad(args.cad)
     if args.sets is not None:
-        result["sets"] = _sets(subject, None if args.sets is True else args.sets, cad)
+        result["sets"] = _print_sets(subject, None if args.sets is True else args.sets, cad)
     elif cad is not None:
         if subject.fitted is None:
             raise DataError(
                 f"--cad: {args.source} is a robot, with no identified values; expected a model "
                 "file of `modeler fit`, or --sets"
             )
-        result["cad"] = _against_cad(subject, cad)
+        result["cad"] = _print_cad_comparison(subject, cad)
     if args.known is None and args.sets is None and args.cad is None:
-        result |= _overview(system, args.source, model is not None)
+        result |= _print_overview(system, args.source, model is not None)
     return result
 
 
-def _overview(system: formulas.PhysicalSystem, source: str, fitted: bool) -> dict[str, Json]:
+def _print_overview(system: formulas.PhysicalSystem, source: str, fitted: bool) -> dict[str, Json]:
     """Parameters, quantities, and the easiest set."""
-    number = formulas.smallest_number(system)
-    say(f"{system.robot}: {len(system.data)} identified quantities, {len(system.letters)} physical "
-        f"parameters with an effect, {len(system.vanishing)} without")  # fmt: skip
+    number = formulas.count_smallest_set(system)
+    print_result(
+        f"{system.robot}: {len(system.data)} identified quantities, {len(system.letters)} physical "
+        f"parameters with an effect, {len(system.vanishing)} without"
+    )
     for kind, plural in _KINDS.items():
         letters = [x for x in system.letters if system.kinds[x] == kind]
         if letters:
-            say(f"  {plural}: {', '.join(letters)}")
+            print_result(f"  {plural}: {', '.join(letters)}")
     if system.alone:
-        say(f"  identified by themselves: {', '.join(system.alone)}")
+        print_result(f"  identified by themselves: {', '.join(system.alone)}")
     if system.constants:
-        say("  known from the table: "
+        print_result("  known from the table: "
             + ", ".join(f"{k} = {v:.6g}" for k, v in system.constants.items()))  # fmt: skip
-    say_lines(f"  {name} = {text}" for name, text in system.abbreviations.items())
-    say_lines(["", *formulas.definition_lines(system)])
-    easiest = formulas.easiest_set(system)
-    say()
+    print_lines(f"  {name} = {text}" for name, text in system.abbreviations.items())
+    print_lines(["", *formulas.format_definition_lines(system)])
+    easiest = formulas.find_easiest_set(system)
+    print_result()
     parameters = "parameter" if number == 1 else "parameters"
-    say(f"at least {number} {parameters} must be known that all others follow")
+    print_result(f"at least {number} {parameters} must be known that all others follow")
     if number:
-        say(f"measured with the least trouble: {','.join(easiest)}")
-        given = ",".join(f"{x}=VALUE" if fitted else x for x in easiest)
-        say(f"{'values' if fitted else 'formulas'}: modeler physical {source} --known {given}")
+        print_result(f"measured with the least trouble: {','.join(easiest)}")
+        known_text = ",".join(f"{x}=VALUE" if fitted else x for x in easiest)
+        print_result(
+            f"{'values' if fitted else 'formulas'}: modeler physical {source} --known {known_text}"
+        )
     return {
         "parameters": {x: system.kinds[x] for x in system.letters},
         "without_effect": list(system.vanishing),
@@ -83,43 +94,52 @@ def _overview(system: formulas.PhysicalSystem, source: str, fitted: bool) -> dic
     }
 
 
-def _known(args: argparse.Namespace, subject: Physical) -> dict[str, Json]:
+def _print_known(args: argparse.Namespace, subject: Physical) -> dict[str, Json]:
     """Formulas; values if there is a model."""
     system, fitted = subject.system, subject.fitted
-    given = formulas.known_from_text(args.known, system)
-    _check_given(args, given, fitted is not None)
-    with working("solving"):
-        solution = subject.formulas(given)
+    known_values = formulas.parse_known_values(args.known, system)
+    _check_known_values(args, known_values, fitted is not None)
+    with show_activity("solving"):
+        solution = subject.derive_formulas(known_values)
     mark = {"python": "# ", "latex": "% ", "text": ""}[args.format]
-    say_lines(system.map_lines, mark)
+    print_lines(system.map_lines, mark)
     if system.map_lines:
-        say()
-    say_lines([*formulas.solution_lines(solution, args.format), ""])
+        print_result()
+    print_lines([*formulas.format_solution_lines(solution, args.format), ""])
     unknown = len(system.letters) - len(solution.known)
-    say(f"{mark}{len(solution.steps)} of {unknown} unknown parameters follow; each formula holds "
-        f"exactly for {formulas.VERIFIED} of {formulas.VERIFIED} random robots")  # fmt: skip
+    print_result(
+        f"{mark}{len(solution.steps)} of {unknown} unknown parameters follow; each formula holds "
+        f"exactly for {formulas.VERIFIED} of {formulas.VERIFIED} random robots"
+    )
     if solution.surplus:
-        say(f"{mark}{solution.surplus} more known than these need: with a model they are tested")
-    say_lines(formulas.missing_lines(solution), mark)
-    told = formulas.solution_json(
+        print_result(
+            f"{mark}{solution.surplus} more known than these need: with a model they are tested"
+        )
+    print_lines(formulas.format_missing_lines(solution), mark)
+    solution_document = formulas.serialise_solution(
         solution, {"robots": formulas.VERIFIED, "right": formulas.VERIFIED}
     )
     if fitted is not None:
-        near = formulas.known_from_text(args.near or "", system, "--near")
-        told["values"] = _values(subject.solved(solution, given, near.values))
-    return dict(told)
+        near = formulas.parse_known_values(args.near or "", system, "--near")
+        solution_document["values"] = _print_values(
+            subject.evaluate_solution(solution, known_values, near.values)
+        )
+    return dict(solution_document)
 
 
-def _check_given(args: argparse.Namespace, given: formulas.KnownValues, fitted: bool) -> None:
+def _check_known_values(
+    args: argparse.Namespace, known_values: formulas.KnownValues, fitted: bool
+) -> None:
     """A model needs values of all that is known, a robot has no use for any."""
-    if not fitted and (given.values or args.near is not None):
+    if not fitted and (known_values.values or args.near is not None):
         raise DataError(
-            f"{'--known' if given.values else '--near'}: got values, but {args.source} is a robot "
+            f"{'--known' if known_values.values else '--near'}: got values, but {args.source} is a "
+            "robot "
             "without identified ones; expected names alone, as am,bm, or a model file of "
             "`modeler fit`"
         )
     if fitted:
-        missing = [x for x in given.names if x not in given.values]
+        missing = [x for x in known_values.names if x not in known_values.values]
         if missing:
             raise DataError(
                 f"--known: no value of {', '.join(missing)}; expected {missing[0]}=VALUE, SI "
@@ -127,19 +147,21 @@ def _check_given(args: argparse.Namespace, given: formulas.KnownValues, fitted: 
             )
 
 
-def _values(found: PhysicalValues) -> Json:
-    derived, doubts, rows = found.derived, found.doubts, []
-    say()
-    say(f"{'parameter':<10} {'value':>13} {'sigma':>10} {'%sigma':>8}  {'unit':<7} mostly from")
+def _print_values(values: PhysicalValues) -> Json:
+    derived, doubts, rows = values.derived, values.doubts, []
+    print_result()
+    print_result(
+        f"{'parameter':<10} {'value':>13} {'sigma':>10} {'%sigma':>8}  {'unit':<7} mostly from"
+    )
     for k, letter in enumerate(derived.letters):
         value, sigma = float(derived.values[k]), float(derived.sigmas[k])
-        unit, told = UNITS[found.system.kinds[letter]], letter not in doubts
-        if told:
+        unit, is_identified = UNITS[values.system.kinds[letter]], letter not in doubts
+        if is_identified:
             percent = f"{100 * sigma / abs(value):.3g}" if value else "-"
-            say(f"{letter:<10} {value:>13.6g} {sigma:>10.3g} {percent:>8}  {unit:<7} "
-                f"{found.sources(k)}")  # fmt: skip
+            print_result(f"{letter:<10} {value:>13.6g} {sigma:>10.3g} {percent:>8}  {unit:<7} "
+                f"{values.describe_sources(k)}")  # fmt: skip
         else:
-            say(f"{letter:<10} {'not told':>13}")
+            print_result(f"{letter:<10} {'not told':>13}")
         slopes, shares = (
             {name: float(x) for name, x in zip(derived.inputs, row, strict=True) if x}
             for row in (derived.slopes[k], derived.shares[k])
@@ -147,17 +169,17 @@ def _values(found: PhysicalValues) -> Json:
         rows.append(
             {
                 "parameter": letter,
-                "value": value if told else None,
-                "sigma": sigma if told else None,
+                "value": value if is_identified else None,
+                "sigma": sigma if is_identified else None,
                 "unit": unit,
                 "doubt": doubts.get(letter),
                 "sensitivity": slopes,
                 "variance_shares": shares,
             }
         )
-    say_lines(doubts.values(), "not told: ")
-    _print_tested(found.tested)
-    return {"parameters": rows, "known_against_fit": [vars(row) for row in found.tested]}
+    print_lines(doubts.values(), "not told: ")
+    _print_tested(values.tested)
+    return {"parameters": rows, "known_against_fit": [vars(row) for row in values.tested]}
 
 
 def _print_tested(tested: tuple[formulas.KnownAgainstFit, ...]) -> None:
@@ -168,92 +190,114 @@ def _print_tested(tested: tuple[formulas.KnownAgainstFit, ...]) -> None:
     """
     if not tested:
         return
-    say()
-    say("more is known than needed; each known parameter against what the others and the fit say:")
+    print_result()
+    print_result(
+        "more is known than needed; each known parameter against what the others and the fit say:"
+    )
     for row in tested:
-        say(f"  {row.letter:<8} given {row.given:<10.6g} follows {row.implied:.6g} +- "
+        print_result(f"  {row.letter:<8} given {row.given:<10.6g} follows {row.implied:.6g} +- "
             f"{row.implied_sigma:.2g}, {abs(row.z):.1f} sigma"
             + ("  contradicts" if row.contradicts else ""))  # fmt: skip
     wrong = [row for row in tested if row.contradicts]
     if wrong:
-        told = "; ".join(
+        contradictions = "; ".join(
             f"{r.letter} = {r.given:g} given, {r.implied:.6g} +- {r.implied_sigma:.2g} follows "
             f"({abs(r.z):.1f} sigma)"
             for r in sorted(wrong, key=lambda r: -abs(r.z))
         )
         raise DataError(
-            f"--known contradicts the fit: {told}; measure these again, or leave one of them out"
+            f"--known contradicts the fit: {contradictions}; measure these again, or leave one of "
+            "them out"
         )
 
 
-def _sets(subject: Physical, size: int | None, cad: formulas.KnownValues | None) -> Json:
+def _print_sets(subject: Physical, size: int | None, cad: formulas.KnownValues | None) -> Json:
     system = subject.system
-    with progress("counting") as tell:
-        found = subject.sets(size, tell)
-    say(f"{system.robot}: {found.count} of {found.possible} sets of {found.size} known parameters "
-        f"suffice; the smallest sets have {found.smallest}")  # fmt: skip
-    for key, count in found.classes.items():
-        say(f"  {key[0]} masses and lengths, {key[1]} mass centres, {key[2]} inertias: {count}")
-    ratings = subject.rated(found, cad) if found.count and cad is not None else ()
-    if found.easiest:
-        say(f"the {len(found.easiest)} with the fewest inertias, then the fewest mass centres"
-            + (", the least error first (1 % in all that is measured gives, median and worst):"
-               if ratings else ":"))  # fmt: skip
+    with show_progress("counting") as tell:
+        known_sets = subject.find_known_sets(size, tell)
+    print_result(
+        f"{system.robot}: {known_sets.count} of {known_sets.possible} sets of {known_sets.size} "
+        "known parameters "
+        f"suffice; the smallest sets have {known_sets.smallest}"
+    )
+    for key, count in known_sets.classes.items():
+        print_result(
+            f"  {key[0]} masses and lengths, {key[1]} mass centres, {key[2]} inertias: {count}"
+        )
+    ratings = subject.rank_sets(known_sets, cad) if known_sets.count and cad is not None else ()
+    if known_sets.easiest:
+        print_result(
+            f"the {len(known_sets.easiest)} with the fewest inertias, then the fewest mass centres"
+            + (
+                ", the least error first (1 % in all that is measured gives, median and worst):"
+                if ratings
+                else ":"
+            )
+        )
         lines = [
-            f"  {','.join(r.known)}  {percent(r.middle / 100)}, {r.letter} {percent(r.worst / 100)}"
+            f"  {','.join(r.known)}  {format_percent(r.middle / 100)}, {r.letter} "
+            f"{format_percent(r.worst / 100)}"
             for r in ratings
         ]
-        lines = lines or [f"  {','.join(members)}" for members in found.easiest]
-        say_lines(lines[:_SHOWN])
-        if len(found.easiest) > _SHOWN:
-            say(f"  and {len(found.easiest) - _SHOWN} more (all with --json)")
+        lines = lines or [f"  {','.join(members)}" for members in known_sets.easiest]
+        print_lines(lines[:_SHOWN])
+        if len(known_sets.easiest) > _SHOWN:
+            print_result(f"  and {len(known_sets.easiest) - _SHOWN} more (all with --json)")
     return {
-        **entries(found, "size smallest possible count"),
+        **select_attributes(known_sets, "size smallest possible count"),
         "classes": [
             {"masses_and_lengths": k[0], "centres": k[1], "inertias": k[2], "count": n}
-            for k, n in found.classes.items()
+            for k, n in known_sets.classes.items()
         ],
-        "contains": dict(found.contains),
-        "easiest": [list(members) for members in found.easiest],
+        "contains": dict(known_sets.contains),
+        "easiest": [list(members) for members in known_sets.easiest],
         "rated": [vars(r) | {"known": list(r.known)} for r in ratings],
     }
 
 
-def _against_cad(subject: Physical, cad: formulas.KnownValues) -> Json:
-    found = subject.against(cad)
-    say(f"{'quantity':<8} {'identified':>12} {'sigma':>9} {'CAD':>12} {'z':>8}  depends on")
-    for row in found.rows:
+def _print_cad_comparison(subject: Physical, cad: formulas.KnownValues) -> Json:
+    comparison = subject.compare_with_cad(cad)
+    print_result(
+        f"{'quantity':<8} {'identified':>12} {'sigma':>9} {'CAD':>12} {'z':>8}  depends on"
+    )
+    for row in comparison.rows:
         mark = "suspicious" if row.suspicious else ""
-        say(f"{row.name:<8} {row.identified:>12.5g} {row.sigma:>9.2g} {row.cad:>12.5g} "
+        print_result(f"{row.name:<8} {row.identified:>12.5g} {row.sigma:>9.2g} {row.cad:>12.5g} "
             f"{row.z:>8.1f}  {' '.join(row.letters)}  {mark}".rstrip())  # fmt: skip
-    say_lines(f"{name:<8} not compared: {why}" for name, why in found.left_out.items())
-    _print_explained(found)
+    print_lines(f"{name:<8} not compared: {why}" for name, why in comparison.left_out.items())
+    _print_explained(comparison)
     return {
-        "rows": [vars(row) | {"letters": list(row.letters)} for row in found.rows],
-        **entries(found, "limit chi_squared"),
-        "left_out": dict(found.left_out),
-        "implicated": list(found.implicated),
+        "rows": [vars(row) | {"letters": list(row.letters)} for row in comparison.rows],
+        **select_attributes(comparison, "limit chi_squared"),
+        "left_out": dict(comparison.left_out),
+        "implicated": list(comparison.implicated),
         "explanations": [
             {**vars(e), "letters": list(e.letters), "cad": list(e.cad), "fitted": list(e.fitted)}
-            for e in found.explanations
+            for e in comparison.explanations
         ],
     }
 
 
-def _print_explained(found: formulas.CadComparison) -> None:
-    say()
-    if not found.suspicious:
-        say(f"all {len(found.rows)} agree with CAD (|z| below {found.limit:.2f})")
+def _print_explained(comparison: formulas.CadComparison) -> None:
+    print_result()
+    if not comparison.suspicious:
+        print_result(
+            f"all {len(comparison.rows)} agree with CAD (|z| below {comparison.limit:.2f})"
+        )
         return
-    say(f"{len(found.suspicious)} of {len(found.rows)} do not agree with CAD (|z| above "
-        f"{found.limit:.2f}: 1 false alarm in 100 tables)")  # fmt: skip
-    if not any(e.enough for e in found.explanations):
-        say("no change of one or two CAD entries alone makes all agree; entries of suspicious "
-            f"quantities only: {', '.join(found.implicated) or 'none'}")  # fmt: skip
-    for e in found.explanations:
+    print_result(
+        f"{len(comparison.suspicious)} of {len(comparison.rows)} do not agree with CAD (|z| above "
+        f"{comparison.limit:.2f}: 1 false alarm in 100 tables)"
+    )
+    if not any(e.enough for e in comparison.explanations):
+        print_result(
+            "no change of one or two CAD entries alone makes all agree; entries of suspicious "
+            f"quantities only: {', '.join(comparison.implicated) or 'none'}"
+        )
+    for e in comparison.explanations:
         changes = " and ".join(
             f"{x} = {new:.5g} instead of {old:.5g}"
             for x, old, new in zip(e.letters, e.cad, e.fitted, strict=True)
         )
-        say(f"{'all agree' if e.enough else 'most is explained'} if {changes} "
-            f"(chi2 {e.chi_squared:.4g} instead of {found.chi_squared:.4g})")  # fmt: skip
+        print_result(f"{'all agree' if e.enough else 'most is explained'} if {changes} "
+            f"(chi2 {e.chi_squared:.4g} instead of {comparison.chi_squared:.4g})")  # fmt: skip

@@ -15,8 +15,14 @@ from pathlib import Path
 from typing import Any
 
 from modeler.core import files
-from modeler.core.builtin import LOG_ENDINGS, MOTIONS, OTHER_PROGRAMS, builtin_file, builtin_names
-from modeler.core.errors import DataError, ModelerError, file_and_window
+from modeler.core.builtin import (
+    LOG_ENDINGS,
+    MOTIONS,
+    OTHER_PROGRAMS,
+    list_builtin_robots,
+    locate_builtin_robot,
+)
+from modeler.core.errors import DataError, ModelerError, split_time_range
 
 _MOTIONS = (".csv", ".parquet")
 
@@ -69,12 +75,12 @@ class RobotFile(Input):
 
     what = "the robot file that is read"
     endings: tuple[str, ...] = (".toml", *OTHER_PROGRAMS)
-    names = staticmethod(builtin_names)
+    names = staticmethod(list_builtin_robots)
 
     @property
     def file(self) -> Path:
         """Where it is; a name of a built-in robot means that one."""
-        return builtin_file(self) if self in builtin_names() else Path(self)
+        return locate_builtin_robot(self) if self in list_builtin_robots() else Path(self)
 
 
 class RobotOrModel(RobotFile):
@@ -96,7 +102,7 @@ class LogFile(Input):
     @property
     def file(self) -> Path:
         """Without the window."""
-        return Path(file_and_window(self)[0])
+        return Path(split_time_range(self)[0])
 
 
 class ListFile(Input):
@@ -105,7 +111,7 @@ class ListFile(Input):
     what = "the list that is read"
 
 
-def model_or_log(text: str) -> Input:
+def parse_model_or_log(text: str) -> Input:
     """A robot or a model, by its ending or because it begins as JSON does; else a log."""
     path = Path(text)
     if path.suffix.lower() in LOG_ENDINGS:
@@ -180,7 +186,7 @@ class PageOrFolder(Output):
     @property
     def file(self) -> Path:
         """The page."""
-        return files.page_place(Path(self), "compare.html")
+        return files.resolve_page_path(Path(self), "compare.html")
 
 
 class JsonFile(Output):
@@ -251,82 +257,87 @@ def check_places(args: argparse.Namespace) -> None:
             file, is named twice, or cannot be written; or it lies where a folder of this command
             has a file of its own.
     """
-    given = list(_typed_arguments(args))
-    for _, place in given:
+    typed_places = list(_yield_typed_arguments(args))
+    for _, place in typed_places:
         if isinstance(place, Input) and not place:
             raise DataError(f'got "" for {place.what}; expected the name of a file')
-    read = [(place.what, found) for _, place in given if isinstance(place, Input)
-            if (found := _existing_input(place.file)) is not None]  # fmt: skip
-    folders = [(option, place) for option, place in given if isinstance(place, OutputFolder)]
+    read = [(place.what, target) for _, place in typed_places if isinstance(place, Input)
+            if (target := _find_input(place.file)) is not None]  # fmt: skip
+    folders = [(option, place) for option, place in typed_places if isinstance(place, OutputFolder)]
     for option, folder in folders:
         files.check_folder_writable(Path(folder))
-        for what, found in read:
-            _check_inside(option, folder, found, what)
-    taken: list[tuple[str, files.Destination]] = []
-    for option, place in given:
+        for what, target in read:
+            _check_inside(option, folder, target, what)
+    outputs: list[tuple[str, files.Destination]] = []
+    for option, place in typed_places:
         if isinstance(place, Output) and not (place == "-" and isinstance(place, JsonFile)):
-            found = _checked(option, place, read, taken)
+            target = _check_output(option, place, read, outputs)
             for other, folder in folders:
-                _check_inside(other, folder, found, f"what {option} writes")
-            taken.append((option, found))
+                _check_inside(other, folder, target, f"what {option} writes")
+            outputs.append((option, target))
 
 
-def _typed_arguments(args: argparse.Namespace) -> Iterator[tuple[str, object]]:
+def _yield_typed_arguments(args: argparse.Namespace) -> Iterator[tuple[str, object]]:
     """Every argument, with its name as it is typed."""
     for name, value in vars(args).items():
         for each in value if isinstance(value, list) else [value]:
             yield "new" if isinstance(each, NewRobot) else "--" + name.replace("_", "-"), each
 
 
-def _existing_input(path: Path) -> files.Destination | None:
+def _find_input(path: Path) -> files.Destination | None:
     """An input; None if it is not there, or no file: nothing of it can be lost."""
     try:
-        found = files.destination(path)
+        target = files.resolve_destination(path)
     except (OSError, ModelerError):
         return None
-    return found if found.kind is files.Kind.FILE else None
+    return target if target.kind is files.DestinationKind.FILE else None
 
 
-def _checked(
+def _check_output(
     option: str,
     place: Output,
     read: list[tuple[str, files.Destination]],
-    taken: list[tuple[str, files.Destination]],
+    outputs: list[tuple[str, files.Destination]],
 ) -> files.Destination:
     """Where an output goes, if it may go there."""
-    given = f"{option} {place}"
+    argument_text = f"{option} {place}"
     if place == "-":
-        raise DataError(f"{given}: only --json takes - for stdout; expected the name of a file")
+        raise DataError(
+            f"{argument_text}: only --json takes - for stdout; expected the name of a file"
+        )
     for path in {Path(place), place.file}:
-        there = _existing_input(path)
-        what = next((what for what, other in read if there and _same(there, other)), None)
+        existing = _find_input(path)
+        what = next(
+            (what for what, other in read if existing and _is_same_file(existing, other)), None
+        )
         if what is None and path.suffix.lower() in LOG_ENDINGS and not isinstance(place, NewLog):
             what = LogFile.what
         if what is not None:
-            raise DataError(f"{given}: this is {what}; expected a name of its own")
+            raise DataError(f"{argument_text}: this is {what}; expected a name of its own")
         ending = path.suffix.lower()
         if ending in OTHER_PROGRAMS and not isinstance(place, OtherProgramsFile):
             raise DataError(
-                f"{given}: got {ending}, which is another program's robot file; expected another "
+                f"{argument_text}: got {ending}, which is another program's robot file; expected "
+                "another "
                 "ending, .toml for a robot file"
             )
     files.check_writable(place.file)
-    found = files.destination(place.file)
-    if found.kind is files.Kind.FILE:
-        taken = _stdout() + taken
-    for other_option, other in taken:
-        if _same(found, other):
+    target = files.resolve_destination(place.file)
+    if target.kind is files.DestinationKind.FILE:
+        outputs = _find_stdout_file() + outputs
+    for other_option, other in outputs:
+        if _is_same_file(target, other):
             raise DataError(
-                f"{given}: {other_option} writes this file too; expected a name of its own"
+                f"{argument_text}: {other_option} writes this file too; expected a name of its own"
             )
-    return found
+    return target
 
 
-def _same(one: files.Destination, other: files.Destination) -> bool:
+def _is_same_file(one: files.Destination, other: files.Destination) -> bool:
     return one.identity is not None and one.identity == other.identity
 
 
-def _stdout() -> list[tuple[str, files.Destination]]:
+def _find_stdout_file() -> list[tuple[str, files.Destination]]:
     """The file that stdout goes to, if it is one."""
     try:
         status = os.fstat(sys.stdout.fileno())
@@ -334,14 +345,14 @@ def _stdout() -> list[tuple[str, files.Destination]]:
         return []
     if not stat.S_ISREG(status.st_mode):
         return []
-    return [("stdout", files.Destination(Path("stdout"), files.Kind.FILE, status))]
+    return [("stdout", files.Destination(Path("stdout"), files.DestinationKind.FILE, status))]
 
 
-def _check_inside(option: str, folder: OutputFolder, found: files.Destination, what: str) -> None:
+def _check_inside(option: str, folder: OutputFolder, target: files.Destination, what: str) -> None:
     """Refuse a file that stands where the folder gets one of its own."""
     top = Path(os.path.realpath(folder))
-    if found.place.is_relative_to(top):
-        name = found.place.relative_to(top).as_posix()
+    if target.path.is_relative_to(top):
+        name = target.path.relative_to(top).as_posix()
         if any(fnmatch.fnmatchcase(name, pattern) for pattern in folder.writes):
             raise DataError(
                 f"{option} {folder}: {name} in it is {what}; expected a folder of its own"

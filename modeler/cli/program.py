@@ -24,45 +24,45 @@ INTERRUPTED = 130
 Phase = Callable[[], AbstractContextManager[None]]
 
 
-def started(words: Sequence[str]) -> int:
+def run_program(words: Sequence[str]) -> int:
     """As a program: letters, interrupts and the end of the process are ours."""
-    with loading():
+    with exit_on_interrupt():
         from modeler.cli.console import escape_unprintable
     escape_unprintable()
     # Symbols are many small objects: looking for rings among them every 700 took a tenth of a run.
     gc.set_threshold(20_000)
     try:
-        return _run(words, loading)
+        return _run_words(words, exit_on_interrupt)
     finally:  # all is done or given up; another interrupt can only spoil how it is told
         if signal.getsignal(signal.SIGINT) is signal.default_int_handler:
             signal.signal(signal.SIGINT, signal.SIG_IGN)
 
 
-def called(words: Sequence[str]) -> int:
+def run_in_process(words: Sequence[str]) -> int:
     """From Python: the process belongs to the caller."""
-    return _run(words, nullcontext)
+    return _run_words(words, nullcontext)
 
 
-def _run(words: Sequence[str], phase: Phase) -> int:
+def _run_words(words: Sequence[str], phase: Phase) -> int:
     with phase():
         from modeler.cli.console import flush_stdout, print_error
-        from modeler.core.errors import ModelerError, on_one_line, short_of_memory
+        from modeler.core.errors import ModelerError, flatten_message, is_out_of_memory
 
     try:
         try:
-            _answer(words, phase)
+            _run_parsed(words, phase)
         finally:
             flush_stdout()
     except ModelerError as error:
-        print_error(on_one_line(str(error)))
+        print_error(flatten_message(str(error)))
         return 1
     except BrokenPipeError:
         return 0  # the reader of our output has gone (`modeler ... | head`): nothing is wrong
     except OSError as error:  # what the system refuses of a path, wherever it is first looked at
-        if error.filename is None or short_of_memory(error):
+        if error.filename is None or is_out_of_memory(error):
             raise
         print_error(
-            on_one_line(f"{error.filename}: cannot be used ({error.strerror}); check the path")
+            flatten_message(f"{error.filename}: cannot be used ({error.strerror}); check the path")
         )
         return 1
     except KeyboardInterrupt:
@@ -71,56 +71,56 @@ def _run(words: Sequence[str], phase: Phase) -> int:
     return 0
 
 
-def _answer(words: Sequence[str], phase: Phase) -> None:
+def _run_parsed(words: Sequence[str], phase: Phase) -> None:
     with phase():
-        from modeler.cli.commands import parsed
-        from modeler.cli.console import Loudness, show_start, show_traceback, using_loudness
+        from modeler.cli.commands import parse_words
+        from modeler.cli.console import Verbosity, apply_verbosity, show_start, show_traceback
         from modeler.core.errors import ModelerError
 
-        args, wanted = parsed(words)
-    with using_loudness(wanted, args.progress == "lines"):
+        args, verbosity = parse_words(words)
+    with apply_verbosity(verbosity, args.show_progress == "lines"):
         try:
             show_start(words)
-            _carried_out(args, phase, wanted is Loudness.VERBOSE)
+            _execute_command(args, phase, verbosity is Verbosity.VERBOSE)
         except ModelerError:
             show_traceback()
             raise
 
 
-def _carried_out(args: "argparse.Namespace", phase: Phase, every_line: bool) -> None:
+def _execute_command(args: "argparse.Namespace", phase: Phase, every_line: bool) -> None:
     with phase():
-        from modeler.cli.browser import opened_page
-        from modeler.cli.console import clock, run_command, step
+        from modeler.cli.browser import open_page_when_done
+        from modeler.cli.console import announce_step, run_command, show_clock
         from modeler.cli.places import check_places
 
-    with opened_page(args):
+    with open_page_when_done(args):
         check_places(args)
-        with phase(), step("loading"), clock("loading"):
+        with phase(), announce_step("loading"), show_clock("loading"):
             import logging
 
             # Where it may keep no list of fonts it says so in its own lines; pictures are the same.
             if not every_line:
                 logging.getLogger("matplotlib").setLevel(logging.ERROR)
             run = args.load()
-        with step(args.command):
+        with announce_step(args.command):
             run_command(args, run)
 
 
 @contextlib.contextmanager
-def loading() -> Iterator[None]:
+def exit_on_interrupt() -> Iterator[None]:
     """While this lasts, an interrupt ends the program at once; nothing may be half done."""
     before = signal.getsignal(signal.SIGINT)
     if before is not signal.default_int_handler:  # ignored, or somebody else's
         yield
         return
-    signal.signal(signal.SIGINT, _end)
+    signal.signal(signal.SIGINT, _exit_interrupted)
     try:
         yield
     finally:
         signal.signal(signal.SIGINT, before)
 
 
-def _end(number: int, frame: FrameType | None) -> None:
+def _exit_interrupted(number: int, frame: FrameType | None) -> None:
     with contextlib.suppress(OSError):
         os.write(2, b"modeler: interrupted\n")
     os._exit(INTERRUPTED)

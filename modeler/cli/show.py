@@ -2,10 +2,10 @@
 
 import argparse
 
-from modeler.cli.console import Json, say_lines, working
+from modeler.cli.console import Json, print_lines, show_activity
 from modeler.cli.lists import read_robot_with_notes
 from modeler.cli.places import Output, check_places
-from modeler.report import posture_json, posture_lines, show
+from modeler.report import describe_posture, serialise_posture, show
 
 
 def run_show(args: argparse.Namespace) -> Json:
@@ -14,10 +14,10 @@ def run_show(args: argparse.Namespace) -> Json:
     if args.out is None and (args.picture is None or args.open):
         args.out = Output(f"{robot.name}.html")
         check_places(args)
-    with working(f"drawing {robot.name}"):
-        found = show(robot, args.out, args.picture)
-    say_lines(posture_lines(found.skeleton, found.posture))
+    with show_activity(f"drawing {robot.name}"):
+        drawing = show(robot, args.out, args.picture)
+    print_lines(describe_posture(drawing.skeleton, drawing.posture))
     places = {"page": args.out, "picture": args.picture}
     written = {what: str(place) for what, place in places.items() if place is not None}
-    say_lines(f"{what}: {place}" for what, place in written.items())
-    return {**posture_json(found.skeleton, found.posture), **written}
+    print_lines(f"{what}: {place}" for what, place in written.items())
+    return {**serialise_posture(drawing.skeleton, drawing.posture), **written}

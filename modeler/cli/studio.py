@@ -6,9 +6,9 @@ import threading
 from pathlib import Path
 from urllib.parse import urlsplit
 
-from modeler.cli.console import flush_stdout, note, say
-from modeler.cli.program import loading
-from modeler.core.errors import ModelerError, installing
+from modeler.cli.console import flush_stdout, print_note, print_result
+from modeler.cli.program import exit_on_interrupt
+from modeler.core.errors import ModelerError, suggest_install
 
 _PORTS = range(65536)
 
@@ -21,37 +21,39 @@ def run_studio(args: argparse.Namespace) -> None:
         if not Path(place).is_dir():
             raise ModelerError(f"--allow {place}: no such folder; expected one that holds logs")
     try:
-        with loading():
+        with exit_on_interrupt():
             from modeler.studio import serve
     except ModuleNotFoundError as error:
         if (error.name or "").split(".")[0] == "modeler":
             raise
         raise ModelerError(
             f"studio: needs the package {error.name}, which is not installed; "
-            f"run: {installing('studio')}"
+            f"run: {suggest_install('studio')}"
         ) from None
     folder = Path(args.folder).resolve()
     allowed = [Path.cwd(), *(Path(place).resolve() for place in args.allow)]
 
-    def told(address: str, once: str, warning: str) -> None:
+    def announce_address(address: str, once: str, warning: str) -> None:
         before = os.umask(0o077)  # who has the token is let in
         try:
             args.tell({"address": address, "folder": str(folder), "pid": os.getpid()})
         finally:
             os.umask(before)
-        say(f"studio of {folder}: {address}")
+        print_result(f"studio of {folder}: {address}")
         port = urlsplit(address).port
-        say(f"over SSH: ssh -L {port}:127.0.0.1:{port} HOST, and the same address; Ctrl-C ends it")
+        print_result(
+            f"over SSH: ssh -L {port}:127.0.0.1:{port} HOST, and the same address; Ctrl-C ends it"
+        )
         flush_stdout()
         if warning:
-            note(warning)
+            print_note(warning)
         if not args.no_open:
-            threading.Thread(target=_open, args=[once], daemon=True).start()
+            threading.Thread(target=_open_browser, args=[once], daemon=True).start()
 
-    serve(folder, allow=allowed, port=args.port, demo=args.demo, told=told)
+    serve(folder, allow=allowed, port=args.port, demo=args.demo, on_ready=announce_address)
 
 
-def _open(address: str) -> None:
+def _open_browser(address: str) -> None:
     """In the browser, where there is one with windows."""
     import webbrowser
 
@@ -59,4 +61,4 @@ def _open(address: str) -> None:
     if far in os.environ and not any(name in os.environ for name in screens):
         return  # what it would find is a browser of this terminal
     if not webbrowser.open(address):
-        note("no browser was found; open the address in one")
+        print_note("no browser was found; open the address in one")

@@ -1,6 +1,6 @@
-from .casadi_functions import casadi_file as casadi_file
+from .casadi_functions import write_casadi as write_casadi
 from .control import Control as Control
-from .fmu import fmu_files as fmu_files, fmu_roles as fmu_roles
-from .package import leftovers as leftovers, write_emitted as write_emitted
-from .ros2 import ros2_files as ros2_files
+from .fmu import build_fmu_files as build_fmu_files, find_fmu_roles as find_fmu_roles
+from .package import list_leftovers as list_leftovers, write_emitted as write_emitted
+from .ros2 import build_ros2_files as build_ros2_files
 from .workflow import Derivation as Derivation, derive as derive, generate as generate, load as load

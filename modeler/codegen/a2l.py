@@ -8,7 +8,7 @@ import re
 from collections.abc import Mapping, Sequence
 from typing import Any
 
-from modeler.codegen.fitted import widths
+from modeler.codegen.fitted import find_widths
 from modeler.codegen.functions import CFunction
 from modeler.codegen.package import render
 from modeler.codegen.parameter_set import SMOOTH
@@ -19,7 +19,7 @@ _WORD = 4  # bytes of uint32_t
 _SIZE = {"double": 8, "single": 4}
 
 
-def a2l_files(
+def build_a2l_files(
     model: SymbolicModel, spec: ModuleSpec, values: Mapping[str, Any],
     functions: Sequence[CFunction],
 ) -> dict[str, str]:  # fmt: skip
@@ -43,7 +43,7 @@ def a2l_files(
         }
         for base, relation in zip(spec.base, values["relations"], strict=True)
     ]
-    smooth = widths(prefix, model, [f for f in functions if f.role.startswith(SMOOTH)])
+    smooth = find_widths(prefix, model, [f for f in functions if f.role.startswith(SMOOTH)])
     about = "width over which dry friction turns, 0: none"
     rows += [
         {"name": width.constant, "about": about, "unit": width.unit, "positive": True}

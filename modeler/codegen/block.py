@@ -30,18 +30,18 @@ PI = "3.14159265358979323846"
 
 
 @dataclass(frozen=True, slots=True)
-class Text:
+class CText:
     """C text of a value and its outermost operation: SUM, PRODUCT (or quotient), ATOM."""
 
     text: str
     level: int
 
-    def within(self, level: int) -> str:
+    def parenthesise(self, level: int) -> str:
         """The text, in parentheses if its outermost operation binds less than `level`."""
         return self.text if self.level >= level else f"({self.text})"
 
 
-def number_text(value: Fraction, target: Target = DOUBLE) -> Text:
+def format_number(value: Fraction, target: Target = DOUBLE) -> CText:
     """Text of a number that is not negative: the one of the target nearest to it.
 
     A decimal literal where that is exact (`9.81`), else a quotient (`(1.0/3.0)`), which is rounded
@@ -51,38 +51,38 @@ def number_text(value: Fraction, target: Target = DOUBLE) -> Text:
         EmitError: too large or too small for the target.
     """
     assert value >= 0
-    nearest = target.nearest(value)
+    nearest = target.round_number(value)
     if Fraction(repr(nearest)) == value or max(value.numerator, value.denominator) > target.exact:
-        return Text(target.literal(nearest), ATOM)
+        return CText(target.format_literal(nearest), ATOM)
     end = target.suffix
-    return Text(f"({value.numerator}.0{end}/{value.denominator}.0{end})", ATOM)
+    return CText(f"({value.numerator}.0{end}/{value.denominator}.0{end})", ATOM)
 
 
-def float_text(value: float, target: Target = DOUBLE) -> str:
+def format_float(value: float, target: Target = DOUBLE) -> str:
     """Text of a number, of either sign, as what a macro stands for: `0.2`, `(-0.1)`."""
-    return target.literal(value) if value >= 0 else f"({target.literal(value)})"
+    return target.format_literal(value) if value >= 0 else f"({target.format_literal(value)})"
 
 
-def negative(value: Text) -> Text:
+def negate(value: CText) -> CText:
     """-value."""
-    return Text(f"-{value.within(PRODUCT)}", SUM)
+    return CText(f"-{value.parenthesise(PRODUCT)}", SUM)
 
 
-def sum_text(a: Text, a_positive: bool, b: Text, b_positive: bool) -> Text:
+def format_sum(a: CText, a_positive: bool, b: CText, b_positive: bool) -> CText:
     """(+-a) + (+-b); the positive one stands first, and a sum on the left."""
     if not a_positive and b_positive:
-        return sum_text(b, True, a, False)
+        return format_sum(b, True, a, False)
     if a_positive and b_positive and b.level == SUM and a.level != SUM:
         a, b = b, a
-    first = a.text if a_positive else negative(a).text
-    return Text(f"{first} {'+' if b_positive else '-'} {b.within(PRODUCT)}", SUM)
+    first = a.text if a_positive else negate(a).text
+    return CText(f"{first} {'+' if b_positive else '-'} {b.parenthesise(PRODUCT)}", SUM)
 
 
-def product_text(a: Text, b: Text) -> Text:
+def format_product(a: CText, b: CText) -> CText:
     """a * b; the one that is a product itself stands first."""
     if b.level == PRODUCT and a.level != PRODUCT:
         a, b = b, a
-    return Text(f"{a.within(PRODUCT)}*{b.within(ATOM)}", PRODUCT)
+    return CText(f"{a.parenthesise(PRODUCT)}*{b.parenthesise(ATOM)}", PRODUCT)
 
 
 _LONGEST = 74  # characters of an expression; with indent and name a line stays below 100
@@ -137,7 +137,7 @@ def make_block(
         return Block((), (), (), frozenset(), 0, 0)
     graph = outputs[0][1].graph
     values = [value for _, value in outputs]
-    reachable = graph.reachable(values)
+    reachable = graph.find_reachable(values)
     inner = [graph.nodes[i] for i in reachable if graph.nodes[i].op not in _LEAVES]
     uses = Counter(abs(arg) for node in inner for arg in node.args)
     uses.update(abs(value.ref) for value in values)
@@ -148,23 +148,23 @@ def make_block(
             named |= {abs(arg) for arg in node.args if graph.nodes[abs(arg)].static}
     forced = {i for i in named if graph.nodes[i].op not in _LEAVES}
     writer = _Writer(graph, places, widths or {}, target, forced)
-    writer.texts[0] = number_text(Fraction(0), target.still)
+    writer.texts[0] = format_number(Fraction(0), target.constant_target)
     hoisted = [i for i in reachable if writer.is_call(i) and not graph.nodes[i].static]
     writer.forced |= set(hoisted)
     for index in reachable:
         if graph.nodes[index].static and index in writer.forced:
-            writer.visit(index)
-    constants = writer.take()
+            writer.visit_node(index)
+    constants = writer.take_lines()
     for index in hoisted:
-        writer.visit(index)
-    calls = writer.take()
+        writer.visit_node(index)
+    calls = writer.take_lines()
     for place, value in outputs:
-        writer.lines.append(target.stored.format(place=place, text=writer.output(value)))
-    additions, multiplications = graph.operations(values)
+        writer.lines.append(target.stored.format(place=place, text=writer.format_output(value)))
+    additions, multiplications = graph.count_operations(values)
     symbols = frozenset(graph.nodes[i].args[0] for i in reachable if graph.nodes[i].op == "sym")
-    parts = constants, calls, writer.take()
+    parts = constants, calls, writer.take_lines()
     naming = Naming(graph, writer.temporaries, [line for part in parts for line in part])
-    constants, calls, body = (naming.written(part, target.remark) for part in parts)
+    constants, calls, body = (naming.write_names(part, target.remark) for part in parts)
     tables = {node.op: graph.tables[node.op] for node in inner if node.op in graph.tables}
     laws = {name.partition("_")[0]: tables[name].law for name in sorted(tables)}
     return Block(constants, calls, body, symbols, additions, multiplications, naming.letters, laws)
@@ -179,7 +179,7 @@ class _Writer:
     widths: Mapping[int, str]
     target: Target
     forced: set[int]
-    texts: dict[int, Text] = field(default_factory=dict)
+    texts: dict[int, CText] = field(default_factory=dict)
     lines: list[str] = field(default_factory=list)
     pairs: dict[int, str] = field(default_factory=dict)
     count: dict[str, int] = field(default_factory=lambda: {"k": 0, "t": 0})
@@ -192,28 +192,30 @@ class _Writer:
             node.op == "sign" and node.args[0] in self.widths
         )
 
-    def take(self) -> tuple[str, ...]:
+    def take_lines(self) -> tuple[str, ...]:
         """The lines since the last call."""
         lines, self.lines = tuple(self.lines), []
         return lines
 
-    def output(self, value: Expr) -> str:
+    def format_output(self, value: Expr) -> str:
         """Text of an output."""
         if value.is_zero:
-            return self._spread(0, number_text(Fraction(0), self.target.still)).text
-        self.visit(abs(value.ref))
+            return self._spread_constant(
+                0, format_number(Fraction(0), self.target.constant_target)
+            ).text
+        self.visit_node(abs(value.ref))
         text = self.texts[abs(value.ref)]
         if value.ref < 0:
-            text = self._turned(value.ref) or negative(text)
-        return self._spread(abs(value.ref), text).text
+            text = self._reverse_difference(value.ref) or negate(text)
+        return self._spread_constant(abs(value.ref), text).text
 
-    def _spread(self, index: int, text: Text) -> Text:
+    def _spread_constant(self, index: int, text: CText) -> CText:
         """The text of a node as one of the target's type: constants are single numbers."""
-        if not self.graph.nodes[index].static or self.target.still is self.target:
+        if not self.graph.nodes[index].static or self.target.constant_target is self.target:
             return text
-        return Text(self.target.spread.format(text.text), ATOM)
+        return CText(self.target.spread.format(text.text), ATOM)
 
-    def _turned(self, ref: int) -> Text | None:
+    def _reverse_difference(self, ref: int) -> CText | None:
         """Text of a negative reference if it can do without a leading minus: -(a - b) = b - a."""
         node = self.graph.nodes[abs(ref)]
         if ref > 0 or node.op != "add" or self.texts[abs(ref)].level != SUM:
@@ -221,9 +223,9 @@ class _Writer:
         first, second = (-arg for arg in node.args)
         if first < 0 and second < 0:
             return None
-        return sum_text(self.texts[abs(first)], first > 0, self.texts[abs(second)], second > 0)
+        return format_sum(self.texts[abs(first)], first > 0, self.texts[abs(second)], second > 0)
 
-    def visit(self, root: int) -> None:
+    def visit_node(self, root: int) -> None:
         """Write `root` and what it needs, arguments first; no recursion, graphs are deep."""
         stack = [(root, False)]
         while stack:
@@ -232,21 +234,21 @@ class _Writer:
                 continue
             node = self.graph.nodes[index]
             if ready or node.op in _LEAVES:
-                self._write(index)
+                self._write_node(index)
             else:
                 stack.append((index, True))
                 stack.extend((abs(arg), False) for arg in reversed(node.args))
 
-    def _write(self, index: int) -> None:
+    def _write_node(self, index: int) -> None:
         node = self.graph.nodes[index]
         if node.op in _PAIR and not node.static:
-            self.texts[index] = self._sine_or_cosine(node.op, node.args[0])
+            self.texts[index] = self._format_turn(node.op, node.args[0])
             return
-        self.texts[index] = self._text(index)
+        self.texts[index] = self._format_node(index)
         if index in self.forced:
-            self._name(index)
+            self._name_node(index)
 
-    def _sine_or_cosine(self, op: str, angle: int) -> Text:
+    def _format_turn(self, op: str, angle: int) -> CText:
         """The name of one of them; the first to be read computes both."""
         assert angle > 0, "the graph takes signs out of sines and cosines"
         if angle not in self.pairs:
@@ -260,10 +262,10 @@ class _Writer:
             words = {"number": self.target.number, "sincos": self.target.sincos}
             texts = (each.format(name=name, angle=argument, **words) for each in self.target.turn)
             self.lines += texts
-        return Text(_PAIR[op] + self.pairs[angle], ATOM)
+        return CText(_PAIR[op] + self.pairs[angle], ATOM)
 
-    def _text(self, index: int) -> Text:
-        text = self._combine(index)
+    def _format_node(self, index: int) -> CText:
+        text = self._combine_operands(index)
         if self.graph.nodes[index].op in _LEAVES:
             return text  # nothing in it could get a name of its own
         while len(text.text) > _LONGEST:
@@ -271,61 +273,61 @@ class _Writer:
             args = [a for a in args if self.texts[a].level != ATOM]
             if not args:
                 break
-            self._name(max(args, key=lambda a: len(self.texts[a].text)))
-            text = self._combine(index)
+            self._name_node(max(args, key=lambda a: len(self.texts[a].text)))
+            text = self._combine_operands(index)
         return text
 
-    def _combine(self, index: int) -> Text:
+    def _combine_operands(self, index: int) -> CText:
         node = self.graph.nodes[index]
-        target = self.target.still if node.static else self.target
+        target = self.target.constant_target if node.static else self.target
         if node.op == "num":
-            return number_text(node.args[0], target)
+            return format_number(node.args[0], target)
         if node.op == "pi":
-            return Text(f"{PI}{target.suffix}", ATOM)
+            return CText(f"{PI}{target.suffix}", ATOM)
         if node.op == "sym":
             if node.args[0] not in self.places:
                 raise EmitError(f"symbol {node.args[0]} has no place in the emitted function")
-            return Text(self.places[node.args[0]], ATOM)
+            return CText(self.places[node.args[0]], ATOM)
         args = [self.texts[abs(arg)] for arg in node.args]
         if node.op == "add":
-            turned = [self._turned(arg) for arg in node.args]
-            return sum_text(
+            turned = [self._reverse_difference(arg) for arg in node.args]
+            return format_sum(
                 turned[0] or args[0], turned[0] is not None or node.args[0] > 0,
                 turned[1] or args[1], turned[1] is not None or node.args[1] > 0,
             )  # fmt: skip
         if node.op in ("mul", "div"):
             assert all(arg > 0 for arg in node.args), "the graph takes signs out of products"
             if node.op == "mul":
-                return product_text(*args)
-            return Text(f"{args[0].within(PRODUCT)}/{args[1].within(ATOM)}", PRODUCT)
-        signed = [a if arg >= 0 else negative(a) for arg, a in zip(node.args, args, strict=True)]
+                return format_product(*args)
+            return CText(f"{args[0].parenthesise(PRODUCT)}/{args[1].parenthesise(ATOM)}", PRODUCT)
+        signed = [a if arg >= 0 else negate(a) for arg, a in zip(node.args, args, strict=True)]
         if not node.static:
             pairs = zip(node.args, signed, strict=True)
-            signed = [self._spread(abs(arg), text) for arg, text in pairs]
+            signed = [self._spread_constant(abs(arg), text) for arg, text in pairs]
         if node.op in self.graph.tables:
             name, _, slope = node.op.partition("_slope")
             arguments = ", ".join(each.text for each in signed)
             form = {"axes": len(signed), "along": slope, "name": name, "arguments": arguments}
-            return Text(target.law.format(**form), ATOM)
+            return CText(target.law.format(**form), ATOM)
         if node.op == "pow":
             base, exponent = signed
-            return Text(f"{target.functions['pow']}({base.text}, {exponent.text})", ATOM)
+            return CText(f"{target.functions['pow']}({base.text}, {exponent.text})", ATOM)
         if node.op == "sign" and node.args[0] in self.widths:
             width = self.widths[node.args[0]]
-            return Text(f"{target.smooth_sign}({signed[0].text}, {width})", ATOM)
+            return CText(f"{target.smooth_sign}({signed[0].text}, {width})", ATOM)
         if node.op not in target.functions:
             expected = ", ".join(f for f in FUNCTIONS if f != "pow")
             raise EmitError(f"function {node.op} has no C99 form here; expected {expected}")
-        return Text(f"{target.functions[node.op]}({signed[0].text})", ATOM)
+        return CText(f"{target.functions[node.op]}({signed[0].text})", ATOM)
 
-    def _name(self, index: int) -> None:
+    def _name_node(self, index: int) -> None:
         """Give the value a name, and from now on read that."""
         letter, number = "t", self.target.number
         if self.graph.nodes[index].static:
-            letter, number = "k", self.target.still.number
+            letter, number = "k", self.target.constant_target.number
         self.count[letter] += 1
         name = f"{letter}{self.count[letter]}"
         self.temporaries[name] = index
         text = self.texts[index].text
         self.lines.append(self.target.temporary.format(number=number, name=name, text=text))
-        self.texts[index] = Text(name, ATOM)
+        self.texts[index] = CText(name, ATOM)

@@ -10,11 +10,16 @@ from typing import Any
 import casadi
 
 from modeler.codegen import functions as layout
-from modeler.codegen.control import Control, control_functions
-from modeler.codegen.fitted import widths
-from modeler.codegen.forward import efforts
+from modeler.codegen.control import Control, build_control_functions
+from modeler.codegen.fitted import find_widths
+from modeler.codegen.forward import build_efforts
 from modeler.codegen.functions import CFunction
-from modeler.codegen.parameter_set import SMOOTH, smooth_functions, turning_joint, turning_joints
+from modeler.codegen.parameter_set import (
+    SMOOTH,
+    build_smooth_functions,
+    get_turning_joint,
+    list_turning_joints,
+)
 from modeler.core.expression import LAW
 from modeler.core.law import BESIDE
 from modeler.core.manifest import ArgumentSpec
@@ -34,25 +39,25 @@ _OPERATIONS = {
 }
 
 
-def _law(table: Table, *x: casadi.SX) -> casadi.SX:
+def _build_law(table: Table, *x: casadi.SX) -> casadi.SX:
     """A law as a sum of coefficients times cardinal splines B, of truncated powers."""
-    given = [casadi.SX.sym(f"x{k}") for k in range(len(x))]
+    arguments = [casadi.SX.sym(f"x{k}") for k in range(len(x))]
     total, law = casadi.SX(0), table.law
     splines = [
-        [_spline(casadi.fmax(0, casadi.fmin((y - low) * scale, count)) - i + 3)
+        [_evaluate_spline(casadi.fmax(0, casadi.fmin((y - low) * scale, count)) - i + 3)
          for i in range(count + BESIDE)]
-        for y, low, scale, count in zip(given, law.low, law.scales, law.cells, strict=True)
+        for y, low, scale, count in zip(arguments, law.low, law.scales, law.cells, strict=True)
     ]  # fmt: skip
     rows = law.coefficients.reshape(law.cells[0] + BESIDE, -1)
     for first, row in zip(splines[0], rows, strict=True):
         others = zip(row.tolist(), splines[1] if len(splines) > 1 else [1], strict=True)
         total += first * sum(c * second for c, second in others)
     if table.along is not None:
-        total = casadi.gradient(total, given[table.along])
-    return casadi.substitute([total], given, list(x))[0]
+        total = casadi.gradient(total, arguments[table.along])
+    return casadi.substitute([total], arguments, list(x))[0]
 
 
-def _spline(t: casadi.SX) -> casadi.SX:
+def _evaluate_spline(t: casadi.SX) -> casadi.SX:
     """B of [0, 4]."""
     s = casadi.fabs(t - 2)
     return (casadi.fmax(2 - s, 0) ** 3 - 4 * casadi.fmax(1 - s, 0) ** 3) / 6
@@ -63,14 +68,14 @@ _SYMBOLIC = Arithmetic(
     lambda: casadi.pi,
     {
         **_OPERATIONS, "abs": casadi.fabs, "pow": casadi.power, "add": casadi.plus,
-        "mul": casadi.times, "div": casadi.rdivide, LAW: _law,
+        "mul": casadi.times, "div": casadi.rdivide, LAW: _build_law,
     },
 )  # fmt: skip
 
 _DEEP = 1000  # nodes to which two speeds are compared
 
 
-def casadi_file(
+def write_casadi(
     model: SymbolicModel, base: BaseParameters, values: Sequence[float] | None = None
 ) -> tuple[bytes, dict[str, str], tuple[str, ...]]:
     """What `casadi.FileDeserializer(FILE).unpack()` reads: a list of functions.
@@ -83,16 +88,16 @@ def casadi_file(
     Returns:
         The file; {function: its inputs and outputs}; what is not in it, a sentence each.
     """
-    found, missing = casadi_functions(model, base)
+    functions, missing = build_casadi_functions(model, base)
     if values is not None:
-        found = [_with_values(each, values) for each in found]
+        functions = [_insert_values(each, values) for each in functions]
     packed = casadi.StringSerializer()
-    packed.pack(found)
-    signatures = {each.name(): str(each).partition(":")[2].rpartition(" ")[0] for each in found}
+    packed.pack(functions)
+    signatures = {each.name(): str(each).partition(":")[2].rpartition(" ")[0] for each in functions}
     return packed.encode().encode(), signatures, missing
 
 
-def casadi_functions(
+def build_casadi_functions(
     model: SymbolicModel, base: BaseParameters
 ) -> tuple[list[casadi.Function], tuple[str, ...]]:
     """The functions of a robot, and what is not among them; loops are closed by Newton from home.
@@ -100,99 +105,103 @@ def casadi_functions(
     `forward_dynamics` and `smooth_forward_dynamics` give qdd of M qdd = tau - c - g - f, by Newton
     where f reads qdd.
     """
-    beta = layout.beta_symbols(model, base)
-    given = layout.arguments_of(model.robot.free, model, base)
-    listed = [*layout.tree_functions(model, base)]
+    beta = layout.make_beta_symbols(model, base)
+    arguments = layout.make_arguments(model.robot.free_joints, model, base)
+    listed = [*layout.build_tree_functions(model, base)]
     if model.closure is not None:
-        listed += smooth_functions(model, beta, given)
+        listed += build_smooth_functions(model, beta, arguments)
     else:
-        listed += control_functions(model, base, Control())
-    turning = turning_joints(model, base)
-    found = {
-        f.role: _function(model, f, turning)
+        listed += build_control_functions(model, base, Control())
+    turning = list_turning_joints(model, base)
+    functions = {
+        f.role: _build_function(model, f, turning)
         for f in listed
         if not f.internal and f.composed is None
     }
     missing: tuple[str, ...] = ()
     if model.closure is not None:
-        found = _closed(model, model.closure, found)
+        functions = _close_functions(model, model.closure, functions)
         missing = ("not there: functions of the platform's coordinates, those for controllers",)
     composed = [f.role for f in listed if f.composed and f.role != "forward_dynamics"]
     if composed:
         missing = (f"not there: {', '.join(composed)}, which return a status in C",)
-    solve = _forward_by_newton if efforts(model, beta).turns else _forward
+    solve = _build_forward_by_newton if build_efforts(model, beta).is_implicit else _build_forward
     for head in ("", SMOOTH)[: 1 + bool(turning)]:
-        found[f"{head}forward_dynamics"] = solve(head, found)
-    return list(found.values()), missing
+        functions[f"{head}forward_dynamics"] = solve(head, functions)
+    return list(functions.values()), missing
 
 
-def _function(model: SymbolicModel, f: CFunction, turning: Sequence[str] = ()) -> casadi.Function:
-    """One of the C; `turning` says whose speed each entry of an input `widths` is of."""
+def _build_function(
+    model: SymbolicModel, f: CFunction, turning: Sequence[str] = ()
+) -> casadi.Function:
+    """One of the C; `turning` says whose speed each entry of an input `find_widths` is of."""
     inputs = {a.name: casadi.SX.sym(a.name, a.size) for a in f.inputs}
     values = {f"{n}[{k}]": x[k] for n, x in inputs.items() for k in range(x.numel())}
     values |= {name: casadi.SX(x) for name, x in model.geometry.values.items()}
     graph = f.entries[0][1].graph if f.entries else model.graph
     arithmetic = _SYMBOLIC
     if "widths" in inputs:
-        over = {speed: inputs["widths"][turning.index(turning_joint(width))]
-                for speed, width in widths("", model, [f]).items()}  # fmt: skip
-        arithmetic = _turning(graph, values, over)
+        over = {speed: inputs["widths"][turning.index(get_turning_joint(width))]
+                for speed, width in find_widths("", model, [f]).items()}  # fmt: skip
+        arithmetic = _smooth_signs(graph, values, over)
     numbers = [casadi.SX(0)] * f.output.size
     outputs = Plan(graph, [value for _, value in f.entries], arithmetic)(values)
     for (place, _), x in zip(f.entries, outputs, strict=True):
         numbers[place] = x
-    parts = _parts(f.output, numbers)
-    given = list(inputs.values()), list(parts.values()), list(inputs), list(parts)
-    return casadi.Function(f.role, *given)
+    parts = _split_output(f.output, numbers)
+    function_arguments = list(inputs.values()), list(parts.values()), list(inputs), list(parts)
+    return casadi.Function(f.role, *function_arguments)
 
 
-def _closed(
+def _close_functions(
     model: SymbolicModel, closure: Closure, tree: Mapping[str, casadi.Function]
 ) -> dict[str, casadi.Function]:
     """Functions of the coordinates: u(q) by Newton's method from home, ud = G qd, tau = G' tau_u.
 
     G and the accelerations of the solved variables follow from J ud = 0, J udd + drift = 0.
     """
-    n, given, solved = len(closure.home), list(closure.given), list(closure.solved)
+    n, independent, solved = len(closure.home), list(closure.actuated), list(closure.solved)
 
-    def of_tree(name: str, values: Sequence[Expr], *reads: str) -> casadi.Function:
+    def make_tree_function(name: str, values: Sequence[Expr], *reads: str) -> casadi.Function:
         inputs = tuple(ArgumentSpec(each, (n,), "", "") for each in reads)
         output = ArgumentSpec(name, (len(closure.equations), len(values) // len(closure.equations)),
                               "", "")  # fmt: skip
-        function = CFunction("", name, "", "", inputs, output, layout.entries_of(values))
-        return _function(model, function)
+        function = CFunction("", name, "", "", inputs, output, layout.list_entries(values))
+        return _build_function(model, function)
 
-    residual = of_tree("residual", closure.equations, "q")
-    J = of_tree("jacobian", [x for row in closure.jacobian for x in row], "q")
-    drift = of_tree("drift", closure.drift, "q", "qd")
+    residual = make_tree_function("residual", closure.equations, "q")
+    J = make_tree_function("jacobian", [x for row in closure.jacobian for x in row], "q")
+    drift = make_tree_function("drift", closure.drift, "q", "qd")
 
-    def assembled(some: Any, others: Any) -> Any:
-        rows = dict(zip([*given, *solved], casadi.vertsplit(casadi.vertcat(some, others)),
+    def assemble(some: Any, others: Any) -> Any:
+        rows = dict(zip([*independent, *solved], casadi.vertsplit(casadi.vertcat(some, others)),
                         strict=True))  # fmt: skip
         return casadi.vertcat(*(rows[k] for k in range(n)))
 
-    q, qd, qdd = (casadi.MX.sym(name, len(given)) for name in ("q", "qd", "qdd"))
-    x, y = casadi.SX.sym("x", len(solved)), casadi.SX.sym("y", len(given))
-    problem = {"x": x, "p": y, "g": residual(assembled(y, x))}
+    q, qd, qdd = (casadi.MX.sym(name, len(independent)) for name in ("q", "qd", "qdd"))
+    x, y = casadi.SX.sym("x", len(solved)), casadi.SX.sym("y", len(independent))
+    problem = {"x": x, "p": y, "g": residual(assemble(y, x))}
     close = casadi.rootfinder("closing", "newton", problem, {"abstol": 1e-12, "abstolStep": 1e-14})
-    u = assembled(q, close(casadi.DM([closure.home[k] for k in solved]), q))
-    own = J(u)[:, solved]
-    G = assembled(casadi.MX.eye(len(given)), -casadi.solve(own, J(u)[:, given]))
+    u = assemble(q, close(casadi.DM([closure.home[k] for k in solved]), q))
+    solved_columns = J(u)[:, solved]
+    G = assemble(
+        casadi.MX.eye(len(independent)), -casadi.solve(solved_columns, J(u)[:, independent])
+    )
     ud = G @ qd
-    rest = assembled(casadi.MX.zeros(len(given)), -casadi.solve(own, drift(u, ud)))
+    rest = assemble(casadi.MX.zeros(len(independent)), -casadi.solve(solved_columns, drift(u, ud)))
     motion = {"q": u, "qd": ud, "qdd": G @ qdd + rest}
-    found = {"base_parameters": tree["base_parameters"]}
+    functions = {"base_parameters": tree["base_parameters"]}
 
-    def public(name: str, values: Sequence[casadi.MX], inputs: Mapping[str, casadi.MX],
+    def add_public(name: str, values: Sequence[casadi.MX], inputs: Mapping[str, casadi.MX],
                outputs: Sequence[str]) -> None:  # fmt: skip
         read = {"q", *(x.name() for value in values for x in casadi.symvar(value))}
         reads = {n: x for n, x in inputs.items() if n in read}
-        found[name] = casadi.Function(
+        functions[name] = casadi.Function(
             name, list(reads.values()), list(values), list(reads), list(outputs)
         )
 
-    public("close", [u], {"q": q}, ["u"])
-    public("coupling", [G], {"q": q}, ["G"])
+    add_public("close", [u], {"q": q}, ["u"])
+    add_public("coupling", [G], {"q": q}, ["G"])
     for role, function in tree.items():
         if role in ("base_parameters", "base_regressor_nonzeros"):
             continue
@@ -205,11 +214,11 @@ def _closed(
             values = [G.T @ value for value in values]
         if role == "inertia_matrix":
             values = [values[0] @ G]
-        public(role, values, {"q": q, "qd": qd, "qdd": qdd, **more}, function.name_out())
-    return found
+        add_public(role, values, {"q": q, "qd": qd, "qdd": qdd, **more}, function.name_out())
+    return functions
 
 
-def _turning(
+def _smooth_signs(
     graph: Graph, values: Mapping[str, casadi.SX], over: Mapping[int, casadi.SX]
 ) -> Arithmetic:
     """Arithmetic in which the signs of these speeds turn, each over its width."""
@@ -224,7 +233,7 @@ def _turning(
     return Arithmetic(_SYMBOLIC.number, _SYMBOLIC.pi, {**_SYMBOLIC.functions, "sign": sign})
 
 
-def _parts(output: ArgumentSpec, numbers: Sequence[casadi.SX]) -> dict[str, casadi.SX]:
+def _split_output(output: ArgumentSpec, numbers: Sequence[casadi.SX]) -> dict[str, casadi.SX]:
     """{name: value}: a vector, a matrix, or of more dimensions a matrix for each first index."""
     *more, last = output.shape
     if not more:
@@ -238,52 +247,60 @@ def _parts(output: ArgumentSpec, numbers: Sequence[casadi.SX]) -> dict[str, casa
     }  # fmt: skip
 
 
-def _forward(head: str, found: Mapping[str, casadi.Function]) -> casadi.Function:
+def _build_forward(head: str, functions: Mapping[str, casadi.Function]) -> casadi.Function:
     """Qdd of tau, by the LDL' factors of M."""
-    torques = found[f"{head}inverse_dynamics"]
-    given = _symbols(torques)
-    qdd, kind = given["qdd"], type(given["qdd"])
-    still = torques.call([*({**given, "qdd": kind.zeros(*qdd.shape)}.values())])[0]
-    M = found["inertia_matrix"].call([given["q"], given["beta"]])[0]
+    torques = functions[f"{head}inverse_dynamics"]
+    symbols = _make_symbols(torques)
+    qdd, kind = symbols["qdd"], type(symbols["qdd"])
+    still = torques.call([*({**symbols, "qdd": kind.zeros(*qdd.shape)}.values())])[0]
+    M = functions["inertia_matrix"].call([symbols["q"], symbols["beta"]])[0]
     tau = kind.sym("tau", *qdd.shape)
     if kind is casadi.SX:
         solved = casadi.ldl_solve(tau - still, *casadi.ldl(M))
     else:
         solved = casadi.solve(M, tau - still)
-    names = ["q", "qd", "tau", *(n for n in given if n not in ("q", "qd", "qdd"))]
-    inputs = [{**given, "tau": tau}[n] for n in names]
+    names = ["q", "qd", "tau", *(n for n in symbols if n not in ("q", "qd", "qdd"))]
+    inputs = [{**symbols, "tau": tau}[n] for n in names]
     return casadi.Function(f"{head}forward_dynamics", inputs, [solved], names, ["qdd"])
 
 
-def _forward_by_newton(head: str, found: Mapping[str, casadi.Function]) -> casadi.Function:
+def _build_forward_by_newton(
+    head: str, functions: Mapping[str, casadi.Function]
+) -> casadi.Function:
     """Qdd of tau where friction reads accelerations, or expressions that cancel do."""
-    torques = found[f"{head}inverse_dynamics"]
-    given = _symbols(torques)
-    qdd = given.pop("qdd")
-    given = {"q": given.pop("q"), "qd": given.pop("qd"), "tau": casadi.SX.sym("tau", qdd.numel()),
-             **given}  # fmt: skip
-    tau = torques.call([{**given, "qdd": qdd}[name] for name in torques.name_in()])[0]
-    problem = {"x": qdd, "p": casadi.vertcat(*given.values()), "g": tau - given["tau"]}
+    torques = functions[f"{head}inverse_dynamics"]
+    symbols = _make_symbols(torques)
+    qdd = symbols.pop("qdd")
+    symbols = {
+        "q": symbols.pop("q"),
+        "qd": symbols.pop("qd"),
+        "tau": casadi.SX.sym("tau", qdd.numel()),
+        **symbols,
+    }
+    tau = torques.call([{**symbols, "qdd": qdd}[name] for name in torques.name_in()])[0]
+    problem = {"x": qdd, "p": casadi.vertcat(*symbols.values()), "g": tau - symbols["tau"]}
     solver = casadi.rootfinder(f"{head}accelerations", "newton", problem, {"abstol": 1e-11})
-    inputs = {name: casadi.MX.sym(name, x.numel()) for name, x in given.items()}
+    inputs = {name: casadi.MX.sym(name, x.numel()) for name, x in symbols.items()}
     start = casadi.DM.zeros(qdd.numel())
     solved = solver(start, casadi.vertcat(*inputs.values()))
     names = list(inputs)
     return casadi.Function(f"{head}forward_dynamics", [*inputs.values()], [solved], names, ["qdd"])
 
 
-def _with_values(function: casadi.Function, values: Sequence[float]) -> casadi.Function:
+def _insert_values(function: casadi.Function, values: Sequence[float]) -> casadi.Function:
     """The function without its argument beta."""
-    given = _symbols(function)
-    if "beta" not in given:
+    symbols = _make_symbols(function)
+    if "beta" not in symbols:
         return function
     beta = casadi.DM(list(map(float, values)))
-    out = function.call([*{**given, "beta": type(given["beta"])(beta)}.values()])
-    del given["beta"]
-    return casadi.Function(function.name(), [*given.values()], out, [*given], function.name_out())
+    out = function.call([*{**symbols, "beta": type(symbols["beta"])(beta)}.values()])
+    del symbols["beta"]
+    return casadi.Function(
+        function.name(), [*symbols.values()], out, [*symbols], function.name_out()
+    )
 
 
-def _symbols(function: casadi.Function) -> dict[str, Any]:
+def _make_symbols(function: casadi.Function) -> dict[str, Any]:
     """{input: a symbol of its size}, of SX or MX as the function is."""
     kind = casadi.SX if function.is_a("SXFunction") else casadi.MX
     return {name: kind.sym(name, *function.size_in(name)) for name in function.name_in()}

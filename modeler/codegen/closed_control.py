@@ -57,7 +57,7 @@ class AtState(Composed):
     width: int = 1
 
 
-def closed_control_functions(
+def build_closed_control_functions(
     model: SymbolicModel, base: BaseParameters, tree: Iterable[CFunction]
 ) -> tuple[CFunction, ...]:
     """The tree's functions that are needed, internal; then those of the closed robot.
@@ -67,9 +67,9 @@ def closed_control_functions(
         base: its base parameters.
         tree: the controller's functions of the opened tree.
     """
-    given = layout.arguments_of(model.robot.coordinates, model, base)
-    names = {argument.name: argument for argument in (given.q, given.qd, given.beta)}
-    n, g = len(model.robot.free), given.q.size
+    arguments = layout.make_arguments(model.robot.coordinates, model, base)
+    names = {argument.name: argument for argument in (arguments.q, arguments.qd, arguments.beta)}
+    n, g = len(model.robot.free_joints), arguments.q.size
     inner, public = list[CFunction](), list[CFunction]()
     for f in tree:
         form = _FORMS.get(f.role) or next(
@@ -103,21 +103,32 @@ def closed_control_functions(
     parts = {"matrix": "inertia_matrix", "torques": "inverse_dynamics"}
     public += [
         CFunction(
-            UNIT, "coupling_rate", "Rate of the coupling: udd = G qdd + dG/dt qd.", "dG/dt",
-            (given.q, given.qd), rate, (), composed=AtState("at_state", {}, form="rate"),
+            UNIT,
+            "coupling_rate",
+            "Rate of the coupling: udd = G qdd + dG/dt qd.",
+            "dG/dt",
+            (arguments.q, arguments.qd),
+            rate,
+            (),
+            composed=AtState("at_state", {}, form="rate"),
         ),
         CFunction(
-            UNIT, "forward_dynamics", "Accelerations under these torques, friction included.",
-            "M(q) qdd = tau - c(q, qd) - g(q) - f(qd)", (given.q, given.qd, given.tau, given.beta),
-            given.qdd, (), composed=AtState("at_state", parts, TURNS, form="forward_dynamics"),
+            UNIT,
+            "forward_dynamics",
+            "Accelerations under these torques, friction included.",
+            "M(q) qdd = tau - c(q, qd) - g(q) - f(qd)",
+            (arguments.q, arguments.qd, arguments.tau, arguments.beta),
+            arguments.qdd,
+            (),
+            composed=AtState("at_state", parts, TURNS, form="forward_dynamics"),
         ),
-    ]  # fmt: skip
+    ]
     return (*inner, *public)
 
 
-def fitted_closed(functions: Sequence[CFunction]) -> tuple[CFunction, ...]:
+def build_fitted_closed(functions: Sequence[CFunction]) -> tuple[CFunction, ...]:
     """Twins of those that read beta, with the fitted values."""
-    found = []
+    twins = []
     for f in functions:
         if f.composed is None or all(a.name != "beta" for a in f.inputs):
             continue
@@ -126,25 +137,27 @@ def fitted_closed(functions: Sequence[CFunction]) -> tuple[CFunction, ...]:
             parts = {word: f"fitted_{role}" for word, role in f.composed.roles.items()}
             made = AtState("at_state", parts, TURNS, form="forward_dynamics")
         inputs = tuple(a for a in f.inputs if a.name != "beta")
-        found.append(dataclasses.replace(f, role=f"fitted_{f.role}", inputs=inputs, composed=made))
-    return tuple(found)
+        twins.append(dataclasses.replace(f, role=f"fitted_{f.role}", inputs=inputs, composed=made))
+    return tuple(twins)
 
 
-def at_prototypes(prefix: str, function: CFunction, number: str) -> tuple[str, str, str]:
+def format_state_prototypes(prefix: str, function: CFunction, number: str) -> tuple[str, str, str]:
     """Prototypes where loops are closed: made of a posture; of a state, declared and defined."""
     closed = function.closed
     if closed is None and not isinstance(function.composed, AtState):
         return "", "", ""
     motion = (closed.q, closed.qd, closed.start) if closed is not None else ("q", "qd")
-    kept = dataclasses.replace(
+    reduced = dataclasses.replace(
         function, inputs=tuple(a for a in function.inputs if a.name not in motion)
     )
     name = f"{prefix}_{function.role}_at"
-    plain, state = layout.arguments(kept, number, prefix), f"struct {prefix}_state *state"
+    plain, state = layout.format_arguments(reduced, number, prefix), f"struct {prefix}_state *state"
     posture = [f"struct {prefix}_posture *p", f"{number} *rows"]
-    own = layout.arguments(kept, number, prefix, defined=True)
+    defined_arguments = layout.format_arguments(reduced, number, prefix, defined=True)
     return (
-        layout.prototype(f"made_{function.role}", [*posture, *own], "static void"),
-        layout.prototype(name, [state, *plain], "int"),
-        layout.prototype(name, [state, *own], "int"),
+        layout.format_prototype(
+            f"made_{function.role}", [*posture, *defined_arguments], "static void"
+        ),
+        layout.format_prototype(name, [state, *plain], "int"),
+        layout.format_prototype(name, [state, *defined_arguments], "int"),
     )

@@ -19,7 +19,7 @@ from typing import Any
 
 from modeler.codegen.package import render
 from modeler.core.errors import BuildError, Machine
-from modeler.core.manifest import Emitted
+from modeler.core.manifest import EmittedModule
 
 COST = "cost.json"
 """Name of the file that holds the figures."""
@@ -45,30 +45,30 @@ _INSTRUCTIONS = re.compile(r"#define (\w+)_INSTRUCTIONS (\d+)")
 
 
 @dataclass(frozen=True)
-class _Calls:
+class _CallGraph:
     """The call graph of a library: bytes of each function's frame, and whom it calls."""
 
     frames: Mapping[str, int]
     edges: Mapping[str, frozenset[str]]
 
-    def deepest(self, name: str) -> tuple[int | None, frozenset[str]]:
+    def find_deepest(self, name: str) -> tuple[int | None, frozenset[str]]:
         """Bytes of stack of a call at most, and the functions outside that it may reach.
 
         None where the graph has no body of that name.
         """
 
         @cache
-        def of(each: str) -> tuple[int, frozenset[str]]:
+        def measure(each: str) -> tuple[int, frozenset[str]]:
             if each not in self.frames:
                 return 0, frozenset() if each == _INDIRECT else frozenset([each])
-            found = [of(callee) for callee in self.edges.get(each, ())]
-            deepest = max((stack for stack, _ in found), default=0)
-            return self.frames[each] + deepest, frozenset().union(*(out for _, out in found))
+            callees = [measure(callee) for callee in self.edges.get(each, ())]
+            deepest = max((stack for stack, _ in callees), default=0)
+            return self.frames[each] + deepest, frozenset().union(*(out for _, out in callees))
 
-        return of(name) if name in self.frames else (None, frozenset())
+        return measure(name) if name in self.frames else (None, frozenset())
 
 
-def with_cost(emitted: Emitted, machine: Machine) -> Emitted:
+def add_cost(emitted: EmittedModule, machine: Machine) -> EmittedModule:
     """The module with `cost.json` and a table in its README.
 
     Args:
@@ -79,53 +79,53 @@ def with_cost(emitted: Emitted, machine: Machine) -> Emitted:
         BuildError: a tool is missing, or the compiler refuses the C.
     """
     prefix, flags = _MACHINES[machine]
-    tools = {each: _tool(prefix + each) for each in ("gcc", "ld", "nm", "size", "objdump")}
+    tools = {each: _find_tool(prefix + each) for each in ("gcc", "ld", "nm", "size", "objdump")}
     with tempfile.TemporaryDirectory() as directory:
         folder = Path(directory)
         for name, text in emitted.files.items():
             (folder / name).parent.mkdir(exist_ok=True)
             (folder / name).write_text(text)
         sources = [name for name in emitted.spec.controller_sources if name.endswith(".c")]
-        _run(folder, tools["gcc"], *_SECTIONS, *flags, "-c", *sources)
+        _run_command(folder, tools["gcc"], *_SECTIONS, *flags, "-c", *sources)
         objects = [name.replace(".c", ".o") for name in sources]
-        calls = _call_graph(folder, tools["objdump"], objects)
-        counts = _instructions(folder, machine, emitted)
+        calls = _read_call_graph(folder, tools["objdump"], objects)
+        counts = _count_instructions(folder, machine, emitted)
         rows = []
         for function in emitted.spec.every_function:
-            stack, outside = calls.deepest(function.name)
+            stack, outside = calls.find_deepest(function.name)
             rows.append({
                 "name": function.name, "stack": stack, "outside": sorted(outside),
-                "flash": _flash(folder, tools, objects, function.name),
+                "flash": _measure_flash(folder, tools, objects, function.name),
                 "instructions": counts.get(function.name.upper()),
             })  # fmt: skip
-        compiler = _run(folder, tools["gcc"], "--version").splitlines()[0]
+        compiler = _run_command(folder, tools["gcc"], "--version").splitlines()[0]
     spec = emitted.spec
-    told = {
-        "robot": spec.robot, "signature": spec.signature(), "precision": spec.precision,
+    figures = {
+        "robot": spec.robot, "signature": spec.compute_signature(), "precision": spec.precision,
         "machine": machine, "compiler": compiler, "flags": list(flags),
         "evaluations": 5000 if spec.closure is not None else None, "functions": rows,
     }  # fmt: skip
-    return _added(emitted, told)
+    return _add_files(emitted, figures)
 
 
-def _added(emitted: Emitted, told: Mapping[str, Any]) -> Emitted:
-    readme = emitted.files["README.md"] + render("cost.md", **told)
-    more = {COST: json.dumps(told, indent=1) + "\n", "README.md": readme}
-    return Emitted(emitted.spec, {**emitted.files, **more}, emitted.log)
+def _add_files(emitted: EmittedModule, figures: Mapping[str, Any]) -> EmittedModule:
+    readme = emitted.files["README.md"] + render("cost.md", **figures)
+    more = {COST: json.dumps(figures, indent=1) + "\n", "README.md": readme}
+    return EmittedModule(emitted.spec, {**emitted.files, **more}, emitted.log)
 
 
-def _tool(name: str) -> str:
-    found = shutil.which(name)
-    if found is None:
+def _find_tool(name: str) -> str:
+    path = shutil.which(name)
+    if path is None:
         package = "gcc-arm-none-eabi" if name.startswith("arm") else "gcc binutils"
         raise BuildError(
             f"--measure: {name} is not installed; install it (Debian: apt install {package}), or "
             "measure for another machine"
         )
-    return found
+    return path
 
 
-def _run(folder: Path, *command: str) -> str:
+def _run_command(folder: Path, *command: str) -> str:
     done = subprocess.run(command, cwd=folder, capture_output=True, text=True, check=False)
     if done.returncode != 0:
         first = (done.stderr.strip().splitlines() or ["no message"])[0]
@@ -136,7 +136,7 @@ def _run(folder: Path, *command: str) -> str:
     return done.stdout
 
 
-def _call_graph(folder: Path, objdump: str, objects: Sequence[str]) -> _Calls:
+def _read_call_graph(folder: Path, objdump: str, objects: Sequence[str]) -> _CallGraph:
     frames: dict[str, int] = {}
     edges: dict[str, set[str]] = {}
     for name in objects:
@@ -149,28 +149,32 @@ def _call_graph(folder: Path, objdump: str, objects: Sequence[str]) -> _Calls:
         if version and version != "resolver" and (name not in frames or not frames[name]):
             frames[name] = 0
             edges.setdefault(name, set()).add(node)
-    relocations = _RELOCATION.findall(_run(folder, objdump, "-r", *objects))
+    relocations = _RELOCATION.findall(_run_command(folder, objdump, "-r", *objects))
     taken = {symbol for kind, symbol in relocations if not kind.endswith(_CALLS)}
     tables = {symbol for kind, symbol in relocations if kind.endswith(("_64", "_ABS32", "_ABS64"))}
     # A function of one file is called `file.c:name` in the graph; a call of it is relative too.
-    own = {name for name in frames if ":" in name and name.rpartition(":")[2] in tables}
-    edges[_INDIRECT] = (taken & frames.keys()) | own
+    local_functions = {name for name in frames if ":" in name and name.rpartition(":")[2] in tables}
+    edges[_INDIRECT] = (taken & frames.keys()) | local_functions
     frames[_INDIRECT] = 0
-    return _Calls(frames, {caller: frozenset(found) for caller, found in edges.items()})
+    return _CallGraph(frames, {caller: frozenset(callees) for caller, callees in edges.items()})
 
 
-def _flash(folder: Path, tools: Mapping[str, str], objects: Sequence[str], name: str) -> int:
+def _measure_flash(
+    folder: Path, tools: Mapping[str, str], objects: Sequence[str], name: str
+) -> int:
     """Bytes of code and constants that are linked for one function alone."""
     alone = "alone.o"
-    _run(folder, tools["ld"], "-r", "--gc-sections", "-u", name, "-e", name, *objects, "-o", alone)
-    text, data = _run(folder, tools["size"], alone).splitlines()[1].split()[:2]
+    _run_command(
+        folder, tools["ld"], "-r", "--gc-sections", "-u", name, "-e", name, *objects, "-o", alone
+    )
+    text, data = _run_command(folder, tools["size"], alone).splitlines()[1].split()[:2]
     return int(text) + int(data)
 
 
-def _instructions(folder: Path, machine: Machine, emitted: Emitted) -> dict[str, int]:
+def _count_instructions(folder: Path, machine: Machine, emitted: EmittedModule) -> dict[str, int]:
     """{NAME: most of one call}, counted in qemu; {} where it is missing, or nothing is counted."""
     counted = "programs/count_instructions.c" in emitted.files
     if machine == "host" or not counted or shutil.which("qemu-system-arm") is None:
         return {}
-    text = _run(folder, _tool("make"), "count", f"CPU={machine}")
+    text = _run_command(folder, _find_tool("make"), "count", f"CPU={machine}")
     return {name: int(count) for name, count in _INSTRUCTIONS.findall(text)}

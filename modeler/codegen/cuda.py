@@ -10,7 +10,7 @@ from typing import Any
 
 from modeler.codegen import functions as layout
 from modeler.codegen.block import make_block
-from modeler.codegen.law_tables import law_source, law_tables
+from modeler.codegen.law_tables import build_law_tables, read_law_source
 from modeler.codegen.package import render
 from modeler.codegen.targets import CUDA
 from modeler.core.errors import EmitError
@@ -22,7 +22,7 @@ _SHARED = 48 * 1024
 _TILES = (32, 16, 8, 4)
 
 
-def cuda_files(values: Mapping[str, Any]) -> dict[str, str]:
+def build_cuda_files(values: Mapping[str, Any]) -> dict[str, str]:
     """{name: text} of the CUDA unit, from what all templates of the module are given.
 
     Raises:
@@ -42,7 +42,7 @@ def cuda_files(values: Mapping[str, Any]) -> dict[str, str]:
         target=CUDA,
     )
     names = [argument.name for argument in function.inputs]
-    lines = [f"(void){name};" for name in layout.unread(function, block)]
+    lines = [f"(void){name};" for name in layout.list_unread_inputs(function, block)]
     for part in (block.constants, block.calls, block.body):
         lines += ["", *part] if lines and part else part
     texts = values["symbols"].texts
@@ -53,14 +53,14 @@ def cuda_files(values: Mapping[str, Any]) -> dict[str, str]:
         lines=lines,
         states=", ".join(f"const double *{name}" for name in names),
         constants=[(values["names"][n], texts[n]) for n in texts if n in block.symbols],
-        shape=_shape(spec),
-        laws=law_tables([block], CUDA),
-        law_source=law_source(),
+        shape=_plan_products(spec),
+        laws=build_law_tables([block], CUDA),
+        law_source=read_law_source(),
     )
     return {f"{spec.prefix}.cu": text}
 
 
-def _shape(spec: ModuleSpec) -> dict[str, Any]:
+def _plan_products(spec: ModuleSpec) -> dict[str, Any]:
     """How the products of one robot are spread over a block.
 
     Its threads, the samples at hand (a tile), and C tables: of the first and second of each pair of
@@ -70,14 +70,16 @@ def _shape(spec: ModuleSpec) -> dict[str, Any]:
     columns = len(entries) + joints
     products = []
     for joint in range(joints):
-        own = [k for k, (row, _) in enumerate(entries) if row == joint] + [len(entries) + joint]
-        products += [(a, b) for at, a in enumerate(own) for b in own[at:]]
+        joint_entries = [k for k, (row, _) in enumerate(entries) if row == joint] + [
+            len(entries) + joint
+        ]
+        products += [(a, b) for at, a in enumerate(joint_entries) for b in joint_entries[at:]]
     fitting = (tile for tile in _TILES if columns * (tile + 1) * 8 <= _SHARED)
     return {
         "threads": CUDA_THREADS,
         "tile": next(fitting, 1),
         "products": products,
-        "first": layout.name_lines([a for a, _ in products]),
-        "second": layout.name_lines([b for _, b in products]),
-        "joints": layout.name_lines([row for row, _ in entries] + list(range(joints))),
+        "first": layout.wrap_names([a for a, _ in products]),
+        "second": layout.wrap_names([b for _, b in products]),
+        "joints": layout.wrap_names([row for row, _ in entries] + list(range(joints))),
     }

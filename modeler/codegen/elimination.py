@@ -23,7 +23,7 @@ _CLOSED = 1e-9
 
 
 @dataclass(frozen=True)
-class Pattern:
+class SparsityPattern:
     """The nonzeros of df/du, row after row.
 
     Attributes:
@@ -35,16 +35,18 @@ class Pattern:
     entries: tuple[Expr, ...]
 
 
-def pattern_of(model: SymbolicModel) -> Pattern:
+def find_pattern(model: SymbolicModel) -> SparsityPattern:
     """The nonzeros of the closure's Jacobian."""
     assert model.closure is not None
-    found = [
+    nonzeros = [
         ((i, k), entry)
         for i, line in enumerate(model.closure.jacobian)
         for k, entry in enumerate(line)
         if not entry.is_zero
     ]
-    return Pattern(tuple(place for place, _ in found), tuple(entry for _, entry in found))
+    return SparsityPattern(
+        tuple(place for place, _ in nonzeros), tuple(entry for _, entry in nonzeros)
+    )
 
 
 @dataclass(frozen=True)
@@ -66,34 +68,36 @@ class Elimination:
     factors: tuple[Expr, ...]
     solution: tuple[Expr, ...]
     coupling: tuple[tuple[int, int, Expr], ...]
-    turned: tuple[Expr, ...]
-    spread: Expr
+    change_bounds: tuple[Expr, ...]
+    change_squares: Expr
 
 
-def elimination(
-    model: SymbolicModel, pattern: Pattern, given: Sequence[int], J: np.ndarray
+def eliminate(
+    model: SymbolicModel, pattern: SparsityPattern, independent: Sequence[int], J: np.ndarray
 ) -> Elimination:
     """The elimination of the columns that are not given.
 
     Args:
         model: with loops.
         pattern: of its Jacobian.
-        given: places in u.
+        independent: places in u.
         J: (n, len(solved), len(u)) values of the Jacobian, for the order of the pivots.
     """
     closure, graph = model.closure, model.graph
     assert closure is not None
-    solved = [k for k in range(len(closure.home)) if k not in given]
-    scale = np.array([closure.size if long else 1.0 for long in closure.lengths])
+    solved = [k for k in range(len(closure.home)) if k not in independent]
+    scale = np.array([closure.size if long else 1.0 for long in closure.is_travel])
     size = 2.0 ** np.round(np.log2(np.max(np.linalg.norm(J * scale, axis=2), axis=0)))
     places = {(i, solved.index(k)) for i, k in pattern.places if k in solved}
-    order = _order(J[:, :, solved] * scale[solved] / size[:, None], places)
+    order = _order_pivots(J[:, :, solved] * scale[solved] / size[:, None], places)
     symbols = {
         (i, k): entry if graph.nodes[abs(entry.ref)].op == "num" else graph.symbol(f"J[{at}]")
         for at, ((i, k), entry) in enumerate(zip(pattern.places, pattern.entries, strict=True))
     }
-    own = {(i, solved.index(k)): entry for (i, k), entry in symbols.items() if k in solved}
-    factors = _Factors(graph, order, own)
+    solved_entries = {
+        (i, solved.index(k)): entry for (i, k), entry in symbols.items() if k in solved
+    }
+    factors = _Factors(graph, order, solved_entries)
     zero, every = graph.constant(0), range(len(solved))
     # J' - J of the solved columns; sums over its rows, and J^-1 times it, in scaled variables.
     changes = {
@@ -105,16 +109,16 @@ def elimination(
     sums = [zero for _ in every]
     for (i, j), change in changes.items():
         sums[i] = sums[i] + graph.call("abs", change) * lengths[j]
-    bounds = factors.solved(sums, bound=True)
-    solution = factors.solved([graph.symbol(f"right[{i}]") for i in every])
+    bounds = factors.solve(sums, bound=True)
+    solution = factors.solve([graph.symbol(f"right[{i}]") for i in every])
     coupling = []  # G = -J_solved^-1 J_given
-    for j, k in enumerate(given):
-        column = factors.solved([-symbols.get((i, k), zero) for i in every])
+    for j, k in enumerate(independent):
+        column = factors.solve([-symbols.get((i, k), zero) for i in every])
         coupling += [(at, j, x) for at, x in zip(solved, column, strict=True) if not x.is_zero]
     turned = tuple(bound / length for bound, length in zip(bounds, lengths, strict=True))
     squares = zero
     for j in every:
-        column = factors.solved([changes.get((i, j), zero) for i in every])
+        column = factors.solve([changes.get((i, j), zero) for i in every])
         for x, length in zip(column, lengths, strict=True):
             share = x * (lengths[j] / length)
             squares = squares + share * share
@@ -123,41 +127,43 @@ def elimination(
         factors=tuple(factors.values),
         solution=tuple(solution),
         coupling=tuple(coupling),
-        turned=turned,
-        spread=squares,
+        change_bounds=turned,
+        change_squares=squares,
     )
 
 
-def sampled_jacobians(model: SymbolicModel) -> np.ndarray:
+def sample_jacobians(model: SymbolicModel) -> np.ndarray:
     """(n, len(equations), len(u)) df/du at home, and at closed postures around it."""
     closure = model.closure
     assert closure is not None
     solved, scale = list(closure.solved), closure.scale
     home = np.asarray(closure.home)
-    moves = np.random.default_rng(_SEED).uniform(-_MOVED, _MOVED, (_POSTURES, len(closure.given)))
+    moves = np.random.default_rng(_SEED).uniform(
+        -_MOVED, _MOVED, (_POSTURES, len(closure.actuated))
+    )
     u = np.tile(home, (_POSTURES, 1))
-    u[:, list(closure.given)] += moves * scale[list(closure.given)]
+    u[:, list(closure.actuated)] += moves * scale[list(closure.actuated)]
     good = np.ones(_POSTURES, dtype=bool)
     with np.errstate(all="ignore"):
         for _ in range(_ROUNDS):
-            f = closure.residuals(u)
-            inner = closure.jacobians(u)[:, :, solved]
-            steps = [_step(A, b) for A, b in zip(inner, f, strict=True)]
+            f = closure.compute_residuals(u)
+            inner = closure.compute_jacobians(u)[:, :, solved]
+            steps = [_solve_step(A, b) for A, b in zip(inner, f, strict=True)]
             u[:, solved] -= np.array(steps)
             good &= np.isfinite(u).all(axis=1)
             u[~good] = home
-        good &= np.abs(closure.residuals(u)).max(axis=1) <= _CLOSED * closure.size
-    return closure.jacobians(np.concatenate([home[None], u[good]]))
+        good &= np.abs(closure.compute_residuals(u)).max(axis=1) <= _CLOSED * closure.size
+    return closure.compute_jacobians(np.concatenate([home[None], u[good]]))
 
 
-def _step(A: np.ndarray, b: np.ndarray) -> np.ndarray:
+def _solve_step(A: np.ndarray, b: np.ndarray) -> np.ndarray:
     try:
         return np.linalg.solve(A, b)
     except np.linalg.LinAlgError:
         return np.full_like(b, np.nan)
 
 
-def _order(values: np.ndarray, pattern: set[tuple[int, int]]) -> list[tuple[int, int]]:
+def _order_pivots(values: np.ndarray, pattern: set[tuple[int, int]]) -> list[tuple[int, int]]:
     """(row, column) of each pivot.
 
     Args:
@@ -223,23 +229,23 @@ class _Factors:
         self.right: list[list[tuple[int, Expr]]] = []  # by pivot: (column, entry)
         self.below: list[list[tuple[int, Expr]]] = []  # by pivot: (row, multiplier)
         for across, down in zip(upper, lower, strict=True):
-            self.right.append([(c, self._kept(value)) for c, value in across])
-            self.below.append([(r, self._kept(value)) for r, value in down])
+            self.right.append([(c, self._store_value(value)) for c, value in across])
+            self.below.append([(r, self._store_value(value)) for r, value in down])
 
-    def _kept(self, value: Expr) -> Expr:
+    def _store_value(self, value: Expr) -> Expr:
         """The value as the other functions read it."""
         if self.graph.nodes[abs(value.ref)].op == "num":
             return value
         self.values.append(value)
         return self.graph.symbol(f"lu[{len(self.values) - 1}]")
 
-    def solved(self, right: Sequence[Expr], bound: bool = False) -> list[Expr]:
+    def solve(self, right: Sequence[Expr], bound: bool = False) -> list[Expr]:
         """x with A x = right; as a bound, |A^-1| right <= x.
 
         The inverse of a triangle is at most that of its comparison matrix.
         """
 
-        def less(value: Expr, factor: Expr, x: Expr) -> Expr:
+        def subtract(value: Expr, factor: Expr, x: Expr) -> Expr:
             if bound:
                 return value + self.graph.call("abs", factor) * x
             return value - factor * x
@@ -247,10 +253,10 @@ class _Factors:
         y, x = list(right), [self.graph.constant(0)] * len(right)
         for (i, _), below in zip(self.order, self.below, strict=True):
             for r, share in below:
-                y[r] = less(y[r], share, y[i])
+                y[r] = subtract(y[r], share, y[i])
         for k, (i, j) in reversed([*enumerate(self.order)]):
             rest = y[i]
             for c, value in self.right[k]:
-                rest = less(rest, value, x[c])
+                rest = subtract(rest, value, x[c])
             x[j] = rest * (self.graph.call("abs", self.inverse[k]) if bound else self.inverse[k])
         return x

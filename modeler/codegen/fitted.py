@@ -13,12 +13,12 @@ from fractions import Fraction
 from typing import Any
 
 from modeler.codegen import functions as layout
-from modeler.codegen.closed import closed_dynamics
+from modeler.codegen.closed import build_closed_dynamics
 from modeler.codegen.functions import CFunction
 from modeler.codegen.targets import OF_PRECISION
 from modeler.core.errors import EmitError
 from modeler.core.manifest import FittedSpec, ModuleSpec
-from modeler.derivation import BaseParameters, ShaftColumn, SymbolicModel, along
+from modeler.derivation import BaseParameters, ShaftColumn, SymbolicModel, combine_along_shaft
 
 UNIT = "_fitted"
 """C file of these functions, without the robot's name and `.c`."""
@@ -48,10 +48,10 @@ def check_values(base: BaseParameters, fitted: FittedSpec) -> None:
         EmitError: says what is there instead.
     """
     names = [parameter.name for parameter in base.parameters]
-    given = [parameter.name for parameter in fitted.parameters]
-    if given != names:
+    fitted_names = [parameter.name for parameter in fitted.parameters]
+    if fitted_names != names:
         raise EmitError(
-            f"values of {', '.join(given)}; expected those of the base parameters "
+            f"values of {', '.join(fitted_names)}; expected those of the base parameters "
             f"{', '.join(names)}; fit the model again"
         )
     for parameter in fitted.parameters:
@@ -62,7 +62,7 @@ def check_values(base: BaseParameters, fitted: FittedSpec) -> None:
             )
 
 
-def fitted_functions(
+def build_fitted_functions(
     model: SymbolicModel, base: BaseParameters, fitted: FittedSpec
 ) -> tuple[CFunction, ...]:
     """Internal ones first, then those of the header: the twins without their argument beta."""
@@ -71,14 +71,16 @@ def fitted_functions(
         for parameter, known in zip(base.parameters, fitted.parameters, strict=True)
     }
     if model.closure is None:
-        given = layout.arguments_of(model.robot.free, model, base)
-        return tuple(map(_public, layout.dynamics_functions(model, values, given)))
-    tree, public = closed_dynamics(model, base, values)
-    inner = [dataclasses.replace(_public(f), role=f"{_TREE}_{f.role}", internal=True) for f in tree]
-    return (*inner, *map(_public, public))
+        arguments = layout.make_arguments(model.robot.free_joints, model, base)
+        return tuple(map(_remove_beta, layout.build_dynamics_functions(model, values, arguments)))
+    tree, public = build_closed_dynamics(model, base, values)
+    inner = [
+        dataclasses.replace(_remove_beta(f), role=f"{_TREE}_{f.role}", internal=True) for f in tree
+    ]
+    return (*inner, *map(_remove_beta, public))
 
 
-def _public(function: CFunction) -> CFunction:
+def _remove_beta(function: CFunction) -> CFunction:
     """The function without beta."""
     closed = function.closed
     if closed is not None:
@@ -93,7 +95,7 @@ def _public(function: CFunction) -> CFunction:
     )
 
 
-def widths(
+def find_widths(
     prefix: str, model: SymbolicModel, functions: Sequence[CFunction]
 ) -> Mapping[int, Width]:
     """{speed: its width} of the joints and motors of whose speed the functions read the sign.
@@ -104,42 +106,44 @@ def widths(
     values = [value for function in functions for _, value in function.entries]
     if values:
         model = dataclasses.replace(model, graph=values[0].graph)
-    nodes = [model.graph.nodes[index] for index in model.graph.reachable(values)]
+    nodes = [model.graph.nodes[index] for index in model.graph.find_reachable(values)]
     read = {node.args[0] for node in nodes if node.op == "sign"}
-    found: dict[int, Width] = {}
+    widths: dict[int, Width] = {}
     for column in model.columns:
         for part in column.parts if isinstance(column, ShaftColumn) else ():
-            speed = abs(along(model, part.shaft, "qd").ref)
-            if speed in read and speed not in found:
+            speed = abs(combine_along_shaft(model, part.shaft, "qd").ref)
+            if speed in read and speed not in widths:
                 joint = model.robot.joints[part.row]
-                found[speed] = Width(
+                widths[speed] = Width(
                     f"{prefix.upper()}_COULOMB_WIDTH_{joint.name}",
                     f"{prefix}_width_{joint.name}",
                     f"{joint.unit}/s",
                 )
-    return found
+    return widths
 
 
-def fitted_texts(spec: ModuleSpec, fitted: FittedSpec, found: Sequence[Width]) -> dict[str, Any]:
+def format_fitted_texts(
+    spec: ModuleSpec, fitted: FittedSpec, widths: Sequence[Width]
+) -> dict[str, Any]:
     """Finished strings for the templates of the unit."""
     line = fitted.verdict or "one that nobody has judged"
     verdict = f"The fit of this model is {line[:1].lower()}{line[1:]}"
     doubts = [f"Doubt: {doubt}" for doubt in fitted.doubts if doubt not in fitted.verdict]
     warning = "" if fitted.usable else "WARNING. "
     # Lines of the C table: the value, which it is, its unit, how sure it is.
-    places = layout.enumerators(spec.prefix, "beta", [base.name for base in spec.base])
-    lines, literal = list[str](), OF_PRECISION[spec.precision].literal
+    places = layout.name_enumerators(spec.prefix, "beta", [base.name for base in spec.base])
+    lines, literal = list[str](), OF_PRECISION[spec.precision].format_literal
     for parameter, place in zip(fitted.parameters, places, strict=True):
         sure = "set aside: the logs do not tell it"
         if parameter.sigma is not None:
             sure = f"sigma {parameter.sigma:.2g}{'' if parameter.essential else ', not essential'}"
         comma = "," if len(lines) + 1 < len(fitted.parameters) else " "
-        about = layout.comment_line(f"{place} [{parameter.unit}], {sure}")
+        about = layout.format_comment_line(f"{place} [{parameter.unit}], {sure}")
         lines.append(f"    {literal(parameter.value):>24}{comma} /* {about} */")
     return {
-        "widths": found,
-        "remarks": layout.comment_lines([f"{warning}{verdict}", *doubts, *fitted.remarks]),
+        "widths": widths,
+        "remarks": layout.format_comment_lines([f"{warning}{verdict}", *doubts, *fitted.remarks]),
         "effort": " or ".join(dict.fromkeys(joint.effort_unit for joint in spec.joints)),
         "lines": lines,
-        "gains": layout.name_lines([literal(gain) for gain in fitted.gains]),
+        "gains": layout.wrap_names([literal(gain) for gain in fitted.gains]),
     }

@@ -8,13 +8,13 @@ from collections import Counter
 from collections.abc import Sequence
 from xml.sax.saxutils import escape
 
-from modeler.codegen.forward import efforts
-from modeler.codegen.functions import beta_symbols, relation
+from modeler.codegen.forward import build_efforts
+from modeler.codegen.functions import format_grouping_relation, make_beta_symbols
 from modeler.codegen.package import render
-from modeler.codegen.parameter_set import SMOOTH, turning_joints
+from modeler.codegen.parameter_set import SMOOTH, list_turning_joints
 from modeler.core.errors import EmitError
-from modeler.core.files import resource_dir
-from modeler.core.manifest import Emitted, ModuleSpec, text_digest
+from modeler.core.files import locate_resources
+from modeler.core.manifest import EmittedModule, ModuleSpec, digest_text
 from modeler.derivation import BaseParameters, SymbolicModel
 
 HEADERS = ("fmi3Functions.h", "fmi3FunctionTypes.h", "fmi3PlatformTypes.h")
@@ -33,19 +33,19 @@ _BASE = {
 """Units as products of those that FMI knows."""
 
 
-def fmu_roles(model: SymbolicModel, base: BaseParameters) -> tuple[str, ...]:
+def find_fmu_roles(model: SymbolicModel, base: BaseParameters) -> tuple[str, ...]:
     """The functions of the C that an FMU calls.
 
     Raises:
         EmitError: dry friction in loops; effects that read accelerations.
     """
-    rubbing, name = turning_joints(model, base), model.robot.name
+    rubbing, name = list_turning_joints(model, base), model.robot.name
     if model.closure is not None and rubbing:
         raise EmitError(
             f"{name} has loops, and dry friction of joints {', '.join(rubbing)}, which leaps in C, "
             "as an FMU must not; leave coulomb out of [effects]"
         )
-    if efforts(model, beta_symbols(model, base)).turns:
+    if build_efforts(model, make_beta_symbols(model, base)).is_implicit:
         raise EmitError(
             f"{name}: its effects read accelerations, as load friction does, which the FMU does "
             "not solve for; leave them out of [effects]"
@@ -55,13 +55,13 @@ def fmu_roles(model: SymbolicModel, base: BaseParameters) -> tuple[str, ...]:
     return "inertia_matrix", f"{SMOOTH if rubbing else ''}inverse_dynamics"
 
 
-def fmu_files(
-    emitted: Emitted, model: SymbolicModel, base: BaseParameters, beta: Sequence[float]
+def build_fmu_files(
+    emitted: EmittedModule, model: SymbolicModel, base: BaseParameters, beta: Sequence[float]
 ) -> dict[str, str]:
     """{place in the unit: text} of all but the binary.
 
     Args:
-        emitted: the functions of `fmu_roles`.
+        emitted: the functions of `find_fmu_roles`.
         model: as derived.
         base: the base parameters of the same model.
         beta: their values at the start.
@@ -75,67 +75,83 @@ def fmu_files(
             f"{spec.robot}: its effects read {spec.signals[0].kind}, which an FMU is not given; "
             "leave them out of [effects]"
         )
-    roles = fmu_roles(model, base)
+    roles = find_fmu_roles(model, base)
     inputs = {f.name.removeprefix(f"{spec.prefix}_"): f.inputs for f in spec.every_function}
     closure = model.closure
-    home = [closure.home[k] for k in closure.given] if closure else [0.0] * len(spec.joints)
-    widths = turning_joints(model, base)
-    variables = _variables(spec, base, widths, home, beta)
+    home = [closure.home[k] for k in closure.actuated] if closure else [0.0] * len(spec.joints)
+    widths = list_turning_joints(model, base)
+    variables = _list_variables(spec, base, widths, home, beta)
     code = {name: emitted.files[name] for name in spec.controller_sources}
-    token = text_digest("".join(code.values()) + repr(variables))
+    token = digest_text("".join(code.values()) + repr(variables))
     n = len(spec.joints)
     values = {
-        "name": escape(spec.robot), "title": escape(spec.title or spec.robot, {'"': "&quot;"}),
-        "prefix": spec.prefix, "token": f"{{{token}}}", "step": STEP, "width": WIDTH, "joints": n,
-        "widths": len(widths), "beta": beta, "home": _lines(home), "beta_lines": _lines(beta),
-        "roles": roles, "reads": [argument.name for argument in inputs[roles[-1]]],
+        "name": escape(spec.robot),
+        "title": escape(spec.title or spec.robot, {'"': "&quot;"}),
+        "prefix": spec.prefix,
+        "token": f"{{{token}}}",
+        "step": STEP,
+        "width": WIDTH,
+        "joints": n,
+        "widths": len(widths),
+        "beta": beta,
+        "home": _format_lines(home),
+        "beta_lines": _format_lines(beta),
+        "roles": roles,
+        "reads": [argument.name for argument in inputs[roles[-1]]],
         "control": f"{spec.prefix}_control.h" in code,
-    }  # fmt: skip
+    }
     code["fmu_model.h"] = render("fmu_model.h", **values)
-    code["modeler_fmu.c"] = (resource_dir("csrc") / "fmu" / "modeler_fmu.c").read_text("utf-8")
-    vendored = resource_dir("templates") / "fmi3"
+    code["modeler_fmu.c"] = (locate_resources("csrc") / "fmu" / "modeler_fmu.c").read_text("utf-8")
+    vendored = locate_resources("templates") / "fmi3"
     code |= {name: (vendored / name).read_text("utf-8") for name in HEADERS}
     values["sources"] = sorted(name for name in code if name.endswith(".c"))
-    given = {
+    description_values = {
         **values,
-        "units": {each["unit"]: _powers(each["unit"]) for each in variables},
+        "units": {each["unit"]: _parse_unit_powers(each["unit"]) for each in variables},
         "variables": variables,
         "outputs": [*range(2, 2 + 2 * n), *range(2 + 3 * n, 2 + 4 * n)],
         "derivatives": range(2 + 2 * n, 2 + 4 * n),
         "unknown": range(2 + 2 * n, 2 + 4 * n),
     }
     return {
-        "modelDescription.xml": render("fmu_description.xml", **given),
-        "sources/buildDescription.xml": render("fmu_build.xml", **given),
+        "modelDescription.xml": render("fmu_description.xml", **description_values),
+        "sources/buildDescription.xml": render("fmu_build.xml", **description_values),
         **{f"sources/{name}": text for name, text in code.items()},
         "documentation/licenses/fmi3.txt": (vendored / "LICENSE").read_text("utf-8"),
     }
 
 
-def _lines(numbers: Sequence[float]) -> list[str]:
+def _format_lines(numbers: Sequence[float]) -> list[str]:
     return [f"{float(x)!r}," for x in numbers]
 
 
-def _variables(
+def _list_variables(
     spec: ModuleSpec, base: BaseParameters, widths: Sequence[str], home: Sequence[float],
     beta: Sequence[float],
 ) -> list[dict[str, str]]:  # fmt: skip
     """Attributes of all, in the order of the array of modeler_fmu.c."""
-    n, found = len(spec.joints), list[dict[str, str]]()
+    n, variables = len(spec.joints), list[dict[str, str]]()
 
-    def add(name: str, unit: str, about: str, causality: str, **more: object) -> None:
+    def add_variable(name: str, unit: str, about: str, causality: str, **more: object) -> None:
         changes = "tunable" if causality == "parameter" else "continuous"
-        given = {
-            "name": name, "valueReference": len(found), "unit": _name(unit), "variability": changes,
-            "description": about, "causality": causality, **more,
-        }  # fmt: skip
-        found.append({key: escape(str(value), {'"': "&quot;"}) for key, value in given.items()})
+        attributes = {
+            "name": name,
+            "valueReference": len(variables),
+            "unit": _format_unit(unit),
+            "variability": changes,
+            "description": about,
+            "causality": causality,
+            **more,
+        }
+        variables.append(
+            {key: escape(str(value), {'"': "&quot;"}) for key, value in attributes.items()}
+        )
 
-    def parameter(name: str, unit: str, about: str, start: float) -> None:
-        add(name, unit, about, "parameter", initial="exact", start=start)
+    def add_parameter(name: str, unit: str, about: str, start: float) -> None:
+        add_variable(name, unit, about, "parameter", initial="exact", start=start)
 
-    add("time", "s", "time", "independent")
-    parameter("step", "s", "largest step of co-simulation", STEP)
+    add_variable("time", "s", "time", "independent")
+    add_parameter("step", "s", "largest step of co-simulation", STEP)
     for name, about, kind, per, start in (
         ("q", "position", "output", "", home), ("qd", "speed", "output", "/s", [0.0] * n),
         ("dq", "derivative of the position", "local", "/s", None),
@@ -147,25 +163,27 @@ def _variables(
             if kind != "input":
                 more["initial"] = "calculated" if start is None else "exact"
             if start is None:  # of the state of the same joint
-                more["derivative"] = len(found) - 2 * n
+                more["derivative"] = len(variables) - 2 * n
             unit = joint.effort_unit if name == "tau" else joint.unit + per
-            add(f"{name}{joint.name}", unit, f"{about} of joint {joint.name}", kind, **more)
+            add_variable(
+                f"{name}{joint.name}", unit, f"{about} of joint {joint.name}", kind, **more
+            )
     for known, each, value in zip(spec.base, base.parameters, beta, strict=True):
-        parameter(known.name, known.unit, relation(each), float(value))
+        add_parameter(known.name, known.unit, format_grouping_relation(each), float(value))
     units = {joint.name: joint.unit for joint in spec.joints}
     for name in widths:
         about = f"width over which the Coulomb friction of joint {name} turns"
-        parameter(f"width{name}", f"{units.get(name, 'rad')}/s", about, WIDTH)
-    return found
+        add_parameter(f"width{name}", f"{units.get(name, 'rad')}/s", about, WIDTH)
+    return variables
 
 
-def _name(unit: str) -> str:
+def _format_unit(unit: str) -> str:
     """`N m s/rad` as FMI writes it: `N.m.s/rad`."""
     return unit.replace(" ", ".")
 
 
-def _powers(unit: str) -> dict[str, int]:
-    """Of base units, of a unit as `_name` gives it; empty where one is not known."""
+def _parse_unit_powers(unit: str) -> dict[str, int]:
+    """Of base units, of a unit as `_format_unit` gives it; empty where one is not known."""
     powers: Counter[str] = Counter()
     over, *under = unit.split("/")
     for text, sign in [(over, 1), *((part, -1) for part in under)]:

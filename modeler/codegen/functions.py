@@ -18,12 +18,12 @@ from modeler.derivation import (
     ShaftColumn,
     Signal,
     SymbolicModel,
-    combination,
-    followed,
-    relation_text,
-    signal_symbol,
+    combine_linearly,
+    evaluate_followed,
+    format_relation,
+    get_signal_symbol,
 )
-from modeler.effects import Acts
+from modeler.effects import EffectTarget
 from modeler.robot import Joint
 
 
@@ -148,7 +148,7 @@ class Arguments:
         return (self.q, self.qd, self.qdd, *self.signals)
 
 
-def beta_symbols(model: SymbolicModel, base: BaseParameters) -> dict[int, Expr]:
+def make_beta_symbols(model: SymbolicModel, base: BaseParameters) -> dict[int, Expr]:
     """{standard column: the base parameter that stands for it}."""
     return {
         parameter.column: model.graph.symbol(f"beta[{i}]")
@@ -156,28 +156,33 @@ def beta_symbols(model: SymbolicModel, base: BaseParameters) -> dict[int, Expr]:
     }
 
 
-def tree_functions(model: SymbolicModel, base: BaseParameters) -> tuple[CFunction, ...]:
+def build_tree_functions(model: SymbolicModel, base: BaseParameters) -> tuple[CFunction, ...]:
     """All functions of a module without loops, in the order of the header."""
-    given = arguments_of(model.robot.free, model, base)
-    regressors = _regressors(model, base, given)
-    dynamics = dynamics_functions(model, beta_symbols(model, base), given)
-    grouping, poses = grouping_function(model, base, given), model.forward_kinematics()
+    arguments = make_arguments(model.robot.free_joints, model, base)
+    regressors = _build_regressors(model, base, arguments)
+    dynamics = build_dynamics_functions(model, make_beta_symbols(model, base), arguments)
+    grouping, poses = (
+        build_grouping_function(model, base, arguments),
+        model.derive_forward_kinematics(),
+    )
     kinematics = CFunction(
         "", "forward_kinematics", "Poses of the frames of all moving rows of the table, in order.",
-        "x0 = R x + p with T = [R | p], for a point x of the frame", (given.q,),
+        "x0 = R x + p with T = [R | p], for a point x of the frame", (arguments.q,),
         ArgumentSpec(
             "T", (len(poses), 3, 4), "1 | m", "poses [R | p] of the links' frames in frame 0"
         ),
-        entries_of([value for pose in poses for row in pose for value in row]),
+        list_entries([value for pose in poses for row in pose for value in row]),
     )  # fmt: skip
-    return (*regressors, *dynamics, grouping, kinematics, *_advance(model, given))
+    return (*regressors, *dynamics, grouping, kinematics, *_build_advance(model, arguments))
 
 
-def arguments_of(joints: Sequence[Joint], model: SymbolicModel, base: BaseParameters) -> Arguments:
+def make_arguments(
+    joints: Sequence[Joint], model: SymbolicModel, base: BaseParameters
+) -> Arguments:
     """The arguments of functions whose positions are those of `joints`."""
     n = (len(joints),)
-    angle = _either([joint.unit for joint in joints])
-    effort = _either([joint.effort_unit for joint in joints])
+    angle = _join_units([joint.unit for joint in joints])
+    effort = _join_units([joint.effort_unit for joint in joints])
     rate, acceleration = (" or ".join(u + s for u in angle.split(" or ")) for s in ("/s", "/s2"))
     s = ArgumentSpec("s", (len(model.signals),), "see above", "signals of effects")
     signals = (s,) if model.signals else ()
@@ -192,22 +197,22 @@ def arguments_of(joints: Sequence[Joint], model: SymbolicModel, base: BaseParame
     )
 
 
-def _either(units: Sequence[str]) -> str:
+def _join_units(units: Sequence[str]) -> str:
     return " or ".join(dict.fromkeys(units))
 
 
-def _regressors(
-    model: SymbolicModel, base: BaseParameters, given: Arguments
+def _build_regressors(
+    model: SymbolicModel, base: BaseParameters, arguments: Arguments
 ) -> tuple[CFunction, ...]:
-    joints, p, c = model.geometry.coordinates, len(model.columns), base.rank
+    joints, p, c = model.geometry.coordinate_count, len(model.columns), base.rank
     place = {parameter.column: i for i, parameter in enumerate(base.parameters)}
     values = {
         (joint, place[k]): value for (joint, k), value in model.regressor.items() if k in place
     }
     order = {at: number for number, at in enumerate(sorted(values))}
-    standard = by_column(model.regressor)
-    kept = by_column(values)
-    inputs = given.motion
+    standard = sort_by_column(model.regressor)
+    base_entries = sort_by_column(values)
+    inputs = arguments.motion
     per = "torque per unit of each"
     return (
         CFunction(
@@ -220,19 +225,19 @@ def _regressors(
             "_base_regressor", "base_regressor", "Regressor of the base parameters.",
             "tau = phi beta", inputs,
             ArgumentSpec("phi", (joints, c), "SI", f"{per} base parameter"),
-            tuple((joint * c + i, value) for (joint, i), value in kept),
+            tuple((joint * c + i, value) for (joint, i), value in base_entries),
         ),
         CFunction(
             "_base_regressor", "base_regressor_nonzeros",
             "The entries of the base regressor that are not always 0.",
             "values[k] = phi[nonzero_row[k]][nonzero_column[k]]", inputs,
-            ArgumentSpec("values", (len(kept),), "SI", "entries, row after row"),
-            tuple((order[at], value) for at, value in kept),
+            ArgumentSpec("values", (len(base_entries),), "SI", "entries, row after row"),
+            tuple((order[at], value) for at, value in base_entries),
         ),
     )  # fmt: skip
 
 
-def by_column(values: Mapping[tuple[int, int], Expr]) -> list[tuple[tuple[int, int], Expr]]:
+def sort_by_column(values: Mapping[tuple[int, int], Expr]) -> list[tuple[tuple[int, int], Expr]]:
     """Entries of {(joint, column): value} column after column.
 
     So what the columns of a link read is computed, read and done with before the next link: row
@@ -242,56 +247,76 @@ def by_column(values: Mapping[tuple[int, int], Expr]) -> list[tuple[tuple[int, i
     return sorted(values.items(), key=lambda item: (item[0][1], item[0][0]))
 
 
-def dynamics_functions(
-    model: SymbolicModel, beta: Mapping[int, Expr], given: Arguments
+def build_dynamics_functions(
+    model: SymbolicModel, beta: Mapping[int, Expr], arguments: Arguments
 ) -> tuple[CFunction, ...]:
     """Torques and their parts, without loops; `beta` gives the parameter of each column."""
-    joints = model.geometry.coordinates
-    q, qd, b = given.q, given.qd, given.beta
-    losing = (*given.motion, b) if reads_more(model) else (qd, b)
-    matrix = [value for row in model.inertia_matrix(beta) for value in row]
+    joints = model.geometry.coordinate_count
+    q, qd, b = arguments.q, arguments.qd, arguments.beta
+    losing = (*arguments.motion, b) if needs_more_than_speed(model) else (qd, b)
+    matrix = [value for row in model.derive_inertia_matrix(beta) for value in row]
     losses = {k: v for k, v in beta.items() if model.columns[k].kind != "rotor_inertia"}
-    gravity = model.torque(beta, speeds=False, accelerations=False, effects=False)
-    coriolis = model.torque(beta, accelerations=False, gravity=False, effects=False)
-    friction = model.torque(losses, links=False)
-    held = _held_by_friction(model)
+    gravity = model.derive_torque(beta, speeds=False, accelerations=False, effects=False)
+    coriolis = model.derive_torque(beta, accelerations=False, gravity=False, effects=False)
+    friction = model.derive_torque(losses, links=False)
+    held = _describe_friction_holds(model)
     also = f", {held}" * bool(held)
     apart = f", offsets and {held}, which the friction function holds" * bool(held)
 
-    def function(role: str, does: str, equation: str, inputs: tuple[ArgumentSpec, ...],
+    def make_function(role: str, does: str, equation: str, inputs: tuple[ArgumentSpec, ...],
                  values: Sequence[Expr]) -> CFunction:  # fmt: skip
-        return CFunction("", role, does, equation, inputs, given.tau, entries_of(values))
+        return CFunction("", role, does, equation, inputs, arguments.tau, list_entries(values))
 
     return (
-        function(
-            "inverse_dynamics", "Joint torques, by the Newton-Euler recursion.",
-            "tau = M(q) qdd + c(q, qd) + g(q) + f(qd)", (*given.motion, b), model.torque(beta),
+        make_function(
+            "inverse_dynamics",
+            "Joint torques, by the Newton-Euler recursion.",
+            "tau = M(q) qdd + c(q, qd) + g(q) + f(qd)",
+            (*arguments.motion, b),
+            model.derive_torque(beta),
         ),
         CFunction(
-            "", "inertia_matrix", "Inertia matrix, rotor inertias included; symmetric.",
-            "tau = M(q) qdd + ...", (q, b),
+            "",
+            "inertia_matrix",
+            "Inertia matrix, rotor inertias included; symmetric.",
+            "tau = M(q) qdd + ...",
+            (q, b),
             ArgumentSpec("M", (joints, joints), "kg m2, kg m or kg", "inertia matrix"),
-            entries_of(matrix),
+            list_entries(matrix),
         ),
-        function("gravity",
-                 comment_text(f"Torques that hold the robot still, without friction{apart}."),
-                 "g(q) = tau(q, 0, 0) without effects", (q, b), gravity),
-        function("coriolis", "Coriolis and centripetal torques.",
-                 "c(q, qd) = tau(q, qd, 0) without gravity and effects", (q, qd, b), coriolis),
-        function("friction",
-                 comment_text("Torques of all effects but rotor inertias: friction, "
-                              f"offsets{also}."),
-                 f"f(q, qd) with {held}" if held else "f(qd)", losing, friction),
-    )  # fmt: skip
+        make_function(
+            "gravity",
+            format_comment(f"Torques that hold the robot still, without friction{apart}."),
+            "g(q) = tau(q, 0, 0) without effects",
+            (q, b),
+            gravity,
+        ),
+        make_function(
+            "coriolis",
+            "Coriolis and centripetal torques.",
+            "c(q, qd) = tau(q, qd, 0) without gravity and effects",
+            (q, qd, b),
+            coriolis,
+        ),
+        make_function(
+            "friction",
+            format_comment(f"Torques of all effects but rotor inertias: friction, offsets{also}."),
+            f"f(q, qd) with {held}" if held else "f(qd)",
+            losing,
+            friction,
+        ),
+    )
 
 
-def _held_by_friction(model: SymbolicModel) -> str:
+def _describe_friction_holds(model: SymbolicModel) -> str:
     """What acts at rest too and is no offset, as "the counterbalance of joint 2"; "" if nothing."""
     joints: dict[str, dict[str, None]] = {}
     for column in model.columns:
         for part in column.parts if isinstance(column, ShaftColumn) else ():
-            moved = any(name[0] in "vaz" for name in part.equation.names - part.shapes.keys())
-            still = part.acts is Acts.POSITION or not moved
+            moved = any(
+                name[0] in "vaz" for name in part.equation.names - part.nonlinear_parameters.keys()
+            )
+            still = part.acts is EffectTarget.POSITION or not moved
             if still and part.kind != "offset":
                 joints.setdefault(part.effect, {})[model.robot.joints[part.row].name] = None
     return " and ".join(
@@ -300,21 +325,24 @@ def _held_by_friction(model: SymbolicModel) -> str:
     )
 
 
-def reads_more(model: SymbolicModel) -> bool:
+def needs_more_than_speed(model: SymbolicModel) -> bool:
     """True if an effect reads more than the speed of its joint, and is no rotor inertia."""
     return any(
         part.kind != "rotor_inertia"
-        and (part.acts is Acts.POSITION or not part.equation.names <= {"v", *part.shapes})
+        and (
+            part.acts is EffectTarget.POSITION
+            or not part.equation.names <= {"v", *part.nonlinear_parameters}
+        )
         for column in model.columns
         if isinstance(column, ShaftColumn)
         for part in column.parts
     )
 
 
-def reads_torques(model: SymbolicModel) -> bool:
+def needs_torques(model: SymbolicModel) -> bool:
     """True if an effect reads more than the motion of joints."""
     return any(
-        part.acts is Acts.POSITION or not part.equation.names.isdisjoint(_TORQUES)
+        part.acts is EffectTarget.POSITION or not part.equation.names.isdisjoint(_TORQUES)
         for column in model.columns
         if isinstance(column, ShaftColumn)
         for part in column.parts
@@ -324,56 +352,60 @@ def reads_torques(model: SymbolicModel) -> bool:
 _TORQUES = ("load", "static", "torque")
 
 
-def _advance(model: SymbolicModel, given: Arguments) -> list[CFunction]:
+def _build_advance(model: SymbolicModel, arguments: Arguments) -> list[CFunction]:
     """The signals one sample later: inner states are stepped; temperatures are measured."""
     if not model.signals:
         return []
-    n = model.geometry.coordinates
+    n = model.geometry.coordinate_count
     travel = ArgumentSpec(
-        "dq", (n,), given.q.unit, "joint positions, less those of the last sample"
+        "dq", (n,), arguments.q.unit, "joint positions, less those of the last sample"
     )
     step = ArgumentSpec("dt", (1,), "s", "time since the last sample")
     values = dict[Signal, Expr]()
     for signal in model.signals:
-        values[signal] = _stepped(model, signal, values)
-    motion = (given.q, given.qd, given.qdd) if any(s.follows for s in model.signals) else ()
+        values[signal] = _advance_signal(model, signal, values)
+    motion = (
+        (arguments.q, arguments.qd, arguments.qdd) if any(s.follows for s in model.signals) else ()
+    )
     after = ArgumentSpec("after", (len(values),), "see above", "signals now")
     return [
         CFunction(
             "", "advance", "The signals one sample later; write temperatures yourself.",
             "z = sign(dq) + (z - sign(dq)) exp(-|dq|/d) for bristles",
-            (travel, step, *given.signals, *motion), after, entries_of(list(values.values())),
+            (travel, step, *arguments.signals, *motion), after, list_entries(list(values.values())),
         )
     ]  # fmt: skip
 
 
-def _stepped(model: SymbolicModel, signal: Signal, now: Mapping[Signal, Expr]) -> Expr:
+def _advance_signal(model: SymbolicModel, signal: Signal, now: Mapping[Signal, Expr]) -> Expr:
     """A signal one sample later, from those before it now."""
     graph = model.graph
 
-    s, dt = signal_symbol(model, signal), graph.symbol("dt[0]")
+    s, dt = get_signal_symbol(model, signal), graph.symbol("dt[0]")
     one, two = graph.constant(1), graph.constant(2)
     if signal.kind == "time":
         return s + dt
     if signal.kind == "temperature":
         return s
     if signal.kind == "followed":
-        return followed(model, signal, now)
+        return evaluate_followed(model, signal, now)
     if signal.kind == "lag":  # the mean of what it follows at both ends of the step
-        (other,) = signal.before
-        mean = (signal_symbol(model, other) + now[other]) / two
+        (other,) = signal.prerequisites
+        mean = (get_signal_symbol(model, other) + now[other]) / two
         tau = graph.constant(Fraction(repr(signal.value)))
         return mean + (s - mean) * graph.call("exp", -(dt / tau))
     index = model.geometry.rows[signal.row].index
     assert index is not None
-    way = combination(graph, model.geometry.forms[index], model.inputs("dq"))
+    way = combine_linearly(graph, model.geometry.forms[index], model.get_inputs("dq"))
     share = way / graph.constant(Fraction(repr(signal.value)))
     if signal.kind == "slip":  # Dahl's bristle, exact where the direction is constant
         toward = graph.call("sign", way)
         return toward + (s - toward) * graph.call("exp", -graph.call("abs", share))
-    told = s if signal.kind == "direction" else signal_symbol(model, signal.before[0])
-    moved = told + share
-    both = graph.call("sign", told) * graph.call("sign", moved)
+    direction = (
+        s if signal.kind == "direction" else get_signal_symbol(model, signal.prerequisites[0])
+    )
+    moved = direction + share
+    both = graph.call("sign", direction) * graph.call("sign", moved)
     turned = (graph.call("abs", both) - both) / two  # 1 where it has come back far enough, else 0
     if signal.kind == "direction":
         held = (graph.call("abs", moved + one) - graph.call("abs", moved - one)) / two
@@ -384,7 +416,9 @@ def _stepped(model: SymbolicModel, signal: Signal, now: Mapping[Signal, Expr]) -
     return s + dt - turned * (longer + graph.call("abs", longer)) / two
 
 
-def grouping_function(model: SymbolicModel, base: BaseParameters, given: Arguments) -> CFunction:
+def build_grouping_function(
+    model: SymbolicModel, base: BaseParameters, arguments: Arguments
+) -> CFunction:
     """The grouping relations as a function of the standard parameters."""
     place = {name: model.graph.symbol(f"chi[{k}]") for k, name in enumerate(model.names)}
     values = []
@@ -395,11 +429,11 @@ def grouping_function(model: SymbolicModel, base: BaseParameters, given: Argumen
         values.append(total)
     return CFunction(
         "", "base_parameters", "Base parameters from standard ones: the grouping relations.",
-        "beta = K chi", (given.chi,), given.beta, entries_of(values),
+        "beta = K chi", (arguments.chi,), arguments.beta, list_entries(values),
     )  # fmt: skip
 
 
-def entries_of(values: Sequence[Expr]) -> tuple[tuple[int, Expr], ...]:
+def list_entries(values: Sequence[Expr]) -> tuple[tuple[int, Expr], ...]:
     """(place, value) of all values that are not zero."""
     return tuple((k, value) for k, value in enumerate(values) if not value.is_zero)
 
@@ -417,13 +451,13 @@ _PLAIN = str.maketrans(
 )  # fmt: skip
 
 
-def relation(parameter: BaseParameter) -> str:
+def format_grouping_relation(parameter: BaseParameter) -> str:
     """`ZZ2R = ZZ2 + YY3 + D4**2*M4`; a name alone where nothing is grouped."""
-    name, text = parameter.name, relation_text(parameter)
+    name, text = parameter.name, format_relation(parameter)
     return name if text == f"{name} = {name}" else text
 
 
-def comment_text(text: str) -> str:
+def format_comment(text: str) -> str:
     """`text` such that it can stand in a C comment: no end of comment, ASCII only, short lines."""
     text = " ".join(text.replace("*/", "* /").replace("/*", "/ *").split())
     plain = unicodedata.normalize("NFC", text).translate(_PLAIN)
@@ -432,17 +466,19 @@ def comment_text(text: str) -> str:
     return "\n * ".join(textwrap.wrap(text, _WIDTH - 4))
 
 
-def comment_lines(sentences: Iterable[str]) -> list[str]:
+def format_comment_lines(sentences: Iterable[str]) -> list[str]:
     """Sentences as lines for the inside of a C comment."""
-    return [line for each in sentences for line in comment_text(each).split("\n * ")]
+    return [line for each in sentences for line in format_comment(each).split("\n * ")]
 
 
-def parameter_lines(spec: ModuleSpec, relations: Sequence[str]) -> tuple[list[str], list[str]]:
+def format_parameter_lines(
+    spec: ModuleSpec, relations: Sequence[str]
+) -> tuple[list[str], list[str]]:
     """Comment lines that say which column is which parameter: (standard, base).
 
     Args:
         spec: of the module.
-        relations: what `relation` writes of each base parameter.
+        relations: what `format_grouping_relation` writes of each base parameter.
     """
     standard = [
         f"{i:4d}  {parameter.name:<8} {parameter.unit}" for i, parameter in enumerate(spec.standard)
@@ -453,22 +489,24 @@ def parameter_lines(spec: ModuleSpec, relations: Sequence[str]) -> tuple[list[st
             f"{i:4d}  {text}  [{parameter.unit}]", _WIDTH - 4, subsequent_indent=" " * 8,
             break_long_words=False, break_on_hyphens=False,
         )  # fmt: skip
-    return [comment_line(line) for line in standard], [line.replace("*/", "* /") for line in base]
+    return [format_comment_line(line) for line in standard], [
+        line.replace("*/", "* /") for line in base
+    ]
 
 
-def comment_line(text: str) -> str:
+def format_comment_line(text: str) -> str:
     """One line for the inside of a C comment, spaces kept."""
     return text.rstrip().replace("*/", "* /")
 
 
-def argument_lines(function: CFunction) -> list[str]:
+def format_argument_lines(function: CFunction) -> list[str]:
     """Comment lines that say of every argument its length, order and unit."""
-    given = (*function.inputs, function.output)
-    lengths = [" x ".join(str(size) for size in argument.shape) for argument in given]
+    arguments = (*function.inputs, function.output)
+    lengths = [" x ".join(str(size) for size in argument.shape) for argument in arguments]
     width = max(9, *(len(length) + 1 for length in lengths))
-    name = max(7, *(len(argument.name) + 1 for argument in given))
+    name = max(7, *(len(argument.name) + 1 for argument in arguments))
     lines = []
-    for argument, length in zip(given, lengths, strict=True):
+    for argument, length in zip(arguments, lengths, strict=True):
         order = ", row-major" if len(argument.shape) > 1 else ""
         text = f"{argument.meaning}{order} [{argument.unit}]"
         start = f"{argument.name:<{name}}{length:<{width}}"
@@ -486,7 +524,9 @@ _LENGTHS = {
 """Macros of the lengths of arguments, after the robot's name."""
 
 
-def arguments(function: CFunction, number: str, prefix: str, defined: bool = False) -> list[str]:
+def format_arguments(
+    function: CFunction, number: str, prefix: str, defined: bool = False
+) -> list[str]:
     """C parameters of that type with their bounds, inputs const.
 
     Args:
@@ -496,20 +536,20 @@ def arguments(function: CFunction, number: str, prefix: str, defined: bool = Fal
         defined: where the function is defined, nothing else points to its output.
     """
 
-    def bound(argument: ArgumentSpec) -> str:
+    def format_bound(argument: ArgumentSpec) -> str:
         macro = _LENGTHS.get(argument.name)
         other = argument is function.output and argument.name == "a"  # no acceleration of joints
         if macro is None or function.internal or other:
             return " * ".join(map(str, argument.shape))
         return f"{prefix}_{macro}".upper()
 
-    inputs = [f"const {number} {a.name}[{bound(a)}]" for a in function.inputs]
-    name, length = function.output.name, bound(function.output)
+    inputs = [f"const {number} {a.name}[{format_bound(a)}]" for a in function.inputs]
+    name, length = function.output.name, format_bound(function.output)
     out = f"MODELER_OUT({name}, {length})" if defined else f"{name}[{length}]"
     return [*inputs, f"{number} {out}"]
 
 
-def prototype(name: str, parameters: Sequence[str], returns: str = "void") -> str:
+def format_prototype(name: str, parameters: Sequence[str], returns: str = "void") -> str:
     """`void name(...)`, in lines of readable length."""
     indent = " " * (len(returns) + len(name) + 2)
     if len(indent) + max(map(len, parameters)) > _WIDTH - 3:
@@ -525,7 +565,7 @@ def prototype(name: str, parameters: Sequence[str], returns: str = "void") -> st
     ).replace(chr(160), " ")
 
 
-def signal_lines(spec: ModuleSpec) -> list[str]:
+def format_signal_lines(spec: ModuleSpec) -> list[str]:
     """Comment lines that say what each entry of the input s is."""
     meaning = {
         "time": "time since the start",
@@ -542,12 +582,12 @@ def signal_lines(spec: ModuleSpec) -> list[str]:
     ]
 
 
-def body_lines(function: CFunction, block: Block, target: Target) -> list[str]:
+def format_body(function: CFunction, block: Block, target: Target) -> list[str]:
     """All statements of a function."""
     name, size = function.output.name, function.output.size
     written = {index for index, _ in function.entries}
     zeros = [index for index in range(size) if index not in written]
-    lines = [f"(void){name};" for name in unread(function, block)]
+    lines = [f"(void){name};" for name in list_unread_inputs(function, block)]
     body = list(block.body)
     if len(zeros) > _FEW:
         lines.append(f"MODELER_ALL_ZEROS({name}, {size});")
@@ -566,13 +606,13 @@ def body_lines(function: CFunction, block: Block, target: Target) -> list[str]:
             body += [*stores[done:end], *statements[k : k + 1]]
             done = end
     else:
-        lines += [f"{name}[{index}] = {target.literal(0.0)};" for index in zeros]
+        lines += [f"{name}[{index}] = {target.format_literal(0.0)};" for index in zeros]
     for part in (block.constants, block.calls, body):
         lines += ["", *part] if lines and part else part
     return lines
 
 
-def unread(function: CFunction, block: Block) -> Iterable[str]:
+def list_unread_inputs(function: CFunction, block: Block) -> Iterable[str]:
     """Names of the inputs of which no entry is read."""
     for argument in function.inputs:
         if argument.name == "widths":  # of signs, which are no symbols
@@ -581,7 +621,7 @@ def unread(function: CFunction, block: Block) -> Iterable[str]:
             yield argument.name
 
 
-def name_lines(names: Iterable[object]) -> list[str]:
+def wrap_names(names: Iterable[object]) -> list[str]:
     """Words or numbers of a C table or enum, in lines of readable length."""
     return textwrap.wrap(
         ", ".join(map(str, names)), _WIDTH - 4, break_long_words=False, break_on_hyphens=False
@@ -599,7 +639,7 @@ _HEADERS = (
 )  # fmt: skip
 
 
-def module_prefix(robot: str) -> str:
+def make_prefix(robot: str) -> str:
     """Start of all C names of a robot: `sr400-tree` -> `sr400_tree`, `3rrr` -> `robot_3rrr`.
 
     Raises:
@@ -615,7 +655,7 @@ def module_prefix(robot: str) -> str:
     return prefix
 
 
-def symbol_macros(prefix: str, symbols: Iterable[str]) -> dict[str, str]:
+def name_macros(prefix: str, symbols: Iterable[str]) -> dict[str, str]:
     """{geometric symbol: macro}, spelled as in the table: D4 -> PUMA560_GEO_D4.
 
     The `GEO` keeps them apart from macros of the header (PUMA560_JOINTS) and of <math.h>: robot
@@ -634,7 +674,7 @@ def symbol_macros(prefix: str, symbols: Iterable[str]) -> dict[str, str]:
     return macros
 
 
-def enumerators(prefix: str, kind: str, names: Iterable[str]) -> list[str]:
+def name_enumerators(prefix: str, kind: str, names: Iterable[str]) -> list[str]:
     """C constants of places in a list of parameters: PUMA560_BETA_ZZ1R, spelled as it is printed.
 
     `BETA` and `CHI` keep them apart from the header's other names, as GEO does symbols. The reader
@@ -648,7 +688,7 @@ def enumerators(prefix: str, kind: str, names: Iterable[str]) -> list[str]:
     return [f"{prefix}_{kind}_".upper() + name for name in names]
 
 
-def symbol_constants(prefix: str, symbols: Iterable[str]) -> dict[str, str]:
+def name_constants(prefix: str, symbols: Iterable[str]) -> dict[str, str]:
     """{geometric symbol: C constant that the functions read}: D4 -> puma560_geo_D4.
 
     What stands in a macro is text, and may be any expression: `-0.613-0.01` squared would be no
@@ -657,7 +697,9 @@ def symbol_constants(prefix: str, symbols: Iterable[str]) -> dict[str, str]:
     return {symbol: f"{prefix}_geo_{symbol}" for symbol in symbols}
 
 
-def graph_places(joints: int, symbols: dict[str, str], arrays: Iterable[str]) -> dict[str, str]:
+def map_graph_symbols(
+    joints: int, symbols: dict[str, str], arrays: Iterable[str]
+) -> dict[str, str]:
     """C text of every graph symbol: entries of arrays as they are named, geometric symbols."""
     kinds = ("q", "qd", "qdd", "dq", "v", "a", "tau")
     inputs = [f"{kind}[{i}]" for kind in kinds for i in range(joints)]

@@ -13,9 +13,9 @@ from dataclasses import dataclass
 
 from modeler.codegen.block import make_block
 from modeler.codegen.elimination import Elimination
-from modeler.codegen.functions import CFunction, name_lines
+from modeler.codegen.functions import CFunction, wrap_names
 from modeler.codegen.targets import Target
-from modeler.core.json import entries
+from modeler.core.json import select_attributes
 from modeler.core.law import Law
 from modeler.derivation import BaseParameters, Expr, Graph, SymbolicModel
 
@@ -29,7 +29,7 @@ _ARITHMETIC: Mapping[str, Callable[[Expr, Expr], Expr]] = {
 
 
 @dataclass(frozen=True)
-class Turns:
+class SharedSines:
     """Sines and cosines of moving angles, in the order in which they are kept.
 
     Attributes:
@@ -41,26 +41,26 @@ class Turns:
     symbols: Mapping[int, Expr]
 
 
-def turns_of(graph: Graph, outputs: Sequence[Expr]) -> Turns:
+def find_shared_sines(graph: Graph, outputs: Sequence[Expr]) -> SharedSines:
     """Those of positions that the outputs read."""
     nodes = [
         k
-        for k in graph.reachable(outputs)
-        if graph.nodes[k].op in _TURNS and not graph.nodes[k].static and _placed(graph, k)
+        for k in graph.find_reachable(outputs)
+        if graph.nodes[k].op in _TURNS and not graph.nodes[k].static and _is_positional(graph, k)
     ]
-    return Turns(
+    return SharedSines(
         values=tuple(Expr(graph, k) for k in nodes),
         symbols={k: graph.symbol(f"t[{at}]") for at, k in enumerate(nodes)},
     )
 
 
-def _placed(graph: Graph, node: int) -> bool:
+def _is_positional(graph: Graph, node: int) -> bool:
     """True if it reads no speed."""
-    read = (graph.nodes[k] for k in graph.reachable([Expr(graph, node)]))
+    read = (graph.nodes[k] for k in graph.find_reachable([Expr(graph, node)]))
     return all(each.op != "sym" or not each.args[0].startswith(("qd", "s[")) for each in read)
 
 
-def base_columns(model: SymbolicModel, base: BaseParameters) -> dict[tuple[int, int], Expr]:
+def list_base_entries(model: SymbolicModel, base: BaseParameters) -> dict[tuple[int, int], Expr]:
     """{(free variable, base parameter): entry} of the tree's regressor, zeros left out."""
     place = {parameter.column: i for i, parameter in enumerate(base.parameters)}
     return {
@@ -70,12 +70,12 @@ def base_columns(model: SymbolicModel, base: BaseParameters) -> dict[tuple[int, 
     }
 
 
-def fused_regressor(
+def build_fused_regressor(
     model: SymbolicModel,
     base: BaseParameters,
-    given: Sequence[int],
+    independent: Sequence[int],
     eliminated: Elimination,
-    turns: Turns,
+    turns: SharedSines,
 ) -> tuple[tuple[int, Expr], ...]:
     """(place in phi, value) of what is not always 0.
 
@@ -85,7 +85,7 @@ def fused_regressor(
     Args:
         model: with loops.
         base: its base parameters.
-        given: places in u.
+        independent: places in u.
         eliminated: the elimination of the others.
         turns: what stands in t.
     """
@@ -93,30 +93,30 @@ def fused_regressor(
     assert closure is not None
     # Rows of G: {place among the given: entry} of each free variable.
     shares: list[dict[int, Expr]] = [{} for _ in closure.home]
-    for j, k in enumerate(given):
+    for j, k in enumerate(independent):
         shares[k][j] = graph.constant(1)
     for at, (k, j, _) in enumerate(eliminated.coupling):
         shares[k][j] = graph.symbol(f"G[{at}]")
 
-    def carried(name: str) -> list[Expr]:
+    def carry_over(name: str) -> list[Expr]:
         return [
-            sum((share * graph.symbol(f"{name}[{j}]") for j, share in own.items()),
+            sum((share * graph.symbol(f"{name}[{j}]") for j, share in row.items()),
                 graph.constant(0))
-            for own in shares
+            for row in shares
         ]  # fmt: skip
 
     # Speeds and accelerations of the free variables, by symbol.
-    moving = {f"qd[{k}]": value for k, value in enumerate(carried("v"))}
-    drift = replaced(graph, closure.drift, turns.symbols, moving)
+    moving = {f"qd[{k}]": value for k, value in enumerate(carry_over("v"))}
+    drift = replace_nodes(graph, closure.drift, turns.symbols, moving)
     right = {f"right[{i}]": value for i, value in enumerate(drift)}
-    back = replaced(graph, eliminated.solution, {}, right)
-    accelerations = carried("a")
-    solved = [k for k in range(len(shares)) if k not in given]
+    back = replace_nodes(graph, eliminated.solution, {}, right)
+    accelerations = carry_over("a")
+    solved = [k for k in range(len(shares)) if k not in independent]
     for k, value in zip(solved, back, strict=True):
         accelerations[k] = accelerations[k] - value
     moving |= {f"qdd[{k}]": value for k, value in enumerate(accelerations)}
-    columns = base_columns(model, base)
-    values = replaced(graph, list(columns.values()), turns.symbols, moving)
+    columns = list_base_entries(model, base)
+    values = replace_nodes(graph, list(columns.values()), turns.symbols, moving)
     phi: dict[int, Expr] = {}
     for (k, column), value in zip(columns, values, strict=True):
         for j, share in shares[k].items():
@@ -127,33 +127,33 @@ def fused_regressor(
     return tuple((at, phi[at]) for at in order if not phi[at].is_zero)
 
 
-def replaced(
+def replace_nodes(
     graph: Graph, outputs: Sequence[Expr], nodes: Mapping[int, Expr], symbols: Mapping[str, Expr]
 ) -> list[Expr]:
     """The outputs with other expressions in place of some nodes, and of symbols by name."""
-    found: dict[int, Expr] = {0: graph.constant(0), **nodes}
+    replacements: dict[int, Expr] = {0: graph.constant(0), **nodes}
 
-    def signed(ref: int) -> Expr:
-        return found[ref] if ref >= 0 else -found[-ref]
+    def get_signed(ref: int) -> Expr:
+        return replacements[ref] if ref >= 0 else -replacements[-ref]
 
-    for index in graph.reachable(outputs):
-        if index in found:
+    for index in graph.find_reachable(outputs):
+        if index in replacements:
             continue
-        node, found[index] = graph.nodes[index], Expr(graph, index)
+        node, replacements[index] = graph.nodes[index], Expr(graph, index)
         if node.op == "sym":
-            found[index] = symbols.get(node.args[0], found[index])
+            replacements[index] = symbols.get(node.args[0], replacements[index])
         if node.op in ("sym", "num", "pi") or node.static:
             continue
-        args = [signed(arg) for arg in node.args]
+        args = [get_signed(arg) for arg in node.args]
         if all(new.ref == old for new, old in zip(args, node.args, strict=True)):
             continue
         if table := graph.tables.get(node.op):
-            found[index] = graph.law(table.law, *args, along=table.along)
+            replacements[index] = graph.law(table.law, *args, along=table.along)
         elif node.op in _ARITHMETIC:
-            found[index] = _ARITHMETIC[node.op](*args)
+            replacements[index] = _ARITHMETIC[node.op](*args)
         else:
-            found[index] = graph.call(node.op, args[0])
-    return [signed(output.ref) for output in outputs]
+            replacements[index] = graph.call(node.op, args[0])
+    return [get_signed(output.ref) for output in outputs]
 
 
 # The unit of tiles: base regressors of some samples at once, each in a lane of its own.
@@ -193,7 +193,7 @@ class Tile:
 
 
 @dataclass(frozen=True)
-class Part:
+class ClosingFunction:
     """One function of what closes the loops of some samples at once; arrays of vectors.
 
     Attributes:
@@ -218,7 +218,7 @@ class ClosingTile:
         entries: (coordinate, column) of the values.
     """
 
-    parts: tuple[Part, ...]
+    parts: tuple[ClosingFunction, ...]
     entries: tuple[tuple[int, int], ...]
     symbols: frozenset[str]
     laws: Mapping[str, Law]
@@ -227,18 +227,18 @@ class ClosingTile:
     @property
     def rows(self) -> list[str]:
         """The coordinates, lines of a C table."""
-        return name_lines([row for row, _ in self.entries])
+        return wrap_names([row for row, _ in self.entries])
 
     @property
     def columns(self) -> list[str]:
         """The columns, lines of a C table."""
-        return name_lines([column for _, column in self.entries])
+        return wrap_names([column for _, column in self.entries])
 
 
 _PARTS = ("closure", "residual", "factor", "solve", "coupling", "turned", "spread", "rows")
 
 
-def closing_tile_of(
+def build_closing_tile(
     functions: Iterable[CFunction], places: Mapping[str, str], columns: int, target: Target
 ) -> ClosingTile | None:
     """The tile of a robot with loops; None where it has no regressor.
@@ -249,12 +249,12 @@ def closing_tile_of(
         columns: how many the base regressor has.
         target: of the precision's `TILES`.
     """
-    found = {f.role: f for f in functions if f.internal}
-    if "tree_rows" not in found:
+    by_role = {f.role: f for f in functions if f.internal}
+    if "tree_rows" not in by_role:
         return None
     parts, symbols, laws, entries = [], frozenset[str](), dict[str, Law](), []
     for name in _PARTS:
-        f = found[f"tree_{name}"]
+        f = by_role[f"tree_{name}"]
         rows, out = name == "rows", f.output.name
         if rows:
             entries = sorted(at for at, _ in f.entries)
@@ -274,11 +274,11 @@ def closing_tile_of(
         )  # fmt: skip
         unread = tuple(f"(void){name};" for name in inputs if name not in read)
         lines = (*unread, *block.constants, *block.calls, *block.body, *zeros)
-        parts.append(Part(name, inputs, None if rows else out, lines))
+        parts.append(ClosingFunction(name, inputs, None if rows else out, lines))
     return ClosingTile(tuple(parts), tuple(divmod(at, columns) for at in entries), symbols, laws)
 
 
-def tile_of(
+def build_tile(
     functions: Iterable[CFunction], places: Mapping[str, str],
     nonzeros: Sequence[tuple[int, int]], target: Target,
 ) -> Tile | None:  # fmt: skip
@@ -322,6 +322,6 @@ def tile_of(
             for name, length in lengths.items()
             if name not in unread
         ),
-        **entries(block, "symbols additions multiplications laws"),
+        **select_attributes(block, "symbols additions multiplications laws"),
         signals=lengths.get("s", 0),
     )

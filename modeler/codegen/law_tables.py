@@ -6,9 +6,9 @@ from typing import Any
 
 import numpy as np
 
-from modeler.codegen.functions import name_lines
+from modeler.codegen.functions import wrap_names
 from modeler.codegen.targets import Target
-from modeler.core.files import resource_dir
+from modeler.core.files import locate_resources
 from modeler.core.law import Law
 
 
@@ -33,13 +33,13 @@ class LawTable:
     step: int
 
 
-def law_source() -> str:
+def read_law_source() -> str:
     """What reads the tables, for code that includes nothing."""
-    text = (resource_dir("csrc") / "include" / "modeler_law.h").read_text("utf-8")
+    text = (locate_resources("csrc") / "include" / "modeler_law.h").read_text("utf-8")
     return text.replace('#include "modeler_runtime.h"\n\n', "")
 
 
-def law_tables(read: Iterable[Any], target: Target) -> list[LawTable]:
+def build_law_tables(read: Iterable[Any], target: Target) -> list[LawTable]:
     """Those that the functions of a file read, each once.
 
     Args:
@@ -52,27 +52,35 @@ def law_tables(read: Iterable[Any], target: Target) -> list[LawTable]:
     every: dict[str, Law] = {}
     for each in read:
         every |= each.laws
-    return [_table(name, every[name], target.still) for name in sorted(every)]
+    return [_build_table(name, every[name], target.constant_target) for name in sorted(every)]
 
 
-def _table(name: str, law: Law, target: Target) -> LawTable:
-    strips = law_strips(law)
+def _build_table(name: str, law: Law, target: Target) -> LawTable:
+    strips = compute_law_strips(law)
 
-    def numbers(values: Iterable[float]) -> list[str]:
+    def format_numbers(values: Iterable[float]) -> list[str]:
         # What rounding left of a 0 may be too small for the target.
-        return [target.literal(x if abs(x) > float(target.smallest) else 0.0) for x in values]
+        return [
+            target.format_literal(x if abs(x) > float(target.smallest) else 0.0) for x in values
+        ]
 
-    def axes(values: Iterable[float]) -> list[str]:
-        return numbers([*values, 0.0][:2])
+    def format_axes(values: Iterable[float]) -> list[str]:
+        return format_numbers([*values, 0.0][:2])
 
-    lines = name_lines(numbers(strips.ravel().tolist()))
-    cells = axes(map(float, law.cells))
+    lines = wrap_names(format_numbers(strips.ravel().tolist()))
+    cells = format_axes(map(float, law.cells))
     return LawTable(
-        name, lines, strips.size, axes(law.low), axes(law.scales), cells, strips.shape[2]
+        name,
+        lines,
+        strips.size,
+        format_axes(law.low),
+        format_axes(law.scales),
+        cells,
+        strips.shape[2],
     )
 
 
-def law_strips(law: Law) -> np.ndarray:
+def compute_law_strips(law: Law) -> np.ndarray:
     """(cells + 1, 4, coefficients): of the powers of the place in each cell of the first axis.
 
     The last cell is the end itself. There is one coefficient of a law of one quantity; along a

@@ -24,7 +24,7 @@ _GIVEN = re.compile(r"(?:const \w+ )?(\w+) :?= ")
 
 
 @cache
-def _quantities() -> Mapping[str, Any]:
+def _read_quantities() -> Mapping[str, Any]:
     return tomllib.loads(Path(__file__).with_name("quantities.toml").read_text("utf-8"))
 
 
@@ -45,19 +45,19 @@ class Naming:
         """
         self._links = graph.links
         self._labels = {s: graph.labels[k] for s, k in nodes.items() if k in graph.labels}
-        self.letters = frozenset((e.quantity, _kind(e), e.step) for e in self._labels.values())
+        self.letters = frozenset((e.quantity, _find_kind(e), e.step) for e in self._labels.values())
         self._names: dict[str, str] = {}
         self._announced: set[Letters] = set()
         taken = set(re.findall(r"[a-z_]\w*", "\n".join(lines).lower()))
         for short, label in self._labels.items():
-            name = first = _name(label)
+            name = first = _format_name(label)
             while name.lower() in taken:
                 number = name[len(first) + 1 :] or "1"
                 name = f"{first}_{int(number) + 1}"
             taken.add(name.lower())
             self._names[short] = name
 
-    def written(self, lines: Sequence[str], remark: str) -> tuple[str, ...]:
+    def write_names(self, lines: Sequence[str], remark: str) -> tuple[str, ...]:
         """The lines with the names, a comment before the first of each quantity of a link.
 
         As many as before: a comment, and what a line is too long for, stand within the line.
@@ -66,47 +66,49 @@ class Naming:
             lines: some of the function.
             remark: a comment, around `{}`.
         """
-        found = []
+        named_lines = []
         for line in lines:
-            given = _GIVEN.match(line)
-            label = self._labels.get(given[1]) if given else None
-            text = _wrapped(_SHORT.sub(lambda match: self._names.get(match[0], match[0]), line))
-            comment = "" if label is None else self._comment(label)
-            found.append(f"{_wrapped(remark.format(comment))}\n{text}" if comment else text)
-        return tuple(found)
+            assignment = _GIVEN.match(line)
+            label = self._labels.get(assignment[1]) if assignment else None
+            text = _wrap_line(_SHORT.sub(lambda match: self._names.get(match[0], match[0]), line))
+            comment = "" if label is None else self._format_comment(label)
+            named_lines.append(f"{_wrap_line(remark.format(comment))}\n{text}" if comment else text)
+        return tuple(named_lines)
 
-    def _comment(self, label: Label) -> str:
+    def _format_comment(self, label: Label) -> str:
         """What is announced before the first value of a quantity of a link; may be empty."""
-        quantity, link = _quantities()[label.quantity], self._links[label.link]
-        key = (label.quantity, _kind(label), label.link)
+        quantity, link = _read_quantities()[label.quantity], self._links[label.link]
+        key = (label.quantity, _find_kind(label), label.link)
         if "equation" not in quantity or "d" in label.step or key in self._announced:
             return ""
         self._announced.add(key)
         equation = quantity["equation"] + quantity.get(link.moves, "")
         text = f"{quantity[key[1]]}, {label.quantity}{{j}} = {equation}"
-        return f"link {label.link}: " + text.format(i=_link(link.antecedent), j=_link(label.link))
+        return f"link {label.link}: " + text.format(
+            i=_format_link(link.antecedent), j=_format_link(label.link)
+        )
 
 
-def _kind(label: Label) -> str:
+def _find_kind(label: Label) -> str:
     """Which text of its quantity tells what it is, or what it is a derivative of."""
-    derived = "d" in label.step and "meaning" in _quantities()[label.quantity]
+    derived = "d" in label.step and "meaning" in _read_quantities()[label.quantity]
     return "unit" if label.of and not derived else "meaning"
 
 
-def _link(name: str) -> str:
+def _format_link(name: str) -> str:
     """A link's name behind the letter of a quantity."""
     word = re.sub(r"\W", "", name)
     return word if word[:1].isdigit() else f"_{word}"
 
 
-def _name(label: Label) -> str:
+def _format_name(label: Label) -> str:
     component = re.sub(r"\W", "", label.of) + label.component
-    name = f"{label.quantity}{_link(label.link)}{label.step}"
+    name = f"{label.quantity}{_format_link(label.link)}{label.step}"
     name = "minus_" * label.minus + name + f"_{component}" * bool(component)
     return re.sub("__+", "_", name)  # which compilers keep for themselves
 
 
-def _wrapped(line: str, width: int = _WIDTH) -> str:
+def _wrap_line(line: str, width: int = _WIDTH) -> str:
     """The statement in lines of readable length."""
     if len(line) <= width:
         return line
@@ -115,21 +117,21 @@ def _wrapped(line: str, width: int = _WIDTH) -> str:
     )
 
 
-def legend(letters: Iterable[Letters]) -> list[str]:
+def format_legend(letters: Iterable[Letters]) -> list[str]:
     """What the letters are, a line for each that occurs; none where nothing is named.
 
     Args:
         letters: of the functions of a file.
     """
-    found, lines, table = set(letters), [], dict(_quantities())
+    letter_set, lines, table = set(letters), [], dict(_read_quantities())
     for step, meaning in table.pop("steps").items():
-        owners = sorted({each[0] for each in found if step in each[2]}, key=str.lower)
-        told = f"...{step}   {meaning}: {', '.join(owners)}"
-        lines += _wrapped(told, 90).split("\n") if owners else []
+        owners = sorted({each[0] for each in letter_set if step in each[2]}, key=str.lower)
+        line = f"...{step}   {meaning}: {', '.join(owners)}"
+        lines += _wrap_line(line, 90).split("\n") if owners else []
     rows = [
         f"{letter + '_1' * (kind == 'unit'):<7}{quantity[kind]}"
         for letter, quantity in table.items()
         for kind in ("meaning", "unit")
-        if any(each[:2] == (letter, kind) for each in found)
+        if any(each[:2] == (letter, kind) for each in letter_set)
     ]
     return rows + lines

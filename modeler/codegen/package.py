@@ -13,16 +13,16 @@ import jinja2
 from modeler import __version__
 from modeler.codegen.vectors import PRODUCTS, TURNING
 from modeler.core.errors import ModelerError
-from modeler.core.files import resource_dir, write_atomically, write_together
+from modeler.core.files import locate_resources, write_atomically, write_files
 from modeler.core.manifest import (
     CLOSURE_RUNTIME,
     CONTROL_RUNTIME,
     MANIFEST,
-    Emitted,
+    EmittedModule,
     FunctionSpec,
     ModuleSpec,
     OriginSpec,
-    text_digest,
+    digest_text,
 )
 
 # The programs of a folder.
@@ -55,7 +55,7 @@ Record = Mapping[str, frozenset[str]]
 """Checksums by name of file; two of a file while it is being replaced."""
 
 
-def checksum(content: bytes) -> str:
+def hash_content(content: bytes) -> str:
     """SHA-256, in hexadecimal digits."""
     return hashlib.sha256(content).hexdigest()
 
@@ -71,16 +71,16 @@ def read_record(folder: Path) -> Record | None:
         return {}
     if not path.is_file():
         return None
-    found: dict[str, frozenset[str]] = {}
+    record: dict[str, frozenset[str]] = {}
     for line in path.read_bytes().decode(errors="replace").splitlines():
         match = _LINE.fullmatch(line)
         if match is None:
             return None
-        found[match[2]] = found.get(match[2], frozenset()) | {match[1]}
-    return found
+        record[match[2]] = record.get(match[2], frozenset()) | {match[1]}
+    return record
 
 
-def record_text(record: Record) -> str:
+def format_record(record: Record) -> str:
     """The record as a file."""
     lines = [f"{sum_}  {name}" for name in sorted(record) for sum_ in sorted(record[name])]
     return "".join(f"{line}\n" for line in lines)
@@ -89,13 +89,13 @@ def record_text(record: Record) -> str:
 # Emitted files to disk, over what an earlier run wrote and over nothing else.
 
 
-def write_emitted(emitted: Emitted, folder: Path, force: bool = False) -> tuple[str, ...]:
+def write_emitted(emitted: EmittedModule, folder: Path, force: bool = False) -> tuple[str, ...]:
     """Names of the files that were written: those that are new or have changed.
 
     A file that says the same already keeps its time, so that `make` has nothing to do. Other files
     of the folder are left alone: it may be the user's controller. What is written is recorded
     beside it (`generated.sha256`), so that the next run knows its own files from the user's. What
-    had the values of a model goes where none are emitted, unless it was edited (`leftovers`).
+    had the values of a model goes where none are emitted, unless it was edited (`list_leftovers`).
 
     Args:
         emitted: the files.
@@ -109,7 +109,7 @@ def write_emitted(emitted: Emitted, folder: Path, force: bool = False) -> tuple[
     folder = Path(folder)
     new = {name: text.encode() for name, text in emitted.files.items()}
     try:
-        old = {name: _content(folder / name) for name in new}
+        old = {name: _read_content(folder / name) for name in new}
         known = read_record(folder)
     except OSError as error:
         raise ModelerError(
@@ -118,23 +118,23 @@ def write_emitted(emitted: Emitted, folder: Path, force: bool = False) -> tuple[
         ) from error
     changed = [name for name in new if old[name] != new[name]]
     if not force:
-        _check(folder, [name for name in changed if old[name] is not None], old, known)
+        _check_overwrite(folder, [name for name in changed if old[name] is not None], old, known)
     record = {name: sums for name, sums in (known or {}).items() if (folder / name).is_file()}
-    sums = {name: frozenset([checksum(content)]) for name, content in new.items()}
-    gone = _unedited(folder, {n: s for n, s in record.items() if n in _unwanted(emitted)})
+    sums = {name: frozenset([hash_content(content)]) for name, content in new.items()}
+    gone = _find_unedited(folder, {n: s for n, s in record.items() if n in _list_unwanted(emitted)})
     # Both are known while files are replaced, so that a run that was killed can be repeated.
     both = {**record, **{n: s | record.get(n, frozenset()) for n, s in sums.items()}}
     files = [(folder / name, new[name]) for name in changed]
     if files or gone:
-        texts = [(folder / RECORD, record_text(both).encode()), *files]
-        write_together(texts, [folder / name for name in gone])
+        texts = [(folder / RECORD, format_record(both).encode()), *files]
+        write_files(texts, [folder / name for name in gone])
     last = {**{n: s for n, s in record.items() if (folder / n).is_file()}, **sums}
     if last != known:
-        write_atomically(folder / RECORD, record_text(last))
+        write_atomically(folder / RECORD, format_record(last))
     return tuple(changed)
 
 
-def _unwanted(emitted: Emitted) -> set[str]:
+def _list_unwanted(emitted: EmittedModule) -> set[str]:
     """Files of an earlier run with other options, not emitted now."""
     prefix = emitted.spec.prefix
     units = ("fitted", "control", "joints", "batch", "tile", "regressor", "base_regressor")
@@ -145,7 +145,7 @@ def _unwanted(emitted: Emitted) -> set[str]:
     return names - emitted.files.keys()
 
 
-def leftovers(emitted: Emitted, folder: str | Path) -> list[str]:
+def list_leftovers(emitted: EmittedModule, folder: str | Path) -> list[str]:
     """Files with a model's values that are not emitted now, and stay because they were edited.
 
     Args:
@@ -153,27 +153,27 @@ def leftovers(emitted: Emitted, folder: str | Path) -> list[str]:
         folder: where.
     """
     known = read_record(Path(folder)) or {}
-    return sorted(known.keys() & _unwanted(emitted))
+    return sorted(known.keys() & _list_unwanted(emitted))
 
 
-def _unedited(folder: Path, stale: Record) -> set[str]:
+def _find_unedited(folder: Path, stale: Record) -> set[str]:
     """Names of the files of an earlier run that say what it wrote."""
     same = set()
     for name, sums in stale.items():
         with suppress(OSError):  # what cannot be read stays
-            if checksum((folder / name).read_bytes()) in sums:
+            if hash_content((folder / name).read_bytes()) in sums:
                 same.add(name)
     return same
 
 
-def _content(path: Path) -> bytes | None:
+def _read_content(path: Path) -> bytes | None:
     """Of a file; empty of anything else, None of nothing."""
     if path.is_file():
         return path.read_bytes()
     return b"" if path.exists() else None
 
 
-def _check(
+def _check_overwrite(
     folder: Path, changed: Sequence[str], old: dict[str, bytes | None], known: Record | None
 ) -> None:
     """Nothing is lost that somebody wrote by hand."""
@@ -182,16 +182,16 @@ def _check(
         content = old[name]
         if not known or name not in known:
             foreign.append(name)
-        elif content is not None and checksum(content) not in known[name]:
+        elif content is not None and hash_content(content) not in known[name]:
             edited.append(name)
-    told = []
+    problems = []
     if foreign:
-        told.append(f"{', '.join(sorted(foreign))}, not known to be of an earlier generate")
+        problems.append(f"{', '.join(sorted(foreign))}, not known to be of an earlier generate")
     if edited:
-        told.append(f"{', '.join(sorted(edited))}, edited since an earlier generate")
-    if told:
+        problems.append(f"{', '.join(sorted(edited))}, edited since an earlier generate")
+    if problems:
         raise ModelerError(
-            f"{folder}: would write over {'; and over '.join(told)}; choose another folder, or "
+            f"{folder}: would write over {'; and over '.join(problems)}; choose another folder, or "
             "write over them with --force"
         )
 
@@ -202,9 +202,9 @@ def _check(
 
 
 @cache
-def _environment() -> jinja2.Environment:
+def _get_environment() -> jinja2.Environment:
     return jinja2.Environment(
-        loader=jinja2.FileSystemLoader(resource_dir("templates")),
+        loader=jinja2.FileSystemLoader(locate_resources("templates")),
         undefined=jinja2.StrictUndefined,
         trim_blocks=True,
         lstrip_blocks=True,
@@ -215,7 +215,7 @@ def _environment() -> jinja2.Environment:
 
 def render(template: str, **values: Any) -> str:
     """Text of `templates/<template>.jinja` with these values."""
-    return _environment().get_template(f"{template}.jinja").render(**values)
+    return _get_environment().get_template(f"{template}.jinja").render(**values)
 
 
 C_INTERFACE = 2
@@ -226,12 +226,12 @@ LICENSE = "MIT"
 """SPDX identifier of what is emitted: that of the templates and of the runtime."""
 
 
-def origin_of() -> OriginSpec:
+def make_origin() -> OriginSpec:
     """What the manifest and a header say of this version; the other files are the robot's alone."""
     return OriginSpec(C_INTERFACE, f"modeler {__version__}", LICENSE)
 
 
-def package_version(signature: str) -> str:
+def format_package_version(signature: str) -> str:
     """`2.4660.22136.43981`: the C interface, then 48 bits of the signature, 16 in each number.
 
     Build systems compare numbers, not digests: so `find_package(arm 2.4660.22136.43981)` and
@@ -245,7 +245,7 @@ def package_version(signature: str) -> str:
     return ".".join(map(str, (C_INTERFACE, *words)))
 
 
-def package_files(
+def build_package_files(
     spec: ModuleSpec, code: Mapping[str, str], values: Mapping[str, Any]
 ) -> dict[str, str]:
     """{name: text} of what builds, checks, installs and explains the library.
@@ -256,21 +256,21 @@ def package_files(
         values: what all templates of the module are given.
     """
     prefix = spec.prefix
-    examples, count = examples_of(spec), count_values(spec)
+    examples, count = select_examples(spec), count_values(spec)
     every = spec.every_function
-    given = {
+    template_values = {
         **values,
-        "origin": origin_of(),
+        "origin": make_origin(),
         "status": any(f.status for f in every),
-        "package": _package(spec, code),
+        "package": _describe_package(spec, code),
         "folder": FOLDER,
         "examples": examples,
         "programs": (SELF_CHECK, *([VECTORS] if values["many_states"] else []), *examples),
         "counts": count is not None,
-        "call": {f.name.removeprefix(f"{prefix}_"): call_head(f) for f in every},
+        "call": {f.name.removeprefix(f"{prefix}_"): format_call_head(f) for f in every},
         "every": every,
         "roles": {f.name.removeprefix(f"{prefix}_") for f in every},
-        "batched": spec.has("_batch"),
+        "batched": spec.has_unit("_batch"),
         "at_state": set(
             re.findall(r"\b\w+_at(?=\()", "".join(code[h] for h in code if h.endswith(".h")))
         ),
@@ -278,12 +278,12 @@ def package_files(
         "control_files": [
             name for name in CONTROL_RUNTIME if spec.closure is None or name not in CLOSURE_RUNTIME
         ],
-        "head": f"{prefix}{next((u for u in ('_control', '_fitted') if spec.has(u)), '')}",
+        "head": f"{prefix}{next((u for u in ('_control', '_fitted') if spec.has_unit(u)), '')}",
         "fitted": spec.fitted,
         "passive": ", ".join(joint.name for joint in spec.joints if not joint.actuated),
         # Operations of closing loops: equations and derivatives, and the solution.
-        "turn": _operations(values["functions"], f"{prefix}_tree_closure"),
-        "solving": _operations(
+        "turn": _sum_operations(values["functions"], f"{prefix}_tree_closure"),
+        "solving": _sum_operations(
             values["functions"], f"{prefix}_tree_factor", f"{prefix}_tree_solve"
         ),
     }
@@ -305,11 +305,13 @@ def package_files(
     order = [f for f in order if f.name in stored | products | {f"{prefix}_base_parameters"}]
     largest = max(f.outputs[0].size for f in every)
     checked = {"checked": order, "products": PRODUCTS, "turning": TURNING, "largest": largest}
-    own = {name: example_values(spec, name) for name in examples} | {SELF_CHECK: checked}
-    own |= {COUNT: count} if count is not None else {}
-    own |= {VECTORS: {"largest": largest}} if values["many_states"] else {}
-    programs = {f"{FOLDER}/{name}.c": more for name, more in own.items()}
-    given["files"] = {
+    program_values = {name: build_example_values(spec, name) for name in examples} | {
+        SELF_CHECK: checked
+    }
+    program_values |= {COUNT: count} if count is not None else {}
+    program_values |= {VECTORS: {"largest": largest}} if values["many_states"] else {}
+    programs = {f"{FOLDER}/{name}.c": more for name, more in program_values.items()}
+    template_values["files"] = {
         *code,
         *templates,
         *programs,
@@ -317,21 +319,22 @@ def package_files(
         MANIFEST,
         *(("vectors.csv",) if values["many_states"] else ()),
     }
-    texts = {name: render(template, **given) for name, template in templates.items()}
+    texts = {name: render(template, **template_values) for name, template in templates.items()}
     return texts | {
-        path: render(f"{Path(path).name}", **given, **more) for path, more in programs.items()
+        path: render(f"{Path(path).name}", **template_values, **more)
+        for path, more in programs.items()
     }
 
 
-def _package(spec: ModuleSpec, code: Mapping[str, str]) -> dict[str, Any]:
+def _describe_package(spec: ModuleSpec, code: Mapping[str, str]) -> dict[str, Any]:
     """How build systems see the folder.
 
     The signature is the manifest's, with fitted values where it has any; all objects depend on the
     headers, of which those that a controller includes are public, and installed.
     """
-    signature = spec.signature() if spec.fitted is None else spec.fitted.signature
+    signature = spec.compute_signature() if spec.fitted is None else spec.fitted.signature
     if spec.control is not None:
-        signature = text_digest(spec.to_json())
+        signature = digest_text(spec.to_json())
     heads = [
         f"{spec.prefix}{unit}.h"
         for unit in ("", "_fitted", "_control", "_joints", "_batch", "_tile")
@@ -340,19 +343,19 @@ def _package(spec: ModuleSpec, code: Mapping[str, str]) -> dict[str, Any]:
     for name in public:  # grows while it is read
         included = re.findall(r'^#include "([^"]+)"', code[name], flags=re.MULTILINE)
         public += [h for h in included if h in code and h not in public]
-    own = spec.controller_sources
+    controller_sources = spec.controller_sources
     return {
         "signature": signature,
-        "version": package_version(signature),
-        "sources": [name for name in own if name.endswith(".c")],
-        "batch": [name for name in code if name.endswith(".c") and name not in own],
+        "version": format_package_version(signature),
+        "sources": [name for name in controller_sources if name.endswith(".c")],
+        "batch": [name for name in code if name.endswith(".c") and name not in controller_sources],
         "headers": [name for name in code if name.endswith(".h")],
         "public": public
         + ([f"{spec.prefix}_generator.h", f"{spec.prefix}.hpp"] if spec.control else []),
     }
 
 
-def _operations(functions: Sequence[Any], *names: str) -> dict[str, int]:
+def _sum_operations(functions: Sequence[Any], *names: str) -> dict[str, int]:
     """Operations of the functions of these names together."""
     kinds = ("additions", "multiplications")
     return {k: sum(getattr(f, k) for f in functions if f.name in names) for k in kinds}
@@ -375,14 +378,14 @@ _CALLED = {
 }  # fmt: skip
 
 
-def examples_of(spec: ModuleSpec) -> tuple[str, ...]:
+def select_examples(spec: ModuleSpec) -> tuple[str, ...]:
     """Those whose functions a module has; none where a joint of q has no motor to obey."""
     roles = {f.name.removeprefix(f"{spec.prefix}_") for f in spec.every_function}
     if not all(joint.actuated for joint in spec.joints):
         return ()
-    found = tuple(name for name in EXAMPLES if roles.issuperset(_CALLED[name]))
+    examples = tuple(name for name in EXAMPLES if roles.issuperset(_CALLED[name]))
     # A path in space is followed without what friction remembers.
-    return tuple(name for name in found if name != "example_cartesian" or not spec.signals)
+    return tuple(name for name in examples if name != "example_cartesian" or not spec.signals)
 
 
 def count_values(spec: ModuleSpec) -> dict[str, Any] | None:
@@ -421,59 +424,61 @@ _LINES = {
 }
 
 
-def example_values(spec: ModuleSpec, name: str) -> dict[str, Any]:
+def build_example_values(spec: ModuleSpec, name: str) -> dict[str, Any]:
     """What the template of an example needs besides the values of all templates."""
     roles = {f.name.removeprefix(f"{spec.prefix}_"): f for f in spec.every_function}
     measured = [k for k, signal in enumerate(spec.signals) if signal.kind == "temperature"]
     line = _LINES[name]
 
-    def call(role: str, **named: str) -> str:
-        return call_head(roles[role], {"q": "now->q", "qd": "now->qd", "s": "own->s", **named})
+    def format_call(role: str, **named: str) -> str:
+        return format_call_head(
+            roles[role], {"q": "now->q", "qd": "now->qd", "s": "own->s", **named}
+        )
 
     values: dict[str, Any] = {"temperatures": measured}
     if spec.signals:
-        values["advance"] = call("advance", dt="&dt", qdd="a") + ", after)"
+        values["advance"] = format_call("advance", dt="&dt", qdd="a") + ", after)"
         values["lags"] = [k for k, signal in enumerate(spec.signals) if signal.kind == "lag"]
     values["line"] = f"{line}, temperatures" if measured else line
     if name == "example_adaptive":
         return {
             **values,
             "line": line,
-            "regressor": call("slotine_li_regressor"),
-            "momentum": call("momentum_regressor"),
-            "rest": call("momentum_rest_regressor"),
+            "regressor": format_call("slotine_li_regressor"),
+            "momentum": format_call("momentum_regressor"),
+            "rest": format_call("momentum_rest_regressor"),
         }
     if name == "example_cartesian":
         return {
             **values,
-            "pose": call("pose"),
-            "rest": call("jacobian_dot_qd"),
-            "inverse": call("fitted_operational_inverse", damping="&own->damping"),
-            "torque": call("fitted_inverse_dynamics", qdd="v"),
+            "pose": format_call("pose"),
+            "rest": format_call("jacobian_dot_qd"),
+            "inverse": format_call("fitted_operational_inverse", damping="&own->damping"),
+            "torque": format_call("fitted_inverse_dynamics", qdd="v"),
         }
     if name == "example_computed_torque":
         return {
             **values,
-            "torque": call("fitted_inverse_dynamics", qdd="v"),
-            "friction": call("fitted_friction", qdd="v"),
-            "friction_d": call("fitted_friction", qd="now->qd_d", qdd="v"),
+            "torque": format_call("fitted_inverse_dynamics", qdd="v"),
+            "friction": format_call("fitted_friction", qdd="v"),
+            "friction_d": format_call("fitted_friction", qd="now->qd_d", qdd="v"),
         }
     reads = {argument.name for argument in roles["fitted_friction"].inputs}
     return {
         **values,
-        **{role: call_head(roles[f"fitted_{role}"], {"qdd": "a", "s": "own->s"})
+        **{role: format_call_head(roles[f"fitted_{role}"], {"qdd": "a", "s": "own->s"})
            for role in ("momentum", "coriolis_transpose", "gravity", "friction")},
         "friction_reads_acceleration": "qdd" in reads,
         "uses_own": "s" in reads,
     }  # fmt: skip
 
 
-def call_head(function: FunctionSpec, named: Mapping[str, str] | None = None) -> str:
+def format_call_head(function: FunctionSpec, named: Mapping[str, str] | None = None) -> str:
     """The call up to its output: `wrist_gravity(q, beta`.
 
     Args:
         function: that is called.
         named: {argument: C text that stands for it}; others are called as they are named.
     """
-    given = ((named or {}).get(argument.name, argument.name) for argument in function.inputs)
-    return f"{function.name}({', '.join(given)}"
+    arguments = ((named or {}).get(argument.name, argument.name) for argument in function.inputs)
+    return f"{function.name}({', '.join(arguments)}"

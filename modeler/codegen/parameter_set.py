@@ -7,7 +7,7 @@ import dataclasses
 from collections.abc import Mapping
 
 from modeler.codegen import functions as layout
-from modeler.codegen.fitted import Width, widths
+from modeler.codegen.fitted import Width, find_widths
 from modeler.codegen.functions import Arguments, CFunction
 from modeler.core.manifest import ArgumentSpec
 from modeler.derivation import BaseParameters, Expr, SymbolicModel
@@ -19,35 +19,38 @@ SMOOTH = "smooth_"
 """Start of their roles."""
 
 
-def smooth_functions(
-    model: SymbolicModel, beta: Mapping[int, Expr], given: Arguments
+def build_smooth_functions(
+    model: SymbolicModel, beta: Mapping[int, Expr], arguments: Arguments
 ) -> tuple[CFunction, ...]:
-    """Inverse dynamics and friction with an argument `widths`; none where no friction leaps."""
-    found = [
+    """Inverse dynamics and friction with an argument `find_widths`.
+
+    None where no friction " "leaps.
+    """
+    functions = [
         function
-        for function in layout.dynamics_functions(model, beta, given)
+        for function in layout.build_dynamics_functions(model, beta, arguments)
         if function.role in ("inverse_dynamics", "friction")
     ]
-    count = len(dict.fromkeys(widths("", model, found).values()))
-    units = " or ".join(f"{unit}/s" for unit in given.q.unit.split(" or "))
+    count = len(dict.fromkeys(find_widths("", model, functions).values()))
+    units = " or ".join(f"{unit}/s" for unit in arguments.q.unit.split(" or "))
     spec = ArgumentSpec("widths", (count,), units, "of sign(v) as tanh(v/width); 0: it leaps")
     return tuple(
         dataclasses.replace(
             function, unit=UNIT, role=f"{SMOOTH}{function.role}",
             inputs=(*function.inputs, spec),
         )
-        for function in found if count
+        for function in functions if count
     )  # fmt: skip
 
 
-def turning_joints(model: SymbolicModel, base: BaseParameters) -> list[str]:
-    """Names of the joints, or motors, that `widths` are of, in its order."""
-    beta = layout.beta_symbols(model, base)
-    given = layout.arguments_of(model.robot.free, model, base)
-    found = widths("", model, smooth_functions(model, beta, given))
-    return [turning_joint(width) for width in dict.fromkeys(found.values())]
+def list_turning_joints(model: SymbolicModel, base: BaseParameters) -> list[str]:
+    """Names of the joints, or motors, that `find_widths` are of, in its order."""
+    beta = layout.make_beta_symbols(model, base)
+    arguments = layout.make_arguments(model.robot.free_joints, model, base)
+    widths = find_widths("", model, build_smooth_functions(model, beta, arguments))
+    return [get_turning_joint(width) for width in dict.fromkeys(widths.values())]
 
 
-def turning_joint(width: Width) -> str:
+def get_turning_joint(width: Width) -> str:
     """Name of the joint, or motor, that a width is of."""
     return width.macro.partition("_COULOMB_WIDTH_")[2]

@@ -4,10 +4,10 @@ import re
 from collections.abc import Sequence
 from xml.sax.saxutils import escape
 
-from modeler.codegen.functions import comment_text
-from modeler.codegen.package import package_version, render
+from modeler.codegen.functions import format_comment
+from modeler.codegen.package import format_package_version, render
 from modeler.core.errors import EmitError
-from modeler.core.manifest import Emitted
+from modeler.core.manifest import EmittedModule
 
 _PLACES = {
     "package.xml": "", "CMakeLists.txt": "", "plugin.xml": "", "README.md": "",
@@ -19,7 +19,7 @@ _PLACES = {
 _BANDWIDTH = 4.0 * 3.141592653589793  # rad/s
 
 
-def ros2_files(emitted: Emitted, beta: Sequence[float], source: str) -> dict[str, str]:
+def build_ros2_files(emitted: EmittedModule, beta: Sequence[float], source: str) -> dict[str, str]:
     """{place in the package: text}.
 
     Args:
@@ -43,8 +43,8 @@ def ros2_files(emitted: Emitted, beta: Sequence[float], source: str) -> dict[str
         ("inverse_dynamics", "tau", "qd"), ("friction", "f", "qd"),
         ("friction", "f_d", "wanted.qd"),
     ):  # fmt: skip
-        given = {"q": "q", "qd": speed, "qdd": "v", "beta": "beta"}
-        words = [f"{given[argument.name]}.data()" for argument in roles[role].inputs]
+        c_names = {"q": "q", "qd": speed, "qdd": "v", "beta": "beta"}
+        words = [f"{c_names[argument.name]}.data()" for argument in roles[role].inputs]
         call = f"{roles[role].name}({', '.join(words)}, {out}.data())"
         if status:
             call = (
@@ -55,10 +55,10 @@ def ros2_files(emitted: Emitted, beta: Sequence[float], source: str) -> dict[str
     title = spec.title or spec.robot
     code = {name: emitted.files[name] for name in spec.controller_sources}
     values = {
-        "title": comment_text(title), "xml_title": escape(title), "name": spec.robot,
+        "title": format_comment(title), "xml_title": escape(title), "name": spec.robot,
         "prefix": spec.prefix, "macro": spec.prefix.upper(), "calls": calls, "status": status,
         "package": re.sub("_+", "_", f"{spec.prefix}_computed_torque"), "names": names,
-        "version": ".".join(package_version(spec.signature()).split(".")[:3]),
+        "version": ".".join(format_package_version(spec.compute_signature()).split(".")[:3]),
         "source": source,
         "beta": [
             f"{float(x)!r},  /* {base.name}, {base.unit} */"

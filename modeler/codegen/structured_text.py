@@ -11,10 +11,10 @@ from types import MappingProxyType
 from typing import Any
 
 from modeler.codegen.block import make_block
-from modeler.codegen.fitted import Width, fitted_texts, widths
+from modeler.codegen.fitted import Width, find_widths, format_fitted_texts
 from modeler.codegen.functions import CFunction
-from modeler.codegen.law_tables import law_tables
-from modeler.codegen.naming import legend
+from modeler.codegen.law_tables import build_law_tables
+from modeler.codegen.naming import format_legend
 from modeler.codegen.package import render
 from modeler.codegen.targets import DOUBLE, Target
 from modeler.core.errors import EmitError
@@ -29,12 +29,12 @@ _OWN = ("sign", "tanh")
 _STANDARD = {"abs": "ABS", "pow": "EXPT"}
 
 
-def identifier(name: str) -> str:
+def make_identifier(name: str) -> str:
     """A name of C as one of the standard."""
     return re.sub("__+", "_", name).strip("_")
 
 
-def _target(prefix: str) -> Target:
+def _make_target(prefix: str) -> Target:
     """How a value is written for a robot, whose helpers have its name."""
     names = {name: _STANDARD.get(name, name.upper()) for name in DOUBLE.functions}
     names |= {name: f"{prefix}_{name}" for name in _OWN}
@@ -52,7 +52,7 @@ def _target(prefix: str) -> Target:
     )
 
 
-def structured_texts(
+def build_structured_text(
     model: SymbolicModel, spec: ModuleSpec, values: Mapping[str, Any], fitted: Sequence[CFunction]
 ) -> dict[str, str]:
     """{name: text} of the function blocks; of a fitted model, those with its values.
@@ -75,53 +75,57 @@ def structured_texts(
         raise EmitError(
             "Structured Text is emitted in LREAL, double precision, only; leave out one of the two"
         )
-    own = {function.role: function for function, _ in values["blocks"]}
-    functions = [*fitted, *(own[role] for role in _ROLES if role in own)]
-    turning = widths(spec.prefix, model, fitted)
-    prefix, known = identifier(spec.prefix), model.geometry.values
-    lengths = {name: identifier(f"geo_{name}") for name in known}
+    by_role = {function.role: function for function, _ in values["blocks"]}
+    functions = [*fitted, *(by_role[role] for role in _ROLES if role in by_role)]
+    turning = find_widths(spec.prefix, model, fitted)
+    prefix, known = make_identifier(spec.prefix), model.geometry.values
+    lengths = {name: make_identifier(f"geo_{name}") for name in known}
     places = values["places"] | lengths
     places |= {f"s[{k}]": f"signals[{k}]" for k in range(len(spec.signals))}
-    target = _target(prefix)
+    target = _make_target(prefix)
     made = [
-        _function_block(function, prefix, places, turning if function in fitted else {}, target)
+        _build_function_block(
+            function, prefix, places, turning if function in fitted else {}, target
+        )
         for function in functions
     ]
     for each in made:
         own_symbols = [name for name in known if name in each["symbols"]]
-        each["constants"] = [(lengths[n], target.literal(known[n])) for n in own_symbols]
-    unit = fitted_texts(spec, spec.fitted, ()) if spec.fitted is not None else {"remarks": []}
-    letters = legend(letter for each in made for letter in each["letters"])
+        each["constants"] = [(lengths[n], target.format_literal(known[n])) for n in own_symbols]
+    unit = (
+        format_fitted_texts(spec, spec.fitted, ()) if spec.fitted is not None else {"remarks": []}
+    )
+    letters = format_legend(letter for each in made for letter in each["letters"])
     text = render(
         "structured_text.st", **{**values, **unit, "spec": spec, "prefix": prefix, "made": made,
-         "letters": letters, "laws": law_tables([each["block"] for each in made], target)},
+         "letters": letters, "laws": build_law_tables([each["block"] for each in made], target)},
     )  # fmt: skip
     return {f"{spec.prefix}.st": text}
 
 
-def _function_block(
+def _build_function_block(
     function: CFunction, prefix: str, places: Mapping[str, str], turning: Mapping[int, Width],
     target: Target,
 ) -> dict[str, Any]:  # fmt: skip
     """Finished strings of one."""
-    found = {speed: identifier(width.constant) for speed, width in turning.items()}
+    widths = {speed: make_identifier(width.constant) for speed, width in turning.items()}
     output = function.output.name
     outputs = [(f"{output}[{index}]", value) for index, value in function.entries]
-    block = make_block(outputs, places, found, target)
+    block = make_block(outputs, places, widths, target)
     written = {index for index, _ in function.entries}
     zeros = [f"{output}[{k}] := 0.0;" for k in range(function.output.size) if k not in written]
     lines = [*zeros, *block.constants, *block.calls, *block.body]
     arguments = [*function.inputs, function.output]
     names = ["signals" if each.name == "s" else each.name for each in arguments]
     return {
-        "name": identifier(f"{prefix}_{function.role}"),
+        "name": make_identifier(f"{prefix}_{function.role}"),
         "does": function.does.replace("*)", "* )"),
         "arguments": [
             (name, each.size - 1, f"{each.meaning}{', row-major' * (len(each.shape) > 1)}",
              each.unit)
             for name, each in zip(names, arguments, strict=True)
         ],
-        "widths": sorted({name for name in found.values() if f", {name})" in "\n".join(lines)}),
+        "widths": sorted({name for name in widths.values() if f", {name})" in "\n".join(lines)}),
         "declared": re.findall(r"^(\w+) :=", "\n".join(lines), re.MULTILINE),
         "lines": lines,
         "symbols": block.symbols,

@@ -6,10 +6,10 @@ from dataclasses import dataclass
 
 import sympy
 
-from modeler.codegen.block import float_text
+from modeler.codegen.block import format_float
 from modeler.codegen.targets import Target
 from modeler.core.expression import Expression
-from modeler.derivation import BaseParameters, Geometry, SymbolicModel, geometric_symbol
+from modeler.derivation import BaseParameters, Geometry, SymbolicModel, create_geometric_symbol
 from modeler.robot import Robot
 
 _SAME = 1e-12  # relative: a cell and its exact entry differ by rounding
@@ -42,7 +42,7 @@ class SymbolLines:
         return (*(name for name, _ in self.free), *self.fixed)
 
 
-def symbol_lines(
+def build_symbol_lines(
     model: SymbolicModel, base: BaseParameters, macros: Mapping[str, str], target: Target
 ) -> SymbolLines:
     """What is written of every declared symbol.
@@ -58,8 +58,8 @@ def symbol_lines(
     """
     values = model.geometry.values
     exact = base.proof.kind == "exact"
-    stay = deciding_symbols(model.geometry) if exact else frozenset(values)
-    texts = {name: float_text(value, target) for name, value in values.items()}
+    stay = find_deciding_symbols(model.geometry) if exact else frozenset(values)
+    texts = {name: format_float(value, target) for name, value in values.items()}
     return SymbolLines(
         free=tuple((macros[name], text) for name, text in texts.items() if name not in stay),
         fixed=tuple(
@@ -71,7 +71,7 @@ def symbol_lines(
     )
 
 
-def deciding_symbols(geometry: Geometry) -> frozenset[str]:
+def find_deciding_symbols(geometry: Geometry) -> frozenset[str]:
     """Symbols left in the geometry that cannot change without changing its structure.
 
     `d = "L1 + L2 - L3"` worth 0 is left out of the table, an angle `"a1 + a2"` worth pi/2 is that
@@ -86,7 +86,7 @@ def deciding_symbols(geometry: Geometry) -> frozenset[str]:
     numbers: dict[str, float] = {}  # of all symbols and joint variables, some symbols moved
     for name, expression in robot.symbols.items():
         try:
-            numbers[name] = moved[name] if name in moved else expression.number(numbers)
+            numbers[name] = moved[name] if name in moved else expression.evaluate(numbers)
         except (ArithmeticError, ValueError):
             numbers[name] = math.nan  # equal to nothing
     numbers |= {joint.variable: 0.0 for joint in robot.joints}
@@ -96,29 +96,29 @@ def deciding_symbols(geometry: Geometry) -> frozenset[str]:
         for row in geometry.rows
         for column in columns
     ]
-    found: set[str] = set()
+    deciding: set[str] = set()
     for cell, entry in (*cells, *zip(robot.gravity, geometry.gravity, strict=True)):
-        leaves = {name: moved[name] for name in _leaves(robot, cell) if name in moved}
-        found |= leaves.keys() - {symbol.name for symbol in entry.free_symbols}
+        leaves = {name: moved[name] for name in _find_leaves(robot, cell) if name in moved}
+        deciding |= leaves.keys() - {symbol.name for symbol in entry.free_symbols}
         if not leaves:
             continue
-        symbols = {geometric_symbol(name): value for name, value in leaves.items()}
+        symbols = {create_geometric_symbol(name): value for name, value in leaves.items()}
         try:
-            written, exact = cell.number(numbers), complex(entry.evalf(subs=symbols))
+            written, exact = cell.evaluate(numbers), complex(entry.evalf(subs=symbols))
         except (ArithmeticError, ValueError, TypeError):
             written, exact = math.nan, 0j
         if not abs(written - exact) <= _SAME * max(abs(written), *map(abs, leaves.values())):
-            found |= leaves.keys()
-    return frozenset(found)
+            deciding |= leaves.keys()
+    return frozenset(deciding)
 
 
-def _leaves(robot: Robot, cell: Expression) -> set[str]:
+def _find_leaves(robot: Robot, cell: Expression) -> set[str]:
     """Declared symbols that the cell depends on, through those given by expressions too."""
-    found: set[str] = set()
+    leaves: set[str] = set()
     waiting = [name for name in cell.names if name in robot.symbols]
     while waiting:
         name = waiting.pop()
-        if name not in found:
-            found.add(name)
+        if name not in leaves:
+            leaves.add(name)
             waiting += robot.symbols[name].names
-    return found
+    return leaves

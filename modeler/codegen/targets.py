@@ -65,11 +65,11 @@ class Target:
     remark: str = "/* {} */"
 
     @property
-    def still(self) -> "Target":
+    def constant_target(self) -> "Target":
         """The target of constants of the geometry."""
         return self.constant or self
 
-    def nearest(self, value: Fraction) -> float:
+    def round_number(self, value: Fraction) -> float:
         """The double next to a number that this target can hold.
 
         Raises:
@@ -85,27 +85,27 @@ class Target:
             )
         return float(value)
 
-    def literal(self, value: float) -> str:
+    def format_literal(self, value: float) -> str:
         """A number as C has it.
 
         Raises:
             EmitError: it is too large or too small.
         """
-        self.nearest(Fraction(value))
+        self.round_number(Fraction(value))
         digits, power, exponent = repr(value).partition("e")
         if power and self.point:
             digits, power = digits if "." in digits else f"{digits}.0", "E"
         return f"{digits}{power}{exponent}{self.suffix}"
 
     @property
-    def words(self) -> dict[str, Any]:
+    def template_words(self) -> dict[str, Any]:
         """What templates write numbers with."""
         single = self.precision == "single"
         return {
             "single": single,
             "real": self.number,  # the type
             "f": self.suffix,  # of literals, and of the functions of <math.h>
-            "literal": self.literal,
+            "literal": self.format_literal,
             "wide": "(double)" if single else "",  # before what printf prints
         }
 

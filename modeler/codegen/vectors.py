@@ -14,20 +14,20 @@ from typing import Any
 import numpy as np
 
 from modeler.codegen.closed_control import AtState
-from modeler.codegen.functions import CFunction, Closed, name_lines
+from modeler.codegen.functions import CFunction, Closed, wrap_names
 from modeler.codegen.targets import Target
 from modeler.core.errors import EmitError
 from modeler.derivation import (
     Ball,
     Closure,
     EnclosedState,
+    EnclosureError,
     Enclosures,
-    NotEnclosed,
     SymbolicModel,
-    ball_function,
-    exact_ball,
-    flint,
-    moved_postures,
+    build_ball,
+    build_ball_function,
+    draw_nearby_postures,
+    load_flint,
 )
 
 STATES = 2
@@ -55,8 +55,8 @@ Balls = list[list[Ball]]
 """The same before they are rounded."""
 
 
-def stored_states(
-    model: SymbolicModel, functions: Sequence[CFunction], target: Target, kept: Collection[str]
+def build_stored_states(
+    model: SymbolicModel, functions: Sequence[CFunction], target: Target, roles: Collection[str]
 ) -> dict[str, Any]:
     """What the template of the check stores: `tables` by name, and how many `states` they hold.
 
@@ -64,32 +64,32 @@ def stored_states(
         model: as derived.
         functions: all of the robot, those with fitted values too.
         target: the number type.
-        kept: roles of those of the module.
+        roles: roles of those of the module.
 
     Raises:
         EmitError: a number is none of the target, or the loops do not close beside home.
     """
-    with flint().ctx.workprec(_BITS):
-        inputs, balls = _tables(model, functions, STATES)
-    expected = {role: [_numbers(row) for row in rows] for role, rows in balls.items()}
-    products = {role for role in kept if role in PRODUCTS}
-    shown = {*kept} | {
+    with load_flint().ctx.workprec(_BITS):
+        inputs, balls = _evaluate_tables(model, functions, STATES)
+    expected = {role: [_round_balls(row) for row in rows] for role, rows in balls.items()}
+    products = {role for role in roles if role in PRODUCTS}
+    shown = {*roles} | {
         f"{'platform_' * role.startswith('platform_')}inverse_dynamics" for role in products
     }
-    read = {a.name for f in functions if f.role in kept and not f.internal for a in f.inputs}
-    read |= {"beta"} if products - {"regressor"} or "base_parameters" in kept else set()
-    read |= {"chi"} if "regressor" in kept else set()
+    read = {a.name for f in functions if f.role in roles and not f.internal for a in f.inputs}
+    read |= {"beta"} if products - {"regressor"} or "base_parameters" in roles else set()
+    read |= {"chi"} if "regressor" in roles else set()
     tables = {name: table for name, table in inputs.items() if name in read}
     tables |= {f"at_{role}": table for role, table in expected.items() if role in shown}
     lines = {
-        key: name_lines([target.literal(x) for row in rows for x in row])
+        key: wrap_names([target.format_literal(x) for row in rows for x in row])
         for key, rows in tables.items()
     }
     return {"states": STATES, "tables": lines}
 
 
-def vectors_text(
-    prefix: str, model: SymbolicModel, functions: Sequence[CFunction], kept: Collection[str]
+def format_vectors(
+    prefix: str, model: SymbolicModel, functions: Sequence[CFunction], roles: Collection[str]
 ) -> str:
     """`vectors.csv`: in each line name, state and numbers of an input, or of what a function gives.
 
@@ -101,29 +101,31 @@ def vectors_text(
         prefix: of the module.
         model: as derived.
         functions: all of the robot, those with fitted values too.
-        kept: roles of those of the module.
+        roles: roles of those of the module.
 
     Raises:
         EmitError: the loops do not close beside home, or a number has fewer digits.
     """
     lines = []
-    with flint().ctx.workprec(_MANY_BITS):
-        inputs, expected = _tables(model, functions, _MANY, exact=True)
-        read = {a.name for f in functions if f.role in kept and not f.internal for a in f.inputs}
+    with load_flint().ctx.workprec(_MANY_BITS):
+        inputs, expected = _evaluate_tables(model, functions, _MANY, exact=True)
+        read = {a.name for f in functions if f.role in roles and not f.internal for a in f.inputs}
         for state in range(_MANY):
             for name, table in inputs.items():
                 if name in read and state < len(table):
                     lines.append(",".join([name, str(state), *map(repr, table[state])]))
             for role, rows in expected.items():
-                if role in kept and state < len(rows):
+                if role in roles and state < len(rows):
                     lines.append(
-                        ",".join([f"{prefix}_{role}", str(state), *map(_digits, rows[state])])
+                        ",".join(
+                            [f"{prefix}_{role}", str(state), *map(_format_digits, rows[state])]
+                        )
                     )
     outputs = sum(line.startswith(f"{prefix}_") for line in lines)
     return "".join(f"{line}\n" for line in [*lines, f"outputs,{outputs}"])
 
 
-def _digits(x: Ball) -> str:
+def _format_digits(x: Ball) -> str:
     if x.contains(0):
         return "0"
     if x.rel_accuracy_bits() < _DIGITS / math.log10(2) + 1:
@@ -133,30 +135,30 @@ def _digits(x: Ball) -> str:
     return str(x.str(_DIGITS, radius=False))
 
 
-def _inputs(model: SymbolicModel, states: int) -> dict[str, Table]:
+def _make_inputs(model: SymbolicModel, states: int) -> dict[str, Table]:
     """Numbers of order 1, none of them 0; then slow, where friction turns."""
     coordinates = len(model.robot.coordinates)
 
-    def table(length: int, number: Callable[[int, int], float]) -> Table:
+    def make_table(length: int, number: Callable[[int, int], float]) -> Table:
         return [[number(i, state) for i in range(length)] for state in range(states)]
 
     def spread(factor: int, per: float) -> Callable[[int, int], float]:
         return lambda i, state: ((factor * i + 7 * state + 3) % 23 - 11.5 + state // 23 / 4) * per
 
-    def speed(i: int, state: int) -> float:
+    def make_speed(i: int, state: int) -> float:
         return (-1) ** (i + state) * (1 + (5 * i + 3 * state) % 13 / 16) / 64 ** (state % 3)
 
     return {
-        "q": table(coordinates, spread(11, 1 / 8)),
-        "qd": table(coordinates, speed),
-        "qdd": table(coordinates, spread(5, 1 / 4)),
-        "v": table(coordinates, lambda i, state: speed(i + 2, state)),
-        "a": table(coordinates, spread(9, 1 / 4)),
-        "tau": table(coordinates, spread(13, 2.0)),
-        "damping": table(1, lambda i, state: (state % 7 + 1) / 8),
-        "s": table(len(model.signals), lambda i, state: (i + 1 + 2 * state) / 16),
-        "dq": table(coordinates, spread(3, 1 / 512)),
-        "dt": table(1, lambda i, state: (state + 1) / 256),
+        "q": make_table(coordinates, spread(11, 1 / 8)),
+        "qd": make_table(coordinates, make_speed),
+        "qdd": make_table(coordinates, spread(5, 1 / 4)),
+        "v": make_table(coordinates, lambda i, state: make_speed(i + 2, state)),
+        "a": make_table(coordinates, spread(9, 1 / 4)),
+        "tau": make_table(coordinates, spread(13, 2.0)),
+        "damping": make_table(1, lambda i, state: (state % 7 + 1) / 8),
+        "s": make_table(len(model.signals), lambda i, state: (i + 1 + 2 * state) / 16),
+        "dq": make_table(coordinates, spread(3, 1 / 512)),
+        "dt": make_table(1, lambda i, state: (state + 1) / 256),
         # Inertias of bodies that can be: their matrix is positive definite.
         "chi": [
             [
@@ -167,7 +169,7 @@ def _inputs(model: SymbolicModel, states: int) -> dict[str, Table]:
     }
 
 
-def _tables(
+def _evaluate_tables(
     model: SymbolicModel, functions: Iterable[CFunction], states: int, exact: bool = False
 ) -> tuple[dict[str, Table], dict[str, Balls]]:
     """Inputs by name, and by role what the functions give there.
@@ -181,62 +183,79 @@ def _tables(
     """
     roles = {f.role: f for f in functions}
     # A double counts as the decimal that it prints, which is what was written.
-    symbols = {name: flint().arb(repr(x)) for name, x in model.geometry.values.items()}
+    symbols = {name: load_flint().arb(repr(x)) for name, x in model.geometry.values.items()}
 
     @cache
-    def steps(role: str) -> Callable[[Mapping[str, Ball]], list[Ball]]:
+    def get_steps(role: str) -> Callable[[Mapping[str, Ball]], list[Ball]]:
         values = [value for _, value in roles[role].entries]
-        return ball_function(values[0].graph if values else model.graph, values, symbols)
+        return build_ball_function(values[0].graph if values else model.graph, values, symbols)
 
-    def outputs(role: str, values: Mapping[str, Ball]) -> list[Ball]:
-        out = [exact_ball(0)] * roles[role].output.size
-        for (place, _), x in zip(roles[role].entries, steps(role)(values), strict=True):
+    def evaluate_outputs(role: str, values: Mapping[str, Ball]) -> list[Ball]:
+        out = [build_ball(0)] * roles[role].output.size
+        for (place, _), x in zip(roles[role].entries, get_steps(role)(values), strict=True):
             out[place] = x
         return out
 
-    inputs, closure = _inputs(model, states), model.closure
+    inputs, closure = _make_inputs(model, states), model.closure
     smooth = [a.size for f in functions for a in f.inputs if a.name == "widths"]
     inputs["widths"] = [[0.0] * size for size in smooth[:1]] * states  # then signs leap
-    chi = _named(chi=inputs["chi"][0])
-    found = outputs("base_parameters", chi)
-    beta = [exact_ball(_fine(float(x))) for x in found] if exact else found
+    chi = _name_entries(chi=inputs["chi"][0])
+    base_values = evaluate_outputs("base_parameters", chi)
+    beta = [build_ball(_round_fine(float(x))) for x in base_values] if exact else base_values
     constants = chi | {f"beta[{i}]": x for i, x in enumerate(beta)}
-    inputs["beta"] = [_numbers(beta)]
+    inputs["beta"] = [_round_balls(beta)]
     sets: dict[str, tuple[int, ...]] = {"q": ()}
     postures = [np.array(q) for q in inputs["q"]]
     if closure is not None:
-        postures = _postures(model, closure, symbols, states)
-        sets = {"q": closure.given} | ({"x": closure.platform} if closure.platform else {})
+        postures = _sample_postures(model, closure, symbols, states)
+        sets = {"q": closure.actuated} | ({"x": closure.platform} if closure.platform else {})
         for name, places in sets.items():
-            inputs[name] = [[_fine(x) for x in u[list(places)]] for u in postures]
+            inputs[name] = [[_round_fine(x) for x in u[list(places)]] for u in postures]
         inputs["xd"], inputs["xdd"] = inputs["qd"], inputs["qdd"]
         inputs["start"] = [u.tolist() for u in postures[::-1]]
-    expected: dict[str, Balls] = {"base_parameters": [found]} if exact else {}
+    expected: dict[str, Balls] = {"base_parameters": [base_values]} if exact else {}
     left = ("base_parameters",) if exact else _OTHERWISE
     for name, places in sets.items():
         enclosures = Enclosures(model, symbols, places)
         for k, near in enumerate(postures):
-            u = near if closure is None else _closed(closure, near, places, inputs[name][k])
+            u = near if closure is None else _close_posture(closure, near, places, inputs[name][k])
             qd, qdd = np.array(inputs["qd"][k]), np.array(inputs["qdd"][k])
-            moving, standing = (enclosures.state(u, qd, a) for a in (qdd, 0.0 * qdd))
-            signals = _named(**{each: inputs[each][k] for each in ("s", "dq", "dt", "v", "a")})
+            moving, standing = (enclosures.enclose_state(u, qd, a) for a in (qdd, 0.0 * qdd))
+            signals = _name_entries(
+                **{each: inputs[each][k] for each in ("s", "dq", "dt", "v", "a")}
+            )
             for role, f in roles.items():
                 c = f.closed or _DIRECT
                 if f.internal or role in left or c.q != name:
                     continue
                 if f.composed:
-                    own = {**constants, **signals, **_named(tau=inputs["tau"][k]), **moving.inputs}
+                    composed_inputs = {
+                        **constants,
+                        **signals,
+                        **_name_entries(tau=inputs["tau"][k]),
+                        **moving.inputs,
+                    }
                     if isinstance(f.composed, AtState):
-                        made = _carried(f.composed, own, _Carrying(enclosures, u, qd), outputs)
+                        made = _carry_over(
+                            f.composed,
+                            composed_inputs,
+                            _TreeMotion(enclosures, u, qd),
+                            evaluate_outputs,
+                        )
                     else:
-                        made = _solved(f, own, _named(damping=inputs["damping"][k]), outputs)
+                        made = _solve_composed(
+                            f,
+                            composed_inputs,
+                            _name_entries(damping=inputs["damping"][k]),
+                            evaluate_outputs,
+                        )
                     expected.setdefault(role, []).extend([made] if made else [])
                     continue
                 state = standing if c.qdd == "standing" else moving
                 tree = role if not f.closed else f"{c.tree}_{_ROWS.get(c.kind, c.role)}"
-                given = {**constants, **signals, **state.inputs}
-                out = outputs(tree, given) if tree in roles else []
-                expected.setdefault(role, []).append(_made(c.kind, state, out))
+                tree_inputs = {**constants, **signals, **state.inputs}
+                out = evaluate_outputs(tree, tree_inputs) if tree in roles else []
+                expected.setdefault(role, []).append(_project_output(c.kind, state, out))
     # Where a matrix is not positive definite, its functions have no number.
     return inputs, {
         role: rows
@@ -245,72 +264,72 @@ def _tables(
     }
 
 
-def _solved(
+def _solve_composed(
     f: CFunction,
-    given: Mapping[str, Ball],
+    inputs: Mapping[str, Ball],
     damping: Mapping[str, Ball],
     outputs: Callable[[str, Mapping[str, Ball]], list[Ball]],
 ) -> list[Ball]:
     """Output of a function that solves with the inertia matrix; [] where that has no meaning."""
     assert f.composed is not None
     head = "fitted_" * f.role.startswith("fitted_")
-    M = outputs(f"{head}inertia_matrix", given)
-    n, matrix = math.isqrt(len(M)), flint().arb_mat
-    pivots = np.linalg.eigvalsh(np.reshape(_numbers(M), (n, n)))
+    M = outputs(f"{head}inertia_matrix", inputs)
+    n, matrix = math.isqrt(len(M)), load_flint().arb_mat
+    pivots = np.linalg.eigvalsh(np.reshape(_round_balls(M), (n, n)))
     if f.composed.turns > 1 or pivots[0] < 1e-6 * pivots[-1]:
         return []
     inverse = matrix(n, n, M).inv()
     if f.composed.kind.startswith("operational"):
-        J = matrix(6, n, outputs("jacobian", given))
+        J = matrix(6, n, outputs("jacobian", inputs))
         square = damping["damping[0]"] * damping["damping[0]"]
-        add = matrix(6, 6, [square if i % 7 == 0 else exact_ball(0) for i in range(36)])
+        add = matrix(6, 6, [square if i % 7 == 0 else build_ball(0) for i in range(36)])
         L = (J * inverse * J.transpose() + add).inv()
         return list((L if f.output.name == "L" else inverse * J.transpose() * L).entries())
-    still = {**given, **{f"qdd[{j}]": exact_ball(0) for j in range(n)}}
+    still = {**inputs, **{f"qdd[{j}]": build_ball(0) for j in range(n)}}
     rest = outputs(f"{head}inverse_dynamics", still)
-    qdd = (inverse * matrix(n, 1, [given[f"tau[{j}]"] - x for j, x in enumerate(rest)])).entries()
+    qdd = (inverse * matrix(n, 1, [inputs[f"tau[{j}]"] - x for j, x in enumerate(rest)])).entries()
     if f.composed.kind == "forward_dynamics":
         return list(qdd)
-    moving = {**given, **{f"qdd[{j}]": x for j, x in enumerate(qdd)}}
+    moving = {**inputs, **{f"qdd[{j}]": x for j, x in enumerate(qdd)}}
     slopes = outputs(f"{head}derivatives", moving)
     parts = [matrix(n, n, [-x for x in slopes[k : k + n * n]]) for k in (0, n * n)]
     return [x for part in parts for x in (inverse * part).entries()] + list(inverse.entries())
 
 
-class _Carrying:
+class _TreeMotion:
     """What a state of the opened tree is made of: G, its rate, and gamma, udd at qdd = 0."""
 
     def __init__(self, enclosures: Enclosures, u: np.ndarray, qd: np.ndarray) -> None:
-        matrix, n, g = flint().arb_mat, len(u), len(qd)
-        states = [enclosures.state(u, speed, 0.0 * qd) for speed in _polar(qd)]
+        matrix, n, g = load_flint().arb_mat, len(u), len(qd)
+        states = [enclosures.enclose_state(u, speed, 0.0 * qd) for speed in _list_speeds(qd)]
         self.G = matrix(states[0].coupling)
         # gamma is a square of the speeds, dG/dt v a product of two of them.
-        own, *others = [[state.inputs[f"qdd[{k}]"] for k in range(n)] for state in states]
-        self.gamma = matrix(n, 1, own)
+        accelerations, *others = [[state.inputs[f"qdd[{k}]"] for k in range(n)] for state in states]
+        self.gamma = matrix(n, 1, accelerations)
         ahead, behind = others[:g], others[g:]
         rate = [(ahead[j][k] - behind[j][k]) / 4 for k in range(n) for j in range(g)]
         self.rate = matrix(n, g, rate)
 
 
-def _polar(qd: np.ndarray) -> Iterable[np.ndarray]:
+def _list_speeds(qd: np.ndarray) -> Iterable[np.ndarray]:
     return (qd, *(qd + unit for unit in np.eye(len(qd))), *(qd - unit for unit in np.eye(len(qd))))
 
 
-def _carried(
+def _carry_over(
     made: AtState,
-    given: Mapping[str, Ball],
-    by: _Carrying,
+    inputs: Mapping[str, Ball],
+    by: _TreeMotion,
     outputs: Callable[[str, Mapping[str, Ball]], list[Ball]],
 ) -> list[Ball]:
     """Output of a controller's function of closed loops; [] where that has no number here."""
-    n, g, matrix = by.G.nrows(), by.G.ncols(), flint().arb_mat
+    n, g, matrix = by.G.nrows(), by.G.ncols(), load_flint().arb_mat
 
-    def tree(role: str, rows: int, values: Mapping[str, Ball] = given) -> Ball:
+    def make_tree_matrix(role: str, rows: int, values: Mapping[str, Ball] = inputs) -> Ball:
         out = outputs(role, values)
         return matrix(rows, len(out) // rows, out)
 
-    def column(name: str, rows: int = g) -> Ball:
-        return matrix(rows, 1, [given[f"{name}[{k}]"] for k in range(rows)])
+    def make_column(name: str, rows: int = g) -> Ball:
+        return matrix(rows, 1, [inputs[f"{name}[{k}]"] for k in range(rows)])
 
     back, form, role = by.G.transpose(), made.form, made.roles.get("made", "")
     beside = made.roles.get("beside", "")
@@ -319,79 +338,84 @@ def _carried(
     if form == "rate":
         return list(by.rate.entries())
     if form == "direct":
-        return outputs(role, given)
+        return outputs(role, inputs)
     if form.startswith("jacobian"):
-        J = tree(beside, 6)
-        found = J * by.G if form == "jacobian" else tree(role, 6) + J * by.gamma
+        J = make_tree_matrix(beside, 6)
+        product = J * by.G if form == "jacobian" else make_tree_matrix(role, 6) + J * by.gamma
     elif form == "forward_dynamics":
         head = "fitted_" * made.roles["matrix"].startswith("fitted_")
-        M = back * tree(f"{head}tree_inertia_matrix", n) * by.G
-        pivots = np.linalg.eigvalsh(np.reshape(_numbers(M.entries()), (g, g)))
+        M = back * make_tree_matrix(f"{head}tree_inertia_matrix", n) * by.G
+        pivots = np.linalg.eigvalsh(np.reshape(_round_balls(M.entries()), (g, g)))
         if pivots[0] < 1e-6 * pivots[-1]:
             return []
         still = {f"qdd[{k}]": x for k, x in enumerate(by.gamma.entries())}
-        bias = back * tree(f"{head}tree_inverse_dynamics", n, {**given, **still})
-        found = M.inv() * (column("tau") - bias)
+        bias = back * make_tree_matrix(f"{head}tree_inverse_dynamics", n, {**inputs, **still})
+        product = M.inv() * (make_column("tau") - bias)
     elif form == "slotine_li":
-        v, a = by.G * column("v"), by.G * column("a") + by.rate * column("v")
-        own = {f"{x}[{k}]": y for x, ys in (("v", v), ("a", a)) for k, y in enumerate(ys.entries())}
-        found = back * tree(role, n, {**given, **own})
+        v, a = by.G * make_column("v"), by.G * make_column("a") + by.rate * make_column("v")
+        tree_inputs = {
+            f"{x}[{k}]": y for x, ys in (("v", v), ("a", a)) for k, y in enumerate(ys.entries())
+        }
+        product = back * make_tree_matrix(role, n, {**inputs, **tree_inputs})
     elif form == "coriolis_matrix":
-        found = back * (tree(role, n) * by.G + tree(beside, n) * by.rate)
+        product = back * (make_tree_matrix(role, n) * by.G + make_tree_matrix(beside, n) * by.rate)
     else:
-        found = back * tree(role, n)
+        product = back * make_tree_matrix(role, n)
         if form == "coriolis_transpose":
-            found += by.rate.transpose() * tree(beside, n)
+            product += by.rate.transpose() * make_tree_matrix(beside, n)
         elif form == "momentum_rest":
-            found -= by.rate.transpose() * tree(beside, n)
-    return list(found.entries())
+            product -= by.rate.transpose() * make_tree_matrix(beside, n)
+    return list(product.entries())
 
 
-def _made(kind: str, state: EnclosedState, out: list[Ball]) -> list[Ball]:
+def _project_output(kind: str, state: EnclosedState, out: list[Ball]) -> list[Ball]:
     """Output of a function of that kind, row-major, from that of the tree; see `Closed`."""
-    G = flint().arb_mat(state.coupling)
+    G = load_flint().arb_mat(state.coupling)
     if kind == "posture":
         return [state.inputs[f"q[{k}]"] for k in range(G.nrows())]
     if kind == "coupling":
         return list(G.entries())
     if kind == "poses":
         return out
-    rows = G.transpose() * flint().arb_mat(G.nrows(), len(out) // G.nrows(), out)
+    rows = G.transpose() * load_flint().arb_mat(G.nrows(), len(out) // G.nrows(), out)
     return list((rows * G if kind == "inertia_matrix" else rows).entries())
 
 
-def _postures(
+def _sample_postures(
     model: SymbolicModel, closure: Closure, symbols: Mapping[str, Ball], states: int
 ) -> list[np.ndarray]:
     """Closed postures around home, their coordinates rounded."""
     enclosures = Enclosures(model, symbols)
-    home, given = np.array(closure.home), list(closure.given)
+    home, independent = np.array(closure.home), list(closure.actuated)
     for reach in _REACHES:
         random = np.random.default_rng(_SEED)
-        near = moved_postures(closure, home, random, states, reach)
-        with suppress(NotEnclosed):
-            found = [_closed(closure, u, given, [_fine(x) for x in u[given]]) for u in near]
-            return [np.array([float(x) for x in enclosures.posture(u)]) for u in found]
+        near = draw_nearby_postures(closure, home, random, states, reach)
+        with suppress(EnclosureError):
+            postures = [
+                _close_posture(closure, u, independent, [_round_fine(x) for x in u[independent]])
+                for u in near
+            ]
+            return [np.array([float(x) for x in enclosures.enclose_posture(u)]) for u in postures]
     raise EmitError(f"{model.robot.name}: the loops do not close beside home; state another home")
 
 
-def _closed(
-    closure: Closure, near: np.ndarray, places: Sequence[int], given: Sequence[float]
+def _close_posture(
+    closure: Closure, near: np.ndarray, places: Sequence[int], values: Sequence[float]
 ) -> np.ndarray:
     """The closed posture next to `near` with these variables given; NaN if there is none."""
     u = near.copy()
-    u[list(places)] = given
+    u[list(places)] = values
     solved = [k for k in range(len(u)) if k not in places]
-    return closure.closed(u[None], solved)[0]
+    return closure.close_loops(u[None], solved)[0]
 
 
-def _named(**arrays: Sequence[float]) -> dict[str, Ball]:
-    return {f"{name}[{k}]": exact_ball(x) for name, xs in arrays.items() for k, x in enumerate(xs)}
+def _name_entries(**arrays: Sequence[float]) -> dict[str, Ball]:
+    return {f"{name}[{k}]": build_ball(x) for name, xs in arrays.items() for k, x in enumerate(xs)}
 
 
-def _fine(x: float) -> float:
+def _round_fine(x: float) -> float:
     return float(round(x / _FINE) * _FINE)
 
 
-def _numbers(balls: Sequence[Ball]) -> list[float]:
+def _round_balls(balls: Sequence[Ball]) -> list[float]:
     return [0.0 if x.contains(0) else float(x) for x in balls]

@@ -7,15 +7,15 @@ from typing import TYPE_CHECKING, Any
 
 from modeler.core.errors import Machine, Precision
 from modeler.core.formula import Formulas
-from modeler.core.manifest import Emitted, FittedSpec
-from modeler.core.result import Presented
+from modeler.core.manifest import EmittedModule, FittedSpec
+from modeler.core.result import Result
 from modeler.derivation import (
     BaseParameters,
     SymbolicModel,
     as_latex,
     as_markdown,
     as_text,
-    base_parameters,
+    derive_base_parameters,
     derive_model,
     relations,
 )
@@ -26,7 +26,7 @@ if TYPE_CHECKING:
 
 
 @dataclass(frozen=True)
-class Derivation(Presented):
+class Derivation(Result):
     """A robot, its symbolic model and its base parameters."""
 
     robot: Robot
@@ -41,7 +41,7 @@ class Derivation(Presented):
 
     def to_json(self) -> dict[str, Any]:
         """What scripts read: base parameters, their sums, the proof."""
-        return relations.as_json(self.robot.name, self.base)
+        return relations.serialise_base_parameters(self.robot.name, self.base)
 
     def closed_form(self, nonzero: bool = False) -> Formulas:
         """J(q), S(q), g(q) and e of tau = J qdd + S [qd qd] + g + e, e all effects but rotors.
@@ -49,10 +49,10 @@ class Derivation(Presented):
         Args:
             nonzero: True to leave out parameters that the robot file states as 0.
         """
-        from modeler.formulas import nonzero_base, short_form
+        from modeler.formulas import derive_short_form, drop_zero_parameters
 
-        base = nonzero_base(self.model, self.base) if nonzero else self.base
-        return short_form(self.model, base).formulas()
+        base = drop_zero_parameters(self.model, self.base) if nonzero else self.base
+        return derive_short_form(self.model, base).format_formulas()
 
     def regressor(self, nonzero: bool = False) -> Formulas:
         """The columns phi of tau = phi beta.
@@ -60,10 +60,10 @@ class Derivation(Presented):
         Args:
             nonzero: as of `closed_form`.
         """
-        from modeler.formulas import nonzero_base, regressor_form
+        from modeler.formulas import derive_regressor_form, drop_zero_parameters
 
-        base = nonzero_base(self.model, self.base) if nonzero else self.base
-        return regressor_form(self.model, base).formulas()
+        base = drop_zero_parameters(self.model, self.base) if nonzero else self.base
+        return derive_regressor_form(self.model, base).format_formulas()
 
 
 def load(robot: str | Path) -> Robot:
@@ -85,7 +85,7 @@ def derive(robot: Robot) -> Derivation:
     | $\mathit{ZZ}_{1R}$ | $\mathit{ZZ}_{1} + L_{1}^{2} M_{2}$ | kg m2 | inertial |
     """
     model = derive_model(robot)
-    return Derivation(robot, model, base_parameters(model))
+    return Derivation(robot, model, derive_base_parameters(model))
 
 
 def generate(
@@ -97,7 +97,7 @@ def generate(
     cuda: bool = False,
     control: "Control | None" = None,
     measure: Machine | None = None,
-) -> Emitted:
+) -> EmittedModule:
     """The C module; written to `folder` if one is given, with the controller's unit.
 
     Args:
@@ -123,10 +123,10 @@ def generate(
         control = Control()
     emitted = emit(derivation.model, derivation.base, fitted, precision, cuda, control)
     if measure is not None:
-        from modeler.codegen.cost import with_cost
+        from modeler.codegen.cost import add_cost
 
-        emitted = with_cost(emitted, measure)
-    emitted = dataclasses.replace(emitted, log=derivation.robot.log_words)
+        emitted = add_cost(emitted, measure)
+    emitted = dataclasses.replace(emitted, log=derivation.robot.log_mapping)
     if folder is not None:
         write_emitted(emitted, Path(folder), force)
     return emitted

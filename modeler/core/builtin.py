@@ -46,32 +46,32 @@ EFFECTS = (
 """Ids of the catalogue that a simulated machine may hide, in its order."""
 
 
-def builtin_names() -> tuple[str, ...]:
+def list_builtin_robots() -> tuple[str, ...]:
     """Names of the built-in robots, sorted."""
     return tuple(sorted(file.stem for file in (_PACKAGE / "robot" / "library").glob("*.toml")))
 
 
-def builtin_text(name: str) -> str:
+def read_builtin_robot(name: str) -> str:
     """The TOML text of a built-in robot.
 
     Raises:
         KeyError: there is none of that name.
     """
-    if name not in builtin_names():
+    if name not in list_builtin_robots():
         raise KeyError(name)
-    return builtin_file(name).read_text(encoding="utf-8")
+    return locate_builtin_robot(name).read_text(encoding="utf-8")
 
 
-def builtin_file(name: str) -> Path:
+def locate_builtin_robot(name: str) -> Path:
     """Where the text of a built-in robot stands."""
     return _PACKAGE / "robot" / "library" / f"{name}.toml"
 
 
-def template_text(name: str) -> str:
+def read_template(name: str) -> str:
     """The text of a robot file to start from, with what is to be put in marked by $."""
     return (_PACKAGE / "robot" / "templates" / f"{name}.toml").read_text(encoding="utf-8")
 
 
-def paper_names() -> tuple[str, ...]:
+def list_papers() -> tuple[str, ...]:
     """Names of the papers that there are."""
     return tuple(sorted(path.stem for path in (_PACKAGE / "papers" / "library").glob("*.toml")))

@@ -7,7 +7,7 @@ import numpy as np
 from modeler.core.errors import ShapeError
 
 
-def as_samples(value: Any, name: str, joints: int, finite: bool = True) -> np.ndarray:
+def check_samples(value: Any, name: str, joints: int, finite: bool = True) -> np.ndarray:
     """`value` as a C-contiguous float64 array (n, joints).
 
     A copy only if it is not that already.
@@ -21,11 +21,11 @@ def as_samples(value: Any, name: str, joints: int, finite: bool = True) -> np.nd
     Raises:
         ShapeError: another shape, not real numbers, or a value that is not finite; says which row.
     """
-    array = _as_floats(value, name, f"an array (samples, {joints})")
+    array = _convert_floats(value, name, f"an array (samples, {joints})")
     if array.ndim != 2 or array.shape[1] != joints:
         raise ShapeError(
             f"{name}: got shape {array.shape}, expected (samples, {joints})"
-            f"{_hint(array, name, joints)}"
+            f"{_suggest_shape(array, name, joints)}"
         )
     if finite and not (good := np.isfinite(array)).all():
         row, column = (int(i) for i in np.argwhere(~good)[0])
@@ -36,7 +36,7 @@ def as_samples(value: Any, name: str, joints: int, finite: bool = True) -> np.nd
     return array
 
 
-def as_mask(value: Any, name: str, shape: tuple[int, ...]) -> np.ndarray:
+def check_mask(value: Any, name: str, shape: tuple[int, ...]) -> np.ndarray:
     """`value` as a C-contiguous bool array of that shape.
 
     Raises:
@@ -50,7 +50,7 @@ def as_mask(value: Any, name: str, shape: tuple[int, ...]) -> np.ndarray:
     return np.ascontiguousarray(array)
 
 
-def no_signals(value: Any, robot: str) -> None:
+def reject_signals(value: Any, robot: str) -> None:
     """Nothing, for a robot whose effects read no signals: `value` must hold none.
 
     Raises:
@@ -60,13 +60,13 @@ def no_signals(value: Any, robot: str) -> None:
         raise ShapeError(f"{robot}: got s, but its effects read no signals; leave s out")
 
 
-def as_vector(value: Any, name: str, length: int) -> np.ndarray:
+def check_vector(value: Any, name: str, length: int) -> np.ndarray:
     """`value` as a C-contiguous float64 array (length,).
 
     Raises:
         ShapeError: another shape, not real numbers, or a value that is not finite.
     """
-    array = _as_floats(value, name, f"an array ({length},)")
+    array = _convert_floats(value, name, f"an array ({length},)")
     if array.shape != (length,):
         raise ShapeError(f"{name}: got shape {array.shape}, expected ({length},)")
     finite = np.isfinite(array)
@@ -78,7 +78,7 @@ def as_vector(value: Any, name: str, length: int) -> np.ndarray:
     return array
 
 
-def same_samples(arrays: dict[str, np.ndarray]) -> int:
+def check_sample_counts(arrays: dict[str, np.ndarray]) -> int:
     """Number of samples that all arrays (n, ...) have.
 
     Raises:
@@ -93,7 +93,7 @@ def same_samples(arrays: dict[str, np.ndarray]) -> int:
     return next(iter(counts.values()))
 
 
-def _as_floats(value: Any, name: str, expected: str) -> np.ndarray:
+def _convert_floats(value: Any, name: str, expected: str) -> np.ndarray:
     try:
         array = np.asarray(value)
         if array.dtype.kind not in "fiub":
@@ -105,7 +105,7 @@ def _as_floats(value: Any, name: str, expected: str) -> np.ndarray:
         ) from None
 
 
-def _hint(array: np.ndarray, name: str, joints: int) -> str:
+def _suggest_shape(array: np.ndarray, name: str, joints: int) -> str:
     if array.ndim == 2 and array.shape[0] == joints:
         return f"; did you mean {name}.T?"
     if array.ndim == 1 and array.shape[0] == joints:

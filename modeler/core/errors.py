@@ -51,7 +51,7 @@ class FitWarning(UserWarning):
     """A model is returned whose fit is not usable; Python shows it once for each line of code."""
 
 
-def installing(part: str) -> str:
+def suggest_install(part: str) -> str:
     """What installs an optional part; what is imported as modeler is installed by another name."""
     return f'pip install "modeler-robotics[{part}]"'
 
@@ -61,12 +61,12 @@ _SHORT_OF_MEMORY = (
 )  # fmt: skip
 
 
-def short_of_memory(error: BaseException) -> bool:
+def is_out_of_memory(error: BaseException) -> bool:
     """True where memory ran out, in whatever words the system or a library says so."""
     return isinstance(error, MemoryError) or any(w in str(error) for w in _SHORT_OF_MEMORY)
 
 
-def on_one_line(message: str) -> str:
+def flatten_message(message: str) -> str:
     """The message as one line: line ends, other control characters and what is endless made short.
 
     A name of a file may hold anything, and a compiler's own words are many lines.
@@ -118,7 +118,7 @@ LOW_SPEED = 0.02
 # A log, or a piece of it, as it is typed: FILE, or FILE@START:END.
 
 
-def file_and_window(place: str) -> tuple[str, str | None]:
+def split_time_range(place: str) -> tuple[str, str | None]:
     """The file, and what stands after its last "@"; None if that belongs to the file's name."""
-    path, at, window = place.rpartition("@")
-    return (place, None) if not at or Path(place).exists() else (path, window)
+    path, at, time_range = place.rpartition("@")
+    return (place, None) if not at or Path(place).exists() else (path, time_range)

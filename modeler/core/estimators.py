@@ -7,7 +7,7 @@ from modeler.core.errors import GAIN_METHOD, TWO_STEPS, Method
 
 
 @dataclass(frozen=True)
-class About:
+class EstimatorInfo:
     """An estimator in words.
 
     Attributes:
@@ -27,7 +27,7 @@ class About:
     motion: str
 
     @property
-    def buildable(self) -> bool:
+    def is_consistent(self) -> bool:
         """True of those that end in all standard parameters, of a machine that could be built."""
         return self.id.endswith("consistent")
 
@@ -47,7 +47,7 @@ _HIDES = (
 )
 
 _EVERY = (
-    About(
+    EstimatorInfo(
         "weighted",
         "weighted least squares",
         "min sum_j |y_j - W_j beta|^2 / sigma_j^2, sigma_j^2 the residual variance of joint j, "
@@ -57,7 +57,7 @@ _EVERY = (
         "most (iv, iv-direct): noise of W pulls values towards 0",
         _EXACT,
     ),
-    About(
+    EstimatorInfo(
         "ordinary",
         "ordinary least squares",
         "min |y - W beta|^2; covariance with the residual variance of each joint",
@@ -66,7 +66,7 @@ _EVERY = (
         "parameters are worse than they need be",
         _EXACT,
     ),
-    About(
+    EstimatorInfo(
         "robust",
         "robust least squares",
         "sum_i psi(r_i / sigma_j) w_i / sigma_j = 0, Huber's psi, then Tukey's bisquare; "
@@ -76,7 +76,7 @@ _EVERY = (
         "looks better than it is; with white noise it needs 5 % more rows",
         _EXACT,
     ),
-    About(
+    EstimatorInfo(
         "ridge",
         "ridge",
         "min |S^-1/2 (y - W beta)|^2 + lambda |D (beta - beta_0)|^2, beta_0 the nominal values of "
@@ -86,7 +86,7 @@ _EVERY = (
         "do not tell, its values are biased towards the prior, and sigma knows no bias",
         _EXACT,
     ),
-    About(
+    EstimatorInfo(
         "iv",
         "instrumental variables, commanded motion",
         "(Z^T S^-1 W) beta = Z^T S^-1 y, Z the columns of W along the commanded motion",
@@ -95,7 +95,7 @@ _EVERY = (
         "impedance control), or where the position is clean: then sigma is larger for nothing",
         "the motion may be noisy, if the command was not made from it; the same cut-offs apply",
     ),
-    About(
+    EstimatorInfo(
         "iv-direct",
         "instrumental variables, simulated motion",
         "(Z^T S^-1 W) beta = Z^T S^-1 y, Z the columns of W along the motion of the direct model, "
@@ -106,7 +106,7 @@ _EVERY = (
         "the motion may be noisy, as far as the simulated one does not follow its noise; the same "
         "cut-offs apply",
     ),
-    About(
+    EstimatorInfo(
         "didim",
         "direct and inverse model identification",
         "min sum_j |y_j - W_j(q_s) beta|^2 / sigma_j^2, q_s(beta) simulated in closed loop",
@@ -115,7 +115,7 @@ _EVERY = (
         "differ by goes into the values; sigma is raised by as much",
         _LIKE_DIDIM,
     ),
-    About(
+    EstimatorInfo(
         "didim-robust",
         "direct and inverse model identification, reweighted",
         "sum_i psi(r_i / sigma_j) w_i(q_s) / sigma_j = 0, r = y - W(q_s) beta, psi of robust, "
@@ -125,7 +125,7 @@ _EVERY = (
         "lacks",
         _LIKE_DIDIM,
     ),
-    About(
+    EstimatorInfo(
         "consistent",
         "physically consistent least squares",
         "min 1/2 |R (K chi - beta)|^2 + sum_j gamma_j D(P_j, P0_j), every pseudo-inertia P_j "
@@ -136,7 +136,7 @@ _EVERY = (
         "doubts of weighted first",
         _EXACT,
     ),
-    About(
+    EstimatorInfo(
         "iv-consistent",
         "physically consistent instrumental variables, commanded motion",
         "min 1/2 |Q_z^T S^-1/2 (W K chi - y)|^2 + sum_j gamma_j D(P_j, P0_j), Q_z of the "
@@ -145,7 +145,7 @@ _EVERY = (
         "where iv is the wrong one; " + _HIDES.format("iv", "iv"),
         "as iv",
     ),
-    About(
+    EstimatorInfo(
         "iv-direct-consistent",
         "physically consistent instrumental variables, simulated motion",
         "min 1/2 |Q_z^T S^-1/2 (W K chi - y)|^2 + sum_j gamma_j D(P_j, P0_j), Q_z of the "
@@ -154,7 +154,7 @@ _EVERY = (
         "where iv-direct is the wrong one; " + _HIDES.format("iv-direct", "iv-direct"),
         "as iv-direct",
     ),
-    About(
+    EstimatorInfo(
         "didim-consistent",
         "physically consistent direct and inverse model identification",
         "min 1/2 sum_j |y_j - W_j(q_s) K chi|^2 / sigma_j^2 + sum_j gamma_j D(P_j, P0_j), q_s(chi) "
@@ -164,12 +164,12 @@ _EVERY = (
         _LIKE_DIDIM,
     ),
 )
-ABOUT: dict[Method, About] = {cast(Method, about.id): about for about in _EVERY}
+ABOUT: dict[Method, EstimatorInfo] = {cast(Method, about.id): about for about in _EVERY}
 """By id, in the order in which they are told."""
 
 
 APART = (
-    About(
+    EstimatorInfo(
         GAIN_METHOD,
         "total least squares with drive gains",
         "g_j V_j = W_j beta + m w_j: the smallest right singular vector of what QR of [W w] leaves "
@@ -178,7 +178,7 @@ APART = (
         "without logs of currents and a run with a load of known mass",
         _EXACT,
     ),
-    About(
+    EstimatorInfo(
         TWO_STEPS,
         "two-step least squares",
         "inertia J_ii, gravity and friction of each joint that moves alone, then theta = Phi beta",
@@ -190,7 +190,7 @@ APART = (
 """Beside the others: they take other logs."""
 
 
-def titled(method: str) -> str:
+def find_estimator_title(method: str) -> str:
     """Its title; the id itself if a later version wrote it."""
     every = (*_EVERY, *APART)
     return next((about.title for about in every if about.id == method), method)

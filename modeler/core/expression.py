@@ -71,33 +71,35 @@ class Expression:
     def decimals(self) -> frozenset[Fraction]:
         """The numbers with a decimal point in it, exactly."""
         nodes = (node for node in ast.walk(self._tree) if isinstance(node, ast.Constant))
-        return frozenset(_exact(n, self.text) for n in nodes if isinstance(n.value, float))
+        return frozenset(_parse_fraction(n, self.text) for n in nodes if isinstance(n.value, float))
 
-    def rewritten(self, change: Callable[[ast.expr], ast.expr]) -> "Expression":
+    def rewrite(self, change: Callable[[ast.expr], ast.expr]) -> "Expression":
         """The expression with a changed tree; itself if nothing was changed."""
         tree = change(self._tree)
         same = ast.dump(tree) == ast.dump(self._tree)
-        return self if same else parse(written(tree), self.law)
+        return self if same else parse_expression(format_tree(tree), self.law)
 
-    def units(self, of: Mapping[str, Collection[str]]) -> set[str]:
+    def infer_units(self, name_units: Mapping[str, Collection[str]]) -> set[str]:
         """What it is measured in: "rad" of degrees, "m"; not what stands in a function.
 
         Args:
-            of: the same of the names in it.
+            name_units: the same of the names in it.
         """
         outside = _CALL.sub("1", self.text)
         names = re.findall(r"[^\W\d]\w*", _MEASURED.sub(r"\1", outside))
-        found = {"m" if unit in _LENGTHS else "rad" for _, unit in _MEASURED.findall(outside)}
-        return found.union(*(of.get(name, ()) for name in names))
+        units = {"m" if unit in _LENGTHS else "rad" for _, unit in _MEASURED.findall(outside)}
+        return units.union(*(name_units.get(name, ()) for name in names))
 
     @property
     def is_zero(self) -> bool:
         """True if it is a number and that number is 0."""
-        return not self.names and self.number() == 0.0
+        return not self.names and self.evaluate() == 0.0
 
-    def number(self, values: Mapping[str, float] | None = None) -> float:
+    def evaluate(self, values: Mapping[str, float] | None = None) -> float:
         """Its value in floating point, with `values` for the names; the same on every machine."""
-        return float(self.fold(values or {}, rounded.FUNCTIONS, math.pi, float, rounded.power))
+        return float(
+            self.fold(values or {}, rounded.FUNCTIONS, math.pi, float, rounded.compute_power)
+        )
 
     def fold(
         self,
@@ -121,7 +123,7 @@ class Expression:
         if self.law is not None:
             law = every.get(LAW, Law.__call__)
             every[LAW] = partial(law, self.law)
-        return _Algebra(self.text, values, every, pi, constant, power).of(self._tree)
+        return _Algebra(self.text, values, every, pi, constant, power).evaluate(self._tree)
 
 
 @dataclass(frozen=True, eq=False)
@@ -139,26 +141,26 @@ class _Algebra:
     constant: Callable[[Fraction], Any]
     power: Callable[[Any, Any], Any]
 
-    def of(self, node: ast.expr) -> Any:
+    def evaluate(self, node: ast.expr) -> Any:
         """The value of a part."""
         if isinstance(node, ast.Constant):
-            return self.constant(_exact(node, self.text))
+            return self.constant(_parse_fraction(node, self.text))
         if isinstance(node, ast.Name):
             return self.pi if node.id == "pi" else self.values[node.id]
         if isinstance(node, ast.UnaryOp):
-            inner = self.of(node.operand)
+            inner = self.evaluate(node.operand)
             return -inner if isinstance(node.op, ast.USub) else inner
         if isinstance(node, ast.Call) and isinstance(node.func, ast.Name):
-            return self.functions[node.func.id](*map(self.of, node.args))
+            return self.functions[node.func.id](*map(self.evaluate, node.args))
         assert isinstance(node, ast.BinOp)
-        left = self.of(node.left)
+        left = self.evaluate(node.left)
         if isinstance(node.op, ast.Pow):
-            return self.power(left, _exponent(node.right, self.of))
-        right = self.of(node.right)
+            return self.power(left, _evaluate_exponent(node.right, self.evaluate))
+        right = self.evaluate(node.right)
         return _BINARY[type(node.op)](left, right)
 
 
-def parse(value: str | int | float, law: Law | None = None) -> Expression:
+def parse_expression(value: str | int | float, law: Law | None = None) -> Expression:
     """An `Expression` from a TOML cell (text or number).
 
     Args:
@@ -182,7 +184,7 @@ def parse(value: str | int | float, law: Law | None = None) -> Expression:
         ) from None
     _check_text(text)
     try:
-        spelled = _MEASURED.sub(_spelled, text.translate(_PRINTED))
+        spelled = _MEASURED.sub(_expand_unit, text.translate(_PRINTED))
         tree = ast.parse(spelled, mode="eval").body
     except (SyntaxError, ValueError, RecursionError, MemoryError):
         raise ExpressionError(
@@ -191,27 +193,27 @@ def parse(value: str | int | float, law: Law | None = None) -> Expression:
         ) from None
     _check_size(tree, text)
     names: set[str] = set()
-    _check(tree, text, names, law)
+    _check_node(tree, text, names, law)
     _check_exponents(tree, text)
     return Expression(text, frozenset(names), tree, law)
 
 
-def _spelled(found: re.Match[str]) -> str:
+def _expand_unit(match: re.Match[str]) -> str:
     """`90*pi/180` of `90 deg`, `0.06` of `60 mm`; half an inch, `1/2*0.0254`, of `1/2 in`."""
-    what, unit = found.groups()
+    what, unit = match.groups()
     if unit not in _LENGTHS:
         return f"{what}*pi/180"
-    if what[0].isdigit() and not found.string[: found.start()].rstrip().endswith(("/", "**", ".")):
+    if what[0].isdigit() and not match.string[: match.start()].rstrip().endswith(("/", "**", ".")):
         return repr(float(Fraction(repr(float(what))) * Fraction(_LENGTHS[unit])))
     return f"{what}*{_LENGTHS[unit]}"
 
 
-def written(tree: ast.expr) -> str:
+def format_tree(tree: ast.expr) -> str:
     """The expression of a tree as text: `b**2 + pi/2`."""
     return re.sub(r" (\*\*|\*|/) ", r"\1", ast.unparse(tree))
 
 
-def decimal_text(value: Fraction, halves: bool = False) -> str | None:
+def format_decimal(value: Fraction, halves: bool = False) -> str | None:
     """`0.1564`, exactly; None for a whole number and what has no end as a decimal, such as 1/3.
 
     Args:
@@ -239,7 +241,7 @@ def _check_text(text: str) -> None:
         depth += (letter == "(") - (letter == ")")
         deepest = max(deepest, depth)
     if deepest > DEEPEST:
-        raise ExpressionError(_too_deep(text))
+        raise ExpressionError(_describe_depth(text))
 
 
 def _check_count(count: int, most: int, what: str, text: str) -> None:
@@ -250,7 +252,7 @@ def _check_count(count: int, most: int, what: str, text: str) -> None:
         )
 
 
-def _too_deep(text: str) -> str:
+def _describe_depth(text: str) -> str:
     return (
         f'got "{text}", with parentheses, functions, powers or signs inside each other; expected '
         f"at most {DEEPEST}: give the inner ones names in [symbols]"
@@ -264,7 +266,7 @@ def _check_size(tree: ast.expr, text: str) -> None:
     while left:
         node, depth = left.pop()
         if depth > DEEPEST:
-            raise ExpressionError(_too_deep(text))
+            raise ExpressionError(_describe_depth(text))
         if not isinstance(node, ast.Constant | ast.Name):
             count += 1
         # The left side of a sum or product is the same sum or product: not deeper.
@@ -284,7 +286,7 @@ def _check_exponents(tree: ast.expr, text: str) -> None:
         if any(isinstance(n, ast.Name) and n.id not in _KNOWN for n in ast.walk(node.right)):
             continue
         try:
-            size = abs(Expression(text, frozenset(), node.right).number())
+            size = abs(Expression(text, frozenset(), node.right).evaluate())
         except OverflowError:
             size = math.inf
         except (ArithmeticError, ValueError, TypeError):
@@ -295,19 +297,19 @@ def _check_exponents(tree: ast.expr, text: str) -> None:
             )
 
 
-def _check(node: ast.expr, text: str, names: set[str], law: Law | None) -> None:
+def _check_node(node: ast.expr, text: str, names: set[str], law: Law | None) -> None:
     if isinstance(node, ast.Constant):
-        _exact(node, text)
+        _parse_fraction(node, text)
     elif isinstance(node, ast.Name):
         if node.id in FUNCTIONS or (law and node.id == LAW):
             raise ExpressionError(f'got "{text}": {node.id} needs an argument, as in {node.id}(x)')
         if node.id != "pi":
             names.add(node.id)
     elif isinstance(node, ast.UnaryOp) and isinstance(node.op, ast.USub | ast.UAdd):
-        _check(node.operand, text, names, law)
+        _check_node(node.operand, text, names, law)
     elif isinstance(node, ast.BinOp) and type(node.op) in _BINARY:
-        _check(node.left, text, names, law)
-        _check(node.right, text, names, law)
+        _check_node(node.left, text, names, law)
+        _check_node(node.right, text, names, law)
     elif isinstance(node, ast.Call) and isinstance(node.func, ast.Name):
         if node.func.id not in (*FUNCTIONS, *([LAW] if law else [])):
             table = ", and law of the table that stands under the key `law`" * (node.func.id == LAW)
@@ -319,7 +321,7 @@ def _check(node: ast.expr, text: str, names: set[str], law: Law | None) -> None:
             few = "one argument" if count == 1 else f"{count} arguments"
             raise ExpressionError(f'got "{text}": {node.func.id} takes {few}')
         for argument in node.args:
-            _check(argument, text, names, law)
+            _check_node(argument, text, names, law)
     else:
         hint = "; write powers as x**2" if "^" in text else ""
         raise ExpressionError(
@@ -328,7 +330,7 @@ def _check(node: ast.expr, text: str, names: set[str], law: Law | None) -> None:
         )
 
 
-def _exact(node: ast.Constant, text: str) -> Fraction:
+def _parse_fraction(node: ast.Constant, text: str) -> Fraction:
     if isinstance(node.value, bool) or not isinstance(node.value, int | float):
         raise ExpressionError(f'got "{text}": {node.value!r} is not a number')
     if isinstance(node.value, float) and not math.isfinite(node.value):  # 1e400 reads as inf
@@ -336,7 +338,7 @@ def _exact(node: ast.Constant, text: str) -> Fraction:
     return Fraction(repr(node.value))
 
 
-def _exponent(node: ast.expr, walk: Callable[[ast.expr], Any]) -> Any:
+def _evaluate_exponent(node: ast.expr, walk: Callable[[ast.expr], Any]) -> Any:
     sign, inner = 1, node
     if isinstance(node, ast.UnaryOp) and isinstance(node.op, ast.USub):
         sign, inner = -1, node.operand

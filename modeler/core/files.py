@@ -26,7 +26,7 @@ _OPEN_FILES = re.compile(r"(?:/proc/(\d+)(?:/task/\d+)?|/dev)/fd")
 _MOST_LINKS = 40  # as in Linux
 
 
-class Kind(enum.Enum):
+class DestinationKind(enum.Enum):
     """What is at a place, as far as writing is concerned."""
 
     NEW = enum.auto()
@@ -45,26 +45,26 @@ class Destination:
         status: of what is there; None if it is new.
     """
 
-    place: Path
-    kind: Kind
+    path: Path
+    kind: DestinationKind
     status: os.stat_result | None
 
     @property
     def descriptor(self) -> int:
         """The number of our open file; only of kind DESCRIPTOR."""
-        return int(self.place.name)
+        return int(self.path.name)
 
     @property
     def identity(self) -> object:
         """Equal for two paths that lead to one file, by any link; None for a device."""
         if self.status is None:
-            return self.place
-        if self.kind is Kind.NODE and not stat.S_ISFIFO(self.status.st_mode):
+            return self.path
+        if self.kind is DestinationKind.NODE and not stat.S_ISFIFO(self.status.st_mode):
             return None
         return self.status.st_dev, self.status.st_ino
 
 
-def destination(path: Path) -> Destination:
+def resolve_destination(path: Path) -> Destination:
     """Where a write to `path` lands.
 
     Raises:
@@ -73,19 +73,24 @@ def destination(path: Path) -> Destination:
     """
     if "\0" in str(path):
         raise ModelerError(f"{path}: has a NUL in its name; expected the name of a file")
-    place = _followed(Path(path))
+    place = _follow_links(Path(path))
     owner = _OPEN_FILES.fullmatch(str(place.parent))
     if owner is not None and place.name.isdigit() and owner[1] in (None, str(os.getpid())):
-        return _checked(path, Destination(place, Kind.DESCRIPTOR, os.fstat(int(place.name))))
+        return _check_replaceable(
+            path, Destination(place, DestinationKind.DESCRIPTOR, os.fstat(int(place.name)))
+        )
     try:
         status = place.stat()
     except (FileNotFoundError, NotADirectoryError):
-        return Destination(place, Kind.NEW, None)
+        return Destination(place, DestinationKind.NEW, None)
     replaceable = stat.S_ISREG(status.st_mode) and owner is None
-    return _checked(path, Destination(place, Kind.FILE if replaceable else Kind.NODE, status))
+    return _check_replaceable(
+        path,
+        Destination(place, DestinationKind.FILE if replaceable else DestinationKind.NODE, status),
+    )
 
 
-def _followed(path: Path) -> Path:
+def _follow_links(path: Path) -> Path:
     for _ in range(_MOST_LINKS):
         place = Path(os.path.realpath(path.parent), path.name)
         if _OPEN_FILES.fullmatch(str(place.parent)) or not place.is_symlink():
@@ -94,14 +99,14 @@ def _followed(path: Path) -> Path:
     raise OSError(errno.ELOOP, os.strerror(errno.ELOOP))
 
 
-def _checked(path: Path, found: Destination) -> Destination:
-    assert found.status is not None
-    mode = found.status.st_mode
+def _check_replaceable(path: Path, destination: Destination) -> Destination:
+    assert destination.status is not None
+    mode = destination.status.st_mode
     if stat.S_ISDIR(mode):
         raise ModelerError(f"{path}: is a folder; expected the name of a file to write")
-    if stat.S_ISSOCK(mode) and found.kind is not Kind.DESCRIPTOR:
+    if stat.S_ISSOCK(mode) and destination.kind is not DestinationKind.DESCRIPTOR:
         raise ModelerError(f"{path}: is a socket; expected the name of a file to write")
-    return found
+    return destination
 
 
 _CREATE = os.O_WRONLY | os.O_CREAT | os.O_EXCL | getattr(os, "O_BINARY", 0)
@@ -143,7 +148,7 @@ def read_text(path: Path) -> str:
     return read_file(path).decode("utf-8-sig").replace("\r\n", "\n").replace("\r", "\n")
 
 
-def checksum(path: Path) -> str:
+def compute_checksum(path: Path) -> str:
     """SHA-256 of the bytes of a file, or of the names and bytes of the files in a folder.
 
     Raises:
@@ -151,17 +156,17 @@ def checksum(path: Path) -> str:
     """
     if not path.is_dir():
         status = path.stat()
-        return _checksum(path.absolute(), status.st_size, status.st_mtime_ns)
+        return _hash_file(path.absolute(), status.st_size, status.st_mtime_ns)
     import hashlib  # `modeler --help` has no use for it
 
     inside = sorted(one for one in path.rglob("*") if one.is_file())
     names = (one.relative_to(path).as_posix() for one in inside)
-    lines = (f"{name}\0{checksum(one)}\n" for name, one in zip(names, inside, strict=True))
+    lines = (f"{name}\0{compute_checksum(one)}\n" for name, one in zip(names, inside, strict=True))
     return hashlib.sha256("".join(lines).encode(errors="surrogateescape")).hexdigest()
 
 
 @lru_cache(maxsize=256)
-def _checksum(path: Path, size: int, written: int) -> str:
+def _hash_file(path: Path, size: int, written: int) -> str:
     """Of a file; taken once for a state of it."""
     import hashlib
 
@@ -169,7 +174,7 @@ def _checksum(path: Path, size: int, written: int) -> str:
         return hashlib.file_digest(file, "sha256").hexdigest()
 
 
-def check_unpacked(path: Path, size: int) -> None:
+def check_unpacked_size(path: Path, size: int) -> None:
     """Refuse a log that would fill the memory, before it is unpacked to so many bytes.
 
     Raises:
@@ -200,20 +205,20 @@ def write_atomically(path: Path, content: bytes | str) -> None:
             missing or not writable; says which.
         BrokenPipeError: the reader of a pipe has gone.
     """
-    write_together([(path, content)])
+    write_files([(path, content)])
 
 
-def write_unless_other(path: Path, content: bytes | str, force: bool) -> None:
+def write_without_overwriting(path: Path, content: bytes | str, force: bool) -> None:
     """The same, but over a file with another content only if told to.
 
     Raises:
         DataError: there is such a file.
         ModelerError, BrokenPipeError: as above.
     """
-    write_all_unless_other([(path, content)], force)
+    write_all_without_overwriting([(path, content)], force)
 
 
-def write_all_unless_other(files: list[tuple[Path, bytes | str]], force: bool) -> None:
+def write_all_without_overwriting(files: list[tuple[Path, bytes | str]], force: bool) -> None:
     """The same of several files: all, or none.
 
     Raises:
@@ -221,16 +226,16 @@ def write_all_unless_other(files: list[tuple[Path, bytes | str]], force: bool) -
     """
     for path, content in files:
         data = content.encode() if isinstance(content, str) else content
-        there = destination(path).kind is Kind.FILE
+        there = resolve_destination(path).kind is DestinationKind.FILE
         if not force and there and path.read_bytes() != data:
             raise DataError(
                 f"{path}: there is such a file with another content; choose another name, or write "
                 "over it with --force (force=True)"
             )
-    write_together(files)
+    write_files(files)
 
 
-def write_together(files: Iterable[tuple[Path, bytes | str]], gone: Iterable[Path] = ()) -> None:
+def write_files(files: Iterable[tuple[Path, bytes | str]], removed: Iterable[Path] = ()) -> None:
     """The same of several files, in their order: an interrupt leaves all as it was, or all new.
 
     All are written beside their places first; then nothing stops their renaming but the end of the
@@ -238,44 +243,44 @@ def write_together(files: Iterable[tuple[Path, bytes | str]], gone: Iterable[Pat
 
     Args:
         files: places and contents; of two contents for one place the last stays.
-        gone: files that are removed together with that, where they can be.
+        removed: files that are removed together with that, where they can be.
 
     Raises:
         ModelerError, BrokenPipeError: as above; nothing has changed.
     """
-    staged, made = list[tuple[Path, Path]](), list[Path]()
+    staged, created_folders = list[tuple[Path, Path]](), list[Path]()
     try:
         for path, content in files:
-            with _errors_named(path):
+            with _wrap_errors(path):
                 if isinstance(content, str):
                     content = content.encode(errors="backslashreplace")
-                found = destination(Path(path))
-                if found.kind in (Kind.NEW, Kind.FILE):
-                    folders = (found.place.parent, *found.place.parent.parents)
-                    made += [folder for folder in folders if not folder.exists()]
-                    staged.append((_unused_name(found.place.parent), found.place))
-                    _stage(found, staged[-1][0], content)
+                destination = resolve_destination(Path(path))
+                if destination.kind in (DestinationKind.NEW, DestinationKind.FILE):
+                    folders = (destination.path.parent, *destination.path.parent.parents)
+                    created_folders += [folder for folder in folders if not folder.exists()]
+                    staged.append((_choose_unused_name(destination.path.parent), destination.path))
+                    _stage_file(destination, staged[-1][0], content)
                 else:
-                    _pour(_opened(found), content)
-        with undisturbed():
+                    _write_all(_open_destination(destination), content)
+        with defer_signals():
             while staged:
                 beside, place = staged.pop(0)
-                with _errors_named(place):
+                with _wrap_errors(place):
                     beside.replace(place)
-            for path in gone:
+            for path in removed:
                 with contextlib.suppress(OSError):  # what cannot be removed stays
                     path.unlink()
     except BaseException:
         with contextlib.suppress(OSError):
             for beside, _ in staged:
                 beside.unlink(missing_ok=True)
-            for folder in made:
+            for folder in created_folders:
                 folder.rmdir()
         raise
 
 
 @contextlib.contextmanager
-def undisturbed() -> Iterator[None]:
+def defer_signals() -> Iterator[None]:
     """Signals that end a program wait until this is over."""
     names = ("SIGINT", "SIGTERM", "SIGHUP")
     here = threading.current_thread() is threading.main_thread()  # who alone hears of signals
@@ -301,17 +306,17 @@ def check_writable(path: Path) -> None:
             cannot be made, or is not writable; says which.
     """
     path = Path(path)
-    with _errors_named(path):
-        found = destination(path)
-        if found.kind is Kind.DESCRIPTOR:
+    with _wrap_errors(path):
+        destination = resolve_destination(path)
+        if destination.kind is DestinationKind.DESCRIPTOR:
             import fcntl  # where files have numbers in the file system, there is fcntl
 
-            if fcntl.fcntl(found.descriptor, fcntl.F_GETFL) & os.O_ACCMODE == os.O_RDONLY:
+            if fcntl.fcntl(destination.descriptor, fcntl.F_GETFL) & os.O_ACCMODE == os.O_RDONLY:
                 raise OSError(errno.EBADF, "open for reading only")
             return
-        _check_access(found)
-        if found.kind is not Kind.NODE:
-            _check_folder(found.place.parent)
+        _check_access(destination)
+        if destination.kind is not DestinationKind.NODE:
+            _check_folder(destination.path.parent)
 
 
 def check_folder_writable(folder: Path) -> None:
@@ -321,11 +326,11 @@ def check_folder_writable(folder: Path) -> None:
         ModelerError: says why.
     """
     folder = Path(folder)
-    with _errors_named(folder):
+    with _wrap_errors(folder):
         _check_folder(Path(os.path.realpath(folder)))
 
 
-def page_place(path: Path, name: str) -> Path:
+def resolve_page_path(path: Path, name: str) -> Path:
     """Where a page goes that is given as an `.html` file, as a pipe or device, or as a folder.
 
     In a folder, which need not be there yet, it is called `name`.
@@ -334,14 +339,18 @@ def page_place(path: Path, name: str) -> Path:
     if path.suffix.lower() in (".html", ".htm"):
         return path
     try:
-        found = destination(path)
+        destination = resolve_destination(path)
     except (ModelerError, OSError):
         return path / name
-    return path if found.kind in (Kind.NODE, Kind.DESCRIPTOR) else path / name
+    return (
+        path
+        if destination.kind in (DestinationKind.NODE, DestinationKind.DESCRIPTOR)
+        else path / name
+    )
 
 
 @contextlib.contextmanager
-def _errors_named(path: Path) -> Iterator[None]:
+def _wrap_errors(path: Path) -> Iterator[None]:
     try:
         yield
     except BrokenPipeError:
@@ -353,22 +362,22 @@ def _errors_named(path: Path) -> Iterator[None]:
         ) from error
 
 
-def _stage(found: Destination, beside: Path, data: bytes) -> None:
+def _stage_file(destination: Destination, beside: Path, data: bytes) -> None:
     """Write what will be renamed to its place."""
     beside.parent.mkdir(parents=True, exist_ok=True)
-    _check_access(found)
+    _check_access(destination)
     # What replaces a private file is private from the start.
-    _pour(os.open(beside, _CREATE, 0o666 if found.status is None else 0o600), data)
-    if found.status is not None:
-        _make_like(beside, found.status)
+    _write_all(os.open(beside, _CREATE, 0o666 if destination.status is None else 0o600), data)
+    if destination.status is not None:
+        _copy_permissions(beside, destination.status)
 
 
-def _unused_name(folder: Path) -> Path:
+def _choose_unused_name(folder: Path) -> Path:
     """A name that nobody has, short enough beside any other."""
     return folder / f".modeler-{os.urandom(8).hex()}"
 
 
-def _make_like(path: Path, status: os.stat_result) -> None:
+def _copy_permissions(path: Path, status: os.stat_result) -> None:
     """Permissions of the old file; and its owner and group, where we may."""
     chown: Callable[[Path, int, int], None] | None = getattr(os, "chown", None)
     if chown is not None:
@@ -378,16 +387,16 @@ def _make_like(path: Path, status: os.stat_result) -> None:
     path.chmod(stat.S_IMODE(status.st_mode) & 0o777)
 
 
-def _opened(found: Destination) -> int:
-    if found.kind is Kind.NODE:
-        return os.open(found.place, os.O_WRONLY | os.O_APPEND | getattr(os, "O_NOCTTY", 0))
+def _open_destination(destination: Destination) -> int:
+    if destination.kind is DestinationKind.NODE:
+        return os.open(destination.path, os.O_WRONLY | os.O_APPEND | getattr(os, "O_NOCTTY", 0))
     for stream in (sys.stdout, sys.stderr):  # what was printed before comes before
         if stream is not None:
             stream.flush()
-    return os.dup(found.descriptor)
+    return os.dup(destination.descriptor)
 
 
-def _pour(handle: int, data: bytes) -> None:
+def _write_all(handle: int, data: bytes) -> None:
     """Write all and close."""
     try:
         left = memoryview(data)
@@ -397,8 +406,8 @@ def _pour(handle: int, data: bytes) -> None:
         os.close(handle)
 
 
-def _check_access(found: Destination) -> None:
-    if found.status is not None and not os.access(found.place, os.W_OK):
+def _check_access(destination: Destination) -> None:
+    if destination.status is not None and not os.access(destination.path, os.W_OK):
         raise PermissionError(errno.EACCES, os.strerror(errno.EACCES))
 
 
@@ -416,7 +425,7 @@ def _check_folder(folder: Path) -> None:
             unknown = (errno.EOPNOTSUPP, errno.EISDIR, errno.ENOENT, errno.EINVAL)
             if error.errno not in unknown:
                 raise
-    beside = _unused_name(there)
+    beside = _choose_unused_name(there)
     try:
         os.close(os.open(beside, _CREATE, 0o600))
     finally:
@@ -429,7 +438,7 @@ def _check_folder(folder: Path) -> None:
 _PACKAGE = Path(__file__).resolve().parents[1]
 
 
-def resource_dir(kind: Literal["templates", "csrc"]) -> Path:
+def locate_resources(kind: Literal["templates", "csrc"]) -> Path:
     """Folder of shipped data: inside the wheel (`_templates`), or at the top of a checkout."""
     for place in (_PACKAGE / f"_{kind}", _PACKAGE.parent / kind):
         if place.is_dir():

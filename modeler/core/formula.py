@@ -7,7 +7,7 @@ import unicodedata
 from dataclasses import dataclass
 from typing import Literal
 
-from modeler.core.brief import Brief
+from modeler.core.brief import ShortRepr
 
 _GREEK_NAME = re.compile(
     "alpha|beta|gamma|delta|epsilon|zeta|eta|theta|iota|kappa|lambda|mu|nu|xi|rho|sigma|tau|upsilon"
@@ -22,39 +22,39 @@ _SPECIAL = {
 }  # fmt: skip
 
 
-def latex_name(name: str) -> str:
+def format_latex_name(name: str) -> str:
     r"""`ZZ2R` as `\mathit{ZZ}_{2R}`, `D4` as `D_{4}`, `phi1` as `\phi_{1}`.
 
     An underscore is a letter of the name, so that different names stay different.
     """
-    head, index = _head_and_index(name)
+    head, index = _split_index(name)
     if _GREEK_NAME.fullmatch(head):
         head = f"\\{head}"
     elif len(head) > 1:
-        head = f"\\mathit{{{_escaped(head)}}}"
-    return f"{head}_{{{_escaped(index)}}}" if index else head
+        head = f"\\mathit{{{_escape_underscores(head)}}}"
+    return f"{head}_{{{_escape_underscores(index)}}}" if index else head
 
 
-def _head_and_index(name: str) -> tuple[str, str | None]:
+def _split_index(name: str) -> tuple[str, str | None]:
     """`ZZ2R` as ZZ and 2R."""
     split = re.fullmatch(r"([A-Za-z]+)(\d\w*)?", name)
     return (split[1], split[2]) if split else (name, None)
 
 
-def latex_text(text: str) -> str:
+def escape_latex(text: str) -> str:
     r"""Text between formulas: `R&D_1` as `R\&D\_1`; a letter that pdfTeX lacks as its code."""
-    return "".join(_SPECIAL.get(letter) or _letter(letter) for letter in text)
+    return "".join(_SPECIAL.get(letter) or _encode_letter(letter) for letter in text)
 
 
-def _letter(letter: str) -> str:
+def _encode_letter(letter: str) -> str:
     """Letters of Latin-1 as they are; else the same letter without its accents, or its code."""
     if letter.isascii() or (letter.isalpha() and ord(letter) < 0x100):
         return letter
     plain = unicodedata.normalize("NFKD", letter).encode("ascii", "ignore").decode()
-    return latex_text(plain) or f"[U+{ord(letter):04X}]"
+    return escape_latex(plain) or f"[U+{ord(letter):04X}]"
 
 
-def _escaped(text: str) -> str:
+def _escape_underscores(text: str) -> str:
     return text.replace("_", r"\_")
 
 
@@ -83,24 +83,24 @@ class Formula:
     parts: tuple[Formula, ...] = ()
 
 
-def name(text: str) -> Formula:
+def make_name(text: str) -> Formula:
     """`ZZ2R` as ZZ with the index 2R, `alpha` as its letter."""
-    head, index = _head_and_index(text)
+    head, index = _split_index(text)
     letter = Formula("name", _GREEK.get(head, head))
     return letter if not index else Formula("sub", parts=(letter, Formula("name", index)))
 
 
-def number(text: str) -> Formula:
+def make_number(text: str) -> Formula:
     """A number without a sign."""
     return Formula("number", text)
 
 
-def operator(text: str) -> Formula:
+def make_operator(text: str) -> Formula:
     """Between two others, or before one; a minus as long as a minus."""
     return Formula("operator", "\u2212" if text == "-" else text)
 
 
-def row(*parts: Formula) -> Formula:
+def make_row(*parts: Formula) -> Formula:
     """One after the other; a single one as it is."""
     return parts[0] if len(parts) == 1 else Formula("row", parts=parts)
 
@@ -109,7 +109,7 @@ def row(*parts: Formula) -> Formula:
 
 
 @dataclass(frozen=True)
-class Formulas(Brief):
+class Formulas(ShortRepr):
     """Formulas of a robot.
 
     Attributes:
@@ -129,9 +129,9 @@ class Formulas(Brief):
 
     def _repr_latex_(self) -> str:
         lines = self.latex.splitlines()
-        return "\n".join(_heading(line) if line.startswith("% ") else line for line in lines)
+        return "\n".join(_format_heading(line) if line.startswith("% ") else line for line in lines)
 
 
-def _heading(comment: str) -> str:
+def _format_heading(comment: str) -> str:
     r"""A comment of LaTeX as words between the formulas: MathJax knows `\text`."""
     return rf"$\text{{{comment[2:]}}}$"

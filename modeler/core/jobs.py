@@ -13,8 +13,8 @@ from functools import partial
 from typing import TYPE_CHECKING, Any, TypeVar
 
 from modeler import __version__
-from modeler.core.errors import DataError, installing
-from modeler.core.files import undisturbed
+from modeler.core.errors import DataError, suggest_install
+from modeler.core.files import defer_signals
 
 if TYPE_CHECKING:
     from distributed import Client
@@ -31,7 +31,7 @@ Done = Callable[[float], None]
 """Called with the share of the jobs that are done, 0 to 1."""
 
 
-def untold(share: float) -> None:
+def ignore_progress(share: float) -> None:
     """Nobody wants to know it."""
 
 
@@ -46,8 +46,8 @@ class Workers:
     functions of a module, dataclasses of arrays. A job may be carried out more than once.
     """
 
-    def each(
-        self, work: Callable[[S, J], R], shared: S, jobs: Sequence[J], done: Done = untold
+    def map_jobs(
+        self, work: Callable[[S, J], R], shared: S, jobs: Sequence[J], done: Done = ignore_progress
     ) -> list[R]:
         """What `work` makes of each job, in the order of the jobs.
 
@@ -60,13 +60,13 @@ class Workers:
         Raises:
             ModelerError: the first that a job raised, or no worker could do one.
         """
-        found = []
+        results = []
         for k, job in enumerate(jobs, start=1):
-            found.append(work(shared, job))
+            results.append(work(shared, job))
             done(k / len(jobs))
-        return found
+        return results
 
-    def begun(
+    def start_merge(
         self, work: Callable[[S, J], R], shared: S, jobs: Sequence[J], merge: Callable[[R, R], R]
     ) -> Callable[[], R]:
         """All results merged in pairs of neighbours, pairs of pairs, and so on: begun.
@@ -81,9 +81,9 @@ class Workers:
             merge: of two results, the earlier first.
 
         Returns:
-            what waits for the result; raises as `each` does.
+            what waits for the result; raises as `map_jobs` does.
         """
-        return lambda: in_pairs([work(shared, job) for job in jobs], merge)
+        return lambda: merge_pairwise([work(shared, job) for job in jobs], merge)
 
 
 @contextmanager
@@ -107,15 +107,15 @@ def open_workers(dask: str | None = None, processes: int = 1) -> Iterator[Worker
         yield Workers()
 
 
-def in_pairs(results: Sequence[R], merge: Callable[[R, R], R]) -> R:
-    """Results merged as `pairs` says."""
-    own = list(results)
-    for left, right in pairs(len(own)):
-        own[left] = merge(own[left], own[right])
-    return own[0]
+def merge_pairwise(results: Sequence[R], merge: Callable[[R, R], R]) -> R:
+    """Results merged as `list_merge_pairs` says."""
+    merged = list(results)
+    for left, right in list_merge_pairs(len(merged)):
+        merged[left] = merge(merged[left], merged[right])
+    return merged[0]
 
 
-def pairs(count: int) -> Iterator[tuple[int, int]]:
+def list_merge_pairs(count: int) -> Iterator[tuple[int, int]]:
     """(left, right) of neighbours to merge, in order; each result stands at left, the last at 0.
 
     Two subtrees of one height as soon as both are there; the rest at the end, the last first.
@@ -149,33 +149,33 @@ class Cluster(Workers):
     def __init__(self, client: "Client") -> None:
         self._client = client
 
-    def each(
-        self, work: Callable[[S, J], R], shared: S, jobs: Sequence[J], done: Done = untold
+    def map_jobs(
+        self, work: Callable[[S, J], R], shared: S, jobs: Sequence[J], done: Done = ignore_progress
     ) -> list[R]:
         """See `Workers`."""
-        futures = self._sent(work, shared, jobs)
+        futures = self._submit_jobs(work, shared, jobs)
         from distributed import as_completed
 
-        with _lost_told():
+        with _report_lost_workers():
             for k, future in enumerate(as_completed(futures), start=1):
                 if future.status == "error":
                     future.result()
                 done(k / len(futures))
-            found: list[R] = self._client.gather(futures)
-        return found
+            results: list[R] = self._client.gather(futures)
+        return results
 
-    def begun(
+    def start_merge(
         self, work: Callable[[S, J], R], shared: S, jobs: Sequence[J], merge: Callable[[R, R], R]
     ) -> Callable[[], R]:
         """See `Workers`; merged where the results are, only the last one travels here."""
-        own = self._sent(work, shared, jobs)
-        for left, right in pairs(len(jobs)):
-            own[left] = self._client.submit(merge, own[left], own[right], pure=False)
-        return partial(_result, own[0])
+        futures = self._submit_jobs(work, shared, jobs)
+        for left, right in list_merge_pairs(len(jobs)):
+            futures[left] = self._client.submit(merge, futures[left], futures[right], pure=False)
+        return partial(_wait_result, futures[0])
 
-    def _sent(self, work: Callable[[S, J], R], shared: S, jobs: Sequence[J]) -> list[Any]:
+    def _submit_jobs(self, work: Callable[[S, J], R], shared: S, jobs: Sequence[J]) -> list[Any]:
         """Futures; what is shared is one of them, so that it is made again if it is lost."""
-        common = self._client.submit(same, shared, pure=False)
+        common = self._client.submit(return_same, shared, pure=False)
         return [self._client.submit(work, common, job, pure=False) for job in jobs]
 
 
@@ -193,18 +193,19 @@ def open_cluster(address: str) -> Iterator[Cluster]:
         from distributed import Client, LocalCluster
     except ImportError:
         raise DataError(
-            f"--dask {address}: Dask is not installed; {installing('dask')}, or leave --dask out"
+            f"--dask {address}: Dask is not installed; {suggest_install('dask')}, or leave --dask "
+            "out"
         ) from None
     for name in ("distributed", "distributed.worker", "distributed.nanny", "distributed.scheduler"):
         logging.getLogger(name).setLevel(logging.CRITICAL)
     if address == LOCAL:
         count = os.process_cpu_count() if hasattr(os, "process_cpu_count") else os.cpu_count()
-        given = {"dashboard_address": ":0", "memory_limit": 0, "silence_logs": logging.CRITICAL}
+        options = {"dashboard_address": ":0", "memory_limit": 0, "silence_logs": logging.CRITICAL}
         with (
-            LocalCluster(n_workers=count or 1, threads_per_worker=1, **given) as cluster,
+            LocalCluster(n_workers=count or 1, threads_per_worker=1, **options) as cluster,
             Client(cluster) as client,
         ):
-            yield _checked(client, address)
+            yield _check_workers(client, address)
         return
     try:
         client = Client(address, timeout=_ANSWER)
@@ -214,10 +215,10 @@ def open_cluster(address: str) -> Iterator[Cluster]:
             "address such as tcp://host:8786, as `dask scheduler` prints it, or local"
         ) from None
     with client:
-        yield _checked(client, address)
+        yield _check_workers(client, address)
 
 
-def _checked(client: "Client", address: str) -> Cluster:
+def _check_workers(client: "Client", address: str) -> Cluster:
     """The cluster, if it has workers and they have this version of this package."""
     try:
         client.wait_for_workers(1, timeout=_ANSWER)
@@ -226,38 +227,39 @@ def _checked(client: "Client", address: str) -> Cluster:
             f"--dask {address}: the scheduler has no workers; start some, as `dask worker ADDRESS`"
         ) from None
     try:
-        versions = client.run(version)
+        versions = client.run(get_version)
     except ImportError as error:
         raise DataError(
             f"--dask {address}: a worker lacks a package ({error}); install version "
             f"{__version__} from its checkout where the workers run"
         ) from None
-    for worker, found in versions.items():
-        if found != __version__:
+    for worker, worker_version in versions.items():
+        if worker_version != __version__:
             raise DataError(
-                f"--dask {address}: worker {worker} has modeler {found}; expected {__version__}; "
+                f"--dask {address}: worker {worker} has modeler {worker_version}; expected "
+                f"{__version__}; "
                 "install the same where the workers run"
             )
     return Cluster(client)
 
 
-def _result(future: Any) -> Any:
-    with _lost_told():
+def _wait_result(future: Any) -> Any:
+    with _report_lost_workers():
         return future.result()
 
 
-def same(thing: S) -> S:
+def return_same(thing: S) -> S:
     """That thing, where it is called."""
     return thing
 
 
-def version() -> str:
+def get_version() -> str:
     """That of this package, where it is called."""
     return __version__
 
 
 @contextmanager
-def _lost_told() -> Iterator[None]:
+def _report_lost_workers() -> Iterator[None]:
     from distributed import KilledWorker
 
     try:
@@ -282,25 +284,27 @@ class Processes(Workers):
     def __init__(self, pool: ProcessPoolExecutor) -> None:
         self._pool = pool
 
-    def each(
-        self, work: Callable[[S, J], R], shared: S, jobs: Sequence[J], done: Done = untold
+    def map_jobs(
+        self, work: Callable[[S, J], R], shared: S, jobs: Sequence[J], done: Done = ignore_progress
     ) -> list[R]:
         """See `Workers`."""
-        return _gathered(self._sent(work, shared, jobs), done)
+        return _gather_results(self._submit_jobs(work, shared, jobs), done)
 
-    def begun(
+    def start_merge(
         self, work: Callable[[S, J], R], shared: S, jobs: Sequence[J], merge: Callable[[R, R], R]
     ) -> Callable[[], R]:
         """See `Workers`; merged in this process."""
-        futures = self._sent(work, shared, jobs)
-        return lambda: in_pairs(_gathered(futures, untold), merge)
+        futures = self._submit_jobs(work, shared, jobs)
+        return lambda: merge_pairwise(_gather_results(futures, ignore_progress), merge)
 
-    def _sent(self, work: Callable[[S, J], R], shared: S, jobs: Sequence[J]) -> "list[Future[R]]":
-        with undisturbed(), without_interrupts():  # here they are started
+    def _submit_jobs(
+        self, work: Callable[[S, J], R], shared: S, jobs: Sequence[J]
+    ) -> "list[Future[R]]":
+        with defer_signals(), block_interrupts():  # here they are started
             return [self._pool.submit(work, shared, job) for job in jobs]
 
 
-def _gathered(futures: "Sequence[Future[R]]", done: Done) -> list[R]:
+def _gather_results(futures: "Sequence[Future[R]]", done: Done) -> list[R]:
     try:
         for k, future in enumerate(as_completed(futures), start=1):
             future.result()
@@ -317,20 +321,20 @@ def _gathered(futures: "Sequence[Future[R]]", done: Done) -> list[R]:
         raise
 
 
-def attend() -> None:
+def exit_with_parent() -> None:
     """A process ends, without a word, when the one that started it has: even if that was killed."""
     parent = multiprocessing.parent_process()
     assert parent is not None
 
-    def follow() -> None:
+    def wait_for_parent() -> None:
         parent.join()
         os._exit(1)
 
-    threading.Thread(target=follow, daemon=True).start()
+    threading.Thread(target=wait_for_parent, daemon=True).start()
 
 
 @contextmanager
-def without_interrupts() -> Iterator[None]:
+def block_interrupts() -> Iterator[None]:
     """What is started meanwhile leaves Ctrl-C, which a terminal sends to all, to this process."""
     mask = getattr(signal, "pthread_sigmask", None)
     before = mask(signal.SIG_BLOCK, {signal.SIGINT}) if mask else ()
@@ -350,7 +354,7 @@ def open_processes(count: int) -> Iterator[Processes]:
     os.environ[_WARNINGS] = f"{before[_WARNINGS] or 'default'},ignore:resource_tracker"
     try:
         context = multiprocessing.get_context("spawn")
-        with ProcessPoolExecutor(count, mp_context=context, initializer=attend) as pool:
+        with ProcessPoolExecutor(count, mp_context=context, initializer=exit_with_parent) as pool:
             try:
                 yield Processes(pool)
             except KeyboardInterrupt:

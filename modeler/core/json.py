@@ -35,14 +35,17 @@ def parse_json(data: bytes | str) -> Any:
     Raises:
         JsonError: not such a text; says why, where if that is known.
     """
-    text = data if isinstance(data, str) else _decoded(data)
+    text = data if isinstance(data, str) else _decode_text(data)
     if not text.strip():
         raise JsonError("is empty" if not text else "is blank")
     try:
         value = json.loads(
-            text, parse_int=_integer, parse_float=_float, parse_constant=_constant,
-            object_pairs_hook=_object,
-        )  # fmt: skip
+            text,
+            parse_int=_parse_integer,
+            parse_float=_parse_float,
+            parse_constant=_reject_constant,
+            object_pairs_hook=_parse_object,
+        )
         json.dumps(value, ensure_ascii=False).encode()
     except json.JSONDecodeError as error:
         raise JsonError(
@@ -55,7 +58,7 @@ def parse_json(data: bytes | str) -> Any:
     return value
 
 
-def nulled(content: Any) -> Any:
+def convert_to_plain(content: Any) -> Any:
     """Plain data with null for every number that is not finite.
 
     Arrays and tuples become lists; a result is what its `to_json` says, another dataclass an
@@ -66,14 +69,14 @@ def nulled(content: Any) -> Any:
     elif dataclasses.is_dataclass(content):
         content = content.to_json() if hasattr(content, "to_json") else vars(content)
     if isinstance(content, Mapping):
-        return {key: nulled(value) for key, value in content.items()}
+        return {key: convert_to_plain(value) for key, value in content.items()}
     if isinstance(content, list | tuple):
-        return [nulled(value) for value in content]
+        return [convert_to_plain(value) for value in content]
     unknown = isinstance(content, float) and not math.isfinite(content)
     return None if unknown else content
 
 
-def entries(thing: Any, names: str) -> dict[str, Any]:
+def select_attributes(thing: Any, names: str) -> dict[str, Any]:
     """Attributes by name, as JSON names them too; the names with spaces between."""
     return {name: getattr(thing, name) for name in names.split()}
 
@@ -95,12 +98,12 @@ def parse_toml(text: str) -> dict[str, Any]:
         raise TomlError(f"an integer has more than {most} digits; write a shorter one") from None
 
 
-def shown(value: Any) -> str:
+def shorten_value(value: Any) -> str:
     """The value for a message: short, however long it is."""
     return reprlib.repr(value)
 
 
-def _decoded(data: bytes) -> str:
+def _decode_text(data: bytes) -> str:
     if data.startswith(_BYTE_ORDER) or b"\x00" in data[:4]:
         raise JsonError("is UTF-16, UTF-32 or binary; expected text in UTF-8")
     try:
@@ -109,40 +112,42 @@ def _decoded(data: bytes) -> str:
         raise JsonError(f"is no text in UTF-8 from byte {error.start + 1} on") from None
 
 
-def _integer(text: str) -> int:
+def _parse_integer(text: str) -> int:
     if len(text) > len(str(_LARGEST)) + 1 or abs(int(text)) >= _LARGEST:
-        raise JsonError(f"has a whole number of {len(text.lstrip('-'))} digits: {shown(text)}")
+        raise JsonError(
+            f"has a whole number of {len(text.lstrip('-'))} digits: {shorten_value(text)}"
+        )
     return int(text)
 
 
-def _float(text: str) -> float:
+def _parse_float(text: str) -> float:
     value = float(text)
     if not math.isfinite(value):
-        raise JsonError(f"has the number {shown(text)}, too large for double precision")
+        raise JsonError(f"has the number {shorten_value(text)}, too large for double precision")
     return value
 
 
-def _constant(text: str) -> float:
+def _reject_constant(text: str) -> float:
     raise JsonError(f"has {text}, which is no number of JSON")
 
 
-def _object(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
-    found = dict(pairs)
-    if len(found) < len(pairs):
+def _parse_object(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
+    members = dict(pairs)
+    if len(members) < len(pairs):
         names = [name for name, _ in pairs]
-        twice = next(name for name in found if names.count(name) > 1)
-        raise JsonError(f"has the entry {shown(twice)} twice")
-    return found
+        twice = next(name for name in members if names.count(name) > 1)
+        raise JsonError(f"has the entry {shorten_value(twice)} twice")
+    return members
 
 
 T = TypeVar("T")
 
 
-class UndeclaredEntry(ValueError):
+class SchemaError(ValueError):
     """The entry that is not as declared: its place, what was got, what was expected."""
 
 
-def built(cls: type[T], raw: Any, place: str = "") -> T:
+def build_instance(cls: type[T], raw: Any, place: str = "") -> T:
     """An instance of a dataclass from a mapping, as JSON has it; lists become tuples.
 
     Args:
@@ -155,17 +160,17 @@ def built(cls: type[T], raw: Any, place: str = "") -> T:
         PlainError: an entry is missing, unknown or of another type.
     """
     if not isinstance(raw, Mapping):
-        raise _unlike(place or "it", raw, "an object")
-    hints, head = _field_types(cls), f"{place}." if place else ""  # type: ignore[arg-type]
+        raise _describe_mismatch(place or "it", raw, "an object")
+    hints, head = _get_field_types(cls), f"{place}." if place else ""  # type: ignore[arg-type]
     for field in dataclasses.fields(cls):  # type: ignore[arg-type]
         required = field.default is field.default_factory is dataclasses.MISSING
         if required and field.name not in raw:
-            raise UndeclaredEntry(f"{head}{field.name} is missing")
+            raise SchemaError(f"{head}{field.name} is missing")
     values = {}
     for name, value in raw.items():
         if name not in hints:
-            raise UndeclaredEntry(f"{head}{shown(name)} is unknown")
-        values[name] = plain(hints[name], value, head + name)
+            raise SchemaError(f"{head}{shorten_value(name)} is unknown")
+        values[name] = convert_value(hints[name], value, head + name)
     return cls(**values)
 
 
@@ -176,12 +181,12 @@ def check_fields(instance: Any, place: str = "") -> None:
         PlainError: names the first.
     """
     head = f"{place}." if place else ""
-    for name, hint in _field_types(type(instance)).items():  # type: ignore[arg-type]
-        plain(hint, getattr(instance, name), head + name)
+    for name, hint in _get_field_types(type(instance)).items():  # type: ignore[arg-type]
+        convert_value(hint, getattr(instance, name), head + name)
 
 
-def plain(hint: Any, value: Any, place: str) -> Any:
-    """`value` as the type `hint`; other types than those of `built` are not looked into.
+def convert_value(hint: Any, value: Any, place: str) -> Any:
+    """`value` as the type `hint`; other types than those of `build_instance` are not looked into.
 
     Raises:
         PlainError: it is none.
@@ -189,29 +194,31 @@ def plain(hint: Any, value: Any, place: str) -> Any:
     if hint in _SIMPLE:
         kinds, expected = _SIMPLE[hint]
         if not isinstance(value, kinds) or (isinstance(value, bool) and hint is not bool):
-            raise _unlike(place, value, expected)
+            raise _describe_mismatch(place, value, expected)
         return value
     origin, arguments = get_origin(hint), get_args(hint)
     if origin in (Union, types.UnionType):
-        return _either(arguments, value, place)
+        return _convert_union(arguments, value, place)
     if origin is Literal:
         if not isinstance(value, str) or value not in arguments:
-            raise _unlike(place, value, " or ".join(map(str, arguments)))
+            raise _describe_mismatch(place, value, " or ".join(map(str, arguments)))
         return value
     if origin is tuple:
-        return _tuple(arguments, value, place)
+        return _convert_tuple(arguments, value, place)
     if isinstance(origin, type) and issubclass(origin, Mapping):
         if not isinstance(value, Mapping):
-            raise _unlike(place, value, "an object")
+            raise _describe_mismatch(place, value, "an object")
         return {
-            plain(arguments[0], key, place): plain(arguments[1], item, f"{place}.{shown(key)}")
+            convert_value(arguments[0], key, place): convert_value(
+                arguments[1], item, f"{place}.{shorten_value(key)}"
+            )
             for key, item in value.items()
         }
     if dataclasses.is_dataclass(hint) and isinstance(hint, type):
         if isinstance(value, hint):
             check_fields(value, place)
             return value
-        return built(hint, value, place)
+        return build_instance(hint, value, place)
     return value
 
 
@@ -224,37 +231,37 @@ _SIMPLE: Mapping[Any, tuple[Any, str]] = {
 }
 
 
-def _tuple(arguments: tuple[Any, ...], value: Any, place: str) -> tuple[Any, ...]:
+def _convert_tuple(arguments: tuple[Any, ...], value: Any, place: str) -> tuple[Any, ...]:
     """Of any length, all of one type; or of one type each."""
     if not isinstance(value, list | tuple):
-        raise _unlike(place, value, "a list")
+        raise _describe_mismatch(place, value, "a list")
     if arguments[1:] == (Ellipsis,):
         arguments = (arguments[0],) * len(value)
     if len(value) != len(arguments):
-        raise _unlike(place, value, f"{len(arguments)} values")
+        raise _describe_mismatch(place, value, f"{len(arguments)} values")
     pairs = zip(arguments, value, strict=True)
-    return tuple(plain(part, item, f"{place}[{i}]") for i, (part, item) in enumerate(pairs))
+    return tuple(convert_value(part, item, f"{place}[{i}]") for i, (part, item) in enumerate(pairs))
 
 
-def _either(options: tuple[Any, ...], value: Any, place: str) -> Any:
+def _convert_union(options: tuple[Any, ...], value: Any, place: str) -> Any:
     if value is None and type(None) in options:
         return None
     others = [option for option in options if option is not type(None)]
     if len(others) == 1:
-        return plain(others[0], value, place)
+        return convert_value(others[0], value, place)
     for option in others:
         try:
-            return plain(option, value, place)
-        except UndeclaredEntry:
+            return convert_value(option, value, place)
+        except SchemaError:
             continue
-    raise _unlike(place, value, " or ".join(str(option) for option in others))
+    raise _describe_mismatch(place, value, " or ".join(str(option) for option in others))
 
 
-def _unlike(place: str, value: Any, expected: str) -> UndeclaredEntry:
-    return UndeclaredEntry(f"{place} is {shown(value)}, expected {expected}")
+def _describe_mismatch(place: str, value: Any, expected: str) -> SchemaError:
+    return SchemaError(f"{place} is {shorten_value(value)}, expected {expected}")
 
 
 @cache
-def _field_types(cls: Any) -> Mapping[str, Any]:
+def _get_field_types(cls: Any) -> Mapping[str, Any]:
     names = {field.name for field in dataclasses.fields(cls)}
     return {name: hint for name, hint in get_type_hints(cls).items() if name in names}

@@ -51,45 +51,45 @@ class DisplayedEquation:
     right: tuple[str, ...]
 
 
-def display(equations: Sequence[DisplayedEquation], numbered: bool = False) -> str:
+def format_display(equations: Sequence[DisplayedEquation], numbered: bool = False) -> str:
     """An `align` (numbered) or `align*` of the equations, without a newline at its end."""
     name = "align" if numbered else "align*"
-    room = TEXT_WIDTH - max(width(equation.left) for equation in equations) - _BINARY - 2.0
+    room = TEXT_WIDTH - max(measure_width(equation.left) for equation in equations) - _BINARY - 2.0
     sign, more = (" &= ", r"&\quad {}") if numbered else (" ={}& ", "& ")
     end = r" \notag" if numbered else ""
     room -= _TAG + 10.0 if numbered else 0.0
     rows = []
     for equation in equations:
-        lines = [line for text in equation.right for line in broken(text, room)]
+        lines = [line for text in equation.right for line in break_lines(text, room)]
         first, *others = lines
         lines = [f"{equation.left}{sign}{first}", *(f"{more}{line}" for line in others)]
         rows += [*(line + end for line in lines[:-1]), lines[-1]]
     return f"\\begin{{{name}}}\n" + " \\\\\n".join(rows) + f"\n\\end{{{name}}}"
 
 
-def broken(text: str, room: float = TEXT_WIDTH) -> list[str]:
+def break_lines(text: str, room: float = TEXT_WIDTH) -> list[str]:
     """The formula in lines that are at most `room` points wide; as it is if it fits."""
-    boxes = _parsed(text)
-    if _total(boxes) <= room:
+    boxes = _parse_boxes(text)
+    if _sum_widths(boxes) <= room:
         return [text]
     lines: list[list[LatexBox]] = [[]]
-    for part in _parts(boxes, room):
-        if lines[-1] and _total(lines[-1]) + _total(part) > room:
+    for part in _split_parts(boxes, room):
+        if lines[-1] and _sum_widths(lines[-1]) + _sum_widths(part) > room:
             lines.append([])
         lines[-1] += part
-    return [_joined(line) for line in lines]
+    return [_join_boxes(line) for line in lines]
 
 
-def width(text: str) -> float:
+def measure_width(text: str) -> float:
     """A bound of the width in points."""
-    return _total(_parsed(text))
+    return _sum_widths(_parse_boxes(text))
 
 
-def _total(boxes: Sequence[LatexBox]) -> float:
+def _sum_widths(boxes: Sequence[LatexBox]) -> float:
     return sum(box.width for box in boxes)
 
 
-def _joined(boxes: Sequence[LatexBox]) -> str:
+def _join_boxes(boxes: Sequence[LatexBox]) -> str:
     """The texts, signs between spaces; a line that begins with a factor has a dot before it."""
     text = ""
     for box in boxes:
@@ -102,38 +102,38 @@ def _joined(boxes: Sequence[LatexBox]) -> str:
     return text.strip()
 
 
-def _parts(boxes: Sequence[LatexBox], room: float) -> Iterator[list[LatexBox]]:
+def _split_parts(boxes: Sequence[LatexBox], room: float) -> Iterator[list[LatexBox]]:
     """Pieces between which lines may end, each as wide as it must be."""
     # before every sign, and before the factors of a product that has to be broken
     starts = [0, *(i for i, box in enumerate(boxes) if i and box.kind in _ENDS), len(boxes)]
     for part in (list(boxes[a:b]) for a, b in pairwise(starts) if a < b):
-        if _total(part) <= room:
+        if _sum_widths(part) <= room:
             yield part
             continue
         wide = max((box for box in part if box.inside), key=lambda box: box.width, default=None)
         if wide is not None:
             at = part.index(wide)
-            yield from _parts([*part[:at], *_opened(wide), *part[at + 1 :]], room)
+            yield from _split_parts([*part[:at], *_open_box(wide), *part[at + 1 :]], room)
         elif any(box.kind == "times" for box in part):
             dot = LatexBox(r"\,", 7.3, "dot")
-            yield from _parts([dot if box.kind == "times" else box for box in part], room)
+            yield from _split_parts([dot if box.kind == "times" else box for box in part], room)
         else:
             yield part
 
 
-def _opened(box: LatexBox) -> list[LatexBox]:
+def _open_box(box: LatexBox) -> list[LatexBox]:
     """The same value, written so that it can be broken."""
     if box.kind == "bracket":
-        return _bracketed(box.inside[0], box.after)
+        return _wrap_brackets(box.inside[0], box.after)
     if box.kind == "root":
-        return _bracketed(box.inside[0], "^{1/2}" + box.after)
+        return _wrap_brackets(box.inside[0], "^{1/2}" + box.after)
     above, below = box.inside
     is_sum = any(piece.kind == "break" for piece in above) or above[0].text == "-"
-    top = _bracketed(above) if is_sum else list(above)
-    return [*top, LatexBox(r"\,", 1.7, "times"), *_bracketed(below, "^{-1}")]
+    top = _wrap_brackets(above) if is_sum else list(above)
+    return [*top, LatexBox(r"\,", 1.7, "times"), *_wrap_brackets(below, "^{-1}")]
 
 
-def _bracketed(inside: Sequence[LatexBox], after: str = "") -> list[LatexBox]:
+def _wrap_brackets(inside: Sequence[LatexBox], after: str = "") -> list[LatexBox]:
     close = rf"\bigr){after}"
     return [LatexBox(r"\bigl(", 5.0), *inside, LatexBox(close, 5.0 + 5.0 * len(after))]
 
@@ -145,35 +145,35 @@ class _LatexReader:
         self.tokens = _TOKEN.findall(text)
         self.at = 0
 
-    def boxes(self, end: str = "") -> tuple[LatexBox, ...]:
+    def read_boxes(self, end: str = "") -> tuple[LatexBox, ...]:
         """Up to the token `end`, which is taken."""
-        found: list[LatexBox] = []
+        boxes: list[LatexBox] = []
         while self.at < len(self.tokens):
-            token = self._take()
+            token = self._take_token()
             if token == end:
                 break
             if token in "^_":
-                self._script(found, token)
+                self._attach_script(boxes, token)
             elif token.isspace():
-                if found and found[-1].kind in ("", "bracket"):
-                    found[-1] = replace(found[-1], text=found[-1].text.rstrip() + " ")
+                if boxes and boxes[-1].kind in ("", "bracket"):
+                    boxes[-1] = replace(boxes[-1], text=boxes[-1].text.rstrip() + " ")
             else:
-                unary = not found or found[-1].kind == "break" or found[-1].text == r"\bigl("
-                found.append(self._box(token, unary))
-        return tuple(found)
+                unary = not boxes or boxes[-1].kind == "break" or boxes[-1].text == r"\bigl("
+                boxes.append(self._read_box(token, unary))
+        return tuple(boxes)
 
-    def _next(self) -> str:
+    def _peek_token(self) -> str:
         """The token that follows, spaces skipped."""
         while self.at < len(self.tokens) and self.tokens[self.at].isspace():
             self.at += 1
         return str(self.tokens[self.at]) if self.at < len(self.tokens) else ""
 
-    def _take(self) -> str:
+    def _take_token(self) -> str:
         token = self.tokens[self.at] if self.at < len(self.tokens) else ""
         self.at += 1
         return str(token)
 
-    def _box(self, token: str, unary: bool) -> LatexBox:
+    def _read_box(self, token: str, unary: bool) -> LatexBox:
         if token in "+-":
             return LatexBox(token, _SIGN) if unary else LatexBox(token, _BINARY, "break")
         if token == r"\quad":
@@ -181,87 +181,87 @@ class _LatexReader:
         if token == r"\,":
             return LatexBox(token, 1.7, "times")
         if token == "(":
-            return self._bracket("(", ")")
+            return self._read_bracket("(", ")")
         if token == r"\left":
-            return self._bracket(token + self._take(), r"\right")
+            return self._read_bracket(token + self._take_token(), r"\right")
         if token in (r"\bigl", r"\bigr"):
-            return LatexBox(token + self._take(), 5.0)
+            return LatexBox(token + self._take_token(), 5.0)
         if token == "{":
-            inside = self.boxes("}")
-            return LatexBox(f"{{{_joined(inside)}}}", _total(inside))
+            inside = self.read_boxes("}")
+            return LatexBox(f"{{{_join_boxes(inside)}}}", _sum_widths(inside))
         if token.startswith("\\"):
-            return self._command(token)
-        return LatexBox(token, _letter(token))
+            return self._read_command(token)
+        return LatexBox(token, _estimate_letter_width(token))
 
-    def _bracket(self, opening: str, end: str) -> LatexBox:
-        inside = self.boxes(end)
-        closing = end + (self._take() if end == r"\right" else "")
+    def _read_bracket(self, opening: str, end: str) -> LatexBox:
+        inside = self.read_boxes(end)
+        closing = end + (self._take_token() if end == r"\right" else "")
         margin = 8.0 if end == ")" else 17.0
-        text = f"{opening}{_joined(inside)}{closing}"
+        text = f"{opening}{_join_boxes(inside)}{closing}"
         parts = (inside,) if closing[-1] == ")" else ()
-        return LatexBox(text, _total(inside) + margin, "bracket", parts)
+        return LatexBox(text, _sum_widths(inside) + margin, "bracket", parts)
 
-    def _command(self, token: str) -> LatexBox:
+    def _read_command(self, token: str) -> LatexBox:
         name = token[1:]
         if name in ("frac", "tfrac"):
-            above, below = self._group(), self._group()
-            text = f"{token}{{{_joined(above)}}}{{{_joined(below)}}}"
-            size = max(_total(above), _total(below)) + 3.0
+            above, below = self._read_group(), self._read_group()
+            text = f"{token}{{{_join_boxes(above)}}}{{{_join_boxes(below)}}}"
+            size = max(_sum_widths(above), _sum_widths(below)) + 3.0
             return LatexBox(text, size, "fraction", (above, below) if name == "frac" else ())
         if name == "sqrt":
-            return self._root()
+            return self._read_root()
         if name in ("mathit", "text", "operatorname"):
-            word = self._word()
-            return LatexBox(f"{token}{{{word}}}", sum(map(_letter, word)) + 3.7)
+            word = self._read_word()
+            return LatexBox(f"{token}{{{word}}}", sum(map(_estimate_letter_width, word)) + 3.7)
         if name in ("dot", "ddot"):
-            inside = self._group()
-            return LatexBox(f"{token}{{{_joined(inside)}}}", _total(inside))
-        gap = " " if name[0].isalpha() and self._next()[:1].isalnum() else ""
+            inside = self._read_group()
+            return LatexBox(f"{token}{{{_join_boxes(inside)}}}", _sum_widths(inside))
+        gap = " " if name[0].isalpha() and self._peek_token()[:1].isalnum() else ""
         # names of functions are printed, of letters drawn
         drawn = 5.0 * len(name) + 3.4 if name in _PRINTED else 9.0
         return LatexBox(token + gap, _WORDS.get(name, drawn))
 
-    def _root(self) -> LatexBox:
+    def _read_root(self) -> LatexBox:
         """A square root can be opened, a higher one not."""
         degree = ""
-        while self._next() == "[" or (degree and degree[-1] != "]"):
-            degree += self._take()
-        inside = self._group()
-        text = f"\\sqrt{degree}{{{_joined(inside)}}}"
-        return LatexBox(text, _total(inside) + 10.0, "root", () if degree else (inside,))
+        while self._peek_token() == "[" or (degree and degree[-1] != "]"):
+            degree += self._take_token()
+        inside = self._read_group()
+        text = f"\\sqrt{degree}{{{_join_boxes(inside)}}}"
+        return LatexBox(text, _sum_widths(inside) + 10.0, "root", () if degree else (inside,))
 
-    def _group(self) -> tuple[LatexBox, ...]:
+    def _read_group(self) -> tuple[LatexBox, ...]:
         """What is between braces, or the one token without them."""
-        if self._next() != "{":
-            return (self._box(self._take(), True),)
-        self._take()
-        return self.boxes("}")
+        if self._peek_token() != "{":
+            return (self._read_box(self._take_token(), True),)
+        self._take_token()
+        return self.read_boxes("}")
 
-    def _word(self) -> str:
+    def _read_word(self) -> str:
         """What is between braces, as it stands."""
-        self._next()
-        self._take()
+        self._peek_token()
+        self._take_token()
         word = ""
-        while (token := self._take()) not in ("}", ""):
+        while (token := self._take_token()) not in ("}", ""):
             word += token
         return word
 
-    def _script(self, found: list[LatexBox], token: str) -> None:
+    def _attach_script(self, boxes: list[LatexBox], token: str) -> None:
         """An index or exponent joins what it belongs to."""
         start = self.at
-        size = _SCRIPT * _total(self._group()) + 0.6
+        size = _SCRIPT * _sum_widths(self._read_group()) + 0.6
         text = token + "".join(self.tokens[start : self.at])
-        base = found.pop() if found else LatexBox("{}", 0.0)
+        base = boxes.pop() if boxes else LatexBox("{}", 0.0)
         whole, after = base.text.rstrip() + text, base.after + text
         inner = base.inside if base.kind == "bracket" else ()
-        found.append(LatexBox(whole, base.width + size, base.kind, inner, after))
+        boxes.append(LatexBox(whole, base.width + size, base.kind, inner, after))
 
 
-def _parsed(text: str) -> tuple[LatexBox, ...]:
-    return _LatexReader(text).boxes()
+def _parse_boxes(text: str) -> tuple[LatexBox, ...]:
+    return _LatexReader(text).read_boxes()
 
 
-def _letter(letter: str) -> float:
+def _estimate_letter_width(letter: str) -> float:
     if letter.isdigit():
         return 5.2
     if letter in "ijlt,.;:!'|/[]":

@@ -63,7 +63,9 @@ class Law:
         import numpy as np
 
         every = np.broadcast_arrays(*x)
-        places = [self.place(axis, own, along == axis) for axis, own in enumerate(every)]
+        places = [
+            self.locate_cells(axis, points, along == axis) for axis, points in enumerate(every)
+        ]
         total = np.zeros(every[0].shape)
         if len(places) == 1:
             ((k, weights),) = places
@@ -76,7 +78,7 @@ class Law:
             total += weight * inner
         return total
 
-    def place(
+    def locate_cells(
         self, axis: int, x: "np.ndarray", slope: bool = False
     ) -> tuple["np.ndarray", Sequence["np.ndarray"]]:
         """The cell of each x (n,), and the weights of its four coefficients, or their slopes."""
@@ -89,12 +91,12 @@ class Law:
         with np.errstate(invalid="ignore"):
             f = u - k + (x - x)
         if not slope:
-            return k, _weights(f)
+            return k, _compute_weights(f)
         rate = np.where(u == free, scale, 0.0)  # beyond the ends it is held
-        return k, [rate * w for w in _slopes(f)]
+        return k, [rate * w for w in _compute_slopes(f)]
 
 
-def _weights(f: "np.ndarray") -> tuple["np.ndarray", ...]:
+def _compute_weights(f: "np.ndarray") -> tuple["np.ndarray", ...]:
     g = 1.0 - f
     f2 = f * f
     first, last = g * g * g / 6.0, f2 * f / 6.0
@@ -102,7 +104,7 @@ def _weights(f: "np.ndarray") -> tuple["np.ndarray", ...]:
     return first, second, 1.0 - first - second - last, last
 
 
-def _slopes(f: "np.ndarray") -> tuple["np.ndarray", ...]:
+def _compute_slopes(f: "np.ndarray") -> tuple["np.ndarray", ...]:
     """Derivatives of the weights by f."""
     g = 1.0 - f
     first, second, last = -0.5 * g * g, f * (1.5 * f - 2.0), 0.5 * f * f

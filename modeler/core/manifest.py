@@ -13,10 +13,10 @@ from dataclasses import dataclass, field
 from functools import cached_property
 from typing import Any
 
-from modeler.core.brief import Brief
+from modeler.core.brief import ShortRepr
 from modeler.core.errors import ManifestError, Precision
-from modeler.core.json import JsonError, UndeclaredEntry, built, parse_json, shown
-from modeler.core.result import Presented
+from modeler.core.json import JsonError, SchemaError, build_instance, parse_json, shorten_value
+from modeler.core.result import Result
 
 FORMAT = 2
 
@@ -72,7 +72,7 @@ class ArgumentSpec:
 
 
 @dataclass(frozen=True)
-class FunctionSpec(Brief):
+class FunctionSpec(ShortRepr):
     """One emitted C function: all arguments are `const double *` inputs, then outputs."""
 
     name: str  # "wrist_base_regressor"
@@ -146,7 +146,7 @@ class TermSpec:
 
 
 @dataclass(frozen=True)
-class BaseSpec(Brief):
+class BaseSpec(ShortRepr):
     """One base parameter: `name = sum of terms`, its column is that of `column_of`."""
 
     name: str  # "ZZ1R"
@@ -188,7 +188,7 @@ class SignalSpec:
     )
 
     @property
-    def inner(self) -> bool:
+    def is_internal_state(self) -> bool:
         """True of a state that is stepped along the motion."""
         return self.kind not in ("time", "temperature")
 
@@ -205,7 +205,7 @@ class FittedParameter:
 
 
 @dataclass(frozen=True)
-class FittedSpec(Brief):
+class FittedSpec(ShortRepr):
     """The values that stand in the C of a fitted model, and the functions that have them."""
 
     method: str  # id of the estimator
@@ -222,7 +222,7 @@ class FittedSpec(Brief):
 
 
 @dataclass(frozen=True)
-class ControlSpec(Brief):
+class ControlSpec(ShortRepr):
     """What a controller calls besides: the unit `<prefix>_control`, which Python's fits do without.
 
     It is tied to the robot's signature when it is compiled; `code` is the digest of its text.
@@ -242,7 +242,7 @@ class OriginSpec:
 
 
 @dataclass(frozen=True)
-class ModuleSpec(Brief):
+class ModuleSpec(ShortRepr):
     """The manifest of one robot."""
 
     robot: str
@@ -257,7 +257,7 @@ class ModuleSpec(Brief):
     functions: tuple[FunctionSpec, ...]
     closure: ClosureSpec | None = None
     signals: tuple[SignalSpec, ...] = ()
-    code: str = ""  # digest of the sources, their signature left out: see `code_digest`
+    code: str = ""  # digest of the sources, their signature left out: see `digest_code`
     fitted: FittedSpec | None = None  # where it was generated from a model
     precision: Precision = "double"  # of all numbers of the C
     inertial_uncertainty: float | None = None  # of every body, over its scale
@@ -285,7 +285,7 @@ class ModuleSpec(Brief):
             if joint in base.rows
         )
 
-    def has(self, unit: str) -> bool:
+    def has_unit(self, unit: str) -> bool:
         """True if the C file of that name, after the robot's, is part of the module."""
         there = {"_fitted": self.fitted, "_control": self.control, "_loops": self.closure}
         return (self.units is None or unit in self.units) and there.get(unit, self) is not None
@@ -294,8 +294,8 @@ class ModuleSpec(Brief):
     def controller_sources(self) -> tuple[str, ...]:
         """Names of the C files of the controller's library, headers included."""
         units = [".h", ".c"]
-        units += [f"{unit}.c" for unit in ("_regressor", "_base_regressor") if self.has(unit)]
-        headed = [unit for unit in ("_fitted", "_control") if self.has(unit)]
+        units += [f"{unit}.c" for unit in ("_regressor", "_base_regressor") if self.has_unit(unit)]
+        headed = [unit for unit in ("_fitted", "_control") if self.has_unit(unit)]
         headed += ["_joints"] if self.control is not None else []
         units += [f"{unit}.{kind}" for unit in headed for kind in "hc"]
         runtime = [*RUNTIME, *(LAW_RUNTIME if self.laws else ())]
@@ -309,17 +309,17 @@ class ModuleSpec(Brief):
     @property
     def sources(self) -> tuple[str, ...]:
         """Names of the C files that Python compiles: those, and the loops over samples."""
-        units = [f"{self.prefix}_batch.{kind}" for kind in "hc" if self.has("_batch")]
+        units = [f"{self.prefix}_batch.{kind}" for kind in "hc" if self.has_unit("_batch")]
         return (*self.controller_sources, *units, *BATCH_RUNTIME)
 
     @property
     def tile_sources(self) -> tuple[str, ...]:
         """Names of the C files of the tiles, which can be a library of their own; () if none."""
-        if not self.has("_batch"):
+        if not self.has_unit("_batch"):
             return ()
         units = (f"{self.prefix}_tile.h", f"{self.prefix}_tile.c")
-        own = (*RUNTIME, *(LAW_RUNTIME if self.laws else ()))
-        others = own if self.closure is None else self.sources
+        runtime_files = (*RUNTIME, *(LAW_RUNTIME if self.laws else ()))
+        others = runtime_files if self.closure is None else self.sources
         headers = (name for name in others if name.endswith(".h"))
         return (*units, *self.tile_runtime, *headers)
 
@@ -331,10 +331,10 @@ class ModuleSpec(Brief):
 
     def to_json(self) -> str:
         """Stable text: sorted as declared, no date, no version."""
-        return self._text
+        return self._json_text
 
     @cached_property
-    def _text(self) -> str:
+    def _json_text(self) -> str:
         entries = dataclasses.asdict(self)
         for name in ("fitted", "control", "origin", "units"):
             if entries[name] is None:
@@ -352,7 +352,7 @@ class ModuleSpec(Brief):
                 del entry[name]
         return json.dumps(entries, indent=1) + "\n"
 
-    def signature(self) -> str:
+    def compute_signature(self) -> str:
         """Hash that the emitted library repeats, so that a stale library is noticed.
 
         Of the whole manifest but the fitted values, which have a signature of their own, and the
@@ -360,16 +360,16 @@ class ModuleSpec(Brief):
         signature have the same C. It is the same on every machine.
         """
         if self.fitted is None and self.control is None and self.origin is None:
-            return text_digest(self.to_json())
-        return dataclasses.replace(self, fitted=None, control=None, origin=None).signature()
+            return digest_text(self.to_json())
+        return dataclasses.replace(self, fitted=None, control=None, origin=None).compute_signature()
 
 
-def text_digest(text: str) -> str:
+def digest_text(text: str) -> str:
     """The sixteen digits that a signature is."""
     return hashlib.sha256(text.encode()).hexdigest()[:16]
 
 
-def code_digest(sources: Mapping[str, str]) -> str:
+def digest_code(sources: Mapping[str, str]) -> str:
     """Digest of the C files of a module, tiles included, with an empty text for the signature.
 
     The signature stands in the C itself, so it is put there last: it covers all the rest.
@@ -380,7 +380,7 @@ def code_digest(sources: Mapping[str, str]) -> str:
 
 
 @dataclass(frozen=True)
-class Emitted(Presented):
+class EmittedModule(Result):
     """An emitted module, on no disk yet.
 
     Attributes:
@@ -401,31 +401,32 @@ class Emitted(Presented):
         return {name: self.files[name] for name in names if name in self.files}
 
 
-def module_from_json(text: bytes | str, where: str) -> ModuleSpec:
+def parse_manifest(text: bytes | str, where: str) -> ModuleSpec:
     """Read a manifest back.
 
     Raises:
         ManifestError: not a manifest, or of another format; `where` names the file.
     """
     try:
-        return module_from_plain(parse_json(text), where)
+        return build_manifest(parse_json(text), where)
     except JsonError as error:
         raise ManifestError(f"{where}: {error}; generate it again") from None
 
 
-def module_from_plain(raw: Any, where: str) -> ModuleSpec:
+def build_manifest(raw: Any, where: str) -> ModuleSpec:
     """A manifest from its JSON value.
 
     Raises:
-        ManifestError: as `module_from_json`.
+        ManifestError: as `parse_manifest`.
     """
     if not isinstance(raw, dict) or "format" not in raw:
         raise ManifestError(f"{where}: not a manifest; expected the output of `modeler generate`")
     if raw["format"] != FORMAT:
         raise ManifestError(
-            f"{where}: manifest format {shown(raw['format'])}, expected {FORMAT}; generate it again"
+            f"{where}: manifest format {shorten_value(raw['format'])}, expected {FORMAT}; generate "
+            "it again"
         )
     try:
-        return built(ModuleSpec, raw)
-    except UndeclaredEntry as error:
+        return build_instance(ModuleSpec, raw)
+    except SchemaError as error:
         raise ManifestError(f"{where}: damaged manifest ({error}); generate it again") from None

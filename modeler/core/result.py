@@ -12,10 +12,10 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
-from modeler.core.brief import Brief
+from modeler.core.brief import ShortRepr
 from modeler.core.errors import DataError
 from modeler.core.files import write_atomically
-from modeler.core.json import nulled
+from modeler.core.json import convert_to_plain
 from modeler.core.table import Table
 
 Tables = Mapping[str, Callable[[], Table]]
@@ -53,17 +53,20 @@ _PRESENTATIONS: dict[type, Presentation] = {}
 _LATER: dict[str, Callable[[], None]] = {}
 
 
-def present(presentations: Mapping[type, Presentation]) -> None:
+def register_presentations(presentations: Mapping[type, Presentation]) -> None:
     """Says how the objects of classes are shown."""
     _PRESENTATIONS.update(presentations)
 
 
-def present_later(names: Iterable[str], load: Callable[[], None]) -> None:
-    """Says what calls `present` for classes of these names; it runs when one is first shown."""
+def register_lazily(names: Iterable[str], load: Callable[[], None]) -> None:
+    """Says what calls `register_presentations` for classes of these names.
+
+    It runs when one is " "first shown.
+    """
     _LATER.update(dict.fromkeys(names, load))
 
 
-def presented(kind: type) -> Presentation | None:
+def find_presentation(kind: type) -> Presentation | None:
     """How the objects of a class, or of one that it derives from, are shown."""
     for name in (k.__name__ for k in kind.__mro__):
         if name in _LATER:
@@ -71,12 +74,12 @@ def presented(kind: type) -> Presentation | None:
     return next((_PRESENTATIONS[k] for k in kind.__mro__ if k in _PRESENTATIONS), None)
 
 
-class Presented(Brief):
+class Result(ShortRepr):
     """A base class of results."""
 
     def summary(self) -> str:
         """What it is and what it found, in some lines of text."""
-        return _of(self).summary(self)
+        return _get_presentation(self).summary(self)
 
     def table(self, name: str = "") -> Table:
         """One of its tables.
@@ -87,7 +90,7 @@ class Presented(Brief):
         Raises:
             DataError: it has no such table; says which it has.
         """
-        return _asked(self, "table", name, _of(self).tables(self))
+        return _select_item(self, "table", name, _get_presentation(self).tables(self))
 
     def to_frame(self, name: str = "") -> Any:
         """That table as a pandas DataFrame.
@@ -106,21 +109,23 @@ class Presented(Brief):
         Raises:
             DataError: it has no such figure; says which it has.
         """
-        return _asked(self, "plot", name, _of(self).figures(self))
+        return _select_item(self, "plot", name, _get_presentation(self).figures(self))
 
     def to_dict(self) -> dict[str, Any]:
         """Plain data: what `--json` writes of it, or else its tables."""
         if hasattr(self, "to_json"):
-            return dict(nulled(self.to_json()))
-        tables = {name: table().to_dict() for name, table in _of(self).tables(self).items()}
-        return dict(nulled(tables))
+            return dict(convert_to_plain(self.to_json()))
+        tables = {
+            name: table().to_dict() for name, table in _get_presentation(self).tables(self).items()
+        }
+        return dict(convert_to_plain(tables))
 
     def to_html(self) -> str:
         """A page of HTML that needs no other file."""
-        shown = _of(self)
-        if shown.document is not None:
-            return str(shown.document(self, ()))
-        title, *lines = map(html.escape, shown.summary(self).splitlines())
+        presentation = _get_presentation(self)
+        if presentation.document is not None:
+            return str(presentation.document(self, ()))
+        title, *lines = map(html.escape, presentation.summary(self).splitlines())
         body = self._repr_html_() or "\n".join([f"<h1>{title}</h1>", "<pre>", *lines, "</pre>"])
         return (
             f'<!doctype html>\n<html lang="en"><head><meta charset="utf-8"><title>{title}</title>'
@@ -140,61 +145,64 @@ class Presented(Brief):
             DataError: another ending; or it has no table, or no figure.
             ModelerError: the place cannot be written.
         """
-        path, own = Path(path), _of(self).files
+        path, writers = Path(path), _get_presentation(self).files
         ending = path.suffix.lower()
-        if ending in own or ("" in own and ending not in _WRITTEN):
-            own.get(ending, own.get("", write_atomically))(path, self)
+        if ending in writers or ("" in writers and ending not in _WRITTEN):
+            writers.get(ending, writers.get("", write_atomically))(path, self)
         elif ending in _WRITTEN:
             write_atomically(path, _WRITTEN[ending](self))
         else:
             raise DataError(
-                f'{path}: got the ending "{ending}"; {_of(self).noun} is saved as one of '
-                f"{' '.join(sorted({*own, *_WRITTEN}))}"
+                f'{path}: got the ending "{ending}"; {_get_presentation(self).noun} is saved as '
+                "one of "
+                f"{' '.join(sorted({*writers, *_WRITTEN}))}"
             )
         return path
 
     def _repr_html_(self) -> str | None:
-        found = presented(type(self))
-        tables = {} if found is None else found.tables(self)
-        if found is None or not tables:
+        presentation = find_presentation(type(self))
+        tables = {} if presentation is None else presentation.tables(self)
+        if presentation is None or not tables:
             return None
-        first = found.summary(self).splitlines()[0]
-        names = [next(iter(tables))] if found.page is None else found.page
+        first = presentation.summary(self).splitlines()[0]
+        names = [next(iter(tables))] if presentation.page is None else presentation.page
         drawn = [tables[name]().to_html() for name in names if name in tables]
         return "\n".join([f"<p><b>{html.escape(first)}</b></p>", *drawn])
 
 
-def _drawn(thing: Presented, kind: str) -> bytes:
+def _draw_figure(thing: Result, kind: str) -> bytes:
     drawn = io.BytesIO()
     thing.plot().savefig(drawn, format=kind, bbox_inches="tight")
     return drawn.getvalue()
 
 
-_WRITTEN: Mapping[str, Callable[[Presented], str | bytes]] = {
+_WRITTEN: Mapping[str, Callable[[Result], str | bytes]] = {
     ".json": lambda thing: json.dumps(thing.to_dict(), indent=1) + "\n",
     ".html": lambda thing: thing.to_html(),
-    ".csv": lambda thing: thing.table().csv(),
-    ".md": lambda thing: thing.table().markdown() + "\n",
-    ".tex": lambda thing: thing.table().latex() + "\n",
+    ".csv": lambda thing: thing.table().to_csv(),
+    ".md": lambda thing: thing.table().to_markdown() + "\n",
+    ".tex": lambda thing: thing.table().to_latex() + "\n",
     ".txt": lambda thing: thing.summary() + "\n",
-    ".png": lambda thing: _drawn(thing, "png"),
-    ".svg": lambda thing: _drawn(thing, "svg"),
-    ".pdf": lambda thing: _drawn(thing, "pdf"),
+    ".png": lambda thing: _draw_figure(thing, "png"),
+    ".svg": lambda thing: _draw_figure(thing, "svg"),
+    ".pdf": lambda thing: _draw_figure(thing, "pdf"),
 }
 """What is written of any result, by the ending of the file."""
 
 
-def _of(thing: Presented) -> Presentation:
-    found = presented(type(thing))
-    if found is None:
+def _get_presentation(thing: Result) -> Presentation:
+    presentation = find_presentation(type(thing))
+    if presentation is None:
         raise DataError(
             f"{type(thing).__name__}: nobody has said how it is shown; import modeler.api"
         )
-    return found
+    return presentation
 
 
-def _asked(thing: Presented, what: str, name: str, offered: Mapping[str, Callable[[], Any]]) -> Any:
-    noun, names = _of(thing).noun, ", ".join(offered)
+def _select_item(
+    thing: Result, what: str, name: str, offered: Mapping[str, Callable[[], Any]]
+) -> Any:
+    noun, names = _get_presentation(thing).noun, ", ".join(offered)
     if not offered:
         raise DataError(f"{what}: {noun} has none")
     if name and name not in offered:

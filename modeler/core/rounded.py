@@ -15,7 +15,7 @@ _DIGITS = 40
 
 
 @cache
-def precise() -> Any:
+def get_precise_context() -> Any:
     """Arithmetic with 40 digits, a context of mpmath of its own: no global precision is touched."""
     # Only here: most robot files have no sine among their numbers.
     import mpmath
@@ -25,7 +25,7 @@ def precise() -> Any:
     return context
 
 
-def power(base: float, exponent: float) -> Any:
+def compute_power(base: float, exponent: float) -> Any:
     """The double next to base**exponent; what Python gives where that is no finite real number.
 
     Raises:
@@ -34,27 +34,31 @@ def power(base: float, exponent: float) -> Any:
     rough = base**exponent
     if isinstance(rough, complex) or not math.isfinite(rough):
         return rough
-    return float(precise().power(precise().mpf(base), precise().mpf(exponent)))
+    return float(
+        get_precise_context().power(
+            get_precise_context().mpf(base), get_precise_context().mpf(exponent)
+        )
+    )
 
 
-def _nearest(name: str, rough: Callable[[float], float]) -> Callable[[float], float]:
-    def function(x: float) -> float:
+def _round_function(name: str, rough: Callable[[float], float]) -> Callable[[float], float]:
+    def evaluate(x: float) -> float:
         value = rough(x)  # raises what an argument outside the domain raises
         if not math.isfinite(value):
             return value
-        return float(getattr(precise(), name)(precise().mpf(x)))
+        return float(getattr(get_precise_context(), name)(get_precise_context().mpf(x)))
 
-    return function
+    return evaluate
 
 
 FUNCTIONS: Mapping[str, Callable[[float], float]] = {
-    "sin": _nearest("sin", math.sin),
-    "cos": _nearest("cos", math.cos),
-    "tan": _nearest("tan", math.tan),
+    "sin": _round_function("sin", math.sin),
+    "cos": _round_function("cos", math.cos),
+    "tan": _round_function("tan", math.tan),
     "sqrt": math.sqrt,
-    "exp": _nearest("exp", math.exp),
+    "exp": _round_function("exp", math.exp),
     "abs": abs,
     "sign": lambda x: float((x > 0) - (x < 0)),
-    "tanh": _nearest("tanh", math.tanh),
+    "tanh": _round_function("tanh", math.tanh),
 }
 """The functions of the expression language, of doubles."""

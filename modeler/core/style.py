@@ -33,6 +33,6 @@ class Style:
     dash: bool = False
 
     @property
-    def named(self) -> str:
+    def description(self) -> str:
         """Its colour in a caption, and whether the line is dashed."""
         return f"dashed {COLOR_NAMES[self.color]}" if self.dash else COLOR_NAMES[self.color]

@@ -11,9 +11,9 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from modeler.core.brief import Brief
-from modeler.core.errors import DataError, installing
-from modeler.core.formula import latex_text
+from modeler.core.brief import ShortRepr
+from modeler.core.errors import DataError, suggest_install
+from modeler.core.formula import escape_latex
 
 _SHOWN = 60  # rows of a long table on a page: half of them from each end
 
@@ -31,7 +31,7 @@ Cell = str | int | float | bool | MathCell | None
 
 
 @dataclass(frozen=True, eq=False)
-class Table(Brief):
+class Table(ShortRepr):
     """A table.
 
     >>> print(Table("links", (("name", ""), ("mass", "kg")), (("arm", 1.5), ("hand", 0.25))))
@@ -53,7 +53,7 @@ class Table(Brief):
     note: str = ""
 
     @classmethod
-    def of(
+    def build(
         cls, title: str, head: str | Iterable[str], rows: Iterable[Iterable[Any]], note: str = ""
     ) -> "Table":
         """A table whose head is written as "name, mass [kg]", or as such names one by one."""
@@ -69,25 +69,25 @@ class Table(Brief):
     def __iter__(self) -> Iterator[dict[str, str | float | None]]:
         """Its rows, cells by the names of their columns: `DataFrame(table)` is `to_frame`."""
         names = [name for name, _ in self.columns]
-        return (dict(zip(names, map(_bare, row), strict=True)) for row in self.rows)
+        return (dict(zip(names, map(_get_value, row), strict=True)) for row in self.rows)
 
     def __str__(self) -> str:
-        return self.text()
+        return self.to_text()
 
-    def text(self) -> str:
+    def to_text(self) -> str:
         """Aligned columns of plain text, every row; numbers to the right."""
-        head = tuple(_headed(name, unit) for name, unit in self.columns)
-        cells = [head, *(tuple(_plain(cell) for cell in row) for row in self.rows)]
-        left = [k for k in range(len(head)) if not self._numeric(k)]
-        lines = [line.rstrip() for line in aligned(cells, left)]
+        head = tuple(_format_head(name, unit) for name, unit in self.columns)
+        cells = [head, *(tuple(_format_cell(cell) for cell in row) for row in self.rows)]
+        left = [k for k in range(len(head)) if not self._is_numeric(k)]
+        lines = [line.rstrip() for line in align_columns(cells, left)]
         return "\n".join([self.title, *lines, *([self.note] if self.note else [])])
 
     def to_html(self) -> str:
         """An HTML table; of a long one its first and last rows, and how many are left out."""
-        head = "".join(f"<th>{html.escape(_headed(*column))}</th>" for column in self.columns)
+        head = "".join(f"<th>{html.escape(_format_head(*column))}</th>" for column in self.columns)
         half = _SHOWN // 2
         rows = [
-            f"<tr>{''.join(f'<td>{html.escape(_formula(cell))}</td>' for cell in row)}</tr>"
+            f"<tr>{''.join(f'<td>{html.escape(_format_formula(cell))}</td>' for cell in row)}</tr>"
             for row in (self.rows if len(self) <= _SHOWN else self.rows[:half] + self.rows[-half:])
         ]
         if len(self) > _SHOWN:
@@ -101,39 +101,45 @@ class Table(Brief):
     def _repr_html_(self) -> str:
         return self.to_html()
 
-    def markdown(self) -> str:
+    def to_markdown(self) -> str:
         """A Markdown table."""
-        cells = [[_headed(*column) for column in self.columns], ["---"] * len(self.columns)]
+        cells = [[_format_head(*column) for column in self.columns], ["---"] * len(self.columns)]
         for row in self.rows:
-            cells.append([_formula(cell).replace("|", r"\|").replace("\n", " ") for cell in row])
+            cells.append(
+                [_format_formula(cell).replace("|", r"\|").replace("\n", " ") for cell in row]
+            )
         return "\n".join("| " + " | ".join(row) + " |" for row in cells)
 
-    def latex(self) -> str:
+    def to_latex(self) -> str:
         """A tabular environment; formulas in dollars."""
-        kinds = "".join("r" if self._numeric(k) else "l" for k in range(len(self.columns)))
-        cells = [[latex_text(_headed(*column)) for column in self.columns]]
+        kinds = "".join("r" if self._is_numeric(k) else "l" for k in range(len(self.columns)))
+        cells = [[escape_latex(_format_head(*column)) for column in self.columns]]
         for row in self.rows:
             formulas = (isinstance(cell, MathCell) for cell in row)
-            texts = map(_formula, row)
-            cells.append([t if f else latex_text(t) for t, f in zip(texts, formulas, strict=True)])
+            texts = map(_format_formula, row)
+            cells.append(
+                [t if f else escape_latex(t) for t, f in zip(texts, formulas, strict=True)]
+            )
         head, *body = [" & ".join(row) + r" \\" for row in cells]
         lines = [rf"\begin{{tabular}}{{{kinds}}}", r"\hline", head, r"\hline", *body, r"\hline"]
         return "\n".join([*lines, r"\end{tabular}"])
 
-    def csv(self) -> str:
+    def to_csv(self) -> str:
         """Comma-separated, the names with their units; texts that need it are quoted."""
         import csv
 
         written = io.StringIO()
         rows = csv.writer(written, lineterminator="\n")
-        rows.writerow(_headed(*column) for column in self.columns)
-        rows.writerows([None if cell is None else _bare(cell) for cell in row] for row in self.rows)
+        rows.writerow(_format_head(*column) for column in self.columns)
+        rows.writerows(
+            [None if cell is None else _get_value(cell) for cell in row] for row in self.rows
+        )
         return written.getvalue()
 
     def to_dict(self) -> dict[str, Any]:
         """Plain data: title, units, and the cells of every column by its name."""
         names = [name for name, _ in self.columns]
-        cells = zip(*([_bare(cell) for cell in row] for row in self.rows), strict=True)
+        cells = zip(*([_get_value(cell) for cell in row] for row in self.rows), strict=True)
         columns = dict(zip(names, map(list, cells), strict=True)) if self.rows else {}
         return {"title": self.title, "units": dict(self.columns), "columns": columns}
 
@@ -147,10 +153,10 @@ class Table(Brief):
             import pandas
         except ImportError:
             raise DataError(
-                f"to_frame: pandas is not installed; {installing('notebook')}"
+                f"to_frame: pandas is not installed; {suggest_install('notebook')}"
             ) from None
         names = [name for name, _ in self.columns]
-        rows = [[_bare(cell) for cell in row] for row in self.rows]
+        rows = [[_get_value(cell) for cell in row] for row in self.rows]
         frame = pandas.DataFrame(rows, columns=names)
         frame.attrs["title"], frame.attrs["units"] = self.title, dict(self.columns)
         return frame
@@ -161,17 +167,17 @@ class Table(Brief):
         Raises:
             DataError: no such column.
         """
-        names = [own for own, _ in self.columns]
+        names = [label for label, _ in self.columns]
         if name not in names:
             raise DataError(f"column: got {name}; this table has {', '.join(names)}")
         return [row[names.index(name)] for row in self.rows]
 
-    def _numeric(self, k: int) -> bool:
-        found = [row[k] for row in self.rows if row[k] is not None]
-        return all(isinstance(cell, int | float) for cell in found)
+    def _is_numeric(self, k: int) -> bool:
+        cells = [row[k] for row in self.rows if row[k] is not None]
+        return all(isinstance(cell, int | float) for cell in cells)
 
 
-def aligned(rows: Sequence[Sequence[str]], left: Sequence[int]) -> list[str]:
+def align_columns(rows: Sequence[Sequence[str]], left: Sequence[int]) -> list[str]:
     """Columns as wide as what stands in them, two spaces between; numbers to the right."""
     widths = [max(len(row[k]) for row in rows) for k in range(len(rows[0]))]
     return [
@@ -183,15 +189,15 @@ def aligned(rows: Sequence[Sequence[str]], left: Sequence[int]) -> list[str]:
     ]
 
 
-def _headed(name: str, unit: str) -> str:
+def _format_head(name: str, unit: str) -> str:
     return f"{name} [{unit}]" if unit else name
 
 
-def _bare(cell: Cell) -> str | float | None:
+def _get_value(cell: Cell) -> str | float | None:
     return cell.text if isinstance(cell, MathCell) else cell
 
 
-def _plain(cell: Cell) -> str:
+def _format_cell(cell: Cell) -> str:
     if isinstance(cell, MathCell):
         return cell.text
     if isinstance(cell, bool):
@@ -201,12 +207,12 @@ def _plain(cell: Cell) -> str:
     return f"{cell:.6g}" if isinstance(cell, float) else str(cell)
 
 
-def _formula(cell: Cell) -> str:
+def _format_formula(cell: Cell) -> str:
     """A cell as text, a formula between dollars."""
-    return f"${cell.latex}$" if isinstance(cell, MathCell) else _plain(cell)
+    return f"${cell.latex}$" if isinstance(cell, MathCell) else _format_cell(cell)
 
 
-def labelled(values: Any, index: Any, columns: Sequence[str] | None = None) -> Any:
+def label_values(values: Any, index: Any, columns: Sequence[str] | None = None) -> Any:
     """Numbers by name: a Series or DataFrame of pandas where that is installed, else bare ones.
 
     Args:
@@ -243,7 +249,7 @@ Part = tuple[str, float, float]
 """Of one joint: unit of its effort, summed squared residual, summed squared measured effort."""
 
 
-def errors_by_unit(parts: Iterable[Part]) -> dict[str, float]:
+def pool_errors_by_unit(parts: Iterable[Part]) -> dict[str, float]:
     """||residual|| / ||effort|| over all joints of one unit, by unit; N m first, NaN without any.
 
     Args:
@@ -259,11 +265,13 @@ def errors_by_unit(parts: Iterable[Part]) -> dict[str, float]:
     }
 
 
-def text_by_unit(errors: Mapping[str, float]) -> str:
+def format_errors_by_unit(errors: Mapping[str, float]) -> str:
     """Errors as text: "2.1 % of the torques (N m), 3 % of the forces (N)"; of one unit: "2.1 %"."""
     if len(errors) == 1:
-        return percent(next(iter(errors.values())))
-    return ", ".join(f"{percent(e)} of the {WORDS[unit]}s ({unit})" for unit, e in errors.items())
+        return format_percent(next(iter(errors.values())))
+    return ", ".join(
+        f"{format_percent(e)} of the {WORDS[unit]}s ({unit})" for unit, e in errors.items()
+    )
 
 
 POOLED = (
@@ -277,7 +285,7 @@ DIGITS = 4
 """Most significant digits of an error that is printed: what does not differ in them is the same."""
 
 
-def percent(share: float | None, digits: int = 3) -> str:
+def format_percent(share: float | None, digits: int = 3) -> str:
     """A share in percent, as in "3.41 %"; "-" where it is not known.
 
     What is less than a part in a million is 0: no measurement tells it.
@@ -288,7 +296,9 @@ def percent(share: float | None, digits: int = 3) -> str:
     return f"{value:.{digits}g} %" if abs(value) < 10**digits - 0.5 else f"{value:.0f} %"
 
 
-def printed(before: float, after: float) -> tuple[str, str]:
+def format_error_pair(before: float, after: float) -> tuple[str, str]:
     """Two errors in percent, with a digit more where they are alike in three."""
-    pair, finer = ((percent(before, digits), percent(after, digits)) for digits in (3, DIGITS))
+    pair, finer = (
+        (format_percent(before, digits), format_percent(after, digits)) for digits in (3, DIGITS)
+    )
     return finer if pair[0] == pair[1] and finer[0] != finer[1] else pair

@@ -23,22 +23,28 @@ def thin_curves(curves: tuple[np.ndarray, ...], limit: int = LIMIT) -> np.ndarra
     if rows <= limit:
         return np.arange(rows)
     size = -(-rows // max(1, (limit - 2) // (2 * len(curves))))
-    kept = [np.array([0, rows - 1])]
+    row_groups = [np.array([0, rows - 1])]
     for values in curves:
-        kept += [
-            _in_bins(values, size, np.argmin, np.inf),
-            _in_bins(values, size, np.argmax, -np.inf),
+        row_groups += [
+            _find_bin_extremes(values, size, np.argmin, np.inf),
+            _find_bin_extremes(values, size, np.argmax, -np.inf),
         ]
-    return np.unique(np.concatenate(kept))
+    return np.unique(np.concatenate(row_groups))
 
 
-def _in_bins(values: np.ndarray, size: int, find: Callable[..., Any], gap: float) -> np.ndarray:
+def _find_bin_extremes(
+    values: np.ndarray, size: int, find: Callable[..., Any], gap: float
+) -> np.ndarray:
     """The row of an extreme of each bin of so many rows; the last bin has what is left."""
     missing = np.isnan(values)
-    held = np.where(missing, gap, values) if missing.any() else values
+    filled = np.where(missing, gap, values) if missing.any() else values
     whole = values.size - values.size % size
-    found = find(held[:whole].reshape(-1, size), axis=1) + np.arange(0, whole, size)
-    return found if whole == values.size else np.append(found, whole + find(held[whole:]))
+    extreme_rows = find(filled[:whole].reshape(-1, size), axis=1) + np.arange(0, whole, size)
+    return (
+        extreme_rows
+        if whole == values.size
+        else np.append(extreme_rows, whole + find(filled[whole:]))
+    )
 
 
 def thin_points(x: np.ndarray, y: np.ndarray, limit: int = LIMIT) -> np.ndarray:

@@ -9,7 +9,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from modeler.core.errors import RobotError
-from modeler.core.expression import Expression, ExpressionError, parse
+from modeler.core.expression import Expression, ExpressionError, parse_expression
 from modeler.core.law import Law
 
 LARGEST = 1e12
@@ -19,88 +19,90 @@ _LONGEST = 60  # letters of the user's text that are quoted
 
 
 @dataclass(frozen=True)
-class Place:
+class TomlCell:
     """A place in a robot file, `arm.toml: [mdh] row "3", column theta`, and what stands there.
 
     Its methods give that value as what it has to be; each raises a `RobotError` if it is not.
     """
 
     file: str
-    spot: str = ""
+    location: str = ""
     value: Any = None
 
-    def at(self, spot: str, value: Any = None) -> "Place":
+    def enter(self, spot: str, value: Any = None) -> "TomlCell":
         """The place inside this one."""
-        return Place(self.file, f"{self.spot}, {spot}" if self.spot else spot, value)
+        return TomlCell(self.file, f"{self.location}, {spot}" if self.location else spot, value)
 
-    def holding(self, value: Any) -> "Place":
+    def with_value(self, value: Any) -> "TomlCell":
         """The same place with another value: one of the entries that stand there."""
-        return Place(self.file, self.spot, value)
+        return TomlCell(self.file, self.location, value)
 
-    def error(self, what: str) -> RobotError:
+    def make_error(self, what: str) -> RobotError:
         """The error to raise: the place and `what`, as one line."""
-        where = f"{self.file}: {self.spot}" if self.spot else self.file
+        where = f"{self.file}: {self.location}" if self.location else self.file
         words = (w if len(w) <= _LONGEST else f"{w[:_LONGEST]}..." for w in what.split())
         return RobotError(" ".join([*f"{where}:".split(), *words]))
 
-    def mismatch(self, expected: str) -> RobotError:
+    def make_mismatch(self, expected: str) -> RobotError:
         """The error to raise where something else stands than is expected."""
-        return self.error(f"got {shown(self.value)}; expected {expected}")
+        return self.make_error(f"got {quote_value(self.value)}; expected {expected}")
 
-    def expression(self, law: Law | None = None) -> Expression:
+    def read_expression(self, law: Law | None = None) -> Expression:
         """An `Expression` or a number; names are not checked. `law` may stand in it."""
         try:
-            return parse(self.value, law)
+            return parse_expression(self.value, law)
         except ExpressionError as error:
-            told = str(error)
+            message = str(error)
             if isinstance(self.value, str):
-                told = told.replace(f'"{self.value.strip()}"', shown(self.value.strip()))
-            raise self.error(told) from None
+                message = message.replace(
+                    f'"{self.value.strip()}"', quote_value(self.value.strip())
+                )
+            raise self.make_error(message) from None
 
-    def number(self, example: str) -> float:
+    def read_number(self, example: str) -> float:
         """A finite number, not an expression."""
         if isinstance(self.value, bool) or not isinstance(self.value, int | float):
-            raise self.mismatch(f"a number such as {example}")
+            raise self.make_mismatch(f"a number such as {example}")
         try:
             number = float(self.value)
         except OverflowError:
             number = math.inf
         if not math.isfinite(number):
-            raise self.mismatch(f"a finite number such as {example}")
+            raise self.make_mismatch(f"a finite number such as {example}")
         if abs(number) > LARGEST:
-            raise self.mismatch(f"at most {LARGEST:g} in SI units, such as {example}")
+            raise self.make_mismatch(f"at most {LARGEST:g} in SI units, such as {example}")
         return number
 
-    def text(self, example: str) -> str:
+    def read_text(self, example: str) -> str:
         """A TOML string that is not empty."""
         if not isinstance(self.value, str) or not self.value.strip():
-            raise self.mismatch(f"text such as {example}")
+            raise self.make_mismatch(f"text such as {example}")
         return self.value
 
-    def entries(self, example: str, length: int | None = None) -> list[Any]:
+    def read_list(self, example: str, length: int | None = None) -> list[Any]:
         """A TOML array, of `length` entries if that is given."""
         if not isinstance(self.value, list):
-            raise self.mismatch(f"a list such as {example}")
+            raise self.make_mismatch(f"a list such as {example}")
         count = len(self.value)
         if length is not None and count != length:
-            raise self.error(
+            raise self.make_error(
                 f"got {count} entries, expected {length}, as in {example}; "
                 f"{'add' if count < length else 'remove'} {abs(count - length)}"
             )
         return self.value
 
-    def table(self, example: str) -> dict[str, Any]:
+    def read_table(self, example: str) -> dict[str, Any]:
         """A TOML table."""
         if not isinstance(self.value, dict):
-            raise self.mismatch(f"a table, as in {example}")
+            raise self.make_mismatch(f"a table, as in {example}")
         return self.value
 
-    def items(self, example: str) -> "Iterator[tuple[str, Place]]":
+    def read_items(self, example: str) -> "Iterator[tuple[str, TomlCell]]":
         """The keys of a TOML table, each with what stands there."""
-        for key, value in self.table(example).items():
-            yield key, self.at(shown(key), value)
+        for key, value in self.read_table(example).items():
+            yield key, self.enter(quote_value(key), value)
 
-    def checked_table(
+    def read_checked_table(
         self, keys: Collection[str], example: str, unknown: str = "", missing: str = ""
     ) -> dict[str, Any]:
         """A TOML table with the keys that it may have and those that it needs.
@@ -111,18 +113,20 @@ class Place:
             unknown: what to do about another one; by default `keys` are listed.
             missing: what to do about one that is missing; empty if all may be.
         """
-        table = self.table(example)
+        table = self.read_table(example)
         for key in table:
             if key not in keys:
-                told = unknown or f"expected {listed(keys)}"
-                raise self.error(f"unknown key {shown(key)}{near(key, keys)}; {told}")
+                advice = unknown or f"expected {join_names(keys)}"
+                raise self.make_error(
+                    f"unknown key {quote_value(key)}{suggest_name(key, keys)}; {advice}"
+                )
         for key in keys:
             if missing and key not in table:
-                raise self.error(f"{key} is missing; {missing}")
+                raise self.make_error(f"{key} is missing; {missing}")
         return table
 
 
-def shown(value: Any) -> str:
+def quote_value(value: Any) -> str:
     """The user's value as he wrote it, shortened: `"q1"`, `1.57`, `[1, 2]`."""
     if isinstance(value, bool):
         text = str(value).lower()
@@ -136,37 +140,39 @@ def shown(value: Any) -> str:
     return text if len(text) <= _LONGEST else f"{text[: _LONGEST - 4]} ..."
 
 
-def listed(names: Iterable[str]) -> str:
+def join_names(names: Iterable[str]) -> str:
     """`a, b, c`; `none` if there is nothing to list."""
     return ", ".join(names) or "none"
 
 
-def near(name: Any, names: Iterable[str]) -> str:
+def suggest_name(name: Any, names: Iterable[str]) -> str:
     """` (did you mean "viscous"?)` for a misspelt name, else nothing."""
     if not isinstance(name, str):
         return ""
     # Letter case is the commonest slip: d3 for D3.
     known = {known.lower(): known for known in names}
-    found = difflib.get_close_matches(name.lower(), known, n=2, cutoff=0.6)
-    if not found:
+    matches = difflib.get_close_matches(name.lower(), known, n=2, cutoff=0.6)
+    if not matches:
         return ""
-    return f" (did you mean {' or '.join(shown(known[key]) for key in found)}?)"
+    return f" (did you mean {' or '.join(quote_value(known[key]) for key in matches)}?)"
 
 
-def toml_text(value: object) -> str:
+def format_toml(value: object) -> str:
     """A value as it stands in a robot file."""
     if isinstance(value, str):
         return json.dumps(value, ensure_ascii=False)
     if isinstance(value, bool):
         return str(value).lower()
     if isinstance(value, Mapping):
-        entries = ", ".join(f"{toml_key(key)} = {toml_text(entry)}" for key, entry in value.items())
+        entries = ", ".join(
+            f"{format_toml_key(key)} = {format_toml(entry)}" for key, entry in value.items()
+        )
         return f"{{{entries}}}"
     if isinstance(value, list):
-        return "[" + ", ".join(toml_text(entry) for entry in value) + "]"
+        return "[" + ", ".join(format_toml(entry) for entry in value) + "]"
     return repr(value)
 
 
-def toml_key(key: str) -> str:
+def format_toml_key(key: str) -> str:
     """A key as it stands there, in quotes where it needs them."""
     return key if re.fullmatch(r"[A-Za-z0-9_-]+", key) else json.dumps(key, ensure_ascii=False)

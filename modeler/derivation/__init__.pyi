@@ -1,57 +1,57 @@
 from . import relations as relations
-from .base_parameters import base_parameters as base_parameters
-from .certificate import kernel_modulo as kernel_modulo, row_echelon as row_echelon
+from .base_parameters import derive_base_parameters as derive_base_parameters
+from .certificate import compute_kernel as compute_kernel, reduce_to_echelon as reduce_to_echelon
 from .closure import (
     ALL as ALL,
     LOOP_JOINTS as LOOP_JOINTS,
     Closure as Closure,
-    meeting as meeting,
-    moved_postures as moved_postures,
+    compute_loop_frames as compute_loop_frames,
+    draw_nearby_postures as draw_nearby_postures,
 )
 from .columns import (
     LinkColumn as LinkColumn,
     ShaftColumn as ShaftColumn,
     Signal as Signal,
     StandardColumn as StandardColumn,
-    in_block as in_block,
+    is_in_block as is_in_block,
 )
 from .derive import (
     HomeModes as HomeModes,
+    complete_home as complete_home,
     derive_model as derive_model,
-    modes_near as modes_near,
-    with_home as with_home,
-    written as written,
+    express_as_home as express_as_home,
+    find_modes_near as find_modes_near,
 )
-from .differentiation import derivatives as derivatives
+from .differentiation import differentiate as differentiate
 from .enclosed import (
     EnclosedState as EnclosedState,
+    EnclosureError as EnclosureError,
     Enclosures as Enclosures,
-    NotEnclosed as NotEnclosed,
 )
 from .field import (
-    Relations as Relations,
+    LinearRelations as LinearRelations,
     SparseVector as SparseVector,
-    as_fraction as as_fraction,
-    by_powers as by_powers,
-    linear_relations as linear_relations,
-    places_of as places_of,
-    value_modulo as value_modulo,
-    with_square as with_square,
+    collect_powers as collect_powers,
+    convert_to_fraction as convert_to_fraction,
+    enumerate_places as enumerate_places,
+    evaluate_modulo as evaluate_modulo,
+    find_linear_relations as find_linear_relations,
+    replace_square as replace_square,
 )
 from .frame_motion import (
     BodyFrame as BodyFrame,
-    body_frame as body_frame,
-    frame_pose as frame_pose,
-    jacobian as jacobian,
-    jacobian_dot_qd as jacobian_dot_qd,
-    known_frames as known_frames,
-    twist as twist,
+    collect_frames as collect_frames,
+    derive_frame_pose as derive_frame_pose,
+    derive_jacobian as derive_jacobian,
+    derive_jacobian_dot_qd as derive_jacobian_dot_qd,
+    derive_twist as derive_twist,
+    find_body_frame as find_body_frame,
 )
 from .geometry import (
     Geometry as Geometry,
     GeometryRow as GeometryRow,
-    geometric_symbol as geometric_symbol,
-    quarter_turns as quarter_turns,
+    count_quarter_turns as count_quarter_turns,
+    create_geometric_symbol as create_geometric_symbol,
 )
 from .graph import (
     OPERATIONS as OPERATIONS,
@@ -63,58 +63,61 @@ from .graph import (
     Plan as Plan,
     Table as Table,
     Vector as Vector,
-    combination as combination,
+    combine_linearly as combine_linearly,
 )
 from .kinematics import (
     Composite as Composite,
     Pose as Pose,
     Screw as Screw,
-    base_poses as base_poses,
+    compute_base_poses as compute_base_poses,
+    compute_frame_gravity as compute_frame_gravity,
+    compute_free_screws as compute_free_screws,
+    compute_pose as compute_pose,
+    compute_poses as compute_poses,
+    compute_screws as compute_screws,
     cross as cross,
     dot as dot,
-    free_screws as free_screws,
-    gravity_in_frames as gravity_in_frames,
     plus as plus,
-    pose as pose,
-    poses as poses,
-    project as project,
-    screws as screws,
+    project_wrench as project_wrench,
     times as times,
 )
 from .labels import Label as Label
-from .lagrange import lagrange_torque as lagrange_torque
+from .lagrange import compute_lagrange_torque as compute_lagrange_torque
 from .model import (
     Entries as Entries,
     SymbolicModel as SymbolicModel,
-    along as along,
-    effect_entries as effect_entries,
-    followed as followed,
-    signal_symbol as signal_symbol,
+    combine_along_shaft as combine_along_shaft,
+    derive_effect_entries as derive_effect_entries,
+    evaluate_followed as evaluate_followed,
+    get_signal_symbol as get_signal_symbol,
 )
 from .momenta import (
-    coriolis_matrix as coriolis_matrix,
-    coriolis_transpose as coriolis_transpose,
-    energy_regressor as energy_regressor,
-    momentum as momentum,
-    momentum_regressor as momentum_regressor,
-    momentum_rest_regressor as momentum_rest_regressor,
-    power_regressor as power_regressor,
-    slotine_li_regressor as slotine_li_regressor,
+    derive_coriolis_matrix as derive_coriolis_matrix,
+    derive_coriolis_transpose as derive_coriolis_transpose,
+    derive_energy_regressor as derive_energy_regressor,
+    derive_momentum as derive_momentum,
+    derive_momentum_regressor as derive_momentum_regressor,
+    derive_momentum_rest_regressor as derive_momentum_rest_regressor,
+    derive_power_regressor as derive_power_regressor,
+    derive_slotine_li_regressor as derive_slotine_li_regressor,
 )
-from .numeric_rank import random_states as random_states, regressor_values as regressor_values
+from .numeric_rank import (
+    draw_random_states as draw_random_states,
+    evaluate_regressor as evaluate_regressor,
+)
 from .precise import (
     Ball as Ball,
-    ball_function as ball_function,
-    exact_ball as exact_ball,
-    flint as flint,
-    precise_values as precise_values,
+    build_ball as build_ball,
+    build_ball_function as build_ball_function,
+    evaluate_precisely as evaluate_precisely,
+    load_flint as load_flint,
 )
 from .relations import (
     as_latex as as_latex,
     as_markdown as as_markdown,
     as_text as as_text,
-    coefficient_text as coefficient_text,
-    relation_text as relation_text,
+    format_coefficient as format_coefficient,
+    format_relation as format_relation,
 )
 from .result import BaseParameter as BaseParameter, BaseParameters as BaseParameters
 from .walks import Linkage as Linkage

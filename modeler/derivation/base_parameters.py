@@ -4,25 +4,25 @@ from functools import cache, partial
 
 import numpy as np
 
-from modeler.derivation.certificate import PRIME, ModularState, modular_rank
-from modeler.derivation.columns import StandardColumn, in_block
-from modeler.derivation.field import ExactField, TooLarge, geometry_field
-from modeler.derivation.geometry import Geometry, exact_geometry
+from modeler.derivation.certificate import PRIME, ModularState, compute_modular_rank
+from modeler.derivation.columns import StandardColumn, is_in_block
+from modeler.derivation.field import CoefficientTooLarge, ExactField, build_geometry_field
+from modeler.derivation.geometry import Geometry, build_exact_geometry
 from modeler.derivation.grouping import (
     GroupingRelations,
-    base_from_relations,
-    column_relations,
-    friction_relations,
-    with_closure_relations,
+    add_closure_relations,
+    build_base_parameters,
+    derive_column_relations,
+    find_friction_relations,
 )
 from modeler.derivation.model import SymbolicModel
 from modeler.derivation.numeric_rank import (
     NumericRank,
     Sample,
-    numeric_grouping,
-    numeric_rank,
-    sampled,
-    torque_agreement,
+    compare_torques,
+    compute_numeric_rank,
+    derive_numeric_grouping,
+    draw_sample,
 )
 from modeler.derivation.result import (
     BallRank,
@@ -82,7 +82,7 @@ _NUMERIC = (
 )
 
 
-def base_parameters(model: SymbolicModel, seed: int = SEED) -> BaseParameters:
+def derive_base_parameters(model: SymbolicModel, seed: int = SEED) -> BaseParameters:
     """Base parameters of a serial or tree robot, with their relations and proof.
 
     The relations are exact in the symbols of the robot file. Where the given values make more
@@ -94,29 +94,29 @@ def base_parameters(model: SymbolicModel, seed: int = SEED) -> BaseParameters:
         DerivationError: a priority pattern matches nothing.
     """
     samples = max(60, 3 * len(model.columns) // max(1, len(model.robot.coordinates)))
-    sample = sampled(model, samples, seed)
-    numeric = numeric_rank(sample, range(len(model.columns)))
+    sample = draw_sample(model, samples, seed)
+    numeric = compute_numeric_rank(sample, range(len(model.columns)))
     try:
         if model.special:  # loops that close at the given values only
             joints = "joint" if len(model.special) == 1 else "joints"
-            raise NotProved(
+            raise ProofError(
                 f"the loops tie {joints} {', '.join(model.special)} to others at the given values "
                 "only"
             )
-        return _exact(model, model.geometry, sample, numeric, seed, "")
-    except (NotProved, TooLarge) as error:
+        return _derive_exact(model, model.geometry, sample, numeric, seed, "")
+    except (ProofError, CoefficientTooLarge) as error:
         why = str(error)
     try:
-        nominal = exact_geometry(model.robot, at_nominal=True)
+        nominal = build_exact_geometry(model.robot, at_nominal=True)
         statement = _AT_NOMINAL.format(why=why)
-        return _exact(model, nominal, sample, numeric, seed, statement)
-    except (NotProved, TooLarge) as error:
+        return _derive_exact(model, nominal, sample, numeric, seed, statement)
+    except (ProofError, CoefficientTooLarge) as error:
         if str(error) != why:
             why += f"; with these, {error}" if model.special else f"; in numbers, {error}"
-        return _numeric(model, sample, numeric, seed, why)
+        return _derive_numeric(model, sample, numeric, seed, why)
 
 
-def _exact(
+def _derive_exact(
     model: SymbolicModel,
     geometry: Geometry,
     sample: Sample,
@@ -125,89 +125,93 @@ def _exact(
     statement: str,
 ) -> BaseParameters:
     """Raises NotProved or TooLarge unless everything agrees."""
-    K = geometry_field(geometry)
-    relations = _relations(model, geometry, K, numeric, seed)
-    proved: Certificate
+    K = build_geometry_field(geometry)
+    relations = _derive_relations(model, geometry, K, numeric, seed)
+    independence: Certificate
     if model.closure is not None:
-        from modeler.derivation.enclosed import ball_rank  # most robots have no loops
+        from modeler.derivation.enclosed import prove_rank  # most robots have no loops
 
-        proved = ball_rank(model, relations.kept, sample, seed)
+        independence = prove_rank(model, relations.kept_columns, sample, seed)
     else:
-        proved = certificate(geometry, model.columns, K, relations, seed)
-    found = base_from_relations(model.columns, relations, K, model.robot.halves)
+        independence = certify_relations(geometry, model.columns, K, relations, seed)
+    grouping = build_base_parameters(model.columns, relations, K, model.robot.has_binary_fractions)
     kind = "exact at the given values" if statement else "exact"
-    if isinstance(proved, SampledRank):
+    if isinstance(independence, SampledRank):
         kind = f"relations {kind}, rank sampled"
-    tied = model.geometry.tied
+    tied = model.geometry.has_relations
     if model.closure is None:
         argument = _TIED if tied else _EXACT
     else:
         argument = _LOOPS.format(tree=_OPEN[tied])
-    statement = argument + _independent(model, proved, numeric) + statement
-    base = _proved(model, found, kind, statement, proved, sample, numeric, seed)
+    statement = argument + _describe_independence(model, independence, numeric) + statement
+    base = _attach_proof(model, grouping, kind, statement, independence, sample, numeric, seed)
     if base.proof.agreement > _AGREEMENT:
-        raise NotProved(f"base and standard torque differ by {base.proof.agreement:.1e}")
+        raise ProofError(f"base and standard torque differ by {base.proof.agreement:.1e}")
     return base
 
 
-def _proved(
-    model: SymbolicModel, found: tuple[tuple[BaseParameter, ...], tuple[str, ...]], kind: str,
-    statement: str, proved: Certificate, sample: Sample, numeric: NumericRank, seed: int,
+def _attach_proof(
+    model: SymbolicModel, grouping: tuple[tuple[BaseParameter, ...], tuple[str, ...]], kind: str,
+    statement: str, independence: Certificate, sample: Sample, numeric: NumericRank, seed: int,
 ) -> BaseParameters:  # fmt: skip
     """The base parameters and those without effect, with their proof."""
-    parameters, unidentifiable = found
+    parameters, unidentifiable = grouping
     if model.unproven:
         statement += _UNPROVEN.format(joints=", ".join(model.unproven))
     sampling, walk = None, sample.walk
     if walk is not None:
         assert model.closure is not None
-        moved = walk.postures[:, list(model.closure.given)]
+        moved = walk.postures[:, list(model.closure.actuated)]
         ends = zip(model.robot.coordinates, moved.min(axis=0), moved.max(axis=0), strict=True)
         ranges = {joint.name: (float(low), float(high)) for joint, low, high in ends}
         sampling = Sampling(len(walk.postures), ranges, walk.distance)
     proof = Proof(
-        kind, statement, proved, seed, numeric.rank, numeric.gap, numeric.tolerance,
-        numeric.scale, torque_agreement(model, parameters, seed), sampling,
+        kind, statement, independence, seed, numeric.rank, numeric.gap, numeric.tolerance,
+        numeric.scale, compare_torques(model, parameters, seed), sampling,
     )  # fmt: skip
     return BaseParameters(model.columns, parameters, unidentifiable, proof)
 
 
-def _relations(
+def _derive_relations(
     model: SymbolicModel, geometry: Geometry, K: ExactField, numeric: NumericRank, seed: int
 ) -> GroupingRelations:
     """All relations; raises NotProved where they are not as many as the torques say."""
-    relations = column_relations(model, geometry, K, seed)
-    if model.closure is not None and len(relations.kept) > numeric.rank:
-        relations = with_closure_relations(model, geometry, K, relations, seed)
-    if len(relations.kept) != numeric.rank:
-        raise NotProved(
-            f"the symbols give rank {len(relations.kept)}, the torques at the given values "
+    relations = derive_column_relations(model, geometry, K, seed)
+    if model.closure is not None and len(relations.kept_columns) > numeric.rank:
+        relations = add_closure_relations(model, geometry, K, relations, seed)
+    if len(relations.kept_columns) != numeric.rank:
+        raise ProofError(
+            f"the symbols give rank {len(relations.kept_columns)}, the torques at the given values "
             f"{numeric.rank}"
         )
     return relations
 
 
-def _independent(model: SymbolicModel, proved: Certificate, numeric: NumericRank) -> str:
+def _describe_independence(
+    model: SymbolicModel, independence: Certificate, numeric: NumericRank
+) -> str:
     """The argument of the independence, where relations and independence have two."""
-    if isinstance(proved, BallRank):
+    if isinstance(independence, BallRank):
         return _IN_BALLS.format(where=_WHERE[model.closure is not None])
-    if isinstance(proved, SampledRank):
+    if isinstance(independence, SampledRank):
         margin = numeric.gap[0] / max(numeric.gap[1], float(np.finfo(float).eps))
-        return _SAMPLED.format(why=proved.why, margin=margin)
+        return _SAMPLED.format(why=independence.why, margin=margin)
     return ""
 
 
-def _numeric(
+def _derive_numeric(
     model: SymbolicModel, sample: Sample, numeric: NumericRank, seed: int, why: str
 ) -> BaseParameters:
-    from modeler.derivation.enclosed import ball_rank, enclosed_factors
+    from modeler.derivation.enclosed import enclose_factors, prove_rank
 
-    exact = partial(enclosed_factors, model, sample, seed)
-    parameters, unidentifiable, bound = numeric_grouping(model, sample, numeric, exact)
-    proved = ball_rank(model, [p.column for p in parameters], sample, seed)
-    statement = _NUMERIC.format(why=why, bound=bound) + _independent(model, proved, numeric)
-    found = parameters, unidentifiable
-    return _proved(model, found, "numeric", statement, proved, sample, numeric, seed)
+    exact = partial(enclose_factors, model, sample, seed)
+    parameters, unidentifiable, bound = derive_numeric_grouping(model, sample, numeric, exact)
+    independence = prove_rank(model, [p.column for p in parameters], sample, seed)
+    statement = _NUMERIC.format(why=why, bound=bound) + _describe_independence(
+        model, independence, numeric
+    )
+    grouping = parameters, unidentifiable
+    return _attach_proof(model, grouping, "numeric", statement, independence, sample, numeric, seed)
 
 
 # The proof of a grouping modulo a prime.
@@ -216,11 +220,11 @@ def _numeric(
 _CHECKS = 3
 
 
-class NotProved(Exception):
+class ProofError(Exception):
     """The certificate contradicts the relations; says how."""
 
 
-def certificate(
+def certify_relations(
     geometry: Geometry,
     columns: tuple[StandardColumn, ...],
     K: ExactField,
@@ -233,16 +237,18 @@ def certificate(
         NotProved: a relation does not hold, or the kept columns are dependent.
     """
     # Without gravity only the kinetic row of each point counts.
-    points = len(relations.kept) + 8
+    points = len(relations.kept_columns) + 8
     for check in range(_CHECKS):
         try:
             state = ModularState(geometry, K, points, seed + check)
             _check_relations(columns, K, relations, state)
         except ValueError as error:  # a constant whose denominator is a multiple of the prime
-            raise NotProved(f"a constant has no value modulo {PRIME} ({error})") from None
-    rank = _modular_rank(columns, relations, state)
-    if rank != len(relations.kept):
-        raise NotProved(f"of {len(relations.kept)} columns kept only {rank} are independent")
+            raise ProofError(f"a constant has no value modulo {PRIME} ({error})") from None
+    rank = _compute_kept_rank(columns, relations, state)
+    if rank != len(relations.kept_columns):
+        raise ProofError(
+            f"of {len(relations.kept_columns)} columns kept only {rank} are independent"
+        )
     return ModularRank(rank, PRIME, _CHECKS * points, seed)
 
 
@@ -252,26 +258,34 @@ def _check_relations(
     relations: GroupingRelations,
     state: ModularState,
 ) -> None:
-    rows = np.vstack([state.energy_rows(columns), state.rayleigh_rows(columns)])
-    dry = {place for place, c in enumerate(columns) if in_block(c, EnergyBlock.COULOMB)}
-    residue = cache(partial(K.residue, values=state.residues, prime=PRIME))
-    for relation, dropped in zip(relations.rows, relations.dropped, strict=True):
+    rows = np.vstack([state.compute_energy_rows(columns), state.compute_rayleigh_rows(columns)])
+    coulomb_places = {
+        place for place, c in enumerate(columns) if is_in_block(c, EnergyBlock.COULOMB)
+    }
+    residue = cache(partial(K.compute_residue, values=state.residues, prime=PRIME))
+    for relation, dropped in zip(relations.rows, relations.dropped_columns, strict=True):
         total = np.zeros(rows.shape[0], dtype=np.int64)
         for place, coefficient in relation.items():
             total = (total + rows[:, place] * residue(coefficient)) % PRIME
-        if np.any(total) and dropped not in dry:
-            raise NotProved(f"the relation of {columns[dropped].name} does not hold")
+        if np.any(total) and dropped not in coulomb_places:
+            raise ProofError(f"the relation of {columns[dropped].name} does not hold")
 
 
-def _modular_rank(
+def _compute_kept_rank(
     columns: tuple[StandardColumn, ...], relations: GroupingRelations, state: ModularState
 ) -> int:
-    kept = list(relations.kept)
-    left = [columns[i] for i in kept]
-    energy = modular_rank(state.energy_rows(columns)[:, kept])
-    rayleigh = modular_rank(state.rayleigh_rows(columns)[:, kept])
-    dry = [column for column in left if in_block(column, EnergyBlock.COULOMB)]
-    own = sum(in_block(column, EnergyBlock.OWN) for column in left)
+    kept_columns = list(relations.kept_columns)
+    left = [columns[i] for i in kept_columns]
+    energy = compute_modular_rank(state.compute_energy_rows(columns)[:, kept_columns])
+    rayleigh = compute_modular_rank(state.compute_rayleigh_rows(columns)[:, kept_columns])
+    coulomb_columns = [column for column in left if is_in_block(column, EnergyBlock.COULOMB)]
+    separate_rank = sum(is_in_block(column, EnergyBlock.OWN) for column in left)
     # Columns |v| of pairwise non-proportional speeds are independent: see
     # `modeler.derivation.grouping`.
-    return energy + rayleigh + own + len(dry) - len(friction_relations(dry))
+    return (
+        energy
+        + rayleigh
+        + separate_rank
+        + len(coulomb_columns)
+        - len(find_friction_relations(coulomb_columns))
+    )

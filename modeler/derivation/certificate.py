@@ -16,8 +16,8 @@ from math import isqrt, lcm
 import numpy as np
 import sympy
 
-from modeler.derivation.columns import LinkColumn, ShaftColumn, StandardColumn, in_block
-from modeler.derivation.field import ExactField, cosine_symbol
+from modeler.derivation.columns import LinkColumn, ShaftColumn, StandardColumn, is_in_block
+from modeler.derivation.field import ExactField, get_cosine_symbol
 from modeler.derivation.geometry import Geometry, GeometryRow, cos_sin
 from modeler.effects import EnergyBlock
 
@@ -35,12 +35,12 @@ Residues = np.ndarray
 """Reduced modulo the prime; one entry per point."""
 
 
-def filled(value: int, points: int, prime: int) -> Residues:
+def fill_residues(value: int, points: int, prime: int) -> Residues:
     """The same residue at all points."""
     return np.full(points, value % prime, dtype=np.int64 if prime == SMALL else object)
 
 
-def drawn(rng: np.random.Generator, shape: tuple[int, ...], prime: int) -> Residues:
+def draw_residues(rng: np.random.Generator, shape: tuple[int, ...], prime: int) -> Residues:
     """Random residues, neither 0 nor 1."""
     if prime == SMALL:
         return rng.integers(2, prime, size=shape, dtype=np.int64)
@@ -48,7 +48,7 @@ def drawn(rng: np.random.Generator, shape: tuple[int, ...], prime: int) -> Resid
     return (parts[0] * 2**62 + parts[1]) % prime
 
 
-def power(value: Residues, n: int, prime: int) -> Residues:
+def compute_power(value: Residues, n: int, prime: int) -> Residues:
     """value**n, n >= 0."""
     result = value * 0 + 1
     while n:
@@ -59,26 +59,26 @@ def power(value: Residues, n: int, prime: int) -> Residues:
     return result
 
 
-def inverse(value: Residues, prime: int) -> Residues:
+def invert_residues(value: Residues, prime: int) -> Residues:
     """1 / value.
 
     Raises:
         ValueError: an entry is 0, modulo LARGE.
     """
     if prime == SMALL:
-        return power(value, prime - 2, prime)
+        return compute_power(value, prime - 2, prime)
     # One inversion for all entries (Montgomery): that of their product.
     products = list(accumulate(value.tolist(), lambda a, b: a * b % prime))
     rest = pow(products[-1], -1, prime)
-    found = np.empty(len(products), dtype=object)
+    inverses = np.empty(len(products), dtype=object)
     for i in range(len(products) - 1, 0, -1):
-        found[i] = rest * products[i - 1] % prime
+        inverses[i] = rest * products[i - 1] % prime
         rest = rest * value[i] % prime
-    found[0] = rest
-    return found
+    inverses[0] = rest
+    return inverses
 
 
-def rational(number: Fraction, prime: int) -> int:
+def reduce_rational(number: Fraction, prime: int) -> int:
     """A rational number as a residue.
 
     Raises:
@@ -87,15 +87,15 @@ def rational(number: Fraction, prime: int) -> int:
     return number.numerator * pow(number.denominator, -1, prime) % prime
 
 
-def circle(t: Residues, prime: int) -> tuple[Residues, Residues]:
+def compute_circle_point(t: Residues, prime: int) -> tuple[Residues, Residues]:
     """The point of the unit circle with tan(a/2) = t: (cos, sin)."""
     square = t * t % prime
     # 1 + t**2 is never 0: both primes are 3 modulo 4.
-    scale = inverse((1 + square) % prime, prime)
+    scale = invert_residues((1 + square) % prime, prime)
     return (1 - square) * scale % prime, 2 * t % prime * scale % prime
 
 
-def turned(
+def add_angles(
     a: tuple[Residues, Residues], b: tuple[Residues, Residues], prime: int
 ) -> tuple[Residues, Residues]:
     """(cos, sin) of the sum of two angles."""
@@ -103,7 +103,7 @@ def turned(
     return c, (a[1] * b[0] % prime + a[0] * b[1] % prime) % prime
 
 
-def reconstructed(residue: int, prime: int) -> Fraction | None:
+def reconstruct_rational(residue: int, prime: int) -> Fraction | None:
     """The rational number of small numerator and denominator that the residue stands for.
 
     Wang's algorithm: half of the extended Euclidean algorithm, bounded by sqrt(prime / 2); None if
@@ -119,7 +119,7 @@ def reconstructed(residue: int, prime: int) -> Fraction | None:
     return Fraction(b, v)
 
 
-def row_echelon(
+def reduce_to_echelon(
     matrix: np.ndarray, order: Sequence[int], prime: int, reduced: bool = True
 ) -> list[tuple[int, int]]:
     """Bring `matrix` in place to (reduced) row echelon form, columns tried in the given order.
@@ -151,10 +151,10 @@ def row_echelon(
     return pivots
 
 
-def kernel_modulo(matrix: np.ndarray, prime: int) -> np.ndarray:
+def compute_kernel(matrix: np.ndarray, prime: int) -> np.ndarray:
     """(columns - rank, columns) rows that span {x: matrix x = 0}; reduces `matrix` in place."""
     width = matrix.shape[1]
-    pivots = [column for _, column in row_echelon(matrix, range(width), prime)]
+    pivots = [column for _, column in reduce_to_echelon(matrix, range(width), prime)]
     free = [k for k in range(width) if k not in pivots]
     kernel = np.zeros((len(free), width), dtype=matrix.dtype)
     kernel[range(len(free)), free] = 1
@@ -177,12 +177,12 @@ def dot(a: Residues, b: Residues, prime: int) -> Residues:
     return np.asarray((a * b % prime).sum(axis=0) % prime)
 
 
-def in_axes(R: Residues, v: Residues, prime: int) -> Residues:
+def rotate_into_axes(R: Residues, v: Residues, prime: int) -> Residues:
     """R^T v: the components of v along the axes of R."""
     return np.asarray((R * v[:, None] % prime).sum(axis=0) % prime)
 
 
-def turn(R: Residues, axis: int, c: Residues, s: Residues, prime: int) -> Residues:
+def rotate_about_axis(R: Residues, axis: int, c: Residues, s: Residues, prime: int) -> Residues:
     """R times the rotation by (c, s) about its own axis x (0) or z (2)."""
     i, j = (1, 2) if axis == 0 else (0, 1)
     out = R.copy()
@@ -221,38 +221,41 @@ class ModularState:
         """
         rng = np.random.default_rng(seed)
         self.geometry, self.points, self.prime = geometry, points, prime
-        self.residues = {letter: int(drawn(rng, (1,), prime)[0]) for letter in K.letters}
+        self.residues = {letter: int(draw_residues(rng, (1,), prime)[0]) for letter in K.letters}
         self.letters = letters or {
-            letter: filled(residue, points, prime) for letter, residue in self.residues.items()
+            letter: fill_residues(residue, points, prime)
+            for letter, residue in self.residues.items()
         }
-        self.value = cache(self._evaluated)
-        count = geometry.coordinates
-        self.qd = drawn(rng, (count, points), prime)
-        self.travel = drawn(rng, (count, points), prime)
+        self.value = cache(self._evaluate_constant)
+        count = geometry.coordinate_count
+        self.qd = draw_residues(rng, (count, points), prime)
+        self.travel = draw_residues(rng, (count, points), prime)
         # Common denominators of the coefficients with which the free variables enter angles.
         self._scales = [1] * count
         for row in geometry.rows:
-            if row.index is not None and row.joint.angular:
+            if row.index is not None and row.joint.is_revolute:
                 for k, coefficient in geometry.forms[row.index].items():
                     self._scales[k] = lcm(self._scales[k], coefficient.denominator)
-        self._units = [circle(t, prime) for t in drawn(rng, (count, points), prime)]
+        self._units = [
+            compute_circle_point(t, prime) for t in draw_residues(rng, (count, points), prime)
+        ]
         self.gravity = np.stack([self.value(entry) for entry in geometry.gravity])
         # R, p, angular and linear velocity of every row's frame, in the base frame.
-        zero, one = (filled(n, points, prime) for n in (0, 1))
+        zero, one = (fill_residues(n, points, prime) for n in (0, 1))
         none = np.stack([zero] * 3)
         identity = np.stack([one, *[zero] * 3] * 2 + [one]).reshape(3, 3, points)
         self.motion: list[tuple[Residues, ...]] = []
         for row in geometry.rows:
             at = (identity, none, none, none) if row.parent is None else self.motion[row.parent]
-            self.motion.append(self._frame(row, *at))
+            self.motion.append(self._propagate_frame(row, *at))
 
-    def _evaluated(self, e: sympy.Expr) -> Residues:
+    def _evaluate_constant(self, e: sympy.Expr) -> Residues:
         """Residues of a constant expression."""
         if e.is_Rational:
-            number = rational(Fraction(int(e.p), int(e.q)), self.prime)
-            return filled(number, self.points, self.prime)
+            number = reduce_rational(Fraction(int(e.p), int(e.q)), self.prime)
+            return fill_residues(number, self.points, self.prime)
         if e.func in (sympy.cos, sympy.sin):
-            c, s = circle(self.letters[cosine_symbol(e)], self.prime)
+            c, s = compute_circle_point(self.letters[get_cosine_symbol(e)], self.prime)
             return c if e.func is sympy.cos else s
         if e in self.letters:
             return self.letters[e]
@@ -263,114 +266,133 @@ class ModularState:
                 total = (total + other if e.is_Add else total * other) % self.prime
             return total
         n = int(e.exp)
-        base = power(self.value(e.base), abs(n), self.prime)
-        return base if n >= 0 else inverse(base, self.prime)
+        base = compute_power(self.value(e.base), abs(n), self.prime)
+        return base if n >= 0 else invert_residues(base, self.prime)
 
-    def _frame(
+    def _propagate_frame(
         self, row: GeometryRow, R: Residues, p: Residues, w: Residues, v: Residues
     ) -> tuple[Residues, ...]:
         p0, prime = p, self.prime
-        R = turn(R, 2, *self._cos_sin(row.gamma), prime)
+        R = rotate_about_axis(R, 2, *self._evaluate_cos_sin(row.gamma), prime)
         p = (p + R[:, 2] * self.value(row.b)) % prime
-        R = turn(R, 0, *self._cos_sin(row.alpha), prime)
+        R = rotate_about_axis(R, 0, *self._evaluate_cos_sin(row.alpha), prime)
         p = (p + R[:, 0] * self.value(row.d)) % prime
         moving = row.index is not None
-        if not moving or not row.joint.angular or self.geometry.tied:
+        if not moving or not row.joint.is_revolute or self.geometry.has_relations:
             # The constant part of a free angle only shifts the variable, which is random anyway.
-            R = turn(R, 2, *self._cos_sin(row.theta), prime)
-        if moving and row.joint.angular:
-            R = turn(R, 2, *self._angle(row), prime)
-        slides = moving and not row.joint.angular
-        r = self.value(row.r) if not slides or self.geometry.tied else self.value(sympy.Integer(0))
+            R = rotate_about_axis(R, 2, *self._evaluate_cos_sin(row.theta), prime)
+        if moving and row.joint.is_revolute:
+            R = rotate_about_axis(R, 2, *self._compute_joint_angle(row), prime)
+        slides = moving and not row.joint.is_revolute
+        r = (
+            self.value(row.r)
+            if not slides or self.geometry.has_relations
+            else self.value(sympy.Integer(0))
+        )
         if slides:
-            r = (r + row.rate * self._combined(row, self.travel)) % prime
+            r = (r + row.rate * self._combine_row(row, self.travel)) % prime
         p = (p + R[:, 2] * r) % prime
         v = (v + cross(w, p - p0, prime)) % prime
         if moving:
-            speed = row.rate * self._combined(row, self.qd) % prime
-            own = R[:, 2] * speed
-            w, v = ((w + own) % prime, v) if row.joint.angular else (w, (v + own) % prime)
+            speed = row.rate * self._combine_row(row, self.qd) % prime
+            joint_velocity = R[:, 2] * speed
+            w, v = (
+                ((w + joint_velocity) % prime, v)
+                if row.joint.is_revolute
+                else (w, (v + joint_velocity) % prime)
+            )
         return R, p, w, v
 
-    def _combined(self, row: GeometryRow, free: Residues) -> Residues:
+    def _combine_row(self, row: GeometryRow, free: Residues) -> Residues:
         assert row.index is not None
-        return self._sum(self.geometry.forms[row.index], free)
+        return self._combine_form(self.geometry.forms[row.index], free)
 
-    def _sum(self, form: Mapping[int, Fraction], free: Residues) -> Residues:
-        total = filled(0, self.points, self.prime)
+    def _combine_form(self, form: Mapping[int, Fraction], free: Residues) -> Residues:
+        total = fill_residues(0, self.points, self.prime)
         for k, coefficient in form.items():
-            total = (total + rational(coefficient, self.prime) * free[k]) % self.prime
+            total = (total + reduce_rational(coefficient, self.prime) * free[k]) % self.prime
         return total
 
-    def _angle(self, row: GeometryRow) -> tuple[Residues, Residues]:
+    def _compute_joint_angle(self, row: GeometryRow) -> tuple[Residues, Residues]:
         """(cos, sin) of rate * the row's variable: powers of the free variables' angles."""
         assert row.index is not None
-        total = (filled(1, self.points, self.prime), filled(0, self.points, self.prime))
+        total = (
+            fill_residues(1, self.points, self.prime),
+            fill_residues(0, self.points, self.prime),
+        )
         for k, coefficient in self.geometry.forms[row.index].items():
             turns = int(coefficient * self._scales[k]) * row.rate
             c, s = self._units[k]
             unit = (c, s if turns > 0 else -s % self.prime)
             for bit in bin(abs(turns))[:1:-1]:
                 if bit == "1":
-                    total = turned(total, unit, self.prime)
-                unit = turned(unit, unit, self.prime)
+                    total = add_angles(total, unit, self.prime)
+                unit = add_angles(unit, unit, self.prime)
         return total
 
-    def _cos_sin(self, angle: sympy.Expr) -> tuple[Residues, Residues]:
+    def _evaluate_cos_sin(self, angle: sympy.Expr) -> tuple[Residues, Residues]:
         c, s = cos_sin(angle)
         return self.value(c), self.value(s)
 
-    def energy_rows(self, columns: Sequence[StandardColumn]) -> np.ndarray:
+    def compute_energy_rows(self, columns: Sequence[StandardColumn]) -> np.ndarray:
         """(2 points, columns): rows of 2T, then of the power of gravity and constant forces."""
         n = self.points
-        rows = np.stack([filled(0, 2 * n, self.prime)] * len(columns), axis=1)
+        rows = np.stack([fill_residues(0, 2 * n, self.prime)] * len(columns), axis=1)
         links: dict[int, Mapping[str, tuple[Residues, Residues]]] = {}
         for place, column in enumerate(columns):
             for part in column.parts:
                 if isinstance(part, LinkColumn):
                     if part.row not in links:
-                        links[part.row] = self._link_rows(part.row)
+                        links[part.row] = self._compute_link_rows(part.row)
                     kinetic, power_of_gravity = links[part.row][part.prefix]
                     rows[:n, place] += kinetic
                     rows[n:, place] += power_of_gravity
                 elif part.block is EnergyBlock.KINETIC:
-                    rows[:n, place] += power(self.speed(part), 2, self.prime)
+                    rows[:n, place] += compute_power(self.compute_shaft_speed(part), 2, self.prime)
                 elif part.block is EnergyBlock.POWER:
-                    rows[n:, place] += self.speed(part)
+                    rows[n:, place] += self.compute_shaft_speed(part)
         return rows % self.prime
 
-    def rayleigh_rows(self, columns: Sequence[StandardColumn]) -> np.ndarray:
+    def compute_rayleigh_rows(self, columns: Sequence[StandardColumn]) -> np.ndarray:
         """(points, columns): v**2 of the viscous columns."""
-        rows = np.stack([filled(0, self.points, self.prime)] * len(columns), axis=1)
+        rows = np.stack([fill_residues(0, self.points, self.prime)] * len(columns), axis=1)
         for place, column in enumerate(columns):
-            if in_block(column, EnergyBlock.RAYLEIGH):
+            if is_in_block(column, EnergyBlock.RAYLEIGH):
                 for part in column.parts:
-                    rows[:, place] += power(self.speed(part), 2, self.prime)
+                    rows[:, place] += compute_power(self.compute_shaft_speed(part), 2, self.prime)
         return rows % self.prime
 
-    def speed(self, column: ShaftColumn) -> Residues:
+    def compute_shaft_speed(self, column: ShaftColumn) -> Residues:
         """Speed of the shaft of an effect's column."""
-        return self._sum(column.shaft, self.qd)
+        return self._combine_form(column.shaft, self.qd)
 
-    def _link_rows(self, row: int) -> Mapping[str, tuple[Residues, Residues]]:
+    def _compute_link_rows(self, row: int) -> Mapping[str, tuple[Residues, Residues]]:
         prime = self.prime
         R, _, w, v = self.motion[row]
-        w, v, g = (in_axes(R, x, prime) for x in (w, v, self.gravity))
+        w, v, g = (rotate_into_axes(R, x, prime) for x in (w, v, self.gravity))
         vw, gw = cross(v, w, prime), cross(g, w, prime)
-        nothing = filled(0, self.points, prime)
+        nothing = fill_residues(0, self.points, prime)
 
-        def both(i: int, j: int) -> tuple[Residues, Residues]:
+        def multiply_speeds(i: int, j: int) -> tuple[Residues, Residues]:
             return (w[i] * w[j] % prime * (1 if i == j else 2)) % prime, nothing
 
-        rows = {"XX": both(0, 0), "XY": both(0, 1), "XZ": both(0, 2)}
-        rows |= {"YY": both(1, 1), "YZ": both(1, 2), "ZZ": both(2, 2)}
+        rows = {
+            "XX": multiply_speeds(0, 0),
+            "XY": multiply_speeds(0, 1),
+            "XZ": multiply_speeds(0, 2),
+        }
+        rows |= {
+            "YY": multiply_speeds(1, 1),
+            "YZ": multiply_speeds(1, 2),
+            "ZZ": multiply_speeds(2, 2),
+        }
         for i, name in enumerate(("MX", "MY", "MZ")):
             rows[name] = (2 * vw[i] % prime, -gw[i] % prime)
         rows["M"] = (dot(v, v, prime), -dot(g, v, prime) % prime)
         return rows
 
 
-def modular_rank(matrix: np.ndarray) -> int:
+def compute_modular_rank(matrix: np.ndarray) -> int:
     """Rank modulo the small prime, of rows at random points.
 
     Where half of the rows suffice, the others are added to them at random: the rank of such sums is
@@ -382,4 +404,4 @@ def modular_rank(matrix: np.ndarray) -> int:
         weights = np.random.default_rng(half).integers(1, PRIME, (len(left) - half, 1))
         left[: len(weights)] = (left[: len(weights)] + weights * left[half:]) % PRIME
         left = left[:half]
-    return len(row_echelon(left, range(left.shape[1]), PRIME, reduced=False))
+    return len(reduce_to_echelon(left, range(left.shape[1]), PRIME, reduced=False))

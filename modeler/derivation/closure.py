@@ -15,14 +15,14 @@ from functools import cached_property
 
 import numpy as np
 
-from modeler.core.brief import Brief
+from modeler.core.brief import ShortRepr
 from modeler.core.errors import LoopError
-from modeler.core.rounded import precise
-from modeler.derivation.differentiation import derivatives
+from modeler.core.rounded import get_precise_context
+from modeler.derivation.differentiation import differentiate
 from modeler.derivation.geometry import Geometry
 from modeler.derivation.graph import Algebra, Expr, Graph, GraphAlgebra
-from modeler.derivation.kinematics import Pose, dot, plus, poses_from, times
-from modeler.derivation.precise import decimal, precise_values
+from modeler.derivation.kinematics import Pose, compute_relative_poses, dot, plus, times
+from modeler.derivation.precise import convert_to_precise, evaluate_precisely
 from modeler.robot import INERTIAL, Loop, Robot
 
 # The loops in floating point, for many postures at once: Newton on all equations, redundant ones
@@ -53,7 +53,7 @@ _POLISHING = 20
 
 
 @dataclass(frozen=True)
-class LoopEquations(Brief):
+class LoopEquations(ShortRepr):
     """The closure equations as functions of arrays.
 
     Attributes:
@@ -74,156 +74,174 @@ class LoopEquations(Brief):
     values: Mapping[str, float]
     equations: Sequence[Expr]
     jacobian: Sequence[Sequence[Expr]]
-    given: tuple[int, ...]
+    actuated: tuple[int, ...]
     solved: tuple[int, ...]
-    lengths: tuple[bool, ...]
+    is_travel: tuple[bool, ...]
     size: float
     alignments: Sequence[Expr] = ()
     others: Sequence[Expr] = ()
 
     @property
-    def unknowns(self) -> int:
+    def unknown_count(self) -> int:
         """Number of free variables u."""
-        return len(self.lengths)
+        return len(self.is_travel)
 
     @property
     def scale(self) -> np.ndarray:
         """By u, what counts as 1: a rad, or `size`."""
-        return np.where(self.lengths, self.size, 1.0)
+        return np.where(self.is_travel, self.size, 1.0)
 
     @cached_property
-    def rows(self) -> np.ndarray:
+    def row_scales(self) -> np.ndarray:
         """(equations,) usual lengths of the rows of the Jacobian.
 
         Those at a posture would not do: an equation that changes only in second order there, as
         along a stretched chain, makes it singular, however small the row is.
         """
-        u = np.random.default_rng(_ROWS).uniform(-np.pi, np.pi, (_SAMPLES, self.unknowns))
-        J = self.jacobians(u * self.scale) * self.scale
+        u = np.random.default_rng(_ROWS).uniform(-np.pi, np.pi, (_SAMPLES, self.unknown_count))
+        J = self.compute_jacobians(u * self.scale) * self.scale
         length = np.median(np.linalg.norm(J, axis=2), axis=0)
         # An equation that follows from relations is 0 = 0 up to rounding: not to be scaled up.
         return np.where(length > _ZERO * np.max(length, initial=0.0), length, np.inf)
 
-    def residuals(self, u: np.ndarray) -> np.ndarray:
+    def compute_residuals(self, u: np.ndarray) -> np.ndarray:
         """(n, equations) of (n, unknowns)."""
-        return self.evaluate(self.equations, u)
+        return self.evaluate_expressions(self.equations, u)
 
-    def openness(self, u: np.ndarray) -> np.ndarray:
+    def compute_openness(self, u: np.ndarray) -> np.ndarray:
         """(n,) largest residual, that of the other equations included."""
-        found = self.evaluate([*self.equations, *self.others], u)
-        return np.asarray(np.max(np.abs(found), axis=1, initial=0.0))
+        residuals = self.evaluate_expressions([*self.equations, *self.others], u)
+        return np.asarray(np.max(np.abs(residuals), axis=1, initial=0.0))
 
-    def aligned(self, u: np.ndarray) -> np.ndarray:
+    def are_aligned(self, u: np.ndarray) -> np.ndarray:
         """(n,) True where no loop is closed with axes opposite; NaN postures are not."""
-        values = self.evaluate(self.alignments, u)
+        values = self.evaluate_expressions(self.alignments, u)
         return np.all(np.isfinite(u), axis=1) & np.all(values > 0.0, axis=1)
 
-    def jacobians(self, u: np.ndarray) -> np.ndarray:
+    def compute_jacobians(self, u: np.ndarray) -> np.ndarray:
         """(n, equations, unknowns)."""
-        flat = self.evaluate([entry for line in self.jacobian for entry in line], u)
-        return flat.reshape(len(u), len(self.equations), self.unknowns)
+        flat = self.evaluate_expressions([entry for line in self.jacobian for entry in line], u)
+        return flat.reshape(len(u), len(self.equations), self.unknown_count)
 
-    def linearised(self, u: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-        """`residuals`, `openness` and `jacobians` of (n, unknowns), which share most steps."""
+    def linearise_loops(self, u: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+        """`compute_residuals`, `compute_openness` and `compute_jacobians` of (n, unknowns).
+
+        Which " "share most steps.
+        """
         slopes = [entry for line in self.jacobian for entry in line]
         count, every = len(self.equations), len(self.equations) + len(self.others)
-        found = self.evaluate([*self.equations, *self.others, *slopes], u)
-        openness = np.max(np.abs(found[:, :every]), axis=1, initial=0.0)
-        return found[:, :count], openness, found[:, every:].reshape(len(u), count, self.unknowns)
+        results = self.evaluate_expressions([*self.equations, *self.others, *slopes], u)
+        openness = np.max(np.abs(results[:, :every]), axis=1, initial=0.0)
+        return (
+            results[:, :count],
+            openness,
+            results[:, every:].reshape(len(u), count, self.unknown_count),
+        )
 
-    def scaled_jacobian(self, u: np.ndarray) -> np.ndarray:
+    def compute_scaled_jacobian(self, u: np.ndarray) -> np.ndarray:
         """Jacobians with travels counted in sizes of the robot and rows of usual length 1."""
-        return np.asarray(self.jacobians(u) * self.scale / self.rows[:, None])
+        return np.asarray(self.compute_jacobians(u) * self.scale / self.row_scales[:, None])
 
-    def inner(self, u: np.ndarray) -> np.ndarray:
-        """(n, equations, solved) columns of `scaled_jacobian` of the joints that follow."""
-        return self.scaled_jacobian(u)[:, :, list(self.solved)]
+    def compute_passive_jacobian(self, u: np.ndarray) -> np.ndarray:
+        """(n, equations, solved) columns of `compute_scaled_jacobian` of the joints that follow."""
+        return self.compute_scaled_jacobian(u)[:, :, list(self.solved)]
 
-    def sigma(self, u: np.ndarray) -> np.ndarray:
-        """(n,) distances to a singularity: smallest singular values of `inner`.
+    def compute_singularity_distance(self, u: np.ndarray) -> np.ndarray:
+        """(n,) distances to a singularity: smallest singular values of `compute_passive_jacobian`.
 
         0 where joints can move with the actuated ones locked.
         """
-        return np.asarray(np.linalg.svd(self.inner(u), compute_uv=False)[:, -1])
+        return np.asarray(np.linalg.svd(self.compute_passive_jacobian(u), compute_uv=False)[:, -1])
 
-    def following(self, u: np.ndarray, f: np.ndarray) -> np.ndarray:
+    def solve_passive(self, u: np.ndarray, f: np.ndarray) -> np.ndarray:
         """(n, solved, ...) J_s^-1 f of (n, equations, ...): what of the joints that follow does f.
 
         For independent equations, as many as joints follow.
         """
-        inner = self.jacobians(u)[:, :, list(self.solved)]
+        inner = self.compute_jacobians(u)[:, :, list(self.solved)]
         return np.linalg.solve(inner, f.reshape(len(u), len(self.equations), -1)).reshape(f.shape)
 
-    def evaluate(
+    def evaluate_expressions(
         self, expressions: Sequence[Expr], u: np.ndarray, ud: np.ndarray | None = None
     ) -> np.ndarray:
         """(n, expressions) at postures, and speeds if they read these, (n, unknowns)."""
-        inputs = {f"q[{k}]": u[:, k] for k in range(self.unknowns)}
+        inputs = {f"q[{k}]": u[:, k] for k in range(self.unknown_count)}
         if ud is not None:
-            inputs |= {f"qd[{k}]": ud[:, k] for k in range(self.unknowns)}
-        given = [(i, e) for i, e in enumerate(expressions) if e.ref]  # the others are 0
-        found = self.graph.evaluate([e for _, e in given], {**self.values, **inputs})
+            inputs |= {f"qd[{k}]": ud[:, k] for k in range(self.unknown_count)}
+        nonzero_expressions = [
+            (i, e) for i, e in enumerate(expressions) if e.ref
+        ]  # the others are 0
+        results = self.graph.evaluate_outputs(
+            [e for _, e in nonzero_expressions], {**self.values, **inputs}
+        )
         out = np.zeros((len(u), len(expressions)))
-        for (i, _), value in zip(given, found, strict=True):
+        for (i, _), value in zip(nonzero_expressions, results, strict=True):
             out[:, i] = value
         return out
 
-    def closed(self, u: np.ndarray, solved: Sequence[int] | None = None) -> np.ndarray:
+    def close_loops(self, u: np.ndarray, solved: Sequence[int] | None = None) -> np.ndarray:
         """Newton from u with the others held; rows that do not close come back as NaN."""
         places = list(self.solved if solved is None else solved)
         u = np.array(u, dtype=float)
         scale = self.scale[places]
         for _ in range(_ITERATIONS):
-            f = self.residuals(u)
+            f = self.compute_residuals(u)
             if np.all(np.max(np.abs(f), axis=1, initial=0.0) < _CLOSED * self.size):
                 break
-            J = self.jacobians(u)[:, :, places] * scale
+            J = self.compute_jacobians(u)[:, :, places] * scale
             step = -np.einsum("nij,nj->ni", np.linalg.pinv(J, rcond=1e-12), f)
             longest = np.max(np.abs(step), axis=1, keepdims=True)
             step *= np.minimum(1.0, 0.4 / np.maximum(longest, 1e-300))
             u[:, places] += step * scale
-        bad = ~(np.max(np.abs(self.residuals(u)), axis=1, initial=0.0) < 1e-9 * self.size)
+        bad = ~(np.max(np.abs(self.compute_residuals(u)), axis=1, initial=0.0) < 1e-9 * self.size)
         u[bad] = np.nan
         return u
 
 
-def open_loop(loops: LoopEquations, u: np.ndarray, owners: Sequence[str]) -> str:
+def describe_open_loop(loops: LoopEquations, u: np.ndarray, owners: Sequence[str]) -> str:
     """Which loop cannot close near a posture: the one that is open furthest there."""
-    f = np.abs(loops.residuals(u[None])[0])
+    f = np.abs(loops.compute_residuals(u[None])[0])
     worst = int(np.argmax(f))
     return f'loop "{owners[worst]}" cannot close near that posture (open by {f[worst]:.3g})'
 
 
-def nearest_closed(loops: LoopEquations, start: np.ndarray) -> np.ndarray | None:
+def find_nearest_closed(loops: LoopEquations, start: np.ndarray) -> np.ndarray | None:
     """The closed posture that Newton finds from `start`; where its axes are opposite, another near.
 
     Other starts differ in the solved angles.
     """
-    home = loops.closed(start[None])
-    if loops.aligned(home)[0]:
+    home = loops.close_loops(start[None])
+    if loops.are_aligned(home)[0]:
         return home[0]
     if not np.all(np.isfinite(home)):
         return None
     rng = np.random.default_rng(_SEED)
     others = np.tile(start, (_STARTS, 1))
-    angles = [k for k in loops.solved if not loops.lengths[k]]
+    angles = [k for k in loops.solved if not loops.is_travel[k]]
     others[:, angles] += rng.uniform(-np.pi, np.pi, (_STARTS, len(angles)))
-    found = loops.closed(others)
-    found = found[loops.aligned(found)]
-    if len(found) == 0:
+    closed_postures = loops.close_loops(others)
+    closed_postures = closed_postures[loops.are_aligned(closed_postures)]
+    if len(closed_postures) == 0:
         return None
-    found[:, angles] = start[angles] + wrapped(found[:, angles] - start[angles])
+    closed_postures[:, angles] = start[angles] + wrap_to_pi(
+        closed_postures[:, angles] - start[angles]
+    )
     # Mirrored postures may be equally near: digits that no rounding reaches decide then.
-    near = np.round(np.sum(np.abs(found - start), axis=1), _PLACES)
-    return found[min(range(len(found)), key=lambda i: (near[i], *np.round(found[i], _PLACES)))]
+    near = np.round(np.sum(np.abs(closed_postures - start), axis=1), _PLACES)
+    return closed_postures[
+        min(
+            range(len(closed_postures)),
+            key=lambda i: (near[i], *np.round(closed_postures[i], _PLACES)),
+        )
+    ]
 
 
-def wrapped(angle: np.ndarray) -> np.ndarray:
+def wrap_to_pi(angle: np.ndarray) -> np.ndarray:
     """Angles in [-pi, pi)."""
     return (angle + np.pi) % (2 * np.pi) - np.pi
 
 
-def polished(
+def polish_home(
     loops: LoopEquations, home: np.ndarray, chosen: Sequence[int], robot: Robot
 ) -> tuple[float, ...]:
     """The doubles next to the closed posture that `home` is up to rounding: the same everywhere.
@@ -239,16 +257,16 @@ def polished(
     Raises:
         LoopError: it does not settle; loops so near to singular have no certain digits.
     """
-    mp, solved = precise(), list(loops.solved)
+    mp, solved = get_precise_context(), list(loops.solved)
     count = len(solved)
     equations = [loops.equations[i] for i in chosen]
     slopes = [loops.jacobian[i][k] for i in chosen for k in solved]
-    u = [decimal(float(x)) for x in home]
+    u = [convert_to_precise(float(x)) for x in home]
     for _ in range(_POLISHING):
         inputs = {f"q[{k}]": x for k, x in enumerate(u)}
-        found = precise_values(loops.graph, [*equations, *slopes], {**loops.values, **inputs})
+        results = evaluate_precisely(loops.graph, [*equations, *slopes], {**loops.values, **inputs})
         # The step is good to a double, what is left is known to 40 digits: so it goes on shrinking.
-        f, J = (np.array(part, dtype=float) for part in (found[:count], found[count:]))
+        f, J = (np.array(part, dtype=float) for part in (results[:count], results[count:]))
         try:
             step = np.linalg.solve(J.reshape(count, count), f)
         except np.linalg.LinAlgError:
@@ -265,7 +283,7 @@ def polished(
     )
 
 
-def moved_postures(
+def draw_nearby_postures(
     loops: LoopEquations,
     home: np.ndarray,
     rng: np.random.Generator,
@@ -277,23 +295,23 @@ def moved_postures(
     A sample stops where the loops would not close any further.
     """
     scale = loops.scale * reach
-    scale = np.where(loops.lengths, 0.5 * scale, scale)
+    scale = np.where(loops.is_travel, 0.5 * scale, scale)
     u = np.tile(home, (samples, 1))
     target = rng.uniform(-1.0, 1.0, u.shape) * scale
-    step = _tangent(loops, u, target) / _STEPS
+    step = _compute_tangent(loops, u, target) / _STEPS
     for _ in range(_STEPS):
-        trial = loops.closed(u + step, range(loops.unknowns))
+        trial = loops.close_loops(u + step, range(loops.unknown_count))
         jump = np.max(np.abs(trial - u) / loops.scale, axis=1)
         good = np.isfinite(jump) & (jump < 4 * reach / _STEPS * 3)
         u[good] = trial[good]
-        step = _tangent(loops, u, target) / _STEPS
+        step = _compute_tangent(loops, u, target) / _STEPS
     return u
 
 
-def _tangent(loops: LoopEquations, u: np.ndarray, wanted: np.ndarray) -> np.ndarray:
+def _compute_tangent(loops: LoopEquations, u: np.ndarray, wanted: np.ndarray) -> np.ndarray:
     """`wanted` projected on the motions that the loops allow."""
     scale = loops.scale
-    J = loops.jacobians(u) * scale
+    J = loops.compute_jacobians(u) * scale
     w = wanted / scale
     along = np.einsum("nij,nj->ni", np.linalg.pinv(J, rcond=1e-9), np.einsum("nij,nj->ni", J, w))
     return (w - along) * scale
@@ -306,7 +324,7 @@ Frame = tuple[Sequence[list[Expr]], list[Expr]]
 """(axes x, y, z; origin) in one frame."""
 
 
-def meeting(
+def compute_loop_frames(
     geometry: Geometry, loop: Loop, frames: Sequence[Pose], algebra: Algebra
 ) -> tuple[Frame, Frame]:
     """The two frames that meet, in the frame of the body that both their sides come from.
@@ -322,26 +340,28 @@ def meeting(
     """
     places = {joint.name: k for k, joint in enumerate(geometry.robot.joints)}
     ends = [places.get(name) for name in (loop.frame, loop.meets)]
-    sides = [[] if end is None else geometry.ancestors(end) for end in ends]
+    sides = [[] if end is None else geometry.find_ancestors(end) for end in ends]
     root = next((k for k in sides[0] if k in sides[1]), None)
-    posed = poses_from(geometry, frames, algebra, root, {k for k in ends if k is not None})
+    posed = compute_relative_poses(
+        geometry, frames, algebra, root, {k for k in ends if k is not None}
+    )
     return posed[ends[0]], posed[ends[1]]
 
 
-def _position(a: Frame, b: Frame) -> list[Expr]:
+def _subtract_origins(a: Frame, b: Frame) -> list[Expr]:
     return plus(a[1], times(-1, b[1]))
 
 
-def _parallel(a: Frame, b: Frame) -> list[Expr]:
+def _compare_directions(a: Frame, b: Frame) -> list[Expr]:
     return [dot(a[0][0], b[0][2]), dot(a[0][1], b[0][2])]
 
 
-def _aligned(a: Frame, b: Frame) -> list[Expr]:
-    return [*_parallel(a, b), dot(a[0][0], b[0][1])]
+def _compare_axes(a: Frame, b: Frame) -> list[Expr]:
+    return [*_compare_directions(a, b), dot(a[0][0], b[0][1])]
 
 
-def _on_axis(a: Frame, b: Frame) -> list[Expr]:
-    way = _position(b, a)
+def _compute_axis_offset(a: Frame, b: Frame) -> list[Expr]:
+    way = _subtract_origins(b, a)
     return [dot(a[0][0], way), dot(a[0][1], way)]
 
 
@@ -372,33 +392,49 @@ class LoopJoint:
     bodies: tuple[tuple[str, ...], ...]
 
 
-_SPHERICAL = LoopJoint(_position, (), ALL, (), (("M",),))
+_SPHERICAL = LoopJoint(_subtract_origins, (), ALL, (), (("M",),))
 LOOP_JOINTS: Mapping[str, LoopJoint] = {
     "position": _SPHERICAL,
     "spherical": _SPHERICAL,
     "universal": LoopJoint(
-        lambda a, b: [*_position(a, b), dot(a[0][2], b[0][2])], (), ALL, (), (("M",),)
+        lambda a, b: [*_subtract_origins(a, b), dot(a[0][2], b[0][2])], (), ALL, (), (("M",),)
     ),
     "revolute": LoopJoint(
-        lambda a, b: [*_position(a, b), *_parallel(a, b)], (2,), ALL, ACROSS,
+        lambda a, b: [*_subtract_origins(a, b), *_compare_directions(a, b)],
+        (2,),
+        ALL,
+        ACROSS,
         (("M",), ("MZ",), _ROUND),
     ),
     "cylindrical": LoopJoint(
-        lambda a, b: [*_on_axis(a, b), *_parallel(a, b)], (2,), ACROSS, ACROSS, (_ROUND,)
+        lambda a, b: [*_compute_axis_offset(a, b), *_compare_directions(a, b)],
+        (2,),
+        ACROSS,
+        ACROSS,
+        (_ROUND,),
     ),
     "prismatic": LoopJoint(
-        lambda a, b: [*_on_axis(a, b), *_aligned(a, b)], (0, 2), ACROSS, ALL,
+        lambda a, b: [*_compute_axis_offset(a, b), *_compare_axes(a, b)],
+        (0, 2),
+        ACROSS,
+        ALL,
         tuple((name,) for name in INERTIAL[:6]),
     ),
     "planar": LoopJoint(
-        lambda a, b: [dot(a[0][2], _position(b, a)), *_parallel(a, b)], (2,), ALONG, ACROSS,
+        lambda a, b: [dot(a[0][2], _subtract_origins(b, a)), *_compare_directions(a, b)],
+        (2,),
+        ALONG,
+        ACROSS,
         (_ROUND,),
     ),
     "rigid": LoopJoint(
-        lambda a, b: [*_position(a, b), *_aligned(a, b)], (0, 2), ALL, ALL,
+        lambda a, b: [*_subtract_origins(a, b), *_compare_axes(a, b)],
+        (0, 2),
+        ALL,
+        ALL,
         tuple((name,) for name in INERTIAL),
     ),
-}  # fmt: skip
+}
 
 
 _RANK = 1e-9
@@ -426,10 +462,10 @@ class Closure(LoopEquations):
     drift: tuple[Expr, ...]
     home: tuple[float, ...]
     platform: tuple[int, ...] | None
-    redundant: int
+    redundant_count: int
 
 
-def closure_of(
+def derive_closure(
     geometry: Geometry, graph: Graph, frames: Sequence[Pose], algebra: GraphAlgebra
 ) -> Closure | None:
     """The closure of a robot's loops; None if it has none, or relations say all that they do.
@@ -441,18 +477,19 @@ def closure_of(
     robot = geometry.robot
     if not robot.loops:
         return None
-    loops, owners = loop_equations(geometry, graph, frames, algebra)
-    start = np.array([robot.home.get(joint.name, 0.0) for joint in robot.free])
+    loops, owners = derive_loop_equations(geometry, graph, frames, algebra)
+    start = np.array([robot.home.get(joint.name, 0.0) for joint in robot.free_joints])
     if not loops.equations:
         if loops.solved:
-            raise LoopError(_mobility(loops, geometry, np.zeros((1, len(start))), owners))
+            raise LoopError(_describe_mobility(loops, geometry, np.zeros((1, len(start))), owners))
         return None
-    if not check_freedom(loops, start, geometry, owners):
+    if not check_mobility(loops, start, geometry, owners):
         raise LoopError(
-            f"{robot.name}: [home]: {open_loop(loops, start, owners)}; state values near a "
+            f"{robot.name}: [home]: {describe_open_loop(loops, start, owners)}; state values near "
+            "a "
             "closed one, and check the lengths"
         )
-    home = nearest_closed(loops, start)
+    home = find_nearest_closed(loops, start)
     if home is None:
         raise LoopError(
             f"{robot.name}: [home]: the passive joints do not close the loops there; state another "
@@ -460,7 +497,7 @@ def closure_of(
         )
     if not loops.solved:
         return None
-    chosen = _independent(loops, home, geometry)
+    chosen = _select_independent(loops, home, geometry)
     equations = tuple(loops.equations[i] for i in chosen)
     jacobian = tuple(tuple(loops.jacobian[i]) for i in chosen)
     held = {equation.ref for equation in equations}
@@ -469,55 +506,55 @@ def closure_of(
         values=loops.values,
         equations=equations,
         jacobian=jacobian,
-        given=loops.given,
+        actuated=loops.actuated,
         solved=loops.solved,
-        lengths=loops.lengths,
+        is_travel=loops.is_travel,
         size=loops.size,
         alignments=tuple(loops.alignments),
         others=tuple(e for e in loops.equations if e.ref not in held),
-        drift=tuple(_drift(graph, jacobian, loops.unknowns)),
-        home=polished(loops, home, chosen, robot),
-        platform=_platform(loops, home, geometry),
-        redundant=len(loops.equations) - len(equations),
+        drift=tuple(_derive_drift(graph, jacobian, loops.unknown_count)),
+        home=polish_home(loops, home, chosen, robot),
+        platform=_select_platform(loops, home, geometry),
+        redundant_count=len(loops.equations) - len(equations),
     )
 
 
-def loop_equations(
+def derive_loop_equations(
     geometry: Geometry, graph: Graph, frames: Sequence[Pose], algebra: GraphAlgebra
 ) -> tuple[LoopEquations, list[str]]:
     """The equations of all loops, and the name of the loop that each comes from."""
     robot = geometry.robot
     equations: list[Expr] = []
     owners: list[str] = []
-    aligned: list[Expr] = []
+    alignments: list[Expr] = []
     for loop in robot.loops:
-        one, other = meeting(geometry, loop, frames, algebra)
+        one, other = compute_loop_frames(geometry, loop, frames, algebra)
         joint = LOOP_JOINTS[loop.kind]
-        found = [value for value in joint.equations(one, other) if not value.is_zero]
-        aligned += [dot(one[0][axis], other[0][axis]) for axis in joint.axes]
-        equations += found
-        owners += [loop.name] * len(found)
-    n = geometry.coordinates
-    columns = [derivatives(equations, {f"q[{k}]": graph.constant(1)}) for k in range(n)]
+        joint_equations = [value for value in joint.equations(one, other) if not value.is_zero]
+        alignments += [dot(one[0][axis], other[0][axis]) for axis in joint.axes]
+        equations += joint_equations
+        owners += [loop.name] * len(joint_equations)
+    n = geometry.coordinate_count
+    columns = [differentiate(equations, {f"q[{k}]": graph.constant(1)}) for k in range(n)]
     jacobian = [tuple(column[i] for column in columns) for i in range(len(equations))]
-    names = [joint.name for joint in robot.free]
-    given = tuple(names.index(joint.name) for joint in robot.coordinates)
-    solved = tuple(k for k in range(n) if k not in given)
-    lengths = tuple(not joint.angular for joint in robot.free)
+    names = [joint.name for joint in robot.free_joints]
+    actuated = tuple(names.index(joint.name) for joint in robot.coordinates)
+    solved = tuple(k for k in range(n) if k not in actuated)
+    lengths = tuple(not joint.is_revolute for joint in robot.free_joints)
     # The longest way from a frame to the next with all joints at 0, m; 1 where all are one point.
     # It goes into the emitted C: taken with 40 digits, it is the same on every machine.
     still = {f"q[{k}]": 0.0 for k in range(n)}
     ways = [graph.lift(entry) for pose in frames for entry in pose.p]
-    precisely = precise_values(graph, ways, {**geometry.values, **still})
-    norms = map(precise().norm, zip(*[iter(precisely)] * 3, strict=True))
+    precisely = evaluate_precisely(graph, ways, {**geometry.values, **still})
+    norms = map(get_precise_context().norm, zip(*[iter(precisely)] * 3, strict=True))
     size = float(max(norms)) or 1.0
     loops = LoopEquations(
-        graph, geometry.values, equations, jacobian, given, solved, lengths, size, aligned
+        graph, geometry.values, equations, jacobian, actuated, solved, lengths, size, alignments
     )
     return loops, owners
 
 
-def _drift(graph: Graph, jacobian: Sequence[Sequence[Expr]], n: int) -> list[Expr]:
+def _derive_drift(graph: Graph, jacobian: Sequence[Sequence[Expr]], n: int) -> list[Expr]:
     """d/dt(J) ud."""
     speeds = [graph.symbol(f"qd[{k}]") for k in range(n)]
     rates = []
@@ -526,10 +563,10 @@ def _drift(graph: Graph, jacobian: Sequence[Sequence[Expr]], n: int) -> list[Exp
         for entry, speed in zip(line, speeds, strict=True):
             total = total + entry * speed
         rates.append(total)
-    return derivatives(rates, {f"q[{k}]": speeds[k] for k in range(n)})
+    return differentiate(rates, {f"q[{k}]": speeds[k] for k in range(n)})
 
 
-def check_freedom(
+def check_mobility(
     loops: LoopEquations, start: np.ndarray, geometry: Geometry, owners: Sequence[str]
 ) -> bool:
     """The loops leave as much free as is actuated, and the actuated joints drive it.
@@ -540,42 +577,43 @@ def check_freedom(
     Raises:
         LoopError: they do not.
     """
-    near = loops.closed(start[None], range(loops.unknowns))[0]
+    near = loops.close_loops(start[None], range(loops.unknown_count))[0]
     if not np.all(np.isfinite(near)):
         return False
-    postures = moved_postures(loops, near, np.random.default_rng(_MOBILITY_SEED), _POSTURES)
-    J = loops.scaled_jacobian(postures)
-    ranks = [_rank(sample) for sample in J]
-    if loops.unknowns - max(ranks) != len(loops.given):
-        raise LoopError(_mobility(loops, geometry, J[int(np.argmax(ranks))], owners))
+    postures = draw_nearby_postures(loops, near, np.random.default_rng(_MOBILITY_SEED), _POSTURES)
+    J = loops.compute_scaled_jacobian(postures)
+    ranks = [_compute_rank(sample) for sample in J]
+    if loops.unknown_count - max(ranks) != len(loops.actuated):
+        raise LoopError(_describe_mobility(loops, geometry, J[int(np.argmax(ranks))], owners))
     inner = J[:, :, list(loops.solved)]
-    best = inner[max(range(len(inner)), key=lambda i: _rank(inner[i]))]
-    if _rank(best) < len(loops.solved):
+    best = inner[max(range(len(inner)), key=lambda i: _compute_rank(inner[i]))]
+    if _compute_rank(best) < len(loops.solved):
         raise LoopError(
-            f"{geometry.robot.name}: {_moving_names(loops, geometry, best)} can move with all "
+            f"{geometry.robot.name}: {_find_moving_joints(loops, geometry, best)} can move with "
+            "all "
             "actuated joints locked, and the actuated joints are tied to each other; actuate "
             "others (mu 1)"
         )
     return True
 
 
-def _independent(loops: LoopEquations, home: np.ndarray, geometry: Geometry) -> list[int]:
+def _select_independent(loops: LoopEquations, home: np.ndarray, geometry: Geometry) -> list[int]:
     """Numbers of as many independent equations as there are variables to solve for.
 
     Raises:
         LoopError: they are singular at home.
     """
-    at_home = loops.inner(home[None])[0]
-    if _rank(at_home, SINGULAR) < len(loops.solved):
-        moving = _moving_names(loops, geometry, at_home, SINGULAR)
+    at_home = loops.compute_passive_jacobian(home[None])[0]
+    if _compute_rank(at_home, SINGULAR) < len(loops.solved):
+        moving = _find_moving_joints(loops, geometry, at_home, SINGULAR)
         raise LoopError(
             f"{geometry.robot.name}: the loops are singular at [home]: {moving} could move there "
             "with the actuated joints locked; state another posture"
         )
-    return sorted(spanning_rows(at_home, len(loops.solved), _ALIKE))
+    return sorted(select_spanning_rows(at_home, len(loops.solved), _ALIKE))
 
 
-def spanning_rows(matrix: np.ndarray, count: int, alike: float = 0.0) -> list[int]:
+def select_spanning_rows(matrix: np.ndarray, count: int, alike: float = 0.0) -> list[int]:
     """Numbers of up to `count` rows, each the longest of what the rows before leave of it.
 
     Gram-Schmidt with pivoting, as LAPACK has it; but of rows whose lengths differ by less than the
@@ -593,61 +631,65 @@ def spanning_rows(matrix: np.ndarray, count: int, alike: float = 0.0) -> list[in
     return chosen
 
 
-def _rank(matrix: np.ndarray, tolerance: float = _RANK) -> int:
+def _compute_rank(matrix: np.ndarray, tolerance: float = _RANK) -> int:
     return int(np.sum(np.linalg.svd(matrix, compute_uv=False) > tolerance))
 
 
-def _moving_names(
+def _find_moving_joints(
     loops: LoopEquations, geometry: Geometry, inner: np.ndarray, tolerance: float = _RANK
 ) -> str:
     """The solved joints that take part in a motion which the equations do not stop."""
     _, _, vt = np.linalg.svd(inner, full_matrices=True)
-    rank = _rank(inner, tolerance)
+    rank = _compute_rank(inner, tolerance)
     share = np.max(np.abs(vt[rank:]), axis=0)
-    free = geometry.robot.free
+    free = geometry.robot.free_joints
     names = [
         free[k].name for k, s in zip(loops.solved, share, strict=True) if s > 0.1 * share.max()
     ]
     return f"joint{'s' if len(names) > 1 else ''} " + ", ".join(names)
 
 
-def _mobility(
+def _describe_mobility(
     loops: LoopEquations, geometry: Geometry, J: np.ndarray, owners: Sequence[str]
 ) -> str:
-    robot, free = geometry.robot, loops.unknowns - _rank(J)
+    robot, free = geometry.robot, loops.unknown_count - _compute_rank(J)
     actuated = ", ".join(joint.name for joint in robot.coordinates)
-    told = f"{robot.name}: the loops leave {free} degree{'s' if free != 1 else ''} of freedom"
-    if free > len(loops.given):
+    summary = f"{robot.name}: the loops leave {free} degree{'s' if free != 1 else ''} of freedom"
+    if free > len(loops.actuated):
         inner = J[:, list(loops.solved)]
         return (
-            f"{told}, {len(loops.given)} joints are actuated ({actuated}): under-constrained, "
-            f"{_moving_names(loops, geometry, inner)} could move with these locked; actuate one "
+            f"{summary}, {len(loops.actuated)} joints are actuated ({actuated}): "
+            "under-constrained, "
+            f"{_find_moving_joints(loops, geometry, inner)} could move with these locked; actuate "
+            "one "
             "of them (mu 1), add a relation, or close the loop by a joint that lets less free"
         )
     # The loops without which more would be free.
-    names, full = list(dict.fromkeys(owners)), _rank(J)
-    blamed = [name for name in names if _rank(J[[o != name for o in owners]]) < full]
+    names, full = list(dict.fromkeys(owners)), _compute_rank(J)
+    blamed = [name for name in names if _compute_rank(J[[o != name for o in owners]]) < full]
     strictest = ", ".join(f'"{name}"' for name in blamed or names)
     return (
-        f"{told}, {len(loops.given)} joints are actuated ({actuated}): over-constrained by "
+        f"{summary}, {len(loops.actuated)} joints are actuated ({actuated}): over-constrained by "
         f"loop {strictest}; close it by a joint that lets more free, or make "
         "actuated joints passive (mu 0)"
     )
 
 
-def _platform(loops: LoopEquations, home: np.ndarray, geometry: Geometry) -> tuple[int, ...] | None:
+def _select_platform(
+    loops: LoopEquations, home: np.ndarray, geometry: Geometry
+) -> tuple[int, ...] | None:
     """Platform coordinates, and as many actuated ones as are still to be given with them."""
-    names = [joint.name for joint in geometry.robot.free]
+    names = [joint.name for joint in geometry.robot.free_joints]
     chosen = [names.index(name) for name in geometry.robot.platform if name in names]
-    if not chosen or len(chosen) > len(loops.given):
+    if not chosen or len(chosen) > len(loops.actuated):
         return None
-    J = loops.scaled_jacobian(home[None])[0]
+    J = loops.compute_scaled_jacobian(home[None])[0]
 
-    def solvable(places: Sequence[int]) -> bool:
-        others = [k for k in range(loops.unknowns) if k not in places]
-        return _rank(J[:, others], SINGULAR) == len(loops.solved)
+    def is_solvable(places: Sequence[int]) -> bool:
+        others = [k for k in range(loops.unknown_count) if k not in places]
+        return _compute_rank(J[:, others], SINGULAR) == len(loops.solved)
 
-    for k in loops.given:
-        if len(chosen) < len(loops.given) and k not in chosen and solvable([*chosen, k]):
+    for k in loops.actuated:
+        if len(chosen) < len(loops.actuated) and k not in chosen and is_solvable([*chosen, k]):
             chosen.append(k)
-    return tuple(chosen) if len(chosen) == len(loops.given) and solvable(chosen) else None
+    return tuple(chosen) if len(chosen) == len(loops.actuated) and is_solvable(chosen) else None

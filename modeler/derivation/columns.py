@@ -5,11 +5,11 @@ from dataclasses import dataclass, replace
 from fractions import Fraction
 from typing import Any, Self, TypeAlias, TypeGuard
 
-from modeler.core.brief import Brief
+from modeler.core.brief import ShortRepr
 from modeler.core.errors import DerivationError
 from modeler.core.expression import Expression
 from modeler.derivation.geometry import Geometry
-from modeler.effects import NOISE, TURN, Acts, EnergyBlock, Memory
+from modeler.effects import NOISE, TURN, EffectTarget, EnergyBlock, InternalState
 from modeler.robot import Joint, Robot
 
 _INERTIAL_UNITS = dict.fromkeys(("XX", "XY", "XZ", "YY", "YZ", "ZZ"), "kg m2") | dict.fromkeys(
@@ -18,7 +18,7 @@ _INERTIAL_UNITS = dict.fromkeys(("XX", "XY", "XZ", "YY", "YZ", "ZZ"), "kg m2") |
 
 
 @dataclass(frozen=True, kw_only=True)
-class _Column(Brief):
+class _Column(ShortRepr):
     """What all standard parameters have.
 
     Attributes:
@@ -78,20 +78,20 @@ class ShaftColumn(_Column):
     block: EnergyBlock
     nonnegative: bool
     shaft: Mapping[int, Fraction]
-    acts: Acts
-    shapes: Mapping[str, float]
-    memory: Memory | None
+    acts: EffectTarget
+    nonlinear_parameters: Mapping[str, float]
+    memory: InternalState | None
 
 
 StandardColumn: TypeAlias = LinkColumn | ShaftColumn
 
 
-def in_block(column: StandardColumn, block: EnergyBlock) -> TypeGuard[ShaftColumn]:
+def is_in_block(column: StandardColumn, block: EnergyBlock) -> TypeGuard[ShaftColumn]:
     """True for an effect's parameter with that energy function."""
     return isinstance(column, ShaftColumn) and column.block is block
 
 
-def standard_columns(geometry: Geometry) -> tuple[StandardColumn, ...]:
+def build_standard_columns(geometry: Geometry) -> tuple[StandardColumn, ...]:
     """All standard parameters: row after row, the link's, then those of the joint's effects.
 
     A shared parameter stands where its first member would.
@@ -99,13 +99,18 @@ def standard_columns(geometry: Geometry) -> tuple[StandardColumn, ...]:
     robot = geometry.robot
     columns: list[StandardColumn] = []
     for row, joint in enumerate(robot.joints):
-        if joint.moves:
-            columns += [link_column(prefix, row, joint) for prefix in robot.inertial(joint.name)]
-            columns += _effect_columns(geometry, row, joint)
-    return _shared(robot, columns)
+        if joint.is_moving:
+            columns += [
+                build_link_column(prefix, row, joint)
+                for prefix in robot.get_inertial_prefixes(joint.name)
+            ]
+            columns += _build_effect_columns(geometry, row, joint)
+    return _merge_shared_columns(robot, columns)
 
 
-def _shared(robot: Robot, columns: list[StandardColumn]) -> tuple[StandardColumn, ...]:
+def _merge_shared_columns(
+    robot: Robot, columns: list[StandardColumn]
+) -> tuple[StandardColumn, ...]:
     by_name: dict[str, Any] = {column.name: column for column in columns}
     for shared in robot.shared:
         first, *others = (by_name[name] for name in shared.members)
@@ -115,48 +120,48 @@ def _shared(robot: Robot, columns: list[StandardColumn]) -> tuple[StandardColumn
     return tuple(by_name.values())
 
 
-def link_column(prefix: str, row: int, joint: Joint) -> LinkColumn:
+def build_link_column(prefix: str, row: int, joint: Joint) -> LinkColumn:
     """An inertial parameter of the link behind a joint, on its own."""
     unit = _INERTIAL_UNITS.get(prefix, "kg")
     return LinkColumn(name=prefix + joint.name, row=row, prefix=prefix, unit=unit)
 
 
-def _effect_columns(geometry: Geometry, row: int, joint: Joint) -> list[ShaftColumn]:
-    found = []
-    for effect, form, instance in geometry.robot.effects_on(joint.name):
+def _build_effect_columns(geometry: Geometry, row: int, joint: Joint) -> list[ShaftColumn]:
+    effect_columns = []
+    for effect, form, instance in geometry.robot.find_joint_effects(joint.name):
         for column in form.columns:
-            found.append(
+            effect_columns.append(
                 ShaftColumn(
                     name=column.prefix + joint.name + instance.label,
                     row=row,
                     prefix=column.prefix,
-                    unit=column.unit_revolute if joint.angular else column.unit_prismatic,
+                    unit=column.unit_revolute if joint.is_revolute else column.unit_prismatic,
                     kind=column.kind,
                     effect=effect.id,
                     equation=column.equation,
                     block=column.block,
                     nonnegative=column.nonnegative,
-                    shaft=_shaft(geometry, joint, effect.coupled),
+                    shaft=_derive_shaft(geometry, joint, effect.is_coupled),
                     acts=effect.acts,
-                    shapes=instance.shapes,
-                    memory=form.memory,
+                    nonlinear_parameters=instance.nonlinear_parameters,
+                    memory=form.internal_state,
                 )
             )
-    return found
+    return effect_columns
 
 
-def _shaft(geometry: Geometry, joint: Joint, coupled: bool) -> dict[int, Fraction]:
+def _derive_shaft(geometry: Geometry, joint: Joint, coupled: bool) -> dict[int, Fraction]:
     """The shaft's speed in the speeds of the free variables."""
-    order = {moving.name: index for index, moving in enumerate(geometry.robot.moving)}
+    order = {moving.name: index for index, moving in enumerate(geometry.robot.moving_joints)}
     coupling = geometry.robot.coupling[joint.name] if coupled else {joint.name: 1.0}
     total: dict[int, Fraction] = {}
     for name, factor in coupling.items():
         for k, coefficient in geometry.forms[order[name]].items():
-            total[k] = total.get(k, Fraction(0)) + exact(factor) * coefficient
+            total[k] = total.get(k, Fraction(0)) + parse_decimal_fraction(factor) * coefficient
     return {k: coefficient for k, coefficient in total.items() if coefficient}
 
 
-def exact(value: float) -> Fraction:
+def parse_decimal_fraction(value: float) -> Fraction:
     """A coefficient of the robot file as the decimal fraction that was written."""
     return Fraction(repr(value))
 
@@ -180,59 +185,63 @@ class Signal:
     row: int
     value: float = 0.0
     follows: Expression | None = None
-    shapes: tuple[tuple[str, float], ...] = ()
+    nonlinear_parameters: tuple[tuple[str, float], ...] = ()
 
     @property
-    def before(self) -> tuple["Signal", ...]:
+    def prerequisites(self) -> tuple["Signal", ...]:
         """Those that it is stepped with; they stand before it, the last of them next to it."""
         if self.kind == "since":
             return (Signal("direction", self.row, self.value),)
         if self.kind == "lag":
             return (replace(self, kind="followed", value=0.0),)
-        return tuple(self.read.values())
+        return tuple(self.input_signals.values())
 
     @property
-    def read(self) -> dict[str, "Signal"]:
+    def input_signals(self) -> dict[str, "Signal"]:
         """Those that what it follows reads, by the variable."""
         if self.kind != "followed" or self.follows is None:
             return {}
-        return _variables(self.follows.names, self.row, dict(self.shapes))
+        return _find_signals(self.follows.names, self.row, dict(self.nonlinear_parameters))
 
 
-def _variables(names: Collection[str], row: int, shapes: Mapping[str, float]) -> dict[str, Signal]:
+def _find_signals(
+    names: Collection[str], row: int, nonlinear_parameters: Mapping[str, float]
+) -> dict[str, Signal]:
     """Signals that an equation reads, by the variable; not its inner state."""
-    found = {
+    signals = {
         "t": Signal("time", -1), "T": Signal("temperature", row),
-        "since": Signal("since", row, shapes.get(TURN, NOISE)),
+        "since": Signal("since", row, nonlinear_parameters.get(TURN, NOISE)),
     }  # fmt: skip
-    return {name: signal for name, signal in found.items() if name in names}
+    return {name: signal for name, signal in signals.items() if name in names}
 
 
-def signals_of(columns: Sequence[StandardColumn]) -> tuple[Signal, ...]:
+def collect_signals(columns: Sequence[StandardColumn]) -> tuple[Signal, ...]:
     """The signals that any column reads, each once, in the order of the columns."""
-    found: dict[Signal, None] = {}
+    signals: dict[Signal, None] = {}
 
-    def add(signal: Signal) -> None:
-        for needed in signal.before:
-            add(needed)
-        found.setdefault(signal)
+    def add_signal(signal: Signal) -> None:
+        for needed in signal.prerequisites:
+            add_signal(needed)
+        signals.setdefault(signal)
 
     for column in columns:
         if isinstance(column, ShaftColumn):
             for part in column.parts:
-                for signal in signals_read(part).values():
-                    add(signal)
-    return tuple(found)
+                for signal in map_column_signals(part).values():
+                    add_signal(signal)
+    return tuple(signals)
 
 
-def signals_read(column: ShaftColumn) -> dict[str, Signal]:
+def map_column_signals(column: ShaftColumn) -> dict[str, Signal]:
     """Those that one column reads, by the variable of its equation."""
     names, memory = column.equation.names, column.memory
-    found = _variables(names, column.row, column.shapes)
+    signals = _find_signals(names, column.row, column.nonlinear_parameters)
     if "z" in names:
         if memory is None or memory.kind == "resonance":
             raise DerivationError(f"{column.name}: its inner state has no form in C")
-        shapes, follows = column.shapes, memory.follows
-        own = () if follows is None else tuple(sorted(shapes.items()))
-        found["z"] = Signal(memory.kind, column.row, shapes[memory.shape], follows, own)
-    return found
+        shapes, follows = column.nonlinear_parameters, memory.lagged_input
+        shape_items = () if follows is None else tuple(sorted(shapes.items()))
+        signals["z"] = Signal(
+            memory.kind, column.row, shapes[memory.parameter], follows, shape_items
+        )
+    return signals

@@ -10,26 +10,35 @@ from fractions import Fraction
 from typing import Any
 
 from modeler.derivation.geometry import Geometry, GeometryRow
-from modeler.derivation.graph import Scalar, Vector, named, named_matrix
-from modeler.derivation.kinematics import Composite, Motion, Pose, cross, dot, plus, steiner, times
+from modeler.derivation.graph import Scalar, Vector, attach_labels, attach_matrix_labels
+from modeler.derivation.kinematics import (
+    Composite,
+    Motion,
+    Pose,
+    compute_steiner_term,
+    cross,
+    dot,
+    plus,
+    times,
+)
 
 
-def about_z(v: Vector) -> Vector:
+def cross_z(v: Vector) -> Vector:
     """z x v."""
     return [-v[1], v[0], 0 * v[2]]
 
 
-def on_axis(row: GeometryRow, force: Vector, moment: Vector) -> Scalar:
+def project_on_axis(row: GeometryRow, force: Vector, moment: Vector) -> Scalar:
     """Torque of the row's joint under a force and a moment at its frame's origin."""
-    return (moment if row.joint.angular else force)[2] * row.rate
+    return (moment if row.joint.is_revolute else force)[2] * row.rate
 
 
-def slide(row: GeometryRow, frame: Pose, speed: Scalar) -> Vector:
+def compute_slide_velocity(row: GeometryRow, frame: Pose, speed: Scalar) -> Vector:
     """Velocity of the frame's origin in its antecedent, where its joint slides."""
     none = [0 * speed] * 3
-    if row.index is None or row.joint.angular:
+    if row.index is None or row.joint.is_revolute:
         return none
-    return frame.to_antecedent([*none[:2], speed])
+    return frame.rotate_to_antecedent([*none[:2], speed])
 
 
 class MovingComposite(Composite):
@@ -47,7 +56,7 @@ class MovingComposite(Composite):
         self.J_rate: list[Vector] = [[zero] * 3 for _ in range(3)]
         self.h: Vector = [zero] * 3
 
-    def turn(self, speed: Scalar) -> tuple[Vector, list[Vector], Vector]:
+    def compute_turned_rates(self, speed: Scalar) -> tuple[Vector, list[Vector], Vector]:
         """MS_rate, J_rate and h seen from a frame in which the link turns about its z axis.
 
         d MS/dt += speed z x MS; d J/dt += speed ([z x] J - J [z x]); h += speed J z.
@@ -59,67 +68,78 @@ class MovingComposite(Composite):
             [-J[1][2], J[0][2], 0 * J[2][2]],
         ]
         rates = [plus(a, times(speed, b)) for a, b in zip(self.J_rate, turned, strict=True)]
-        first = plus(self.MS_rate, times(speed, about_z(self.MS)))
+        first = plus(self.MS_rate, times(speed, cross_z(self.MS)))
         h = plus(self.h, times(speed, [line[2] for line in J]))
-        named_matrix("Jd", self.link, rates, "t")
-        return named("MSd", self.link, first, "t"), rates, named("hc", self.link, h, "t")
+        attach_matrix_labels("Jd", self.link, rates, "t")
+        return (
+            attach_labels("MSd", self.link, first, "t"),
+            rates,
+            attach_labels("hc", self.link, h, "t"),
+        )
 
-    def carry_moving(
+    def add_moving_composite(
         self, other: "MovingComposite", frame: Pose, row: GeometryRow, speed: Scalar
     ) -> None:
         """Add what hangs on the row's frame, whose joint has this speed."""
-        p, dp = frame.p, slide(row, frame, speed)
-        turning = speed if row.index is not None and row.joint.angular else 0 * speed
-        first, rates, h = other.turn(turning)
-        S, dS = frame.to_antecedent(other.MS), frame.to_antecedent(first)
+        p, dp = frame.p, compute_slide_velocity(row, frame, speed)
+        turning = speed if row.index is not None and row.joint.is_revolute else 0 * speed
+        first, rates, h = other.compute_turned_rates(turning)
+        S, dS = frame.rotate_to_antecedent(other.MS), frame.rotate_to_antecedent(first)
         shifted = plus(S, times(other.M, p))
-        turned, zero = named_matrix("Jd", other.link, frame.turned(rates), "a"), 0 * other.M
+        turned, zero = (
+            attach_matrix_labels("Jd", other.link, frame.rotate_inertia(rates), "a"),
+            0 * other.M,
+        )
         for i in range(3):
             for j in range(3):
-                moved = steiner(p, dS, zero, i, j) + steiner(dp, shifted, zero, i, j)
+                moved = compute_steiner_term(p, dS, zero, i, j) + compute_steiner_term(
+                    dp, shifted, zero, i, j
+                )
                 self.J_rate[i][j] = self.J_rate[i][j] + turned[i][j] + moved
-        self.h = plus(plus(self.h, frame.to_antecedent(h)), plus(cross(p, dS), cross(shifted, dp)))
+        self.h = plus(
+            plus(self.h, frame.rotate_to_antecedent(h)), plus(cross(p, dS), cross(shifted, dp))
+        )
         self.MS_rate = plus(self.MS_rate, plus(dS, times(other.M, dp)))
-        named("MSd", self.link, self.MS_rate), named("hc", self.link, self.h)
-        named_matrix("Jd", self.link, self.J_rate)
-        self.carry(other, frame)
+        attach_labels("MSd", self.link, self.MS_rate), attach_labels("hc", self.link, self.h)
+        attach_matrix_labels("Jd", self.link, self.J_rate)
+        self.add_composite(other, frame)
 
-    def column(self, row: GeometryRow, w: Vector) -> tuple[Vector, Vector]:
+    def compute_column(self, row: GeometryRow, w: Vector) -> tuple[Vector, Vector]:
         """Force and moment per unit of v of the row's joint: sum of m dJ/dt and m r x dJ/dt.
 
         With z the axis, f = z x d MS/dt + w x (z x MS) and
         n = (d J/dt z + z x h)/2 + z x (J w) - tr(J)/2 z x w for a joint that turns.
         """
-        spun = times(row.rate, about_z(w))  # z x w
-        if not row.joint.angular:
+        spun = times(row.rate, cross_z(w))  # z x w
+        if not row.joint.is_revolute:
             f = times(self.M, [-x for x in spun])
             return f, cross(spun, self.MS)
-        f = plus(about_z(self.MS_rate), cross(w, about_z(self.MS)))
+        f = plus(cross_z(self.MS_rate), cross(w, cross_z(self.MS)))
         Jw = [dot(line, w) for line in self.J]
-        n = plus(self._half(about_z(self.h)), about_z(Jw))
-        return times(row.rate, f), plus(times(row.rate, n), times(-self._half_trace(), spun))
+        n = plus(self._compute_half_rate(cross_z(self.h)), cross_z(Jw))
+        return times(row.rate, f), plus(times(row.rate, n), times(-self._halve_trace(), spun))
 
-    def rate(self, row: GeometryRow, w: Vector) -> Vector:
+    def compute_arm_rate(self, row: GeometryRow, w: Vector) -> Vector:
         """Moment of the changing arms: sum of m dr/dt x J for the unit speed of the row's joint.
 
         (d J/dt z - z x h)/2 + tr(J)/2 w x z - J (w x z) for a joint that turns.
         """
-        spun = times(-row.rate, about_z(w))  # w x z
-        if not row.joint.angular:
+        spun = times(-row.rate, cross_z(w))  # w x z
+        if not row.joint.is_revolute:
             h = plus(self.MS_rate, cross(w, self.MS))
-            return times(-row.rate, about_z(h))
-        n = self._half([-x for x in about_z(self.h)])
+            return times(-row.rate, cross_z(h))
+        n = self._compute_half_rate([-x for x in cross_z(self.h)])
         turned = [-dot(line, spun) for line in self.J]
-        return plus(times(row.rate, n), plus(times(self._half_trace(), spun), turned))
+        return plus(times(row.rate, n), plus(times(self._halve_trace(), spun), turned))
 
-    def _half(self, h: Vector) -> Vector:
+    def _compute_half_rate(self, h: Vector) -> Vector:
         return times(Fraction(1, 2), plus([line[2] for line in self.J_rate], h))
 
-    def _half_trace(self) -> Scalar:
+    def _halve_trace(self) -> Scalar:
         return (self.J[0][0] + self.J[1][1] + self.J[2][2]) * Fraction(1, 2)
 
 
-def coriolis_matrix(
+def compute_coriolis_matrix(
     geometry: Geometry, frames: Sequence[Pose], moved: Sequence[Motion], speeds: Sequence[Scalar],
     parameters: Sequence[Mapping[str, Any]], zero: Scalar,
 ) -> list[list[Scalar]]:  # fmt: skip
@@ -141,23 +161,28 @@ def coriolis_matrix(
     arms: list[Vector] = []  # how fast p turns and grows
     for row, frame in zip(geometry.rows, frames, strict=True):
         w = at_rest if row.parent is None else moved[row.parent].w
-        arms.append(plus(cross(w, frame.p), slide(row, frame, _speed(row, speeds, zero))))
-    matrix = [[zero] * geometry.joints for _ in range(geometry.joints)]
+        arms.append(
+            plus(
+                cross(w, frame.p),
+                compute_slide_velocity(row, frame, _get_joint_speed(row, speeds, zero)),
+            )
+        )
+    matrix = [[zero] * geometry.joint_count for _ in range(geometry.joint_count)]
     for k in reversed(range(len(links))):
         row = geometry.rows[k]
         if row.index is not None:
-            _fill(matrix, geometry, frames, moved, arms, links[k], k)
+            _fill_column(matrix, geometry, frames, moved, arms, links[k], k)
         if row.parent is not None:
-            speed = _speed(row, speeds, zero)
-            links[row.parent].carry_moving(links[k], frames[k], row, speed)
+            speed = _get_joint_speed(row, speeds, zero)
+            links[row.parent].add_moving_composite(links[k], frames[k], row, speed)
     return matrix
 
 
-def _speed(row: GeometryRow, speeds: Sequence[Scalar], zero: Scalar) -> Scalar:
+def _get_joint_speed(row: GeometryRow, speeds: Sequence[Scalar], zero: Scalar) -> Scalar:
     return zero if row.index is None else speeds[row.index] * row.rate
 
 
-def _fill(
+def _fill_column(
     matrix: list[list[Scalar]], geometry: Geometry, frames: Sequence[Pose],
     moved: Sequence[Motion], arms: Sequence[Vector], link: MovingComposite, k: int,
 ) -> None:  # fmt: skip
@@ -169,23 +194,27 @@ def _fill(
     """
     row = geometry.rows[k]
     assert row.index is not None
-    F, N = link.column(row, moved[k].w)
-    f, n = link.momentum(row)
-    a, name = link.rate(row, moved[k].w), row.joint.name
-    named("fu", name, F, of=name), named("nu", name, N, of=name), named("angd", name, a, of=name)
-    for at in geometry.ancestors(k):
+    F, N = link.compute_column(row, moved[k].w)
+    f, n = link.compute_momentum(row)
+    a, name = link.compute_arm_rate(row, moved[k].w), row.joint.name
+    (
+        attach_labels("fu", name, F, of=name),
+        attach_labels("nu", name, N, of=name),
+        attach_labels("angd", name, a, of=name),
+    )
+    for at in geometry.find_ancestors(k):
         other = geometry.rows[at]
         if other.index is not None:
-            matrix[other.index][row.index] = on_axis(other, F, N)
+            matrix[other.index][row.index] = project_on_axis(other, F, N)
             if at != k:
-                (x, y, _), momentum = moved[at].w, n if other.joint.angular else f
+                (x, y, _), momentum = moved[at].w, n if other.joint.is_revolute else f
                 turning = y * momentum[0] - x * momentum[1]
-                along = turning + a[2] if other.joint.angular else turning
+                along = turning + a[2] if other.joint.is_revolute else turning
                 matrix[row.index][other.index] = along * other.rate
         frame = frames[at]
-        F, f = frame.to_antecedent(F), frame.to_antecedent(f)
-        N = plus(frame.to_antecedent(N), cross(frame.p, F))
-        n = plus(frame.to_antecedent(n), cross(frame.p, f))
-        a = plus(frame.to_antecedent(a), cross(arms[at], f))
+        F, f = frame.rotate_to_antecedent(F), frame.rotate_to_antecedent(f)
+        N = plus(frame.rotate_to_antecedent(N), cross(frame.p, F))
+        n = plus(frame.rotate_to_antecedent(n), cross(frame.p, f))
+        a = plus(frame.rotate_to_antecedent(a), cross(arms[at], f))
         for letter, vector in (("fu", F), ("nu", N), ("lin", f), ("ang", n), ("angd", a)):
-            named(letter, other.joint.name, vector, "a", row.joint.name)
+            attach_labels(letter, other.joint.name, vector, "a", row.joint.name)

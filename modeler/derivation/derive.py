@@ -7,15 +7,25 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from modeler.core.errors import DerivationError, LoopError, RobotError
-from modeler.core.result import Presented
-from modeler.derivation.assembly_modes import STARTS, AssemblyMode, assembly_modes, lengthened
-from modeler.derivation.closure import SINGULAR, check_freedom, nearest_closed, open_loop
-from modeler.derivation.columns import standard_columns
-from modeler.derivation.geometry import exact_geometry
+from modeler.core.result import Result
+from modeler.derivation.assembly_modes import (
+    STARTS,
+    AssemblyMode,
+    find_assembly_modes,
+    flip_negative_travels,
+)
+from modeler.derivation.closure import (
+    SINGULAR,
+    check_mobility,
+    describe_open_loop,
+    find_nearest_closed,
+)
+from modeler.derivation.columns import build_standard_columns
+from modeler.derivation.geometry import build_exact_geometry
 from modeler.derivation.graph import Graph
 from modeler.derivation.model import SymbolicModel
-from modeler.derivation.walks import Linkage, linkage_of
-from modeler.robot import Robot, robot_from_text, with_home_text
+from modeler.derivation.walks import Linkage, build_linkage
+from modeler.robot import Robot, parse_robot_text, replace_home
 
 # [home]: taken as stated where it is good, else found; refused where it is singular.
 #
@@ -26,7 +36,7 @@ _TAKES_PART = 0.1
 """Of the largest share in a motion, from which a joint is named."""
 
 
-def lost_directions(linkage: Linkage, u: np.ndarray) -> list[str]:
+def describe_free_motions(linkage: Linkage, u: np.ndarray) -> list[str]:
     """The motions that a singular posture leaves free, each as `q11 : q12 : qP = 1 : -0.5 : 0.3`.
 
     Travels count in sizes of the robot. Joints that move little are left out.
@@ -36,18 +46,18 @@ def lost_directions(linkage: Linkage, u: np.ndarray) -> list[str]:
         u: (u,) closed posture.
     """
     names = [f"q{linkage.free[k].name}" for k in linkage.loops.solved]
-    _, values, turned = np.linalg.svd(linkage.loops.inner(u[None])[0])
-    told = []
+    _, values, turned = np.linalg.svd(linkage.loops.compute_passive_jacobian(u[None])[0])
+    descriptions = []
     for motion in turned[values <= SINGULAR]:
         motion = motion / motion[np.argmax(np.abs(motion) > (1 - 1e-6) * np.max(np.abs(motion)))]
         moved = [k for k, share in enumerate(motion) if abs(share) > _TAKES_PART]
         who = " : ".join(names[k] for k in moved)
-        told.append(who + " = " + " : ".join(f"{motion[k]:.2g}" for k in moved))
-    return told
+        descriptions.append(who + " = " + " : ".join(f"{motion[k]:.2g}" for k in moved))
+    return descriptions
 
 
 @dataclass(frozen=True)
-class HomeModes(Presented):
+class HomeModes(Result):
     """The assembly modes of a robot, and which of them its file means.
 
     Attributes:
@@ -59,7 +69,7 @@ class HomeModes(Presented):
 
     linkage: Linkage
     modes: tuple[AssemblyMode, ...]
-    own: int | None
+    stated_index: int | None
 
 
 NEAR = 0.5
@@ -69,7 +79,7 @@ _SAME_SHAPE = 1e-3
 
 
 @dataclass(frozen=True)
-class Home:
+class ClosedHome:
     """A robot with a [home] from which its loops close.
 
     Attributes:
@@ -78,20 +88,20 @@ class Home:
     """
 
     robot: Robot
-    told: str = ""
+    message: str = ""
 
-    def in_text(self, robot: Robot) -> Robot:
+    def write_to_text(self, robot: Robot) -> Robot:
         """The robot whose file's text says it too: that goes into model files."""
-        if not self.told:
+        if not self.message:
             return robot
         try:
-            text = with_home_text(robot.text, robot.home, self.robot.home)
+            text = replace_home(robot.text, robot.home, self.robot.home)
         except RobotError:  # it is found again, the same
             return self.robot
-        return robot_from_text(text, f"{robot.name} with its [home]")
+        return parse_robot_text(text, f"{robot.name} with its [home]")
 
 
-def settled_home(model: SymbolicModel) -> Home:
+def resolve_home(model: SymbolicModel) -> ClosedHome:
     """The robot with a good [home].
 
     A home stays as it is if the passive joints close the loops near it: none moves further than
@@ -102,28 +112,31 @@ def settled_home(model: SymbolicModel) -> Home:
         LoopError: the posture stated is singular, the loops leave more or less free than is
             actuated, or cannot close.
     """
-    robot, linkage = model.robot, linkage_of(model)
+    robot, linkage = model.robot, build_linkage(model)
     if linkage is None:
-        return Home(robot)
-    stated = linkage.vector(robot.home)
-    if _good_as_stated(linkage, stated) is not None:
-        return Home(robot)
+        return ClosedHome(robot)
+    stated = linkage.build_vector(robot.home)
+    if _close_stated_home(linkage, stated) is not None:
+        return ClosedHome(robot)
     start = np.nan_to_num(stated)
-    check_freedom(linkage.loops, start, linkage.geometry, linkage.owners)
-    modes = assembly_modes(linkage, stated)
-    found = nearest_closed(linkage.loops, start)
-    if found is not None and linkage.loops.sigma(found[None])[0] <= SINGULAR:
+    check_mobility(linkage.loops, start, linkage.geometry, linkage.owners)
+    modes = find_assembly_modes(linkage, stated)
+    posture = find_nearest_closed(linkage.loops, start)
+    if (
+        posture is not None
+        and linkage.loops.compute_singularity_distance(posture[None])[0] <= SINGULAR
+    ):
         # Meant, if all actuated joints on which the loops depend are stated.
-        given = [k for k in linkage.loops.given if linkage.tied[k]]
-        if np.all(np.isfinite(stated[given])):
-            raise LoopError(_singular(linkage, found, modes))
+        loop_joints = [k for k in linkage.loops.actuated if linkage.is_tied[k]]
+        if np.all(np.isfinite(stated[loop_joints])):
+            raise LoopError(_describe_singularity(linkage, posture, modes))
     if not modes:
-        raise _nothing_found(linkage, start)
-    home = written(linkage, modes[0].posture)
-    return Home(dataclasses.replace(robot, home=home), _home_note(linkage, modes, stated))
+        raise _build_closure_error(linkage, start)
+    home = express_as_home(linkage, modes[0].posture)
+    return ClosedHome(dataclasses.replace(robot, home=home), _describe_home(linkage, modes, stated))
 
 
-def modes_near(robot: Robot, near: Mapping[str, float]) -> HomeModes:
+def find_modes_near(robot: Robot, near: Mapping[str, float]) -> HomeModes:
     """The assembly modes of a robot with loops, the best one near to a posture first.
 
     Args:
@@ -135,77 +148,80 @@ def modes_near(robot: Robot, near: Mapping[str, float]) -> HomeModes:
         LoopError: the robot has no loops that are left to close, they leave more or less free than
             is actuated, or no closed posture is found that is not singular.
     """
-    linkage = linkage_of(_model(robot))
+    linkage = build_linkage(_build_model(robot))
     if linkage is None:
         raise LoopError(
             f"{robot.name}: there is no loop to close; [home] is asked for robots with [loops] "
             "that no relations close already"
         )
-    hints = linkage.vector(near)
+    hints = linkage.build_vector(near)
     start = np.nan_to_num(hints)
-    check_freedom(linkage.loops, start, linkage.geometry, linkage.owners)
-    own = _good_as_stated(linkage, linkage.vector(robot.home))
-    if own is not None and not near:  # [home] is left out where all joints at 0 will do
-        hints[list(linkage.loops.given)] = own[list(linkage.loops.given)]
-    modes = assembly_modes(linkage, hints)
+    check_mobility(linkage.loops, start, linkage.geometry, linkage.owners)
+    stated_posture = _close_stated_home(linkage, linkage.build_vector(robot.home))
+    if stated_posture is not None and not near:  # [home] is left out where all joints at 0 will do
+        hints[list(linkage.loops.actuated)] = stated_posture[list(linkage.loops.actuated)]
+    modes = find_assembly_modes(linkage, hints)
     if not modes:
-        raise _nothing_found(linkage, np.nan_to_num(hints))
-    if own is None:
+        raise _build_closure_error(linkage, np.nan_to_num(hints))
+    if stated_posture is None:
         return HomeModes(linkage, modes, None)
-    shapes = linkage.shape(np.array([own, *(mode.posture for mode in modes)]))
+    shapes = linkage.compute_shape(np.array([stated_posture, *(mode.posture for mode in modes)]))
     away = np.max(np.abs(shapes[1:] - shapes[0]), axis=1)
     at = int(np.argmin(away))
     return HomeModes(linkage, modes, at if away[at] < _SAME_SHAPE else None)
 
 
-def _nothing_found(linkage: Linkage, start: np.ndarray) -> LoopError:
-    found = open_loop(linkage.loops, start, linkage.owners)
+def _build_closure_error(linkage: Linkage, start: np.ndarray) -> LoopError:
+    reason = describe_open_loop(linkage.loops, start, linkage.owners)
     return LoopError(
-        f"{linkage.robot.name}: [home]: {found}, nor from {STARTS} others without being singular; "
+        f"{linkage.robot.name}: [home]: {reason}, nor from {STARTS} others without being singular; "
         "check the lengths, and the joints of [loops]"
     )
 
 
-def written(linkage: Linkage, u: np.ndarray) -> dict[str, float]:
+def express_as_home(linkage: Linkage, u: np.ndarray) -> dict[str, float]:
     """A posture as [home] states it: actuated joints as they are, the others to 1e-6.
 
     Rows that follow others are stated where they were before.
     """
-    robot, given = linkage.robot, linkage.loops.given
+    robot, actuated = linkage.robot, linkage.loops.actuated
     home = {
-        joint.name: float(u[k]) if k in given else round(float(u[k]), 6) + 0.0
+        joint.name: float(u[k]) if k in actuated else round(float(u[k]), 6) + 0.0
         for k, joint in enumerate(linkage.free)
     }
-    values = {**robot.symbol_values(), **{f"q{name}": value for name, value in home.items()}}
+    values = {**robot.evaluate_symbols(), **{f"q{name}": value for name, value in home.items()}}
     left = dict(robot.relations)
     while left:  # there are no circles
         for name in [n for n, relation in left.items() if relation.names <= values.keys()]:
-            values[f"q{name}"] = left.pop(name).number(values)
+            values[f"q{name}"] = left.pop(name).evaluate(values)
     stated = {name: values[f"q{name}"] for name in robot.relations if name in robot.home}
     return {**home, **stated}
 
 
-def _good_as_stated(linkage: Linkage, stated: np.ndarray) -> np.ndarray | None:
+def _close_stated_home(linkage: Linkage, stated: np.ndarray) -> np.ndarray | None:
     """The closed posture that was stated, rows left out at 0; None if it is no good one."""
-    found = nearest_closed(linkage.loops, np.nan_to_num(stated))
-    if found is None or linkage.loops.sigma(found[None])[0] <= SINGULAR:
+    posture = find_nearest_closed(linkage.loops, np.nan_to_num(stated))
+    if posture is None or linkage.loops.compute_singularity_distance(posture[None])[0] <= SINGULAR:
         return None
-    moved = linkage.distances(found[None], np.nan_to_num(stated))
-    turned = lengthened(linkage, found[None], stated)
-    return found if np.max(moved) <= NEAR and np.array_equal(turned[0], found) else None
+    moved = linkage.compute_distances(posture[None], np.nan_to_num(stated))
+    turned = flip_negative_travels(linkage, posture[None], stated)
+    return posture if np.max(moved) <= NEAR and np.array_equal(turned[0], posture) else None
 
 
-def _home_note(linkage: Linkage, modes: tuple[AssemblyMode, ...], stated: np.ndarray) -> str:
+def _describe_home(linkage: Linkage, modes: tuple[AssemblyMode, ...], stated: np.ndarray) -> str:
     robot, posture = linkage.robot, modes[0].posture
     others = f"{len(modes)} assembly modes: `modeler home` shows them, --write writes one down"
     if len(modes) == 1:
         others = "the only assembly mode found; `modeler home --write` writes it down"
-    if not modes[0].kept:
+    if not modes[0].is_within_limits:
         others += "; it is outside [limits], which none keeps there: check the lengths"
     if not np.any(np.isfinite(stated)):
-        given = linkage.loops.given
-        return f"{robot.name}: [home] found: mode A at {_values(linkage, posture, given)}; {others}"
-    moved = linkage.distances(posture[None], stated)[0]
+        actuated = linkage.loops.actuated
+        return (
+            f"{robot.name}: [home] found: mode A at "
+            f"{_format_values(linkage, posture, actuated)}; {others}"
+        )
+    moved = linkage.compute_distances(posture[None], stated)[0]
     far = [k for k in np.argsort(-moved, kind="stable") if moved[k] > 0.01]
     change = ", ".join(
         f"q{linkage.free[k].name} {stated[k]:.4g} -> {posture[k]:.4g}" for k in far[:_MOST_NAMED]
@@ -214,18 +230,18 @@ def _home_note(linkage: Linkage, modes: tuple[AssemblyMode, ...], stated: np.nda
     return f"{robot.name}: [home] completed: {change}; mode A of {others}"
 
 
-def _values(linkage: Linkage, u: np.ndarray, places: tuple[int, ...] | range) -> str:
+def _format_values(linkage: Linkage, u: np.ndarray, places: tuple[int, ...] | range) -> str:
     return ", ".join(f"q{linkage.free[k].name} = {float(f'{u[k]:.5g}') + 0.0:g}" for k in places)
 
 
-def _singular(linkage: Linkage, u: np.ndarray, modes: tuple[AssemblyMode, ...]) -> str:
+def _describe_singularity(linkage: Linkage, u: np.ndarray, modes: tuple[AssemblyMode, ...]) -> str:
     names = [f"q{joint.name}" for joint in linkage.free]
-    motions = lost_directions(linkage, u)
+    motions = describe_free_motions(linkage, u)
     lost = [name for name in names if any(name in m.split(" = ")[0].split(" : ") for m in motions)]
-    away = linkage.loops.sigma(u[None])[0]
+    away = linkage.loops.compute_singularity_distance(u[None])[0]
     advice = "state another posture"
     if modes:
-        advice += f", such as {_values(linkage, modes[0].posture, range(len(names)))}"
+        advice += f", such as {_format_values(linkage, modes[0].posture, range(len(names)))}"
     joints = ", ".join(name[1:] for name in lost)
     return (
         f"{linkage.robot.name}: the loops are singular at [home]: joint"
@@ -245,34 +261,34 @@ def derive_model(robot: Robot) -> SymbolicModel:
         LoopError: the loops leave more or less free than is actuated, are singular at home, or
             cannot close.
     """
-    model = _model(robot)
-    home = settled_home(model)
+    model = _build_model(robot)
+    home = resolve_home(model)
     if home.robot is not robot:
         robot = home.robot
-        model = _model(robot)
+        model = _build_model(robot)
     if model.closure is None:
         return model
-    from modeler.derivation.implied import implied_relations  # of loops alone
+    from modeler.derivation.implied import find_implied_relations  # of loops alone
 
-    implied = implied_relations(model)
+    implied = find_implied_relations(model)
     if implied.relations:
-        model = _model(replace(robot, relations={**robot.relations, **implied.relations}))
+        model = _build_model(replace(robot, relations={**robot.relations, **implied.relations}))
     return replace(model, special=implied.special, unproven=implied.unproven)
 
 
-def with_home(robot: Robot) -> Home:
+def complete_home(robot: Robot) -> ClosedHome:
     """The robot with a [home] from which its loops close, found where it is missing or poor.
 
     Raises:
         DerivationError: an entry of the table has no exact value.
-        LoopError: see `settled_home`.
+        LoopError: see `resolve_home`.
     """
-    return settled_home(_model(robot))
+    return resolve_home(_build_model(robot))
 
 
-def _model(robot: Robot) -> SymbolicModel:
+def _build_model(robot: Robot) -> SymbolicModel:
     try:
-        geometry = exact_geometry(robot)
+        geometry = build_exact_geometry(robot)
     except DerivationError as error:
         raise DerivationError(f"{robot.name}: {error}") from None
-    return SymbolicModel(robot, geometry, Graph(), standard_columns(geometry))
+    return SymbolicModel(robot, geometry, Graph(), build_standard_columns(geometry))

@@ -4,13 +4,13 @@ import re
 from collections.abc import Callable, Mapping, Sequence
 
 from modeler.core.errors import DerivationError
-from modeler.derivation.graph import Expr, Graph, Node, named
+from modeler.derivation.graph import Expr, Graph, Node, attach_labels
 
 _EVERYWHERE = {"add", "mul", "div", "sin", "cos", "sqrt", "exp", "tan", "tanh"}
 """Operations that have a derivative wherever they have a value, for our purposes."""
 
 
-def derivatives(
+def differentiate(
     values: Sequence[Expr], direction: Mapping[str, Expr], kinks: bool = False
 ) -> list[Expr]:
     """d values / ds where each symbol of `direction` moves with that speed; others stand still.
@@ -29,36 +29,38 @@ def derivatives(
         return []
     graph = values[0].graph
     zero = graph.constant(0)
-    found: dict[int, Expr] = {0: zero}
-    for index in graph.reachable(values):
+    node_slopes: dict[int, Expr] = {0: zero}
+    for index in graph.find_reachable(values):
         node = graph.nodes[index]
         if node.op == "sym":
-            found[index] = direction.get(node.args[0], zero)
+            node_slopes[index] = direction.get(node.args[0], zero)
         elif node.static:
-            found[index] = zero
+            node_slopes[index] = zero
         elif (kinks or node.op in _EVERYWHERE) and not any(
-            found[abs(ref)].ref for ref in node.args
+            node_slopes[abs(ref)].ref for ref in node.args
         ):
-            found[index] = zero  # most nodes depend on few symbols
+            node_slopes[index] = zero  # most nodes depend on few symbols
         else:
-            found[index] = _derivative(index, node, values[0], found, kinks)
-            _name_derivative(graph, index, found[index], direction)
-    return [found[abs(v.ref)] if v.ref >= 0 else -found[-v.ref] for v in values]
+            node_slopes[index] = _differentiate_node(index, node, values[0], node_slopes, kinks)
+            _attach_label(graph, index, node_slopes[index], direction)
+    return [node_slopes[abs(v.ref)] if v.ref >= 0 else -node_slopes[-v.ref] for v in values]
 
 
-def _name_derivative(graph: Graph, index: int, slope: Expr, direction: Mapping[str, Expr]) -> None:
+def _attach_label(graph: Graph, index: int, slope: Expr, direction: Mapping[str, Expr]) -> None:
     """Names it by what is derived, and by the one variable that moves, or the time."""
     if label := graph.labels.get(index):
         by = re.sub(r"\W", "", min(direction)) if len(direction) == 1 else "t"
         value = [-slope if label.minus else slope]
         step, of = f"{label.step}d", label.of + by
-        named(label.quantity, label.link, value, step, of, [label.component])
+        attach_labels(label.quantity, label.link, value, step, of, [label.component])
 
 
-def _derivative(index: int, node: Node, like: Expr, found: Mapping[int, Expr], kinks: bool) -> Expr:
+def _differentiate_node(
+    index: int, node: Node, like: Expr, node_slopes: Mapping[int, Expr], kinks: bool
+) -> Expr:
     graph = like.graph
     args = [Expr(graph, ref) for ref in node.args]
-    slopes = [found[abs(a.ref)] if a.ref >= 0 else -found[-a.ref] for a in args]
+    slopes = [node_slopes[abs(a.ref)] if a.ref >= 0 else -node_slopes[-a.ref] for a in args]
     if node.op == "add":
         return slopes[0] + slopes[1]
     if node.op == "mul":

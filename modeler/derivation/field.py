@@ -31,7 +31,7 @@ Letters = Mapping[sympy.Expr, str]
 """What each generator stands for -> "symbol", "angle" or "opaque"."""
 
 
-def in_cosines(numerator: Terms, denominator: Terms, letters: Letters) -> sympy.Expr:
+def express_in_cosines(numerator: Terms, denominator: Terms, letters: Letters) -> sympy.Expr:
     """numerator / denominator, polynomials in the letters (t for an angle), as an expression.
 
     Both are divided by (1 + t**2)**K, after which they are polynomials in cos and sin:
@@ -44,20 +44,20 @@ def in_cosines(numerator: Terms, denominator: Terms, letters: Letters) -> sympy.
     ]
     used = [i for i, degree in enumerate(degrees) if degree]
     names = list(letters)
-    target = _Target({names[i]: letters[names[i]] for i in used})
+    target = _CosineRing({names[i]: letters[names[i]] for i in used})
     pairs = [(degrees[i] + 1) // 2 for i in used]
     parts = [
         {tuple(m[i] for i in used): c for m, c in part.items()} for part in (numerator, denominator)
     ]
-    top, bottom = (target.converted(part, pairs) for part in parts)
+    top, bottom = (target.convert_terms(part, pairs) for part in parts)
     top, bottom = top.cancel(bottom)
-    return target.shortest(top) / target.shortest(bottom)
+    return target.find_shortest_form(top) / target.find_shortest_form(bottom)
 
 
 _ALL_CHOICES = 4
 
 
-class _Target:
+class _CosineRing:
     """The ring Q[letters, cosines, sines]: each angle has two generators there."""
 
     def __init__(self, letters: Letters) -> None:
@@ -73,17 +73,17 @@ class _Target:
                 self.names.append(letter)
         self.ring, *self.generators = ring([f"x{i}" for i in range(len(self.names))], QQ)
 
-    def converted(self, terms: Terms, pairs: Sequence[int]) -> PolyElement:
+    def convert_terms(self, terms: Terms, pairs: Sequence[int]) -> PolyElement:
         """The polynomial divided by (1 + t**2)**pairs for each angle."""
         total = self.ring.zero
         for monomial, coefficient in terms.items():
             term = self.ring.one * coefficient
             for slot, exponent, K in zip(self.slots, monomial, pairs, strict=True):
-                term = term * self._factor(slot, exponent, K)
+                term = term * self._build_factor(slot, exponent, K)
             total = total + term
-        return self.reduced(total, (True,) * len(self.angles))
+        return self.eliminate_squares(total, (True,) * len(self.angles))
 
-    def _factor(self, slot: int, exponent: int, K: int) -> Any:
+    def _build_factor(self, slot: int, exponent: int, K: int) -> Any:
         if slot not in self.angles:
             return self.generators[slot] ** exponent
         c, s = self.generators[slot], self.generators[slot + 1]
@@ -92,30 +92,30 @@ class _Target:
         factor = ((1 - c) * half) ** squares * ((1 + c) * half) ** (K - squares - single)
         return factor * (s * half) if single else factor
 
-    def reduced(self, poly: PolyElement, keep_cosines: Sequence[bool]) -> PolyElement:
+    def eliminate_squares(self, poly: PolyElement, keep_cosines: Sequence[bool]) -> PolyElement:
         """With s**2 = 1 - c**2 (keep cosines) or c**2 = 1 - s**2, per angle."""
         for slot, keep in zip(self.angles, keep_cosines, strict=True):
             gone, stays = (slot + 1, slot) if keep else (slot, slot + 1)
-            poly = with_square(poly, gone, 1 - self.generators[stays] ** 2)
+            poly = replace_square(poly, gone, 1 - self.generators[stays] ** 2)
         return poly
 
-    def shortest(self, poly: PolyElement) -> sympy.Expr:
+    def find_shortest_form(self, poly: PolyElement) -> sympy.Expr:
         """The expanded form of fewest terms; with many angles the choices are made in turn."""
         count = len(self.angles)
         if count <= _ALL_CHOICES:
             choices = product((True, False), repeat=count)
-            best = min((self.reduced(poly, keep) for keep in choices), key=len)
+            best = min((self.eliminate_squares(poly, keep) for keep in choices), key=len)
         else:
             keep = [True] * count
-            best = self.reduced(poly, keep)
+            best = self.eliminate_squares(poly, keep)
             for i in range(count):
                 other = [k != (i == j) for j, k in enumerate(keep)]
-                form = self.reduced(poly, other)
+                form = self.eliminate_squares(poly, other)
                 if len(form) < len(best):
                     best, keep = form, other
-        return sympy.Add(*(self._term(m, c) for m, c in best.terms()))
+        return sympy.Add(*(self._build_term(m, c) for m, c in best.terms()))
 
-    def _term(self, monomial: tuple[int, ...], coefficient: Any) -> sympy.Expr:
+    def _build_term(self, monomial: tuple[int, ...], coefficient: Any) -> sympy.Expr:
         number = sympy.Rational(int(coefficient.numerator), int(coefficient.denominator))
         return sympy.Mul(
             number, *(name**e for name, e in zip(self.names, monomial, strict=True) if e)
@@ -133,7 +133,7 @@ class Quotient:
     def __init__(self, numer: Any, denom: Any) -> None:
         self.numer, self.denom = numer, denom
 
-    def _like(self, other: Any) -> "Quotient":
+    def _convert_operand(self, other: Any) -> "Quotient":
         """A rational number as one of us."""
         if isinstance(other, Quotient):
             return other
@@ -141,16 +141,16 @@ class Quotient:
         return Quotient(constant(int(other.numerator)), constant(int(other.denominator)))
 
     def __add__(self, other: Any) -> "Quotient":
-        b = self._like(other)
+        b = self._convert_operand(other)
         if self.denom == b.denom:
-            return _cancelled(self.numer + b.numer, self.denom)
-        return _cancelled(self.numer * b.denom + b.numer * self.denom, self.denom * b.denom)
+            return _cancel_divisors(self.numer + b.numer, self.denom)
+        return _cancel_divisors(self.numer * b.denom + b.numer * self.denom, self.denom * b.denom)
 
     __radd__ = __add__
 
     def __mul__(self, other: Any) -> "Quotient":
-        b = self._like(other)
-        return _cancelled(self.numer * b.numer, self.denom * b.denom)
+        b = self._convert_operand(other)
+        return _cancel_divisors(self.numer * b.numer, self.denom * b.denom)
 
     __rmul__ = __mul__
 
@@ -164,11 +164,11 @@ class Quotient:
         return -self + other
 
     def __truediv__(self, other: Any) -> "Quotient":
-        b = self._like(other)
-        return _cancelled(self.numer * b.denom, self.denom * b.numer)
+        b = self._convert_operand(other)
+        return _cancel_divisors(self.numer * b.denom, self.denom * b.numer)
 
     def __rtruediv__(self, other: Any) -> "Quotient":
-        return self._like(other) / self
+        return self._convert_operand(other) / self
 
     def __pow__(self, n: int) -> "Quotient":
         power = Quotient(self.numer ** abs(n), self.denom ** abs(n))
@@ -178,7 +178,7 @@ class Quotient:
         return bool(self.numer)
 
     def __eq__(self, other: object) -> bool:
-        b = self._like(other)
+        b = self._convert_operand(other)
         return bool(self.numer == b.numer and self.denom == b.denom)
 
     def __hash__(self) -> int:
@@ -189,7 +189,7 @@ class Quotient:
         return len(self.numer) + len(self.denom)
 
 
-def _cancelled(numer: Any, denom: Any) -> Quotient:
+def _cancel_divisors(numer: Any, denom: Any) -> Quotient:
     if not denom.is_one():
         common = numer.gcd(denom)
         if denom.leading_coefficient() < 0:
@@ -199,7 +199,7 @@ def _cancelled(numer: Any, denom: Any) -> Quotient:
     return Quotient(numer, denom)
 
 
-def _told(polynomial: Any) -> Terms:
+def _convert_terms(polynomial: Any) -> Terms:
     return {tuple(map(int, at)): QQ(int(c)) for at, c in polynomial.to_dict().items()}
 
 
@@ -218,7 +218,7 @@ class ExactField:
     def __init__(self, constants: Iterable[sympy.Expr]) -> None:
         letters: dict[sympy.Expr, str] = {}
         for constant in constants:
-            _collect(sympy.sympify(constant), letters)
+            _collect_letters(sympy.sympify(constant), letters)
         self.letters = dict(sorted(letters.items(), key=lambda item: (item[1], str(item[0]))))
         names = [f"u{i}" for i in range(len(self.letters))]
         if names:
@@ -231,8 +231,8 @@ class ExactField:
         self._zero = self._one - self._one
         self._generator = dict(zip(self.letters, generators, strict=True))
         # Most constants and coefficients of a long chain are the same few.
-        self.element = cache(self._convert)
-        self.expression = cache(self._written)
+        self.element = cache(self._convert_expression)
+        self.expression = cache(self._write_expression)
 
     @property
     def one(self) -> Element:
@@ -244,7 +244,7 @@ class ExactField:
         """0."""
         return self._zero
 
-    def generator(self, place: int) -> Element:
+    def get_generator(self, place: int) -> Element:
         """The generator of the letter at that place of `letters`."""
         return self._generator[list(self.letters)[place]]
 
@@ -253,7 +253,7 @@ class ExactField:
         c, s = cos_sin(angle)
         return self.element(c), self.element(s)
 
-    def _convert(self, value: sympy.Expr) -> Element:
+    def _convert_expression(self, value: sympy.Expr) -> Element:
         """The field element of a constant expression."""
         if value.is_Rational:
             return self._one * sympy.QQ(int(value.p), int(value.q))
@@ -268,61 +268,65 @@ class ExactField:
         if value.is_Pow:
             return self.element(value.base) ** int(value.exp)
         assert value.func in (sympy.cos, sympy.sin)
-        t = self._generator[cosine_symbol(value)]
+        t = self._generator[get_cosine_symbol(value)]
         return (1 - t**2 if value.func is sympy.cos else 2 * t) / (1 + t**2)
 
-    def _written(self, element: Element) -> sympy.Expr:
+    def _write_expression(self, element: Element) -> sympy.Expr:
         """The element as a sympy expression in the symbols, cosines and sines."""
         if not self._generator:
             return sympy.Rational(int(element.numerator), int(element.denominator))
-        return in_cosines(_told(element.numer), _told(element.denom), self.letters)
+        return express_in_cosines(
+            _convert_terms(element.numer), _convert_terms(element.denom), self.letters
+        )
 
-    def residue(self, element: Element, values: Mapping[sympy.Expr, int], prime: int) -> int:
+    def compute_residue(
+        self, element: Element, values: Mapping[sympy.Expr, int], prime: int
+    ) -> int:
         """The element modulo a prime, with residues for the letters (tan(a/2) for cos(a))."""
         if not self._generator:
             return int(element.numerator) * pow(int(element.denominator), -1, prime) % prime
         point = [values[letter] for letter in self.letters]
-        parts = (_told(element.numer), _told(element.denom))
-        top, bottom = (value_modulo(part, point, prime) for part in parts)
+        parts = (_convert_terms(element.numer), _convert_terms(element.denom))
+        top, bottom = (evaluate_modulo(part, point, prime) for part in parts)
         return top * pow(bottom, -1, prime) % prime
 
 
-def geometry_field(geometry: Geometry) -> ExactField:
+def build_geometry_field(geometry: Geometry) -> ExactField:
     """The field that the table of a robot needs."""
     constants: list[sympy.Expr] = list(geometry.gravity)
     for row in geometry.rows:
         constants += [row.b, row.d]
         angles = [row.gamma, row.alpha]
         # The constant part of a free joint's variable only shifts it.
-        if row.index is None or not row.joint.angular or geometry.tied:
+        if row.index is None or not row.joint.is_revolute or geometry.has_relations:
             angles.append(row.theta)
-        if row.index is None or row.joint.angular or geometry.tied:
+        if row.index is None or row.joint.is_revolute or geometry.has_relations:
             constants.append(row.r)
         for angle in angles:
             constants += cos_sin(angle)
     return ExactField(constants)
 
 
-def _collect(value: sympy.Expr, letters: dict[sympy.Expr, str]) -> None:
+def _collect_letters(value: sympy.Expr, letters: dict[sympy.Expr, str]) -> None:
     if value.is_Rational:
         return
     if value.is_Symbol:
         letters[value] = "symbol"
     elif value.is_Add or value.is_Mul or (value.is_Pow and value.exp.is_Integer):
         for arg in value.args:
-            _collect(arg, letters)
+            _collect_letters(arg, letters)
     elif value.func in (sympy.cos, sympy.sin):
-        letters[cosine_symbol(value)] = "angle"
+        letters[get_cosine_symbol(value)] = "angle"
     else:
         letters[value] = "opaque"
 
 
-def cosine_symbol(value: sympy.Expr) -> sympy.Expr:
+def get_cosine_symbol(value: sympy.Expr) -> sympy.Expr:
     """cos(a) of a cos(a) or sin(a): the key of an angle among the letters."""
     return sympy.cos(value.args[0], evaluate=False)
 
 
-def value_modulo(poly: Terms, point: Sequence[int], prime: int) -> int:
+def evaluate_modulo(poly: Terms, point: Sequence[int], prime: int) -> int:
     """The polynomial's value modulo the prime."""
     total = 0
     for monomial, coefficient in poly.items():
@@ -334,28 +338,28 @@ def value_modulo(poly: Terms, point: Sequence[int], prime: int) -> int:
     return total % prime
 
 
-def by_powers(poly: PolyElement, place: int) -> dict[int, PolyElement]:
+def collect_powers(poly: PolyElement, place: int) -> dict[int, PolyElement]:
     """{degree in a generator: factor}, zeros left out."""
-    found: dict[int, dict[tuple[int, ...], Any]] = {}
+    coefficients: dict[int, dict[tuple[int, ...], Any]] = {}
     for at, value in poly.items():
-        found.setdefault(at[place], {})[(*at[:place], 0, *at[place + 1 :])] = value
-    return {degree: poly.ring.zero.new(part) for degree, part in found.items()}
+        coefficients.setdefault(at[place], {})[(*at[:place], 0, *at[place + 1 :])] = value
+    return {degree: poly.ring.zero.new(part) for degree, part in coefficients.items()}
 
 
-def with_square(poly: PolyElement, place: int, square: PolyElement) -> PolyElement:
+def replace_square(poly: PolyElement, place: int, square: PolyElement) -> PolyElement:
     """The polynomial with `square` for x**2, of the generator x at that place."""
     if all(monomial[place] < 2 for monomial in poly):
         return poly
     most = max(monomial[place] for monomial in poly) // 2
     powers = [sorted((square**n).items()) for n in range(most + 1)]
-    found: dict[tuple[int, ...], Any] = {}  # in the order of the terms, on which sums depend
+    new_terms: dict[tuple[int, ...], Any] = {}  # in the order of the terms, on which sums depend
     for monomial, coefficient in poly.items():
         pairs, rest = divmod(monomial[place], 2)
         left = (*monomial[:place], rest, *monomial[place + 1 :])
         for at, factor in powers[pairs]:
             key = tuple(map(add, left, at))
-            found[key] = found.get(key, 0) + coefficient * factor
-    return poly.ring.zero.new({key: value for key, value in found.items() if value})
+            new_terms[key] = new_terms.get(key, 0) + coefficient * factor
+    return poly.ring.zero.new({key: value for key, value in new_terms.items() if value})
 
 
 # Row reduction over an exact field, on small or sparse matrices.
@@ -372,22 +376,22 @@ LARGEST = 400
 """Terms of a coefficient, numerator and denominator together, beyond which nobody reads it."""
 
 
-class TooLarge(ArithmeticError):
+class CoefficientTooLarge(ArithmeticError):
     """The exact coefficients grow beyond `LARGEST` terms."""
 
 
-def row_reduce(rows: Matrix) -> tuple[Matrix, list[int]]:
+def reduce_rows(rows: Matrix) -> tuple[Matrix, list[int]]:
     """Reduced row echelon form without zero rows, and the pivot columns."""
     sparse = [{j: x for j, x in enumerate(line) if x} for line in rows]
     width = len(rows[0]) if rows else 0
-    reduced, pivots = sparse_row_reduce(sparse, range(width))
+    reduced, pivots = reduce_sparse_rows(sparse, range(width))
     if not rows:
         return [], []
     zero = rows[0][0] - rows[0][0]
     return [[line.get(j, zero) for j in range(width)] for line in reduced], pivots
 
 
-def sparse_row_reduce(
+def reduce_sparse_rows(
     rows: Sequence[Mapping[int, Element]], order: Sequence[int]
 ) -> tuple[list[dict[int, Element]], list[int]]:
     """Reduced row echelon form of sparse rows, pivots searched in the given order of columns.
@@ -410,28 +414,28 @@ def sparse_row_reduce(
             pivot = {j: x * inverse for j, x in pivot.items()}
         for row in (*left, *done):
             if column in row:
-                _subtract(row, pivot, row[column])
+                _subtract_row(row, pivot, row[column])
         left = [row for row in left if row]
         done.append(pivot)
         pivots.append(column)
     return done, pivots
 
 
-def _subtract(row: dict[int, Element], pivot: Mapping[int, Element], factor: Element) -> None:
+def _subtract_row(row: dict[int, Element], pivot: Mapping[int, Element], factor: Element) -> None:
     for j, x in pivot.items():
         part = factor * x
         value = row[j] - part if j in row else -part
-        if _terms(value) > LARGEST:
-            raise TooLarge(f"a coefficient has more than {LARGEST} terms")
+        if _count_terms(value) > LARGEST:
+            raise CoefficientTooLarge(f"a coefficient has more than {LARGEST} terms")
         if value:
             row[j] = value
         else:
             row.pop(j, None)
 
 
-def null_space(rows: Matrix, width: int, zero: Element, one: Element) -> Matrix:
+def compute_null_space(rows: Matrix, width: int, zero: Element, one: Element) -> Matrix:
     """Basis of {c : rows c = 0}, as rows of length `width`."""
-    reduced, pivots = row_reduce(rows)
+    reduced, pivots = reduce_rows(rows)
     basis = []
     for free in range(width):
         if free in pivots:
@@ -444,14 +448,14 @@ def null_space(rows: Matrix, width: int, zero: Element, one: Element) -> Matrix:
     return basis
 
 
-def _terms(value: Element) -> int:
+def _count_terms(value: Element) -> int:
     return len(value) if isinstance(value, Quotient) else 1
 
 
 # Linear relations between vectors over Q, first come first kept.
 
 
-def as_fraction(value: Any) -> Fraction:
+def convert_to_fraction(value: Any) -> Fraction:
     """A rational number of sympy as a `Fraction`."""
     return Fraction(int(value.numerator), int(value.denominator))
 
@@ -461,7 +465,7 @@ SparseVector: TypeAlias = Mapping[Any, Any]
 
 
 @dataclass(frozen=True)
-class Relations:
+class LinearRelations:
     """Every vector in terms of those that come first.
 
     Attributes:
@@ -478,22 +482,22 @@ class Relations:
         return len(self.independent)
 
 
-def linear_relations(vectors: Mapping[Any, SparseVector]) -> Relations:
+def find_linear_relations(vectors: Mapping[Any, SparseVector]) -> LinearRelations:
     """The independent vectors, first come first kept, and all the others in terms of them."""
-    names, places = list(vectors), places_of(vectors.values())
+    names, places = list(vectors), enumerate_places(vectors.values())
     columns: dict[int, dict[int, Any]] = {}
     for k, vector in enumerate(vectors.values()):
         for place, value in vector.items():
             if value:
                 columns.setdefault(places[place], {})[k] = value
     reduced, pivots = DomainMatrix(columns, (len(places), len(names)), QQ).rref()
-    found: dict[Any, dict[Any, Fraction]] = {name: {} for name in names}
+    combinations: dict[Any, dict[Any, Fraction]] = {name: {} for name in names}
     for row, line in sorted(reduced.to_dod().items()):
         for k, value in line.items():
-            found[names[k]][names[pivots[row]]] = as_fraction(value)
-    return Relations(tuple(names[k] for k in pivots), found)
+            combinations[names[k]][names[pivots[row]]] = convert_to_fraction(value)
+    return LinearRelations(tuple(names[k] for k in pivots), combinations)
 
 
-def places_of(vectors: Iterable[SparseVector]) -> dict[Any, int]:
+def enumerate_places(vectors: Iterable[SparseVector]) -> dict[Any, int]:
     """Row by place, in order of appearance."""
     return {place: i for i, place in enumerate(dict.fromkeys(p for v in vectors for p in v))}

@@ -9,10 +9,10 @@ from math import comb, prod
 
 import sympy
 
-from modeler.core.brief import Brief
+from modeler.core.brief import ShortRepr
 from modeler.core.errors import DerivationError
 from modeler.core.expression import Expression
-from modeler.robot import Joint, LinkFrame, Robot, written_cell
+from modeler.robot import Joint, LinkFrame, Robot, locate_written_cell
 
 # Cosine and sine of constant angles, exactly, with as few different ones as possible.
 #
@@ -40,14 +40,14 @@ def cos_sin(angle: sympy.Expr) -> Pair:
     """
     constant, rest = angle.as_independent(*angle.free_symbols, as_Add=True)
     if rest == 0 or not angle.free_symbols:
-        return _of_number(angle)
+        return _evaluate_number(angle)
     if not is_short(rest):
-        return _standing(angle)
+        return _keep_unevaluated(angle)
     pair = tuple(sympy.expand_trig(f(rest)) for f in (sympy.cos, sympy.sin))
-    return _sum((pair[0], pair[1]), _of_number(constant))
+    return _add_angles((pair[0], pair[1]), _evaluate_number(constant))
 
 
-def quarter_turns(angle: sympy.Expr) -> tuple[int, sympy.Expr]:
+def count_quarter_turns(angle: sympy.Expr) -> tuple[int, sympy.Expr]:
     """The right angles in a constant, of `phi + 0.3 - pi/2` -1; and what else it is made of."""
     terms = sympy.Add.make_args(angle)
     right = [term for term in terms if (term / (sympy.pi / 2)).is_Integer]
@@ -63,34 +63,34 @@ def is_short(angle: sympy.Expr) -> bool:
     return turns <= _MOST_TURNS
 
 
-def _of_number(angle: sympy.Expr) -> Pair:
+def _evaluate_number(angle: sympy.Expr) -> Pair:
     quarters = angle / (sympy.pi / 2)
     if quarters.is_Integer:
         return sympy.cos(angle), sympy.sin(angle)
     if angle.is_negative:
-        c, s = _of_number(-angle)
+        c, s = _evaluate_number(-angle)
         return c, -s
     number, turned = angle.as_coeff_Add()
     if number and turned:  # 0.4 + pi/2 is made of the same angle as 0.4
-        return _sum(_of_number(number), _of_number(turned))
+        return _add_angles(_evaluate_number(number), _evaluate_number(turned))
     turns = angle / sympy.pi
     if turns.is_Rational and turns.q <= _FINEST:
-        return _multiple(_standing(sympy.pi / turns.q), int(turns.p))
-    return _standing(angle)
+        return _multiply_angle(_keep_unevaluated(sympy.pi / turns.q), int(turns.p))
+    return _keep_unevaluated(angle)
 
 
-def _standing(angle: sympy.Expr) -> Pair:
+def _keep_unevaluated(angle: sympy.Expr) -> Pair:
     return sympy.cos(angle, evaluate=False), sympy.sin(angle, evaluate=False)
 
 
-def _multiple(pair: Pair, n: int) -> Pair:
+def _multiply_angle(pair: Pair, n: int) -> Pair:
     total = pair
     for _ in range(n - 1):
-        total = _sum(total, pair)
+        total = _add_angles(total, pair)
     return total
 
 
-def _sum(a: Pair, b: Pair) -> Pair:
+def _add_angles(a: Pair, b: Pair) -> Pair:
     # Products and sums only: sympy's own simplifications would evaluate what is left standing.
     return a[0] * b[0] - a[1] * b[1], a[1] * b[0] + a[0] * b[1]
 
@@ -107,34 +107,36 @@ _FUNCTIONS = {
 }  # fmt: skip
 
 
-def folded(expression: Expression, values: Mapping[str, sympy.Expr]) -> sympy.Expr:
+def fold_expression(expression: Expression, values: Mapping[str, sympy.Expr]) -> sympy.Expr:
     """The expression with `values` for its names, decimals as the fractions that were written.
 
     Raises:
         DerivationError: it is not finite, or too long to be written out.
     """
     try:
-        value = sympy.sympify(expression.fold(values, _FUNCTIONS, sympy.pi, _rational, power))
+        value = sympy.sympify(
+            expression.fold(values, _FUNCTIONS, sympy.pi, _convert_rational, compute_power)
+        )
         check_length(value)
-    except TooLong as error:
+    except ExpressionTooLong as error:
         raise DerivationError(
-            f'"{_shortened(expression.text)}" {error}; give its value as a number'
+            f'"{_shorten_text(expression.text)}" {error}; give its value as a number'
         ) from None
     if value.has(sympy.zoo, sympy.oo, sympy.nan):
         raise DerivationError(
-            f'"{_shortened(expression.text)}" is not finite; expected a finite number'
+            f'"{_shorten_text(expression.text)}" is not finite; expected a finite number'
         )
-    turned = value.atoms(sympy.cos, sympy.sin)
+    turned = value.wave_free_columns(sympy.cos, sympy.sin)
     if not turned or not all(is_short(function.args[0]) for function in turned):
         return value
     return sympy.expand_trig(value)
 
 
-def _rational(value: Fraction) -> sympy.Rational:
+def _convert_rational(value: Fraction) -> sympy.Rational:
     return sympy.Rational(value.numerator, value.denominator)
 
 
-def _shortened(text: str) -> str:
+def _shorten_text(text: str) -> str:
     return text if len(text) <= _LONGEST else f"{text[:_LONGEST]} ..."
 
 
@@ -145,7 +147,7 @@ Form = Mapping[int, Fraction]
 """Sum of coefficient * u[k] over the free variables u."""
 
 
-def resolved_relations(
+def resolve_relations(
     robot: Robot, symbols: Mapping[str, sympy.Expr]
 ) -> tuple[tuple[Form, ...], dict[str, sympy.Expr]]:
     """Forms of the moving rows, in table order, and the constants of the relations, by row.
@@ -156,26 +158,26 @@ def resolved_relations(
     Raises:
         DerivationError: a relation is not linear.
     """
-    numbers = {name: sympy.Rational(repr(x)) for name, x in robot.symbol_values().items()}
-    free = [_joint_symbol(joint) for joint in robot.free]
-    variables = {joint.variable: _joint_symbol(joint) for joint in robot.moving}
+    numbers = {name: sympy.Rational(repr(x)) for name, x in robot.evaluate_symbols().items()}
+    free = [_create_joint_symbol(joint) for joint in robot.free_joints]
+    variables = {joint.variable: _create_joint_symbol(joint) for joint in robot.moving_joints}
     values = {symbol: symbol for symbol in free}
-    waiting = {joint for joint in robot.moving if joint.name in robot.relations}
+    waiting = {joint for joint in robot.moving_joints if joint.name in robot.relations}
     while waiting:
         for joint in sorted(waiting, key=lambda joint: joint.name):
             expression = robot.relations[joint.name]
             if all(variables[n] in values for n in expression.names if n in variables):
-                value = folded(expression, {**symbols, **variables})
-                values[_joint_symbol(joint)] = sympy.expand(value.subs(values))
+                value = fold_expression(expression, {**symbols, **variables})
+                values[_create_joint_symbol(joint)] = sympy.expand(value.subs(values))
                 waiting.discard(joint)
     forms, constants = [], {}
-    places = {joint.name: k for k, joint in enumerate(robot.free)}
-    for joint in robot.moving:
+    places = {joint.name: k for k, joint in enumerate(robot.free_joints)}
+    for joint in robot.moving_joints:
         if joint.name in places:  # it follows no other
             constants[joint.name] = sympy.Integer(0)
             forms.append({places[joint.name]: Fraction(1)})
             continue
-        value = values[_joint_symbol(joint)]
+        value = values[_create_joint_symbol(joint)]
         coefficients = {k: value.coeff(symbol, 1) for k, symbol in enumerate(free)}
         constant = value - sum(c * free[k] for k, c in coefficients.items())
         constant = sympy.expand(constant)
@@ -184,15 +186,17 @@ def resolved_relations(
                 f"the relation of joint {joint.name} is not linear; expected a sum such as q1 - q2"
             )
         constants[joint.name] = constant
-        forms.append({k: _fraction(c, numbers) for k, c in coefficients.items() if c != 0})
+        forms.append(
+            {k: _convert_coefficient(c, numbers) for k, c in coefficients.items() if c != 0}
+        )
     return tuple(forms), constants
 
 
-def _joint_symbol(joint: Joint) -> sympy.Symbol:
+def _create_joint_symbol(joint: Joint) -> sympy.Symbol:
     return sympy.Symbol(joint.variable, real=True)
 
 
-def _fraction(value: sympy.Expr, numbers: Mapping[str, sympy.Rational]) -> Fraction:
+def _convert_coefficient(value: sympy.Expr, numbers: Mapping[str, sympy.Rational]) -> Fraction:
     at = sympy.nsimplify(value.subs({s: numbers[s.name] for s in value.free_symbols}))
     if not at.is_Rational:
         raise DerivationError(f"the coefficient {value} of a relation is no rational number")
@@ -203,13 +207,13 @@ _RIGHT_ANGLE_TOLERANCE = 1e-9
 _QUARTER = math.pi / 2
 
 
-def geometric_symbol(name: str) -> sympy.Symbol:
+def create_geometric_symbol(name: str) -> sympy.Symbol:
     """The symbol of that name; the only place where geometric symbols are made."""
     return sympy.Symbol(name, real=True)
 
 
 @dataclass(frozen=True)
-class GeometryRow(Brief):
+class GeometryRow(ShortRepr):
     """One row of the table, exact.
 
     T(a -> j) = Rz(gamma) Tz(b) Rx(alpha) Tx(d) Rz(theta) Tz(r), where theta = rate q + offset for a
@@ -236,7 +240,7 @@ class GeometryRow(Brief):
 
 
 @dataclass(frozen=True)
-class Geometry(Brief):
+class Geometry(ShortRepr):
     """The exact table of a robot.
 
     Attributes:
@@ -254,21 +258,21 @@ class Geometry(Brief):
     forms: tuple[Mapping[int, Fraction], ...]
 
     @property
-    def joints(self) -> int:
+    def joint_count(self) -> int:
         """Number of rows that move."""
         return len(self.forms)
 
     @property
-    def coordinates(self) -> int:
+    def coordinate_count(self) -> int:
         """Number of free variables u."""
-        return len(self.robot.free)
+        return len(self.robot.free_joints)
 
     @property
-    def tied(self) -> bool:
+    def has_relations(self) -> bool:
         """True if rows follow others, so that u has fewer entries than rows move."""
         return bool(self.robot.relations)
 
-    def ancestors(self, k: int) -> list[int]:
+    def find_ancestors(self, k: int) -> list[int]:
         """Rows from `k` down to the base, `k` first."""
         chain: list[int] = []
         at: int | None = k
@@ -278,7 +282,7 @@ class Geometry(Brief):
         return chain
 
 
-def exact_geometry(robot: Robot, at_nominal: bool = False) -> Geometry:
+def build_exact_geometry(robot: Robot, at_nominal: bool = False) -> Geometry:
     """The table of `robot` with exact entries.
 
     Args:
@@ -293,23 +297,23 @@ def exact_geometry(robot: Robot, at_nominal: bool = False) -> Geometry:
     Raises:
         DerivationError: an entry is not finite, or a joint variable does not stand alone.
     """
-    numbers = robot.symbol_values()
-    symbols = _symbols(robot, numbers, at_nominal)
-    forms, constants = resolved_relations(robot, symbols)
-    cells = _Cells(symbols, numbers, partial(written_cell, robot))
-    rows = tuple(_moved(row, constants, cells) for row in _rows(robot, cells))
+    numbers = robot.evaluate_symbols()
+    symbols = _resolve_symbols(robot, numbers, at_nominal)
+    forms, constants = resolve_relations(robot, symbols)
+    cells = _Cells(symbols, numbers, partial(locate_written_cell, robot))
+    rows = tuple(_add_relation_constant(row, constants, cells) for row in _build_rows(robot, cells))
     try:
-        gravity = tuple(folded(entry, symbols) for entry in robot.gravity)
+        gravity = tuple(fold_expression(entry, symbols) for entry in robot.gravity)
     except DerivationError as error:
         raise DerivationError(f"gravity: {error}") from None
-    used = {name for name, value in symbols.items() if value == geometric_symbol(name)}
+    used = {name for name, value in symbols.items() if value == create_geometric_symbol(name)}
     return Geometry(
         robot, rows, (gravity[0], gravity[1], gravity[2]),
         {name: numbers[name] for name in numbers if name in used}, forms,
     )  # fmt: skip
 
 
-def placement(
+def compute_placement(
     robot: Robot, frame: LinkFrame
 ) -> tuple[tuple[sympy.Expr, ...], tuple[sympy.Expr, ...]]:
     """Position, m, and angles roll, pitch, yaw of a frame on its row, exact.
@@ -317,63 +321,71 @@ def placement(
     Raises:
         DerivationError: a cell is not finite.
     """
-    numbers = robot.symbol_values()
-    cells = _Cells(_symbols(robot, numbers, False), numbers, partial(written_cell, robot))
-    position = tuple(folded(cell, cells.symbols) for cell in frame.position)
-    return position, tuple(cells.snapped(folded(cell, cells.symbols)) for cell in frame.angles)
+    numbers = robot.evaluate_symbols()
+    cells = _Cells(
+        _resolve_symbols(robot, numbers, False), numbers, partial(locate_written_cell, robot)
+    )
+    position = tuple(fold_expression(cell, cells.symbols) for cell in frame.position)
+    return position, tuple(
+        cells.snap_angle(fold_expression(cell, cells.symbols)) for cell in frame.angles
+    )
 
 
-def _moved(row: GeometryRow, constants: Mapping[str, sympy.Expr], cells: "_Cells") -> GeometryRow:
+def _add_relation_constant(
+    row: GeometryRow, constants: Mapping[str, sympy.Expr], cells: "_Cells"
+) -> GeometryRow:
     """The row with the constant of its variable's relation in theta or r."""
     constant = constants.get(row.joint.name, sympy.Integer(0))
     if constant == 0:
         return row
-    if row.joint.angular:
-        return replace(row, theta=cells.snapped(row.theta + row.rate * constant))
+    if row.joint.is_revolute:
+        return replace(row, theta=cells.snap_angle(row.theta + row.rate * constant))
     return replace(row, r=sympy.expand(row.r + row.rate * constant))
 
 
-def _rows(robot: Robot, cells: "_Cells") -> list[GeometryRow]:
+def _build_rows(robot: Robot, cells: "_Cells") -> list[GeometryRow]:
     rows: list[GeometryRow] = []
     places = {"0": None} | {joint.name: i for i, joint in enumerate(robot.joints)}
     index = 0
     for joint in robot.joints:
-        theta, rate_theta = cells.affine(joint, "theta")
-        r, rate_r = cells.affine(joint, "r")
+        theta, rate_theta = cells.read_affine(joint, "theta")
+        r, rate_r = cells.read_affine(joint, "r")
         rows.append(
             GeometryRow(
                 joint=joint,
                 parent=places[joint.antecedent],
-                index=index if joint.moves else None,
-                gamma=cells.angle(joint, "gamma"),
-                b=cells.length(joint, "b"),
-                alpha=cells.angle(joint, "alpha"),
-                d=cells.length(joint, "d"),
+                index=index if joint.is_moving else None,
+                gamma=cells.read_angle(joint, "gamma"),
+                b=cells.read_length(joint, "b"),
+                alpha=cells.read_angle(joint, "alpha"),
+                d=cells.read_length(joint, "d"),
                 theta=theta,
                 r=r,
-                rate=(rate_theta if joint.angular else rate_r) if joint.moves else 1,
+                rate=(rate_theta if joint.is_revolute else rate_r) if joint.is_moving else 1,
             )
         )
-        index += joint.moves
+        index += joint.is_moving
     return rows
 
 
-def _symbols(robot: Robot, numbers: Mapping[str, float], at_nominal: bool) -> dict[str, sympy.Expr]:
-    found: dict[str, sympy.Expr] = {}
+def _resolve_symbols(
+    robot: Robot, numbers: Mapping[str, float], at_nominal: bool
+) -> dict[str, sympy.Expr]:
+    resolved: dict[str, sympy.Expr] = {}
     for name, expression in robot.symbols.items():
         quarters = round(numbers[name] / _QUARTER)
         if numbers[name] == 0.0:
-            found[name] = sympy.Integer(0)
+            resolved[name] = sympy.Integer(0)
         elif quarters and abs(numbers[name] - quarters * _QUARTER) < _RIGHT_ANGLE_TOLERANCE:
-            found[name] = quarters * sympy.pi / 2
+            resolved[name] = quarters * sympy.pi / 2
         elif expression.names or expression.uses_pi or at_nominal:
             try:
-                found[name] = folded(expression, found)
+                resolved[name] = fold_expression(expression, resolved)
             except DerivationError as error:
                 raise DerivationError(f"[symbols], {name}: {error}") from None
         else:
-            found[name] = geometric_symbol(name)
-    return found
+            resolved[name] = create_geometric_symbol(name)
+    return resolved
 
 
 @dataclass(frozen=True)
@@ -382,16 +394,16 @@ class _Cells:
     numbers: Mapping[str, float]
     where: Callable[[Joint, str], str]
 
-    def length(self, joint: Joint, column: str) -> sympy.Expr:
-        return self._folded(joint, column, self.symbols)
+    def read_length(self, joint: Joint, column: str) -> sympy.Expr:
+        return self._fold_cell(joint, column, self.symbols)
 
-    def angle(self, joint: Joint, column: str) -> sympy.Expr:
-        return self.snapped(self._folded(joint, column, self.symbols))
+    def read_angle(self, joint: Joint, column: str) -> sympy.Expr:
+        return self.snap_angle(self._fold_cell(joint, column, self.symbols))
 
-    def affine(self, joint: Joint, column: str) -> tuple[sympy.Expr, int]:
+    def read_affine(self, joint: Joint, column: str) -> tuple[sympy.Expr, int]:
         """(constant part, coefficient of the joint variable) of theta or r."""
         q = sympy.Symbol(joint.variable, real=True)
-        value = sympy.expand(self._folded(joint, column, {**self.symbols, joint.variable: q}))
+        value = sympy.expand(self._fold_cell(joint, column, {**self.symbols, joint.variable: q}))
         rate = value.coeff(q, 1)
         constant = value - rate * q
         if constant.has(q) or rate not in (0, 1, -1):
@@ -399,15 +411,17 @@ class _Cells:
                 f"joint {joint.name}: got {getattr(joint, column).text}; expected {q} or -{q} plus "
                 "a constant"
             )
-        return (self.snapped(constant) if column == "theta" else constant), int(rate)
+        return (self.snap_angle(constant) if column == "theta" else constant), int(rate)
 
-    def _folded(self, joint: Joint, column: str, symbols: Mapping[str, sympy.Expr]) -> sympy.Expr:
+    def _fold_cell(
+        self, joint: Joint, column: str, symbols: Mapping[str, sympy.Expr]
+    ) -> sympy.Expr:
         try:
-            return folded(getattr(joint, column), symbols)
+            return fold_expression(getattr(joint, column), symbols)
         except DerivationError as error:
             raise DerivationError(f"{self.where(joint, column)}: {error}") from None
 
-    def snapped(self, value: sympy.Expr) -> sympy.Expr:
+    def snap_angle(self, value: sympy.Expr) -> sympy.Expr:
         """The angle, exact where its value is a right angle."""
         if not value.free_symbols:
             return value
@@ -429,7 +443,7 @@ MOST_BITS = 10_000
 """Of an exact number."""
 
 
-class TooLong(ArithmeticError):
+class ExpressionTooLong(ArithmeticError):
     """Says what of a constant is too long, and the bound."""
 
 
@@ -451,15 +465,17 @@ def check_length(value: sympy.Expr) -> None:
             continue
         stack.pop()
         depth = 1 + max((known[arg][1] for arg in node.args), default=0)
-        terms = _written_terms(node, [known[arg][0] for arg in node.args])
+        terms = _count_terms(node, [known[arg][0] for arg in node.args])
         if depth > DEEPEST:
-            raise TooLong(f"has more than {DEEPEST} operations inside each other")
+            raise ExpressionTooLong(f"has more than {DEEPEST} operations inside each other")
         if terms > MOST_TERMS:
-            raise TooLong(f"has {terms} terms when it is written out, more than {MOST_TERMS}")
+            raise ExpressionTooLong(
+                f"has {terms} terms when it is written out, more than {MOST_TERMS}"
+            )
         known[node] = terms, depth
 
 
-def _written_terms(node: sympy.Basic, parts: list[int]) -> int:
+def _count_terms(node: sympy.Basic, parts: list[int]) -> int:
     if isinstance(node, sympy.Add):
         return sum(parts)
     if isinstance(node, sympy.Mul):
@@ -470,7 +486,7 @@ def _written_terms(node: sympy.Basic, parts: list[int]) -> int:
     return 1
 
 
-def power(base: sympy.Expr, exponent: sympy.Expr | int) -> sympy.Expr:
+def compute_power(base: sympy.Expr, exponent: sympy.Expr | int) -> sympy.Expr:
     """base**exponent.
 
     Raises:
@@ -480,5 +496,7 @@ def power(base: sympy.Expr, exponent: sympy.Expr | int) -> sympy.Expr:
     if base.is_Rational and exponent.is_Rational:
         bits = max(int(base.p).bit_length(), int(base.q).bit_length()) * abs(exponent)
         if bits > MOST_BITS and base not in (0, 1, -1):
-            raise TooLong(f"holds an exact number of {int(bits)} bits, more than {MOST_BITS}")
+            raise ExpressionTooLong(
+                f"holds an exact number of {int(bits)} bits, more than {MOST_BITS}"
+            )
     return base**exponent

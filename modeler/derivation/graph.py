@@ -28,7 +28,7 @@ import sympy
 from modeler.core.errors import DerivationError
 from modeler.core.expression import FUNCTIONS, LAW
 from modeler.core.law import Law
-from modeler.derivation.geometry import Geometry, GeometryRow, cos_sin, quarter_turns
+from modeler.derivation.geometry import Geometry, GeometryRow, cos_sin, count_quarter_turns
 from modeler.derivation.labels import Label, Link
 
 # Values of expressions by steps that are listed once: closing loops asks hundreds of times.
@@ -71,7 +71,7 @@ class Plan:
     def __init__(
         self, graph: "Graph", outputs: Sequence["Expr"], arithmetic: Arithmetic = FLOATS
     ) -> None:
-        needed = graph.reachable(outputs)
+        needed = graph.find_reachable(outputs)
         place = {0: 0} | {index: k for k, index in enumerate(needed, start=1)}
         self._start: list[Any] = [arithmetic.number(Fraction(0))] * len(place)
         self._inputs: list[tuple[int, str]] = []
@@ -89,21 +89,21 @@ class Plan:
                 second = _ALONE if b is None else place[abs(b)]
                 table = graph.tables.get(node.op)
                 known = arithmetic.functions[LAW if table else node.op]
-                call = _signed(partial(known, table) if table else known, node.op, a, b)
+                call = _apply_signs(partial(known, table) if table else known, node.op, a, b)
                 self._steps.append((at, call, place[abs(a)], second))
         self._outputs = [(place[abs(output.ref)], output.ref < 0) for output in outputs]
 
     def __call__(self, values: Mapping[str, Any]) -> list[Any]:
         """The outputs; `values` by name."""
-        found = self._start.copy()
+        results = self._start.copy()
         for at, name in self._inputs:
-            found[at] = values[name]
+            results[at] = values[name]
         for at, step, a, b in self._steps:
-            found[at] = step(found[a]) if b == _ALONE else step(found[a], found[b])
-        return [-found[at] if negative else found[at] for at, negative in self._outputs]
+            results[at] = step(results[a]) if b == _ALONE else step(results[a], results[b])
+        return [-results[at] if negative else results[at] for at, negative in self._outputs]
 
 
-def _signed(call: Callable[..., Any], op: str, a: int, b: int | None) -> Callable[..., Any]:
+def _apply_signs(call: Callable[..., Any], op: str, a: int, b: int | None) -> Callable[..., Any]:
     """The operation on the values of the nodes of a and b, with the signs that these have."""
     if b is None:
         return call if a >= 0 else lambda x: call(-x)
@@ -164,7 +164,7 @@ class Graph:
     Attributes:
         nodes: the operations.
         tables: {operation: the law that was learned, or its derivative along an axis}.
-        labels: {node: what it is}, of those that were named; see `named`.
+        labels: {node: what it is}, of those that were named; see `attach_labels`.
         links: {name: the row}, for those who write of them.
         called: {quantity: another}, while speeds are put in the place of accelerations.
 
@@ -187,15 +187,15 @@ class Graph:
         self.tables: dict[str, Table] = {}
         self.labels: dict[int, Label] = {}
         self.links: dict[str, Link] = {}
-        self.called: Mapping[str, str] = {}
+        self.renamed_quantities: Mapping[str, str] = {}
 
     def symbol(self, name: str, static: bool = False) -> "Expr":
         """The input of that name; `static` for geometric symbols."""
-        return Expr(self, self._node("sym", (name,), static))
+        return Expr(self, self._intern_node("sym", (name,), static))
 
     def constant(self, value: Number) -> "Expr":
         """An exact number."""
-        return Expr(self, self._number(Fraction(value)))
+        return Expr(self, self._intern_number(Fraction(value)))
 
     def lift(self, value: Operand) -> "Expr":
         """`value` as an expression of this graph."""
@@ -203,7 +203,7 @@ class Graph:
 
     def pi(self) -> "Expr":
         """The constant pi: a node of its own, not a rational number."""
-        return Expr(self, self._node("pi", (), True))
+        return Expr(self, self._intern_node("pi", (), True))
 
     def call(self, name: str, argument: "Expr") -> "Expr":
         """A function of one argument; odd and even functions take the sign out."""
@@ -215,7 +215,7 @@ class Graph:
             ref = -ref
         if ref == 0:
             return self.constant(1 if name in ("cos", "exp") else 0)
-        return Expr(self, sign * self._node(name, (ref,), self.nodes[abs(ref)].static))
+        return Expr(self, sign * self._intern_node(name, (ref,), self.nodes[abs(ref)].static))
 
     def law(self, law: Law, *arguments: "Expr", along: int | None = None) -> "Expr":
         """A law that was learned, or its derivative along an axis."""
@@ -227,7 +227,7 @@ class Graph:
             name = f"law{number + 1}" + ("" if along is None else "_slope" + "xy"[along])
             self.tables[name] = table
         args = tuple(argument.ref for argument in arguments)
-        return Expr(self, self._node(name, args, False))
+        return Expr(self, self._intern_node(name, args, False))
 
     def power(self, base: "Expr", exponent: "Expr") -> "Expr":
         """base**exponent for any constant exponent; the base is not negative."""
@@ -235,17 +235,17 @@ class Graph:
         if exponent.ref > 0 and node.op == "num" and node.args[0] in _MULTIPLIED:
             return base ** int(node.args[0])
         static = self.nodes[abs(base.ref)].static and node.static
-        return Expr(self, self._node("pow", (base.ref, exponent.ref), static))
+        return Expr(self, self._intern_node("pow", (base.ref, exponent.ref), static))
 
-    def _node(self, op: str, args: tuple[Any, ...], static: bool) -> int:
+    def _intern_node(self, op: str, args: tuple[Any, ...], static: bool) -> int:
         """Reference of the operation: a known one of the same value, or a new node."""
         key = (op, args)
         ref = self._index.get(key)
         if ref is None:
-            residue = self._modular(op, args)
-            read = self._bits(op, args) if self._apart else 0
+            residue = self._evaluate_modulo(op, args)
+            read = self._collect_symbol_bits(op, args) if self._apart else 0
             # Numbers are compared as numbers: two of them may well agree modulo the prime.
-            ref = None if op == "num" else self._known(residue)
+            ref = None if op == "num" else self._find_known(residue)
             if ref is None or self._read[abs(ref)] & ~read:
                 ref = len(self.nodes)
                 self.nodes.append(Node(op, args, static))
@@ -260,7 +260,7 @@ class Graph:
             self._index[key] = ref
         return ref
 
-    def _bits(self, op: str, args: tuple[Any, ...]) -> int:
+    def _collect_symbol_bits(self, op: str, args: tuple[Any, ...]) -> int:
         """Which symbols an operation reads."""
         if op == "sym":
             self._symbols += 1
@@ -270,21 +270,21 @@ class Graph:
             read |= self._read[abs(arg)]
         return read
 
-    def _known(self, residue: int) -> int | None:
+    def _find_known(self, residue: int) -> int | None:
         if residue in self._by_residue:
             return self._by_residue[residue]
         opposite = self._by_residue.get(PRIME - residue)
         return None if opposite is None else -opposite
 
-    def _modular(self, op: str, args: tuple[Any, ...]) -> int:
+    def _evaluate_modulo(self, op: str, args: tuple[Any, ...]) -> int:
         """Value of an operation modulo the prime, at the graph's random point."""
         if op == "num":
             number = args[0]
             if number.numerator % PRIME == 0 or number.denominator % PRIME == 0:
-                return _random_residue(f"num {number}")
+                return _draw_residue(f"num {number}")
             return number.numerator * pow(number.denominator, -1, PRIME) % PRIME
         if op in ("sym", "pi"):
-            return _random_residue(f"{op} {args}")
+            return _draw_residue(f"{op} {args}")
         values = [self._residue[arg] if arg > 0 else -self._residue[-arg] for arg in args]
         if op == "add":
             return (values[0] + values[1]) % PRIME
@@ -293,38 +293,42 @@ class Graph:
         if op == "div":
             return values[0] * pow(values[1], -1, PRIME) % PRIME
         if op in ("sin", "cos"):
-            c, s = self._unit(args[0])
+            c, s = self._evaluate_angle(args[0])
             return s if op == "sin" else c
-        return _random_residue(f"{op} {[value % PRIME for value in values]}")
+        return _draw_residue(f"{op} {[value % PRIME for value in values]}")
 
-    def _unit(self, ref: int) -> tuple[int, int]:
+    def _evaluate_angle(self, ref: int) -> tuple[int, int]:
         """(cos, sin) of an angle modulo the prime; those of sums and multiples are composed."""
         if ref <= 0:
-            c, s = (1, 0) if ref == 0 else self._unit(-ref)
+            c, s = (1, 0) if ref == 0 else self._evaluate_angle(-ref)
             return c, -s % PRIME
         node = self.nodes[ref]
         if node.op == "add":
-            return _composed(self._unit(node.args[0]), self._unit(node.args[1]))
+            return _compose_angles(
+                self._evaluate_angle(node.args[0]), self._evaluate_angle(node.args[1])
+            )
         factor = (
-            self._value(node.args[0]) if node.op == "mul" and self._is_number(node.args[0]) else 0
+            self._get_number(node.args[0])
+            if node.op == "mul" and self._is_number(node.args[0])
+            else 0
         )
         if factor in range(1, _LARGEST_MULTIPLE):  # a small whole number
-            turn, total = self._unit(node.args[1]), (1, 0)
+            turn, total = self._evaluate_angle(node.args[1]), (1, 0)
             for _ in range(int(factor)):
-                total = _composed(total, turn)
+                total = _compose_angles(total, turn)
             return total
         # tan of half the angle is drawn for each angle; 1 + t*t is never 0 modulo this prime.
-        t = _random_residue(f"angle {self._residue[ref]}")
+        t = _draw_residue(f"angle {self._residue[ref]}")
         scale = pow(1 + t * t, -1, PRIME)
         return (1 - t * t) * scale % PRIME, 2 * t * scale % PRIME
 
-    def _number(self, value: Fraction) -> int:
+    def _intern_number(self, value: Fraction) -> int:
         if value == 0:
             return 0
-        index = self._node("num", (abs(value),), True)
+        index = self._intern_node("num", (abs(value),), True)
         return index if value > 0 else -index
 
-    def _value(self, ref: int) -> Fraction:
+    def _get_number(self, ref: int) -> Fraction:
         value = self.nodes[abs(ref)].args[0]
         return value if ref > 0 else -value
 
@@ -341,18 +345,18 @@ class Graph:
             return sign * a * b
         first, second = self.nodes[a], self.nodes[b]
         if first.op == "num" and second.op == "num":
-            return sign * self._number(first.args[0] * second.args[0])
+            return sign * self._intern_number(first.args[0] * second.args[0])
         if second.static and not first.static:
             a, b, first, second = b, a, second, first
         if first.static and not second.static:
-            factor, rest = self._static_factor(b)
+            factor, rest = self._separate_static_factor(b)
             if factor != 1:
                 return sign * self.mul(self.mul(a, factor), rest)
         elif a > b:
             a, b = b, a
-        return sign * self._node("mul", (a, b), first.static and second.static)
+        return sign * self._intern_node("mul", (a, b), first.static and second.static)
 
-    def _static_factor(self, ref: int) -> tuple[int, int]:
+    def _separate_static_factor(self, ref: int) -> tuple[int, int]:
         """(static factor, dynamic rest) of a positive reference."""
         node = self.nodes[ref]
         if node.op == "mul" and self.nodes[abs(node.args[0])].static and not node.static:
@@ -366,22 +370,25 @@ class Graph:
         if a == -b:
             return 0
         if self._is_number(a) and self._is_number(b):
-            return self._number(self._value(a) + self._value(b))
-        merged = self._merge(a, b)
+            return self._intern_number(self._get_number(a) + self._get_number(b))
+        merged = self._merge_terms(a, b)
         if merged is not None:
             return merged
         if abs(a) > abs(b):
             a, b = b, a
         sign = 1 if a > 0 else -1
         static = self.nodes[abs(a)].static and self.nodes[abs(b)].static
-        return sign * self._node("add", (sign * a, sign * b), static)
+        return sign * self._intern_node("add", (sign * a, sign * b), static)
 
-    def _merge(self, a: int, b: int) -> int | None:
+    def _merge_terms(self, a: int, b: int) -> int | None:
         """k x + l x = (k + l) x, and (x + y) - y = x."""
         if a == b:
-            return self.mul(self._number(Fraction(2)), a)
+            return self.mul(self._intern_number(Fraction(2)), a)
         if not (self.nodes[abs(a)].static or self.nodes[abs(b)].static):
-            (k, x), (l, y) = self._static_factor(abs(a)), self._static_factor(abs(b))
+            (k, x), (l, y) = (
+                self._separate_static_factor(abs(a)),
+                self._separate_static_factor(abs(b)),
+            )
             if x == y:
                 return self.mul(self.add(k if a > 0 else -k, l if b > 0 else -l), x)
         for total, part in ((a, b), (b, a)):
@@ -402,7 +409,7 @@ class Graph:
         if a == 0:
             return 0
         if self._is_number(b):
-            return self.mul(a, self._number(1 / self._value(b)))
+            return self.mul(a, self._intern_number(1 / self._get_number(b)))
         if abs(a) == abs(b):
             return 1 if a == b else -1
         sign = 1 if (a > 0) == (b > 0) else -1
@@ -410,15 +417,15 @@ class Graph:
         if self.nodes[b].static and a != 1:
             return sign * self.mul(self.div(1, b), a)
         static = self.nodes[a].static and self.nodes[b].static
-        return sign * self._node("div", (a, b), static)
+        return sign * self._intern_node("div", (a, b), static)
 
-    def reachable(self, outputs: Iterable["Expr"]) -> list[int]:
+    def find_reachable(self, outputs: Iterable["Expr"]) -> list[int]:
         """Nodes that the outputs need, arguments first; node 0 left out."""
         needed: set[int] = set()
         stack = [abs(output.ref) for output in outputs]
-        asked, found = self._reached  # Jacobians ask once for each variable
+        asked, cached_nodes = self._reached  # Jacobians ask once for each variable
         if stack == asked:
-            return found
+            return cached_nodes
         asked = stack.copy()
         while stack:
             index = stack.pop()
@@ -431,12 +438,14 @@ class Graph:
         self._reached = asked, sorted(needed)
         return self._reached[1]
 
-    def operations(self, outputs: Sequence["Expr"]) -> tuple[int, int]:
+    def count_operations(self, outputs: Sequence["Expr"]) -> tuple[int, int]:
         """(additions, multiplications) per call; static parts and functions are not counted."""
-        dynamic = [self.nodes[i].op for i in self.reachable(outputs) if not self.nodes[i].static]
+        dynamic = [
+            self.nodes[i].op for i in self.find_reachable(outputs) if not self.nodes[i].static
+        ]
         return dynamic.count("add"), dynamic.count("mul") + dynamic.count("div")
 
-    def evaluate(self, outputs: Sequence["Expr"], values: Mapping[str, Any]) -> list[Any]:
+    def evaluate_outputs(self, outputs: Sequence["Expr"], values: Mapping[str, Any]) -> list[Any]:
         """Values of the outputs; `values` gives a number or an array of samples per symbol."""
         refs = tuple(output.ref for output in outputs)
         plan = self._plans.pop(refs, None) or Plan(self, outputs)
@@ -446,12 +455,12 @@ class Graph:
         return plan(values)
 
 
-def _composed(a: tuple[int, int], b: tuple[int, int]) -> tuple[int, int]:
+def _compose_angles(a: tuple[int, int], b: tuple[int, int]) -> tuple[int, int]:
     """(cos, sin) of the sum of two angles."""
     return (a[0] * b[0] - a[1] * b[1]) % PRIME, (a[1] * b[0] + a[0] * b[1]) % PRIME
 
 
-def _random_residue(name: str) -> int:
+def _draw_residue(name: str) -> int:
     return int.from_bytes(hashlib.sha256(name.encode()).digest()[:8], "big") % PRIME
 
 
@@ -504,7 +513,7 @@ class Expr:
         return result if exponent >= 0 else 1 / result
 
 
-def named(
+def attach_labels(
     quantity: str, link: str, values: Any, step: str = "", of: str = "",
     components: Sequence[str] = "xyz",
 ) -> Any:  # fmt: skip
@@ -525,20 +534,20 @@ def named(
         if isinstance(value, Expr) and abs(value.ref) > 1:
             known = value.graph.labels.get(abs(value.ref))
             if known is None or (known.step and not step):
-                letter = value.graph.called.get(quantity, quantity)
+                letter = value.graph.renamed_quantities.get(quantity, quantity)
                 label = Label(letter, link, component, step, of, value.ref < 0)
                 value.graph.labels[abs(value.ref)] = label
     return values
 
 
-def named_matrix(quantity: str, link: str, matrix: list[Any], step: str = "") -> list[Any]:
+def attach_matrix_labels(quantity: str, link: str, matrix: list[Any], step: str = "") -> list[Any]:
     """The same of the rows of a 3 x 3 matrix."""
     for line, axis in zip(matrix, "xyz", strict=True):
-        named(quantity, link, line, step, components=[axis + other for other in "xyz"])
+        attach_labels(quantity, link, line, step, components=[axis + other for other in "xyz"])
     return matrix
 
 
-def combination(graph: Graph, form: Mapping[int, Fraction], values: Any) -> Expr:
+def combine_linearly(graph: Graph, form: Mapping[int, Fraction], values: Any) -> Expr:
     """Sum of coefficient * value over {place of the value: coefficient}."""
     total = graph.constant(0)
     for k, coefficient in form.items():
@@ -581,7 +590,7 @@ class GraphAlgebra:
         self.geometry = geometry
         for row in geometry.rows:
             before = "0" if row.parent is None else geometry.rows[row.parent].joint.name
-            moves = "turning" if row.joint.angular else "sliding"
+            moves = "turning" if row.joint.is_revolute else "sliding"
             graph.links[row.joint.name] = Link(before, "" if row.index is None else moves)
 
     def static(self, value: sympy.Expr) -> Expr:
@@ -618,23 +627,25 @@ class GraphAlgebra:
 
     def variable(self, row: GeometryRow) -> Expr:
         """rate * q + offset of a prismatic joint."""
-        q = self.combined("q", row)
+        q = self.combine_variable("q", row)
         return (q if row.rate > 0 else -q) + self.static(row.r)
 
-    def combined(self, kind: str, row: GeometryRow) -> Expr:
+    def combine_variable(self, kind: str, row: GeometryRow) -> Expr:
         """The variable of a moving row ("q"), or its derivative ("qd", "qdd")."""
         assert row.index is not None
         form = self.geometry.forms[row.index]
-        return combination(self.graph, form, {k: self.graph.symbol(f"{kind}[{k}]") for k in form})
+        return combine_linearly(
+            self.graph, form, {k: self.graph.symbol(f"{kind}[{k}]") for k in form}
+        )
 
     def cos_sin(self, row: GeometryRow) -> tuple[Expr, Expr]:
         """Cosine and sine of theta; right angles are taken out exactly."""
-        if row.index is None or not row.joint.angular:
+        if row.index is None or not row.joint.is_revolute:
             c, s = cos_sin(row.theta)
             return self.static(c), self.static(s)
-        q = self.combined("q", row)
+        q = self.combine_variable("q", row)
         angle = q if row.rate > 0 else -q
-        quarters, rest = quarter_turns(row.theta)
+        quarters, rest = count_quarter_turns(row.theta)
         if rest:
             angle = angle + self.static(rest)
         c, s = self.graph.call("cos", angle), self.graph.call("sin", angle)

@@ -10,13 +10,17 @@ from typing import Any
 import sympy
 
 from modeler.core.errors import DerivationError
-from modeler.derivation.columns import LinkColumn, StandardColumn, in_block, link_column
-from modeler.derivation.field import Element, ExactField, linear_relations, sparse_row_reduce
+from modeler.derivation.columns import LinkColumn, StandardColumn, build_link_column, is_in_block
+from modeler.derivation.field import Element, ExactField, find_linear_relations, reduce_sparse_rows
 from modeler.derivation.geometry import Geometry
-from modeler.derivation.loop_relations import closure_relations, loop_relations, on_link
+from modeler.derivation.loop_relations import (
+    derive_closure_relations,
+    derive_loop_relations,
+    move_to_link,
+)
 from modeler.derivation.model import SymbolicModel
 from modeler.derivation.result import BaseParameter, Term
-from modeler.derivation.tied import has_energy, tied_relations
+from modeler.derivation.tied import derive_tied_relations, has_energy
 from modeler.derivation.tree import INERTIA, OFFSET, group_tree
 from modeler.effects import EnergyBlock
 from modeler.robot import INERTIAL
@@ -32,7 +36,7 @@ _OWN = {"rotor_inertia": INERTIA, "offset": OFFSET}
 
 
 @dataclass(frozen=True)
-class Units:
+class GroupingUnits:
     """All units of a robot.
 
     Attributes:
@@ -47,7 +51,7 @@ class Units:
     places: Mapping[tuple[int, int], int]
     standard: int
 
-    def merged(
+    def merge_rows(
         self, rows: Sequence[Mapping[int, Element]]
     ) -> tuple[list[dict[int, Element]], list[int]]:
         """Rows over units as rows over columns, with auxiliary ones that have to vanish.
@@ -56,65 +60,67 @@ class Units:
             Rows over the robot's columns and auxiliary columns; the numbers of these, all above
             the robot's: coefficients of absent units, and differences within shared parameters.
         """
-        found = []
+        merged_rows = []
         for row in rows:
             new: dict[int, Element] = {}
             for unit, value in row.items():
                 column = self.owner[unit]
-                if column is not None and self._parts[column][0] == unit:
+                if column is not None and self._column_units[column][0] == unit:
                     new[column] = value
-                    for other in (u for u in self._parts[column] if u != unit):
-                        _add(new, self.standard + other, -value)
+                    for other in (u for u in self._column_units[column] if u != unit):
+                        _add_entry(new, self.standard + other, -value)
                 else:
-                    _add(new, self.standard + unit, value)
-            found.append({place: value for place, value in new.items() if value})
-        used = sorted({place for row in found for place in row if place >= self.standard})
-        return found, used
+                    _add_entry(new, self.standard + unit, value)
+            merged_rows.append({place: value for place, value in new.items() if value})
+        used = sorted({place for row in merged_rows for place in row if place >= self.standard})
+        return merged_rows, used
 
-    def order(self, columns: Sequence[int]) -> list[int]:
+    def sort_units(self, columns: Sequence[int]) -> list[int]:
         """Units in the order of the columns that own them, those without owner last."""
         places = {column: i for i, column in enumerate(columns)}
         last = len(places)
         return sorted(
             range(len(self.owner)),
-            key=lambda unit: last if (own := self.owner[unit]) is None else places[own],
+            key=lambda unit: (
+                last if (owner_column := self.owner[unit]) is None else places[owner_column]
+            ),
         )
 
     @cached_property
-    def _parts(self) -> dict[int, list[int]]:
+    def _column_units(self) -> dict[int, list[int]]:
         """The units of each column."""
-        found: dict[int, list[int]] = {}
+        column_units: dict[int, list[int]] = {}
         for unit, column in enumerate(self.owner):
             if column is not None:
-                found.setdefault(column, []).append(unit)
-        return found
+                column_units.setdefault(column, []).append(unit)
+        return column_units
 
 
-def _add(row: dict[int, Element], place: int, value: Element) -> None:
+def _add_entry(row: dict[int, Element], place: int, value: Element) -> None:
     row[place] = row[place] + value if place in row else value
 
 
-def grouping_units(geometry: Geometry, columns: Sequence[StandardColumn]) -> Units:
+def build_grouping_units(geometry: Geometry, columns: Sequence[StandardColumn]) -> GroupingUnits:
     """The units of a robot with these columns."""
-    found: list[StandardColumn] = []
+    unit_columns: list[StandardColumn] = []
     owner: list[int | None] = []
     places: dict[tuple[int, int], int] = {}
     for column, standard in enumerate(columns):
         for part in standard.parts:
             if isinstance(part, LinkColumn):
-                places[part.row, INERTIAL.index(part.prefix)] = len(found)
+                places[part.row, INERTIAL.index(part.prefix)] = len(unit_columns)
             elif part.effect in _OWN:
-                places[part.row, _OWN[part.effect]] = len(found)
-            found.append(part)
+                places[part.row, _OWN[part.effect]] = len(unit_columns)
+            unit_columns.append(part)
             owner.append(column)
     for k, row in enumerate(geometry.rows):
         if row.index is not None:
             for i, prefix in enumerate(INERTIAL):
                 if (k, i) not in places:
-                    places[k, i] = len(found)
-                    found.append(link_column(prefix, k, row.joint))
+                    places[k, i] = len(unit_columns)
+                    unit_columns.append(build_link_column(prefix, k, row.joint))
                     owner.append(None)
-    return Units(tuple(found), tuple(owner), places, len(columns))
+    return GroupingUnits(tuple(unit_columns), tuple(owner), places, len(columns))
 
 
 # Grouping of friction columns: exact, from the speeds of their shafts alone.
@@ -133,54 +139,54 @@ Shaft = Mapping[int, Fraction]
 """Speed of a shaft: sum of coefficient * speed of a free variable."""
 
 
-def friction_relations(columns: Sequence[StandardColumn]) -> list[Relation]:
+def find_friction_relations(columns: Sequence[StandardColumn]) -> list[Relation]:
     """All relations among the viscous and among the Coulomb columns, speeds being independent."""
-    return _dependent(columns, EnergyBlock.RAYLEIGH, squares) + _dependent(
-        columns, EnergyBlock.COULOMB, _direction
-    )
+    return _find_block_relations(
+        columns, EnergyBlock.RAYLEIGH, expand_square
+    ) + _find_block_relations(columns, EnergyBlock.COULOMB, _normalise_direction)
 
 
-def squares(shaft: Shaft) -> dict[Hashable, Fraction]:
+def expand_square(shaft: Shaft) -> dict[Hashable, Fraction]:
     """v**2 as a polynomial in the speeds: {(i, j): coefficient}, i <= j."""
-    found: dict[Hashable, Fraction] = {}
+    products: dict[Hashable, Fraction] = {}
     for i, ci in shaft.items():
         for j, cj in shaft.items():
             key = (min(i, j), max(i, j))
-            found[key] = found.get(key, Fraction(0)) + ci * cj
-    return found
+            products[key] = products.get(key, Fraction(0)) + ci * cj
+    return products
 
 
-def _direction(shaft: Shaft) -> dict[Hashable, Fraction]:
+def _normalise_direction(shaft: Shaft) -> dict[Hashable, Fraction]:
     """|v| as {direction: weight}; the direction has the coefficient 1 at its first speed."""
     first = shaft[min(shaft)]
     direction = tuple(sorted((k, c / first) for k, c in shaft.items()))
     return {direction: abs(first)}
 
 
-def _dependent(
+def _find_block_relations(
     columns: Sequence[StandardColumn],
     block: EnergyBlock,
     function: Callable[[Shaft], dict[Hashable, Fraction]],
 ) -> list[Relation]:
     vectors: dict[int, dict[Hashable, Any]] = {}
     for place, column in enumerate(columns):
-        if in_block(column, block):
+        if is_in_block(column, block):
             total = vectors.setdefault(place, {})
             for part in column.parts:
                 for key, c in function(part.shaft).items() if part.shaft else ():
                     total[key] = total.get(key, 0) + sympy.QQ(c.numerator, c.denominator)
-    found = linear_relations(vectors)
+    relations = find_linear_relations(vectors)
     return [
-        {place: Fraction(1), **{kept: -factor for kept, factor in combination.items()}}
-        for place, combination in found.combinations.items()
-        if place not in found.independent
+        {place: Fraction(1), **{kept_place: -factor for kept_place, factor in combination.items()}}
+        for place, combination in relations.combinations.items()
+        if place not in relations.independent
     ]
 
 
 # Which parameters are kept first when they group: the user's order, else the table's.
 
 
-def priority_order(names: Sequence[str], patterns: Sequence[str]) -> list[int]:
+def sort_by_priority(names: Sequence[str], patterns: Sequence[str]) -> list[int]:
     """Columns in the order in which they are kept: those of the patterns first, then the others.
 
     Raises:
@@ -209,53 +215,57 @@ class GroupingRelations:
     """
 
     rows: tuple[dict[int, Element], ...]
-    dropped: tuple[int, ...]
-    kept: tuple[int, ...]
+    dropped_columns: tuple[int, ...]
+    kept_columns: tuple[int, ...]
 
 
-def column_relations(
+def derive_column_relations(
     model: SymbolicModel, geometry: Geometry, K: ExactField, seed: int
 ) -> GroupingRelations:
     """The reduced relations of a robot, first-come by the priority order."""
-    units = grouping_units(geometry, model.columns)
-    order = priority_order(model.names, model.robot.kept_first)
-    if geometry.tied:
-        rows = tied_relations(geometry, units.columns, K, units.order(order), seed)
+    units = build_grouping_units(geometry, model.columns)
+    order = sort_by_priority(model.names, model.robot.priority_parameters)
+    if geometry.has_relations:
+        rows = derive_tied_relations(geometry, units.columns, K, units.sort_units(order), seed)
     else:
-        rows = _link_relations(geometry, K, units)
-    rows += loop_relations(geometry, K, units.places)
-    rows, auxiliary = units.merged(rows)
+        rows = _derive_link_relations(geometry, K, units)
+    rows += derive_loop_relations(geometry, K, units.places)
+    rows, auxiliary = units.merge_rows(rows)
     rows += [
         {place: K.one * sympy.QQ(c.numerator, c.denominator) for place, c in relation.items()}
-        for relation in friction_relations(model.columns)
+        for relation in find_friction_relations(model.columns)
     ]
-    felt = {place for _, place in model.regressor}
+    effective_columns = {place for _, place in model.regressor}
     rows += [
         {place: K.one}
         for place, column in enumerate(model.columns)
-        if in_block(column, EnergyBlock.OWN) and place not in felt
+        if is_in_block(column, EnergyBlock.OWN) and place not in effective_columns
     ]
-    reduced, pivots = sparse_row_reduce(rows, [*auxiliary, *order[::-1]])
+    reduced, pivots = reduce_sparse_rows(rows, [*auxiliary, *order[::-1]])
     first = sum(pivot >= len(model.columns) for pivot in pivots)
     reduced, dropped = reduced[first:], pivots[first:]
-    gone = set(dropped)
-    kept = [place for place in range(len(model.columns)) if place not in gone]
-    return GroupingRelations(tuple(reduced), tuple(dropped), tuple(kept))
+    dropped_set = set(dropped)
+    kept_columns = [place for place in range(len(model.columns)) if place not in dropped_set]
+    return GroupingRelations(tuple(reduced), tuple(dropped), tuple(kept_columns))
 
 
-def with_closure_relations(
+def add_closure_relations(
     model: SymbolicModel, geometry: Geometry, K: ExactField, relations: GroupingRelations, seed: int
 ) -> GroupingRelations:
     """The relations, and those among the kept columns that go around whole loops."""
-    order = priority_order(model.names, model.robot.kept_first)
-    kept = [i for i in order if i in relations.kept and has_energy(model.columns[i])]
-    more = closure_relations(geometry, model.columns, K, kept, seed)
-    reduced, dropped = sparse_row_reduce([*relations.rows, *more], order[::-1])
+    order = sort_by_priority(model.names, model.robot.priority_parameters)
+    kept_columns = [
+        i for i in order if i in relations.kept_columns and has_energy(model.columns[i])
+    ]
+    more = derive_closure_relations(geometry, model.columns, K, kept_columns, seed)
+    reduced, dropped = reduce_sparse_rows([*relations.rows, *more], order[::-1])
     left = [i for i in range(len(model.columns)) if i not in set(dropped)]
     return GroupingRelations(tuple(reduced), tuple(dropped), tuple(left))
 
 
-def _link_relations(geometry: Geometry, K: ExactField, units: Units) -> list[dict[int, Element]]:
+def _derive_link_relations(
+    geometry: Geometry, K: ExactField, units: GroupingUnits
+) -> list[dict[int, Element]]:
     """Relations of a tree whose rows all move freely."""
     relations = []
     places = units.places
@@ -264,7 +274,7 @@ def _link_relations(geometry: Geometry, K: ExactField, units: Units) -> list[dic
             continue
         for hidden, moved in zip(grouping.hidden, grouping.moved, strict=True):
             relation = {places[k, i]: x for i, x in enumerate(hidden) if x}
-            parent, moved = on_link(geometry, K, geometry.rows[k].parent, moved)
+            parent, moved = move_to_link(geometry, K, geometry.rows[k].parent, moved)
             if parent is not None:
                 for i, x in enumerate(moved):
                     if x:
@@ -273,7 +283,7 @@ def _link_relations(geometry: Geometry, K: ExactField, units: Units) -> list[dic
     return relations
 
 
-def base_from_relations(
+def build_base_parameters(
     columns: Sequence[StandardColumn], relations: GroupingRelations, K: ExactField, halves: bool
 ) -> tuple[tuple[BaseParameter, ...], tuple[str, ...]]:
     """Base parameters with their terms, and the parameters without effect.
@@ -281,24 +291,29 @@ def base_from_relations(
     A relation col_d + sum r_b col_b = 0 gives beta_b = chi_b - r_b chi_d.
     """
     terms: dict[int, list[Term]] = {
-        b: [Term(sympy.Integer(1), columns[b].name)] for b in relations.kept
+        b: [Term(sympy.Integer(1), columns[b].name)] for b in relations.kept_columns
     }
     unidentifiable = []
-    for place, row in sorted(zip(relations.dropped, relations.rows, strict=True)):
+    for place, row in sorted(zip(relations.dropped_columns, relations.rows, strict=True)):
         if len(row) == 1:
             unidentifiable.append(columns[place].name)
         for b, coefficient in row.items():
             value = K.expression(-coefficient)
             if b != place and value:  # 0 where roots of numbers, letters in K, cancel
                 terms[b].append(Term(value, columns[place].name))
-    return named_parameters(columns, terms, halves), tuple(unidentifiable)
+    return build_named_parameters(columns, terms, halves), tuple(unidentifiable)
 
 
-def named_parameters(
+def build_named_parameters(
     columns: Sequence[StandardColumn], terms: Mapping[int, Sequence[Term]], halves: bool
 ) -> tuple[BaseParameter, ...]:
     """{column: terms} as base parameters; the names of those into which others group end in R."""
     return tuple(
-        BaseParameter(columns[b].name + ("R" if len(found) > 1 else ""), b, tuple(found), halves)
-        for b, found in terms.items()
+        BaseParameter(
+            columns[b].name + ("R" if len(parameter_terms) > 1 else ""),
+            b,
+            tuple(parameter_terms),
+            halves,
+        )
+        for b, parameter_terms in terms.items()
     )

@@ -16,18 +16,18 @@ from typing import Any
 
 import numpy as np
 
-from modeler.core.expression import Expression, parse
-from modeler.core.rounded import precise
+from modeler.core.expression import Expression, parse_expression
+from modeler.core.rounded import get_precise_context
 from modeler.derivation.closure import Closure
 from modeler.derivation.model import SymbolicModel
 from modeler.derivation.precise import (
     Number,
-    as_precise,
-    decimal,
-    precise_functions,
-    precise_values,
+    convert_fraction,
+    convert_to_precise,
+    evaluate_precisely,
+    get_precise_functions,
 )
-from modeler.derivation.walks import closed_motion, closed_walk
+from modeler.derivation.walks import compute_closed_motion, draw_closed_walk
 from modeler.robot import Robot
 
 Term = tuple[Fraction, str]
@@ -46,14 +46,14 @@ _EXACT = 1e-13
 _TWELFTHS = 24
 
 
-class Constants:
+class RelationConstants:
     """Constants of relations of one robot at its home."""
 
     def __init__(self, closure: Closure, derived: Mapping[str, float]) -> None:
         """Constants of loops at home; `derived` symbols are given by expressions of others."""
         self.loops, self.home, self.derived = closure, np.array(closure.home), derived
 
-    def terms(self, coefficients: np.ndarray, angular: bool) -> list[Term] | None:
+    def find_terms(self, coefficients: np.ndarray, angular: bool) -> list[Term] | None:
         """The constant coefficients . home as a sum of terms; None where none is found.
 
         Args:
@@ -61,24 +61,24 @@ class Constants:
             angular: True for an angle, False for a travel.
         """
         value = float(coefficients @ self.home)
-        terms = list(self._slopes(coefficients, angular))
-        left = value - sum(float(c) * self._value(text) for c, text in terms)
-        rest = _turns(left, angular)
+        terms = list(self._find_symbol_terms(coefficients, angular))
+        left = value - sum(float(c) * self._evaluate_text(text) for c, text in terms)
+        rest = _find_pi_multiple(left, angular)
         if rest is not None:
             return [*terms, *rest]
         for name, size in self.derived.items():  # no combination of the others: w = sqrt(v)
             for share in _SHARES:
-                rest = _turns(value - float(share) * size, angular)
+                rest = _find_pi_multiple(value - float(share) * size, angular)
                 if rest is not None:
                     return [(share, name), *rest]
-        rest = _with_decimal(left, angular)
+        rest = _find_decimal(left, angular)
         return None if rest is None else [*terms, *rest]
 
-    def _slopes(self, coefficients: np.ndarray, angular: bool) -> Iterator[Term]:
+    def _find_symbol_terms(self, coefficients: np.ndarray, angular: bool) -> Iterator[Term]:
         """The symbols on which the constant depends."""
-        for name, moved in self._perturbed.items():
+        for name, moved in self._perturbed_homes.items():
             change = float(coefficients @ (moved - self.home)) / _STEP
-            for factor, size in self._factors(name, angular):
+            for factor, size in self._enumerate_factors(name, angular):
                 if abs(size) > _STEP:
                     share = Fraction(change / size).limit_denominator(_LARGEST_CONSTANT_DENOMINATOR)
                     if abs(float(share) * size - change) < _SLOPE:
@@ -86,7 +86,7 @@ class Constants:
                             yield share, f"{name}{factor}"
                         break
 
-    def _factors(self, name: str, angular: bool) -> Iterator[tuple[str, float]]:
+    def _enumerate_factors(self, name: str, angular: bool) -> Iterator[tuple[str, float]]:
         """What a symbol may be multiplied by: text and value."""
         yield "", 1.0
         if not angular:
@@ -95,7 +95,7 @@ class Constants:
                     yield f"*cos({other})", math.cos(value)
                     yield f"*sin({other})", math.sin(value)
 
-    def _value(self, text: str) -> float:
+    def _evaluate_text(self, text: str) -> float:
         name, _, factor = text.partition("*")
         value = float(self.loops.values[name])
         if not factor:
@@ -104,16 +104,16 @@ class Constants:
         return value * getattr(math, function)(self.loops.values[other])
 
     @cached_property
-    def _perturbed(self) -> Mapping[str, np.ndarray]:
+    def _perturbed_homes(self) -> Mapping[str, np.ndarray]:
         """By symbol, home closed anew with another value of it; where it does not, left out."""
         names = list(self.loops.values)
         with np.errstate(all="ignore"):  # the root of a length that became negative
-            moved = self._closed_anew(names)
+            moved = self._close_perturbed(names)
         far = np.abs(moved - self.home) / self.loops.scale
         near = np.max(far, axis=1, initial=0.0) < _NEAR
         return {name: u for name, u, good in zip(names, moved, near, strict=True) if good}
 
-    def _closed_anew(self, names: Sequence[str]) -> np.ndarray:
+    def _close_perturbed(self, names: Sequence[str]) -> np.ndarray:
         """(names, unknowns): Newton from home, one sample for each symbol."""
         loops, count = self.loops, len(names)
         values: dict[str, Any] = {n: np.full(count, self.loops.values[n]) for n in names}
@@ -122,11 +122,11 @@ class Constants:
         moved = replace(loops, values=values)
         u = np.tile(self.home, (count, 1))
         for _ in range(_ITERATIONS):
-            u[:, list(loops.solved)] -= moved.following(u, moved.residuals(u))
+            u[:, list(loops.solved)] -= moved.solve_passive(u, moved.compute_residuals(u))
         return u
 
 
-def _turns(value: float, angular: bool) -> list[Term] | None:
+def _find_pi_multiple(value: float, angular: bool) -> list[Term] | None:
     """A multiple of pi/12 for an angle, nothing for a travel."""
     twelfths = round(value / (math.pi / 12)) if angular else 0
     if abs(value - twelfths * math.pi / 12) > _SAME_CONSTANT:
@@ -134,7 +134,7 @@ def _turns(value: float, angular: bool) -> list[Term] | None:
     return [(Fraction(twelfths, 12), "pi")]
 
 
-def _with_decimal(value: float, angular: bool) -> list[Term] | None:
+def _find_decimal(value: float, angular: bool) -> list[Term] | None:
     """A short decimal number, with a multiple of pi/12 for an angle."""
     most = _TWELFTHS if angular else 0
     for size in sorted(range(-most, most + 1), key=abs):
@@ -169,7 +169,7 @@ _CHANGE = 0.1
 
 
 @dataclass(frozen=True)
-class Proposal:
+class CandidateRelation:
     """A relation to be proven: the variable `pivot` of u equals `expression` of the others."""
 
     pivot: int
@@ -182,7 +182,7 @@ class Prover:
     def __init__(self, closure: Closure, robot: Robot) -> None:
         self.closure, self.robot = closure, robot
 
-    def proves(self, relations: Sequence[Proposal], letters: bool) -> bool:
+    def can_prove(self, relations: Sequence[CandidateRelation], letters: bool) -> bool:
         """True if the loops imply all these relations together.
 
         Args:
@@ -190,51 +190,55 @@ class Prover:
             letters: True for all lengths and angles, False for the given ones only.
         """
         rng = np.random.default_rng(_PROOF_SEED)
-        geometry = self._symbols(rng, letters)
+        geometry = self._draw_symbols(rng, letters)
         left = len(self.closure.equations) - len(relations)
         rows = []
         for _ in range(left + _SPARE):
-            at = {**geometry, **self._posture(relations, rng, geometry)}
-            rows.append(precise_values(self.closure.graph, self.closure.equations, at))
-        return _rank(rows) <= left
+            at = {**geometry, **self._draw_posture(relations, rng, geometry)}
+            rows.append(evaluate_precisely(self.closure.graph, self.closure.equations, at))
+        return _compute_rank(rows) <= left
 
-    def _symbols(self, rng: np.random.Generator, letters: bool) -> dict[str, Number]:
+    def _draw_symbols(self, rng: np.random.Generator, letters: bool) -> dict[str, Number]:
         """Numbers for all symbols: as given, or random near that."""
         known: dict[str, Number] = {}
         for name, expression in self.robot.symbols.items():
             if name in self.closure.values:
                 change = float(rng.uniform(-_CHANGE, _CHANGE)) if letters else 0.0
-                known[name] = decimal(self.closure.values[name]) * (1 + decimal(change))
+                known[name] = convert_to_precise(self.closure.values[name]) * (
+                    1 + convert_to_precise(change)
+                )
             else:
-                known[name] = _folded(expression, known)
+                known[name] = _fold_precise(expression, known)
         return known
 
-    def _posture(
+    def _draw_posture(
         self,
-        relations: Sequence[Proposal],
+        relations: Sequence[CandidateRelation],
         rng: np.random.Generator,
         geometry: Mapping[str, Number],
     ) -> dict[str, Number]:
         """Random values of `q[k]` that fulfil the relations."""
         u = [
-            decimal(float(at + rng.uniform(-1.0, 1.0) * (self.closure.size if length else 1.0)))
-            for at, length in zip(self.closure.home, self.closure.lengths, strict=True)
+            convert_to_precise(
+                float(at + rng.uniform(-1.0, 1.0) * (self.closure.size if length else 1.0))
+            )
+            for at, length in zip(self.closure.home, self.closure.is_travel, strict=True)
         ]
-        names = [joint.variable for joint in self.robot.free]
+        names = [joint.variable for joint in self.robot.free_joints]
         known = {**geometry, **dict(zip(names, u, strict=True))}
         for relation in relations:
-            u[relation.pivot] = _folded(relation.expression, known)
+            u[relation.pivot] = _fold_precise(relation.expression, known)
         return {f"q[{k}]": value for k, value in enumerate(u)}
 
 
-def _folded(expression: Expression, known: Mapping[str, Number]) -> Number:
-    functions, pi = precise_functions(), +precise().pi
-    return expression.fold(known, functions, pi, as_precise, functions["pow"])
+def _fold_precise(expression: Expression, known: Mapping[str, Number]) -> Number:
+    functions, pi = get_precise_functions(), +get_precise_context().pi
+    return expression.fold(known, functions, pi, convert_fraction, functions["pow"])
 
 
-def _rank(rows: Sequence[Sequence[Number]]) -> int:
+def _compute_rank(rows: Sequence[Sequence[Number]]) -> int:
     """Rank of a matrix of numbers of 40 digits, each column counted relative to its largest."""
-    mp = precise()
+    mp = get_precise_context()
     matrix = [list(row) for row in rows]
     nothing = mp.mpf(10) ** -_DIGITS
     rank = 0
@@ -254,14 +258,14 @@ def _rank(rows: Sequence[Sequence[Number]]) -> int:
     return rank
 
 
-def largest_proven(
-    prover: Prover, relations: Sequence[Proposal], letters: bool
-) -> tuple[Proposal, ...]:
+def find_largest_proven(
+    prover: Prover, relations: Sequence[CandidateRelation], letters: bool
+) -> tuple[CandidateRelation, ...]:
     """The largest set of the relations that is proven; sets are tried from the largest down."""
     tries = 0
     for size in range(len(relations), 0, -1):
         for chosen in combinations(relations, size):
-            if prover.proves(chosen, letters):
+            if prover.can_prove(chosen, letters):
                 return chosen
             tries += 1
             if tries == _MOST_TRIES:
@@ -287,7 +291,7 @@ _SAME = 1e-7
 
 
 @dataclass(frozen=True)
-class Implied:
+class ImpliedRelations:
     """Relations that the loops of a robot imply.
 
     Attributes:
@@ -301,46 +305,48 @@ class Implied:
     unproven: tuple[str, ...] = ()
 
 
-def implied_relations(model: SymbolicModel) -> Implied:
+def find_implied_relations(model: SymbolicModel) -> ImpliedRelations:
     """The relations that the loops of a robot imply."""
     closure, robot = model.closure, model.robot
     assert closure is not None
-    names = [joint.name for joint in robot.free]
+    names = [joint.name for joint in robot.free_joints]
     seen, proposals = [], []
-    derived = {n: x for n, x in robot.symbol_values().items() if n not in closure.values}
-    constants = Constants(closure, derived)
-    for row, pivot in _vanishing_rows(model):
+    derived = {n: x for n, x in robot.evaluate_symbols().items() if n not in closure.values}
+    constants = RelationConstants(closure, derived)
+    for row, pivot in _find_vanishing_rows(model):
         seen.append(names[pivot])
-        terms = _terms(robot, row, pivot, constants)
+        terms = _build_terms(robot, row, pivot, constants)
         if terms is not None:
-            proposals.append(Proposal(pivot, parse(_sum_text(terms))))
+            proposals.append(CandidateRelation(pivot, parse_expression(_format_sum(terms))))
     if not seen:
-        return Implied()
+        return ImpliedRelations()
     prover = Prover(closure, robot)
-    proven = general = largest_proven(prover, proposals, letters=True)
+    proven = general = find_largest_proven(prover, proposals, letters=True)
     if len(general) < len(proposals):
-        at_values = largest_proven(prover, proposals, letters=False)
+        at_values = find_largest_proven(prover, proposals, letters=False)
         proven = at_values if len(at_values) > len(general) else general
-    found = {names[relation.pivot]: relation.expression for relation in proven}
+    proven_relations = {names[relation.pivot]: relation.expression for relation in proven}
     special = tuple(names[r.pivot] for r in proven if r not in general)
-    return Implied(found, special, tuple(name for name in seen if name not in found))
+    return ImpliedRelations(
+        proven_relations, special, tuple(name for name in seen if name not in proven_relations)
+    )
 
 
-def _vanishing_rows(model: SymbolicModel) -> list[tuple[np.ndarray, int]]:
+def _find_vanishing_rows(model: SymbolicModel) -> list[tuple[np.ndarray, int]]:
     """Combinations of speeds that vanish, each with the variable that it is solved for."""
     closure = model.closure
     assert closure is not None
-    u = closed_walk(model, _POSTURES, np.random.default_rng(_SEED)).postures
-    G = closed_motion(model, u, np.zeros((len(u), len(closure.given)))).coupling
+    u = draw_closed_walk(model, _POSTURES, np.random.default_rng(_SEED)).postures
+    G = compute_closed_motion(model, u, np.zeros((len(u), len(closure.actuated)))).coupling
     speeds = np.concatenate(list(G), axis=1)  # (len(u), postures * len(q))
     left, singular, _ = np.linalg.svd(speeds, full_matrices=True)
     rank = int(np.sum(singular > _TOLERANCE * singular[0]))
-    rows = _reduced(left[:, rank:].T, closure.solved)
+    rows = _reduce_rows(left[:, rank:].T, closure.solved)
     home = np.array(closure.home)
     return [(row, pivot) for row, pivot in rows if np.max(np.abs((u - home) @ row)) < _SAME]
 
 
-def _reduced(rows: np.ndarray, solved: Sequence[int]) -> list[tuple[np.ndarray, int]]:
+def _reduce_rows(rows: np.ndarray, solved: Sequence[int]) -> list[tuple[np.ndarray, int]]:
     """Reduced rows with their pivots: late variables follow early ones, never the actuated."""
     rows = rows.copy()
     pivots: list[int] = []
@@ -360,9 +366,11 @@ def _reduced(rows: np.ndarray, solved: Sequence[int]) -> list[tuple[np.ndarray, 
     return [(rows[i], pivot) for i, pivot in enumerate(pivots)]
 
 
-def _terms(robot: Robot, row: np.ndarray, pivot: int, constants: Constants) -> list[Term] | None:
+def _build_terms(
+    robot: Robot, row: np.ndarray, pivot: int, constants: RelationConstants
+) -> list[Term] | None:
     """The right side of the relation, None where it is not one of simple numbers."""
-    free = robot.free
+    free = robot.free_joints
     terms: list[Term] = []
     exact = np.zeros(len(row))
     exact[pivot] = 1.0
@@ -370,15 +378,18 @@ def _terms(robot: Robot, row: np.ndarray, pivot: int, constants: Constants) -> l
         if k == pivot or abs(value) < _TOLERANCE:
             continue
         factor = Fraction(-value).limit_denominator(_LARGEST_DENOMINATOR)
-        if abs(float(factor) + value) > _TOLERANCE or free[k].angular != free[pivot].angular:
+        if (
+            abs(float(factor) + value) > _TOLERANCE
+            or free[k].is_revolute != free[pivot].is_revolute
+        ):
             return None
         terms.append((factor, free[k].variable))
         exact[k] = -float(factor)
-    constant = constants.terms(exact, free[pivot].angular)
+    constant = constants.find_terms(exact, free[pivot].is_revolute)
     return None if constant is None else [*terms, *constant]
 
 
-def _sum_text(terms: Sequence[Term]) -> str:
+def _format_sum(terms: Sequence[Term]) -> str:
     """`-q2 + q7 + pi/2`; a term without name is a number."""
     text = ""
     for factor, name in terms:

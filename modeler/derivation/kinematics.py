@@ -11,9 +11,9 @@ from typing import Any
 
 import sympy
 
-from modeler.core.brief import Brief
+from modeler.core.brief import ShortRepr
 from modeler.derivation.geometry import Geometry, GeometryRow, cos_sin
-from modeler.derivation.graph import Algebra, Scalar, Vector, named, named_matrix
+from modeler.derivation.graph import Algebra, Scalar, Vector, attach_labels, attach_matrix_labels
 
 
 def cross(a: Vector, b: Vector) -> Vector:
@@ -37,7 +37,7 @@ def times(scalar: Scalar, a: Vector) -> Vector:
 
 
 @dataclass(frozen=True)
-class Pose(Brief):
+class Pose(ShortRepr):
     """Frame j in its antecedent frame: plane rotations and the position of its origin.
 
     R = Rz(gamma) Rx(alpha) Rz(theta), each as (cos, sin); `p` in the antecedent frame.
@@ -48,78 +48,80 @@ class Pose(Brief):
     theta: tuple[Scalar, Scalar]
     p: Vector
 
-    def to_link(self, v: Vector) -> Vector:
+    def rotate_to_link(self, v: Vector) -> Vector:
         """R^T v: from the antecedent frame to frame j."""
-        return _turn_z(self.theta, _turn_x(self.alpha, _turn_z(self.gamma, v)))
+        return _rotate_z(self.theta, _rotate_x(self.alpha, _rotate_z(self.gamma, v)))
 
-    def to_antecedent(self, v: Vector) -> Vector:
+    def rotate_to_antecedent(self, v: Vector) -> Vector:
         """R v: from frame j to the antecedent frame."""
-        return _back_z(self.gamma, _back_x(self.alpha, _back_z(self.theta, v)))
+        return _rotate_back_z(self.gamma, _rotate_back_x(self.alpha, _rotate_back_z(self.theta, v)))
 
-    def turned(self, J: Sequence[Vector]) -> list[Vector]:
+    def rotate_inertia(self, J: Sequence[Vector]) -> list[Vector]:
         """R J R^T, symmetric as J: from frame j to the antecedent frame."""
-        half = [self.to_antecedent(line) for line in J]
-        return [self.to_antecedent([half[0][i], half[1][i], half[2][i]]) for i in range(3)]
+        half = [self.rotate_to_antecedent(line) for line in J]
+        return [self.rotate_to_antecedent([half[0][i], half[1][i], half[2][i]]) for i in range(3)]
 
 
-def _turn_z(angle: tuple[Scalar, Scalar], v: Vector) -> Vector:
+def _rotate_z(angle: tuple[Scalar, Scalar], v: Vector) -> Vector:
     c, s = angle
     return [c * v[0] + s * v[1], c * v[1] - s * v[0], v[2]]
 
 
-def _back_z(angle: tuple[Scalar, Scalar], v: Vector) -> Vector:
+def _rotate_back_z(angle: tuple[Scalar, Scalar], v: Vector) -> Vector:
     c, s = angle
     return [c * v[0] - s * v[1], s * v[0] + c * v[1], v[2]]
 
 
-def _turn_x(angle: tuple[Scalar, Scalar], v: Vector) -> Vector:
+def _rotate_x(angle: tuple[Scalar, Scalar], v: Vector) -> Vector:
     c, s = angle
     return [v[0], c * v[1] + s * v[2], c * v[2] - s * v[1]]
 
 
-def _back_x(angle: tuple[Scalar, Scalar], v: Vector) -> Vector:
+def _rotate_back_x(angle: tuple[Scalar, Scalar], v: Vector) -> Vector:
     c, s = angle
     return [v[0], c * v[1] - s * v[2], s * v[1] + c * v[2]]
 
 
-def pose(row: GeometryRow, algebra: Algebra) -> Pose:
+def compute_pose(row: GeometryRow, algebra: Algebra) -> Pose:
     """Pose of frame j in its antecedent, T = Rz(gamma) Tz(b) Rx(alpha) Tx(d) Rz(theta) Tz(r)."""
-    gamma = static_rotation(row.gamma, algebra)
-    alpha = static_rotation(row.alpha, algebra)
+    gamma = evaluate_rotation(row.gamma, algebra)
+    alpha = evaluate_rotation(row.alpha, algebra)
     d, b = algebra.static(row.d), algebra.static(row.b)
-    prismatic = row.index is not None and not row.joint.angular
+    prismatic = row.index is not None and not row.joint.is_revolute
     r = algebra.variable(row) if prismatic else algebra.static(row.r)
-    p = _back_z(gamma, plus(_back_x(alpha, [d, d * 0, r]), [b * 0, b * 0, b]))
-    named("p", row.joint.name, p)
+    p = _rotate_back_z(gamma, plus(_rotate_back_x(alpha, [d, d * 0, r]), [b * 0, b * 0, b]))
+    attach_labels("p", row.joint.name, p)
     return Pose(gamma, alpha, algebra.cos_sin(row), p)
 
 
-def static_rotation(angle: sympy.Expr, algebra: Algebra) -> tuple[Scalar, Scalar]:
+def evaluate_rotation(angle: sympy.Expr, algebra: Algebra) -> tuple[Scalar, Scalar]:
     """Cosine and sine of a constant angle."""
     c, s = cos_sin(angle)
     return algebra.static(c), algebra.static(s)
 
 
-def poses(geometry: Geometry, algebra: Algebra) -> list[Pose]:
+def compute_poses(geometry: Geometry, algebra: Algebra) -> list[Pose]:
     """Pose of every row in its antecedent."""
-    return [pose(row, algebra) for row in geometry.rows]
+    return [compute_pose(row, algebra) for row in geometry.rows]
 
 
-def unit_z(algebra: Algebra) -> Vector:
+def build_unit_z(algebra: Algebra) -> Vector:
     """The joint axis in its own frame."""
     zero = algebra.static(sympy.Integer(0))
     return [zero, zero, algebra.static(sympy.Integer(1))]
 
 
 @dataclass(frozen=True)
-class Screw(Brief):
+class Screw(ShortRepr):
     """Twist of link k for unit speed of one joint, in frame k: rotation e, velocity m of O_k."""
 
     e: Vector
     m: Vector
 
 
-def screws(geometry: Geometry, frames: Sequence[Pose], algebra: Algebra) -> list[dict[int, Screw]]:
+def compute_screws(
+    geometry: Geometry, frames: Sequence[Pose], algebra: Algebra
+) -> list[dict[int, Screw]]:
     """For every row k, the screw of each joint that moves it, by variable index.
 
     The screw is both the column of the Jacobian of link k in its own frame and the projector of a
@@ -127,27 +129,27 @@ def screws(geometry: Geometry, frames: Sequence[Pose], algebra: Algebra) -> list
     """
     zero = algebra.static(sympy.Integer(0))
     names = {row.index: row.joint.name for row in geometry.rows}
-    found: list[dict[int, Screw]] = []
+    row_screws: list[dict[int, Screw]] = []
     for k, row in enumerate(geometry.rows):
         carried: dict[int, Screw] = {}
         if row.parent is not None:
-            for index, screw in found[row.parent].items():
+            for index, screw in row_screws[row.parent].items():
                 moved = plus(screw.m, cross(screw.e, frames[k].p))
                 link, of = row.joint.name, names[index]
                 carried[index] = Screw(
-                    named("e", link, frames[k].to_link(screw.e), of=of),
-                    named("m", link, frames[k].to_link(moved), of=of),
+                    attach_labels("e", link, frames[k].rotate_to_link(screw.e), of=of),
+                    attach_labels("m", link, frames[k].rotate_to_link(moved), of=of),
                 )
         if row.index is not None:
-            axis = [x * row.rate for x in unit_z(algebra)]
+            axis = [x * row.rate for x in build_unit_z(algebra)]
             nothing = [zero, zero, zero]
-            own = Screw(axis, nothing) if row.joint.angular else Screw(nothing, axis)
-            carried[row.index] = own
-        found.append(carried)
-    return found
+            joint_screw = Screw(axis, nothing) if row.joint.is_revolute else Screw(nothing, axis)
+            carried[row.index] = joint_screw
+        row_screws.append(carried)
+    return row_screws
 
 
-def free_screws(
+def compute_free_screws(
     geometry: Geometry, frames: Sequence[Pose], algebra: Algebra,
     number: Callable[[Fraction], Scalar] = lambda coefficient: coefficient,
 ) -> list[dict[int, Screw]]:  # fmt: skip
@@ -161,46 +163,52 @@ def free_screws(
         algebra: of the entries.
         number: a coefficient as the algebra multiplies by it.
     """
-    found = []
-    for rows in screws(geometry, frames, algebra):
+    row_screws = []
+    for rows in compute_screws(geometry, frames, algebra):
         total: dict[int, Screw] = {}
         for index, screw in rows.items():
             for k, coefficient in geometry.forms[index].items():
                 e, m = times(number(coefficient), screw.e), times(number(coefficient), screw.m)
                 before = total.get(k)
                 total[k] = Screw(plus(before.e, e), plus(before.m, m)) if before else Screw(e, m)
-        found.append(total)
-    return found
+        row_screws.append(total)
+    return row_screws
 
 
-def gravity_in_frames(geometry: Geometry, frames: Sequence[Pose], algebra: Algebra) -> list[Vector]:
+def compute_frame_gravity(
+    geometry: Geometry, frames: Sequence[Pose], algebra: Algebra
+) -> list[Vector]:
     """Acceleration of gravity in every frame."""
     base = [algebra.static(entry) for entry in geometry.gravity]
-    found: list[Vector] = []
+    frame_gravity: list[Vector] = []
     for row, frame in zip(geometry.rows, frames, strict=True):
-        found.append(frame.to_link(base if row.parent is None else found[row.parent]))
-    return found
+        frame_gravity.append(
+            frame.rotate_to_link(base if row.parent is None else frame_gravity[row.parent])
+        )
+    return frame_gravity
 
 
 AxesOrigin = tuple[list[Vector], Vector]
 """Axes x, y, z of a frame, and its origin."""
 
 
-def base_poses(geometry: Geometry, frames: Sequence[Pose], algebra: Algebra) -> list[AxesOrigin]:
+def compute_base_poses(
+    geometry: Geometry, frames: Sequence[Pose], algebra: Algebra
+) -> list[AxesOrigin]:
     """Axes x, y, z of every frame and its origin, in frame 0: the forward kinematics.
 
     From the base outwards, R_j = R_a Rz(gamma) Rx(alpha) Rz(theta): each plane rotation turns two
     axes, and what one frame costs serves all that follow.
     """
-    found = poses_from(geometry, frames, algebra, None, set(range(len(frames))))
+    base_frames = compute_relative_poses(geometry, frames, algebra, None, set(range(len(frames))))
     for k, row in enumerate(geometry.rows):
-        axes, origin = found[k]
+        axes, origin = base_frames[k]
         for letter, values in zip("xyzo", (*axes, origin), strict=True):
-            named(letter, row.joint.name, values)
-    return [found[k] for k in range(len(frames))]
+            attach_labels(letter, row.joint.name, values)
+    return [base_frames[k] for k in range(len(frames))]
 
 
-def poses_from(
+def compute_relative_poses(
     geometry: Geometry, frames: Sequence[Pose], algebra: Algebra, root: int | None, rows: set[int]
 ) -> dict[int | None, AxesOrigin]:
     """Axes and origins of some rows, and of all between them and `root`, in the frame of `root`.
@@ -212,32 +220,32 @@ def poses_from(
         root: a row that all of `rows` descend from, or None for the base.
         rows: places in the table.
     """
-    found: dict[int | None, AxesOrigin] = {root: unit_axes(algebra)}
-    needed = {k for row in rows for k in geometry.ancestors(row)}
+    relative_poses: dict[int | None, AxesOrigin] = {root: build_unit_axes(algebra)}
+    needed = {k for row in rows for k in geometry.find_ancestors(row)}
     for k, (row, frame) in enumerate(zip(geometry.rows, frames, strict=True)):
-        if k in needed and row.parent in found and k != root:
-            found[k] = _carried(found[row.parent], frame)
-    return found
+        if k in needed and row.parent in relative_poses and k != root:
+            relative_poses[k] = _propagate_frame(relative_poses[row.parent], frame)
+    return relative_poses
 
 
-def unit_axes(algebra: Algebra) -> AxesOrigin:
+def build_unit_axes(algebra: Algebra) -> AxesOrigin:
     """Axes and origin of a frame in itself."""
     zero, one = algebra.static(sympy.Integer(0)), algebra.static(sympy.Integer(1))
     return [[one, zero, zero], [zero, one, zero], [zero, zero, one]], [zero] * 3
 
 
-def _carried(parent: AxesOrigin, frame: Pose) -> AxesOrigin:
+def _propagate_frame(parent: AxesOrigin, frame: Pose) -> AxesOrigin:
     """Axes and origin of a frame from those of its antecedent."""
     (x, y, z), origin = parent
     for axis, length in zip((x, y, z), frame.p, strict=True):
         origin = plus(origin, times(length, axis))
-    x, y = turned_axes(frame.gamma, x, y)
-    y, z = turned_axes(frame.alpha, y, z)
-    x, y = turned_axes(frame.theta, x, y)
+    x, y = rotate_axes(frame.gamma, x, y)
+    y, z = rotate_axes(frame.alpha, y, z)
+    x, y = rotate_axes(frame.theta, x, y)
     return [x, y, z], origin
 
 
-def turned_axes(angle: tuple[Scalar, Scalar], a: Vector, b: Vector) -> tuple[Vector, Vector]:
+def rotate_axes(angle: tuple[Scalar, Scalar], a: Vector, b: Vector) -> tuple[Vector, Vector]:
     """Two axes turned in their plane, a towards b."""
     c, s = angle
     return plus(times(c, a), times(s, b)), plus(times(c, b), times(-s, a))
@@ -288,7 +296,7 @@ class MotionState:
     v: Sequence[Scalar] | None = None
 
 
-def motions(
+def propagate_motions(
     geometry: Geometry, frames: Sequence[Pose], state: MotionState, algebra: Algebra
 ) -> list[Motion]:
     """Motion of every row's link."""
@@ -296,62 +304,76 @@ def motions(
     none = [zero] * 3
     half = [None] * 3 if state.v is None else none
     base = Motion(none, none, [-g for g in state.gravity], none, [none] * 3, half)
-    found: list[Motion] = []
+    link_motions: list[Motion] = []
     for row, frame in zip(geometry.rows, frames, strict=True):
-        found.append(_next(base if row.parent is None else found[row.parent], row, frame, state))
-    return found
+        link_motions.append(
+            _propagate_motion(
+                base if row.parent is None else link_motions[row.parent], row, frame, state
+            )
+        )
+    return link_motions
 
 
-def _next(a: Motion, row: GeometryRow, frame: Pose, state: MotionState) -> Motion:
+def _propagate_motion(a: Motion, row: GeometryRow, frame: Pose, state: MotionState) -> Motion:
     link = row.joint.name
-    w, wd = named("w", link, frame.to_link(a.w), "b"), named("wd", link, frame.to_link(a.wd), "b")
-    half = a.half if state.v is None else frame.to_link(a.half)
-    vd = named("vd", link, plus(a.vd, [dot(line, frame.p) for line in a.U]), "a")
-    vd = named("vd", link, frame.to_link(vd), "b")
+    w, wd = (
+        attach_labels("w", link, frame.rotate_to_link(a.w), "b"),
+        attach_labels("wd", link, frame.rotate_to_link(a.wd), "b"),
+    )
+    half = a.half if state.v is None else frame.rotate_to_link(a.half)
+    vd = attach_labels("vd", link, plus(a.vd, [dot(line, frame.p) for line in a.U]), "a")
+    vd = attach_labels("vd", link, frame.rotate_to_link(vd), "b")
     if row.index is not None:
         qd, qdd = state.qd[row.index] * row.rate, state.qdd[row.index] * row.rate
         v = None if state.v is None else state.v[row.index] * row.rate / 2
-        x, y = _product(w[1], qd, half[1], v), _product(w[0], qd, half[0], v)
-        if row.joint.angular:
+        x, y = _multiply_speeds(w[1], qd, half[1], v), _multiply_speeds(w[0], qd, half[0], v)
+        if row.joint.is_revolute:
             wd = [wd[0] + x, wd[1] - y, wd[2] + qdd]
             w = [w[0], w[1], w[2] + qd]
             half = half if v is None else [half[0], half[1], half[2] + v]
         else:
             vd = [vd[0] + 2 * x, vd[1] - 2 * y, vd[2] + qdd]
-    named("w", link, w), named("wd", link, wd), named("vd", link, vd)
-    return _motion(w, wd, vd, half, link)
+    attach_labels("w", link, w), attach_labels("wd", link, wd), attach_labels("vd", link, vd)
+    return _build_motion(w, wd, vd, half, link)
 
 
-def _product(a: Scalar, b: Scalar, half_a: Scalar, half_b: Scalar) -> Scalar:
+def _multiply_speeds(a: Scalar, b: Scalar, half_a: Scalar, half_b: Scalar) -> Scalar:
     """a b of the speeds; with halves of second speeds, the mean of the two mixed products."""
     return a * b if half_a is None else a * half_b + half_a * b
 
 
-def _motion(w: Vector, wd: Vector, vd: Vector, half: Vector, link: str) -> Motion:
-    xx, yy, zz = (_product(w[i], w[i], half[i], half[i]) for i in range(3))
-    xy, xz, yz = (_product(w[i], w[j], half[i], half[j]) for i, j in ((0, 1), (0, 2), (1, 2)))
-    named("ww", link, (xx, yy, zz, xy, xz, yz), components=("xx", "yy", "zz", "xy", "xz", "yz"))
+def _build_motion(w: Vector, wd: Vector, vd: Vector, half: Vector, link: str) -> Motion:
+    xx, yy, zz = (_multiply_speeds(w[i], w[i], half[i], half[i]) for i in range(3))
+    xy, xz, yz = (
+        _multiply_speeds(w[i], w[j], half[i], half[j]) for i, j in ((0, 1), (0, 2), (1, 2))
+    )
+    attach_labels(
+        "ww", link, (xx, yy, zz, xy, xz, yz), components=("xx", "yy", "zz", "xy", "xz", "yz")
+    )
     U = [
         [-(yy + zz), xy - wd[2], xz + wd[1]],
         [xy + wd[2], -(xx + zz), yz - wd[0]],
         [xz - wd[1], yz + wd[0], -(xx + yy)],
     ]
-    return Motion(w, wd, vd, [yz, xz, xy], named_matrix("U", link, U), half, link)
+    return Motion(w, wd, vd, [yz, xz, xy], attach_matrix_labels("U", link, U), half, link)
 
 
-def wrench_columns(motion: Motion) -> dict[str, tuple[Vector, Vector]]:
+def compute_wrench_columns(motion: Motion) -> dict[str, tuple[Vector, Vector]]:
     """(force, moment at the origin) that one unit of each inertial parameter needs, in its frame.
 
     f = M vd + U MS and n = J wd + w x (J w) + MS x vd, where
     J = [[XX, XY, XZ], [XY, YY, YZ], [XZ, YZ, ZZ]].
     """
-    found = _wrench_columns(motion)
-    for name, (force, moment) in found.items():
-        named("f", motion.link, force, of=name), named("n", motion.link, moment, of=name)
-    return found
+    columns = _build_wrench_columns(motion)
+    for name, (force, moment) in columns.items():
+        (
+            attach_labels("f", motion.link, force, of=name),
+            attach_labels("n", motion.link, moment, of=name),
+        )
+    return columns
 
 
-def _wrench_columns(motion: Motion) -> dict[str, tuple[Vector, Vector]]:
+def _build_wrench_columns(motion: Motion) -> dict[str, tuple[Vector, Vector]]:
     wd, vd, U = motion.wd, motion.vd, motion.U
     zero = 0 * vd[0]
     none = [zero, zero, zero]
@@ -370,12 +392,12 @@ def _wrench_columns(motion: Motion) -> dict[str, tuple[Vector, Vector]]:
     }
 
 
-def project(screw: Screw, force: Vector, moment: Vector) -> Scalar:
+def project_wrench(screw: Screw, force: Vector, moment: Vector) -> Scalar:
     """Torque of a joint under a force and a moment at O_k: e.n + m.f."""
     return dot(screw.e, moment) + dot(screw.m, force)
 
 
-def inverse_dynamics(
+def compute_inverse_dynamics(
     geometry: Geometry,
     frames: Sequence[Pose],
     moved: Sequence[Motion],
@@ -394,18 +416,20 @@ def inverse_dynamics(
     Returns:
         (joints,) torques in N m, forces in N.
     """
-    tau = [zero] * geometry.joints
-    for k, f, n in wrenches(geometry, frames, lambda k: link_wrench(moved[k], parameters[k], zero)):
+    tau = [zero] * geometry.joint_count
+    for k, f, n in accumulate_wrenches(
+        geometry, frames, lambda k: compute_link_wrench(moved[k], parameters[k], zero)
+    ):
         row = geometry.rows[k]
         if row.index is not None:
-            tau[row.index] = (n if row.joint.angular else f)[2] * row.rate
+            tau[row.index] = (n if row.joint.is_revolute else f)[2] * row.rate
     return tau
 
 
-def wrenches(
+def accumulate_wrenches(
     geometry: Geometry,
     frames: Sequence[Pose],
-    own: Callable[[int], tuple[Vector, Vector]],
+    link_wrench: Callable[[int], tuple[Vector, Vector]],
     quantities: tuple[str, str] = ("fc", "nc"),
 ) -> Iterator[tuple[int, Vector, Vector]]:
     """(row, force, moment at its origin) of every link with all that it carries, the last first.
@@ -413,38 +437,38 @@ def wrenches(
     Args:
         geometry: the table.
         frames: poses of the rows.
-        own: those of the row's link alone, in its frame.
+        link_wrench: those of the row's link alone, in its frame.
         quantities: what the two are called.
     """
     total: dict[int, tuple[Vector, Vector]] = {}
     for k in reversed(range(len(geometry.rows))):
-        f, n = own(k)
+        f, n = link_wrench(k)
         if k in total:
             f, n = plus(total[k][0], f), plus(total[k][1], n)
         for quantity, vector in zip(quantities, (f, n), strict=True):
-            named(quantity, geometry.rows[k].joint.name, vector)
+            attach_labels(quantity, geometry.rows[k].joint.name, vector)
         yield k, f, n
         parent = geometry.rows[k].parent
         if parent is not None:
-            f = frames[k].to_antecedent(f)
-            n = plus(frames[k].to_antecedent(n), cross(frames[k].p, f))
+            f = frames[k].rotate_to_antecedent(f)
+            n = plus(frames[k].rotate_to_antecedent(n), cross(frames[k].p, f))
             for quantity, vector in zip(quantities, (f, n), strict=True):
-                named(quantity, geometry.rows[k].joint.name, vector, "a")
+                attach_labels(quantity, geometry.rows[k].joint.name, vector, "a")
             before = total.get(parent)
             total[parent] = (plus(before[0], f), plus(before[1], n)) if before else (f, n)
 
 
-def link_wrench(
+def compute_link_wrench(
     motion: Motion, parameters: Mapping[str, Any], zero: Scalar
 ) -> tuple[Vector, Vector]:
     """Force and moment at the origin that a link needs: Newton and Euler."""
     J = [[parameters.get(name, zero) for name in line] for line in _INERTIA]
     MS = [parameters.get(name, zero) for name in ("MX", "MY", "MZ")]
     f = plus(times(parameters.get("M", zero), motion.vd), [dot(line, MS) for line in motion.U])
-    Jw = named("h", motion.link, [dot(line, motion.w) for line in J])
+    Jw = attach_labels("h", motion.link, [dot(line, motion.w) for line in J])
     n = plus([dot(line, motion.wd) for line in J], cross(motion.w, Jw))
     n = plus(n, cross(MS, motion.vd))
-    return named("f", motion.link, f), named("n", motion.link, n)
+    return attach_labels("f", motion.link, f), attach_labels("n", motion.link, n)
 
 
 _INERTIA = (("XX", "XY", "XZ"), ("XY", "YY", "YZ"), ("XZ", "YZ", "ZZ"))
@@ -462,34 +486,34 @@ class Composite:
         self.MS: Vector = [parameters.get(name, zero) for name in ("MX", "MY", "MZ")]
         self.J: list[Vector] = [[parameters.get(n, zero) for n in line] for line in _INERTIA]
 
-    def carry(self, other: "Composite", frame: Pose) -> None:
+    def add_composite(self, other: "Composite", frame: Pose) -> None:
         """Add what hangs on `frame`, moved to this link's frame.
 
         J += R J R^T + 2 (p.S) 1 - p S^T - S p^T + M (p.p 1 - p p^T) with S = R MS.
         """
-        p, S = frame.p, named("MSc", other.link, frame.to_antecedent(other.MS), "a")
-        turned = frame.turned(other.J)
-        named_matrix("Jc", other.link, turned, "a")
+        p, S = frame.p, attach_labels("MSc", other.link, frame.rotate_to_antecedent(other.MS), "a")
+        turned = frame.rotate_inertia(other.J)
+        attach_matrix_labels("Jc", other.link, turned, "a")
         for i, row in enumerate("xyz"):
             for j, column in enumerate("xyz"):
-                both, shift = self.J[i][j] + turned[i][j], steiner(p, S, other.M, i, j)
-                named("Js", other.link, [shift], components=[row + column])
+                both, shift = self.J[i][j] + turned[i][j], compute_steiner_term(p, S, other.M, i, j)
+                attach_labels("Js", other.link, [shift], components=[row + column])
                 self.J[i][j] = both + shift
         self.MS = plus(self.MS, plus(S, times(other.M, p)))
         self.M = self.M + other.M
-        named_matrix("Jc", self.link, self.J)
-        named("MSc", self.link, self.MS)
-        named("Mc", self.link, [self.M], components=[""])
+        attach_matrix_labels("Jc", self.link, self.J)
+        attach_labels("MSc", self.link, self.MS)
+        attach_labels("Mc", self.link, [self.M], components=[""])
 
-    def momentum(self, row: GeometryRow) -> tuple[Vector, Vector]:
+    def compute_momentum(self, row: GeometryRow) -> tuple[Vector, Vector]:
         """Linear and angular momentum for unit speed of the joint of the row, in its frame."""
         zero, (x, y, _) = 0 * self.M, self.MS
-        if row.joint.angular:
+        if row.joint.is_revolute:
             return [-y * row.rate, x * row.rate, zero], [line[2] * row.rate for line in self.J]
         return [zero, zero, self.M * row.rate], [y * row.rate, -x * row.rate, zero]
 
 
-def steiner(p: Vector, S: Vector, M: Scalar, i: int, j: int) -> Scalar:
+def compute_steiner_term(p: Vector, S: Vector, M: Scalar, i: int, j: int) -> Scalar:
     """Entry i, j of 2 (p.S) 1 - p S^T - S p^T + M (p.p 1 - p p^T)."""
     total = -(p[i] * S[j] + S[i] * p[j] + M * (p[i] * p[j]))
     if i == j:
@@ -498,7 +522,7 @@ def steiner(p: Vector, S: Vector, M: Scalar, i: int, j: int) -> Scalar:
     return total
 
 
-def inertia_matrix(
+def compute_inertia_matrix(
     geometry: Geometry,
     frames: Sequence[Pose],
     parameters: Sequence[Mapping[str, Any]],
@@ -515,29 +539,29 @@ def inertia_matrix(
     links = [
         Composite(p, zero, row.joint.name) for p, row in zip(parameters, geometry.rows, strict=True)
     ]
-    matrix = [[zero] * geometry.joints for _ in range(geometry.joints)]
+    matrix = [[zero] * geometry.joint_count for _ in range(geometry.joint_count)]
     for k in reversed(range(len(links))):
         row = geometry.rows[k]
         if row.index is not None:
-            _fill(matrix, geometry, frames, links[k], k)
+            _fill_column(matrix, geometry, frames, links[k], k)
         if row.parent is not None:
-            links[row.parent].carry(links[k], frames[k])
+            links[row.parent].add_composite(links[k], frames[k])
     return matrix
 
 
-def _fill(
+def _fill_column(
     matrix: list[list[Scalar]], geometry: Geometry, frames: Sequence[Pose], link: Composite, k: int
 ) -> None:
     row = geometry.rows[k]
     assert row.index is not None
-    f, n = link.momentum(row)
-    for at in geometry.ancestors(k):
+    f, n = link.compute_momentum(row)
+    for at in geometry.find_ancestors(k):
         other = geometry.rows[at]
         if other.index is not None:
-            along = (n if other.joint.angular else f)[2] * other.rate
+            along = (n if other.joint.is_revolute else f)[2] * other.rate
             matrix[row.index][other.index] = along
             matrix[other.index][row.index] = along
         names = other.joint.name, row.joint.name
-        f = named("lin", names[0], frames[at].to_antecedent(f), "a", names[1])
-        n = plus(frames[at].to_antecedent(n), cross(frames[at].p, f))
-        named("ang", names[0], n, "a", names[1])
+        f = attach_labels("lin", names[0], frames[at].rotate_to_antecedent(f), "a", names[1])
+        n = plus(frames[at].rotate_to_antecedent(n), cross(frames[at].p, f))
+        attach_labels("ang", names[0], n, "a", names[1])

@@ -13,11 +13,13 @@ import sympy
 from modeler.derivation.columns import LinkColumn
 from modeler.derivation.geometry import Geometry
 from modeler.derivation.model import SymbolicModel
-from modeler.derivation.walks import closed_motion
+from modeler.derivation.walks import compute_closed_motion
 from modeler.robot import INERTIAL
 
 
-def _torque_function(geometry: Geometry, parameters: Sequence[tuple[int, str]]) -> casadi.Function:
+def _build_torque_function(
+    geometry: Geometry, parameters: Sequence[tuple[int, str]]
+) -> casadi.Function:
     """(q, qd, qdd, chi) -> tau of the rigid links at the nominal geometry.
 
     tau = d/dt (dT/dqd) - dT/dq + dU/dq with T = 1/2 qd' M qd, which is M qdd + C qd + dU/dq; the
@@ -27,15 +29,15 @@ def _torque_function(geometry: Geometry, parameters: Sequence[tuple[int, str]]) 
         geometry: the exact table.
         parameters: (row, prefix) of each entry of chi, ten for every link.
     """
-    q, qd, qdd = (casadi.SX.sym(name, geometry.joints) for name in ("q", "qd", "qdd"))
+    q, qd, qdd = (casadi.SX.sym(name, geometry.joint_count) for name in ("q", "qd", "qdd"))
     chi = casadi.SX.sym("chi", len(parameters))
-    transforms = _base_transforms(geometry, q)
+    transforms = _build_base_transforms(geometry, q)
     T, U = casadi.SX(0), casadi.SX(0)
-    gravity = casadi.SX([_number(entry, geometry.values) for entry in geometry.gravity])
+    gravity = casadi.SX([_evaluate_number(entry, geometry.values) for entry in geometry.gravity])
     for link, k in enumerate(dict.fromkeys(k for k, _ in parameters)):
-        J, MS, M = _inertia(chi[10 * link : 10 * link + 10])
+        J, MS, M = _unpack_inertia(chi[10 * link : 10 * link + 10])
         R, p = transforms[k][:3, :3], transforms[k][:3, 3]
-        w, v = _velocities(R, p, q, qd)
+        w, v = _derive_velocities(R, p, q, qd)
         T += 0.5 * (w.T @ J @ w + M * v.T @ v) + casadi.dot(v, casadi.cross(w, MS))
         U -= casadi.dot(gravity, M * p + R @ MS)
     momentum = casadi.gradient(T, qd)
@@ -48,28 +50,30 @@ def _torque_function(geometry: Geometry, parameters: Sequence[tuple[int, str]]) 
     return casadi.Function("tau", [q, qd, qdd, chi], [tau])
 
 
-def _number(value: sympy.Expr, values: Mapping[str, float]) -> float:
+def _evaluate_number(value: sympy.Expr, values: Mapping[str, float]) -> float:
     return float(value.subs({symbol: values[symbol.name] for symbol in value.free_symbols}))
 
 
-def _base_transforms(geometry: Geometry, q: casadi.SX) -> list[casadi.SX]:
-    found: list[casadi.SX] = []
+def _build_base_transforms(geometry: Geometry, q: casadi.SX) -> list[casadi.SX]:
+    transforms: list[casadi.SX] = []
     for row in geometry.rows:
         entries = {
-            name: casadi.SX(_number(getattr(row, name), geometry.values))
+            name: casadi.SX(_evaluate_number(getattr(row, name), geometry.values))
             for name in ("gamma", "b", "alpha", "d", "theta", "r")
         }
         if row.index is not None:
-            moving = "theta" if row.joint.angular else "r"
+            moving = "theta" if row.joint.is_revolute else "r"
             entries[moving] += row.rate * q[row.index]
-        T = casadi.SX.eye(4) if row.parent is None else found[row.parent]
-        T = T @ _turn(2, entries["gamma"]) @ _shift(2, entries["b"])
-        T = T @ _turn(0, entries["alpha"]) @ _shift(0, entries["d"])
-        found.append(T @ _turn(2, entries["theta"]) @ _shift(2, entries["r"]))
-    return found
+        T = casadi.SX.eye(4) if row.parent is None else transforms[row.parent]
+        T = T @ _build_rotation(2, entries["gamma"]) @ _build_translation(2, entries["b"])
+        T = T @ _build_rotation(0, entries["alpha"]) @ _build_translation(0, entries["d"])
+        transforms.append(
+            T @ _build_rotation(2, entries["theta"]) @ _build_translation(2, entries["r"])
+        )
+    return transforms
 
 
-def _turn(axis: int, angle: casadi.SX) -> casadi.SX:
+def _build_rotation(axis: int, angle: casadi.SX) -> casadi.SX:
     T = casadi.SX.eye(4)
     i, j = ((1, 2), (2, 0), (0, 1))[axis]
     c, s = casadi.cos(angle), casadi.sin(angle)
@@ -77,19 +81,19 @@ def _turn(axis: int, angle: casadi.SX) -> casadi.SX:
     return T
 
 
-def _shift(axis: int, length: casadi.SX) -> casadi.SX:
+def _build_translation(axis: int, length: casadi.SX) -> casadi.SX:
     T = casadi.SX.eye(4)
     T[axis, 3] = length
     return T
 
 
-def _inertia(chi: casadi.SX) -> tuple[casadi.SX, casadi.SX, casadi.SX]:
+def _unpack_inertia(chi: casadi.SX) -> tuple[casadi.SX, casadi.SX, casadi.SX]:
     XX, XY, XZ, YY, YZ, ZZ = (chi[i] for i in range(6))
     rows: Sequence[Sequence[casadi.SX]] = ((XX, XY, XZ), (XY, YY, YZ), (XZ, YZ, ZZ))
     return casadi.vertcat(*(casadi.horzcat(*row) for row in rows)), chi[6:9], chi[9]
 
 
-def _velocities(
+def _derive_velocities(
     R: casadi.SX, p: casadi.SX, q: casadi.SX, qd: casadi.SX
 ) -> tuple[casadi.SX, casadi.SX]:
     """Angular and linear velocity of a frame, in the frame: from d/dt of R and p."""
@@ -102,7 +106,7 @@ def _velocities(
 # Torques of the links by Lagrange, for any robot: tied joints and loops included.
 
 
-def lagrange_torque(
+def compute_lagrange_torque(
     model: SymbolicModel, u: np.ndarray, ud: np.ndarray, udd: np.ndarray, chi: np.ndarray
 ) -> np.ndarray:
     """(n, coordinates) torques of the links with the standard parameters chi; effects are left out.
@@ -126,14 +130,14 @@ def lagrange_torque(
             for part in column.parts:
                 values[part.row, part.prefix] = value
     links = np.array([values.get(at, 0.0) for at in parameters])
-    F = np.zeros((geometry.joints, geometry.coordinates))
+    F = np.zeros((geometry.joint_count, geometry.coordinate_count))
     for row, form in enumerate(geometry.forms):
         for k, coefficient in form.items():
             F[row, k] = float(coefficient)
-    function = _torque_function(geometry, parameters).map(len(u))
+    function = _build_torque_function(geometry, parameters).map(len(u))
     inputs = (F @ u.T, F @ ud.T, F @ udd.T, np.tile(links[:, None], len(u)))
     tau = np.array(function(*inputs)).T @ F
     if model.closure is None:
         return tau
-    none = np.zeros((len(u), len(model.closure.given)))
-    return np.einsum("nij,ni->nj", closed_motion(model, u, none).coupling, tau)
+    none = np.zeros((len(u), len(model.closure.actuated)))
+    return np.einsum("nij,ni->nj", compute_closed_motion(model, u, none).coupling, tau)

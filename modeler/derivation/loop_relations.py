@@ -30,13 +30,19 @@ from collections.abc import Mapping, Sequence
 
 import numpy as np
 
-from modeler.derivation.certificate import ModularState, Residues, cross, filled, in_axes
+from modeler.derivation.certificate import (
+    ModularState,
+    Residues,
+    cross,
+    fill_residues,
+    rotate_into_axes,
+)
 from modeler.derivation.closure import ALL, LOOP_JOINTS
 from modeler.derivation.columns import StandardColumn
-from modeler.derivation.field import Element, ExactField, TooLarge
+from modeler.derivation.field import CoefficientTooLarge, Element, ExactField
 from modeler.derivation.geometry import Geometry
-from modeler.derivation.tied import dependent_columns
-from modeler.derivation.tree import joint_constant, placement, transferred
+from modeler.derivation.tied import find_dependent_columns
+from modeler.derivation.tree import build_joint_constant, build_placement, move_parameters
 from modeler.robot import INERTIAL
 
 _POINTS = 4
@@ -44,7 +50,7 @@ _MOST = 800
 """Columns of which relations are looked for; with more, elimination takes minutes."""
 
 
-def closure_relations(
+def derive_closure_relations(
     geometry: Geometry,
     columns: Sequence[StandardColumn],
     K: ExactField,
@@ -63,57 +69,67 @@ def closure_relations(
     Raises:
         TooLarge: a coefficient is no short quotient of polynomials, or has long numbers.
     """
-    products = _Products(geometry, columns)
-    first = products.different(K, seed)
+    products = _ClosureProducts(geometry, columns)
+    first = products.find_distinct(K, seed)
     if len(first) + len(order) > _MOST:
-        raise TooLarge(f"relations around the loops are among more than {_MOST} functions")
-    return dependent_columns(geometry, products.rows, K, [*first, *order], set(order), seed)
+        raise CoefficientTooLarge(
+            f"relations around the loops are among more than {_MOST} functions"
+        )
+    return find_dependent_columns(
+        geometry, products.compute_rows, K, [*first, *order], set(order), seed
+    )
 
 
-class _Products:
+class _ClosureProducts:
     """Energy rows of the columns, followed by those of the products of every loop."""
 
     def __init__(self, geometry: Geometry, columns: Sequence[StandardColumn]) -> None:
         self.columns, self.geometry = columns, geometry
         places = {joint.name: k for k, joint in enumerate(geometry.robot.joints)}
         self.loops = [
-            _Around(geometry, places.get(loop.frame), places.get(loop.meets), loop.kind)
+            _LoopPath(geometry, places.get(loop.frame), places.get(loop.meets), loop.kind)
             for loop in geometry.robot.loops
         ]
 
-    def different(self, K: ExactField, seed: int) -> list[int]:
+    def find_distinct(self, K: ExactField, seed: int) -> list[int]:
         """Numbers of the products that are not zero, nor equal to one before."""
         state = ModularState(self.geometry, K, _POINTS, seed)
         known = {bytes(2 * 8 * _POINTS)}
-        found = []
-        for number, product in enumerate(self._products(state), len(self.columns)):
+        numbers = []
+        for number, product in enumerate(self._collect_products(state), len(self.columns)):
             value = product.tobytes()
             if value not in known:
                 known.add(value)
-                found.append(number)
-        return found
+                numbers.append(number)
+        return numbers
 
-    def rows(self, state: ModularState, places: Sequence[int]) -> np.ndarray:
+    def compute_rows(self, state: ModularState, places: Sequence[int]) -> np.ndarray:
         """(2 points, places): rows of 2T, then of the power of gravity."""
         count = len(self.columns)
-        own = [place for place in places if place < count]
-        found = dict(zip(own, state.energy_rows([self.columns[i] for i in own]).T, strict=True))
-        if len(own) < len(places):
-            found |= dict(enumerate(self._products(state), count))
-        return np.stack([found[place] for place in places], axis=1)
+        standard_places = [place for place in places if place < count]
+        row_columns = dict(
+            zip(
+                standard_places,
+                state.compute_energy_rows([self.columns[i] for i in standard_places]).T,
+                strict=True,
+            )
+        )
+        if len(standard_places) < len(places):
+            row_columns |= dict(enumerate(self._collect_products(state), count))
+        return np.stack([row_columns[place] for place in places], axis=1)
 
-    def _products(self, state: ModularState) -> list[Residues]:
-        return [product for loop in self.loops for product in loop.products(state)]
+    def _collect_products(self, state: ModularState) -> list[Residues]:
+        return [product for loop in self.loops for product in loop.compute_products(state)]
 
 
-class _Around:
+class _LoopPath:
     """One loop: the rows where it closes, and the bodies on its way."""
 
     def __init__(self, geometry: Geometry, one: int | None, other: int | None, kind: str) -> None:
         """For the numbers of the rows that meet; None is the base."""
         self.ends, joint = (one, other), LOOP_JOINTS[kind]
         self.vanishing = (joint.velocity, joint.turning)
-        sides = [[] if end is None else geometry.ancestors(end) for end in self.ends]
+        sides = [[] if end is None else geometry.find_ancestors(end) for end in self.ends]
         in_common = [k for k in sides[0] if k in sides[1]]
         self.root = in_common[0] if in_common else None
         way = [k for side in sides for k in side if k not in in_common]
@@ -123,34 +139,34 @@ class _Around:
             if geometry.rows[k].index is not None or k == self.root
         ]
 
-    def products(self, state: ModularState) -> list[Residues]:
+    def compute_products(self, state: ModularState) -> list[Residues]:
         """(2 points,) each: what vanishes by w and v of the bodies, and by gravity."""
-        found: list[Residues] = []
-        for end, vanishing in self._zeros(state):
+        products: list[Residues] = []
+        for end, vanishing in self._find_vanishing(state):
             nothing = 0 * vanishing
             for k in self.bodies:
                 for vector in state.motion[k][2:]:
-                    for y in _turned(state, end, vector):
-                        found += [*np.hstack([vanishing * y % state.prime, nothing])]
-            for y in _turned(state, end, state.gravity):
-                found += [*np.hstack([nothing, vanishing * y % state.prime])]
-        return found
+                    for y in _rotate_to_row(state, end, vector):
+                        products += [*np.hstack([vanishing * y % state.prime, nothing])]
+            for y in _rotate_to_row(state, end, state.gravity):
+                products += [*np.hstack([nothing, vanishing * y % state.prime])]
+        return products
 
-    def _zeros(self, state: ModularState) -> list[tuple[int | None, Residues]]:
+    def _find_vanishing(self, state: ModularState) -> list[tuple[int | None, Residues]]:
         """Rows in whose axes components vanish, and these: velocities, then angular velocities."""
-        found = []
+        components = []
         for place, along in enumerate(self.vanishing):
             if along == ALL:
-                vector = self._difference(state, self.ends)[place]
-                found.append((self.root, _turned(state, self.root, vector)))
+                vector = self._subtract_velocities(state, self.ends)[place]
+                components.append((self.root, _rotate_to_row(state, self.root, vector)))
             elif along:
                 for ends in (self.ends, self.ends[::-1]):
-                    vector = self._difference(state, ends, apart=True)[place]
-                    axes = _turned(state, ends[0], vector)
-                    found.append((ends[0], axes[list(along)]))
-        return found
+                    vector = self._subtract_velocities(state, ends, apart=True)[place]
+                    axes = _rotate_to_row(state, ends[0], vector)
+                    components.append((ends[0], axes[list(along)]))
+        return components
 
-    def _difference(
+    def _subtract_velocities(
         self, state: ModularState, ends: Sequence[int | None], apart: bool = False
     ) -> tuple[Residues, Residues]:
         """Of the second end from the first: velocity and angular velocity.
@@ -158,7 +174,7 @@ class _Around:
         If they are apart, the first velocity is that of its body where the second origin is.
         """
         prime = state.prime
-        nothing = np.stack([filled(0, state.points, prime)] * 3)
+        nothing = np.stack([fill_residues(0, state.points, prime)] * 3)
         (p, w, v), (p_other, w_other, v_other) = (
             (nothing,) * 3 if end is None else state.motion[end][1:] for end in ends
         )
@@ -167,9 +183,9 @@ class _Around:
         return (v_other - v) % prime, (w_other - w) % prime
 
 
-def _turned(state: ModularState, row: int | None, vector: Residues) -> Residues:
+def _rotate_to_row(state: ModularState, row: int | None, vector: Residues) -> Residues:
     """A vector in the axes of a row; None is the base."""
-    return vector if row is None else in_axes(state.motion[row][0], vector, state.prime)
+    return vector if row is None else rotate_into_axes(state.motion[row][0], vector, state.prime)
 
 
 # Relations that closing a loop creates.
@@ -182,7 +198,7 @@ def _turned(state: ModularState, row: int | None, vector: Residues) -> Residues:
 # the torques tells.
 
 
-def loop_relations(
+def derive_loop_relations(
     geometry: Geometry, K: ExactField, places: Mapping[tuple[int, int], int]
 ) -> list[dict[int, Element]]:
     """Relations among the units (see `modeler.derivation.grouping`) that the loops create.
@@ -199,7 +215,7 @@ def loop_relations(
             vector = [K.one if prefix in body else K.zero for prefix in INERTIAL]
             relation: dict[int, Element] = {}
             for frame, sign in ((loop.frame, 1), (loop.meets, -1)):
-                row, moved = on_link(geometry, K, names.get(frame), list(vector))
+                row, moved = move_to_link(geometry, K, names.get(frame), list(vector))
                 if row is None:
                     continue
                 for i, value in enumerate(moved):
@@ -209,13 +225,13 @@ def loop_relations(
     return relations
 
 
-def on_link(
+def move_to_link(
     geometry: Geometry, K: ExactField, row: int | None, parameters: list[Element]
 ) -> tuple[int | None, list[Element]]:
     """The link that carries a body fixed to frame `row` (None: the base), and its parameters."""
     rows = geometry.rows
     while row is not None and rows[row].index is None:
-        for step in (joint_constant(rows[row], K), placement(rows[row], K)):
-            parameters = transferred(step, parameters, K)
+        for step in (build_joint_constant(rows[row], K), build_placement(rows[row], K)):
+            parameters = move_parameters(step, parameters, K)
         row = rows[row].parent
     return row, parameters

@@ -7,37 +7,37 @@ from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property, partial
 
-from modeler.core.brief import Brief
+from modeler.core.brief import ShortRepr
 from modeler.core.errors import DerivationError
 from modeler.core.expression import FUNCTIONS, LAW, Expression
-from modeler.derivation.closure import Closure, closure_of
+from modeler.derivation.closure import Closure, derive_closure
 from modeler.derivation.columns import (
     LinkColumn,
     ShaftColumn,
     Signal,
     StandardColumn,
-    signals_of,
-    signals_read,
+    collect_signals,
+    map_column_signals,
 )
-from modeler.derivation.differentiation import derivatives
+from modeler.derivation.differentiation import differentiate
 from modeler.derivation.geometry import Geometry
-from modeler.derivation.graph import Expr, Graph, GraphAlgebra, combination
+from modeler.derivation.graph import Expr, Graph, GraphAlgebra, combine_linearly
 from modeler.derivation.kinematics import (
     Motion,
     MotionState,
     Pose,
     Screw,
-    base_poses,
-    free_screws,
-    inertia_matrix,
-    inverse_dynamics,
-    motions,
-    poses,
-    project,
-    wrench_columns,
+    compute_base_poses,
+    compute_free_screws,
+    compute_inertia_matrix,
+    compute_inverse_dynamics,
+    compute_poses,
+    compute_wrench_columns,
+    project_wrench,
+    propagate_motions,
 )
 from modeler.derivation.labels import Label
-from modeler.effects import ENCODERS, MOTION, Acts
+from modeler.effects import ENCODERS, MOTION, EffectTarget
 from modeler.robot import Robot
 
 _REFERRED = ("rigid_body", "rotor_inertia", "viscous", "coulomb", "offset")
@@ -52,7 +52,7 @@ Entries = Mapping[tuple[int, int], Expr]
 
 
 @dataclass(frozen=True)
-class SymbolicModel(Brief):
+class SymbolicModel(ShortRepr):
     """The dynamics of a robot as expressions of one graph.
 
     Inputs of the graph: `q[0]`, `qd[0]`, `qdd[0]`, ... in the order of `robot.free`, which no
@@ -85,11 +85,11 @@ class SymbolicModel(Brief):
     @cached_property
     def frames(self) -> list[Pose]:
         """Pose of every row in its antecedent."""
-        return poses(self.geometry, self.algebra)
+        return compute_poses(self.geometry, self.algebra)
 
-    def inputs(self, kind: str) -> list[Expr]:
+    def get_inputs(self, kind: str) -> list[Expr]:
         """The symbols of `kind` "q", "qd", "qdd", "v" or "a", of the free variables."""
-        return [self.graph.symbol(f"{kind}[{k}]") for k in range(self.geometry.coordinates)]
+        return [self.graph.symbol(f"{kind}[{k}]") for k in range(self.geometry.coordinate_count)]
 
     @cached_property
     def closure(self) -> Closure | None:
@@ -98,17 +98,17 @@ class SymbolicModel(Brief):
         Raises:
             LoopError: the loops leave more or less free than is actuated, or cannot close.
         """
-        return closure_of(self.geometry, self.graph, self.frames, self.algebra)
+        return derive_closure(self.geometry, self.graph, self.frames, self.algebra)
 
-    def free_efforts(self, rows: Sequence[Expr]) -> list[Expr]:
+    def reduce_to_free(self, rows: Sequence[Expr]) -> list[Expr]:
         """Torques along the free variables from those of the moving rows: F^T tau."""
-        found = [self.graph.constant(0)] * self.geometry.coordinates
+        free_torques = [self.graph.constant(0)] * self.geometry.coordinate_count
         for form, torque in zip(self.geometry.forms, rows, strict=True):
             for k, coefficient in form.items():
-                found[k] = found[k] + torque * coefficient
-        return found
+                free_torques[k] = free_torques[k] + torque * coefficient
+        return free_torques
 
-    def link_motions(
+    def derive_link_motions(
         self, qd: Sequence[Expr], qdd: Sequence[Expr], gravity: bool = True,
         v: Sequence[Expr] | None = None,
     ) -> list[Motion]:  # fmt: skip
@@ -123,13 +123,16 @@ class SymbolicModel(Brief):
         zero = self.graph.constant(0)
         down = [self.algebra.static(x) if gravity else zero for x in self.geometry.gravity]
         state = MotionState(
-            self.of_rows(qd), self.of_rows(qdd), down, None if v is None else self.of_rows(v)
+            self.expand_to_rows(qd),
+            self.expand_to_rows(qdd),
+            down,
+            None if v is None else self.expand_to_rows(v),
         )
-        return motions(self.geometry, self.frames, state, self.algebra)
+        return propagate_motions(self.geometry, self.frames, state, self.algebra)
 
-    def of_rows(self, free: Sequence[Expr]) -> list[Expr]:
+    def expand_to_rows(self, free: Sequence[Expr]) -> list[Expr]:
         """Speeds of the moving rows from those of the free variables: F u."""
-        return [combination(self.graph, form, free) for form in self.geometry.forms]
+        return [combine_linearly(self.graph, form, free) for form in self.geometry.forms]
 
     @cached_property
     def regressor(self) -> Entries:
@@ -138,23 +141,28 @@ class SymbolicModel(Brief):
         Inertial columns by Newton-Euler in screw form: the wrench of one unit of a parameter,
         projected on every joint below; effect columns from their definition.
         """
-        moved = self.link_motions(self.inputs("qd"), self.inputs("qdd"))
-        found = self.entries(self.projected(moved), partial(effect_entries, self))
+        moved = self.derive_link_motions(self.get_inputs("qd"), self.get_inputs("qdd"))
+        entries = self.assemble_entries(
+            self.build_projection(moved), partial(derive_effect_entries, self)
+        )
         self._labels.update(self.graph.labels)
-        return found
+        return entries
 
-    def projected(self, moved: Sequence[Motion]) -> Callable[[LinkColumn], dict[int, Expr]]:
+    def build_projection(self, moved: Sequence[Motion]) -> Callable[[LinkColumn], dict[int, Expr]]:
         """{free variable: torque along it} per unit of a link's parameter, in this motion."""
-        carried = self.carried
-        columns = [wrench_columns(motion) for motion in moved]
+        free_screws = self.free_screws
+        columns = [compute_wrench_columns(motion) for motion in moved]
 
-        def found(part: LinkColumn) -> dict[int, Expr]:
+        def project_part(part: LinkColumn) -> dict[int, Expr]:
             force, moment = columns[part.row][part.prefix]
-            return {k: project(screw, force, moment) for k, screw in carried[part.row].items()}
+            return {
+                k: project_wrench(screw, force, moment)
+                for k, screw in free_screws[part.row].items()
+            }
 
-        return found
+        return project_part
 
-    def entries(
+    def assemble_entries(
         self, link: Callable[[LinkColumn], Mapping[int, Expr]],
         shaft: Callable[[ShaftColumn], Mapping[int, Expr]],
     ) -> Entries:  # fmt: skip
@@ -174,13 +182,13 @@ class SymbolicModel(Brief):
         return {at: value for at, value in entries.items() if not value.is_zero}
 
     @contextmanager
-    def speeds_for_accelerations(self) -> Iterator[None]:
+    def relabel_speeds(self) -> Iterator[None]:
         """While recursions are given speeds as accelerations: labels say what comes of it."""
-        self.graph.called = _OF_SPEEDS
+        self.graph.renamed_quantities = _OF_SPEEDS
         try:
             yield
         finally:
-            self.graph.called = {}
+            self.graph.renamed_quantities = {}
 
     @cached_property
     def _labels(self) -> dict[int, Label]:
@@ -188,7 +196,7 @@ class SymbolicModel(Brief):
         return {}
 
     @contextmanager
-    def labelled(self) -> Iterator[None]:
+    def restore_labels(self) -> Iterator[None]:
         """While a module is written: labels do not depend on what else was asked of the model."""
         graph, before = self.graph, self.graph.labels
         assert self.regressor
@@ -199,16 +207,16 @@ class SymbolicModel(Brief):
             graph.labels = before
 
     @cached_property
-    def carried(self) -> list[dict[int, Screw]]:
+    def free_screws(self) -> list[dict[int, Screw]]:
         """For every row, the screw of each free variable that moves it."""
-        return free_screws(self.geometry, self.frames, self.algebra)
+        return compute_free_screws(self.geometry, self.frames, self.algebra)
 
     @cached_property
     def signals(self) -> tuple[Signal, ...]:
         """What effects read besides the motion: the input `s`, in order."""
-        return signals_of(self.columns)
+        return collect_signals(self.columns)
 
-    def reference_torque(self, kind: str) -> list[Expr]:
+    def derive_reference_torque(self, kind: str) -> list[Expr]:
         """Torques along the free variables at the parameters of `[reference]`.
 
         Args:
@@ -222,11 +230,11 @@ class SymbolicModel(Brief):
             if column.name in self.robot.reference and column.effect in referred
         }
         still = kind == "static"
-        return self.torque(
+        return self.derive_torque(
             known, speeds=not still, accelerations=not still, effects=kind in ("torque", "axis")
         )
 
-    def torque(
+    def derive_torque(
         self, parameters: Mapping[int, Expr], *, speeds: bool = True,
         accelerations: bool = True, gravity: bool = True, effects: bool = True, links: bool = True,
     ) -> list[Expr]:  # fmt: skip
@@ -241,23 +249,23 @@ class SymbolicModel(Brief):
             links: False without the links.
         """
         zero = self.graph.constant(0)
-        none = [zero] * self.geometry.coordinates
-        qd = self.inputs("qd") if speeds else none
-        qdd = self.inputs("qdd") if accelerations else none
+        none = [zero] * self.geometry.coordinate_count
+        qd = self.get_inputs("qd") if speeds else none
+        qdd = self.get_inputs("qdd") if accelerations else none
         tau = list(none)
         if links:
-            moved = self.link_motions(qd, qdd, gravity)
-            rows = self.link_parameters(parameters)
-            torques = inverse_dynamics(self.geometry, self.frames, moved, rows, zero)
-            tau = self.free_efforts(torques)
+            moved = self.derive_link_motions(qd, qdd, gravity)
+            rows = self.collect_link_parameters(parameters)
+            torques = compute_inverse_dynamics(self.geometry, self.frames, moved, rows, zero)
+            tau = self.reduce_to_free(torques)
         for place in parameters if effects else ():
             for part in self.columns[place].parts:
                 if isinstance(part, ShaftColumn):
-                    for joint, value in effect_entries(self, part).items():
+                    for joint, value in derive_effect_entries(self, part).items():
                         tau[joint] = tau[joint] + value * parameters[place]
         return tau
 
-    def link_parameters(self, parameters: Mapping[int, Expr]) -> list[dict[str, Expr]]:
+    def collect_link_parameters(self, parameters: Mapping[int, Expr]) -> list[dict[str, Expr]]:
         """Per row, the inertial parameters among `parameters`, by prefix."""
         rows: list[dict[str, Expr]] = [{} for _ in self.geometry.rows]
         for place, value in parameters.items():
@@ -266,18 +274,20 @@ class SymbolicModel(Brief):
                     rows[part.row][part.prefix] = value
         return rows
 
-    def inertia_matrix(self, parameters: Mapping[int, Expr]) -> list[list[Expr]]:
+    def derive_inertia_matrix(self, parameters: Mapping[int, Expr]) -> list[list[Expr]]:
         """M(q) of the free variables: composite links, and the rotor inertias of the effects."""
         zero = self.graph.constant(0)
-        rows = self.link_parameters(parameters)
-        tree = inertia_matrix(self.geometry, self.frames, rows, zero)
-        half = [self.free_efforts(line) for line in tree]
-        matrix = [self.free_efforts([line[k] for line in half]) for k in range(len(half[0]))]
-        for i, j, value in self.rotors(parameters):
+        rows = self.collect_link_parameters(parameters)
+        tree = compute_inertia_matrix(self.geometry, self.frames, rows, zero)
+        half = [self.reduce_to_free(line) for line in tree]
+        matrix = [self.reduce_to_free([line[k] for line in half]) for k in range(len(half[0]))]
+        for i, j, value in self.enumerate_rotor_inertias(parameters):
             matrix[i][j] = matrix[i][j] + value
         return matrix
 
-    def rotors(self, parameters: Mapping[int, Expr]) -> Iterator[tuple[int, int, Expr]]:
+    def enumerate_rotor_inertias(
+        self, parameters: Mapping[int, Expr]
+    ) -> Iterator[tuple[int, int, Expr]]:
         """(row, column, value) of what rotor inertias add to M."""
         for place, value in parameters.items():
             for part in self.columns[place].parts:
@@ -286,15 +296,15 @@ class SymbolicModel(Brief):
                         for j, cj in part.shaft.items():
                             yield i, j, value * (ci * cj)
 
-    def forward_kinematics(self) -> list[list[list[Expr]]]:
+    def derive_forward_kinematics(self) -> list[list[list[Expr]]]:
         """[R | p], 3 x 4, of every moving row's frame in frame 0, in table order.
 
         The columns of R are the frame's axes x, y, z in frame 0; p is its origin, m.
         """
-        found = base_poses(self.geometry, self.frames, self.algebra)
+        base_frames = compute_base_poses(self.geometry, self.frames, self.algebra)
         return [
             [[*(axis[i] for axis in axes), origin[i]] for i in range(3)]
-            for row, (axes, origin) in zip(self.geometry.rows, found, strict=True)
+            for row, (axes, origin) in zip(self.geometry.rows, base_frames, strict=True)
             if row.index is not None
         ]
 
@@ -305,7 +315,7 @@ class SymbolicModel(Brief):
 _MEASURED = ("q", "qd", "qdd")
 
 
-def effect_entries(
+def derive_effect_entries(
     model: SymbolicModel, column: ShaftColumn, motion: Sequence[str] = _MEASURED
 ) -> dict[int, Expr]:
     """{free variable: torque along it per unit of the column's parameter}.
@@ -315,49 +325,59 @@ def effect_entries(
         column: of an effect.
         motion: names of the inputs that are its position, speed and acceleration.
     """
-    if column.acts is Acts.POSITION:
-        return _moved(model, column)
-    torque = _equation(model, column, motion)
+    if column.acts is EffectTarget.POSITION:
+        return _derive_position_effect(model, column)
+    torque = _evaluate_equation(model, column, motion)
     return {k: torque * coefficient for k, coefficient in column.shaft.items()}
 
 
-def _equation(model: SymbolicModel, column: ShaftColumn, motion: Sequence[str] = _MEASURED) -> Expr:
+def _evaluate_equation(
+    model: SymbolicModel, column: ShaftColumn, motion: Sequence[str] = _MEASURED
+) -> Expr:
     """The equation of the column on its shaft."""
-    read = {name: signal_symbol(model, signal) for name, signal in signals_read(column).items()}
-    return _evaluated(model, column.equation, column.shaft, column.shapes, read, motion)
+    read = {
+        name: get_signal_symbol(model, signal)
+        for name, signal in map_column_signals(column).items()
+    }
+    return _evaluate_on_shaft(
+        model, column.equation, column.shaft, column.nonlinear_parameters, read, motion
+    )
 
 
-def signal_symbol(model: SymbolicModel, signal: Signal) -> Expr:
+def get_signal_symbol(model: SymbolicModel, signal: Signal) -> Expr:
     """The entry of `s` that it is."""
     return model.graph.symbol(f"s[{model.signals.index(signal)}]")
 
 
-def followed(model: SymbolicModel, signal: Signal, now: Mapping[Signal, Expr]) -> Expr:
+def evaluate_followed(model: SymbolicModel, signal: Signal, now: Mapping[Signal, Expr]) -> Expr:
     """What a lag follows, with the signals that it reads as they are now."""
     index = model.geometry.rows[signal.row].index
     assert index is not None and signal.follows is not None
-    read = {name: now[other] for name, other in signal.read.items()}
+    read = {name: now[other] for name, other in signal.input_signals.items()}
     shaft = model.geometry.forms[index]
-    return _evaluated(model, signal.follows, shaft, dict(signal.shapes), read, _MEASURED)
+    return _evaluate_on_shaft(
+        model, signal.follows, shaft, dict(signal.nonlinear_parameters), read, _MEASURED
+    )
 
 
-def _evaluated(
+def _evaluate_on_shaft(
     model: SymbolicModel, equation: Expression, shaft: Mapping[int, Fraction],
-    shapes: Mapping[str, float], read: Mapping[str, Expr], motion: Sequence[str],
+    nonlinear_parameters: Mapping[str, float], read: Mapping[str, Expr], motion: Sequence[str],
 ) -> Expr:  # fmt: skip
     """An equation on a shaft; `read` are the signals by variable."""
     graph, names = model.graph, equation.names
     values: dict[str, Expr] = {
-        name: graph.constant(Fraction(repr(float(value)))) for name, value in shapes.items()
+        name: graph.constant(Fraction(repr(float(value))))
+        for name, value in nonlinear_parameters.items()
     }
     for name, kind in zip(MOTION, motion, strict=True):
-        values[name] = along(model, shaft, kind)
-        for joint, form in zip(model.robot.moving, model.geometry.forms, strict=True):
+        values[name] = combine_along_shaft(model, shaft, kind)
+        for joint, form in zip(model.robot.moving_joints, model.geometry.forms, strict=True):
             if name + joint.name in names - values.keys():
-                values[name + joint.name] = combination(graph, form, model.inputs(kind))
+                values[name + joint.name] = combine_linearly(graph, form, model.get_inputs(kind))
     for name in ("load", "static", "torque"):
         if name in names:
-            values[name] = _on_shaft(graph, shaft, model.reference_torque(name))
+            values[name] = _project_on_shaft(graph, shaft, model.derive_reference_torque(name))
     zero = graph.constant(0)
     for name, value in read.items():
         values[name] = value - values.get(f"{name}0", zero) if name in ("t", "T") else value
@@ -366,17 +386,19 @@ def _evaluated(
     return graph.lift(equation.fold(values, functions, pi, graph.constant))
 
 
-def along(model: SymbolicModel, shaft: Mapping[int, Fraction], kind: str) -> Expr:
+def combine_along_shaft(model: SymbolicModel, shaft: Mapping[int, Fraction], kind: str) -> Expr:
     """Position, speed or acceleration of a shaft."""
-    return combination(model.graph, shaft, model.inputs(kind))
+    return combine_linearly(model.graph, shaft, model.get_inputs(kind))
 
 
-def _on_shaft(graph: Graph, shaft: Mapping[int, Fraction], torques: list[Expr]) -> Expr:
+def _project_on_shaft(graph: Graph, shaft: Mapping[int, Fraction], torques: list[Expr]) -> Expr:
     """Torque of the joint that the shaft is; effects on motors of several joints read no load."""
-    return combination(graph, {k: 1 / coefficient for k, coefficient in shaft.items()}, torques)
+    return combine_linearly(
+        graph, {k: 1 / coefficient for k, coefficient in shaft.items()}, torques
+    )
 
 
-def _moved(model: SymbolicModel, column: ShaftColumn) -> dict[int, Expr]:
+def _derive_position_effect(model: SymbolicModel, column: ShaftColumn) -> dict[int, Expr]:
     """Torque of the links at the reference, differentiated along a small change of position.
 
     The change is the column's equation, dq(q); speeds and accelerations change by its time
@@ -385,13 +407,13 @@ def _moved(model: SymbolicModel, column: ShaftColumn) -> dict[int, Expr]:
     Raises:
         DerivationError: the equation has a part without derivative.
     """
-    n = model.geometry.coordinates
-    speeds = {f"q[{k}]": model.inputs("qd")[k] for k in range(n)}
-    rates = speeds | {f"qd[{k}]": model.inputs("qdd")[k] for k in range(n)}
-    dq = _equation(model, column)
+    n = model.geometry.coordinate_count
+    speeds = {f"q[{k}]": model.get_inputs("qd")[k] for k in range(n)}
+    rates = speeds | {f"qd[{k}]": model.get_inputs("qdd")[k] for k in range(n)}
+    dq = _evaluate_equation(model, column)
     try:
-        (dv,) = derivatives([dq], speeds)
-        (da,) = derivatives([dv], rates)
+        (dv,) = differentiate([dq], speeds)
+        (da,) = differentiate([dv], rates)
     except DerivationError as error:
         raise DerivationError(
             f'{column.name}: "{column.equation.text}" moves the position and is '
@@ -403,5 +425,5 @@ def _moved(model: SymbolicModel, column: ShaftColumn) -> dict[int, Expr]:
         for kind, change in (("q", dq), ("qd", dv), ("qdd", da)):
             direction[f"{kind}[{k}]"] = change * coefficient
     kind = "axis" if column.effect in ENCODERS else "load"
-    moved = derivatives(model.reference_torque(kind), direction)
+    moved = differentiate(model.derive_reference_torque(kind), direction)
     return {k: value for k, value in enumerate(moved) if not value.is_zero}

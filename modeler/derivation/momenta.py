@@ -12,168 +12,182 @@ from fractions import Fraction
 from functools import partial
 
 from modeler.derivation.columns import LinkColumn, ShaftColumn
-from modeler.derivation.coriolis import about_z, coriolis_matrix as tree_coriolis_matrix
+from modeler.derivation.coriolis import compute_coriolis_matrix as tree_coriolis_matrix, cross_z
 from modeler.derivation.geometry import Geometry, GeometryRow
 from modeler.derivation.graph import Expr, Vector
 from modeler.derivation.kinematics import (
     Motion,
     Pose,
     Screw,
+    accumulate_wrenches,
+    compute_frame_gravity,
+    compute_inverse_dynamics,
+    compute_link_wrench,
+    compute_wrench_columns,
     cross,
     dot,
-    gravity_in_frames,
-    inverse_dynamics,
-    link_wrench,
     plus,
-    project,
+    project_wrench,
     times,
-    wrench_columns,
-    wrenches,
 )
-from modeler.derivation.model import Entries, SymbolicModel, along, effect_entries
+from modeler.derivation.model import (
+    Entries,
+    SymbolicModel,
+    combine_along_shaft,
+    derive_effect_entries,
+)
 
 _HALF = Fraction(1, 2)
 
 
-def coriolis_matrix(model: SymbolicModel, parameters: Mapping[int, Expr]) -> list[list[Expr]]:
+def derive_coriolis_matrix(
+    model: SymbolicModel, parameters: Mapping[int, Expr]
+) -> list[list[Expr]]:
     """C(q, qd) of the free variables, of Christoffel symbols: c = C qd, dM/dt = C + C^T.
 
     Args:
         model: as derived.
         parameters: {column: value}; the others are 0.
     """
-    qd, zero = model.inputs("qd"), model.graph.constant(0)
-    moved = model.link_motions(qd, [zero] * len(qd), gravity=False)
-    rows = model.link_parameters(parameters)
-    tree = tree_coriolis_matrix(model.geometry, model.frames, moved, model.of_rows(qd), rows, zero)
-    half = [model.free_efforts(line) for line in zip(*tree, strict=True)]
-    return [model.free_efforts([line[i] for line in half]) for i in range(len(qd))]
+    qd, zero = model.get_inputs("qd"), model.graph.constant(0)
+    moved = model.derive_link_motions(qd, [zero] * len(qd), gravity=False)
+    rows = model.collect_link_parameters(parameters)
+    tree = tree_coriolis_matrix(
+        model.geometry, model.frames, moved, model.expand_to_rows(qd), rows, zero
+    )
+    half = [model.reduce_to_free(line) for line in zip(*tree, strict=True)]
+    return [model.reduce_to_free([line[i] for line in half]) for i in range(len(qd))]
 
 
-def _as_accelerations(model: SymbolicModel) -> list[Motion]:
+def _propagate_twists(model: SymbolicModel) -> list[Motion]:
     """Motions whose accelerations are the speeds: wd and vd are the twists of the links."""
-    still = [model.graph.constant(0)] * model.geometry.coordinates
-    with model.speeds_for_accelerations():
-        return model.link_motions(still, model.inputs("qd"), gravity=False)
+    still = [model.graph.constant(0)] * model.geometry.coordinate_count
+    with model.relabel_speeds():
+        return model.derive_link_motions(still, model.get_inputs("qd"), gravity=False)
 
 
-def momentum(model: SymbolicModel, parameters: Mapping[int, Expr]) -> list[Expr]:
+def derive_momentum(model: SymbolicModel, parameters: Mapping[int, Expr]) -> list[Expr]:
     """M(q) qd along the free variables, rotor inertias included.
 
     Args:
         model: as derived.
         parameters: {column: value}; the others are 0.
     """
-    rows, zero = model.link_parameters(parameters), model.graph.constant(0)
-    moved, qd = _as_accelerations(model), model.inputs("qd")
-    with model.speeds_for_accelerations():
-        found = inverse_dynamics(model.geometry, model.frames, moved, rows, zero)
-    found = model.free_efforts(found)
-    for i, j, value in model.rotors(parameters):
-        found[i] = found[i] + value * qd[j]
-    return found
+    rows, zero = model.collect_link_parameters(parameters), model.graph.constant(0)
+    moved, qd = _propagate_twists(model), model.get_inputs("qd")
+    with model.relabel_speeds():
+        momenta = compute_inverse_dynamics(model.geometry, model.frames, moved, rows, zero)
+    momenta = model.reduce_to_free(momenta)
+    for i, j, value in model.enumerate_rotor_inertias(parameters):
+        momenta[i] = momenta[i] + value * qd[j]
+    return momenta
 
 
-def coriolis_transpose(model: SymbolicModel, parameters: Mapping[int, Expr]) -> list[Expr]:
+def derive_coriolis_transpose(model: SymbolicModel, parameters: Mapping[int, Expr]) -> list[Expr]:
     """C(q, qd)^T qd along the free variables, which is dT/dq.
 
     Args:
         model: as derived.
         parameters: {column: value}; the others are 0.
     """
-    rows, zero = model.link_parameters(parameters), model.graph.constant(0)
-    moved = _as_accelerations(model)
-    found = [zero] * model.geometry.joints
-    with model.speeds_for_accelerations():
+    rows, zero = model.collect_link_parameters(parameters), model.graph.constant(0)
+    moved = _propagate_twists(model)
+    row_torques = [zero] * model.geometry.joint_count
+    with model.relabel_speeds():
         momenta = list(
-            wrenches(model.geometry, model.frames, lambda k: link_wrench(moved[k], rows[k], zero))
+            accumulate_wrenches(
+                model.geometry, model.frames, lambda k: compute_link_wrench(moved[k], rows[k], zero)
+            )
         )
     for k, f, n in momenta:
         row = model.geometry.rows[k]
         if row.index is not None:
-            found[row.index] = project(_turned_twist(row, moved[k]), f, n)
-    return model.free_efforts(found)
+            row_torques[row.index] = project_wrench(_differentiate_twist(row, moved[k]), f, n)
+    return model.reduce_to_free(row_torques)
 
 
-def _turned_twist(row: GeometryRow, motion: Motion) -> Screw:
+def _differentiate_twist(row: GeometryRow, motion: Motion) -> Screw:
     """d w/d q and d v/d q of the row's link for its own joint: (w x z, v x z), or (0, w x z)."""
-    w, v = (times(-row.rate, about_z(x)) for x in (motion.wd, motion.vd))
-    return Screw(w, v) if row.joint.angular else Screw([0 * x for x in w], w)
+    w, v = (times(-row.rate, cross_z(x)) for x in (motion.wd, motion.vd))
+    return Screw(w, v) if row.joint.is_revolute else Screw([0 * x for x in w], w)
 
 
-def _turned_twists(
+def _differentiate_twists(
     geometry: Geometry, frames: Sequence[Pose], moved: Sequence[Motion]
 ) -> list[dict[int, Screw]]:
     """For every row, how the twist of its link changes with each joint that moves it."""
-    found: list[dict[int, Screw]] = []
+    twist_changes: list[dict[int, Screw]] = []
     for k, row in enumerate(geometry.rows):
-        before = {} if row.parent is None else found[row.parent]
+        before = {} if row.parent is None else twist_changes[row.parent]
         carried = {
             index: Screw(
-                frames[k].to_link(s.e), frames[k].to_link(plus(s.m, cross(s.e, frames[k].p)))
+                frames[k].rotate_to_link(s.e),
+                frames[k].rotate_to_link(plus(s.m, cross(s.e, frames[k].p))),
             )
             for index, s in before.items()
         }
         if row.index is not None:
-            carried[row.index] = _turned_twist(row, moved[k])
-        found.append(carried)
-    return found
+            carried[row.index] = _differentiate_twist(row, moved[k])
+        twist_changes.append(carried)
+    return twist_changes
 
 
-def slotine_li_regressor(model: SymbolicModel) -> Entries:
+def derive_slotine_li_regressor(model: SymbolicModel) -> Entries:
     """Y of Y chi = M(q) a + C(q, qd) v + g(q) + f(v), over all standard columns.
 
     Slotine and Li 1987; by the recursion of Newton and Euler with two speeds. Friction takes v for
     qd, rotor inertia takes a.
     """
-    qd, v, a = (model.inputs(kind) for kind in ("qd", "v", "a"))
-    links = model.projected(model.link_motions(qd, a, v=v))
-    return model.entries(links, partial(effect_entries, model, motion=("q", "v", "a")))
+    qd, v, a = (model.get_inputs(kind) for kind in ("qd", "v", "a"))
+    links = model.build_projection(model.derive_link_motions(qd, a, v=v))
+    return model.assemble_entries(
+        links, partial(derive_effect_entries, model, motion=("q", "v", "a"))
+    )
 
 
-def momentum_regressor(model: SymbolicModel) -> Entries:
+def derive_momentum_regressor(model: SymbolicModel) -> Entries:
     """P of p = P chi, over all standard columns."""
 
-    def shaft(part: ShaftColumn) -> dict[int, Expr]:
+    def build_shaft_entries(part: ShaftColumn) -> dict[int, Expr]:
         if part.kind != "rotor_inertia":
             return {}
-        speed = along(model, part.shaft, "qd")
+        speed = combine_along_shaft(model, part.shaft, "qd")
         return {k: speed * coefficient for k, coefficient in part.shaft.items()}
 
-    moved = _as_accelerations(model)
-    with model.speeds_for_accelerations():
-        links = model.projected(moved)
-    return model.entries(links, shaft)
+    moved = _propagate_twists(model)
+    with model.relabel_speeds():
+        links = model.build_projection(moved)
+    return model.assemble_entries(links, build_shaft_entries)
 
 
-def momentum_rest_regressor(model: SymbolicModel) -> Entries:
+def derive_momentum_rest_regressor(model: SymbolicModel) -> Entries:
     """R of tau = d/dt (P chi) + R chi: gravity and friction less dT/dq, over all columns."""
     zero = model.graph.constant(0)
-    still, moved = [zero] * model.geometry.coordinates, _as_accelerations(model)
-    gravity = model.projected(model.link_motions(still, still))
-    momenta = [wrench_columns(motion) for motion in moved]
-    changes = _turned_twists(model.geometry, model.frames, moved)
+    still, moved = [zero] * model.geometry.coordinate_count, _propagate_twists(model)
+    gravity = model.build_projection(model.derive_link_motions(still, still))
+    momenta = [compute_wrench_columns(motion) for motion in moved]
+    changes = _differentiate_twists(model.geometry, model.frames, moved)
 
-    def link(part: LinkColumn) -> dict[int, Expr]:
+    def build_link_entries(part: LinkColumn) -> dict[int, Expr]:
         f, n = momenta[part.row][part.prefix]
-        rows = [zero] * model.geometry.joints
+        rows = [zero] * model.geometry.joint_count
         for index, change in changes[part.row].items():
-            rows[index] = project(change, f, n)
+            rows[index] = project_wrench(change, f, n)
         weight = gravity(part)
-        return {k: weight.get(k, zero) - x for k, x in enumerate(model.free_efforts(rows))}
+        return {k: weight.get(k, zero) - x for k, x in enumerate(model.reduce_to_free(rows))}
 
-    return model.entries(link, partial(_losses, model))
-
-
-def _losses(model: SymbolicModel, part: ShaftColumn) -> dict[int, Expr]:
-    return {} if part.kind == "rotor_inertia" else effect_entries(model, part)
+    return model.assemble_entries(build_link_entries, partial(_derive_losses, model))
 
 
-def energy_regressor(model: SymbolicModel) -> Entries:
+def _derive_losses(model: SymbolicModel, part: ShaftColumn) -> dict[int, Expr]:
+    return {} if part.kind == "rotor_inertia" else derive_effect_entries(model, part)
+
+
+def derive_energy_regressor(model: SymbolicModel) -> Entries:
     """h of T + U = h chi, one row: kinetic and potential energy, 0 at height 0 of frame 0."""
     geometry, algebra = model.geometry, model.algebra
-    moved, down = _as_accelerations(model), gravity_in_frames(geometry, model.frames, algebra)
-    momenta = [wrench_columns(motion) for motion in moved]
+    moved, down = _propagate_twists(model), compute_frame_gravity(geometry, model.frames, algebra)
+    momenta = [compute_wrench_columns(motion) for motion in moved]
     base = [algebra.static(entry) for entry in geometry.gravity]
     heights: list[Expr] = []  # -g . p of the frames' origins
     for row, frame in zip(geometry.rows, model.frames, strict=True):
@@ -181,28 +195,28 @@ def energy_regressor(model: SymbolicModel) -> Entries:
         before = model.graph.constant(0) if row.parent is None else heights[row.parent]
         heights.append(before - dot(below, frame.p))
 
-    def link(part: LinkColumn) -> dict[int, Expr]:
+    def build_link_entries(part: LinkColumn) -> dict[int, Expr]:
         twist = Screw(moved[part.row].wd, moved[part.row].vd)
-        kinetic = project(twist, *momenta[part.row][part.prefix]) * _HALF
+        kinetic = project_wrench(twist, *momenta[part.row][part.prefix]) * _HALF
         weight: Vector = down[part.row]
         potential = dict(zip(("MX", "MY", "MZ"), (-x for x in weight), strict=True))
         potential["M"] = heights[part.row]
         return {0: kinetic + potential.get(part.prefix, 0)}
 
-    def shaft(part: ShaftColumn) -> dict[int, Expr]:
+    def build_shaft_entries(part: ShaftColumn) -> dict[int, Expr]:
         if part.kind != "rotor_inertia":
             return {}
-        speed = along(model, part.shaft, "qd")
+        speed = combine_along_shaft(model, part.shaft, "qd")
         return {0: speed * speed * _HALF}
 
-    return model.entries(link, shaft)
+    return model.assemble_entries(build_link_entries, build_shaft_entries)
 
 
-def power_regressor(model: SymbolicModel) -> Entries:
+def derive_power_regressor(model: SymbolicModel) -> Entries:
     """d of tau . qd = d/dt (h chi) + d chi, one row: the power that friction and offsets take."""
-    qd, zero = model.inputs("qd"), model.graph.constant(0)
+    qd, zero = model.get_inputs("qd"), model.graph.constant(0)
 
-    def shaft(part: ShaftColumn) -> dict[int, Expr]:
-        return {0: sum((qd[k] * x for k, x in _losses(model, part).items()), zero)}
+    def build_shaft_entries(part: ShaftColumn) -> dict[int, Expr]:
+        return {0: sum((qd[k] * x for k, x in _derive_losses(model, part).items()), zero)}
 
-    return model.entries(lambda part: {}, shaft)
+    return model.assemble_entries(lambda part: {}, build_shaft_entries)

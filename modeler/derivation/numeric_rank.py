@@ -9,10 +9,10 @@ from typing import Any
 import numpy as np
 import sympy
 
-from modeler.derivation.grouping import named_parameters, priority_order
+from modeler.derivation.grouping import build_named_parameters, sort_by_priority
 from modeler.derivation.model import SymbolicModel
 from modeler.derivation.result import BaseParameter, Term
-from modeler.derivation.walks import Walk, closed_motion, closed_walk
+from modeler.derivation.walks import Walk, compute_closed_motion, draw_closed_walk
 
 TOLERANCE = 1e-9
 """Relative to the largest singular value of the scaled matrix, of a robot without loops; see
@@ -67,30 +67,30 @@ class NumericRank:
     scale: str
 
 
-def random_states(model: SymbolicModel, samples: int, rng: np.random.Generator) -> States:
+def draw_random_states(model: SymbolicModel, samples: int, rng: np.random.Generator) -> States:
     """Positions over a turn (prismatic: +-1 m), speeds and accelerations of order 1.
 
     With loops: closed postures over the reachable range, not near singularities, and motions that
     the loops allow.
     """
     if model.closure is None:
-        n = model.geometry.coordinates
-        angular = np.array([joint.angular for joint in model.robot.free])
+        n = model.geometry.coordinate_count
+        angular = np.array([joint.is_revolute for joint in model.robot.free_joints])
         q = rng.uniform(-1.0, 1.0, (samples, n)) * np.where(angular, np.pi, 1.0)
         return q, rng.normal(size=(samples, n)), rng.normal(size=(samples, n))
-    u = closed_walk(model, samples, rng, _REGULAR).postures
-    qd, qdd = rng.normal(size=(2, len(u), len(model.closure.given)))
-    return carried(model, u, qd, qdd)
+    u = draw_closed_walk(model, samples, rng, _REGULAR).postures
+    qd, qdd = rng.normal(size=(2, len(u), len(model.closure.actuated)))
+    return expand_states(model, u, qd, qdd)
 
 
-def carried(model: SymbolicModel, u: np.ndarray, qd: np.ndarray, qdd: np.ndarray) -> States:
+def expand_states(model: SymbolicModel, u: np.ndarray, qd: np.ndarray, qdd: np.ndarray) -> States:
     """The motion of all free variables at closed postures from that of the coordinates."""
-    motion = closed_motion(model, u, qd)
+    motion = compute_closed_motion(model, u, qd)
     ud = np.einsum("nij,nj->ni", motion.coupling, qd)
     return u, ud, np.einsum("nij,nj->ni", motion.coupling, qdd) + motion.drift
 
 
-def sampled(model: SymbolicModel, samples: int, seed: int) -> Sample:
+def draw_sample(model: SymbolicModel, samples: int, seed: int) -> Sample:
     """The standard regressor at random states, (samples * coordinates, columns) and its rounding.
 
     A closed posture is closed up to rounding r in the equations, hence wrong by J_s^-1 r in the
@@ -100,18 +100,19 @@ def sampled(model: SymbolicModel, samples: int, seed: int) -> Sample:
     """
     rng = np.random.default_rng(seed)
     if model.closure is None:
-        phi = regressor_values(model, random_states(model, samples, rng))
+        phi = evaluate_regressor(model, draw_random_states(model, samples, rng))
         return Sample(phi.reshape(-1, phi.shape[2]))
-    walk = closed_walk(model, samples, rng)
-    qd, qdd = rng.normal(size=(2, len(walk.postures), len(model.closure.given)))
+    walk = draw_closed_walk(model, samples, rng)
+    qd, qdd = rng.normal(size=(2, len(walk.postures), len(model.closure.actuated)))
     # Closed as another machine might have closed them: each equation wrong by rounding.
     closure, eps = model.closure, float(np.finfo(float).eps)
     error = eps * closure.size
     wrong = rng.choice([-error, error], (len(walk.postures), len(closure.equations)))
     rounded = walk.postures.copy()
-    rounded[:, list(closure.solved)] += closure.following(walk.postures, wrong)
+    rounded[:, list(closure.solved)] += closure.solve_passive(walk.postures, wrong)
     phi, other = (
-        regressor_values(model, carried(model, u, qd, qdd)) for u in (walk.postures, rounded)
+        evaluate_regressor(model, expand_states(model, u, qd, qdd))
+        for u in (walk.postures, rounded)
     )
     lengths = np.linalg.norm(phi.reshape(-1, phi.shape[2]), axis=0)
     scale = np.where(lengths > ZERO * lengths.max(initial=0.0), lengths, np.inf)
@@ -122,13 +123,13 @@ def sampled(model: SymbolicModel, samples: int, seed: int) -> Sample:
     return Sample(both[0], both[1], walk)
 
 
-def signal_values(model: SymbolicModel, samples: int) -> np.ndarray:
+def draw_signal_values(model: SymbolicModel, samples: int) -> np.ndarray:
     """(signals, samples): what effects read besides the motion, positive and of order 1."""
     shape = (len(model.signals), samples)
     return np.random.default_rng(samples).uniform(0.1, 1.0, shape)
 
 
-def regressor_values(model: SymbolicModel, states: States) -> np.ndarray:
+def evaluate_regressor(model: SymbolicModel, states: States) -> np.ndarray:
     """(samples, coordinates, columns): the standard regressor at the nominal geometry."""
     q, qd, qdd = states
     values = dict(model.geometry.values)
@@ -137,19 +138,19 @@ def regressor_values(model: SymbolicModel, states: States) -> np.ndarray:
         for kind, array in (("q", q), ("qd", qd), ("qdd", qdd))
         for i in range(q.shape[1])
     }
-    inputs |= {f"s[{k}]": values for k, values in enumerate(signal_values(model, len(q)))}
+    inputs |= {f"s[{k}]": values for k, values in enumerate(draw_signal_values(model, len(q)))}
     entries = model.regressor
     phi = np.zeros((*q.shape, len(model.columns)))
-    found = model.graph.evaluate(list(entries.values()), {**values, **inputs})
-    for (joint, column), value in zip(entries, found, strict=True):
+    entry_values = model.graph.evaluate_outputs(list(entries.values()), {**values, **inputs})
+    for (joint, column), value in zip(entries, entry_values, strict=True):
         phi[:, joint, column] = value
     if model.closure is None:
         return phi
-    none = np.zeros((len(q), len(model.closure.given)))
-    return np.einsum("nij,nic->njc", closed_motion(model, q, none).coupling, phi)
+    none = np.zeros((len(q), len(model.closure.actuated)))
+    return np.einsum("nij,nic->njc", compute_closed_motion(model, q, none).coupling, phi)
 
 
-def numeric_rank(sample: Sample, columns: Sequence[int]) -> NumericRank:
+def compute_numeric_rank(sample: Sample, columns: Sequence[int]) -> NumericRank:
     """Rank of the sampled regressor, of the columns given.
 
     Without loops singular values above `TOLERANCE` of the largest count. With loops those count
@@ -192,7 +193,7 @@ _NOTHING = 1e-9
 """In floating point, a factor below this is 0, a number this near to a whole one is that."""
 
 
-def numeric_grouping(
+def derive_numeric_grouping(
     model: SymbolicModel, sample: Sample, numeric: NumericRank, enclosed: Enclosed
 ) -> tuple[tuple[BaseParameter, ...], tuple[str, ...], float]:
     """First-come independent columns of the torque regressor at random states, nominal geometry.
@@ -218,31 +219,33 @@ def numeric_grouping(
     tolerance = math.sqrt(last * max(first, float(np.finfo(float).eps)))
     lengths = np.linalg.norm(W, axis=0)
     absent = {i for i, length in enumerate(lengths) if length <= ZERO * lengths.max(initial=0.0)}
-    order = [i for i in priority_order(model.names, model.robot.kept_first) if i not in absent]
-    kept, relations, bound = _first_come(W, lengths, order, tolerance)
-    balls = enclosed(kept, list(relations))
+    order = [
+        i for i in sort_by_priority(model.names, model.robot.priority_parameters) if i not in absent
+    ]
+    kept_columns, relations, bound = _select_first_columns(W, lengths, order, tolerance)
+    balls = enclosed(kept_columns, list(relations))
     if balls is not None:
         relations = {
-            column: {b: _whole(row[k]) for b, row in zip(kept, balls, strict=True)
+            column: {b: _convert_ball(row[k]) for b, row in zip(kept_columns, balls, strict=True)
                      if not row[k].contains(0)}
             for k, column in enumerate(relations)
         }  # fmt: skip
-    terms = {b: [Term(sympy.Integer(1), model.names[b])] for b in sorted(kept)}
+    terms = {b: [Term(sympy.Integer(1), model.names[b])] for b in sorted(kept_columns)}
     for column in sorted(relations):
         for b, factor in relations[column].items():
             terms[b].append(Term(factor, model.names[column]))
     return (
-        named_parameters(model.columns, terms, model.robot.halves),
+        build_named_parameters(model.columns, terms, model.robot.has_binary_fractions),
         tuple(model.names[i] for i in sorted(absent)),
         bound,
     )
 
 
-def _first_come(
+def _select_first_columns(
     W: np.ndarray, lengths: np.ndarray, order: Sequence[int], tolerance: float
 ) -> tuple[list[int], dict[int, dict[int, sympy.Expr]], float]:
     """Columns kept, {dropped column: {kept column: factor}}, and the error of the factors."""
-    kept: list[int] = []
+    kept_columns: list[int] = []
     Q = np.zeros((W.shape[0], 0))
     relations: dict[int, dict[int, sympy.Expr]] = {}
     worst = 0.0
@@ -252,28 +255,28 @@ def _first_come(
         rest -= Q @ (Q.T @ rest)  # twice is enough (Kahan, Parlett)
         if np.linalg.norm(rest) > tolerance:
             Q = np.column_stack([Q, rest / np.linalg.norm(rest)])
-            kept.append(column)
+            kept_columns.append(column)
             continue
-        factors, *_ = np.linalg.lstsq(W[:, kept] / lengths[kept], unit, rcond=None)
-        left = unit - (W[:, kept] / lengths[kept]) @ factors
+        factors, *_ = np.linalg.lstsq(W[:, kept_columns] / lengths[kept_columns], unit, rcond=None)
+        left = unit - (W[:, kept_columns] / lengths[kept_columns]) @ factors
         worst = max(worst, float(np.linalg.norm(left)))
-        scaled = factors * lengths[column] / lengths[kept]
+        scaled = factors * lengths[column] / lengths[kept_columns]
         relations[column] = {
-            b: _number(float(s))
-            for b, s, f in zip(kept, scaled, factors, strict=True)
+            b: _convert_number(float(s))
+            for b, s, f in zip(kept_columns, scaled, factors, strict=True)
             if abs(f) > _NOTHING
         }
-    return kept, relations, worst
+    return kept_columns, relations, worst
 
 
-def _number(value: float) -> sympy.Expr:
+def _convert_number(value: float) -> sympy.Expr:
     if abs(value - round(value)) < _NOTHING and round(value):
         return sympy.Integer(round(value))
     # Its decimals are its value: what is printed is what is computed with.
     return sympy.Float(repr(value), _DIGITS)
 
 
-def _whole(factor: Any) -> sympy.Expr:
+def _convert_ball(factor: Any) -> sympy.Expr:
     """A factor in a ball: the whole number that it holds, else its double."""
     near = round(float(factor.mid()))
     if factor.contains(near):
@@ -284,24 +287,28 @@ def _whole(factor: Any) -> sympy.Expr:
 # Base torque against standard torque at random states.
 
 
-def torque_agreement(
+def compare_torques(
     model: SymbolicModel, parameters: tuple[BaseParameter, ...], seed: int
 ) -> float:
     """Largest |tau_base - tau_standard| / max |tau_standard| at random states and parameters."""
     rng = np.random.default_rng(seed)
-    phi = regressor_values(model, random_states(model, 50, rng))
+    phi = evaluate_regressor(model, draw_random_states(model, 50, rng))
     chi = rng.normal(size=len(model.columns))
-    beta = grouping_matrix(model, parameters) @ chi
-    kept = [parameter.column for parameter in parameters]
+    beta = build_grouping_matrix(model, parameters) @ chi
+    base_columns = [parameter.column for parameter in parameters]
     standard = phi @ chi
     largest = float(np.max(np.abs(standard)))
-    return float(np.max(np.abs(phi[:, :, kept] @ beta - standard))) / largest if largest else 0.0
+    return (
+        float(np.max(np.abs(phi[:, :, base_columns] @ beta - standard))) / largest
+        if largest
+        else 0.0
+    )
 
 
-def grouping_matrix(model: SymbolicModel, parameters: Sequence[BaseParameter]) -> np.ndarray:
+def build_grouping_matrix(model: SymbolicModel, parameters: Sequence[BaseParameter]) -> np.ndarray:
     """(rank, columns): beta = K chi at the nominal geometry."""
     place = {name: i for i, name in enumerate(model.names)}
-    known = cache(partial(coefficient_value, values=model.geometry.values))
+    known = cache(partial(evaluate_coefficient, values=model.geometry.values))
     K = np.zeros((len(parameters), len(model.columns)))
     for i, parameter in enumerate(parameters):
         for term in parameter.terms:
@@ -309,7 +316,7 @@ def grouping_matrix(model: SymbolicModel, parameters: Sequence[BaseParameter]) -
     return K
 
 
-def coefficient_value(coefficient: sympy.Expr, values: Mapping[str, float]) -> float:
+def evaluate_coefficient(coefficient: sympy.Expr, values: Mapping[str, float]) -> float:
     """A coefficient at the nominal geometry."""
     at = {s: sympy.Float(values[s.name]) for s in coefficient.free_symbols}
     return float(coefficient.xreplace(at))

@@ -15,7 +15,7 @@ from functools import cache
 from typing import Any
 
 from modeler.core.expression import FUNCTIONS, LAW
-from modeler.core.rounded import precise
+from modeler.core.rounded import get_precise_context
 from modeler.derivation.graph import OPERATIONS, Arithmetic, Expr, Graph, Plan, Table
 from modeler.robot import Robot
 
@@ -24,57 +24,66 @@ Ball = Any
 
 
 @cache
-def flint() -> Any:
-    """The library of ball arithmetic; its precision is `flint().ctx.workprec(bits)`."""
+def load_flint() -> Any:
+    """The library of ball arithmetic; its precision is `load_flint().ctx.workprec(bits)`."""
     # Only here: most derivations need no balls.
     import flint as library
 
     return library
 
 
-def exact_ball(value: Any) -> Ball:
+def build_ball(value: Any) -> Ball:
     """The ball around a fraction, or the ball of radius 0 that is a double or a whole number."""
     if isinstance(value, int | float):
-        return flint().arb(value)
-    return flint().arb(flint().fmpq(value.numerator, value.denominator))
+        return load_flint().arb(value)
+    return load_flint().arb(load_flint().fmpq(value.numerator, value.denominator))
 
 
-def symbol_balls(robot: Robot) -> dict[str, Ball]:
+def enclose_symbols(robot: Robot) -> dict[str, Ball]:
     """The value of every symbol of a robot, by name, as its expression says it."""
     known: dict[str, Ball] = {}
     for name, expression in robot.symbols.items():
-        known[name] = expression.fold(known, _CALLS, flint().arb.pi(), exact_ball, operator.pow)
+        known[name] = expression.fold(
+            known, _CALLS, load_flint().arb.pi(), build_ball, operator.pow
+        )
     return known
 
 
-def _named(name: str) -> Callable[[Ball], Ball]:
+def _get_ball_method(name: str) -> Callable[[Ball], Ball]:
     return operator.methodcaller({"sign": "sgn"}.get(name, name))
 
 
-def _law(table: Table, *x: Ball) -> Ball:
+def _enclose_law(table: Table, *x: Ball) -> Ball:
     """A law that was learned: of all cells in which x may lie."""
     law, places = table.law, []
-    for axis, own in enumerate(x):
-        count, scale = law.cells[axis], exact_ball(law.scales[axis])
-        free = (own - exact_ball(law.low[axis])) * scale
-        u = free.max(exact_ball(0)).min(exact_ball(count))
+    for axis, coordinate in enumerate(x):
+        count, scale = law.cells[axis], build_ball(law.scales[axis])
+        free = (coordinate - build_ball(law.low[axis])) * scale
+        u = free.max(build_ball(0)).min(build_ball(count))
         cells = [int(end.floor().unique_fmpz()) for end in (u.lower(), u.upper())]
-        rate = scale if table.along == axis and u.overlaps(free) else exact_ball(0)
-        places.append([
-            (k, _weights((u - k).intersection(flint().arb(0.5, 0.5)), rate, table.along == axis))
-            for k in range(min(cells[0], count - 1), min(cells[1], count - 1) + 1)
-        ])  # fmt: skip
-    found = []
+        rate = scale if table.along == axis and u.overlaps(free) else build_ball(0)
+        places.append(
+            [
+                (
+                    k,
+                    _compute_weights(
+                        (u - k).intersection(load_flint().arb(0.5, 0.5)), rate, table.along == axis
+                    ),
+                )
+                for k in range(min(cells[0], count - 1), min(cells[1], count - 1) + 1)
+            ]
+        )
+    cell_values = []
     for place in itertools.product(*places):
-        total = exact_ball(0)
+        total = build_ball(0)
         for term in itertools.product(*(list(enumerate(weights, k)) for k, weights in place)):
-            value = exact_ball(float(law.coefficients[tuple(m for m, _ in term)]))
+            value = build_ball(float(law.coefficients[tuple(m for m, _ in term)]))
             total += math.prod((weight for _, weight in term), start=value)
-        found.append(total)
-    return functools.reduce(lambda a, b: a.union(b), found)
+        cell_values.append(total)
+    return functools.reduce(lambda a, b: a.union(b), cell_values)
 
 
-def _weights(f: Ball, rate: Ball, slope: bool) -> list[Ball]:
+def _compute_weights(f: Ball, rate: Ball, slope: bool) -> list[Ball]:
     g = 1 - f
     if slope:
         return [rate * w / 2 for w in (-g * g, f * (3 * f - 4), 1 + 2 * f - 3 * f * f, f * f)]
@@ -82,12 +91,15 @@ def _weights(f: Ball, rate: Ball, slope: bool) -> list[Ball]:
 
 
 _CALLS: Mapping[str, Callable[..., Ball]] = {
-    **OPERATIONS, "pow": operator.pow, **{name: _named(name) for name in FUNCTIONS}, "abs": abs,
-    LAW: _law,
-}  # fmt: skip
+    **OPERATIONS,
+    "pow": operator.pow,
+    **{name: _get_ball_method(name) for name in FUNCTIONS},
+    "abs": abs,
+    LAW: _enclose_law,
+}
 
 
-def ball_function(
+def build_ball_function(
     graph: Graph, outputs: Sequence[Expr], symbols: Mapping[str, Ball]
 ) -> Callable[[Mapping[str, Ball]], list[Ball]]:
     """Expressions as one function of their inputs by name, at the precision of the caller.
@@ -97,19 +109,19 @@ def ball_function(
         outputs: the expressions.
         symbols: geometric symbols by name.
     """
-    plan = Plan(graph, outputs, Arithmetic(exact_ball, lambda: flint().arb.pi(), _CALLS))
+    plan = Plan(graph, outputs, Arithmetic(build_ball, lambda: load_flint().arb.pi(), _CALLS))
     return lambda inputs: plan({**symbols, **inputs})
 
 
-def proven_regular(matrix: Sequence[Sequence[Ball]]) -> bool:
+def is_proven_regular(matrix: Sequence[Sequence[Ball]]) -> bool:
     """True if every square matrix within the balls is regular; False if that is not certain.
 
     The system with the right side 1 is solved in balls, which Arb does only where the matrix is
     proven regular (by the product with an approximate inverse, or by pivots without zero).
     """
-    rows = flint().arb_mat(matrix)
+    rows = load_flint().arb_mat(matrix)
     try:
-        rows.solve(flint().arb_mat([[1]] * rows.nrows()))
+        rows.solve(load_flint().arb_mat([[1]] * rows.nrows()))
     except ZeroDivisionError:
         return False
     return True
@@ -118,7 +130,7 @@ def proven_regular(matrix: Sequence[Sequence[Ball]]) -> bool:
 # Constants of the geometry that are zero for certain: in rational numbers, as they are written.
 
 
-def surely_zero(expression: Expr, robot: Robot) -> bool:
+def is_surely_zero(expression: Expr, robot: Robot) -> bool:
     """True if an expression is 0 at the given values; False if it moves or is not rational.
 
     Lengths in a file are decimals, so sums and products of them are rational numbers: the offsets
@@ -148,30 +160,34 @@ Number = Any
 """A number of the context `modeler.core.rounded.precise()`."""
 
 
-def precise_values(
+def evaluate_precisely(
     graph: Graph, outputs: Sequence[Expr], values: Mapping[str, float | Number]
 ) -> list[Number]:
     """Values of the outputs, 40 digits; `values` gives a number per symbol.
 
     A double counts as the decimal that it prints, which is what was written: 0.3 is 3/10.
     """
-    plan = Plan(graph, outputs, Arithmetic(as_precise, lambda: +precise().pi, precise_functions()))
-    return plan({name: decimal(value) for name, value in values.items()})
+    plan = Plan(
+        graph,
+        outputs,
+        Arithmetic(convert_fraction, lambda: +get_precise_context().pi, get_precise_functions()),
+    )
+    return plan({name: convert_to_precise(value) for name, value in values.items()})
 
 
-def decimal(value: float | Number) -> Number:
+def convert_to_precise(value: float | Number) -> Number:
     """A double as the decimal that it prints; a number of 40 digits as it is."""
-    return precise().mpf(repr(float(value)) if isinstance(value, float) else value)
+    return get_precise_context().mpf(repr(float(value)) if isinstance(value, float) else value)
 
 
-def as_precise(value: Fraction) -> Number:
+def convert_fraction(value: Fraction) -> Number:
     """A rational number with 40 digits."""
-    return precise().mpf(value.numerator) / value.denominator
+    return get_precise_context().mpf(value.numerator) / value.denominator
 
 
 @cache
-def precise_functions() -> Mapping[str, Callable[..., Number]]:
+def get_precise_functions() -> Mapping[str, Callable[..., Number]]:
     """The operations of expressions on numbers of 40 digits."""
-    mp = precise()
-    own = {name: getattr(mp, name) for name in FUNCTIONS if name != "abs"}
-    return {**OPERATIONS, **own, "abs": abs, "pow": mp.power}
+    mp = get_precise_context()
+    named_functions = {name: getattr(mp, name) for name in FUNCTIONS if name != "abs"}
+    return {**OPERATIONS, **named_functions, "abs": abs, "pow": mp.power}

@@ -11,9 +11,16 @@ from sympy.printing.latex import LatexPrinter
 from sympy.printing.precedence import PRECEDENCE
 from sympy.printing.str import StrPrinter
 
-from modeler.core.expression import decimal_text, parse
-from modeler.core.formula import Formula, latex_name, name, number, operator, row
-from modeler.core.latex_display import DisplayedEquation, display
+from modeler.core.expression import format_decimal, parse_expression
+from modeler.core.formula import (
+    Formula,
+    format_latex_name,
+    make_name,
+    make_number,
+    make_operator,
+    make_row,
+)
+from modeler.core.latex_display import DisplayedEquation, format_display
 from modeler.derivation.result import (
     BallRank,
     BaseParameter,
@@ -32,45 +39,45 @@ from modeler.derivation.result import (
 # around whatever binds less than its place in that product.
 
 
-class _Decimals:
+class _DecimalPrinter:
     """A printer of sympy that writes numbers by their digits where they end, not as fractions."""
 
     halves: bool
 
     def _print_Rational(self, expr: sympy.Rational) -> str:
-        return decimal(expr, self.halves) or str(super()._print_Rational(expr))  # type: ignore[misc]
+        return format_exact_decimal(expr, self.halves) or str(super()._print_Rational(expr))  # type: ignore[misc]
 
     def _print_Mul(self, expr: sympy.Mul) -> str:
         number, rest = expr.as_coeff_Mul()
-        digits = decimal(number, self.halves)
+        digits = format_exact_decimal(number, self.halves)
         if digits is None:
             return str(super()._print_Mul(expr))  # type: ignore[misc]
-        return self._times(digits, rest)
+        return self._write_product(digits, rest)
 
-    def _times(self, digits: str, rest: sympy.Expr) -> str:
+    def _write_product(self, digits: str, rest: sympy.Expr) -> str:
         raise NotImplementedError
 
 
-class _Text(_Decimals, StrPrinter):
+class _TextPrinter(_DecimalPrinter, StrPrinter):
     """As text."""
 
     def __init__(self, halves: bool) -> None:
         super().__init__({"full_prec": False})  # decimal numbers without zeros behind them
         self.halves = halves
 
-    def _times(self, digits: str, rest: sympy.Expr) -> str:
+    def _write_product(self, digits: str, rest: sympy.Expr) -> str:
         text = self.parenthesize(rest, PRECEDENCE["Mul"], strict=True)
         return f"{digits}{text[1:]}" if text.startswith("1/") else f"{digits}*{text}"
 
 
-class _Latex(_Decimals, LatexPrinter):
+class _LatexPrinter(_DecimalPrinter, LatexPrinter):
     """In LaTeX."""
 
     def __init__(self, halves: bool, letters: Mapping[sympy.Symbol, str]) -> None:
         super().__init__({"symbol_names": letters})
         self.halves = halves
 
-    def _times(self, digits: str, rest: sympy.Expr) -> str:
+    def _write_product(self, digits: str, rest: sympy.Expr) -> str:
         top, bottom = sympy.fraction(rest)
         text = self.parenthesize(top, PRECEDENCE["Mul"], strict=True)
         times = r" \cdot " if text[0].isdigit() else " "
@@ -78,44 +85,44 @@ class _Latex(_Decimals, LatexPrinter):
         return above if bottom == 1 else rf"\frac{{{above}}}{{{self._print(bottom)}}}"
 
 
-def decimal(value: sympy.Expr, halves: bool) -> str | None:
+def format_exact_decimal(value: sympy.Expr, halves: bool) -> str | None:
     """The digits of a number that is written as a decimal; None of any other expression."""
     if not value.is_Rational:
         return None
-    return decimal_text(Fraction(int(value.p), int(value.q)), halves)
+    return format_decimal(Fraction(int(value.p), int(value.q)), halves)
 
 
-def coefficient_text(coefficient: sympy.Expr, halves: bool = False) -> str:
+def format_coefficient(coefficient: sympy.Expr, halves: bool = False) -> str:
     """`D8/D3`: a coefficient alone, as programs read it."""
-    return _Text(halves).doprint(coefficient)
+    return _TextPrinter(halves).doprint(coefficient)
 
 
-def relation_text(parameter: BaseParameter) -> str:
+def format_relation(parameter: BaseParameter) -> str:
     """`ZZ2R = ZZ2 + YY3 + D4**2*M4`."""
-    terms = [_text_term(term, parameter.halves) for term in parameter.terms]
-    return f"{parameter.name} = {_sum_text(terms)}"
+    terms = [_format_term(term, parameter.halves) for term in parameter.terms]
+    return f"{parameter.name} = {_format_sum(terms)}"
 
 
-def relation_latex(parameter: BaseParameter) -> str:
+def format_relation_latex(parameter: BaseParameter) -> str:
     r"""`\mathit{ZZ}_{2R} = \mathit{ZZ}_{2} + \mathit{YY}_{3} + D_{4}^{2} M_{4}`."""
-    terms = [_latex_term(term, parameter.halves) for term in parameter.terms]
-    return f"{latex_name(parameter.name)} = {_sum_text(terms)}"
+    terms = [_format_latex_term(term, parameter.halves) for term in parameter.terms]
+    return f"{format_latex_name(parameter.name)} = {_format_sum(terms)}"
 
 
-def _sum_text(terms: list[str]) -> str:
+def _format_sum(terms: list[str]) -> str:
     text = terms[0]
     for term in terms[1:]:
         text += f" - {term[1:]}" if term.startswith("-") else f" + {term}"
     return text
 
 
-def _text_term(term: Term, halves: bool) -> str:
+def _format_term(term: Term, halves: bool) -> str:
     """Numerator, parameter, denominator; a quotient of numbers alone stands in front."""
-    sign, size = split_sign(term.coefficient)
+    sign, size = separate_sign(term.coefficient)
     if size == 1:
         return sign + term.parameter
-    printer = _Text(halves)
-    top, bottom = _over(size, halves)
+    printer = _TextPrinter(halves)
+    top, bottom = _separate_fraction(size, halves)
     if not bottom.free_symbols:
         top, bottom = size, sympy.Integer(1)
     front = "" if top == 1 else f"{printer.parenthesize(top, PRECEDENCE['Mul'], strict=True)}*"
@@ -125,27 +132,27 @@ def _text_term(term: Term, halves: bool) -> str:
     return f"{sign}{front}{term.parameter}{back}"
 
 
-def _latex_term(term: Term, halves: bool) -> str:
-    sign, size = split_sign(term.coefficient)
-    name = latex_name(term.parameter)
+def _format_latex_term(term: Term, halves: bool) -> str:
+    sign, size = separate_sign(term.coefficient)
+    name = format_latex_name(term.parameter)
     if size == 1:
         return sign + name
-    letters = {symbol: latex_name(symbol.name) for symbol in size.free_symbols}
-    text = _Latex(halves, letters).doprint(size)
+    letters = {symbol: format_latex_name(symbol.name) for symbol in size.free_symbols}
+    text = _LatexPrinter(halves, letters).doprint(size)
     return f"{sign}\\left({text}\\right) {name}" if size.is_Add else f"{sign}{text} {name}"
 
 
-def _over(value: sympy.Expr, halves: bool) -> tuple[sympy.Expr, sympy.Expr]:
+def _separate_fraction(value: sympy.Expr, halves: bool) -> tuple[sympy.Expr, sympy.Expr]:
     """Numerator and denominator; a decimal factor stays in the numerator."""
     number, rest = value.as_coeff_Mul()
-    if decimal(number, halves) is None:
+    if format_exact_decimal(number, halves) is None:
         top, bottom = sympy.fraction(value)
         return top, bottom
     top, bottom = sympy.fraction(rest)
     return number * top, bottom
 
 
-def split_sign(coefficient: sympy.Expr) -> tuple[str, sympy.Expr]:
+def separate_sign(coefficient: sympy.Expr) -> tuple[str, sympy.Expr]:
     """The sign to write in front, and what stays: sums keep theirs unless all terms are minus."""
     negative = (
         all(arg.could_extract_minus_sign() for arg in coefficient.args)
@@ -160,7 +167,7 @@ _WIDTH = 96
 
 def as_text(base: BaseParameters) -> str:
     """All relations, one line each, then the parameters without effect."""
-    lines = [relation_text(parameter) for parameter in base.parameters]
+    lines = [format_relation(parameter) for parameter in base.parameters]
     return "\n".join([*lines, "", f"no effect: {' '.join(base.unidentifiable) or 'none'}"])
 
 
@@ -168,7 +175,7 @@ def as_markdown(base: BaseParameters) -> str:
     """A table of the relations, for a page."""
     lines = ["| base parameter | is | unit |", "| --- | --- | --- |"]
     for parameter in base.parameters:
-        right = relation_text(parameter).split(" = ", 1)[1]
+        right = format_relation(parameter).split(" = ", 1)[1]
         lines.append(f"| {parameter.name} | `{right}` | {base.columns[parameter.column].unit} |")
     lines += ["", f"Without effect: {', '.join(base.unidentifiable) or 'none'}."]
     return "\n".join(lines)
@@ -176,11 +183,13 @@ def as_markdown(base: BaseParameters) -> str:
 
 def as_latex(base: BaseParameters) -> str:
     """The relations as an align environment, in lines that fit the page."""
-    sides = [relation_latex(p).split(" = ", 1) for p in base.parameters]
-    return display([DisplayedEquation(left, (right,)) for left, right in sides], numbered=True)
+    sides = [format_relation_latex(p).split(" = ", 1) for p in base.parameters]
+    return format_display(
+        [DisplayedEquation(left, (right,)) for left, right in sides], numbered=True
+    )
 
 
-def as_json(robot: str, base: BaseParameters) -> dict[str, Any]:
+def serialise_base_parameters(robot: str, base: BaseParameters) -> dict[str, Any]:
     """What `modeler derive --json` writes (contract section 5)."""
     return {
         "robot": robot,
@@ -192,7 +201,7 @@ def as_json(robot: str, base: BaseParameters) -> dict[str, Any]:
                 "unit": base.columns[parameter.column].unit,
                 "terms": [
                     {
-                        "coefficient": coefficient_text(term.coefficient, parameter.halves),
+                        "coefficient": format_coefficient(term.coefficient, parameter.halves),
                         "parameter": term.parameter,
                     }
                     for term in parameter.terms
@@ -202,48 +211,62 @@ def as_json(robot: str, base: BaseParameters) -> dict[str, Any]:
         ],
         "unidentifiable": list(base.unidentifiable),
         "rank": base.rank,
-        "counts": dict(base.counts()),
+        "counts": dict(base.count_by_kind()),
         "rank_gap": [value or None for value in base.proof.gap],  # 0: there is none
         "proof": base.proof.kind,
-        "certificate": _certificate(base.proof),
+        "certificate": _serialise_proof(base.proof),
     }
 
 
-def from_json(entry: Mapping[str, Any], halves: bool = False) -> BaseParameter:
-    """A base parameter as `as_json` wrote it; its place among the columns is not kept."""
+def parse_base_parameter(entry: Mapping[str, Any], halves: bool = False) -> BaseParameter:
+    """A base parameter as `serialise_base_parameters` wrote it.
+
+    Its place among the columns is " "not kept.
+    """
     terms = []
     for term in entry["terms"]:
-        read = parse(str(term["coefficient"]))
+        read = parse_expression(str(term["coefficient"]))
         letters = {letter: sympy.Symbol(letter) for letter in read.names}
         functions = {known: getattr(sympy, known) for known in ("sin", "cos", "tan", "sqrt", "exp")}
-        exact = read.fold(letters, functions, sympy.pi, _rational)
+        exact = read.fold(letters, functions, sympy.pi, _convert_rational)
         terms.append(Term(exact, term["parameter"]))
     return BaseParameter(entry["name"], -1, tuple(terms), halves)
 
 
-def _rational(value: Fraction) -> sympy.Rational:
+def _convert_rational(value: Fraction) -> sympy.Rational:
     return sympy.Rational(value.numerator, value.denominator)
 
 
-def _certificate(proof: Proof) -> dict[str, Any]:
-    found, sampling = proof.certificate, proof.sampling
-    modular = found if isinstance(found, ModularRank) else None
-    told: dict[str, Any] = {"rank": found.rank, "seed": found.seed}
-    if isinstance(found, ModularRank):
-        told = {"kind": "modular", **told, "prime": found.prime, "points": found.points}
-    elif isinstance(found, SampledRank):
-        told = {"kind": "sampled", **told, "why": found.why}
+def _serialise_proof(proof: Proof) -> dict[str, Any]:
+    certificate, sampling = proof.certificate, proof.sampling
+    modular = certificate if isinstance(certificate, ModularRank) else None
+    independence: dict[str, Any] = {"rank": certificate.rank, "seed": certificate.seed}
+    if isinstance(certificate, ModularRank):
+        independence = {
+            "kind": "modular",
+            **independence,
+            "prime": certificate.prime,
+            "points": certificate.points,
+        }
+    elif isinstance(certificate, SampledRank):
+        independence = {"kind": "sampled", **independence, "why": certificate.why}
     else:
-        states = [asdict(state) | {"signals": list(state.signals)} for state in found.states]
-        rows = [list(row) for row in found.rows]
-        told = {"kind": "balls", **told, "bits": found.bits, "states": states, "rows": rows}
+        states = [asdict(state) | {"signals": list(state.signals)} for state in certificate.states]
+        rows = [list(row) for row in certificate.rows]
+        independence = {
+            "kind": "balls",
+            **independence,
+            "bits": certificate.bits,
+            "states": states,
+            "rows": rows,
+        }
     return {
         "statement": proof.statement,
         "prime": modular and modular.prime,
         "points": modular and modular.points,
         "seed": proof.seed,
-        "exact_rank": None if isinstance(found, SampledRank) else found.rank,
-        "independence": told,
+        "exact_rank": None if isinstance(certificate, SampledRank) else certificate.rank,
+        "independence": independence,
         "numeric_rank": proof.numeric_rank,
         "tolerance": proof.tolerance,
         "scale": proof.scale,
@@ -257,39 +280,44 @@ def _certificate(proof: Proof) -> dict[str, Any]:
     }
 
 
-def proof_text(proof: Proof) -> str:
+def format_proof(proof: Proof) -> str:
     """The proof in a few lines."""
-    return "\n".join(textwrap.fill(text, _WIDTH) for text in proof_paragraphs(proof))
+    return "\n".join(textwrap.fill(text, _WIDTH) for text in format_proof_paragraphs(proof))
 
 
-def proof_paragraphs(proof: Proof) -> list[str]:
+def format_proof_paragraphs(proof: Proof) -> list[str]:
     """The proof, a paragraph for each of its parts."""
     return [
         f"proof: {proof.kind}. {proof.statement}",
-        _independence_text(proof.certificate),
+        _format_independence(proof.certificate),
         f"rank {proof.numeric_rank} in floating point at the nominal geometry: singular values "
         f"{proof.gap[0]:.3g} (last kept) and {proof.gap[1]:.1e} (first dropped), tolerance "
         f"{proof.tolerance:g} of the largest; {proof.scale}",
-        *([] if proof.sampling is None else [_sampling_text(proof.sampling, proof.seed)]),
+        *([] if proof.sampling is None else [_format_sampling(proof.sampling, proof.seed)]),
         f"base torque against standard torque: {proof.agreement:.1e} of the largest",
     ]
 
 
-def _independence_text(found: Certificate) -> str:
-    if isinstance(found, ModularRank):
+def _format_independence(certificate: Certificate) -> str:
+    if isinstance(certificate, ModularRank):
         return (
-            f"rank {found.rank} modulo {found.prime} ({found.points} random points, seed "
-            f"{found.seed})"
+            f"rank {certificate.rank} modulo {certificate.prime} ({certificate.points} random "
+            "points, seed "
+            f"{certificate.seed})"
         )
-    if isinstance(found, BallRank):
+    if isinstance(certificate, BallRank):
         return (
-            f"rank {found.rank} in balls of {found.bits} bits (a minor of {found.rank} rows at "
-            f"{len(found.states)} exact states, seed {found.seed}; --json lists them)"
+            f"rank {certificate.rank} in balls of {certificate.bits} bits (a minor of "
+            f"{certificate.rank} rows at "
+            f"{len(certificate.states)} exact states, seed {certificate.seed}; --json lists them)"
         )
-    return f"rank {found.rank} in floating point only (seed {found.seed}): {found.why}"
+    return (
+        f"rank {certificate.rank} in floating point only (seed {certificate.seed}): "
+        f"{certificate.why}"
+    )
 
 
-def _sampling_text(sampling: Sampling, seed: int) -> str:
+def _format_sampling(sampling: Sampling, seed: int) -> str:
     ranges = ", ".join(f"q{n} {low:.3g}..{high:.3g}" for n, (low, high) in sampling.ranges.items())
     return (
         f"at {sampling.postures} closed postures on walks from [home] (seed {seed}): {ranges}; "
@@ -301,68 +329,76 @@ def _sampling_text(sampling: Sampling, seed: int) -> str:
 # A grouping relation as a formula that a page can set.
 
 
-def relation_formula(parameter: BaseParameter) -> tuple[Formula, ...]:
+def build_relation_formula(parameter: BaseParameter) -> tuple[Formula, ...]:
     """`ZZ2R =`, then one formula a term with its sign in front: a page may break between them."""
-    lines = [row(name(parameter.name), operator("="))]
+    lines = [make_row(make_name(parameter.name), make_operator("="))]
     for k, term in enumerate(parameter.terms):
-        sign, size = split_sign(term.coefficient)
-        head = (operator(sign or "+"),) if k or sign else ()
-        lines.append(row(*head, *_product(size, term, parameter.halves)))
+        sign, size = separate_sign(term.coefficient)
+        head = (make_operator(sign or "+"),) if k or sign else ()
+        lines.append(make_row(*head, *_build_product(size, term, parameter.halves)))
     return tuple(lines)
 
 
-def _product(size: sympy.Expr, term: Term, halves: bool) -> tuple[Formula, ...]:
-    own = name(term.parameter)
-    top, bottom = _over(size, halves)
+def _build_product(size: sympy.Expr, term: Term, halves: bool) -> tuple[Formula, ...]:
+    parameter = make_name(term.parameter)
+    top, bottom = _separate_fraction(size, halves)
     if bottom.free_symbols:
-        below = expression_formula(bottom, halves)
-        return (Formula("fraction", parts=(row(*_before(top, halves), own), below)),)
-    return (*_before(size, halves), own)
+        below = build_expression_formula(bottom, halves)
+        return (
+            Formula("fraction", parts=(make_row(*_build_prefix(top, halves), parameter), below)),
+        )
+    return (*_build_prefix(size, halves), parameter)
 
 
-def _before(size: sympy.Expr, halves: bool) -> tuple[Formula, ...]:
+def _build_prefix(size: sympy.Expr, halves: bool) -> tuple[Formula, ...]:
     """A factor as it stands before a letter; 1 is not written."""
-    return () if size == 1 else (_fenced_sum(size, halves),)
+    return () if size == 1 else (_build_fenced_sum(size, halves),)
 
 
-def _fenced_sum(factor: sympy.Expr, halves: bool) -> Formula:
+def _build_fenced_sum(factor: sympy.Expr, halves: bool) -> Formula:
     """A factor of a product: a sum in brackets."""
-    inner = expression_formula(factor, halves)
+    inner = build_expression_formula(factor, halves)
     return Formula("fenced", parts=(inner,)) if factor.is_Add else inner
 
 
-def expression_formula(expression: sympy.Expr, halves: bool = False) -> Formula:
+def build_expression_formula(expression: sympy.Expr, halves: bool = False) -> Formula:
     """Sums, products, quotients, powers, numbers, symbols and functions of one argument."""
     if expression.is_Symbol or expression is sympy.pi:
-        return name(str(expression))
+        return make_name(str(expression))
     if expression.is_Add:
         parts: list[Formula] = []
         for k, term in enumerate(expression.as_ordered_terms()):
-            sign, size = split_sign(term)
-            parts += [operator(sign or "+")] if k or sign else []
-            parts.append(expression_formula(size, halves))
-        return row(*parts)
-    digits = decimal(abs(expression), halves) if expression.is_Rational else None
-    top, bottom = _over(expression, halves)
+            sign, size = separate_sign(term)
+            parts += [make_operator(sign or "+")] if k or sign else []
+            parts.append(build_expression_formula(size, halves))
+        return make_row(*parts)
+    digits = format_exact_decimal(abs(expression), halves) if expression.is_Rational else None
+    top, bottom = _separate_fraction(expression, halves)
     if digits is None and bottom != 1:
         return Formula(
-            "fraction", parts=(expression_formula(top, halves), expression_formula(bottom, halves))
+            "fraction",
+            parts=(build_expression_formula(top, halves), build_expression_formula(bottom, halves)),
         )
     if expression.is_Number:
         sign = "-" if expression.is_negative else ""
-        text = f"{sign}{digits}" if digits else _Text(halves).doprint(expression)
-        return row(operator("-"), number(text[1:])) if text.startswith("-") else number(text)
+        text = f"{sign}{digits}" if digits else _TextPrinter(halves).doprint(expression)
+        return (
+            make_row(make_operator("-"), make_number(text[1:]))
+            if text.startswith("-")
+            else make_number(text)
+        )
     if expression.is_Mul:
-        sign, size = split_sign(expression)
+        sign, size = separate_sign(expression)
         factors = size.as_ordered_factors() if size.is_Mul else [size]
-        return row(
-            *([operator("-")] if sign else []), *(_fenced_sum(factor, halves) for factor in factors)
+        return make_row(
+            *([make_operator("-")] if sign else []),
+            *(_build_fenced_sum(factor, halves) for factor in factors),
         )
     if expression.is_Pow:
         base, exponent = expression.args
-        below = expression_formula(base, halves)
+        below = build_expression_formula(base, halves)
         if not (base.is_Symbol or (base.is_Number and not base.is_negative)):
             below = Formula("fenced", parts=(below,))
-        return Formula("sup", parts=(below, expression_formula(exponent, halves)))
-    inner = tuple(expression_formula(argument, halves) for argument in expression.args)
-    return row(name(expression.func.__name__), Formula("fenced", parts=inner))
+        return Formula("sup", parts=(below, build_expression_formula(exponent, halves)))
+    inner = tuple(build_expression_formula(argument, halves) for argument in expression.args)
+    return make_row(make_name(expression.func.__name__), Formula("fenced", parts=inner))

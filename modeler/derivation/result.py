@@ -5,7 +5,7 @@ from dataclasses import dataclass
 
 import sympy
 
-from modeler.core.brief import Brief
+from modeler.core.brief import ShortRepr
 from modeler.derivation.columns import StandardColumn
 
 
@@ -18,7 +18,7 @@ class Term:
 
 
 @dataclass(frozen=True)
-class BaseParameter(Brief):
+class BaseParameter(ShortRepr):
     """One base parameter: name = sum of terms; its regressor column is that of `column`.
 
     The first term is the parameter itself with coefficient 1. A parameter into which others group
@@ -83,7 +83,7 @@ class ExactState:
 
 
 @dataclass(frozen=True)
-class BallRank(Brief):
+class BallRank(ShortRepr):
     """Independence proven in ball arithmetic: a minor of the torques whose ball excludes 0.
 
     Attributes:
@@ -121,7 +121,7 @@ Certificate = ModularRank | BallRank | SampledRank
 
 
 @dataclass(frozen=True)
-class Proof(Brief):
+class Proof(ShortRepr):
     """Why the base parameters are right, and what anyone needs to check it again.
 
     Attributes:
@@ -151,7 +151,7 @@ class Proof(Brief):
 
 
 @dataclass(frozen=True)
-class BaseParameters(Brief):
+class BaseParameters(ShortRepr):
     """The base parameters of a robot.
 
     Attributes:
@@ -171,10 +171,10 @@ class BaseParameters(Brief):
         """Number of base parameters."""
         return len(self.parameters)
 
-    def counts(self) -> Mapping[str, int]:
+    def count_by_kind(self) -> Mapping[str, int]:
         """Base parameters by the kind of the standard parameter whose column they are."""
-        found = dict.fromkeys(("inertial", "rotor_inertia", "friction", "offset"), 0)
+        counts = dict.fromkeys(("inertial", "rotor_inertia", "friction", "offset"), 0)
         for parameter in self.parameters:
             kind = self.columns[parameter.column].kind
-            found[kind] = found.get(kind, 0) + 1
-        return found
+            counts[kind] = counts.get(kind, 0) + 1
+        return counts

@@ -19,13 +19,13 @@ from modeler.derivation.certificate import (
     SMALL,
     ModularState,
     Residues,
-    drawn,
-    kernel_modulo,
-    reconstructed,
-    row_echelon,
+    compute_kernel,
+    draw_residues,
+    reconstruct_rational,
+    reduce_to_echelon,
 )
 from modeler.derivation.columns import LinkColumn, StandardColumn
-from modeler.derivation.field import Element, ExactField, TooLarge
+from modeler.derivation.field import CoefficientTooLarge, Element, ExactField
 from modeler.derivation.geometry import Geometry
 
 # Rational functions from their values modulo a prime.
@@ -59,85 +59,87 @@ class Probes:
     def __init__(self, letters: int, seed: int) -> None:
         self._rng = np.random.default_rng(seed)
         self._letters = letters
-        self.home = self._point()
-        self.fresh = [self._point() for _ in range(_CHECKS)]
+        self.home = self._draw_point()
+        self.fresh = [self._draw_point() for _ in range(_CHECKS)]
         self._known: dict[tuple[int, ...], list[Point]] = {}
 
-    def moved(self, letters: tuple[int, ...], count: int) -> list[Point]:
+    def draw_moved_points(self, letters: tuple[int, ...], count: int) -> list[Point]:
         """The first `count` points that differ from home in these letters only."""
         known = self._known.setdefault(letters, [])
         while len(known) < count:
-            other = self._point()
+            other = self._draw_point()
             known.append(tuple(other[i] if i in letters else x for i, x in enumerate(self.home)))
         return known[:count]
 
-    def _point(self) -> Point:
-        return tuple(int(x) for x in drawn(self._rng, (self._letters,), LARGE))
+    def _draw_point(self) -> Point:
+        return tuple(int(x) for x in draw_residues(self._rng, (self._letters,), LARGE))
 
 
-def coefficient(function: Function, K: ExactField, probes: Probes) -> Element:
+def interpolate_coefficient(function: Function, K: ExactField, probes: Probes) -> Element:
     """The element of K whose values the function has.
 
     Raises:
         TooLarge: it has too many terms or too high a degree, or is no such element.
     """
-    moved = [probes.moved((i,), 1)[0] for i in range(len(K.letters))]
+    moved = [probes.draw_moved_points((i,), 1)[0] for i in range(len(K.letters))]
     value, *others = function([probes.home, *moved])
     changes = {i: other for i, other in enumerate(others) if other != value}
-    found = _monomial(value, changes, moved, K, probes)
-    if found is None:
-        found = _quotient(function, tuple(changes), K, probes)
+    element = _fit_monomial(value, changes, moved, K, probes)
+    if element is None:
+        element = _fit_quotient(function, tuple(changes), K, probes)
     for point, value in zip(probes.fresh, function(probes.fresh), strict=True):
-        if K.residue(found, dict(zip(K.letters, point, strict=True)), LARGE) != value:
-            raise TooLarge("a coefficient is no quotient of short polynomials")
-    return found
+        if K.compute_residue(element, dict(zip(K.letters, point, strict=True)), LARGE) != value:
+            raise CoefficientTooLarge("a coefficient is no quotient of short polynomials")
+    return element
 
 
-def _monomial(
+def _fit_monomial(
     value: int, changes: Mapping[int, int], moved: Sequence[Point], K: ExactField, probes: Probes
 ) -> Element | None:
     """number * product of powers, if it is one: changing a letter multiplies by a power."""
     if value == 0:
         return None
-    found = K.one
+    element = K.one
     for i, other in changes.items():
         ratio = other * pow(value, -1, LARGE) % LARGE
         step = moved[i][i] * pow(probes.home[i], -1, LARGE) % LARGE
         exponent = next((e for e in _EXPONENTS if pow(step, e, LARGE) == ratio), None)
         if exponent is None:
             return None
-        found = found * K.generator(i) ** exponent
-    at_home = K.residue(found, dict(zip(K.letters, probes.home, strict=True)), LARGE)
-    number = reconstructed(value * pow(at_home, -1, LARGE) % LARGE, LARGE)
-    return None if number is None else found * QQ(number.numerator, number.denominator)
+        element = element * K.get_generator(i) ** exponent
+    at_home = K.compute_residue(element, dict(zip(K.letters, probes.home, strict=True)), LARGE)
+    number = reconstruct_rational(value * pow(at_home, -1, LARGE) % LARGE, LARGE)
+    return None if number is None else element * QQ(number.numerator, number.denominator)
 
 
-def _quotient(
+def _fit_quotient(
     function: Function, letters: tuple[int, ...], K: ExactField, probes: Probes
 ) -> Element:
     """numerator / denominator of the degrees in each letter that the function has alone in it."""
-    degrees = [_degrees(function, i, probes) for i in letters]
+    degrees = [_find_degrees(function, i, probes) for i in letters]
     above, below = (list(product(*(range(d[k] + 1) for d in degrees))) for k in (0, 1))
     terms = len(above) + len(below)
     if terms > _MOST_TERMS:
-        raise TooLarge(f"a coefficient has up to {terms} terms")
-    weights = _fitted(function, probes.moved(letters, terms), letters, above, below)
+        raise CoefficientTooLarge(f"a coefficient has up to {terms} terms")
+    weights = _fit_coefficients(
+        function, probes.draw_moved_points(letters, terms), letters, above, below
+    )
     if weights is None:
-        raise TooLarge("a coefficient is no quotient of short polynomials")
-    numbers = [reconstructed(weight, LARGE) for weight in weights]
+        raise CoefficientTooLarge("a coefficient is no quotient of short polynomials")
+    numbers = [reconstruct_rational(weight, LARGE) for weight in weights]
     top, bottom = K.zero, K.zero
     for place, (number, monomial) in enumerate(zip(numbers, [*above, *below], strict=True)):
         if number is None:
-            raise TooLarge("a coefficient has long numbers")
+            raise CoefficientTooLarge("a coefficient has long numbers")
         if number:
             term = K.one * QQ(number.numerator, number.denominator)
             for i, e in zip(letters, monomial, strict=True):
-                term = term * K.generator(i) ** e
+                term = term * K.get_generator(i) ** e
             top, bottom = (top + term, bottom) if place < len(above) else (top, bottom + term)
     return top / bottom
 
 
-def _degrees(function: Function, letter: int, probes: Probes) -> tuple[int, int]:
+def _find_degrees(function: Function, letter: int, probes: Probes) -> tuple[int, int]:
     """Degrees of numerator and denominator in one letter, the others at home.
 
     Raises:
@@ -146,18 +148,18 @@ def _degrees(function: Function, letter: int, probes: Probes) -> tuple[int, int]
     for degree in range(1, _LARGEST_DEGREE + 1):
         powers = [(e,) for e in range(degree + 1)]
         # One point more than there are terms, or some quotient would always fit.
-        points = probes.moved((letter,), 2 * len(powers) + 1)
-        weights = _fitted(function, points, (letter,), powers, powers)
+        points = probes.draw_moved_points((letter,), 2 * len(powers) + 1)
+        weights = _fit_coefficients(function, points, (letter,), powers, powers)
         if weights is not None:
-            return _degree(weights[: degree + 1]), _degree(weights[degree + 1 :])
-    raise TooLarge(f"a coefficient is of degree above {_LARGEST_DEGREE}")
+            return _get_degree(weights[: degree + 1]), _get_degree(weights[degree + 1 :])
+    raise CoefficientTooLarge(f"a coefficient is of degree above {_LARGEST_DEGREE}")
 
 
-def _degree(weights: Sequence[int]) -> int:
+def _get_degree(weights: Sequence[int]) -> int:
     return max((i for i, weight in enumerate(weights) if weight), default=0)
 
 
-def _fitted(
+def _fit_coefficients(
     function: Function,
     points: Sequence[Point],
     letters: tuple[int, ...],
@@ -170,13 +172,16 @@ def _fitted(
     """
     values = np.array(function(points), dtype=object)[:, None]
     at = np.array(points, dtype=object)[:, list(letters)]
-    matrix = np.hstack([_powers(at, above), -values * _powers(at, below)]) % LARGE
-    kernel = kernel_modulo(matrix, LARGE)
-    found: list[int] = kernel[0].tolist() if len(kernel) else []
-    return found if any(found[len(above) :]) else None
+    matrix = (
+        np.hstack([_evaluate_monomials(at, above), -values * _evaluate_monomials(at, below)])
+        % LARGE
+    )
+    kernel = compute_kernel(matrix, LARGE)
+    weights: list[int] = kernel[0].tolist() if len(kernel) else []
+    return weights if any(weights[len(above) :]) else None
 
 
-def _powers(at: np.ndarray, monomials: Sequence[Point]) -> np.ndarray:
+def _evaluate_monomials(at: np.ndarray, monomials: Sequence[Point]) -> np.ndarray:
     """(points, monomials): values of the monomials at `at` (points, letters)."""
     values = np.ones((len(at), len(monomials)), dtype=object)
     for i in range(at.shape[1]):
@@ -192,7 +197,7 @@ _SPARE = 6
 _POINTS = 3
 
 
-def tied_relations(
+def derive_tied_relations(
     geometry: Geometry,
     columns: Sequence[StandardColumn],
     K: ExactField,
@@ -216,10 +221,10 @@ def tied_relations(
     """
     energetic = [i for i in order if has_energy(columns[i])]
 
-    def rows(state: ModularState, places: Sequence[int]) -> np.ndarray:
-        return state.energy_rows([columns[i] for i in places])
+    def compute_rows(state: ModularState, places: Sequence[int]) -> np.ndarray:
+        return state.compute_energy_rows([columns[i] for i in places])
 
-    return dependent_columns(geometry, rows, K, energetic, set(energetic), seed)
+    return find_dependent_columns(geometry, compute_rows, K, energetic, set(energetic), seed)
 
 
 ExactFunctions = Callable[[ModularState, Sequence[int]], np.ndarray]
@@ -227,7 +232,7 @@ ExactFunctions = Callable[[ModularState, Sequence[int]], np.ndarray]
 for, add to 2T, then to the power of gravity."""
 
 
-def dependent_columns(
+def find_dependent_columns(
     geometry: Geometry,
     functions: ExactFunctions,
     K: ExactField,
@@ -249,35 +254,41 @@ def dependent_columns(
         TooLarge: a coefficient is no short quotient of polynomials, or has long numbers.
     """
     try:
-        supports = _supports(geometry, functions, K, order, seed)
-        supports = {column: kept for column, kept in supports.items() if column in wanted}
-        sampler = _Sampler(geometry, functions, K, supports, seed)
+        supports = _find_supports(geometry, functions, K, order, seed)
+        supports = {column: support for column, support in supports.items() if column in wanted}
+        sampler = _CoefficientSampler(geometry, functions, K, supports, seed)
         probes = Probes(len(K.letters), seed)
         places = [(i, k) for i, support in supports.items() for k in support if k in wanted]
-        moved = [probes.home, *(probes.moved((i,), 1)[0] for i in range(len(K.letters)))]
+        moved = [
+            probes.home,
+            *(probes.draw_moved_points((i,), 1)[0] for i in range(len(K.letters))),
+        ]
         # That of most letters first: if one is too large, it is.
-        places.sort(key=lambda at: len(set(sampler.values(at, moved))), reverse=True)
-        found = {at: -coefficient(partial(sampler.values, at), K, probes) for at in places}
+        places.sort(key=lambda at: len(set(sampler.evaluate_coefficient(at, moved))), reverse=True)
+        coefficients = {
+            at: -interpolate_coefficient(partial(sampler.evaluate_coefficient, at), K, probes)
+            for at in places
+        }
         return [
-            {column: K.one} | {k: found[column, k] for k in support if k in wanted}
+            {column: K.one} | {k: coefficients[column, k] for k in support if k in wanted}
             for column, support in supports.items()
         ]
     except ValueError as error:  # a constant whose denominator is a multiple of a prime
-        raise TooLarge(f"a constant has no value modulo a prime ({error})") from None
+        raise CoefficientTooLarge(f"a constant has no value modulo a prime ({error})") from None
 
 
-def _supports(
+def _find_supports(
     geometry: Geometry, functions: ExactFunctions, K: ExactField, order: Sequence[int], seed: int
 ) -> dict[int, list[int]]:
     """For each dependent function the kept ones that it is a combination of."""
     state = ModularState(geometry, K, len(order) + _SPARE, seed, SMALL)
     rows = functions(state, order)
-    pivots = row_echelon(rows, range(len(order)), SMALL)
-    kept = {column: row for row, column in pivots}
+    pivots = reduce_to_echelon(rows, range(len(order)), SMALL)
+    pivot_rows = {column: row for row, column in pivots}
     return {
-        order[column]: [order[pivot] for pivot, row in kept.items() if rows[row, column] != 0]
+        order[column]: [order[pivot] for pivot, row in pivot_rows.items() if rows[row, column] != 0]
         for column in range(len(order))
-        if column not in kept
+        if column not in pivot_rows
     }
 
 
@@ -286,7 +297,7 @@ def has_energy(column: StandardColumn) -> bool:
     return isinstance(column, LinkColumn) or column.kind in ("rotor_inertia", "offset")
 
 
-class _Sampler:
+class _CoefficientSampler:
     """Values of all coefficients at given geometries, modulo the large prime."""
 
     def __init__(
@@ -299,13 +310,17 @@ class _Sampler:
     ) -> None:
         self.geometry, self.K, self.supports, self.seed = geometry, K, supports, seed
         self.functions = functions
-        self.blocks = _blocks(supports)
-        self.used = sorted({c for kept, dependent in self.blocks for c in (*kept, *dependent)})
+        self.blocks = _partition_blocks(supports)
+        self.used = sorted(
+            {c for kept_columns, dependent in self.blocks for c in (*kept_columns, *dependent)}
+        )
         self.place = {column: i for i, column in enumerate(self.used)}
-        self.points = max((len(kept) for kept, _ in self.blocks), default=0) + _POINTS
+        self.points = (
+            max((len(kept_columns) for kept_columns, _ in self.blocks), default=0) + _POINTS
+        )
         self._known: dict[Point, dict[tuple[int, int], int]] = {}
 
-    def values(self, at: tuple[int, int], geometries: Sequence[Point]) -> list[int]:
+    def evaluate_coefficient(self, at: tuple[int, int], geometries: Sequence[Point]) -> list[int]:
         """The coefficient `at` = (dependent column, kept column) at the geometries.
 
         Raises:
@@ -313,10 +328,10 @@ class _Sampler:
         """
         missing = [g for g in dict.fromkeys(geometries) if g not in self._known]
         if missing:
-            self._sample(missing)
+            self._add_samples(missing)
         return [self._known[g][at] for g in geometries]
 
-    def _sample(self, geometries: Sequence[Point]) -> None:
+    def _add_samples(self, geometries: Sequence[Point]) -> None:
         n = self.points
         letters: dict[sympy.Expr, Residues] = {
             letter: np.array([g[i] for g in geometries for _ in range(n)], dtype=object)
@@ -328,41 +343,45 @@ class _Sampler:
         rows = self.functions(state, self.used).reshape(2, len(geometries), n, -1)
         for i, geometry in enumerate(geometries):
             self._known[geometry] = {}
-            for kept, dependent in self.blocks:
-                places = [self.place[column] for column in (*kept, *dependent)]
-                part = rows[:, i, : len(kept) + _POINTS, places].reshape(len(places), -1).T
-                self._known[geometry] |= self._solved(part.copy(), kept, dependent)
+            for kept_columns, dependent in self.blocks:
+                places = [self.place[column] for column in (*kept_columns, *dependent)]
+                part = rows[:, i, : len(kept_columns) + _POINTS, places].reshape(len(places), -1).T
+                self._known[geometry] |= self._solve_coefficients(
+                    part.copy(), kept_columns, dependent
+                )
 
-    def _solved(
-        self, matrix: np.ndarray, kept: Sequence[int], dependent: Sequence[int]
+    def _solve_coefficients(
+        self, matrix: np.ndarray, kept_columns: Sequence[int], dependent: Sequence[int]
     ) -> dict[tuple[int, int], int]:
         """Coefficients at one geometry, from its energy rows (rows, kept and then dependent)."""
-        size = len(kept)
-        pivots = row_echelon(matrix, range(size), LARGE)
-        found = {}
+        size = len(kept_columns)
+        pivots = reduce_to_echelon(matrix, range(size), LARGE)
+        coefficients = {}
         for column, values in zip(dependent, matrix[:, size:].T, strict=True):
-            combination = {c for c, value in zip(kept, values, strict=False) if value}
+            combination = {c for c, value in zip(kept_columns, values, strict=False) if value}
             if (
                 len(pivots) < size
                 or np.any(values[size:])
                 or combination != {*self.supports[column]}
             ):
-                raise TooLarge("what depends on what at one geometry does not at another")
-            for c, value in zip(kept, values, strict=False):
-                found[column, c] = int(value)
-        return found
+                raise CoefficientTooLarge(
+                    "what depends on what at one geometry does not at another"
+                )
+            for c, value in zip(kept_columns, values, strict=False):
+                coefficients[column, c] = int(value)
+        return coefficients
 
 
-def _blocks(supports: Mapping[int, Sequence[int]]) -> list[tuple[list[int], list[int]]]:
+def _partition_blocks(supports: Mapping[int, Sequence[int]]) -> list[tuple[list[int], list[int]]]:
     """(kept, dependent) columns, apart where no dependent column involves kept ones of both."""
     blocks: list[tuple[list[int], list[int]]] = []
     for column, support in supports.items():
         if not support:
             continue
-        kept, dependent = list(support), [column]
+        kept_columns, dependent = list(support), [column]
         for block in [block for block in blocks if set(block[0]) & set(support)]:
             blocks.remove(block)
-            kept = [*block[0], *(c for c in kept if c not in block[0])]
+            kept_columns = [*block[0], *(c for c in kept_columns if c not in block[0])]
             dependent = [*block[1], *dependent]
-        blocks.append((kept, dependent))
+        blocks.append((kept_columns, dependent))
     return blocks

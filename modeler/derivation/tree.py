@@ -25,9 +25,9 @@ from modeler.derivation.field import (
     Element,
     ExactField,
     Matrix,
-    null_space,
-    row_reduce,
-    with_square,
+    compute_null_space,
+    reduce_rows,
+    replace_square,
 )
 from modeler.derivation.geometry import Geometry, GeometryRow
 
@@ -41,20 +41,20 @@ from modeler.derivation.geometry import Geometry, GeometryRow
 _J = ((0, 0), (0, 1), (0, 2), (1, 1), (1, 2), (2, 2))
 
 
-def product(a: Matrix, b: Matrix, zero: Element) -> Matrix:
+def multiply_matrices(a: Matrix, b: Matrix, zero: Element) -> Matrix:
     """a b."""
     there = [[(j, y) for j, y in enumerate(line) if y] for line in b]  # most entries are 0
-    found = []
+    product_rows = []
     for line in a:
         total = [zero] * len(b[0])
-        for x, own in zip(line, there, strict=True):
-            for j, y in own if x else ():
+        for x, row_entries in zip(line, there, strict=True):
+            for j, y in row_entries if x else ():
                 total[j] = total[j] + x * y
-        found.append(total)
-    return found
+        product_rows.append(total)
+    return product_rows
 
 
-def _dot(a: Sequence[Element], b: Sequence[Element], zero: Element) -> Element:
+def _compute_dot(a: Sequence[Element], b: Sequence[Element], zero: Element) -> Element:
     total = zero
     for x, y in zip(a, b, strict=True):
         if x and y:
@@ -62,32 +62,34 @@ def _dot(a: Sequence[Element], b: Sequence[Element], zero: Element) -> Element:
     return total
 
 
-def apply(a: Matrix, v: Sequence[Element], zero: Element) -> list[Element]:
+def apply_matrix(a: Matrix, v: Sequence[Element], zero: Element) -> list[Element]:
     """a v."""
-    return [_dot(line, v, zero) for line in a]
+    return [_compute_dot(line, v, zero) for line in a]
 
 
-def inertial_transfer(R: Matrix, p: Sequence[Element], zero: Element, one: Element) -> Matrix:
+def build_inertial_transfer(R: Matrix, p: Sequence[Element], zero: Element, one: Element) -> Matrix:
     """10 x 10: a body's parameters at a frame posed at (R, p) -> those at the origin."""
     units = [[one if i == j else zero for j in range(10)] for i in range(10)]
-    columns = [_moved(R, p, unit, zero) for unit in units]
+    columns = [_move_inertia(R, p, unit, zero) for unit in units]
     return [list(line) for line in zip(*columns, strict=True)]
 
 
-def _moved(R: Matrix, p: Sequence[Element], c: Sequence[Element], zero: Element) -> list[Element]:
+def _move_inertia(
+    R: Matrix, p: Sequence[Element], c: Sequence[Element], zero: Element
+) -> list[Element]:
     """MS' = S + M p and J' = R J R^T + 2 (p.S) 1 - p S^T - S p^T + M (p.p 1 - p p^T), S = R MS."""
     # Most combinations hold few of the ten: what is 0 is not multiplied out.
     M = c[9]
-    S = apply(R, c[6:9], zero) if any(c[6:9]) else [zero] * 3
+    S = apply_matrix(R, c[6:9], zero) if any(c[6:9]) else [zero] * 3
     if any(c[:6]):
         J = [[c[0], c[1], c[2]], [c[1], c[3], c[4]], [c[2], c[4], c[5]]]
-        half = product(R, J, zero)
-        turned = [_dot(half[i], R[j], zero) for i, j in _J]
+        half = multiply_matrices(R, J, zero)
+        turned = [_compute_dot(half[i], R[j], zero) for i, j in _J]
     else:
         turned = [zero] * 6
     if not (M or any(S)) or not any(p):
         return [*turned, *S, M]
-    spread = 2 * _dot(p, S, zero) + M * (_dot(p, p, zero) if M else zero)
+    spread = 2 * _compute_dot(p, S, zero) + M * (_compute_dot(p, p, zero) if M else zero)
     out = []
     for (i, j), value in zip(_J, turned, strict=True):
         if any(S):
@@ -98,56 +100,58 @@ def _moved(R: Matrix, p: Sequence[Element], c: Sequence[Element], zero: Element)
     return out + [S[i] + M * p[i] for i in range(3)] + [M]
 
 
-def rotation_z(c: Element, s: Element, zero: Element, one: Element) -> Matrix:
+def build_rotation_z(c: Element, s: Element, zero: Element, one: Element) -> Matrix:
     """Rz as a matrix."""
     return [[c, -s, zero], [s, c, zero], [zero, zero, one]]
 
 
-def rotation_x(c: Element, s: Element, zero: Element, one: Element) -> Matrix:
+def build_rotation_x(c: Element, s: Element, zero: Element, one: Element) -> Matrix:
     """Rx as a matrix."""
     return [[one, zero, zero], [zero, c, -s], [zero, s, c]]
 
 
 @dataclass(frozen=True)
-class Constant:
+class ConstantPlacement:
     """A constant placement: R and p."""
 
     R: Matrix
     p: list[Element]
 
-    def inverse(self, K: ExactField) -> "Constant":
+    def invert_placement(self, K: ExactField) -> "ConstantPlacement":
         """R^T and -R^T p."""
         back = [list(column) for column in zip(*self.R, strict=True)]
-        return Constant(back, [-x for x in apply(back, self.p, K.zero)])
+        return ConstantPlacement(back, [-x for x in apply_matrix(back, self.p, K.zero)])
 
 
-def transferred(step: Constant, parameters: Sequence[Element], K: ExactField) -> list[Element]:
+def move_parameters(
+    step: ConstantPlacement, parameters: Sequence[Element], K: ExactField
+) -> list[Element]:
     """Ten parameters at a frame posed at `step`, as the same body's parameters at the origin."""
-    return _moved(step.R, step.p, parameters, K.zero)
+    return _move_inertia(step.R, step.p, parameters, K.zero)
 
 
-def placement(row: GeometryRow, K: ExactField) -> Constant:
+def build_placement(row: GeometryRow, K: ExactField) -> ConstantPlacement:
     """Rz(gamma) Tz(b) Rx(alpha) Tx(d): the antecedent to the frame before the joint motion."""
     zero, one = K.zero, K.one
-    gamma = rotation_z(*K.cos_sin(row.gamma), zero, one)
-    alpha = rotation_x(*K.cos_sin(row.alpha), zero, one)
-    R = product(gamma, alpha, zero)
-    p = apply(R, [K.element(row.d), zero, zero], zero)
-    return Constant(R, [p[0], p[1], p[2] + K.element(row.b)])
+    gamma = build_rotation_z(*K.cos_sin(row.gamma), zero, one)
+    alpha = build_rotation_x(*K.cos_sin(row.alpha), zero, one)
+    R = multiply_matrices(gamma, alpha, zero)
+    p = apply_matrix(R, [K.element(row.d), zero, zero], zero)
+    return ConstantPlacement(R, [p[0], p[1], p[2] + K.element(row.b)])
 
 
-def joint_constant(row: GeometryRow, K: ExactField) -> Constant:
+def build_joint_constant(row: GeometryRow, K: ExactField) -> ConstantPlacement:
     """The constant part that commutes with the joint motion: Tz(r) or Rz(theta), or both."""
     zero, one = K.zero, K.one
-    turns = row.index is not None and row.joint.angular
-    slides = row.index is not None and not row.joint.angular
+    turns = row.index is not None and row.joint.is_revolute
+    slides = row.index is not None and not row.joint.is_revolute
     c, s = (one, zero) if turns else K.cos_sin(row.theta)
     r = zero if slides else K.element(row.r)
-    return Constant(rotation_z(c, s, zero, one), [zero, zero, r])
+    return ConstantPlacement(build_rotation_z(c, s, zero, one), [zero, zero, r])
 
 
 @lru_cache(maxsize=2)
-def joint_motion(angular: bool) -> tuple[tuple[Matrix, Matrix], ...]:
+def build_joint_motion(angular: bool) -> tuple[tuple[Matrix, Matrix], ...]:
     """The joint motion as a sum over its basis functions, the constant one first; over Q.
 
     Revolute: 1, c, s, c**2, cs of the rotation; prismatic: 1, r, r**2 of the travel.
@@ -159,23 +163,23 @@ def joint_motion(angular: bool) -> tuple[tuple[Matrix, Matrix], ...]:
     Q, x, y = ring("x,y", QQ)  # cosine and sine, or the travel
     zero, one = Q.zero, Q.one
     if angular:
-        R, p = rotation_z(x, y, zero, one), [zero] * 3
+        R, p = build_rotation_z(x, y, zero, one), [zero] * 3
         X = [[*line, *p] for line in R] + [[*p, *line] for line in R]
         basis = [(0, 0), (1, 0), (0, 1), (2, 0), (1, 1)]
     else:
-        R, p = rotation_z(one, zero, zero, one), [zero, zero, x]
+        R, p = build_rotation_z(one, zero, zero, one), [zero, zero, x]
         X = [[one if i == j else zero for j in range(6)] for i in range(6)]
         # a.v + b.w of the moved frame, where v = v' + w' x (0, 0, r): b' = b + (0, 0, r) x a.
         X[3][1], X[4][0] = -x, x
         basis = [(0, 0), (1, 0), (2, 0)]
 
-    def factors(matrix: Matrix, at: tuple[int, int]) -> Matrix:
+    def select_factors(matrix: Matrix, at: tuple[int, int]) -> Matrix:
         """What stands at a basis function, s**2 being 1 - c**2."""
-        reduced = [[with_square(entry, 1, 1 - x**2) for entry in line] for line in matrix]
+        reduced = [[replace_square(entry, 1, 1 - x**2) for entry in line] for line in matrix]
         return [[entry.get(at, QQ(0)) for entry in line] for line in reduced]
 
-    L = inertial_transfer(R, p, zero, one)
-    return tuple((factors(L, at), factors(X, at)) for at in basis)
+    L = build_inertial_transfer(R, p, zero, one)
+    return tuple((select_factors(L, at), select_factors(X, at)) for at in basis)
 
 
 INERTIA, OFFSET = 10, 11
@@ -183,7 +187,7 @@ INERTIA, OFFSET = 10, 11
 
 
 @dataclass(frozen=True)
-class Reach:
+class FrameKernels:
     """Which linear functions vanish for all motions of a frame: kernels of these matrices.
 
     Attributes:
@@ -222,14 +226,14 @@ def group_tree(
         joint_columns: which (row, INERTIA) and (row, OFFSET) the robot has.
     """
     gravity = [[*(K.element(g) for g in geometry.gravity), K.one]]
-    reaches: list[Reach] = []
+    reaches: list[FrameKernels] = []
     groupings: list[LinkGrouping] = []
     for k, row in enumerate(geometry.rows):
-        base = Reach([], [], gravity) if row.parent is None else reaches[row.parent]
+        base = FrameKernels([], [], gravity) if row.parent is None else reaches[row.parent]
         step = _TreeStep(row, K, base)
         absent = [i for i in (INERTIA, OFFSET) if (k, i) not in joint_columns]
-        groupings.append(step.grouping(absent))
-        reaches.append(step.reach())
+        groupings.append(step.derive_grouping(absent))
+        reaches.append(step.derive_kernels())
     return groupings
 
 
@@ -241,62 +245,64 @@ class _TreeStep:
     third or fourth joint on, they hold rational numbers only.
     """
 
-    def __init__(self, row: GeometryRow, K: ExactField, antecedent: Reach) -> None:
+    def __init__(self, row: GeometryRow, K: ExactField, antecedent: FrameKernels) -> None:
         self.K, self.row = K, row
-        self.fixed_part = placement(row, K)
-        self.before = _through(antecedent, self.fixed_part, K)
-        self.constant = joint_constant(row, K)
-        self.motion = joint_motion(row.joint.angular) if row.index is not None else ()
+        self.fixed_part = build_placement(row, K)
+        self.before = _propagate_kernels(antecedent, self.fixed_part, K)
+        self.constant = build_joint_constant(row, K)
+        self.motion = build_joint_motion(row.joint.is_revolute) if row.index is not None else ()
 
-    def grouping(self, absent: list[int]) -> LinkGrouping:
+    def derive_grouping(self, absent: list[int]) -> LinkGrouping:
         """What the antecedent hides; `absent` are the joint columns that the robot has not."""
         K = self.K
         if not self.motion:
             return LinkGrouping([], [])
-        rows = self._motion_rows(with_joint_columns=True)
+        rows = self._build_motion_rows(with_joint_columns=True)
         for L, _ in self.motion[1:]:
-            rows += self._pad(product(self.before.energy, L, K.zero))
+            rows += self._pad_rows(multiply_matrices(self.before.energy, L, K.zero))
         rows += [[K.one if i == j else K.zero for i in range(12)] for j in absent]
-        found = null_space(rows, 12, K.zero, K.one)
-        steady = [apply(self.motion[0][0], line[:10], K.zero) for line in found]
-        back = self.constant.inverse(K)
+        null_basis = compute_null_space(rows, 12, K.zero, K.one)
+        steady = [apply_matrix(self.motion[0][0], line[:10], K.zero) for line in null_basis]
+        back = self.constant.invert_placement(K)
         return LinkGrouping(
-            [[*transferred(back, line[:10], K), *line[10:]] for line in found],
-            [transferred(self.fixed_part, line, K) for line in steady],
+            [[*move_parameters(back, line[:10], K), *line[10:]] for line in null_basis],
+            [move_parameters(self.fixed_part, line, K) for line in steady],
         )
 
-    def reach(self) -> Reach:
+    def derive_kernels(self) -> FrameKernels:
         """What vanishes identically of the link's own motion."""
         K = self.K
         if not self.motion:
-            return _through(self.before, self.constant, K)
-        energy = [line[:10] for line in self._motion_rows(with_joint_columns=False)]
-        own_speed = 5 if self.row.joint.angular else 2
+            return _propagate_kernels(self.before, self.constant, K)
+        energy = [line[:10] for line in self._build_motion_rows(with_joint_columns=False)]
+        own_speed = 5 if self.row.joint.is_revolute else 2
         twist: Matrix = [[K.one if i == own_speed else K.zero for i in range(6)]]
         gravity: Matrix = []
         for m, (L, X) in enumerate(self.motion):
-            energy += product(self.before.energy, L, K.zero)
-            twist += product(self.before.twist, X, K.zero)
+            energy += multiply_matrices(self.before.energy, L, K.zero)
+            twist += multiply_matrices(self.before.twist, X, K.zero)
             R = [[*line[:3], K.zero] for line in X[:3]]
             R.append([K.zero, K.zero, K.zero, K.one if m == 0 else K.zero])
-            gravity += product(self.before.gravity, R, K.zero)
-        own = Reach(row_reduce(energy)[0], row_reduce(twist)[0], row_reduce(gravity)[0])
-        return _through(own, self.constant, K)
+            gravity += multiply_matrices(self.before.gravity, R, K.zero)
+        link_kernels = FrameKernels(
+            reduce_rows(energy)[0], reduce_rows(twist)[0], reduce_rows(gravity)[0]
+        )
+        return _propagate_kernels(link_kernels, self.constant, K)
 
-    def _pad(self, rows: Matrix) -> Matrix:
+    def _pad_rows(self, rows: Matrix) -> Matrix:
         return [[*line, self.K.zero, self.K.zero] for line in rows]
 
-    def _motion_rows(self, with_joint_columns: bool) -> Matrix:
+    def _build_motion_rows(self, with_joint_columns: bool) -> Matrix:
         """Conditions that nothing depends on the joint speed: terms in qd**2 and qd."""
         K, rows = self.K, []
         for m, (L, _) in enumerate(self.motion):
-            own, momentum, pull = _speed_terms(L, self.row.joint.angular, K.zero)
+            kinetic_row, momentum, pull = _derive_speed_terms(L, self.row.joint.is_revolute, K.zero)
             here = K.one if m == 0 and with_joint_columns else K.zero
-            rows.append([*own, here, K.zero])
+            rows.append([*kinetic_row, here, K.zero])
             # The offset's power is tau qd, the links' speed along z is rate * qd.
             offset = here * self.row.rate
-            rows += self._pad(product(self.before.twist, momentum, K.zero))
-            rows += product(
+            rows += self._pad_rows(multiply_matrices(self.before.twist, momentum, K.zero))
+            rows += multiply_matrices(
                 self.before.gravity,
                 [[*line, K.zero, K.zero] for line in pull] + [[K.zero] * 11 + [offset]],
                 K.zero,
@@ -304,7 +310,7 @@ class _TreeStep:
         return [line for line in rows if any(line)]
 
 
-def _speed_terms(
+def _derive_speed_terms(
     carried: Matrix, angular: bool, zero: Element
 ) -> tuple[list[Element], Matrix, Matrix]:
     """Energy rows of a link whose joint adds qd z to its twist, as functions of its parameters.
@@ -316,34 +322,37 @@ def _speed_terms(
     XZ, YZ, ZZ, MX, MY, M = (carried[i] for i in (2, 4, 5, 6, 7, 9))
     none = [zero] * len(M)
     if angular:
-        return ZZ, [_minus(MY), MX, none, XZ, YZ, ZZ], [MY, _minus(MX), none]
-    return M, [none, none, M, MY, _minus(MX), none], [none, none, _minus(M)]
+        return ZZ, [_negate_row(MY), MX, none, XZ, YZ, ZZ], [MY, _negate_row(MX), none]
+    return M, [none, none, M, MY, _negate_row(MX), none], [none, none, _negate_row(M)]
 
 
-def _minus(line: list[Element]) -> list[Element]:
+def _negate_row(line: list[Element]) -> list[Element]:
     return [-x for x in line]
 
 
-def _through(reach: Reach, step: Constant, K: ExactField) -> Reach:
+def _propagate_kernels(reach: FrameKernels, step: ConstantPlacement, K: ExactField) -> FrameKernels:
     """The reach of a frame posed at (R, p) on a frame: what vanishes, told in its coordinates."""
 
-    def carried(rows: Matrix, width: int, transfer: Callable[[], Matrix]) -> Matrix:
+    def propagate_rows(rows: Matrix, width: int, transfer: Callable[[], Matrix]) -> Matrix:
         """Rows for the next frame; where all vanish there is nothing to compute."""
         if len(rows) == width:
             return rows
-        return product(rows, transfer(), K.zero) if rows else []
+        return multiply_matrices(rows, transfer(), K.zero) if rows else []
 
-    return Reach(
-        carried(reach.energy, 10, lambda: inertial_transfer(step.R, step.p, K.zero, K.one)),
-        carried(reach.twist, 6, lambda: _twist_transfer(step, K)),
-        carried(
-            reach.gravity, 4,
+    return FrameKernels(
+        propagate_rows(
+            reach.energy, 10, lambda: build_inertial_transfer(step.R, step.p, K.zero, K.one)
+        ),
+        propagate_rows(reach.twist, 6, lambda: _build_twist_transfer(step, K)),
+        propagate_rows(
+            reach.gravity,
+            4,
             lambda: [[*line, K.zero] for line in step.R] + [[K.zero, K.zero, K.zero, K.one]],
         ),
-    )  # fmt: skip
+    )
 
 
-def _twist_transfer(step: Constant, K: ExactField) -> Matrix:
+def _build_twist_transfer(step: ConstantPlacement, K: ExactField) -> Matrix:
     # a.v' + b.w' with v' = R^T (v + w x p), w' = R^T w is (R a).v + (R b + p x R a).w.
     R, p = step.R, step.p
     lower = [

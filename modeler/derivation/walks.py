@@ -13,10 +13,10 @@ from functools import cached_property
 
 import numpy as np
 
-from modeler.core.brief import Brief
-from modeler.derivation.closure import Frame, LoopEquations, loop_equations, wrapped
+from modeler.core.brief import ShortRepr
+from modeler.derivation.closure import Frame, LoopEquations, derive_loop_equations, wrap_to_pi
 from modeler.derivation.geometry import Geometry
-from modeler.derivation.kinematics import base_poses
+from modeler.derivation.kinematics import compute_base_poses
 from modeler.derivation.model import SymbolicModel
 from modeler.robot import Joint, Robot
 
@@ -50,7 +50,7 @@ class Walk:
     distance: float
 
 
-def _closed(loops: LoopEquations, u: np.ndarray) -> np.ndarray:
+def _close_postures(loops: LoopEquations, u: np.ndarray) -> np.ndarray:
     """The postures, all but closed, closed to rounding; those that do not settle are left out.
 
     So are those that go far to close: near a singularity Newton may end in another assembly mode.
@@ -58,13 +58,13 @@ def _closed(loops: LoopEquations, u: np.ndarray) -> np.ndarray:
     solved = list(loops.solved)
     start, u = u, u.copy()
     for _ in range(_POLISHING):
-        u[:, solved] -= loops.following(u, loops.residuals(u))
-    left = loops.openness(u)
+        u[:, solved] -= loops.solve_passive(u, loops.compute_residuals(u))
+    left = loops.compute_openness(u)
     far = np.abs(u - start) / loops.scale
     return u[(left < _CLOSED * loops.size) & (np.max(far, axis=1) < _STEP)]
 
 
-class _Paths:
+class _Walkers:
     """Walkers on their way, each to its own target."""
 
     def __init__(
@@ -72,68 +72,68 @@ class _Paths:
     ) -> None:
         self.loops, self.rng, self.ranges = loops, rng, ranges
         self.scale = loops.scale
-        self.given, self.solved = list(loops.given), list(loops.solved)
+        self.actuated, self.solved = list(loops.actuated), list(loops.solved)
         self.u = self.before = self.home = u
-        self.sign = self._linearised(u)[2]
+        self.sign = self._linearise_loops(u)[2]
         self.pace = np.ones(len(u))
-        self.target = self._targets(len(u))
+        self.target = self._draw_targets(len(u))
 
-    def _targets(self, count: int) -> np.ndarray:
+    def _draw_targets(self, count: int) -> np.ndarray:
         """Random positions of the actuated joints; about half of them at an end of the range."""
-        low, high = self.ranges[self.given].T
-        wide = self.rng.uniform(-0.5, 1.5, (count, len(self.given)))
+        low, high = self.ranges[self.actuated].T
+        wide = self.rng.uniform(-0.5, 1.5, (count, len(self.actuated)))
         return np.asarray(low + np.clip(wide, 0.0, 1.0) * (high - low))
 
-    def _linearised(self, u: np.ndarray) -> tuple[np.ndarray, ...]:
+    def _linearise_loops(self, u: np.ndarray) -> tuple[np.ndarray, ...]:
         """Residuals, Jacobian with travels in sizes of the robot, sign of det J_s, openness."""
-        f, openness, J = self.loops.linearised(u)
+        f, openness, J = self.loops.linearise_loops(u)
         J = J * self.scale
         return f, J, np.linalg.slogdet(J[:, :, self.solved])[0], openness
 
-    def step(self) -> np.ndarray:
+    def advance_walkers(self) -> np.ndarray:
         """One step of every walker; the postures, all but closed, that are reached by it."""
-        f, J, sign, openness = self._linearised(self.u)
+        f, J, sign, openness = self._linearise_loops(self.u)
         lost = openness > _OPEN * self.loops.size
-        lost |= (sign != self.sign) | self._outside(self.u)
+        lost |= (sign != self.sign) | self._is_outside(self.u)
         self.pace = np.where(lost, self.pace / 4, np.minimum(1.0, 2 * self.pace))
         stuck = self.pace < _SLOWEST
         if np.any(lost):
             # From the edge of what is reached steps go astray: who is stuck starts again at home.
             back = np.where(stuck[:, None], self.home, self.before)
             self.u = np.where(lost[:, None], back, self.u)
-            f[lost], J[lost], *_ = self._linearised(self.u[lost])
-        self._turn(stuck)
+            f[lost], J[lost], *_ = self._linearise_loops(self.u[lost])
+        self._replace_targets(stuck)
         self.before = self.u
-        self.u = self.u + self._advance(f, J)
+        self.u = self.u + self._compute_step(f, J)
         return self.before[~lost]
 
-    def _outside(self, u: np.ndarray) -> np.ndarray:
+    def _is_outside(self, u: np.ndarray) -> np.ndarray:
         low, high = self.ranges.T
         return np.any((u < low - _STEP * self.scale) | (u > high + _STEP * self.scale), axis=1)
 
-    def _turn(self, stuck: np.ndarray) -> None:
+    def _replace_targets(self, stuck: np.ndarray) -> None:
         """Other targets for walkers that are stuck, and for those that have arrived."""
-        left = np.abs(self.target - self.u[:, self.given]) / self.scale[self.given]
+        left = np.abs(self.target - self.u[:, self.actuated]) / self.scale[self.actuated]
         done = stuck | np.all(left < 1e-9, axis=1)
         # Most joints stay: one at its end must not hold up the others.
-        goes = self.rng.random((int(np.sum(done)), len(self.given)))
+        goes = self.rng.random((int(np.sum(done)), len(self.actuated)))
         stays = (goes > _GOING) & (goes > goes.min(axis=1, keepdims=True, initial=1.0))
-        here = self.u[done][:, self.given]
-        self.target[done] = np.where(stays, here, self._targets(len(here)))
+        here = self.u[done][:, self.actuated]
+        self.target[done] = np.where(stays, here, self._draw_targets(len(here)))
         self.pace[done] = 0.25
 
-    def _advance(self, f: np.ndarray, J: np.ndarray) -> np.ndarray:
+    def _compute_step(self, f: np.ndarray, J: np.ndarray) -> np.ndarray:
         """dq towards the target, and the du_s that keeps the loops closed; in rad and m."""
-        way = (self.target - self.u[:, self.given]) / self.scale[self.given]
+        way = (self.target - self.u[:, self.actuated]) / self.scale[self.actuated]
         longest = np.max(np.abs(way), axis=1)
         dq = way * np.minimum(1.0, _STEP * self.pace / np.maximum(longest, 1e-300))[:, None]
-        along = np.einsum("nij,nj->ni", J[:, :, self.given], dq)
+        along = np.einsum("nij,nj->ni", J[:, :, self.actuated], dq)
         both = np.stack([f, along], axis=2)
         back = -np.linalg.solve(J[:, :, self.solved], both)
         fastest = np.max(np.abs(back[:, :, 1]), axis=1)
         share = np.minimum(1.0, _STEP / np.maximum(fastest, 1e-300))[:, None]
         step = np.zeros_like(self.u)
-        step[:, self.given] = dq * share
+        step[:, self.actuated] = dq * share
         step[:, self.solved] = np.clip(back[:, :, 0], -_STEP, _STEP) + back[:, :, 1] * share
         return step * self.scale
 
@@ -142,7 +142,7 @@ class _Paths:
 
 
 @dataclass(frozen=True)
-class Linkage(Brief):
+class Linkage(ShortRepr):
     """A robot with loops, as arrays of postures u of its free joints.
 
     Attributes:
@@ -162,24 +162,24 @@ class Linkage(Brief):
     @property
     def free(self) -> tuple[Joint, ...]:
         """Rows whose variables are u."""
-        return self.robot.free
+        return self.robot.free_joints
 
     @cached_property
-    def lengths(self) -> np.ndarray:
+    def is_travel(self) -> np.ndarray:
         """By u, True for a travel in m."""
-        return np.array(self.loops.lengths, dtype=bool)
+        return np.array(self.loops.is_travel, dtype=bool)
 
     @cached_property
-    def tied(self) -> np.ndarray:
+    def is_tied(self) -> np.ndarray:
         """By u, True for a joint that a loop depends on; the others stand anywhere."""
         columns = zip(*self.loops.jacobian, strict=True)
         return np.array([any(not entry.is_zero for entry in column) for column in columns])
 
-    def vector(self, values: Mapping[str, float]) -> np.ndarray:
+    def build_vector(self, values: Mapping[str, float]) -> np.ndarray:
         """(u,) values by row name; NaN for rows without."""
         return np.array([values.get(joint.name, np.nan) for joint in self.free])
 
-    def bounds(self) -> tuple[np.ndarray, np.ndarray]:
+    def get_bounds(self) -> tuple[np.ndarray, np.ndarray]:
         """(u,) lower and upper [limits]; infinite for joints without."""
         limits = [self.robot.limits.get(joint.name) for joint in self.free]
         lower = np.array([-np.inf if one is None else one.lower for one in limits])
@@ -187,50 +187,54 @@ class Linkage(Brief):
         return lower, upper
 
     @cached_property
-    def middles(self) -> np.ndarray:
+    def limit_middles(self) -> np.ndarray:
         """(u,) middles of [limits]; NaN for joints without."""
-        lower, upper = self.bounds()
+        lower, upper = self.get_bounds()
         with np.errstate(invalid="ignore"):
             middle = np.where(np.isfinite(lower + upper), 0.5 * (lower + upper), np.nan)
         return np.array([float(f"{x:.12g}") for x in middle])
 
-    def shape(self, u: np.ndarray) -> np.ndarray:
+    def compute_shape(self, u: np.ndarray) -> np.ndarray:
         """(n, numbers) where all frames and joint axes are, an axis being a line without a sense.
 
         Postures of one shape are symmetric copies: a fork turned over with its universal joint, a
         cylinder of negative length that points the other way.
         """
         z, points = (
-            self.loops.evaluate([x for frame in found for x in frame], u).reshape(len(u), -1, 3)
-            for found in zip(*((axes[2], origin) for axes, origin in self.frames), strict=True)
+            self.loops.evaluate_expressions(
+                [x for frame in frame_vectors for x in frame], u
+            ).reshape(len(u), -1, 3)
+            for frame_vectors in zip(
+                *((axes[2], origin) for axes, origin in self.frames), strict=True
+            )
         )
         lines = np.einsum("nri,nrj->nrij", z, z)[:, :, *np.triu_indices(3)]
         return np.concatenate([points / self.loops.size, lines], axis=2).reshape(
             len(u), 9 * len(self.frames)
         )
 
-    def distances(self, u: np.ndarray, other: np.ndarray) -> np.ndarray:
+    def compute_distances(self, u: np.ndarray, other: np.ndarray) -> np.ndarray:
         """(n, u) distances of joints, rad and sizes, angles the shorter way round; NaN as 0."""
         way = u - other
-        way = np.where(self.lengths, way / self.loops.size, wrapped(way))
+        way = np.where(self.is_travel, way / self.loops.size, wrap_to_pi(way))
         return np.abs(np.nan_to_num(way))
 
-    def outside(self, u: np.ndarray) -> np.ndarray:
+    def compute_limit_excess(self, u: np.ndarray) -> np.ndarray:
         """(n,) by how much [limits] are left, rad and sizes."""
-        lower, upper = self.bounds()
+        lower, upper = self.get_bounds()
         beyond = np.maximum(np.maximum(lower - u, u - upper), 0.0)
         return np.asarray(np.sum(beyond / self.loops.scale, axis=1))
 
 
-def linkage_of(model: SymbolicModel) -> Linkage | None:
+def build_linkage(model: SymbolicModel) -> Linkage | None:
     """The linkage of a model; None if no loop equation is left to be solved."""
     robot = model.robot
     if not robot.loops:
         return None
-    loops, owners = loop_equations(model.geometry, model.graph, model.frames, model.algebra)
+    loops, owners = derive_loop_equations(model.geometry, model.graph, model.frames, model.algebra)
     if not loops.equations or not loops.solved:
         return None
-    frames = base_poses(model.geometry, model.frames, model.algebra)
+    frames = compute_base_poses(model.geometry, model.frames, model.algebra)
     return Linkage(robot, model.geometry, loops, owners, frames)
 
 
@@ -250,7 +254,7 @@ class ClosedStates:
     drift: np.ndarray
 
 
-def closed_walk(
+def draw_closed_walk(
     model: SymbolicModel, samples: int, rng: np.random.Generator, share: float = 0.0
 ) -> Walk:
     """Postures in which the loops are closed, over all that the actuated joints reach from home.
@@ -267,25 +271,27 @@ def closed_walk(
     closure = model.closure
     assert closure is not None
     ranges = []
-    for k, (joint, at) in enumerate(zip(model.robot.free, closure.home, strict=True)):
+    for k, (joint, at) in enumerate(zip(model.robot.free_joints, closure.home, strict=True)):
         limits = model.robot.limits.get(joint.name)
-        reach = closure.size if closure.lengths[k] else np.pi
-        reach = reach if k in closure.given else np.inf
+        reach = closure.size if closure.is_travel[k] else np.pi
+        reach = reach if k in closure.actuated else np.inf
         low, high = (limits.lower, limits.upper) if limits else (at - reach, at + reach)
         ranges.append((min(low, at), max(high, at)))
     walkers, home = max(_WALKERS, -(-2 * samples // _STEPS)), np.array(closure.home)
     with np.errstate(all="ignore"):  # steps that go astray are taken back
-        path = _Paths(closure, np.tile(home, (walkers, 1)), np.array(ranges), rng)
-        reached = np.concatenate([path.step() for _ in range(_STEPS)])
+        path = _Walkers(closure, np.tile(home, (walkers, 1)), np.array(ranges), rng)
+        reached = np.concatenate([path.advance_walkers() for _ in range(_STEPS)])
         rng.shuffle(reached)
-        found = _closed(closure, np.concatenate([reached[: 3 * samples], home[None]]))
-    distance = closure.sigma(found)
+        closed_postures = _close_postures(
+            closure, np.concatenate([reached[: 3 * samples], home[None]])
+        )
+    distance = closure.compute_singularity_distance(closed_postures)
     far = np.flatnonzero(distance >= min(max(_NEAREST, share * distance[-1]), distance[-1]))
-    kept = np.resize(far[::-1], samples)  # home first; few of them come again
-    return Walk(found[kept], float(distance[kept].min()))
+    chosen = np.resize(far[::-1], samples)  # home first; few of them come again
+    return Walk(closed_postures[chosen], float(distance[chosen].min()))
 
 
-def closed_motion(model: SymbolicModel, u: np.ndarray, qd: np.ndarray) -> ClosedStates:
+def compute_closed_motion(model: SymbolicModel, u: np.ndarray, qd: np.ndarray) -> ClosedStates:
     """G and gamma at closed postures.
 
     Args:
@@ -295,11 +301,11 @@ def closed_motion(model: SymbolicModel, u: np.ndarray, qd: np.ndarray) -> Closed
     """
     closure = model.closure
     assert closure is not None
-    given, solved = list(closure.given), list(closure.solved)
-    G = np.zeros((*u.shape, len(given)))
-    G[:, given, np.arange(len(given))] = 1.0
-    G[:, solved] = -closure.following(u, closure.jacobians(u)[:, :, given])
+    actuated, solved = list(closure.actuated), list(closure.solved)
+    G = np.zeros((*u.shape, len(actuated)))
+    G[:, actuated, np.arange(len(actuated))] = 1.0
+    G[:, solved] = -closure.solve_passive(u, closure.compute_jacobians(u)[:, :, actuated])
     ud = np.einsum("nij,nj->ni", G, qd)
     drift = np.zeros_like(u)
-    drift[:, solved] = -closure.following(u, closure.evaluate(closure.drift, u, ud))
+    drift[:, solved] = -closure.solve_passive(u, closure.evaluate_expressions(closure.drift, u, ud))
     return ClosedStates(G, drift)

@@ -1,44 +1,56 @@
 from .add import (
     add_effect as add_effect,
     add_findings as add_findings,
-    add_laws as add_laws,
-    add_learned as add_learned,
-    undone as undone,
+    add_learned_law as add_learned_law,
+    add_learned_laws as add_learned_laws,
+    remove_last_effect as remove_last_effect,
 )
-from .added_model import Logs as Logs, added as added, notes as notes
+from .added_model import (
+    LogSplit as LogSplit,
+    describe_additions as describe_additions,
+    describe_last_addition as describe_last_addition,
+)
 from .candidates import (
     Candidate as Candidate,
     JointScale as JointScale,
     StatedEffects as StatedEffects,
-    over_grid as over_grid,
+    expand_grid as expand_grid,
 )
 from .diagnosis import diagnose as diagnose
-from .effect_columns import all_columns as all_columns
-from .events import AFTER as AFTER, MARGIN as MARGIN, Window as Window, load_turns as load_turns
-from .judge import Judged as Judged
+from .effect_columns import evaluate_columns as evaluate_columns
+from .events import (
+    AFTER as AFTER,
+    MARGIN as MARGIN,
+    PushWindow as PushWindow,
+    find_load_reversals as find_load_reversals,
+)
+from .judge import ScoredCandidate as ScoredCandidate
 from .learn import (
     ANY_LAW as ANY_LAW,
     LEARNED as LEARNED,
-    LawAsked as LawAsked,
-    Learned as Learned,
-    learn as learn,
+    LawRequest as LawRequest,
+    LearnedLaw as LearnedLaw,
+    learn_law as learn_law,
 )
-from .orders import order_spectrum as order_spectrum, rival as rival
-from .ranking import Base as Base
+from .orders import (
+    compute_joint_order_spectrum as compute_joint_order_spectrum,
+    fit_residual_baseline as fit_residual_baseline,
+)
+from .ranking import GramBlocks as GramBlocks
 from .result import Diagnosis as Diagnosis, Finding as Finding
-from .search import Search as Search, Step as Step
+from .search import Search as Search, SearchStep as SearchStep
 from .sentences import (
-    blind_spots as blind_spots,
-    lines as lines,
-    tie_names as tie_names,
-    tied as tied,
-    unit as unit,
-    where as where,
+    describe_equivalents as describe_equivalents,
+    describe_undetectable as describe_undetectable,
+    format_equivalents as format_equivalents,
+    format_lines as format_lines,
+    format_location as format_location,
+    format_unit as format_unit,
 )
 from .signals import SignalReference as SignalReference, Signals as Signals
 from .state import (
     State as State,
-    analysed as analysed,
-    columns_of as columns_of,
-    state_of as state_of,
+    analyse_logs as analyse_logs,
+    build_columns as build_columns,
+    build_state as build_state,
 )

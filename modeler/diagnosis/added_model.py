@@ -8,40 +8,46 @@ import numpy as np
 
 from modeler.core.errors import DataError, RobotError
 from modeler.diagnosis.candidates import Candidate
-from modeler.diagnosis.learn import LEARNED, Learned, effect_id, free_name
-from modeler.diagnosis.profile import Profile, is_linear, profile
-from modeler.diagnosis.ranking import base_of, blocks_of
-from modeler.diagnosis.result import Pick
-from modeler.diagnosis.score import Residuals, error_changes, no_better
-from modeler.diagnosis.sentences import where
-from modeler.diagnosis.signals import SignalReference, tilt_axes
-from modeler.diagnosis.state import SearchData, State, columns_of, state_of
-from modeler.effects import PASSIVE_FRICTION, PASSIVE_FRICTION_IS, Acts, Effect, effect_named
-from modeler.estimation import Addition, IdentifiedModel, ParameterEstimate, prior_of, spread_text
-from modeler.numerics.least_squares import column_lengths
+from modeler.diagnosis.learn import LEARNED, LearnedLaw, choose_free_name, make_effect_id
+from modeler.diagnosis.profile import Profile, compute_profile, is_prismatic
+from modeler.diagnosis.ranking import build_gram_blocks, build_time_blocks
+from modeler.diagnosis.result import FittedCandidate
+from modeler.diagnosis.score import Residuals, explain_no_improvement, format_error_changes
+from modeler.diagnosis.sentences import format_location
+from modeler.diagnosis.signals import SignalReference, compute_tilt_axes
+from modeler.diagnosis.state import SearchData, State, build_columns, build_state
+from modeler.effects import PASSIVE_FRICTION, PASSIVE_FRICTION_IS, Effect, EffectTarget, find_effect
+from modeler.estimation import (
+    Addition,
+    IdentifiedModel,
+    ParameterEstimate,
+    build_prior,
+    format_spread,
+)
+from modeler.numerics.least_squares import compute_column_norms
 from modeler.observation import (
     Log,
     Observation,
-    Prepared,
+    PreparedLogs,
     Processing,
-    model_torque,
-    observed,
-    observed_alike,
-    prepare,
-    shafts,
+    build_observation,
+    compute_model_torque,
+    find_shafts,
+    prepare_logs,
+    rebuild_observation,
 )
 from modeler.robot import (
-    robot_from_text,
-    with_coupling,
-    with_effect,
-    with_gravity,
-    with_own_effect,
-    with_reference,
+    insert_coupling,
+    insert_effect,
+    insert_own_effect,
+    parse_robot_text,
+    replace_gravity,
+    replace_reference,
 )
 from modeler.runtime import CompiledModel
 
 
-def with_shapes(
+def add_nonlinear_uncertainty(
     model: IdentifiedModel, compiled: CompiledModel, observation: Observation
 ) -> IdentifiedModel:
     """The model with standard deviations that know that shapes were fitted too.
@@ -57,69 +63,77 @@ def with_shapes(
     state = None
     history = list(model.history)
     for i, step in enumerate(history):
-        pick = _candidate(model, step)
+        pick = _rebuild_candidate(model, step)
         if pick is None:
             continue
-        state = state or state_of(SearchData(compiled, observation), (), model.beta)
-        own = _own_columns(model, state, pick)
-        along = profile(state, pick, own) if own else None
+        state = state or build_state(SearchData(compiled, observation), (), model.beta)
+        effect_columns = _find_effect_columns(model, state, pick)
+        along = compute_profile(state, pick, effect_columns) if effect_columns else None
         if along is None:
             continue
-        model = _widened(model, along, own)
+        model = _widen_covariance(model, along, effect_columns)
         history[i] = dataclasses.replace(
-            step, shape_sigmas=along.shape_deviations(), shape_intervals=along.shape_intervals()
+            step,
+            shape_sigmas=along.compute_nonlinear_deviations(),
+            shape_intervals=along.compute_nonlinear_intervals(),
         )
     return dataclasses.replace(model, history=tuple(history))
 
 
-def catalogue_of(model: IdentifiedModel) -> tuple[Effect, ...]:
+def read_catalogue(model: IdentifiedModel) -> tuple[Effect, ...]:
     """The effects that there are for its robot."""
-    return robot_from_text(model.robot_text, "robot of the model").catalogue
+    return parse_robot_text(model.robot_text, "robot of the model").catalogue
 
 
-def _candidate(model: IdentifiedModel, step: Addition) -> Candidate | None:
+def _rebuild_candidate(model: IdentifiedModel, step: Addition) -> Candidate | None:
     """The effect of a step, if it has shapes on a joint."""
-    effect = effect_named(step.effect, catalogue_of(model))
-    if effect is None or effect.acts is not Acts.JOINT or not step.shapes:
+    effect = find_effect(step.effect, read_catalogue(model))
+    if effect is None or effect.acts is not EffectTarget.JOINT or not step.shapes:
         return None
-    forms = [f for f in effect.forms if {s.name for s in f.shapes} == set(step.shapes)]
+    forms = [
+        f for f in effect.forms if {s.name for s in f.nonlinear_parameters} == set(step.shapes)
+    ]
     names = [joint.name for joint in model.spec.joints]
     if not forms or step.joint not in names:
         return None
     return Candidate(effect, forms[0], step.joint, names.index(step.joint), dict(step.shapes))
 
 
-def _own_columns(model: IdentifiedModel, state: State, pick: Candidate) -> list[int]:
+def _find_effect_columns(model: IdentifiedModel, state: State, pick: Candidate) -> list[int]:
     """Base columns of the effect, in the order of its own; of several ripples, those alike."""
     from scipy.optimize import linear_sum_assignment  # it takes long to load
 
-    found = columns_of(state.rows, pick)[pick.index]
+    joint_columns = build_columns(state.rows, pick)[pick.index]
     effect = {p.name: (p.effect, p.joint) for p in model.spec.standard}
     free = [i for i, b in enumerate(model.spec.base) if effect[b.column_of] == pick.key]
-    if found is None or len(free) < found.shape[1]:
+    if joint_columns is None or len(free) < joint_columns.shape[1]:
         return []
     base = state.rows.W[pick.index][:, free]
-    alike = (found / column_lengths(found)).T @ (base / column_lengths(base))
+    alike = (joint_columns / compute_column_norms(joint_columns)).T @ (
+        base / compute_column_norms(base)
+    )
     return [free[i] for i in linear_sum_assignment(-np.abs(alike))[1]]
 
 
-def _widened(model: IdentifiedModel, along: Profile, own: Sequence[int]) -> IdentifiedModel:
+def _widen_covariance(
+    model: IdentifiedModel, along: Profile, effect_columns: Sequence[int]
+) -> IdentifiedModel:
     """The model with the spread along the shapes of one effect in its covariance."""
     fit = model.fit
-    order = [*(i for i in range(len(fit.parameters)) if i not in own), *own]
+    order = [*(i for i in range(len(fit.parameters)) if i not in effect_columns), *effect_columns]
     extra = np.zeros(fit.covariance.shape)
-    extra[np.ix_(order, order)] = along.extra()
+    extra[np.ix_(order, order)] = along.compute_extra_covariance()
     known = np.array([p.sigma is not None for p in fit.parameters])
     covariance = fit.covariance + np.where(np.outer(known, known), extra, 0.0)
     scale = np.ones(len(order))
-    for i, deviation in zip(own, along.deviations(), strict=True):
+    for i, deviation in zip(effect_columns, along.compute_deviations(), strict=True):
         if covariance[i, i] > 0.0:
             scale[i] = max(1.0, float(deviation / np.sqrt(covariance[i, i])))
     covariance = covariance * np.outer(scale, scale)
     # the fit has a narrower band, and with it values that differ a little
-    moved = fit.beta[own] - along.told.values
-    ends = [(float(low), float(high)) for low, high in along.intervals() + moved[:, None]]
-    intervals, sigma = dict(zip(own, ends, strict=True)), np.sqrt(np.diag(covariance))
+    moved = fit.beta[effect_columns] - along.reported_point.values
+    ends = [(float(low), float(high)) for low, high in along.compute_intervals() + moved[:, None]]
+    intervals, sigma = dict(zip(effect_columns, ends, strict=True)), np.sqrt(np.diag(covariance))
     parameters = tuple(
         dataclasses.replace(p, sigma=float(sigma[i]), interval=intervals.get(i, p.interval))
         if known[i]
@@ -133,7 +147,9 @@ def _widened(model: IdentifiedModel, along: Profile, own: Sequence[int]) -> Iden
 # The robot file with one effect more.
 
 
-def described(text: str, pick: Candidate, values: np.ndarray, reference: SignalReference) -> str:
+def insert_candidate(
+    text: str, pick: Candidate, values: np.ndarray, reference: SignalReference
+) -> str:
     """The robot file with the effect.
 
     Args:
@@ -147,29 +163,33 @@ def described(text: str, pick: Candidate, values: np.ndarray, reference: SignalR
         RobotError: it stands there already.
     """
     effect = pick.effect
-    if effect.acts is Acts.GRAVITY:
-        return with_gravity(text, _tilted(text, values, reference).tolist())
+    if effect.acts is EffectTarget.GRAVITY:
+        return replace_gravity(text, _tilt_gravity(text, values, reference).tolist())
     assert pick.joint is not None
-    if effect.acts is Acts.PASSIVE:
-        robot = robot_from_text(text, "robot of the model")
-        everyone = [row.name for row in robot.moving if row.actuated]
+    if effect.acts is EffectTarget.PASSIVE:
+        robot = parse_robot_text(text, "robot of the model")
+        everyone = [row.name for row in robot.moving_joints if row.actuated]
         for name in PASSIVE_FRICTION_IS if effect.id == PASSIVE_FRICTION else (effect.id,):
-            text = with_effect(text, name, pick.joint, {}, everyone)
+            text = insert_effect(text, name, pick.joint, {}, everyone)
         return text
-    if effect.acts is Acts.MOTOR:
-        text = _coupled(text, pick, reference)
-    changed = with_effect(text, effect.id, pick.joint, _shapes(pick, reference))
+    if effect.acts is EffectTarget.MOTOR:
+        text = _insert_coupling(text, pick, reference)
+    changed = insert_effect(
+        text, effect.id, pick.joint, _collect_nonlinear_parameters(pick, reference)
+    )
     names = frozenset().union(*(form.names for form in effect.forms))
-    depends = effect.acts is Acts.POSITION or not names.isdisjoint({"load", "static", "torque"})
-    return with_reference(changed, _referred(reference)) if depends else changed
+    depends = effect.acts is EffectTarget.POSITION or not names.isdisjoint(
+        {"load", "static", "torque"}
+    )
+    return replace_reference(changed, _build_reference(reference)) if depends else changed
 
 
-def _shapes(pick: Candidate, reference: SignalReference) -> dict[str, float]:
+def _collect_nonlinear_parameters(pick: Candidate, reference: SignalReference) -> dict[str, float]:
     """The shapes of a joint's effect, and where its temperature or time is 0."""
-    fixed = {s.name: s.grid[0] for s in pick.form.shapes if len(s.grid) == 1}
-    own = {} if pick.effect.acts is Acts.MOTOR else pick.shapes
-    shapes = {name: value for name, value in own.items() if fixed.get(name) != value}
-    moments = [shape.name for shape in pick.form.shapes if shape.scale == "moment"]
+    fixed = {s.name: s.grid[0] for s in pick.form.nonlinear_parameters if len(s.grid) == 1}
+    candidate_values = {} if pick.effect.acts is EffectTarget.MOTOR else pick.nonlinear_parameters
+    shapes = {name: value for name, value in candidate_values.items() if fixed.get(name) != value}
+    moments = [shape.name for shape in pick.form.nonlinear_parameters if shape.scale == "moment"]
     if moments and _is_first_moment(pick, reference):
         shapes |= dict.fromkeys(moments, 0.0)
     if "T" in pick.form.names and pick.joint is not None:
@@ -187,13 +207,13 @@ def _is_first_moment(pick: Candidate, reference: SignalReference) -> bool:
     signals = np.ones((len(q), len(model.spec.signals))) if model.spec.signals else None
     phi = model.base_regressor(q, qd, qdd, signals).reshape(q.size, -1)
     column = np.zeros(q.shape)
-    column[:, pick.index] = np.sin(q[:, pick.index] - pick.shapes["q0"])
+    column[:, pick.index] = np.sin(q[:, pick.index] - pick.nonlinear_parameters["q0"])
     target = column.ravel()
     solved = np.linalg.lstsq(phi, target, rcond=1e-10)[0]
     return bool(np.linalg.norm(phi @ solved - target) < 1e-6 * np.linalg.norm(target))
 
 
-def _referred(reference: SignalReference) -> dict[str, float]:
+def _build_reference(reference: SignalReference) -> dict[str, float]:
     """Standard parameters with the torques of the model: each base parameter in its own column."""
     known = ("rigid_body", "rotor_inertia", "viscous", "coulomb", "offset")
     effects = {p.name: p.effect for p in reference.compiled.spec.standard}
@@ -204,7 +224,9 @@ def _referred(reference: SignalReference) -> dict[str, float]:
     }
 
 
-def with_law(text: str, state: State, joint: str, learned: Learned) -> tuple[str, Pick]:
+def insert_law(
+    text: str, state: State, joint: str, learned: LearnedLaw
+) -> tuple[str, FittedCandidate]:
     """The robot file with the definition of a law, and the law as an effect to be put in.
 
     Args:
@@ -213,47 +235,47 @@ def with_law(text: str, state: State, joint: str, learned: Learned) -> tuple[str
         joint: name.
         learned: it.
     """
-    effects = robot_from_text(text, "robot of the model").own_effects
-    name = effect_id(LEARNED, joint, [e.id for e in effects])
-    prefix = free_name("Lw", [column.prefix for e in effects for column in e.columns])
-    law, j = learned.law, state.names.index(joint)
+    effects = parse_robot_text(text, "robot of the model").own_effects
+    name = make_effect_id(LEARNED, joint, [e.id for e in effects])
+    prefix = choose_free_name("Lw", [column.prefix for e in effects for column in e.columns])
+    law, j = learned.law, state.joint_names.index(joint)
     definition = {
-        "title": f"learned, not physics: a law of {learned.coordinates.told}",
+        "title": f"learned, not physics: a law of {learned.coordinates.description}",
         "columns": {prefix: learned.coordinates.equation},
         "unit": state.spec.joints[j].effort_unit.replace(" ", "*"),
         **learned.coordinates.further,
         "law": {"low": list(law.low), "high": list(law.high), "cells": list(law.cells),
                 "values": list(law.values)},
     }  # fmt: skip
-    text = with_own_effect(text, name, definition)
-    effect = effect_named(name, robot_from_text(text, "robot with a law").catalogue)
+    text = insert_own_effect(text, name, definition)
+    effect = find_effect(name, parse_robot_text(text, "robot with a law").catalogue)
     assert effect is not None
-    shapes = {shape.name: shape.grid[0] for shape in effect.forms[0].shapes}
+    shapes = {shape.name: shape.grid[0] for shape in effect.forms[0].nonlinear_parameters}
     candidate = Candidate(effect, effect.forms[0], joint, j, shapes)
-    return text, Pick(candidate, np.array([learned.size]), state, 1.0)
+    return text, FittedCandidate(candidate, np.array([learned.size]), state, 1.0)
 
 
-def _tilted(text: str, values: np.ndarray, reference: SignalReference) -> np.ndarray:
+def _tilt_gravity(text: str, values: np.ndarray, reference: SignalReference) -> np.ndarray:
     """Gravity with the tilt, of the length it had."""
-    robot = robot_from_text(text, "robot of the model")
-    symbols = {name: value.number() for name, value in robot.symbols.items()}
-    gravity = np.array([entry.number(symbols) for entry in robot.gravity])
-    axes = tilt_axes(reference)
+    robot = parse_robot_text(text, "robot of the model")
+    symbols = {name: value.evaluate() for name, value in robot.symbols.items()}
+    gravity = np.array([entry.evaluate(symbols) for entry in robot.gravity])
+    axes = compute_tilt_axes(reference)
     turned = gravity + values[: len(axes)] @ axes
     return turned * (np.linalg.norm(gravity) / np.linalg.norm(turned))
 
 
-def _coupled(text: str, pick: Candidate, reference: SignalReference) -> str:
+def _insert_coupling(text: str, pick: Candidate, reference: SignalReference) -> str:
     """The file with the motor's coupling, if it has none for that joint."""
-    if "c" not in pick.shapes:
+    if "c" not in pick.nonlinear_parameters:
         return text
     joints = reference.compiled.spec.joints
     here, before = joints[pick.index].name, joints[pick.index - 1].name
-    sign = "+" if pick.shapes["c"] > 0.0 else "-"
-    share = abs(pick.shapes["c"])
+    sign = "+" if pick.nonlinear_parameters["c"] > 0.0 else "-"
+    share = abs(pick.nonlinear_parameters["c"])
     times = "" if share == 1.0 else f"{share:g}*"
     try:
-        return with_coupling(text, here, f"q{here} {sign} {times}q{before}")
+        return insert_coupling(text, here, f"q{here} {sign} {times}q{before}")
     except RobotError as error:
         raise DataError(f"{pick.effect.id}: {error}") from None
 
@@ -261,28 +283,32 @@ def _coupled(text: str, pick: Candidate, reference: SignalReference) -> str:
 # What the user should know of an effect that was added, beside its error.
 
 
-def added(model: IdentifiedModel) -> list[str]:
+def describe_last_addition(model: IdentifiedModel) -> list[str]:
     """Parameters that the step added last put into the model, with their units and shapes."""
     if len(model.history) < 2:
         return []
     last = model.history[-1]
     lines = [
-        f"{p.name} = {p.value:.5g}{spread_text(p.value, p.sigma or 0.0, p.interval)} {p.unit}"
-        for p in _parameters_of(model, last)
+        f"{p.name} = {p.value:.5g}{format_spread(p.value, p.sigma or 0.0, p.interval)} {p.unit}"
+        for p in _find_parameters(model, last)
     ]
     if lines and last.shapes:
-        units, sigmas, ends = _units(model, last), last.shape_sigmas, last.shape_intervals
+        units, sigmas, ends = (
+            _format_nonlinear_units(model, last),
+            last.shape_sigmas,
+            last.shape_intervals,
+        )
         texts = [
-            f"{k} = {v:.4g}{spread_text(v, sigmas.get(k, 0.0), ends.get(k))}{units.get(k, '')}"
+            f"{k} = {v:.4g}{format_spread(v, sigmas.get(k, 0.0), ends.get(k))}{units.get(k, '')}"
             for k, v in last.shapes.items()
         ]
         lines.append("with " + ", ".join(texts))
     if last.moved:
         order = sorted(last.moved, key=lambda name: -last.moved[name])
-        said = [f"{name} {last.moved[name]:.2g}" for name in order[:_SHOWN]]
+        shifts = [f"{name} {last.moved[name]:.2g}" for name in order[:_SHOWN]]
         if len(order) > _SHOWN:
-            said.append(f"all others less than {last.moved[order[_SHOWN - 1]]:.2g}")
-        lines.append(f"moved by it, in their sigmas: {', '.join(said)}")
+            shifts.append(f"all others less than {last.moved[order[_SHOWN - 1]]:.2g}")
+        lines.append(f"moved by it, in their sigmas: {', '.join(shifts)}")
     return lines
 
 
@@ -290,29 +316,31 @@ _SHOWN = 8
 """Parameters of which is told by how much they moved."""
 
 
-def _parameters_of(model: IdentifiedModel, step: Addition) -> list[ParameterEstimate]:
+def _find_parameters(model: IdentifiedModel, step: Addition) -> list[ParameterEstimate]:
     """Base parameters that are an effect's own."""
-    own = {p.name for p in model.spec.standard if (p.effect, p.joint) == (step.effect, step.joint)}
-    base = {b.name for b in model.spec.base if b.column_of in own}
+    standard_names = {
+        p.name for p in model.spec.standard if (p.effect, p.joint) == (step.effect, step.joint)
+    }
+    base = {b.name for b in model.spec.base if b.column_of in standard_names}
     return [p for p in model.fit.parameters if p.name in base]
 
 
-def not_needed(model: IdentifiedModel, step: Addition) -> bool:
+def is_unneeded(model: IdentifiedModel, step: Addition) -> bool:
     """True of an effect whose parameters are all below their sigmas, beside all in the model."""
-    own = _parameters_of(model, step)
-    return bool(own) and all(abs(p.value) <= (p.sigma or 0.0) for p in own)
+    estimates = _find_parameters(model, step)
+    return bool(estimates) and all(abs(p.value) <= (p.sigma or 0.0) for p in estimates)
 
 
-def _units(model: IdentifiedModel, step: Addition) -> dict[str, str]:
+def _format_nonlinear_units(model: IdentifiedModel, step: Addition) -> dict[str, str]:
     """What stands behind the values of the shapes."""
-    effect = effect_named(step.effect, catalogue_of(model))
+    effect = find_effect(step.effect, read_catalogue(model))
     assert effect is not None
-    shapes = [shape for form in effect.forms for shape in form.shapes]
-    units = {shape.name: shape.unit(is_linear(model.spec, step.joint)) for shape in shapes}
+    shapes = [shape for form in effect.forms for shape in form.nonlinear_parameters]
+    units = {shape.name: shape.get_unit(is_prismatic(model.spec, step.joint)) for shape in shapes}
     return {name: f" {unit}" for name, unit in units.items() if unit != "1"}
 
 
-def notes(model: IdentifiedModel, since: int = -1) -> list[str]:
+def describe_additions(model: IdentifiedModel, since: int = -1) -> list[str]:
     """Sentences on steps that were added: which errors fall, and what is not as asked.
 
     Args:
@@ -321,28 +349,30 @@ def notes(model: IdentifiedModel, since: int = -1) -> list[str]:
     """
     if len(model.history) < 2:
         return []
-    catalogue, found = catalogue_of(model), []
+    catalogue, lines = read_catalogue(model), []
     for step in model.history[since:]:
-        effect = effect_named(step.effect, catalogue)
+        effect = find_effect(step.effect, catalogue)
         assert effect is not None
-        name = f"{effect.id}, {where(step.joint)}"
+        name = f"{effect.id}, {format_location(step.joint)}"
         usual = effect.forms[0]
-        if "T" in usual.names and {shape.name for shape in usual.shapes} != set(step.shapes):
-            found.append(
+        if "T" in usual.names and {shape.name for shape in usual.nonlinear_parameters} != set(
+            step.shapes
+        ):
+            lines.append(
                 f"{name}: the logs have no column temperature{step.joint} or temperature, so the "
                 "time since their start stands for it; log it to know more"
             )
-        found.append(_change(name, step))
-    return found
+        lines.append(_describe_error_change(name, step))
+    return lines
 
 
-def _change(name: str, step: Addition) -> str:
+def _describe_error_change(name: str, step: Addition) -> str:
     if step.falls:
         doubt = f"; it is perhaps missing and no more: {step.doubt}" if step.doubt else ""
         kind = "held-out" if step.held_out else "cross-validated"
-        changes = error_changes(step.joints, step.changed)
+        changes = format_error_changes(step.joints, step.changed)
         return f"{name}: the {kind} error falls: {changes}{doubt}"
-    why = no_better(step.joints, step.changed)
+    why = explain_no_improvement(step.joints, step.changed)
     return f"{name}: {why}; `modeler add MODEL undo` takes the effect out again"
 
 
@@ -350,20 +380,20 @@ def _change(name: str, step: Addition) -> str:
 
 
 @dataclass(frozen=True, eq=False)
-class Logs:
+class LogSplit:
     """What the model is fitted to, and what it is judged on."""
 
-    fitted: Sequence[Log]
+    training: Sequence[Log]
     held_out: Sequence[Log] = ()
 
     @property
-    def sets(self) -> list[Sequence[Log]]:
+    def log_sets(self) -> list[Sequence[Log]]:
         """Those that hold logs: the fitted ones first."""
-        return [self.fitted, self.held_out] if self.held_out else [self.fitted]
+        return [self.training, self.held_out] if self.held_out else [self.training]
 
 
 @dataclass(frozen=True, eq=False)
-class HoldoutRows:
+class LogRows:
     """Logs as one robot sees them.
 
     Attributes:
@@ -373,25 +403,27 @@ class HoldoutRows:
         seen: the observations, in that order.
     """
 
-    logs: Logs
+    logs: LogSplit
     compiled: CompiledModel
-    prepared: tuple[Prepared, ...]
-    seen: tuple[Observation, ...]
+    prepared: tuple[PreparedLogs, ...]
+    observations: tuple[Observation, ...]
 
     @property
-    def fitted(self) -> Observation:
+    def fit_observation(self) -> Observation:
         """What a model is fitted to."""
-        return self.seen[0]
+        return self.observations[0]
 
-    def of(self, compiled: CompiledModel) -> "HoldoutRows":
+    def rebuild_for(self, compiled: CompiledModel) -> "LogRows":
         """The rows of the same robot with other effects; nothing is filtered again."""
-        if shafts(compiled) == shafts(self.compiled):
-            seen = tuple(observed_alike(compiled, observation) for observation in self.seen)
-            return dataclasses.replace(self, compiled=compiled, seen=seen)
-        return _rows(compiled, self.logs, self.prepared)
+        if find_shafts(compiled) == find_shafts(self.compiled):
+            seen = tuple(
+                rebuild_observation(compiled, observation) for observation in self.observations
+            )
+            return dataclasses.replace(self, compiled=compiled, observations=seen)
+        return _observe_rows(compiled, self.logs, self.prepared)
 
 
-def rows_of(compiled: CompiledModel, logs: Logs, processing: Processing) -> HoldoutRows:
+def build_rows(compiled: CompiledModel, logs: LogSplit, processing: Processing) -> LogRows:
     """The rows of logs.
 
     Args:
@@ -402,22 +434,30 @@ def rows_of(compiled: CompiledModel, logs: Logs, processing: Processing) -> Hold
     Raises:
         DataError: no usable row.
     """
-    prepared = tuple(prepare(compiled.spec, some, processing) for some in logs.sets)
-    return _rows(compiled, logs, prepared)
+    prepared = tuple(prepare_logs(compiled.spec, some, processing) for some in logs.log_sets)
+    return _observe_rows(compiled, logs, prepared)
 
 
-def _rows(compiled: CompiledModel, logs: Logs, prepared: tuple[Prepared, ...]) -> HoldoutRows:
-    pairs = zip(logs.sets, prepared, strict=True)
-    return HoldoutRows(logs, compiled, prepared, tuple(observed(compiled, *pair) for pair in pairs))
+def _observe_rows(
+    compiled: CompiledModel, logs: LogSplit, prepared: tuple[PreparedLogs, ...]
+) -> LogRows:
+    pairs = zip(logs.log_sets, prepared, strict=True)
+    return LogRows(
+        logs, compiled, prepared, tuple(build_observation(compiled, *pair) for pair in pairs)
+    )
 
 
-def left_of(model: IdentifiedModel, compiled: CompiledModel, observation: Observation) -> Residuals:
+def compute_residuals(
+    model: IdentifiedModel, compiled: CompiledModel, observation: Observation
+) -> Residuals:
     """What it leaves of logs."""
-    left = observation.torque - model_torque(observation, compiled, model.beta)
-    return _unseen_of(observation, [left[own, j] for j, own in enumerate(observation.used.T)])
+    left = observation.torque - compute_model_torque(observation, compiled, model.beta)
+    return _build_residuals(
+        observation, [left[used_rows, j] for j, used_rows in enumerate(observation.used.T)]
+    )
 
 
-def left_out(
+def cross_validate_residuals(
     model: IdentifiedModel, observation: Observation, free: np.ndarray | None = None
 ) -> Residuals:
     """What it leaves of its own logs, each eighth predicted from a fit to the others.
@@ -427,27 +467,29 @@ def left_out(
         observation: of its logs.
         free: (c, k) the directions of beta that are fitted, beside the model; None: all of it.
     """
-    used, blocks, known = observation.used.T, blocks_of(observation), None
-    W = [observation.columns[own, j] for j, own in enumerate(used)]
-    y = [observation.torque[own, j] for j, own in enumerate(used)]
+    used, blocks, known = observation.used.T, build_time_blocks(observation), None
+    W = [observation.columns[used_rows, j] for j, used_rows in enumerate(used)]
+    y = [observation.torque[used_rows, j] for j, used_rows in enumerate(used)]
     sigma = np.array([joint.sigma if joint.sigma > 0.0 else 1.0 for joint in model.fit.joints])
     if free is not None:
         y = [tau - w @ model.beta for w, tau in zip(W, y, strict=True)]
         W = [w @ free for w in W]
-    elif (prior := prior_of(model.spec)) is not None:
+    elif (prior := build_prior(model.spec)) is not None:
         weighted = np.concatenate([w / s for w, s in zip(W, sigma, strict=True)])
-        known = prior.beside(np.linalg.norm(weighted, axis=0))
-    number = [blocks.number[own] for own in used]
-    base = base_of(W, y, sigma, number, blocks.fold, prior=known)
-    return _unseen_of(observation, [s * e for s, e in zip(sigma, base.left_out, strict=True)])
+        known = prior.extend_rows(np.linalg.norm(weighted, axis=0))
+    number = [blocks.number[used_rows] for used_rows in used]
+    base = build_gram_blocks(W, y, sigma, number, blocks.fold, prior=known)
+    return _build_residuals(
+        observation, [s * e for s, e in zip(sigma, base.cross_validated_residuals, strict=True)]
+    )
 
 
-def _unseen_of(observation: Observation, left: list[np.ndarray]) -> Residuals:
+def _build_residuals(observation: Observation, left: list[np.ndarray]) -> Residuals:
     used = observation.used.T
     return Residuals(
         tuple(joint.name for joint in observation.joints),
         tuple(left),
-        tuple(observation.torque[own, j] for j, own in enumerate(used)),
-        tuple(observation.time[own] for own in used),
-        tuple(observation.run[own] for own in used),
+        tuple(observation.torque[used_rows, j] for j, used_rows in enumerate(used)),
+        tuple(observation.time[used_rows] for used_rows in used),
+        tuple(observation.run[used_rows] for used_rows in used),
     )

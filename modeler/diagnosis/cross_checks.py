@@ -14,26 +14,26 @@ from typing import Any
 
 import numpy as np
 
-from modeler.core.json import entries
+from modeler.core.json import select_attributes
 from modeler.diagnosis.candidates import Candidate
-from modeler.diagnosis.effect_columns import dense
-from modeler.diagnosis.generate import generate_candidates, ruled_out
+from modeler.diagnosis.effect_columns import expand_columns
+from modeler.diagnosis.generate import generate_candidates, is_ruled_out
 from modeler.diagnosis.judge import (
     NEARLY,
-    Judged,
-    decide,
-    holdout_residuals,
-    numbers,
-    on_logs,
-    refines,
-    tied,
+    ScoredCandidate,
+    compute_holdout_residuals,
+    count_free_numbers,
+    find_equivalents,
+    fit_on_logs,
+    is_refinement,
+    select_best,
 )
-from modeler.diagnosis.score import Residuals, errors_of
-from modeler.diagnosis.search import Search, Step, Tick, about_itself, scan_candidates
-from modeler.diagnosis.state import SearchData, State, columns_of, state_of
-from modeler.diagnosis.timing import smoothed
+from modeler.diagnosis.score import Residuals, compute_errors
+from modeler.diagnosis.search import Search, SearchStep, Tick, linearise_state, scan_candidates
+from modeler.diagnosis.state import SearchData, State, build_columns, build_state
+from modeler.diagnosis.timing import smooth_rows
 from modeler.estimation import IdentifiedModel, identify
-from modeler.observation import Log, observed, prepare
+from modeler.observation import Log, build_observation, prepare_logs
 
 RIVALS = 8
 """Effects that are asked again in the other looks: those that came nearest."""
@@ -67,11 +67,11 @@ class CrossCheck:
         leads = (
             None if self.leads is None else dict(zip(("effect", "joint"), self.leads, strict=True))
         )
-        return {"leads": leads, **entries(self, "what agrees gain expected")}
+        return {"leads": leads, **select_attributes(self, "what agrees gain expected")}
 
 
 @dataclass(frozen=True, eq=False)
-class OtherLook:
+class CrossCheckData:
     """Another look.
 
     Attributes:
@@ -82,102 +82,107 @@ class OtherLook:
 
     what: str
     data: SearchData
-    asks: bool = True
+    is_required: bool = True
 
 
-def recheck_effects(
-    found: Search, looks: Sequence[OtherLook], tick: Tick = lambda: None
+def cross_check_effects(
+    search: Search, data_sets: Sequence[CrossCheckData], tick: Tick = lambda: None
 ) -> list[tuple[CrossCheck, ...]]:
     """What the other looks say of every effect that was put in, in order.
 
     Args:
-        found: the search in the first look.
-        looks: others.
+        search: the search in the first look.
+        data_sets: others.
         tick: called after each.
     """
-    said: list[list[CrossCheck]] = [[] for _ in found.steps]
-    for look in looks:
-        for place, own in enumerate(said):
-            own.append(_observe_otherwise(look, found, place))
+    checks_by_step: list[list[CrossCheck]] = [[] for _ in search.steps]
+    for data_set in data_sets:
+        for place, step_checks in enumerate(checks_by_step):
+            step_checks.append(_cross_check_step(data_set, search, place))
             tick()
-    return [(*own, *_ruled_out(found, s)) for own, s in zip(said, found.steps, strict=True)]
+    return [
+        (*step_checks, *_check_excluded(search, s))
+        for step_checks, s in zip(checks_by_step, search.steps, strict=True)
+    ]
 
 
-def _ruled_out(found: Search, step: Step) -> list[CrossCheck]:
+def _check_excluded(search: Search, step: SearchStep) -> list[CrossCheck]:
     """What would have been named had the user ruled nothing out, or explains as much as simply."""
-    if not found.without:
+    if not search.without:
         return []
     state = step.before
-    barred = [c for c in generate_candidates(state) if ruled_out(*c.key, found.without)]
+    barred = [c for c in generate_candidates(state) if is_ruled_out(*c.key, search.without)]
     if not barred:
         return []
-    asked = scan_candidates(state, [step.pick, *barred]).judged()
-    own = [j for j in asked.ranked if j.key == step.pick.key]
-    least = NEARLY * own[0].fall if own else 0.0
+    asked = scan_candidates(state, [step.candidate, *barred]).judge_candidates()
+    same_effect = [j for j in asked.ranked if j.key == step.candidate.key]
+    least = NEARLY * same_effect[0].total_reduction if same_effect else 0.0
     alike = (
         j for j in asked.ranked
-        if j not in own and j.significant and j.fall >= least
-        and numbers(j.candidate) <= numbers(step.pick)
+        if j not in same_effect and j.is_significant and j.total_reduction >= least
+        and count_free_numbers(j.candidate) <= count_free_numbers(step.candidate)
     )  # fmt: skip
     best = next(alike, asked.best)
-    if best is None or best.key == step.pick.key:
+    if best is None or best.key == step.candidate.key:
         return []
     return [CrossCheck("ruled out", best.key, False)]
 
 
-def _observe_otherwise(look: OtherLook, found: Search, place: int) -> CrossCheck:
-    what, data, step = look.what, look.data, found.steps[place]
-    picks = [*found.start.picks, *(s.pick for s in found.steps[: place + 1])]
-    if not all(_logged(data, pick) for pick in picks):
+def _cross_check_step(data_set: CrossCheckData, search: Search, place: int) -> CrossCheck:
+    what, data, step = data_set.what, data_set.data, search.steps[place]
+    picks = [*search.start.picks, *(s.candidate for s in search.steps[: place + 1])]
+    if not all(_is_logged(data, pick) for pick in picks):
         return CrossCheck(what, None, True)
     # the state in which the effect was chosen, from other data
-    state = about_itself(state_of(data, picks[:-1], step.before.beta))
-    judged = _recheck(state, step, found)
-    own = [j.gain for j in judged if j.key == step.pick.key]
-    gain = own[0] if own else 0.0
-    expected = _expected(state, step) if look.asks else 0.0
-    joint = step.pick.joint
-    near = [j for j in judged if joint is None or j.key[1] in (None, joint)]
-    best = decide(state, near).best
+    state = linearise_state(build_state(data, picks[:-1], step.before.beta))
+    candidate_scores = _rescan_candidates(state, step, search)
+    gains = [j.variance_reduction for j in candidate_scores if j.key == step.candidate.key]
+    gain = gains[0] if gains else 0.0
+    expected = _compute_expected_gain(state, step) if data_set.is_required else 0.0
+    joint = step.candidate.joint
+    near = [j for j in candidate_scores if joint is None or j.key[1] in (None, joint)]
+    best = select_best(state, near).best
     if best is None:
         return CrossCheck(what, None, True, gain, expected)
-    alike = {best.key, *(j.key for j in tied(best, judged))}
-    if refines(best.candidate, step.pick):
-        alike.add(step.pick.key)
-    return CrossCheck(what, best.key, step.pick.key in alike, gain, expected)
+    alike = {best.key, *(j.key for j in find_equivalents(best, candidate_scores))}
+    if is_refinement(best.candidate, step.candidate):
+        alike.add(step.candidate.key)
+    return CrossCheck(what, best.key, step.candidate.key in alike, gain, expected)
 
 
-def _expected(state: State, step: Step) -> float:
+def _compute_expected_gain(state: State, step: SearchStep) -> float:
     """Fall of the residual variance of its joints that the values of an effect let expect.
 
     Of the smooth motion: what the noise of the positions does to its columns explains nothing.
     """
-    columns, base = columns_of(smoothed(state), step.pick), state.base
-    felt = [
-        dense(columns, j, len(y)) @ step.judged.values / s
+    columns, base = build_columns(smooth_rows(state), step.candidate), state.gram_blocks
+    torques = [
+        expand_columns(columns, j, len(y)) @ step.score.values / s
         for j, (y, s) in enumerate(zip(base.y, base.sigma, strict=True))
     ]
-    hidden = sum(own.T @ torque for own, torque in zip(base.columns, felt, strict=True))
-    fall = sum(float(torque @ torque) for torque in felt) - float(np.sum(hidden**2))
-    before = state.ranked([]).before[step.pick.concerns(len(felt))]
+    hidden = sum(
+        basis.T @ torque for basis, torque in zip(base.whitened_columns, torques, strict=True)
+    )
+    fall = sum(float(torque @ torque) for torque in torques) - float(np.sum(hidden**2))
+    before = state.rank_columns([]).before[step.candidate.list_affected_joints(len(torques))]
     return fall / max(float(before.sum()), 1e-300)
 
 
-def _logged(data: SearchData, candidate: Candidate) -> bool:
+def _is_logged(data: SearchData, candidate: Candidate) -> bool:
     """False for what reads a temperature that these logs lack."""
     temperature = data.rows.signals[0].reference.temperature
     return "T" not in candidate.form.names or candidate.joint in temperature
 
 
-def _recheck(state: State, step: Step, found: Search) -> list[Judged]:
+def _rescan_candidates(state: State, step: SearchStep, search: Search) -> list[ScoredCandidate]:
     """The effect and its nearest rivals, each at the best of its shapes."""
-    refused = {j.key for j in found.vetoed}
-    rivals = [j.candidate for j in step.rivals if j.key not in refused][:RIVALS]
-    first = [step.pick, *rivals]
+    refused = {j.key for j in search.vetoed_candidates}
+    rivals = [j.candidate for j in step.alternatives if j.key not in refused][:RIVALS]
+    first = [step.candidate, *rivals]
     keys = {c.key for c in first}
-    again = [c for c in generate_candidates(state, None, found.without, keys) if c.key in keys]
+    again = [c for c in generate_candidates(state, None, search.without, keys) if c.key in keys]
     return list(
-        scan_candidates(state, [c for c in (*first, *again) if _logged(state.data, c)]).best
+        scan_candidates(state, [c for c in (*first, *again) if _is_logged(state.data, c)]).best
     )
 
 
@@ -216,27 +221,29 @@ class ParameterChange:
     share: float
 
 
-def changed_parameters(
-    model: IdentifiedModel, found: Search, other: SearchData, left: Residuals, logs: Sequence[Log]
+def find_changed_parameters(
+    model: IdentifiedModel, search: Search, other: SearchData, left: Residuals, logs: Sequence[Log]
 ) -> tuple[ParameterChange, ...]:
     """Parameters in which the machine of the held-out logs differs, the most important first.
 
     Args:
         model: as given.
-        found: the search on the training logs.
+        search: the search on the training logs.
         other: the held-out logs.
         left: what the model with all effects leaves of these.
         logs: the same logs.
     """
-    there = on_logs(found.end, other)
-    alone, own = (errors_of(holdout_residuals(state, None)) for state in (there, found.end))
-    most = {joint: DIFFERS * max(alone[joint], own.get(joint, 0.0)) for joint in alone}
-    misses = any(error > most.get(joint, math.inf) for joint, error in errors_of(left).items())
-    if not misses or other.kept is not None:
+    there = fit_on_logs(search.end, other)
+    alone, training = (
+        compute_errors(compute_holdout_residuals(state, None)) for state in (there, search.end)
+    )
+    most = {joint: DIFFERS * max(alone[joint], training.get(joint, 0.0)) for joint in alone}
+    misses = any(error > most.get(joint, math.inf) for joint, error in compute_errors(left).items())
+    if not misses or other.fixed_parameters is not None:
         return ()
-    rows = observed(other.compiled, logs, prepare(other.spec, logs, model.processing))
+    rows = build_observation(other.compiled, logs, prepare_logs(other.spec, logs, model.processing))
     fitted = identify(rows, "weighted", other.compiled).parameters
-    moved = []
+    changes = []
     for i, (a, b) in enumerate(zip(model.fit.parameters, fitted, strict=True)):
         change = b.value - a.value
         share = max(
@@ -246,5 +253,7 @@ def changed_parameters(
         if a.sigma is None or b.sigma is None or share < FELT:
             continue
         if abs(change) > MOVED * math.hypot(a.sigma, b.sigma):
-            moved.append(ParameterChange(a.name, a.value, b.value, a.sigma, b.sigma, a.unit, share))
-    return tuple(sorted(moved, key=lambda own: -own.share))
+            changes.append(
+                ParameterChange(a.name, a.value, b.value, a.sigma, b.sigma, a.unit, share)
+            )
+    return tuple(sorted(changes, key=lambda training: -training.share))

@@ -6,17 +6,17 @@ from collections.abc import Callable, Mapping, Sequence
 
 import numpy as np
 
-from modeler.core.table import percent, printed
+from modeler.core.table import format_error_pair, format_percent
 from modeler.diagnosis.candidates import Candidate
-from modeler.diagnosis.events import BURST, LOUD, Window, burst_ratio
-from modeler.diagnosis.generate import ruled_out
-from modeler.diagnosis.judge import GATE, NAMED_T_RATIO, Judged
-from modeler.diagnosis.orders import knocking
+from modeler.diagnosis.events import BURST, LOUD, PushWindow, compute_burst_ratio
+from modeler.diagnosis.generate import is_ruled_out
+from modeler.diagnosis.judge import GATE, NAMED_T_RATIO, ScoredCandidate
+from modeler.diagnosis.orders import compute_burst_share
 from modeler.diagnosis.result import Finding
 from modeler.diagnosis.score import Score
 from modeler.diagnosis.search import Search
 from modeler.diagnosis.state import State
-from modeler.effects import Acts, Effect
+from modeler.effects import Effect, EffectTarget
 
 KNOCKS = 0.85
 """Share of a residual's energy in outbursts from which on something knocks."""
@@ -38,11 +38,11 @@ WEAK = 0.5
 """Gain of a column below which play that is heard without it comes first."""
 
 
-def detected(
-    found: Search,
-    window: Window | None,
+def detect_events(
+    search: Search,
+    window: PushWindow | None,
     errors: Mapping[str, float],
-    falls: Callable[[Candidate], Score],
+    score_candidate: Callable[[Candidate], Score],
     findings: Sequence[Finding],
 ) -> list[Finding]:
     """The findings with contact and play among them.
@@ -52,123 +52,140 @@ def detected(
     that explain little.
 
     Args:
-        found: of the training logs.
+        search: of the training logs.
         window: of a contact that was masked.
         errors: relative, by joint, with all effects put in.
-        falls: the score of a column beside them.
+        score_candidate: the score of a column beside them.
         findings: that are columns.
     """
-    contact = [] if window is None else _contact(found, window, errors)
-    alone = all(f.refines for f in findings)
-    rings = any(_rings(f) for f in findings)
+    contact = [] if window is None else _detect_contact(search, window, errors)
+    alone = all(f.is_refinement for f in findings)
+    rings = any(_is_ringing(f) for f in findings)
     least = FAINT if alone else BESIDE
-    play = _play(found, found.end, BURST) or _faint(found, least, knocks=not rings)
+    play = _detect_backlash(search, search.end, BURST) or _detect_faint_backlash(
+        search, least, knocks=not rings
+    )
     if play is not None:
         beside = [
-            dataclasses.replace(f, refines=f.refines or (_rings(f) and f.gain < WEAK))
+            dataclasses.replace(
+                f, is_refinement=f.is_refinement or (_is_ringing(f) and f.gain < WEAK)
+            )
             for f in findings
         ]
-        return [*beside, *contact, _scored(found, play, errors, falls)]
-    play = _play(found, found.start, LOUD)
+        return [*beside, *contact, _score_backlash(search, play, errors, score_candidate)]
+    play = _detect_backlash(search, search.start, LOUD)
     if play is None or contact:
         return [*findings, *contact]
-    play = _scored(found, play, errors, falls)
-    own = [f for f in findings if f.joint == play.joint]
-    if any(f.gain > WEAK and not f.refines for f in own):
+    play = _score_backlash(search, play, errors, score_candidate)
+    same_joint = [f for f in findings if f.joint == play.joint]
+    if any(f.gain > WEAK and not f.is_refinement for f in same_joint):
         return list(findings)
-    rest = [dataclasses.replace(f, refines=True) if f in own else f for f in findings]
-    return [play, *rest] if own or alone else [*rest, play]
+    rest = [dataclasses.replace(f, is_refinement=True) if f in same_joint else f for f in findings]
+    return [play, *rest] if same_joint or alone else [*rest, play]
 
 
-def _rings(finding: Finding) -> bool:
-    return finding.pick is not None and finding.pick.candidate.effect.rings
+def _is_ringing(finding: Finding) -> bool:
+    return finding.pick is not None and finding.pick.candidate.effect.is_oscillator
 
 
-def _knocking(found: Search) -> list[Effect]:
+def _find_impact_effects(search: Search) -> list[Effect]:
     """Effects that knock; one at most."""
-    return [e for e in found.catalogue if e.knocks][:1]
+    return [e for e in search.catalogue if e.knocks][:1]
 
 
-def _contact(found: Search, window: Window, errors: Mapping[str, float]) -> list[Finding]:
+def _detect_contact(
+    search: Search, window: PushWindow, errors: Mapping[str, float]
+) -> list[Finding]:
     """The push, if it lowers the error; held-out motion that is not explained speaks against it."""
     if window.change is None:
         return []
-    event = next(e for e in found.catalogue if e.acts is Acts.WINDOW)
-    units = {f"tau{j.name}": j.effort_unit for j in found.spec.joints}
+    event = next(e for e in search.catalogue if e.acts is EffectTarget.WINDOW)
+    units = {f"tau{j.name}": j.effort_unit for j in search.spec.joints}
     torque = {f"tau{name}": value for name, value in window.torque.items()}
     ends, doubt = (window.change.before, window.change.after), ""
-    for name, y, r in zip(found.end.names, found.end.rows.y, found.end.residual, strict=True):
+    for name, y, r in zip(
+        search.end.joint_names, search.end.rows.y, search.end.residual, strict=True
+    ):
         least = AGAIN * np.linalg.norm(r) / max(float(np.linalg.norm(y)), 1e-300)
         if y.size and errors.get(name, 0.0) > least and not doubt:
             doubt = f"something unexplained acts on joint {name} in the held-out motion too"
     text = (
         f"a torque acts from {window.start:.1f} to {window.end:.1f} s that the motion does not "
         f"explain, {window.ratio:.0f} times the energy of any other window: with it the error of "
-        f"these logs is {' -> '.join(printed(*ends))}; these rows are left out of everything else"
+        f"these logs is {' -> '.join(format_error_pair(*ends))}; these rows are left out of "
+        "everything else"
     )
     values = {"t0": window.start, "t1": window.end} | torque
     units = {"t0": "s", "t1": "s"} | units
     return [Finding(event.id, None, *ends, values, {}, units, (), text, None, False, doubt,
-                    event=True)]  # fmt: skip
+                    is_event=True)]  # fmt: skip
 
 
-def _asked(found: Search) -> list[int]:
+def _list_backlash_joints(search: Search) -> list[int]:
     """Joints whose gear may have play."""
     return [
-        j for j, joint in enumerate(found.spec.joints) for effect in _knocking(found)
-        if joint.actuated and not ruled_out(effect.id, joint.name, found.without)
+        j for j, joint in enumerate(search.spec.joints) for effect in _find_impact_effects(search)
+        if joint.actuated and not is_ruled_out(effect.id, joint.name, search.without)
     ]  # fmt: skip
 
 
-def _play(found: Search, state: State, least: float) -> Finding | None:
+def _detect_backlash(search: Search, state: State, least: float) -> Finding | None:
     """Play in a gear, on the joint that bursts most and whose column describes most."""
-    ratios = {j: burst_ratio(state, j) for j in _asked(found)}
+    ratios = {j: compute_burst_ratio(state, j) for j in _list_backlash_joints(search)}
     bursting = [j for j, ratio in ratios.items() if ratio > least]
     if not bursting:
         return None
-    shares = {k: judged.share for k, judged in _columns(found).items()}
+    shares = {
+        k: candidate_score.total_variance_reduction
+        for k, candidate_score in _collect_backlash_columns(search).items()
+    }
     j = max(bursting, key=lambda k: ratios[k] * max(shares.get(k, 0.0), _LEAST))
-    return _backlash(found, [j, *bursting], _bursts(ratios[j]))
+    return _build_backlash_finding(search, [j, *bursting], _format_burst_ratio(ratios[j]))
 
 
-def _bursts(ratio: float) -> str:
+def _format_burst_ratio(ratio: float) -> str:
     return (
         f"{ratio:.0f} times the residual energy of other moments within 0.1 s after the load "
         "changes sign, while the joint moves on"
     )
 
 
-def _columns(found: Search) -> dict[int, Judged]:
+def _collect_backlash_columns(search: Search) -> dict[int, ScoredCandidate]:
     """What the column of play explains, by joint."""
-    return {j.candidate.index: j for j in found.last.ranked if j.candidate.effect.knocks}
+    return {j.candidate.index: j for j in search.last.ranked if j.candidate.effect.knocks}
 
 
-def _faint(found: Search, least: float, knocks: bool) -> Finding | None:
+def _detect_faint_backlash(search: Search, least: float, knocks: bool) -> Finding | None:
     """Play whose bursts noise covers, or that knocks without rule: its column tells it then.
 
     Args:
-        found: of the training logs.
+        search: of the training logs.
         least: ratio of the bursts.
         knocks: False where something else may knock.
     """
     shares = {
-        j: judged.share for j, judged in _columns(found).items()
-        if j in _asked(found) and judged.gain > GATE and judged.sure > NAMED_T_RATIO
-    }  # fmt: skip
+        j: candidate_score.total_variance_reduction
+        for j, candidate_score in _collect_backlash_columns(search).items()
+        if j in _list_backlash_joints(search)
+        and candidate_score.variance_reduction > GATE
+        and candidate_score.t_ratio > NAMED_T_RATIO
+    }
     for j in sorted(shares, key=lambda j: -shares[j]):
-        ratio, share = burst_ratio(found.end, j), knocking(found.end, j)
+        ratio, share = compute_burst_ratio(search.end, j), compute_burst_share(search.end, j)
         if ratio > least:
-            return _backlash(found, [j], _bursts(ratio))
+            return _build_backlash_finding(search, [j], _format_burst_ratio(ratio))
         if knocks and share > KNOCKS:
-            text = f"{percent(share)} of the residual's energy comes in brief outbursts"
+            text = f"{format_percent(share)} of the residual's energy comes in brief outbursts"
             doubt = "its outbursts do not follow the sign of the load"
-            return _backlash(found, [j], text, doubt)
+            return _build_backlash_finding(search, [j], text, doubt)
     return None
 
 
-def _backlash(found: Search, bursting: Sequence[int], text: str, objection: str = "") -> Finding:
+def _build_backlash_finding(
+    search: Search, bursting: Sequence[int], text: str, objection: str = ""
+) -> Finding:
     """Play on the first of some joints; any of the others may be the one."""
-    (effect,), names, first = _knocking(found), found.end.names, bursting[0]
+    (effect,), names, first = _find_impact_effects(search), search.end.joint_names, bursting[0]
     others = tuple((effect.id, names[k]) for k in bursting if k != first)
     return Finding(
         effect.id, names[first], math.nan, math.nan, {}, {}, {}, others,
@@ -176,16 +193,16 @@ def _backlash(found: Search, bursting: Sequence[int], text: str, objection: str 
     )  # fmt: skip
 
 
-def _scored(
-    found: Search, play: Finding, errors: Mapping[str, float],
-    falls: Callable[[Candidate], Score],
+def _score_backlash(
+    search: Search, play: Finding, errors: Mapping[str, float],
+    score_candidate: Callable[[Candidate], Score],
 ) -> Finding:  # fmt: skip
     """Play with its errors; where its column does not lower them, it is a description at most."""
-    column = _columns(found).get(found.end.names.index(str(play.joint)))
-    score = None if column is None else falls(column.candidate)
-    if score is not None and score.better:
+    column = _collect_backlash_columns(search).get(search.end.joint_names.index(str(play.joint)))
+    score = None if column is None else score_candidate(column.candidate)
+    if score is not None and score.is_better:
         ends = score.whole.before, score.whole.after
-        text = f"{play.evidence}; error {' -> '.join(printed(*ends))}"
+        text = f"{play.evidence}; error {' -> '.join(format_error_pair(*ends))}"
         return dataclasses.replace(play, error_before=ends[0], error_after=ends[1], evidence=text)
     before, doubt = errors.get(str(play.joint), math.nan), play.objection or _NO_FALL
     return dataclasses.replace(play, error_before=before, objection=doubt)

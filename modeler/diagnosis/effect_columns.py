@@ -9,13 +9,13 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from scipy.sparse import csr_array
 
-from modeler.core.brief import Brief
+from modeler.core.brief import ShortRepr
 from modeler.core.manifest import ParameterSpec
-from modeler.diagnosis.candidates import Candidate, links_of
-from modeler.diagnosis.signals import EVERY, WINDOW, SignalReference, Signals, tilt_columns
-from modeler.effects import NOISE, TURN, Acts
-from modeler.numerics.filters import SPREAD, only
-from modeler.observation import Observation, Stretch, observed_alike, signals_of
+from modeler.diagnosis.candidates import Candidate, list_links
+from modeler.diagnosis.signals import EVERY, WINDOW, SignalReference, Signals, compute_tilt_columns
+from modeler.effects import NOISE, TURN, EffectTarget
+from modeler.numerics.filters import SPREAD, restrict_weights
+from modeler.observation import FilteredSegment, Observation, compute_signals, rebuild_observation
 
 if TYPE_CHECKING:
     from modeler.runtime import CompiledModel
@@ -32,7 +32,7 @@ UNFELT = 1e-12
 """Columns that are nowhere larger are felt by no joint."""
 
 
-def own_columns(
+def evaluate_equations(
     candidates: Sequence[Candidate], signals: Signals, window: slice = EVERY
 ) -> np.ndarray:
     """(n, k) equations of candidates of one form on one joint, that of the first, then the next.
@@ -40,69 +40,79 @@ def own_columns(
     Over a window of the samples.
     """
     first = candidates[0]
-    j, names, memory = first.index, first.form.names, first.form.memory
+    j, names, memory = first.index, first.form.names, first.form.internal_state
     values: dict[str, object] = {
-        name: np.array([candidate.shapes[name] for candidate in candidates])
-        for name in first.shapes
+        name: np.array([candidate.nonlinear_parameters[name] for candidate in candidates])
+        for name in first.nonlinear_parameters
     }
     span = window if memory is None else EVERY  # what remembers reads the stretch from its start
     read = ("q", "v", "a", *(names & {"load", "static", "torque", "rate"}))
     values |= {name: getattr(signals, name)[span, j, None] for name in read}
-    values |= {name: signals.of_other(name)[span, None] for name in first.form.others}
+    values |= {
+        name: signals.select_other(name)[span, None] for name in first.form.other_joint_names
+    }
     if "t" in names:
         values["t"] = signals.time[span, None]
     if "since" in names:
-        backs = [candidate.shapes.get(TURN, NOISE) for candidate in candidates]
-        values["since"] = np.column_stack([signals.since(j, back)[span] for back in backs])
-    if "T" in names and (warmth := signals.temperature(first.joint or "")) is not None:
+        backs = [candidate.nonlinear_parameters.get(TURN, NOISE) for candidate in candidates]
+        values["since"] = np.column_stack(
+            [signals.compute_reversal_time(j, back)[span] for back in backs]
+        )
+    if "T" in names and (warmth := signals.compute_temperature(first.joint or "")) is not None:
         values["T"] = warmth[span, None]
     with np.errstate(all="ignore"):  # columns that are not finite are not looked at
         if memory is not None:
             x = np.zeros(1)
-            if memory.follows is not None:
-                x = memory.follows.fold(values, FUNCTIONS, np.pi, float)
+            if memory.lagged_input is not None:
+                x = memory.lagged_input.fold(values, FUNCTIONS, np.pi, float)
             followed = np.broadcast_to(x, (len(signals.q), len(candidates))).T
             states = [
-                signals.state(memory, j, candidate.shapes, own)
-                for candidate, own in zip(candidates, followed, strict=True)
+                signals.compute_memory_state(memory, j, candidate.nonlinear_parameters, signal)
+                for candidate, signal in zip(candidates, followed, strict=True)
             ]
             values["z"] = np.column_stack(states)
-        found = np.empty((len(signals.q[span]), len(candidates), len(first.form.columns)))
+        columns = np.empty((len(signals.q[span]), len(candidates), len(first.form.columns)))
         for k, column in enumerate(first.form.columns):
-            found[:, :, k] = column.equation.fold(values, FUNCTIONS, np.pi, float)
-    found = found if memory is None else found[window]
-    return found.reshape(len(found), -1)
+            columns[:, :, k] = column.equation.fold(values, FUNCTIONS, np.pi, float)
+    columns = columns if memory is None else columns[window]
+    return columns.reshape(len(columns), -1)
 
 
-def all_columns(candidate: Candidate, signals: Signals, window: slice = EVERY) -> np.ndarray:
+def evaluate_columns(candidate: Candidate, signals: Signals, window: slice = EVERY) -> np.ndarray:
     """(n, J, k) torques of its columns on every joint, over a window of the samples."""
     acts = candidate.effect.acts
-    if candidate.delays:
+    if candidate.is_delay:
         return signals.rate[window, :, None]
-    if acts is Acts.GRAVITY:
-        return tilt_columns(signals, window)
-    if acts is Acts.LINK:
-        return signals.regressor(window)[:, :, [i for i, _ in _inertial(candidate, signals)]]
-    if acts is Acts.MOTOR:
+    if acts is EffectTarget.GRAVITY:
+        return compute_tilt_columns(signals, window)
+    if acts is EffectTarget.LINK:
+        return signals.compute_regressor(window)[
+            :, :, [i for i, _ in _find_inertial_parameters(candidate, signals)]
+        ]
+    if acts is EffectTarget.MOTOR:
         turn = np.zeros(signals.q.shape[1])
-        turn[list(candidate.turn)] = list(candidate.turn.values())
-        own = _shaft(candidate, signals.v[window] @ turn, signals.a[window] @ turn)
-        return own[:, None, :] * turn[None, :, None]
-    if acts is Acts.PASSIVE:
+        turn[list(candidate.coupling)] = list(candidate.coupling.values())
+        columns = _evaluate_shaft(candidate, signals.v[window] @ turn, signals.a[window] @ turn)
+        return columns[:, None, :] * turn[None, :, None]
+    if acts is EffectTarget.PASSIVE:
         row = signals.coupling[window, candidate.index]
         speed = np.einsum("nj,nj->n", row, signals.v[window])
-        own = _shaft(candidate, speed, np.zeros_like(speed))
-        return own[:, None, :] * row[:, :, None]
-    if acts is Acts.POSITION:
-        dq = own_columns([candidate], signals)
-        return signals.moved(candidate.index, dq, candidate.effect.whole_axis, window)
-    own = own_columns([candidate], signals, window)
-    result = np.zeros((len(own), signals.q.shape[1], own.shape[1]))
-    result[:, candidate.index] = own
+        columns = _evaluate_shaft(candidate, speed, np.zeros_like(speed))
+        return columns[:, None, :] * row[:, :, None]
+    if acts is EffectTarget.POSITION:
+        dq = evaluate_equations([candidate], signals)
+        return signals.compute_displacement_torque(
+            candidate.index, dq, candidate.effect.whole_axis, window
+        )
+    columns = evaluate_equations([candidate], signals, window)
+    result = np.zeros((len(columns), signals.q.shape[1], columns.shape[1]))
+    result[:, candidate.index] = columns
     return result
 
 
-def _shaft(candidate: Candidate, speed: np.ndarray, acceleration: np.ndarray) -> np.ndarray:
+def _evaluate_shaft(
+    candidate: Candidate, speed: np.ndarray, acceleration: np.ndarray
+) -> np.ndarray:
     """(n, k) equations of a shaft that is no joint of the model."""
     values = {"v": speed, "a": acceleration}
     return np.column_stack(
@@ -110,19 +120,21 @@ def _shaft(candidate: Candidate, speed: np.ndarray, acceleration: np.ndarray) ->
     )
 
 
-def body_parameters(candidate: Candidate, signals: Signals) -> list[ParameterSpec]:
+def list_body_parameters(candidate: Candidate, signals: Signals) -> list[ParameterSpec]:
     """The standard parameters of the columns of a body on a link."""
-    return [parameter for _, parameter in _inertial(candidate, signals)]
+    return [parameter for _, parameter in _find_inertial_parameters(candidate, signals)]
 
 
-def _inertial(candidate: Candidate, signals: Signals) -> list[tuple[int, ParameterSpec]]:
+def _find_inertial_parameters(
+    candidate: Candidate, signals: Signals
+) -> list[tuple[int, ParameterSpec]]:
     """Inertial parameters of the link that a candidate loads that any joint feels; their places."""
     spec = signals.reference.compiled.spec
-    own = "rigid_body", links_of(spec)[candidate.index]
+    link_key = "rigid_body", list_links(spec)[candidate.index]
     return [
         (i, p)
         for i, p in enumerate(spec.standard)
-        if (p.effect, p.joint) == own and signals.largest[i] > UNFELT
+        if (p.effect, p.joint) == link_key and signals.column_maxima[i] > UNFELT
     ]
 
 
@@ -135,7 +147,7 @@ Evaluate = Callable[[int, slice], np.ndarray]
 
 
 @dataclass(frozen=True, eq=False)
-class RowBlock(Brief):
+class RowBlock(ShortRepr):
     """Rows that lie beside each other, and the samples that they reach.
 
     Attributes:
@@ -148,7 +160,7 @@ class RowBlock(Brief):
 
 
 @dataclass(frozen=True, eq=False)
-class Rows(Brief):
+class Rows(ShortRepr):
     """The used rows of every joint; J joints, c base columns.
 
     Attributes:
@@ -170,40 +182,44 @@ class Rows(Brief):
     segment: tuple[np.ndarray, ...]
     blocks: tuple[tuple[RowBlock, ...], ...]
     signals: tuple[Signals, ...]
-    known: dict[Any, Any] = field(default_factory=dict)
+    reference_cache: dict[Any, Any] = field(default_factory=dict)
     cache: dict[Any, Any] = field(default_factory=dict)
 
     @property
-    def joints(self) -> int:
+    def joint_count(self) -> int:
         """Number of joints, J."""
         return len(self.y)
 
-    def about(self, reference: SignalReference) -> "Rows":
+    def replace_reference(self, reference: SignalReference) -> "Rows":
         """The same rows with effects linearised about another reference of the same robot."""
         signals = tuple(dataclasses.replace(s, reference=reference) for s in self.signals)
-        return dataclasses.replace(self, signals=signals, known={})
+        return dataclasses.replace(self, signals=signals, reference_cache={})
 
-    def filtered(self, j: int, values: Sequence[np.ndarray]) -> np.ndarray:
+    def filter_samples(self, j: int, values: Sequence[np.ndarray]) -> np.ndarray:
         """(rows_j, ...) of values (samples, ...) by stretch, on joint j."""
         return np.concatenate([block.filters[j] @ values[i][block.window]
-                               for i, block in self._blocks])  # fmt: skip
+                               for i, block in self._numbered_blocks])  # fmt: skip
 
-    def columns(self, candidate: Candidate) -> Columns:
+    def build_columns(self, candidate: Candidate) -> Columns:
         """The columns of a candidate on these rows."""
-        if candidate.local or candidate.effect.acts is Acts.POSITION:
-            return self._together([candidate])
-        if candidate.effect.acts is Acts.TORQUE and not candidate.delays:  # alike on every joint
-            alone = [dataclasses.replace(candidate, index=j) for j in range(self.joints)]
-            own = [np.stack([own_columns([c], s) for c in alone], axis=1) for s in self.signals]
-            return self.spread(lambda i, w: own[i][w])
-        return self.spread(lambda i, w: all_columns(candidate, self.signals[i], w))
+        if candidate.is_local or candidate.effect.acts is EffectTarget.POSITION:
+            return self._build_stacked([candidate])
+        if (
+            candidate.effect.acts is EffectTarget.TORQUE and not candidate.is_delay
+        ):  # alike on every joint
+            alone = [dataclasses.replace(candidate, index=j) for j in range(self.joint_count)]
+            values = [
+                np.stack([evaluate_equations([c], s) for c in alone], axis=1) for s in self.signals
+            ]
+            return self.filter_joints(lambda i, w: values[i][w])
+        return self.filter_joints(lambda i, w: evaluate_columns(candidate, self.signals[i], w))
 
-    def many(self, candidates: Sequence[Candidate]) -> list[Columns]:
+    def build_batch(self, candidates: Sequence[Candidate]) -> list[Columns]:
         """The columns of several candidates of one effect on one joint."""
         first = candidates[0]
-        if not first.local and first.effect.acts is not Acts.POSITION:
-            return [self.columns(candidate) for candidate in candidates]
-        whole = self._together(candidates)
+        if not first.is_local and first.effect.acts is not EffectTarget.POSITION:
+            return [self.build_columns(candidate) for candidate in candidates]
+        whole = self._build_stacked(candidates)
         columns = [None if c is None else np.ascontiguousarray(c.T) for c in whole]
         size = len(first.form.columns)
         # a candidate may leave joints alone that its neighbours move
@@ -213,56 +229,59 @@ class Rows(Brief):
             for k in range(0, size * len(candidates), size)
         ]  # fmt: skip
 
-    def _together(self, candidates: Sequence[Candidate]) -> Columns:
+    def _build_stacked(self, candidates: Sequence[Candidate]) -> Columns:
         """Columns of candidates of one effect on its joint, beside each other."""
         first, signals = candidates[0], self.signals
         j, whole = first.index, first.effect.whole_axis
-        if first.local and first.form.memory is None:
-            return self._on(j, lambda i, w: own_columns(candidates, signals[i], w))
-        own = [own_columns(candidates, s) for s in signals]
-        if first.local:
-            return self._on(j, lambda i, w: own[i][w])
-        return self.spread(lambda i, w: signals[i].moved(j, own[i], whole, w))
-
-    def _on(self, j: int, evaluate: Evaluate) -> Columns:
-        """Columns of one joint from its values (samples, k)."""
-        found: list[np.ndarray | None] = [None] * self.joints
-        found[j] = np.concatenate(
-            [block.filters[j] @ evaluate(i, block.window) for i, block in self._blocks]
+        if first.is_local and first.form.internal_state is None:
+            return self._filter_joint(j, lambda i, w: evaluate_equations(candidates, signals[i], w))
+        values = [evaluate_equations(candidates, s) for s in signals]
+        if first.is_local:
+            return self._filter_joint(j, lambda i, w: values[i][w])
+        return self.filter_joints(
+            lambda i, w: signals[i].compute_displacement_torque(j, values[i], whole, w)
         )
-        return tuple(found)
 
-    def spread(self, evaluate: Evaluate) -> Columns:
+    def _filter_joint(self, j: int, evaluate: Evaluate) -> Columns:
+        """Columns of one joint from its values (samples, k)."""
+        columns: list[np.ndarray | None] = [None] * self.joint_count
+        columns[j] = np.concatenate(
+            [block.filters[j] @ evaluate(i, block.window) for i, block in self._numbered_blocks]
+        )
+        return tuple(columns)
+
+    def filter_joints(self, evaluate: Evaluate) -> Columns:
         """Columns from values (samples, J, k); None on joints where they are 0 throughout."""
-        parts: list[list[np.ndarray]] = [[] for _ in range(self.joints)]
-        shown = np.zeros(self.joints, dtype=bool)
-        for i, block in self._blocks:
+        parts: list[list[np.ndarray]] = [[] for _ in range(self.joint_count)]
+        shown = np.zeros(self.joint_count, dtype=bool)
+        for i, block in self._numbered_blocks:
             values = evaluate(i, block.window)
             shown |= values.any(axis=(0, 2))
             for j, weights in enumerate(block.filters):
                 parts[j].append(weights @ values[:, j])
         return tuple(
-            np.concatenate(own) if felt else None for own, felt in zip(parts, shown, strict=True)
+            np.concatenate(joint_parts) if is_shown else None
+            for joint_parts, is_shown in zip(parts, shown, strict=True)
         )
 
     @property
-    def _blocks(self) -> list[tuple[int, RowBlock]]:
+    def _numbered_blocks(self) -> list[tuple[int, RowBlock]]:
         """Stretch by stretch."""
         return [(i, block) for i, blocks in enumerate(self.blocks) for block in blocks]
 
 
-def width(columns: Columns) -> int:
+def count_columns(columns: Columns) -> int:
     """k of columns that are not zero on all joints."""
     return next(c.shape[1] for c in columns if c is not None)
 
 
-def dense(columns: Columns, j: int, rows: int) -> np.ndarray:
+def expand_columns(columns: Columns, j: int, rows: int) -> np.ndarray:
     """(rows, k) columns on joint j; zeros where there are none."""
     here = columns[j]
-    return np.zeros((rows, width(columns))) if here is None else here
+    return np.zeros((rows, count_columns(columns))) if here is None else here
 
 
-def rows_of(observation: Observation, reference: SignalReference) -> Rows:
+def build_rows(observation: Observation, reference: SignalReference) -> Rows:
     """The rows of an observation.
 
     Args:
@@ -270,16 +289,19 @@ def rows_of(observation: Observation, reference: SignalReference) -> Rows:
         reference: where effects are linearised.
     """
     signals, blocks = list[Signals](), []
-    for part in coarser(observation, reference.compiled).stretches:
+    for part in thin_samples(observation, reference.compiled).stretches:
         s = part.segment
         signals.append(Signals(s, part.usable, s.q, s.qd, s.qdd, reference))
         pairs = zip(part.used.T, part.usable.T, strict=True)
-        own = [_normed(only(part.rows.weights, usable)[used]) for used, usable in pairs]
-        blocks.append(_blocks(own, s.samples))
+        joint_filters = [
+            _normalise_rows(restrict_weights(part.rows.weights, usable)[used])
+            for used, usable in pairs
+        ]
+        blocks.append(_split_blocks(joint_filters, s.samples))
     counted = list(observation.used.T)
     return Rows(
         y=tuple(observation.torque[rows, j] for j, rows in enumerate(counted)),
-        W=base_columns(blocks, signals),
+        W=build_base_columns(blocks, signals),
         time=tuple(observation.time[rows] for rows in counted),
         run=tuple(observation.run[rows] for rows in counted),
         segment=tuple(observation.segment[rows] for rows in counted),
@@ -288,43 +310,43 @@ def rows_of(observation: Observation, reference: SignalReference) -> Rows:
     )
 
 
-def coarser(observation: Observation, compiled: "CompiledModel") -> Observation:
+def thin_samples(observation: Observation, compiled: "CompiledModel") -> Observation:
     """The same rows by fewer samples: columns are smooth beside the filter of the rows.
 
     Its Gaussian needs one sample per width.
     """
     cutoff = observation.report.processing.parallel_cutoff
-    parts = list[Stretch]()
+    parts = list[FilteredSegment]()
     for part in observation.stretches:
         every = max(1, int(SPREAD / (cutoff * part.segment.step))) if cutoff > 0.0 else 1
-        read = signals_of(compiled, part.segment)
-        parts.append(part.thinned(every, read) if every > 1 else part)
-    return observed_alike(compiled, dataclasses.replace(observation, stretches=tuple(parts)))
+        read = compute_signals(compiled, part.segment)
+        parts.append(part.thin_samples(every, read) if every > 1 else part)
+    return rebuild_observation(compiled, dataclasses.replace(observation, stretches=tuple(parts)))
 
 
-def base_columns(
+def build_base_columns(
     blocks: Sequence[Sequence[RowBlock]], signals: Sequence[Signals]
 ) -> tuple[np.ndarray, ...]:
     """(rows_j, c) by joint, of the motion of some signals."""
     parts: list[list[np.ndarray]] = [[] for _ in blocks[0][0].filters]
-    for own, s in zip(blocks, signals, strict=True):
-        for block in own:
-            values = s.base_regressor(block.window)
+    for group, s in zip(blocks, signals, strict=True):
+        for block in group:
+            values = s.compute_base_regressor(block.window)
             for j, weights in enumerate(block.filters):
                 parts[j].append(weights @ values[:, j])
-    return tuple(np.concatenate(own) for own in parts)
+    return tuple(np.concatenate(group) for group in parts)
 
 
-def _blocks(filters: Sequence[csr_array], samples: int) -> tuple[RowBlock, ...]:
+def _split_blocks(filters: Sequence[csr_array], samples: int) -> tuple[RowBlock, ...]:
     """Of one stretch: the rows whose first sample lies in one window, for one after the other."""
     starts = np.arange(0, samples, WINDOW)
     edges = []
     for weights in filters:
         first = weights.indices[weights.indptr[:-1]]
         edges.append([*np.searchsorted(first, starts).tolist(), len(first)])
-    found = []
-    for start, *ends in zip(starts.tolist(), *(pairwise(own) for own in edges), strict=True):
-        parts = [weights[slice(*own)] for weights, own in zip(filters, ends, strict=True)]
+    row_blocks = []
+    for start, *ends in zip(starts.tolist(), *(pairwise(bounds) for bounds in edges), strict=True):
+        parts = [weights[slice(*bounds)] for weights, bounds in zip(filters, ends, strict=True)]
         stop = max(int(part.indices.max(initial=start)) for part in parts) + 1
         made = [
             csr_array(
@@ -333,11 +355,11 @@ def _blocks(filters: Sequence[csr_array], samples: int) -> tuple[RowBlock, ...]:
             )
             for p in parts
         ]
-        found.append(RowBlock(slice(start, stop), tuple(made)))
-    return tuple(found)
+        row_blocks.append(RowBlock(slice(start, stop), tuple(made)))
+    return tuple(row_blocks)
 
 
-def _normed(weights: csr_array) -> csr_array:
+def _normalise_rows(weights: csr_array) -> csr_array:
     """Each row divided by its sum."""
     total = weights @ np.ones(weights.shape[1])
     share = np.repeat(1.0 / np.where(total > 0.0, total, 1.0), np.diff(weights.indptr))

@@ -6,8 +6,8 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from modeler.diagnosis.judge import compared, left_of
-from modeler.diagnosis.score import Change
+from modeler.diagnosis.judge import compare_residuals, compute_residuals
+from modeler.diagnosis.score import ErrorChange
 from modeler.diagnosis.state import SearchData, State
 
 MARGIN = 0.5
@@ -25,7 +25,7 @@ _BEGINNING = 2.0  # s of a log in which inner states of friction and cables are 
 
 
 @dataclass(frozen=True, eq=False)
-class Window:
+class PushWindow:
     """When it pushed.
 
     Attributes:
@@ -42,9 +42,9 @@ class Window:
     end: float
     ratio: float
     torque: Mapping[str, float] = field(default_factory=dict)
-    change: Change | None = None
+    change: ErrorChange | None = None
 
-    def with_part(self, other: "Window") -> "Window | None":
+    def merge_part(self, other: "PushWindow") -> "PushWindow | None":
         """The push together with a part of it that was found later; None if it is another push."""
         near = other.start < self.end + _APART and other.end > self.start - _APART
         if other.log != self.log or not near:
@@ -54,7 +54,7 @@ class Window:
 
 
 @dataclass(frozen=True, eq=False)
-class _Windows:
+class _WindowEnergies:
     """All windows of some lengths within the logs.
 
     Attributes:
@@ -69,14 +69,14 @@ class _Windows:
     energy: np.ndarray
 
 
-def contact_window(state: State) -> Window | None:
+def find_contact_window(state: State) -> PushWindow | None:
     """The window in which a steady torque stands out from that in any other; None if none does.
 
     A push gives joint j a mean residual m_j over the n_j rows of its window, of energy
     sum_j n_j m_j^2 / s_j^2 (s_j the joint's median residual): largest over the very window of the
     push. What acts more than once, as friction or a wrong model do, is as large elsewhere.
     """
-    windows = _windows(state)
+    windows = _enumerate_windows(state)
     if windows is None:
         return None
     top = int(np.argmax(windows.energy))
@@ -87,14 +87,16 @@ def contact_window(state: State) -> Window | None:
     ratio = float(windows.energy[top]) / elsewhere
     if ratio < _STANDS_OUT or near.all():
         return None
-    start, end = _grown(windows, same & (windows.energy > _ALSO * elsewhere), start, end)
+    start, end = _extend_window(windows, same & (windows.energy > _ALSO * elsewhere), start, end)
     began = float(windows.start[same].min())
     if start - began < _BEGINNING or end - start >= _LENGTHS[-1] * _CELL:
         return None
-    return Window(run, start, end, ratio)
+    return PushWindow(run, start, end, ratio)
 
 
-def _grown(windows: _Windows, loud: np.ndarray, start: float, end: float) -> tuple[float, float]:
+def _extend_window(
+    windows: _WindowEnergies, loud: np.ndarray, start: float, end: float
+) -> tuple[float, float]:
     """The push with what adjoins it: as the robot moves, the torque of a push changes its sign."""
     while True:
         after = loud & (np.abs(windows.start - end) < _GAP)
@@ -107,9 +109,9 @@ def _grown(windows: _Windows, loud: np.ndarray, start: float, end: float) -> tup
         loud = loud & ((windows.end <= start + _GAP) | (windows.start >= end - _GAP))
 
 
-def _windows(state: State) -> _Windows | None:
+def _enumerate_windows(state: State) -> _WindowEnergies | None:
     """The windows, from sums over cells of a tenth of a second; None where none fits."""
-    run, number, total, rows = _sums(state)
+    run, number, total, rows = _accumulate_cells(state)
     parts = []
     for length in _LENGTHS:
         last = np.arange(length - 1, len(run))
@@ -121,20 +123,20 @@ def _windows(state: State) -> _Windows | None:
         energy = np.divide(square, count, out=np.zeros_like(square), where=count > 0).sum(axis=1)
         start, end = number[first] * _CELL, (number[last] + 1) * _CELL
         parts.append((run[first], start, end, energy))
-    found = _Windows(*(np.concatenate(part) for part in zip(*parts, strict=True)))
-    return found if len(found.run) else None
+    windows = _WindowEnergies(*(np.concatenate(part) for part in zip(*parts, strict=True)))
+    return windows if len(windows.run) else None
 
 
-def _sums(state: State) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
+def _accumulate_cells(state: State) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
     """Log and number of each cell (cells,); sums before it of residuals and rows (cells + 1, J)."""
     rows = state.rows
-    own = [
+    cell_keys = [
         np.column_stack([run, np.floor(time / _CELL).astype(int)])
         for run, time in zip(rows.run, rows.time, strict=True)
     ]
-    cells, place = np.unique(np.concatenate(own), axis=0, return_inverse=True)
-    total, count = np.zeros((2, len(cells) + 1, rows.joints))
-    ends = np.cumsum([len(keys) for keys in own])[:-1]
+    cells, place = np.unique(np.concatenate(cell_keys), axis=0, return_inverse=True)
+    total, count = np.zeros((2, len(cells) + 1, rows.joint_count))
+    ends = np.cumsum([len(keys) for keys in cell_keys])[:-1]
     for j, at in enumerate(np.split(np.ravel(place), ends)):
         size = float(np.median(np.abs(state.residual[j]))) if len(at) else 0.0
         if size > 0.0:
@@ -143,7 +145,7 @@ def _sums(state: State) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]
     return cells[:, 0], cells[:, 1], np.cumsum(total, axis=0), np.cumsum(count, axis=0)
 
 
-def explained(window: Window, state: State, data: SearchData) -> Window:
+def fit_push_torque(window: PushWindow, state: State, data: SearchData) -> PushWindow:
     """The push with its torques, if these surely lower the error (`scored`).
 
     A torque of each joint that changes steadily is fitted to the residuals of the window, that of
@@ -154,31 +156,31 @@ def explained(window: Window, state: State, data: SearchData) -> Window:
         state: fitted to the logs without the window.
         data: the logs with it.
     """
-    left = left_of(state, data)
+    left = compute_residuals(state, data)
     inside = [
         np.flatnonzero((run == window.log) & (time >= window.start) & (time < window.end))
         for run, time in zip(left.run, left.time, strict=True)
     ]
     after = [residual.copy() for residual in left.residual]
     for rest, time, rows in zip(after, left.time, inside, strict=True):
-        rest[rows] -= _from_others(time[rows] - window.start, rest[rows])
+        rest[rows] -= _predict_from_neighbours(time[rows] - window.start, rest[rows])
     pushed = dataclasses.replace(left, residual=tuple(after))
-    score = compared(left, pushed, range(len(after)), state, _PART)
-    if not score.better:
+    score = compare_residuals(left, pushed, range(len(after)), state, _PART)
+    if not score.is_better:
         return window
     parts = zip(left.names, left.residual, inside, strict=True)
     torque = {name: float(np.mean(residual[rows])) for name, residual, rows in parts if rows.size}
     return dataclasses.replace(window, torque=torque, change=score.whole)
 
 
-def _from_others(since: np.ndarray, values: np.ndarray) -> np.ndarray:
+def _predict_from_neighbours(since: np.ndarray, values: np.ndarray) -> np.ndarray:
     """(r,) what a straight line through the values in the cells around says of those in one."""
     cell, line = np.floor(since / _PART), np.vander(since, 2)
-    found = np.zeros(len(values))
+    prediction = np.zeros(len(values))
     for c in np.unique(cell):
         out, beside = cell == c, (cell != c) & (np.abs(cell - c) <= _BESIDE)
-        found[out] = line[out] @ np.linalg.lstsq(line[beside], values[beside], rcond=None)[0]
-    return found
+        prediction[out] = line[out] @ np.linalg.lstsq(line[beside], values[beside], rcond=None)[0]
+    return prediction
 
 
 # Play in a gear: bursts of the residual where the load changes sign, not the speed.
@@ -197,7 +199,7 @@ EVENTS = 5
 """Least number of sign changes of the load."""
 
 
-def burst_ratio(state: State, j: int) -> float:
+def compute_burst_ratio(state: State, j: int) -> float:
     """Mean squared residual within 0.1 s after sign changes of the load, over that elsewhere.
 
     The loudest fifth of the events, and of the rows elsewhere the loudest hundredth, are left out:
@@ -206,8 +208,10 @@ def burst_ratio(state: State, j: int) -> float:
     """
     event, events = [], 0  # of each row, 0 for none: that of the sample amid its weights
     signals = state.rows.signals
-    middle = np.round(state.rows.filtered(j, [np.arange(len(s.q)) for s in signals])).astype(int)
-    for k, (s, turns) in enumerate(zip(signals, load_turns(state, j), strict=True)):
+    middle = np.round(state.rows.filter_samples(j, [np.arange(len(s.q)) for s in signals])).astype(
+        int
+    )
+    for k, (s, turns) in enumerate(zip(signals, find_load_reversals(state, j), strict=True)):
         span = max(1, round(AFTER / s.step))
         flags = np.zeros(len(s.q))
         for turn in turns:
@@ -216,26 +220,26 @@ def burst_ratio(state: State, j: int) -> float:
         event.append(flags[middle[state.rows.segment[j] == k].clip(0, len(flags) - 1)])
     if events < EVENTS:
         return 0.0
-    return _ratio(state.residual[j] ** 2, np.concatenate(event), events)
+    return _compute_energy_ratio(state.residual[j] ** 2, np.concatenate(event), events)
 
 
-def load_turns(state: State, j: int) -> list[np.ndarray]:
+def find_load_reversals(state: State, j: int) -> list[np.ndarray]:
     """Samples, by stretch, where the load on joint j changes sign while the joint moves on."""
-    found = []
+    reversals = []
     for s in state.rows.signals:
-        span, least = max(1, round(AFTER / s.step)), 0.02 * state.scales[j].speed
+        span, least = max(1, round(AFTER / s.step)), 0.02 * state.joint_scales[j].speed
         turns = np.flatnonzero(np.diff(np.sign(s.load[:, j])) != 0)
         speed = np.abs(s.v[:, j])
         moving = [turn for turn in turns if speed[turn : turn + span].min() > least]
-        found.append(np.array(moving, dtype=int))
-    return found
+        reversals.append(np.array(moving, dtype=int))
+    return reversals
 
 
-def _ratio(square: np.ndarray, event: np.ndarray, events: int) -> float:
+def _compute_energy_ratio(square: np.ndarray, event: np.ndarray, events: int) -> float:
     loud = np.sort([square[event == k].mean() for k in range(1, events + 1) if (event == k).any()])
     quiet = np.sort(square[event == 0])
     if len(loud) < EVENTS or len(quiet) < 8:
         return 0.0
-    kept = loud[: len(loud) - max(1, len(loud) // 5)]
+    trimmed_loud = loud[: len(loud) - max(1, len(loud) // 5)]
     rest = quiet[: len(quiet) - len(quiet) // 100]
-    return float(kept.mean() / max(float(rest.mean()), 1e-300))
+    return float(trimmed_loud.mean() / max(float(rest.mean()), 1e-300))

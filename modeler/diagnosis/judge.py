@@ -6,14 +6,14 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from modeler.core.brief import Brief
+from modeler.core.brief import ShortRepr
 from modeler.diagnosis.candidates import Candidate
 from modeler.diagnosis.effect_columns import Columns
-from modeler.diagnosis.ranking import VISIBLE, Ranking, pool_of, total_falls
-from modeler.diagnosis.score import STANDARD_ERRORS, Residuals, Score, scored, standard_errors
-from modeler.diagnosis.state import SearchData, State, picked_columns
-from modeler.diagnosis.timing import confirmed
-from modeler.effects import Acts
+from modeler.diagnosis.ranking import VISIBLE, Ranking, build_batch, compute_total_reductions
+from modeler.diagnosis.score import STANDARD_ERRORS, Residuals, Score, compute_t_ratio, score_change
+from modeler.diagnosis.state import SearchData, State, collect_pick_columns
+from modeler.diagnosis.timing import is_confirmed
+from modeler.effects import EffectTarget
 
 GATE = 0.03
 """Least share of the residual variance on held-out motion that is worth a name."""
@@ -40,7 +40,7 @@ EVERY = (*PLAIN, "offset", "rotor_inertia")
 
 
 @dataclass(frozen=True, eq=False)
-class Judged(Brief):
+class ScoredCandidate(ShortRepr):
     """One effect on one joint at its best shapes.
 
     Attributes:
@@ -59,17 +59,17 @@ class Judged(Brief):
     """
 
     candidate: Candidate
-    gain: float
-    share: float
-    drop: np.ndarray
+    variance_reduction: float
+    total_variance_reduction: float
+    block_reductions: np.ndarray
     values: np.ndarray
     deviations: np.ndarray
-    sure: float
-    felt: float
-    visible: float
-    possible: bool
-    confirmed: bool = True
-    why: str = ""
+    t_ratio: float
+    torque_share: float
+    visible_share: float
+    is_possible: bool
+    is_confirmed: bool = True
+    reason: str = ""
 
     @property
     def key(self) -> tuple[str, str | None]:
@@ -77,48 +77,56 @@ class Judged(Brief):
         return self.candidate.key
 
     @property
-    def fall(self) -> float:
+    def total_reduction(self) -> float:
         """Of the squared residual on held-out motion, weighted."""
-        return float(self.drop.sum())
+        return float(self.block_reductions.sum())
 
     @property
-    def alone(self) -> bool:
+    def is_local(self) -> bool:
         """True if only its own joint feels it.
 
         A drive gain is a matter of all joints that share parameters, and so is what explains more
         than there is to explain on its joint.
         """
         candidate = self.candidate
-        return candidate.local and "torque" not in candidate.form.names and self.gain < 1.0
+        return (
+            candidate.is_local
+            and "torque" not in candidate.form.names
+            and self.variance_reduction < 1.0
+        )
 
     @property
-    def mends(self) -> bool:
+    def refines_model_term(self) -> bool:
         """True if its sign says that it mends the form of a law in the model."""
-        return self.candidate.effect.mends(float(self.values[0]))
+        return self.candidate.effect.refines_model_term(float(self.values[0]))
 
     @property
-    def unlikely(self) -> bool:
+    def is_unlikely(self) -> bool:
         """True if it is possible, but rare, or its sign is."""
         effect = self.candidate.effect
         return effect.rare or (effect.rarely_negative and float(self.values[0]) < 0.0)
 
     @property
-    def significant(self) -> bool:
+    def is_significant(self) -> bool:
         """True if it is worth a name."""
-        big = self.gain > GATE and self.sure > NAMED_T_RATIO and self.felt > FELT
-        return big and self.possible and self.confirmed and self.visible > VISIBLE
+        big = (
+            self.variance_reduction > GATE
+            and self.t_ratio > NAMED_T_RATIO
+            and self.torque_share > FELT
+        )
+        return big and self.is_possible and self.is_confirmed and self.visible_share > VISIBLE
 
 
 @dataclass(frozen=True, eq=False)
-class Judgement(Brief):
+class RankedCandidates(ShortRepr):
     """All effects in one state, best first; `best` is None if none is worth a name."""
 
-    ranked: tuple[Judged, ...]
-    best: Judged | None
+    ranked: tuple[ScoredCandidate, ...]
+    best: ScoredCandidate | None
 
 
 @dataclass(frozen=True, eq=False)
-class Trial(Brief):
+class CandidateFit(ShortRepr):
     """A candidate, and what chooses among the shapes of its effect.
 
     Attributes:
@@ -128,57 +136,66 @@ class Trial(Brief):
     """
 
     candidate: Candidate
-    possible: bool
-    fall: float
+    is_possible: bool
+    total_reduction: float
 
 
-def tried(state: State, pairs: Sequence[tuple[Candidate, Columns]]) -> list[Trial]:
+def fit_candidates(state: State, pairs: Sequence[tuple[Candidate, Columns]]) -> list[CandidateFit]:
     """All candidates, each with its columns."""
-    pool = pool_of(state.folded, [columns for _, columns in pairs])
+    pool = build_batch(state.fold_grams, [columns for _, columns in pairs])
     return [
-        Trial(candidate, possible(candidate, value), float(fall))
-        for (candidate, _), fall, value in zip(pairs, *total_falls(state.folded, pool), strict=True)
+        CandidateFit(candidate, is_possible(candidate, value), float(fall))
+        for (candidate, _), fall, value in zip(
+            pairs, *compute_total_reductions(state.fold_grams, pool), strict=True
+        )
     ]
 
 
-def leading(trials: Sequence[Trial]) -> list[Trial]:
+def select_best_fits(trials: Sequence[CandidateFit]) -> list[CandidateFit]:
     """The best shapes of every effect on every joint."""
-    best: dict[tuple[str, str | None], Trial] = {}
+    best: dict[tuple[str, str | None], CandidateFit] = {}
     for trial in trials:
         other = best.setdefault(trial.candidate.key, trial)
-        if (trial.possible, trial.fall) > (other.possible, other.fall):
+        if (trial.is_possible, trial.total_reduction) > (other.is_possible, other.total_reduction):
             best[trial.candidate.key] = trial
     return list(best.values())
 
 
-def judged_at(state: State, pairs: Sequence[tuple[Candidate, Columns]]) -> list[Judged]:
+def score_candidates(
+    state: State, pairs: Sequence[tuple[Candidate, Columns]]
+) -> list[ScoredCandidate]:
     """Some of the candidates judged, each with its columns; best first."""
     if not pairs:
         return []
-    ranking = state.ranked([columns for _, columns in pairs])
-    judged = [_judged(state, candidate, ranking, i) for i, (candidate, _) in enumerate(pairs)]
-    return sorted(judged, key=lambda j: -j.fall)
+    ranking = state.rank_columns([columns for _, columns in pairs])
+    candidate_scores = [
+        _build_score(state, candidate, ranking, i) for i, (candidate, _) in enumerate(pairs)
+    ]
+    return sorted(candidate_scores, key=lambda j: -j.total_reduction)
 
 
-def _judged(state: State, candidate: Candidate, ranking: Ranking, i: int) -> Judged:
-    drop, concerned = ranking.drop[:, i], candidate.concerns(len(ranking.before))
+def _build_score(state: State, candidate: Candidate, ranking: Ranking, i: int) -> ScoredCandidate:
+    drop, concerned = (
+        ranking.block_reductions[:, i],
+        candidate.list_affected_joints(len(ranking.before)),
+    )
     fall, at_stake = float(drop.sum()), float(ranking.before[concerned].sum())
     torque = sum(float(np.sum((state.rows.y[j] / state.sigma[j]) ** 2)) for j in concerned)
-    return Judged(
+    return ScoredCandidate(
         candidate=candidate,
-        gain=min(1.0, fall / max(at_stake, 1e-300)),
-        share=fall / max(float(ranking.before.sum()), 1e-300),
-        drop=drop,
+        variance_reduction=min(1.0, fall / max(at_stake, 1e-300)),
+        total_variance_reduction=fall / max(float(ranking.before.sum()), 1e-300),
+        block_reductions=drop,
         values=ranking.value[i],
         deviations=ranking.deviation[i],
-        sure=float(ranking.sure[i]),
-        felt=float(np.sqrt(max(0.0, fall) / (torque + 1e-300))),
-        visible=float(ranking.visible[i]),
-        possible=possible(candidate, ranking.value[i]),
+        t_ratio=float(ranking.t_ratios[i]),
+        torque_share=float(np.sqrt(max(0.0, fall) / (torque + 1e-300))),
+        visible_share=float(ranking.visible_shares[i]),
+        is_possible=is_possible(candidate, ranking.value[i]),
     )
 
 
-def possible(candidate: Candidate, values: np.ndarray) -> bool:
+def is_possible(candidate: Candidate, values: np.ndarray) -> bool:
     """False for a sign or a size of the candidate's parameters that physics forbids.
 
     With l the length of a spring on a lever, Gamma = k (l - l0) dl/dq for a helical one and F dl/dq
@@ -186,7 +203,7 @@ def possible(candidate: Candidate, values: np.ndarray) -> bool:
     F b. The rest of the first, k b sin(q - q0), is mostly that of the link's first moment: the sign
     tells them apart, unless the second pushes. What a tilt is depends on the robot (`plausible`).
     """
-    if candidate.effect.acts is Acts.GRAVITY:
+    if candidate.effect.acts is EffectTarget.GRAVITY:
         return True
     turned = candidate.effect.sign * float(values[-1]) < 0.0
     return not turned and not any(
@@ -195,51 +212,64 @@ def possible(candidate: Candidate, values: np.ndarray) -> bool:
     )
 
 
-def decide(state: State, judged: list[Judged]) -> Judgement:
+def select_best(state: State, candidate_scores: list[ScoredCandidate]) -> RankedCandidates:
     """The first that passes, or a simpler one that the data do not tell from it.
 
     Timing-like ones are confirmed only when they lead.
     """
-    for place, item in enumerate(judged):
-        if not item.significant:
+    for place, item in enumerate(candidate_scores):
+        if not item.is_significant:
             continue
-        stem = _stem(item, judged)
+        stem = _find_plain_friction(item, candidate_scores)
         if stem is not None:
-            return Judgement(tuple(judged), stem)
-        if item.candidate.effect.timing and not confirmed(state, item.candidate, item.values):
-            judged[place] = dataclasses.replace(item, confirmed=False)
+            return RankedCandidates(tuple(candidate_scores), stem)
+        if item.candidate.effect.timing and not is_confirmed(state, item.candidate, item.values):
+            candidate_scores[place] = dataclasses.replace(item, is_confirmed=False)
             continue
-        return Judgement(tuple(judged), _simplest(state, item, judged))
-    return Judgement(tuple(judged), None)
+        return RankedCandidates(
+            tuple(candidate_scores), _select_simplest(state, item, candidate_scores)
+        )
+    return RankedCandidates(tuple(candidate_scores), None)
 
 
 STEM = 0.5
 """Share of what finer friction explains with which the plain one that is absent goes before it."""
 
 
-def refines(finer: Candidate, plain: Candidate) -> bool:
+def is_refinement(finer: Candidate, plain: Candidate) -> bool:
     """True for what says more of a joint than a law that every joint has.
 
     It is friction too, or has more free numbers: where it explains no more, it is no rival.
     """
     laws = plain.effect.id in EVERY and finer.effect.id not in EVERY
-    own = finer.joint == plain.joint and finer.effect.acts in (Acts.JOINT, Acts.MOTOR)
+    is_same_joint = finer.joint == plain.joint and finer.effect.acts in (
+        EffectTarget.JOINT,
+        EffectTarget.MOTOR,
+    )
     friction = finer.effect.family == plain.effect.family == "friction"
-    return laws and own and (friction or numbers(finer) > numbers(plain))
+    return (
+        laws
+        and is_same_joint
+        and (friction or count_free_numbers(finer) > count_free_numbers(plain))
+    )
 
 
-def _stem(best: Judged, judged: Sequence[Judged]) -> Judged | None:
+def _find_plain_friction(
+    best: ScoredCandidate, candidate_scores: Sequence[ScoredCandidate]
+) -> ScoredCandidate | None:
     """Dry or viscous friction of a joint that has none, before friction that refines it."""
     if best.candidate.effect.family != "friction":
         return None
     return next((
-        j for j in judged
-        if j.candidate.effect.id in PLAIN and refines(best.candidate, j.candidate)
-        and j.significant and j.share > STEM * best.share
+        j for j in candidate_scores
+        if j.candidate.effect.id in PLAIN and is_refinement(best.candidate, j.candidate)
+        and j.is_significant and j.total_variance_reduction > STEM * best.total_variance_reduction
     ), None)  # fmt: skip
 
 
-def _simplest(state: State, best: Judged, judged: Sequence[Judged]) -> Judged:
+def _select_simplest(
+    state: State, best: ScoredCandidate, candidate_scores: Sequence[ScoredCandidate]
+) -> ScoredCandidate:
     """Of those tied with the best and nearly as good, that with the fewest free numbers.
 
     What only mends a law in the model comes last, before it what is rare, or has a rare sign.
@@ -248,31 +278,40 @@ def _simplest(state: State, best: Judged, judged: Sequence[Judged]) -> Judged:
     """
     timing = best.candidate.effect.timing
     near = [
-        other for other in tied(best, judged)
-        if other.significant and (timing or not other.candidate.effect.timing)
-        and other.fall > NEARLY * best.fall
+        other for other in find_equivalents(best, candidate_scores)
+        if other.is_significant and (timing or not other.candidate.effect.timing)
+        and other.total_reduction > NEARLY * best.total_reduction
     ]  # fmt: skip
 
-    def place(j: Judged) -> tuple[bool, bool, float, float]:
-        return j.mends, j.unlikely, numbers(j.candidate), -j.fall
+    def compute_sort_key(j: ScoredCandidate) -> tuple[bool, bool, float, float]:
+        return (
+            j.refines_model_term,
+            j.is_unlikely,
+            count_free_numbers(j.candidate),
+            -j.total_reduction,
+        )
 
-    order = sorted([best, *near], key=place)
+    order = sorted([best, *near], key=compute_sort_key)
     return next(
         j
         for j in order
-        if j is best or not j.candidate.effect.timing or confirmed(state, j.candidate, j.values)
+        if j is best or not j.candidate.effect.timing or is_confirmed(state, j.candidate, j.values)
     )
 
 
-def numbers(candidate: Candidate) -> float:
+def count_free_numbers(candidate: Candidate) -> float:
     """Free numbers: parameters, and shapes that are refined."""
-    shapes = candidate.form.shapes
-    free = sum(s.smooth or candidate.shapes[s.name] not in s.grid for s in shapes)
-    ratios = len(candidate.shapes) - len(shapes)
+    shapes = candidate.form.nonlinear_parameters
+    free = sum(
+        s.is_continuous or candidate.nonlinear_parameters[s.name] not in s.grid for s in shapes
+    )
+    ratios = len(candidate.nonlinear_parameters) - len(shapes)
     return len(candidate.form.columns) + free + 0.5 * ratios
 
 
-def alternatives(best: Judged, others: Sequence[Judged], after: Judgement) -> list[Judged]:
+def select_alternatives(
+    best: ScoredCandidate, others: Sequence[ScoredCandidate], after: RankedCandidates
+) -> list[ScoredCandidate]:
     """Tied ones that explain the same: with the best put in, little is left for them.
 
     What only refines a law that every joint has is none.
@@ -283,29 +322,36 @@ def alternatives(best: Judged, others: Sequence[Judged], after: Judgement) -> li
         others: its rivals then.
         after: the judgement with it.
     """
-    left = {j.key: j.fall for j in after.ranked}
+    left = {j.key: j.total_reduction for j in after.ranked}
     return [
-        o for o in tied(best, others)
-        if left.get(o.key, 0.0) < SAME * o.fall and not refines(o.candidate, best.candidate)
-    ]  # fmt: skip
+        o
+        for o in find_equivalents(best, others)
+        if left.get(o.key, 0.0) < SAME * o.total_reduction
+        and not is_refinement(o.candidate, best.candidate)
+    ]
 
 
-def tied(best: Judged, others: Sequence[Judged]) -> list[Judged]:
+def find_equivalents(
+    best: ScoredCandidate, others: Sequence[ScoredCandidate]
+) -> list[ScoredCandidate]:
     """Those that explain as much as the best: paired differences over blocks decide."""
-    found = []
+    equivalents = []
     for other in others:
-        if other is best or not other.possible or other.gain < GATE:
+        if other is best or not other.is_possible or other.variance_reduction < GATE:
             continue
         same = other.candidate.effect.id in best.candidate.effect.same_as
-        if same or standard_errors(best.drop - other.drop) <= STANDARD_ERRORS:
-            found.append(other)
-    return found
+        if (
+            same
+            or compute_t_ratio(best.block_reductions - other.block_reductions) <= STANDARD_ERRORS
+        ):
+            equivalents.append(other)
+    return equivalents
 
 
 # Errors of a state on motion it was not fitted to, and whether an effect lowers them.
 
 
-def holdout_residuals(state: State, other: SearchData | None) -> Residuals:
+def compute_holdout_residuals(state: State, other: SearchData | None) -> Residuals:
     """What a state leaves of held-out logs; without any, of its own, each fold from the others.
 
     Args:
@@ -313,35 +359,37 @@ def holdout_residuals(state: State, other: SearchData | None) -> Residuals:
         other: held-out logs, in the same band.
     """
     if other is not None:
-        return left_of(state, other)
-    left = (s * e for s, e in zip(state.sigma, state.base.left_out, strict=True))
-    return _of(state.data, tuple(left))
+        return compute_residuals(state, other)
+    left = (
+        s * e for s, e in zip(state.sigma, state.gram_blocks.cross_validated_residuals, strict=True)
+    )
+    return _build_residuals(state.data, tuple(left))
 
 
-def on_logs(state: State, data: SearchData) -> State:
+def fit_on_logs(state: State, data: SearchData) -> State:
     """A state fitted to other logs, linearised about the same reference."""
-    rows = data.about(state.reference)
-    return State(data, state.picks, state.reference, rows, picked_columns(rows, state.picks))
+    rows = data.linearise_rows(state.reference)
+    return State(data, state.picks, state.reference, rows, collect_pick_columns(rows, state.picks))
 
 
-def left_of(state: State, data: SearchData) -> Residuals:
+def compute_residuals(state: State, data: SearchData) -> Residuals:
     """What a state leaves of logs, with its parameters as they are."""
-    there = on_logs(state, data)
+    there = fit_on_logs(state, data)
     rows = there.rows
-    found = [y - W @ state.beta for y, W in zip(rows.y, rows.W, strict=True)]
+    residuals = [y - W @ state.beta for y, W in zip(rows.y, rows.W, strict=True)]
     for columns, values in zip(there.extra, state.values, strict=True):
-        for j, own in enumerate(columns):
-            if own is not None:
-                found[j] = found[j] - own @ values
-    return _of(data, tuple(found))
+        for j, joint_columns in enumerate(columns):
+            if joint_columns is not None:
+                residuals[j] = residuals[j] - joint_columns @ values
+    return _build_residuals(data, tuple(residuals))
 
 
-def _of(data: SearchData, left: tuple[np.ndarray, ...]) -> Residuals:
+def _build_residuals(data: SearchData, left: tuple[np.ndarray, ...]) -> Residuals:
     names, rows = tuple(joint.name for joint in data.spec.joints), data.rows
     return Residuals(names, left, rows.y, rows.time, rows.run)
 
 
-def compared(
+def compare_residuals(
     before: Residuals, after: Residuals, concerned: Sequence[int], state: State, block: float = 0.0
 ) -> Score:
     """The score of an effect on the joints that it concerns, in blocks of some s.
@@ -353,7 +401,7 @@ def compared(
     for j in concerned:
         y = state.rows.y[j] / state.sigma[j]
         weights[before.names[j]] = float(np.mean(y**2)) if y.size else 0.0
-    return scored(before, after, weights, block)
+    return score_change(before, after, weights, block)
 
 
 KEPT = 0.2
@@ -363,10 +411,12 @@ TOUCHED = 0.1
 """Least fall of a joint's squared residual, as a share of the largest, that counts as touched."""
 
 
-def touched_joints(judged: Judged, before: State, after: State) -> list[int]:
+def find_affected_joints(
+    candidate_score: ScoredCandidate, before: State, after: State
+) -> list[int]:
     """Joints whose residuals an effect explains: its own, or all where they fall most."""
-    if judged.alone:
-        return [judged.candidate.index]
+    if candidate_score.is_local:
+        return [candidate_score.candidate.index]
     sizes = zip(before.residual, after.residual, before.sigma, strict=True)
     fall = np.array([float(np.sum((b / s) ** 2) - np.sum((a / s) ** 2)) for b, a, s in sizes])
     if fall.max() <= 0.0:
@@ -374,29 +424,32 @@ def touched_joints(judged: Judged, before: State, after: State) -> list[int]:
     return [int(j) for j in np.flatnonzero(fall >= TOUCHED * fall.max())]
 
 
-def vetoing(other: SearchData | None) -> Callable[[State, State, Judged], bool]:
+def make_veto(other: SearchData | None) -> Callable[[State, State, ScoredCandidate], bool]:
     """A veto by unseen motion: True if a state with an effect more is not the better one there.
 
-    The error of the joints that it touches must surely fall (`scored`), and on held-out logs by a
-    good part of what the effect lets expect.
+    The error of the joints that it touches must surely fall (`score_change`), and on held-out logs
+    by a good part of what the effect lets expect.
 
     Args:
         other: held-out logs.
     """
 
-    def veto(before: State, after: State, judged: Judged) -> bool:
-        touched = touched_joints(judged, before, after)
-        score = compared(
-            holdout_residuals(before, other), holdout_residuals(after, other), touched, before
+    def is_vetoed(before: State, after: State, candidate_score: ScoredCandidate) -> bool:
+        touched = find_affected_joints(candidate_score, before, after)
+        score = compare_residuals(
+            compute_holdout_residuals(before, other),
+            compute_holdout_residuals(after, other),
+            touched,
+            before,
         )
-        expected = judged.gain
-        if not judged.alone:  # what is gone of the squared residuals of these joints
+        expected = candidate_score.variance_reduction
+        if not candidate_score.is_local:  # what is gone of the squared residuals of these joints
             first, last = (
                 sum(float(np.sum((s.residual[j] / before.sigma[j]) ** 2)) for j in touched)
                 for s in (before, after)
             )
             expected = 1.0 - last / max(first, 1e-300)
         least = 0.0 if other is None else KEPT * expected
-        return not score.better or score.whole.gain < least
+        return not score.is_better or score.whole.variance_reduction < least
 
-    return veto
+    return is_vetoed

@@ -21,19 +21,24 @@ from scipy.linalg import LinAlgError, cho_factor, cho_solve
 from scipy.optimize import nnls
 from scipy.sparse import csr_array, eye_array, kron, vstack
 
-from modeler.core.brief import Brief
+from modeler.core.brief import ShortRepr
 from modeler.core.errors import DataError, RobotError
 from modeler.core.law import Law
-from modeler.core.toml_cells import Place
+from modeler.core.toml_cells import TomlCell
 from modeler.diagnosis.candidates import Candidate
-from modeler.diagnosis.effect_columns import own_columns
+from modeler.diagnosis.effect_columns import evaluate_equations
 from modeler.diagnosis.judge import FELT, GATE, NEARLY
-from modeler.diagnosis.orders import order_spectrum
-from modeler.diagnosis.score import STANDARD_ERRORS, standard_errors
+from modeler.diagnosis.orders import compute_joint_order_spectrum
+from modeler.diagnosis.score import STANDARD_ERRORS, compute_t_ratio
 from modeler.diagnosis.state import State
-from modeler.diagnosis.timing import smoothed
+from modeler.diagnosis.timing import smooth_rows
 from modeler.effects import TURN, read_definition
-from modeler.numerics.splines import beyond, flat_ends, second_differences, spline_products
+from modeler.numerics.splines import (
+    build_flat_ends,
+    build_second_differences,
+    compute_spline_products,
+    extend_axis,
+)
 
 CELLS = (40, 14)
 """Of one axis alone, and of each of two."""
@@ -58,7 +63,7 @@ _NEAR = 4  # coordinates that are looked at closely
 
 
 @dataclass(frozen=True)
-class Coordinates(Brief):
+class LawCoordinates(ShortRepr):
     """Of what a law is a function.
 
     Attributes:
@@ -80,22 +85,22 @@ class Coordinates(Brief):
         return f"{self.factor}*{law}" if self.factor else law
 
     @property
-    def told(self) -> str:
+    def description(self) -> str:
         """For people: "abs(v) and q, odd in v"."""
         return " and ".join(self.arguments) + (", times " + self.factor if self.factor else "")
 
     @property
-    def counts(self) -> tuple[int, ...]:
+    def cell_counts(self) -> tuple[int, ...]:
         """Cells along each axis."""
         return self.cells or (CELLS[len(self.arguments) - 1],) * len(self.arguments)
 
-    def scaled(self, name: str, factor: float) -> "Coordinates":
+    def scale_parameter(self, name: str, factor: float) -> "LawCoordinates":
         """The same with another value of a shape of what it reads."""
         (value,) = self.further["shapes"][name]
         shapes = self.further["shapes"] | {name: [float(f"{value * factor:.4g}")]}
         return dataclasses.replace(self, further=dict(self.further) | {"shapes": shapes})
 
-    def values(self, state: State, j: int) -> list[np.ndarray]:
+    def evaluate_samples(self, state: State, j: int) -> list[np.ndarray]:
         """(samples, arguments + 1) by stretch: the arguments, then the factor.
 
         Of the smooth motion: what the noise of positions makes of the columns of the model is in
@@ -106,14 +111,16 @@ class Coordinates(Brief):
         """
         columns = {f"x{chr(97 + k)}": text for k, text in enumerate(self.arguments)}
         table = {"columns": columns | {"by": self.factor or "1"}, **self.further}
-        effect = read_definition("law", Place("law").holding(table), {}, joints=state.names)
-        shapes = {shape.name: shape.grid[0] for shape in effect.forms[0].shapes}
-        candidate = Candidate(effect, effect.forms[0], state.names[j], j, shapes)
-        return [own_columns([candidate], signals) for signals in smoothed(state).signals]
+        effect = read_definition(
+            "law", TomlCell("law").with_value(table), {}, joints=state.joint_names
+        )
+        shapes = {shape.name: shape.grid[0] for shape in effect.forms[0].nonlinear_parameters}
+        candidate = Candidate(effect, effect.forms[0], state.joint_names[j], j, shapes)
+        return [evaluate_equations([candidate], signals) for signals in smooth_rows(state).signals]
 
 
 @dataclass(frozen=True, eq=False)
-class Learned(Brief):
+class LearnedLaw(ShortRepr):
     """A law of one joint.
 
     Attributes:
@@ -122,28 +129,29 @@ class Learned(Brief):
         size: N m or N, times which it is the torque.
         torque: (rows_j,) N m or N, with the columns of the model fitted beside it.
         drop: (blocks,) fall of the squared residuals, weighted, on folds that were not fitted.
-        sure: fall of the error over its standard error, paired over blocks (see `score.scored`).
+        sure: fall of the error over its standard error, paired over blocks (see
+            `score.score_change`).
         gain: fall of the squared residual, as a share of that of its joint.
         felt: rms of what it explains over the rms torque of its joint.
     """
 
-    coordinates: Coordinates
+    coordinates: LawCoordinates
     law: Law
     size: float
     torque: np.ndarray
-    drop: np.ndarray
-    sure: float
-    gain: float
-    felt: float
+    block_reductions: np.ndarray
+    t_ratio: float
+    variance_reduction: float
+    torque_share: float
 
     @property
-    def significant(self) -> bool:
+    def is_significant(self) -> bool:
         """True if it is worth a place in a model."""
-        return self.gain > GATE and self.sure > SURE and self.felt > FELT
+        return self.variance_reduction > GATE and self.t_ratio > SURE and self.torque_share > FELT
 
 
 @dataclass(frozen=True)
-class LawAsked(Brief):
+class LawRequest(ShortRepr):
     """What a user asks of a law.
 
     Attributes:
@@ -157,18 +165,18 @@ class LawAsked(Brief):
     rising: int = 0
 
     @property
-    def told(self) -> str:
+    def description(self) -> str:
         """Behind "law": " of q and v"; empty where nothing is asked for."""
         return f" of {' and '.join(self.of)}" if self.of else ""
 
-    def coordinates(self, state: State, j: int) -> list[Coordinates]:
+    def list_coordinates(self, state: State, j: int) -> list[LawCoordinates]:
         """To choose from.
 
         Raises:
             DataError: more than two variables, or such as laws cannot read in loops.
         """
         if not self.of:
-            every = every_coordinates(state, j)
+            every = generate_coordinates(state, j)
             return [c for c in every if c.factor or not self.odd]
         if len(self.of) > 2:
             raise DataError(f"--of {','.join(self.of)}: expected one or two quantities, as in q,v")
@@ -181,138 +189,161 @@ class LawAsked(Brief):
         if self.odd:
             arguments, factor = tuple("abs(v)" if x == "v" else x for x in self.of), "sign(v)"
         if "z" not in self.of:
-            return [Coordinates(arguments, factor)]
-        return [Coordinates(arguments, factor, further) for further in _bristles(state, j)]
+            return [LawCoordinates(arguments, factor)]
+        return [
+            LawCoordinates(arguments, factor, further)
+            for further in _list_bristle_definitions(state, j)
+        ]
 
 
-ANY_LAW = LawAsked()
+ANY_LAW = LawRequest()
 """A law of whatever predicts best."""
 
 LEARNED = "learned"
 """What a law is called where effects have their ids."""
 
 
-def effect_id(stem: str, joint: str, taken: Collection[str]) -> str:
+def make_effect_id(stem: str, joint: str, taken: Collection[str]) -> str:
     """Id of an effect of a joint that no other has: learned_2."""
-    return free_name(f"{stem}_{re.sub(r'[^a-z0-9]', '_', joint.lower())}", taken)
+    return choose_free_name(f"{stem}_{re.sub(r'[^a-z0-9]', '_', joint.lower())}", taken)
 
 
-def free_name(stem: str, taken: Collection[str]) -> str:
+def choose_free_name(stem: str, taken: Collection[str]) -> str:
     """The stem, with a letter behind it if it is taken."""
     names = (stem, *(f"{stem}{letter}" for letter in "bcdefghijklmnopqrstuvwxyz"))
     return next(name for name in names if name not in taken)
 
 
-def learn(state: State, j: int, asked: LawAsked = ANY_LAW) -> Learned | None:
+def learn_law(state: State, j: int, request: LawRequest = ANY_LAW) -> LearnedLaw | None:
     """The law of joint j that loses least on motion it was not fitted to; None without any.
 
     Args:
         state: what is in the model.
         j: index of the joint.
-        asked: of what, and its form.
+        request: of what, and its form.
 
     Raises:
         DataError: a quantity that cannot be read.
     """
-    found = []
-    for own in asked.coordinates(state, j):
+    ranked = []
+    for option in request.list_coordinates(state, j):
         try:
-            splines = _splines(state, j, own)  # of one at a time: they fill memory
+            splines = _build_splines(state, j, option)  # of one at a time: they fill memory
         except RobotError as error:
-            raise DataError(f"--of {','.join(asked.of)}: {error}") from None
+            raise DataError(f"--of {','.join(request.of)}: {error}") from None
         if splines is not None:
-            found.append((float(_Fit(state, j, splines).best(_FIRST).drop.sum()), own))
-    found.sort(key=lambda item: -item[0])
-    near = [s for _, own in found[:_NEAR] if (s := _splines(state, j, own)) is not None]
+            ranked.append(
+                (
+                    float(
+                        _SplineProblem(state, j, splines)
+                        .fit_smoothness(_FIRST)
+                        .block_reductions.sum()
+                    ),
+                    option,
+                )
+            )
+    ranked.sort(key=lambda item: -item[0])
+    near = [
+        s for _, option in ranked[:_NEAR] if (s := _build_splines(state, j, option)) is not None
+    ]
     if not near:
         return None
-    closely = [(_Fit(state, j, own).best(_SMOOTH, asked.rising), own) for own in near]
-    fit, splines = _refined(state, j, *_simplest(closely), asked.rising)
-    return _learned(state, j, splines, fit)
+    closely = [
+        (_SplineProblem(state, j, option).fit_smoothness(_SMOOTH, request.rising), option)
+        for option in near
+    ]
+    fit, splines = _refine_coordinates(state, j, *_select_simplest(closely), request.rising)
+    return _build_law(state, j, splines, fit)
 
 
-def _refined(
-    state: State, j: int, fit: "_Solved", splines: "_Splines", rising: int
-) -> tuple["_Solved", "_Splines"]:
+def _refine_coordinates(
+    state: State, j: int, fit: "_SplineFit", splines: "_SplineBasis", rising: int
+) -> tuple["_SplineFit", "_SplineBasis"]:
     """At a travel or a time of what remembers that loses less: steps by factors, ever smaller."""
     for name in splines.coordinates.further.get("shapes", {}):
         factor = 2.0
         while factor > _FACTOR:
             for times in (factor, 1.0 / factor):
-                tried = _splines(state, j, splines.coordinates.scaled(name, times))
-                if tried is not None:
-                    other = _Fit(state, j, tried).best(_SMOOTH, rising)
+                scaled_splines = _build_splines(
+                    state, j, splines.coordinates.scale_parameter(name, times)
+                )
+                if scaled_splines is not None:
+                    other = _SplineProblem(state, j, scaled_splines).fit_smoothness(_SMOOTH, rising)
                     if other.after.sum() < fit.after.sum():
-                        fit, splines = other, tried
+                        fit, splines = other, scaled_splines
                         break
             else:
                 factor = factor**0.5
     return fit, splines
 
 
-def every_coordinates(state: State, j: int) -> Iterator[Coordinates]:
+def generate_coordinates(state: State, j: int) -> Iterator[LawCoordinates]:
     """Those that make sense on a joint: of every quantity alone, and beside v or q.
 
     Odd in v, and not.
     """
-    peaks = [] if (spectrum := order_spectrum(state, j)) is None else spectrum.peaks
-    turns = state.scales[j].range / (2.0 * np.pi)
+    peaks = [] if (spectrum := compute_joint_order_spectrum(state, j)) is None else spectrum.peaks
+    turns = state.joint_scales[j].range / (2.0 * np.pi)
     fine = min(_MOST_CELLS, round(_WAVE * max(peaks, default=0.0) * turns))
     waves = [0, _FINE] + ([fine] if fine > _FINE else [])
-    quantities = _quantities(state, j)
+    quantities = _list_quantities(state, j)
     for x, further in quantities:
         for cells in waves if x == "q" else [0]:
-            yield Coordinates((x,), "", further, (cells,) if cells else ())
+            yield LawCoordinates((x,), "", further, (cells,) if cells else ())
             odd = "abs(v)" if x == "v" else x
-            yield Coordinates((odd,), "sign(v)", further, (cells,) if cells else ())
+            yield LawCoordinates((odd,), "sign(v)", further, (cells,) if cells else ())
         if x != "v":
-            yield Coordinates(("v", x), "", further)
-            yield Coordinates(("abs(v)", x), "sign(v)", further)
+            yield LawCoordinates(("v", x), "", further)
+            yield LawCoordinates(("abs(v)", x), "sign(v)", further)
         if x not in ("q", "v") and not further:
-            yield Coordinates(("q", x))
+            yield LawCoordinates(("q", x))
         for cells in waves[1:] if x in ("load", "T") else []:
-            yield Coordinates(("q", x), cells=(cells, _FEW))
+            yield LawCoordinates(("q", x), cells=(cells, _FEW))
 
 
-def _quantities(state: State, j: int) -> list[tuple[str, Mapping[str, Any]]]:
+def _list_quantities(state: State, j: int) -> list[tuple[str, Mapping[str, Any]]]:
     """What a law may depend on, with what else its definition needs."""
-    found: list[tuple[str, Mapping[str, Any]]] = [("q", {}), ("v", {}), ("a", {})]
-    if state.names[j] in state.reference.temperature:
-        found.append(("T", {}))
+    quantities: list[tuple[str, Mapping[str, Any]]] = [("q", {}), ("v", {}), ("a", {})]
+    if state.joint_names[j] in state.reference.temperature:
+        quantities.append(("T", {}))
     if state.spec.closure is not None:  # in loops laws read the motion of their own joint
-        return found
-    others = [name for name in state.names if name != state.names[j]]
-    found += [("load", {}), *((f"{letter}{name}", {}) for name in others for letter in "qv")]
-    found += [("z", further) for further in _bristles(state, j)]
-    found += [("sqrt(since)", {"shapes": {TURN: [x]}}) for x in _travels(state, j)]
+        return quantities
+    others = [name for name in state.joint_names if name != state.joint_names[j]]
+    quantities += [("load", {}), *((f"{letter}{name}", {}) for name in others for letter in "qv")]
+    quantities += [("z", further) for further in _list_bristle_definitions(state, j)]
+    quantities += [("sqrt(since)", {"shapes": {TURN: [x]}}) for x in _list_travels(state, j)]
     for tau in _LAGS:
-        found += [("z", {"lag": x, "shapes": {"tau": [tau]}}) for x in ("v", "abs(v)")]
-    return found
+        quantities += [("z", {"lag": x, "shapes": {"tau": [tau]}}) for x in ("v", "abs(v)")]
+    return quantities
 
 
-def _travels(state: State, j: int) -> list[float]:
-    return [float(f"{share * state.scales[j].range:.3g}") for share in _TRAVELS]
+def _list_travels(state: State, j: int) -> list[float]:
+    return [float(f"{share * state.joint_scales[j].range:.3g}") for share in _TRAVELS]
 
 
-def _bristles(state: State, j: int) -> list[Mapping[str, Any]]:
+def _list_bristle_definitions(state: State, j: int) -> list[Mapping[str, Any]]:
     """What a definition that reads z needs."""
-    return [{"shapes": {"d": [travel]}} for travel in _travels(state, j)]
+    return [{"shapes": {"d": [travel]}} for travel in _list_travels(state, j)]
 
 
-def _simplest(found: Sequence[tuple["_Solved", "_Splines"]]) -> tuple["_Solved", "_Splines"]:
+def _select_simplest(
+    fits: Sequence[tuple["_SplineFit", "_SplineBasis"]],
+) -> tuple["_SplineFit", "_SplineBasis"]:
     """Of those that the data do not tell from the best, the one with the fewest axes."""
-    best = max(found, key=lambda item: float(item[0].drop.sum()))
-    total = float(best[0].drop.sum())
+    best = max(fits, key=lambda item: float(item[0].block_reductions.sum()))
+    total = float(best[0].block_reductions.sum())
     near = [
-        item for item in found
-        if item is best or (item[0].drop.sum() > NEARLY * total
-                            and standard_errors(item[0].after - best[0].after) <= STANDARD_ERRORS)
+        item for item in fits
+        if item is best or (item[0].block_reductions.sum() > NEARLY * total
+                            and compute_t_ratio(item[0].after - best[0].after) <= STANDARD_ERRORS)
     ]  # fmt: skip
-    return min(near, key=lambda item: (len(item[1].counts), -float(item[0].drop.sum())))
+    return min(
+        near, key=lambda item: (len(item[1].cell_counts), -float(item[0].block_reductions.sum()))
+    )
 
 
 @dataclass(frozen=True, eq=False)
-class _Splines(Brief):
+class _SplineBasis(ShortRepr):
     """Splines of some coordinates on the rows of a joint; p coefficients, f of them free.
 
     Attributes:
@@ -323,47 +354,47 @@ class _Splines(Brief):
         rough: (f, f) square of the second differences.
     """
 
-    coordinates: Coordinates
+    coordinates: LawCoordinates
     ends: tuple[tuple[float, float], ...]
     free: csr_array
     rows: np.ndarray
     rough: np.ndarray
 
     @property
-    def counts(self) -> tuple[int, ...]:
+    def cell_counts(self) -> tuple[int, ...]:
         """Cells along each axis."""
-        return self.coordinates.counts
+        return self.coordinates.cell_counts
 
 
-def _splines(state: State, j: int, coordinates: Coordinates) -> _Splines | None:
+def _build_splines(state: State, j: int, coordinates: LawCoordinates) -> _SplineBasis | None:
     """None where a coordinate has no value, or always the same."""
-    values, rows = coordinates.values(state, j), state.rows
+    values, rows = coordinates.evaluate_samples(state, j), state.rows
     used = [v[s.usable[:, j]] for v, s in zip(values, rows.signals, strict=True)]
     every = np.concatenate(used)[:, :-1]
     if not len(every) or not np.isfinite(np.concatenate(values)).all():
         return None
     ends = []
-    for x, count in zip(every.T, coordinates.counts, strict=True):
+    for x, count in zip(every.T, coordinates.cell_counts, strict=True):
         low, high = np.quantile(x, [_ENDS, 1.0 - _ENDS])
         if not high > low:
             return None
-        ends.append(beyond(float(low), float(high), count))
-    flat = [flat_ends(count) for count in coordinates.counts]
+        ends.append(extend_axis(float(low), float(high), count))
+    flat = [build_flat_ends(count) for count in coordinates.cell_counts]
     free = reduce(kron, flat).tocsr()
     filtered = []
     for i, blocks in enumerate(rows.blocks):
-        splines = spline_products(values[i], ends, coordinates.counts) @ free
+        splines = compute_spline_products(values[i], ends, coordinates.cell_counts) @ free
         filtered += [block.filters[j] @ splines[block.window] for block in blocks]
-    rough = [(d.T @ d) for d in (second_differences(t) for t in flat)]
+    rough = [(d.T @ d) for d in (build_second_differences(t) for t in flat)]
     eyes = [eye_array(t.shape[1]) for t in flat]
     total = rough[0] if len(flat) == 1 else kron(rough[0], eyes[1]) + kron(eyes[0], rough[1])
-    return _Splines(
+    return _SplineBasis(
         coordinates, tuple(ends), free, vstack(filtered).toarray(), total.toarray()
     )  # fmt: skip
 
 
 @dataclass(frozen=True, eq=False)
-class _Solved(Brief):
+class _SplineFit(ShortRepr):
     """Coefficients (f,), and squared residuals (blocks,) where they were not fitted."""
 
     c: np.ndarray
@@ -371,25 +402,25 @@ class _Solved(Brief):
     after: np.ndarray
 
     @property
-    def drop(self) -> np.ndarray:
+    def block_reductions(self) -> np.ndarray:
         """(blocks,) fall of the squared residuals."""
         return self.before - self.after
 
     @property
-    def sure(self) -> float:
+    def t_ratio(self) -> float:
         """Fall of the error over its standard error."""
-        return standard_errors(np.sqrt(self.before) - np.sqrt(self.after))
+        return compute_t_ratio(np.sqrt(self.before) - np.sqrt(self.after))
 
 
-class _Fit:
+class _SplineProblem:
     """Normal equations of the splines beside the model, by fold."""
 
-    def __init__(self, state: State, j: int, splines: _Splines) -> None:
+    def __init__(self, state: State, j: int, splines: _SplineBasis) -> None:
         self.state, self.j, self.splines = state, j, splines
-        base = state.base
-        self.place, self.inverse = base.crossed.place, base.crossed.inverse
+        base = state.gram_blocks
+        self.place, self.inverse = base.fold_fits.fold_index, base.fold_fits.inverse
         self.fold = self.place[base.block[j]]
-        B, X, y = splines.rows / state.sigma[j], base.columns[j], base.y[j]
+        B, X, y = splines.rows / state.sigma[j], base.whitened_columns[j], base.y[j]
         folds = range(len(self.inverse))
         parts = [np.flatnonzero(self.fold == f) for f in folds]
         self.BB = np.stack([B[r].T @ B[r] for r in parts])
@@ -401,24 +432,24 @@ class _Fit:
         self.ridge = _RIDGE * mean * np.eye(B.shape[1])
 
     @cached_property
-    def whole(self) -> tuple[np.ndarray, np.ndarray]:
+    def full_fit(self) -> tuple[np.ndarray, np.ndarray]:
         """(r, r) and (r,) inverse of the model's Gram matrix on all rows, and its parameters."""
-        base = self.state.base
+        base = self.state.gram_blocks
         G = base.G.sum(axis=0) + base.prior[:, :-1]
         inverse = np.linalg.inv(G + 1e-10 * np.eye(len(G)))
         return inverse, inverse @ (base.u.sum(axis=0) + base.prior[:, -1])
 
-    def solved(
+    def solve(
         self, f: int | None, smooth: float, rising: int = 0
     ) -> tuple[np.ndarray, np.ndarray] | None:
         """Coefficients and parameters (r,) by all folds but f; None: by all."""
-        own = 0.0 if f is None else 1.0
+        weight = 0.0 if f is None else 1.0
         BB, XB, By = (
-            x.sum(axis=0) - own * (x[f] if f is not None else 0.0)
+            x.sum(axis=0) - weight * (x[f] if f is not None else 0.0)
             for x in (self.BB, self.XB, self.By)
         )
-        crossed = self.state.base.crossed
-        inverse, beta = self.whole if f is None else (crossed.inverse[f], crossed.beta[f])
+        crossed = self.state.gram_blocks.fold_fits
+        inverse, beta = self.full_fit if f is None else (crossed.inverse[f], crossed.beta[f])
         moved = inverse @ XB
         S = BB - XB.T @ moved + smooth * self.rough + self.ridge
         side = By - XB.T @ beta
@@ -426,64 +457,72 @@ class _Fit:
             factor = cho_factor(S, lower=True)
         except LinAlgError:
             return None
-        c = cho_solve(factor, side) if not rising else self._monotone(factor[0], side, rising)
+        c = cho_solve(factor, side) if not rising else self._solve_monotone(factor[0], side, rising)
         return c, beta - moved @ c
 
-    def _monotone(self, factor: np.ndarray, side: np.ndarray, rising: int) -> np.ndarray:
+    def _solve_monotone(self, factor: np.ndarray, side: np.ndarray, rising: int) -> np.ndarray:
         """The same with coefficients that never fall, or rise, along the first axis."""
-        first, *others = (count - 1 for count in self.splines.counts)
+        first, *others = (count - 1 for count in self.splines.cell_counts)
         steps = np.tril(np.ones((first, first)))
         steps[:, 1:] *= rising
         turn = np.kron(steps, np.eye(others[0] if others else 1))
         rest = others[0] if others else 1
         turn = np.column_stack([turn, -turn[:, :rest]])  # where it begins may have either sign
         root = np.tril(factor)
-        found, _ = nnls(root.T @ turn, np.linalg.solve(root, side), maxiter=100 * turn.shape[1])
-        return np.asarray(turn @ found)
+        coefficients, _ = nnls(
+            root.T @ turn, np.linalg.solve(root, side), maxiter=100 * turn.shape[1]
+        )
+        return np.asarray(turn @ coefficients)
 
-    def best(self, grid: Sequence[float], rising: int = 0) -> _Solved:
+    def fit_smoothness(self, grid: Sequence[float], rising: int = 0) -> _SplineFit:
         """At the smoothness of the grid that loses least on rows that were not fitted."""
-        every = [(*self._left(smooth, rising), smooth) for smooth in grid]
+        every = [(*self._cross_validate(smooth, rising), smooth) for smooth in grid]
         before, after, smooth = min(every, key=lambda item: float(item[1].sum()))
-        found = self.solved(None, smooth, rising)
-        c = np.zeros(self.B.shape[1]) if found is None else found[0]
-        return _Solved(c, before, after)
+        solution = self.solve(None, smooth, rising)
+        c = np.zeros(self.B.shape[1]) if solution is None else solution[0]
+        return _SplineFit(c, before, after)
 
-    def _left(self, smooth: float, rising: int) -> tuple[np.ndarray, np.ndarray]:
+    def _cross_validate(self, smooth: float, rising: int) -> tuple[np.ndarray, np.ndarray]:
         """(blocks,) squared residuals of all joints, without and with, of folds not fitted."""
-        base = self.state.base
-        after = np.zeros(base.blocks)
-        before = np.zeros(base.blocks)
-        fits = [self.solved(f, smooth, rising) for f in range(len(self.parts))]
+        base = self.state.gram_blocks
+        after = np.zeros(base.block_count)
+        before = np.zeros(base.block_count)
+        fits = [self.solve(f, smooth, rising) for f in range(len(self.parts))]
         for k, (X, y, block, left) in enumerate(
-            zip(base.columns, base.y, base.block, base.left_out, strict=True)
+            zip(
+                base.whitened_columns,
+                base.y,
+                base.block,
+                base.cross_validated_residuals,
+                strict=True,
+            )
         ):
             e = left.copy()
-            for f, found in enumerate(fits):
-                if found is None:
+            for f, fold_fit in enumerate(fits):
+                if fold_fit is None:
                     continue
                 rows = np.flatnonzero(self.place[block] == f)
-                e[rows] = y[rows] - X[rows] @ found[1]
+                e[rows] = y[rows] - X[rows] @ fold_fit[1]
                 if k == self.j:
-                    e[rows] -= self.B[rows] @ found[0]
-            before += np.bincount(block, left**2, base.blocks)
-            after += np.bincount(block, e**2, base.blocks)
+                    e[rows] -= self.B[rows] @ fold_fit[0]
+            before += np.bincount(block, left**2, base.block_count)
+            after += np.bincount(block, e**2, base.block_count)
         return before, after
 
 
-def _learned(state: State, j: int, splines: _Splines, fit: _Solved) -> Learned | None:
+def _build_law(state: State, j: int, splines: _SplineBasis, fit: _SplineFit) -> LearnedLaw | None:
     torque = splines.rows @ fit.c
     size = float(np.sqrt(np.mean(torque**2)))
     if not size > 0.0:
         return None
     values = splines.free @ fit.c / size
     low, high = zip(*splines.ends, strict=True)
-    law = Law(low, high, splines.counts, tuple(float(f"{v:.{_DIGITS}g}") for v in values))
-    before = float(np.sum(state.base.left_out[j] ** 2))
-    asked = float(np.sum((state.rows.y[j] / state.sigma[j]) ** 2))
-    fall = float(fit.drop.sum())
-    return Learned(
-        splines.coordinates, law, size, torque, fit.drop, fit.sure,
-        gain=min(1.0, fall / max(before, 1e-300)),
-        felt=float(np.sqrt(max(0.0, fall) / (asked + 1e-300))),
+    law = Law(low, high, splines.cell_counts, tuple(float(f"{v:.{_DIGITS}g}") for v in values))
+    before = float(np.sum(state.gram_blocks.cross_validated_residuals[j] ** 2))
+    torque_square = float(np.sum((state.rows.y[j] / state.sigma[j]) ** 2))
+    fall = float(fit.block_reductions.sum())
+    return LearnedLaw(
+        splines.coordinates, law, size, torque, fit.block_reductions, fit.t_ratio,
+        variance_reduction=min(1.0, fall / max(before, 1e-300)),
+        torque_share=float(np.sqrt(max(0.0, fall) / (torque_square + 1e-300))),
     )  # fmt: skip

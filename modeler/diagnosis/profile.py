@@ -25,20 +25,20 @@ from functools import cached_property
 import numpy as np
 
 from modeler.core.manifest import ModuleSpec
-from modeler.diagnosis.candidates import Candidate, JointScale, coded
-from modeler.diagnosis.effect_columns import body_parameters, dense
-from modeler.diagnosis.ranking import blocks_of
-from modeler.diagnosis.signals import tilt_axes
+from modeler.diagnosis.candidates import Candidate, JointScale, encode_parameter
+from modeler.diagnosis.effect_columns import expand_columns, list_body_parameters
+from modeler.diagnosis.ranking import build_time_blocks
+from modeler.diagnosis.signals import compute_tilt_axes
 from modeler.diagnosis.state import State
-from modeler.effects import Acts, Shape
-from modeler.estimation import autocorrelation, repeated_whole
-from modeler.numerics.least_squares import turn_of
+from modeler.effects import EffectTarget, NonlinearParameter
+from modeler.estimation import estimate_autocorrelation, sum_lagged_products
+from modeler.numerics.least_squares import compute_joint_whitening
 
 # The fit of an effect with given shapes, beside all else that a model has.
 
 
 @dataclass(frozen=True, eq=False)
-class Point:
+class ProfilePoint:
     """One set of shapes, and the fit with it.
 
     Attributes:
@@ -50,7 +50,7 @@ class Point:
         weight: of its cell among the shapes; not the likelihood.
     """
 
-    shapes: Mapping[str, float]
+    nonlinear_parameters: Mapping[str, float]
     squares: float
     values: np.ndarray
     deviations: np.ndarray
@@ -71,61 +71,75 @@ class ProfileProblem:
         prior: (k, c + 1) rows of what is known beforehand of all else, of weight 1.
     """
 
-    def __init__(self, state: State, pick: Candidate, own: slice | list[int]) -> None:
+    def __init__(self, state: State, pick: Candidate, effect_columns: slice | list[int]) -> None:
         self.rows, self.observation = state.rows, state.data.observation
-        self.scale, self.y, self.sigma = state.scales[pick.scaled], state.y, state.sigma
-        *self.others, self.prior = (np.delete(w, own, axis=1) for w in (*state.W, state.prior))
+        self.scale, self.y, self.sigma = state.joint_scales[pick.scale_index], state.y, state.sigma
+        *self.others, self.prior = (
+            np.delete(w, effect_columns, axis=1) for w in (*state.W, state.prior)
+        )
 
     @cached_property
-    def base(self) -> tuple[tuple[np.ndarray, ...], np.ndarray]:
+    def weighted_base(self) -> tuple[tuple[np.ndarray, ...], np.ndarray]:
         """Weighted columns of all else by joint, with the prior orthonormal, and (c, r): W turn."""
-        turn = turn_of([*self.others, self.prior[:, :-1]], np.append(self.sigma, 1.0))
+        turn = compute_joint_whitening(
+            [*self.others, self.prior[:, :-1]], np.append(self.sigma, 1.0)
+        )
         every = zip(self.others, self.sigma, strict=True)
         return tuple(w @ (turn / s) for w, s in every), turn
 
     @cached_property
-    def target(self) -> tuple[tuple[np.ndarray, ...], np.ndarray, float]:
+    def weighted_target(self) -> tuple[tuple[np.ndarray, ...], np.ndarray, float]:
         """Weighted y by joint, its products with the base, and what the base leaves of y.y."""
         scaled = tuple(t / s for t, s in zip(self.y, self.sigma, strict=True))
         known = self.prior[:, -1]
-        u = sum(q.T @ t for q, t in zip(self.base[0], scaled, strict=True))
-        u = np.asarray(u + (self.prior[:, :-1] @ self.base[1]).T @ known)
+        u = sum(q.T @ t for q, t in zip(self.weighted_base[0], scaled, strict=True))
+        u = np.asarray(u + (self.prior[:, :-1] @ self.weighted_base[1]).T @ known)
         return scaled, u, float(sum(t @ t for t in scaled) + known @ known - u @ u)
 
-    def at(self, candidate: Candidate) -> Point | None:
+    def fit_candidate(self, candidate: Candidate) -> ProfilePoint | None:
         """The fit with these shapes; None where the columns cannot be told from all else."""
-        columns = enumerate(self.rows.columns(candidate))
-        felt = {j: np.asarray(c) / self.sigma[j] for j, c in columns if c is not None}
-        if not felt or not all(np.isfinite(c).all() for c in felt.values()):
+        columns = enumerate(self.rows.build_columns(candidate))
+        columns_by_joint = {j: np.asarray(c) / self.sigma[j] for j, c in columns if c is not None}
+        if not columns_by_joint or not all(np.isfinite(c).all() for c in columns_by_joint.values()):
             return None
-        (y, u, left), base = self.target, self.base[0]
-        own = felt.values()
-        T = sum(base[j].T @ c for j, c in felt.items())
-        M = sum(c.T @ c for c in own) - T.T @ T
-        h = sum(c.T @ y[j] for j, c in felt.items()) - T.T @ u
-        length = np.sqrt(sum(np.sum(c**2, axis=0) for c in own))
+        (y, u, left), base = self.weighted_target, self.weighted_base[0]
+        joint_columns = columns_by_joint.values()
+        T = sum(base[j].T @ c for j, c in columns_by_joint.items())
+        M = sum(c.T @ c for c in joint_columns) - T.T @ T
+        h = sum(c.T @ y[j] for j, c in columns_by_joint.items()) - T.T @ u
+        length = np.sqrt(sum(np.sum(c**2, axis=0) for c in joint_columns))
         if not (length > 0.0).all():
             return None
         inverse = np.linalg.pinv(M / np.outer(length, length), rcond=1e-9, hermitian=True)
         inverse = inverse / np.outer(length, length)
         values = inverse @ h
-        others = self.base[1] @ (u - T @ values)
+        others = self.weighted_base[1] @ (u - T @ values)
         deviations = np.sqrt(np.maximum(np.diag(inverse), 0.0))
-        return Point(dict(candidate.shapes), left - float(h @ values), values, deviations, others)
-
-    def squares(self, candidate: Candidate, values: np.ndarray) -> float:
-        """S with these shapes and these values (k,) of the effect; all else is fitted."""
-        torque = self.off(candidate) @ values
-        return self.target[2] + float(
-            torque @ torque - 2.0 * torque @ np.concatenate(self.target[0])
+        return ProfilePoint(
+            dict(candidate.nonlinear_parameters),
+            left - float(h @ values),
+            values,
+            deviations,
+            others,
         )
 
-    def off(self, candidate: Candidate) -> np.ndarray:
+    def compute_squares(self, candidate: Candidate, values: np.ndarray) -> float:
+        """S with these shapes and these values (k,) of the effect; all else is fitted."""
+        torque = self.compute_residual_columns(candidate) @ values
+        return self.weighted_target[2] + float(
+            torque @ torque - 2.0 * torque @ np.concatenate(self.weighted_target[0])
+        )
+
+    def compute_residual_columns(self, candidate: Candidate) -> np.ndarray:
         """(rows of all joints, k) what all else leaves of the columns, divided by sigma."""
-        columns = self.rows.columns(candidate)
-        own = [dense(columns, j, len(t)) / self.sigma[j] for j, t in enumerate(self.y)]
-        T = sum(q.T @ c for q, c in zip(self.base[0], own, strict=True))
-        return np.concatenate([c - q @ T for q, c in zip(self.base[0], own, strict=True)])
+        columns = self.rows.build_columns(candidate)
+        joint_columns = [
+            expand_columns(columns, j, len(t)) / self.sigma[j] for j, t in enumerate(self.y)
+        ]
+        T = sum(q.T @ c for q, c in zip(self.weighted_base[0], joint_columns, strict=True))
+        return np.concatenate(
+            [c - q @ T for q, c in zip(self.weighted_base[0], joint_columns, strict=True)]
+        )
 
 
 CHI2_95 = 3.841458820694124
@@ -153,10 +167,10 @@ class Profile:
         shape_factor: f.
     """
 
-    points: tuple[Point, ...]
-    told: Point
+    points: tuple[ProfilePoint, ...]
+    reported_point: ProfilePoint
     factor: np.ndarray
-    shape_factor: float
+    nonlinear_factor: float
 
     @cached_property
     def values(self) -> np.ndarray:
@@ -164,90 +178,109 @@ class Profile:
         return np.array([point.values for point in self.points])
 
     @cached_property
-    def rise(self) -> np.ndarray:
+    def squares_rise(self) -> np.ndarray:
         """(points,) (S - S*) / f^2."""
         squares = np.array([point.squares for point in self.points])
-        return (squares - squares.min()) / self.shape_factor**2
+        return (squares - squares.min()) / self.nonlinear_factor**2
 
     @cached_property
-    def share(self) -> np.ndarray:
+    def likelihood_share(self) -> np.ndarray:
         """(points,) of the likelihood, summing to one."""
-        weight = np.array([point.weight for point in self.points]) * np.exp(-0.5 * self.rise)
-        weight = np.where(self.rise < REFUSED, weight, 0.0)
+        weight = np.array([point.weight for point in self.points]) * np.exp(
+            -0.5 * self.squares_rise
+        )
+        weight = np.where(self.squares_rise < REFUSED, weight, 0.0)
         return np.asarray(weight / weight.sum())
 
-    def deviations(self) -> np.ndarray:
+    def compute_deviations(self) -> np.ndarray:
         """(k,) standard deviations of the parameters, shapes included.
 
         Never more than the interval reaches: where an effect all but vanishes from the rows, its
         parameter may be anything.
         """
-        own = np.array([point.deviations for point in self.points]) * self.factor
-        apart = self.values - self.told.values
-        reach = np.abs(self.intervals() - self.told.values[:, None]).max(axis=1)
-        return np.minimum(np.sqrt(self.share @ (own**2 + apart**2)), reach)
+        point_deviations = np.array([point.deviations for point in self.points]) * self.factor
+        apart = self.values - self.reported_point.values
+        reach = np.abs(self.compute_intervals() - self.reported_point.values[:, None]).max(axis=1)
+        return np.minimum(np.sqrt(self.likelihood_share @ (point_deviations**2 + apart**2)), reach)
 
-    def intervals(self) -> np.ndarray:
+    def compute_intervals(self) -> np.ndarray:
         """(k, 2) 95 % intervals of the parameters, shapes included."""
-        every = [*self.points, self.told]
-        rise = np.append(self.rise, 0.0)
+        every = [*self.points, self.reported_point]
+        rise = np.append(self.squares_rise, 0.0)
         half = np.sqrt(np.maximum(CHI2_95 - rise, 0.0))[:, None] * self.factor
-        values = np.vstack([self.values, self.told.values])
+        values = np.vstack([self.values, self.reported_point.values])
         reach = half * np.array([point.deviations for point in every])
         allowed = rise < CHI2_95
         low, high = (values - reach)[allowed], (values + reach)[allowed]
         return np.column_stack([low.min(axis=0), high.max(axis=0)])
 
-    def shape_deviations(self) -> dict[str, float]:
+    def compute_nonlinear_deviations(self) -> dict[str, float]:
         """Standard deviations of the shapes by name."""
         return {
-            name: float(np.sqrt(self.share @ [(p.shapes[name] - value) ** 2 for p in self.points]))
-            for name, value in self.told.shapes.items()
+            name: float(
+                np.sqrt(
+                    self.likelihood_share
+                    @ [(p.nonlinear_parameters[name] - value) ** 2 for p in self.points]
+                )
+            )
+            for name, value in self.reported_point.nonlinear_parameters.items()
         }
 
-    def shape_intervals(self) -> dict[str, tuple[float, float]]:
+    def compute_nonlinear_intervals(self) -> dict[str, tuple[float, float]]:
         """95 % intervals of the shapes by name: all that the data do not refuse."""
-        allowed = [p for p, rise in zip(self.points, self.rise, strict=True) if rise < CHI2_95]
-        found = {n: [p.shapes[n] for p in (self.told, *allowed)] for n in self.told.shapes}
-        return {name: (min(own), max(own)) for name, own in found.items()}
+        allowed = [
+            p for p, rise in zip(self.points, self.squares_rise, strict=True) if rise < CHI2_95
+        ]
+        values_by_name = {
+            n: [p.nonlinear_parameters[n] for p in (self.reported_point, *allowed)]
+            for n in self.reported_point.nonlinear_parameters
+        }
+        return {name: (min(values), max(values)) for name, values in values_by_name.items()}
 
-    def extra(self) -> np.ndarray:
+    def compute_extra_covariance(self) -> np.ndarray:
         """(c + k,) squared: what the shapes add to the covariance; all else first, then own."""
         every = np.array([np.concatenate([p.others, p.values]) for p in self.points])
-        apart = every - np.concatenate([self.told.others, self.told.values])
-        return np.asarray((apart * self.share[:, None]).T @ apart)
+        apart = every - np.concatenate([self.reported_point.others, self.reported_point.values])
+        return np.asarray((apart * self.likelihood_share[:, None]).T @ apart)
 
 
-def profile(state: State, told: Candidate, own: slice | list[int]) -> Profile | None:
+def compute_profile(
+    state: State, candidate: Candidate, effect_columns: slice | list[int]
+) -> Profile | None:
     """The likelihood along the shapes of an effect; None if it has none that could be others.
 
     Args:
         state: the rows.
-        told: the effect with the shapes that are told.
-        own: its columns in the state.
+        candidate: the effect with the shapes that are told.
+        effect_columns: its columns in the state.
     """
-    problem = ProfileProblem(state, told, own)
-    smooth = [shape for shape in told.form.shapes if told.refinable(shape)]
+    problem = ProfileProblem(state, candidate, effect_columns)
+    smooth = [shape for shape in candidate.form.nonlinear_parameters if candidate.can_refine(shape)]
     fixed = {  # shapes of which only some values make sense
-        shape.name: shape.grid for shape in told.form.shapes
-        if shape not in smooth and len(shape.grid) > 1 and told.shapes[shape.name] in shape.grid
-    }  # fmt: skip
-    first = problem.at(told)
+        shape.name: shape.grid
+        for shape in candidate.form.nonlinear_parameters
+        if shape not in smooth
+        and len(shape.grid) > 1
+        and candidate.nonlinear_parameters[shape.name] in shape.grid
+    }
+    first = problem.fit_candidate(candidate)
     if first is None or not (smooth or fixed):
         return None
-    points: list[Point] = []
+    points: list[ProfilePoint] = []
     for values in itertools.product(*fixed.values()):
         chosen = dict(zip(fixed, values, strict=True))
-        here = dataclasses.replace(told, shapes={**told.shapes, **chosen})
-        points += _explored(problem, here, smooth, first.squares)
-    points = [p for p in points if _possible(told, p)] or [first]
-    factors = _factors(problem, told, smooth, first)
+        here = dataclasses.replace(
+            candidate, nonlinear_parameters={**candidate.nonlinear_parameters, **chosen}
+        )
+        points += _scan_nonlinear(problem, here, smooth, first.squares)
+    points = [p for p in points if _is_possible(candidate, p)] or [first]
+    factors = _compute_factors(problem, candidate, smooth, first)
     k = len(first.values)
     shapes = factors[k:] if len(factors) > k else factors
     return Profile(tuple(points), first, factors[:k], float(shapes.max()))
 
 
-def _possible(candidate: Candidate, point: Point) -> bool:
+def _is_possible(candidate: Candidate, point: ProfilePoint) -> bool:
     """False where physics forbids the sign of a value."""
     return all(
         value >= 0.0 or not column.nonnegative
@@ -255,40 +288,49 @@ def _possible(candidate: Candidate, point: Point) -> bool:
     )
 
 
-def _explored(
-    problem: ProfileProblem, start: Candidate, smooth: Sequence[Shape], least: float
-) -> list[Point]:
+def _scan_nonlinear(
+    problem: ProfileProblem, start: Candidate, smooth: Sequence[NonlinearParameter], least: float
+) -> list[ProfilePoint]:
     """Points with weights, the smooth shapes over all that makes sense."""
     if not smooth:
-        return [point for point in [problem.at(start)] if point is not None]
-    lines = [_line(problem.scale, start, shape) for shape in smooth]
+        return [point for point in [problem.fit_candidate(start)] if point is not None]
+    lines = [_build_line(problem.scale, start, shape) for shape in smooth]
     if len(smooth) == 1:
-        return _along(lambda x: problem.at(start.moved(smooth, [x])), lines[0], least)
-    return _around(problem, start, smooth, lines)
+        return _refine_line(
+            lambda x: problem.fit_candidate(start.replace_nonlinear_parameters(smooth, [x])),
+            lines[0],
+            least,
+        )
+    return _scan_grid(problem, start, smooth, lines)
 
 
-def _coded(shapes: Sequence[Shape], candidate: Candidate) -> np.ndarray:
-    return np.array([coded(shape, candidate.shapes[shape.name]) for shape in shapes])
+def _encode_parameters(shapes: Sequence[NonlinearParameter], candidate: Candidate) -> np.ndarray:
+    return np.array(
+        [encode_parameter(shape, candidate.nonlinear_parameters[shape.name]) for shape in shapes]
+    )
 
 
-def _line(scale: JointScale, start: Candidate, shape: Shape) -> list[float]:
+def _build_line(scale: JointScale, start: Candidate, shape: NonlinearParameter) -> list[float]:
     """Coded values of one shape to begin with, ascending; the told one among them."""
-    told = coded(shape, start.shapes[shape.name])
+    coded_value = encode_parameter(shape, start.nonlinear_parameters[shape.name])
     if shape.scale == "waves":
-        near = told + np.pi / scale.range * np.linspace(-_BESIDE, _BESIDE, 4 * _BESIDE + 1)
+        near = coded_value + np.pi / scale.range * np.linspace(-_BESIDE, _BESIDE, 4 * _BESIDE + 1)
         return [float(m) for m in near if m > 0.0]
     low, high, *inner = (
-        coded(shape, scale.value(shape, entry)) for entry in (*shape.limits, *shape.grid)
+        encode_parameter(shape, scale.scale_value(shape, entry))
+        for entry in (*shape.limits, *shape.grid)
     )
-    return sorted({low, high, *(x for x in (*inner, told) if low < x < high)})
+    return sorted({low, high, *(x for x in (*inner, coded_value) if low < x < high)})
 
 
-def _along(at: Callable[[float], Point | None], line: Sequence[float], least: float) -> list[Point]:
+def _refine_line(
+    at: Callable[[float], ProfilePoint | None], line: Sequence[float], least: float
+) -> list[ProfilePoint]:
     """Points along one shape, closest where the likelihood is: the biggest cell is halved."""
-    seen = {x: at(x) for x in line}
-    while len(seen) < _MOST:
-        x = np.array(sorted(seen))
-        points = [seen[value] for value in x]
+    points_by_value = {x: at(x) for x in line}
+    while len(points_by_value) < _MOST:
+        x = np.array(sorted(points_by_value))
+        points = [points_by_value[value] for value in x]
         squares = np.array([np.inf if point is None else point.squares for point in points])
         likely = np.exp(-0.5 * (squares - min(least, squares.min())))
         # a peak may hide between two points: cells count by their better end
@@ -298,54 +340,60 @@ def _along(at: Callable[[float], Point | None], line: Sequence[float], least: fl
         middle = 0.5 * (ends[0] + ends[1])
         if not cells[biggest] > 0.0 or cells[biggest] < _FINE * cells.sum() or middle in ends:
             break
-        seen[middle] = at(middle)
-    x = np.array(sorted(seen))
+        points_by_value[middle] = at(middle)
+    x = np.array(sorted(points_by_value))
     edges = np.concatenate([x[:1], 0.5 * (x[1:] + x[:-1]), x[-1:]])
-    found = zip((seen[value] for value in x), np.diff(edges), strict=True)
-    return [dataclasses.replace(p, weight=float(w)) for p, w in found if p is not None]
+    weighted_points = zip((points_by_value[value] for value in x), np.diff(edges), strict=True)
+    return [dataclasses.replace(p, weight=float(w)) for p, w in weighted_points if p is not None]
 
 
-def _around(
+def _scan_grid(
     problem: ProfileProblem,
     start: Candidate,
-    smooth: Sequence[Shape],
+    smooth: Sequence[NonlinearParameter],
     lines: Sequence[Sequence[float]],
-) -> list[Point]:
+) -> list[ProfilePoint]:
     """Points on a grid about the told shapes, along the axes of the likelihood there."""
-    middle = _coded(smooth, start)
+    middle = _encode_parameters(smooth, start)
     low, high = (np.array([line[end] for line in lines]) for end in (0, -1))
     # a root of the covariance of the coded shapes, by the slopes of the columns
-    _, slopes = _slopes(problem, start, smooth)
+    _, slopes = _compute_slopes(problem, start, smooth)
     values, vectors = np.linalg.eigh(slopes.T @ slopes)
     floor = 1e-9 * max(float(values.max(initial=0.0)), 1e-300)
     axes = vectors / np.sqrt(np.maximum(values, floor)) * _REACHED
     steps = np.linspace(-1.0, 1.0, _LINE)
     places = [middle + axes @ np.array(z) for z in itertools.product(steps, repeat=len(smooth))]
     inside = [x for x in places if np.all((low <= x) & (x <= high))]
-    found = [problem.at(start.moved(smooth, x)) for x in inside]
-    return [point for point in found if point is not None]
+    points = [problem.fit_candidate(start.replace_nonlinear_parameters(smooth, x)) for x in inside]
+    return [point for point in points if point is not None]
 
 
-def _slopes(
-    problem: ProfileProblem, told: Candidate, smooth: Sequence[Shape]
+def _compute_slopes(
+    problem: ProfileProblem, candidate: Candidate, smooth: Sequence[NonlinearParameter]
 ) -> tuple[np.ndarray, np.ndarray]:
     """Own columns, and slopes of the effect by its coded shapes, off all else; rows of all joints.
 
     The slopes are off the own columns too.
     """
-    here = problem.at(told)
+    here = problem.fit_candidate(candidate)
     assert here is not None
-    own = problem.off(told)
-    middle, slope = _coded(smooth, told), np.zeros((len(own), len(smooth)))
+    columns = problem.compute_residual_columns(candidate)
+    middle, slope = _encode_parameters(smooth, candidate), np.zeros((len(columns), len(smooth)))
     for i, step in enumerate(_STEP * np.eye(len(smooth))):
-        ends = (told.moved(smooth, x) for x in (middle - step, middle + step))
-        low, high = (problem.off(end) @ here.values for end in ends)
+        ends = (
+            candidate.replace_nonlinear_parameters(smooth, x)
+            for x in (middle - step, middle + step)
+        )
+        low, high = (problem.compute_residual_columns(end) @ here.values for end in ends)
         slope[:, i] = (high - low) / (2.0 * _STEP)
-    return own, slope - own @ np.linalg.lstsq(own, slope, rcond=1e-9)[0]
+    return columns, slope - columns @ np.linalg.lstsq(columns, slope, rcond=1e-9)[0]
 
 
-def _factors(
-    problem: ProfileProblem, told: Candidate, smooth: Sequence[Shape], first: Point
+def _compute_factors(
+    problem: ProfileProblem,
+    candidate: Candidate,
+    smooth: Sequence[NonlinearParameter],
+    first: ProfilePoint,
 ) -> np.ndarray:
     """(k + s,) on the deviations of parameters and smooth shapes, 1 and more.
 
@@ -354,20 +402,20 @@ def _factors(
     blocks of time, V = sum_b g_b g_b^T with g_b = sum_t u_t e_t, u_t the influence of a row on the
     parameters (White 1980, Econometrica 48(4); Arellano 1987).
     """
-    own, slopes = _slopes(problem, told, smooth)
-    y, u, _ = problem.target
-    left = np.concatenate([t - q @ u for q, t in zip(problem.base[0], y, strict=True)])
-    left = left - own @ first.values
-    both = np.column_stack([own, slopes])
+    columns, slopes = _compute_slopes(problem, candidate, smooth)
+    y, u, _ = problem.weighted_target
+    left = np.concatenate([t - q @ u for q, t in zip(problem.weighted_base[0], y, strict=True)])
+    left = left - columns @ first.values
+    both = np.column_stack([columns, slopes])
     influence = both @ np.linalg.pinv(both.T @ both, rcond=1e-12, hermitian=True)
     white = np.sum(influence**2, axis=0)
     extra, segment = np.zeros(len(white)), problem.observation.segment
     joint, every = np.nonzero(problem.observation.used.T)
     for j in np.unique(joint):
         rows, sample = joint == j, every[joint == j]
-        r = autocorrelation(left[rows], sample, segment)
-        extra += np.diag(repeated_whole(influence[rows], r, sample, segment))
-    number = blocks_of(problem.observation).number
+        r = estimate_autocorrelation(left[rows], sample, segment)
+        extra += np.diag(sum_lagged_products(influence[rows], r, sample, segment))
+    number = build_time_blocks(problem.observation).number
     sums = np.zeros((number.max() + 1, len(white)))
     np.add.at(sums, number[every], influence * left[:, None])
     safe = np.where(white > 0.0, white, 1.0)
@@ -387,7 +435,7 @@ class EffectValues:
     unit: dict[str, str]
 
 
-def values_of(
+def describe_values(
     state: State, pick: Candidate, values: np.ndarray, deviations: np.ndarray
 ) -> EffectValues:
     """What people read of an effect.
@@ -401,13 +449,13 @@ def values_of(
         values: of its columns.
         deviations: theirs.
     """
-    if pick.effect.acts is Acts.GRAVITY:
-        axes = tilt_axes(state.reference)
+    if pick.effect.acts is EffectTarget.GRAVITY:
+        axes = compute_tilt_axes(state.reference)
         values, deviations = (x[: len(axes)] for x in (values, deviations))
         values, deviations = values @ axes, np.sqrt(deviations**2 @ axes**2)
         units = dict.fromkeys(("gx", "gy", "gz"), "m/s^2")
     else:
-        units = _units(state, pick)
+        units = _list_units(state, pick)
     return EffectValues(
         dict(zip(units, map(float, values), strict=True)),
         dict(zip(units, map(float, deviations), strict=False)),
@@ -415,62 +463,65 @@ def values_of(
     )
 
 
-def profile_of(state: State, place: int) -> Profile | None:
+def compute_effect_profile(state: State, place: int) -> Profile | None:
     """The likelihood along the shapes of an effect that was put in.
 
     Args:
         state: with the effect.
         place: of it among the effects of the state.
     """
-    return profile(state, state.picks[place], own_columns_of(state, place))
+    return compute_profile(state, state.picks[place], find_effect_columns(state, place))
 
 
-def own_columns_of(state: State, place: int) -> slice:
+def find_effect_columns(state: State, place: int) -> slice:
     """The columns of an effect of the state."""
     sizes = [len(values) for values in state.values]
     first = state.W[0].shape[1] - sum(sizes[place:])
     return slice(first, first + sizes[place])
 
 
-def explained_by(state: State, place: int) -> Callable[[Candidate], float]:
+def build_reduction_function(state: State, place: int) -> Callable[[Candidate], float]:
     """The fall of S with an effect that was put in, by its shapes; 0 where physics forbids it."""
-    problem = ProfileProblem(state, state.picks[place], own_columns_of(state, place))
+    problem = ProfileProblem(state, state.picks[place], find_effect_columns(state, place))
 
-    def fall(candidate: Candidate) -> float:
-        point = problem.at(candidate)
-        possible = point is not None and _possible(candidate, point)
-        return problem.target[2] - point.squares if point is not None and possible else 0.0
+    def compute_reduction(candidate: Candidate) -> float:
+        point = problem.fit_candidate(candidate)
+        possible = point is not None and _is_possible(candidate, point)
+        return problem.weighted_target[2] - point.squares if point is not None and possible else 0.0
 
-    return fall
+    return compute_reduction
 
 
-def named_intervals(along: Profile, named: EffectValues) -> dict[str, tuple[float, float]]:
+def collect_intervals(
+    along: Profile, effect_values: EffectValues
+) -> dict[str, tuple[float, float]]:
     """95 % intervals of the parameters and shapes of an effect, by name."""
-    own = zip(named.value, along.intervals().tolist(), strict=False)
-    return {name: (low, high) for name, (low, high) in own} | along.shape_intervals()
+    pairs = zip(effect_values.value, along.compute_intervals().tolist(), strict=False)
+    return {name: (low, high) for name, (low, high) in pairs} | along.compute_nonlinear_intervals()
 
 
-def _units(state: State, pick: Candidate) -> dict[str, str]:
+def _list_units(state: State, pick: Candidate) -> dict[str, str]:
     """Names of the parameters, in the order of the columns, and their units."""
-    if pick.effect.acts is Acts.LINK:
-        felt = body_parameters(pick, state.rows.signals[0])
-        names = [p.name.removesuffix(p.joint) for p in felt]
+    if pick.effect.acts is EffectTarget.LINK:
+        body_specs = list_body_parameters(pick, state.rows.signals[0])
+        names = [p.name.removesuffix(p.joint) for p in body_specs]
         return {
-            "mass" if name == "M" else name: p.unit for name, p in zip(names, felt, strict=True)
+            "mass" if name == "M" else name: p.unit
+            for name, p in zip(names, body_specs, strict=True)
         }
-    linear = is_linear(state.spec, pick.joint)
+    linear = is_prismatic(state.spec, pick.joint)
     return {
         name: column.unit_prismatic if linear else column.unit_revolute
-        for name, column in zip(pick.parameter_names(), pick.form.columns, strict=True)
+        for name, column in zip(pick.list_parameter_names(), pick.form.columns, strict=True)
     }
 
 
-def is_linear(spec: ModuleSpec, joint: str | None) -> bool:
+def is_prismatic(spec: ModuleSpec, joint: str | None) -> bool:
     """True of a prismatic joint."""
-    return any(own.name == joint and own.unit == "m" for own in spec.joints)
+    return any(joint_spec.name == joint and joint_spec.unit == "m" for joint_spec in spec.joints)
 
 
-def shape_units(state: State, pick: Candidate) -> dict[str, str]:
+def find_nonlinear_units(state: State, pick: Candidate) -> dict[str, str]:
     """Units of the shapes, by name."""
-    linear = is_linear(state.spec, pick.joint)
-    return {shape.name: shape.unit(linear) for shape in pick.form.shapes}
+    linear = is_prismatic(state.spec, pick.joint)
+    return {shape.name: shape.get_unit(linear) for shape in pick.form.nonlinear_parameters}

@@ -13,10 +13,10 @@ from weakref import WeakSet
 
 import numpy as np
 
-from modeler.core.brief import Brief
-from modeler.diagnosis.effect_columns import Columns, width
-from modeler.numerics.least_squares import ReducedRows, turn_of, whitening
-from modeler.numerics.spectra import lap
+from modeler.core.brief import ShortRepr
+from modeler.diagnosis.effect_columns import Columns, count_columns
+from modeler.numerics.least_squares import ReducedRows, compute_joint_whitening, compute_whitening
+from modeler.numerics.spectra import estimate_lap_period
 from modeler.observation import Observation
 
 RIDGE = 1e-10
@@ -30,7 +30,7 @@ VISIBLE = 0.005
 
 
 @dataclass(frozen=True, eq=False)
-class Base(Brief):
+class GramBlocks(ShortRepr):
     """The base columns as an orthonormal set over all weighted rows; c columns, r of them kept.
 
     Attributes:
@@ -45,9 +45,9 @@ class Base(Brief):
         prior: (r, r + 1) what is known beforehand, in every fold: its Gram matrix and products.
     """
 
-    source: "BaseColumns"
+    source: "WhitenedColumns"
     y: tuple[np.ndarray, ...]
-    turn: np.ndarray
+    whitening_matrix: np.ndarray
     sigma: np.ndarray
     block: tuple[np.ndarray, ...]
     fold: np.ndarray
@@ -56,51 +56,53 @@ class Base(Brief):
     prior: np.ndarray
 
     @property
-    def columns(self) -> tuple[np.ndarray, ...]:
+    def whitened_columns(self) -> tuple[np.ndarray, ...]:
         """(rows_j, r) by joint, weighted: W turn / sigma; those of the last base are kept."""
-        return self.source.columns()
+        return self.source.compute_columns()
 
     @property
-    def blocks(self) -> int:
+    def block_count(self) -> int:
         """How many blocks of time there are."""
         return len(self.fold)
 
     @cached_property
-    def pieces(self) -> list[list[tuple[int, slice]]]:
+    def row_slices(self) -> list[list[tuple[int, slice]]]:
         """Blocks and their rows, by joint."""
-        return [pieces(own) for own in self.block]
+        return [find_block_runs(joint_blocks) for joint_blocks in self.block]
 
     @cached_property
-    def crossed(self) -> "GramFolds":
+    def fold_fits(self) -> "FoldFits":
         """Fits of the base to all folds but one."""
         place = np.unique(self.fold, return_inverse=True)[1]
         count = int(place.max()) + 1
-        u = but_one(self.u, place, count) + self.prior[:, -1]
-        inverse, beta = solved(but_one(self.G, place, count) + self.prior[:, :-1], u)
-        return GramFolds(place, inverse, beta)
+        u = leave_one_fold_out(self.u, place, count) + self.prior[:, -1]
+        inverse, beta = solve_grams(
+            leave_one_fold_out(self.G, place, count) + self.prior[:, :-1], u
+        )
+        return FoldFits(place, inverse, beta)
 
     @cached_property
-    def left_out(self) -> tuple[np.ndarray, ...]:
+    def cross_validated_residuals(self) -> tuple[np.ndarray, ...]:
         """(rows_j,) by joint, weighted: each row less what the fit to the other folds predicts."""
-        fits = self.crossed
+        fits = self.fold_fits
         return tuple(
-            y - np.einsum("ij,ij->i", columns, fits.beta[fits.place[block]])
-            for columns, y, block in zip(self.columns, self.y, self.block, strict=True)
+            y - np.einsum("ij,ij->i", columns, fits.beta[fits.fold_index[block]])
+            for columns, y, block in zip(self.whitened_columns, self.y, self.block, strict=True)
         )
 
 
-class BaseColumns:
+class WhitenedColumns:
     """The columns of a base: W (rows_j, c) by joint, turn (c, r), sigma (J,).
 
     Many bases are there at a time: only the one that was asked last keeps its columns.
     """
 
-    _last: ClassVar["WeakSet[BaseColumns]"] = WeakSet()
+    _last: ClassVar["WeakSet[WhitenedColumns]"] = WeakSet()
 
     def __init__(self, W: Sequence[np.ndarray], turn: np.ndarray, sigma: np.ndarray) -> None:
         self._of, self._made = (W, turn, sigma), tuple[np.ndarray, ...]()
 
-    def columns(self) -> tuple[np.ndarray, ...]:
+    def compute_columns(self) -> tuple[np.ndarray, ...]:
         """(rows_j, r) by joint."""
         if not self._made:
             for other in list(self._last):
@@ -113,7 +115,7 @@ class BaseColumns:
 
 
 @dataclass(frozen=True, eq=False)
-class GramFolds(Brief):
+class FoldFits(ShortRepr):
     """Fits of the base to all folds but one, F of them.
 
     Attributes:
@@ -122,32 +124,32 @@ class GramFolds(Brief):
         beta: (F, r) parameters.
     """
 
-    place: np.ndarray
+    fold_index: np.ndarray
     inverse: np.ndarray
     beta: np.ndarray
 
 
-def but_one(values: np.ndarray, place: np.ndarray, count: int) -> np.ndarray:
+def leave_one_fold_out(values: np.ndarray, place: np.ndarray, count: int) -> np.ndarray:
     """(F, ...) sums of values (blocks, ...) over all folds but one."""
-    own = np.stack([values[place == f].sum(axis=0) for f in range(count)])
-    return np.asarray(own.sum(axis=0) - own)
+    fold_sums = np.stack([values[place == f].sum(axis=0) for f in range(count)])
+    return np.asarray(fold_sums.sum(axis=0) - fold_sums)
 
 
-def solved(G: np.ndarray, u: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+def solve_grams(G: np.ndarray, u: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """(F, r, r) and (F, r) inverses of Gram matrices of the base, and parameters."""
     inverse = np.linalg.inv(G + RIDGE * np.eye(G.shape[1])) if G.shape[1] else np.zeros_like(G)
     return inverse, np.einsum("frs,fs->fr", inverse, u)
 
 
-def base_of(
+def build_gram_blocks(
     W: Sequence[np.ndarray],
     y: Sequence[np.ndarray],
     sigma: np.ndarray,
     block: Sequence[np.ndarray],
     fold: np.ndarray,
-    turn: np.ndarray | None = None,
+    whitening_matrix: np.ndarray | None = None,
     prior: np.ndarray | None = None,
-) -> Base:
+) -> GramBlocks:
     """The weighted base.
 
     Args:
@@ -156,34 +158,37 @@ def base_of(
         sigma: (J,) of each joint.
         block: (rows_j,) by joint.
         fold: (blocks,) of each block.
-        turn: (c, r) of the columns, where it is known.
+        whitening_matrix: (c, r) of the columns, where it is known.
         prior: (k, c + 1) rows of what is known beforehand, of weight 1; None: nothing.
     """
     prior = np.zeros((0, W[0].shape[1] + 1)) if prior is None else prior
-    if turn is None:
-        turn = turn_of([*W, prior[:, :-1]], np.append(sigma, 1.0))
+    if whitening_matrix is None:
+        whitening_matrix = compute_joint_whitening([*W, prior[:, :-1]], np.append(sigma, 1.0))
     target = tuple(t / s for t, s in zip(y, sigma, strict=True))
-    G, u = np.zeros((len(fold), *turn.shape[1:] * 2)), np.zeros((len(fold), turn.shape[1]))
-    known = np.column_stack([prior[:, :-1] @ turn, prior[:, -1]])
+    G, u = (
+        np.zeros((len(fold), *whitening_matrix.shape[1:] * 2)),
+        np.zeros((len(fold), whitening_matrix.shape[1])),
+    )
+    known = np.column_stack([prior[:, :-1] @ whitening_matrix, prior[:, -1]])
     known = known[:, :-1].T @ known
-    source = BaseColumns(W, turn, sigma)
-    base = Base(source, target, turn, sigma, tuple(block), fold, G, u, known)
-    for w, t, own in zip(base.columns, target, base.pieces, strict=True):
-        for b, rows in own:
+    source = WhitenedColumns(W, whitening_matrix, sigma)
+    base = GramBlocks(source, target, whitening_matrix, sigma, tuple(block), fold, G, u, known)
+    for w, t, slices in zip(base.whitened_columns, target, base.row_slices, strict=True):
+        for b, rows in slices:
             G[b] += w[rows].T @ w[rows]
             u[b] += w[rows].T @ t[rows]
     return base
 
 
-def folded(base: Base) -> Base:
+def merge_blocks(base: GramBlocks) -> GramBlocks:
     """The same with whole folds as blocks: enough where only sums over all blocks count."""
-    place, count = base.crossed.place, len(base.crossed.beta)
-    block = tuple(place[own] for own in base.block)
+    place, count = base.fold_fits.fold_index, len(base.fold_fits.beta)
+    block = tuple(place[joint_blocks] for joint_blocks in base.block)
     G, u = (np.stack([x[place == f].sum(axis=0) for f in range(count)]) for x in (base.G, base.u))
     return dataclasses.replace(base, block=block, fold=np.arange(count), G=G, u=u)
 
 
-def pieces(block: np.ndarray) -> list[tuple[int, slice]]:
+def find_block_runs(block: np.ndarray) -> list[tuple[int, slice]]:
     """The runs of equal block number, in row order."""
     if not block.size:
         return []
@@ -192,7 +197,7 @@ def pieces(block: np.ndarray) -> list[tuple[int, slice]]:
 
 
 @dataclass(frozen=True, eq=False)
-class Pool:
+class CandidateBatch:
     """The columns of many candidates beside the base; K columns of N candidates.
 
     Attributes:
@@ -216,7 +221,7 @@ class Pool:
     D: np.ndarray
 
     @property
-    def count(self) -> int:
+    def candidate_count(self) -> int:
         """Number of candidates, N."""
         return len(self.first)
 
@@ -226,22 +231,22 @@ class Pool:
         return np.cumsum(self.sizes**2) - self.sizes**2
 
 
-def pool_of(base: Base, every: Sequence[Columns]) -> Pool:
+def build_batch(base: GramBlocks, every: Sequence[Columns]) -> CandidateBatch:
     """The Gram matrices of candidates' columns, all of them finite and none zero."""
-    sizes = np.array([width(columns) for columns in every], dtype=int)
+    sizes = np.array([count_columns(columns) for columns in every], dtype=int)
     first = np.cumsum(sizes) - sizes
     owner = np.repeat(np.arange(len(sizes)), sizes)
-    K, r = len(owner), base.turn.shape[1]
+    K, r = len(owner), base.whitening_matrix.shape[1]
     pairs = np.array(
         [(f + i, f + k) for f, size in zip(first, sizes, strict=True)
          for i in range(size) for k in range(size)]
     ).reshape(-1, 2).astype(int)  # fmt: skip
-    T, w = np.zeros((base.blocks, r, K)), np.zeros((base.blocks, K))
-    D, square = np.zeros((base.blocks, len(pairs))), np.zeros(K)
-    pool = Pool(owner, sizes, first, np.ones(K), T, w, pairs, D)
+    T, w = np.zeros((base.block_count, r, K)), np.zeros((base.block_count, K))
+    D, square = np.zeros((base.block_count, len(pairs))), np.zeros(K)
+    pool = CandidateBatch(owner, sizes, first, np.ones(K), T, w, pairs, D)
     for j in range(len(base.sigma)):
-        own = [i for i, columns in enumerate(every) if columns[j] is not None]
-        for some in (own[k : k + _AT_ONCE] for k in range(0, len(own), _AT_ONCE)):
+        active = [i for i, columns in enumerate(every) if columns[j] is not None]
+        for some in (active[k : k + _AT_ONCE] for k in range(0, len(active), _AT_ONCE)):
             if not base.y[j].size:
                 continue
             places = np.concatenate([np.arange(first[i], first[i] + sizes[i]) for i in some])
@@ -256,23 +261,25 @@ def pool_of(base: Base, every: Sequence[Columns]) -> Pool:
     return pool
 
 
-def _add_joint(base: Base, pool: Pool, j: int, places: np.ndarray, columns: np.ndarray) -> None:
+def _add_joint(
+    base: GramBlocks, pool: CandidateBatch, j: int, places: np.ndarray, columns: np.ndarray
+) -> None:
     """Adds the rows of one joint, columns (k, rows_j), to the products of a pool."""
     T, w, D, pairs = pool.T, pool.w, pool.D, pool.pairs
     where = np.full(T.shape[2], -1)
     where[places] = np.arange(len(places))
     here = np.flatnonzero((where[pairs] >= 0).all(axis=1))
     left, right = where[pairs[here, 0]], where[pairs[here, 1]]
-    own = np.zeros((len(T), T.shape[1], len(places)))
-    for b, rows in base.pieces[j]:
+    products = np.zeros((len(T), T.shape[1], len(places)))
+    for b, rows in base.row_slices[j]:
         part = columns[:, rows]
-        own[b] += base.columns[j][rows].T @ part.T
+        products[b] += base.whitened_columns[j][rows].T @ part.T
         w[b, places] += part @ base.y[j][rows]
         D[b, here] += np.einsum("ij,ij->i", part[left], part[right])
-    T[:, :, places] += own
+    T[:, :, places] += products
 
 
-def sigma_of(rows: ReducedRows, prior: np.ndarray | None = None) -> np.ndarray:
+def estimate_sigma(rows: ReducedRows, prior: np.ndarray | None = None) -> np.ndarray:
     """(J,) rms residual of each joint after weighted least squares iterated to its fixed point.
 
     Rows 0 = W_j beta of a joint without a motor, which beta = 0 would satisfy, weigh as those of a
@@ -284,7 +291,7 @@ def sigma_of(rows: ReducedRows, prior: np.ndarray | None = None) -> np.ndarray:
         prior: (k, c + 1) rows of what is known beforehand, of weight 1; None: nothing.
     """
     count = rows.count
-    size = np.array([_rms(y, n) if n else 1.0 for y, n in zip(rows.y, count, strict=True)])
+    size = np.array([_compute_rms(y, n) if n else 1.0 for y, n in zip(rows.y, count, strict=True)])
     floor = 1e-6 * np.maximum(size, 1e-6 * size.max()) + 1e-300
     free = size == 0.0
     sigma = np.maximum(np.where(free, size.max(), size), floor)
@@ -296,13 +303,13 @@ def sigma_of(rows: ReducedRows, prior: np.ndarray | None = None) -> np.ndarray:
     weights = np.ones(len(grams))
     for _ in range(50):
         weights[: len(sigma)] = sigma
-        found = _least_squares(grams, sides, weights)
+        beta = _solve_least_squares(grams, sides, weights)
         every = zip(rows.y, rows.W, count, strict=True)
-        updated = np.array([_rms(y - w @ found, n) if n else 1.0 for y, w, n in every])
+        updated = np.array([_compute_rms(y - w @ beta, n) if n else 1.0 for y, w, n in every])
         if free.any() and not free.all():
             error = float(np.sqrt(np.mean((updated[~free] / size[~free]) ** 2)))
             parts = [
-                np.diag(gram) @ found**2 / max(n, 1) for gram, n in zip(grams, count, strict=False)
+                np.diag(gram) @ beta**2 / max(n, 1) for gram, n in zip(grams, count, strict=False)
             ]
             updated = np.where(free, np.maximum(updated, error * np.sqrt(parts)), updated)
         updated = np.maximum(updated, floor)
@@ -313,11 +320,11 @@ def sigma_of(rows: ReducedRows, prior: np.ndarray | None = None) -> np.ndarray:
     return sigma
 
 
-def _rms(values: np.ndarray, count: int) -> float:
+def _compute_rms(values: np.ndarray, count: int) -> float:
     return float(np.sqrt(values @ values / count)) if count else 0.0
 
 
-def _least_squares(
+def _solve_least_squares(
     grams: Sequence[np.ndarray], sides: Sequence[np.ndarray], sigma: np.ndarray
 ) -> np.ndarray:
     """Weighted least squares from the Gram matrices of the joints."""
@@ -325,7 +332,7 @@ def _least_squares(
         return np.zeros(0)
     gram = np.asarray(sum(g / s**2 for g, s in zip(grams, sigma, strict=True)))
     right = sum(u / s**2 for u, s in zip(sides, sigma, strict=True))
-    turn = whitening(gram, 1e-11)
+    turn = compute_whitening(gram, 1e-11)
     return np.asarray(turn @ (turn.T @ right))
 
 
@@ -342,7 +349,7 @@ FOLDS = 8
 
 
 @dataclass(frozen=True, eq=False)
-class TimeBlocks(Brief):
+class TimeBlocks(ShortRepr):
     """Of an observation.
 
     Attributes:
@@ -356,7 +363,7 @@ class TimeBlocks(Brief):
     period: tuple[float, ...]
 
 
-def blocks_of(observation: Observation) -> TimeBlocks:
+def build_time_blocks(observation: Observation) -> TimeBlocks:
     """Blocks of half a second, and eight folds.
 
     Each log is cut into eight stretches; where its motion repeats, one lap is, and the same phase
@@ -369,12 +376,12 @@ def blocks_of(observation: Observation) -> TimeBlocks:
     folds: list[int] = []
     periods = []
     for log in range(len(observation.logs)):
-        own = np.flatnonzero(run == log)
-        if not own.size:
+        log_rows = np.flatnonzero(run == log)
+        if not log_rows.size:
             periods.append(0.0)
             continue
-        since = time[own] - time[own[0]]
-        period = lap(since, observation.q[own])
+        since = time[log_rows] - time[log_rows[0]]
+        period = estimate_lap_period(since, observation.q[log_rows])
         periods.append(period)
         block = np.floor(since / length).astype(int)
         _, block = np.unique(block, return_inverse=True)
@@ -382,7 +389,7 @@ def blocks_of(observation: Observation) -> TimeBlocks:
         middle = np.zeros(block.max() + 1)
         np.add.at(middle, block, phase)
         middle /= np.bincount(block)
-        number[own] = block + len(folds)
+        number[log_rows] = block + len(folds)
         folds += [(int(FOLDS * min(m, 0.999)) + log) % FOLDS for m in middle]
     return TimeBlocks(number, np.array(folds), tuple(periods))
 
@@ -404,15 +411,15 @@ class Ranking:
         visible: (N,) share of the columns that the base does not hide.
     """
 
-    drop: np.ndarray
+    block_reductions: np.ndarray
     before: np.ndarray
-    sure: np.ndarray
+    t_ratios: np.ndarray
     value: Sequence[np.ndarray]
     deviation: Sequence[np.ndarray]
-    visible: np.ndarray
+    visible_shares: np.ndarray
 
 
-def rank(base: Base, pool: Pool) -> Ranking:
+def rank_candidates(base: GramBlocks, pool: CandidateBatch) -> Ranking:
     """Blocked cross-validation of every candidate beside the base.
 
     Candidates are projected off the base: what the base can imitate is not theirs. For each fold,
@@ -423,12 +430,12 @@ def rank(base: Base, pool: Pool) -> Ranking:
         base: current model.
         pool: candidates.
     """
-    every = _whole(base, pool)
-    cross, square = _by_fit(base, pool, every, slice(None), slice(1))
+    every = _fit_all_rows(base, pool)
+    cross, square = _compute_products(base, pool, every, slice(None), slice(1))
     score = np.sum((cross - square) ** 2, axis=0)
     return Ranking(
-        fall(base, pool),
-        np.array([float(left @ left) for left in base.left_out]),
+        compute_reductions(base, pool),
+        np.array([float(left @ left) for left in base.cross_validated_residuals]),
         every.fitted[0] / np.sqrt(np.maximum(score, 1e-300)),
         np.split(every.gamma[0] / pool.scale, pool.first[1:]),
         np.split(every.deviation[0] / pool.scale, pool.first[1:]),
@@ -436,39 +443,46 @@ def rank(base: Base, pool: Pool) -> Ranking:
     )
 
 
-def fall(base: Base, pool: Pool) -> np.ndarray:
-    """(blocks, N) fall of the squared residual in blocks that were held out: `Ranking.drop`."""
-    crossed = base.crossed
-    at = (crossed.place, len(crossed.beta))
-    grams = [but_one(gram, *at) for gram in (base.u, pool.T, pool.w, pool.D)]
+def compute_reductions(base: GramBlocks, pool: CandidateBatch) -> np.ndarray:
+    """(blocks, N) fall of the squared residual in blocks that were held out.
+
+    " "`Ranking.block_reductions`.
+    """
+    crossed = base.fold_fits
+    at = (crossed.fold_index, len(crossed.beta))
+    grams = [leave_one_fold_out(gram, *at) for gram in (base.u, pool.T, pool.w, pool.D)]
     grams[0] = grams[0] + base.prior[:, -1]
-    held_out = _solve(pool, crossed.inverse, crossed.beta, grams)
-    cross, square = np.zeros((2, base.blocks, pool.count))
+    held_out = _solve_batch(pool, crossed.inverse, crossed.beta, grams)
+    cross, square = np.zeros((2, base.block_count, pool.candidate_count))
     for f in range(len(crossed.beta)):
-        here = crossed.place == f
-        cross[here], square[here] = _by_fit(base, pool, held_out, here, slice(f, f + 1))
+        here = crossed.fold_index == f
+        cross[here], square[here] = _compute_products(base, pool, held_out, here, slice(f, f + 1))
     return 2.0 * cross - square
 
 
-def total_falls(base: Base, pool: Pool) -> tuple[np.ndarray, list[np.ndarray]]:
-    """`rank` in sums, where base and pool are those of whole folds: what chooses among shapes.
+def compute_total_reductions(
+    base: GramBlocks, pool: CandidateBatch
+) -> tuple[np.ndarray, list[np.ndarray]]:
+    """`rank_candidates` in sums, where base and pool are those of whole folds.
+
+    What chooses among shapes.
 
     (N,) fall of the squared residual in folds that were held out, and by candidate its parameters
     on all rows, SI.
     """
-    value = _whole(base, pool).gamma[0] / pool.scale
-    return fall(base, pool).sum(axis=0), np.split(value, pool.first[1:])
+    value = _fit_all_rows(base, pool).gamma[0] / pool.scale
+    return compute_reductions(base, pool).sum(axis=0), np.split(value, pool.first[1:])
 
 
-def _whole(base: Base, pool: Pool) -> "_SolvedPool":
+def _fit_all_rows(base: GramBlocks, pool: CandidateBatch) -> "_BatchFits":
     """Fitted to all rows."""
     G, *grams = (g.sum(axis=0)[None] for g in (base.G, base.u, pool.T, pool.w, pool.D))
     grams[0] = grams[0] + base.prior[:, -1]
-    return _solve(pool, *solved(G + base.prior[:, :-1], grams[0]), grams)
+    return _solve_batch(pool, *solve_grams(G + base.prior[:, :-1], grams[0]), grams)
 
 
 @dataclass(frozen=True, eq=False)
-class _SolvedPool:
+class _BatchFits:
     beta: np.ndarray  # (F, r) of the base alone
     A: np.ndarray  # (F, r, K) candidates' columns in the base
     gamma: np.ndarray  # (F, K) candidates' parameters
@@ -477,9 +491,9 @@ class _SolvedPool:
     fitted: np.ndarray  # (F, N)
 
 
-def _solve(
-    pool: Pool, inverse: np.ndarray, beta: np.ndarray, grams: Sequence[np.ndarray]
-) -> _SolvedPool:
+def _solve_batch(
+    pool: CandidateBatch, inverse: np.ndarray, beta: np.ndarray, grams: Sequence[np.ndarray]
+) -> _BatchFits:
     """F fits of every candidate beside the base, from their Gram matrices (F, ...): u, T, w, D."""
     u, T, w, D = grams
     A = inverse @ T
@@ -487,25 +501,28 @@ def _solve(
     M = D - np.einsum("fri,fri->fi", T[:, :, i], A[:, :, k])
     h = w - np.einsum("frk,fr->fk", A, u)
     gamma, deviation = np.zeros(h.shape), np.zeros(h.shape)
-    visible, fitted = np.zeros((len(h), pool.count)), np.zeros((len(h), pool.count))
+    visible, fitted = (
+        np.zeros((len(h), pool.candidate_count)),
+        np.zeros((len(h), pool.candidate_count)),
+    )
     for size in np.unique(pool.sizes):
-        own = np.flatnonzero(pool.sizes == size)
-        places = pool.first[own][:, None] + np.arange(size)
-        square = pool.first_pairs[own][:, None] + np.arange(size**2)
+        same_size = np.flatnonzero(pool.sizes == size)
+        places = pool.first[same_size][:, None] + np.arange(size)
+        square = pool.first_pairs[same_size][:, None] + np.arange(size**2)
         matrix = M[:, square].reshape(len(h), -1, size, size)
         values, vectors = np.linalg.eigh(0.5 * (matrix + matrix.swapaxes(2, 3)))
-        seen = values > VISIBLE**2
-        inverted = np.where(seen, 1.0 / np.where(seen, values, 1.0), 0.0)
+        is_resolved = values > VISIBLE**2
+        inverted = np.where(is_resolved, 1.0 / np.where(is_resolved, values, 1.0), 0.0)
         turned = np.einsum("fnij,fni->fnj", vectors, h[:, places])
         gamma[:, places] = np.einsum("fnij,fnj->fni", vectors, inverted * turned)
         deviation[:, places] = np.sqrt(np.einsum("fnij,fnj->fni", vectors**2, inverted))
-        visible[:, own] = np.sqrt(np.maximum(values[..., -1], 0.0))
-        fitted[:, own] = np.sum(inverted * turned**2, axis=2)
-    return _SolvedPool(beta, A, gamma, deviation, visible, fitted)
+        visible[:, same_size] = np.sqrt(np.maximum(values[..., -1], 0.0))
+        fitted[:, same_size] = np.sum(inverted * turned**2, axis=2)
+    return _BatchFits(beta, A, gamma, deviation, visible, fitted)
 
 
-def _by_fit(
-    base: Base, pool: Pool, at: _SolvedPool, here: np.ndarray | slice, fit: slice
+def _compute_products(
+    base: GramBlocks, pool: CandidateBatch, at: _BatchFits, here: np.ndarray | slice, fit: slice
 ) -> tuple[np.ndarray, np.ndarray]:
     """(blocks, N) e^T r and e^T e: r the residual of the base, e what is added.
 
@@ -519,22 +536,22 @@ def _by_fit(
     beta, gamma = at.beta[fit], at.gamma[fit]
     G, T = base.G[here], pool.T[here]
     i, k = pool.pairs[:, 0], pool.pairs[:, 1]
-    a = _by_owner(pool, at.A[fit] * gamma[:, None])
-    products = _sums(pool.D[here] * (gamma[:, i] * gamma[:, k]), pool.first_pairs)
+    a = _aggregate_columns(pool, at.A[fit] * gamma[:, None])
+    products = _aggregate_ranges(pool.D[here] * (gamma[:, i] * gamma[:, k]), pool.first_pairs)
     left = base.u[here] - (G @ beta[:, :, None])[:, :, 0]
     known = (beta[:, None] @ T)[:, 0]
-    cross = _by_owner(pool, (pool.w[here] - known) * gamma) - (left[:, None] @ a)[:, 0]
-    own = np.einsum("...rk,...rk->...k", a[:, :, pool.owner], T)
+    cross = _aggregate_columns(pool, (pool.w[here] - known) * gamma) - (left[:, None] @ a)[:, 0]
+    column_products = np.einsum("...rk,...rk->...k", a[:, :, pool.owner], T)
     square = products + np.einsum("...rn,...rn->...n", a, G @ a)
-    return cross, square - 2.0 * _by_owner(pool, own * gamma)
+    return cross, square - 2.0 * _aggregate_columns(pool, column_products * gamma)
 
 
-def _by_owner(pool: Pool, values: np.ndarray) -> np.ndarray:
+def _aggregate_columns(pool: CandidateBatch, values: np.ndarray) -> np.ndarray:
     """(..., N) sums over the columns of each candidate of values (..., K)."""
-    return _sums(values, pool.first)
+    return _aggregate_ranges(values, pool.first)
 
 
-def _sums(values: np.ndarray, starts: np.ndarray) -> np.ndarray:
+def _aggregate_ranges(values: np.ndarray, starts: np.ndarray) -> np.ndarray:
     """Sums of the last axis from each start to the next."""
     if not starts.size or not values.size:
         return np.zeros((*values.shape[:-1], len(starts)))

@@ -8,20 +8,20 @@ from typing import Any
 
 import numpy as np
 
-from modeler.core.brief import LONGEST, Brief
-from modeler.core.json import entries, nulled
+from modeler.core.brief import LONGEST, ShortRepr
+from modeler.core.json import convert_to_plain, select_attributes
 from modeler.core.manifest import ModuleSpec
-from modeler.core.result import Presented
-from modeler.core.table import percent, printed
-from modeler.core.toml_cells import toml_text
+from modeler.core.result import Result
+from modeler.core.table import format_error_pair, format_percent
+from modeler.core.toml_cells import format_toml
 from modeler.diagnosis.candidates import Candidate
 from modeler.diagnosis.cross_checks import CrossCheck, Key, ParameterChange
 from modeler.diagnosis.drive_gains import is_gain
-from modeler.diagnosis.events import Window
+from modeler.diagnosis.events import PushWindow
 from modeler.diagnosis.judge import KEPT
 from modeler.diagnosis.search import Search
 from modeler.diagnosis.state import State
-from modeler.effects import MOTION, Acts, Effect
+from modeler.effects import MOTION, Effect, EffectTarget
 
 # Does an effect explain what is systematic, or only part of it?
 
@@ -30,7 +30,7 @@ CLOSED = 0.95
 """Share of what is systematic that an effect must explain to be stated as the cause."""
 
 
-def explained_fraction(
+def compute_explained_fraction(
     squares: Sequence[Sequence[float]], touched: Sequence[int],
     systematic: Callable[[int], float],
     sigma: np.ndarray,
@@ -56,7 +56,7 @@ def explained_fraction(
     return explained / (explained + left) if explained > 0.0 else 0.0
 
 
-def mean_square(values: np.ndarray) -> float:
+def compute_mean_square(values: np.ndarray) -> float:
     """0 of none."""
     return float(np.mean(values**2)) if values.size else 0.0
 
@@ -84,10 +84,10 @@ COUNTED = 3.0
 _NONE: Mapping[str, float] = {}
 
 
-def doubt(
+def explain_weak_evidence(
     pick: Candidate, errors: tuple[float, float], objection: str = "",
     sigmas: Mapping[str, float] = _NONE, closed: float | None = None,
-    looks: Sequence[CrossCheck] = (), ties: Sequence[Candidate] = (), refines: bool = False,
+    checks: Sequence[CrossCheck] = (), ties: Sequence[Candidate] = (), refines: bool = False,
     left: Sequence[float] = (),
 ) -> str:  # fmt: skip
     """Why an effect is perhaps missing and no more; empty if it is named.
@@ -98,7 +98,7 @@ def doubt(
         objection: why its values cannot be; a drive gain may be in another unit.
         sigmas: standard deviations of its shapes, by name, where they are known.
         closed: share of what is systematic that it explains.
-        looks: what others say of it.
+        checks: what others say of it.
         ties: effects that these data do not tell from it.
         refines: True for what mends a law of the model, which may be small.
         left: relative errors with it of the joints that it touches.
@@ -108,15 +108,18 @@ def doubt(
     reasons = [objection] if objection and not is_gain(pick) else []
     if worst > MOST_LEFT:
         reasons.append(
-            f"with it the error is {percent(worst)} still, so the fit does not determine a joint"
+            f"with it the error is {format_percent(worst)} still, so the fit does not determine a "
+            "joint"
         )
     small = not refines and (closed is None or closed < CLOSED)
     if small and after > (1.0 - SMALL) * before:
-        reasons.append(f"the error falls by less than {percent(SMALL)} of itself")
+        reasons.append(f"the error falls by less than {format_percent(SMALL)} of itself")
     if pick.effect.orders and pick.effect.orders[1] < math.inf:
-        spread = COUNTED * max(sigmas.get(shape.name, math.inf) for shape in pick.form.shapes)
-        if abs(pick.order - round(pick.order)) > spread:
-            reasons.append(f"{pick.order:.1f} waves a turn are no number of teeth or poles")
+        spread = COUNTED * max(
+            sigmas.get(shape.name, math.inf) for shape in pick.form.nonlinear_parameters
+        )
+        if abs(pick.wave_order - round(pick.wave_order)) > spread:
+            reasons.append(f"{pick.wave_order:.1f} waves a turn are no number of teeth or poles")
     joints = sorted({tie.joint for tie in ties if tie.joint not in (None, pick.joint)})
     if joints and pick.joint is not None and not is_gain(pick):
         reasons.append(f"it may as well be one of joint {', '.join(joints)}")
@@ -124,11 +127,11 @@ def doubt(
     if kinds and not is_gain(pick):
         reasons.append(f"it may as well be of another kind: {', '.join(kinds)}")
     unit = bool(objection) and is_gain(pick)  # it bends what every look weighs the joints by
-    for look in () if unit else looks:
-        if not look.agrees and look.leads is not None:
-            reasons.append(f"{look.leads[0]} explains its joint better ({look.what})")
-        if look.expected > SHOWN and look.gain < KEPT * look.expected and not is_gain(pick):
-            reasons.append(f"it explains nothing {look.what}")
+    for check in () if unit else checks:
+        if not check.agrees and check.leads is not None:
+            reasons.append(f"{check.leads[0]} explains its joint better ({check.what})")
+        if check.expected > SHOWN and check.gain < KEPT * check.expected and not is_gain(pick):
+            reasons.append(f"it explains nothing {check.what}")
     return "; ".join(reasons)
 
 
@@ -139,12 +142,12 @@ LEFT = 0.15
 """Share of the residual's variance that must be systematic before an unnamed cause is reported."""
 
 
-def why_not_added(effect: Effect, spec: ModuleSpec) -> str:
+def explain_exclusion(effect: Effect, spec: ModuleSpec) -> str:
     """Why an effect cannot go into a model of this robot; empty if it can."""
     if effect.hindrance:
         return effect.hindrance
     moved = all(name.startswith(MOTION) for name in effect.forms[0].names)
-    moved = moved and effect.acts is not Acts.POSITION
+    moved = moved and effect.acts is not EffectTarget.POSITION
     if spec.closure is None or effect.acts not in JOINTED or moved:
         return ""
     # the C of a robot with loops reads the motion of its joints, nothing else
@@ -154,7 +157,7 @@ def why_not_added(effect: Effect, spec: ModuleSpec) -> str:
     )
 
 
-JOINTED = (Acts.JOINT, Acts.MOTOR, Acts.POSITION, Acts.PASSIVE)
+JOINTED = (EffectTarget.JOINT, EffectTarget.MOTOR, EffectTarget.POSITION, EffectTarget.PASSIVE)
 """Effects that act on a joint."""
 
 
@@ -163,7 +166,7 @@ HIDDEN = 0.01
 
 
 @dataclass(frozen=True, eq=False)
-class Pick(Brief):
+class FittedCandidate(ShortRepr):
     """An effect ready to go into a model: nothing has to be searched for again.
 
     Attributes:
@@ -176,11 +179,11 @@ class Pick(Brief):
     candidate: Candidate
     values: np.ndarray
     state: State
-    visible: float
+    visible_share: float
 
 
 @dataclass(frozen=True)
-class Finding(Brief):
+class Finding(ShortRepr):
     """One missing effect.
 
     Attributes:
@@ -213,31 +216,35 @@ class Finding(Brief):
     parameters: Mapping[str, float]
     sigmas: Mapping[str, float]
     units: Mapping[str, str]
-    ties: tuple[Key, ...]
+    equivalents: tuple[Key, ...]
     evidence: str
     closure: float | None
-    refines: bool
+    is_refinement: bool
     objection: str = ""
     intervals: Mapping[str, tuple[float, float]] = field(default_factory=dict)
-    looks: tuple[CrossCheck, ...] = ()
-    pick: Pick | None = field(default=None, repr=False, compare=False)
-    event: bool = False
+    cross_checks: tuple[CrossCheck, ...] = ()
+    pick: FittedCandidate | None = field(default=None, repr=False, compare=False)
+    is_event: bool = False
     doubt: str = ""
-    first: bool = True
+    is_first: bool = True
 
     @property
-    def stated(self) -> bool:
+    def is_confirmed(self) -> bool:
         """True if it is the cause, or one of those that these data do not tell apart."""
         closed = self.closure is None or self.closure >= CLOSED
         sure = not self.doubt and not self.objection and not math.isnan(self.gain)
-        return closed and sure and self.first
+        return closed and sure and self.is_first
 
     @property
     def status(self) -> str:
         """What is stated as missing is a "fact", else "named" or "perhaps"; a tie is no fact."""
         if self.doubt:
             return "perhaps"
-        return "fact" if self.stated and not self.refines and not self.ties else "named"
+        return (
+            "fact"
+            if self.is_confirmed and not self.is_refinement and not self.equivalents
+            else "named"
+        )
 
     @property
     def gain(self) -> float:
@@ -248,16 +255,18 @@ class Finding(Brief):
     def to_json(self) -> dict[str, Any]:
         """Plain data."""
         return {
-            **entries(self, "effect joint status gain error_before error_after parameters sigmas"),
-            **entries(self, "intervals units"),
-            "ties": [{"effect": effect, "joint": joint} for effect, joint in self.ties],
-            **entries(self, "evidence closure objection doubt"),
-            "looks": [look.to_json() for look in self.looks],
+            **select_attributes(
+                self, "effect joint status gain error_before error_after parameters sigmas"
+            ),
+            **select_attributes(self, "intervals units"),
+            "ties": [{"effect": effect, "joint": joint} for effect, joint in self.equivalents],
+            **select_attributes(self, "evidence closure objection doubt"),
+            "looks": [check.to_json() for check in self.cross_checks],
         }
 
 
 @dataclass(frozen=True, eq=False)
-class Proposal(Brief):
+class EquationProposal(ShortRepr):
     """An equation for what has no name on a joint.
 
     Attributes:
@@ -286,19 +295,19 @@ class Proposal(Brief):
     relative: str
     likeness: float
     differs: str
-    drawn: Search = field(repr=False)
+    final_search: Search = field(repr=False)
     apart: str = ""
     where: str = ""
 
     @property
     def text(self) -> str:
         """To be pasted into a robot file; the line of `[effects]` is behind it, as a comment."""
-        lines = (f"{key} = {toml_text(value)}" for key, value in self.definition.items())
+        lines = (f"{key} = {format_toml(value)}" for key, value in self.definition.items())
         line = f"# [effects] {self.effects_line}"
         return "\n".join([f"[own_effects.{self.finding.effect}]", *lines, line])
 
     @property
-    def told(self) -> list[str]:
+    def summary_lines(self) -> list[str]:
         """What people read."""
         f = self.finding
         units = {name: f" {unit}" for name, unit in f.units.items() if unit != "1"}
@@ -306,32 +315,37 @@ class Proposal(Brief):
             f"{name} = {value:.4g} +- {f.sigmas.get(name, math.nan):.2g}{units.get(name, '')}"
             for name, value in f.parameters.items()
         )
-        change = " -> ".join(printed(f.error_before, f.error_after))
+        change = " -> ".join(format_error_pair(f.error_before, f.error_after))
         instead = f", in place of {', '.join(self.instead)}" if self.instead else ""
-        law = f"{percent(self.explained)} of what a learned law explains"
+        law = f"{format_percent(self.explained)} of what a learned law explains"
         law = "a learned law explains nothing" if math.isnan(self.explained) else law
-        found = [f"joint {f.joint}: {self.equation}: error {change}{instead}; {law}",
+        lines = [f"joint {f.joint}: {self.equation}: error {change}{instead}; {law}",
                  f"  {values}", f"  {self.differs}"]  # fmt: skip
         if self.apart:
-            found += [f"  told from the next by: {self.apart}", f"  {self.where}"]
-        return found
+            lines += [f"  told from the next by: {self.apart}", f"  {self.where}"]
+        return lines
 
-    def lines(self) -> list[str]:
+    def format_lines(self) -> list[str]:
         """The same, and the text to paste."""
-        return [*self.told, *(f"    {line}" for line in self.text.splitlines())]
+        return [*self.summary_lines, *(f"    {line}" for line in self.text.splitlines())]
 
     def to_json(self) -> dict[str, Any]:
         """Plain data."""
         return {
-            **entries(self.finding, "effect joint error_before error_after gain parameters sigmas"),
-            **entries(self.finding, "intervals units"), "text": self.text,
-            **entries(self, "equation effects_line explained symbols instead relative likeness"),
-            **entries(self, "differs apart where"),
-        }  # fmt: skip
+            **select_attributes(
+                self.finding, "effect joint error_before error_after gain parameters sigmas"
+            ),
+            **select_attributes(self.finding, "intervals units"),
+            "text": self.text,
+            **select_attributes(
+                self, "equation effects_line explained symbols instead relative likeness"
+            ),
+            **select_attributes(self, "differs apart where"),
+        }
 
 
 @dataclass(frozen=True, eq=False)
-class Discovery(Brief):
+class JointDiscovery(ShortRepr):
     """What was looked for on one joint.
 
     Attributes:
@@ -345,23 +359,23 @@ class Discovery(Brief):
     joint: str
     share: float
     law: str
-    proposals: tuple[Proposal, ...] = ()
+    proposals: tuple[EquationProposal, ...] = ()
     why: str = ""
 
-    def lines(self) -> list[str]:
+    def format_lines(self) -> list[str]:
         """For people."""
         if not self.proposals:
             return [f"joint {self.joint}: {self.why}"]
-        return [line for proposal in self.proposals for line in proposal.lines()]
+        return [line for proposal in self.proposals for line in proposal.format_lines()]
 
     def to_json(self) -> dict[str, Any]:
         """Plain data."""
-        return {**entries(self, "joint share law why"),
+        return {**select_attributes(self, "joint share law why"),
                 "proposals": [p.to_json() for p in self.proposals]}  # fmt: skip
 
 
 @dataclass(frozen=True)
-class JointState(Brief):
+class JointState(ShortRepr):
     """One joint before and after.
 
     Attributes:
@@ -384,14 +398,14 @@ class JointState(Brief):
     noise: float
 
     @property
-    def unexplained(self) -> bool:
+    def is_unexplained(self) -> bool:
         """True if what is left of physics is worth a word."""
         left = self.systematic + self.noise
         return self.systematic > max(FELT**2, LEFT * left)
 
 
 @dataclass(frozen=True, eq=False)
-class Diagnosis(Presented):
+class Diagnosis(Result):
     """What is missing in a model.
 
     Attributes:
@@ -430,14 +444,14 @@ class Diagnosis(Presented):
     data: tuple[str, ...]
     contradicted: bool
     machine_changed: tuple[ParameterChange, ...]
-    window: Window | None
+    window: PushWindow | None
     search: Search
-    discoveries: tuple[Discovery, ...] | None = None
+    discoveries: tuple[JointDiscovery, ...] | None = None
     errors: Mapping[str, float] = field(default_factory=dict)
 
     def __repr__(self) -> str:
-        said = textwrap.shorten(self.sentences[0], LONGEST, placeholder=" ...")
-        return f"Diagnosis({self.robot}: {said})"
+        headline = textwrap.shorten(self.sentences[0], LONGEST, placeholder=" ...")
+        return f"Diagnosis({self.robot}: {headline})"
 
     def __len__(self) -> int:
         return len(self.effects)
@@ -456,26 +470,26 @@ class Diagnosis(Presented):
         return observation.report.processing.parallel_cutoff
 
     @property
-    def addable(self) -> tuple[Finding, ...]:
+    def addable_findings(self) -> tuple[Finding, ...]:
         """The effects that `modeler add` puts in."""
         spec = self.search.spec
         has = {(p.effect, p.joint) for p in spec.standard}
         return tuple(
             f for f in self.effects
-            if f.pick is not None and f.pick.visible >= HIDDEN and not self.machine_changed
-            and not why_not_added(f.pick.candidate.effect, spec)
+            if f.pick is not None and f.pick.visible_share >= HIDDEN and not self.machine_changed
+            and not explain_exclusion(f.pick.candidate.effect, spec)
             and ((f.effect, f.joint) not in has or f.pick.candidate.effect.several)
         )  # fmt: skip
 
     @property
     def changed(self) -> bool:
         """True if the base parameters were kept and the robot has changed since."""
-        return self.search.start.data.kept is not None
+        return self.search.start.data.fixed_parameters is not None
 
     def to_json(self) -> dict[str, Any]:
         """The `diagnose` object that scripts read; numbers that mean nothing are null."""
-        return nulled({
-            **entries(self, "robot verdict effects refinements"),
+        return convert_to_plain({
+            **select_attributes(self, "robot verdict effects refinements"),
             "rivals": [
                 {"effect": effect, "joint": joint, "gain": gain}
                 for effect, joint, gain in self.rivals
@@ -487,8 +501,8 @@ class Diagnosis(Presented):
                 name: {"relative_error": self.errors.get(name), **vars(joint)}
                 for name, joint in self.joints.items()
             },
-            **entries(self, "unmoved held_out sentences band fit_band data changed"),
-            **entries(self, "contradicted machine_changed"),
+            **select_attributes(self, "unmoved held_out sentences band fit_band data changed"),
+            **select_attributes(self, "contradicted machine_changed"),
             **({} if self.discoveries is None else {
-                "discoveries": [found.to_json() for found in self.discoveries]}),
+                "discoveries": [discovery.to_json() for discovery in self.discoveries]}),
         })  # fmt: skip

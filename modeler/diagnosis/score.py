@@ -10,7 +10,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from modeler.core.table import printed
+from modeler.core.table import format_error_pair
 from modeler.diagnosis.ranking import BLOCK, MOST
 
 STANDARD_ERRORS = 2.0
@@ -43,7 +43,7 @@ class Residuals:
 
 
 @dataclass(frozen=True)
-class Change:
+class ErrorChange:
     """One joint before and after, or some of them together.
 
     Attributes:
@@ -55,30 +55,30 @@ class Change:
     joint: str
     before: float
     after: float
-    scatter: float
+    t_ratio: float
 
     @property
-    def differs(self) -> bool:
+    def is_different(self) -> bool:
         """True if the two printed numbers differ."""
-        return len(set(printed(self.before, self.after))) > 1
+        return len(set(format_error_pair(self.before, self.after))) > 1
 
     @property
-    def falls(self) -> bool:
+    def is_reduced(self) -> bool:
         """True if the error surely falls."""
-        return self.scatter > STANDARD_ERRORS and self.differs and self.after < self.before
+        return self.t_ratio > STANDARD_ERRORS and self.is_different and self.after < self.before
 
     @property
-    def rises(self) -> bool:
+    def is_increased(self) -> bool:
         """True if it surely rises."""
-        return self.scatter < -STANDARD_ERRORS and self.differs and self.after > self.before
+        return self.t_ratio < -STANDARD_ERRORS and self.is_different and self.after > self.before
 
     @property
-    def gain(self) -> float:
+    def variance_reduction(self) -> float:
         """Fall of the squared error, as a share of it."""
         return 1.0 - (self.after / self.before) ** 2 if self.before > 0.0 else 0.0
 
     @property
-    def ratio(self) -> float:
+    def error_ratio(self) -> float:
         """After over before."""
         return max(self.after, LEAST) / max(self.before, LEAST)
 
@@ -92,24 +92,26 @@ class Score:
         whole: the error that is printed for the change: root mean square over joints.
     """
 
-    joints: tuple[Change, ...]
-    whole: Change
+    joints: tuple[ErrorChange, ...]
+    whole: ErrorChange
 
     @property
-    def better(self) -> bool:
+    def is_better(self) -> bool:
         """True if the printed error surely falls, and no joint is spoilt.
 
         Or if that of a joint surely falls by more than its noise, and none rises: what other
         effects leave of other joints may be more than all of it.
         """
-        falls = any(change.falls and change.ratio < 1.0 / WORSE for change in self.joints)
-        mends = falls and not any(change.rises for change in self.joints)
-        return mends or (self.whole.falls and not self.spoilt)
+        is_reduced = any(
+            change.is_reduced and change.error_ratio < 1.0 / WORSE for change in self.joints
+        )
+        mends = is_reduced and not any(change.is_increased for change in self.joints)
+        return mends or (self.whole.is_reduced and not self.has_spoilt_joint)
 
     @property
-    def spoilt(self) -> bool:
+    def has_spoilt_joint(self) -> bool:
         """True if the error of a joint surely rises by more than its noise."""
-        return any(change.rises and change.ratio > WORSE for change in self.joints)
+        return any(change.is_increased and change.error_ratio > WORSE for change in self.joints)
 
     @property
     def errors(self) -> dict[str, tuple[float, float]]:
@@ -117,12 +119,14 @@ class Score:
         return {change.joint: (change.before, change.after) for change in self.joints}
 
     @property
-    def changed(self) -> tuple[str, ...]:
+    def changed_joints(self) -> tuple[str, ...]:
         """Joints whose error falls or rises."""
-        return tuple(change.joint for change in self.joints if change.falls or change.rises)
+        return tuple(
+            change.joint for change in self.joints if change.is_reduced or change.is_increased
+        )
 
 
-def scored(
+def score_change(
     before: Residuals,
     after: Residuals,
     weights: Mapping[str, float] | None = None,
@@ -145,31 +149,33 @@ def scored(
         weights: of the joints, by name; None: the same of all.
         block: s; 0: half a second, longer where logs are long.
     """
-    by_block = _by_block(before, block)
-    old, new = errors_of(before), errors_of(after)
+    by_block = _build_block_function(before, block)
+    old, new = compute_errors(before), compute_errors(after)
     shares = {
         name: (by_block(before, j), by_block(after, j))
         for j, name in enumerate(before.names) if name in old and name in new
     }  # fmt: skip
     changes = tuple(
-        Change(name, old[name], new[name], standard_errors(np.sqrt(a) - np.sqrt(b)))
+        ErrorChange(name, old[name], new[name], compute_t_ratio(np.sqrt(a) - np.sqrt(b)))
         for name, (a, b) in shares.items()
     )
     share = {name: 1.0 if weights is None else weights.get(name, 0.0) for name in shares}
     total = sum(share.values())
     if not total > 0.0:
-        return Score(changes, Change("", math.nan, math.nan, 0.0))
+        return Score(changes, ErrorChange("", math.nan, math.nan, 0.0))
     first, last = (
         math.sqrt(sum(share[name] * of[name] ** 2 for name in shares) / total) for of in (old, new)
     )
     a, b = (
-        np.sqrt(np.sum([share[name] * own[k] for name, own in shares.items()], axis=0))
+        np.sqrt(
+            np.sum([share[name] * joint_shares[k] for name, joint_shares in shares.items()], axis=0)
+        )
         for k in (0, 1)
     )
-    return Score(changes, Change("", first, last, standard_errors(a - b)))
+    return Score(changes, ErrorChange("", first, last, compute_t_ratio(a - b)))
 
 
-def standard_errors(differences: np.ndarray) -> float:
+def compute_t_ratio(differences: np.ndarray) -> float:
     """The sum of differences (blocks,) over its standard error; 0 of fewer than two blocks."""
     count = len(differences)
     spread = float(np.std(differences)) * count / math.sqrt(max(1, count - 1))
@@ -177,27 +183,27 @@ def standard_errors(differences: np.ndarray) -> float:
     return total / max(spread, 1e-9 * abs(total), 1e-300) if count > 1 else 0.0
 
 
-def rms_error(errors: Iterable[float]) -> float:
+def compute_rms_error(errors: Iterable[float]) -> float:
     """Root mean square of relative errors over joints."""
-    found = list(errors)
-    return float(np.sqrt(np.mean(np.square(found)))) if found else 0.0
+    values = list(errors)
+    return float(np.sqrt(np.mean(np.square(values)))) if values else 0.0
 
 
-def errors_of(seen: Residuals) -> dict[str, float]:
+def compute_errors(residuals: Residuals) -> dict[str, float]:
     """Relative error of every joint that has a torque."""
     sizes = [(float(np.linalg.norm(e)), float(np.linalg.norm(y)))
-             for e, y in zip(seen.residual, seen.torque, strict=True)]  # fmt: skip
-    return {name: e / y for name, (e, y) in zip(seen.names, sizes, strict=True) if y > 0.0}
+             for e, y in zip(residuals.residual, residuals.torque, strict=True)]  # fmt: skip
+    return {name: e / y for name, (e, y) in zip(residuals.names, sizes, strict=True) if y > 0.0}
 
 
-def error_changes(joints: Mapping[str, tuple[float, float]], changed: Sequence[str]) -> str:
+def format_error_changes(joints: Mapping[str, tuple[float, float]], changed: Sequence[str]) -> str:
     """The errors that change: "joint 7 11.4 % -> 7.1 %; joint 2 rises, 3 % -> 3.2 %".
 
     Args:
         joints: error before and after, by joint.
         changed: joints whose error falls or rises.
     """
-    pairs = {name: " -> ".join(printed(*joints[name])) for name in changed}
+    pairs = {name: " -> ".join(format_error_pair(*joints[name])) for name in changed}
     rising = [name for name in changed if joints[name][1] > joints[name][0]]
     parts = [", ".join(f"joint {name} {text}" for name, text in pairs.items()
                        if name not in rising)]  # fmt: skip
@@ -207,16 +213,21 @@ def error_changes(joints: Mapping[str, tuple[float, float]], changed: Sequence[s
     return "; ".join(part for part in parts if part)
 
 
-def no_better(joints: Mapping[str, tuple[float, float]], changed: Sequence[str]) -> str:
-    """Why a change is none for the better, of errors as for `error_changes`."""
-    said, errors = error_changes(joints, changed), list(zip(*joints.values(), strict=True))
-    if any(Change(name, *joints[name], 0.0).ratio > WORSE for name in changed):
-        return f"the error rises: {said}"
-    total = " -> ".join(printed(*map(rms_error, errors)))
-    return f"the error does not fall by more than chance: {total} over all joints; {said}"
+def explain_no_improvement(
+    joints: Mapping[str, tuple[float, float]], changed: Sequence[str]
+) -> str:
+    """Why a change is none for the better, of errors as for `format_error_changes`."""
+    changes, errors = (
+        format_error_changes(joints, changed),
+        list(zip(*joints.values(), strict=True)),
+    )
+    if any(ErrorChange(name, *joints[name], 0.0).error_ratio > WORSE for name in changed):
+        return f"the error rises: {changes}"
+    total = " -> ".join(format_error_pair(*map(compute_rms_error, errors)))
+    return f"the error does not fall by more than chance: {total} over all joints; {changes}"
 
 
-def _by_block(logs: Residuals, block: float) -> Callable[[Residuals, int], np.ndarray]:
+def _build_block_function(logs: Residuals, block: float) -> Callable[[Residuals, int], np.ndarray]:
     """The function that gives the squared residuals of a joint, over its squared torque, by block.
 
     Blocks of that many s, of 0 half a second, longer where logs are long; the same for all models
@@ -230,13 +241,13 @@ def _by_block(logs: Residuals, block: float) -> Callable[[Residuals, int], np.nd
         last = count + int((b - a) / length)
         ends[r], count = (count, last), last + 1
 
-    def shares(seen: Residuals, j: int) -> np.ndarray:
-        number = np.zeros(len(seen.run[j]), dtype=int)
+    def compute_shares(residuals: Residuals, j: int) -> np.ndarray:
+        number = np.zeros(len(residuals.run[j]), dtype=int)
         for r, (start, _) in spans.items():
-            own = seen.run[j] == r
-            since = np.floor((seen.time[j][own] - float(start)) / length).astype(int)
-            number[own] = np.clip(ends[r][0] + since, *ends[r])
-        size = float(seen.torque[j] @ seen.torque[j])
-        return np.bincount(number, seen.residual[j] ** 2, count) / size
+            is_in_log = residuals.run[j] == r
+            since = np.floor((residuals.time[j][is_in_log] - float(start)) / length).astype(int)
+            number[is_in_log] = np.clip(ends[r][0] + since, *ends[r])
+        size = float(residuals.torque[j] @ residuals.torque[j])
+        return np.bincount(number, residuals.residual[j] ** 2, count) / size
 
-    return shares
+    return compute_shares

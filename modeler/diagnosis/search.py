@@ -9,27 +9,32 @@ from typing import Any
 import numpy as np
 from scipy.optimize import minimize, minimize_scalar
 
-from modeler.core.brief import Brief
+from modeler.core.brief import ShortRepr
 from modeler.core.manifest import ModuleSpec
-from modeler.diagnosis.candidates import Candidate, coded
-from modeler.diagnosis.drive_gains import all_columns_about, is_gain, likeliest, settled_parameters
-from modeler.diagnosis.generate import generate_candidates, slowest_ringing
+from modeler.diagnosis.candidates import Candidate, encode_parameter
+from modeler.diagnosis.drive_gains import (
+    compute_candidate_columns,
+    is_gain,
+    select_likeliest,
+    solve_parameters,
+)
+from modeler.diagnosis.generate import find_slowest_ringing, generate_candidates
 from modeler.diagnosis.judge import (
     NEARLY,
     SAME,
-    Judged,
-    Judgement,
-    Trial,
-    alternatives,
-    decide,
-    judged_at,
-    leading,
-    tried,
+    CandidateFit,
+    RankedCandidates,
+    ScoredCandidate,
+    fit_candidates,
+    score_candidates,
+    select_alternatives,
+    select_best,
+    select_best_fits,
 )
-from modeler.diagnosis.plausible import DRIVES, EITHER, drives, objection
-from modeler.diagnosis.profile import explained_by, values_of
-from modeler.diagnosis.state import SearchData, State, state_of, together, visible
-from modeler.effects import Effect, Needs, Shape
+from modeler.diagnosis.plausible import DRIVES, EITHER, find_caveat, is_friction_driving
+from modeler.diagnosis.profile import build_reduction_function, describe_values
+from modeler.diagnosis.state import SearchData, State, batch_candidates, build_state, is_visible
+from modeler.effects import Effect, NonlinearParameter, Requirement
 
 _STEPS = 8
 _TURNS = 5
@@ -39,83 +44,100 @@ WHOLE = 0.85
 rollers are counted."""
 
 
-def refined(
-    state: State, candidate: Candidate, explained: Callable[[Candidate], float] | None = None
+def refine_nonlinear_parameters(
+    state: State,
+    candidate: Candidate,
+    compute_reduction: Callable[[Candidate], float] | None = None,
 ) -> Candidate:
     """The candidate at the shapes that explain most: variable projection.
 
     Args:
         state: of the model.
         candidate: where to begin.
-        explained: by shapes; None: by motion left out of the fit.
+        compute_reduction: by shapes; None: by motion left out of the fit.
     """
-    explained = explained or partial(_explained, state)
-    smooth = [shape for shape in candidate.form.shapes if candidate.refinable(shape)]
+    compute_reduction = compute_reduction or partial(_compute_reduction, state)
+    smooth = [shape for shape in candidate.form.nonlinear_parameters if candidate.can_refine(shape)]
     if not smooth:
         return candidate
-    scale = state.scales[candidate.scaled]
-    start = np.array([coded(shape, candidate.shapes[shape.name]) for shape in smooth])
-    reach = np.array([_reach(state, candidate, shape) for shape in smooth])
+    scale = state.joint_scales[candidate.scale_index]
+    start = np.array(
+        [encode_parameter(shape, candidate.nonlinear_parameters[shape.name]) for shape in smooth]
+    )
+    reach = np.array([_compute_search_range(state, candidate, shape) for shape in smooth])
     if smooth[0].scale == "waves":
         low, high = np.zeros(1), np.full(1, np.inf)
     else:
         low, high = (
-            np.array([coded(shape, scale.value(shape, shape.limits[k])) for shape in smooth])
+            np.array(
+                [
+                    encode_parameter(shape, scale.scale_value(shape, shape.limits[k]))
+                    for shape in smooth
+                ]
+            )
             for k in (0, 1)
         )
-        if candidate.effect.rings:
-            low = np.maximum(low, [_lowest(state, shape) for shape in smooth])
+        if candidate.effect.is_oscillator:
+            low = np.maximum(low, [_find_lower_bound(state, shape) for shape in smooth])
 
-    def lost(x: np.ndarray) -> float:
-        return -explained(candidate.moved(smooth, np.clip(x, low, high)))
+    def compute_loss(x: np.ndarray) -> float:
+        return -compute_reduction(
+            candidate.replace_nonlinear_parameters(smooth, np.clip(x, low, high))
+        )
 
     if len(smooth) == 1:
-        found = minimize_scalar(
-            lambda x: lost(np.array([x])),
+        solution = minimize_scalar(
+            lambda x: compute_loss(np.array([x])),
             bounds=(max(start[0] - reach[0], low[0]), min(start[0] + reach[0], high[0])),
             method="bounded",
             options={"maxiter": _STEPS},
         )
-        x, score = np.array([found.x]), float(found.fun)
+        x, score = np.array([solution.x]), float(solution.fun)
         whole = np.round(x)
-        if smooth[0].scale == "waves" and lost(whole) < WHOLE * score:
-            return candidate.moved(smooth, whole)
+        if smooth[0].scale == "waves" and compute_loss(whole) < WHOLE * score:
+            return candidate.replace_nonlinear_parameters(smooth, whole)
     else:
         corners = np.vstack([start, start + 0.5 * np.diag(reach)])
-        found = minimize(
-            lost, start, method="Nelder-Mead",
+        solution = minimize(
+            compute_loss, start, method="Nelder-Mead",
             options={"maxfev": _STEPS * 4, "initial_simplex": corners},
         )  # fmt: skip
-        x, score = found.x, float(found.fun)
-    better = score < lost(start)
-    return candidate.moved(smooth, np.clip(x, low, high)) if better else candidate
+        x, score = solution.x, float(solution.fun)
+    better = score < compute_loss(start)
+    return (
+        candidate.replace_nonlinear_parameters(smooth, np.clip(x, low, high))
+        if better
+        else candidate
+    )
 
 
-def _lowest(state: State, shape: Shape) -> float:
+def _find_lower_bound(state: State, shape: NonlinearParameter) -> float:
     """Coded; of a frequency the least at which a joint rings."""
-    return coded(shape, slowest_ringing(state)) if shape.scale == "hertz" else -np.inf
+    return (
+        encode_parameter(shape, find_slowest_ringing(state)) if shape.scale == "hertz" else -np.inf
+    )
 
 
-def _reach(state: State, candidate: Candidate, shape: Shape) -> float:
+def _compute_search_range(state: State, candidate: Candidate, shape: NonlinearParameter) -> float:
     """How far a value may lie from that of the grid: to the next; half a wave in the stroke."""
     if shape.scale == "angle":
         return 0.3
     if shape.scale == "waves":
-        return float(np.pi / state.scales[candidate.index].range)
+        return float(np.pi / state.joint_scales[candidate.index].range)
     if len(shape.grid) == 1:
         return np.log(2.0)
-    unit = state.scales[candidate.index].unit(shape)
-    gaps = np.diff([coded(shape, unit * value) for value in shape.grid])
+    unit = state.joint_scales[candidate.index].get_unit(shape)
+    gaps = np.diff([encode_parameter(shape, unit * value) for value in shape.grid])
     return float(gaps.max() if shape.scale == "own" else gaps[0])
 
 
-def _explained(state: State, candidate: Candidate) -> float:
+def _compute_reduction(state: State, candidate: Candidate) -> float:
     """Fall of the squared residual, weighted, in held-out blocks; 0 of values that cannot be."""
-    columns = state.rows.columns(candidate)
-    if not visible(columns):
+    columns = state.rows.build_columns(candidate)
+    if not is_visible(columns):
         return 0.0
-    trial = tried(state, [(candidate, columns)])[0]
-    return trial.fall if trial.possible else 0.0
+    trial = fit_candidates(state, [(candidate, columns)])[0]
+    return trial.total_reduction if trial.is_possible else 0.0
 
 
 # Every hypothesis in a state: at the best of its shapes, the leading ones refined.
@@ -146,7 +168,7 @@ WORTH = 0.02
 
 
 @dataclass(frozen=True, eq=False)
-class HypothesisScan:
+class CandidateScan:
     """Every candidate in a state.
 
     Attributes:
@@ -157,78 +179,95 @@ class HypothesisScan:
     """
 
     state: State
-    trials: Sequence[Trial]
-    best: Sequence[Judged]
-    refined: dict[tuple[Any, ...], Judged] = field(default_factory=dict)
+    fits: Sequence[CandidateFit]
+    best: Sequence[ScoredCandidate]
+    refined_scores: dict[tuple[Any, ...], ScoredCandidate] = field(default_factory=dict)
 
-    def still_refused(self, refused: Sequence[Judged]) -> list[Judged]:
+    def list_still_refused(self, refused: Sequence[ScoredCandidate]) -> list[ScoredCandidate]:
         """Vetoed effects that have not become far better by the effect put in since."""
-        gains = {judged.key: judged.gain for judged in self.best}
+        gains = {
+            candidate_score.key: candidate_score.variance_reduction for candidate_score in self.best
+        }
         return [
-            j for j in refused if j.mends or 1.0 - gains.get(j.key, 0.0) > BETTER * (1.0 - j.gain)
+            j
+            for j in refused
+            if j.refines_model_term
+            or 1.0 - gains.get(j.key, 0.0) > BETTER * (1.0 - j.variance_reduction)
         ]
 
-    def excluding(self, vetoed: Sequence[Judged]) -> "HypothesisScan":
+    def exclude_vetoed(self, vetoed: Sequence[ScoredCandidate]) -> "CandidateScan":
         """The same without what was vetoed."""
-        touched = {t.candidate.key for t in self.trials if is_vetoed(t.candidate, vetoed)}
+        touched = {t.candidate.key for t in self.fits if is_vetoed(t.candidate, vetoed)}
         if not touched:
             return self
-        left = [t for t in self.trials if not is_vetoed(t.candidate, vetoed)]
-        again = [t.candidate for t in leading(left) if t.candidate.key in touched]
-        columns = all_columns_about(self.state, again)
-        judged = judged_at(self.state, [*zip(again, columns, strict=True)])
-        best = [*(j for j in self.best if j.key not in touched), *judged]
-        best.sort(key=lambda j: -j.fall)
-        return HypothesisScan(self.state, left, best, self.refined)
+        left = [t for t in self.fits if not is_vetoed(t.candidate, vetoed)]
+        again = [t.candidate for t in select_best_fits(left) if t.candidate.key in touched]
+        columns = compute_candidate_columns(self.state, again)
+        candidate_scores = score_candidates(self.state, [*zip(again, columns, strict=True)])
+        best = [*(j for j in self.best if j.key not in touched), *candidate_scores]
+        best.sort(key=lambda j: -j.total_reduction)
+        return CandidateScan(self.state, left, best, self.refined_scores)
 
-    def judged(self, vetoed: Sequence[Judged] = (), tick: Tick = lambda: None) -> Judgement:
+    def judge_candidates(
+        self, vetoed: Sequence[ScoredCandidate] = (), tick: Tick = lambda: None
+    ) -> RankedCandidates:
         """All but what was vetoed; the leading ones refined, with a tick after each."""
-        left = self.excluding(vetoed)
+        left = self.exclude_vetoed(vetoed)
         close = [
-            j for j in left.best[:MANY]
-            if j.possible and j.share > CLOSE * left.best[0].share and j.gain > WORTH
-        ]  # fmt: skip
+            j
+            for j in left.best[:MANY]
+            if j.is_possible
+            and j.total_variance_reduction > CLOSE * left.best[0].total_variance_reduction
+            and j.variance_reduction > WORTH
+        ]
         # Of effects that were not refined, only the best shapes may win still.
         refined = {}
         for item in close:
-            starts = left.starts(item.candidate)
-            key = tuple((*c.key, *c.shapes.items()) for c in starts)
-            if key not in self.refined:
-                self.refined[key] = left.at_best(item, starts)
-            refined[item.key] = self.refined[key]
+            starts = left.list_starts(item.candidate)
+            key = tuple((*c.key, *c.nonlinear_parameters.items()) for c in starts)
+            if key not in self.refined_scores:
+                self.refined_scores[key] = left.refine_candidate(item, starts)
+            refined[item.key] = self.refined_scores[key]
             tick()
         best = [refined.get(j.key, j) for j in left.best]
-        return decide(self.state, sorted(best, key=lambda j: -j.fall))
+        return select_best(self.state, sorted(best, key=lambda j: -j.total_reduction))
 
-    def at_best(self, judged: Judged, starts: Sequence[Candidate]) -> Judged:
+    def refine_candidate(
+        self, candidate_score: ScoredCandidate, starts: Sequence[Candidate]
+    ) -> ScoredCandidate:
         """An effect with its best shapes refined, or with the next best if these do better."""
-        state, first = self.state, judged.candidate
-        better = [refined(state, start) for start in starts]
+        state, first = self.state, candidate_score.candidate
+        better = [refine_nonlinear_parameters(state, start) for start in starts]
         if better == [first]:
-            return judged
-        others = [t for t in self.trials if t.candidate.key == first.key]
-        pairs = [(candidate, state.rows.columns(candidate)) for candidate in better]
-        shown = [pair for pair in pairs if visible(pair[1])]
-        (best,) = leading([*tried(state, shown), *others])
-        columns = next((own for candidate, own in shown if candidate is best.candidate), None)
+            return candidate_score
+        others = [t for t in self.fits if t.candidate.key == first.key]
+        pairs = [(candidate, state.rows.build_columns(candidate)) for candidate in better]
+        shown = [pair for pair in pairs if is_visible(pair[1])]
+        (best,) = select_best_fits([*fit_candidates(state, shown), *others])
+        columns = next(
+            (shown_columns for candidate, shown_columns in shown if candidate is best.candidate),
+            None,
+        )
         if columns is None:
-            (columns,) = all_columns_about(state, [best.candidate])
-        return judged_at(state, [(best.candidate, columns)])[0]
+            (columns,) = compute_candidate_columns(state, [best.candidate])
+        return score_candidates(state, [(best.candidate, columns)])[0]
 
-    def starts(self, first: Candidate) -> list[Candidate]:
+    def list_starts(self, first: Candidate) -> list[Candidate]:
         """Shapes of one effect from which refining starts, the best first.
 
         With one shape to refine, the best for each value of the others, if it comes near; with
         more, the best few.
         """
-        refined = [s.name for s in first.form.shapes if s.smooth and len(s.grid) > 1]
-        if len(first.form.shapes) < 2 or not refined:
+        refined = [
+            s.name for s in first.form.nonlinear_parameters if s.is_continuous and len(s.grid) > 1
+        ]
+        if len(first.form.nonlinear_parameters) < 2 or not refined:
             return [first]
-        every = [t for t in self.trials if t.candidate.key == first.key]
-        own = [t for t in every if t.possible] or every
-        falls = np.array([trial.fall for trial in own])
+        every = [t for t in self.fits if t.candidate.key == first.key]
+        possible_fits = [t for t in every if t.is_possible] or every
+        falls = np.array([trial.total_reduction for trial in possible_fits])
         least = NEAR * float(falls.max()) if len(refined) == 1 else -np.inf
-        near = [own[k].candidate for k in np.argsort(-falls) if falls[k] >= least]
+        near = [possible_fits[k].candidate for k in np.argsort(-falls) if falls[k] >= least]
         order = [first, *(c for c in near if c is not first)]
         if len(refined) > 1:
             return order[:STARTS]
@@ -240,36 +279,38 @@ class HypothesisScan:
 
 def scan_catalogue(
     state: State, without: Sequence[str] = (), only: str | None = None, joint: str | None = None
-) -> HypothesisScan:
+) -> CandidateScan:
     """All candidates in a state, or those of one effect, or of one joint."""
     return scan_candidates(
         state, [c for c in generate_candidates(state, only, without) if joint in (None, c.joint)]
     )
 
 
-def scan_candidates(state: State, found: Sequence[Candidate]) -> HypothesisScan:
+def scan_candidates(state: State, candidates: Sequence[Candidate]) -> CandidateScan:
     """Some candidates in a state; those that show."""
-    trials, best = dict[int, Trial](), dict[int, Judged]()
-    place = {id(candidate): k for k, candidate in enumerate(found)}
-    for some in together(found, AT_ONCE):  # their columns are never there all at once
-        every = zip(some, all_columns_about(state, some), strict=True)
-        shown = {id(own[0]): own for own in every if visible(own[1])}
-        own = tried(state, [*shown.values()]) if shown else []
-        trials |= {place[id(t.candidate)]: t for t in own}
-        judged = judged_at(state, [shown[id(t.candidate)] for t in leading(own)])
-        best |= {id(j.candidate): j for j in judged}
+    trials, best = dict[int, CandidateFit](), dict[int, ScoredCandidate]()
+    place = {id(candidate): k for k, candidate in enumerate(candidates)}
+    for some in batch_candidates(candidates, AT_ONCE):  # their columns are never there all at once
+        every = zip(some, compute_candidate_columns(state, some), strict=True)
+        shown = {id(fits[0]): fits for fits in every if is_visible(fits[1])}
+        fits = fit_candidates(state, [*shown.values()]) if shown else []
+        trials |= {place[id(t.candidate)]: t for t in fits}
+        candidate_scores = score_candidates(
+            state, [shown[id(t.candidate)] for t in select_best_fits(fits)]
+        )
+        best |= {id(j.candidate): j for j in candidate_scores}
     in_order = [trials[k] for k in sorted(trials)]
-    first = [best[id(t.candidate)] for t in leading(in_order)]
-    return HypothesisScan(state, in_order, sorted(first, key=lambda j: -j.fall))
+    first = [best[id(t.candidate)] for t in select_best_fits(in_order)]
+    return CandidateScan(state, in_order, sorted(first, key=lambda j: -j.total_reduction))
 
 
-def is_vetoed(candidate: Candidate, vetoed: Sequence[Judged]) -> bool:
+def is_vetoed(candidate: Candidate, vetoed: Sequence[ScoredCandidate]) -> bool:
     """True if it was vetoed; of ripples, all orders that differ by less than a tenth."""
-    others = [judged.candidate for judged in vetoed]
+    others = [candidate_score.candidate for candidate_score in vetoed]
     if not candidate.effect.several:
         return any(c.key == candidate.key for c in others if not c.effect.several)
-    order = candidate.order
-    orders = [c.order for c in others if c.effect.several]
+    order = candidate.wave_order
+    orders = [c.wave_order for c in others if c.effect.several]
     return any(abs(order - m) < 0.1 * m for m in orders)
 
 
@@ -284,7 +325,7 @@ ASKED = 20
 many, it is other motion, or the logs hold nothing that returns."""
 
 
-Veto = Callable[[State, State, Judged], bool]
+Veto = Callable[[State, State, ScoredCandidate], bool]
 """True if an effect does not lower the error on held-out logs: state without it, with it, the
 effect as it was judged."""
 
@@ -293,7 +334,7 @@ CLEAR = 1.01
 
 
 @dataclass(frozen=True, eq=False)
-class Step(Brief):
+class SearchStep(ShortRepr):
     """One effect that was put in.
 
     Attributes:
@@ -303,19 +344,19 @@ class Step(Brief):
         ties: rivals that the data do not tell from it.
     """
 
-    judged: Judged
-    rivals: tuple[Judged, ...]
+    score: ScoredCandidate
+    alternatives: tuple[ScoredCandidate, ...]
     before: State
-    ties: tuple[Judged, ...] = ()
+    equivalents: tuple[ScoredCandidate, ...] = ()
 
     @property
-    def pick(self) -> Candidate:
+    def candidate(self) -> Candidate:
         """The effect on its joint, with its shapes."""
-        return self.judged.candidate
+        return self.score.candidate
 
 
 @dataclass(frozen=True, eq=False)
-class Search(Brief):
+class Search(ShortRepr):
     """What a search found.
 
     Attributes:
@@ -329,12 +370,12 @@ class Search(Brief):
     """
 
     start: State
-    steps: tuple[Step, ...]
+    steps: tuple[SearchStep, ...]
     end: State
-    last: Judgement
-    vetoed: tuple[Judged, ...] = ()
+    last: RankedCandidates
+    vetoed_candidates: tuple[ScoredCandidate, ...] = ()
     without: tuple[str, ...] = ()
-    given: tuple[Step, ...] = ()
+    prior_steps: tuple[SearchStep, ...] = ()
 
     @property
     def spec(self) -> ModuleSpec:
@@ -344,22 +385,22 @@ class Search(Brief):
     @property
     def catalogue(self) -> Sequence[Effect]:
         """The effects that may be missing."""
-        return self.start.data.known.catalogue
+        return self.start.data.stated_effects.catalogue
 
     @property
-    def ranked(self) -> tuple[Judged, ...]:
+    def ranked(self) -> tuple[ScoredCandidate, ...]:
         """Rivals of the first effect that was put in, or all where none was; best first."""
-        return self.steps[0].rivals if self.steps else self.last.ranked
+        return self.steps[0].alternatives if self.steps else self.last.ranked
 
 
-def search(
+def search_effects(
     data: SearchData,
     beta: np.ndarray,
     without: Sequence[str] = (),
     most: int = MOST,
     veto: Veto | None = None,
     tick: Tick = lambda: None,
-    given: Sequence[Step] = (),
+    prior_steps: Sequence[SearchStep] = (),
 ) -> Search:
     """Effects that the model lacks, one by one.
 
@@ -370,100 +411,128 @@ def search(
         most: effects to name at most; with 0 nothing is judged.
         veto: looks at held-out logs.
         tick: called whenever something is done.
-        given: effects that another look has put in.
+        prior_steps: effects that another look has put in.
     """
-    start = state = about_itself(state_of(data, [step.pick for step in given], beta))
-    steps, refused, every = list[Step](), list[Judged](), list[Judged]()
+    start = state = linearise_state(
+        build_state(data, [step.candidate for step in prior_steps], beta)
+    )
+    steps, refused, every = list[SearchStep](), list[ScoredCandidate](), list[ScoredCandidate]()
     if not most:
-        return Search(start, (), state, Judgement((), None), (), tuple(without), tuple(given))
+        return Search(
+            start, (), state, RankedCandidates((), None), (), tuple(without), tuple(prior_steps)
+        )
     survey = scan_catalogue(state, without)
-    judgement = survey.judged((), tick)
+    judgement = survey.judge_candidates((), tick)
     while judgement.best is not None and len(steps) < most and len(every) < ASKED:
-        best = _named(state, judgement.best, refused, without)
-        best, later = put_in(state, _beside_prior(state, best, judgement, refused), veto)
-        other = _instead(survey, refused, best, later, tick)
+        best = _choose_likeliest_gain(state, judgement.best, refused, without)
+        best, later = accept_candidate(
+            state, _choose_beside_prior(state, best, judgement, refused), veto
+        )
+        other = _choose_alternative(survey, refused, best, later, tick)
         if other is not None or later is None:
             refused, every = [*refused, best], [*every, best]
-            judgement = other or Judgement((), None)
+            judgement = other or RankedCandidates((), None)
             continue
         survey = scan_catalogue(later, without)
-        doubted, refused = _doubted(refused, best), survey.still_refused(refused)
-        after = survey.judged(refused, tick)
+        doubted, refused = (
+            _find_displaced_candidates(refused, best),
+            survey.list_still_refused(refused),
+        )
+        after = survey.judge_candidates(refused, tick)
         rivals = tuple(j for j in judgement.ranked if j.key != best.key)
-        equals = [o for o in alternatives(best, rivals, after) if _covers(state, o, best)]
+        equals = [
+            o for o in select_alternatives(best, rivals, after) if _is_covered(state, o, best)
+        ]
         ties = (*equals, *doubted)
-        steps.append(Step(best, rivals, state, ties))
+        steps.append(SearchStep(best, rivals, state, ties))
         state, judgement = later, after
-    kept, state = _settled(state, steps, start.picks, tick)
-    looked = judgement, tuple(every), tuple(without), tuple(given)
-    return Search(start, tuple(kept), state, *looked)
+    needed_steps, state = _prune_steps(state, steps, start.picks, tick)
+    looked = judgement, tuple(every), tuple(without), tuple(prior_steps)
+    return Search(start, tuple(needed_steps), state, *looked)
 
 
-def _covers(state: State, other: Judged, best: Judged) -> bool:
+def _is_covered(state: State, other: ScoredCandidate, best: ScoredCandidate) -> bool:
     """True if with the other effect put in, little is left for the best one."""
-    beside = state_of(state.data, [*state.picks, other.candidate], state.beta)
-    return _judged_again(beside, best.candidate).fall < SAME * best.fall
+    beside = build_state(state.data, [*state.picks, other.candidate], state.beta)
+    return _score_candidate(beside, best.candidate).total_reduction < SAME * best.total_reduction
 
 
-def _doubted(refused: Sequence[Judged], best: Judged) -> list[Judged]:
+def _find_displaced_candidates(
+    refused: Sequence[ScoredCandidate], best: ScoredCandidate
+) -> list[ScoredCandidate]:
     """What gave way to an effect that explains as much: for the data it is a tie."""
     return [
-        judged for judged in refused
-        if judged.why not in ("", DRIVES)
-        and NEARLY * judged.share < best.share < judged.share / NEARLY
-    ]  # fmt: skip
+        candidate_score
+        for candidate_score in refused
+        if candidate_score.reason not in ("", DRIVES)
+        and NEARLY * candidate_score.total_variance_reduction
+        < best.total_variance_reduction
+        < candidate_score.total_variance_reduction / NEARLY
+    ]
 
 
 SHORT = 0.01
 """s: a delay of all torques below is linear in the band of a diagnosis, and has a name there."""
 
 
-def put_in(state: State, best: Judged, veto: Veto | None) -> tuple[Judged, State | None]:
+def accept_candidate(
+    state: State, best: ScoredCandidate, veto: Veto | None
+) -> tuple[ScoredCandidate, State | None]:
     """An effect that led, with what speaks against its values, and the state with it.
 
     The state is None where it is refused: `why` says why, if it is not by held-out motion.
     """
-    later = extended(state, best.candidate)
-    if drives(state, later, best.candidate):
-        return dataclasses.replace(best, possible=False, why=DRIVES), None
+    later = extend_state(state, best.candidate)
+    if is_friction_driving(state, later, best.candidate):
+        return dataclasses.replace(best, is_possible=False, reason=DRIVES), None
     if veto is not None and veto(state, later, best):
         return best, None
     if is_gain(best.candidate):  # of all, the likeliest; a unit or a sign is told with it
         return best, later
     pick, values = later.picks[-1], later.values[-1]
-    named = values_of(later, pick, values, np.zeros(len(values)))
-    why = objection(later, pick, named.value | dict(pick.shapes))
-    lags = Needs.LAG in pick.effect.needs
-    short = lags and pick.joint is None and float(values[0]) * pick.shapes["tau"] < SHORT
+    effect_values = describe_values(later, pick, values, np.zeros(len(values)))
+    why = find_caveat(later, pick, effect_values.value | dict(pick.nonlinear_parameters))
+    lags = Requirement.LAG in pick.effect.needs
+    short = (
+        lags and pick.joint is None and float(values[0]) * pick.nonlinear_parameters["tau"] < SHORT
+    )
     # A lag of no certain kind would take the place of what rounds torques too.
-    if why and (short or why.endswith(EITHER) or Needs.TILT in pick.effect.needs):
-        return dataclasses.replace(best, why=why), None
-    return dataclasses.replace(best, why=why) if why else best, later
+    if why and (short or why.endswith(EITHER) or Requirement.TILT in pick.effect.needs):
+        return dataclasses.replace(best, reason=why), None
+    return dataclasses.replace(best, reason=why) if why else best, later
 
 
-def _instead(
-    survey: HypothesisScan,
-    refused: Sequence[Judged],
-    asked: Judged,
+def _choose_alternative(
+    survey: CandidateScan,
+    refused: Sequence[ScoredCandidate],
+    candidate_score: ScoredCandidate,
     later: State | None,
     tick: Tick,
-) -> Judgement | None:
+) -> RankedCandidates | None:
     """What leads without an effect that was refused, or is doubted, if another explains as much.
 
     Or if the doubted one explains little. None where the effect is put in.
     """
-    if later is not None and not asked.why:
+    if later is not None and not candidate_score.reason:
         return None
-    without = survey.judged([*refused, asked], tick)
-    if later is None or asked.gain < MUCH:
+    without = survey.judge_candidates([*refused, candidate_score], tick)
+    if later is None or candidate_score.variance_reduction < MUCH:
         return without
     best = without.best
-    return without if best is not None and best.share > NEARLY * asked.share else None
+    return (
+        without
+        if best is not None
+        and best.total_variance_reduction > NEARLY * candidate_score.total_variance_reduction
+        else None
+    )
 
 
-def _beside_prior(
-    state: State, best: Judged, judgement: Judgement, vetoed: Sequence[Judged]
-) -> Judged:
+def _choose_beside_prior(
+    state: State,
+    best: ScoredCandidate,
+    judgement: RankedCandidates,
+    vetoed: Sequence[ScoredCandidate],
+) -> ScoredCandidate:
     """The best effect; of equals on its joint, one that clearly leaves less once it is put in.
 
     While an effect is missing, its joint says little beside the prior, and bodies stay where that
@@ -472,30 +541,38 @@ def _beside_prior(
     """
     first = judgement.best
     assert first is not None
-    near = [j for j in judgement.ranked if j.significant and j.share > CLOSE * first.share]
+    near = [
+        j
+        for j in judgement.ranked
+        if j.is_significant and j.total_variance_reduction > CLOSE * first.total_variance_reduction
+    ]
     every = {j.key: j for j in (best, first, *near) if not is_vetoed(j.candidate, vetoed)}
-    if state.data.prior is None or not best.candidate.local:
+    if state.data.prior is None or not best.candidate.is_local:
         return best
-    found = {}
-    for key, judged in every.items():
-        if key[1] == best.key[1] and judged.candidate.local:
-            later = extended(state, judged.candidate)
-            scan = scan_catalogue(state.weighed_as(later), (), *key)
+    errors_by_key = {}
+    for key, candidate_score in every.items():
+        if key[1] == best.key[1] and candidate_score.candidate.is_local:
+            later = extend_state(state, candidate_score.candidate)
+            scan = scan_catalogue(state.replace_weights(later), (), *key)
             if not scan.best:  # it shows with the weights of the state alone
                 continue
             least = scan.best[0]
-            again = scan.at_best(least, scan.starts(least.candidate)).candidate
-            later = extended(state, again)
-            error = float(np.linalg.norm(later.base.left_out[again.index]))
-            found[key] = error * float(later.sigma[again.index]), again
-    if not found:
+            again = scan.refine_candidate(least, scan.list_starts(least.candidate)).candidate
+            later = extend_state(state, again)
+            error = float(np.linalg.norm(later.gram_blocks.cross_validated_residuals[again.index]))
+            errors_by_key[key] = error * float(later.sigma[again.index]), again
+    if not errors_by_key:
         return best
-    likely = first.key if first.key in found else best.key
-    key = min(found, key=lambda key: found[key][0] * (1.0 if key == likely else CLEAR))
-    return _judged_again(state, found[key][1])
+    likely = first.key if first.key in errors_by_key else best.key
+    key = min(
+        errors_by_key, key=lambda key: errors_by_key[key][0] * (1.0 if key == likely else CLEAR)
+    )
+    return _score_candidate(state, errors_by_key[key][1])
 
 
-def _named(state: State, best: Judged, vetoed: Sequence[Judged], without: Sequence[str]) -> Judged:
+def _choose_likeliest_gain(
+    state: State, best: ScoredCandidate, vetoed: Sequence[ScoredCandidate], without: Sequence[str]
+) -> ScoredCandidate:
     """The best effect; of drive gains, the likeliest.
 
     Ranks weigh the joints by what a model bent by a wrong gain leaves.
@@ -504,113 +581,144 @@ def _named(state: State, best: Judged, vetoed: Sequence[Judged], without: Sequen
         return best
     every = generate_candidates(state, best.candidate.effect.id, without)
     gains = [c for c in every if not is_vetoed(c, vetoed)]
-    return _judged_again(state, likeliest(state, gains) or best.candidate)
+    return _score_candidate(state, select_likeliest(state, gains) or best.candidate)
 
 
-def _judged_again(state: State, candidate: Candidate) -> Judged:
-    (columns,) = all_columns_about(state, [candidate])
-    return decide(state, judged_at(state, [(candidate, columns)])).ranked[0]
+def _score_candidate(state: State, candidate: Candidate) -> ScoredCandidate:
+    (columns,) = compute_candidate_columns(state, [candidate])
+    return select_best(state, score_candidates(state, [(candidate, columns)])).ranked[0]
 
 
-def extended(state: State, pick: Candidate) -> State:
+def extend_state(state: State, pick: Candidate) -> State:
     """The state with one effect more, linearised about its own parameters."""
-    picks, about = (*state.picks, pick), settled_parameters(state, pick)
-    once = state_of(state.data, picks, state.beta if about is None else about)
-    return about_itself(once)
+    picks, about = (*state.picks, pick), solve_parameters(state, pick)
+    once = build_state(state.data, picks, state.beta if about is None else about)
+    return linearise_state(once)
 
 
-def about_itself(state: State) -> State:
+def linearise_state(state: State) -> State:
     """The state linearised about its own parameters."""
-    about = settled_parameters(state)
-    return state_of(state.data, state.picks, state.beta if about is None else about)
+    about = solve_parameters(state)
+    return build_state(state.data, state.picks, state.beta if about is None else about)
 
 
-def _settled(
-    state: State, steps: Sequence[Step], given: Sequence[Candidate], tick: Tick
-) -> tuple[list[Step], State]:
+def _prune_steps(
+    state: State, steps: Sequence[SearchStep], prior_picks: Sequence[Candidate], tick: Tick
+) -> tuple[list[SearchStep], State]:
     """The effects that are needed, each at the shapes that are best beside all the others.
 
     A shape that was sought while others were missing leaves what one more effect describes: that is
     dropped if the others on its joint, at shapes sought again without it, leave it nothing.
     """
-    kept, state = _backward(state, steps, given, tick)
-    while (fewer := _with_one_less(state, given, kept, tick)) is not None:
-        kept = fewer
-    if len(kept) + len(given) > 1:
-        kept = _reshaped(state, given, kept, [own for own in kept if _bends(own.pick)], tick)
-    picks = [*given, *(step.pick for step in kept)]
-    return kept, state if picks == list(state.picks) else state_of(state.data, picks, state.beta)
+    needed_steps, state = _eliminate_backward(state, steps, prior_picks, tick)
+    while (fewer := _drop_weakest(state, prior_picks, needed_steps, tick)) is not None:
+        needed_steps = fewer
+    if len(needed_steps) + len(prior_picks) > 1:
+        needed_steps = _refine_steps(
+            state,
+            prior_picks,
+            needed_steps,
+            [item for item in needed_steps if _has_free_shapes(item.candidate)],
+            tick,
+        )
+    picks = [*prior_picks, *(step.candidate for step in needed_steps)]
+    return needed_steps, state if picks == list(state.picks) else build_state(
+        state.data, picks, state.beta
+    )
 
 
-def _with_one_less(
-    state: State, given: Sequence[Candidate], kept: Sequence[Step], tick: Tick
-) -> list[Step] | None:
+def _drop_weakest(
+    state: State, prior_picks: Sequence[Candidate], steps: Sequence[SearchStep], tick: Tick
+) -> list[SearchStep] | None:
     """Without the weakest effect that others describe at other shapes; None if there is none."""
-    for step in sorted(kept, key=lambda step: step.judged.gain):
-        rest = [own for own in kept if own is not step]
-        bent = [own for own in rest if own.pick.joint == step.pick.joint and _bends(own.pick)]
-        if bent:
-            rest = _reshaped(state, given, rest, bent, tick)
-            beside = state_of(state.data, [*given, *(s.pick for s in rest)], state.beta)
-            if not _judged_again(beside, refined(beside, step.pick)).significant:
+    for step in sorted(steps, key=lambda step: step.score.variance_reduction):
+        rest = [item for item in steps if item is not step]
+        steps_to_refine = [
+            item
+            for item in rest
+            if item.candidate.joint == step.candidate.joint and _has_free_shapes(item.candidate)
+        ]
+        if steps_to_refine:
+            rest = _refine_steps(state, prior_picks, rest, steps_to_refine, tick)
+            beside = build_state(
+                state.data, [*prior_picks, *(s.candidate for s in rest)], state.beta
+            )
+            if not _score_candidate(
+                beside, refine_nonlinear_parameters(beside, step.candidate)
+            ).is_significant:
                 return rest
     return None
 
 
-def _bends(pick: Candidate) -> bool:
+def _has_free_shapes(pick: Candidate) -> bool:
     """True if its shapes may be others."""
-    return any(pick.refinable(shape) for shape in pick.form.shapes)
+    return any(pick.can_refine(shape) for shape in pick.form.nonlinear_parameters)
 
 
-def _reshaped(
-    state: State, given: Sequence[Candidate], kept: Sequence[Step], bent: Sequence[Step], tick: Tick
-) -> list[Step]:
+def _refine_steps(
+    state: State,
+    prior_picks: Sequence[Candidate],
+    steps: Sequence[SearchStep],
+    steps_to_refine: Sequence[SearchStep],
+    tick: Tick,
+) -> list[SearchStep]:
     """The effects kept; some of them at their best shapes beside the others, in turn."""
-    found = list(kept)
-    for i, step in enumerate(kept):
-        if step in bent:
-            picks = [*given, *(own.pick for own in found)]
-            whole = state_of(state.data, picks, state.beta)
-            explained, pick = explained_by(whole, len(given) + i), step.pick
+    refined_steps = list(steps)
+    for i, step in enumerate(steps):
+        if step in steps_to_refine:
+            picks = [*prior_picks, *(item.candidate for item in refined_steps)]
+            whole = build_state(state.data, picks, state.beta)
+            explained, pick = build_reduction_function(whole, len(prior_picks) + i), step.candidate
             for _ in range(_TURNS):  # each begins with steps as large as those of the grid
-                pick, last = refined(whole, pick, explained), pick
+                pick, last = refine_nonlinear_parameters(whole, pick, explained), pick
                 if pick == last:
                     break
-            judged = _judged_again(_without(state, given, found, found[i]), pick)
-            found[i] = dataclasses.replace(step, judged=judged)
+            candidate_score = _score_candidate(
+                _remove_step(state, prior_picks, refined_steps, refined_steps[i]), pick
+            )
+            refined_steps[i] = dataclasses.replace(step, score=candidate_score)
             tick()
-    return found
+    return refined_steps
 
 
-def _backward(
-    state: State, steps: Sequence[Step], given: Sequence[Candidate], tick: Tick
-) -> tuple[list[Step], State]:
+def _eliminate_backward(
+    state: State, steps: Sequence[SearchStep], prior_picks: Sequence[Candidate], tick: Tick
+) -> tuple[list[SearchStep], State]:
     """Drops effects that the others made unnecessary, the weakest first; those given stay.
 
     What the others gain is judged again then, beside those that are left.
     """
-    kept = list(steps)
-    while kept and len(kept) + len(given) > 1:
-        judged = []
-        for step in kept:
-            judged.append(_beside(state, given, kept, step))
+    remaining_steps = list(steps)
+    while remaining_steps and len(remaining_steps) + len(prior_picks) > 1:
+        candidate_scores = []
+        for step in remaining_steps:
+            candidate_scores.append(_score_step(state, prior_picks, remaining_steps, step))
             tick()
-        weakest = int(np.argmin([j.gain for j in judged]))
-        if judged[weakest].significant:
+        weakest = int(np.argmin([j.variance_reduction for j in candidate_scores]))
+        if candidate_scores[weakest].is_significant:
             break
-        del kept[weakest]
-        state = state_of(state.data, [*given, *(s.pick for s in kept)], state.beta)
-    if len(kept) < len(steps):
-        kept = [dataclasses.replace(s, judged=_beside(state, given, kept, s)) for s in kept]
-    return kept, state
+        del remaining_steps[weakest]
+        state = build_state(
+            state.data, [*prior_picks, *(s.candidate for s in remaining_steps)], state.beta
+        )
+    if len(remaining_steps) < len(steps):
+        remaining_steps = [
+            dataclasses.replace(s, score=_score_step(state, prior_picks, remaining_steps, s))
+            for s in remaining_steps
+        ]
+    return remaining_steps, state
 
 
-def _beside(state: State, given: Sequence[Candidate], kept: Sequence[Step], step: Step) -> Judged:
+def _score_step(
+    state: State, prior_picks: Sequence[Candidate], steps: Sequence[SearchStep], step: SearchStep
+) -> ScoredCandidate:
     """One of the effects, judged in the model with the others."""
-    return _judged_again(_without(state, given, kept, step), step.pick)
+    return _score_candidate(_remove_step(state, prior_picks, steps, step), step.candidate)
 
 
-def _without(state: State, given: Sequence[Candidate], kept: Sequence[Step], step: Step) -> State:
+def _remove_step(
+    state: State, prior_picks: Sequence[Candidate], steps: Sequence[SearchStep], step: SearchStep
+) -> State:
     """The state with all of the effects but one."""
-    others = [*given, *(s.pick for s in kept if s is not step)]
-    return state_of(state.data, others, state.beta)
+    others = [*prior_picks, *(s.candidate for s in steps if s is not step)]
+    return build_state(state.data, others, state.beta)

@@ -8,10 +8,16 @@ from typing import TYPE_CHECKING
 import numpy as np
 from scipy.linalg import expm
 
-from modeler.core.brief import Brief
-from modeler.effects import Memory
-from modeler.numerics.filters import recursion
-from modeler.observation import Segment, bristle, nearest_closed, signals_of, since_reversal
+from modeler.core.brief import ShortRepr
+from modeler.effects import InternalState
+from modeler.numerics.filters import apply_biquad
+from modeler.observation import (
+    Segment,
+    compute_bristle_state,
+    compute_signals,
+    compute_time_since_reversal,
+    find_nearest_closed,
+)
 
 if TYPE_CHECKING:
     from modeler.runtime import CompiledModel
@@ -28,7 +34,7 @@ WINDOW = 2048
 
 
 @dataclass(frozen=True, eq=False)
-class SignalReference(Brief):
+class SignalReference(ShortRepr):
     """The model about which effects that depend on torques are linearised.
 
     Attributes:
@@ -44,18 +50,18 @@ class SignalReference(Brief):
     temperature: Mapping[str, float]
 
     @cached_property
-    def links(self) -> np.ndarray:
+    def link_parameters(self) -> np.ndarray:
         """(c,) beta of the links alone: no friction, rotors, offsets."""
         kinds = [base.kind for base in self.compiled.spec.base]
         return np.where([kind == "inertial" for kind in kinds], self.beta, 0.0)
 
     @cached_property
-    def tilts(self) -> list[tuple[np.ndarray, np.ndarray]] | None:
-        """`tilt_basis` about this model."""
-        return tilt_basis(self)
+    def tilt_directions(self) -> list[tuple[np.ndarray, np.ndarray]] | None:
+        """`compute_tilt_basis` about this model."""
+        return compute_tilt_basis(self)
 
     @cached_property
-    def drives(self) -> np.ndarray:
+    def drive_parameters(self) -> np.ndarray:
         """(2, J) viscous friction and rotor inertia of each joint, where they stand alone."""
         spec = self.compiled.spec
         owner = {p.name: (p.effect, p.joint) for p in spec.standard}
@@ -68,7 +74,7 @@ class SignalReference(Brief):
 
 
 @dataclass(frozen=True, eq=False)
-class Signals(Brief):
+class Signals(ShortRepr):
     """Of one segment; n samples, J joints.
 
     Attributes:
@@ -91,60 +97,64 @@ class Signals(Brief):
         return self.segment.step
 
     @cached_property
-    def read(self) -> np.ndarray | None:
+    def model_signals(self) -> np.ndarray | None:
         """(n, m) what effects of the model read besides the motion."""
-        return signals_of(self.reference.compiled, self.segment)
+        return compute_signals(self.reference.compiled, self.segment)
 
-    def base_regressor(self, window: slice) -> np.ndarray:
+    def compute_base_regressor(self, window: slice) -> np.ndarray:
         """(n, J, c) of the model, over a window of the samples."""
-        return self.reference.compiled.base_regressor(*self._states(window))
+        return self.reference.compiled.base_regressor(*self._select_states(window))
 
-    def regressor(self, window: slice) -> np.ndarray:
+    def compute_regressor(self, window: slice) -> np.ndarray:
         """(n, J, p) by standard parameters."""
-        return self.reference.compiled.regressor(*self._states(window))
+        return self.reference.compiled.regressor(*self._select_states(window))
 
-    def _states(self, window: slice) -> tuple[np.ndarray | None, ...]:
-        read = None if self.read is None else self.read[window]
+    def _select_states(self, window: slice) -> tuple[np.ndarray | None, ...]:
+        read = None if self.model_signals is None else self.model_signals[window]
         return self.q[window], self.v[window], self.a[window], read
 
     @cached_property
-    def largest(self) -> np.ndarray:
+    def column_maxima(self) -> np.ndarray:
         """(p,) magnitude that each column of a standard parameter reaches."""
         windows = [slice(k, k + WINDOW) for k in range(0, len(self.q), WINDOW)]
         return np.asarray(
-            np.max([np.abs(self.regressor(w)).max(axis=(0, 1)) for w in windows], axis=0)
+            np.max([np.abs(self.compute_regressor(w)).max(axis=(0, 1)) for w in windows], axis=0)
         )
 
     @cached_property
     def load(self) -> np.ndarray:
         """(n, J) torque of the links, inertia and gravity."""
         ref = self.reference
-        return ref.compiled.inverse_dynamics(self.q, self.v, self.a, ref.links, self.read)
+        return ref.compiled.inverse_dynamics(
+            self.q, self.v, self.a, ref.link_parameters, self.model_signals
+        )
 
     @cached_property
     def static(self) -> np.ndarray:
         """(n, J) torque of gravity."""
-        return self.reference.compiled.gravity(self.q, self.reference.links)
+        return self.reference.compiled.gravity(self.q, self.reference.link_parameters)
 
     @cached_property
     def torque(self) -> np.ndarray:
         """(n, J) torque of the whole model, friction by the measured speeds."""
         ref = self.reference
-        return ref.compiled.inverse_dynamics(self.q, self.v, self.a, ref.beta, self.read)
+        return ref.compiled.inverse_dynamics(self.q, self.v, self.a, ref.beta, self.model_signals)
 
     @cached_property
     def rate(self) -> np.ndarray:
         """(n, J) time derivative of `torque`."""
         return np.gradient(self.torque, self.step, axis=0)
 
-    def since(self, j: int, back: float) -> np.ndarray:
+    def compute_reversal_time(self, j: int, back: float) -> np.ndarray:
         """(n,) s since joint j last turned back, by more than `back`."""
-        if (j, back) not in self._since:
-            self._since[j, back] = since_reversal(self.q[:, j], self.step, back)[1]
-        return self._since[j, back]
+        if (j, back) not in self._reversal_times:
+            self._reversal_times[j, back] = compute_time_since_reversal(
+                self.q[:, j], self.step, back
+            )[1]
+        return self._reversal_times[j, back]
 
     @cached_property
-    def _since(self) -> dict[tuple[int, float], np.ndarray]:
+    def _reversal_times(self) -> dict[tuple[int, float], np.ndarray]:
         return {}
 
     @cached_property
@@ -157,7 +167,7 @@ class Signals(Brief):
         """(n,) s."""
         return self.segment.time - self.reference.time
 
-    def of_other(self, name: str) -> np.ndarray:
+    def select_other(self, name: str) -> np.ndarray:
         """(n,) `v3`: position, speed or acceleration of a joint by its name."""
         motion, joints = (
             {"q": self.q, "v": self.v, "a": self.a},
@@ -165,7 +175,7 @@ class Signals(Brief):
         )
         return motion[name[0]][:, [joint.name for joint in joints].index(name[1:])]
 
-    def temperature(self, joint: str) -> np.ndarray | None:
+    def compute_temperature(self, joint: str) -> np.ndarray | None:
         """(n,) K above the reference; None where the training logs have no such column.
 
         0 where only another log lacks it: nobody knows better.
@@ -177,50 +187,55 @@ class Signals(Brief):
                 return self.segment.extra[name] - self.reference.temperature[joint]
         return np.zeros(len(self.q))
 
-    def state(
-        self, memory: Memory, j: int, shapes: Mapping[str, float], followed: np.ndarray
+    def compute_memory_state(
+        self, memory: InternalState, j: int, shapes: Mapping[str, float], followed: np.ndarray
     ) -> np.ndarray:
         """(n,) inner state z on joint j, for shape parameters by name; what a lag follows, (n,)."""
         if memory.kind == "lag":
-            return filtered(followed, self.step, shapes[memory.shape])
+            return apply_lag(followed, self.step, shapes[memory.parameter])
         if memory.kind == "slip":
-            return bristle(self.q[:, j], shapes[memory.shape])
-        return resonance(self.load[:, j], self.step, shapes[memory.shape], shapes[memory.damping])
+            return compute_bristle_state(self.q[:, j], shapes[memory.parameter])
+        return simulate_resonance(
+            self.load[:, j], self.step, shapes[memory.parameter], shapes[memory.damping]
+        )
 
-    def slopes(self, j: int) -> tuple[np.ndarray, ...]:
+    def compute_slopes(self, j: int) -> tuple[np.ndarray, ...]:
         """(n, J) derivatives of the links' torque by q, v and a of joint j.
 
         The torque is quadratic in v and linear in a: there differences are exact.
         """
-        if j not in self._slopes:
-            self._slopes.clear()  # those of one joint are remembered
-            self._slopes[j] = tuple(self._slope(j, k) for k in range(3))
-        return self._slopes[j]
+        if j not in self._slope_cache:
+            self._slope_cache.clear()  # those of one joint are remembered
+            self._slope_cache[j] = tuple(self._compute_slope(j, k) for k in range(3))
+        return self._slope_cache[j]
 
     @cached_property
-    def _slopes(self) -> dict[int, tuple[np.ndarray, ...]]:
+    def _slope_cache(self) -> dict[int, tuple[np.ndarray, ...]]:
         return {}
 
-    def _slope(self, j: int, kind: int) -> np.ndarray:
-        model, beta = self.reference.compiled, self.reference.links
+    def _compute_slope(self, j: int, kind: int) -> np.ndarray:
+        model, beta = self.reference.compiled, self.reference.link_parameters
         size = (_STEP, 1.0, 1.0)[kind]
         step = np.zeros(self.q.shape[1])
         step[j] = size
         ahead, behind = [self.q, self.v, self.a], [self.q, self.v, self.a]
         ahead[kind] = ahead[kind] + step
         if kind == 2:
-            return model.inverse_dynamics(self.q, self.v, ahead[2], beta, self.read) - self.load
+            return (
+                model.inverse_dynamics(self.q, self.v, ahead[2], beta, self.model_signals)
+                - self.load
+            )
         behind[kind] = behind[kind] - step
         if kind == 0:  # beside the last posture that closes the loops may be one that does not
-            nearest = nearest_closed(model, ahead[0], behind[0])
+            nearest = find_nearest_closed(model, ahead[0], behind[0])
             if nearest is not None:
                 ahead[0], behind[0] = ahead[0][nearest], behind[0][nearest]
         forth, back = (
-            model.inverse_dynamics(q, v, a, beta, self.read) for q, v, a in (ahead, behind)
+            model.inverse_dynamics(q, v, a, beta, self.model_signals) for q, v, a in (ahead, behind)
         )
         return (forth - back) * (0.5 / size)
 
-    def moved(
+    def compute_displacement_torque(
         self, j: int, dq: np.ndarray, whole: bool = False, window: slice = EVERY
     ) -> np.ndarray:
         """(m, J, k) torques that follow k small changes dq (n, k) of the position of joint j.
@@ -242,37 +257,41 @@ class Signals(Brief):
         dv = np.gradient(dq, self.step, axis=0)
         da = np.gradient(dv, self.step, axis=0)
         dq, dv, da = dq[inside], dv[inside], da[inside]
-        slopes, part = [slope[start:stop] for slope in self.slopes(j)], np.empty_like(dq)
+        slopes, part = [slope[start:stop] for slope in self.compute_slopes(j)], np.empty_like(dq)
         for k in range(self.q.shape[1]):
             place, speed, acceleration = (slope[:, k, None] for slope in slopes)
             np.multiply(place, dq, out=torque[k])
             torque[k] += np.multiply(speed, dv, out=part)
             torque[k] += np.multiply(acceleration, da, out=part)
         if whole:
-            viscous, rotor = self.reference.drives[:, j]
+            viscous, rotor = self.reference.drive_parameters[:, j]
             torque[j] += viscous * dv + rotor * da
         return torque.swapaxes(0, 1)
 
 
-def filtered(x: np.ndarray, step: float, tau: float) -> np.ndarray:
+def apply_lag(x: np.ndarray, step: float, tau: float) -> np.ndarray:
     """(n,) z of z' = (x - z)/tau, at rest under the first x; x is straight between its points.
 
     With p = exp(-step/tau), r = (1 - p) tau/step: z_k = p z_(k-1) + (1 - r) x_k + (r - p) x_(k-1).
     """
-    kept = np.exp(-step / tau)
-    ramp = (1.0 - kept) * tau / step
-    held = np.array([1.0 - ramp, ramp - kept, 0.0])
-    return np.asarray(x[0] + recursion(x - x[0], held, np.array([1.0, -kept, 0.0])))
+    decay = np.exp(-step / tau)
+    ramp = (1.0 - decay) * tau / step
+    held = np.array([1.0 - ramp, ramp - decay, 0.0])
+    return np.asarray(x[0] + apply_biquad(x - x[0], held, np.array([1.0, -decay, 0.0])))
 
 
-def resonance(load: np.ndarray, step: float, frequency: float, damping: float) -> np.ndarray:
+def simulate_resonance(
+    load: np.ndarray, step: float, frequency: float, damping: float
+) -> np.ndarray:
     """(n,) z of z'' = w^2 (load - z) - 2 zeta w z', at rest under the first load."""
-    numerator, denominator = _oscillator(step, frequency, damping)
-    return np.asarray(load[0] + recursion(load - load[0], numerator, denominator))
+    numerator, denominator = _discretise_oscillator(step, frequency, damping)
+    return np.asarray(load[0] + apply_biquad(load - load[0], numerator, denominator))
 
 
 @lru_cache(maxsize=1024)
-def _oscillator(step: float, frequency: float, damping: float) -> tuple[np.ndarray, np.ndarray]:
+def _discretise_oscillator(
+    step: float, frequency: float, damping: float
+) -> tuple[np.ndarray, np.ndarray]:
     """Coefficients of the resonance on a grid, loads straight between its points.
 
     With x' = A x + b u, z = c x, and u straight over a step h (Franklin, Powell and Workman 1997,
@@ -282,11 +301,11 @@ def _oscillator(step: float, frequency: float, damping: float) -> tuple[np.ndarr
         z = (c (s - F)^-1 (g - k + F k) + c k) u.
     """
     w = 2.0 * np.pi * min(frequency, 0.4 / step)
-    own, c = np.array([[-2.0 * damping * w, -(w**2)], [1.0, 0.0]]), np.array([0.0, w**2])
+    system, c = np.array([[-2.0 * damping * w, -(w**2)], [1.0, 0.0]]), np.array([0.0, w**2])
     whole = np.zeros((4, 4))
-    whole[:2, :2], whole[0, 2], whole[2, 3] = own * step, step, 1.0
-    grown = expm(whole)
-    F, g, k = grown[:2, :2], grown[:2, 2], grown[:2, 3]
+    whole[:2, :2], whole[0, 2], whole[2, 3] = system * step, step, 1.0
+    transition = expm(whole)
+    F, g, k = transition[:2, :2], transition[:2, 2], transition[:2, 3]
     denominator, closed = (
         np.array([1.0, -np.trace(m), m[0, 0] * m[1, 1] - m[0, 1] * m[1, 0]])
         for m in (F, F - np.outer(g - k + F @ k, c))
@@ -302,21 +321,21 @@ _TILT_STEP = 1e-5  # rad or m, of central differences
 _SEEN = 1e-6
 
 
-def tilt_columns(signals: Signals, window: slice = slice(None)) -> np.ndarray:
+def compute_tilt_columns(signals: Signals, window: slice = slice(None)) -> np.ndarray:
     """(n, J, k): first the torques of unit gravity along two axes across the model's gravity.
 
     Of an arm that moves in a plane, along the one that it feels.
     The others belong to first moments that the model's gravity hides (those of a vertical first
     axis): the tilt makes them felt. Empty without gravity, and for robots with loops.
     """
-    basis, q = signals.reference.tilts, signals.q[window]
+    basis, q = signals.reference.tilt_directions, signals.q[window]
     if not basis:  # a slide along gravity feels no other
         return np.zeros((*q.shape, 0))
-    slopes = frame_slopes(signals.reference.compiled, q)
-    return np.stack([gravity_torque(slopes, axis, chi) for axis, chi in basis], axis=-1)
+    slopes = compute_frame_slopes(signals.reference.compiled, q)
+    return np.stack([compute_gravity_torque(slopes, axis, chi) for axis, chi in basis], axis=-1)
 
 
-def frame_slopes(model: "CompiledModel", q: np.ndarray) -> np.ndarray:
+def compute_frame_slopes(model: "CompiledModel", q: np.ndarray) -> np.ndarray:
     """(n, J, rows, 3, 4) d/dq_j of [R | p] of every moving row, by differences; q is (n, J)."""
     slopes = [
         model.forward_kinematics(q + step) - model.forward_kinematics(q - step)
@@ -325,11 +344,11 @@ def frame_slopes(model: "CompiledModel", q: np.ndarray) -> np.ndarray:
     return np.stack(slopes, axis=1) / (2.0 * _TILT_STEP)
 
 
-def gravity_torque(slopes: np.ndarray, axis: np.ndarray, chi: np.ndarray) -> np.ndarray:
+def compute_gravity_torque(slopes: np.ndarray, axis: np.ndarray, chi: np.ndarray) -> np.ndarray:
     """(n, J) torque for gravity `axis`: -d/dq of axis . sum (M p + R MS).
 
     Args:
-        slopes: (n, J, rows, 3, 4) of `frame_slopes`.
+        slopes: (n, J, rows, 3, 4) of `compute_frame_slopes`.
         axis: (3,) m/s^2 in frame 0.
         chi: (rows, 4) M, MX, MY, MZ of every moving row.
     """
@@ -338,8 +357,8 @@ def gravity_torque(slopes: np.ndarray, axis: np.ndarray, chi: np.ndarray) -> np.
     return -slopes.reshape(*slopes.shape[:2], -1) @ weights.ravel()
 
 
-def tilt_basis(reference: SignalReference) -> list[tuple[np.ndarray, np.ndarray]] | None:
-    """Axes and first moments of the columns of `tilt_columns`."""
+def compute_tilt_basis(reference: SignalReference) -> list[tuple[np.ndarray, np.ndarray]] | None:
+    """Axes and first moments of the columns of `compute_tilt_columns`."""
     model = reference.compiled
     if model.spec.closure is not None:
         return None
@@ -350,14 +369,14 @@ def tilt_basis(reference: SignalReference) -> list[tuple[np.ndarray, np.ndarray]
     # first moments and masses that give the model's torques: the base columns' own
     chi, moments = np.zeros((len(rows), 4)), ("M", "MX", "MY", "MZ")
     place = {f"{m}{row}": (r, k) for r, row in enumerate(rows) for k, m in enumerate(moments)}
-    for base, value in zip(model.spec.base, reference.links, strict=True):
+    for base, value in zip(model.spec.base, reference.link_parameters, strict=True):
         if base.column_of in place:
             chi[place[base.column_of]] = value
     q = np.random.default_rng(3).uniform(-1.5, 1.5, (_STATES, len(model.spec.joints)))
     unit = np.eye(3)
-    slopes = frame_slopes(model, q)
-    along = np.column_stack([gravity_torque(slopes, e, chi).ravel() for e in unit])
-    target = model.gravity(q, reference.links).ravel()
+    slopes = compute_frame_slopes(model, q)
+    along = np.column_stack([compute_gravity_torque(slopes, e, chi).ravel() for e in unit])
+    target = model.gravity(q, reference.link_parameters).ravel()
     if np.linalg.norm(target) <= _SEEN or np.linalg.norm(along) <= _SEEN:
         return None
     gravity = np.linalg.lstsq(along, target, rcond=None)[0]
@@ -367,33 +386,40 @@ def tilt_basis(reference: SignalReference) -> list[tuple[np.ndarray, np.ndarray]
     across = across / np.linalg.norm(across)
     axes = (across, np.cross(down, across))
     # an arm that moves in a plane does not feel gravity across it
-    felt = [axis for axis in axes if np.linalg.norm(gravity_torque(slopes, axis, chi)) > _SEEN]
-    return [(axis, chi) for axis in felt] + _woken(slopes, axes, down, len(rows))
+    effective_axes = [
+        axis for axis in axes if np.linalg.norm(compute_gravity_torque(slopes, axis, chi)) > _SEEN
+    ]
+    return [(axis, chi) for axis in effective_axes] + _find_hidden_moments(
+        slopes, axes, down, len(rows)
+    )
 
 
-def tilt_axes(reference: SignalReference) -> np.ndarray:
-    """(k, 3) directions of the first of `tilt_columns`, those of the change of gravity itself."""
-    basis = tilt_basis(reference)
+def compute_tilt_axes(reference: SignalReference) -> np.ndarray:
+    """(k, 3) directions of the first of `compute_tilt_columns`.
+
+    Those of the change of gravity " "itself.
+    """
+    basis = compute_tilt_basis(reference)
     assert basis is not None, "there is gravity"
     return np.array([axis for axis, chi in basis if chi is basis[0][1]])
 
 
-def _woken(
+def _find_hidden_moments(
     slopes: np.ndarray, axes: tuple[np.ndarray, np.ndarray], down: np.ndarray, rows: int
 ) -> list[tuple[np.ndarray, np.ndarray]]:
     """First moments without torque under the model's gravity that the others make felt."""
-    found: list[tuple[np.ndarray, np.ndarray]] = []
+    moments: list[tuple[np.ndarray, np.ndarray]] = []
     known = np.zeros((slopes.shape[0] * slopes.shape[1], 0))
     for r in range(rows):
         for k in (1, 2, 3):
             chi = np.zeros((rows, 4))
             chi[r, k] = 1.0
-            if np.linalg.norm(gravity_torque(slopes, down, chi)) > _SEEN:
+            if np.linalg.norm(compute_gravity_torque(slopes, down, chi)) > _SEEN:
                 continue
             for axis in axes:
-                column = gravity_torque(slopes, axis, chi).ravel()
+                column = compute_gravity_torque(slopes, axis, chi).ravel()
                 rest = column - known @ (known.T @ column)
                 if np.linalg.norm(rest) > 1e-3 * max(1.0, float(np.linalg.norm(column))):
                     known = np.column_stack([known, rest / np.linalg.norm(rest)])
-                    found.append((axis, chi))
-    return found
+                    moments.append((axis, chi))
+    return moments

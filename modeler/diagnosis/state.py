@@ -9,37 +9,48 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from modeler.core.brief import Brief
+from modeler.core.brief import ShortRepr
 from modeler.core.manifest import ModuleSpec
-from modeler.diagnosis.candidates import Candidate, JointScale, StatedEffects, scales_of
-from modeler.diagnosis.effect_columns import Columns, Rows, dense, rows_of, width
+from modeler.diagnosis.candidates import Candidate, JointScale, StatedEffects, compute_scales
+from modeler.diagnosis.effect_columns import (
+    Columns,
+    Rows,
+    build_rows,
+    count_columns,
+    expand_columns,
+)
 from modeler.diagnosis.ranking import (
-    Base,
+    GramBlocks,
     Ranking,
     TimeBlocks,
-    base_of,
-    blocks_of,
-    folded,
-    pool_of,
-    rank,
-    sigma_of,
+    build_batch,
+    build_gram_blocks,
+    build_time_blocks,
+    estimate_sigma,
+    merge_blocks,
+    rank_candidates,
 )
 from modeler.diagnosis.signals import SignalReference
-from modeler.effects import Acts
-from modeler.estimation import Prior, prior_of, remembered
-from modeler.numerics.least_squares import ReducedRows, Reduction, reduction, turn_of
+from modeler.effects import EffectTarget
+from modeler.estimation import Prior, build_prior, estimate_correlation
+from modeler.numerics.least_squares import (
+    ReducedRows,
+    Reduction,
+    compute_joint_whitening,
+    reduce_rows,
+)
 from modeler.observation import (
     HIGHEST,
     ChosenProcessing,
+    CutoffSearch,
     Log,
     LogRepair,
-    Look,
     Observation,
-    Prepared,
+    PreparedLogs,
     Processing,
+    build_observation,
     choose_cutoffs,
-    observed,
-    prepare,
+    prepare_logs,
 )
 
 if TYPE_CHECKING:
@@ -47,7 +58,7 @@ if TYPE_CHECKING:
 
 
 @dataclass(frozen=True, eq=False)
-class SearchData(Brief):
+class SearchData(ShortRepr):
     """What does not change during a search.
 
     Attributes:
@@ -60,8 +71,8 @@ class SearchData(Brief):
 
     compiled: "CompiledModel"
     observation: Observation
-    kept: np.ndarray | None = None
-    known: StatedEffects = field(default_factory=StatedEffects)
+    fixed_parameters: np.ndarray | None = None
+    stated_effects: StatedEffects = field(default_factory=StatedEffects)
 
     @property
     def spec(self) -> ModuleSpec:
@@ -69,62 +80,63 @@ class SearchData(Brief):
         return self.compiled.spec
 
     @cached_property
-    def blocks(self) -> TimeBlocks:
+    def time_blocks(self) -> TimeBlocks:
         """Blocks and folds."""
-        return blocks_of(self.observation)
+        return build_time_blocks(self.observation)
 
     @cached_property
     def rows(self) -> Rows:
         """All rows; effects are not linearised about anything yet."""
         beta = np.zeros(len(self.spec.base))
-        return rows_of(
-            self.observation, SignalReference(self.compiled, beta, *_references(self.observation))
+        return build_rows(
+            self.observation,
+            SignalReference(self.compiled, beta, *_find_references(self.observation)),
         )
 
-    def about(self, reference: SignalReference) -> Rows:
+    def linearise_rows(self, reference: SignalReference) -> Rows:
         """The rows with effects linearised about a reference; the last few are remembered."""
-        key = reference.beta.tobytes(), _clock(reference)
-        found = self._about.pop(key, None) or self.rows.about(reference)
-        self._about[key] = found
-        if len(self._about) > _REMEMBERED:
-            del self._about[next(iter(self._about))]
-        return found
+        key = reference.beta.tobytes(), _make_clock_key(reference)
+        rows = self._row_cache.pop(key, None) or self.rows.replace_reference(reference)
+        self._row_cache[key] = rows
+        if len(self._row_cache) > _REMEMBERED:
+            del self._row_cache[next(iter(self._row_cache))]
+        return rows
 
     @cached_property
-    def _about(self) -> dict[Any, Rows]:
+    def _row_cache(self) -> dict[Any, Rows]:
         return {}
 
     @cached_property
-    def free(self) -> np.ndarray:
+    def free_columns(self) -> np.ndarray:
         """Indices of the base columns that are fitted."""
         base = self.spec.base
-        free = [i for i, b in enumerate(base) if self.kept is None or b.kind in _FREE]
+        free = [i for i, b in enumerate(base) if self.fixed_parameters is None or b.kind in _FREE]
         return np.array(free, dtype=int)
 
     @cached_property
     def y(self) -> tuple[np.ndarray, ...]:
         """(rows_j,) by joint: torques, less those of base parameters that are kept."""
-        if self.kept is None:
+        if self.fixed_parameters is None:
             return self.rows.y
-        kept = self.kept.copy()
-        kept[self.free] = 0.0
-        return tuple(y - w @ kept for y, w in zip(self.rows.y, self.rows.W, strict=True))
+        fixed = self.fixed_parameters.copy()
+        fixed[self.free_columns] = 0.0
+        return tuple(y - w @ fixed for y, w in zip(self.rows.y, self.rows.W, strict=True))
 
     @cached_property
     def reduction(self) -> Reduction:
         """Of the base columns that are fitted, and y."""
-        return reduction([w[:, self.free] for w in self.rows.W], self.y)
+        return reduce_rows([w[:, self.free_columns] for w in self.rows.W], self.y)
 
     @cached_property
     def prior(self) -> Prior | None:
         """What is known beforehand of the base parameters; None where they are kept."""
-        return prior_of(self.spec) if self.kept is None else None
+        return build_prior(self.spec) if self.fixed_parameters is None else None
 
     @cached_property
-    def numbers(self) -> tuple[np.ndarray, ...]:
+    def block_numbers(self) -> tuple[np.ndarray, ...]:
         """(rows_j,) by joint, number of the block of time."""
         used = self.observation.used
-        return tuple(self.blocks.number[used[:, j]] for j in range(self.rows.joints))
+        return tuple(self.time_blocks.number[used[:, j]] for j in range(self.rows.joint_count))
 
 
 _FREE = ("friction", "offset")
@@ -134,13 +146,13 @@ _STRONGER = 12  # times twice
 _REMEMBERED = 3  # references: that of a state, and those of the next
 
 
-def _clock(reference: SignalReference) -> tuple[Any, ...]:
+def _make_clock_key(reference: SignalReference) -> tuple[Any, ...]:
     """What the time and the temperature of effects are counted from."""
     return reference.time, *sorted(reference.temperature.items())
 
 
 @dataclass(frozen=True, eq=False)
-class State(Brief):
+class State(ShortRepr):
     """The model with the effects accepted so far.
 
     Attributes:
@@ -157,7 +169,7 @@ class State(Brief):
     reference: SignalReference
     rows: Rows
     extra: tuple[Columns, ...]
-    weighed: tuple[np.ndarray, np.ndarray] | None = None
+    adopted_weights: tuple[np.ndarray, np.ndarray] | None = None
 
     @property
     def spec(self) -> ModuleSpec:
@@ -165,17 +177,22 @@ class State(Brief):
         return self.data.spec
 
     @property
-    def names(self) -> list[str]:
+    def joint_names(self) -> list[str]:
         """Of the joints."""
         return [joint.name for joint in self.spec.joints]
 
     @cached_property
     def W(self) -> tuple[np.ndarray, ...]:
         """(rows_j, f + extra) by joint: base columns that are fitted, then the picks'."""
-        if not self.extra and self.data.kept is None:
+        if not self.extra and self.data.fixed_parameters is None:
             return self.rows.W
         return tuple(
-            np.hstack([base[:, self.data.free], *(dense(e, j, len(base)) for e in self.extra)])
+            np.hstack(
+                [
+                    base[:, self.data.free_columns],
+                    *(expand_columns(e, j, len(base)) for e in self.extra),
+                ]
+            )
             for j, base in enumerate(self.rows.W)
         )
 
@@ -185,26 +202,28 @@ class State(Brief):
         return self.data.y
 
     @cached_property
-    def base(self) -> Base:
+    def gram_blocks(self) -> GramBlocks:
         """Of the model so far."""
-        numbers, fold = self.data.numbers, self.data.blocks.fold
-        return base_of(self.W, self.y, self.sigma, numbers, fold, self.turn, self.prior)
+        numbers, fold = self.data.block_numbers, self.data.time_blocks.fold
+        return build_gram_blocks(
+            self.W, self.y, self.sigma, numbers, fold, self.whitening_matrix, self.prior
+        )
 
     @cached_property
-    def folded(self) -> Base:
+    def fold_grams(self) -> GramBlocks:
         """The same by folds."""
-        return folded(self.base)
+        return merge_blocks(self.gram_blocks)
 
     @cached_property
-    def reduced(self) -> ReducedRows:
+    def reduced_rows(self) -> ReducedRows:
         """The rows of the model so far, reduced to few."""
-        return self.data.reduction.beside(self.extra)
+        return self.data.reduction.append_columns(self.extra)
 
-    def weighed_as(self, later: "State") -> "State":
+    def replace_weights(self, later: "State") -> "State":
         """The same beside the residuals and the prior of a state with more effects."""
         first = self.prior.shape[1] - 1
         prior = later.prior[:, [*range(first), -1]]
-        return dataclasses.replace(self, weighed=(later.sigma, prior))
+        return dataclasses.replace(self, adopted_weights=(later.sigma, prior))
 
     @cached_property
     def prior(self) -> np.ndarray:
@@ -215,24 +234,28 @@ class State(Brief):
         the logs would have a body that the prior excludes, what is missing is another effect,
         which the body would stand in for: its prior counts more, until it is not excluded.
         """
-        if self.weighed is not None:
-            return self.weighed[1]
-        columns, known = self.reduced.W[0].shape[1], self.data.prior
+        if self.adopted_weights is not None:
+            return self.adopted_weights[1]
+        columns, known = self.reduced_rows.W[0].shape[1], self.data.prior
         if known is None:
             return np.zeros((0, columns + 1))
-        every = zip(self.reduced.W, sigma_of(self.reduced), strict=True)
+        every = zip(self.reduced_rows.W, estimate_sigma(self.reduced_rows), strict=True)
         lengths = np.sqrt(sum(np.sum((w / s) ** 2, axis=0) for w, s in every))
-        rows, observation = known.beside(lengths), self.data.observation
-        found, sums = self._beside(rows), [1.0]
+        rows, observation = known.extend_rows(lengths), self.data.observation
+        solution, sums = self._solve_with_prior(rows), [1.0]
         for j, (y, w) in enumerate(zip(self.y, self.W, strict=True)):
             if y.any():
-                r = remembered(observation, y - w @ found, np.flatnonzero(observation.used[:, j]))
+                r = estimate_correlation(
+                    observation, y - w @ solution, np.flatnonzero(observation.used[:, j])
+                )
                 sums.append(max(1.0, 2.0 * float(r.sum()) - 1.0))
         repeats = float(np.median(sums[1:] or sums))
         tight: dict[str, float] = {}
         for _ in range(_STRONGER):
-            rows = known.tightened(tight).beside(lengths) * repeats**0.5
-            nearer = known.excluded(self._beside(rows)[: len(self.data.free)])
+            rows = known.scale_sigmas(tight).extend_rows(lengths) * repeats**0.5
+            nearer = known.find_unlikely_groups(
+                self._solve_with_prior(rows)[: len(self.data.free_columns)]
+            )
             if not nearer:
                 break
             tight |= {name: 0.5 * tight.get(name, 1.0) for name in nearer}
@@ -241,47 +264,61 @@ class State(Brief):
     @cached_property
     def sigma(self) -> np.ndarray:
         """(J,) rms residual of each joint."""
-        return sigma_of(self.reduced, prior=self.prior) if not self.weighed else self.weighed[0]
+        return (
+            estimate_sigma(self.reduced_rows, prior=self.prior)
+            if not self.adopted_weights
+            else self.adopted_weights[0]
+        )
 
     @cached_property
-    def turn(self) -> np.ndarray:
+    def whitening_matrix(self) -> np.ndarray:
         """(f + extra, r) to orthonormal weighted columns."""
-        return turn_of([*self.reduced.W, self.prior[:, :-1]], np.append(self.sigma, 1.0))
+        return compute_joint_whitening(
+            [*self.reduced_rows.W, self.prior[:, :-1]], np.append(self.sigma, 1.0)
+        )
 
     @cached_property
     def solution(self) -> np.ndarray:
         """(f + extra,) parameters on all rows, SI; first the base parameters that are fitted."""
-        return self._solved(self.turn, self.sigma, self.prior)
+        return self._solve_weighted(self.whitening_matrix, self.sigma, self.prior)
 
-    def _solved(self, turn: np.ndarray, sigma: np.ndarray, prior: np.ndarray) -> np.ndarray:
-        if not turn.shape[1]:
-            return np.zeros(len(turn))
-        G, u = 1e-12 * np.eye(turn.shape[1]), np.zeros(turn.shape[1])
-        every = [*zip(self.reduced.W, self.reduced.y, sigma, strict=True),
+    def _solve_weighted(
+        self, whitening_matrix: np.ndarray, sigma: np.ndarray, prior: np.ndarray
+    ) -> np.ndarray:
+        if not whitening_matrix.shape[1]:
+            return np.zeros(len(whitening_matrix))
+        G, u = 1e-12 * np.eye(whitening_matrix.shape[1]), np.zeros(whitening_matrix.shape[1])
+        every = [*zip(self.reduced_rows.W, self.reduced_rows.y, sigma, strict=True),
                  (prior[:, :-1], prior[:, -1], 1.0)]  # fmt: skip
         for w, y, s in every:
-            columns = w @ (turn / s)
+            columns = w @ (whitening_matrix / s)
             G, u = G + columns.T @ columns, u + columns.T @ (y / s)
-        return np.asarray(turn @ np.linalg.solve(G, u))
+        return np.asarray(whitening_matrix @ np.linalg.solve(G, u))
 
-    def _beside(self, prior: np.ndarray) -> np.ndarray:
+    def _solve_with_prior(self, prior: np.ndarray) -> np.ndarray:
         """The solution beside such rows of a prior."""
-        sigma = sigma_of(self.reduced, prior=prior)
-        turn = turn_of([*self.reduced.W, prior[:, :-1]], np.append(sigma, 1.0))
-        return self._solved(turn, sigma, prior)
+        sigma = estimate_sigma(self.reduced_rows, prior=prior)
+        whitening_matrix = compute_joint_whitening(
+            [*self.reduced_rows.W, prior[:, :-1]], np.append(sigma, 1.0)
+        )
+        return self._solve_weighted(whitening_matrix, sigma, prior)
 
     @cached_property
     def beta(self) -> np.ndarray:
         """(c,) base parameters."""
-        found = np.zeros(self.rows.W[0].shape[1]) if self.data.kept is None else self.data.kept
-        found = found.copy()
-        found[self.data.free] = self.solution[: len(self.data.free)]
-        return found
+        beta = (
+            np.zeros(self.rows.W[0].shape[1])
+            if self.data.fixed_parameters is None
+            else self.data.fixed_parameters
+        )
+        beta = beta.copy()
+        beta[self.data.free_columns] = self.solution[: len(self.data.free_columns)]
+        return beta
 
     @cached_property
     def values(self) -> list[np.ndarray]:
         """Parameters of each pick, SI."""
-        ends = np.cumsum([len(self.data.free), *map(width, self.extra)])
+        ends = np.cumsum([len(self.data.free_columns), *map(count_columns, self.extra)])
         return [self.solution[first:last] for first, last in pairwise(ends)]
 
     @cached_property
@@ -292,64 +329,66 @@ class State(Brief):
     @property
     def torque(self) -> np.ndarray:
         """(s, n) of the model, beside the rows that are used; of the others the measured one."""
-        found = self.data.observation.torque.copy()
+        torque = self.data.observation.torque.copy()
         for j, (used, left) in enumerate(
             zip(self.data.observation.used.T, self.residual, strict=True)
         ):
-            found[used, j] -= left
-        return found
+            torque[used, j] -= left
+        return torque
 
     @cached_property
-    def known(self) -> dict[Any, Any]:
+    def derived_cache(self) -> dict[Any, Any]:
         """What was made of it, by name."""
         return {}
 
     @cached_property
-    def scales(self) -> list[JointScale]:
+    def joint_scales(self) -> list[JointScale]:
         """What is large on each joint."""
         motion = (
             [getattr(s, name)[s.segment.whole] for s in self.rows.signals]
             for name in ("q", "v", "load")
         )
-        return scales_of(self.spec, *motion)
+        return compute_scales(self.spec, *motion)
 
-    def ranked(self, every: Sequence[Columns]) -> Ranking:
+    def rank_columns(self, every: Sequence[Columns]) -> Ranking:
         """Candidates by their columns."""
-        return rank(self.base, pool_of(self.base, every))
+        return rank_candidates(self.gram_blocks, build_batch(self.gram_blocks, every))
 
 
-def state_of(data: SearchData, picks: Sequence[Candidate], beta: np.ndarray) -> State:
+def build_state(data: SearchData, picks: Sequence[Candidate], beta: np.ndarray) -> State:
     """The analysis with these effects, linearised about beta (c,)."""
-    rows = data.about(dataclasses.replace(data.rows.signals[0].reference, beta=beta))
-    return State(data, tuple(picks), rows.signals[0].reference, rows, picked_columns(rows, picks))
+    rows = data.linearise_rows(dataclasses.replace(data.rows.signals[0].reference, beta=beta))
+    return State(
+        data, tuple(picks), rows.signals[0].reference, rows, collect_pick_columns(rows, picks)
+    )
 
 
-def picked_columns(rows: Rows, picks: Sequence[Candidate]) -> tuple[Columns, ...]:
+def collect_pick_columns(rows: Rows, picks: Sequence[Candidate]) -> tuple[Columns, ...]:
     """The columns of what was put in: remembered for every reference."""
     for pick in picks:
-        if column_key(rows, pick) not in rows.known:
-            rows.known[column_key(rows, pick)] = columns_of(rows, pick)
-    return tuple(rows.known[column_key(rows, pick)] for pick in picks)
+        if make_column_key(rows, pick) not in rows.reference_cache:
+            rows.reference_cache[make_column_key(rows, pick)] = build_columns(rows, pick)
+    return tuple(rows.reference_cache[make_column_key(rows, pick)] for pick in picks)
 
 
-def columns_of(rows: Rows, candidate: Candidate) -> Columns:
+def build_columns(rows: Rows, candidate: Candidate) -> Columns:
     """The candidate's columns; those that do not depend on the model are computed once."""
-    return all_columns_of(rows, [candidate])[0]
+    return build_all_columns(rows, [candidate])[0]
 
 
-def all_columns_of(rows: Rows, candidates: Sequence[Candidate]) -> list[Columns]:
+def build_all_columns(rows: Rows, candidates: Sequence[Candidate]) -> list[Columns]:
     """The columns of many candidates: the shapes of one effect at once."""
-    found = {
+    columns = {
         id(c): rows.cache[key] for c in candidates
-        if _fixed(c) and (key := column_key(rows, c)) in rows.cache
+        if _is_model_independent(c) and (key := make_column_key(rows, c)) in rows.cache
     }  # fmt: skip
-    for every in _groups([c for c in candidates if id(c) not in found]):
-        made = rows.many(every) if len(every) > 1 else [rows.columns(every[0])]
-        for candidate, own in zip(every, made, strict=True):
-            found[id(candidate)] = own
-            if _fixed(candidate):
-                _remember(rows.cache, column_key(rows, candidate), own)
-    return [found[id(candidate)] for candidate in candidates]
+    for every in _group_candidates([c for c in candidates if id(c) not in columns]):
+        made = rows.build_batch(every) if len(every) > 1 else [rows.build_columns(every[0])]
+        for candidate, candidate_columns in zip(every, made, strict=True):
+            columns[id(candidate)] = candidate_columns
+            if _is_model_independent(candidate):
+                _cache_columns(rows.cache, make_column_key(rows, candidate), candidate_columns)
+    return [columns[id(candidate)] for candidate in candidates]
 
 
 KEPT = 2**27
@@ -358,17 +397,17 @@ KEPT = 2**27
 _HELD = "bytes held"
 
 
-def _remember(cache: dict[Any, Any], key: Any, columns: Columns) -> None:
+def _cache_columns(cache: dict[Any, Any], key: Any, columns: Columns) -> None:
     """As long as there is room for them."""
     held = cache.get(_HELD, 0) + sum(8 * c.size for c in columns if c is not None)
     if held <= KEPT:
         cache |= {_HELD: held, key: columns}
 
 
-def together(candidates: Sequence[Candidate], most: int) -> Iterator[list[Candidate]]:
+def batch_candidates(candidates: Sequence[Candidate], most: int) -> Iterator[list[Candidate]]:
     """Candidates whose columns are made together, about so many at a time."""
     some: list[Candidate] = []
-    for group in _groups(candidates):
+    for group in _group_candidates(candidates):
         if some and len(some) + len(group) > most:
             yield some
             some = []
@@ -377,7 +416,7 @@ def together(candidates: Sequence[Candidate], most: int) -> Iterator[list[Candid
         yield some
 
 
-def _groups(candidates: Sequence[Candidate]) -> list[list[Candidate]]:
+def _group_candidates(candidates: Sequence[Candidate]) -> list[list[Candidate]]:
     """The shapes of one effect on one joint.
 
     Joint after joint: the slopes along the motion of one joint serve all its effects.
@@ -385,12 +424,12 @@ def _groups(candidates: Sequence[Candidate]) -> list[list[Candidate]]:
     groups: dict[Any, list[Candidate]] = {}
     for candidate in candidates:
         groups.setdefault((candidate.key, id(candidate.form)), []).append(candidate)
-    return sorted(groups.values(), key=lambda own: own[0].index)
+    return sorted(groups.values(), key=lambda group: group[0].index)
 
 
-def _fixed(candidate: Candidate) -> bool:
+def _is_model_independent(candidate: Candidate) -> bool:
     """True if its columns do not depend on the model."""
-    memory = candidate.form.memory
+    memory = candidate.form.internal_state
     return (
         candidate.form.names.isdisjoint({"load", "static", "torque", "rate"})
         and candidate.effect.acts in _FIXED
@@ -398,27 +437,31 @@ def _fixed(candidate: Candidate) -> bool:
     )
 
 
-def column_key(rows: Rows, candidate: Candidate) -> tuple[Any, ...]:
+def make_column_key(rows: Rows, candidate: Candidate) -> tuple[Any, ...]:
     """What columns that do not depend on the model depend on."""
-    shapes = tuple(sorted(candidate.shapes.items()))
-    clock = () if candidate.form.names.isdisjoint({"t", "T"}) else _clock(rows.signals[0].reference)
+    shapes = tuple(sorted(candidate.nonlinear_parameters.items()))
+    clock = (
+        ()
+        if candidate.form.names.isdisjoint({"t", "T"})
+        else _make_clock_key(rows.signals[0].reference)
+    )
     return candidate.effect.id, candidate.joint, shapes, clock
 
 
-_FIXED = (Acts.JOINT, Acts.MOTOR, Acts.PASSIVE, Acts.LINK)
+_FIXED = (EffectTarget.JOINT, EffectTarget.MOTOR, EffectTarget.PASSIVE, EffectTarget.LINK)
 """What reads the motion only, if its equations do."""
 
 
-def visible(columns: Columns) -> bool:
+def is_visible(columns: Columns) -> bool:
     """True if the columns are finite and none of them is zero throughout."""
-    own = [c.T for c in columns if c is not None]
-    if not own or not len(own[0]):
+    parts = [c.T for c in columns if c is not None]
+    if not parts or not len(parts[0]):
         return False
-    square = sum(np.einsum("ij,ij->i", c, c) for c in own)
+    square = sum(np.einsum("ij,ij->i", c, c) for c in parts)
     return bool(np.isfinite(square).all() and np.all(square > 0.0))
 
 
-def _references(observation: Observation) -> tuple[float, Mapping[str, float]]:
+def _find_references(observation: Observation) -> tuple[float, Mapping[str, float]]:
     """The first time, and the mean temperature by joint where one is logged."""
     segments = [part.segment for part in observation.stretches]
     temperature = {}
@@ -439,9 +482,9 @@ BAND = 30.0
 ripple, elasticity, delays and reversals show above it."""
 
 
-def analysed(
+def analyse_logs(
     compiled: "CompiledModel", logs: Sequence[Log], fitted: Processing, band: float | None = None,
-    prepared: Prepared | None = None, mending: LogRepair | None = None,
+    prepared: PreparedLogs | None = None, repair: LogRepair | None = None,
 ) -> Observation:  # fmt: skip
     """The observation of a diagnosis.
 
@@ -456,33 +499,35 @@ def analysed(
         fitted: processing of the fit.
         band: Hz of the parallel filter to begin with; None: as above; 0: c.
         prepared: the logs as `fitted` prepares them; None: they are.
-        mending: of the same logs, where it is shared.
+        repair: of the same logs, where it is shared.
     """
-    look = in_band(compiled, logs, fitted, band, prepared, mending)
-    return seen_in(compiled, logs, look)
+    prepared_band = choose_band(compiled, logs, fitted, band, prepared, repair)
+    return observe_logs(compiled, logs, prepared_band)
 
 
-def seen_in(compiled: "CompiledModel", logs: Sequence[Log], look: Prepared) -> Observation:
+def observe_logs(
+    compiled: "CompiledModel", logs: Sequence[Log], prepared: PreparedLogs
+) -> Observation:
     """The observation of logs whose band is chosen."""
-    return _whole(observed(compiled, logs, look, every_joint=True))
+    return _select_whole_rows(build_observation(compiled, logs, prepared, every_joint=True))
 
 
-def in_band(
+def choose_band(
     compiled: "CompiledModel", logs: Sequence[Log], fitted: Processing, band: float | None,
-    prepared: Prepared | None = None, mending: LogRepair | None = None,
-) -> Prepared:  # fmt: skip
-    """The logs, with the band that `analysed` chooses."""
-    prepared = (prepared or prepare(compiled.spec, logs, fitted, mending)).uncommanded()
+    prepared: PreparedLogs | None = None, repair: LogRepair | None = None,
+) -> PreparedLogs:  # fmt: skip
+    """The logs, with the band that `analyse_logs` chooses."""
+    prepared = (prepared or prepare_logs(compiled.spec, logs, fitted, repair)).drop_commands()
     noise = prepared.noise
     if "parallel_cutoff" not in fitted.chosen or not noise.moving:
         return prepared
-    given = None if "position_cutoff" in fitted.chosen else fitted.position_cutoff
+    user_cutoff = None if "position_cutoff" in fitted.chosen else fitted.position_cutoff
     asked = dataclasses.replace(
-        fitted, position_cutoff=given, parallel_cutoff=None, decimation=None, edge=None
+        fitted, position_cutoff=user_cutoff, parallel_cutoff=None, decimation=None, edge=None
     )
     wide, _ = choose_cutoffs(asked, prepared.pieces, noise)
     motion = wide.parallel_cutoff
-    highest = given or HIGHEST / max(piece.step for piece in prepared.pieces)
+    highest = user_cutoff or HIGHEST / max(piece.step for piece in prepared.pieces)
     if band is None:
         parallel = max(motion, min(BAND, 0.5 * highest, 0.5 * noise.cutoff))
         position = max(wide.position_cutoff, 2.0 * parallel)
@@ -490,31 +535,35 @@ def in_band(
         parallel = max(motion, min(band, 0.8 * highest))
         position = 1.25 * parallel if band else wide.position_cutoff
     prepared = dataclasses.replace(prepared, processing=wide)
-    prepared = prepared.with_cutoffs(given or min(position, highest), parallel)
-    found = Look(compiled, prepared).quiet(motion, given is not None)
-    prepared = prepared.with_cutoffs(found.position, found.parallel)
+    prepared = prepared.set_cutoffs(user_cutoff or min(position, highest), parallel)
+    quiet_cutoffs = CutoffSearch(compiled, prepared).find_chatter_free(
+        motion, user_cutoff is not None
+    )
+    prepared = prepared.set_cutoffs(quiet_cutoffs.position, quiet_cutoffs.parallel)
     if any(log.check is not None for log in prepared.logs):  # in the band of the rows
-        prepared = prepare(compiled.spec, logs, prepared.processing, mending).uncommanded()
+        prepared = prepare_logs(compiled.spec, logs, prepared.processing, repair).drop_commands()
     return prepared
 
 
-def again(
+def observe_in_band(
     compiled: "CompiledModel", logs: Sequence[Log], processing: ChosenProcessing
 ) -> Observation:
     """Other logs in the band of a diagnosis."""
-    return seen_in(compiled, logs, prepare(compiled.spec, logs, processing).uncommanded())
+    return observe_logs(
+        compiled, logs, prepare_logs(compiled.spec, logs, processing).drop_commands()
+    )
 
 
-def cutoff(data: SearchData) -> float:
+def get_cutoff(data: SearchData) -> float:
     """Hz of the parallel filter."""
     return data.observation.report.processing.parallel_cutoff or 0.0
 
 
-def bands_line(fitted: Processing, seen: Processing) -> list[str]:
+def describe_bands(fitted: Processing, processing: Processing) -> list[str]:
     """A sentence on the band of a diagnosis where it is not that of the fit."""
-    if seen.parallel_cutoff == fitted.parallel_cutoff:
+    if processing.parallel_cutoff == fitted.parallel_cutoff:
         return []
-    if (seen.parallel_cutoff or 0.0) < (fitted.parallel_cutoff or 0.0):
+    if (processing.parallel_cutoff or 0.0) < (fitted.parallel_cutoff or 0.0):
         why = (
             "of these logs, and with what the model has, no more of the motion is answered by the "
             "torques"
@@ -525,12 +574,13 @@ def bands_line(fitted: Processing, seen: Processing) -> list[str]:
             f"{fitted.parallel_cutoff:g} to have both alike"
         )
     return [
-        f"errors and values are those up to {seen.parallel_cutoff:.3g} Hz, beside all effects "
+        f"errors and values are those up to {processing.parallel_cutoff:.3g} Hz, beside all "
+        "effects "
         f"named; `modeler fit` and `add` fit up to {fitted.parallel_cutoff:g} Hz: {why}"
     ]
 
 
-def _whole(observation: Observation) -> Observation:
+def _select_whole_rows(observation: Observation) -> Observation:
     """Only whole rows, if there are any."""
     used = observation.whole
-    return observation.with_rows(used) if used.any() else observation
+    return observation.select_rows(used) if used.any() else observation

@@ -3,7 +3,7 @@ from .catalogue import (
     ENCODERS as ENCODERS,
     PASSIVE_FRICTION as PASSIVE_FRICTION,
     PASSIVE_FRICTION_IS as PASSIVE_FRICTION_IS,
-    effect_named as effect_named,
+    find_effect as find_effect,
 )
 from .definition import (
     EXAMPLE as EXAMPLE,
@@ -15,13 +15,13 @@ from .effect import (
     NOISE as NOISE,
     TURN as TURN,
     VARIABLES as VARIABLES,
-    Acts as Acts,
     Effect as Effect,
     EffectColumn as EffectColumn,
+    EffectTarget as EffectTarget,
     EnergyBlock as EnergyBlock,
     Form as Form,
-    Memory as Memory,
-    Needs as Needs,
-    Shape as Shape,
-    Shows as Shows,
+    InternalState as InternalState,
+    NonlinearParameter as NonlinearParameter,
+    Requirement as Requirement,
+    SignatureAxis as SignatureAxis,
 )

@@ -4,20 +4,24 @@ import tomllib
 from collections.abc import Sequence
 from pathlib import Path
 
-from modeler.core.toml_cells import Place
+from modeler.core.toml_cells import TomlCell
 from modeler.effects.definition import read_definition
 from modeler.effects.effect import Effect
 
 
-def _catalogue() -> tuple[Effect, ...]:
+def _read_catalogue() -> tuple[Effect, ...]:
     file = Path(__file__).with_name("catalogue.toml")
-    found: list[Effect] = []
+    effects: list[Effect] = []
     for name, table in tomllib.loads(file.read_text(encoding="utf-8")).items():
-        found.append(read_definition(name, Place(file.name, f"[{name}]", table), {}, own=False))
-    return tuple(found)
+        effects.append(
+            read_definition(
+                name, TomlCell(file.name, f"[{name}]", table), {}, is_user_defined=False
+            )
+        )
+    return tuple(effects)
 
 
-CATALOGUE: tuple[Effect, ...] = _catalogue()
+CATALOGUE: tuple[Effect, ...] = _read_catalogue()
 """The effects, in the order in which their parameters stand after the link's own."""
 
 ENCODERS = tuple(effect.id for effect in CATALOGUE if effect.whole_axis)
@@ -28,7 +32,7 @@ PASSIVE_FRICTION_IS = ("viscous", "coulomb")
 """What friction of a joint without motor is made of: a robot file that names it has these two."""
 
 
-def effect_named(name: str, among: Sequence[Effect] = CATALOGUE) -> Effect | None:
+def find_effect(name: str, among: Sequence[Effect] = CATALOGUE) -> Effect | None:
     """The effect with that id or alias; None if there is none.
 
     Args:

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from functools import cached_property
 from typing import Literal
 
-from modeler.core.brief import Brief
+from modeler.core.brief import ShortRepr
 from modeler.core.expression import Expression
 
 
@@ -25,7 +25,7 @@ class EnergyBlock(enum.Enum):
     OWN = "of no other column: it never groups"
 
 
-class Acts(enum.Enum):
+class EffectTarget(enum.Enum):
     """On what an effect acts; the meaning of the equations of its columns."""
 
     JOINT = "adds equation * parameter to the torque of its joint"
@@ -38,7 +38,7 @@ class Acts(enum.Enum):
     WINDOW = "pushes on the last link for a while"
 
 
-class Needs(enum.Enum):
+class Requirement(enum.Enum):
     """What must be true of the robot for the values of an effect to be believed."""
 
     GRAVITY = "gravity turns its joint"
@@ -52,7 +52,7 @@ class Needs(enum.Enum):
     FRICTION = "it is a part of the friction of its joint, never larger than all of it"
 
 
-Shows = Literal[
+SignatureAxis = Literal[
     "q", "v", "a", "load", "torque", "rate", "t", "T", "since", "travel", "waves", "itself"
 ]
 """The axis against which a residual shows an effect: a variable of `VARIABLES`; the travel since
@@ -78,7 +78,7 @@ SCALES: Mapping[str, tuple[str, str]] = {
 
 
 @dataclass(frozen=True)
-class Shape(Brief):
+class NonlinearParameter(ShortRepr):
     """A parameter that enters a column nonlinearly; found on a grid, then refined.
 
     Attributes:
@@ -96,17 +96,17 @@ class Shape(Brief):
     meaning: str
 
     @property
-    def smooth(self) -> bool:
+    def is_continuous(self) -> bool:
         """True if values between those of the grid make sense."""
         return self.limits[0] < self.limits[1]
 
-    def unit(self, linear: bool) -> str:
+    def get_unit(self, linear: bool) -> str:
         """On a prismatic joint or on one that turns; "1" for a number, or if nobody knows."""
         return SCALES[self.scale][linear]
 
 
 @dataclass(frozen=True)
-class Memory:
+class InternalState:
     """The inner state z of an effect that remembers.
 
     Attributes:
@@ -119,13 +119,13 @@ class Memory:
     """
 
     kind: Literal["slip", "resonance", "lag"]
-    shape: str
+    parameter: str
     damping: str = ""
-    follows: Expression | None = None
+    lagged_input: Expression | None = None
 
 
 @dataclass(frozen=True)
-class EffectColumn(Brief):
+class EffectColumn(ShortRepr):
     """One column: torque of the joint = equation * parameter.
 
     Attributes:
@@ -175,7 +175,7 @@ MOTION = ("q", "v", "a")
 
 
 @dataclass(frozen=True)
-class Form(Brief):
+class Form(ShortRepr):
     """One way to write an effect: its columns and what shapes them.
 
     Attributes:
@@ -185,35 +185,35 @@ class Form(Brief):
     """
 
     columns: tuple[EffectColumn, ...]
-    shapes: tuple[Shape, ...] = ()
-    memory: Memory | None = None
+    nonlinear_parameters: tuple[NonlinearParameter, ...] = ()
+    internal_state: InternalState | None = None
 
     @property
-    def free(self) -> tuple[Shape, ...]:
+    def free_parameters(self) -> tuple[NonlinearParameter, ...]:
         """Shapes that a robot file must state: those whose grid does not fix them."""
-        return tuple(shape for shape in self.shapes if len(shape.grid) != 1)
+        return tuple(shape for shape in self.nonlinear_parameters if len(shape.grid) != 1)
 
     @cached_property
     def names(self) -> frozenset[str]:
         """Variables that its equations use: of `VARIABLES`, and as `v3` of other joints."""
         equations = [column.equation for column in self.columns]
-        if self.memory is not None and self.memory.follows is not None:
-            equations.append(self.memory.follows)
+        if self.internal_state is not None and self.internal_state.lagged_input is not None:
+            equations.append(self.internal_state.lagged_input)
         used = frozenset().union(*(equation.names for equation in equations))
-        return used - {shape.name for shape in self.shapes}
+        return used - {shape.name for shape in self.nonlinear_parameters}
 
     @cached_property
-    def others(self) -> frozenset[str]:
+    def other_joint_names(self) -> frozenset[str]:
         """Those of other joints."""
         return self.names - VARIABLES.keys()
 
-    def reads_as_other(self, joint: str) -> list[str]:
+    def find_references_to(self, joint: str) -> list[str]:
         """Those that name that joint, on which the effect cannot act therefore."""
-        return sorted(name for name in self.others if name[1:] == joint)
+        return sorted(name for name in self.other_joint_names if name[1:] == joint)
 
 
 @dataclass(frozen=True)
-class Effect(Brief):
+class Effect(ShortRepr):
     """A physical effect, defined once.
 
     Attributes:
@@ -253,16 +253,16 @@ class Effect(Brief):
     title: str
     equation: str
     forms: tuple[Form, ...]
-    acts: Acts
+    acts: EffectTarget
     family: str
     signature: str
-    shows: Shows
+    shows: SignatureAxis
     look_alikes: str
     range: str
     source: str
     same_as: tuple[str, ...] = ()
     sign: int = 0
-    needs: tuple[Needs, ...] = ()
+    needs: tuple[Requirement, ...] = ()
     rare: bool = False
     several: bool = False
     orders: tuple[float, float] | None = None
@@ -281,26 +281,33 @@ class Effect(Brief):
         return self.forms[0].columns
 
     @property
-    def learned(self) -> bool:
+    def is_learned(self) -> bool:
         """True of a law that was learned, which is no physics."""
         return any(column.equation.law is not None for column in self.columns)
 
-    def mends(self, value: float) -> bool:
+    def refines_model_term(self, value: float) -> bool:
         """True if that value of its first parameter mends the form of a law in the model."""
         return self.negative != "" and value < 0.0
 
     @property
-    def rings(self) -> bool:
+    def is_oscillator(self) -> bool:
         """True if it is an oscillator."""
-        return any(form.memory and form.memory.kind == "resonance" for form in self.forms)
+        return any(
+            form.internal_state and form.internal_state.kind == "resonance" for form in self.forms
+        )
 
     @property
-    def written(self) -> bool:
+    def can_be_stated(self) -> bool:
         """True if a robot file may name it: its columns are functions of the joints' motion."""
-        acts = self.acts in (Acts.JOINT, Acts.MOTOR, Acts.POSITION, Acts.PASSIVE)
+        acts = self.acts in (
+            EffectTarget.JOINT,
+            EffectTarget.MOTOR,
+            EffectTarget.POSITION,
+            EffectTarget.PASSIVE,
+        )
         return acts and not self.hindrance
 
     @property
-    def coupled(self) -> bool:
+    def is_coupled(self) -> bool:
         """True if it acts on the shaft of a motor that turns with several joints."""
-        return self.acts is Acts.MOTOR
+        return self.acts is EffectTarget.MOTOR

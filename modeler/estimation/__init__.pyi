@@ -1,77 +1,87 @@
 from . import long_logs as long_logs, model_file as model_file, two_step_result as two_step_result
 from .covariance import (
-    autocorrelation as autocorrelation,
-    remembered as remembered,
-    repeated_whole as repeated_whole,
+    estimate_autocorrelation as estimate_autocorrelation,
+    estimate_correlation as estimate_correlation,
+    sum_lagged_products as sum_lagged_products,
 )
 from .direct_model import (
     ControlLoop as ControlLoop,
     DirectModel as DirectModel,
-    scaled_inertia as scaled_inertia,
+    scale_inertia as scale_inertia,
 )
-from .doubts import not_together as not_together, remounted as remounted
+from .doubts import (
+    find_heterogeneous_logs as find_heterogeneous_logs,
+    separate_payload as separate_payload,
+)
 from .drive_gains import (
     GainFit as GainFit,
     are_currents as are_currents,
     check_currents as check_currents,
     identify_gains as identify_gains,
-    in_drive_units as in_drive_units,
+    set_unit_gains as set_unit_gains,
 )
 from .energy_fit import identify_energy as identify_energy
-from .findings import log_findings as log_findings
+from .findings import find_log_faults as find_log_faults
 from .identify import (
     Equations as Equations,
-    dead_joints as dead_joints,
+    compute_relative_errors as compute_relative_errors,
+    find_disconnected_joints as find_disconnected_joints,
     identify as identify,
-    relative_errors as relative_errors,
 )
-from .known import deviations as deviations, known_doubts as known_doubts
-from .least_squares import least_squares as least_squares, solve_by_qr as solve_by_qr
+from .known import (
+    check_known_quantities as check_known_quantities,
+    describe_deviations as describe_deviations,
+)
+from .least_squares import solve_by_qr as solve_by_qr, solve_least_squares as solve_least_squares
 from .long_logs import (
     OF_TRIANGLES as OF_TRIANGLES,
-    all_rows as all_rows,
-    by_threads as by_threads,
-    stream as stream,
+    read_all_rows as read_all_rows,
+    reduce_by_threads as reduce_by_threads,
+    stream_logs as stream_logs,
 )
 from .model_file import (
     Addition as Addition,
     IdentifiedModel as IdentifiedModel,
+    collect_provenance as collect_provenance,
+    keep_essential as keep_essential,
     load_model as load_model,
-    provenance as provenance,
     save_model as save_model,
-    with_essential_only as with_essential_only,
 )
 from .nearest_body import (
     PREFIXES as PREFIXES,
-    Machine as Machine,
-    body as body,
-    machine_of as machine_of,
-    nearest_possible as nearest_possible,
-    parameters_of as parameters_of,
-    pseudo_inertia_of as pseudo_inertia_of,
+    PhysicalParameters as PhysicalParameters,
+    compute_pseudo_inertia as compute_pseudo_inertia,
+    define_body as define_body,
+    define_physical_parameters as define_physical_parameters,
+    extract_parameters as extract_parameters,
+    project_parameters as project_parameters,
 )
-from .parameter import prior_text as prior_text, spread_text as spread_text
+from .parameter import format_prior as format_prior, format_spread as format_spread
 from .payload import (
     Payload as Payload,
+    add_known_load as add_known_load,
+    build_loaded_equations as build_loaded_equations,
     identify_with_payloads as identify_with_payloads,
-    loaded_equations as loaded_equations,
-    with_load as with_load,
 )
 from .prior import (
     Prior as Prior,
-    body_covariance as body_covariance,
+    build_prior as build_prior,
+    compute_body_covariance as compute_body_covariance,
     describe_unused_prior as describe_unused_prior,
-    prior_of as prior_of,
 )
 from .result import (
     FitResult as FitResult,
     ParameterEstimate as ParameterEstimate,
-    friction_by_direction as friction_by_direction,
+    compute_friction_by_direction as compute_friction_by_direction,
 )
-from .side_by_side import SideBySide as SideBySide, Tried as Tried, side_by_side as side_by_side
-from .two_step import Directions as Directions
+from .side_by_side import (
+    MethodComparison as MethodComparison,
+    MethodResult as MethodResult,
+    compare_methods as compare_methods,
+)
+from .two_step import JointDirections as JointDirections
 from .two_step_result import (
     TwoStepFit as TwoStepFit,
     identify_in_two_steps as identify_in_two_steps,
 )
-from .verdict import contradictions as contradictions, with_verdict as with_verdict
+from .verdict import find_contradictions as find_contradictions, judge_fit as judge_fit

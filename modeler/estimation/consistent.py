@@ -21,16 +21,16 @@ import numpy as np
 
 from modeler.core.errors import DataError
 from modeler.core.manifest import ModuleSpec
-from modeler.estimation.least_squares import Estimate, Problem, least_squares
+from modeler.estimation.least_squares import Estimate, Problem, solve_least_squares
 from modeler.estimation.nearest_body import (
     PREFIXES,
-    Machine,
-    machine_of,
-    parameters_of,
-    pseudo_inertia_of,
-    scales,
+    PhysicalParameters,
+    compute_pseudo_inertia,
+    compute_scales,
+    define_physical_parameters,
+    extract_parameters,
 )
-from modeler.numerics.least_squares import Rank, column_lengths
+from modeler.numerics.least_squares import Rank, compute_column_norms
 
 WEIGHT = 0.01
 """gamma where nothing is known of the links: so small that no value which the data tell moves."""
@@ -47,11 +47,12 @@ _AT_ZERO = 1e-6  # of its scale: a friction this small is at its bound
 
 
 @dataclass(frozen=True, eq=False)
-class Consistent:
+class ConsistentSolution:
     """A machine that could be built.
 
     Attributes:
-        chi: (m,) unknowns of the `Machine`: the standard parameters, all ten of every link.
+        chi: (m,) unknowns of the `PhysicalParameters`: the standard parameters, all ten of every
+            link.
         beta: (c,) K chi.
         covariance: (c, c) of beta, from the curvature of what is minimised: the reference counts
             as knowledge, a bound that holds does not.
@@ -65,15 +66,15 @@ class Consistent:
     chi: np.ndarray
     beta: np.ndarray
     covariance: np.ndarray
-    held: tuple[str, ...]
-    rise: float
+    bounded_links: tuple[str, ...]
+    excess_squares: float
     bodies: Mapping[str, np.ndarray]
-    at_bound: tuple[str, ...]
+    zero_parameters: tuple[str, ...]
 
 
-def consistent(
-    machine: Machine, whole: np.ndarray, reference: Mapping[str, np.ndarray]
-) -> Consistent:
+def solve_consistent(
+    machine: PhysicalParameters, whole: np.ndarray, reference: Mapping[str, np.ndarray]
+) -> ConsistentSolution:
     """The machine that fits best.
 
     Args:
@@ -87,22 +88,30 @@ def consistent(
     """
     R, z = whole[:, :-1], whole[:, -1]
     gamma = {name: KNOWN_WEIGHT if name in reference else WEIGHT for name in machine.links}
-    near = {name: _root(P) for name, P in _references(machine, R, z, reference).items()}
+    near = {
+        name: _compute_root(P) for name, P in _build_references(machine, R, z, reference).items()
+    }
     problem = _Problem(machine, R @ machine.K, z, gamma, near)
-    roots, others = problem.answer()
+    roots, others = problem.solve_rounds()
     bodies = {name: root @ root.T for name, root in roots.items()}
-    chi = problem.chi(bodies, others)
-    held = problem.held(roots, chi)
-    curvature = problem.covariance(roots, held)
+    chi = problem.assemble_chi(bodies, others)
+    held = problem.find_bounded_links(roots, chi)
+    curvature = problem.compute_covariance(roots, held)
     beta = machine.K @ chi
     best = np.linalg.lstsq(R, z, rcond=None)[0]
     rise = float(np.sum((R @ beta - z) ** 2) - np.sum((R @ best - z) ** 2))
-    return Consistent(
-        chi, beta, machine.K @ curvature @ machine.K.T, held, rise, bodies, problem.at_zero(others)
+    return ConsistentSolution(
+        chi,
+        beta,
+        machine.K @ curvature @ machine.K.T,
+        held,
+        rise,
+        bodies,
+        problem.find_zero_parameters(others),
     )
 
 
-_GRADIENT = parameters_of(np.eye(16).reshape(4, 4, 4, 4))
+_GRADIENT = extract_parameters(np.eye(16).reshape(4, 4, 4, 4))
 _PICKS = (_GRADIENT + _GRADIENT.transpose(0, 2, 1)) / 2.0
 """(10, 4, 4) symmetric: each parameter is its inner product with the pseudo-inertia."""
 
@@ -117,47 +126,47 @@ _BASIS[range(10), _COLUMN, _ROW] = _BASIS[range(10), _ROW, _COLUMN]
 class _Problem:
     """The rows A chi = z, and what is added to their squares."""
 
-    machine: Machine
+    machine: PhysicalParameters
     A: np.ndarray
     z: np.ndarray
     gamma: Mapping[str, float]
     reference: Mapping[str, np.ndarray]  # roots of P0: root root' = P0
 
     @cached_property
-    def others(self) -> list[int]:
+    def other_places(self) -> list[int]:
         """Places in chi of what is no link's: friction, rotor inertias, offsets, loads."""
-        inertial = [place for own in self.machine.links.values() for place in own]
+        inertial = [place for places in self.machine.links.values() for place in places]
         return np.setdiff1d(np.arange(self.A.shape[1]), inertial).tolist()
 
     @cached_property
-    def positive(self) -> np.ndarray:
+    def is_nonnegative(self) -> np.ndarray:
         """(others,) True for those that cannot be negative."""
-        return np.isin(self.others, list(self.machine.positive.values()))
+        return np.isin(self.other_places, list(self.machine.positive.values()))
 
     @cached_property
     def scale(self) -> np.ndarray:
         """(others,) of their values, so that their columns have length one."""
-        return 1.0 / column_lengths(self.A[:, self.others])
+        return 1.0 / compute_column_norms(self.A[:, self.other_places])
 
-    def chi(self, bodies: Mapping[str, np.ndarray], others: np.ndarray) -> np.ndarray:
+    def assemble_chi(self, bodies: Mapping[str, np.ndarray], others: np.ndarray) -> np.ndarray:
         """(m,) all unknowns."""
-        found = np.zeros(self.A.shape[1])
-        for name, own in self.machine.links.items():
-            found[own] = parameters_of(bodies[name])
-        found[self.others] = others
-        return found
+        chi = np.zeros(self.A.shape[1])
+        for name, places in self.machine.links.items():
+            chi[places] = extract_parameters(bodies[name])
+        chi[self.other_places] = others
+        return chi
 
-    def answer(self) -> tuple[dict[str, np.ndarray], np.ndarray]:
+    def solve_rounds(self) -> tuple[dict[str, np.ndarray], np.ndarray]:
         """Roots of the bodies, and the other values.
 
         Raises:
             DataError: the solver does not get there.
         """
-        roots, others, settled = dict(self.reference), np.zeros(len(self.others)), False
+        roots, others, settled = dict(self.reference), np.zeros(len(self.other_places)), False
         for factor in _ROUNDS:
-            found = self.solved(roots, others, factor)
-            if found is not None:
-                (roots, others), settled = found, factor == 1.0
+            solution = self.solve_round(roots, others, factor)
+            if solution is not None:
+                (roots, others), settled = solution, factor == 1.0
         if not settled:
             raise DataError(
                 "no machine that could be built was found for these logs (the solver does not "
@@ -165,7 +174,7 @@ class _Problem:
             )
         return roots, others
 
-    def solved(
+    def solve_round(
         self, roots: Mapping[str, np.ndarray], others: np.ndarray, factor: float
     ) -> tuple[dict[str, np.ndarray], np.ndarray] | None:
         """The answer with gamma times a factor, written around bodies and values near to it.
@@ -175,10 +184,12 @@ class _Problem:
         import cvxpy as cp  # only here: other fits need not wait for it
 
         scale = self.scale
-        error = -self.z + self.A[:, self.others] @ others
+        error = -self.z + self.A[:, self.other_places] @ others
         step = cp.Variable(len(others))
-        total = (self.A[:, self.others] * scale) @ step
-        bounds = [others[i] + scale[i] * step[i] >= 0.0 for i in np.flatnonzero(self.positive)]
+        total = (self.A[:, self.other_places] * scale) @ step
+        bounds = [
+            others[i] + scale[i] * step[i] >= 0.0 for i in np.flatnonzero(self.is_nonnegative)
+        ]
         X = {name: cp.Variable((4, 4), PSD=True) for name in roots}
         divergence = cp.Constant(0.0)
         for name, root in roots.items():
@@ -196,35 +207,47 @@ class _Problem:
             problem.solve(solver=cp.CLARABEL)
         if problem.status not in ("optimal", "optimal_inaccurate"):
             return None
-        found = {name: root @ _root(np.asarray(X[name].value)) for name, root in roots.items()}
+        new_roots = {
+            name: root @ _compute_root(np.asarray(X[name].value)) for name, root in roots.items()
+        }
         moved = others if step.value is None else others + scale * step.value
-        return found, np.maximum(moved, np.where(self.positive, 0.0, -np.inf))
+        return new_roots, np.maximum(moved, np.where(self.is_nonnegative, 0.0, -np.inf))
 
-    def at_zero(self, others: np.ndarray) -> tuple[str, ...]:
+    def find_zero_parameters(self, others: np.ndarray) -> tuple[str, ...]:
         """The parameters at their bound: less than a millionth of the torque."""
         size = _AT_ZERO * max(float(np.linalg.norm(self.z)), 1e-300) * self.scale
-        zero = {self.others[i] for i in np.flatnonzero(others <= size)}
+        zero = {self.other_places[i] for i in np.flatnonzero(others <= size)}
         return tuple(name for name, place in self.machine.positive.items() if place in zero)
 
-    def moves(self, roots: Mapping[str, np.ndarray]) -> np.ndarray:
+    def build_moves(self, roots: Mapping[str, np.ndarray]) -> np.ndarray:
         """(m, others + 10 links) of chi: by the scales of others, then P = root (1 + .) root'."""
         unknowns = self.A.shape[1]
-        moves = [np.eye(unknowns)[:, self.others] * self.scale]
-        for name, own in self.machine.links.items():
+        moves = [np.eye(unknowns)[:, self.other_places] * self.scale]
+        for name, places in self.machine.links.items():
             move = np.zeros((unknowns, len(_BASIS)))
-            move[own] = parameters_of((roots[name] @ _BASIS @ roots[name].T).transpose(1, 2, 0))
+            move[places] = extract_parameters(
+                (roots[name] @ _BASIS @ roots[name].T).transpose(1, 2, 0)
+            )
             moves.append(move)
         return np.hstack(moves)
 
-    def held(self, roots: Mapping[str, np.ndarray], chi: np.ndarray) -> tuple[str, ...]:
+    def find_bounded_links(
+        self, roots: Mapping[str, np.ndarray], chi: np.ndarray
+    ) -> tuple[str, ...]:
         """Links that leave their bound on the shortest way to the least squares of the rows."""
-        T = self.moves(roots)
+        T = self.build_moves(roots)
         step = np.linalg.lstsq(self.A @ T, self.z - self.A @ chi, rcond=1e-12)[0]
-        turns = step[len(self.others) :].reshape(-1, len(_BASIS)) @ _BASIS.reshape(-1, 16)
+        turns = step[len(self.other_places) :].reshape(-1, len(_BASIS)) @ _BASIS.reshape(-1, 16)
         least = np.linalg.eigvalsh(np.eye(4) + turns.reshape(-1, 4, 4))[:, 0]
-        return tuple(name for name, own in zip(self.machine.links, least, strict=True) if own < 0.0)
+        return tuple(
+            name
+            for name, eigenvalue in zip(self.machine.links, least, strict=True)
+            if eigenvalue < 0.0
+        )
 
-    def covariance(self, roots: Mapping[str, np.ndarray], held: Sequence[str]) -> np.ndarray:
+    def compute_covariance(
+        self, roots: Mapping[str, np.ndarray], held: Sequence[str]
+    ) -> np.ndarray:
         """(m, m) inverse of the curvature.
 
         Around X = 1 the curvature of -log det X is the identity in an orthonormal basis of the
@@ -233,26 +256,26 @@ class _Problem:
         """
         roots = {name: self.reference[name] if name in held else roots[name] for name in roots}
         stiffness = [0.0 if name in held else self.gamma[name] for name in roots]
-        T = self.moves(roots)
+        T = self.build_moves(roots)
         root = np.hstack([0.0 * self.scale, np.repeat(stiffness, len(_BASIS))]) ** 0.5
         spread = T @ np.linalg.pinv(np.vstack([self.A @ T, np.diag(root)]), rcond=1e-12)
         return np.asarray(spread @ spread.T)
 
 
-def _references(
-    machine: Machine, R: np.ndarray, z: np.ndarray, known: Mapping[str, np.ndarray]
+def _build_references(
+    machine: PhysicalParameters, R: np.ndarray, z: np.ndarray, known: Mapping[str, np.ndarray]
 ) -> dict[str, np.ndarray]:
     """Reference bodies: as known, or round, of the mass and size that the torques allow."""
     size = max(float(np.linalg.norm(z)), 1e-300)
-    scale = scales(machine, R @ machine.K / size)
-    found = {}
-    for name, own in machine.links.items():
-        mass, metre = scale[own[9]] / len(machine.links), scale[own[6]] / scale[own[9]]
-        found[name] = known.get(name, mass * np.diag([metre**2, metre**2, metre**2, 1.0]))
-    return found
+    scale = compute_scales(machine, R @ machine.K / size)
+    bodies = {}
+    for name, places in machine.links.items():
+        mass, metre = scale[places[9]] / len(machine.links), scale[places[6]] / scale[places[9]]
+        bodies[name] = known.get(name, mass * np.diag([metre**2, metre**2, metre**2, 1.0]))
+    return bodies
 
 
-def _root(matrix: np.ndarray) -> np.ndarray:
+def _compute_root(matrix: np.ndarray) -> np.ndarray:
     """Lower triangle of a positive definite matrix; what rounding made negative is raised."""
     values, vectors = np.linalg.eigh((matrix + matrix.T) / 2.0)
     values = np.maximum(values, 1e-12 * max(float(values[-1]), 1e-300))
@@ -265,12 +288,15 @@ def _root(matrix: np.ndarray) -> np.ndarray:
 _LEAST = 1e-6  # a plate or a rod of a drawing is given so much thickness, relative
 
 
-def buildable(problem: Problem) -> Estimate:
-    """The machine that fits best, weighted as `least_squares` weights; see `as_buildable`."""
-    return as_buildable(problem, least_squares(problem.data, "weighted"), "consistent")
+def estimate_consistent(problem: Problem) -> Estimate:
+    """The machine that fits best, weighted as `solve_least_squares` weights.
+
+    See " "`make_consistent`.
+    """
+    return make_consistent(problem, solve_least_squares(problem.data, "weighted"), "consistent")
 
 
-def as_buildable(problem: Problem, start: Estimate, method: str) -> Estimate:
+def make_consistent(problem: Problem, start: Estimate, method: str) -> Estimate:
     """The machine nearest to an estimate in the metric of its own equations.
 
     Of R beta = z, the triangle whose least squares `start` is: those of the weighted rows, or what
@@ -289,72 +315,76 @@ def as_buildable(problem: Problem, start: Estimate, method: str) -> Estimate:
     Raises:
         DataError: no compiled robot, or loads beside it; the solver finds no answer.
     """
-    model = problem.robot(method)
-    machine = machine_of(model.spec)
-    known = references(model.spec)
-    whole = problem.data.whole(start.sigma) if start.whole is None else start.whole
-    found = consistent(machine, whole, known)
-    told = np.isin(np.arange(len(found.beta)), start.rank.kept)
+    model = problem.require_robot(method)
+    machine = define_physical_parameters(model.spec)
+    known = collect_references(model.spec)
+    whole = problem.data.combine_joints(start.sigma) if start.whole is None else start.whole
+    solution = solve_consistent(machine, whole, known)
+    is_estimated = np.isin(np.arange(len(solution.beta)), start.rank.kept_columns)
     # d beta = C R^T R d start, with C the covariance: what moves the start moves this along.
-    follows = found.covariance @ whole[:, :-1].T @ whole[:, :-1]
+    follows = solution.covariance @ whole[:, :-1].T @ whole[:, :-1]
     return dataclasses.replace(
         start,
-        beta=found.beta,
-        covariance=found.covariance * np.outer(told, told),
-        rank=Rank(start.rank.kept, (), start.rank.last_kept, start.rank.first_dropped),
-        standard=dict(zip(machine.names, found.chi.tolist(), strict=True)),
-        sentences=(*start.sentences, *_sentences(model.spec, found, start, known)),
-        pull=None if start.pull is None else start.pull @ (follows * told[:, None]).T,
+        beta=solution.beta,
+        covariance=solution.covariance * np.outer(is_estimated, is_estimated),
+        rank=Rank(start.rank.kept_columns, (), start.rank.last_kept, start.rank.first_dropped),
+        standard=dict(zip(machine.names, solution.chi.tolist(), strict=True)),
+        sentences=(*start.sentences, *_describe_solution(model.spec, solution, start, known)),
+        influence=None
+        if start.influence is None
+        else start.influence @ (follows * is_estimated[:, None]).T,
     )
 
 
-def references(spec: ModuleSpec) -> dict[str, np.ndarray]:
+def collect_references(spec: ModuleSpec) -> dict[str, np.ndarray]:
     """(4, 4) pseudo-inertias of the links of which the robot file states all ten parameters."""
     nominal = {p.name: p.nominal for p in spec.standard if p.nominal is not None}
-    found = {}
+    bodies = {}
     for link in dict.fromkeys(p.joint for p in spec.standard if p.effect == "rigid_body"):
         ten = [nominal[name] for p in PREFIXES if (name := f"{p}{link}") in nominal]
         if len(ten) == len(PREFIXES) and ten[-1] > 0.0:
-            body = pseudo_inertia_of(np.array(ten))
+            body = compute_pseudo_inertia(np.array(ten))
             size = np.sqrt(np.maximum(np.diag(body), 0.0))
             size = np.maximum(size, 1e-3 * size[:3].max() * np.array([1.0, 1.0, 1.0, 0.0]))
             body = body + _LEAST * np.diag(size**2)
             if size.all() and np.linalg.eigvalsh(body / np.outer(size, size))[0] > 0.0:
-                found[link] = body
-    return found
+                bodies[link] = body
+    return bodies
 
 
-def _sentences(
-    spec: ModuleSpec, found: Consistent, start: Estimate, known: Mapping[str, np.ndarray]
+def _describe_solution(
+    spec: ModuleSpec, solution: ConsistentSolution, start: Estimate, known: Mapping[str, np.ndarray]
 ) -> list[str]:
-    degrees = len(found.beta)
+    degrees = len(solution.beta)
     said = []
-    if found.rise > degrees:
+    if solution.excess_squares > degrees:
         said.append(
-            f"a machine that could be built leaves {found.rise:.3g} variances more than least "
+            f"a machine that could be built leaves {solution.excess_squares:.3g} variances more "
+            "than least "
             f"squares, where its {degrees} values would raise it by {degrees} if they were wrong "
             "by one sigma each: these logs hold something that the model does not; see the doubts "
             "of --method weighted"
         )
-    if found.held:
+    if solution.bounded_links:
         said.append(
-            f"link {', '.join(found.held)}: at the bound of what can be built, which noise or a "
+            f"link {', '.join(solution.bounded_links)}: at the bound of what can be built, which "
+            "noise or a "
             "missing effect would cross; the sigmas of such a link are those without the bound"
         )
     # Of the parameters at 0: which the data would have below it, and which they do not tell.
     sums = [[term.parameter for term in base.terms] for base in spec.base]
-    own = [name for name in found.at_bound if [name] in sums]
-    if own:
-        said.append(f"{', '.join(own)} held at 0, which would be negative")
-    for name in found.at_bound:
-        if name not in own:
+    negative_names = [name for name in solution.zero_parameters if [name] in sums]
+    if negative_names:
+        said.append(f"{', '.join(negative_names)} held at 0, which would be negative")
+    for name in solution.zero_parameters:
+        if name not in negative_names:
             beside = dict.fromkeys(x for terms in sums if name in terms for x in terms)
             others = " and ".join(x for x in beside if x != name)
             said.append(f"{name} cannot be told from {others} and is put at 0")
-    if start.rank.aside:
-        names = ", ".join(tangle.name for tangle in start.rank.aside)
+    if start.rank.dropped_columns:
+        names = ", ".join(tangle.name for tangle in start.rank.dropped_columns)
         said.append(f"not told by these data, but by what can be built: {names}")
-    loose = [link for link in found.bodies if link not in known]
+    loose = [link for link in solution.bodies if link not in known]
     if loose:
         said.append(
             f"link {', '.join(loose)}: no drawing in the robot file ([parameters]); what no torque "

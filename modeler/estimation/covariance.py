@@ -5,10 +5,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from modeler.estimation.least_squares import Estimate, Rows, repeated_in_passing, solve_by_qr
+from modeler.estimation.least_squares import Estimate, Rows, solve_by_qr, sum_streamed_products
 from modeler.numerics.filters import SPREAD
-from modeler.numerics.least_squares import Compressed, triangle
-from modeler.observation import Doubt, Observation
+from modeler.numerics.least_squares import CompressedRegression, compute_triangle
+from modeler.observation import DataWarning, Observation
 
 _WORTH = 1.2  # a factor above it is said
 _LAGS = 60  # rows; with one row per 1 / (2.5 cut-off), 24 periods of the parallel filter
@@ -18,7 +18,7 @@ _TOLD = 0.2  # autocorrelation that is told: filtering leaves 0.1
 
 
 @dataclass(frozen=True, eq=False)
-class Colour:
+class ResidualAutocorrelation:
     """What the memory of the residuals does.
 
     Attributes:
@@ -29,25 +29,25 @@ class Colour:
     """
 
     factors: np.ndarray
-    memory: tuple[tuple[str, float], ...]
-    lasting: np.ndarray
-    extra: np.ndarray
+    correlation_times: tuple[tuple[str, float], ...]
+    lag1: np.ndarray
+    added_covariance: np.ndarray
 
-    def raised(self, white: np.ndarray) -> np.ndarray:
+    def inflate_covariance(self, white: np.ndarray) -> np.ndarray:
         """(c, c) the covariance with it: in no direction less than that of white residuals."""
         at = np.ix_(*[np.flatnonzero(np.diag(white))] * 2)
-        root, inverse = roots(white[at])
-        ratio, turn = np.linalg.eigh(inverse @ self.extra[at] @ inverse.T)
+        root, inverse = compute_roots(white[at])
+        ratio, turn = np.linalg.eigh(inverse @ self.added_covariance[at] @ inverse.T)
         turned = root @ turn * np.sqrt(1.0 + np.maximum(ratio, 0.0))
-        found = np.zeros(white.shape)
-        found[at] = turned @ turned.T
-        return found
+        inflated = np.zeros(white.shape)
+        inflated[at] = turned @ turned.T
+        return inflated
 
-    def sentences(self) -> list[str]:
+    def format_sentences(self) -> list[str]:
         """One, if it matters."""
-        if not self.memory or self.factors.max(initial=1.0) < _WORTH:
+        if not self.correlation_times or self.factors.max(initial=1.0) < _WORTH:
             return []
-        longest = max(self.memory, key=lambda entry: entry[1])
+        longest = max(self.correlation_times, key=lambda entry: entry[1])
         return [
             f"the residuals are no white noise (joint {longest[0]} remembers {longest[1]:.2g} s): "
             f"neighbouring rows repeat each other, and the sigmas are raised for it, by up to a "
@@ -55,7 +55,7 @@ class Colour:
         ]
 
 
-def roots(V: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+def compute_roots(V: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """(k, k) R R^T = V and R^-1, of V (k, k) without zeros on its diagonal.
 
     Nothing is known better than rounding lets V say.
@@ -66,9 +66,9 @@ def roots(V: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     return size[:, None] * vectors * half, (vectors / half).T / size
 
 
-def coloured(
+def estimate_hac_covariance(
     rows: Rows, estimate: Estimate, at: Sequence[int] | None = None, share: float = 1.0
-) -> Colour:
+) -> ResidualAutocorrelation:
     """By how much autocorrelated residuals raise the standard deviations.
 
     The covariance C = (W^T S^-1 W)^-1 takes rows for independent. With residuals of joint j of
@@ -89,48 +89,57 @@ def coloured(
         share: of the fitted rows that these are.
     """
     observation, W = rows.observation, rows
-    own_way = estimate.pull is not None or estimate.bread is not None
-    columns = len(observation.names) if rows.streamed else rows.W.shape[1]
+    has_influence = estimate.influence is not None or estimate.bread is not None
+    columns = len(observation.names) if rows.has_streamed_rows else rows.W.shape[1]
     picked = np.eye(columns) if at is None else np.eye(columns)[:, at]
     residual = estimate.residual
     if residual is None:
-        residual = rows.residual(picked @ estimate.beta)
+        residual = rows.compute_residual(picked @ estimate.beta)
     matrix = picked @ (estimate.covariance if estimate.bread is None else estimate.bread)
-    if estimate.pull is not None:
-        W, matrix = Rows(observation, estimate.pull, rows.y, rows.counted), picked
-    joints, memory = len(observation.joints), []
-    lasting, pulls = np.zeros(joints), np.zeros((joints, *picked.shape))
+    if estimate.influence is not None:
+        W, matrix = Rows(observation, estimate.influence, rows.y, rows.counted), picked
+    joints, correlation_times = len(observation.joints), []
+    lag1, pulls = np.zeros(joints), np.zeros((joints, *picked.shape))
     correlations = [np.ones(1) for _ in observation.joints]
     for j, joint in enumerate(observation.joints):
-        if not (own := rows.counted & (rows.joint == j)).any():
+        if not (is_of_joint := rows.counted & (rows.row_joint == j)).any():
             continue
-        correlations[j] = r = remembered(observation, residual[own], observation.row_sample[own])
-        lasting[j] = r[1] if len(r) > 1 else 0.0
-        if told := int(np.sum(r > _TOLD)) - 1:
-            memory.append((joint.name, told * _spacing(observation)))
-        size = float(np.sqrt(np.mean(residual[own] ** 2)))
-        pulls[j] = matrix * (size if own_way else 1.0 / estimate.sigma[j])
-    extra = _repeated_rows(W, pulls, correlations) / share  # C (B - C^-1) C
+        correlations[j] = r = estimate_correlation(
+            observation, residual[is_of_joint], observation.row_sample[is_of_joint]
+        )
+        lag1[j] = r[1] if len(r) > 1 else 0.0
+        if significant_lags := int(np.sum(r > _TOLD)) - 1:
+            correlation_times.append((joint.name, significant_lags * _compute_spacing(observation)))
+        size = float(np.sqrt(np.mean(residual[is_of_joint] ** 2)))
+        pulls[j] = matrix * (size if has_influence else 1.0 / estimate.sigma[j])
+    extra = _sum_row_products(W, pulls, correlations) / share  # C (B - C^-1) C
     white = np.diag(estimate.covariance)
     ratio = 1.0 + np.diag(extra) / np.where(white > 0.0, white, 1.0)
-    return Colour(np.sqrt(np.maximum(ratio, 1.0)), tuple(memory), lasting, extra)
+    return ResidualAutocorrelation(
+        np.sqrt(np.maximum(ratio, 1.0)), tuple(correlation_times), lag1, extra
+    )
 
 
-def _repeated_rows(
+def _sum_row_products(
     rows: Rows, matrices: np.ndarray, correlations: Sequence[np.ndarray]
 ) -> np.ndarray:
-    """(k, k) `repeated_whole` of the counted rows of all joints, each times its matrix (c, k)."""
-    if rows.streamed:
-        return repeated_in_passing(rows.observation, rows.counted, matrices, correlations)
+    """(k, k) `sum_lagged_products` of the counted rows of all joints.
+
+    Each times its matrix (c, " "k).
+    """
+    if rows.has_streamed_rows:
+        return sum_streamed_products(rows.observation, rows.counted, matrices, correlations)
     total, observation = np.zeros((matrices.shape[2],) * 2), rows.observation
     for j, r in enumerate(correlations):
-        own = rows.counted & (rows.joint == j)
-        sample = observation.row_sample[own]
-        total += repeated_whole(rows.W[own] @ matrices[j], r, sample, observation.segment)
+        is_of_joint = rows.counted & (rows.row_joint == j)
+        sample = observation.row_sample[is_of_joint]
+        total += sum_lagged_products(
+            rows.W[is_of_joint] @ matrices[j], r, sample, observation.segment
+        )
     return total
 
 
-def remembered(observation: Observation, e: np.ndarray, sample: np.ndarray) -> np.ndarray:
+def estimate_correlation(observation: Observation, e: np.ndarray, sample: np.ndarray) -> np.ndarray:
     """r(0) = 1, r(1), ... of the residual of one joint, at least that of the parallel filter.
 
     Args:
@@ -138,22 +147,22 @@ def remembered(observation: Observation, e: np.ndarray, sample: np.ndarray) -> n
         e: (rows,) residual of one joint.
         sample: (rows,) its samples, ascending.
     """
-    found = autocorrelation(e, sample, observation.segment)
+    correlation = estimate_autocorrelation(e, sample, observation.segment)
     cutoff = observation.report.processing.parallel_cutoff
     if not cutoff:
-        return found
+        return correlation
     # White noise through the filter: means with Gaussian weights of standard deviation s, d apart,
     # correlate by exp(-d^2 / 4 s^2), down to 0.01.
-    lags = np.arange(_LAGS) * _spacing(observation) * cutoff / SPREAD
+    lags = np.arange(_LAGS) * _compute_spacing(observation) * cutoff / SPREAD
     floor = np.exp(-(lags**2) / 4.0)
     floor = floor[: max(1, int(np.argmax(floor < _FADED)))]
-    longer = np.zeros(max(len(found), len(floor)))
-    longer[: len(found)] = found
+    longer = np.zeros(max(len(correlation), len(floor)))
+    longer[: len(correlation)] = correlation
     longer[: len(floor)] = np.maximum(longer[: len(floor)], floor)
     return longer
 
 
-def repeated_whole(
+def sum_lagged_products(
     rows: np.ndarray, r: np.ndarray, sample: np.ndarray, segment: np.ndarray
 ) -> np.ndarray:
     """(c, c) sum_k r(k) sum_t (rows(t) rows(t + k)^T + its transpose).
@@ -162,12 +171,12 @@ def repeated_whole(
     """
     total = np.zeros((rows.shape[1], rows.shape[1]))
     for lag in range(1, len(r)):
-        left, right = _pairs(sample, segment, lag)
+        left, right = _pair_rows(sample, segment, lag)
         total += r[lag] * (rows[left].T @ rows[right])
     return total + total.T
 
 
-def autocorrelation(e: np.ndarray, sample: np.ndarray, segment: np.ndarray) -> np.ndarray:
+def estimate_autocorrelation(e: np.ndarray, sample: np.ndarray, segment: np.ndarray) -> np.ndarray:
     """r(0) = 1, r(1), ... up to the first that does not stand out, at most 60, within segments.
 
     Args:
@@ -178,7 +187,7 @@ def autocorrelation(e: np.ndarray, sample: np.ndarray, segment: np.ndarray) -> n
     r = [1.0]
     power = float(np.mean(e**2))
     while len(r) <= _LAGS and power > 0.0:
-        left, right = _pairs(sample, segment, len(r))
+        left, right = _pair_rows(sample, segment, len(r))
         if not left.size:
             break
         value = float(np.mean(e[left] * e[right])) / power
@@ -188,7 +197,7 @@ def autocorrelation(e: np.ndarray, sample: np.ndarray, segment: np.ndarray) -> n
     return np.array(r)
 
 
-def _pairs(sample: np.ndarray, segment: np.ndarray, lag: int) -> tuple[np.ndarray, np.ndarray]:
+def _pair_rows(sample: np.ndarray, segment: np.ndarray, lag: int) -> tuple[np.ndarray, np.ndarray]:
     """Rows that are `lag` samples apart within a segment."""
     if not len(sample):
         return sample, sample
@@ -199,7 +208,7 @@ def _pairs(sample: np.ndarray, segment: np.ndarray, lag: int) -> tuple[np.ndarra
     return np.flatnonzero(together), right[together]
 
 
-def _spacing(observation: Observation) -> float:
+def _compute_spacing(observation: Observation) -> float:
     steps = np.diff(observation.time)[np.diff(observation.segment) == 0]
     return float(np.median(steps)) if steps.size else 0.0
 
@@ -214,7 +223,7 @@ _MOST = 0.5  # of its variance: lasts from row to row
 
 
 @dataclass(frozen=True)
-class Halves:
+class HalvesComparison:
     """What differs.
 
     Attributes:
@@ -226,7 +235,7 @@ class Halves:
     factors: np.ndarray
     worst: tuple[int, int, str, float] | None = None
 
-    def doubts(self, names: Sequence[str], joints: Sequence[str]) -> list[Doubt]:
+    def collect_warnings(self, names: Sequence[str], joints: Sequence[str]) -> list[DataWarning]:
         """One, if something differs."""
         if self.worst is None:
             return []
@@ -242,18 +251,18 @@ class Halves:
             f"{names[column]}, {why}; the sigmas are raised for it, by up to a factor "
             f"{self.factors.max():.2g} ({names[int(self.factors.argmax())]})"
         )
-        return [Doubt(line, about=(joints[joint],))]
+        return [DataWarning(line, joints=(joints[joint],))]
 
 
-def halves(
+def compare_halves(
     observation: Observation,
-    compressed: Callable[[np.ndarray], Compressed],
+    compressed: Callable[[np.ndarray], CompressedRegression],
     counted: np.ndarray,
     estimate: Estimate,
     sigma: np.ndarray,
-    lasting: np.ndarray,
+    lag1: np.ndarray,
     loaded: np.ndarray | None = None,
-) -> Halves:
+) -> HalvesComparison:
     """By how much values that differ between halves of the motion raise the standard deviations.
 
     With all effects in the model, beta without some rows differs from beta by noise, of covariance
@@ -269,11 +278,11 @@ def halves(
         counted: (rows,) that were fitted.
         estimate: its joint weights and kept columns are taken.
         sigma: (c,) standard deviations so far, memory of the residuals included.
-        lasting: (n,) autocorrelation of the residual of each joint over one row.
+        lag1: (n,) autocorrelation of the residual of each joint over one row.
         loaded: (rows,) True where a load is carried; None: nowhere.
     """
-    kept, row = np.array(estimate.rank.kept, dtype=int), observation.row_sample
-    weighted = _weighted(compressed, estimate)
+    kept_columns, row = np.array(estimate.rank.kept_columns, dtype=int), observation.row_sample
+    weighted = _weight_triangles(compressed, estimate)
     every = {"speed": np.abs(observation.qd), "position": observation.q,
              "torque": np.abs(observation.torque)}  # fmt: skip
     signals = {name: values[row, observation.row_joint] for name, values in every.items()}
@@ -283,38 +292,41 @@ def halves(
         count = np.bincount(observation.row_joint[counted], None, len(estimate.sigma))
         total = np.bincount(observation.row_joint[counted], values[counted], len(count))
         low = values < (total / np.maximum(count, 1))[observation.row_joint]
-        R = [weighted(counted & own) for own in (low, ~low)]
-        beta, var = _solved([*R[0], *R[1]])
+        R = [weighted(counted & half) for half in (low, ~low)]
+        beta, var = _solve_blocks([*R[0], *R[1]])
         if beta is None:
             break
-        raised = np.maximum((sigma[kept] ** 2) / var, 1.0)
+        raised = np.maximum((sigma[kept_columns] ** 2) / var, 1.0)
         for j in range(len(observation.joints)):
-            found = [_solved([*np.delete(R[k], j, 0), *R[1 - k]]) for k in (0, 1)]
-            if any(b is None for b, _ in found) or not all(own[j].any() for own in R):
+            solutions = [_solve_blocks([*np.delete(R[k], j, 0), *R[1 - k]]) for k in (0, 1)]
+            if any(b is None for b, _ in solutions) or not all(half[j].any() for half in R):
                 continue
-            d, own = np.array([b - beta for b, _ in found]), np.array([v for _, v in found])
-            noise = raised * np.maximum(own - var, 1e-6 * var)
+            d, half = (
+                np.array([b - beta for b, _ in solutions]),
+                np.array([v for _, v in solutions]),
+            )
+            noise = raised * np.maximum(half - var, 1e-6 * var)
             z = (np.abs(d) / np.sqrt(noise)).max(axis=0)
-            more = np.sum((d**2 - noise) / own, axis=0) / np.sum(1.0 / own, axis=0)
-            if z.max() < (_NEAR if lasting[j] > _MOST else _FAR):
+            more = np.sum((d**2 - noise) / half, axis=0) / np.sum(1.0 / half, axis=0)
+            if z.max() < (_NEAR if lag1[j] > _MOST else _FAR):
                 continue
-            added[kept] = np.maximum(added[kept], np.where(z > _FELT, more, 0.0))
+            added[kept_columns] = np.maximum(added[kept_columns], np.where(z > _FELT, more, 0.0))
             if z.max() > farthest:
                 farthest, in_rows = float(z.max()), (R[0][j] != 0.0).any(axis=0)[:-1]
-                worst = int(kept[np.where(in_rows, z, 0.0).argmax()]), j, name, farthest
-    beside = beside_reversals(observation, compressed, counted, estimate, sigma)
+                worst = int(kept_columns[np.where(in_rows, z, 0.0).argmax()]), j, name, farthest
+    beside = estimate_reversal_bias(observation, compressed, counted, estimate, sigma)
     added = np.maximum(added, beside)
     square = np.where(sigma > 0.0, sigma, 1.0) ** 2
-    return Halves(np.sqrt(1.0 + added / square), worst)
+    return HalvesComparison(np.sqrt(1.0 + added / square), worst)
 
 
 _DOUBTED = 2.0  # standard deviations of a difference, that are chance
 _ALSO = 0.1  # of a variance, that a difference has beside the noise it is expected to have
 
 
-def beside_reversals(
+def estimate_reversal_bias(
     observation: Observation,
-    compressed: Callable[[np.ndarray], Compressed],
+    compressed: Callable[[np.ndarray], CompressedRegression],
     counted: np.ndarray,
     estimate: Estimate,
     sigma: np.ndarray,
@@ -334,31 +346,34 @@ def beside_reversals(
     added = np.zeros(len(sigma))
     if observation.steady is None:
         return added
-    kept, steady = np.array(estimate.rank.kept, dtype=int), observation.steady[observation.used]
-    weighted = _weighted(compressed, estimate)
+    kept_columns, steady = (
+        np.array(estimate.rank.kept_columns, dtype=int),
+        observation.steady[observation.used],
+    )
+    weighted = _weight_triangles(compressed, estimate)
     (whole, var), (far, far_var) = (
-        _solved([*weighted(rows)]) for rows in (counted, counted & steady)
+        _solve_blocks([*weighted(rows)]) for rows in (counted, counted & steady)
     )
     if whole is None or far is None:
         return added
-    raised = np.maximum(sigma[kept] ** 2 / var, 1.0)
+    raised = np.maximum(sigma[kept_columns] ** 2 / var, 1.0)
     noise = raised * (np.abs(far_var - var) + _ALSO * var)
     d = (far - whole) ** 2
-    added[kept] = np.maximum(d - _DOUBTED**2 * noise, 0.0)
+    added[kept_columns] = np.maximum(d - _DOUBTED**2 * noise, 0.0)
     return added
 
 
-def _weighted(
-    compressed: Callable[[np.ndarray], Compressed], estimate: Estimate
+def _weight_triangles(
+    compressed: Callable[[np.ndarray], CompressedRegression], estimate: Estimate
 ) -> Callable[[np.ndarray], np.ndarray]:
     """(n, ., k + 1) triangles of some rows, over the sigmas of an estimate; its kept columns."""
-    scale, columns = estimate.sigma[:, None, None], [*estimate.rank.kept, -1]
+    scale, columns = estimate.sigma[:, None, None], [*estimate.rank.kept_columns, -1]
     return lambda rows: (compressed(rows).triangles / scale)[:, :, columns]
 
 
-def _solved(blocks: list[np.ndarray]) -> tuple[np.ndarray | None, np.ndarray]:
+def _solve_blocks(blocks: list[np.ndarray]) -> tuple[np.ndarray | None, np.ndarray]:
     """beta (k,) of weighted triangles [W y], and its white variances; None if they do not tell."""
-    whole = triangle(np.vstack(blocks))
+    whole = compute_triangle(np.vstack(blocks))
     W = whole[:, :-1]
     lengths = np.linalg.norm(W, axis=0)
     if len(W) < W.shape[1] or not lengths.all() or np.linalg.cond(W / lengths) > 1e7:

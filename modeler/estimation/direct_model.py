@@ -21,7 +21,14 @@ from dataclasses import dataclass
 import numpy as np
 
 from modeler.core.errors import DataError
-from modeler.observation import HIGHEST, Observation, Segment, differentiated, low_pass, signals_of
+from modeler.observation import (
+    HIGHEST,
+    Observation,
+    Segment,
+    apply_low_pass,
+    compute_signals,
+    differentiate_positions,
+)
 from modeler.runtime import CompiledModel
 
 BANDWIDTHS = (2.0, 4.0, 8.0, 16.0, 32.0, 64.0)
@@ -67,7 +74,7 @@ class ControlLoop:
 
 
 @dataclass(frozen=True, eq=False)
-class _Piece:
+class _Window:
     """Samples of a segment, simulated from `first`, kept from `start` to `stop`."""
 
     segment: int
@@ -88,33 +95,38 @@ class DirectModel:
         self.segments = [part.segment for part in observation.stretches]
         self.commanded = all(segment.commanded is not None for segment in self.segments)
         self.cutoff = observation.report.processing.position_cutoff
-        self.references = [self._reference(segment) for segment in self.segments]
-        self.signals = [signals_of(model, segment) for segment in self.segments]
+        self.references = [self._build_reference(segment) for segment in self.segments]
+        self.signals = [compute_signals(model, segment) for segment in self.segments]
         self.raised = 0.0  # share of samples whose inertia matrix was not positive definite
         self.lightest = 0  # the joint that moves most along its lowest eigenvalue
 
-    def columns(self, motions: list[Motion]) -> np.ndarray:
+    def evaluate_columns(self, motions: list[Motion]) -> np.ndarray:
         """(rows, c) the columns of W along motions, filtered as those of the log."""
         places = {id(segment): i for i, segment in enumerate(self.segments)}
 
         def evaluate(segment: Segment, window: slice) -> np.ndarray:
             i = places[id(segment)]
-            signals = None if (own := self.signals[i]) is None else own[window]
+            signals = (
+                None if (segment_signals := self.signals[i]) is None else segment_signals[window]
+            )
             q, qd, qdd = motions[i][:, window]
             return self.model.base_regressor(q, qd, qdd, signals)
 
-        return self.observation.filtered(evaluate)[self.observation.used]
+        return self.observation.filter_columns(evaluate)[self.observation.used]
 
-    def chosen(self, beta: np.ndarray) -> ControlLoop:
+    def choose_loop(self, beta: np.ndarray) -> ControlLoop:
         """The controller that brings the robot nearest to the logged positions.
 
-        Expects commanded positions. Without them the nearest is the fastest, see `gentlest`.
+        Expects commanded positions. Without them the nearest is the fastest, see
+        `choose_loop_by_misfit`.
         """
-        pieces = self._pieces()
+        pieces = self._cut_windows()
         pieces = [pieces[i] for i in sorted({*np.linspace(0, len(pieces) - 1, _TRIED).astype(int)})]
-        step, speeds = self._speeds()
+        step, speeds = self._propose_speeds()
         tried = itertools.product(speeds, KINDS, (0.0, 1.0))
-        rough = self._nearest(beta, pieces, [ControlLoop(kv, *kind, f) for kv, kind, f in tried])
+        rough = self._select_nearest(
+            beta, pieces, [ControlLoop(kv, *kind, f) for kv, kind, f in tried]
+        )
         for width in _FINER if np.isfinite(rough.distance) else ():
             factors = width ** np.linspace(-1.0, 1.0, 5)
             finer = [
@@ -122,12 +134,14 @@ class DirectModel:
                 for a, b in itertools.product(factors, repeat=2)
                 if rough.speed * a * step < _STABLE
             ]
-            rough = self._nearest(beta, pieces, finer)
+            rough = self._select_nearest(beta, pieces, finer)
         if not np.isfinite(rough.distance) or rough.distance > 1.0:
             return ControlLoop(np.inf, 0.0, 0.0, 1.0, 1.0)
         return rough
 
-    def gentlest(self, beta: np.ndarray, misfit: Callable[[list[Motion]], float]) -> ControlLoop:
+    def choose_loop_by_misfit(
+        self, beta: np.ndarray, misfit: Callable[[list[Motion]], float]
+    ) -> ControlLoop:
         """The controller along whose motion the torques fit best, where no command was logged.
 
         The reference is the logged motion itself. Its positions say nothing of the controller: the
@@ -135,32 +149,36 @@ class DirectModel:
         action, which holds friction and gravity from the first sample on, and feedforward is
         taken, and its speed by `misfit`, the criterion of the fit along a motion.
         """
-        found = ControlLoop(np.inf, 0.0, 0.0, 1.0, np.inf)
-        for speed in self._speeds()[1]:
+        best = ControlLoop(np.inf, 0.0, 0.0, 1.0, np.inf)
+        for speed in self._propose_speeds()[1]:
             loop = ControlLoop(speed, *KINDS[0], 1.0)
             try:
-                far = misfit(self.followed(beta, loop))
+                far = misfit(self.simulate_motions(beta, loop))
             except DataError:
                 continue
-            if far < found.distance:
-                found = dataclasses.replace(loop, distance=far)
-        return found
+            if far < best.distance:
+                best = dataclasses.replace(loop, distance=far)
+        return best
 
-    def _speeds(self) -> tuple[float, list[float]]:
+    def _propose_speeds(self) -> tuple[float, list[float]]:
         """Step of the simulation, s, and speed loops to try, rad/s."""
         step = min(_LONGEST, min(segment.step for segment in self.segments))
         return step, [2 * np.pi * f for f in BANDWIDTHS if 2 * np.pi * f * step < _STABLE]
 
-    def _nearest(
-        self, beta: np.ndarray, pieces: list[_Piece], loops: list[ControlLoop]
+    def _select_nearest(
+        self, beta: np.ndarray, pieces: list[_Window], loops: list[ControlLoop]
     ) -> ControlLoop:
         count = len(pieces)
-        ways = self._walked(beta, pieces * len(loops), [loop for loop in loops for _ in pieces])
-        far = [self._distance(pieces, ways[i : i + count]) for i in range(0, len(ways), count)]
+        ways = self._simulate_windows(
+            beta, pieces * len(loops), [loop for loop in loops for _ in pieces]
+        )
+        far = [
+            self._compute_distance(pieces, ways[i : i + count]) for i in range(0, len(ways), count)
+        ]
         best = int(np.argmin(far))
         return dataclasses.replace(loops[best], distance=far[best])
 
-    def followed(self, beta: np.ndarray, loop: ControlLoop) -> list[Motion]:
+    def simulate_motions(self, beta: np.ndarray, loop: ControlLoop) -> list[Motion]:
         """The motion of the robot with these parameters, one per segment.
 
         Raises:
@@ -168,8 +186,8 @@ class DirectModel:
         """
         if np.isinf(loop.speed):
             return self.references
-        pieces = self._pieces()
-        ways = self._walked(beta, pieces, [loop] * len(pieces))
+        pieces = self._cut_windows()
+        ways = self._simulate_windows(beta, pieces, [loop] * len(pieces))
         motions = [np.empty_like(reference) for reference in self.references]
         for piece, way in zip(pieces, ways, strict=True):
             if not np.isfinite(way).all():
@@ -180,11 +198,11 @@ class DirectModel:
                 )
             motions[piece.segment][:, piece.start : piece.stop] = way
         return [
-            _smoothed(segment, motion, self.cutoff)
+            _smooth_motion(segment, motion, self.cutoff)
             for segment, motion in zip(self.segments, motions, strict=True)
         ]
 
-    def error(self, motions: list[Motion]) -> np.ndarray:
+    def compute_position_error(self, motions: list[Motion]) -> np.ndarray:
         """(joints,) rms of simulated less logged position, as a share of the range of motion."""
         whole = np.concatenate([segment.whole for segment in self.segments])
         logged = np.concatenate([segment.q for segment in self.segments])[whole]
@@ -192,79 +210,85 @@ class DirectModel:
         extent = np.ptp(logged, axis=0)
         return np.sqrt(np.mean(away**2, axis=0)) / np.where(extent > 0.0, extent, 1.0)
 
-    def _reference(self, segment: Segment) -> Motion:
+    def _build_reference(self, segment: Segment) -> Motion:
         """Commanded positions with their derivatives, or the motion of the fit smoothed further.
 
         Derivatives that the log brought along are kept: those of its positions are noisier.
         """
         if self.commanded:
             assert segment.commanded is not None
-            return differentiated(segment.commanded, segment.step)
+            return differentiate_positions(segment.commanded, segment.step)
         motion = np.stack([segment.q, segment.qd, segment.qdd])
-        return _smoothed(segment, motion, _SHARE * self.cutoff)
+        return _smooth_motion(segment, motion, _SHARE * self.cutoff)
 
-    def _pieces(self) -> list[_Piece]:
+    def _cut_windows(self) -> list[_Window]:
         pieces = []
         for i, segment in enumerate(self.segments):
             length = max(2, round(_WINDOW / segment.step))
             warm = round(_WARM / segment.step)
             for start in range(0, segment.samples, length):
                 stop = min(start + length, segment.samples)
-                pieces.append(_Piece(i, max(0, start - warm), start, stop))
+                pieces.append(_Window(i, max(0, start - warm), start, stop))
         return pieces
 
-    def _distance(self, pieces: list[_Piece], ways: list[Motion]) -> float:
+    def _compute_distance(self, pieces: list[_Window], ways: list[Motion]) -> float:
         """rms of simulated less logged position, each joint in units of its own tracking error."""
         error, scale = np.zeros((2, len(self.observation.joints)))
         for piece, way in zip(pieces, ways, strict=True):
-            segment, kept = self.segments[piece.segment], slice(piece.start, piece.stop)
-            logged, whole = segment.q[kept], segment.whole[kept]
+            segment, samples = self.segments[piece.segment], slice(piece.start, piece.stop)
+            logged, whole = segment.q[samples], segment.whole[samples]
             error += np.sum((way[0] - logged)[whole] ** 2, axis=0)
-            reference = self.references[piece.segment][0, kept]
+            reference = self.references[piece.segment][0, samples]
             scale += np.sum((reference - logged)[whole] ** 2, axis=0)
         moved = scale > 0.0
         total = float(np.mean(error[moved] / scale[moved])) if moved.any() else 0.0
         return float(np.sqrt(total)) if np.isfinite(total) else np.inf
 
-    def _walked(
-        self, beta: np.ndarray, pieces: list[_Piece], loops: list[ControlLoop]
+    def _simulate_windows(
+        self, beta: np.ndarray, pieces: list[_Window], loops: list[ControlLoop]
     ) -> list[Motion]:
         """The pieces, each with its loop, simulated side by side; NaN where the robot is lost."""
         steps = [float(f"{self.segments[piece.segment].step:.4g}") for piece in pieces]
         ways: dict[int, Motion] = {}
         for step in sorted(set(steps)):
-            own = [i for i, other in enumerate(steps) if other == step]
-            reference, signals = self._stacked([pieces[i] for i in own])
+            indices = [i for i, other in enumerate(steps) if other == step]
+            reference, signals = self._combine_windows([pieces[i] for i in indices])
             robot = _Robot(self.model, beta, reference)
             if robot.raised > self.raised:
                 self.raised, self.lightest = robot.raised, robot.lightest
             # What is simulated begins where the log was.
-            logged = [(self.segments[pieces[i].segment], pieces[i].first) for i in own]
+            logged = [(self.segments[pieces[i].segment], pieces[i].first) for i in indices]
             start = np.stack([np.stack([s.q[at], s.qd[at]]) for s, at in logged], axis=1)
-            motion = robot.walk(start, reference, signals, step, [loops[i] for i in own])
-            for place, i in enumerate(own):
+            motion = robot.integrate_motion(
+                start, reference, signals, step, [loops[i] for i in indices]
+            )
+            for place, i in enumerate(indices):
                 first = pieces[i].first
                 ways[i] = motion[:, pieces[i].start - first : pieces[i].stop - first, place]
         return [ways[i] for i in range(len(pieces))]
 
-    def _stacked(self, pieces: list[_Piece]) -> tuple[np.ndarray, np.ndarray | None]:
+    def _combine_windows(self, pieces: list[_Window]) -> tuple[np.ndarray, np.ndarray | None]:
         """(3, samples, pieces, joints) references, ends held, and (samples, pieces, m) signals."""
         every = np.arange(max(piece.stop - piece.first for piece in pieces))
         rows = [(p.segment, np.minimum(p.first + every, p.stop - 1)) for p in pieces]
 
         def stacked(values: Sequence[np.ndarray]) -> np.ndarray:
-            return np.stack([values[segment][..., own, :] for segment, own in rows], axis=-2)
+            return np.stack(
+                [values[segment][..., samples, :] for segment, samples in rows], axis=-2
+            )
 
-        signals = [own for own in self.signals if own is not None]  # of all segments, or of none
+        signals = [
+            array for array in self.signals if array is not None
+        ]  # of all segments, or of none
         return stacked(self.references), stacked(signals) if signals else None
 
 
-def _smoothed(segment: Segment, motion: Motion, cutoff: float) -> Motion:
+def _smooth_motion(segment: Segment, motion: Motion, cutoff: float) -> Motion:
     highest = min(cutoff, HIGHEST / segment.step)
-    return np.stack([low_pass(signal, segment.step, highest) for signal in motion])
+    return np.stack([apply_low_pass(signal, segment.step, highest) for signal in motion])
 
 
-def scaled_inertia(M: np.ndarray) -> tuple[np.ndarray, np.ndarray, int]:
+def scale_inertia(M: np.ndarray) -> tuple[np.ndarray, np.ndarray, int]:
     """How near inertia matrices M (s, n, n) come to none, in units of their median diagonal.
 
     Returns (n, n) these units, (s,) the least eigenvalue of M in them, and the joint that moves
@@ -284,10 +308,10 @@ class _Robot:
         self.model, self.beta = model, beta
         q = reference[0].reshape(-1, reference.shape[-1])
         M = model.inertia_matrix(q[:: max(1, len(q) // 500)], beta)
-        self.units, least, self.lightest = scaled_inertia(M)
+        self.units, least, self.lightest = scale_inertia(M)
         self.raised = float(np.mean(least < _FLOOR))
 
-    def inertia(self, q: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    def compute_inertia(self, q: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """M of the model, and one that is positive definite: the same if it is."""
         M = self.model.inertia_matrix(q, self.beta)
         if self.raised == 0.0:
@@ -296,7 +320,7 @@ class _Robot:
         lifted = np.maximum(values, _FLOOR)[:, None, :] * vectors
         return M, np.asarray((lifted @ vectors.transpose(0, 2, 1)) * self.units)
 
-    def walk(
+    def integrate_motion(
         self,
         start: np.ndarray,
         reference: np.ndarray,
@@ -314,7 +338,7 @@ class _Robot:
         (q, qd), (_, speed, qdd) = start, reference[:, 0]
         tau = torque(q, qd, qdd, self.beta, None if signals is None else signals[0])
         asked = kv * (ratio * kv * (reference[0, 0] - q) + f * speed - qd) + f * qdd
-        effort = integral * (tau - _times(self.inertia(q)[1], asked))
+        effort = integral * (tau - _multiply_rows(self.compute_inertia(q)[1], asked))
         lost = np.zeros(len(q), dtype=bool)
         for k in range(reference.shape[1]):
             s = None if signals is None else signals[k]
@@ -322,10 +346,10 @@ class _Robot:
                 wanted, speed, push = reference[:, k]
                 wanted = wanted + m * h * speed + 0.5 * (m * h) ** 2 * push
                 speed = speed + m * h * push
-                raw, M = self.inertia(q)
+                raw, M = self.compute_inertia(q)
                 error = ratio * kv * (wanted - q) + f * speed - qd
-                effort = effort + h * integral * _INTEGRAL * kv**2 * _times(M, error)
-                rest = torque(q, qd, push, self.beta, s) - _times(raw, push)
+                effort = effort + h * integral * _INTEGRAL * kv**2 * _multiply_rows(M, error)
+                rest = torque(q, qd, push, self.beta, s) - _multiply_rows(raw, push)
                 moved = np.linalg.solve(M, (effort - rest)[:, :, None])[:, :, 0]
                 before, qdd = qdd, kv * error + f * push + moved
                 if m == 0:
@@ -340,5 +364,5 @@ class _Robot:
         return motion
 
 
-def _times(matrix: np.ndarray, vector: np.ndarray) -> np.ndarray:
+def _multiply_rows(matrix: np.ndarray, vector: np.ndarray) -> np.ndarray:
     return np.asarray(np.einsum("bij,bj->bi", matrix, vector))

@@ -6,12 +6,17 @@ from collections.abc import Sequence
 import numpy as np
 
 from modeler.core.manifest import ModuleSpec
-from modeler.core.table import percent
-from modeler.estimation.identify import CrossValidation, Equations, base_equations, fit_equations
-from modeler.estimation.least_squares import least_squares
-from modeler.estimation.payload import Payload, loaded_equations
+from modeler.core.table import format_percent
+from modeler.estimation.identify import (
+    CrossValidation,
+    Equations,
+    build_base_equations,
+    fit_equations,
+)
+from modeler.estimation.least_squares import solve_least_squares
+from modeler.estimation.payload import Payload, build_loaded_equations
 from modeler.estimation.result import FitResult
-from modeler.observation import TREMBLES, Doubt, Observation
+from modeler.observation import TREMBLES, DataWarning, Observation
 from modeler.runtime import CompiledModel
 
 _FAR = 3.0  # standard deviations below zero
@@ -38,7 +43,7 @@ MOST = 0.5
 _TORQUES = "check units, signs and columns of the log, the table, and the effects in the robot file"
 
 
-def negative(spec: ModuleSpec, result: FitResult) -> list[Doubt]:
+def find_negative_values(spec: ModuleSpec, result: FitResult) -> list[DataWarning]:
     """Values below zero that physics does not allow, whatever the other parameters are.
 
     A base parameter cannot be negative if all its terms are parameters that cannot be, with
@@ -46,12 +51,12 @@ def negative(spec: ModuleSpec, result: FitResult) -> list[Doubt]:
     """
     possible = {parameter.name for parameter in spec.standard if parameter.nonnegative}
     return [
-        Doubt(
+        DataWarning(
             f"{base.name} = {estimate.value:.4g} {base.unit} is negative, which physics does "
             "not allow: a sign, a unit or the order of columns in the log may be wrong, or an "
             "effect is missing that this parameter stands in for; let `modeler diagnose` look",
-            values=True,
-            about=joints_of_parameters(spec, [base.name]),
+            affects_values=True,
+            joints=find_joints_of_parameters(spec, [base.name]),
         )
         for base, estimate in zip(spec.base, result.parameters, strict=True)
         if estimate.sigma is not None
@@ -60,88 +65,89 @@ def negative(spec: ModuleSpec, result: FitResult) -> list[Doubt]:
     ]
 
 
-def joints_of_parameters(spec: ModuleSpec, names: Sequence[str]) -> tuple[str, ...]:
+def find_joints_of_parameters(spec: ModuleSpec, names: Sequence[str]) -> tuple[str, ...]:
     """Rows of the table that base or standard parameters belong to, in the order of the names."""
     row = {parameter.name: parameter.joint for parameter in spec.standard}
     row |= {base.name: row[base.column_of] for base in spec.base if base.column_of in row}
     return tuple(dict.fromkeys(row[name] for name in names if name in row))
 
 
-def undescribed(result: FitResult) -> list[Doubt]:
+def find_lack_of_fit(result: FitResult) -> list[DataWarning]:
     """Joints whose torques the model does not describe, even where it was fitted."""
     return [
-        Doubt(
-            f"joint {joint.name}: {percent(joint.relative_error)} of the torque is not "
+        DataWarning(
+            f"joint {joint.name}: {format_percent(joint.relative_error)} of the torque is not "
             f"described even on the data of the fit; {_TORQUES}; `modeler diagnose` names what is "
             "missing",
-            certain=joint.relative_error > HALF,
-            values=True,
-            about=(joint.name,),
+            is_certain=joint.relative_error > HALF,
+            affects_values=True,
+            joints=(joint.name,),
         )
         for joint in result.joints
         if joint.relative_error is not None
         and joint.relative_error > LITTLE
-        and joint.name not in at_rest(result)
+        and joint.name not in find_resting_joints(result)
     ]
 
 
-def at_rest(result: FitResult) -> list[str]:
+def find_resting_joints(result: FitResult) -> list[str]:
     """Joints that never move: what dry friction holds there is no error of the model."""
     floors = result.processing.speed_floors or {}
     return [name for name, floor in floors.items() if floor == float("inf")]
 
 
-def noisy_motion(observation: Observation) -> list[Doubt]:
+def check_motion_noise(observation: Observation) -> list[DataWarning]:
     """Torques that do not answer to the motion even behind the lowest filters: no sigma says so."""
     bands = observation.report.bands
     if bands.trembling_left <= TREMBLES:
         return []
     return [
-        Doubt(
+        DataWarning(
             f"behind filters as low as the motion allows ({bands.parallel_cutoff:g} Hz) the torque "
             f"of the model still trembles {bands.trembling_left:.2g} times as much as the measured "
             "one: the positions are noisy there, or an effect is missing that smooths the torque; "
             "values may be drawn to zero by more than their sigmas; let `modeler diagnose` look, "
             "move farther and faster, or measure positions more finely",
-            values=True,
+            affects_values=True,
         )
     ]
 
 
-def systematic(result: FitResult, lasting: np.ndarray) -> list[Doubt]:
+def find_systematic_residuals(result: FitResult, systematic_share: np.ndarray) -> list[DataWarning]:
     """Joints whose residual is so large, and so little noise, that values must carry some of it.
 
     Args:
         result: of the fit.
-        lasting: (n,) what of the residual is the same in the next row, rms over that of the torque.
+        systematic_share: (n,) what of the residual is the same in the next row, rms over that of
+            the torque.
     """
     large = {
         joint.name: float(share)
-        for joint, share in zip(result.joints, lasting, strict=True)
+        for joint, share in zip(result.joints, systematic_share, strict=True)
         if share > STRUCTURE
         and (joint.relative_error or 0.0) <= LITTLE  # else it is told already
-        and joint.name not in at_rest(result)
+        and joint.name not in find_resting_joints(result)
     }
     if not large:
         return []
     return [
-        Doubt(
-            f"joint {', '.join(large)}: up to {percent(max(large.values()))} of the "
+        DataWarning(
+            f"joint {', '.join(large)}: up to {format_percent(max(large.values()))} of the "
             "torque is left and is no noise: an effect is missing, and the values of others stand "
             "in for it; `modeler diagnose` names it",
-            values=True,
-            about=tuple(large),
+            affects_values=True,
+            joints=tuple(large),
         )
     ]
 
 
-def scarce(result: FitResult, seen: CrossValidation) -> list[Doubt]:
+def find_few_rows(result: FitResult, seen: CrossValidation) -> list[DataWarning]:
     """Joints whose torques the fit does not predict where it was not fitted: rows are too few."""
     lost = [
         (joint.name, error)
         for joint, error in zip(result.joints, seen.errors, strict=True)
         if joint.relative_error is not None
-        and joint.name not in at_rest(result)
+        and joint.name not in find_resting_joints(result)
         and np.isfinite(error)
         and error > max(LITTLE, WIDE * joint.relative_error)
     ]
@@ -149,25 +155,27 @@ def scarce(result: FitResult, seen: CrossValidation) -> list[Doubt]:
         return []
     names = ", ".join(name for name, _ in lost)
     much = max(error for _, error in lost)
-    miss = "all of the torque" if much >= 1.0 else f"up to {percent(much)} of the torque"
-    swings = f"swings of the motion ({seen.swing:.2g} s each)"
+    miss = "all of the torque" if much >= 1.0 else f"up to {format_percent(much)} of the torque"
+    swings = f"swings of the motion ({seen.half_period:.2g} s each)"
     moved = (
         f"the logs hold less than two {swings}"
         if seen.stretches < 2
         else f"of {seen.stretches} {swings}, a fit to the others misses each by {miss}"
     )
     return [
-        Doubt(
+        DataWarning(
             f"joint {names}: not enough data for {len(result.parameters)} parameters, or columns "
             f"that do not belong together: {moved}; record a longer motion of all joints, at many "
             "speeds and poses, if `modeler log` finds no column exchanged, shifted or spoilt",
-            certain=True,
-            about=tuple(name for name, _ in lost),
+            is_certain=True,
+            joints=tuple(name for name, _ in lost),
         )
     ]
 
 
-def unexplained_joints(result: FitResult, seen: CrossValidation, scale: np.ndarray) -> list[Doubt]:
+def find_unexplained_joints(
+    result: FitResult, seen: CrossValidation, scale: np.ndarray
+) -> list[DataWarning]:
     """Joints whose torques are described worse on all rows than windows of them let expect.
 
     Relatively, and in N m too: where the windows show a faster motion, noise alone is a larger
@@ -178,24 +186,27 @@ def unexplained_joints(result: FitResult, seen: CrossValidation, scale: np.ndarr
         seen: in the windows.
         scale: (n,) rms torque of all rows over that of the windows.
     """
-    found = []
+    warnings = []
     for joint, error, torque in zip(result.joints, seen.errors, scale, strict=True):
-        own = joint.relative_error
-        if own is None or not own * min(1.0, float(torque)) > ELSEWHERE * error:
+        joint_error = joint.relative_error
+        if joint_error is None or not joint_error * min(1.0, float(torque)) > ELSEWHERE * error:
             continue
-        found.append(
-            Doubt(
-                f"joint {joint.name}: all rows are described to {percent(own)}, the windows "
-                f"to {percent(error)}: some rows hold what the windows do not show; fit "
+        warnings.append(
+            DataWarning(
+                f"joint {joint.name}: all rows are described to {format_percent(joint_error)}, the "
+                "windows "
+                f"to {format_percent(error)}: some rows hold what the windows do not show; fit "
                 "pieces, FILE@START:END, to find them",
-                certain=True,
-                about=(joint.name,),
+                is_certain=True,
+                joints=(joint.name,),
             )
         )
-    return found
+    return warnings
 
 
-def undetermined(spec: ModuleSpec, result: FitResult, spread: np.ndarray) -> list[Doubt]:
+def find_undetermined_parameters(
+    spec: ModuleSpec, result: FitResult, spread: np.ndarray
+) -> list[DataWarning]:
     """Parameters that could be anything: only their sums with others are known.
 
     Args:
@@ -209,37 +220,40 @@ def undetermined(spec: ModuleSpec, result: FitResult, spread: np.ndarray) -> lis
     unknown, count = len({*vague, *aside}), len(result.parameters)
     if unknown > MOST * count:
         return [
-            Doubt(
+            DataWarning(
                 f"not enough data for {count} parameters: {unknown} of them are not told by these "
-                f"logs ({_some([*aside, *vague])}); record a longer motion of all joints, at many "
+                f"logs ({_shorten_names([*aside, *vague])}); record a longer motion of all joints, "
+                "at many "
                 "speeds and poses",
-                certain=True,
+                is_certain=True,
             )
         ]
-    found = []
+    warnings = []
     if vague:
-        found.append(
-            Doubt(
-                f"{_some(vague)}: one sigma is more than the whole torque of a joint, so only sums "
+        warnings.append(
+            DataWarning(
+                f"{_shorten_names(vague)}: one sigma is more than the whole torque of a joint, so "
+                "only sums "
                 "with other parameters are known, not the values; record poses and accelerations "
                 "that the logs lack",
-                values=True,
-                about=joints_of_parameters(spec, vague),
+                affects_values=True,
+                joints=find_joints_of_parameters(spec, vague),
             )
         )
     if aside:
-        found.append(
-            Doubt(
-                f"{_some(aside)}: not told by these logs and set aside; record a motion that moves "
+        warnings.append(
+            DataWarning(
+                f"{_shorten_names(aside)}: not told by these logs and set aside; record a motion "
+                "that moves "
                 "all joints over a wide range",
-                values=True,
-                about=joints_of_parameters(spec, aside),
+                affects_values=True,
+                joints=find_joints_of_parameters(spec, aside),
             )
         )
-    return found
+    return warnings
 
 
-def _some(names: list[str]) -> str:
+def _shorten_names(names: list[str]) -> str:
     rest = f" and {len(names) - 5} more" if len(names) > 5 else ""
     return ", ".join(names[:5]) + rest
 
@@ -256,15 +270,15 @@ _WORTH = 0.1  # share of the largest first moment
 _FIRST = ("MX", "MY", "MZ")
 
 
-def not_together(
+def find_heterogeneous_logs(
     model: CompiledModel, observation: Observation, payloads: Sequence[Payload]
 ) -> list[str]:
-    """Why logs do not belong together: `mounted_differently`, or else `not_alike`."""
-    found = mounted_differently(model, observation, payloads)
-    return found or not_alike(model, observation, payloads)
+    """Why logs do not belong together: `find_moved_payloads`, or else `find_different_robots`."""
+    lines = find_moved_payloads(model, observation, payloads)
+    return lines or find_different_robots(model, observation, payloads)
 
 
-def remounted(payload: Payload) -> list[Payload]:
+def separate_payload(payload: Payload) -> list[Payload]:
     """A load for each log: the same mass, its own centre and inertia."""
     if len(payload.logs) == 1:
         return [payload]
@@ -274,7 +288,7 @@ def remounted(payload: Payload) -> list[Payload]:
     ]
 
 
-def mounted_differently(
+def find_moved_payloads(
     model: CompiledModel, observation: Observation, payloads: Sequence[Payload]
 ) -> list[str]:
     """A line for each load whose centre of mass is not the same in all its logs.
@@ -283,14 +297,16 @@ def mounted_differently(
     by more than _FAR of its standard deviations and _WORTH of the largest one.
     """
     every = (payload for payload in payloads if len(payload.logs) > 1)
-    return [line for payload in every if (line := _disagreement(model, observation, payload))]
+    return [
+        line for payload in every if (line := _describe_disagreement(model, observation, payload))
+    ]
 
 
-def _disagreement(model: CompiledModel, observation: Observation, payload: Payload) -> str:
-    parts = remounted(payload)
-    equations = loaded_equations(model, observation, parts).equations
+def _describe_disagreement(model: CompiledModel, observation: Observation, payload: Payload) -> str:
+    parts = separate_payload(payload)
+    equations = build_loaded_equations(model, observation, parts).equations
     fit = fit_equations(observation, equations, "weighted", noise_only=True)
-    found = [  # first moments that the logs tell, by name without that of the load
+    first_moments = [  # first moments that the logs tell, by name without that of the load
         {
             p.name.removesuffix(f"_{part.name}"): p
             for p in fit.loads
@@ -300,10 +316,12 @@ def _disagreement(model: CompiledModel, observation: Observation, payload: Paylo
         }
         for part in parts
     ]
-    largest = max((abs(p.value) for moments in found for p in moments.values()), default=0.0)
+    largest = max(
+        (abs(p.value) for moments in first_moments for p in moments.values()), default=0.0
+    )
     worst, line = _FAR_APART, ""
-    for label in sorted(set.intersection(*(set(moments) for moments in found))):
-        a, b = (pick(found, key=lambda m: m[label].value)[label] for pick in (max, min))
+    for label in sorted(set.intersection(*(set(moments) for moments in first_moments))):
+        a, b = (pick(first_moments, key=lambda m: m[label].value)[label] for pick in (max, min))
         apart = (a.value - b.value) / float(np.hypot(a.sigma or np.inf, b.sigma or np.inf))
         if apart > worst and a.value - b.value > _WORTH * largest:
             worst = apart
@@ -315,7 +333,7 @@ def _disagreement(model: CompiledModel, observation: Observation, payload: Paylo
     return line
 
 
-def not_alike(
+def find_different_robots(
     model: CompiledModel, observation: Observation, payloads: Sequence[Payload]
 ) -> list[str]:
     """A line if the logs are described alone, loaded ones with another last link, but not together.
@@ -328,15 +346,15 @@ def not_alike(
         observation: of all logs.
         payloads: which of them carry what.
     """
-    loaded = loaded_equations(model, observation, payloads)
+    loaded = build_loaded_equations(model, observation, payloads)
     weights = [f"weight {i}" for i in range(len(loaded.weighed))]
-    free = loaded.equations.with_columns(loaded.torques, weights)
-    bare, every = base_equations(observation), np.ones(len(observation.y), dtype=bool)
-    together = _left(free, every) ** 2
+    free = loaded.equations.append_columns(loaded.torques, weights)
+    bare, every = build_base_equations(observation), np.ones(len(observation.y), dtype=bool)
+    together = _compute_residual_norms(free, every) ** 2
     alone = np.zeros(len(together))
     for run in range(len(observation.logs)):
-        alone += _left(bare, observation.row_run == run) ** 2
-    torque = bare.compressed(every).torque_norms()
+        alone += _compute_residual_norms(bare, observation.row_run == run) ** 2
+    torque = bare.compress_rows(every).compute_torque_norms()
     felt = (torque > 0.0) & (together > (_TELLS * torque) ** 2)
     if not felt.any():
         return []
@@ -347,13 +365,15 @@ def not_alike(
     apart, all_of_them = (np.sqrt(v[worst]) / torque[worst] for v in (alone, together))
     return [
         f"the logs {', '.join(observation.logs)} do not fit one robot: joint "
-        f"{observation.joints[worst].name} has {percent(apart)} of its torque left if each is "
-        f"described alone, and {percent(all_of_them)} together; are all of the same robot, is the "
+        f"{observation.joints[worst].name} has {format_percent(apart)} of its torque left if each "
+        "is "
+        f"described alone, and {format_percent(all_of_them)} together; are all of the same robot, "
+        "is the "
         "load on the link that is said to carry it, and does friction grow with the load?"
     ]
 
 
-def _left(equations: Equations, rows: np.ndarray) -> np.ndarray:
+def _compute_residual_norms(equations: Equations, rows: np.ndarray) -> np.ndarray:
     """(n,) norm of what a weighted fit of these rows leaves of each joint, N m or N.
 
     Raised by as much as the parameters lower it: few rows are described by many parameters.
@@ -361,5 +381,7 @@ def _left(equations: Equations, rows: np.ndarray) -> np.ndarray:
     count, columns = int(rows.sum()), len(equations.names)
     if count <= columns:
         return np.full(len(equations.observation.joints), np.inf)  # nothing to be said of so few
-    data = equations.compressed(rows)
-    return float(np.sqrt(count / (count - columns))) * data.residual_norms(least_squares(data).beta)
+    data = equations.compress_rows(rows)
+    return float(np.sqrt(count / (count - columns))) * data.compute_residual_norms(
+        solve_least_squares(data).beta
+    )

@@ -20,14 +20,19 @@ import numpy as np
 
 from modeler.core.errors import DataError
 from modeler.core.manifest import JointSpec, ModuleSpec
-from modeler.core.table import percent
-from modeler.estimation.covariance import Colour, coloured
-from modeler.estimation.doubts import not_together
-from modeler.estimation.identify import Equations, dead_joints, fit_equations
-from modeler.estimation.least_squares import Estimate, Rows, least_squares, solve_by_qr
-from modeler.estimation.payload import Loaded, Payload, loaded_equations
+from modeler.core.table import format_percent
+from modeler.estimation.covariance import ResidualAutocorrelation, estimate_hac_covariance
+from modeler.estimation.doubts import find_heterogeneous_logs
+from modeler.estimation.identify import Equations, find_disconnected_joints, fit_equations
+from modeler.estimation.least_squares import Estimate, Rows, solve_by_qr, solve_least_squares
+from modeler.estimation.payload import LoadedEquations, Payload, build_loaded_equations
 from modeler.estimation.result import FitResult, ParameterEstimate
-from modeler.numerics.least_squares import Compressed, Rank, independent_columns, triangle
+from modeler.numerics.least_squares import (
+    CompressedRegression,
+    Rank,
+    compute_triangle,
+    find_independent_columns,
+)
 from modeler.observation import Log, LogReport, Observation
 from modeler.runtime import CompiledModel
 
@@ -61,7 +66,7 @@ class GainEstimate:
     rank: Rank
     singular: np.ndarray
     vague: np.ndarray
-    settled: bool
+    is_converged: bool
 
     @property
     def gap(self) -> float:
@@ -71,7 +76,7 @@ class GainEstimate:
         return float(self.singular[-2] / self.singular[-1])
 
 
-def mixed_tls(data: Compressed, known: int) -> GainEstimate | None:
+def solve_mixed_tls(data: CompressedRegression, known: int) -> GainEstimate | None:
     """Gains and beta of diag(g) V = W beta; None if W cannot tell the known column from others.
 
     QR takes the columns without noise away, [W | -V] = Q [R11 R12; 0 R22]; the gains are the
@@ -85,21 +90,21 @@ def mixed_tls(data: Compressed, known: int) -> GainEstimate | None:
         data: compressed rows of W and V; W includes the column of the known load.
         known: index of that column, whose parameter is 1.
     """
-    units = np.where(data.free, 1.0, data.torque_rms())
-    scaled = _with_torque(data, 1.0 / np.where(units > 0.0, units, 1.0))
+    units = np.where(data.free, 1.0, data.compute_torque_rms())
+    scaled = _scale_torque(data, 1.0 / np.where(units > 0.0, units, 1.0))
     size = np.linalg.norm(data.triangles[:, :, :-1], axis=(1, 2)) + 1e-300
-    sigma = np.where(data.free & (data.torque_rms() == 0.0), size, 1.0)
-    whole = scaled.whole(sigma)[:, :-1]
-    rank = independent_columns(whole, data.names)
+    sigma = np.where(data.free & (data.compute_torque_rms() == 0.0), size, 1.0)
+    whole = scaled.combine_joints(sigma)[:, :-1]
+    rank = find_independent_columns(whole, data.names)
     others = [i for i in range(len(data.names)) if i != known]
-    without = independent_columns(whole[:, others], [data.names[i] for i in others])
-    if known not in rank.kept or len(without.kept) == len(rank.kept):
+    without = find_independent_columns(whole[:, others], [data.names[i] for i in others])
+    if known not in rank.kept_columns or len(without.kept_columns) == len(rank.kept_columns):
         return None
-    kept = np.asarray(rank.kept, dtype=int)
+    kept_columns = np.asarray(rank.kept_columns, dtype=int)
     gains, settled, iterations = np.ones(len(units)), False, 0
-    sigma = least_squares(data).sigma
+    sigma = solve_least_squares(data).sigma
     while not settled and iterations < MAX_ITERATIONS:
-        beta, updated, singular, vague = _solve(data, kept, sigma, gains)
+        beta, updated, singular, vague = _solve_null_vector(data, kept_columns, sigma, gains)
         length = 1.0 / beta[known] if beta[known] else 1.0
         beta, updated = length * beta, np.where(data.free, 1.0, length * updated)
         if not (np.isfinite(updated).all() and updated.all()):
@@ -107,64 +112,64 @@ def mixed_tls(data: Compressed, known: int) -> GainEstimate | None:
             break
         settled = bool(np.all(np.abs(updated / gains - 1.0) < _SETTLED))
         gains, iterations = updated, iterations + 1
-        sigma = _spread(data, gains, known)
-    covariance = _covariance(data, kept, known, gains, beta, sigma)
+        sigma = _estimate_sigma(data, gains, known)
+    covariance = _compute_covariance(data, kept_columns, known, gains, beta, sigma)
     return GainEstimate(gains, beta, covariance, sigma, rank, singular, vague, settled)
 
 
-def _stacked(
-    data: Compressed, kept: np.ndarray, sigma: np.ndarray, torque: np.ndarray
+def _combine_columns(
+    data: CompressedRegression, kept_columns: np.ndarray, sigma: np.ndarray, torque: np.ndarray
 ) -> np.ndarray:
     """[W | V] over sigma: kept columns, then one for each drive with its torque (n, c + 1)."""
-    driven, c = np.flatnonzero(~data.free), len(kept)
+    driven, c = np.flatnonzero(~data.free), len(kept_columns)
     stacked = np.zeros((*data.triangles.shape[:2], c + len(driven)))
-    stacked[:, :, :c] = data.triangles[:, :, kept] / sigma[:, None, None]
+    stacked[:, :, :c] = data.triangles[:, :, kept_columns] / sigma[:, None, None]
     stacked[driven, :, c + np.arange(len(driven))] = torque[driven]
     return stacked.reshape(-1, stacked.shape[2])
 
 
-def _solve(
-    data: Compressed, kept: np.ndarray, sigma: np.ndarray, gains: np.ndarray
+def _solve_null_vector(
+    data: CompressedRegression, kept_columns: np.ndarray, sigma: np.ndarray, gains: np.ndarray
 ) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
     """One mixed LS-TLS with given weights and given noise of the columns of V.
 
     Returns the null vector, of any length, beta (c,) and gains (n,); singular (d,); vague (n,).
     """
-    n, c = len(data.rows), len(kept)
+    n, c = len(data.rows), len(kept_columns)
     driven = np.flatnonzero(~data.free)
     noise = np.abs(gains) / np.sqrt(np.maximum(data.rows, 1))
     torque = -data.triangles[:, :, -1] * noise[:, None] / sigma[:, None]
-    stacked = _stacked(data, kept, sigma, torque)
+    stacked = _combine_columns(data, kept_columns, sigma, torque)
     lengths = np.linalg.norm(stacked[:, :c], axis=0)
     stacked[:, :c] /= lengths
-    R = triangle(stacked)
+    R = compute_triangle(stacked)
     _, singular, right = np.linalg.svd(R[c:, c:])
     u = right[-1]
-    found, beta = np.ones(n), np.zeros(len(data.names))
-    found[driven] = noise[driven] * u
-    beta[kept] = -np.linalg.solve(R[:c, :c], R[:c, c:] @ u) / lengths
+    new_gains, beta = np.ones(n), np.zeros(len(data.names))
+    new_gains[driven] = noise[driven] * u
+    beta[kept_columns] = -np.linalg.solve(R[:c, :c], R[:c, c:] @ u) / lengths
     vague = np.zeros(n)
     vague[driven] = np.abs(right[-2]) if len(driven) > 1 else 0.0
-    return beta, found, singular, vague
+    return beta, new_gains, singular, vague
 
 
-def _with_torque(data: Compressed, gains: np.ndarray) -> Compressed:
+def _scale_torque(data: CompressedRegression, gains: np.ndarray) -> CompressedRegression:
     """The data with the right-hand side of joint j multiplied by gains[j]."""
     triangles = data.triangles.copy()
     triangles[:, :, -1] *= gains[:, None]
-    return Compressed(data.names, triangles, data.rows, data.free)
+    return CompressedRegression(data.names, triangles, data.rows, data.free)
 
 
-def _spread(data: Compressed, gains: np.ndarray, known: int) -> np.ndarray:
+def _estimate_sigma(data: CompressedRegression, gains: np.ndarray, known: int) -> np.ndarray:
     """(n,) standard deviation of the rows with these gains, of the weighted fit of the others."""
-    right = _with_torque(data, gains)
+    right = _scale_torque(data, gains)
     right.triangles[:, :, -1] -= data.triangles[:, :, known]
-    return least_squares(right.without([data.names[known]])).sigma
+    return solve_least_squares(right.drop_columns([data.names[known]])).sigma
 
 
-def _covariance(
-    data: Compressed,
-    kept: np.ndarray,
+def _compute_covariance(
+    data: CompressedRegression,
+    kept_columns: np.ndarray,
     known: int,
     gains: np.ndarray,
     beta: np.ndarray,
@@ -176,10 +181,10 @@ def _covariance(
     """
     driven = np.flatnonzero(~data.free)
     d = len(driven)
-    kept = kept[kept != known]
+    kept_columns = kept_columns[kept_columns != known]
     torque = -(data.triangles[:, :, :-1] @ beta) / gains[:, None] / sigma[:, None]
-    R = triangle(np.roll(_stacked(data, kept, sigma, torque), d, axis=1))
-    places = np.concatenate([np.arange(d), d + kept])
+    R = compute_triangle(np.roll(_combine_columns(data, kept_columns, sigma, torque), d, axis=1))
+    places = np.concatenate([np.arange(d), d + kept_columns])
     covariance = np.zeros((d + len(beta),) * 2)
     lengths = np.linalg.norm(R, axis=0)  # 0 for the gain of a joint whose torque is noise
     if not (np.isfinite(R).all() and lengths.all()) or np.linalg.cond(R / lengths) > 1e12:
@@ -219,7 +224,7 @@ class GainFit:
     result: FitResult
 
 
-def in_drive_units(spec: ModuleSpec) -> ModuleSpec:
+def set_unit_gains(spec: ModuleSpec) -> ModuleSpec:
     """The manifest to read logs with before gains are known: 1 where the robot file states none."""
     joints = tuple(
         dataclasses.replace(joint, drive_gain=1.0) if joint.drive_gain is None else joint
@@ -254,12 +259,12 @@ def identify_gains(
 ) -> GainFit:
     """One gain for each drive, base parameters and loads: g_j V = W beta + W_L chi_L.
 
-    Gautier 2012, section 3; see `mixed_tls`). Sigmas are those of gains and parameters
+    Gautier 2012, section 3; see `solve_mixed_tls`). Sigmas are those of gains and parameters
     together, raised for residuals that remember; the error of the scale, which the load's mass
     sets, is not in them.
 
     Args:
-        model: the robot, read with gains that are taken for starts: `in_drive_units`.
+        model: the robot, read with gains that are taken for starts: `set_unit_gains`.
         observation: of bare and loaded logs of currents, times these gains.
         payloads: at least one of known mass.
 
@@ -267,38 +272,38 @@ def identify_gains(
         DataError: no load of known mass, a current that is 0 throughout, or logs that do not tell
             the gains; says by which figure.
     """
-    loaded = loaded_equations(model, observation, payloads)
+    loaded = build_loaded_equations(model, observation, payloads)
     if not loaded.weighed:
         raise DataError(
             "--method tls: no load of known mass, and without one all gains and all parameters may "
             "be larger by one factor; weigh the load of the --payload-log and give --payload-mass"
         )
-    if dead := dead_joints(observation):
+    if dead := find_disconnected_joints(observation):
         names = ", ".join(observation.joints[j].name for j in dead)
         raise DataError(
             f"joint {names}: the current is 0 in every row, so no gain can be found; is it "
             "connected? if the joint has no motor, mark it passive in the robot file (mu = 0)"
         )
-    estimate = _estimate(observation, loaded)
+    estimate = _estimate_gains(observation, loaded)
     scaled = dataclasses.replace(observation, torque=observation.torque * estimate.gains)
     equations = dataclasses.replace(loaded.equations, y=scaled.y - loaded.torques.sum(axis=1))
     fit = fit_equations(scaled, equations, "weighted")
-    colour = _colour(scaled, equations, estimate)
-    if why := _untold(observation, estimate, colour):
-        raise DataError("; ".join([why, *not_together(model, observation, payloads)]))
-    return _result(model.spec, fit, estimate, colour, loaded)
+    autocorrelation = _estimate_autocorrelation(scaled, equations, estimate)
+    if why := _explain_ambiguity(observation, estimate, autocorrelation):
+        raise DataError("; ".join([why, *find_heterogeneous_logs(model, observation, payloads)]))
+    return _build_result(model.spec, fit, estimate, autocorrelation, loaded)
 
 
-def _estimate(observation: Observation, loaded: Loaded) -> GainEstimate:
-    equations = loaded.equations.with_columns(loaded.torques.sum(axis=1), [_KNOWN])
+def _estimate_gains(observation: Observation, loaded: LoadedEquations) -> GainEstimate:
+    equations = loaded.equations.append_columns(loaded.torques.sum(axis=1), [_KNOWN])
     rows, columns = len(observation.y), len(equations.names)
     if rows < columns + len(observation.joints):
         raise DataError(
             f"{', '.join(observation.logs)}: {rows} rows for {columns} parameters "
             f"and {len(observation.joints)} gains; record more motion"
         )
-    data = equations.compressed(np.ones(rows, dtype=bool))
-    estimate = mixed_tls(data, known=columns - 1)
+    data = equations.compress_rows(np.ones(rows, dtype=bool))
+    estimate = solve_mixed_tls(data, known=columns - 1)
     if estimate is None:
         raise DataError(
             "--method tls: the weight of the known load cannot be told from the robot's own "
@@ -307,70 +312,83 @@ def _estimate(observation: Observation, loaded: Loaded) -> GainEstimate:
         )
     if not np.isfinite(estimate.covariance).all():
         raise DataError(
-            f"--method tls: the gain of joint {_blamed(observation, estimate)} has a sigma without "
+            f"--method tls: the gain of joint {_find_worst_joints(observation, estimate)} has a "
+            "sigma without "
             f"bound, as where it rests; {_MORE}"
         )
     return estimate
 
 
-def _colour(observation: Observation, equations: Equations, estimate: GainEstimate) -> Colour:
+def _estimate_autocorrelation(
+    observation: Observation, equations: Equations, estimate: GainEstimate
+) -> ResidualAutocorrelation:
     """What memory of the residuals does to the sigmas of gains and parameters."""
     driven = [j for j, joint in enumerate(observation.joints) if joint.actuated]
     predicted = observation.y - equations.y + equations.W @ estimate.beta[:-1]
-    own = observation.row_joint[:, None] == np.array(driven)
-    J = np.column_stack([own * (-predicted / estimate.gains[observation.row_joint])[:, None],
-                         equations.W])  # fmt: skip
+    is_of_joint = observation.row_joint[:, None] == np.array(driven)
+    J = np.column_stack(
+        [is_of_joint * (-predicted / estimate.gains[observation.row_joint])[:, None], equations.W]
+    )
     values = np.concatenate([estimate.gains[driven], estimate.beta[:-1]])
     residual = equations.y - equations.W @ estimate.beta[:-1]
     white = Estimate(
         values, estimate.covariance[:-1, :-1], estimate.sigma, estimate.rank,
-        0, estimate.settled, 0.0, 0.0, 0,
+        0, estimate.is_converged, 0.0, 0.0, 0,
     )  # fmt: skip
     every = np.ones(len(residual), dtype=bool)
-    return coloured(Rows(observation, J, residual + J @ values, every), white)
+    return estimate_hac_covariance(Rows(observation, J, residual + J @ values, every), white)
 
 
-def _untold(observation: Observation, estimate: GainEstimate, colour: Colour) -> str:
+def _explain_ambiguity(
+    observation: Observation, estimate: GainEstimate, autocorrelation: ResidualAutocorrelation
+) -> str:
     """Why the logs do not tell the gains apart: no gap of singular values, or a large sigma."""
     driven = [j for j, joint in enumerate(observation.joints) if joint.actuated]
     d = len(driven)
-    sigma = colour.factors[:d] * np.sqrt(np.diag(estimate.covariance)[:d])
+    sigma = autocorrelation.factors[:d] * np.sqrt(np.diag(estimate.covariance)[:d])
     share = sigma / np.abs(estimate.gains[driven])
     rows = np.bincount(observation.row_joint, minlength=len(observation.joints))[driven]
-    noise = 1.0 + _FAR * float(colour.factors[:d].max()) * float(np.sqrt(2.0 / rows.min()))
+    noise = 1.0 + _FAR * float(autocorrelation.factors[:d].max()) * float(np.sqrt(2.0 / rows.min()))
     if estimate.gap**2 < noise:
-        names = _blamed(observation, estimate)
+        names = _find_worst_joints(observation, estimate)
         return (
             f"--method tls: no gap between the singular values that tell the drive gains: the last "
-            f"two are {_listed(estimate.singular[-2:])}, s[-2]/s[-1] = {estimate.gap:.4g}, and "
+            f"two are {_format_values(estimate.singular[-2:])}, s[-2]/s[-1] = {estimate.gap:.4g}, "
+            "and "
             f"noise alone makes up to {noise**0.5:.4g}; least told: joint {names}; {_MORE}"
         )
     if not np.all(share <= LOOSE):
         worst = int(np.argmax(np.where(np.isnan(share), np.inf, share)))
         return (
             f"--method tls: the gain of joint {observation.joints[driven[worst]].name} has a sigma "
-            f"of {percent(share[worst])}, no better than a data sheet; expected at most "
-            f"{percent(LOOSE)} (s[-2]/s[-1] = {estimate.gap:.4g}); {_MORE}"
+            f"of {format_percent(share[worst])}, no better than a data sheet; expected at most "
+            f"{format_percent(LOOSE)} (s[-2]/s[-1] = {estimate.gap:.4g}); {_MORE}"
         )
     return ""
 
 
-def _blamed(observation: Observation, estimate: GainEstimate) -> str:
+def _find_worst_joints(observation: Observation, estimate: GainEstimate) -> str:
     order = np.argsort(-estimate.vague)
-    kept = [j for j in order if estimate.vague[j] > 0.5 * estimate.vague[order[0]]]
-    return ", ".join(observation.joints[j].name for j in kept[:3])
+    worst = [j for j in order if estimate.vague[j] > 0.5 * estimate.vague[order[0]]]
+    return ", ".join(observation.joints[j].name for j in worst[:3])
 
 
-def _listed(values: np.ndarray) -> str:
+def _format_values(values: np.ndarray) -> str:
     return ", ".join(f"{value:.4g}" for value in values)
 
 
-def _result(
-    spec: ModuleSpec, fit: FitResult, estimate: GainEstimate, colour: Colour, loaded: Loaded
+def _build_result(
+    spec: ModuleSpec,
+    fit: FitResult,
+    estimate: GainEstimate,
+    autocorrelation: ResidualAutocorrelation,
+    loaded: LoadedEquations,
 ) -> GainFit:
     driven = [j for j, joint in enumerate(spec.joints) if joint.actuated]
     d, c = len(driven), len(fit.parameters)
-    covariance = estimate.covariance[:-1, :-1] * np.outer(colour.factors, colour.factors)
+    covariance = estimate.covariance[:-1, :-1] * np.outer(
+        autocorrelation.factors, autocorrelation.factors
+    )
     sigma = np.sqrt(np.diag(covariance))
     starts = [1.0 if (gain := spec.joints[j].drive_gain) is None else gain for j in driven]
     gains = tuple(
@@ -387,13 +405,13 @@ def _result(
     result = dataclasses.replace(
         fit,
         method="tls",
-        status=fit.status if estimate.settled else "not settled",
+        status=fit.status if estimate.is_converged else "not settled",
         parameters=tuple(values[:c]),
         loads=tuple(values[c:]),
         covariance=covariance[d : d + c, d : d + c],
         gains=gains,
         singular_values=tuple(map(float, estimate.singular)),
-        sentences=(*fit.sentences, *_sentences(estimate, loaded)),
+        sentences=(*fit.sentences, *_describe_gains(estimate, loaded)),
     )
     names = [spec.joints[j].name for j in driven]
     return GainFit(
@@ -403,7 +421,7 @@ def _result(
     )
 
 
-def _sentences(estimate: GainEstimate, loaded: Loaded) -> list[str]:
+def _describe_gains(estimate: GainEstimate, loaded: LoadedEquations) -> list[str]:
     masses = ", ".join(f"{payload.mass:g} kg" for payload in loaded.weighed)
     said = [
         f"the known load ({masses}) sets the scale: 1 % of its mass is 1 % of every drive gain and "
@@ -412,9 +430,10 @@ def _sentences(estimate: GainEstimate, loaded: Loaded) -> list[str]:
     if len(estimate.singular) > 1:
         gap = f"{estimate.gap:.4g}" if np.isfinite(estimate.gap) else "infinite"
         said.append(
-            f"singular values of the currents beside the model: {_listed(estimate.singular)} "
+            "singular values of the currents beside the model: "
+            f"{_format_values(estimate.singular)} "
             f"(noise has 1); gap s[-2]/s[-1] = {gap}"
         )
-    if not estimate.settled:
+    if not estimate.is_converged:
         said.append(f"gains and weights still change after {MAX_ITERATIONS} iterations")
     return said

@@ -7,20 +7,26 @@ from typing import Literal
 import numpy as np
 
 from modeler.core.errors import DataError, Method
-from modeler.core.table import percent
-from modeler.estimation.covariance import autocorrelation, repeated_whole
-from modeler.estimation.essential import Essential, essential_parameters
-from modeler.estimation.identify import SEEN, base_equations, dead_joints, identify, result_of
-from modeler.estimation.least_squares import Estimate, condition_numbers, placed
-from modeler.estimation.methods import method_of
+from modeler.core.table import format_percent
+from modeler.estimation.covariance import estimate_autocorrelation, sum_lagged_products
+from modeler.estimation.essential import EssentialParameters, select_essential_parameters
+from modeler.estimation.identify import (
+    SEEN,
+    build_base_equations,
+    build_result,
+    find_disconnected_joints,
+    identify,
+)
+from modeler.estimation.least_squares import Estimate, compute_condition_numbers, expand_columns
+from modeler.estimation.methods import find_method
 from modeler.estimation.result import KNOWN_BELOW_PERCENT, EnergyReport, FitResult, ModelFigures
 from modeler.numerics.least_squares import (
-    compress,
-    independent_columns,
-    scaled_least_squares,
-    triangle,
+    compress_rows,
+    compute_triangle,
+    find_independent_columns,
+    solve_scaled_least_squares,
 )
-from modeler.observation import Observation, Segment, runs, signals_of
+from modeler.observation import Observation, Segment, compute_signals, find_runs
 from modeler.runtime import CompiledModel
 
 Rule = Literal["simpson", "trapezoid"]
@@ -59,16 +65,16 @@ class EnergyRows:
     run: np.ndarray
     window: float
 
-    def estimate(self, names: tuple[str, ...], method: Method) -> "Unequal":
-        """By `unequal_least_squares`."""
-        return unequal_least_squares(self.W, self.y, self.spread, names, self.stretch, method)
+    def estimate(self, names: tuple[str, ...], method: Method) -> "HeteroscedasticEstimate":
+        """By `solve_heteroscedastic`."""
+        return solve_heteroscedastic(self.W, self.y, self.spread, names, self.stretch, method)
 
 
 _Windows = tuple[Segment, np.ndarray, np.ndarray]
 """A segment, the samples (r, k) of its windows, and the number (r,) of the stretch of each."""
 
 
-def energy_rows(
+def build_energy_rows(
     model: CompiledModel,
     observation: Observation,
     window: float | None = None,
@@ -95,12 +101,12 @@ def energy_rows(
         DataError: a window longer than any motion, no window without a missing sample, or a robot
             that stands still.
     """
-    windows = _windows(observation, window)
+    windows = _choose_windows(observation, window)
     counts = [len(at) for _, at, _ in windows]
     if not sum(counts):
         valid = np.concatenate([part.segment.valid for part in observation.stretches])
         bad = [
-            f"joint {joint.name} has {percent(share)} of its samples"
+            f"joint {joint.name} has {format_percent(share)} of its samples"
             for joint, share in zip(observation.joints, valid.mean(axis=0), strict=True)
         ]
         raise DataError(
@@ -108,7 +114,7 @@ def energy_rows(
             f"measurement ({', '.join(bad)}); the energy is that of the whole machine: mend the "
             "log, give a shorter --window, or take --model torque"
         )
-    rows = [_rows(model, segment, at, rule) for segment, at, _ in windows if len(at)]
+    rows = [_integrate_rows(model, segment, at, rule) for segment, at, _ in windows if len(at)]
     W, y, balance, spread, time = (np.concatenate(group) for group in zip(*rows, strict=True))
     # J are compared with the largest torque over a unit of travel:
     least = _STILL * float(np.abs(observation.torque).max(initial=0.0))
@@ -125,9 +131,9 @@ def energy_rows(
     )  # fmt: skip
 
 
-def _windows(observation: Observation, window: float | None) -> list[_Windows]:
+def _choose_windows(observation: Observation, window: float | None) -> list[_Windows]:
     """Windows of all segments, laid into the uninterrupted stretches of good samples."""
-    found, number = [], 0
+    windows, number = [], 0
     if window is not None:
         _check_window(observation, window)
     for part in observation.stretches:
@@ -136,15 +142,15 @@ def _windows(observation: Observation, window: float | None) -> list[_Windows]:
         intervals = 2 * max(1, round((spacing if window is None else window / s.step) / 2))
         inside = np.arange(intervals + 1)
         every, stretch = [np.zeros((0, len(inside)), dtype=int)], [np.zeros(0, dtype=int)]
-        for first, stop in runs(s.whole & s.valid.all(axis=1)):
+        for first, stop in find_runs(s.whole & s.valid.all(axis=1)):
             fitting, rest = divmod(stop - first - 1, intervals)
             if fitting:
                 starts = first + rest // 2 + intervals * np.arange(fitting)
                 every.append(starts[:, None] + inside)
                 stretch.append(np.full(fitting, number))
                 number += 1
-        found.append((s, np.concatenate(every), np.concatenate(stretch)))
-    return found
+        windows.append((s, np.concatenate(every), np.concatenate(stretch)))
+    return windows
 
 
 def _check_window(observation: Observation, window: float) -> None:
@@ -163,7 +169,7 @@ def _check_window(observation: Observation, window: float) -> None:
         )
 
 
-def weights(intervals: int, step: float, rule: Rule) -> np.ndarray:
+def compute_weights(intervals: int, step: float, rule: Rule) -> np.ndarray:
     """(intervals + 1,) s, of the samples of a window; intervals is even."""
     inner, unit = np.where(np.arange(intervals + 1) % 2, 4.0, 2.0), step / 3.0
     if rule == "trapezoid":
@@ -172,19 +178,19 @@ def weights(intervals: int, step: float, rule: Rule) -> np.ndarray:
     return inner * unit
 
 
-def _rows(
+def _integrate_rows(
     model: CompiledModel, s: Segment, windows: np.ndarray, rule: Rule
 ) -> tuple[np.ndarray, ...]:
     """W, y, balance, spread and times of the windows of one segment."""
-    w = weights(windows.shape[1] - 1, s.step, rule)
-    signals = signals_of(model, s)
+    w = compute_weights(windows.shape[1] - 1, s.step, rule)
+    signals = compute_signals(model, s)
     per_block = max(1, _BLOCK // len(w))
     blocks = []
     for first in range(0, len(windows), per_block):
         at = windows[first : first + per_block]
         flat = at.ravel()
         read = None if signals is None else signals[flat]
-        total, power, energy = _powers(model, s.q[flat], s.qd[flat], s.qdd[flat], read)
+        total, power, energy = _compute_powers(model, s.q[flat], s.qd[flat], s.qdd[flat], read)
         integral, whole = (
             np.einsum("k,rkc->rc", w, values.reshape(*at.shape, -1)) for values in (power, total)
         )
@@ -196,7 +202,7 @@ def _rows(
     return tuple(np.concatenate(group) for group in zip(*blocks, strict=True))
 
 
-def _powers(
+def _compute_powers(
     model: CompiledModel, q: np.ndarray, qd: np.ndarray, qdd: np.ndarray, read: np.ndarray | None
 ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """All power; power that is no change of kinetic energy; kinetic energy: (samples, c) each.
@@ -208,12 +214,12 @@ def _powers(
         np.einsum("sj,sjc->sc", qd, model.base_regressor(q, v, a, read))
         for v, a in ((qd, qdd), (still, still), (still, qd))
     )
-    inertial = kinetic_columns(model)
+    inertial = find_kinetic_columns(model)
     energy = np.where(inertial, 0.5 * (moved - gravity), 0.0)
     return total, np.where(inertial, gravity, total), energy
 
 
-def kinetic_columns(model: CompiledModel) -> np.ndarray:
+def find_kinetic_columns(model: CompiledModel) -> np.ndarray:
     """(c,) True for base parameters of bodies and rotors."""
     return np.array([base.kind in _ENERGY for base in model.spec.base])
 
@@ -230,7 +236,7 @@ _LEAST = 1e-12  # of the mean square of y: a variance is at least this
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
-class Unequal(Estimate):
+class HeteroscedasticEstimate(Estimate):
     """The solution; its condition numbers are those of W unweighted, its sigma is 1.
 
     Attributes:
@@ -238,18 +244,18 @@ class Unequal(Estimate):
         memory: largest factor by which neighbours that repeat each other raise a sigma.
     """
 
-    deviation: np.ndarray
-    memory: float
+    row_sigma: np.ndarray
+    autocorrelation_factor: float
 
 
-def unequal_least_squares(
+def solve_heteroscedastic(
     W: np.ndarray,
     y: np.ndarray,
     shares: np.ndarray,
     names: tuple[str, ...],
     stretch: np.ndarray,
     method: Method = "weighted",
-) -> Unequal:
+) -> HeteroscedasticEstimate:
     """The estimate of beta in y = W beta + rho, var(rho_r) = sum_j shares_rj s_j, s_j >= 0.
 
     The variances s_j, and one more that all rows have alike (what no source of noise explains:
@@ -269,28 +275,39 @@ def unequal_least_squares(
         stretch: (rows,) number of the stretch of each row; within one, rows are neighbours.
         method: "weighted" or "ordinary".
     """
-    rank = independent_columns(triangle(W), names)
-    kept = np.asarray(rank.kept, dtype=int)
-    X = W[:, kept]
+    rank = find_independent_columns(compute_triangle(W), names)
+    kept_columns = np.asarray(rank.kept_columns, dtype=int)
+    X = W[:, kept_columns]
     used = shares[:, shares.max(axis=0) > 0.0]
     sources = np.column_stack([used / used.mean(axis=0), np.ones(len(y))])  # the last: all alike
-    deviation, settled = _settled_deviations(X, y, sources, method)
-    A = _influence(X, deviation, method)
+    deviation, settled = _iterate_deviations(X, y, sources, method)
+    A = _compute_influence(X, deviation, method)
     values, C = A @ y, (A * deviation**2) @ A.T
     # As in `coloured`; neighbours share the sample between them, so a little is always there.
     sample, white = np.arange(len(y)), (y - X @ values) / deviation
-    r = autocorrelation(white, sample, stretch)
-    extra = repeated_whole((A * deviation).T, r, sample, stretch)
+    r = estimate_autocorrelation(white, sample, stretch)
+    extra = sum_lagged_products((A * deviation).T, r, sample, stretch)
     factors = np.sqrt(np.maximum(1.0 + np.diag(extra) / np.diag(C), 1.0))
-    beta, covariance = placed(len(names), kept, values, C * np.outer(factors, factors))
-    raw, scaled = condition_numbers(X)
-    return Unequal(
-        beta, covariance, np.ones(1), rank, 0, settled, raw, scaled, max(1, len(y) - len(kept)),
-        deviation=deviation, memory=float(factors.max(initial=1.0)),
-    )  # fmt: skip
+    beta, covariance = expand_columns(
+        len(names), kept_columns, values, C * np.outer(factors, factors)
+    )
+    raw, scaled = compute_condition_numbers(X)
+    return HeteroscedasticEstimate(
+        beta,
+        covariance,
+        np.ones(1),
+        rank,
+        0,
+        settled,
+        raw,
+        scaled,
+        max(1, len(y) - len(kept_columns)),
+        row_sigma=deviation,
+        autocorrelation_factor=float(factors.max(initial=1.0)),
+    )
 
 
-def _settled_deviations(
+def _iterate_deviations(
     X: np.ndarray, y: np.ndarray, sources: np.ndarray, method: Method
 ) -> tuple[np.ndarray, bool]:
     """(rows,) standard deviations, and whether they no longer change."""
@@ -300,19 +317,21 @@ def _settled_deviations(
     least = max(_LEAST * float(np.mean(y**2)), np.finfo(float).tiny)
     for _ in range(_ROUNDS):
         weight = 1.0 / deviation**2
-        A = _influence(X, deviation, method)
+        A = _compute_influence(X, deviation, method)
         leverage = np.clip(np.einsum("rc,cr->r", X, A), 0.0, 0.99)
         squares = (y - X @ (A @ y)) ** 2 / (1.0 - leverage)
         scale = float(np.mean(squares * weight)) or 1.0
-        found, _ = nnls(sources * weight[:, None], squares * weight / scale)  # a step of scoring
-        updated = np.sqrt(np.maximum(sources @ found * scale, least))
+        variances, _ = nnls(
+            sources * weight[:, None], squares * weight / scale
+        )  # a step of scoring
+        updated = np.sqrt(np.maximum(sources @ variances * scale, least))
         if np.all(np.abs(updated / deviation - 1.0) < _SETTLED):
             return updated, True
         deviation = updated
     return deviation, False
 
 
-def _influence(X: np.ndarray, deviation: np.ndarray, method: Method) -> np.ndarray:
+def _compute_influence(X: np.ndarray, deviation: np.ndarray, method: Method) -> np.ndarray:
     """(c, rows) A of beta = A y."""
     weight = 1.0 / deviation if method == "weighted" else np.ones(len(X))
     lengths = np.linalg.norm(X * weight[:, None], axis=0)
@@ -336,7 +355,7 @@ class EnergyFit:
     deviation: np.ndarray
     observation: Observation
 
-    def without(self, held: np.ndarray) -> np.ndarray:
+    def fit_without(self, held: np.ndarray) -> np.ndarray:
         """Beta (c,) of the windows that touch no sample (s,) of the observation that is held out.
 
         A window touches the samples nearest to its ends.
@@ -344,13 +363,13 @@ class EnergyFit:
         seen = self.observation
         free = np.ones(len(self.rows.y), dtype=bool)
         for run in range(len(seen.logs)):
-            own, windows = np.flatnonzero(seen.run == run), self.rows.run == run
-            if own.size and windows.any():
-                near = np.searchsorted(seen.time[own], self.rows.time[windows])
-                touched = held[own][near.clip(0, len(own) - 1)].any(axis=1)
+            samples, windows = np.flatnonzero(seen.run == run), self.rows.run == run
+            if samples.size and windows.any():
+                near = np.searchsorted(seen.time[samples], self.rows.time[windows])
+                touched = held[samples][near.clip(0, len(samples) - 1)].any(axis=1)
                 free[np.flatnonzero(windows)[touched]] = False
         W, y = self.rows.W / self.deviation[:, None], self.rows.y / self.deviation
-        return scaled_least_squares(W[free], y[free], SEEN)
+        return solve_scaled_least_squares(W[free], y[free], SEEN)
 
 
 def identify_energy(
@@ -365,92 +384,97 @@ def identify_energy(
     Args:
         model: the compiled robot.
         observation: of the logs.
-        window: s; None: as `energy_rows`.
+        window: s; None: as `build_energy_rows`.
         method: "weighted" by the modelled variance of each window, or "ordinary" (eq. 18).
         below: as for `identify`.
 
     Raises:
-        DataError: a motor without torque, few windows, no such method, or as `energy_rows`.
+        DataError: a motor without torque, few windows, no such method, or as `build_energy_rows`.
     """
-    method_of(method, "windows")
-    dead = [observation.joints[j].name for j in dead_joints(observation)]
+    find_method(method, "windows")
+    dead = [observation.joints[j].name for j in find_disconnected_joints(observation)]
     if dead:
         raise DataError(
             f"{', '.join(observation.logs)}: the torque of joint {', '.join(dead)} is 0 in every "
             "row; the energy model needs the torque of every motor, for it adds up their work; "
             "connect it, or take --model torque"
         )
-    rows = energy_rows(model, observation, window)
+    rows = build_energy_rows(model, observation, window)
     if len(rows.y) < len(observation.names):
         raise DataError(
             f"{', '.join(observation.logs)}: {len(rows.y)} windows of {rows.window:.4g} s for "
             f"{len(observation.names)} parameters; record more motion, or give a shorter --window"
         )
-    found = rows.estimate(observation.names, method)
-    torques = base_equations(observation).compressed(np.ones(len(observation.y), dtype=bool))
-    essential = _essential(rows, observation.names, found, below)
-    said = [tangle.sentence() for tangle in found.rank.aside]
-    if not found.settled:
+    estimate = rows.estimate(observation.names, method)
+    torques = build_base_equations(observation).compress_rows(
+        np.ones(len(observation.y), dtype=bool)
+    )
+    essential = _select_essential(rows, observation.names, estimate, below)
+    said = [tangle.describe() for tangle in estimate.rank.dropped_columns]
+    if not estimate.is_converged:
         said.append("the variances of the windows still change; record more rows")
-    if found.memory > 1.2:
+    if estimate.autocorrelation_factor > 1.2:
         said.append(
             "neighbouring windows repeat each other, and the sigmas are raised for it, by up to a "
-            f"factor {found.memory:.2g}"
+            f"factor {estimate.autocorrelation_factor:.2g}"
         )
-    said.append(essential.sentence(torques, found.beta))
-    result = result_of(
-        base_equations(observation), method, found, essential, torques,
+    said.append(essential.describe(torques, estimate.beta))
+    result = build_result(
+        build_base_equations(observation), method, estimate, essential, torques,
         rows=len(rows.y),
         sentences=tuple(said),
         reduced=np.ones(len(essential.names)),
-        energy=_report(model, observation, rows, found, window, method),
+        energy=_build_report(model, observation, rows, estimate, window, method),
     )  # fmt: skip
-    return EnergyFit(result, rows, found.deviation, observation)
+    return EnergyFit(result, rows, estimate.row_sigma, observation)
 
 
-def _essential(
-    rows: EnergyRows, names: tuple[str, ...], found: Unequal, below: float | None
-) -> Essential:
+def _select_essential(
+    rows: EnergyRows, names: tuple[str, ...], estimate: HeteroscedasticEstimate, below: float | None
+) -> EssentialParameters:
     """By the F-test of the windows."""
-    weight, zeros = 1.0 / found.deviation, np.zeros(len(rows.y), dtype=int)
-    data = compress(rows.W * weight[:, None], rows.y * weight, zeros, 1, names)
-    essential = essential_parameters(data, found, "ordinary", below)
+    weight, zeros = 1.0 / estimate.row_sigma, np.zeros(len(rows.y), dtype=int)
+    data = compress_rows(rows.W * weight[:, None], rows.y * weight, zeros, 1, names)
+    essential = select_essential_parameters(data, estimate, "ordinary", below)
     at = [names.index(name) for name in essential.names]
-    raw, scaled = condition_numbers(rows.W[:, at])
-    covariance = essential.reduced.covariance * found.memory**2
+    raw, scaled = compute_condition_numbers(rows.W[:, at])
+    covariance = essential.reduced.covariance * estimate.autocorrelation_factor**2
     reduced = dataclasses.replace(
         essential.reduced, covariance=covariance, condition_number=raw, condition_scaled=scaled
     )
     return dataclasses.replace(essential, reduced=reduced)
 
 
-def _report(
+def _build_report(
     model: CompiledModel,
     observation: Observation,
     rows: EnergyRows,
-    found: Unequal,
+    estimate: HeteroscedasticEstimate,
     window: float | None,
     method: Method,
 ) -> EnergyReport:
     torque = identify(observation, method)
-    rough = energy_rows(model, observation, window, "trapezoid")
+    rough = build_energy_rows(model, observation, window, "trapezoid")
     coarse = rough.estimate(observation.names, method)
-    figures = [_figures("torque", observation, torque.rows, torque)]
-    for name, part, fit in (("energy, Simpson", rows, found), ("energy, trapezoid", rough, coarse)):
-        missed, kept = (part.balance - part.W) @ found.beta, list(fit.rank.kept)
+    figures = [_compute_figures("torque", observation, torque.rows, torque)]
+    for name, part, fit in (
+        ("energy, Simpson", rows, estimate),
+        ("energy, trapezoid", rough, coarse),
+    ):
+        missed, kept_columns = (part.balance - part.W) @ estimate.beta, list(fit.rank.kept_columns)
         share = float(np.linalg.norm(missed) / np.linalg.norm(part.y))
         # What the energy that integration misses moves at most, in sigmas.
-        weighted = part.W[:, kept] / fit.deviation[:, None]
-        moved = scaled_least_squares(weighted, missed / fit.deviation, SEEN)
-        sigma = np.sqrt(np.diag(fit.covariance)[kept])
+        weighted = part.W[:, kept_columns] / fit.row_sigma[:, None]
+        moved = solve_scaled_least_squares(weighted, missed / fit.row_sigma, SEEN)
+        sigma = np.sqrt(np.diag(fit.covariance)[kept_columns])
         bias = float(np.max(np.abs(moved) / sigma, initial=0.0))
-        own = _figures(name, observation, len(part.y), fit)
-        figures.append(dataclasses.replace(own, imbalance=share, bias=bias))
-    error = float(np.linalg.norm(rows.y - rows.W @ found.beta) / np.linalg.norm(rows.y))
-    return EnergyReport(rows.window, error, tuple(figures), len(found.rank.kept))
+        model_figures = _compute_figures(name, observation, len(part.y), fit)
+        figures.append(dataclasses.replace(model_figures, imbalance=share, bias=bias))
+    error = float(np.linalg.norm(rows.y - rows.W @ estimate.beta) / np.linalg.norm(rows.y))
+    return EnergyReport(rows.window, error, tuple(figures), len(estimate.rank.kept_columns))
 
 
-def _figures(
+def _compute_figures(
     name: str, observation: Observation, rows: int, fit: Estimate | FitResult
 ) -> ModelFigures:
     W, y, beta, covariance = observation.W, observation.y, fit.beta, fit.covariance

@@ -8,13 +8,13 @@ from typing import Any
 import numpy as np
 from scipy.special import fdtri
 
-from modeler.core.brief import Brief
+from modeler.core.brief import ShortRepr
 from modeler.core.errors import DataError, Method
-from modeler.core.json import entries
-from modeler.core.table import printed
-from modeler.estimation.least_squares import Estimate, least_squares, solve_by_qr
+from modeler.core.json import select_attributes
+from modeler.core.table import format_error_pair
+from modeler.estimation.least_squares import Estimate, solve_by_qr, solve_least_squares
 from modeler.estimation.parameter import ParameterEstimate
-from modeler.numerics.least_squares import Compressed, triangle
+from modeler.numerics.least_squares import CompressedRegression, compute_triangle
 
 # Essential parameters: the others may be left out and no F-test notices.
 
@@ -28,7 +28,7 @@ _EXACT = 1e-9  # of the torque; a smaller error is rounding
 
 
 @dataclass(frozen=True, eq=False)
-class Essential:
+class EssentialParameters:
     """The reduced model.
 
     Attributes:
@@ -50,18 +50,18 @@ class Essential:
     reduced: Estimate
     held_out: tuple[float, float] | None = None
 
-    def errors(self, data: Compressed, full: np.ndarray) -> tuple[float, float]:
+    def compute_errors(self, data: CompressedRegression, full: np.ndarray) -> tuple[float, float]:
         """||y - W beta|| / ||y|| over all rows: of all parameters (c,), of the essential ones."""
-        total = float(np.linalg.norm(data.torque_norms())) or np.nan
-        left = (np.linalg.norm(data.residual_norms(beta)) for beta in (full, self.beta))
-        before, after = (float(own) / total for own in left)
+        total = float(np.linalg.norm(data.compute_torque_norms())) or np.nan
+        left = (np.linalg.norm(data.compute_residual_norms(beta)) for beta in (full, self.beta))
+        before, after = (float(norm) / total for norm in left)
         return before, after
 
-    def sentence(self, data: Compressed, full: np.ndarray) -> str:
+    def describe(self, data: CompressedRegression, full: np.ndarray) -> str:
         """What was found, and what it costs on rows beside all parameters (c,)."""
         if not self.dropped and self.held_out is None:
             return f"all {len(self.names)} parameters are essential"
-        before, after = printed(*(self.held_out or self.errors(data, full)))
+        before, after = format_error_pair(*(self.held_out or self.compute_errors(data, full)))
         count = f"{len(self.names)} of {len(self.names) + len(self.dropped)} parameters"
         model = f"reduced model: {count}" if self.dropped else "no reduced model: one by an F-test"
         kind = "fit" if self.held_out is None else "cross-validated"
@@ -72,9 +72,9 @@ NONE_LEAVES = 1e300
 """Percent of `essential_parameters` below which no parameter leaves."""
 
 
-def essential_parameters(
-    data: Compressed, full: Estimate, method: Method, below: float | None = None
-) -> Essential:
+def select_essential_parameters(
+    data: CompressedRegression, full: Estimate, method: Method, below: float | None = None
+) -> EssentialParameters:
     """The essential parameters.
 
     The parameter of the largest relative standard deviation leaves, one after the other, as long
@@ -101,77 +101,81 @@ def essential_parameters(
         raise DataError(
             f"essential parameters: got sigmas below {below:g} %; expected a number above 0, as 15"
         )
-    whole = data.whole(full.sigma) if full.whole is None else full.whole
-    most = MOST_RAISED * np.maximum(data.residual_norms(full.beta), _EXACT * data.torque_norms())
+    whole = data.combine_joints(full.sigma) if full.whole is None else full.whole
+    most = MOST_RAISED * np.maximum(
+        data.compute_residual_norms(full.beta), _EXACT * data.compute_torque_norms()
+    )
 
-    def as_good(kept: list[int]) -> bool:
+    def as_good(kept_columns: list[int]) -> bool:
         """True if every joint is described as well by these columns."""
         beta = np.zeros(len(data.names))
-        beta[kept] = solve_by_qr(whole[:, kept], whole[:, -1])[0]
-        return bool(np.all(data.residual_norms(beta) <= most))
+        beta[kept_columns] = solve_by_qr(whole[:, kept_columns], whole[:, -1])[0]
+        return bool(np.all(data.compute_residual_norms(beta) <= most))
 
-    kept, dropped, ratio, limit = _eliminate(triangle(whole), full, below, as_good)
+    kept_columns, dropped, ratio, limit = _eliminate(compute_triangle(whole), full, below, as_good)
     left = tuple(data.names[i] for i in dropped)
-    aside = [tangle.name for tangle in full.rank.aside]
-    own = data.without([*left, *aside])
-    reduced = least_squares(own, "ordinary" if method == "ordinary" else "weighted")
-    if kept and (full.share is not None or method not in ("weighted", "ordinary")):
-        values, root = solve_by_qr(whole[:, kept], whole[:, -1])
+    aside = [tangle.name for tangle in full.rank.dropped_columns]
+    reduced_data = data.drop_columns([*left, *aside])
+    reduced = solve_least_squares(reduced_data, "ordinary" if method == "ordinary" else "weighted")
+    if kept_columns and (full.prior_share is not None or method not in ("weighted", "ordinary")):
+        values, root = solve_by_qr(whole[:, kept_columns], whole[:, -1])
         reduced = dataclasses.replace(reduced, beta=values, covariance=root @ root.T)
     beta = np.zeros(len(data.names))
-    beta[kept] = reduced.beta
-    names = tuple(data.names[i] for i in kept)
-    return Essential(names, left, beta, float(ratio), limit, reduced)
+    beta[kept_columns] = reduced.beta
+    names = tuple(data.names[i] for i in kept_columns)
+    return EssentialParameters(names, left, beta, float(ratio), limit, reduced)
 
 
 def _eliminate(
     whole: np.ndarray, full: Estimate, below: float | None, as_good: Callable[[list[int]], bool]
 ) -> tuple[list[int], list[int], float, float]:
     """Columns kept, columns dropped in the order of leaving, their F statistic and its limit."""
-    every = list(full.rank.kept)
-    reference = _squares(whole, every)
+    every = list(full.rank.kept_columns)
+    reference = _sum_squares(whole, every)
     noise = max(reference / full.degrees, np.finfo(float).tiny)
 
-    def tested(kept: list[int]) -> tuple[float, float]:
-        count = len(every) - len(kept)
-        ratio = (_squares(whole, kept) - reference) / max(count, 1) / noise
+    def tested(kept_columns: list[int]) -> tuple[float, float]:
+        count = len(every) - len(kept_columns)
+        ratio = (_sum_squares(whole, kept_columns) - reference) / max(count, 1) / noise
         return ratio, float(fdtri(count, full.degrees, 1.0 - LEVEL)) if count else np.inf
 
-    def fewer(kept: list[int], dropped: list[int], stays: int = -1) -> tuple[list[int], list[int]]:
+    def fewer(
+        kept_columns: list[int], dropped: list[int], stays: int = -1
+    ) -> tuple[list[int], list[int]]:
         """Without the weakest, one after the other; the first of them is not `stays`."""
-        while len(kept) > 1:
-            beta, root = solve_by_qr(whole[:, kept], whole[:, -1])
+        while len(kept_columns) > 1:
+            beta, root = solve_by_qr(whole[:, kept_columns], whole[:, -1])
             with np.errstate(divide="ignore"):  # a value of exactly 0 is the weakest of all
                 shares = np.linalg.norm(root, axis=1) / np.abs(beta)
-            shares[np.array(kept) == stays] = 0.0
-            weakest, share = kept[int(np.argmax(shares))], float(shares.max())
-            rest = [i for i in kept if i != weakest]
+            shares[np.array(kept_columns) == stays] = 0.0
+            weakest, share = kept_columns[int(np.argmax(shares))], float(shares.max())
+            rest = [i for i in kept_columns if i != weakest]
             ratio, limit = tested(rest)
             vague = below is not None and 100.0 * np.sqrt(noise) * share >= below
             if not (vague or (below is None and ratio < limit and as_good(rest))):
                 break
-            kept, dropped, stays = rest, [*dropped, weakest], -1
-        return kept, dropped
+            kept_columns, dropped, stays = rest, [*dropped, weakest], -1
+        return kept_columns, dropped
 
-    found, best = None, fewer(every, [])
-    while found is not best:
-        found = best
-        kept, dropped = found
+    current, best = None, fewer(every, [])
+    while current is not best:
+        current = best
+        kept_columns, dropped = current
         back = [
-            fewer(sorted([*kept, i]), [other for other in dropped if other != i], i)
+            fewer(sorted([*kept_columns, i]), [other for other in dropped if other != i], i)
             for i in dropped
         ]
-        best = min([found, *back], key=lambda sets: (len(sets[0]), _squares(whole, sets[0])))
-    return *found, *tested(found[0])
+        best = min([current, *back], key=lambda sets: (len(sets[0]), _sum_squares(whole, sets[0])))
+    return *current, *tested(current[0])
 
 
-def _squares(whole: np.ndarray, kept: list[int]) -> float:
-    reduced = triangle(whole[:, [*kept, whole.shape[1] - 1]])
-    return float(np.sum(reduced[len(kept) :, -1] ** 2))
+def _sum_squares(whole: np.ndarray, kept_columns: list[int]) -> float:
+    reduced = compute_triangle(whole[:, [*kept_columns, whole.shape[1] - 1]])
+    return float(np.sum(reduced[len(kept_columns) :, -1] ** 2))
 
 
 @dataclass(frozen=True)
-class Reduced(Brief):
+class ReducedModel(ShortRepr):
     """The essential parameters, estimated anew without the others (Gautier and Khalil 1991).
 
     Attributes:
@@ -197,9 +201,9 @@ class Reduced(Brief):
         return vars(self) | {"parameters": [parameter.to_json() for parameter in self.parameters]}
 
 
-def reduced_model(
-    essential: Essential, factors: np.ndarray, units: Mapping[str, str], error: float
-) -> Reduced | None:
+def build_reduced_model(
+    essential: EssentialParameters, factors: np.ndarray, units: Mapping[str, str], error: float
+) -> ReducedModel | None:
     """The reduced model of a fit; None if no parameter is left.
 
     Args:
@@ -213,10 +217,10 @@ def reduced_model(
         return None
     sigma = factors * np.sqrt(np.diag(reduced.covariance))
     values = zip(essential.names, reduced.beta.tolist(), sigma.tolist(), strict=True)
-    return Reduced(
+    return ReducedModel(
         tuple(ParameterEstimate(n, units[n], x, s, True, "estimated") for n, x, s in values),
-        **entries(essential, "dropped ratio"),
-        **entries(reduced, "condition_number condition_scaled"),
+        **select_attributes(essential, "dropped ratio"),
+        **select_attributes(reduced, "condition_number condition_scaled"),
         relative_error=error,
         limit=essential.limit if essential.dropped else None,
     )

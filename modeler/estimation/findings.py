@@ -18,11 +18,24 @@ from itertools import combinations
 
 import numpy as np
 
-from modeler.estimation.gravity import ABSENT, gravity_of
+from modeler.estimation.gravity import ABSENT, extract_gravity
 from modeler.estimation.model_file import IdentifiedModel
-from modeler.estimation.nearest_body import Machine, machine_of, nearest_possible
-from modeler.observation import Doubt, Observation, ThinnedRows, Turn, clocks, thinned, turns, zero
-from modeler.runtime import CompiledModel, mapped
+from modeler.estimation.nearest_body import (
+    PhysicalParameters,
+    define_physical_parameters,
+    project_parameters,
+)
+from modeler.observation import (
+    DataWarning,
+    MotionTransform,
+    Observation,
+    ThinnedRows,
+    propose_clocks,
+    propose_transforms,
+    propose_zero,
+    thin_rows,
+)
+from modeler.runtime import CompiledModel, map_parts
 
 HALF = 0.5
 """Share of its error that a fault, undone, leaves of a joint: physics that a model lacks
@@ -61,7 +74,7 @@ _MACHINES = 8  # subsets of which the machine is asked for
 
 
 @dataclass(frozen=True, eq=False)
-class Products:
+class NormalEquations:
     """Of the rows of k joints, torques of length one: all that a fit of them needs.
 
     Attributes:
@@ -72,32 +85,34 @@ class Products:
     gram: np.ndarray
     cross: np.ndarray
 
-    def scaled(self, gains: np.ndarray) -> "Products":
+    def scale_torques(self, gains: np.ndarray) -> "NormalEquations":
         """Of torques that are multiplied by gains (k,)."""
-        return Products(self.gram / gains[:, None, None] ** 2, self.cross / gains[:, None])
+        return NormalEquations(self.gram / gains[:, None, None] ** 2, self.cross / gains[:, None])
 
-    def left(self, beta: np.ndarray) -> np.ndarray:
+    def compute_errors(self, beta: np.ndarray) -> np.ndarray:
         """(k,) relative error of each joint."""
         square = 1.0 - 2.0 * self.cross @ beta + np.einsum("c,kcd,d->k", beta, self.gram, beta)
         return np.asarray(np.sqrt(np.maximum(square, 0.0)))
 
 
-def _lengths(y: np.ndarray) -> np.ndarray:
+def _compute_lengths(y: np.ndarray) -> np.ndarray:
     """(k,) norms of the torques of joints; none so small beside others that rows overflow."""
     length = np.linalg.norm(y, axis=0)
     return np.asarray(np.maximum(length, 1e-9 * length.max(initial=0.0) or 1.0))
 
 
-def _products(W: np.ndarray, tau: np.ndarray, used: np.ndarray, joints: Sequence[int]) -> Products:
+def _build_normal_equations(
+    W: np.ndarray, tau: np.ndarray, used: np.ndarray, joints: Sequence[int]
+) -> NormalEquations:
     """Of rows W (m, n, c), tau (m, n), used (m, n)."""
     y = np.where(used, tau, 0.0)[:, joints]
-    length = _lengths(y)
+    length = _compute_lengths(y)
     X = (np.where(used[..., None], W, 0.0)[:, joints] / length[:, None]).transpose(1, 2, 0)
-    return Products(X @ X.transpose(0, 2, 1), np.einsum("kcm,mk->kc", X, y / length))
+    return NormalEquations(X @ X.transpose(0, 2, 1), np.einsum("kcm,mk->kc", X, y / length))
 
 
 @dataclass(frozen=True, eq=False)
-class Judge:
+class ResidualModel:
     """What a machine leaves of torques.
 
     Attributes:
@@ -105,53 +120,55 @@ class Judge:
         beta: (c,) of a model that predicts; None: each time it is fitted.
     """
 
-    machine: Machine
+    machine: PhysicalParameters
     beta: np.ndarray | None = None
 
-    def solved(self, data: Products) -> tuple[np.ndarray, np.ndarray]:
+    def solve(self, data: NormalEquations) -> tuple[np.ndarray, np.ndarray]:
         """beta (c,) and weights (k,) that make the sum of the logarithms of the errors least."""
         weights = np.ones(len(data.gram))
         if self.beta is not None:
             return self.beta, weights
         for _ in range(_TURNS):
-            beta = _fitted(data, weights)
-            weights = 1.0 / np.maximum(data.left(beta), FLOOR) ** 2
+            beta = _solve_weighted(data, weights)
+            weights = 1.0 / np.maximum(data.compute_errors(beta), FLOOR) ** 2
         return beta, weights
 
-    def errors(self, data: Products, possible: bool = True) -> np.ndarray:
+    def compute_errors(self, data: NormalEquations, possible: bool = True) -> np.ndarray:
         """(k,) relative errors, of a machine that can be built if asked for."""
-        beta, weights = self.solved(data)
+        beta, weights = self.solve(data)
         if possible and self.beta is None:
-            beta = self.possible(data, beta, weights)
-        return data.left(beta)
+            beta = self.project_fit(data, beta, weights)
+        return data.compute_errors(beta)
 
-    def possible(self, data: Products, beta: np.ndarray, weights: np.ndarray) -> np.ndarray:
+    def project_fit(
+        self, data: NormalEquations, beta: np.ndarray, weights: np.ndarray
+    ) -> np.ndarray:
         """(c,) the nearest machine that can be built; the fit itself where none is found."""
         values, vectors = np.linalg.eigh(np.tensordot(weights, data.gram, 1))
         root = np.sqrt(np.maximum(values, 0.0))[:, None] * vectors.T
-        nearest = nearest_possible(self.machine, beta, root)
+        nearest = project_parameters(self.machine, beta, root)
         return beta if nearest is None else nearest.beta
 
 
-def _fitted(data: Products, weights: np.ndarray) -> np.ndarray:
-    return _solved(np.tensordot(weights, data.gram, 1), weights @ data.cross)
+def _solve_weighted(data: NormalEquations, weights: np.ndarray) -> np.ndarray:
+    return _solve_normal_equations(np.tensordot(weights, data.gram, 1), weights @ data.cross)
 
 
-def _solved(gram: np.ndarray, cross: np.ndarray) -> np.ndarray:
+def _solve_normal_equations(gram: np.ndarray, cross: np.ndarray) -> np.ndarray:
     """Of normal equations: many fits of a few digits; a ridge for what the data cannot tell."""
     size = np.sqrt(np.maximum(np.diag(gram), 1e-300))
     scaled = gram / np.outer(size, size) + _RIDGE * np.eye(len(gram))
     return np.asarray(np.linalg.solve(scaled, cross / size) / size)
 
 
-def _score(errors: np.ndarray) -> float:
+def _compute_log_error(errors: np.ndarray) -> float:
     return float(np.sum(np.log(np.maximum(errors, FLOOR))))
 
 
-def _evidence_for(without: np.ndarray, with_it: np.ndarray) -> float:
+def _compute_evidence(without: np.ndarray, with_it: np.ndarray) -> float:
     """What a fault adds to the sum of logarithms; 0 if it doubles the error of no joint."""
     doubles = np.maximum(without, FLOOR) <= HALF * np.maximum(with_it, FLOOR)
-    return _score(with_it) - _score(without) if doubles.any() else 0.0
+    return _compute_log_error(with_it) - _compute_log_error(without) if doubles.any() else 0.0
 
 
 @dataclass(frozen=True, eq=False)
@@ -166,11 +183,11 @@ class Hypothesis:
         judge: of its columns, where they are not those of the robot.
     """
 
-    fault: Doubt
-    data: Products
-    touches: tuple[int, ...] = ()
-    least: float = ENOUGH
-    judge: Judge | None = None
+    fault: DataWarning
+    data: NormalEquations
+    joints: tuple[int, ...] = ()
+    min_evidence: float = ENOUGH
+    judge: ResidualModel | None = None
 
 
 @dataclass(frozen=True, eq=False)
@@ -187,53 +204,53 @@ class Evidence:
 
     compiled: CompiledModel
     observation: Observation
-    judge: Judge
+    judge: ResidualModel
     rows: ThinnedRows
     joints: tuple[int, ...]
 
     @cached_property
-    def data(self) -> Products:
+    def data(self) -> NormalEquations:
         """Of the log as it is."""
-        return _products(self.rows.W, self.rows.tau, self.rows.used, self.joints)
+        return _build_normal_equations(self.rows.W, self.rows.tau, self.rows.used, self.joints)
 
     @cached_property
     def errors(self) -> np.ndarray:
         """(k,) of the log as it is."""
-        return self.judge.errors(self.data)
+        return self.judge.compute_errors(self.data)
 
     @cached_property
-    def grave(self) -> bool:
+    def has_large_errors(self) -> bool:
         """True if much is left, or no machine that could be built leaves as little as the fit."""
-        free = self.judge.errors(self.data, possible=False)
-        return bool(self.errors.max() > SUSPECT) or _evidence_for(free, self.errors) > ENOUGH
+        free = self.judge.compute_errors(self.data, possible=False)
+        return bool(self.errors.max() > SUSPECT) or _compute_evidence(free, self.errors) > ENOUGH
 
     @property
-    def tree(self) -> bool:
+    def is_tree(self) -> bool:
         """True if joints move on their own: positions that do not close loops have no torque."""
         return self.compiled.spec.closure is None
 
-    def name(self, place: int) -> str:
+    def get_joint_name(self, place: int) -> str:
         """Of one of the joints."""
         return self.observation.joints[self.joints[place]].name
 
 
-def _evidence(
+def _gather_evidence(
     compiled: CompiledModel, observation: Observation, beta: np.ndarray | None = None
 ) -> Evidence:
-    rows = thinned(compiled, observation)
+    rows = thin_rows(compiled, observation)
     joints = [j for j, joint in enumerate(observation.joints) if joint.actuated]
     joints = [j for j in joints if rows.tau[rows.used[:, j], j].any()]
     enough = bool(joints) and rows.used[:, joints].sum() >= _FOR_EACH * rows.W.shape[2]
-    judge = Judge(machine_of(compiled.spec), beta)
+    judge = ResidualModel(define_physical_parameters(compiled.spec), beta)
     return Evidence(compiled, observation, judge, rows, tuple(joints if enough else ()))
 
 
 # What contradicts.
 
 
-def log_findings(
+def find_log_faults(
     compiled: CompiledModel, observation: Observation, model: IdentifiedModel | None = None
-) -> tuple[Doubt, ...]:
+) -> tuple[DataWarning, ...]:
     """What is wrong with the channels and the samples of logs; alike wherever it is asked for.
 
     The one fault that explains most of what a fit to the logs leaves; if there is none, and no
@@ -246,65 +263,73 @@ def log_findings(
         model: whose torques are compared, or explained; None: the logs are fitted.
     """
     others = model is not None and not any(
-        used.shares_rows(log) for used in model.logs for log in observation.report.logs
+        used.has_rows_of(log) for used in model.logs for log in observation.report.logs
     )
-    found = _by_prediction(compiled, observation, model.beta) if model and others else []
-    found = found or _by_fit(compiled, observation, unseen=model is None)
-    return (*found, *(Doubt(line) for line in observation.report.doubts()))
+    faults = _find_by_prediction(compiled, observation, model.beta) if model and others else []
+    faults = faults or _find_by_fit(compiled, observation, unseen=model is None)
+    return (*faults, *(DataWarning(line) for line in observation.report.collect_warnings()))
 
 
-def _by_fit(compiled: CompiledModel, observation: Observation, unseen: bool) -> list[Doubt]:
-    seen = _evidence(compiled, observation)
+def _find_by_fit(
+    compiled: CompiledModel, observation: Observation, unseen: bool
+) -> list[DataWarning]:
+    seen = _gather_evidence(compiled, observation)
     if not seen.joints:
         return []
-    told = _explained(seen)
-    if told is not None:
-        return [told.fault]
-    return _unseen(seen) if unseen else []
+    explanation = _select_hypothesis(seen)
+    if explanation is not None:
+        return [explanation.fault]
+    return _find_undetectable(seen) if unseen else []
 
 
-def _by_prediction(
+def _find_by_prediction(
     compiled: CompiledModel, observation: Observation, beta: np.ndarray
-) -> list[Doubt]:
-    seen, found = _evidence(compiled, observation, beta), list[Doubt]()
+) -> list[DataWarning]:
+    seen, faults = _gather_evidence(compiled, observation, beta), list[DataWarning]()
     while seen.joints and seen.errors.max() > WRONG:
-        told = _explained(seen)
-        if told is None:
+        explanation = _select_hypothesis(seen)
+        if explanation is None:
             break
-        found.append(told.fault)
-        rest = [j for j in seen.joints if told.touches and j not in told.touches]
+        faults.append(explanation.fault)
+        rest = [j for j in seen.joints if explanation.joints and j not in explanation.joints]
         seen = replace(seen, joints=tuple(rest))
-    return found
+    return faults
 
 
-def _explained(seen: Evidence) -> Hypothesis | None:
+def _select_hypothesis(seen: Evidence) -> Hypothesis | None:
     """The hypothesis that explains most, with those that do as well in its words."""
-    gravities = [*_gravities(seen)]
-    tried = [*_torques(seen), *gravities, *_motions(seen, bool(gravities))]
-    scores = mapped(partial(_lowered, seen), tried)
-    found = [(score, one) for score, one in zip(scores, tried, strict=True) if score >= one.least]
-    if not found:
+    gravities = [*_propose_gravity_faults(seen)]
+    tried = [
+        *_propose_torque_faults(seen),
+        *gravities,
+        *_propose_motion_faults(seen, bool(gravities)),
+    ]
+    scores = map_parts(partial(_compute_reduction, seen), tried)
+    candidates = [
+        (score, one) for score, one in zip(scores, tried, strict=True) if score >= one.min_evidence
+    ]
+    if not candidates:
         return None
-    if any(one.fault.line.startswith(ABSENT) for _, one in found):
-        found = [pair for pair in found if "the clock seems" not in pair[1].fault.line]
-    most = max(score for score, _ in found)
-    found.sort(key=lambda pair: -pair[0])
-    likely = [one for score, one in found if score >= most - np.log(ALSO)]
+    if any(one.fault.line.startswith(ABSENT) for _, one in candidates):
+        candidates = [pair for pair in candidates if "the clock seems" not in pair[1].fault.line]
+    most = max(score for score, _ in candidates)
+    candidates.sort(key=lambda pair: -pair[0])
+    likely = [one for score, one in candidates if score >= most - np.log(ALSO)]
     line = "; or: ".join(dict.fromkeys(one.fault.line for one in likely[:3]))
-    certain = all(one.fault.certain for one in likely)
-    touched = tuple({j for one in likely for j in one.touches})
+    certain = all(one.fault.is_certain for one in likely)
+    touched = tuple({j for one in likely for j in one.joints})
     about = tuple(seen.observation.joints[j].name for j in sorted(touched))
-    fault = replace(likely[0].fault, line=line, certain=certain, about=about)
+    fault = replace(likely[0].fault, line=line, is_certain=certain, joints=about)
     return Hypothesis(fault, likely[0].data, touched)
 
 
-def _lowered(seen: Evidence, one: Hypothesis) -> float:
+def _compute_reduction(seen: Evidence, one: Hypothesis) -> float:
     """By how much a hypothesis lowers the sum of logarithms; 0 if it is none."""
     score = 0.0
     for possible in (False, True):  # machines that can be built leave more, and take longer
-        errors = (one.judge or seen.judge).errors(one.data, possible)
-        score = _evidence_for(errors, seen.errors)
-        if score < one.least or errors.max() > WRONG:
+        errors = (one.judge or seen.judge).compute_errors(one.data, possible)
+        score = _compute_evidence(errors, seen.errors)
+        if score < one.min_evidence or errors.max() > WRONG:
             return 0.0
     return score
 
@@ -312,24 +337,27 @@ def _lowered(seen: Evidence, one: Hypothesis) -> float:
 # Hypotheses about torques.
 
 
-def _torques(seen: Evidence) -> Iterator[Hypothesis]:
+def _propose_torque_faults(seen: Evidence) -> Iterator[Hypothesis]:
     """Torques of another scale or sign, and exchanged ones."""
     every = range(len(seen.joints))
     for place in every if len(seen.joints) > 1 or seen.judge.beta is not None else ():
-        own = _gain(seen, place)
-        for gain in (_MILLI,) if abs(own - _MILLI) < 0.1 * _MILLI else (own, _MILLI):
+        estimated_gain = _estimate_gain(seen, place)
+        for gain in (
+            (_MILLI,) if abs(estimated_gain - _MILLI) < 0.1 * _MILLI else (estimated_gain, _MILLI)
+        ):
             if not 1.0 / _UNITS < gain < _UNITS or 1.0 / GAIN < gain < GAIN:
                 continue
             unit = " (is it in mN m?)" if gain == _MILLI else ""
             line = (
-                f"joint {seen.name(place)}: the measured torque is {1.0 / gain:.3g} times what it "
+                f"joint {seen.get_joint_name(place)}: the measured torque is {1.0 / gain:.3g} "
+                "times what it "
                 f"should be{unit}; check unit and drive gain of that channel"
             )
             j = seen.joints[place]
-            fault = Doubt(line, not 1.0 / SCALE < gain < SCALE, joint=j)
-            yield Hypothesis(fault, _with_gain(seen.data, place, gain), (j,))
-    yield from _signs(seen)
-    if not seen.grave:
+            fault = DataWarning(line, not 1.0 / SCALE < gain < SCALE, joint=j)
+            yield Hypothesis(fault, _apply_gain(seen.data, place, gain), (j,))
+    yield from _propose_sign_faults(seen)
+    if not seen.has_large_errors:
         return
     rows, J = seen.rows, len(seen.observation.joints)
     for a, b in combinations(every, 2):
@@ -338,14 +366,15 @@ def _torques(seen: Evidence) -> Iterator[Hypothesis]:
         both = rows.used & rows.used[:, order]
         if both[:, [j, k]].sum(axis=0).min() >= _LEAST_ROWS:
             line = (
-                f"joints {seen.name(a)} and {seen.name(b)}: their torques look exchanged; check "
+                f"joints {seen.get_joint_name(a)} and {seen.get_joint_name(b)}: their torques look "
+                "exchanged; check "
                 "the order of the columns"
             )
-            data = _products(rows.W, rows.tau[:, order], both, seen.joints)
-            yield Hypothesis(Doubt(line, True), data, (j, k))
+            data = _build_normal_equations(rows.W, rows.tau[:, order], both, seen.joints)
+            yield Hypothesis(DataWarning(line, True), data, (j, k))
 
 
-def _gain(seen: Evidence, place: int) -> float:
+def _estimate_gain(seen: Evidence, place: int) -> float:
     """What the torque of a joint is to be multiplied by, from the torques of the others.
 
     X_j beta - gain y_j = 0 beside X_k beta = y_k: linear in beta and the gain.
@@ -354,109 +383,122 @@ def _gain(seen: Evidence, place: int) -> float:
     if seen.judge.beta is not None:
         return float(data.cross[place] @ seen.judge.beta)
     for _ in range(_TURNS):
-        own, side = weights[place], -weights[place] * data.cross[place]
+        weight, side = weights[place], -weights[place] * data.cross[place]
         gram = np.tensordot(weights, data.gram, 1)
-        whole = np.block([[gram, side[:, None]], [side[None], np.array([[own]])]])
-        solved = _solved(whole, np.append(weights @ data.cross + side, 0.0))
+        whole = np.block([[gram, side[:, None]], [side[None], np.array([[weight]])]])
+        solved = _solve_normal_equations(whole, np.append(weights @ data.cross + side, 0.0))
         gain = float(solved[-1])
         if not 1.0 / _UNITS < abs(gain) < _UNITS:
             break
-        weights = 1.0 / np.maximum(_with_gain(seen.data, place, gain).left(solved[:-1]), FLOOR) ** 2
+        weights = (
+            1.0
+            / np.maximum(_apply_gain(seen.data, place, gain).compute_errors(solved[:-1]), FLOOR)
+            ** 2
+        )
         weights[place] /= gain**2
     return gain
 
 
-def _with_gain(data: Products, places: int | Sequence[int], gain: float) -> Products:
+def _apply_gain(data: NormalEquations, places: int | Sequence[int], gain: float) -> NormalEquations:
     """Of the log with the torques of some joints multiplied by a gain."""
-    return data.scaled(np.where(np.isin(np.arange(len(data.gram)), places), gain, 1.0))
+    return data.scale_torques(np.where(np.isin(np.arange(len(data.gram)), places), gain, 1.0))
 
 
-def _signs(seen: Evidence) -> Iterator[Hypothesis]:
+def _propose_sign_faults(seen: Evidence) -> Iterator[Hypothesis]:
     """Some torques of the other sign: every subset of a few joints, all and single ones of many.
 
     A subset and the rest leave the same without a machine: friction and inertia tell them apart.
     """
     count = len(seen.joints)
     sizes = range(1, count + 1) if count <= _SUBSETS else (1, count)
-    tried = [own for size in sizes for own in combinations(range(count), size)]
-    least = _score(seen.errors) + np.log(HALF)
-    found, scores = [], dict[tuple[int, ...], float]()
-    for own in tried:
-        rest = tuple(k for k in range(count) if k not in own)
+    tried = [subset for size in sizes for subset in combinations(range(count), size)]
+    least = _compute_log_error(seen.errors) + np.log(HALF)
+    plausible, scores = [], dict[tuple[int, ...], float]()
+    for subset in tried:
+        rest = tuple(k for k in range(count) if k not in subset)
         if seen.judge.beta is not None or rest not in scores:
-            data = _with_gain(seen.data, own, -1.0)
-            scores[own] = _score(seen.judge.errors(data, possible=False))
+            data = _apply_gain(seen.data, subset, -1.0)
+            scores[subset] = _compute_log_error(seen.judge.compute_errors(data, possible=False))
         else:
-            scores[own] = scores[rest]
-        if scores[own] <= least:
-            found.append(own)
-    for own in sorted(found, key=lambda own: (round(scores[own], 1), len(own)))[:_MACHINES]:
-        names, s = ", ".join(seen.name(k) for k in own), "s" * (len(own) > 1)
+            scores[subset] = scores[rest]
+        if scores[subset] <= least:
+            plausible.append(subset)
+    for subset in sorted(plausible, key=lambda subset: (round(scores[subset], 1), len(subset)))[
+        :_MACHINES
+    ]:
+        names, s = ", ".join(seen.get_joint_name(k) for k in subset), "s" * (len(subset) > 1)
         whose = f"joint{s} {names}: the measured torque{s} ha{'ve' if s else 's'}"
-        if len(own) == count > 1:
+        if len(subset) == count > 1:
             whose = "all measured torques have"
         line = f"{whose} the other sign of what a machine that can be built needs; check the sign"
-        j = tuple(seen.joints[k] for k in own)
-        yield Hypothesis(Doubt(line, True), _with_gain(seen.data, own, -1.0), j)
+        j = tuple(seen.joints[k] for k in subset)
+        yield Hypothesis(DataWarning(line, True), _apply_gain(seen.data, subset, -1.0), j)
 
 
 # Hypotheses about gravity.
 
 
-def _gravities(seen: Evidence) -> Iterator[Hypothesis]:
+def _propose_gravity_faults(seen: Evidence) -> Iterator[Hypothesis]:
     """Gravity absent, compensated by the drives, of another size, sense or direction."""
-    gravity = gravity_of(seen.compiled, seen.rows, free=seen.judge.beta is None)
+    gravity = extract_gravity(seen.compiled, seen.rows, free=seen.judge.beta is None)
     if gravity is None:
         return
     judge, rows = replace(seen.judge, machine=gravity.machine), seen.rows
-    parts = np.concatenate([gravity.motion, *gravity.along], axis=2)
-    every, count = _products(parts, rows.tau, rows.used, seen.joints), len(gravity.along)
+    parts = np.concatenate([gravity.motion, *gravity.per_axis], axis=2)
+    every, count = (
+        _build_normal_equations(parts, rows.tau, rows.used, seen.joints),
+        len(gravity.per_axis),
+    )
 
-    def data_of(g: np.ndarray) -> Products:
+    def data_of(g: np.ndarray) -> NormalEquations:
         v, split = np.append(1.0, g), (len(every.gram), count + 1, -1)
         gram = every.gram.reshape(*split, count + 1, gravity.motion.shape[2])
         cross = np.einsum("kap,a->kp", every.cross.reshape(split), v)
-        return Products(np.einsum("kapbq,a,b->kpq", gram, v, v, optimize=True), cross)
+        return NormalEquations(np.einsum("kapbq,a,b->kpq", gram, v, v, optimize=True), cross)
 
     def left(g: np.ndarray) -> float:
-        return _score(judge.errors(data_of(g), possible=False))
+        return _compute_log_error(judge.compute_errors(data_of(g), possible=False))
 
     def step(g: np.ndarray) -> np.ndarray:
         p = gravity.motion.shape[2]
-        beta, _ = judge.solved(data_of(g))
+        beta, _ = judge.solve(data_of(g))
         axes = np.kron(np.eye(count + 1)[:, 1:], beta[:, None])  # torques of single axes
         mixed = np.hstack([np.kron(np.append(1.0, g)[:, None], np.eye(p)), axes])
         gram = np.matmul(mixed.T, every.gram @ mixed)
-        return judge.solved(Products(gram, every.cross @ mixed))[0][p:]
+        return judge.solve(NormalEquations(gram, every.cross @ mixed))[0][p:]
 
-    for g in gravity.candidates(left, step, seen.grave):
-        yield Hypothesis(Doubt(gravity.line(g), True), data_of(g), judge=judge)
+    for g in gravity.propose_candidates(left, step, seen.has_large_errors):
+        yield Hypothesis(DataWarning(gravity.format_line(g), True), data_of(g), judge=judge)
 
 
 # Hypotheses about positions and times.
 
 
-def _motions(seen: Evidence, clocked: bool) -> Iterator[Hypothesis]:
+def _propose_motion_faults(seen: Evidence, clocked: bool) -> Iterator[Hypothesis]:
     """Positions in other units, reversed, exchanged, from another zero; what comes late.
 
     Other clocks where much is left, or where gravity looks like another.
     """
-    tried = [*clocks(seen.observation)] if seen.grave or clocked else []
-    tried += turns(seen.observation, zeros_only=not seen.grave) if seen.tree else []
-    for turn, turned in zip(tried, mapped(partial(_turned, seen), tried), strict=True):
+    tried = [*propose_clocks(seen.observation)] if seen.has_large_errors or clocked else []
+    tried += (
+        propose_transforms(seen.observation, zeros_only=not seen.has_large_errors)
+        if seen.is_tree
+        else []
+    )
+    for turn, turned in zip(tried, map_parts(partial(_transform_rows, seen), tried), strict=True):
         if turned is not None:
-            yield Hypothesis(Doubt(turn.line, True), turned)
+            yield Hypothesis(DataWarning(turn.line, True), turned)
     if seen.judge.beta is None:
-        yield from _late(seen)
+        yield from _propose_delays(seen)
 
 
-def _turned(seen: Evidence, turn: Turn) -> Products | None:
+def _transform_rows(seen: Evidence, turn: MotionTransform) -> NormalEquations | None:
     """Of other positions; None where too few rows count."""
     used = seen.rows.used & seen.rows.used[:, turn.torque]
     if used[:, list(seen.joints)].sum(axis=0).min() < _LEAST_ROWS:
         return None
-    W, tau = seen.rows.turned(seen.compiled, turn), seen.rows.tau[:, turn.torque]
-    return _products(W, tau, used, seen.joints)
+    W, tau = seen.rows.transform_columns(seen.compiled, turn), seen.rows.tau[:, turn.torque]
+    return _build_normal_equations(W, tau, used, seen.joints)
 
 
 LONGEST = 0.15
@@ -494,7 +536,7 @@ class _Channel:
     lagged: Columns | None = None
 
 
-def _late(seen: Evidence) -> Iterator[Hypothesis]:
+def _propose_delays(seen: Evidence) -> Iterator[Hypothesis]:
     """Channels of another time: all torques, and of one joint torque, position, or both.
 
     W(t + d) beta = tau(t) is fitted for a shift d of the motion of all joints, for the rows of a
@@ -502,8 +544,8 @@ def _late(seen: Evidence) -> Iterator[Hypothesis]:
     Gauss and Newton.
     """
     step = float(np.median([part.segment.step for part in seen.observation.stretches]))
-    channels = _channels(seen)
-    shifts = mapped(partial(_best_shift, seen), [channel.columns for channel in channels])
+    channels = _collect_channels(seen)
+    shifts = map_parts(partial(_find_best_shift, seen), [channel.columns for channel in channels])
     for channel, (shift, data) in zip(channels, shifts, strict=True):
         way, back = ("late", "early") if channel.sign * shift > 0.0 else ("early", "late")
         line = (
@@ -511,24 +553,24 @@ def _late(seen: Evidence) -> Iterator[Hypothesis]:
             f"{channel.other} {back}); check the clocks of the channels, and shift the column"
         )
         if abs(shift) > 0.5 * step:
-            yield Hypothesis(Doubt(line), data, least=_enough_of(shift))
+            yield Hypothesis(DataWarning(line), data, min_evidence=_require_evidence(shift))
         if channel.lagged is not None and shift < -0.5 * step:
-            tau, data = _best_shift(seen, channel.lagged)
+            tau, data = _find_best_shift(seen, channel.lagged)
             line = (
                 f"{channel.what} through a first-order low-pass filter with a time constant of "
                 f"{-1e3 * tau:.0f} ms; log the unfiltered torque"
             )
             if tau < -0.5 * step:
-                yield Hypothesis(Doubt(line), data, least=_enough_of(tau))
+                yield Hypothesis(DataWarning(line), data, min_evidence=_require_evidence(tau))
 
 
-def _enough_of(shift: float) -> float:
+def _require_evidence(shift: float) -> float:
     """What a delay must explain; more the less usual it is: physics looks like any delay."""
     seconds = abs(shift)
     return ENOUGH + float(np.log(max(seconds / _SHOWN, _DELAY / seconds, 1.0)))
 
 
-def _best_shift(seen: Evidence, columns: Columns) -> tuple[float, Products]:
+def _find_best_shift(seen: Evidence, columns: Columns) -> tuple[float, NormalEquations]:
     """The shift of a channel that leaves least, s, and what it leaves that of.
 
     A channel whose shift, to first order, does not help is given up; where torques are missed by
@@ -536,26 +578,26 @@ def _best_shift(seen: Evidence, columns: Columns) -> tuple[float, Products]:
     """
     rows, judge = seen.rows, seen.judge
 
-    def data_of(W: np.ndarray) -> Products:
-        return _products(W, rows.tau, rows.used, seen.joints)
+    def data_of(W: np.ndarray) -> NormalEquations:
+        return _build_normal_equations(W, rows.tau, rows.used, seen.joints)
 
-    def left(data: Products) -> float:
-        return _score(judge.errors(data, possible=False))
+    def left(data: NormalEquations) -> float:
+        return _compute_log_error(judge.compute_errors(data, possible=False))
 
     least, shift, W, data = left(seen.data), 0.0, rows.W, seen.data
-    for start in _STARTS if seen.grave else ():
+    for start in _STARTS if seen.has_large_errors else ():
         other = data_of(moved := columns(start, None))
         if (score := left(other)) < least:
             least, shift, W, data = score, start, moved, other
     for _ in range(_STEPS):
-        beta, _ = judge.solved(data)
+        beta, _ = judge.solve(data)
         near = 0.5 * _NEAR  # both sides alike: columns of other times have samples of their own
         slope = (columns(shift + near, beta) - columns(shift - near, beta)) / _NEAR
-        both = _bordered(data, seen, W, slope)
-        found, _ = judge.solved(both)
-        if shift == 0.0 and _score(both.left(found)) > least - _HINT:
+        both = _append_column(data, seen, W, slope)
+        coefficients, _ = judge.solve(both)
+        if shift == 0.0 and _compute_log_error(both.compute_errors(coefficients)) > least - _HINT:
             break
-        further = float(np.clip(shift + found[-1], -LONGEST, LONGEST))
+        further = float(np.clip(shift + coefficients[-1], -LONGEST, LONGEST))
         closer = columns(further, None)
         reached = left(other := data_of(closer))
         if reached >= least:
@@ -564,66 +606,70 @@ def _best_shift(seen: Evidence, columns: Columns) -> tuple[float, Products]:
     return shift, data
 
 
-def _bordered(data: Products, seen: Evidence, W: np.ndarray, column: np.ndarray) -> Products:
+def _append_column(
+    data: NormalEquations, seen: Evidence, W: np.ndarray, column: np.ndarray
+) -> NormalEquations:
     """Of rows W (m, n, c), whose products are there, with a column (m, n) more."""
     joints, used = list(seen.joints), seen.rows.used
     y, z = (np.where(used, x, 0.0)[:, joints] for x in (seen.rows.tau, column))
-    length = _lengths(y)
+    length = _compute_lengths(y)
     counted = (np.where(used[:, j, None], W[:, j], 0.0) for j in joints)
-    beside = np.stack([own @ w for own, w in zip(z.T, counted, strict=True)])
+    beside = np.stack([side @ w for side, w in zip(z.T, counted, strict=True)])
     beside /= length[:, None] ** 2
-    own = np.sum(z**2, axis=0) / length**2
-    sides = np.concatenate([beside, own[:, None]], axis=1)
+    side = np.sum(z**2, axis=0) / length**2
+    sides = np.concatenate([beside, side[:, None]], axis=1)
     gram = np.concatenate([data.gram, beside[:, :, None]], axis=2)
     gram = np.concatenate([gram, sides[:, None]], axis=1)
     cross = np.column_stack([data.cross, np.sum(z * y, axis=0) / length**2])
-    return Products(gram, cross)
+    return NormalEquations(gram, cross)
 
 
-def _channels(seen: Evidence) -> list[_Channel]:
+def _collect_channels(seen: Evidence) -> list[_Channel]:
     """What may be late."""
     n = len(seen.observation.joints)
     compiled, rows = seen.compiled, seen.rows
 
-    kept: dict[float, np.ndarray] = {}  # columns of all, which every torque by itself needs
+    cached_columns: dict[
+        float, np.ndarray
+    ] = {}  # columns of all, which every torque by itself needs
 
     def all_later(shift: float, beta: np.ndarray | None) -> np.ndarray:
-        if beta is not None or shift not in kept:
-            found = rows.shifted(compiled, np.full(n, shift), beta)
-            return found if beta is not None else kept.setdefault(shift, found)
-        return kept[shift]
+        if beta is not None or shift not in cached_columns:
+            columns = rows.shift_columns(compiled, np.full(n, shift), beta)
+            return columns if beta is not None else cached_columns.setdefault(shift, columns)
+        return cached_columns[shift]
 
     def all_lagged(tau: float, beta: np.ndarray | None) -> np.ndarray:
-        every = [w * rows.shifted(compiled, np.full(n, tau * u), beta) for u, w in _DECAY]
+        every = [w * rows.shift_columns(compiled, np.full(n, tau * u), beta) for u, w in _DECAY]
         return np.asarray(np.sum(every, axis=0))
 
     def torque_alone(
         all_moved: Columns, j: int, shift: float, beta: np.ndarray | None
     ) -> np.ndarray:
-        found = (rows.W if beta is None else rows.W @ beta).copy()
-        found[:, j] = all_moved(shift, beta)[:, j]
-        return found
+        columns = (rows.W if beta is None else rows.W @ beta).copy()
+        columns[:, j] = all_moved(shift, beta)[:, j]
+        return columns
 
     def one_later(j: int, shift: float, beta: np.ndarray | None) -> np.ndarray:
-        return rows.shifted(compiled, shift * np.eye(n)[j], beta)
+        return rows.shift_columns(compiled, shift * np.eye(n)[j], beta)
 
     def both_later(j: int, shift: float, beta: np.ndarray | None) -> np.ndarray:
-        found = one_later(j, shift, beta)
-        found[:, j] = rows.shifted(compiled, shift * (np.eye(n)[j] - 1.0), beta)[:, j]
-        return found
+        columns = one_later(j, shift, beta)
+        columns[:, j] = rows.shift_columns(compiled, shift * (np.eye(n)[j] - 1.0), beta)[:, j]
+        return columns
 
-    found = [_Channel("all torques come", "the positions", -1.0, all_later, all_lagged)]
-    if not seen.tree or len(seen.joints) == 1:
-        return found  # positions that are not of one time do not close the loops
+    channels = [_Channel("all torques come", "the positions", -1.0, all_later, all_lagged)]
+    if not seen.is_tree or len(seen.joints) == 1:
+        return channels  # positions that are not of one time do not close the loops
     for place, j in enumerate(seen.joints):
-        name, rest = f"joint {seen.name(place)}:", "all the others"
-        found += [
+        name, rest = f"joint {seen.get_joint_name(place)}:", "all the others"
+        channels += [
             _Channel(f"{name} its torque comes", rest, -1.0, partial(torque_alone, all_later, j),
                      partial(torque_alone, all_lagged, j)),
             _Channel(f"{name} its position comes", rest, 1.0, partial(one_later, j)),
             _Channel(f"{name} its position and torque come", rest, 1.0, partial(both_later, j)),
         ]  # fmt: skip
-    return found
+    return channels
 
 
 # What could not be seen in any case.
@@ -636,65 +682,71 @@ SURELY = 1.5
 """Times the evidence that is told, below which a fault would not be seen for sure."""
 
 
-def _unseen(seen: Evidence) -> list[Doubt]:
+def _find_undetectable(seen: Evidence) -> list[DataWarning]:
     """Faults that torques of the machine itself would not show, beside what is left of them."""
     if seen.errors.max() > WRONG:
         return []
-    beta = seen.judge.possible(seen.data, *seen.judge.solved(seen.data))
+    beta = seen.judge.project_fit(seen.data, *seen.judge.solve(seen.data))
     hidden: dict[str, list[str]] = {}
     for place in range(len(seen.joints)):
-        for what, data in _made(seen, place, beta):
-            if _hides(seen, data):
-                hidden.setdefault(what, []).append(seen.name(place))
+        for what, data in _simulate_faults(seen, place, beta):
+            if _is_hidden(seen, data):
+                hidden.setdefault(what, []).append(seen.get_joint_name(place))
     parts = [f"{what} of joint {', '.join(hidden[what])}" for what in sorted(hidden)]
-    parts += _short_delays(seen, beta) if seen.tree and len(seen.joints) > 1 else []
+    parts += _bound_delays(seen, beta) if seen.is_tree and len(seen.joints) > 1 else []
     line = f"Not detectable in these logs: {'; '.join(parts)}"
-    return [Doubt(line, unseen=True)] if parts else []
+    return [DataWarning(line, is_undetectable=True)] if parts else []
 
 
-def _made(seen: Evidence, place: int, beta: np.ndarray) -> Iterator[tuple[str, Products]]:
+def _simulate_faults(
+    seen: Evidence, place: int, beta: np.ndarray
+) -> Iterator[tuple[str, NormalEquations]]:
     """Logs of the machine with a fault of one joint."""
     data, joint = (
-        _machine_data(seen, seen.rows.W, beta),
+        _simulate_data(seen, seen.rows.W, beta),
         seen.observation.joints[seen.joints[place]],
     )
-    yield "a wrong sign of the torque", _with_gain(data, place, -1.0)
-    yield "a scale error of 2 on the torque", _with_gain(data, place, 0.5)
-    if seen.tree and joint.unit == "rad":
-        W = seen.rows.turned(seen.compiled, zero(seen.observation, seen.joints[place], 90))
-        yield "a zero off by 90 degrees", _machine_data(seen, W, beta)
+    yield "a wrong sign of the torque", _apply_gain(data, place, -1.0)
+    yield "a scale error of 2 on the torque", _apply_gain(data, place, 0.5)
+    if seen.is_tree and joint.unit == "rad":
+        W = seen.rows.transform_columns(
+            seen.compiled, propose_zero(seen.observation, seen.joints[place], 90)
+        )
+        yield "a zero off by 90 degrees", _simulate_data(seen, W, beta)
 
 
-def _short_delays(seen: Evidence, beta: np.ndarray) -> list[str]:
+def _bound_delays(seen: Evidence, beta: np.ndarray) -> list[str]:
     """How late a joint may be before its error rises by a third, beside a fit."""
     short, never = list[str](), list[str]()
     for place, j in enumerate(seen.joints):
-        own, least = max(float(seen.errors[place]), FLOOR), _SHOWN
+        joint_error, least = max(float(seen.errors[place]), FLOOR), _SHOWN
         for _ in range(2):  # what a delay makes grows with it: hypot(made, own) = A_THIRD own
-            later = seen.rows.shifted(
+            later = seen.rows.shift_columns(
                 seen.compiled, least * np.eye(len(seen.observation.joints))[j]
             )
-            made = seen.judge.errors(_machine_data(seen, later, beta), possible=False)[place]
-            least *= own * (A_THIRD**2 - 1.0) ** 0.5 / max(float(made), 1e-3 * own)
+            made = seen.judge.compute_errors(_simulate_data(seen, later, beta), possible=False)[
+                place
+            ]
+            least *= joint_error * (A_THIRD**2 - 1.0) ** 0.5 / max(float(made), 1e-3 * joint_error)
             least = min(least, 1.1 * LONGEST)
         if least > LONGEST:
-            never.append(seen.name(place))
+            never.append(seen.get_joint_name(place))
         elif least > _DELAY:
-            short.append(f"{1e3 * least:.2g} ms of joint {seen.name(place)}")
+            short.append(f"{1e3 * least:.2g} ms of joint {seen.get_joint_name(place)}")
     parts = [f"a delay below {', '.join(short)}"] if short else []
     any_delay = f"any delay up to {1e3 * LONGEST:.0f} ms of joint {', '.join(never)}"
     return [*parts, any_delay] if never else parts
 
 
-def _hides(seen: Evidence, data: Products) -> bool:
+def _is_hidden(seen: Evidence, data: NormalEquations) -> bool:
     """True if a fault, made of the torques of the machine, adds too little to what is left now."""
     for possible in (False, True):  # what shows without a machine that can be built shows with it
-        made = np.hypot(seen.judge.errors(data, possible), seen.errors)
-        if _evidence_for(seen.errors, made) >= SURELY * ENOUGH:
+        made = np.hypot(seen.judge.compute_errors(data, possible), seen.errors)
+        if _compute_evidence(seen.errors, made) >= SURELY * ENOUGH:
             return False
     return True
 
 
-def _machine_data(seen: Evidence, W: np.ndarray, beta: np.ndarray) -> Products:
+def _simulate_data(seen: Evidence, W: np.ndarray, beta: np.ndarray) -> NormalEquations:
     """Of columns W and the torques that a machine makes in the logs as they are."""
-    return _products(W, seen.rows.W @ beta, seen.rows.used, seen.joints)
+    return _build_normal_equations(W, seen.rows.W @ beta, seen.rows.used, seen.joints)

@@ -11,7 +11,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from modeler.estimation.nearest_body import Machine, machine_of
+from modeler.estimation.nearest_body import PhysicalParameters, define_physical_parameters
 from modeler.observation import ThinnedRows
 from modeler.runtime import CompiledModel
 
@@ -37,7 +37,7 @@ _MOST_COLUMNS = 150  # of standard parameters; larger robots are asked for a fac
 
 
 @dataclass(frozen=True, eq=False)
-class Gravity:
+class GravityModel:
     """What rows of logs feel of gravity.
 
     Attributes:
@@ -47,12 +47,12 @@ class Gravity:
         stated: (k,) in the robot file.
     """
 
-    machine: Machine
+    machine: PhysicalParameters
     motion: np.ndarray
-    along: np.ndarray
+    per_axis: np.ndarray
     stated: np.ndarray
 
-    def candidates(
+    def propose_candidates(
         self, left: Callable[[np.ndarray], float], step: Callable[[np.ndarray], np.ndarray],
         turned: bool,
     ) -> list[np.ndarray]:  # fmt: skip
@@ -63,7 +63,7 @@ class Gravity:
             step: by Gauss and Newton, from a gravity to a better one.
             turned: True if other directions are asked for.
         """
-        found: list[np.ndarray] = []
+        candidates: list[np.ndarray] = []
         if self.stated.any():
             scan = list(_SCAN)
             for _ in range(_FINER):
@@ -76,29 +76,29 @@ class Gravity:
             rounded = [x for x in _ROUND if left(x * self.stated) <= enough]
             factor = rounded[0] if rounded else least
             if factor == 0.0 or min(abs(factor), abs(factor - 1.0)) > NEAR:
-                found.append(factor * self.stated)
+                candidates.append(factor * self.stated)
         if turned and len(self.stated) == 3:
             axes = [sign * _EARTH * axis for axis in np.eye(3) for sign in (1.0, -1.0)]
             starts = [self.stated, *sorted(axes, key=left)[:_STARTS]]
-            g = min((_descended(start, left, step) for start in starts), key=left)
+            g = min((_minimize_error(start, left, step) for start in starts), key=left)
             size = float(np.linalg.norm(self.stated)) or _EARTH
             as_large = g * size / max(float(np.linalg.norm(g)), _ROUNDING)
             if not 0.5 < np.linalg.norm(g) / size < 2.0 or left(as_large) <= left(g) + _AS_WELL:
                 g = as_large
-            if self._split(g)[1] > TURNED:
-                found.append(g)
-        return found
+            if self._compare_stated(g)[1] > TURNED:
+                candidates.append(g)
+        return candidates
 
-    def _split(self, g: np.ndarray) -> tuple[float, float]:
+    def _compare_stated(self, g: np.ndarray) -> tuple[float, float]:
         """Factor of the stated gravity, and rad between the two; 0 and pi / 2 where it is none."""
-        size, own = float(np.linalg.norm(self.stated)), float(np.linalg.norm(g))
+        size, length = float(np.linalg.norm(self.stated)), float(np.linalg.norm(g))
         factor = float(g @ self.stated / max(size, 1e-9) ** 2)
-        cosine = abs(g @ self.stated) / max(size * own, 1e-9) if own else 1.0
+        cosine = abs(g @ self.stated) / max(size * length, 1e-9) if length else 1.0
         return factor, float(np.arccos(min(1.0, cosine)))
 
-    def line(self, g: np.ndarray) -> str:
+    def format_line(self, g: np.ndarray) -> str:
         """What is to be said of it."""
-        factor, angle = self._split(g)
+        factor, angle = self._compare_stated(g)
         if angle > TURNED:
             stated, asked = (str((v.round(1) + 0.0).tolist()) for v in (self.stated, g))
             return (
@@ -123,7 +123,7 @@ class Gravity:
         )
 
 
-def _descended(
+def _minimize_error(
     g: np.ndarray, left: Callable[[np.ndarray], float], step: Callable[[np.ndarray], np.ndarray]
 ) -> np.ndarray:
     least = left(g)
@@ -135,7 +135,7 @@ def _descended(
     return g
 
 
-def gravity_of(compiled: CompiledModel, rows: ThinnedRows, free: bool) -> Gravity | None:
+def extract_gravity(compiled: CompiledModel, rows: ThinnedRows, free: bool) -> GravityModel | None:
     """What rows feel of gravity; None where they feel none of any direction.
 
     Args:
@@ -149,25 +149,25 @@ def gravity_of(compiled: CompiledModel, rows: ThinnedRows, free: bool) -> Gravit
     at_rest *= np.array([base.kind == "inertial" for base in compiled.spec.base])
     moving = whole - at_rest
     moving *= np.abs(moving).max(axis=(0, 1)) > _ROUNDING * np.abs(whole).max(axis=(0, 1))
-    motion, still = rows.filtered(moving), rows.filtered(at_rest)
-    machine = machine_of(compiled.spec)
+    motion, still = rows.filter_values(moving), rows.filter_values(at_rest)
+    machine = define_physical_parameters(compiled.spec)
     if free and compiled.spec.closure is None and len(machine.names) <= _MOST_COLUMNS:
-        along = _along_axes(compiled, rows, machine, q)
+        along = _evaluate_axes(compiled, rows, machine, q)
         if along is not None:
             felt = (still @ machine.K).ravel()
             flat = along.reshape(3, -1)
             stated = np.linalg.lstsq(flat @ flat.T, flat @ felt, rcond=1e-9)[0]
             if np.linalg.norm(stated @ flat - felt) <= 1e-4 * np.linalg.norm(felt):
-                own = replace(machine, K=np.eye(len(machine.names)))
+                standard_parameters = replace(machine, K=np.eye(len(machine.names)))
                 rounded = np.asarray(np.round(stated, 6) + 0.0)
-                return Gravity(own, motion @ machine.K, along, rounded)
+                return GravityModel(standard_parameters, motion @ machine.K, along, rounded)
     if not still.any():
         return None
-    return Gravity(machine, motion, still[None], np.ones(1))
+    return GravityModel(machine, motion, still[None], np.ones(1))
 
 
-def _along_axes(
-    compiled: CompiledModel, rows: ThinnedRows, machine: Machine, q: np.ndarray
+def _evaluate_axes(
+    compiled: CompiledModel, rows: ThinnedRows, machine: PhysicalParameters, q: np.ndarray
 ) -> np.ndarray | None:
     """(3, m, n, p) of 1 m/s^2 along each axis of frame 0; None where frames have no names."""
     slopes = [
@@ -178,7 +178,7 @@ def _along_axes(
         return None
     every = -np.stack(slopes, axis=1) / (2.0 * _STEP)  # (samples, n, links, 3, 4)
     every[np.abs(every) < _ROUNDING] = 0.0
-    felt = rows.filtered(every.reshape(*every.shape[:2], -1))
+    felt = rows.filter_values(every.reshape(*every.shape[:2], -1))
     felt = felt.reshape(*felt.shape[:2], *every.shape[2:])
     along = np.zeros((3, *felt.shape[:2], len(machine.names)))
     for link, places in enumerate(machine.links.values()):

@@ -9,16 +9,31 @@ from typing import Any
 import numpy as np
 
 from modeler.core.errors import DataError, Method
-from modeler.core.json import entries
-from modeler.estimation.covariance import Halves, coloured, halves
-from modeler.estimation.essential import NONE_LEAVES, Essential, essential_parameters, reduced_model
-from modeler.estimation.least_squares import Estimate, Problem, kept_rows, least_sigma, residual_of
-from modeler.estimation.methods import method_of
+from modeler.core.json import select_attributes
+from modeler.estimation.covariance import HalvesComparison, compare_halves, estimate_hac_covariance
+from modeler.estimation.essential import (
+    NONE_LEAVES,
+    EssentialParameters,
+    build_reduced_model,
+    select_essential_parameters,
+)
+from modeler.estimation.least_squares import (
+    Estimate,
+    Problem,
+    compute_base_residual,
+    compute_least_sigma,
+    select_rows,
+)
+from modeler.estimation.methods import find_method
 from modeler.estimation.parameter import ParameterEstimate
-from modeler.estimation.prior import Prior, describe_unused_prior, prior_of
+from modeler.estimation.prior import Prior, build_prior, describe_unused_prior
 from modeler.estimation.result import FitResult, JointFit
-from modeler.numerics.least_squares import Compressed, compress, scaled_least_squares
-from modeler.observation import SAMPLES, Observation, is_streamed, triangles
+from modeler.numerics.least_squares import (
+    CompressedRegression,
+    compress_rows,
+    solve_scaled_least_squares,
+)
+from modeler.observation import SAMPLES, Observation, compute_triangles, is_streamed
 from modeler.runtime import CompiledModel
 
 
@@ -42,7 +57,7 @@ class Equations:
     names: tuple[str, ...]
     units: tuple[str, ...]
     sentences: tuple[str, ...] = ()
-    carried: tuple[str, ...] = ()
+    loaded_logs: tuple[str, ...] = ()
 
     @cached_property
     def W(self) -> np.ndarray:
@@ -51,19 +66,19 @@ class Equations:
         return np.column_stack([W, self.extra]) if self.extra.shape[1] else W
 
     @property
-    def kept(self) -> np.ndarray | None:
+    def stored_matrix(self) -> np.ndarray | None:
         """W; None where it is large and the base parameters' alone: then rows are to pass by."""
-        return None if not self.carried and is_streamed(self.observation) else self.W
+        return None if not self.loaded_logs and is_streamed(self.observation) else self.W
 
-    def conditions(self, counted: np.ndarray) -> dict[str, np.ndarray]:
+    def select_conditions(self, counted: np.ndarray) -> dict[str, np.ndarray]:
         """(rows,) True for the counted ones, "bare" and "loaded"; empty if no log has a load."""
-        if not self.carried:
+        if not self.loaded_logs:
             return {}
         logs = np.array(self.observation.logs)
-        loaded = np.isin(logs, self.carried)[self.observation.row_run]
+        loaded = np.isin(logs, self.loaded_logs)[self.observation.row_run]
         return {"bare": counted & ~loaded, "loaded": counted & loaded}
 
-    def with_columns(self, columns: np.ndarray, names: Sequence[str]) -> "Equations":
+    def append_columns(self, columns: np.ndarray, names: Sequence[str]) -> "Equations":
         """The same with further columns (rows, k), and the torques as they were measured."""
         return dataclasses.replace(
             self,
@@ -73,24 +88,28 @@ class Equations:
             units=(*self.units, *("1" for _ in names)),
         )
 
-    def compressed(self, counted: np.ndarray, weight: np.ndarray | None = None) -> Compressed:
+    def compress_rows(
+        self, counted: np.ndarray, weight: np.ndarray | None = None
+    ) -> CompressedRegression:
         """Some rows, compressed; each with its weight (rows,), if that is given."""
-        joints, own = self.observation.joints, self.observation.row_joint[counted]
+        joints, row_joint = self.observation.joints, self.observation.row_joint[counted]
         free = [j for j, joint in enumerate(joints) if not joint.actuated]
         if weight is not None:
             root = np.sqrt(weight[counted])
             W, y = self.W[counted] * root[:, None], self.y[counted] * root
-            return compress(W, y, own, len(joints), self.names, free)
-        if (W := self.kept) is None:
-            found = triangles(self.observation, kept_rows(self.observation, counted))
-            rows, idle = found.rows.astype(np.intp), np.isin(np.arange(len(joints)), free)
-            return Compressed(self.names, found.triangles, rows, idle)
-        return compress(W[counted], self.y[counted], own, len(joints), self.names, free)
+            return compress_rows(W, y, row_joint, len(joints), self.names, free)
+        if (W := self.stored_matrix) is None:
+            joint_triangles = compute_triangles(
+                self.observation, select_rows(self.observation, counted)
+            )
+            rows, idle = joint_triangles.rows.astype(np.intp), np.isin(np.arange(len(joints)), free)
+            return CompressedRegression(self.names, joint_triangles.triangles, rows, idle)
+        return compress_rows(W[counted], self.y[counted], row_joint, len(joints), self.names, free)
 
-    def residual(self, beta: np.ndarray, counted: np.ndarray) -> np.ndarray:
+    def compute_residual(self, beta: np.ndarray, counted: np.ndarray) -> np.ndarray:
         """y - W beta of some rows."""
-        if (W := self.kept) is None:
-            return residual_of(self.observation, beta, counted)
+        if (W := self.stored_matrix) is None:
+            return compute_base_residual(self.observation, beta, counted)
         return np.asarray(self.y[counted] - W[counted] @ beta)
 
 
@@ -108,16 +127,17 @@ def identify(
         observation: of one or several logs.
         method: the estimator, see `estimation.methods`.
         model: the compiled robot, for estimators that simulate it or know its nominal values.
-        below: percent, of the rule by sigmas for what is essential; see `essential_parameters`.
+        below: percent, of the rule by sigmas for what is essential; see
+            `select_essential_parameters`.
 
     Raises:
         DataError: fewer rows than parameters, no torque at all, no such method, or one that these
             logs or this robot give nothing to work on.
     """
-    return fit_equations(observation, base_equations(observation), method, model, below)
+    return fit_equations(observation, build_base_equations(observation), method, model, below)
 
 
-def base_equations(observation: Observation) -> Equations:
+def build_base_equations(observation: Observation) -> Equations:
     """The equations of the bare robot."""
     none = np.zeros((len(observation.y), 0))
     return Equations(observation, none, observation.y, observation.names, observation.units)
@@ -130,7 +150,7 @@ def fit_equations(
     model: CompiledModel | None = None,
     below: float | None = None,
     noise_only: bool = False,
-    data: Compressed | None = None,
+    data: CompressedRegression | None = None,
     share: float = 1.0,
 ) -> FitResult:
     """The fit of y = W beta; equations row for row those of the observation, else as `identify`.
@@ -141,79 +161,105 @@ def fit_equations(
     far residuals remember, what halves disagree about, and by what factors that raises the sigmas,
     comes from the windows.
     """
-    estimator, windows = method_of(method), data is not None
-    dead, alive = dead_joints(observation), alive_rows(observation)
-    data = data or equations.compressed(alive)
+    estimator, windows = find_method(method), data is not None
+    dead, alive = find_disconnected_joints(observation), find_connected_rows(observation)
+    data = data or equations.compress_rows(alive)
     columns, count = len(equations.names), int(data.rows.sum())
     if count < columns:
         raise DataError(
             f"{', '.join(observation.logs)}: {count} rows for {columns} parameters; record "
             "more motion, or filter less (a higher --parallel-cutoff keeps more rows)"
         )
-    problem = Problem(observation, equations.kept, equations.y, alive, equations.names, data, model)
+    problem = Problem(
+        observation, equations.stored_matrix, equations.y, alive, equations.names, data, model
+    )
     prior, unused = None, tuple[str, ...]()
     if model is not None and not noise_only:
         if estimator.takes_prior:
-            prior = prior_of(model.spec)
+            prior = build_prior(model.spec)
         else:
             use = "; the values of the robot file are a guide that the data overrule"
             unused = describe_unused_prior(model.spec, f"method {method}", use)
     estimate = estimator.estimate(problem)
-    colour = coloured(problem, estimate, share=share)
+    autocorrelation = estimate_hac_covariance(problem, estimate, share=share)
     white = np.sqrt(np.diag(estimate.covariance))
-    differ = Halves(np.ones(len(white)))
+    differ = HalvesComparison(np.ones(len(white)))
     if not noise_only:
-        lasting = np.zeros(len(observation.joints)) if windows else colour.lasting
-        differ = halves(  # windows tell a difference by so much less surely than all rows
-            observation, lambda rows: equations.compressed(rows, estimate.weight), alive, estimate,
-            colour.factors * white / share**0.5, lasting, equations.conditions(alive).get("loaded"),
-        )  # fmt: skip
-    told = differ.doubts(equations.names, [joint.name for joint in observation.joints])
+        lasting = np.zeros(len(observation.joints)) if windows else autocorrelation.lag1
+        differ = compare_halves(  # windows tell a difference by so much less surely than all rows
+            observation,
+            lambda rows: equations.compress_rows(rows, estimate.weight),
+            alive,
+            estimate,
+            autocorrelation.factors * white / share**0.5,
+            lasting,
+            equations.select_conditions(alive).get("loaded"),
+        )
+    warnings = differ.collect_warnings(
+        equations.names, [joint.name for joint in observation.joints]
+    )
     raised = np.sqrt(1.0 + (differ.factors**2 - 1.0) / share)
-    factors = colour.factors * raised
+    factors = autocorrelation.factors * raised
     covariance = estimate.covariance * np.outer(factors, factors)
     if prior is not None:  # rows that repeat each other weigh less beside it
-        full = colour.raised(estimate.covariance)
+        full = autocorrelation.inflate_covariance(estimate.covariance)
         more = np.maximum(np.diag(covariance) - np.diag(full), 0.0)
-        estimate = prior.applied(estimate, data, full, more, [j.name for j in observation.joints])
-    essential = essential_parameters(data, estimate, method, below)
+        estimate = prior.combine_with_data(
+            estimate, data, full, more, [j.name for j in observation.joints]
+        )
+    essential = select_essential_parameters(data, estimate, method, below)
     at = [equations.names.index(name) for name in essential.names]
     if essential.dropped and below is None and not noise_only:
-        errors, as_good = held_out_errors(equations, alive, estimate.sigma, prior, at)
+        errors, as_good = compute_held_out_errors(equations, alive, estimate.sigma, prior, at)
         if not as_good:
-            essential = essential_parameters(data, estimate, method, NONE_LEAVES)
+            essential = select_essential_parameters(data, estimate, method, NONE_LEAVES)
         essential = dataclasses.replace(essential, held_out=errors)
         at = [equations.names.index(name) for name in essential.names]
     reduced = np.ones(len(at))
     if prior is None:
-        reduced = raised[at] * coloured(problem, essential.reduced, at, share).factors
+        reduced = (
+            raised[at] * estimate_hac_covariance(problem, essential.reduced, at, share).factors
+        )
         estimate = dataclasses.replace(estimate, covariance=covariance)
-    return result_of(
-        equations, method, estimate, essential, data, estimate.sigma,
+    return build_result(
+        equations,
+        method,
+        estimate,
+        essential,
+        data,
+        estimate.sigma,
         rows=count,
-        sentences=(*equations.sentences, *unused, *_not_connected(observation, dead),
-                   *estimate.sentences,
-                   *(tangle.sentence() for tangle in estimate.rank.aside), *estimate.unsettled(),
-                   essential.sentence(data, estimate.beta), *colour.sentences(),
-                   *(doubt.line for doubt in told),
-                   *bands_disagree(observation, estimate)),
+        sentences=(
+            *equations.sentences,
+            *unused,
+            *_describe_disconnected(observation, dead),
+            *estimate.sentences,
+            *(tangle.describe() for tangle in estimate.rank.dropped_columns),
+            *estimate.describe_nonconvergence(),
+            essential.describe(data, estimate.beta),
+            *autocorrelation.format_sentences(),
+            *(doubt.line for doubt in warnings),
+            *compare_bands(observation, estimate),
+        ),
         reduced=reduced,
         standard=estimate.standard,
         own=estimate.sentences,
-        of_joints=tuple(told),
+        of_joints=tuple(warnings),
         by_load={
-            name: joints_of(observation, equations.compressed(own), estimate.beta, estimate.sigma)
-            for name, own in equations.conditions(alive).items()
+            name: build_joint_fits(
+                observation, equations.compress_rows(is_counted), estimate.beta, estimate.sigma
+            )
+            for name, is_counted in equations.select_conditions(alive).items()
         },
-    )  # fmt: skip
+    )
 
 
-def result_of(
+def build_result(
     equations: Equations,
     method: str,
     estimate: Estimate,
-    essential: Essential,
-    data: Compressed,
+    essential: EssentialParameters,
+    data: CompressedRegression,
     sigma_of_rows: np.ndarray | None = None,
     reduced: np.ndarray | None = None,
     **further: Any,
@@ -231,32 +277,40 @@ def result_of(
         **further: fields of the result.
     """
     observation, count = equations.observation, len(equations.observation.names)
-    before, after = essential.errors(data, estimate.beta)
+    before, after = essential.compute_errors(data, estimate.beta)
     labels = list(zip(equations.names, equations.units, strict=True))
-    alone = None if reduced is None else reduced_model(essential, reduced, dict(labels), after)
-    settled = "ok" if estimate.settled else "not settled"
-    sigma, told = np.sqrt(np.diag(estimate.covariance)), set(estimate.rank.kept)
+    alone = (
+        None if reduced is None else build_reduced_model(essential, reduced, dict(labels), after)
+    )
+    settled = "ok" if estimate.is_converged else "not settled"
+    sigma, estimated = np.sqrt(np.diag(estimate.covariance)), set(estimate.rank.kept_columns)
     every = tuple(
         ParameterEstimate(
             name=name,
             unit=unit,
             value=float(estimate.beta[i]),
-            sigma=float(sigma[i]) if i in told else None,
+            sigma=float(sigma[i]) if i in estimated else None,
             essential=name in essential.names,
-            status="held" if name in estimate.held else "estimated" if i in told else "set aside",
-            prior=float(estimate.share[i]) if estimate.share is not None and i in told else None,
+            status="held"
+            if name in estimate.fixed_names
+            else "estimated"
+            if i in estimated
+            else "set aside",
+            prior=float(estimate.prior_share[i])
+            if estimate.prior_share is not None and i in estimated
+            else None,
         )
         for i, (name, unit) in enumerate(labels)
     )
     return FitResult(
         robot=observation.robot,
         method=method,
-        status="rank deficient" if estimate.rank.aside else settled,
+        status="rank deficient" if estimate.rank.dropped_columns else settled,
         samples=len(observation.time),
-        **entries(estimate, "condition_number condition_scaled contradicted"),
+        **select_attributes(estimate, "condition_number condition_scaled contradicted"),
         relative_error=before,
         essential_error=after,
-        joints=joints_of(observation, data, estimate.beta, sigma_of_rows),
+        joints=build_joint_fits(observation, data, estimate.beta, sigma_of_rows),
         parameters=every[:count],
         covariance=estimate.covariance[:count, :count],
         loads=every[count:],
@@ -267,17 +321,20 @@ def result_of(
     )
 
 
-def all_rows(observation: Observation) -> Compressed:
+def compress_all_rows(observation: Observation) -> CompressedRegression:
     """The equations of the bare robot on all joints whose torque is connected."""
-    return base_equations(observation).compressed(alive_rows(observation))
+    return build_base_equations(observation).compress_rows(find_connected_rows(observation))
 
 
-def alive_rows(observation: Observation) -> np.ndarray:
-    """(rows,) True for those of joints whose torque is connected, see `dead_joints`."""
-    return ~np.isin(observation.row_joint, dead_joints(observation))
+def find_connected_rows(observation: Observation) -> np.ndarray:
+    """(rows,) True for those of joints whose torque is connected.
+
+    See " "`find_disconnected_joints`.
+    """
+    return ~np.isin(observation.row_joint, find_disconnected_joints(observation))
 
 
-def dead_joints(observation: Observation) -> list[int]:
+def find_disconnected_joints(observation: Observation) -> list[int]:
     """Indices of the joints that have a motor and a torque of 0 in all their rows.
 
     0 = W_j beta from a channel that is not connected would pull all of beta to 0.
@@ -296,7 +353,7 @@ def dead_joints(observation: Observation) -> list[int]:
     return dead
 
 
-def _not_connected(observation: Observation, dead: Sequence[int]) -> list[str]:
+def _describe_disconnected(observation: Observation, dead: Sequence[int]) -> list[str]:
     """A line on each joint whose torque is not connected."""
     return [
         f"joint {observation.joints[j].name}: its torque is 0 in every row, so none of them is "
@@ -305,10 +362,10 @@ def _not_connected(observation: Observation, dead: Sequence[int]) -> list[str]:
     ]
 
 
-def relative_errors(observation: Observation, beta: np.ndarray) -> dict[str, float]:
+def compute_relative_errors(observation: Observation, beta: np.ndarray) -> dict[str, float]:
     """||y_j - W_j beta|| / ||y_j|| by joint: the one number that is called error."""
     count, joint = len(observation.joints), observation.row_joint
-    left = np.bincount(joint, residual_of(observation, beta) ** 2, count)
+    left = np.bincount(joint, compute_base_residual(observation, beta) ** 2, count)
     total = np.bincount(joint, observation.y**2, count)
     return {
         each.name: float(np.sqrt(a / b))
@@ -317,13 +374,16 @@ def relative_errors(observation: Observation, beta: np.ndarray) -> dict[str, flo
     }
 
 
-def joints_of(
-    observation: Observation, data: Compressed, beta: np.ndarray, sigma: np.ndarray | None = None
+def build_joint_fits(
+    observation: Observation,
+    data: CompressedRegression,
+    beta: np.ndarray,
+    sigma: np.ndarray | None = None,
 ) -> tuple[JointFit, ...]:
     """What is left of each joint; without a `sigma` (n,) of its rows, that is it."""
-    residual, torque = data.residual_norms(beta), data.torque_norms()
+    residual, torque = data.compute_residual_norms(beta), data.compute_torque_norms()
     if sigma is None:
-        sigma = np.maximum(residual / np.sqrt(np.maximum(data.rows, 1)), least_sigma(data))
+        sigma = np.maximum(residual / np.sqrt(np.maximum(data.rows, 1)), compute_least_sigma(data))
     return tuple(
         JointFit(
             name=joint.name,
@@ -341,7 +401,7 @@ DISAGREE = 4.0
 """Standard deviations by which the widest cut-offs and the chosen ones may disagree unsaid."""
 
 
-def bands_disagree(observation: Observation, estimate: Estimate) -> list[str]:
+def compare_bands(observation: Observation, estimate: Estimate) -> list[str]:
     """A sentence where wider filters give other values: the noise of the motion bends those."""
     values = np.array(observation.report.bands.widest_values)
     if not values.size:
@@ -383,13 +443,13 @@ class CrossValidation:
     """
 
     errors: np.ndarray
-    swing: float
+    half_period: float
     stretches: int
     residual: np.ndarray = field(default_factory=lambda: np.zeros(0))
     fold: np.ndarray = field(default_factory=lambda: np.zeros(0, dtype=int))
 
 
-def errors_on(equations: Equations, residual: np.ndarray, rows: np.ndarray) -> np.ndarray:
+def compute_errors(equations: Equations, residual: np.ndarray, rows: np.ndarray) -> np.ndarray:
     """(n,) ||y_j - W_j beta|| / ||y_j|| on some of the rows, of a residual (rows,) of all."""
     joint, count = equations.observation.row_joint[rows], len(equations.observation.joints)
     left = np.bincount(joint, residual[rows] ** 2, count)
@@ -397,7 +457,7 @@ def errors_on(equations: Equations, residual: np.ndarray, rows: np.ndarray) -> n
     return np.sqrt(np.divide(left, total, out=np.full(count, np.nan), where=total > 0.0))
 
 
-def crossed(
+def cross_validate(
     equations: Equations,
     rows: np.ndarray,
     sigma: np.ndarray,
@@ -427,28 +487,30 @@ def crossed(
     moving = (speed > 1e-6 * speed.max(initial=0.0)) & (acceleration > 0.0)
     periods = np.pi * speed[moving] / acceleration[moving]
     swing = float(np.median(periods)) if moving.any() else 0.0
-    number = _stretches(observation, swing)
+    number = _count_stretches(observation, swing)
     seen = np.unique(number[observation.row_sample[rows]])
     fold = np.searchsorted(seen, number[observation.row_sample]) % FOLDS
     folds = [rows & (fold == k) for k in range(min(FOLDS, len(seen)))]
-    parts = [equations.compressed(own).whole(sigma) for own in folds]
+    parts = [equations.compress_rows(fold_rows).combine_joints(sigma) for fold_rows in folds]
     residual, known = np.zeros(len(equations.y)), parts[0][:0]
     if prior is not None:
-        known = prior.beside(np.linalg.norm(np.vstack(parts)[:, :-1], axis=0))
-    for k, own in enumerate(folds):
+        known = prior.extend_rows(np.linalg.norm(np.vstack(parts)[:, :-1], axis=0))
+    for k, fold_rows in enumerate(folds):
         if refit is None:
             others = np.vstack([known, *parts[:k], *parts[k + 1 :]])
             beta = np.zeros(others.shape[1] - 1)
             own_columns = np.arange(len(beta)) if columns is None else np.asarray(columns)
-            beta[own_columns] = scaled_least_squares(others[:, own_columns], others[:, -1], SEEN)
+            beta[own_columns] = solve_scaled_least_squares(
+                others[:, own_columns], others[:, -1], SEEN
+            )
         else:
             beta = refit(np.searchsorted(seen, number) % FOLDS == k)
-        residual[own] = equations.residual(beta, own)
-    errors = errors_on(equations, residual, rows)
+        residual[fold_rows] = equations.compute_residual(beta, fold_rows)
+    errors = compute_errors(equations, residual, rows)
     return CrossValidation(errors, swing, len(seen), residual, fold)
 
 
-def held_out_errors(
+def compute_held_out_errors(
     equations: Equations, rows: np.ndarray, sigma: np.ndarray, prior: Prior | None,
     columns: Sequence[int],
 ) -> tuple[tuple[float, float], bool]:  # fmt: skip
@@ -457,25 +519,33 @@ def held_out_errors(
     They are if the mean over the folds of the logarithm of their error, rows weighed, is larger
     than that of all by no more than its standard error.
     """
-    every, some = (crossed(equations, rows, sigma, None, prior, own) for own in (None, columns))
+    every, some = (
+        cross_validate(equations, rows, sigma, None, prior, selection)
+        for selection in (None, columns)
+    )
     size = sigma[equations.observation.row_joint[rows]]
-    left = [np.bincount(some.fold[rows], (own.residual[rows] / size) ** 2) for own in (every, some)]
+    left = [
+        np.bincount(some.fold[rows], (selection.residual[rows] / size) ** 2)
+        for selection in (every, some)
+    ]
     seen = (left[0] > 0.0) & (left[1] > 0.0)
     change = 0.5 * np.log(left[1][seen] / left[0][seen])
     spread = np.std(change, ddof=1) / len(change) ** 0.5 if len(change) > 1 else 0.0
     total = float(np.linalg.norm(equations.y[rows])) or np.nan
-    before, after = (float(np.linalg.norm(own.residual[rows])) / total for own in (every, some))
+    before, after = (
+        float(np.linalg.norm(selection.residual[rows])) / total for selection in (every, some)
+    )
     return (before, after), bool(len(change) and change.mean() <= spread)
 
 
-def _stretches(observation: Observation, swing: float) -> np.ndarray:
+def _count_stretches(observation: Observation, swing: float) -> np.ndarray:
     """(s,) number of the stretch of each sample, ascending over the logs."""
     number, first = np.zeros(len(observation.time), dtype=int), 0
     for run in range(len(observation.logs)):
-        own = observation.run == run
-        if not own.any():
+        is_in_run = observation.run == run
+        if not is_in_run.any():
             continue
-        since = observation.time[own] - observation.time[own].min()
-        number[own] = first + (np.floor(since / swing).astype(int) if swing > 0.0 else 0)
-        first = int(number[own].max()) + 1
+        since = observation.time[is_in_run] - observation.time[is_in_run].min()
+        number[is_in_run] = first + (np.floor(since / swing).astype(int) if swing > 0.0 else 0)
+        first = int(number[is_in_run].max()) + 1
     return number

@@ -7,12 +7,23 @@ from dataclasses import dataclass
 import numpy as np
 
 from modeler.core.errors import DataError
-from modeler.core.table import percent
-from modeler.estimation.consistent import as_buildable, buildable
+from modeler.core.table import format_percent
+from modeler.estimation.consistent import estimate_consistent, make_consistent
 from modeler.estimation.direct_model import ControlLoop, DirectModel
-from modeler.estimation.least_squares import Estimate, Problem, least_sigma, least_squares, placed
-from modeler.estimation.robust import robust
-from modeler.numerics.least_squares import column_lengths, compress, independent_columns, triangle
+from modeler.estimation.least_squares import (
+    Estimate,
+    Problem,
+    compute_least_sigma,
+    expand_columns,
+    solve_least_squares,
+)
+from modeler.estimation.robust import estimate_robust
+from modeler.numerics.least_squares import (
+    compress_rows,
+    compute_column_norms,
+    compute_triangle,
+    find_independent_columns,
+)
 
 # Instrumental variables: what the noise of the measured motion cannot bias.
 
@@ -24,7 +35,7 @@ _WEAK = 0.3  # and at which they tell so little that it is said
 
 
 @dataclass(frozen=True, eq=False)
-class _Solved:
+class _InstrumentalSolution:
     """beta = P S^-1/2 y, k columns kept."""
 
     beta: np.ndarray
@@ -34,7 +45,7 @@ class _Solved:
     whole: np.ndarray  # (k, k + 1) projected equations
 
 
-def with_instruments(problem: Problem, Z: np.ndarray, method: str) -> Estimate:
+def estimate_with_instruments(problem: Problem, Z: np.ndarray, method: str) -> Estimate:
     """beta = (Z^T S^-1 W)^-1 Z^T S^-1 y, S = diag sigma_j^2 of y - W beta, iterated.
 
     Consistent where the instruments Z are uncorrelated with the noise of y and of W; the covariance
@@ -46,35 +57,40 @@ def with_instruments(problem: Problem, Z: np.ndarray, method: str) -> Estimate:
         Z: (rows, c) the columns of W along a motion that the noise did not touch.
         method: for the refusal, DataError, of instruments that tell nothing of a parameter.
     """
-    data, counted, joint = problem.data, problem.counted, problem.joint[problem.counted]
-    start = least_squares(problem.data, "weighted")
-    kept = np.asarray(start.rank.kept, dtype=int)
-    W, Z, y = problem.W[counted][:, kept], Z[counted][:, kept], problem.y[counted]
+    data, counted, joint = problem.data, problem.counted, problem.row_joint[problem.counted]
+    start = solve_least_squares(problem.data, "weighted")
+    kept_columns = np.asarray(start.rank.kept_columns, dtype=int)
+    W, Z, y = problem.W[counted][:, kept_columns], Z[counted][:, kept_columns], problem.y[counted]
     # Instruments that depend on each other where the columns do not.
-    aside = independent_columns(triangle(Z), [problem.names[i] for i in kept]).aside
+    aside = find_independent_columns(
+        compute_triangle(Z), [problem.names[i] for i in kept_columns]
+    ).dropped_columns
     if aside:
-        raise DataError(_refusal(method, aside[0].name))
+        raise DataError(_format_refusal(method, aside[0].name))
     sigma, settled, iterations = start.sigma, False, 0
     while not settled and iterations < _ITERATIONS:
-        found = _solved(W, Z, y, sigma[joint])
-        if found.cosine < _BLIND:
-            raise DataError(_refusal(method, problem.names[kept[found.worst]]))
+        solution = _solve_instruments(W, Z, y, sigma[joint])
+        if solution.cosine < _BLIND:
+            raise DataError(_format_refusal(method, problem.names[kept_columns[solution.worst]]))
         # sigma_j^2 = |r_j|^2 / (rows_j - h_j), h_j the trace of joint j's part of W P.
-        hat = np.einsum("rk,kr->r", W / sigma[joint][:, None], found.P)
-        squares = np.bincount(joint, (y - W @ found.beta) ** 2, len(data.rows))
+        hat = np.einsum("rk,kr->r", W / sigma[joint][:, None], solution.P)
+        squares = np.bincount(joint, (y - W @ solution.beta) ** 2, len(data.rows))
         degrees = data.rows - np.bincount(joint, hat, len(data.rows))
         spread = np.sqrt(squares / np.maximum(degrees, 0.5))
         spread = np.where(data.free | (data.rows == 0), start.sigma, spread)
-        before, sigma = sigma, np.maximum(spread, least_sigma(data))
+        before, sigma = sigma, np.maximum(spread, compute_least_sigma(data))
         settled = bool(np.all(np.abs(sigma / before - 1.0) < _SETTLED))
         iterations += 1
-    beta, covariance = placed(len(start.beta), kept, found.beta, found.P @ found.P.T)
+    beta, covariance = expand_columns(
+        len(start.beta), kept_columns, solution.beta, solution.P @ solution.P.T
+    )
     # Qz^T S^-1/2 W beta = Qz^T S^-1/2 y, which beta satisfies, above what it leaves.
-    whole = np.zeros((len(kept) + 1, len(beta) + 1))
-    whole[:-1, [*kept, -1]] = found.whole
-    whole[-1, -1] = np.linalg.norm((y - W @ found.beta) / sigma[joint])
+    whole = np.zeros((len(kept_columns) + 1, len(beta) + 1))
+    whole[:-1, [*kept_columns, -1]] = solution.whole
+    whole[-1, -1] = np.linalg.norm((y - W @ solution.beta) / sigma[joint])
     weak = (
-        f"the instruments are weak: of one combination of parameters they carry {found.cosine:.2g} "
+        "the instruments are weak: of one combination of parameters they carry "
+        f"{solution.cosine:.2g} "
         "of its column; noise then biases it as without instruments, and its sigma is too small",
     )
     return dataclasses.replace(
@@ -83,28 +99,30 @@ def with_instruments(problem: Problem, Z: np.ndarray, method: str) -> Estimate:
         covariance=covariance,
         sigma=sigma,
         iterations=iterations,
-        settled=settled,
-        sentences=weak if found.cosine <= _WEAK else (),
-        pull=problem.scattered(kept, (found.P / sigma[joint]).T),
+        is_converged=settled,
+        sentences=weak if solution.cosine <= _WEAK else (),
+        influence=problem.expand_rows(kept_columns, (solution.P / sigma[joint]).T),
         whole=whole,
     )
 
 
-def _solved(W: np.ndarray, Z: np.ndarray, y: np.ndarray, sigma: np.ndarray) -> _Solved:
+def _solve_instruments(
+    W: np.ndarray, Z: np.ndarray, y: np.ndarray, sigma: np.ndarray
+) -> _InstrumentalSolution:
     lengths = np.linalg.norm(W / sigma[:, None], axis=0)
     X, y = W / sigma[:, None] / lengths, y / sigma
     instruments = Z / sigma[:, None]
-    Qz, _ = np.linalg.qr(instruments / column_lengths(instruments))
+    Qz, _ = np.linalg.qr(instruments / compute_column_norms(instruments))
     Qw, Rw = np.linalg.qr(X)
     cosine = float(np.linalg.svd(Qz.T @ Qw, compute_uv=False).min(initial=1.0))
     across = Qz.T @ Qw @ Rw
     worst = int(np.argmin(np.linalg.norm(across, axis=0)))
     P = np.linalg.lstsq(across, Qz.T, rcond=None)[0] / lengths[:, None]
     whole = np.column_stack([across * lengths, Qz.T @ y])
-    return _Solved(P @ y, P, cosine, worst, whole)
+    return _InstrumentalSolution(P @ y, P, cosine, worst, whole)
 
 
-def _refusal(method: str, name: str) -> str:
+def _format_refusal(method: str, name: str) -> str:
     return (
         f'method "{method}": the instruments tell nothing of a parameter; got it for {name}; '
         'expected a commanded motion that moves all joints as the log does; use method "weighted"'
@@ -116,16 +134,16 @@ _WORSE = 1.5  # error along the logged motion over that of the start, from which
 _NEAR = 0.1  # step, in standard deviations, at which the simulation need not be repeated
 
 
-def iv(problem: Problem, method: str = "iv") -> Estimate:
+def estimate_iv(problem: Problem, method: str = "iv") -> Estimate:
     """Instruments by the inverse model: the regressor along the commanded motion.
 
-    Noise of the encoders is in W and not in what was commanded; see `with_instruments`.
+    Noise of the encoders is in W and not in what was commanded; see `estimate_with_instruments`.
 
     Raises:
         DataError: a log without commanded positions.
     """
     observation = problem.observation
-    robot = DirectModel(problem.robot(method), observation)
+    robot = DirectModel(problem.require_robot(method), observation)
     for segment in robot.segments:
         if segment.commanded is None:
             raise DataError(
@@ -133,15 +151,18 @@ def iv(problem: Problem, method: str = "iv") -> Estimate:
                 f"got no complete columns qc{observation.joints[0].name} ...; log those of all "
                 'joints, or use method "weighted" or "iv-direct"'
             )
-    return with_instruments(problem, robot.columns(robot.references), method)
+    return estimate_with_instruments(problem, robot.evaluate_columns(robot.references), method)
 
 
-def iv_consistent(problem: Problem) -> Estimate:
-    """The machine that could be built nearest to `iv`, in the metric of its own equations."""
-    return as_buildable(problem, iv(problem, "iv-consistent"), "iv-consistent")
+def estimate_iv_consistent(problem: Problem) -> Estimate:
+    """The machine that could be built nearest to `estimate_iv`.
+
+    In the metric of its own " "equations.
+    """
+    return make_consistent(problem, estimate_iv(problem, "iv-consistent"), "iv-consistent")
 
 
-def iv_direct(problem: Problem) -> Estimate:
+def estimate_iv_direct(problem: Problem) -> Estimate:
     """Instruments by the direct model: the regressor along the simulated motion, repeated.
 
     The robot with the values of the last estimate follows the log (`direct_model`); the first
@@ -151,25 +172,27 @@ def iv_direct(problem: Problem) -> Estimate:
         DataError: a joint without a motor, or a fit that cannot be simulated.
     """
     method = "iv-direct"
-    return _repeated(problem, method, _weighted, lambda Z: with_instruments(problem, Z, method))
+    return _iterate_simulation(
+        problem, method, _fit_weighted, lambda Z: estimate_with_instruments(problem, Z, method)
+    )
 
 
-def iv_direct_consistent(problem: Problem) -> Estimate:
+def estimate_iv_direct_consistent(problem: Problem) -> Estimate:
     """The same, and every machine that is simulated could be built."""
     method = "iv-direct-consistent"
 
     def estimate(Z: np.ndarray) -> Estimate:
-        return as_buildable(problem, with_instruments(problem, Z, method), method)
+        return make_consistent(problem, estimate_with_instruments(problem, Z, method), method)
 
-    return _repeated(problem, method, buildable, estimate)
-
-
-def _weighted(problem: Problem) -> Estimate:
-    return least_squares(problem.data, "weighted")
+    return _iterate_simulation(problem, method, estimate_consistent, estimate)
 
 
-def didim(
-    problem: Problem, method: str = "didim", solve: Callable[[Problem], Estimate] = _weighted
+def _fit_weighted(problem: Problem) -> Estimate:
+    return solve_least_squares(problem.data, "weighted")
+
+
+def estimate_didim(
+    problem: Problem, method: str = "didim", solve: Callable[[Problem], Estimate] = _fit_weighted
 ) -> Estimate:
     """min sum_j |y_j - W_j(q_s(beta)) beta|^2 / sigma_j^2, q_s the simulated motion.
 
@@ -188,60 +211,65 @@ def didim(
     Raises:
         DataError: a joint without a motor, or a fit that cannot be simulated.
     """
-    return _repeated(problem, method, solve, lambda W: _along(problem, W, solve))
+    return _iterate_simulation(problem, method, solve, lambda W: _fit_along(problem, W, solve))
 
 
-def didim_robust(problem: Problem) -> Estimate:
-    """`didim` whose steps are `robust` fits: rows that do not fit lose their say in each of them.
+def estimate_didim_robust(problem: Problem) -> Estimate:
+    """`estimate_didim` whose steps are `estimate_robust` fits.
+
+    Rows that do not fit lose their say in each of them.
 
     A push or a spike is in the torques and not in the simulated motion.
     """
-    return didim(problem, "didim-robust", robust)
+    return estimate_didim(problem, "didim-robust", estimate_robust)
 
 
-def didim_consistent(problem: Problem) -> Estimate:
-    """`didim` whose steps are machines that could be built: their inertia matrices are such."""
-    return didim(problem, "didim-consistent", buildable)
+def estimate_didim_consistent(problem: Problem) -> Estimate:
+    """`estimate_didim` whose steps are machines that could be built.
+
+    Their inertia matrices are " "such.
+    """
+    return estimate_didim(problem, "didim-consistent", estimate_consistent)
 
 
-def _along(problem: Problem, W: np.ndarray, solve: Callable[[Problem], Estimate]) -> Estimate:
+def _fit_along(problem: Problem, W: np.ndarray, solve: Callable[[Problem], Estimate]) -> Estimate:
     """The fit of the torques to columns along another motion."""
     counted, free = problem.counted, np.flatnonzero(problem.data.free)
-    data = compress(
-        W[counted], problem.y[counted], problem.joint[counted],
+    data = compress_rows(
+        W[counted], problem.y[counted], problem.row_joint[counted],
         len(problem.data.rows), problem.names, free.tolist(),
     )  # fmt: skip
-    found = solve(dataclasses.replace(problem, given=W, data=data))
-    pull = found.pull
+    estimate = solve(dataclasses.replace(problem, matrix=W, data=data))
+    pull = estimate.influence
     if pull is None:
-        pull = np.where(counted[:, None], W @ found.covariance, 0.0)
-        pull /= found.sigma[problem.joint][:, None] ** 2
-    weight = 1.0 if found.weight is None else found.weight
-    shift = pull.T @ (weight * ((W - problem.W) @ found.beta))
+        pull = np.where(counted[:, None], W @ estimate.covariance, 0.0)
+        pull /= estimate.sigma[problem.row_joint][:, None] ** 2
+    weight = 1.0 if estimate.weight is None else estimate.weight
+    shift = pull.T @ (weight * ((W - problem.W) @ estimate.beta))
     return dataclasses.replace(
-        found,
-        covariance=found.covariance + np.outer(shift, shift),
-        pull=pull,
-        residual=problem.y - W @ found.beta if found.residual is None else found.residual,
-        whole=data.whole(found.sigma) if found.whole is None else found.whole,
+        estimate,
+        covariance=estimate.covariance + np.outer(shift, shift),
+        influence=pull,
+        residual=problem.y - W @ estimate.beta if estimate.residual is None else estimate.residual,
+        whole=data.combine_joints(estimate.sigma) if estimate.whole is None else estimate.whole,
     )
 
 
-def _misfit(problem: Problem, start: Estimate, W: np.ndarray, beta: np.ndarray) -> float:
+def _compute_misfit(problem: Problem, start: Estimate, W: np.ndarray, beta: np.ndarray) -> float:
     """rms of (y_j - W_j beta) / sigma_j over the counted rows, sigma_j of `start`."""
     rows = problem.counted
-    residual = (problem.y[rows] - W[rows] @ beta) / start.sigma[problem.joint[rows]]
+    residual = (problem.y[rows] - W[rows] @ beta) / start.sigma[problem.row_joint[rows]]
     return float(np.sqrt(np.mean(residual**2)))
 
 
-def _repeated(
+def _iterate_simulation(
     problem: Problem,
     method: str,
     first: Callable[[Problem], Estimate],
     estimate: Callable[[np.ndarray], Estimate],
 ) -> Estimate:
     """Simulate, estimate, from the first on, until the step is small beside the sigmas."""
-    model = problem.robot(method)
+    model = problem.require_robot(method)
     idle = [joint.name for joint in model.spec.joints if not joint.actuated]
     if idle:
         raise DataError(
@@ -254,48 +282,52 @@ def _repeated(
 
     def chosen() -> ControlLoop:
         if robot.commanded:
-            return robot.chosen(beta)
-        return robot.gentlest(beta, lambda way: _misfit(problem, start, robot.columns(way), beta))
+            return robot.choose_loop(beta)
+        return robot.choose_loop_by_misfit(
+            beta, lambda way: _compute_misfit(problem, start, robot.evaluate_columns(way), beta)
+        )
 
     loop = chosen()
     for _ in range(_SIMULATIONS):
         try:
-            motions = robot.followed(beta, loop)
+            motions = robot.simulate_motions(beta, loop)
         except DataError:
             if robot.commanded:
                 raise
             loop = chosen()  # this one was not in the log; another one holds the robot
-            motions = robot.followed(beta, loop)
-        found = estimate(robot.columns(motions))
-        sigma = np.sqrt(np.diag(found.covariance))
-        step = np.abs(found.beta - beta) / np.where(sigma > 0.0, sigma, np.inf)
-        beta, settled = found.beta, bool(np.isinf(loop.speed) or step.max(initial=0.0) < _NEAR)
+            motions = robot.simulate_motions(beta, loop)
+        current = estimate(robot.evaluate_columns(motions))
+        sigma = np.sqrt(np.diag(current.covariance))
+        step = np.abs(current.beta - beta) / np.where(sigma > 0.0, sigma, np.inf)
+        beta, settled = current.beta, bool(np.isinf(loop.speed) or step.max(initial=0.0) < _NEAR)
         if settled:
             break
     said = []
-    before, after = (_misfit(problem, start, problem.W, own) for own in (start.beta, beta))
+    before, after = (
+        _compute_misfit(problem, start, problem.W, values) for values in (start.beta, beta)
+    )
     if after > _WORSE * before:
         said.append(
             f"along the logged motion the values leave {after / before:.3g} times the error of "
             f'"weighted", from which method "{method}" starts: the simulated motion is not that of '
             'the log; take the values of method "weighted"'
         )
-    said += _sentences(problem, robot, loop, robot.error(motions))
+    said += _describe_controller(problem, robot, loop, robot.compute_position_error(motions))
     if not settled:
         said.append(
             f"the values still move by up to {step.max():.2g} sigma from one simulation to the "
             f"next after {_SIMULATIONS}; add that to their uncertainty"
         )
-    settled = found.settled and settled
-    return dataclasses.replace(found, settled=settled, sentences=(*said, *found.sentences))
+    settled = current.is_converged and settled
+    return dataclasses.replace(current, is_converged=settled, sentences=(*said, *current.sentences))
 
 
-def _sentences(
+def _describe_controller(
     problem: Problem, robot: DirectModel, loop: ControlLoop, error: np.ndarray
 ) -> list[str]:
     worst = int(np.argmax(error))
     joint = problem.observation.joints[worst].name
-    near = f"within {percent(error[worst])} of the range of joint {joint}, the farthest"
+    near = f"within {format_percent(error[worst])} of the range of joint {joint}, the farthest"
     if np.isinf(loop.speed):
         how = (
             "the commanded motion is nearer to the log than what any controller that was tried "
@@ -323,7 +355,8 @@ def _sentences(
         light = problem.observation.joints[robot.lightest].name
         said.append(
             "the fitted inertia matrix is nearly singular or not positive definite in "
-            f"{percent(robot.raised)} of the postures, most at joint {light}: it was raised for "
+            f"{format_percent(robot.raised)} of the postures, most at joint {light}: it was raised "
+            "for "
             "the simulation; record more motion, or leave out parameters that are not essential"
         )
     return said

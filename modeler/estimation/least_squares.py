@@ -10,8 +10,8 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from modeler.core.errors import DataError, Method
-from modeler.numerics.least_squares import Compressed, Rank, independent_columns
-from modeler.observation import Observation, blocks, fitted_torque, is_streamed
+from modeler.numerics.least_squares import CompressedRegression, Rank, find_independent_columns
+from modeler.observation import Observation, compute_fitted_torque, is_streamed, iterate_blocks
 from modeler.runtime import CompiledModel
 
 MAX_ITERATIONS = 500
@@ -19,22 +19,22 @@ _SETTLED = 1e-9  # relative change of the weights
 _LEAST = 1e-9  # a joint's standard deviation is at least this share of its torque
 
 
-def residual_of(
+def compute_base_residual(
     observation: Observation, beta: np.ndarray, counted: np.ndarray | None = None
 ) -> np.ndarray:
     """y - W beta of the base parameters, for all rows or those that are counted (rows,)."""
-    keep = observation.used if counted is None else kept_rows(observation, counted)
-    return np.asarray((observation.torque - fitted_torque(observation, beta, keep))[keep])
+    keep = observation.used if counted is None else select_rows(observation, counted)
+    return np.asarray((observation.torque - compute_fitted_torque(observation, beta, keep))[keep])
 
 
-def kept_rows(observation: Observation, counted: np.ndarray) -> np.ndarray:
+def select_rows(observation: Observation, counted: np.ndarray) -> np.ndarray:
     """(s, n) True for the rows that are counted (rows,)."""
     keep = np.zeros(observation.used.shape, dtype=bool)
     keep[observation.used] = counted
     return keep
 
 
-def repeated_in_passing(
+def sum_streamed_products(
     observation: Observation, counted: np.ndarray, matrices: np.ndarray, r: Sequence[np.ndarray]
 ) -> np.ndarray:
     """(k, k) sum_j sum_l r_j(l) sum_t a_j(t) a_j(t + l)^T and its transpose; l = 1, 2, ...
@@ -48,12 +48,12 @@ def repeated_in_passing(
         matrices: A_j (c, k) of each joint.
         r: r_j(0), r_j(1), ... of each joint; one value and no more for a joint to leave out.
     """
-    keep = kept_rows(observation, counted)
-    k, longest = matrices.shape[2], max(len(own) - 1 for own in r)
+    keep = select_rows(observation, counted)
+    k, longest = matrices.shape[2], max(len(values) - 1 for values in r)
     total = np.zeros((k, k))
     before: list[np.ndarray] = []
     at = -1
-    for samples, columns in blocks(observation) if longest else ():
+    for samples, columns in iterate_blocks(observation) if longest else ():
         if observation.segment[samples.start] != at:
             before = [np.zeros((longest, k))] * len(r)
         at = int(observation.segment[samples.start])
@@ -84,29 +84,29 @@ class Rows:
     """
 
     observation: Observation
-    given: np.ndarray | None
+    matrix: np.ndarray | None
     y: np.ndarray
     counted: np.ndarray
 
     @property
     def W(self) -> np.ndarray:
         """(rows, c)."""
-        return self.observation.W if self.given is None else self.given
+        return self.observation.W if self.matrix is None else self.matrix
 
     @property
-    def streamed(self) -> bool:
+    def has_streamed_rows(self) -> bool:
         """True if W is better not asked for: it is large."""
-        return self.given is None and is_streamed(self.observation)
+        return self.matrix is None and is_streamed(self.observation)
 
     @property
-    def joint(self) -> np.ndarray:
+    def row_joint(self) -> np.ndarray:
         """(rows,) index of the joint of each row."""
         return self.observation.row_joint
 
-    def residual(self, beta: np.ndarray) -> np.ndarray:
+    def compute_residual(self, beta: np.ndarray) -> np.ndarray:
         """(rows,) y - W beta."""
-        if self.streamed:
-            return residual_of(self.observation, beta)
+        if self.has_streamed_rows:
+            return compute_base_residual(self.observation, beta)
         return np.asarray(self.y - self.W @ beta)
 
 
@@ -121,16 +121,16 @@ class Problem(Rows):
     """
 
     names: tuple[str, ...]
-    data: Compressed
+    data: CompressedRegression
     model: CompiledModel | None = None
 
-    def scattered(self, kept: np.ndarray, values: np.ndarray) -> np.ndarray:
+    def expand_rows(self, kept_columns: np.ndarray, values: np.ndarray) -> np.ndarray:
         """(rows, c) of values (counted rows, kept columns); 0 elsewhere."""
         every = np.zeros((len(self.y), len(self.names)))
-        every[np.ix_(self.counted, kept)] = values
+        every[np.ix_(self.counted, kept_columns)] = values
         return every
 
-    def robot(self, method: str) -> CompiledModel:
+    def require_robot(self, method: str) -> CompiledModel:
         """The compiled robot, for an estimator that cannot do without it.
 
         Raises:
@@ -187,24 +187,24 @@ class Estimate:
     sigma: np.ndarray
     rank: Rank
     iterations: int
-    settled: bool
+    is_converged: bool
     condition_number: float
     condition_scaled: float
     degrees: int
     sentences: tuple[str, ...] = ()
     bread: np.ndarray | None = None
-    pull: np.ndarray | None = None
+    influence: np.ndarray | None = None
     residual: np.ndarray | None = None
     weight: np.ndarray | None = None
     whole: np.ndarray | None = None
     standard: Mapping[str, float] = field(default_factory=dict)
-    share: np.ndarray | None = None
-    held: tuple[str, ...] = ()
+    prior_share: np.ndarray | None = None
+    fixed_names: tuple[str, ...] = ()
     contradicted: tuple[str, ...] = ()
 
-    def unsettled(self) -> list[str]:
+    def describe_nonconvergence(self) -> list[str]:
         """A sentence where the weights of joints do not reach their fixed point."""
-        if self.settled or self.iterations < MAX_ITERATIONS:
+        if self.is_converged or self.iterations < MAX_ITERATIONS:
             return []
         return [
             f"the joint weights still change after {MAX_ITERATIONS} iterations; "
@@ -212,7 +212,7 @@ class Estimate:
         ]
 
 
-def least_squares(data: Compressed, method: Method = "weighted") -> Estimate:
+def solve_least_squares(data: CompressedRegression, method: Method = "weighted") -> Estimate:
     """The estimate of beta in y = W beta + rho.
 
     Ordinary: one variance for all rows, sigma^2 (W^T W)^-1. Weighted: rows of joint j divided by
@@ -232,26 +232,28 @@ def least_squares(data: Compressed, method: Method = "weighted") -> Estimate:
         method: which weights.
     """
     sigma = np.ones(len(data.rows))  # what rows tell apart does not depend on their torques
-    rank = independent_columns(data.whole(sigma)[:, :-1], data.names)
-    kept = np.asarray(rank.kept, dtype=int)
-    degrees = max(1, int(data.rows.sum()) - len(kept))
-    beta, covariance = _solve(data, kept, sigma)
-    common = np.sqrt(np.sum(data.residual_norms(beta) ** 2) / degrees)
+    rank = find_independent_columns(data.combine_joints(sigma)[:, :-1], data.names)
+    kept_columns = np.asarray(rank.kept_columns, dtype=int)
+    degrees = max(1, int(data.rows.sum()) - len(kept_columns))
+    beta, covariance = _solve_weighted(data, kept_columns, sigma)
+    common = np.sqrt(np.sum(data.compute_residual_norms(beta) ** 2) / degrees)
     iterations, settled = 0, True
     if method == "ordinary":
-        sigma = np.full(len(data.rows), max(common, least_sigma(data).max()))
+        sigma = np.full(len(data.rows), max(common, compute_least_sigma(data).max()))
         covariance = covariance * sigma[0] ** 2
     else:
         terms = np.linalg.norm(data.triangles[:, :, :-1] * beta, axis=(1, 2))
         cancelling = terms / np.sqrt(np.maximum(data.rows, 1))  # rms of the terms of W_j beta
-        sigma = _weighed(data, _spread(data, beta, covariance, sigma), cancelling)
+        sigma = _bound_sigma(data, _estimate_sigma(data, beta, covariance, sigma), cancelling)
         settled = False
         while not settled and iterations < MAX_ITERATIONS:
-            beta, covariance = _solve(data, kept, sigma)
-            updated = _weighed(data, _spread(data, beta, covariance, sigma), cancelling)
+            beta, covariance = _solve_weighted(data, kept_columns, sigma)
+            updated = _bound_sigma(data, _estimate_sigma(data, beta, covariance, sigma), cancelling)
             settled = bool(np.all(np.abs(updated / sigma - 1.0) < _SETTLED))
             sigma, iterations = updated, iterations + 1
-    raw, scaled = condition_numbers(data.whole(np.ones(len(data.rows)))[:, kept])
+    raw, scaled = compute_condition_numbers(
+        data.combine_joints(np.ones(len(data.rows)))[:, kept_columns]
+    )
     return Estimate(beta, covariance, sigma, rank, iterations, settled, raw, scaled, degrees)
 
 
@@ -268,16 +270,18 @@ def solve_by_qr(W: np.ndarray, y: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     return root @ (q.T @ y), root
 
 
-def least_sigma(data: Compressed) -> np.ndarray:
+def compute_least_sigma(data: CompressedRegression) -> np.ndarray:
     """(n,) the smallest sigma of each joint: exact data would otherwise divide by zero."""
-    rms = data.torque_rms()
+    rms = data.compute_torque_rms()
     return np.maximum(_LEAST * rms, max(1e-3 * _LEAST * rms.max(initial=0.0), 1e-300))
 
 
-def _weighed(data: Compressed, spread: np.ndarray, cancelling: np.ndarray) -> np.ndarray:
+def _bound_sigma(
+    data: CompressedRegression, spread: np.ndarray, cancelling: np.ndarray
+) -> np.ndarray:
     """(n,) sigma from the spread of the residuals, kept away from 0."""
-    sigma = np.maximum(spread, least_sigma(data))
-    rms = data.torque_rms()
+    sigma = np.maximum(spread, compute_least_sigma(data))
+    rms = data.compute_torque_rms()
     driven = ~data.free & (rms > 0.0)
     if driven.any():
         error = float(np.sqrt(np.mean((sigma[driven] / rms[driven]) ** 2)))
@@ -285,35 +289,40 @@ def _weighed(data: Compressed, spread: np.ndarray, cancelling: np.ndarray) -> np
     return sigma
 
 
-def _solve(data: Compressed, kept: np.ndarray, sigma: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+def _solve_weighted(
+    data: CompressedRegression, kept_columns: np.ndarray, sigma: np.ndarray
+) -> tuple[np.ndarray, np.ndarray]:
     """beta and (W^T S^-1 W)^-1 over all columns."""
-    whole = data.whole(sigma)
-    values, root = solve_by_qr(whole[:, kept], whole[:, -1])
-    return placed(len(data.names), kept, values, root @ root.T)
+    whole = data.combine_joints(sigma)
+    values, root = solve_by_qr(whole[:, kept_columns], whole[:, -1])
+    return expand_columns(len(data.names), kept_columns, values, root @ root.T)
 
 
-def placed(
-    columns: int, kept: Sequence[int] | np.ndarray, values: np.ndarray, covariance: np.ndarray
+def expand_columns(
+    columns: int,
+    kept_columns: Sequence[int] | np.ndarray,
+    values: np.ndarray,
+    covariance: np.ndarray,
 ) -> tuple[np.ndarray, np.ndarray]:
     """(c,) values and (c, c) covariance of the kept columns among all c; 0 elsewhere."""
-    at = np.asarray(kept, dtype=int)
+    at = np.asarray(kept_columns, dtype=int)
     beta, every = np.zeros(columns), np.zeros((columns, columns))
     beta[at], every[np.ix_(at, at)] = values, covariance
     return beta, every
 
 
-def _spread(
-    data: Compressed, beta: np.ndarray, covariance: np.ndarray, sigma: np.ndarray
+def _estimate_sigma(
+    data: CompressedRegression, beta: np.ndarray, covariance: np.ndarray, sigma: np.ndarray
 ) -> np.ndarray:
     """(n,) standard deviation of each joint's rows."""
     W = data.triangles[:, :, :-1]
     share = np.einsum("jik,kl,jil->j", W, covariance, W, optimize=True) / sigma**2
     degrees = np.maximum(data.rows - share, 0.0)
-    spread = data.residual_norms(beta) / np.sqrt(np.maximum(degrees, 1e-12))
-    return np.where(degrees > 0.5, spread, np.maximum(data.torque_rms(), 1e-300))
+    spread = data.compute_residual_norms(beta) / np.sqrt(np.maximum(degrees, 1e-12))
+    return np.where(degrees > 0.5, spread, np.maximum(data.compute_torque_rms(), 1e-300))
 
 
-def condition_numbers(W: np.ndarray) -> tuple[float, float]:
+def compute_condition_numbers(W: np.ndarray) -> tuple[float, float]:
     """Of W (rows, c), and of W with columns of length one; infinite without columns."""
     if not W.size:
         return float("inf"), float("inf")
@@ -323,7 +332,7 @@ def condition_numbers(W: np.ndarray) -> tuple[float, float]:
 # Ordinary least squares whose sigmas know that joints are not alike.
 
 
-def ordinary(problem: Problem) -> Estimate:
+def estimate_ordinary(problem: Problem) -> Estimate:
     """min |y - W beta|^2; covariance A^-1 (sum_j s_j^2 W_j^T W_j) A^-1, A = W^T W.
 
     s_j^2 = |r_j|^2 / (rows_j - h_j) of joint j, h_j = trace(A^-1 W_j^T W_j). The textbook's
@@ -334,11 +343,11 @@ def ordinary(problem: Problem) -> Estimate:
         problem: beta in the units of its columns, y N m or N.
     """
     data = problem.data
-    found = least_squares(data, "ordinary")
-    bread = found.covariance / found.sigma[0] ** 2
-    own = data.triangles[:, :, :-1]
-    squares = np.einsum("jik,jil->jkl", own, own)
-    spread = _spread(data, found.beta, found.covariance, found.sigma)
-    spread = np.maximum(spread, least_sigma(data))
+    fit = solve_least_squares(data, "ordinary")
+    bread = fit.covariance / fit.sigma[0] ** 2
+    matrices = data.triangles[:, :, :-1]
+    squares = np.einsum("jik,jil->jkl", matrices, matrices)
+    spread = _estimate_sigma(data, fit.beta, fit.covariance, fit.sigma)
+    spread = np.maximum(spread, compute_least_sigma(data))
     middle = np.einsum("j,jkl->kl", spread**2, squares)
-    return dataclasses.replace(found, covariance=bread @ middle @ bread, bread=bread)
+    return dataclasses.replace(fit, covariance=bread @ middle @ bread, bread=bread)

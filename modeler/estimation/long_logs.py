@@ -17,36 +17,40 @@ from typing import Any
 import numpy as np
 
 from modeler.core.errors import DataError, LoopError, Method
-from modeler.estimation.identify import base_equations, dead_joints, fit_equations
-from modeler.estimation.methods import capable, method_of
+from modeler.estimation.identify import (
+    build_base_equations,
+    find_disconnected_joints,
+    fit_equations,
+)
+from modeler.estimation.methods import find_method, find_methods
 from modeler.estimation.result import FitResult
-from modeler.numerics.least_squares import Compressed, merged
+from modeler.numerics.least_squares import CompressedRegression, merge_compressed
 from modeler.observation import (
     FINGER,
     Chunk,
-    Evaluated,
-    Facts,
-    FactsSoFar,
+    KnownFacts,
     LogChoices,
+    LogFacts,
+    LogPasses,
+    ModelRegressor,
     Observation,
-    Passes,
     Processing,
     Source,
     Survey,
     WholeLogNeeded,
-    chunks,
-    no_row_left,
-    rows_of_chunk,
-    streamed_report,
-    survey,
-    with_stretch,
+    add_stretch,
+    build_chunk_rows,
+    build_no_row_error,
+    build_streamed_report,
+    choose_from_windows,
+    read_chunks,
 )
-from modeler.runtime import CompiledModel, no_rows
+from modeler.runtime import CompiledModel, make_empty_triangles
 
 PASSES = 3
 """Over the logs, at most: what a pass finds that the windows did not show may ask for another."""
 
-OF_TRIANGLES = capable("triangles")
+OF_TRIANGLES = find_methods("triangles")
 """Methods that need no row again once the triangles are there."""
 
 Share = Callable[[float], None]
@@ -57,7 +61,7 @@ Reducer = Callable[[CompiledModel, Source, LogChoices], Iterable[Any]]
 
 
 @dataclass(frozen=True, eq=False)
-class Partial:
+class PartialFit:
     """What a fit needs of some rows of a log; it can be pickled.
 
     Attributes:
@@ -65,15 +69,17 @@ class Partial:
         facts: what the rows say of the log.
     """
 
-    data: Compressed
-    facts: Facts
+    data: CompressedRegression
+    facts: LogFacts
 
-    def merged_with(self, later: "Partial") -> "Partial":
+    def merged_with(self, later: "PartialFit") -> "PartialFit":
         """Of these rows, and of those that follow them."""
-        return Partial(merged(self.data, later.data), self.facts.merged_with(later.facts))
+        return PartialFit(
+            merge_compressed(self.data, later.data), self.facts.merged_with(later.facts)
+        )
 
 
-def reduce_chunk(model: CompiledModel, chunk: Chunk, chosen: LogChoices) -> Partial:
+def reduce_chunk(model: CompiledModel, chunk: Chunk, chosen: LogChoices) -> PartialFit:
     """The rows y = W beta of a chunk, as triangles. Pure: equal chunks give equal bits.
 
     Args:
@@ -84,18 +90,20 @@ def reduce_chunk(model: CompiledModel, chunk: Chunk, chosen: LogChoices) -> Part
     Raises:
         DataError: a value that cannot be.
     """
-    stretches, facts = rows_of_chunk(model, chunk, chosen)
+    stretches, facts = build_chunk_rows(model, chunk, chosen)
     parts = [part for part in stretches if part.used.any()]
-    regressor, state = Evaluated(model, parts), no_rows(model.pattern)
+    regressor, state = ModelRegressor(model, parts), make_empty_triangles(model.pattern)
     for part in parts:  # W is never there as a whole
-        state = with_stretch(regressor, part, part.torque(), part.used, state)
+        state = add_stretch(regressor, part, part.filter_torque(), part.used, state)
     names, joints = tuple(base.name for base in model.spec.base), model.spec.joints
     free = np.array([not joint.actuated for joint in joints])
-    return Partial(Compressed(names, state.triangles, state.rows.astype(np.intp), free), facts)
+    return PartialFit(
+        CompressedRegression(names, state.triangles, state.rows.astype(np.intp), free), facts
+    )
 
 
 @dataclass(frozen=True, eq=False)
-class Streamed:
+class StreamedLogs:
     """Long logs, ready for a fit.
 
     Attributes:
@@ -105,18 +113,18 @@ class Streamed:
     """
 
     observation: Observation
-    data: Compressed
-    passes: Passes
+    data: CompressedRegression
+    passes: LogPasses
 
 
-def stream(
+def stream_logs(
     model: CompiledModel,
     sources: Sequence[Source],
     processing: Processing | None = None,
     progress: Share = lambda share: None,
     rows: int = FINGER,
     reducer: Reducer | None = None,
-) -> Streamed:
+) -> StreamedLogs:
     """Reads every row of long logs once, in chunks, and keeps what a fit needs.
 
     Windows spread over the logs choose what must be one choice: cut-offs, speed floors, where
@@ -136,16 +144,21 @@ def stream(
         DataError: a log that is damaged, changes while it is read or lacks a column; rows that no
             choice of the windows fits; no usable row.
     """
-    passes, every = all_rows(model, sources, processing, progress, rows, reducer or by_threads)
-    data, windows = reduce(merged, [part.data for part in every]), passes.found.observation
-    report = streamed_report(model, sources, passes)
+    passes, every = read_all_rows(
+        model, sources, processing, progress, rows, reducer or reduce_by_threads
+    )
+    data, windows = (
+        reduce(merge_compressed, [part.data for part in every]),
+        passes.survey.observation,
+    )
+    report = build_streamed_report(model, sources, passes)
     if not data.rows.any():
-        raise no_row_left(report)
-    return Streamed(dataclasses.replace(windows, report=report), data, passes)
+        raise build_no_row_error(report)
+    return StreamedLogs(dataclasses.replace(windows, report=report), data, passes)
 
 
 def identify_long(
-    streamed: Streamed, method: Method = "weighted", model: CompiledModel | None = None
+    streamed: StreamedLogs, method: Method = "weighted", model: CompiledModel | None = None
 ) -> FitResult:
     """The fit of the base parameters to long logs.
 
@@ -160,40 +173,42 @@ def identify_long(
     Raises:
         DataError: another method, fewer rows than parameters, or no torque at all.
     """
-    method_of(method, "triangles")
+    find_method(method, "triangles")
     observation, data, passes = streamed.observation, streamed.data, streamed.passes
     share = min(1.0, float(observation.used.sum() / data.rows.sum()))
-    alive = ~np.isin(np.arange(len(data.rows)), dead_joints(observation))
+    alive = ~np.isin(np.arange(len(data.rows)), find_disconnected_joints(observation))
     triangles = data.triangles * alive[:, None, None]
     data = dataclasses.replace(data, triangles=triangles, rows=data.rows * alive)
-    equations = base_equations(observation)
+    equations = build_base_equations(observation)
     fit = fit_equations(observation, equations, method, model, data=data, share=share)
     samples = sum(facts.tally.count("samples") for facts in passes.facts)
     return dataclasses.replace(fit, samples=samples, reading=passes.to_json())
 
 
-def all_rows(
+def read_all_rows(
     model: CompiledModel,
     sources: Sequence[Source],
     processing: Processing | None,
     progress: Share,
     rows: int,
     reducer: Reducer,
-) -> tuple[Passes, list[Any]]:
-    """The passes over long logs, and of each log its part; as `stream`, whatever is kept of rows.
+) -> tuple[LogPasses, list[Any]]:
+    """The passes over long logs, and of each log its part; as `stream_logs`.
+
+    Whatever is kept of rows.
 
     Raises:
-        DataError: as `stream`.
+        DataError: as `stream_logs`.
     """
-    if any(signal.inner for signal in model.spec.signals):
+    if any(signal.is_internal_state for signal in model.spec.signals):
         raise WholeLogNeeded(
             f"{sources[0].name}: an effect of {model.spec.robot} remembers its motion without end, "
             "and long logs are read in chunks; fit a part of it, FILE@START:END"
         )
-    known, total = FactsSoFar(), max(1, sum(source.rows for source in sources))
+    known, total = KnownFacts(), max(1, sum(source.rows for source in sources))
     for number in range(1, PASSES + 1):
-        found = survey(model, sources, processing or Processing(), known, rows)
-        begun = [reducer(model, *each) for each in zip(sources, found.chosen, strict=True)]
+        log_survey = choose_from_windows(model, sources, processing or Processing(), known, rows)
+        begun = [reducer(model, *each) for each in zip(sources, log_survey.chosen, strict=True)]
         every: list[Any] = []
         for source, parts in zip(sources, begun, strict=True):
             whole: Any = None
@@ -204,15 +219,15 @@ def all_rows(
                 raise DataError(f"{source.name}: no rows; expected a motion; leave it out")
             every.append(whole)
         facts = tuple(part.facts for part in every)
-        again = _again(facts, found, known)
+        again = _prepare_next_pass(facts, log_survey, known)
         if again is None or number == PASSES:
             break
         known = again
-    _check(model, sources, facts)
-    return Passes(found, facts, number), every
+    _check_whole_logs(model, sources, facts)
+    return LogPasses(log_survey, facts, number), every
 
 
-def by_threads(
+def reduce_by_threads(
     model: CompiledModel,
     source: Source,
     chosen: LogChoices,
@@ -226,7 +241,7 @@ def by_threads(
     workers, waiting = cpu_count() or 1, deque[Future[Any]]()
     with ThreadPoolExecutor(workers) as pool:
         try:
-            for chunk in chunks(source, chosen.own, chosen.beside):
+            for chunk in read_chunks(source, chosen.chunk_rows, chosen.margin_rows):
                 waiting.append(pool.submit(reduce_by, model, chunk, chosen))
                 if len(waiting) > workers:
                     yield waiting.popleft().result()
@@ -237,29 +252,40 @@ def by_threads(
                 future.cancel()
 
 
-def _again(facts: Sequence[Facts], found: Survey, known: FactsSoFar) -> FactsSoFar | None:
+def _prepare_next_pass(
+    facts: Sequence[LogFacts], log_survey: Survey, known: KnownFacts
+) -> KnownFacts | None:
     """What another pass is to know; None if this one was given all."""
-    low = found.chosen[0].processing.low_speed
-    floors = {name: low * top for own in facts for name, top in own.awake.items()}
-    wrong = [k for k, own in enumerate(facts) if own.wrongly_clipped()]
+    low = log_survey.chosen[0].processing.low_speed
+    floors = {
+        name: low * top for log_facts in facts for name, top in log_facts.moving_shafts.items()
+    }
+    wrong = [k for k, log_facts in enumerate(facts) if log_facts.is_wrongly_clipped()]
     if not floors and not wrong:
         return None
-    extremes = {k: own.ranges.torques for k, own in enumerate(facts)}
-    return FactsSoFar({**known.floors, **floors}, extremes)
+    extremes = {k: log_facts.ranges.torques for k, log_facts in enumerate(facts)}
+    return KnownFacts({**known.floors, **floors}, extremes)
 
 
-def _check(model: CompiledModel, sources: Sequence[Source], facts: Sequence[Facts]) -> None:
+def _check_whole_logs(
+    model: CompiledModel, sources: Sequence[Source], facts: Sequence[LogFacts]
+) -> None:
     """Refuse what only a log as a whole shows.
 
     Raises:
         DataError: a channel without values, or a position whose count changes for good.
     """
-    for source, own in zip(sources, facts, strict=True):
-        own.ranges.check(Path(source.name), model.spec)
-        turned = {j: t for j, t in own.first("wrap").items() if not _repeats(model, j)}
-        for kind, found in (("another zero", own.first("zero")), ("another turn", turned)):
-            for j, time in found.items():
-                name, rows = model.spec.joints[j].name, own.tally.count("rows")
+    for source, log_facts in zip(sources, facts, strict=True):
+        log_facts.ranges.check_values(Path(source.name), model.spec)
+        turned = {
+            j: t for j, t in log_facts.find_first("wrap").items() if not _is_periodic(model, j)
+        }
+        for kind, first_times in (
+            ("another zero", log_facts.find_first("zero")),
+            ("another turn", turned),
+        ):
+            for j, time in first_times.items():
+                name, rows = model.spec.joints[j].name, log_facts.tally.count("rows")
                 raise WholeLogNeeded(
                     f"{source.name}: q{name} counts from {kind} from {time:.6g} s on; a log of "
                     f"{rows} rows is read in chunks, which cannot be joined across that; fit its "
@@ -267,7 +293,7 @@ def _check(model: CompiledModel, sources: Sequence[Source], facts: Sequence[Fact
                 )
 
 
-def _repeats(model: CompiledModel, j: int) -> bool:
+def _is_periodic(model: CompiledModel, j: int) -> bool:
     """True if a turn of a joint changes nothing in the model."""
     joints, signals = len(model.spec.joints), model.spec.signals
     q, qd, qdd = np.random.default_rng(2).uniform(0.2, 1.0, (3, 1, joints))

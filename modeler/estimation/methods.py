@@ -4,20 +4,25 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 from modeler.core.errors import DataError, Method
-from modeler.core.estimators import ABOUT, About
-from modeler.estimation.consistent import buildable
+from modeler.core.estimators import ABOUT, EstimatorInfo
+from modeler.estimation.consistent import estimate_consistent
 from modeler.estimation.instrumental import (
-    didim,
-    didim_consistent,
-    didim_robust,
-    iv,
-    iv_consistent,
-    iv_direct,
-    iv_direct_consistent,
+    estimate_didim,
+    estimate_didim_consistent,
+    estimate_didim_robust,
+    estimate_iv,
+    estimate_iv_consistent,
+    estimate_iv_direct,
+    estimate_iv_direct_consistent,
 )
-from modeler.estimation.least_squares import Estimate, Problem, least_squares, ordinary
-from modeler.estimation.ridge import ridge
-from modeler.estimation.robust import robust
+from modeler.estimation.least_squares import (
+    Estimate,
+    Problem,
+    estimate_ordinary,
+    solve_least_squares,
+)
+from modeler.estimation.ridge import estimate_ridge
+from modeler.estimation.robust import estimate_robust
 
 _REFUSALS = {
     "rows": 'method is "{method}"; expected {capable}',
@@ -40,24 +45,31 @@ class Estimator:
             the energy model.
     """
 
-    about: About
+    about: EstimatorInfo
     estimate: Callable[[Problem], Estimate]
     works_on: tuple[str, ...]
 
     @property
     def takes_prior(self) -> bool:
         """False of those that have one of their own: what a robot file states would be a second."""
-        return not (self.about.buildable or self.about.id == "ridge")
+        return not (self.about.is_consistent or self.about.id == "ridge")
 
 
 _EVERYTHING, _FEW = tuple(_REFUSALS), ("weighted", "ordinary")
 _ESTIMATES: dict[Method, Callable[[Problem], Estimate]] = {
-    "weighted": lambda problem: least_squares(problem.data, "weighted"),
-    "ordinary": ordinary, "robust": robust, "ridge": ridge, "iv": iv, "iv-direct": iv_direct,
-    "didim": didim, "didim-robust": didim_robust, "consistent": buildable,
-    "iv-consistent": iv_consistent, "iv-direct-consistent": iv_direct_consistent,
-    "didim-consistent": didim_consistent,
-}  # fmt: skip
+    "weighted": lambda problem: solve_least_squares(problem.data, "weighted"),
+    "ordinary": estimate_ordinary,
+    "robust": estimate_robust,
+    "ridge": estimate_ridge,
+    "iv": estimate_iv,
+    "iv-direct": estimate_iv_direct,
+    "didim": estimate_didim,
+    "didim-robust": estimate_didim_robust,
+    "consistent": estimate_consistent,
+    "iv-consistent": estimate_iv_consistent,
+    "iv-direct-consistent": estimate_iv_direct_consistent,
+    "didim-consistent": estimate_didim_consistent,
+}
 METHODS: dict[Method, Estimator] = {
     id: Estimator(ABOUT[id], estimate, _EVERYTHING if id in _FEW else ("rows",))
     for id, estimate in _ESTIMATES.items()
@@ -65,19 +77,19 @@ METHODS: dict[Method, Estimator] = {
 """By id, in the order in which they are told."""
 
 
-def capable(of: str) -> tuple[Method, ...]:
+def find_methods(of: str) -> tuple[Method, ...]:
     """Ids of the estimators that work on such data."""
     return tuple(id for id, estimator in METHODS.items() if of in estimator.works_on)
 
 
-def method_of(method: str, of: str = "rows") -> Estimator:
+def find_method(method: str, of: str = "rows") -> Estimator:
     """The estimator of that id.
 
     Raises:
         DataError: there is none, or it does not work on such data.
     """
-    for id in capable(of):
+    for id in find_methods(of):
         if id == method:
             return METHODS[id]
-    *first, last = capable(of)
+    *first, last = find_methods(of)
     raise DataError(_REFUSALS[of].format(method=method, capable=f"{', '.join(first)} or {last}"))

@@ -18,15 +18,22 @@ from typing import Any, get_type_hints
 
 import numpy as np
 
-from modeler.core.errors import DataError, ManifestError, file_and_window
-from modeler.core.files import checksum, read_file, read_text, write_atomically
-from modeler.core.json import JsonError, UndeclaredEntry, entries, parse_json, plain, shown
-from modeler.core.manifest import FittedParameter, FittedSpec, ModuleSpec, module_from_plain
-from modeler.core.result import Presented
-from modeler.core.table import percent
-from modeler.estimation.result import FitResult, fit_from_json
-from modeler.observation import DataReport, LogRows, Processing, shared_rows
-from modeler.runtime import CompiledModel, load
+from modeler.core.errors import DataError, ManifestError, split_time_range
+from modeler.core.files import compute_checksum, read_file, read_text, write_atomically
+from modeler.core.json import (
+    JsonError,
+    SchemaError,
+    convert_value,
+    parse_json,
+    select_attributes,
+    shorten_value,
+)
+from modeler.core.manifest import FittedParameter, FittedSpec, ModuleSpec, build_manifest
+from modeler.core.result import Result
+from modeler.core.table import format_percent
+from modeler.estimation.result import FitResult, read_fit
+from modeler.observation import DataReport, LogRows, Processing, has_shared_rows
+from modeler.runtime import CompiledModel, load_module
 
 FORMAT = 4
 KIND = "modeler model"
@@ -74,23 +81,23 @@ class LogProvenance:
     path: str = ""
     checksum: str = ""
 
-    def places(self, folder: str | Path) -> dict[str, str]:
+    def find_places(self, folder: str | Path) -> dict[str, str]:
         """{where it may be: checksum of what is there, "" without}: by its path, from a folder."""
         both = (self.path, str(Path(folder, self.path))) if self.path else ()
-        return {place: checksum_of(place) for place in both}
+        return {place: compute_place_checksum(place) for place in both}
 
-    def place(self, folder: str | Path) -> str:
+    def find_place(self, folder: str | Path) -> str:
         """Where it is, unchanged: by its path, or by that from a folder; "" if nowhere."""
-        found = self.places(folder).items()
-        return next((place for place, own in found if own and own == self.checksum), "")
+        candidates = self.find_places(folder).items()
+        return next((place for place, value in candidates if value and value == self.checksum), "")
 
-    def shares_rows(self, log: LogRows) -> bool:
+    def has_rows_of(self, log: LogRows) -> bool:
         """True if rows of `log` were fitted."""
-        return shared_rows(log, self.content, self.start, self.end)
+        return has_shared_rows(log, self.content, self.start, self.end)
 
 
 @dataclass(frozen=True)
-class Addition(Presented):
+class Addition(Result):
     """One effect that was added to a model.
 
     Attributes:
@@ -137,16 +144,16 @@ class Addition(Presented):
         """Plain data, without the robot file."""
         return {
             "effect": self.effect or None,
-            **entries(
+            **select_attributes(
                 self, "joint error training_error shapes shape_sigmas shape_intervals held_out"
             ),
             "joints": {j: {"before": a, "after": b} for j, (a, b) in self.joints.items()},
-            **entries(self, "changed falls doubt learned moved"),
+            **select_attributes(self, "changed falls doubt learned moved"),
         }
 
 
 @dataclass(frozen=True, eq=False)
-class IdentifiedModel(Presented):
+class IdentifiedModel(Result):
     """A robot with values.
 
     Attributes:
@@ -169,7 +176,7 @@ class IdentifiedModel(Presented):
     mapping: Mapping[str, Any] = field(default_factory=dict)
 
     @property
-    def fall_shares(self) -> tuple[float, float] | None:
+    def error_reduction_shares(self) -> tuple[float, float] | None:
         """Of the fall of the error since the first fit, what physics and what learned laws took.
 
         Falls of the relative error, in the order in which they were added; None without learned
@@ -180,7 +187,9 @@ class IdentifiedModel(Presented):
         falls = [
             (new.learned, old.error - new.error) for old, new in itertools.pairwise(self.history)
         ]
-        physics, learned = (sum(f for own, f in falls if own is kind) for kind in (False, True))
+        physics, learned = (
+            sum(f for is_learned, f in falls if is_learned is kind) for kind in (False, True)
+        )
         return physics, learned
 
     @property
@@ -201,7 +210,7 @@ class IdentifiedModel(Presented):
     @property
     def warning(self) -> list[str]:
         """A line if its fit is not valid."""
-        return [] if self.fit.verdict is None else self.fit.verdict.warning()
+        return [] if self.fit.verdict is None else self.fit.verdict.format_warning()
 
     def to_json(self) -> dict[str, Any]:
         """What scripts read: the fit, what was added to it, and its logs."""
@@ -218,27 +227,27 @@ class IdentifiedModel(Presented):
             table = tomllib.loads(self.robot_text).get("log", {})
         except ValueError:
             table = {}
-        return load(
+        return load_module(
             self.spec, self.sources, self.mapping or (table if isinstance(table, Mapping) else {})
         )
 
 
-def provenance(report: DataReport) -> tuple[LogProvenance, ...]:
+def collect_provenance(report: DataReport) -> tuple[LogProvenance, ...]:
     """Which logs went into an observation."""
     return tuple(
         LogProvenance(
             log.name, log.rows, log.samples, log.content, *log.span,
             path=os.fsencode(log.path).decode(errors="replace"),
-            checksum=checksum_of(log.path),
+            checksum=compute_place_checksum(log.path),
         )
         for log in report.logs
     )  # fmt: skip
 
 
-def checksum_of(place: str) -> str:
+def compute_place_checksum(place: str) -> str:
     """Of the file or folder of a log, `@START:END` left aside; "" if there is none."""
     try:
-        return checksum(Path(file_and_window(place)[0])) if place else ""
+        return compute_checksum(Path(split_time_range(place)[0])) if place else ""
     except OSError:
         return ""
 
@@ -253,7 +262,7 @@ def save_model(path: str | Path, model: IdentifiedModel) -> None:
         "kind": KIND,
         "format": FORMAT,
         "robot": model.spec.robot,
-        "signature": model.spec.signature(),
+        "signature": model.spec.compute_signature(),
         "fit": model.fit.to_json(),
         "covariance": model.fit.covariance.tolist(),
         "logs": [vars(log) for log in model.logs],
@@ -264,7 +273,7 @@ def save_model(path: str | Path, model: IdentifiedModel) -> None:
         "sources": dict(model.sources),
     }
     content = json.loads(json.dumps(content, allow_nan=False))  # as it will be read back
-    content[CHECKSUMS] = checksums(content)
+    content[CHECKSUMS] = compute_checksums(content)
     write_atomically(Path(path), json.dumps(content, indent=1, allow_nan=False) + "\n")
 
 
@@ -276,49 +285,49 @@ def load_model(path: str | Path) -> IdentifiedModel:
             was saved.
     """
     where = str(path)
-    raw = _read(Path(path))
+    raw = _read_model_file(Path(path))
     check_checksums(raw, where)
-    spec = module_from_plain(_entry(raw, "manifest", Any, where), f"{where}, manifest")
-    if _entry(raw, "signature", str, where) != spec.signature():
-        raise _refused(
+    spec = build_manifest(_read_entry(raw, "manifest", Any, where), f"{where}, manifest")
+    if _read_entry(raw, "signature", str, where) != spec.compute_signature():
+        raise _make_refusal(
             where, "the manifest does not match its signature, so it was changed after it was saved"
         )
-    fit = _fit(raw, where)
+    fit = _read_fit(raw, where)
     expected = [base.name for base in spec.base]
     if (
         [p.name for p in fit.parameters] != expected
         or fit.covariance.shape != (len(expected),) * 2
-        or spec.robot != _entry(raw, "robot", str, where)
+        or spec.robot != _read_entry(raw, "robot", str, where)
     ):
-        raise _refused(
+        raise _make_refusal(
             where,
             f"the values are not those of the {len(expected)} base parameters of its manifest",
         )
-    for what in itertools.chain(_wrong_values(fit), _wrong_covariance(fit)):
-        raise _refused(where, what)
+    for what in itertools.chain(_find_wrong_values(fit), _find_wrong_covariance(fit)):
+        raise _make_refusal(where, what)
     kinds = get_type_hints(IdentifiedModel)
     as_saved = ("robot_text", "sources", "logs", "history", "mapping")
-    further = {name: _entry(raw, name, kinds[name], where) for name in as_saved}
+    further = {name: _read_entry(raw, name, kinds[name], where) for name in as_saved}
     return IdentifiedModel(spec=spec, fit=fit, **further)
 
 
-def _refused(where: str, what: str) -> ManifestError:
+def _make_refusal(where: str, what: str) -> ManifestError:
     return ManifestError(f"{where}: {what}; fit the model again")
 
 
-def _fit(raw: Mapping[str, Any], where: str) -> FitResult:
+def _read_fit(raw: Mapping[str, Any], where: str) -> FitResult:
     """The estimate, every entry of the type that its class declares."""
-    rows = _entry(raw, "covariance", tuple[tuple[float, ...], ...], where)
-    fitted = _entry(raw, "fit", Mapping[str, Any], where)
+    rows = _read_entry(raw, "covariance", tuple[tuple[float, ...], ...], where)
+    fitted = _read_entry(raw, "fit", Mapping[str, Any], where)
     if any(len(row) != len(rows) for row in rows):
-        raise _refused(where, "damaged, covariance is not square")
+        raise _make_refusal(where, "damaged, covariance is not square")
     try:
-        return fit_from_json(fitted, np.array(rows, dtype=float).reshape(len(rows), len(rows)))
+        return read_fit(fitted, np.array(rows, dtype=float).reshape(len(rows), len(rows)))
     except ManifestError as error:
         raise ManifestError(f"{where}: {error}") from None
 
 
-def _read(path: Path) -> dict[str, Any]:
+def _read_model_file(path: Path) -> dict[str, Any]:
     try:
         raw = parse_json(read_file(path))
     except OSError as error:
@@ -340,10 +349,10 @@ def _read(path: Path) -> dict[str, Any]:
             f"{path}: JSON, but not a model file; expected the output of `modeler fit --out`"
         )
     if (got := raw.get("format")) != FORMAT:
-        told = f"model format {shown(got)}" if "format" in raw else "no model format"
+        version = f"model format {shorten_value(got)}" if "format" in raw else "no model format"
         newer = isinstance(got, int) and got > FORMAT
         raise ManifestError(
-            f"{path}: {told}, this version opens {FORMAT}; "
+            f"{path}: {version}, this version opens {FORMAT}; "
             f"{'install a newer modeler' if newer else 'fit the model again'}"
         )
     return raw
@@ -356,16 +365,16 @@ def _is_robot_file(path: Path) -> bool:
         return path.suffix.lower() == ".toml"
 
 
-def _entry(raw: Mapping[str, Any], name: str, kind: Any, where: str) -> Any:
+def _read_entry(raw: Mapping[str, Any], name: str, kind: Any, where: str) -> Any:
     if name not in raw:
-        raise _refused(where, f"damaged, {name} is missing")
+        raise _make_refusal(where, f"damaged, {name} is missing")
     try:
-        return plain(kind, raw[name], name)
-    except UndeclaredEntry as error:
-        raise _refused(where, f"damaged, {error}") from None
+        return convert_value(kind, raw[name], name)
+    except SchemaError as error:
+        raise _make_refusal(where, f"damaged, {error}") from None
 
 
-def checksums(content: Mapping[str, Any]) -> dict[str, str]:
+def compute_checksums(content: Mapping[str, Any]) -> dict[str, str]:
     """{entry: checksum} of every entry of a model file but the checksums themselves."""
     # Entries stay in their order: that of the joints says which torque is whose.
     texts = {
@@ -382,23 +391,23 @@ def check_checksums(content: Mapping[str, Any], where: str) -> None:
     Raises:
         ManifestError: names the entries that do not fit.
     """
-    given = content.get(CHECKSUMS)
-    if not isinstance(given, dict):
+    stored = content.get(CHECKSUMS)
+    if not isinstance(stored, dict):
         what = "not as saved" if CHECKSUMS in content else "missing"
-        raise _refused(where, f"damaged, {CHECKSUMS} is {what}")
-    expected = checksums(content)
-    every = dict.fromkeys([*expected, *given])
-    wrong = [name for name in every if expected.get(name, "none") != given.get(name, "missing")]
+        raise _make_refusal(where, f"damaged, {CHECKSUMS} is {what}")
+    expected = compute_checksums(content)
+    every = dict.fromkeys([*expected, *stored])
+    wrong = [name for name in every if expected.get(name, "none") != stored.get(name, "missing")]
     if wrong:
-        told = ", ".join(_MEANING.get(name, shown(name)) for name in wrong[:3])
+        changed = ", ".join(_MEANING.get(name, shorten_value(name)) for name in wrong[:3])
         more = f" and {len(wrong) - 3} more" if len(wrong) > 3 else ""
         raise ManifestError(
-            f"{where}: changed since it was saved, the checksum does not fit: {told}{more}; "
+            f"{where}: changed since it was saved, the checksum does not fit: {changed}{more}; "
             f"{_REMEDY}"
         )
 
 
-def _wrong_values(fit: FitResult) -> Iterator[str]:
+def _find_wrong_values(fit: FitResult) -> Iterator[str]:
     """Which values and deviations no fit gives, and why."""
     for p in (*fit.gains, *fit.parameters, *fit.loads):
         for what, number in (("value", p.value), ("sigma", p.sigma)):
@@ -408,7 +417,7 @@ def _wrong_values(fit: FitResult) -> Iterator[str]:
             yield f"the sigma of {p.name} is {p.sigma:g}; expected 0 or more"
 
 
-def _wrong_covariance(fit: FitResult) -> Iterator[str]:
+def _find_wrong_covariance(fit: FitResult) -> Iterator[str]:
     """Why no fit gives this covariance, or sigmas beside it."""
     names, C = [p.name for p in fit.parameters], fit.covariance
     for i, j in np.argwhere(~np.isfinite(C)):
@@ -437,7 +446,7 @@ def _wrong_covariance(fit: FitResult) -> Iterator[str]:
 # What of a fit goes into the C of a controller.
 
 
-def fitted_spec(model: IdentifiedModel) -> FittedSpec:
+def build_fitted_spec(model: IdentifiedModel) -> FittedSpec:
     """The values of a model for `codegen.emit`: all parameters, as `compare` predicts with them.
 
     Parameters that were set aside are 0. Drive gains, fitted or not, are those of the robot file;
@@ -451,7 +460,7 @@ def fitted_spec(model: IdentifiedModel) -> FittedSpec:
         usable=None if verdict is None else verdict.usable,
         verdict="" if verdict is None else verdict.line,
         doubts=() if verdict is None else verdict.doubts,
-        remarks=tuple(_remarks(model)),
+        remarks=tuple(_write_remarks(model)),
         parameters=tuple(
             FittedParameter(p.name, p.unit, p.value, p.sigma, p.essential) for p in fit.parameters
         ),
@@ -459,31 +468,31 @@ def fitted_spec(model: IdentifiedModel) -> FittedSpec:
     )
 
 
-def _remarks(model: IdentifiedModel) -> list[str]:
+def _write_remarks(model: IdentifiedModel) -> list[str]:
     """Sentences on what the values are of."""
     fit = model.fit
     energy = "" if fit.energy is None else ", of the energies instead of the torques"
-    told = [
+    remarks = [
         f"Values by the method {fit.method}{energy}, {fit.samples} samples, relative error "
-        f"{percent(fit.relative_error)}."
+        f"{format_percent(fit.relative_error)}."
     ]
     steps = [step for step in model.history if step.effect]
     added = [f"{s.effect} (joint {s.joint})" if s.joint is not None else s.effect for s in steps]
     if added:
-        told.append(f"Effects added since the first fit: {', '.join(added)}.")
+        remarks.append(f"Effects added since the first fit: {', '.join(added)}.")
     if fit.processing.delay:
         side = "before" if fit.processing.delay > 0.0 else "after"
-        told.append(
+        remarks.append(
             f"The torques of the logs stood {1e3 * abs(fit.processing.delay):.3g} ms {side} the "
             "motion that they belong to; the values are without that delay."
         )
     if fit.loads:
         loads = ", ".join(f"{load.name} {load.value:.6g} {load.unit}" for load in fit.loads)
-        told.append(f"Without the load that some logs carried: {loads}.")
-    return told
+        remarks.append(f"Without the load that some logs carried: {loads}.")
+    return remarks
 
 
-def with_essential_only(model: IdentifiedModel, where: str) -> IdentifiedModel:
+def keep_essential(model: IdentifiedModel, where: str) -> IdentifiedModel:
     """The model with the values of its reduced model, all others 0.
 
     Args:
@@ -496,13 +505,13 @@ def with_essential_only(model: IdentifiedModel, where: str) -> IdentifiedModel:
     fit, reduced = model.fit, model.fit.essential
     if reduced is None:
         raise DataError(f"{where}: holds no reduced model (--essential); fit it again")
-    found = {parameter.name: parameter for parameter in reduced.parameters}
+    estimates = {parameter.name: parameter for parameter in reduced.parameters}
     none: Any = {"value": 0.0, "sigma": None, "essential": False, "interval": None}
-    values = [found.get(p.name, dataclasses.replace(p, **none)) for p in fit.parameters]
+    values = [estimates.get(p.name, dataclasses.replace(p, **none)) for p in fit.parameters]
     fit = dataclasses.replace(
         fit,
         parameters=tuple(values),
         covariance=np.diag([(p.sigma or 0.0) ** 2 for p in values]),
-        **entries(reduced, "relative_error condition_number condition_scaled"),
+        **select_attributes(reduced, "relative_error condition_number condition_scaled"),
     )
     return dataclasses.replace(model, fit=fit)

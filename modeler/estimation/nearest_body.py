@@ -18,7 +18,7 @@ import numpy as np
 from scipy.sparse import csc_array, diags_array, eye_array, hstack, vstack
 
 from modeler.core.manifest import ModuleSpec, ParameterSpec
-from modeler.numerics.least_squares import column_lengths
+from modeler.numerics.least_squares import compute_column_norms
 
 PREFIXES = ("XX", "XY", "XZ", "YY", "YZ", "ZZ", "MX", "MY", "MZ", "M")
 """The ten standard parameters of a body, in this order."""
@@ -27,7 +27,7 @@ _ANSWERS = ("Solved", "AlmostSolved")
 
 
 @dataclass(frozen=True, eq=False)
-class Nearest:
+class Projection:
     """The possible machine nearest to a fit.
 
     Attributes:
@@ -40,7 +40,7 @@ class Nearest:
 
 
 @dataclass(frozen=True, eq=False)
-class Machine:
+class PhysicalParameters:
     """The unknowns of the problem: chi, those that no torque feels included.
 
     Attributes:
@@ -61,13 +61,13 @@ class Machine:
         return (*self.links, *self.positive)
 
 
-def machine_of(spec: ModuleSpec) -> Machine:
+def define_physical_parameters(spec: ModuleSpec) -> PhysicalParameters:
     """The unknowns of a robot; a link has all ten parameters, whichever the torques feel."""
     place = {parameter.name: i for i, parameter in enumerate(spec.standard)}
     links: dict[str, np.ndarray] = {}
     inertial = [p for p in spec.standard if p.effect == "rigid_body"]
     for link in dict.fromkeys(p.joint for p in inertial):
-        felt = {_prefix(p): p.name for p in inertial if p.joint == link}
+        felt = {_find_prefix(p): p.name for p in inertial if p.joint == link}
         names = [felt.get(prefix, f"{prefix}{link}") for prefix in PREFIXES]
         links[link] = np.array([place.setdefault(name, len(place)) for name in names])
     K = np.zeros((len(spec.base), len(place)))
@@ -77,24 +77,28 @@ def machine_of(spec: ModuleSpec) -> Machine:
     positive = {
         p.name: place[p.name] for p in spec.standard if p.nonnegative and p.effect != "rigid_body"
     }
-    return Machine(tuple(place), K, links, positive)
+    return PhysicalParameters(tuple(place), K, links, positive)
 
 
-def _prefix(parameter: ParameterSpec) -> str:
+def _find_prefix(parameter: ParameterSpec) -> str:
     """The XX of XX21, and of XX2 that similar legs share."""
-    own = parameter.name.removesuffix(parameter.joint)
-    return own if own in PREFIXES else next(p for p in PREFIXES if parameter.name.startswith(p))
+    prefix = parameter.name.removesuffix(parameter.joint)
+    return (
+        prefix if prefix in PREFIXES else next(p for p in PREFIXES if parameter.name.startswith(p))
+    )
 
 
-def body(felt: Sequence[ParameterSpec]) -> Machine:
+def define_body(parameters: Sequence[ParameterSpec]) -> PhysicalParameters:
     """The unknowns of one body; beta are those of its parameters that are felt."""
-    names = [p.name.removesuffix(p.joint) for p in felt]
+    names = [p.name.removesuffix(p.joint) for p in parameters]
     names += [prefix for prefix in PREFIXES if prefix not in names]
     places = np.array([names.index(prefix) for prefix in PREFIXES])
-    return Machine(tuple(names), np.eye(len(felt), len(names)), {"body": places}, {})
+    return PhysicalParameters(
+        tuple(names), np.eye(len(parameters), len(names)), {"body": places}, {}
+    )
 
 
-def pseudo_inertia_of(ten: np.ndarray) -> np.ndarray:
+def compute_pseudo_inertia(ten: np.ndarray) -> np.ndarray:
     """(4, 4, ...) P of ten standard parameters (10, ...)."""
     xx, xy, xz, yy, yz, zz, mx, my, mz, m = ten
     half = (xx + yy + zz) / 2.0
@@ -106,15 +110,15 @@ def pseudo_inertia_of(ten: np.ndarray) -> np.ndarray:
     ])  # fmt: skip
 
 
-def parameters_of(P: np.ndarray) -> np.ndarray:
+def extract_parameters(P: np.ndarray) -> np.ndarray:
     """(10, ...) the standard parameters of P (4, 4, ...)."""
     (x, xy, xz, mx), (_, y, yz, my), (_, _, z, mz), (_, _, _, m) = P
     return np.array([y + z, -xy, -xz, x + z, -yz, x + y, mx, my, mz, m])
 
 
-def nearest_possible(
-    machine: Machine, beta: np.ndarray, root: np.ndarray, free: Iterable[str] = ()
-) -> Nearest | None:
+def project_parameters(
+    machine: PhysicalParameters, beta: np.ndarray, root: np.ndarray, free: Iterable[str] = ()
+) -> Projection | None:
     """The possible machine of least ||root (K chi - beta)||; None if the solver found none.
 
     Args:
@@ -127,16 +131,16 @@ def nearest_possible(
     if size == 0.0 or not np.isfinite(root).all():
         return None
     matrix = root @ machine.K / size
-    scale = scales(machine, matrix)
-    bounds, cones = _bounds(machine, scale, set(free))
-    x = _solved(matrix * scale, root @ beta / size, bounds, cones)
+    scale = compute_scales(machine, matrix)
+    bounds, cones = _build_bounds(machine, scale, set(free))
+    x = _solve_cone_problem(matrix * scale, root @ beta / size, bounds, cones)
     if x is None:
         return None
     best = machine.K @ (scale * x)
-    return Nearest(best, float(np.linalg.norm(root @ (best - beta))))
+    return Projection(best, float(np.linalg.norm(root @ (best - beta))))
 
 
-def _solved(
+def _solve_cone_problem(
     matrix: np.ndarray, target: np.ndarray, bounds: csc_array, cones: list
 ) -> np.ndarray | None:
     """x of least ||matrix x - target|| with -bounds x in the cones; None without an answer."""
@@ -150,7 +154,7 @@ def _solved(
     squares = diags_array(np.repeat([0.0, 2.0], [unknowns, rows]))
     settings = clarabel.DefaultSettings()
     settings.verbose = False
-    found = clarabel.DefaultSolver(
+    solution = clarabel.DefaultSolver(
         squares.tocsc(),
         np.zeros(unknowns + rows),
         vstack([equations, limits]).tocsc(),
@@ -158,26 +162,28 @@ def _solved(
         [clarabel.ZeroConeT(rows), *cones],
         settings,
     ).solve()
-    return np.array(found.x[:unknowns]) if str(found.status) in _ANSWERS else None
+    return np.array(solution.x[:unknowns]) if str(solution.status) in _ANSWERS else None
 
 
-def scales(machine: Machine, matrix: np.ndarray) -> np.ndarray:
+def compute_scales(machine: PhysicalParameters, matrix: np.ndarray) -> np.ndarray:
     """(m,) one mass and one length per link: P = D P' D with a diagonal D keeps its sign."""
     length = np.linalg.norm(matrix, axis=0)
-    scale = 1.0 / column_lengths(matrix)
-    for own in machine.links.values():
-        inertia, moment, weight = (length[own[i:j]].max() for i, j in ((0, 6), (6, 9), (9, 10)))
+    scale = 1.0 / compute_column_norms(matrix)
+    for places in machine.links.values():
+        inertia, moment, weight = (length[places[i:j]].max() for i, j in ((0, 6), (6, 9), (9, 10)))
         metre = moment / inertia if moment > 0.0 and inertia > 0.0 else 1.0
         largest = max(inertia * metre**2, moment * metre, weight)
         kilogram = 1.0 / largest if largest > 0.0 else 1.0
-        scale[own] = kilogram * metre ** np.repeat([2, 1, 0], [6, 3, 1])
+        scale[places] = kilogram * metre ** np.repeat([2, 1, 0], [6, 3, 1])
     return scale
 
 
 _UPPER = np.tril_indices(4)[::-1]  # of P, column after column, as the solver has it
 
 
-def _bounds(machine: Machine, scale: np.ndarray, free: set[str]) -> tuple[csc_array, list]:
+def _build_bounds(
+    machine: PhysicalParameters, scale: np.ndarray, free: set[str]
+) -> tuple[csc_array, list]:
     """Matrix of the bounds, -B x in the cones, and the cones."""
     import clarabel
 
@@ -185,20 +191,22 @@ def _bounds(machine: Machine, scale: np.ndarray, free: set[str]) -> tuple[csc_ar
     alone = [place for name, place in machine.positive.items() if name not in free]
     rows = [-np.eye(unknowns)[alone]]
     cones: list = [clarabel.NonnegativeConeT(len(alone))] if alone else []
-    for name, own in machine.links.items():
+    for name, places in machine.links.items():
         if name not in free:
-            kilogram, metre = scale[own[9]], scale[own[6]] / scale[own[9]]
+            kilogram, metre = scale[places[9]], scale[places[6]] / scale[places[9]]
             size = np.array([metre, metre, metre, 1.0])
             twice = np.where(np.eye(4), 1.0, np.sqrt(2.0)) / (kilogram * np.outer(size, size))
             block = np.zeros((10, unknowns))
-            block[:, own] = -(twice[:, :, None] * pseudo_inertia_of(np.diag(scale[own])))[_UPPER]
+            block[:, places] = -(
+                twice[:, :, None] * compute_pseudo_inertia(np.diag(scale[places]))
+            )[_UPPER]
             rows.append(block)
             cones.append(clarabel.PSDTriangleConeT(4))
     return csc_array(np.vstack(rows)), cones
 
 
-def carried_by(
-    machine: Machine, beta: np.ndarray, root: np.ndarray, distance: float, most: int = 3
+def attribute_distance(
+    machine: PhysicalParameters, beta: np.ndarray, root: np.ndarray, distance: float, most: int = 3
 ) -> Sequence[str]:
     """Names of the bounds that a distance comes from, the gravest first.
 
@@ -206,7 +214,7 @@ def carried_by(
     """
     fall = {}
     for name in machine.bounds:
-        other = nearest_possible(machine, beta, root, [name])
+        other = project_parameters(machine, beta, root, [name])
         fall[name] = distance**2 - other.distance**2 if other is not None else 0.0
     largest = max(fall.values(), default=0.0)
     named = [name for name in fall if largest > 0.0 and fall[name] >= 0.5 * largest]

@@ -5,7 +5,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any, TypeVar
 
-from modeler.core.json import built, entries
+from modeler.core.json import build_instance, select_attributes
 
 T = TypeVar("T")
 
@@ -48,7 +48,7 @@ class ParameterEstimate:
     def to_json(self) -> dict[str, Any]:
         """Plain data."""
         names = "name value sigma relative_sigma_percent essential unit status prior interval"
-        return entries(self, names)
+        return select_attributes(self, names)
 
 
 def read_back(kind: type[T], raw: Mapping[str, Any], place: str) -> T:
@@ -58,7 +58,9 @@ def read_back(kind: type[T], raw: Mapping[str, Any], place: str) -> T:
         PlainError: a field is missing or of another type; names its place.
     """
     names = {field.name for field in dataclasses.fields(kind)}  # type: ignore[arg-type]
-    return built(kind, {name: value for name, value in raw.items() if name in names}, place)
+    return build_instance(
+        kind, {name: value for name, value in raw.items() if name in names}, place
+    )
 
 
 def read_all(kind: type[T], raw: Mapping[str, Any], name: str) -> tuple[T, ...]:
@@ -66,7 +68,7 @@ def read_all(kind: type[T], raw: Mapping[str, Any], name: str) -> tuple[T, ...]:
     return tuple(read_back(kind, one, f"{name}[{i}]") for i, one in enumerate(raw[name]))
 
 
-def parameter_lines(
+def format_parameters(
     parameters: Sequence[ParameterEstimate], reduced: Sequence[ParameterEstimate] = ()
 ) -> list[str]:
     """A table: name, value, sigma, %sigma, unit; values of a reduced model, shares of a prior."""
@@ -83,7 +85,7 @@ def parameter_lines(
         percent = "-" if share is None else f"{share:.3g}" if share < 1e4 else ">10000"
         mark = "" if parameter.essential else "  (not essential)"
         column = f"{alone.get(parameter.name, '-'):>13}" if alone else ""
-        column += f"{prior_text(parameter):>8}" if known else ""
+        column += f"{format_prior(parameter):>8}" if known else ""
         lines.append(
             f"{parameter.name:<{width}} {parameter.value:>13.6g} {parameter.sigma:>10.3g} "
             f"{percent:>8}{column}  {parameter.unit}{mark}"
@@ -91,14 +93,14 @@ def parameter_lines(
     return lines
 
 
-def prior_text(parameter: ParameterEstimate) -> str:
+def format_prior(parameter: ParameterEstimate) -> str:
     """How much of what is known of it comes from the prior."""
     if parameter.status == "held":
         return "held"
     return "-" if parameter.prior is None else f"{100.0 * parameter.prior:.0f} %"
 
 
-def spread_text(value: float, sigma: float, interval: tuple[float, float] | None) -> str:
+def format_spread(value: float, sigma: float, interval: tuple[float, float] | None) -> str:
     """What stands behind a value: " +- sigma", or where that says little " (low to high)"."""
     if interval is not None and interval[0] < interval[1]:
         down, up = value - interval[0], interval[1] - value

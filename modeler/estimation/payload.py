@@ -9,11 +9,15 @@ import numpy as np
 
 from modeler.core.errors import DataError, Method
 from modeler.core.manifest import ModuleSpec
-from modeler.estimation.identify import Equations, base_equations, fit_equations
+from modeler.estimation.identify import Equations, build_base_equations, fit_equations
 from modeler.estimation.model_file import IdentifiedModel
 from modeler.estimation.result import FitResult
-from modeler.numerics.least_squares import column_lengths, scaled_least_squares, triangle
-from modeler.observation import Observation, Segment, signals_of
+from modeler.numerics.least_squares import (
+    compute_column_norms,
+    compute_triangle,
+    solve_scaled_least_squares,
+)
+from modeler.observation import Observation, Segment, compute_signals
 from modeler.runtime import CompiledModel
 
 _ORDER = ("M", "MX", "MY", "MZ", "ZZ", "XX", "YY", "XY", "XZ", "YZ")
@@ -68,12 +72,12 @@ def identify_with_payloads(
     Raises:
         DataError: a log or link that is not there, every log loaded, a mass that is not positive.
     """
-    equations = loaded_equations(model, observation, payloads).equations
+    equations = build_loaded_equations(model, observation, payloads).equations
     return fit_equations(observation, equations, method, model, below)
 
 
 @dataclass(frozen=True, eq=False)
-class Loaded:
+class LoadedEquations:
     """The equations of robot and loads.
 
     Attributes:
@@ -86,83 +90,83 @@ class Loaded:
     weighed: tuple[Payload, ...]
     torques: np.ndarray
 
-    def tells_mass(self, i: int) -> bool:
+    def can_identify_mass(self, i: int) -> bool:
         """True if the logs tell the mass of a weighed payload from all other parameters."""
-        return bool(independent(self.equations.W, self.torques[:, [i]]))
+        return bool(select_independent(self.equations.W, self.torques[:, [i]]))
 
 
-def loaded_equations(
+def build_loaded_equations(
     model: CompiledModel, observation: Observation, payloads: Sequence[Payload]
-) -> Loaded:
+) -> LoadedEquations:
     """The equations that `identify_with_payloads` fits.
 
     Raises:
         DataError: see there.
     """
-    _check(model, observation, payloads)
-    equations = base_equations(observation)
+    _check_payloads(model, observation, payloads)
+    equations = build_base_equations(observation)
     sides = [equations.y]
     for payload in payloads:
-        equations = _with_load(equations, model, observation, payload)
+        equations = _add_load(equations, model, observation, payload)
         sides.append(equations.y)
     known = [i for i, payload in enumerate(payloads) if payload.mass is not None]
     weighed = tuple(payloads[i] for i in known)
-    loaded = Loaded(equations, weighed, -np.diff(sides, axis=0)[known].T)
+    loaded = LoadedEquations(equations, weighed, -np.diff(sides, axis=0)[known].T)
     blind = [
         f"{payload.name}: its mass of {payload.mass:g} kg is taken as given: these logs do not "
         "tell it from its other parameters"
         for i, payload in enumerate(weighed)
-        if not loaded.tells_mass(i)
+        if not loaded.can_identify_mass(i)
     ]
-    told = dataclasses.replace(equations, sentences=(*equations.sentences, *blind))
-    return dataclasses.replace(loaded, equations=told)
+    annotated = dataclasses.replace(equations, sentences=(*equations.sentences, *blind))
+    return dataclasses.replace(loaded, equations=annotated)
 
 
-def _with_load(
+def _add_load(
     equations: Equations, model: CompiledModel, observation: Observation, payload: Payload
 ) -> Equations:
     """The equations with the columns of a load that can be told apart, beside those there are."""
-    link = payload.link or carrier(model.spec)
+    link = payload.link or find_carrier(model.spec)
     place = {p.name: i for i, p in enumerate(model.spec.standard) if p.effect == "rigid_body"}
     labels = [label for label in _ORDER if f"{label}{link}" in place]
     places = [place[f"{label}{link}"] for label in labels]
     units = [model.spec.standard[i].unit for i in places]
 
     def evaluate(s: Segment, w: slice) -> np.ndarray:
-        read = signals_of(model, s)
+        read = compute_signals(model, s)
         part = None if read is None else read[w]
         return model.regressor(s.q[w], s.qd[w], s.qdd[w], part)[:, :, places]
 
-    columns = observation.filtered(evaluate)[observation.used]
+    columns = observation.filter_columns(evaluate)[observation.used]
     runs = [i for i, name in enumerate(observation.logs) if name in payload.logs]
     columns[~np.isin(observation.row_run, runs)] = 0.0
     y = equations.y
     if payload.mass is not None:
         y = y - payload.mass * columns[:, labels.index("M")]
         columns, labels, units = columns[:, 1:], labels[1:], units[1:]
-    kept = independent(equations.W, columns)
+    kept_columns = select_independent(equations.W, columns)
     names = [f"{label}{link}" for label in labels]
-    sums = _sums(equations.W, columns, names, kept)
-    own = [f"{names[i]}{'R' if i in sums else ''}_{payload.name}" for i in kept]
-    remarks = _remarks(payload, columns, names, kept, sums)
+    sums = _group_columns(equations.W, columns, names, kept_columns)
+    load_names = [f"{names[i]}{'R' if i in sums else ''}_{payload.name}" for i in kept_columns]
+    remarks = _describe_load(payload, columns, names, kept_columns, sums)
     return dataclasses.replace(
         equations,
-        extra=np.column_stack([equations.extra, columns[:, kept]]),
+        extra=np.column_stack([equations.extra, columns[:, kept_columns]]),
         y=y,
-        names=(*equations.names, *own),
-        units=(*equations.units, *(units[i] for i in kept)),
+        names=(*equations.names, *load_names),
+        units=(*equations.units, *(units[i] for i in kept_columns)),
         sentences=(*equations.sentences, *remarks),
-        carried=(*equations.carried, *payload.logs),
+        loaded_logs=(*equations.loaded_logs, *payload.logs),
     )
 
 
-def carrier(spec: ModuleSpec) -> str:
+def find_carrier(spec: ModuleSpec) -> str:
     """The link that carries loads: the platform of a parallel robot, or the last one."""
     closure = spec.closure  # whose joints are the coordinates only
     return spec.joints[-1].name if closure is None else closure.carrier or closure.variables[-1]
 
 
-def with_load(
+def add_known_load(
     model: AnyModel, mass: float, centre: Sequence[float] = (0.0, 0.0, 0.0), link: str | None = None
 ) -> AnyModel:
     """The model of the robot with a load that is known: beta + K d(chi).
@@ -179,7 +183,7 @@ def with_load(
     Raises:
         DataError: no such link, or a load that can be none.
     """
-    place = link or carrier(model.spec)
+    place = link or find_carrier(model.spec)
     links = {p.joint: None for p in model.spec.standard if p.effect == "rigid_body"}
     if place not in links:
         raise DataError(
@@ -204,7 +208,9 @@ def with_load(
     return dataclasses.replace(model, fit=dataclasses.replace(fit, parameters=tuple(loaded)))
 
 
-def _check(model: CompiledModel, observation: Observation, payloads: Sequence[Payload]) -> None:
+def _check_payloads(
+    model: CompiledModel, observation: Observation, payloads: Sequence[Payload]
+) -> None:
     loaded: set[str] = set()
     links = {parameter.joint for parameter in model.spec.standard}
     for payload in payloads:
@@ -234,30 +240,33 @@ def _check(model: CompiledModel, observation: Observation, payloads: Sequence[Pa
         )
 
 
-def _sums(
-    base: np.ndarray, columns: np.ndarray, names: Sequence[str], kept: Sequence[int]
+def _group_columns(
+    base: np.ndarray, columns: np.ndarray, names: Sequence[str], kept_columns: Sequence[int]
 ) -> dict[int, str]:
     """{kept column: the sum that its parameter stands for, "M3 + 11.1*YY3"}, of those that are."""
-    basis, lengths = np.column_stack([base, columns[:, kept]]), np.linalg.norm(columns, axis=0)
-    found: dict[int, str] = {}
+    basis, lengths = (
+        np.column_stack([base, columns[:, kept_columns]]),
+        np.linalg.norm(columns, axis=0),
+    )
+    relations: dict[int, str] = {}
     for i, name in enumerate(names):
-        if i in kept or lengths[i] == 0.0 or not kept:
+        if i in kept_columns or lengths[i] == 0.0 or not kept_columns:
             continue
-        factors = scaled_least_squares(basis, columns[:, i])[-len(kept) :]
-        for k, factor in zip(kept, factors, strict=True):
+        factors = solve_scaled_least_squares(basis, columns[:, i])[-len(kept_columns) :]
+        for k, factor in zip(kept_columns, factors, strict=True):
             if abs(factor) * lengths[k] > _TOLERANCE**0.5 * lengths[i]:
                 term = f"{'-' if factor < 0.0 else '+'} {abs(factor):.4g}*{name}"
-                found[k] = f"{found.get(k, names[k])} {term}"
-    return found
+                relations[k] = f"{relations.get(k, names[k])} {term}"
+    return relations
 
 
-def _remarks(
-    payload: Payload, columns: np.ndarray, names: Sequence[str], kept: Sequence[int],
+def _describe_load(
+    payload: Payload, columns: np.ndarray, names: Sequence[str], kept_columns: Sequence[int],
     sums: Mapping[int, str],
 ) -> list[str]:  # fmt: skip
     """What became of the load's parameters that are not estimated."""
     idle = [name for i, name in enumerate(names) if not columns[:, i].any()]
-    gone = [n for i, n in enumerate(names) if i not in kept and n not in idle]
+    gone = [n for i, n in enumerate(names) if i not in kept_columns and n not in idle]
     said = []
     if idle:
         said.append(f"{payload.name}: {', '.join(idle)} of the load have no effect on the torques")
@@ -270,8 +279,8 @@ def _remarks(
     return said
 
 
-def independent(base: np.ndarray, columns: np.ndarray) -> list[int]:
+def select_independent(base: np.ndarray, columns: np.ndarray) -> list[int]:
     """Indices of the columns that neither `base` nor earlier columns reproduce."""
     every = np.column_stack([base, columns])
-    left = np.diag(triangle(every / column_lengths(every)))[base.shape[1] :]
+    left = np.diag(compute_triangle(every / compute_column_norms(every)))[base.shape[1] :]
     return np.flatnonzero(np.abs(left) > _TOLERANCE).tolist()

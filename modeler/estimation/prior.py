@@ -25,16 +25,20 @@ from scipy.special import chdtrc, chdtri
 
 from modeler.core.errors import DataError
 from modeler.core.manifest import ModuleSpec
-from modeler.core.table import percent
-from modeler.estimation.covariance import roots
-from modeler.estimation.least_squares import Estimate, placed, solve_by_qr
-from modeler.estimation.nearest_body import machine_of, parameters_of, pseudo_inertia_of
+from modeler.core.table import format_percent
+from modeler.estimation.covariance import compute_roots
+from modeler.estimation.least_squares import Estimate, expand_columns, solve_by_qr
+from modeler.estimation.nearest_body import (
+    compute_pseudo_inertia,
+    define_physical_parameters,
+    extract_parameters,
+)
 from modeler.numerics.least_squares import (
-    Compressed,
-    column_lengths,
-    independent_columns,
-    scaled_least_squares,
-    triangle,
+    CompressedRegression,
+    compute_column_norms,
+    compute_triangle,
+    find_independent_columns,
+    solve_scaled_least_squares,
 )
 
 HELD = 1e-5
@@ -66,29 +70,29 @@ class Prior:
     mean: np.ndarray
     S: np.ndarray
     groups: Mapping[str, list[int]]
-    held: tuple[str, ...]
-    without: Mapping[str, str]
+    fixed_names: tuple[str, ...]
+    skipped_bodies: Mapping[str, str]
 
     @property
     def has_bodies(self) -> bool:
         """True if something is known of the mass of a link."""
-        return any(len(own) > 1 for own in self.groups.values())
+        return any(len(places) > 1 for places in self.groups.values())
 
-    def but(self, names: Sequence[str]) -> "Prior":
+    def exclude_groups(self, names: Sequence[str]) -> "Prior":
         """The same without some groups."""
-        groups = {name: own for name, own in self.groups.items() if name not in names}
+        groups = {name: places for name, places in self.groups.items() if name not in names}
         return dataclasses.replace(self, groups=groups)
 
-    def tightened(self, factors: Mapping[str, float]) -> "Prior":
+    def scale_sigmas(self, factors: Mapping[str, float]) -> "Prior":
         """The same with standard deviations of some groups so many times as large."""
         S = self.S.copy()
         for name, factor in factors.items():
-            own = self.groups[name]
-            S[own] *= factor
-            S[:, own] *= factor
+            places = self.groups[name]
+            S[places] *= factor
+            S[:, places] *= factor
         return dataclasses.replace(self, S=S)
 
-    def known(self, M: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    def evaluate_prior(self, M: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
         """What is known of M beta: N (r, k), N M K chi_0 (r,), and a root (r, m) of its covariance.
 
         The rows of N are orthonormal and see nothing of parameters that are free.
@@ -96,10 +100,10 @@ class Prior:
         Args:
             M: (k, c).
         """
-        every = [i for own in self.groups.values() for i in own]
+        every = [i for places in self.groups.values() for i in places]
         K = M @ self.K
         loose = np.delete(K, every, axis=1)
-        loose = loose / column_lengths(loose)
+        loose = loose / compute_column_norms(loose)
         U, s, _ = np.linalg.svd(loose)
         N = U[:, int(np.sum(s > _NONE * s.max(initial=1.0))) :].T
         N = N[np.abs(N @ K[:, every]).max(axis=1, initial=0.0) > _NONE * np.abs(K).max(initial=0.0)]
@@ -115,7 +119,7 @@ class Prior:
         half = (vectors * np.sqrt(np.maximum(values, 0.0))) @ vectors.T
         return np.asarray(size[:, None] * half)
 
-    def rows(self, lengths: np.ndarray) -> np.ndarray:
+    def build_rows(self, lengths: np.ndarray) -> np.ndarray:
         """(r, c + 1) [R, R beta_0] with R^T R the information on beta.
 
         Args:
@@ -123,28 +127,33 @@ class Prior:
                 is held is `HELD` of that.
         """
         scale = np.where(lengths > 0.0, lengths, 1.0)
-        N, mean, root = self.known(np.diag(scale))
+        N, mean, root = self.evaluate_prior(np.diag(scale))
         vectors, values, _ = np.linalg.svd(root)
         turn = vectors / np.maximum(np.pad(values, (0, len(vectors) - len(values))), HELD)
         return np.column_stack([turn.T @ N * scale, turn.T @ mean])
 
-    def beside(self, lengths: np.ndarray) -> np.ndarray:
-        """(r, k + 1) `rows` of the k columns of a fit, first of which are the base parameters."""
-        own = self.rows(lengths[: len(self.names)])
-        found = np.zeros((len(own), len(lengths) + 1))
-        found[:, [*range(len(self.names)), -1]] = own
-        return found
+    def extend_rows(self, lengths: np.ndarray) -> np.ndarray:
+        """(r, k + 1) `build_rows` of the k columns of a fit.
 
-    def excluded(self, beta: np.ndarray) -> list[str]:
+        First of which are the base " "parameters.
+        """
+        prior_rows = self.build_rows(lengths[: len(self.names)])
+        padded = np.zeros((len(prior_rows), len(lengths) + 1))
+        padded[:, [*range(len(self.names)), -1]] = prior_rows
+        return padded
+
+    def find_unlikely_groups(self, beta: np.ndarray) -> list[str]:
         """Groups that lie, by less than `CHANCE`, as far off as the likeliest chi of beta (c,)."""
-        N, mean, root = self.known(np.eye(len(beta)))
+        N, mean, root = self.evaluate_prior(np.eye(len(beta)))
         size = np.linalg.norm(root, axis=1)
         size = np.where(size > _NONE * size.max(initial=0.0), size, np.inf)  # held: moves nothing
         apart = np.linalg.lstsq(root / size[:, None], (N @ beta - mean) / size, rcond=1e-9)[0]
         every = self.groups.items()
-        return [k for k, own in every if chdtrc(len(own), np.sum(apart[own] ** 2)) < CHANCE]
+        return [
+            k for k, places in every if chdtrc(len(places), np.sum(apart[places] ** 2)) < CHANCE
+        ]
 
-    def contradictions(
+    def find_contradictions(
         self, M: np.ndarray, value: np.ndarray, covariance: np.ndarray
     ) -> dict[str, str]:
         """A line for each body or value that the data contradict.
@@ -160,7 +169,7 @@ class Prior:
         """
 
         def misfit(prior: "Prior") -> tuple[float, int]:
-            N, mean, root = prior.known(M)
+            N, mean, root = prior.evaluate_prior(M)
             d, total = mean - N @ value, root @ root.T + N @ covariance @ N.T
             size = np.sqrt(np.maximum(np.diag(total), 1e-300))
             apart = np.linalg.lstsq(total / np.outer(size, size), d / size, rcond=1e-12)[0]
@@ -170,7 +179,7 @@ class Prior:
         chance = CHANCE / max(1, len(self.groups))
         falls = {}
         for name in self.groups:
-            left, rest = misfit(self.but([name]))
+            left, rest = misfit(self.exclude_groups([name]))
             lost, fall = degrees - rest, max(whole - left, 0.0)
             if lost and chdtrc(lost, fall) < chance:
                 falls[name] = fall**0.5, chdtri(lost, chance) ** 0.5
@@ -178,19 +187,20 @@ class Prior:
         named = sorted(falls.items(), key=lambda item: -item[1][0])
         return {
             name: f"{name}: the data contradict what the robot file says of it, by {fall:.3g} "
-            f"sigmas where {limit:.2g} are chance{'' if self._fixed(name) else _LEFT_OUT}; correct "
+            f"sigmas where {limit:.2g} are chance{'' if self._is_fixed(name) else _LEFT_OUT}; "
+            "correct "
             "[parameters] or its uncertainty, or let `modeler diagnose` look for an effect that is "
             "missing"
             for name, (fall, limit) in named
             if fall**2 >= 0.5 * most**2
         }
 
-    def _fixed(self, name: str) -> bool:
+    def _is_fixed(self, name: str) -> bool:
         """True if a group is held as it is."""
         return not self.S[self.groups[name]].any()
 
-    def applied(
-        self, estimate: Estimate, data: Compressed, covariance: np.ndarray,
+    def combine_with_data(
+        self, estimate: Estimate, data: CompressedRegression, covariance: np.ndarray,
         more: np.ndarray | float = 0.0, joints: Sequence[str] = (),
     ) -> Estimate:  # fmt: skip
         """The estimate of data and prior together.
@@ -208,22 +218,26 @@ class Prior:
                 prior do so beyond it, and it stays in the standard deviations.
             joints: names, for a line on each that the prior makes worse.
         """
-        whole = data.whole(estimate.sigma)
-        kept, c = np.asarray(estimate.rank.kept, dtype=int), len(estimate.beta)
-        M, V = np.zeros((len(kept), c)), covariance[np.ix_(kept, kept)]
-        rest = np.setdiff1d(np.arange(c), kept)
-        M[:, kept] = np.eye(len(kept))
-        M[:, rest] = scaled_least_squares(whole[:, kept], whole[:, rest])
-        told = roots(V)[1] @ np.column_stack([M, estimate.beta[kept]])
-        doubt = V + np.diag(np.broadcast_to(more, c)[kept])
-        against = self.contradictions(M[:, : len(self.names)], estimate.beta[kept], doubt)
-        left = self.but([name for name in against if not self._fixed(name)])
-        both = np.vstack([told, left.beside(np.linalg.norm(told[:, :-1], axis=0))])
-        rank = independent_columns(both[:, :-1], data.names)
-        values, half = solve_by_qr(both[:, rank.kept], both[:, -1])
-        beta, posterior = placed(c, rank.kept, values, half @ half.T)
+        whole = data.combine_joints(estimate.sigma)
+        kept_columns, c = np.asarray(estimate.rank.kept_columns, dtype=int), len(estimate.beta)
+        M, V = np.zeros((len(kept_columns), c)), covariance[np.ix_(kept_columns, kept_columns)]
+        rest = np.setdiff1d(np.arange(c), kept_columns)
+        M[:, kept_columns] = np.eye(len(kept_columns))
+        M[:, rest] = solve_scaled_least_squares(whole[:, kept_columns], whole[:, rest])
+        whitened_data = compute_roots(V)[1] @ np.column_stack([M, estimate.beta[kept_columns]])
+        doubt = V + np.diag(np.broadcast_to(more, c)[kept_columns])
+        against = self.find_contradictions(
+            M[:, : len(self.names)], estimate.beta[kept_columns], doubt
+        )
+        left = self.exclude_groups([name for name in against if not self._is_fixed(name)])
+        both = np.vstack(
+            [whitened_data, left.extend_rows(np.linalg.norm(whitened_data[:, :-1], axis=0))]
+        )
+        rank = find_independent_columns(both[:, :-1], data.names)
+        values, half = solve_by_qr(both[:, rank.kept_columns], both[:, -1])
+        beta, posterior = expand_columns(c, rank.kept_columns, values, half @ half.T)
         before, after = np.full(c, np.inf), np.diag(posterior)
-        before[kept] = np.diag(V)
+        before[kept_columns] = np.diag(V)
         share = np.clip(1.0 - after / before, 0.0, 1.0)
         posterior = posterior + np.diag(np.where(after > 0.0, more, 0.0))
         noise = np.zeros((1, c + 1))
@@ -233,23 +247,31 @@ class Prior:
             beta=beta,
             covariance=posterior,
             rank=rank,
-            whole=triangle(np.vstack([both, noise])),
-            share=share,
-            held=self.held,
-            contradicted=(*against.values(), *_raised(data, estimate.beta, beta, joints)),
-            sentences=(*estimate.sentences, *left.sentences(share)),
+            whole=compute_triangle(np.vstack([both, noise])),
+            prior_share=share,
+            fixed_names=self.fixed_names,
+            contradicted=(
+                *against.values(),
+                *_find_raised_errors(data, estimate.beta, beta, joints),
+            ),
+            sentences=(*estimate.sentences, *left.format_sentences(share)),
         )
 
-    def sentences(self, share: np.ndarray) -> list[str]:
+    def format_sentences(self, share: np.ndarray) -> list[str]:
         """What the prior did."""
         count = len(self.names)
-        said = [
-            f"prior of the robot file on {', '.join(self.groups)}: {percent(share[:count].mean())} "
-            f"of what is known of {count} parameters comes from it"
-        ] if self.groups else []  # fmt: skip
-        if self.without:
-            told = ", ".join(f"{name} ({why})" for name, why in self.without.items())
-            said.append(f"no prior from [parameters] on placeholders: {told}")
+        said = (
+            [
+                f"prior of the robot file on {', '.join(self.groups)}: "
+                f"{format_percent(share[:count].mean())} "
+                f"of what is known of {count} parameters comes from it"
+            ]
+            if self.groups
+            else []
+        )
+        if self.skipped_bodies:
+            reasons = ", ".join(f"{name} ({why})" for name, why in self.skipped_bodies.items())
+            said.append(f"no prior from [parameters] on placeholders: {reasons}")
         return said
 
 
@@ -257,24 +279,29 @@ RAISED = 0.1
 """Of the fit error of a joint: what a prior may add to it unsaid, where it is beyond chance."""
 
 
-def _raised(
-    data: Compressed, free: np.ndarray, beta: np.ndarray, joints: Sequence[str]
+def _find_raised_errors(
+    data: CompressedRegression, free: np.ndarray, beta: np.ndarray, joints: Sequence[str]
 ) -> list[str]:
     """A line for each joint whose error the prior raises beyond three of its standard errors."""
-    torque = data.torque_norms()
-    before, after = data.residual_norms(free), data.residual_norms(beta)
+    torque = data.compute_torque_norms()
+    before, after = data.compute_residual_norms(free), data.compute_residual_norms(beta)
     chance = 3.0 / np.sqrt(2.0 * np.maximum(data.rows, 1))
     return [
-        f"joint {name}: the prior of the robot file raises its fit error from {percent(a / t)} to "
-        f"{percent(b / t)}; correct [parameters] or its uncertainty"
+        f"joint {name}: the prior of the robot file raises its fit error from "
+        f"{format_percent(a / t)} to "
+        f"{format_percent(b / t)}; correct [parameters] or its uncertainty"
         for name, t, a, b, most in zip(joints, torque, before, after, chance, strict=False)
         if t > 0.0 and b > (1.0 + max(RAISED, float(most))) * a
     ]
 
 
-def prior_of(spec: ModuleSpec) -> Prior | None:
+def build_prior(spec: ModuleSpec) -> Prior | None:
     """The prior that a robot file states; None without `[parameters.uncertainty]` and `held`."""
-    machine, every, share = machine_of(spec), spec.standard, spec.inertial_uncertainty
+    machine, every, share = (
+        define_physical_parameters(spec),
+        spec.standard,
+        spec.inertial_uncertainty,
+    )
     if share is None and all(p.deviation is None for p in every):
         return None
     count = len(machine.names)
@@ -284,8 +311,8 @@ def prior_of(spec: ModuleSpec) -> Prior | None:
     value = {p.name: p.nominal for p in every}
     for link, places in machine.links.items() if share else ():
         ten = [value.get(machine.names[i], 0.0) for i in places]  # 0 where no torque feels it
-        given = np.array([worth or 0.0 for worth in ten])
-        why, block = body_covariance(given, share or 0.0)
+        stated = np.array([worth or 0.0 for worth in ten])
+        why, block = compute_body_covariance(stated, share or 0.0)
         if None in ten:
             why = "its ten parameters are not all stated"
         elif not why and not block[0, 0] and max(places) < len(every):
@@ -293,9 +320,9 @@ def prior_of(spec: ModuleSpec) -> Prior | None:
         if why:
             without[f"link {link}"] = why
         else:
-            mean[places], S[np.ix_(places, places)] = given, block
+            mean[places], S[np.ix_(places, places)] = stated, block
             groups[f"link {link}"] = places.tolist()
-    of_links = {i for own in groups.values() for i in own}
+    of_links = {i for group in groups.values() for i in group}
     for i, parameter in enumerate(every):
         if parameter.deviation is not None:
             S[i], S[:, i] = 0.0, 0.0
@@ -308,7 +335,7 @@ def prior_of(spec: ModuleSpec) -> Prior | None:
     return Prior(names, machine.K, mean, S, groups, fixed, without)
 
 
-def body_covariance(ten: np.ndarray, share: float) -> tuple[str, np.ndarray]:
+def compute_body_covariance(ten: np.ndarray, share: float) -> tuple[str, np.ndarray]:
     """Why these are the ten parameters of no body, or (10, 10) their covariance.
 
     A body that its own uncertainty makes possible is one.
@@ -317,7 +344,7 @@ def body_covariance(ten: np.ndarray, share: float) -> tuple[str, np.ndarray]:
         ten: in the order of `PREFIXES`, SI.
         share: relative uncertainty.
     """
-    none, mass, P = np.zeros((10, 10)), ten[9], pseudo_inertia_of(ten)
+    none, mass, P = np.zeros((10, 10)), ten[9], compute_pseudo_inertia(ten)
     if mass <= 0.0:
         return "mass of 0" if mass == 0.0 else "negative mass", none
     centre = P[:3, 3] / mass
@@ -332,8 +359,8 @@ def body_covariance(ten: np.ndarray, share: float) -> tuple[str, np.ndarray]:
     about = share * np.repeat([moments, mass * metre, mass], [6, 3, 1])
     carry = np.eye(4)
     carry[:3, 3] = centre
-    moved = np.einsum("ai,ijk,bj->abk", carry, pseudo_inertia_of(np.diag(about)), carry)
-    turned = parameters_of(moved)
+    moved = np.einsum("ai,ijk,bj->abk", carry, compute_pseudo_inertia(np.diag(about)), carry)
+    turned = extract_parameters(moved)
     return "", turned @ turned.T
 
 

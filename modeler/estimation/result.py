@@ -6,16 +6,16 @@ from typing import Any, Literal
 
 import numpy as np
 
-from modeler.core.brief import Brief
+from modeler.core.brief import ShortRepr
 from modeler.core.errors import DataError, ManifestError
-from modeler.core.json import built, entries, nulled
+from modeler.core.json import build_instance, convert_to_plain, select_attributes
 from modeler.core.manifest import ModuleSpec
-from modeler.core.result import Presented
-from modeler.core.table import POOLED, errors_by_unit, percent, text_by_unit
-from modeler.estimation.essential import Reduced
-from modeler.estimation.nearest_body import PREFIXES, pseudo_inertia_of
-from modeler.estimation.parameter import ParameterEstimate, parameter_lines, read_all, read_back
-from modeler.observation import Bands, Doubt, Processing, processing_from_json
+from modeler.core.result import Result
+from modeler.core.table import POOLED, format_errors_by_unit, format_percent, pool_errors_by_unit
+from modeler.estimation.essential import ReducedModel
+from modeler.estimation.nearest_body import PREFIXES, compute_pseudo_inertia
+from modeler.estimation.parameter import ParameterEstimate, format_parameters, read_all, read_back
+from modeler.observation import Bands, DataWarning, Processing, read_processing
 
 # The energy model beside the torque model of the same data: figures, and what they come to.
 
@@ -28,7 +28,7 @@ _WORTH = 1.2  # ratio of two uncertainties that is told as a difference
 
 
 @dataclass(frozen=True)
-class ModelFigures(Brief):
+class ModelFigures(ShortRepr):
     """One model fitted to the data.
 
     Attributes:
@@ -57,26 +57,26 @@ class ModelFigures(Brief):
     bias: float | None = None
     joint_sigma: Mapping[str, float] = field(default_factory=dict)
 
-    def cells(self) -> tuple[str, ...]:
+    def format_cells(self) -> tuple[str, ...]:
         """Its line of the table."""
         return (
             f"{self.rows}",
             f"{self.condition_scaled:.4g}",
             f"{self.known}",
-            percent(self.torque_error),
-            percent(self.torque_sigma),
+            format_percent(self.torque_error),
+            format_percent(self.torque_sigma),
             "-" if self.imbalance is None else f"{self.imbalance:.1e}",
             "-" if self.bias is None else f"{self.bias:.2g} sigma",
         )
 
 
-def _line(name: str, cells: Sequence[str]) -> str:
+def _format_row(name: str, cells: Sequence[str]) -> str:
     widths = (7, 10, 7, 10, 10, 9, 13)
     return f"{name:<18}" + "".join(f"{c:>{w}}" for c, w in zip(cells, widths, strict=True))
 
 
 @dataclass(frozen=True)
-class EnergyReport(Brief):
+class EnergyReport(ShortRepr):
     """How the rows of energy were made, and how they compare.
 
     Attributes:
@@ -97,35 +97,38 @@ class EnergyReport(Brief):
 
         Of all joints together the largest torques alone would speak.
         """
-        return self._worst()[1]
+        return self._find_worst_joint()[1]
 
-    def _worst(self) -> tuple[str, float]:
+    def _find_worst_joint(self) -> tuple[str, float]:
         torque, energy, _ = self.figures
         pairs = {
             f"joint {name}": (sigma, torque.joint_sigma.get(name, 0.0))
             for name, sigma in energy.joint_sigma.items()
         } or {"all joints": (energy.torque_sigma, torque.torque_sigma)}  # a file from before
-        ratios = {name: own / first if first > 0.0 else 1.0 for name, (own, first) in pairs.items()}
+        ratios = {
+            name: energy_sigma / first if first > 0.0 else 1.0
+            for name, (energy_sigma, first) in pairs.items()
+        }
         return max(ratios.items(), key=lambda item: item[1])
 
-    def lines(self) -> list[str]:
+    def format_lines(self) -> list[str]:
         """Lines of text."""
         head = ("rows", "cond", "known", "error", "sigma", "missed", "bias")
         return [
             f"energy model: windows of {self.window:.4g} s, energies met to "
-            f"{percent(self.relative_error)}; beside the torque model on the same data:",
-            _line("model", head),
-            *(_line(item.model, item.cells()) for item in self.figures),
+            f"{format_percent(self.relative_error)}; beside the torque model on the same data:",
+            _format_row("model", head),
+            *(_format_row(item.model, item.format_cells()) for item in self.figures),
             "cond: columns of length one; known: sigma below 10 %; error, sigma: of the predicted "
             "torques; missed: share of the energy that integrals and derivatives miss; bias: what "
             "that moves at most",
-            *self.sentences(),
+            *self.format_sentences(),
         ]
 
-    def sentences(self) -> list[str]:
+    def format_sentences(self) -> list[str]:
         """Which of the two models to take, and what the rule of integration does."""
         torque, energy, _ = self.figures
-        where, ratio = self._worst()
+        where, ratio = self._find_worst_joint()
         knows = (
             f"knows {energy.known} parameters where that knows {torque.known}, of {self.parameters}"
         )
@@ -149,9 +152,9 @@ class EnergyReport(Brief):
 
     def to_json(self) -> dict[str, Any]:
         """Plain data."""
-        return entries(self, "window relative_error parameters ratio") | {
+        return select_attributes(self, "window relative_error parameters ratio") | {
             "figures": [vars(item) for item in self.figures],
-            "sentences": self.sentences(),
+            "sentences": self.format_sentences(),
         }
 
 
@@ -167,7 +170,7 @@ _LAW = (
 
 
 @dataclass(frozen=True)
-class Directed:
+class DirectedFriction:
     """Friction of one joint in one direction of its motion, a sum of base parameters.
 
     Attributes:
@@ -190,7 +193,9 @@ class Directed:
         return vars(self) | {"relative_sigma_percent": share}
 
 
-def friction_by_direction(spec: ModuleSpec, fit: "FitResult") -> tuple[Directed, ...]:
+def compute_friction_by_direction(
+    spec: ModuleSpec, fit: "FitResult"
+) -> tuple[DirectedFriction, ...]:
     """Friction by direction of the joints whose viscous friction differs between the directions.
 
     The law of the columns qd, |qd|, sign(qd), 1 is that of two slopes and two levels,
@@ -206,13 +211,15 @@ def friction_by_direction(spec: ModuleSpec, fit: "FitResult") -> tuple[Directed,
         fit: its c base parameters, and the (c, c) covariance of their values.
     """
     parameters, covariance = fit.parameters, fit.covariance
-    own = {parameter.name: (parameter.effect, parameter.joint) for parameter in spec.standard}
-    column = {
-        own[base.column_of]: i
-        for i, base in enumerate(spec.base)
-        if base.column_of in own and parameters[i].sigma is not None
+    effect_and_joint = {
+        parameter.name: (parameter.effect, parameter.joint) for parameter in spec.standard
     }
-    found = []
+    column = {
+        effect_and_joint[base.column_of]: i
+        for i, base in enumerate(spec.base)
+        if base.column_of in effect_and_joint and parameters[i].sigma is not None
+    }
+    frictions = []
     for joint in spec.joints:
         if ("asymmetric_viscous", joint.name) not in column:
             continue
@@ -226,11 +233,11 @@ def friction_by_direction(spec: ModuleSpec, fit: "FitResult") -> tuple[Directed,
             value = float(c @ [parameters[i].value for i in at])
             sigma = max(float(c @ covariance[np.ix_(at, at)] @ c), 0.0) ** 0.5
             relation = f"{name} = {terms.removeprefix('+ ')}"
-            found.append(Directed(name, parameters[at[0]].unit, value, sigma, relation))
-    return tuple(found)
+            frictions.append(DirectedFriction(name, parameters[at[0]].unit, value, sigma, relation))
+    return tuple(frictions)
 
 
-def direction_lines(directions: tuple[Directed, ...]) -> list[str]:
+def format_directions(directions: tuple[DirectedFriction, ...]) -> list[str]:
     """A table; nothing without one."""
     if not directions:
         return []
@@ -276,7 +283,7 @@ class JointFit:
 
 
 @dataclass(frozen=True)
-class JointVerdict(Brief):
+class JointVerdict(ShortRepr):
     """What a fit is worth on one joint.
 
     Attributes:
@@ -290,7 +297,7 @@ class JointVerdict(Brief):
 
 
 @dataclass(frozen=True)
-class Verdict(Brief):
+class Verdict(ShortRepr):
     """How a fit ends.
 
     Attributes:
@@ -313,14 +320,14 @@ class Verdict(Brief):
     by_joint: Mapping[str, JointVerdict] = field(default_factory=dict)
     possible: bool | None = None
 
-    def warning(self) -> list[str]:
+    def format_warning(self) -> list[str]:
         """A line for whoever uses a model that is not valid; none for one that is."""
         line = self.line[:1].lower() + self.line[1:]
         return [] if self.usable else [f"the fit of this model is {line}"]
 
 
 @dataclass(frozen=True, eq=False)
-class FitResult(Presented):
+class FitResult(Result):
     """A fitted model.
 
     Attributes:
@@ -371,10 +378,10 @@ class FitResult(Presented):
     processing: Processing
     verdict: Verdict | None = None
     standard: Mapping[str, float] = field(default_factory=dict)
-    own: tuple[str, ...] = ()
-    of_joints: tuple[Doubt, ...] = ()
-    essential: Reduced | None = None
-    directions: tuple[Directed, ...] = ()
+    estimator_notes: tuple[str, ...] = ()
+    joint_warnings: tuple[DataWarning, ...] = ()
+    essential: ReducedModel | None = None
+    directions: tuple[DirectedFriction, ...] = ()
     energy: EnergyReport | None = None
     gains: tuple[ParameterEstimate, ...] = ()
     singular_values: tuple[float, ...] = ()
@@ -391,34 +398,35 @@ class FitResult(Presented):
     @property
     def by_unit(self) -> dict[str, float]:
         """Relative error over the joints of one unit, by unit; NaN without torque."""
-        return errors_by_unit((joint.unit, *joint.squares) for joint in self.joints)
+        return pool_errors_by_unit((joint.unit, *joint.squares) for joint in self.joints)
 
-    def error_told(self) -> str:
+    def format_error(self) -> str:
         """The relative error as text; of torques and forces apart where the robot has both."""
         if self.energy is None and len(self.by_unit) > 1:
-            return text_by_unit(self.by_unit)
-        return percent(self.relative_error)
+            return format_errors_by_unit(self.by_unit)
+        return format_percent(self.relative_error)
 
-    def lines(self) -> list[str]:
+    def format_lines(self) -> list[str]:
         """Lines of text: parameters, joints, remarks, the verdict last."""
         alone = self.essential.parameters if self.essential and self.essential.dropped else ()
-        lines = parameter_lines((*self.gains, *self.parameters, *self.loads), alone)
-        lines += direction_lines(self.directions)
+        lines = format_parameters((*self.gains, *self.parameters, *self.loads), alone)
+        lines += format_directions(self.directions)
         lines += [
             f"{self.rows} rows of {self.samples} samples, condition number "
             f"{self.condition_number:.4g} ({self.condition_scaled:.4g} with columns of length one)",
-            f"relative error {self.error_told()}",
+            f"relative error {self.format_error()}",
         ]
         for k, joint in enumerate(self.joints):
             apart = "".join(
-                f", {name} {percent(own[k].relative_error)}" for name, own in self.by_load.items()
+                f", {name} {format_percent(joint_fits[k].relative_error)}"
+                for name, joint_fits in self.by_load.items()
             )
             lines.append(
-                f"  joint {joint.name}: {percent(joint.relative_error)}{apart}, rms "
+                f"  joint {joint.name}: {format_percent(joint.relative_error)}{apart}, rms "
                 f"{joint.rms:.4g} {joint.unit}"
             )
-        lines += [*bodies_text(self.standard), *self.sentences]
-        lines += self.energy.lines() if self.energy is not None else []
+        lines += [*format_bodies(self.standard), *self.sentences]
+        lines += self.energy.format_lines() if self.energy is not None else []
         if self.verdict is not None:
             others = (line for line in self.verdict.doubts if line not in self.verdict.line)
             lines += [*(f"doubt: {line}" for line in others), *self.verdict.unseen]
@@ -428,33 +436,45 @@ class FitResult(Presented):
     def to_json(self) -> dict[str, Any]:
         """The `fit` object that scripts read; numbers that mean nothing are null."""
         verdict = self.verdict
-        return nulled({
-            **entries(self, "robot method status samples rows condition_number condition_scaled "
-                      "relative_error"),
-            "relative_error_pools": POOLED,
-            **entries(self, "by_unit essential_error"),
-            "joints": _joints_to_json(self.joints, {} if verdict is None else verdict.by_joint),
-            "by_load": {
-                name: {"relative_error": pooled(own), "joints": _joints_to_json(own)}
-                for name, own in self.by_load.items()
-            },
-            **entries(self, "parameters loads gains singular_values sentences processing"),
-            **entries(self, "standard essential contradicted directions"),
-            "model": "torque" if self.energy is None else "energy",
-            **entries(self, "energy bands"),
-            "usable": None if verdict is None else verdict.usable,
-            "valid_for": None if verdict is None else verdict.valid_for,
-            "verdict": None if verdict is None else verdict.line,
-            "doubts": [] if verdict is None else verdict.doubts,
-            "possible": None if verdict is None else verdict.possible,
-            **({"unseen": verdict.unseen} if verdict is not None and verdict.unseen else {}),
-            **({"reading": dict(self.reading)} if self.reading else {}),
-        })  # fmt: skip
+        return convert_to_plain(
+            {
+                **select_attributes(
+                    self,
+                    "robot method status samples rows condition_number condition_scaled "
+                    "relative_error",
+                ),
+                "relative_error_pools": POOLED,
+                **select_attributes(self, "by_unit essential_error"),
+                "joints": _serialise_joints(
+                    self.joints, {} if verdict is None else verdict.by_joint
+                ),
+                "by_load": {
+                    name: {
+                        "relative_error": combine_errors(joint_fits),
+                        "joints": _serialise_joints(joint_fits),
+                    }
+                    for name, joint_fits in self.by_load.items()
+                },
+                **select_attributes(
+                    self, "parameters loads gains singular_values sentences processing"
+                ),
+                **select_attributes(self, "standard essential contradicted directions"),
+                "model": "torque" if self.energy is None else "energy",
+                **select_attributes(self, "energy bands"),
+                "usable": None if verdict is None else verdict.usable,
+                "valid_for": None if verdict is None else verdict.valid_for,
+                "verdict": None if verdict is None else verdict.line,
+                "doubts": [] if verdict is None else verdict.doubts,
+                "possible": None if verdict is None else verdict.possible,
+                **({"unseen": verdict.unseen} if verdict is not None and verdict.unseen else {}),
+                **({"reading": dict(self.reading)} if self.reading else {}),
+            }
+        )
 
 
 _LISTS: Mapping[str, type] = {
     "parameters": ParameterEstimate, "loads": ParameterEstimate, "gains": ParameterEstimate,
-    "directions": Directed,
+    "directions": DirectedFriction,
 }  # fmt: skip
 _NULLS = {
     "condition_number": np.inf, "condition_scaled": np.inf, "relative_error": np.nan,
@@ -463,7 +483,7 @@ _NULLS = {
 """Numbers that are null in JSON, and what they were."""
 
 
-def fit_from_json(raw: Mapping[str, Any], covariance: np.ndarray) -> FitResult:
+def read_fit(raw: Mapping[str, Any], covariance: np.ndarray) -> FitResult:
     """Read `FitResult.to_json` back; the covariance is stored beside it.
 
     Raises:
@@ -473,48 +493,53 @@ def fit_from_json(raw: Mapping[str, Any], covariance: np.ndarray) -> FitResult:
         reduced, energy = raw.get("essential"), raw.get("energy")
         if reduced is not None:
             parameters = read_all(ParameterEstimate, reduced, "parameters")
-            reduced = built(Reduced, {**reduced, "parameters": parameters}, "essential")
-        given: dict[str, Any] = {
+            reduced = build_instance(
+                ReducedModel, {**reduced, "parameters": parameters}, "essential"
+            )
+        values: dict[str, Any] = {
             **{name: read_all(kind, raw, name) for name, kind in _LISTS.items() if name in raw},
             **{name: unknown for name, unknown in _NULLS.items() if raw[name] is None},
-            "joints": _named(raw["joints"]),
-            "by_load": {load: _named(x["joints"]) for load, x in raw.get("by_load", {}).items()},
+            "joints": _add_names(raw["joints"]),
+            "by_load": {
+                load: _add_names(x["joints"]) for load, x in raw.get("by_load", {}).items()
+            },
             "essential": reduced,
             "energy": None if energy is None else read_back(EnergyReport, energy, "energy"),
             "covariance": covariance,
-            "processing": processing_from_json(raw["processing"]),
-            "verdict": _verdict_from_json(raw),
+            "processing": read_processing(raw["processing"]),
+            "verdict": _read_verdict(raw),
         }
-        return read_back(FitResult, {**raw, **given}, "")
+        return read_back(FitResult, {**raw, **values}, "")
     except (KeyError, TypeError, ValueError, AttributeError, DataError) as error:
         raise ManifestError(f"the fit is damaged ({error}); fit the model again") from None
 
 
-def pooled(joints: Sequence[JointFit]) -> float:
+def combine_errors(joints: Sequence[JointFit]) -> float:
     """||y - W beta|| / ||y|| over joints; NaN without torque."""
     seen = [joint.squares for joint in joints if joint.relative_error]
     left, total = np.sum(seen, axis=0) if seen else (0.0, 0.0)
     return float(np.sqrt(left / total)) if total else float("nan")
 
 
-def _joints_to_json(
+def _serialise_joints(
     joints: Sequence[JointFit], judged: Mapping[str, JointVerdict] | None = None
 ) -> dict[str, Any]:
-    own = {name: vars(one) for name, one in (judged or {}).items()}
+    judgements = {name: vars(one) for name, one in (judged or {}).items()}
     return {
-        joint.name: entries(joint, "relative_error rms sigma rows unit") | own.get(joint.name, {})
+        joint.name: select_attributes(joint, "relative_error rms sigma rows unit")
+        | judgements.get(joint.name, {})
         for joint in joints
     }
 
 
-def _named(joints: Mapping[str, Any]) -> list[dict[str, Any]]:
+def _add_names(joints: Mapping[str, Any]) -> list[dict[str, Any]]:
     return [
         {"name": name} | {key: value for key, value in joint.items() if key not in ("state", "why")}
         for name, joint in joints.items()
     ]
 
 
-def _verdict_from_json(raw: Mapping[str, Any]) -> Verdict | None:
+def _read_verdict(raw: Mapping[str, Any]) -> Verdict | None:
     """None where nobody has judged the fit."""
     if raw.get("usable") is None:
         return None
@@ -523,11 +548,11 @@ def _verdict_from_json(raw: Mapping[str, Any]) -> Verdict | None:
         for name, joint in raw["joints"].items()
         if "state" in joint
     }
-    given = {"doubts": [], **raw, "line": raw["verdict"], "by_joint": judged}
-    return read_back(Verdict, given, "its verdict")
+    values = {"doubts": [], **raw, "line": raw["verdict"], "by_joint": judged}
+    return read_back(Verdict, values, "its verdict")
 
 
-def bodies_text(standard: Mapping[str, float]) -> list[str]:
+def format_bodies(standard: Mapping[str, float]) -> list[str]:
     """A line per link: mass, mass centre in its frame, principal moments about the mass centre.
 
     Args:
@@ -540,7 +565,7 @@ def bodies_text(standard: Mapping[str, float]) -> list[str]:
         ten = [standard.get(f"{prefix}{link}") for prefix in PREFIXES]
         if not name.startswith("M") or mass <= 0.0 or None in ten:
             continue
-        P = pseudo_inertia_of(np.array(ten, dtype=float))
+        P = compute_pseudo_inertia(np.array(ten, dtype=float))
         centre = P[:3, 3] / mass
         second = P[:3, :3] - mass * np.outer(centre, centre)
         moments = np.linalg.eigvalsh(np.trace(second) * np.eye(3) - second)

@@ -5,8 +5,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from modeler.estimation.least_squares import Estimate, Problem, least_squares, placed
-from modeler.numerics.least_squares import Rank, triangle
+from modeler.estimation.least_squares import Estimate, Problem, expand_columns, solve_least_squares
+from modeler.numerics.least_squares import Rank, compute_triangle
 
 _RANGE = (-6.0, 9.0)
 """log10 of the width of the prior, in standard deviations of the noise of a column alone."""
@@ -22,10 +22,10 @@ class _Posterior:
     mean: np.ndarray
     covariance: np.ndarray
     width: float
-    told: float  # directions that the data decide, sum of s^2 t^2 / (1 + s^2 t^2)
+    data_directions: float  # directions that the data decide, sum of s^2 t^2 / (1 + s^2 t^2)
 
 
-def ridge(problem: Problem) -> Estimate:
+def estimate_ridge(problem: Problem) -> Estimate:
     """min |S^-1/2 (y - W beta)|^2 + lambda |D (beta - beta_0)|^2.
 
     S = diag sigma_j^2 of the weighted fit, D the lengths of the columns of S^-1/2 W, beta_0 the
@@ -42,34 +42,39 @@ def ridge(problem: Problem) -> Estimate:
         problem: beta in the units of its columns, y N m or N.
     """
     data = problem.data
-    start = least_squares(data, "weighted")
-    whole = data.whole(start.sigma)
+    start = solve_least_squares(data, "weighted")
+    whole = data.combine_joints(start.sigma)
     lengths = np.linalg.norm(whole[:, :-1], axis=0)
-    aside = tuple(tangle for tangle in start.rank.aside if not tangle.into)
+    aside = tuple(tangle for tangle in start.rank.dropped_columns if not tangle.into)
     idle = {tangle.name for tangle in aside}
-    kept = [i for i, name in enumerate(data.names) if name not in idle]
-    prior, known = prior_values(problem)
-    X = whole[:, kept] / lengths[kept]
-    left = whole[:, -1] - whole[:, kept] @ prior[kept]
-    found = _posterior(X, left)
-    own = found.covariance / np.outer(lengths[kept], lengths[kept])
-    beta, covariance = placed(len(prior), kept, prior[kept] + found.mean / lengths[kept], own)
+    kept_columns = [i for i, name in enumerate(data.names) if name not in idle]
+    prior, known = collect_prior_values(problem)
+    X = whole[:, kept_columns] / lengths[kept_columns]
+    left = whole[:, -1] - whole[:, kept_columns] @ prior[kept_columns]
+    posterior = _compute_posterior(X, left)
+    kept_covariance = posterior.covariance / np.outer(lengths[kept_columns], lengths[kept_columns])
+    beta, covariance = expand_columns(
+        len(prior),
+        kept_columns,
+        prior[kept_columns] + posterior.mean / lengths[kept_columns],
+        kept_covariance,
+    )
     # The prior as further rows, D / t (beta - beta_0) = 0.
-    rows = np.zeros((len(kept), whole.shape[1]))
-    rows[np.arange(len(kept)), kept] = lengths[kept] / found.width
+    rows = np.zeros((len(kept_columns), whole.shape[1]))
+    rows[np.arange(len(kept_columns)), kept_columns] = lengths[kept_columns] / posterior.width
     rows[:, -1] = rows[:, :-1] @ prior
     return dataclasses.replace(
         start,
         beta=beta,
         covariance=covariance,
-        rank=Rank(tuple(kept), aside, start.rank.last_kept, start.rank.first_dropped),
-        condition_scaled=float(np.sqrt(np.linalg.cond(found.covariance))),
-        sentences=_sentences(problem, start, found, known),
-        whole=triangle(np.vstack([whole, rows])),
+        rank=Rank(tuple(kept_columns), aside, start.rank.last_kept, start.rank.first_dropped),
+        condition_scaled=float(np.sqrt(np.linalg.cond(posterior.covariance))),
+        sentences=_describe_ridge(problem, start, posterior, known),
+        whole=compute_triangle(np.vstack([whole, rows])),
     )
 
 
-def prior_values(problem: Problem) -> tuple[np.ndarray, tuple[str, ...]]:
+def collect_prior_values(problem: Problem) -> tuple[np.ndarray, tuple[str, ...]]:
     """(c,) nominal values of the columns, 0 where the robot file gives none; and who has one."""
     values, known = np.zeros(len(problem.names)), []
     if problem.model is not None:
@@ -82,7 +87,7 @@ def prior_values(problem: Problem) -> tuple[np.ndarray, tuple[str, ...]]:
     return values, tuple(known)
 
 
-def _posterior(X: np.ndarray, y: np.ndarray) -> _Posterior:
+def _compute_posterior(X: np.ndarray, y: np.ndarray) -> _Posterior:
     """Of X g = y + white noise of variance 1, g Gaussian of a width t that the data say.
 
     X = U S V^T and a = U^T y: a_k is Gaussian of variance 1 + s_k^2 t^2, which is all that t
@@ -106,26 +111,28 @@ def _posterior(X: np.ndarray, y: np.ndarray) -> _Posterior:
         mean=Vt.T @ mean,
         covariance=Vt.T @ within @ Vt,
         width=float(np.exp(weight @ np.log(widths[near]))),
-        told=float(weight @ (s**2 * spread).sum(axis=1)),
+        data_directions=float(weight @ (s**2 * spread).sum(axis=1)),
     )
 
 
-def _sentences(
-    problem: Problem, start: Estimate, found: _Posterior, known: tuple[str, ...]
+def _describe_ridge(
+    problem: Problem, start: Estimate, posterior: _Posterior, known: tuple[str, ...]
 ) -> tuple[str, ...]:
     towards = "0"
     if known:
         rest = len(problem.names) - len(known)
         towards = "the nominal values of the robot file" + (f" ({rest} have none: 0)" * bool(rest))
     said = [
-        f"ridge towards {towards}: lambda = {found.width**-2:.3g} with columns of length one; the "
-        f"data decide {found.told:.1f} of {len(found.mean)} directions, the prior the others; the "
+        f"ridge towards {towards}: lambda = {posterior.width**-2:.3g} with columns of length one; "
+        "the "
+        f"data decide {posterior.data_directions:.1f} of {len(posterior.mean)} directions, the "
+        "prior the others; the "
         "sigmas hold if the values scatter about it as wide as these data say, and know no bias"
     ]
     said += [
         f"{tangle.name} cannot be told from {', '.join(tangle.into)} on these data: ridge shares "
         "their effect out by the prior"
-        for tangle in start.rank.aside
+        for tangle in start.rank.dropped_columns
         if tangle.into
     ]
     return tuple(said)

@@ -7,11 +7,11 @@ from typing import Any
 
 import numpy as np
 
-from modeler.core.brief import Brief
+from modeler.core.brief import ShortRepr
 from modeler.core.errors import Method, ModelerError
 from modeler.core.estimators import ABOUT
-from modeler.core.json import entries
-from modeler.core.result import Presented
+from modeler.core.json import select_attributes
+from modeler.core.result import Result
 from modeler.estimation.identify import identify
 from modeler.estimation.result import FitResult
 from modeler.observation import Observation
@@ -22,7 +22,7 @@ FIRST: Method = "weighted"
 
 
 @dataclass(frozen=True, eq=False)
-class Tried(Brief):
+class MethodResult(ShortRepr):
     """One estimator.
 
     Attributes:
@@ -40,7 +40,7 @@ class Tried(Brief):
     fit: FitResult | None
     refusal: str
     seconds: float
-    held_out: float | None
+    held_out_error: float | None
     farthest: tuple[str, float] | None
     remarks: tuple[str, ...]
 
@@ -48,17 +48,17 @@ class Tried(Brief):
         """Plain data."""
         return {
             "method": self.method,
-            **entries(ABOUT[self.method], "title avoid"),
+            **select_attributes(ABOUT[self.method], "title avoid"),
             "refusal": self.refusal or None,
             "seconds": self.seconds,
-            "held_out_error": self.held_out,
-            **entries(self, "farthest remarks"),
+            "held_out_error": self.held_out_error,
+            **select_attributes(self, "farthest remarks"),
             "fit": None if self.fit is None else self.fit.to_json(),
         }
 
 
 @dataclass(frozen=True, eq=False)
-class SideBySide(Presented):
+class MethodComparison(Result):
     """Estimators on the same logs.
 
     Attributes:
@@ -68,17 +68,17 @@ class SideBySide(Presented):
     """
 
     robot: str
-    tried: tuple[Tried, ...]
+    results: tuple[MethodResult, ...]
     data: tuple[str, ...]
 
 
-def side_by_side(
+def compare_methods(
     observation: Observation,
     model: CompiledModel,
     held_out: Observation | None = None,
     methods: Sequence[Method] = tuple(ABOUT),
     progress: Callable[[float], None] | None = None,
-) -> tuple[Tried, ...]:
+) -> tuple[MethodResult, ...]:
     """Every method on the same rows.
 
     Args:
@@ -101,20 +101,22 @@ def side_by_side(
             refusal = str(error)
         seconds = time.perf_counter() - start
         apart = [
-            (own.name, abs(own.value - other.value) / max(own.sigma, other.sigma))
-            for own, other in zip((fit or first).parameters, first.parameters, strict=True)
-            if fit and method != FIRST and own.sigma and other.sigma
+            (estimate.name, abs(estimate.value - other.value) / max(estimate.sigma, other.sigma))
+            for estimate, other in zip((fit or first).parameters, first.parameters, strict=True)
+            if fit and method != FIRST and estimate.sigma and other.sigma
         ]
-        missed = held_out_error(held_out, fit.beta) if fit and held_out else None
+        missed = compute_held_out_error(held_out, fit.beta) if fit and held_out else None
         farthest = max(apart, key=lambda pair: pair[1], default=None)
-        remarks = fit.own if fit and fit.own else (f"not {ABOUT[method].avoid}",)
-        tried.append(Tried(method, fit, refusal, seconds, missed, farthest, remarks))
+        remarks = (
+            fit.estimator_notes if fit and fit.estimator_notes else (f"not {ABOUT[method].avoid}",)
+        )
+        tried.append(MethodResult(method, fit, refusal, seconds, missed, farthest, remarks))
         if progress is not None:
             progress(count / len(methods))
     return tuple(tried)
 
 
-def held_out_error(observation: Observation, beta: np.ndarray) -> float:
+def compute_held_out_error(observation: Observation, beta: np.ndarray) -> float:
     """||y - W beta|| / ||y|| over the rows of joints that have a torque."""
     y, rest, joint = observation.y, observation.y - observation.W @ beta, observation.row_joint
     seen = (np.bincount(joint, y**2) > 0.0)[joint]

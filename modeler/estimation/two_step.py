@@ -17,11 +17,11 @@ import numpy as np
 from scipy.linalg import cholesky, solve_triangular
 
 from modeler.core.errors import DataError
-from modeler.estimation.covariance import autocorrelation
-from modeler.estimation.least_squares import Estimate, least_squares
+from modeler.estimation.covariance import estimate_autocorrelation
+from modeler.estimation.least_squares import Estimate, solve_least_squares
 from modeler.numerics.filters import LEAST_WEIGHT
-from modeler.numerics.least_squares import Compressed, compress
-from modeler.observation import Observation, runs
+from modeler.numerics.least_squares import CompressedRegression, compress_rows
+from modeler.observation import Observation, find_runs
 from modeler.runtime import CompiledModel
 
 # Where one joint moves and the others stand: the pieces of logs that a two-step fit uses.
@@ -34,7 +34,7 @@ _TOP = 0.98  # quantile of the speeds that is the top speed
 _SEVERAL, _NONE = -2, -1
 
 
-class Directions:
+class JointDirections:
     """How the coordinates move with each joint: q = a D, a the positions of the joints.
 
     For logs of the joints D is the identity; for logs of motors its rows are the columns of G,
@@ -50,13 +50,13 @@ class Directions:
         self.rows = np.array([*ways.values()])
         self._inverse = np.linalg.inv(self.rows)
 
-    def joints(self, coordinates: np.ndarray) -> np.ndarray:
+    def convert_to_joints(self, coordinates: np.ndarray) -> np.ndarray:
         """(..., n) positions, speeds or accelerations of the joints."""
         return coordinates @ self._inverse
 
 
 @dataclass(frozen=True)
-class Move:
+class SingleJointMove:
     """A piece of motion of one joint alone.
 
     Attributes:
@@ -70,9 +70,9 @@ class Move:
     window: slice
 
 
-def single_joint_moves(
-    observation: Observation, directions: Directions
-) -> tuple[list[Move], float, float]:
+def find_single_joint_moves(
+    observation: Observation, directions: JointDirections
+) -> tuple[list[SingleJointMove], float, float]:
     """All pieces in which one joint moves and the others stand, in order of time.
 
     And for how long several move at a time, of all the time, s.
@@ -86,39 +86,39 @@ def single_joint_moves(
         directions: of its joints.
     """
     segments = [part.segment for part in observation.stretches]
-    speeds = np.concatenate([directions.joints(s.qd[s.whole]) for s in segments])
+    speeds = np.concatenate([directions.convert_to_joints(s.qd[s.whole]) for s in segments])
     tops = np.quantile(np.abs(speeds), _TOP, axis=0) if speeds.size else np.ones(speeds.shape[1])
     main = np.argmax(np.abs(directions.rows), axis=1)
     units = np.array([observation.joints[k].unit for k in main])
     floors = STANDS * np.array([tops[units == unit].max() for unit in units])
-    found: list[Move] = []
+    single_moves: list[SingleJointMove] = []
     several = total = 0.0
     for number, segment in enumerate(segments):
-        moves = np.abs(directions.joints(segment.qd)) > floors
+        moves = np.abs(directions.convert_to_joints(segment.qd)) > floors
         count = moves.sum(axis=1)
         labels = np.where(count > 1, _SEVERAL, np.where(count == 0, _NONE, moves.argmax(axis=1)))
         labels = np.where(segment.whole, labels, _SEVERAL)
         several += segment.step * float(np.sum((labels == _SEVERAL) & segment.whole))
         total += segment.step * float(np.sum(segment.whole))
-        found += [Move(i, number, window) for i, window in _episodes(labels)]
-    return found, several, total
+        single_moves += [SingleJointMove(i, number, window) for i, window in _find_episodes(labels)]
+    return single_moves, several, total
 
 
-def _episodes(labels: np.ndarray) -> list[tuple[int, slice]]:
+def _find_episodes(labels: np.ndarray) -> list[tuple[int, slice]]:
     """(joint, samples) from standstill to standstill in which one joint moves alone.
 
     Those of one joint that follow each other are one. Joints that come to rest together do so one
     after the other, and the last is not alone: where several move at any time, all is left out.
     """
-    found: list[tuple[int, slice]] = []
+    episodes: list[tuple[int, slice]] = []
     before = _SEVERAL
-    for start, stop in runs(labels != _NONE):
+    for start, stop in find_runs(labels != _NONE):
         joint = int(labels[start]) if np.ptp(labels[start:stop]) == 0 else _SEVERAL
         if joint != _SEVERAL:
-            first = found.pop()[1].start if joint == before else start
-            found.append((joint, slice(first, stop)))
+            first = episodes.pop()[1].start if joint == before else start
+            episodes.append((joint, slice(first, stop)))
         before = joint
-    return found
+    return episodes
 
 
 # What a model says of one joint that moves alone: known functions of its motion, and weights.
@@ -166,18 +166,18 @@ class SingleJointMotion:
     names: tuple[str, ...]
     weights: np.ndarray
 
-    def columns(self, a: np.ndarray, v: np.ndarray, u: np.ndarray) -> np.ndarray:
+    def evaluate_columns(self, a: np.ndarray, v: np.ndarray, u: np.ndarray) -> np.ndarray:
         """(samples, p) of position, speed and acceleration of the joint that moves."""
         return np.column_stack([FUNCTIONS[name](a, v, u) for name in self.names])
 
 
-def single_joint_motions(
+def fit_single_joint_motions(
     model: CompiledModel,
     q: np.ndarray,
     a: float,
     way: np.ndarray,
     span: tuple[float, float],
-    felt: np.ndarray,
+    directions: np.ndarray,
 ) -> list[SingleJointMotion | None]:
     """The torques felt by some joints while one moves alone; None for what is no such sum.
 
@@ -189,7 +189,7 @@ def single_joint_motions(
         a: position of the joint there.
         way: (n,) speed of the coordinates at its speed 1.
         span: range of its positions, for robots with loops.
-        felt: (k, n) directions of the joints that feel it.
+        directions: (k, n) directions of the joints that feel it.
 
     Raises:
         DataError: the model has effects that read more than the motion.
@@ -207,18 +207,18 @@ def single_joint_motions(
     moved = q + (places - a)[:, None] * way
     rows = model.base_regressor(moved, v[:, None] * way, u[:, None] * way)
     matrix = np.column_stack([function(places, v, u) for function in FUNCTIONS.values()])
-    found: list[SingleJointMotion | None] = []
-    for direction in felt:
+    motions: list[SingleJointMotion | None] = []
+    for direction in directions:
         values = np.einsum("tjc,j->tc", rows, direction)
         weights = np.linalg.lstsq(matrix, values, rcond=None)[0]
         size = np.abs(values).max()
         if size == 0.0 or np.abs(matrix @ weights - values).max() > _EXACT * size:
-            found.append(None)
+            motions.append(None)
             continue
-        kept = np.flatnonzero(np.abs(weights).max(axis=1) > _EXACT * size)
-        names = tuple(np.array([*FUNCTIONS])[kept].tolist())
-        found.append(SingleJointMotion(names, weights[kept]))
-    return found
+        used_functions = np.flatnonzero(np.abs(weights).max(axis=1) > _EXACT * size)
+        names = tuple(np.array([*FUNCTIONS])[used_functions].tolist())
+        motions.append(SingleJointMotion(names, weights[used_functions]))
+    return motions
 
 
 # Step 1 and step 2.
@@ -276,18 +276,18 @@ class Configuration:
     end: float
     joint: int
     pose: np.ndarray
-    felt: tuple[FirstStep, ...]
+    first_steps: tuple[FirstStep, ...]
     noise: np.ndarray
 
-    def coefficients(self, k: int) -> list[tuple[str, float, float]]:
+    def compute_coefficients(self, k: int) -> list[tuple[str, float, float]]:
         """Function, theta and its standard deviation, of the k-th torque that is felt."""
-        own = self.felt[k]
-        sigma = np.linalg.norm(np.linalg.inv(own.R), axis=1) * self.noise[k, k] ** 0.5
-        return list(zip(own.along.names, own.theta.tolist(), sigma.tolist(), strict=True))
+        step = self.first_steps[k]
+        sigma = np.linalg.norm(np.linalg.inv(step.R), axis=1) * self.noise[k, k] ** 0.5
+        return list(zip(step.along.names, step.theta.tolist(), sigma.tolist(), strict=True))
 
 
 @dataclass(frozen=True, eq=False)
-class TwoStep:
+class TwoStepEstimate:
     """Both steps.
 
     Attributes:
@@ -299,15 +299,17 @@ class TwoStep:
         estimate: of the base parameters.
     """
 
-    directions: Directions
+    directions: JointDirections
     configurations: tuple[Configuration, ...]
     left_out: Mapping[str, int]
-    several: float
-    data: Compressed
+    simultaneous_time: float
+    data: CompressedRegression
     estimate: Estimate
 
 
-def two_steps(model: CompiledModel, observation: Observation, directions: Directions) -> TwoStep:
+def estimate_two_steps(
+    model: CompiledModel, observation: Observation, directions: JointDirections
+) -> TwoStepEstimate:
     """The two-step estimate.
 
     Args:
@@ -318,11 +320,11 @@ def two_steps(model: CompiledModel, observation: Observation, directions: Direct
     Raises:
         DataError: no piece in which one joint moves and the others stand, or none that tells it.
     """
-    moves, several, total = single_joint_moves(observation, directions)
-    steps = [_first_step(model, observation, directions, move) for move in moves]
+    moves, several, total = find_single_joint_moves(observation, directions)
+    steps = [_solve_first_step(model, observation, directions, move) for move in moves]
     left_out = Counter(step for step in steps if isinstance(step, str))
-    found = [step for step in steps if isinstance(step, Configuration)]
-    if not found:
+    candidates = [step for step in steps if isinstance(step, Configuration)]
+    if not candidates:
         why = "".join(f"; {count} left out: {reason}" for reason, count in left_out.items())
         raise DataError(
             f"{', '.join(observation.logs)}: no piece in which one joint moves and the others "
@@ -332,37 +334,40 @@ def two_steps(model: CompiledModel, observation: Observation, directions: Direct
             "for these logs"
         )
     alike: dict[tuple[int, ...], list[Configuration]] = {}  # by who moves, and whose torque is felt
-    for c in found:
-        alike.setdefault((c.joint, *(f.joint for f in c.felt)), []).append(c)
-    configurations = [c for own in alike.values() for c in _with_noise(own)]
-    data, estimate = _second_step(observation, configurations)
+    for c in candidates:
+        alike.setdefault((c.joint, *(f.joint for f in c.first_steps)), []).append(c)
+    configurations = [c for group in alike.values() for c in _estimate_noise(group)]
+    data, estimate = _solve_second_step(observation, configurations)
     configurations.sort(key=lambda c: (c.joint, c.log, c.start))
-    return TwoStep(directions, tuple(configurations), left_out, several, data, estimate)
+    return TwoStepEstimate(directions, tuple(configurations), left_out, several, data, estimate)
 
 
-def _second_step(
+def _solve_second_step(
     observation: Observation, configurations: Sequence[Configuration]
-) -> tuple[Compressed, Estimate]:
+) -> tuple[CompressedRegression, Estimate]:
     """The base parameters from rows of standard deviation 1, and their covariance.
 
     Its scale is 1 as far as the residuals of step 1 tell, which stand in the data as one row. It
     is raised where the configurations contradict each other by more.
     """
-    rows, values = zip(*map(_whitened, configurations), strict=True)
+    rows, values = zip(*map(_whiten_rows, configurations), strict=True)
     W, y = np.vstack(rows), np.hstack(values)
-    spare = sum(len(f.residual) - len(f.projected) for c in configurations for f in c.felt)
+    spare = sum(len(f.residual) - len(f.projected) for c in configurations for f in c.first_steps)
     every, alike = np.append(y, np.sqrt(spare)), np.zeros(len(y) + 1, dtype=int)
-    data = compress(np.vstack([W, 0.0 * W[:1]]), every, alike, 1, observation.names)
+    data = compress_rows(np.vstack([W, 0.0 * W[:1]]), every, alike, 1, observation.names)
     data = dataclasses.replace(data, rows=np.array([len(y) + spare]))
-    estimate = least_squares(data, "ordinary")
-    degrees = len(y) - len(estimate.rank.kept)
+    estimate = solve_least_squares(data, "ordinary")
+    degrees = len(y) - len(estimate.rank.kept_columns)
     misfit = float(np.sum((y - W @ estimate.beta) ** 2)) / max(1, degrees)
     raised = max(1.0, misfit / float(estimate.sigma[0] ** 2))
     return data, dataclasses.replace(estimate, covariance=raised * estimate.covariance)
 
 
-def _first_step(
-    model: CompiledModel, observation: Observation, directions: Directions, move: Move
+def _solve_first_step(
+    model: CompiledModel,
+    observation: Observation,
+    directions: JointDirections,
+    move: SingleJointMove,
 ) -> Configuration | str:
     """Least squares of the torques while one joint moves; a text where that cannot be."""
     part, i = observation.stretches[move.part], move.joint
@@ -371,57 +376,63 @@ def _first_step(
         return "the joint has no motor"
     inside = np.zeros((segment.samples, 1), dtype=bool)
     inside[window] = True
-    numbers = np.flatnonzero(part.rows.share(inside)[:, 0] >= _WHOLE)
+    numbers = np.flatnonzero(part.rows.compute_usable_share(inside)[:, 0] >= _WHOLE)
     if not numbers.size:
         return "too short for the parallel filter"
-    a, v, u = (directions.joints(x[window]) for x in (segment.q, segment.qd, segment.qdd))
+    a, v, u = (
+        directions.convert_to_joints(x[window]) for x in (segment.q, segment.qd, segment.qdd)
+    )
     pose = np.median(a, axis=0)
     span = a[:, i].min(), a[:, i].max()
-    rows = part.rows.part(slice(int(numbers[0]), int(numbers[-1]) + 1), window)
-    usable, others = _usable(part.usable[window], directions, i)
-    used = rows.share(usable[:, None])[:, 0] >= LEAST_WEIGHT
+    rows = part.rows.extract_rows(slice(int(numbers[0]), int(numbers[-1]) + 1), window)
+    usable, others = _find_usable(part.usable[window], directions, i)
+    used = rows.compute_usable_share(usable[:, None])[:, 0] >= LEAST_WEIGHT
     order = [i, *others]
-    felt: list[FirstStep] = []
-    motions = single_joint_motions(
+    first_steps: list[FirstStep] = []
+    motions = fit_single_joint_motions(
         model, pose @ directions.rows, pose[i], way, span, directions.rows[order]
     )
-    for k, found in zip(order, motions, strict=True):
-        if found is not None:
-            columns = found.columns(a[:, i], v[:, i], u[:, i])
+    for k, motion in zip(order, motions, strict=True):
+        if motion is not None:
+            columns = motion.evaluate_columns(a[:, i], v[:, i], u[:, i])
             values = np.column_stack([columns, segment.tau[window] @ directions.rows[k]])
-            filtered = rows.means(values, usable)[used]
-            if (solved := _solved(k, found, filtered)) is not None:
-                felt.append(solved)
-        if k == i and not felt:
+            filtered = rows.average_samples(values, usable)[used]
+            if (solved := _fit_first_step(k, motion, filtered)) is not None:
+                first_steps.append(solved)
+        if k == i and not first_steps:
             return (
                 "other functions than those of one body that turns"
-                if found is None
+                if motion is None
                 else "too short to tell inertia, gravity and friction apart"
             )
     return Configuration(
         observation.logs[segment.run], float(segment.time[window][0]),
-        float(segment.time[window][-1]), i, pose, tuple(felt), np.eye(len(felt)),
+        float(segment.time[window][-1]), i, pose, tuple(first_steps), np.eye(len(first_steps)),
     )  # fmt: skip
 
 
-def _usable(usable: np.ndarray, directions: Directions, i: int) -> tuple[np.ndarray, list[int]]:
+def _find_usable(
+    usable: np.ndarray, directions: JointDirections, i: int
+) -> tuple[np.ndarray, list[int]]:
     """(samples,) at which the torques count, and the other joints whose torques do then too.
 
     The torque of a joint is made of those of some motors. A motor with dry friction that stands
     says nothing: its samples are not usable.
     """
-    own = np.all(usable[:, directions.rows[i] != 0], axis=1)
-    count = max(1, int(own.sum()))
+    usable_rows = np.all(usable[:, directions.rows[i] != 0], axis=1)
+    count = max(1, int(usable_rows.sum()))
     others: list[int] = []
     for k, way in enumerate(directions.rows):
-        both = np.logical_and(own, np.all(usable[:, way != 0], axis=1))
+        both = np.logical_and(usable_rows, np.all(usable[:, way != 0], axis=1))
         if k != i and both.sum() >= _SEEN * count:
-            own = both
+            usable_rows = both
             others.append(k)
-    return own, others
+    return usable_rows, others
 
 
-def _solved(joint: int, found: SingleJointMotion, filtered: np.ndarray) -> FirstStep | None:
+def _fit_first_step(
+    joint: int, motion: SingleJointMotion, filtered: np.ndarray
+) -> FirstStep | None:
     """Step 1 from its columns and torque; None where the rows do not tell the coefficients."""
     X, y = filtered[:, :-1], filtered[:, -1]
     rows, count = X.shape
@@ -433,44 +444,44 @@ def _solved(joint: int, found: SingleJointMotion, filtered: np.ndarray) -> First
         return None
     Q, R = np.linalg.qr(X)
     projected = Q.T @ y
-    return FirstStep(joint, found, Q, R, projected, y - Q @ projected)
+    return FirstStep(joint, motion, Q, R, projected, y - Q @ projected)
 
 
-def _with_noise(alike: list[Configuration]) -> list[Configuration]:
+def _estimate_noise(alike: list[Configuration]) -> list[Configuration]:
     """Configurations in which the same torques were used, with the covariance of their noise.
 
     Of one motion of the same joint the noise of its torques is the same at every configuration;
     torques that are made of the same motors share theirs.
     """
-    count = len(alike[0].felt)
+    count = len(alike[0].first_steps)
     products, degrees = np.zeros((count, count)), np.zeros(count)
     for c in alike:
-        residual = np.column_stack([f.residual for f in c.felt])
+        residual = np.column_stack([f.residual for f in c.first_steps])
         products += residual.T @ residual
-        degrees += [len(f.residual) - len(f.projected) for f in c.felt]
+        degrees += [len(f.residual) - len(f.projected) for f in c.first_steps]
     noise = products / np.sqrt(np.outer(degrees, degrees))
     noise[~np.eye(count, dtype=bool)] *= _CORRELATED
-    pieces = np.repeat(np.arange(len(alike)), [len(c.felt[0].residual) for c in alike])
+    pieces = np.repeat(np.arange(len(alike)), [len(c.first_steps[0].residual) for c in alike])
     for k in range(count):
-        least = _LEAST * max(np.abs(c.felt[k].projected).max() for c in alike)
+        least = _LEAST * max(np.abs(c.first_steps[k].projected).max() for c in alike)
         noise[k, k] = max(noise[k, k], least**2)
-        every = np.concatenate([c.felt[k].residual for c in alike])
-        r = autocorrelation(every, np.arange(len(every)), pieces)
+        every = np.concatenate([c.first_steps[k].residual for c in alike])
+        r = estimate_autocorrelation(every, np.arange(len(every)), pieces)
         longer = np.sqrt(max(1.0, 1.0 + 2.0 * float(np.sum(r[1:]))))
         noise[k] *= longer
         noise[:, k] *= longer
     return [dataclasses.replace(c, noise=noise) for c in alike]
 
 
-def _whitened(configuration: Configuration) -> tuple[np.ndarray, np.ndarray]:
+def _whiten_rows(configuration: Configuration) -> tuple[np.ndarray, np.ndarray]:
     """Rows of step 2 of standard deviation 1: R V beta = Q^T y, their covariance taken out."""
-    felt, noise = configuration.felt, configuration.noise
+    first_steps, noise = configuration.first_steps, configuration.noise
     scale = np.sqrt(np.diag(noise))
-    joined = np.hstack([f.Q for f in felt])
-    which = np.repeat(np.arange(len(felt)), [len(f.projected) for f in felt])
+    joined = np.hstack([f.Q for f in first_steps])
+    which = np.repeat(np.arange(len(first_steps)), [len(f.projected) for f in first_steps])
     correlation = noise / np.outer(scale, scale)
     C = joined.T @ joined * correlation[np.ix_(which, which)]
     root = cholesky(C, lower=True)
-    W = np.vstack([f.R @ f.along.weights / s for f, s in zip(felt, scale, strict=True)])
-    y = np.concatenate([f.projected / s for f, s in zip(felt, scale, strict=True)])
+    W = np.vstack([f.R @ f.along.weights / s for f, s in zip(first_steps, scale, strict=True)])
+    y = np.concatenate([f.projected / s for f, s in zip(first_steps, scale, strict=True)])
     return solve_triangular(root, W, lower=True), solve_triangular(root, y, lower=True)

@@ -6,14 +6,24 @@ from typing import Any
 import numpy as np
 
 from modeler.core.errors import TWO_STEPS
-from modeler.core.json import entries
-from modeler.core.table import percent
+from modeler.core.json import select_attributes
+from modeler.core.table import format_percent
 from modeler.estimation.doubts import HALF, LITTLE
-from modeler.estimation.essential import essential_parameters
-from modeler.estimation.identify import all_rows, base_equations, identify, result_of
+from modeler.estimation.essential import select_essential_parameters
+from modeler.estimation.identify import (
+    build_base_equations,
+    build_result,
+    compress_all_rows,
+    identify,
+)
 from modeler.estimation.result import FitResult
-from modeler.estimation.two_step import Configuration, Directions, TwoStep, two_steps
-from modeler.observation import Doubt, Observation
+from modeler.estimation.two_step import (
+    Configuration,
+    JointDirections,
+    TwoStepEstimate,
+    estimate_two_steps,
+)
+from modeler.observation import DataWarning, Observation
 from modeler.runtime import CompiledModel
 
 # Persistent excitation of a two-step fit: the singular values of Phi, joint by joint.
@@ -47,7 +57,7 @@ class PersistentExcitation:
         """Of Phi at these configurations."""
         return len(self.singular_values)
 
-    def line(self) -> str:
+    def format_line(self) -> str:
         """For people."""
         values = self.singular_values
         listed = " ".join(f"{value:.3g}" for value in values)
@@ -58,7 +68,7 @@ class PersistentExcitation:
             f"{ratio:.2g} of the first; {self.usual_ratio:.2g} at many random ones)"
         )
 
-    def sentence(self) -> str:
+    def describe(self) -> str:
         """What to do where it is not persistent."""
         return (
             f"joint {self.joint} moves alone at {self.configurations} configurations, which tell "
@@ -70,11 +80,11 @@ class PersistentExcitation:
     def to_json(self) -> dict[str, Any]:
         """Plain data."""
         names = "joint configurations singular_values rank possible_rank usual_ratio"
-        return entries(self, names)
+        return select_attributes(self, names)
 
 
-def excitations(
-    model: CompiledModel, observation: Observation, steps: TwoStep
+def compute_excitations(
+    model: CompiledModel, observation: Observation, steps: TwoStepEstimate
 ) -> tuple[PersistentExcitation, ...]:
     """Of every joint that moved alone; what is possible is what random poses give.
 
@@ -87,24 +97,32 @@ def excitations(
     else:
         spread = np.linspace(0, len(observation.q) - 1, _POSES * columns).astype(int)
         poses = observation.q[spread]
-    found = []
+    results = []
     for i in sorted({c.joint for c in steps.configurations}):
-        own = np.array([c.pose for c in steps.configurations if c.joint == i]) @ directions.rows
-        rows, best = (inertia_rows(model, q, directions.rows[i]) for q in (own, poses))
-        name, every = directions.names[i], _values(best)
+        joint_poses = (
+            np.array([c.pose for c in steps.configurations if c.joint == i]) @ directions.rows
+        )
+        rows, best = (
+            build_inertia_rows(model, q, directions.rows[i]) for q in (joint_poses, poses)
+        )
+        name, every = directions.names[i], _compute_singular_values(best)
         usual = every[-1] / every[0]
-        found.append(PersistentExcitation(name, len(own), _values(rows), len(every), usual))
-    return tuple(found)
+        results.append(
+            PersistentExcitation(
+                name, len(joint_poses), _compute_singular_values(rows), len(every), usual
+            )
+        )
+    return tuple(results)
 
 
-def inertia_rows(model: CompiledModel, q: np.ndarray, direction: np.ndarray) -> np.ndarray:
+def build_inertia_rows(model: CompiledModel, q: np.ndarray, direction: np.ndarray) -> np.ndarray:
     """(t, c) Phi of J = d^T M(q) d = Phi beta at poses q (t, n)."""
     still, moved = np.zeros_like(q), np.tile(direction, (len(q), 1))
     rows = model.base_regressor(q, still, moved) - model.base_regressor(q, still, still)
     return np.einsum("tjc,j->tc", rows, direction)
 
 
-def _values(rows: np.ndarray) -> tuple[float, ...]:
+def _compute_singular_values(rows: np.ndarray) -> tuple[float, ...]:
     values = np.linalg.svd(rows, compute_uv=False)
     return tuple(float(value) for value in values if value > _ZERO * values[0])
 
@@ -121,27 +139,30 @@ class TwoStepFit:
     """
 
     result: FitResult
-    steps: TwoStep
+    steps: TwoStepEstimate
     excitation: tuple[PersistentExcitation, ...]
     one_step: FitResult
 
-    def lines(self) -> list[str]:
+    def format_lines(self) -> list[str]:
         """Lines: step 1 by configuration, what Phi tells, both fits beside each other."""
         unused = [
             f"{count} piece{'s' * (count > 1)} not used: {why}"
             for why, count in self.steps.left_out.items()
         ]
-        if self.steps.several > 0.0:
-            unused.append(f"{self.steps.several:.3g} s not used: several joints move")
+        if self.steps.simultaneous_time > 0.0:
+            unused.append(f"{self.steps.simultaneous_time:.3g} s not used: several joints move")
         return [
             "step 1: one joint moves, the others stand",
-            *(f"  {line}" for line in (*map(self._line, self.steps.configurations), *unused)),
+            *(
+                f"  {line}"
+                for line in (*map(self._format_line, self.steps.configurations), *unused)
+            ),
             "step 2: theta = Phi beta",
-            *(f"  {excitation.line()}" for excitation in self.excitation),
-            *self._compared(),
+            *(f"  {excitation.format_line()}" for excitation in self.excitation),
+            *self._compare_fits(),
         ]
 
-    def doubts(self) -> list[Doubt]:
+    def collect_warnings(self) -> list[DataWarning]:
         """Joints that never moved alone, where torques are not described for want of them."""
         used = {c.joint for c in self.steps.configurations}
         never = [name for k, name in enumerate(self.steps.directions.names) if k not in used]
@@ -152,28 +173,28 @@ class TwoStepFit:
             "other motion: what only its torque tells is not found; record more motion of it "
             "alone, or take --method weighted"
         )
-        doubt = Doubt(line, certain=worst > HALF, values=True)
+        doubt = DataWarning(line, is_certain=worst > HALF, affects_values=True)
         return [doubt] if never and short and worst > LITTLE else []
 
-    def _line(self, c: Configuration) -> str:
+    def _format_line(self, c: Configuration) -> str:
         names = self.steps.directions.names
-        where = ", ".join(f"q{name} {x:.2f}" for name, x in self._others(c).items())
+        where = ", ".join(f"q{name} {x:.2f}" for name, x in self._collect_others(c).items())
         cells = [
             f"{'J' if name == 'qdd' else name} {x:.5g} +- {s:.2g}"
-            for name, x, s in c.coefficients(0)
+            for name, x, s in c.compute_coefficients(0)
         ]
-        further = [names[f.joint] for f in c.felt[1:]]
+        further = [names[f.joint] for f in c.first_steps[1:]]
         also = f"; torque of joint {', '.join(further)} too" if further else ""
         return (
             f"{c.log}, {c.start:.2f} to {c.end:.2f} s: joint {names[c.joint]} at {where or '-'}: "
             f"{', '.join(cells)}{also}"
         )
 
-    def _others(self, c: Configuration) -> dict[str, float]:
+    def _collect_others(self, c: Configuration) -> dict[str, float]:
         names = self.steps.directions.names
         return {names[k]: float(x) for k, x in enumerate(c.pose) if k != c.joint}
 
-    def _compared(self) -> list[str]:
+    def _compare_fits(self) -> list[str]:
         width = max([9, *(len(p.name) for p in self.result.parameters)])
         lines = [
             f"{'parameter':<{width}} {'two-step':>12} {'sigma':>9} {'one-step':>12} {'sigma':>9}"
@@ -186,8 +207,8 @@ class TwoStepFit:
             ]  # fmt: skip
             lines.append(f"{two.name:<{width}} {cells[0]} {cells[1]}")
         lines.append(
-            f"relative error {percent(self.result.relative_error)} in two steps, "
-            f"{percent(self.one_step.relative_error)} in one"
+            f"relative error {format_percent(self.result.relative_error)} in two steps, "
+            f"{format_percent(self.one_step.relative_error)} in one"
         )
         return lines
 
@@ -197,21 +218,22 @@ class TwoStepFit:
         return {
             "configurations": [
                 {
-                    **entries(c, "log start end"),
+                    **select_attributes(c, "log start end"),
                     "joint": names[c.joint],
-                    "others": self._others(c),
-                    "rows": len(c.felt[0].residual),
+                    "others": self._collect_others(c),
+                    "rows": len(c.first_steps[0].residual),
                     "torques": {
                         names[f.joint]: {
-                            name: {"value": x, "sigma": s} for name, x, s in c.coefficients(k)
+                            name: {"value": x, "sigma": s}
+                            for name, x, s in c.compute_coefficients(k)
                         }
-                        for k, f in enumerate(c.felt)
+                        for k, f in enumerate(c.first_steps)
                     },
                 }
                 for c in self.steps.configurations
             ],
             "left_out": dict(self.steps.left_out),
-            "several_moving": self.steps.several,
+            "several_moving": self.steps.simultaneous_time,
             "excitation": [excitation.to_json() for excitation in self.excitation],
             "one_step": [parameter.to_json() for parameter in self.one_step.parameters],
         }
@@ -220,7 +242,7 @@ class TwoStepFit:
 def identify_in_two_steps(
     model: CompiledModel,
     observation: Observation,
-    directions: Directions,
+    directions: JointDirections,
     below: float | None = None,
 ) -> TwoStepFit:
     """The two-step fit of an observation, and the one-step fit beside it.
@@ -235,16 +257,20 @@ def identify_in_two_steps(
         DataError: no piece in which one joint moves and the others stand, or what `identify` says.
     """
     one = identify(observation)
-    steps = two_steps(model, observation, directions)
-    excitation = excitations(model, observation, steps)
+    steps = estimate_two_steps(model, observation, directions)
+    excitation = compute_excitations(model, observation, steps)
     estimate = steps.estimate
-    essential = essential_parameters(steps.data, estimate, "ordinary", below)
-    result = result_of(
-        base_equations(observation), TWO_STEPS, estimate, essential, all_rows(observation),
-        rows=sum(len(f.residual) for c in steps.configurations for f in c.felt),
+    essential = select_essential_parameters(steps.data, estimate, "ordinary", below)
+    result = build_result(
+        build_base_equations(observation),
+        TWO_STEPS,
+        estimate,
+        essential,
+        compress_all_rows(observation),
+        rows=sum(len(f.residual) for c in steps.configurations for f in c.first_steps),
         sentences=(
-            *(e.sentence() for e in excitation if e.rank < e.possible_rank),
-            *(tangle.sentence() for tangle in estimate.rank.aside),
+            *(e.describe() for e in excitation if e.rank < e.possible_rank),
+            *(tangle.describe() for tangle in estimate.rank.dropped_columns),
         ),
-    )  # fmt: skip
+    )
     return TwoStepFit(result, steps, excitation, one)

@@ -7,31 +7,39 @@ import numpy as np
 from scipy.special import chdtri
 
 from modeler.core.manifest import ModuleSpec
-from modeler.core.table import percent
+from modeler.core.table import format_percent
 from modeler.estimation import doubts
-from modeler.estimation.covariance import autocorrelation
+from modeler.estimation.covariance import estimate_autocorrelation
 from modeler.estimation.doubts import LITTLE, WIDE
 from modeler.estimation.identify import (
     CrossValidation,
     Equations,
-    alive_rows,
-    all_rows,
-    base_equations,
-    crossed,
-    errors_on,
+    build_base_equations,
+    compress_all_rows,
+    compute_errors,
+    cross_validate,
+    find_connected_rows,
 )
 from modeler.estimation.least_squares import solve_by_qr
-from modeler.estimation.nearest_body import carried_by, machine_of, nearest_possible
-from modeler.estimation.prior import prior_of
+from modeler.estimation.nearest_body import (
+    attribute_distance,
+    define_physical_parameters,
+    project_parameters,
+)
+from modeler.estimation.prior import build_prior
 from modeler.estimation.result import (
     FitResult,
     JointFit,
     JointVerdict,
     Verdict,
-    friction_by_direction,
+    compute_friction_by_direction,
 )
-from modeler.numerics.least_squares import Compressed, independent_columns, triangle
-from modeler.observation import Doubt, Observation, nearest_closed
+from modeler.numerics.least_squares import (
+    CompressedRegression,
+    compute_triangle,
+    find_independent_columns,
+)
+from modeler.observation import DataWarning, Observation, find_nearest_closed
 from modeler.runtime import CompiledModel
 
 # Is the time of the logs in seconds? The clock that a robot carries with it is gravity.
@@ -56,7 +64,9 @@ _UNITS = (("milliseconds", 1e-3), ("microseconds", 1e-6), ("nanoseconds", 1e-9),
 _USUAL = (20.0, 2e4)  # Hz; rates at which robots are logged
 
 
-def time_doubts(model: CompiledModel, observation: Observation, result: FitResult) -> list[Doubt]:
+def check_time(
+    model: CompiledModel, observation: Observation, result: FitResult
+) -> list[DataWarning]:
     """Time steps that no log of a robot has, and inertias that belong to another unit of time.
 
     Accelerations scale with 1/time^2, gravity does not. With the time in milliseconds inertias
@@ -65,7 +75,7 @@ def time_doubts(model: CompiledModel, observation: Observation, result: FitResul
     links are, counterweights and rotors included. A hundred times the robot's reach, on all joints
     that gravity loads, is another unit of time.
     """
-    found = []
+    warnings = []
     for log in observation.report.logs:
         step = 1.0 / log.rate
         if step > SLOW or step < 1.0 / _USUAL[1]:
@@ -74,17 +84,17 @@ def time_doubts(model: CompiledModel, observation: Observation, result: FitResul
                 if step > SLOW
                 else "faster than robots are logged"
             )
-            line = f"{log.name}: median time step {step:.3g} s, {what}: {_unit(step)}"
-            found.append(Doubt(line, certain=step > SLOW, values=step <= SLOW))
-    ratio, density = _pendulum(model, observation, result)
-    if not found and ratio > ABSURD:
-        found.append(
-            Doubt(
+            line = f"{log.name}: median time step {step:.3g} s, {what}: {_suggest_unit(step)}"
+            warnings.append(DataWarning(line, is_certain=step > SLOW, affects_values=step <= SLOW))
+    ratio, density = _compute_pendulum(model, observation, result)
+    if not warnings and ratio > ABSURD:
+        warnings.append(
+            DataWarning(
                 f"the clock seems to be wrong: the inertias are {ratio:.2g} times those of links "
                 f"of this reach under this gravity, as if all motion were {ratio**0.5:.2g} times "
                 "as fast, or the lengths of the table not in metres; check the time column, its "
                 "unit and rate",
-                certain=True,
+                is_certain=True,
             )
         )
     elif density > HEAVY and result.status != "rank deficient":
@@ -93,11 +103,11 @@ def time_doubts(model: CompiledModel, observation: Observation, result: FitResul
             "reach: the torques look like mN m, or the lengths of the table are not in metres; "
             "give N m and metres"
         )
-        found.append(Doubt(line, certain=True))
-    return found
+        warnings.append(DataWarning(line, is_certain=True))
+    return warnings
 
 
-def _unit(step: float) -> str:
+def _suggest_unit(step: float) -> str:
     """What the unit may be, and what to do."""
     for name, seconds in _UNITS:
         rate = 1.0 / (step * seconds)
@@ -109,7 +119,7 @@ def _unit(step: float) -> str:
     return "is the column time in seconds, or a count of rows? give seconds"
 
 
-def _pendulum(
+def _compute_pendulum(
     model: CompiledModel, observation: Observation, result: FitResult
 ) -> tuple[float, float]:
     """Least J g / m over the reach, over the joints that gravity loads; 0 if none.
@@ -118,7 +128,7 @@ def _pendulum(
     largest inertia, over the cube of the reach, kg/m^3.
     """
     q = observation.q[:: max(1, len(observation.q) // _POSES)]
-    nearest = nearest_closed(model, q)
+    nearest = find_nearest_closed(model, q)
     if nearest is None:
         return 0.0, 0.0
     q = np.ascontiguousarray(q[nearest])
@@ -148,14 +158,14 @@ CHANCE = 1e-3
 _FELT = 1.1  # ratio of errors that is worth a word
 
 
-def with_verdict(
+def judge_fit(
     model: CompiledModel,
     observation: Observation,
     result: FitResult,
-    told: Sequence[Doubt] = (),
+    log_warnings: Sequence[DataWarning] = (),
     equations: Equations | None = None,
     refit: Callable[[np.ndarray], np.ndarray] | None = None,
-    data: Compressed | None = None,
+    data: CompressedRegression | None = None,
 ) -> FitResult:
     """The fit with its verdict.
 
@@ -169,35 +179,51 @@ def with_verdict(
         model: the robot.
         observation: that was fitted.
         result: of the fit.
-        told: findings of other stages about the logs; one that is certain makes the fit invalid.
+        log_warnings: findings of other stages about the logs; one that is certain makes the fit
+            invalid.
         equations: that were fitted; None: those of the bare robot.
         refit: how the fit is made without some samples; None: by least squares of the torques.
         data: all rows that were fitted, where the observation has a part of them only.
     """
-    equations = equations or base_equations(observation)
-    rows = alive_rows(observation)
-    part, data = data is not None, data or equations.compressed(rows)
-    sigma, prior = np.array([joint.sigma for joint in result.joints]), prior_of(model.spec)
-    seen = crossed(equations, rows, sigma, refit, prior)
-    unseen = tuple(doubt.line for doubt in told if doubt.unseen)
-    found = [doubt for doubt in told if not doubt.unseen]
+    equations = equations or build_base_equations(observation)
+    rows = find_connected_rows(observation)
+    part, data = data is not None, data or equations.compress_rows(rows)
+    sigma, prior = np.array([joint.sigma for joint in result.joints]), build_prior(model.spec)
+    seen = cross_validate(equations, rows, sigma, refit, prior)
+    unseen = tuple(doubt.line for doubt in log_warnings if doubt.is_undetectable)
+    warnings = [doubt for doubt in log_warnings if not doubt.is_undetectable]
     possible = None
-    if not any(doubt.certain for doubt in found):  # else what the fit says is said of the fault
-        found += [*time_doubts(model, observation, result), *doubts.noisy_motion(observation)]
-        found += [*doubts.scarce(result, seen), *doubts.undescribed(result)]
+    if not any(
+        doubt.is_certain for doubt in warnings
+    ):  # else what the fit says is said of the fault
+        warnings += [
+            *check_time(model, observation, result),
+            *doubts.check_motion_noise(observation),
+        ]
+        warnings += [*doubts.find_few_rows(result, seen), *doubts.find_lack_of_fit(result)]
         if part:
-            found += doubts.unexplained_joints(result, seen, _scale(data, observation, rows))
-        found += doubts.systematic(result, _lasting(equations, rows, result))
-        found += [Doubt(line, values=True, about=_named(line, result)) for line in
-                  result.contradicted]  # fmt: skip
-        found += doubts.undetermined(model.spec, result, _spread(data, result))
-        impossible = _impossible(model.spec, result, data)
+            warnings += doubts.find_unexplained_joints(
+                result, seen, _compute_torque_ratio(data, observation, rows)
+            )
+        warnings += doubts.find_systematic_residuals(
+            result, _estimate_systematic_share(equations, rows, result)
+        )
+        warnings += [
+            DataWarning(line, affects_values=True, joints=_find_joint(line, result))
+            for line in result.contradicted
+        ]
+        warnings += doubts.find_undetermined_parameters(
+            model.spec, result, _compute_spread(data, result)
+        )
+        impossible = _find_impossible(model.spec, result, data)
         possible = not impossible
-        found += [*impossible, *doubts.negative(model.spec, result)]
-    worst = _worst_blocks(seen, equations, rows)
-    by_joint = _by_joint([*found, *result.of_joints], result, seen, worst)
-    verdict = _verdict(found, by_joint, _predicts(equations, rows, result, seen))
-    directions = friction_by_direction(model.spec, result)
+        warnings += [*impossible, *doubts.find_negative_values(model.spec, result)]
+    worst = _find_worst_blocks(seen, equations, rows)
+    by_joint = _judge_joints([*warnings, *result.joint_warnings], result, seen, worst)
+    verdict = _write_verdict(
+        warnings, by_joint, _describe_prediction(equations, rows, result, seen)
+    )
+    directions = compute_friction_by_direction(model.spec, result)
     verdict = dataclasses.replace(verdict, unseen=unseen, possible=possible)
     return dataclasses.replace(result, verdict=verdict, directions=directions)
 
@@ -220,16 +246,16 @@ NOT_FITTED = "no row was fitted"
 _BLOCKS = 5  # in time
 
 
-def _worst_blocks(seen: CrossValidation, equations: Equations, rows: np.ndarray) -> np.ndarray:
+def _find_worst_blocks(seen: CrossValidation, equations: Equations, rows: np.ndarray) -> np.ndarray:
     """(n,) largest cross-validated error in a block of time."""
     observation = equations.observation
     block = observation.row_sample * _BLOCKS // len(observation.time)
-    every = [errors_on(equations, seen.residual, rows & (block == k)) for k in range(_BLOCKS)]
+    every = [compute_errors(equations, seen.residual, rows & (block == k)) for k in range(_BLOCKS)]
     return np.asarray(np.nan_to_num(every).max(axis=0))
 
 
-def _by_joint(
-    found: Sequence[Doubt], result: FitResult, seen: CrossValidation, worst: np.ndarray
+def _judge_joints(
+    warnings: Sequence[DataWarning], result: FitResult, seen: CrossValidation, worst: np.ndarray
 ) -> dict[str, JointVerdict]:
     """What speaks against each joint: what is said of it, of the whole robot, and its errors.
 
@@ -238,61 +264,65 @@ def _by_joint(
     names = {joint.name for joint in result.joints}
     judged = {}
     for joint, error, lapse in zip(result.joints, seen.errors, worst, strict=True):
-        own = [
+        joint_warnings = [
             doubt
-            for doubt in found
-            if joint.name in doubt.about
-            or (not names & set(doubt.about) and (doubt.certain or doubt.values))
+            for doubt in warnings
+            if joint.name in doubt.joints
+            or (not names & set(doubt.joints) and (doubt.is_certain or doubt.affects_values))
         ]
-        lines = tuple(dict.fromkeys(doubt.line for doubt in own))
-        errors = f"fit error {percent(joint.relative_error)}"
+        lines = tuple(dict.fromkeys(doubt.line for doubt in joint_warnings))
+        errors = f"fit error {format_percent(joint.relative_error)}"
         if np.isfinite(error):
-            errors += f", cross-validated error {percent(float(error))}"
+            errors += f", cross-validated error {format_percent(float(error))}"
         if joint.relative_error is None:
             judged[joint.name] = JointVerdict("undetermined", (NOT_FITTED, *lines))
-        elif any(doubt.certain for doubt in own) or error > LOST:
+        elif any(doubt.is_certain for doubt in joint_warnings) or error > LOST:
             judged[joint.name] = JointVerdict("undetermined", lines or (errors,))
-        elif own or error > GOOD or lapse > LAPSE:
+        elif joint_warnings or error > GOOD or lapse > LAPSE:
             judged[joint.name] = JointVerdict("doubtful", lines or (errors,))
         else:
             judged[joint.name] = JointVerdict("good", (errors,))
     return judged
 
 
-def _predicts(
+def _describe_prediction(
     equations: Equations, rows: np.ndarray, result: FitResult, seen: CrossValidation
 ) -> str:
     """How well torques are predicted; no better than where they were fitted."""
 
     def largest(errors: np.ndarray, joints: Sequence[JointFit]) -> str:
-        own = [np.nan if j.relative_error is None else j.relative_error for j in joints]
-        return percent(float(np.fmax(np.nan_to_num(errors), np.nan_to_num(own)).max()))
+        fit_errors = [np.nan if j.relative_error is None else j.relative_error for j in joints]
+        return format_percent(
+            float(np.fmax(np.nan_to_num(errors), np.nan_to_num(fit_errors)).max())
+        )
 
     parts = {
-        name: largest(errors_on(equations, seen.residual, own), result.by_load[name])
-        for name, own in equations.conditions(rows).items()
+        name: largest(compute_errors(equations, seen.residual, is_counted), result.by_load[name])
+        for name, is_counted in equations.select_conditions(rows).items()
         if name in result.by_load
     }
     errors = " and ".join(f"{error} {name}" for name, error in parts.items())
     return f"cross-validated error at most {errors or largest(seen.errors, result.joints)}"
 
 
-def _scale(data: Compressed, observation: Observation, rows: np.ndarray) -> np.ndarray:
+def _compute_torque_ratio(
+    data: CompressedRegression, observation: Observation, rows: np.ndarray
+) -> np.ndarray:
     """(n,) rms torque of all rows over that of the observation's; 1 where either has none."""
     count = len(data.rows)
     joint, y = observation.row_joint[rows], observation.y[rows]
     here = np.sqrt(np.bincount(joint, y**2, count) / np.fmax(np.bincount(joint, None, count), 1))
-    there = data.torque_rms()
+    there = data.compute_torque_rms()
     both = (here > 0.0) & (there > 0.0)
     return np.where(both, there / np.where(both, here, 1.0), 1.0)
 
 
-def contradictions(
+def find_contradictions(
     model: CompiledModel,
     observation: Observation,
     result: FitResult,
-    told: Sequence[Doubt] = (),
-    data: Compressed | None = None,
+    log_warnings: Sequence[DataWarning] = (),
+    data: CompressedRegression | None = None,
 ) -> list[str]:
     """Why a fit is certainly not valid, other than for want of data.
 
@@ -302,118 +332,130 @@ def contradictions(
         model: the robot.
         observation: that was fitted.
         result: of the fit.
-        told: findings of other stages about the logs.
+        log_warnings: findings of other stages about the logs.
         data: all rows that were fitted; None: those of the observation.
     """
-    found = list(told)
-    if not any(doubt.certain for doubt in found):
-        found += [*time_doubts(model, observation, result), *doubts.undescribed(result)]
-        found += _impossible(model.spec, result, data or all_rows(observation))
-    return list(dict.fromkeys(doubt.line for doubt in found if doubt.certain))
+    warnings = list(log_warnings)
+    if not any(doubt.is_certain for doubt in warnings):
+        warnings += [*check_time(model, observation, result), *doubts.find_lack_of_fit(result)]
+        warnings += _find_impossible(model.spec, result, data or compress_all_rows(observation))
+    return list(dict.fromkeys(doubt.line for doubt in warnings if doubt.is_certain))
 
 
-def _lasting(equations: Equations, rows: np.ndarray, result: FitResult) -> np.ndarray:
+def _estimate_systematic_share(
+    equations: Equations, rows: np.ndarray, result: FitResult
+) -> np.ndarray:
     """(n,) e_j sqrt(r_j(1)): relative error, and autocorrelation of the residual over one row."""
     observation, every = equations.observation, np.ones(len(rows), dtype=bool)
-    residual = equations.residual(_values(result), every)
-    found = np.zeros(len(result.joints))
+    residual = equations.compute_residual(_collect_values(result), every)
+    shares = np.zeros(len(result.joints))
     for j, joint in enumerate(result.joints):
-        own = rows & (observation.row_joint == j)
-        if joint.relative_error is None or not own.any():
+        is_of_joint = rows & (observation.row_joint == j)
+        if joint.relative_error is None or not is_of_joint.any():
             continue
-        r = autocorrelation(residual[own], observation.row_sample[own], observation.segment)
+        r = estimate_autocorrelation(
+            residual[is_of_joint], observation.row_sample[is_of_joint], observation.segment
+        )
         lasts = float(r[1]) if len(r) > 1 and r[1] > FILTERED else 0.0
-        found[j] = joint.relative_error * lasts**0.5
-    return found
+        shares[j] = joint.relative_error * lasts**0.5
+    return shares
 
 
-def _named(line: str, result: FitResult) -> tuple[str, ...]:
+def _find_joint(line: str, result: FitResult) -> tuple[str, ...]:
     """The joint that a line begins with."""
     return tuple(j.name for j in result.joints if line.startswith(f"joint {j.name}: "))
 
 
-def _values(result: FitResult) -> np.ndarray:
+def _collect_values(result: FitResult) -> np.ndarray:
     """(c + loads,) of all columns that were fitted."""
     return np.append(result.beta, [load.value for load in result.loads])
 
 
-def _spread(data: Compressed, result: FitResult) -> np.ndarray:
+def _compute_spread(data: CompressedRegression, result: FitResult) -> np.ndarray:
     """(c,) ||W_jc|| sigma_c / ||y_j|| of the joint where it is largest."""
     sigma = np.sqrt(np.diag(result.covariance))
     column = np.linalg.norm(data.triangles[:, :, : len(sigma)], axis=1)
-    torque = data.torque_norms()
+    torque = data.compute_torque_norms()
     driven = torque > 0.0
     share = column[driven] * sigma / torque[driven, None]
     return np.asarray(share.max(axis=0, initial=0.0))
 
 
-def _impossible(spec: ModuleSpec, result: FitResult, data: Compressed) -> list[Doubt]:
+def _find_impossible(
+    spec: ModuleSpec, result: FitResult, data: CompressedRegression
+) -> list[DataWarning]:
     """Values that no completion makes those of a machine that could be built."""
-    machine, c = machine_of(spec), len(result.beta)
+    machine, c = define_physical_parameters(spec), len(result.beta)
     # A root of what the rows tell of the robot's parameters, whatever those of loads are.
-    whole = data.whole(np.array([joint.sigma for joint in result.joints]))
+    whole = data.combine_joints(np.array([joint.sigma for joint in result.joints]))
     loads = whole.shape[1] - 1 - c
-    white = triangle(np.hstack([whole[:, c:-1], whole[:, :c]]))[loads:, loads:]
-    root = white / _colour(white, result)
-    nearest = nearest_possible(machine, result.beta, root)
+    white = compute_triangle(np.hstack([whole[:, c:-1], whole[:, :c]]))[loads:, loads:]
+    root = white / _estimate_sigma_factors(white, result)
+    nearest = project_parameters(machine, result.beta, root)
     limit = float(chdtri(max(1, np.linalg.matrix_rank(root)), CHANCE)) ** 0.5
     if nearest is None or nearest.distance <= limit:
         return []
-    blamed = carried_by(machine, result.beta, root, nearest.distance)
+    blamed = attribute_distance(machine, result.beta, root, nearest.distance)
     names = [name if name in machine.positive else f"the mass of link {name}" for name in blamed]
     # Relative errors with the fit and with the possible machine, and the joint that it costs most.
-    torque, values = data.torque_norms(), _values(result)
+    torque, values = data.compute_torque_norms(), _collect_values(result)
     driven = np.flatnonzero(torque > 0.0)
     moved = np.append(nearest.beta, values[len(nearest.beta) :])
-    errors = [data.residual_norms(beta)[driven] / torque[driven] for beta in (values, moved)]
+    errors = [
+        data.compute_residual_norms(beta)[driven] / torque[driven] for beta in (values, moved)
+    ]
     worst = int(np.argmax(errors[1] - errors[0]))
     before, after = (float(error[worst]) for error in errors)
     cost = (
         ""
         if after < _FELT * before
         else (
-            f"; the nearest possible one leaves {percent(after)} of the torque of joint "
-            f"{result.joints[driven[worst]].name}, not {percent(before)}"
+            f"; the nearest possible one leaves {format_percent(after)} of the torque of joint "
+            f"{result.joints[driven[worst]].name}, not {format_percent(before)}"
         )
     )
     return [
-        Doubt(
+        DataWarning(
             f"no machine that could be built has these values: {nearest.distance:.3g} sigmas from "
             f"any, where {limit:.2g} are chance; carried by {', '.join(names) or 'no single link'}"
             f"{cost}; check signs, order and units of those channels, and let `modeler "
             "diagnose` look for an effect that they stand in for",
-            certain=after > max(LITTLE, WIDE * before),
-            values=True,
-            about=tuple(
+            is_certain=after > max(LITTLE, WIDE * before),
+            affects_values=True,
+            joints=tuple(
                 joint
                 for name in blamed
-                for joint in doubts.joints_of_parameters(spec, [name]) or (name,)
+                for joint in doubts.find_joints_of_parameters(spec, [name]) or (name,)
             ),
         )
     ]
 
 
-def _colour(white: np.ndarray, result: FitResult) -> np.ndarray:
+def _estimate_sigma_factors(white: np.ndarray, result: FitResult) -> np.ndarray:
     """(c,) factors of the standard deviations over those of white residuals, 1 and more.
 
     All are the largest if columns were set aside: others carry their effect, and must go on to.
     """
     raised = np.sqrt(np.diag(result.covariance))
     names = [parameter.name for parameter in result.parameters]
-    kept = np.intersect1d(np.flatnonzero(raised), independent_columns(white, names).kept)
+    kept_columns = np.intersect1d(
+        np.flatnonzero(raised), find_independent_columns(white, names).kept_columns
+    )
     factors = np.ones(len(raised))
-    if kept.size:
-        _, root = solve_by_qr(white[:, kept], np.zeros(len(white)))
-        factors[kept] = np.maximum(raised[kept] / np.linalg.norm(root, axis=1), 1.0)
-    return factors if kept.size == len(factors) else np.full(len(factors), factors.max())
+    if kept_columns.size:
+        _, root = solve_by_qr(white[:, kept_columns], np.zeros(len(white)))
+        factors[kept_columns] = np.maximum(raised[kept_columns] / np.linalg.norm(root, axis=1), 1.0)
+    return factors if kept_columns.size == len(factors) else np.full(len(factors), factors.max())
 
 
-def _verdict(found: Sequence[Doubt], by_joint: Mapping[str, JointVerdict], error: str) -> Verdict:
-    lines = tuple(dict.fromkeys(doubt.line for doubt in found))
-    fatal = [doubt for doubt in found if doubt.certain]
+def _write_verdict(
+    warnings: Sequence[DataWarning], by_joint: Mapping[str, JointVerdict], error: str
+) -> Verdict:
+    lines = tuple(dict.fromkeys(doubt.line for doubt in warnings))
+    fatal = [doubt for doubt in warnings if doubt.is_certain]
     if fatal:
         return Verdict(False, "nothing", f"Not valid: {fatal[0].line}", lines, (), by_joint)
-    values = [doubt.line for doubt in found if doubt.values]
+    values = [doubt.line for doubt in warnings if doubt.affects_values]
     doubtful = {
         name: judged.why[0]
         for name, judged in by_joint.items()
@@ -429,5 +471,5 @@ def _verdict(found: Sequence[Doubt], by_joint: Mapping[str, JointVerdict], error
         )
         return Verdict(True, "prediction", line, lines, (), by_joint)
     line = f"Valid for torque prediction: {error} on every joint. "
-    line += f"Note: {found[0].line}" if found else "Parameters are physically consistent."
+    line += f"Note: {warnings[0].line}" if warnings else "Parameters are physically consistent."
     return Verdict(True, "parameters", line, lines, (), by_joint)

@@ -2,33 +2,37 @@ from .clearance import (
     BASE as BASE,
     SAMPLES as SAMPLES,
     Clearance as Clearance,
-    Nearest as Nearest,
-    Solids as Solids,
-    nearest as nearest,
-    without_neighbours as without_neighbours,
+    ClosestApproach as ClosestApproach,
+    CollisionGeometry as CollisionGeometry,
+    exclude_neighbours as exclude_neighbours,
+    find_closest_approach as find_closest_approach,
 )
-from .criterion import Known as Known, condition as condition, signals as signals
-from .limit_check import Excess as Excess, exceeded_limits as exceeded_limits
-from .motion import Bounds as Bounds, Box as Box
+from .criterion import (
+    PriorInformation as PriorInformation,
+    compute_condition as compute_condition,
+    compute_signals as compute_signals,
+)
+from .limit_check import LimitExcess as LimitExcess, find_exceeded_limits as find_exceeded_limits
+from .motion import Box as Box, MotionBounds as MotionBounds
 from .result import (
-    Exciting as Exciting,
-    Gain as Gain,
-    check_kind as check_kind,
-    csv_text as csv_text,
-    motion_table as motion_table,
-    picture as picture,
+    ExcitingMotion as ExcitingMotion,
+    InformationGain as InformationGain,
+    check_picture_kind as check_picture_kind,
+    draw_motion as draw_motion,
+    encode_parquet as encode_parquet,
+    format_csv as format_csv,
 )
 from .search import (
-    Wish as Wish,
-    default_harmonics as default_harmonics,
-    excite as excite,
-    random_motion as random_motion,
-    task_of as task_of,
+    MotionRequest as MotionRequest,
+    build_task as build_task,
+    choose_harmonics as choose_harmonics,
+    design_motion as design_motion,
+    draw_random_motion as draw_random_motion,
 )
 from .separate import (
-    Question as Question,
-    Separation as Separation,
-    choose as choose,
-    tell_apart as tell_apart,
+    Discrimination as Discrimination,
+    DiscriminationProblem as DiscriminationProblem,
+    choose_motions as choose_motions,
+    design_discriminating_motion as design_discriminating_motion,
 )
-from .task import Task as Task
+from .task import ExcitationTask as ExcitationTask

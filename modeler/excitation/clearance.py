@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from modeler.core.brief import Brief
+from modeler.core.brief import ShortRepr
 from modeler.runtime import CompiledModel
 
 BASE = -1
@@ -18,7 +18,7 @@ _POSTURES = 500
 
 
 @dataclass(frozen=True, eq=False)
-class Solids(Brief):
+class CollisionGeometry(ShortRepr):
     """A robot and its surroundings: k capsules, and after them planes.
 
     Attributes:
@@ -39,35 +39,38 @@ class Solids(Brief):
     pairs: np.ndarray
 
     @property
-    def middle(self) -> float:
+    def median_radius(self) -> float:
         """The middle radius of capsules, m."""
         return float(np.median(self.radius[: len(self.ends)]))
 
-    def who(self, pair: int) -> tuple[str, str]:
+    def get_pair_names(self, pair: int) -> tuple[str, str]:
         """The names of a pair."""
         one, other = self.pairs[pair]
         return self.names[one], self.names[other]
 
-    def frames(self, poses: np.ndarray) -> np.ndarray:
+    def select_frames(self, poses: np.ndarray) -> np.ndarray:
         """(n, k + m, 3, 4) of the carriers, of poses (n, rows, 3, 4)."""
         still = np.eye(3, 4)[None, None].repeat(len(poses), axis=0)
         return np.concatenate([poses, still], axis=1)[:, self.carriers]
 
-    def placed(self, poses: np.ndarray) -> np.ndarray:
+    def place_capsules(self, poses: np.ndarray) -> np.ndarray:
         """(n, k, 2, 3) ends in frame 0, of poses (n, rows, 3, 4)."""
-        own = self.frames(poses)[:, : len(self.ends)]
-        return np.einsum("nkab,ksb->nksa", own[..., :3], self.ends) + own[:, :, None, :, 3]
+        capsule_frames = self.select_frames(poses)[:, : len(self.ends)]
+        return (
+            np.einsum("nkab,ksb->nksa", capsule_frames[..., :3], self.ends)
+            + capsule_frames[:, :, None, :, 3]
+        )
 
-    def distances(self, ends: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    def compute_distances(self, ends: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """(n, p) m, below 0 where two meet, and (n, p, 2, 3) the nearest points of axes and planes.
 
         Args:
-            ends: (n, k, 2, 3) of `placed`.
+            ends: (n, k, 2, 3) of `place_capsules`.
         """
         k, (one, other) = len(self.ends), self.pairs.T
         flat = other >= k
         points = np.zeros((len(ends), len(self.pairs), 2, 3))
-        points[:, ~flat] = nearest_points(ends[:, one[~flat]], ends[:, other[~flat]])
+        points[:, ~flat] = find_nearest_points(ends[:, one[~flat]], ends[:, other[~flat]])
         gaps = np.linalg.norm(points[:, :, 0] - points[:, :, 1], axis=2)
         tips, normals = ends[:, one[flat]], self.normals[other[flat] - k]
         heights = np.einsum("nmsa,ma->nms", tips, normals) - self.offsets[other[flat] - k, None]
@@ -78,7 +81,7 @@ class Solids(Brief):
         return gaps - self.radius[self.pairs].sum(axis=1), points
 
 
-def nearest_points(one: np.ndarray, other: np.ndarray) -> np.ndarray:
+def find_nearest_points(one: np.ndarray, other: np.ndarray) -> np.ndarray:
     """(..., 2, 3) where two segments, (..., 2, 3) ends each, come nearest to each other.
 
     Ericson 2005, Real-Time Collision Detection, section 5.1.9.
@@ -88,19 +91,19 @@ def nearest_points(one: np.ndarray, other: np.ndarray) -> np.ndarray:
     dd, ee, de, dr, er = (
         np.sum(a * b, axis=-1) for a, b in ((d, d), (e, e), (d, e), (d, r), (e, r))
     )
-    s = np.clip(_ratio(de * er - dr * ee, dd * ee - de**2, 1e-12 * dd * ee), 0.0, 1.0)
-    t = np.clip(_ratio(de * s + er, ee), 0.0, 1.0)
-    s = np.clip(_ratio(de * t - dr, dd), 0.0, 1.0)
+    s = np.clip(_compute_ratio(de * er - dr * ee, dd * ee - de**2, 1e-12 * dd * ee), 0.0, 1.0)
+    t = np.clip(_compute_ratio(de * s + er, ee), 0.0, 1.0)
+    s = np.clip(_compute_ratio(de * t - dr, dd), 0.0, 1.0)
     return np.stack([one[..., 0, :] + s[..., None] * d, other[..., 0, :] + t[..., None] * e], -2)
 
 
-def _ratio(a: np.ndarray, b: np.ndarray, least: np.ndarray | float = 0.0) -> np.ndarray:
+def _compute_ratio(a: np.ndarray, b: np.ndarray, least: np.ndarray | float = 0.0) -> np.ndarray:
     """a / b; 0 where b is no more than `least`."""
     return np.divide(a, b, out=np.zeros_like(a), where=b > least)
 
 
 @dataclass(frozen=True, eq=False)
-class Nearest(Brief):
+class ClosestApproach(ShortRepr):
     """Where a motion brings two closest to each other.
 
     Attributes:
@@ -128,7 +131,7 @@ class Nearest(Brief):
 
 
 @dataclass(frozen=True, eq=False)
-class Clearance(Brief):
+class Clearance(ShortRepr):
     """What links must keep from each other.
 
     Attributes:
@@ -137,23 +140,23 @@ class Clearance(Brief):
         left_out: pairs that are not looked at, and why.
     """
 
-    solids: Solids
+    solids: CollisionGeometry
     margin: float
     left_out: tuple[tuple[str, str, str], ...] = ()
 
-    def line(self, near: Nearest | None) -> str:
+    def format_line(self, near: ClosestApproach | None) -> str:
         """What a motion keeps of it, as a sentence."""
         out = ", ".join(f"{a} and {b} ({why})" for a, b, why in self.left_out)
-        told = f"; not looked at: {out}" if out else ""
+        excluded_text = f"; not looked at: {out}" if out else ""
         if near is None:
-            return f"no two links or planes are looked at{told}"
+            return f"no two links or planes are looked at{excluded_text}"
         return (
             f"nearest are {near.pair[0]} and {near.pair[1]}, {1e3 * near.distance:.1f} mm apart at "
             f"{near.time:.4g} s; at no time, between samples too, are any two nearer than "
-            f"{1e3 * near.bound:.1f} mm, of {1e3 * self.margin:g} mm asked for{told}"
+            f"{1e3 * near.bound:.1f} mm, of {1e3 * self.margin:g} mm asked for{excluded_text}"
         )
 
-    def to_json(self, near: Nearest | None) -> dict[str, Any]:
+    def to_json(self, near: ClosestApproach | None) -> dict[str, Any]:
         """Plain data."""
         return {
             "margin": self.margin,
@@ -161,26 +164,30 @@ class Clearance(Brief):
             "nearest": None if near is None else near.to_json(),
         }
 
-    def shares(self, compiled: CompiledModel, q: np.ndarray) -> np.ndarray:
+    def compute_shares(self, compiled: CompiledModel, q: np.ndarray) -> np.ndarray:
         """(n, pairs) exp((margin - distance) / middle radius): below 1 where they are far apart."""
-        ends = self.solids.placed(compiled.forward_kinematics(q))
-        return np.exp((self.margin - self.solids.distances(ends)[0]) / self.solids.middle)
+        ends = self.solids.place_capsules(compiled.forward_kinematics(q))
+        return np.exp(
+            (self.margin - self.solids.compute_distances(ends)[0]) / self.solids.median_radius
+        )
 
-    def pulled_back(
+    def pull_back_gradient(
         self, compiled: CompiledModel, q: np.ndarray, pull: np.ndarray, steps: np.ndarray
     ) -> np.ndarray:
-        """(n, J) derivative by q of a number whose derivative by `shares` is `pull`.
+        """(n, J) derivative by q of a number whose derivative by `compute_shares` is `pull`.
 
         For distances above 0. Nearest points are taken as fixed on their links: by how little they
         slide, the distance does not change. The links' motion is by central differences of `steps`
         (J,).
         """
         solids, poses = self.solids, compiled.forward_kinematics(q)
-        gaps, points = solids.distances(solids.placed(poses))
+        gaps, points = solids.compute_distances(solids.place_capsules(poses))
         apart = points[:, :, 0] - points[:, :, 1]
         length = np.linalg.norm(apart, axis=2)
-        share = np.exp((self.margin - gaps) / self.solids.middle)
-        push = (-pull * share / self.solids.middle / np.maximum(length, 1e-12))[..., None] * apart
+        share = np.exp((self.margin - gaps) / self.solids.median_radius)
+        push = (-pull * share / self.solids.median_radius / np.maximum(length, 1e-12))[
+            ..., None
+        ] * apart
         moments = np.zeros(poses.shape)
         for column, side in np.ndindex(solids.pairs.shape):
             carrier = solids.carriers[solids.pairs[column, side]]
@@ -192,14 +199,16 @@ class Clearance(Brief):
             moments[:, carrier] += (1.0 - 2.0 * side) * push[:, column, :, None] * at
         slope = np.empty_like(q)
         for j, step in enumerate(steps.tolist()):
-            way = step * np.eye(len(steps))[j]
-            moved = compiled.forward_kinematics(q + way) - compiled.forward_kinematics(q - way)
+            displacement = step * np.eye(len(steps))[j]
+            moved = compiled.forward_kinematics(q + displacement) - compiled.forward_kinematics(
+                q - displacement
+            )
             slope[:, j] = np.einsum("nrab,nrab->n", moments, moved) / (2.0 * step)
         return slope
 
 
-def without_neighbours(
-    compiled: CompiledModel, solids: Solids, margin: float, ranges: np.ndarray,
+def exclude_neighbours(
+    compiled: CompiledModel, solids: CollisionGeometry, margin: float, ranges: np.ndarray,
     home: np.ndarray | None,
 ) -> Clearance:  # fmt: skip
     """A clearance without the pairs that no motion can keep apart.
@@ -216,15 +225,17 @@ def without_neighbours(
     """
     q = np.random.default_rng(0).uniform(ranges[0], ranges[1], (_POSTURES, ranges.shape[1]))
     q = np.vstack([q[compiled.closing_status(q) == 0], *([] if home is None else [home])])
-    near = Clearance(solids, margin).shares(compiled, q) > 1.0
+    near = Clearance(solids, margin).compute_shares(compiled, q) > 1.0
     often, at_home = near.mean(axis=0), near[-1] & (home is not None)
     out = at_home | (often > _ALWAYS)
-    told = {
-        solids.who(int(k)): "at home" if at_home[k] else f"in {100.0 * often[k]:.0f} % of postures"
+    reasons = {
+        solids.get_pair_names(int(k)): "at home"
+        if at_home[k]
+        else f"in {100.0 * often[k]:.0f} % of postures"
         for k in np.flatnonzero(out)
     }
-    kept = dataclasses.replace(solids, pairs=solids.pairs[~out])
-    return Clearance(kept, margin, tuple((*pair, why) for pair, why in told.items()))
+    checked_solids = dataclasses.replace(solids, pairs=solids.pairs[~out])
+    return Clearance(checked_solids, margin, tuple((*pair, why) for pair, why in reasons.items()))
 
 
 # A whole motion, also between its samples.
@@ -238,10 +249,10 @@ _ROUNDS = 20  # of halved intervals
 _MOST = 200_000  # samples
 
 
-def nearest(
-    compiled: CompiledModel, solids: Solids, path: Callable[[np.ndarray], np.ndarray],
+def find_closest_approach(
+    compiled: CompiledModel, solids: CollisionGeometry, path: Callable[[np.ndarray], np.ndarray],
     duration: float, samples: int = SAMPLES,
-) -> Nearest:  # fmt: skip
+) -> ClosestApproach:  # fmt: skip
     """The least distance along a motion, by intervals that are halved where it may lie.
 
     Seen from the other one, the ends of an axis leave their chords within an interval h by
@@ -260,29 +271,38 @@ def nearest(
     for _ in range(_ROUNDS):
         at, q = times, path(times)
         poses = compiled.forward_kinematics(q)
-        ends, frames = solids.placed(poses), solids.frames(poses)[:, other]
-        gaps, points = solids.distances(ends)
+        ends, frames = solids.place_capsules(poses), solids.select_frames(poses)[:, other]
+        gaps, points = solids.compute_distances(ends)
         away = ends[:, one] - frames[:, :, None, :, 3]
-        seen = np.einsum("npba,npsb->npsa", frames[..., :3], away)
+        relative_ends = np.einsum("npba,npsb->npsa", frames[..., :3], away)
         h = np.diff(times)
         if not bend.size:
             bend = (
-                2.0 * np.linalg.norm(np.diff(seen, 2, axis=0), axis=3).max(axis=(0, 2)) / h[0] ** 2
+                2.0
+                * np.linalg.norm(np.diff(relative_ends, 2, axis=0), axis=3).max(axis=(0, 2))
+                / h[0] ** 2
             )
-        travel = np.linalg.norm(np.diff(seen, axis=0), axis=3).max(axis=2)
+        travel = np.linalg.norm(np.diff(relative_ends, axis=0), axis=3).max(axis=2)
         low = 0.5 * (gaps[1:] + gaps[:-1] - travel) - bend * h[:, None] ** 2 / 8.0
-        near = low.min(axis=1) < gaps.min() - _SHARP * solids.middle
+        near = low.min(axis=1) < gaps.min() - _SHARP * solids.median_radius
         if not near.any() or len(times) > _MOST:
             break
         times = np.sort(np.append(times, times[:-1][near] + 0.5 * h[near]))
     row, pair = (int(k) for k in np.unravel_index(np.argmin(gaps), gaps.shape))
-    way = points[row, pair, 1] - points[row, pair, 0]
-    way = way / max(float(np.linalg.norm(way)), 1e-12)
-    surface = points[row, pair] + np.outer([1.0, -1.0] * solids.radius[solids.pairs[pair]], way)
+    direction = points[row, pair, 1] - points[row, pair, 0]
+    direction = direction / max(float(np.linalg.norm(direction)), 1e-12)
+    surface = points[row, pair] + np.outer(
+        [1.0, -1.0] * solids.radius[solids.pairs[pair]], direction
+    )
     closure = compiled.spec.closure
     names = [j.name for j in compiled.spec.joints] if closure is None else closure.variables
     posture = dict(zip(names, compiled.close(q[row : row + 1])[0].tolist(), strict=True))
     least = float(gaps[row, pair])
-    return Nearest(
-        solids.who(pair), least, min(least, float(low.min())), float(at[row]), posture, surface
+    return ClosestApproach(
+        solids.get_pair_names(pair),
+        least,
+        min(least, float(low.min())),
+        float(at[row]),
+        posture,
+        surface,
     )

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from modeler.observation import signals_along
+from modeler.observation import compute_signals_along
 from modeler.runtime import CompiledModel
 
 NEAR_REST = 1e-7
@@ -25,40 +25,40 @@ class MotionColumns:
         half: (J,) half of the range of each joint, rad or m.
         speed: (J,) its top speed.
         flips: (J, J, c) half the jump of phi where the speed of a joint (first index) changes sign.
-        soft: of the top speed, over which `smooth` spreads a jump.
+        soft: of the top speed, over which `evaluate_smooth` spreads a jump.
     """
 
     compiled: CompiledModel
-    half: np.ndarray
+    half_range: np.ndarray
     speed: np.ndarray
-    flips: np.ndarray
-    soft: float = 0.03
+    half_jumps: np.ndarray
+    softness: float = 0.03
 
-    def read(self, motion: Sequence[np.ndarray], time: np.ndarray) -> np.ndarray | None:
+    def read_signals(self, motion: Sequence[np.ndarray], time: np.ndarray) -> np.ndarray | None:
         """(n, m) what effects of the model read besides q, qd, qdd."""
-        return signals(self.compiled, motion, time)
+        return compute_signals(self.compiled, motion, time)
 
-    def exact(
+    def evaluate_exact(
         self, q: np.ndarray, qd: np.ndarray, qdd: np.ndarray, s: np.ndarray | None
     ) -> np.ndarray:
         """(n, J, c) phi as it is."""
         return self.compiled.base_regressor(q, qd, qdd, s)
 
-    def smooth(
+    def evaluate_smooth(
         self, q: np.ndarray, qd: np.ndarray, qdd: np.ndarray, s: np.ndarray | None,
         out: np.ndarray | None = None,
     ) -> np.ndarray:  # fmt: skip
         """(n, J, c) phi with every jump at rest made a slope; in `out`, (n J, c), if given."""
         phi = self.compiled.observation(q, qd, qdd, out, s).reshape(*q.shape, -1)
-        for j in np.flatnonzero(self.flips.any(axis=(1, 2))):
-            v = qd[:, j] / (self.soft * self.speed[j])
+        for j in np.flatnonzero(self.half_jumps.any(axis=(1, 2))):
+            v = qd[:, j] / (self.softness * self.speed[j])
             rest = np.flatnonzero(np.abs(v) < 20.0)
             over = (np.sign(v) - np.tanh(v))[rest]
-            for row, column in np.argwhere(self.flips[j]):
-                phi[rest, row, column] -= over * self.flips[j, row, column]
+            for row, column in np.argwhere(self.half_jumps[j]):
+                phi[rest, row, column] -= over * self.half_jumps[j, row, column]
         return phi
 
-    def pulled_back(
+    def pull_back_gradient(
         self,
         motion: tuple[np.ndarray, np.ndarray, np.ndarray],
         s: np.ndarray | None,
@@ -71,21 +71,23 @@ class MotionColumns:
         n, joints = motion[0].shape
         central = self.compiled.spec.closure is None
         sides = (1.0, -1.0) if central else (1.0,)
-        sizes = (_STEP * self.half, _STEP * self.speed, np.ones(joints))
+        sizes = (_STEP * self.half_range, _STEP * self.speed, np.ones(joints))
         count = 3 * len(sides)
-        told = None if s is None else np.vstack([s] * count)
+        repeated_signals = None if s is None else np.vstack([s] * count)
         # One place for all of phi: fresh memory takes longer than what is written into it.
         place = np.empty((count * n * joints, pull.shape[2]))
         here = 0.0
         if not central:
-            here = np.einsum("njc,njc->n", self.smooth(*motion, s, place[: n * joints]), pull)
+            here = np.einsum(
+                "njc,njc->n", self.evaluate_smooth(*motion, s, place[: n * joints]), pull
+            )
         slopes = [np.empty((n, joints)) for _ in range(3)]
         for j in range(joints):
             moved = [np.vstack([values] * count) for values in motion]
             for k in range(count):
                 order, sign = divmod(k, len(sides))
                 moved[order][k * n : (k + 1) * n, j] += sides[sign] * sizes[order][j]
-            phi = self.smooth(moved[0], moved[1], moved[2], told, place)
+            phi = self.evaluate_smooth(moved[0], moved[1], moved[2], repeated_signals, place)
             along = np.einsum("knjc,njc->kn", phi.reshape(count, *pull.shape), pull)
             for order in range(3):
                 if central:
@@ -96,7 +98,7 @@ class MotionColumns:
         return slopes
 
 
-def columns_of(
+def build_motion_columns(
     compiled: CompiledModel, middle: np.ndarray, half: np.ndarray, speed: np.ndarray
 ) -> MotionColumns:
     """The columns of a robot, with the jumps found by looking at both sides of rest."""
@@ -104,7 +106,7 @@ def columns_of(
     rng = np.random.default_rng(0)
     near = middle + 0.1 * half * rng.uniform(-1, 1, (_STATES, joints))
     flips = np.zeros((joints, joints, wide))
-    read = signals(compiled, (near, 0.0 * near, 0.0 * near), np.zeros(_STATES))
+    read = compute_signals(compiled, (near, 0.0 * near, 0.0 * near), np.zeros(_STATES))
     for j in range(joints):
         qd = 0.5 * speed * rng.uniform(0.2, 1.0, (_STATES, joints))
         sides = []
@@ -118,11 +120,11 @@ def columns_of(
     return MotionColumns(compiled, half, speed, flips)
 
 
-def signals(
+def compute_signals(
     compiled: CompiledModel, motion: Sequence[np.ndarray], time: np.ndarray
 ) -> np.ndarray | None:
     """(n, m) what effects read besides the motion, at the temperature of their reference."""
-    return signals_along(compiled, motion, time, lambda joint: np.zeros(len(time)))
+    return compute_signals_along(compiled, motion, time, lambda joint: np.zeros(len(time)))
 
 
 # What makes an observation matrix good, as a number to minimise, and its slope by the matrix.
@@ -135,7 +137,7 @@ _SHARP = 8  # power of the norm that stands for the largest singular value
 _RANK = 1e-13
 
 
-def log_condition(W: np.ndarray) -> tuple[float, np.ndarray]:
+def compute_log_condition(W: np.ndarray) -> tuple[float, np.ndarray]:
     """About log cond(W) with columns of length one; smooth.
 
     The p-norms of the singular values and of their inverses, p = 8, stand for the largest and the
@@ -145,7 +147,7 @@ def log_condition(W: np.ndarray) -> tuple[float, np.ndarray]:
     if len(W) < W.shape[1] or not lengths.min() > 0.0:
         return np.inf, W
     scaled = W / lengths
-    sizes, turn = _sizes(scaled)
+    sizes, turn = _compute_singular_values(scaled)
     if not sizes[-1] > _RANK * sizes[0]:
         return np.inf, W
     large = np.sum(sizes**_SHARP)
@@ -157,7 +159,7 @@ def log_condition(W: np.ndarray) -> tuple[float, np.ndarray]:
     return value, (pull - scaled * np.sum(pull * scaled, axis=0)) / lengths
 
 
-def lost_information(W: np.ndarray) -> tuple[float, np.ndarray]:
+def compute_lost_information(W: np.ndarray) -> tuple[float, np.ndarray]:
     """-log det(W^T W) / (2 c): the mean log of the standard deviations, but for a constant."""
     columns = W.shape[1]
     if len(W) < columns:
@@ -171,20 +173,22 @@ def lost_information(W: np.ndarray) -> tuple[float, np.ndarray]:
     return value, -(W @ inverse) @ inverse.T / columns
 
 
-def balanced(W: np.ndarray) -> tuple[float, np.ndarray]:
+def compute_balanced_criterion(W: np.ndarray) -> tuple[float, np.ndarray]:
     """The sum of both: well conditioned, and not by moving little."""
-    (first, pull), (second, more) = log_condition(W), lost_information(W)
+    (first, pull), (second, more) = compute_log_condition(W), compute_lost_information(W)
     return first + second, pull + more
 
 
 CRITERIA: dict[str, Criterion] = {
-    "both": balanced, "condition": log_condition, "information": lost_information,
-}  # fmt: skip
+    "both": compute_balanced_criterion,
+    "condition": compute_log_condition,
+    "information": compute_lost_information,
+}
 """By the name that a user gives."""
 
 
 @dataclass(frozen=True, eq=False)
-class Known:
+class PriorInformation:
     """What logs tell already, in the weights of their fit.
 
     Attributes:
@@ -195,21 +199,21 @@ class Known:
     triangle: np.ndarray
     rate: float
 
-    def beside(self, criterion: Criterion, each: float) -> Criterion:
+    def extend_criterion(self, criterion: Criterion, each: float) -> Criterion:
         """The criterion of all rows: R, and those of a motion, `each` of which stands for so many.
 
         Of the information that is a sum: W'S^-1 W of the logs, and that of the motion.
         """
 
-        def value(W: np.ndarray) -> tuple[float, np.ndarray]:
+        def evaluate_rows(W: np.ndarray) -> tuple[float, np.ndarray]:
             size = np.sqrt(each)
-            found, pull = criterion(np.vstack([size * W, self.triangle]))
-            return found, size * pull[: len(W)]
+            criterion_value, pull = criterion(np.vstack([size * W, self.triangle]))
+            return criterion_value, size * pull[: len(W)]
 
-        return value
+        return evaluate_rows
 
 
-def condition(W: np.ndarray, scaled: bool = True) -> float:
+def compute_condition(W: np.ndarray, scaled: bool = True) -> float:
     """cond(W), with columns of length one if `scaled`."""
     lengths = np.linalg.norm(W, axis=0) if scaled else np.ones(W.shape[1])
     if len(W) < W.shape[1] or not lengths.min() > 0.0:
@@ -218,13 +222,13 @@ def condition(W: np.ndarray, scaled: bool = True) -> float:
     return float(sizes[0] / sizes[-1]) if sizes[-1] > 0.0 else float("inf")
 
 
-def log_det(W: np.ndarray) -> float:
+def compute_log_det(W: np.ndarray) -> float:
     """log det(W^T W), of the information matrix where rows are divided by their sigma."""
     with np.errstate(divide="ignore"):
         return 2.0 * float(np.sum(np.log(np.abs(np.diagonal(np.linalg.qr(W, mode="r"))))))
 
 
-def _sizes(W: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+def _compute_singular_values(W: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """Singular values and right singular vectors, as columns."""
     _, sizes, turned = np.linalg.svd(np.linalg.qr(W, mode="r"))
     return sizes, turned.T

@@ -6,14 +6,14 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.interpolate import BSpline, PPoly
 
-from modeler.core.brief import Brief
+from modeler.core.brief import ShortRepr
 
 DENSE = 32
 """Samples per period of the highest harmonic."""
 
 
 @dataclass(frozen=True, eq=False)
-class Series(Brief):
+class MotionSeries(ShortRepr):
     """q_j(t) = V(t) x_j: from rest to rest in one posture, so that it may be repeated.
 
     Attributes:
@@ -34,47 +34,47 @@ class Series(Brief):
     bends: np.ndarray
     room: float
 
-    def motion(self, x: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    def evaluate_motion(self, x: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
         """(n, joints) q, qd and qdd of (joints, 2 K - 1) coefficients."""
         return self.values @ x.T, self.slopes @ x.T, self.bends @ x.T
 
-    def at(self, times: np.ndarray) -> "Series":
+    def resample_at(self, times: np.ndarray) -> "MotionSeries":
         """The same at other times, s."""
-        return series(self.duration, self.harmonics, times, family=self.family)
+        return build_series(self.duration, self.harmonics, times, family=self.family)
 
-    def finer(self, times: int) -> "Series":
+    def refine_samples(self, times: int) -> "MotionSeries":
         """The same with so many times as many samples."""
         count = times * len(self.time)
-        return _sampled(self.family, self.duration, self.harmonics, count)
+        return _sample_series(self.family, self.duration, self.harmonics, count)
 
 
-def series(
+def build_series(
     duration: float, harmonics: int, times: np.ndarray | None = None, dense: int = DENSE,
     family: str = "fourier",
-) -> Series:  # fmt: skip
+) -> MotionSeries:  # fmt: skip
     """A family over a lap, at even times; at `times` (s) if given."""
     if times is None:
-        return _sampled(family, duration, harmonics, dense * harmonics)
+        return _sample_series(family, duration, harmonics, dense * harmonics)
     waves = FAMILIES[family](duration, harmonics, np.asarray(times, dtype=float))
-    return Series(family, duration, harmonics, times, *waves, room=1.0)
+    return MotionSeries(family, duration, harmonics, times, *waves, room=1.0)
 
 
-def _sampled(family: str, duration: float, harmonics: int, count: int) -> Series:
+def _sample_series(family: str, duration: float, harmonics: int, count: int) -> MotionSeries:
     """At `count` even times, at least."""
     room = float(np.cos(np.pi * harmonics / count))
     if family != "fourier":
-        parts = pieces(harmonics)
+        parts = count_pieces(harmonics)
         each = _EIGHT * -(-count // (_EIGHT * parts))
         count = each * parts
         room = 1.0 if family == "trapezoid" else 1.0 - min(_MARKOV / each**2, _USUAL)
     times = np.arange(count) * (duration / count)
-    return Series(
+    return MotionSeries(
         family, duration, harmonics, times,
         *FAMILIES[family](duration, harmonics, times), room=room,
     )  # fmt: skip
 
 
-def pieces(harmonics: int) -> int:
+def count_pieces(harmonics: int) -> int:
     """Spans between knots of a B-spline, moves of a trapezoid."""
     return 2 * harmonics - 1
 
@@ -82,7 +82,7 @@ def pieces(harmonics: int) -> int:
 _Waves = tuple[np.ndarray, np.ndarray, np.ndarray]
 
 
-def _fourier(duration: float, harmonics: int, times: np.ndarray) -> _Waves:
+def _build_fourier(duration: float, harmonics: int, times: np.ndarray) -> _Waves:
     """Finite Fourier series (Swevers et al. 1997, IEEE Trans. Robotics and Automation 13(5)).
 
     Two coefficients are given away: sum k b_k = 0 and sum k^2 a_k = 0, so there is no speed and no
@@ -94,7 +94,7 @@ def _fourier(duration: float, harmonics: int, times: np.ndarray) -> _Waves:
     omega = 2.0 * np.pi * k / duration
     phase = np.outer(times, omega)
     cosine, sine, none = np.cos(phase) / k, np.sin(phase) / k, np.zeros((len(times), 1))
-    resting = _resting(harmonics)
+    resting = _build_rest_basis(harmonics)
     return (
         np.hstack([none + 1.0, cosine, sine]) @ resting,
         np.hstack([none, -omega * sine, omega * cosine]) @ resting,
@@ -102,7 +102,7 @@ def _fourier(duration: float, harmonics: int, times: np.ndarray) -> _Waves:
     )
 
 
-def _resting(harmonics: int) -> np.ndarray:
+def _build_rest_basis(harmonics: int) -> np.ndarray:
     """(2 K + 1, 2 K - 1) orthonormal coefficients with no speed and acceleration at 0."""
     k = np.arange(1.0, harmonics + 1)
     basis = np.zeros((2 * harmonics + 1, 2 * harmonics - 1))
@@ -123,18 +123,18 @@ _MARKOV = 100.0
 _USUAL = 0.01  # of what is met in a search; the last check takes enough samples for the bound
 
 
-def _bspline(duration: float, harmonics: int, times: np.ndarray) -> _Waves:
+def _build_bspline(duration: float, harmonics: int, times: np.ndarray) -> _Waves:
     """Quintic B-splines with even knots (Rackl, Lampariello and Hirzinger 2012, ICRA).
 
     The first three and the last three control points are one: rest at the ends, in one posture.
     """
-    inside = np.linspace(0.0, duration, pieces(harmonics) + 1)
+    inside = np.linspace(0.0, duration, count_pieces(harmonics) + 1)
     knots = np.concatenate([np.zeros(DEGREE), inside, np.full(DEGREE, duration)])
     curve = BSpline(knots, np.eye(len(knots) - DEGREE - 1)[:, 3:-3], DEGREE)
-    return _beside_start([curve(times, order) for order in range(3)])
+    return _add_start_column([curve(times, order) for order in range(3)])
 
 
-def _beside_start(waves: list[np.ndarray]) -> _Waves:
+def _add_start_column(waves: list[np.ndarray]) -> _Waves:
     """Columns with their derivatives, and before them that of the posture at the start."""
     first = np.zeros((len(waves[0]), 1))
     q, qd, qdd = (np.hstack([first + (k == 0), wave]) for k, wave in enumerate(waves))
@@ -147,7 +147,7 @@ SHAPE = (0.625, 0.25, 0.125)
 _EIGHT = 8  # parts of a move, at whose ends its speed and acceleration are largest
 
 
-def _move() -> PPoly:
+def _build_move() -> PPoly:
     """0 to 1 over a time of 1: speed a trapezoid, acceleration too, jerk constant by pieces."""
     cruise, ramp, jerk = SHAPE
     steps = np.zeros(_EIGHT)
@@ -157,40 +157,42 @@ def _move() -> PPoly:
     return PPoly(steps[None, :] / (cruise * ramp * jerk), places).antiderivative(3)
 
 
-def _trapezoid(duration: float, harmonics: int, times: np.ndarray) -> _Waves:
+def _build_trapezoid(duration: float, harmonics: int, times: np.ndarray) -> _Waves:
     """Moves of all joints together from place to place, at rest at each; the last one goes back.
 
     Their speed is a trapezoid with rounded ramps (double S; Biagiotti and Melchiorri 2008, ch. 3).
     Coefficients are the places, from the first.
     """
-    count, move = pieces(harmonics), _move()
+    count, move = count_pieces(harmonics), _build_move()
     lasts = duration / count
     since = np.clip(times[:, None] / lasts - np.arange(count), 0.0, 1.0)
     gone = [np.asarray(move(since, order)) / lasts**order for order in range(3)]
-    return _beside_start([each[:, :-1] - each[:, 1:] for each in gone])
+    return _add_start_column([each[:, :-1] - each[:, 1:] for each in gone])
 
 
 FAMILIES: dict[str, Callable[[float, int, np.ndarray], _Waves]] = {
-    "fourier": _fourier, "bspline": _bspline, "trapezoid": _trapezoid,
+    "fourier": _build_fourier, "bspline": _build_bspline, "trapezoid": _build_trapezoid,
 }  # fmt: skip
 """By the name that a user gives."""
 
 
-def coefficients_json(motion: Series, x: np.ndarray, joints: tuple[str, ...]) -> dict[str, object]:
+def export_coefficients(
+    motion: MotionSeries, x: np.ndarray, joints: tuple[str, ...]
+) -> dict[str, object]:
     """What a controller needs to compute the motion itself, by joint."""
-    K, told = motion.harmonics, {"family": motion.family, "period": motion.duration}
+    K, header = motion.harmonics, {"family": motion.family, "period": motion.duration}
     if motion.family != "fourier":
         spline = motion.family == "bspline"
         ends = np.repeat(x[:, :1], 3 if spline else 1, axis=1)
         points = np.hstack([ends, x[:, :1] + x[:, 1:], ends]).tolist()
-        own = {"degree": DEGREE} if spline else {"shape": list(SHAPE)}
-        return {**told, **own, "points": dict(zip(joints, points, strict=True))}
+        entry = {"degree": DEGREE} if spline else {"shape": list(SHAPE)}
+        return {**header, **entry, "points": dict(zip(joints, points, strict=True))}
     count = 4 * K
-    q = motion.at(np.arange(count) * (motion.duration / count)).values @ x.T
+    q = motion.resample_at(np.arange(count) * (motion.duration / count)).values @ x.T
     wave = 2.0 * np.fft.rfft(q, axis=0)[: K + 1].T / count
     waves = {
-        name: {"constant": float(own[0].real) / 2.0, "cos": own.real[1:].tolist(),
-               "sin": (-own.imag[1:]).tolist()}
-        for name, own in zip(joints, wave, strict=True)
+        name: {"constant": float(entry[0].real) / 2.0, "cos": entry.real[1:].tolist(),
+               "sin": (-entry.imag[1:]).tolist()}
+        for name, entry in zip(joints, wave, strict=True)
     }  # fmt: skip
-    return {**told, "coefficients": waves}
+    return {**header, "coefficients": waves}

@@ -5,9 +5,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from modeler.core.brief import Brief
-from modeler.core.json import entries
-from modeler.excitation.motion import Bounds
+from modeler.core.brief import ShortRepr
+from modeler.core.json import select_attributes
+from modeler.excitation.motion import MotionBounds
 
 WINDOW = 0.02
 """s, over which speed and acceleration are means of positions; of shorter ones little is left but
@@ -19,7 +19,7 @@ _MOST_DIGITS = 9  # after the point; of more, the last is no acceleration
 
 
 @dataclass(frozen=True)
-class Excess(Brief):
+class LimitExcess(ShortRepr):
     """Where a joint exceeds a limit most.
 
     Attributes:
@@ -39,12 +39,12 @@ class Excess(Brief):
     unit: str
     step: tuple[float, float] | None = None
 
-    def line(self) -> str:
+    def format_line(self) -> str:
         """As a sentence."""
         step = ""
         if self.step is not None:
-            way, seconds = self.step
-            step = f" ({way:.3g} {self.unit.partition('/')[0]} in {1e3 * seconds:.3g} ms)"
+            distance, seconds = self.step
+            step = f" ({distance:.3g} {self.unit.partition('/')[0]} in {1e3 * seconds:.3g} ms)"
         expected = "expected rest" if "speed at" in self.what else f"limit {self.limit:.4g}"
         return (
             f"joint {self.joint}, {self.time:.4g} s: {self.what} {self.value:.4g} {self.unit}"
@@ -53,13 +53,13 @@ class Excess(Brief):
 
     def to_json(self) -> dict[str, object]:
         """Plain data."""
-        return entries(self, "joint what time value limit unit")
+        return select_attributes(self, "joint what time value limit unit")
 
 
-def exceeded_limits(
-    bounds: Bounds, units: tuple[str, ...], time: np.ndarray, q: np.ndarray,
+def find_exceeded_limits(
+    bounds: MotionBounds, units: tuple[str, ...], time: np.ndarray, q: np.ndarray,
     stated: tuple[np.ndarray, np.ndarray] | None,
-) -> list[Excess]:  # fmt: skip
+) -> list[LimitExcess]:  # fmt: skip
     """Where each joint exceeds each of its limits most, first by time.
 
     Mean speeds over a window, and their mean change, are never above the largest ones between. A
@@ -78,9 +78,9 @@ def exceeded_limits(
     digit = next(rounded, 0.0)
     v = (q[k:] - q[:-k]) / (time[k:] - time[:-k])[:, None]
     a = 2.0 * (v[k:] - v[:-k]) / (time[2 * k :] - time[: -2 * k])[:, None]
-    found = []
+    excesses = []
 
-    def look(
+    def check_limit(
         what: str, at: np.ndarray, values: np.ndarray, most: np.ndarray, per: str, slack: float
     ) -> None:
         for j in np.flatnonzero(np.abs(values).max(axis=0) > (1.0 + EXCESS) * most + slack):
@@ -92,24 +92,24 @@ def exceeded_limits(
                 place, step = time[m + 1], (float(ways.max()), float(time[m + 1] - time[m]))
                 value = math.copysign(step[0] / step[1], value)
             excess = float(place), value, float(most[j]), units[j] + per, step
-            found.append(Excess(bounds.joints[j], what, *excess))
+            excesses.append(LimitExcess(bounds.joints[j], what, *excess))
 
-    reach = bounds.half
-    for j in np.flatnonzero((np.abs(q - bounds.middle) > (1.0 + EXCESS) * reach).any(axis=0)):
-        i = int(np.abs(q[:, j] - bounds.middle[j]).argmax())
-        limit = bounds.upper[j] if q[i, j] > bounds.middle[j] else bounds.lower[j]
-        own = float(time[i]), float(q[i, j]), float(limit), units[j]
-        found.append(Excess(bounds.joints[j], "position", *own))
+    reach = bounds.half_range
+    for j in np.flatnonzero((np.abs(q - bounds.mid_range) > (1.0 + EXCESS) * reach).any(axis=0)):
+        i = int(np.abs(q[:, j] - bounds.mid_range[j]).argmax())
+        limit = bounds.upper[j] if q[i, j] > bounds.mid_range[j] else bounds.lower[j]
+        details = float(time[i]), float(q[i, j]), float(limit), units[j]
+        excesses.append(LimitExcess(bounds.joints[j], "position", *details))
     speed, acceleration = bounds.speed, bounds.acceleration
     digits = digit / (k * step), 2.0 * digit / (k * step) ** 2
-    look("speed", time[k:], v, speed, "/s", digits[0])
-    look("acceleration", time[k:-k], a, acceleration, "/s2", digits[1])
+    check_limit("speed", time[k:], v, speed, "/s", digits[0])
+    check_limit("acceleration", time[k:-k], a, acceleration, "/s2", digits[1])
     if stated is not None:
         change = np.diff(stated[0], axis=0) / np.diff(time)[:, None]
-        look("speed", time, stated[0], speed, "/s", 0.0)
-        look("acceleration", time, stated[1], acceleration, "/s2", 0.0)
-        look("acceleration", time[1:], change, acceleration, "/s2", digit / step)
+        check_limit("speed", time, stated[0], speed, "/s", 0.0)
+        check_limit("acceleration", time, stated[1], acceleration, "/s2", 0.0)
+        check_limit("acceleration", time[1:], change, acceleration, "/s2", digit / step)
     for end, at, value in (("start", time[:1], v[:1]), ("end", time[-1:], v[-1:])):
-        look(f"speed at the {end}", at, value, acceleration * k * step, "/s", digits[0])
-    first = {(each.joint, each.what): each for each in reversed(found)}
+        check_limit(f"speed at the {end}", at, value, acceleration * k * step, "/s", digits[0])
+    first = {(each.joint, each.what): each for each in reversed(excesses)}
     return sorted(first.values(), key=lambda each: each.time)

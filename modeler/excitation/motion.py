@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from modeler.core.brief import Brief
+from modeler.core.brief import ShortRepr
 from modeler.core.errors import DataError, LoopError
 from modeler.excitation.clearance import Clearance
 from modeler.runtime import CompiledModel
@@ -29,7 +29,7 @@ class Box:
 
 
 @dataclass(frozen=True, eq=False)
-class Bounds(Brief):
+class MotionBounds(ShortRepr):
     """Limits of a motion, in the order of the manifest's joints, SI units.
 
     Attributes:
@@ -57,17 +57,17 @@ class Bounds(Brief):
     assumed: tuple[str, ...] = ()
 
     @property
-    def middle(self) -> np.ndarray:
+    def mid_range(self) -> np.ndarray:
         """(J,) of the ranges."""
         return 0.5 * (self.lower + self.upper)
 
     @property
-    def half(self) -> np.ndarray:
+    def half_range(self) -> np.ndarray:
         """(J,) half of the ranges."""
         return 0.5 * (self.upper - self.lower)
 
 
-def check_bounds(bounds: Bounds) -> None:
+def check_bounds(bounds: MotionBounds) -> None:
     """Nothing, if some motion may keep to them.
 
     Raises:
@@ -123,26 +123,26 @@ class PostureLimits:
     """
 
     compiled: CompiledModel
-    bounds: Bounds
+    bounds: MotionBounds
     kinds: tuple[np.ndarray, ...] = ()
     fastest: tuple[float, ...] = ()
 
-    def shares(self, q: np.ndarray) -> np.ndarray:
+    def compute_shares(self, q: np.ndarray) -> np.ndarray:
         """(n, r) numbers that must stay between -1 and 1.
 
         Raises:
             LoopError: a posture does not close.
         """
-        parts = [self.stated(q)]
+        parts = [self.compute_stated_shares(q)]
         if self.bounds.clearance is not None:
-            parts.append(self.bounds.clearance.shares(self.compiled, q))
+            parts.append(self.bounds.clearance.compute_shares(self.compiled, q))
         return np.hstack(parts)
 
-    def stated(self, q: np.ndarray) -> np.ndarray:
+    def compute_stated_shares(self, q: np.ndarray) -> np.ndarray:
         """(n, r) those of loops, joints that follow and boxes."""
         parts = []
         if self.kinds:
-            parts.append(self.sizes(q) / np.array(self.fastest))
+            parts.append(self.compute_coupling_sizes(q) / np.array(self.fastest))
         if self.bounds.passive:
             u = self.compiled.close(q)
             for place, lower, upper in self.bounds.passive:
@@ -154,33 +154,37 @@ class PostureLimits:
                 parts.append((2.0 * poses[:, box.row, :, 3] - low - high) / (high - low))
         return np.hstack(parts) if parts else np.zeros((len(q), 0))
 
-    def sizes(self, q: np.ndarray) -> np.ndarray:
+    def compute_coupling_sizes(self, q: np.ndarray) -> np.ndarray:
         """(n, groups) sizes of G of the joints that follow."""
-        G = self.compiled.coupling(q) * self.bounds.half
+        G = self.compiled.coupling(q) * self.bounds.half_range
         return np.column_stack([
             np.sqrt(np.sum(G[:, places] ** 2, axis=(1, 2))) for places in self.kinds
         ])  # fmt: skip
 
-    def pulled_back(self, q: np.ndarray, pull: np.ndarray) -> np.ndarray:
-        """(n, J) derivative by q of a number whose derivative by `shares` is `pull`."""
-        slope, steps, clearance = np.zeros_like(q), _STEP * self.bounds.half, self.bounds.clearance
+    def pull_back_gradient(self, q: np.ndarray, pull: np.ndarray) -> np.ndarray:
+        """(n, J) derivative by q of a number whose derivative by `compute_shares` is `pull`."""
+        slope, steps, clearance = (
+            np.zeros_like(q),
+            _STEP * self.bounds.half_range,
+            self.bounds.clearance,
+        )
         if clearance is not None:
             first = pull.shape[1] - len(clearance.solids.pairs)
-            own, pull = pull[:, first:], pull[:, :first]
+            clearance_pull, pull = pull[:, first:], pull[:, :first]
             with suppress(LoopError):  # as below
-                slope += clearance.pulled_back(self.compiled, q, own, steps)
+                slope += clearance.pull_back_gradient(self.compiled, q, clearance_pull, steps)
         for j, size in enumerate(steps.tolist() if pull.shape[1] else ()):
             step = np.zeros(q.shape[1])
             step[j] = size
             try:
-                change = self.stated(q + step) - self.stated(q - step)
+                change = self.compute_stated_shares(q + step) - self.compute_stated_shares(q - step)
             except LoopError:  # beyond the wall: the barrier has brought us as near as can be
                 change = np.zeros_like(pull)
             slope[:, j] += np.sum(change * pull, axis=1) / (2.0 * size)
         return slope
 
 
-def posture_of(compiled: CompiledModel, bounds: Bounds) -> PostureLimits:
+def build_posture_limits(compiled: CompiledModel, bounds: MotionBounds) -> PostureLimits:
     """What the positions of a robot must keep to.
 
     Raises:
@@ -197,12 +201,12 @@ def posture_of(compiled: CompiledModel, bounds: Bounds) -> PostureLimits:
     ]
     kinds = tuple(group for group in places if len(group))
     loops = PostureLimits(compiled, bounds, kinds, ())
-    home = loops.sizes(bounds.home[None, :])[0]
-    found = PostureLimits(compiled, bounds, kinds, tuple(FARTHEST * home))
-    at_home = found.shares(bounds.home[None, :])
+    home = loops.compute_coupling_sizes(bounds.home[None, :])[0]
+    limits = PostureLimits(compiled, bounds, kinds, tuple(FARTHEST * home))
+    at_home = limits.compute_shares(bounds.home[None, :])
     if not np.abs(at_home).max(initial=0.0) < 1.0:
         raise DataError(
             f"{compiled.spec.robot}: [home] is outside of the boxes or of [limits] of joints that "
             "follow; expected limits around it"
         )
-    return found
+    return limits

@@ -10,15 +10,15 @@ import numpy as np
 import pyarrow as pa
 import pyarrow.parquet as pq
 
-from modeler.core.brief import Brief
+from modeler.core.brief import ShortRepr
 from modeler.core.errors import DataError
-from modeler.core.result import Presented
-from modeler.core.table import aligned
-from modeler.core.toml_cells import listed
-from modeler.excitation.clearance import Nearest
-from modeler.excitation.criterion import signals
-from modeler.excitation.families import Series, coefficients_json
-from modeler.excitation.motion import Bounds
+from modeler.core.result import Result
+from modeler.core.table import align_columns
+from modeler.core.toml_cells import join_names
+from modeler.excitation.clearance import ClosestApproach
+from modeler.excitation.criterion import compute_signals
+from modeler.excitation.families import MotionSeries, export_coefficients
+from modeler.excitation.motion import MotionBounds
 from modeler.runtime import CompiledModel
 
 _TOLD = 12  # parameters of a gain, for people
@@ -26,7 +26,7 @@ _DIGITS = 13  # after the point: rest is 0, not a rounding of it
 
 
 @dataclass(frozen=True)
-class Quality:
+class MotionQuality:
     """How well a motion tells parameters apart.
 
     Attributes:
@@ -41,7 +41,7 @@ class Quality:
 
 
 @dataclass(frozen=True, eq=False)
-class Used(Brief):
+class LimitUsage(ShortRepr):
     """What a motion uses of its limits, (J,) each, SI.
 
     Attributes:
@@ -62,7 +62,7 @@ class Used(Brief):
 
 
 @dataclass(frozen=True, eq=False)
-class Gain(Brief):
+class InformationGain(ShortRepr):
     """What a log of a motion adds to logs that there are.
 
     Attributes:
@@ -80,7 +80,7 @@ class Gain(Brief):
     logs: tuple[str, ...]
     condition: tuple[float, float]
 
-    def lines(self) -> list[str]:
+    def format_lines(self) -> list[str]:
         """Lines of text: what gains most, first."""
         rows = []
         for name, unit, a, b in zip(self.names, self.units, self.before, self.after, strict=True):
@@ -89,7 +89,7 @@ class Gain(Brief):
             rows.append((gain, (name, *cells, unit, f"/ {gain:.3g}" if a and b else "")))
         rows.sort(key=lambda row: -row[0])
         head, shown = ("parameter", "sigma before", "expected after", "unit", ""), rows[:_TOLD]
-        table = aligned([head, *(cells for _, cells in shown)], (0, 3))
+        table = align_columns([head, *(cells for _, cells in shown)], (0, 3))
         return [
             f"beside {', '.join(self.logs)}: condition number with columns of length one "
             "{:.4g} before, {:.4g} with it; it sharpens".format(*self.condition),
@@ -109,7 +109,7 @@ class Gain(Brief):
 
 
 @dataclass(frozen=True, eq=False)
-class Exciting(Presented):
+class ExcitingMotion(Result):
     """A motion that excites a robot.
 
     Attributes:
@@ -132,60 +132,63 @@ class Exciting(Presented):
     """
 
     robot: str
-    bounds: Bounds
-    wish: Mapping[str, Any]
-    series: Series
+    bounds: MotionBounds
+    request: Mapping[str, Any]
+    series: MotionSeries
     x: np.ndarray
-    quality: Quality
-    drawn: int
+    quality: MotionQuality
+    random_count: int
     random: tuple[float, float]
     random_log_det: float
-    used: Used
+    usage: LimitUsage
     columns: tuple[str, ...]
     beta: np.ndarray | None
     ended_early: bool
     seconds: float
-    nearest: Nearest | None = None
-    gain: Gain | None = None
+    closest_approach: ClosestApproach | None = None
+    gain: InformationGain | None = None
 
-    def sampled(self, rate: float) -> dict[str, np.ndarray]:
+    def sample_motion(self, rate: float) -> dict[str, np.ndarray]:
         """Columns by name: time, q, qd and qdd of every joint, from rest to rest."""
-        laps, period = int(self.wish["laps"]), self.series.duration
+        laps, period = int(self.request["laps"]), self.series.duration
         count = int(np.ceil(laps * period * rate - 1e-9)) + 1
         times = np.arange(count) / rate
         # The last sample is at or just after the end, where the robot rests.
         place = np.where(times >= laps * period, 0.0, np.mod(times, period))
-        here, columns = self.series.at(place).motion(self.x), {"time": times}
+        here, columns = self.series.resample_at(place).evaluate_motion(self.x), {"time": times}
         for prefix, values in zip(("q", "qd", "qdd"), here, strict=True):
             for j, name in enumerate(self.bounds.joints):
                 columns[f"{prefix}{name}"] = np.round(values[:, j], _DIGITS) + 0.0
         return columns
 
-    def lines(self) -> list[str]:
+    def format_lines(self) -> list[str]:
         """Lines of text."""
         best, median = self.random
         lines = [
             f"condition number {self.quality.condition:.4g} with columns of length one "
-            f"({self.quality.condition_raw:.4g} as they are); best of {self.drawn} random "
+            f"({self.quality.condition_raw:.4g} as they are); best of {self.random_count} random "
             f"motions {best:.4g}, median {median:.4g}",
-            f"log det of the information {self.quality.log_det:.5g}, best of {self.drawn} random "
+            f"log det of the information {self.quality.log_det:.5g}, best of {self.random_count} "
+            "random "
             f"{self.random_log_det:.5g}",
             f"{'joint':<6}{'positions':>20}{'of limits':>20}{'speed':>14}{'acceleration':>16}"
             f"{'torque':>16}",
         ]
-        b, u = self.bounds, self.used
+        b, u = self.bounds, self.usage
         for j, name in enumerate(b.joints):
             torque = "-" if u.torque is None else f"{u.torque[j]:.4g}"
             if np.isfinite(b.torque[j]):
                 torque += f" of {b.torque[j]:.4g}"
             lines.append(
-                f"{name:<6}{_pair(u.lower[j], u.upper[j]):>20}{_pair(b.lower[j], b.upper[j]):>20}"
+                f"{name:<6}{_format_range(u.lower[j], u.upper[j]):>20}"
+                f"{_format_range(b.lower[j], b.upper[j]):>20}"
                 f"{f'{u.speed[j]:.3g} of {b.speed[j]:.3g}':>14}"
                 f"{f'{u.acceleration[j]:.3g} of {b.acceleration[j]:.3g}':>16}{torque:>16}"
             )
         if b.assumed:
             lines.append(
-                f"no limits are stated for {listed(b.assumed)}: those above are assumed; correct "
+                f"no limits are stated for {join_names(b.assumed)}: those above are assumed; "
+                "correct "
                 "them by [limits] or --limit before a robot moves"
             )
         if u.loops is not None:
@@ -194,29 +197,29 @@ class Exciting(Presented):
                 "2 allowed: near a singular posture they would be infinitely fast"
             )
         if b.clearance is not None:
-            lines.append(b.clearance.line(self.nearest))
+            lines.append(b.clearance.format_line(self.closest_approach))
         if self.ended_early:
             lines.append("the time limit ended the search: another run may find another motion")
-        return [*lines, *(self.gain.lines() if self.gain else [])]
+        return [*lines, *(self.gain.format_lines() if self.gain else [])]
 
     def to_json(self) -> dict[str, Any]:
         """Plain data."""
-        b, u = self.bounds, self.used
+        b, u = self.bounds, self.usage
         joints = {}
         for j, name in enumerate(b.joints):
             torque = None if u.torque is None else u.torque[j]
             joints[name] = {
-                what: _of(getattr(b, what)[j], getattr(u, what)[j], what == "lower")
+                what: _build_usage_json(getattr(b, what)[j], getattr(u, what)[j], what == "lower")
                 for what in ("lower", "upper", "speed", "acceleration")
-            } | {"torque": _of(b.torque[j], torque)}
+            } | {"torque": _build_usage_json(b.torque[j], torque)}
         return {
             "robot": self.robot,
-            **self.wish,
+            **self.request,
             "condition_number": self.quality.condition_raw,
             "condition_scaled": self.quality.condition,
             "log_det": self.quality.log_det,
             "random": {
-                "motions": self.drawn,
+                "motions": self.random_count,
                 "condition_scaled_best": self.random[0],
                 "condition_scaled_median": self.random[1],
                 "log_det_best": self.random_log_det,
@@ -226,21 +229,23 @@ class Exciting(Presented):
             "boxes": [vars(box) for box in b.boxes],
             "posture_share": u.posture,
             "singular_share": u.loops,
-            "clearance": None if b.clearance is None else b.clearance.to_json(self.nearest),
+            "clearance": None
+            if b.clearance is None
+            else b.clearance.to_json(self.closest_approach),
             "ended_early": self.ended_early,
             "next": None if self.gain is None else self.gain.to_json(),
-            "series": coefficients_json(self.series, self.x, b.joints),
+            "series": export_coefficients(self.series, self.x, b.joints),
         }
 
 
-def motion_table(columns: Mapping[str, np.ndarray]) -> bytes:
+def encode_parquet(columns: Mapping[str, np.ndarray]) -> bytes:
     """Columns as Parquet."""
     buffer = io.BytesIO()
     pq.write_table(pa.table({name: pa.array(values) for name, values in columns.items()}), buffer)
     return buffer.getvalue()
 
 
-def csv_text(columns: Mapping[str, np.ndarray]) -> str:
+def format_csv(columns: Mapping[str, np.ndarray]) -> str:
     """Columns as CSV, every digit that counts."""
     out = io.StringIO()
     writer = csv.writer(out, lineterminator="\n")
@@ -251,7 +256,9 @@ def csv_text(columns: Mapping[str, np.ndarray]) -> str:
     return out.getvalue()
 
 
-def _of(limit: float, used: float | None, least: bool = False) -> dict[str, float | None]:
+def _build_usage_json(
+    limit: float, used: float | None, least: bool = False
+) -> dict[str, float | None]:
     """A limit, what is used of it, and what is left; infinite ones are None."""
     most = float(limit) if np.isfinite(limit) else None
     value = None if used is None else float(used)
@@ -259,7 +266,7 @@ def _of(limit: float, used: float | None, least: bool = False) -> dict[str, floa
     return {"limit": most, "used": value, "slack": slack}
 
 
-def _pair(low: float, high: float) -> str:
+def _format_range(low: float, high: float) -> str:
     return f"{low:.3g} to {high:.3g}"
 
 
@@ -279,7 +286,7 @@ _NO_DATE: dict[str, dict[str, None]] = {
 }  # fmt: skip
 
 
-def check_kind(name: str) -> str:
+def check_picture_kind(name: str) -> str:
     """The kind of picture that a file name asks for.
 
     Raises:
@@ -291,7 +298,7 @@ def check_kind(name: str) -> str:
     return kind
 
 
-def picture(motion: Exciting, compiled: CompiledModel, kind: str) -> bytes:
+def draw_motion(motion: ExcitingMotion, compiled: CompiledModel, kind: str) -> bytes:
     """Position, speed, acceleration and torque of every joint, each as a share of its limit.
 
     Torques have a panel where parameters are known; where a joint has no limit they are shown as
@@ -302,7 +309,7 @@ def picture(motion: Exciting, compiled: CompiledModel, kind: str) -> bytes:
     from matplotlib.figure import Figure
 
     with matplotlib.rc_context(_SETTINGS):
-        panels = _panels(motion, compiled)
+        panels = _build_panels(motion, compiled)
         figure = Figure(figsize=(10.0, 1.0 + 1.9 * len(panels)), layout="constrained")
         FigureCanvasAgg(figure)
         axes = np.atleast_1d(figure.subplots(len(panels), 1, sharex=True))
@@ -319,7 +326,7 @@ def picture(motion: Exciting, compiled: CompiledModel, kind: str) -> bytes:
         figure.legend(handles, labels, loc="outside right upper", title="joint")
         figure.suptitle(
             f"{motion.robot}: condition number {motion.quality.condition:.3g}, best of "
-            f"{motion.drawn} random {motion.random[0]:.3g}",
+            f"{motion.random_count} random {motion.random[0]:.3g}",
             x=0.01, ha="left", fontweight="bold", fontsize=11,
         )  # fmt: skip
         stream = io.BytesIO()
@@ -327,17 +334,17 @@ def picture(motion: Exciting, compiled: CompiledModel, kind: str) -> bytes:
         return stream.getvalue()
 
 
-def _panels(motion: Exciting, compiled: CompiledModel) -> list[tuple[str, np.ndarray]]:
+def _build_panels(motion: ExcitingMotion, compiled: CompiledModel) -> list[tuple[str, np.ndarray]]:
     b = motion.bounds
     time = np.linspace(0.0, motion.series.duration, _SAMPLES)
-    q, qd, qdd = motion.series.at(time).motion(motion.x)
+    q, qd, qdd = motion.series.resample_at(time).evaluate_motion(motion.x)
     panels = [
-        ("position: -1 and 1 are the ends of the range", (q - b.middle) / b.half),
+        ("position: -1 and 1 are the ends of the range", (q - b.mid_range) / b.half_range),
         ("speed, share of its limit", qd / b.speed),
         ("acceleration, share of its limit", qdd / b.acceleration),
     ]
     if motion.beta is not None:
-        read = signals(compiled, (q, qd, qdd), time)
+        read = compute_signals(compiled, (q, qd, qdd), time)
         torque = compiled.inverse_dynamics(q, qd, qdd, motion.beta, read)
         largest = np.abs(torque).max(axis=0)
         most = np.where(np.isfinite(b.torque), b.torque, np.where(largest > 0.0, largest, 1.0))

@@ -13,13 +13,19 @@ from typing import TypeVar
 import numpy as np
 
 from modeler.core.errors import DataError
-from modeler.excitation.clearance import nearest
-from modeler.excitation.criterion import CRITERIA, Known, columns_of, condition, log_det
-from modeler.excitation.families import DENSE, FAMILIES, series
-from modeler.excitation.motion import Bounds, check_bounds, posture_of
-from modeler.excitation.result import Exciting, Quality, Used
-from modeler.excitation.task import Task, Walled
-from modeler.numerics.optimize import Landscape, descend
+from modeler.excitation.clearance import find_closest_approach
+from modeler.excitation.criterion import (
+    CRITERIA,
+    PriorInformation,
+    build_motion_columns,
+    compute_condition,
+    compute_log_det,
+)
+from modeler.excitation.families import DENSE, FAMILIES, build_series
+from modeler.excitation.motion import MotionBounds, build_posture_limits, check_bounds
+from modeler.excitation.result import ExcitingMotion, LimitUsage, MotionQuality
+from modeler.excitation.task import BarrierProblem, ExcitationTask
+from modeler.numerics.optimize import ObjectiveFunction, minimise_bfgs
 from modeler.runtime import CompiledModel
 
 RANDOM = 50
@@ -41,7 +47,7 @@ Item = TypeVar("Item")
 
 
 @dataclass(frozen=True)
-class Wish:
+class MotionRequest:
     """What is asked for.
 
     Attributes:
@@ -66,16 +72,16 @@ class Wish:
     family: str = "fourier"
 
 
-def excite(
+def design_motion(
     compiled: CompiledModel,
-    bounds: Bounds,
-    wish: Wish,
+    bounds: MotionBounds,
+    request: MotionRequest,
     sigma: np.ndarray | None = None,
-    kept: np.ndarray | None = None,
+    column_indices: np.ndarray | None = None,
     beta: np.ndarray | None = None,
     progress: Callable[[float], None] = lambda share: None,
-    known: Known | None = None,
-) -> Exciting:
+    prior_information: PriorInformation | None = None,
+) -> ExcitingMotion:
     """A motion within limits along which parameters are well told apart.
 
     Minimises log cond(W) with columns of length one (Gautier and Khalil 1992), or the mean log
@@ -85,33 +91,35 @@ def excite(
     Args:
         compiled: the robot.
         bounds: limits.
-        wish: duration, criterion, seed.
+        request: duration, criterion, seed.
         sigma: (J,) standard deviation of the torque of each joint; None: all alike.
-        kept: (k,) columns that matter; None: all.
+        column_indices: (k,) columns that matter; None: all.
         beta: (c,) base parameters, where torques are limited.
         progress: called with the share done.
-        known: what logs tell already; the motion adds to it.
+        prior_information: what logs tell already; the motion adds to it.
 
     Raises:
         DataError: limits that no motion keeps to, a bad wish, too few rows.
     """
-    on = Deadline(wish.time_limit)
-    task = task_of(compiled, bounds, wish, sigma, kept, beta, known)
-    drawn = drawn_motions(task, np.random.default_rng([wish.seed, 7]), on)
+    deadline = Deadline(request.time_limit)
+    task = build_task(compiled, bounds, request, sigma, column_indices, beta, prior_information)
+    random_motions = draw_motions(task, np.random.default_rng([request.seed, 7]), deadline)
 
-    def value(x: np.ndarray) -> float:  # dry friction as it is
-        return task.criterion(task.rows(task.series.motion(x)))[0]
+    def evaluate_motion(x: np.ndarray) -> float:  # dry friction as it is
+        return task.criterion(task.compute_rows(task.series.evaluate_motion(x)))[0]
 
-    values = [value(x) for x in on.through(x for x, _ in drawn)]
-    best = sorted(range(len(values)), key=lambda k: values[k])[: wish.starts]
-    found, parts = [], len(best) * len(_STAGES)
+    values = [evaluate_motion(x) for x in deadline.iterate_in_time(x for x, _ in random_motions)]
+    best = sorted(range(len(values)), key=lambda k: values[k])[: request.starts]
+    candidates, parts = [], len(best) * len(_STAGES)
     for n, k in enumerate(best):
-        x, _ = drawn[k]
+        x, _ = random_motions[k]
         for m, stage in enumerate(_STAGES):
-            x = improved(task, x, stage, on)
+            x = improve_motion(task, x, stage, deadline)
             progress((n * len(_STAGES) + m + 1) / parts)
-        found.append(x)
-    return finished(task, min(found, key=value), wish, drawn, on)
+        candidates.append(x)
+    return build_result(
+        task, min(candidates, key=evaluate_motion), request, random_motions, deadline
+    )
 
 
 class Deadline:
@@ -122,13 +130,13 @@ class Deadline:
 
     def __call__(self) -> bool:
         """Is there?"""
-        return self.spent() < self._limit
+        return self.get_elapsed() < self._limit
 
-    def spent(self) -> float:
+    def get_elapsed(self) -> float:
         """Seconds since it was made."""
         return time.monotonic() - self._begun
 
-    def through(self, items: Iterable[Item]) -> Iterator[Item]:
+    def iterate_in_time(self, items: Iterable[Item]) -> Iterator[Item]:
         """The first of the items, and the others as long as there is time."""
         for k, item in enumerate(items):
             if k and not self():
@@ -136,162 +144,186 @@ class Deadline:
             yield item
 
 
-def drawn_motions(
-    task: Task, rng: np.random.Generator, on: Deadline
-) -> list[tuple[np.ndarray, Quality]]:
+def draw_motions(
+    task: ExcitationTask, rng: np.random.Generator, deadline: Deadline
+) -> list[tuple[np.ndarray, MotionQuality]]:
     """Random motions, 50 where there is time, and how good each is."""
-    drawn = []
-    for _ in on.through(range(RANDOM)):
-        x = random_motion(task, rng)
-        drawn.append((x, quality(task, x)))
-    return drawn
+    random_motions = []
+    for _ in deadline.iterate_in_time(range(RANDOM)):
+        x = draw_random_motion(task, rng)
+        random_motions.append((x, compute_quality(task, x)))
+    return random_motions
 
 
-def finished(
-    task: Task, x: np.ndarray, wish: Wish, drawn: list[tuple[np.ndarray, Quality]], on: Deadline
-) -> Exciting:
+def build_result(
+    task: ExcitationTask,
+    x: np.ndarray,
+    request: MotionRequest,
+    random_motions: list[tuple[np.ndarray, MotionQuality]],
+    deadline: Deadline,
+) -> ExcitingMotion:
     """The result of a search, beside the random motions that it began with.
 
     Ranges, speeds and accelerations hold between the samples by `Series.room`; torques, boxes and
     loops are looked at ten times as densely, and the motion is drawn in until they hold there;
-    distances of links hold at all times, by `nearest`.
+    distances of links hold at all times, by `find_closest_approach`.
     """
-    early = not on()
-    x = task.drawn_in(x, finer(task))
+    early = not deadline()
+    x = task.shrink_to_limits(x, refine_task(task))
     clearance, near = task.bounds.clearance, None
     while clearance is not None and len(clearance.solids.pairs):
-        near = nearest(
+        near = find_closest_approach(
             task.columns.compiled, clearance.solids,
-            lambda t, x=x: task.series.at(t).motion(x)[0], wish.duration,  # type: ignore[misc]
+            lambda t, x=x: task.series.resample_at(t).evaluate_motion(x)[0], request.duration,  # type: ignore[misc]
         )  # fmt: skip
         if near.bound >= clearance.margin:
             break
-        x = task.still + _DRAWN * (x - task.still)
+        x = task.rest_motion + _DRAWN * (x - task.rest_motion)
     spec = task.columns.compiled.spec
-    conditions = sorted(q.condition for _, q in drawn)
-    return Exciting(
-        robot=spec.robot, bounds=task.bounds, wish=dataclasses.asdict(wish),
-        series=task.series, x=x, quality=quality(task, x),
-        drawn=len(drawn), random=(conditions[0], conditions[len(drawn) // 2]),
-        random_log_det=max(q.log_det for _, q in drawn), used=used(task, x),
-        columns=tuple(spec.base[k].name for k in task.kept), beta=task.beta,
-        ended_early=early, seconds=on.spent(), nearest=near,
-    )  # fmt: skip
+    conditions = sorted(q.condition for _, q in random_motions)
+    return ExcitingMotion(
+        robot=spec.robot,
+        bounds=task.bounds,
+        request=dataclasses.asdict(request),
+        series=task.series,
+        x=x,
+        quality=compute_quality(task, x),
+        random_count=len(random_motions),
+        random=(conditions[0], conditions[len(random_motions) // 2]),
+        random_log_det=max(q.log_det for _, q in random_motions),
+        usage=compute_usage(task, x),
+        columns=tuple(spec.base[k].name for k in task.column_indices),
+        beta=task.beta,
+        ended_early=early,
+        seconds=deadline.get_elapsed(),
+        closest_approach=near,
+    )
 
 
-def task_of(
+def build_task(
     compiled: CompiledModel,
-    bounds: Bounds,
-    wish: Wish,
+    bounds: MotionBounds,
+    request: MotionRequest,
     sigma: np.ndarray | None,
-    kept: np.ndarray | None,
+    column_indices: np.ndarray | None,
     beta: np.ndarray | None,
-    known: Known | None = None,
-) -> Task:
+    prior_information: PriorInformation | None = None,
+) -> ExcitationTask:
     """The search of a wish."""
-    _check_wish(wish)
+    _check_request(request)
     check_bounds(bounds)
-    columns = columns_of(compiled, bounds.middle, bounds.half, bounds.speed)
-    if kept is None:
-        kept = np.arange(len(compiled.spec.base))
+    columns = build_motion_columns(compiled, bounds.mid_range, bounds.half_range, bounds.speed)
+    if column_indices is None:
+        column_indices = np.arange(len(compiled.spec.base))
     if np.isfinite(bounds.torque).any() and beta is None:
         raise DataError(
             f"{compiled.spec.robot}: limits of torques need values of the parameters; expected a "
             "MODEL, or a robot file with all [parameters]"
         )
     dense = DENSE if compiled.spec.closure is None else _DENSE_LOOPS
-    motion = series(wish.duration, wish.harmonics, None, dense, wish.family)
-    criterion = CRITERIA[wish.criterion]
-    if known is not None:
-        each = wish.laps * wish.duration * known.rate / len(motion.time)
-        criterion = known.beside(criterion, each)
-    return Task(
+    motion = build_series(request.duration, request.harmonics, None, dense, request.family)
+    criterion = CRITERIA[request.criterion]
+    if prior_information is not None:
+        each = request.laps * request.duration * prior_information.rate / len(motion.time)
+        criterion = prior_information.extend_criterion(criterion, each)
+    return ExcitationTask(
         columns, bounds, motion, criterion,
         np.ones(len(bounds.joints)) if sigma is None else 1.0 / sigma,
-        kept, posture_of(compiled, bounds), beta,
+        column_indices, build_posture_limits(compiled, bounds), beta,
     )  # fmt: skip
 
 
-def _check_wish(wish: Wish) -> None:
-    if wish.criterion not in CRITERIA:
-        raise DataError(f"criterion: got {wish.criterion}; expected one of {', '.join(CRITERIA)}")
-    if wish.family not in FAMILIES:
-        raise DataError(f"family: got {wish.family}; expected one of {', '.join(FAMILIES)}")
-    if not (math.isfinite(wish.duration) and 0.0 < wish.duration <= 3600.0):
-        raise DataError(f"duration: got {wish.duration:g} s; expected more than 0, at most 3600")
+def _check_request(request: MotionRequest) -> None:
+    if request.criterion not in CRITERIA:
+        raise DataError(
+            f"criterion: got {request.criterion}; expected one of {', '.join(CRITERIA)}"
+        )
+    if request.family not in FAMILIES:
+        raise DataError(f"family: got {request.family}; expected one of {', '.join(FAMILIES)}")
+    if not (math.isfinite(request.duration) and 0.0 < request.duration <= 3600.0):
+        raise DataError(f"duration: got {request.duration:g} s; expected more than 0, at most 3600")
     ranges = (("harmonics", 2, 40), ("starts", 1, RANDOM), ("seed", 0, 2**63), ("laps", 1, 1000))
     for name, least, most in ranges:
-        value = getattr(wish, name)
+        value = getattr(request, name)
         if not least <= value <= most:
             raise DataError(f"{name}: got {value}; expected {least} to {most}")
-    if wish.time_limit is not None and not wish.time_limit > 0.0:
-        raise DataError(f"time limit: got {wish.time_limit:g} s; expected more than 0")
+    if request.time_limit is not None and not request.time_limit > 0.0:
+        raise DataError(f"time limit: got {request.time_limit:g} s; expected more than 0")
 
 
-def improved(
-    task: Task, x: np.ndarray, stage: tuple[float, float, int], on: Callable[[], bool]
+def improve_motion(
+    task: ExcitationTask,
+    x: np.ndarray,
+    stage: tuple[float, float, int],
+    has_time: Callable[[], bool],
 ) -> np.ndarray:
     """The motion after one stage of descent."""
     height, soft, steps = stage
-    softer = dataclasses.replace(task, columns=dataclasses.replace(task.columns, soft=soft))
-    walled = Walled(softer, height)
+    softer = dataclasses.replace(task, columns=dataclasses.replace(task.columns, softness=soft))
+    walled = BarrierProblem(softer, height)
     # Variables in shares of what each joint may do: all are then about as large.
-    unit = task.bounds.half[:, None] * np.ones(x.shape[1])
+    unit = task.bounds.half_range[:, None] * np.ones(x.shape[1])
 
-    def shaped(flat: np.ndarray) -> np.ndarray:
+    def reshape_coefficients(flat: np.ndarray) -> np.ndarray:
         return flat.reshape(x.shape) * unit
 
-    landscape = Landscape(
-        value=lambda flat: walled.value(shaped(flat)),
-        slope=lambda flat: walled.slope() * unit.ravel(),  # where the value was asked for last
-        reach=lambda flat, way: task.reach(shaped(flat), shaped(way)),
+    landscape = ObjectiveFunction(
+        value=lambda flat: walled.compute_value(reshape_coefficients(flat)),
+        gradient=lambda flat: (
+            walled.compute_gradient() * unit.ravel()
+        ),  # where the value was asked for last
+        boundary_distance=lambda flat, way: task.compute_reach(
+            reshape_coefficients(flat), reshape_coefficients(way)
+        ),
     )
     for _ in range(_INWARD):
         start = (x / unit).ravel()
-        if not on():
+        if not has_time():
             break
         if np.isfinite(landscape.value(start)):
-            return shaped(descend(landscape, start, steps, _SETTLED, on))
-        x = task.still + 0.9 * (x - task.still)
+            return reshape_coefficients(minimise_bfgs(landscape, start, steps, _SETTLED, has_time))
+        x = task.rest_motion + 0.9 * (x - task.rest_motion)
     return x
 
 
-def default_harmonics(bounds: Bounds, duration: float) -> int:
+def choose_harmonics(bounds: MotionBounds, duration: float) -> int:
     """As many as reach what the slowest joint can swing by an eighth of its range, 5 to 10."""
-    part = 0.25 * bounds.half
+    part = 0.25 * bounds.half_range
     swing = np.minimum(bounds.speed / part, np.sqrt(bounds.acceleration / part)) / (2.0 * np.pi)
     waves = duration * float(swing.min())
     return round(min(max(waves, 5.0), 10.0)) if math.isfinite(waves) else 5
 
 
-def quality(task: Task, x: np.ndarray) -> Quality:
+def compute_quality(task: ExcitationTask, x: np.ndarray) -> MotionQuality:
     """How good a motion is."""
-    W = task.rows(task.series.motion(x))
-    return Quality(condition(W), condition(W, scaled=False), log_det(W))
+    W = task.compute_rows(task.series.evaluate_motion(x))
+    return MotionQuality(
+        compute_condition(W), compute_condition(W, scaled=False), compute_log_det(W)
+    )
 
 
-def finer(task: Task) -> Task:
+def refine_task(task: ExcitationTask) -> ExcitationTask:
     """The same with ten times the samples, and nearly all of the limits."""
-    return dataclasses.replace(task, series=task.series.finer(_FINER), share=_NEARLY)
+    return dataclasses.replace(task, series=task.series.refine_samples(_FINER), share=_NEARLY)
 
 
-def used(task: Task, x: np.ndarray) -> Used:
+def compute_usage(task: ExcitationTask, x: np.ndarray) -> LimitUsage:
     """What of each limit a motion uses, ten times as densely as it was searched."""
-    fine = finer(task)
-    q, qd, qdd = fine.series.motion(x)
+    fine = refine_task(task)
+    q, qd, qdd = fine.series.evaluate_motion(x)
     loads = None
     if task.beta is not None:
-        s = fine.columns.read((q, qd, qdd), fine.series.time)
-        loads = np.abs(fine.columns.exact(q, qd, qdd, s) @ task.beta).max(axis=0)
-    posture = fine.posture.shares(q)
-    return Used(
+        s = fine.columns.read_signals((q, qd, qdd), fine.series.time)
+        loads = np.abs(fine.columns.evaluate_exact(q, qd, qdd, s) @ task.beta).max(axis=0)
+    posture = fine.posture.compute_shares(q)
+    return LimitUsage(
         q.min(axis=0), q.max(axis=0), np.abs(qd).max(axis=0), np.abs(qdd).max(axis=0), loads,
         float(np.abs(posture).max()) if posture.size else None,
         float(posture[:, : len(fine.posture.kinds)].max()) if fine.posture.kinds else None,
     )  # fmt: skip
 
 
-def random_motion(task: Task, rng: np.random.Generator) -> np.ndarray:
+def draw_random_motion(task: ExcitationTask, rng: np.random.Generator) -> np.ndarray:
     """(J, 2 K - 1) a series with random coefficients, as large as the limits let it be.
 
     Each joint by itself is made as large as its range, speed and acceleration allow, around a
@@ -307,10 +339,10 @@ def random_motion(task: Task, rng: np.random.Generator) -> np.ndarray:
     for j in range(joints):
         q = s.values[:, 1:] @ x[j, 1:]
         extent = 0.5 * np.ptp(q)
-        shares = (extent / b.half[j], np.abs(s.slopes @ x[j]).max() / b.speed[j],
+        shares = (extent / b.half_range[j], np.abs(s.slopes @ x[j]).max() / b.speed[j],
                   np.abs(s.bends @ x[j]).max() / b.acceleration[j])  # fmt: skip
         x[j] *= _FULL * s.room / max(shares)
         q = s.values[:, 1:] @ x[j, 1:]
-        least, most = _FULL * s.room * b.half[j] * np.array([-1, 1]) + b.middle[j]
+        least, most = _FULL * s.room * b.half_range[j] * np.array([-1, 1]) + b.mid_range[j]
         x[j, 0] = rng.uniform(least - q.min(), max(most - q.max(), least - q.min()))
-    return task.drawn_in(x)
+    return task.shrink_to_limits(x)

@@ -9,22 +9,28 @@ from typing import Any
 import numpy as np
 
 from modeler.core.errors import DataError
-from modeler.core.table import percent
+from modeler.core.table import format_percent
 from modeler.diagnosis import (
     Candidate,
     JointScale,
     SignalReference,
     Signals,
-    all_columns,
-    over_grid,
+    evaluate_columns,
+    expand_grid,
 )
-from modeler.effects import Acts, Effect
-from modeler.excitation.criterion import condition
-from modeler.excitation.motion import Bounds
-from modeler.excitation.result import Exciting
-from modeler.excitation.search import Deadline, Wish, drawn_motions, finished, task_of
-from modeler.excitation.task import Task
-from modeler.numerics.optimize import evolve
+from modeler.effects import Effect, EffectTarget
+from modeler.excitation.criterion import compute_condition
+from modeler.excitation.motion import MotionBounds
+from modeler.excitation.result import ExcitingMotion
+from modeler.excitation.search import (
+    Deadline,
+    MotionRequest,
+    build_result,
+    build_task,
+    draw_motions,
+)
+from modeler.excitation.task import ExcitationTask
+from modeler.numerics.optimize import minimise_cma_es
 from modeler.observation import Segment
 from modeler.runtime import CompiledModel
 
@@ -38,7 +44,7 @@ Whose = tuple[Effect, str]
 
 
 @dataclass(frozen=True, eq=False)
-class Question:
+class DiscriminationProblem:
     """Which of two effects is it?
 
     Attributes:
@@ -53,7 +59,7 @@ class Question:
 
 
 @dataclass(frozen=True)
-class Separation:
+class Discrimination:
     """How well a motion tells the two apart.
 
     Attributes:
@@ -65,17 +71,24 @@ class Separation:
     """
 
     names: tuple[str, str]
-    left: tuple[float, float]
-    random: tuple[float, float]
+    unexplained_share: tuple[float, float]
+    random_share: tuple[float, float]
     gain: tuple[float, float]
 
-    def lines(self) -> list[str]:
+    def format_lines(self) -> list[str]:
         """Lines of text."""
         return [
-            f"{name}: {percent(here)} of its torque is explained by neither the model nor {other}; "
-            f"best of the random motions {percent(there)}; that part is {gain:.3g} times as large"
+            f"{name}: {format_percent(here)} of its torque is explained by neither the model nor "
+            f"{other}; "
+            f"best of the random motions {format_percent(there)}; that part is {gain:.3g} times as "
+            "large"
             for name, other, here, there, gain in zip(
-                self.names, self.names[::-1], self.left, self.random, self.gain, strict=True
+                self.names,
+                self.names[::-1],
+                self.unexplained_share,
+                self.random_share,
+                self.gain,
+                strict=True,
             )
         ]
 
@@ -83,17 +96,19 @@ class Separation:
         """Plain data."""
         return {
             name: {"left": a, "left_random": b, "gain": c}
-            for name, a, b, c in zip(self.names, self.left, self.random, self.gain, strict=True)
+            for name, a, b, c in zip(
+                self.names, self.unexplained_share, self.random_share, self.gain, strict=True
+            )
         }
 
 
-def tell_apart(
+def design_discriminating_motion(
     compiled: CompiledModel,
-    bounds: Bounds,
-    wish: Wish,
-    question: Question,
+    bounds: MotionBounds,
+    request: MotionRequest,
+    question: DiscriminationProblem,
     progress: Callable[[float], None] = lambda share: None,
-) -> tuple[Exciting, Separation]:
+) -> tuple[ExcitingMotion, Discrimination]:
     """The motion along which two effects are least alike.
 
     Maximises what is left of each effect's columns after projection on the columns of the model
@@ -103,71 +118,80 @@ def tell_apart(
     Raises:
         DataError: an effect that no columns on a joint describe, or what `excite` refuses.
     """
-    on = Deadline(wish.time_limit)
-    task = task_of(compiled, bounds, wish, question.sigma, None, question.beta)
-    rng = np.random.default_rng([wish.seed, 7])
-    drawn = drawn_motions(task, rng, on)
-    columns = _Pair(task, question, [x for x, _ in drawn], wish.laps, on)
-    best = min(on.through(x for x, _ in drawn), key=columns.value)
+    deadline = Deadline(request.time_limit)
+    task = build_task(compiled, bounds, request, question.sigma, None, question.beta)
+    rng = np.random.default_rng([request.seed, 7])
+    random_motions = draw_motions(task, rng, deadline)
+    columns = _EffectColumns(task, question, [x for x, _ in random_motions], request.laps, deadline)
+    best = min(deadline.iterate_in_time(x for x, _ in random_motions), key=columns.evaluate_motion)
 
-    def proceed(generation: int) -> bool:
+    def report_progress(generation: int) -> bool:
         progress(generation / _GENERATIONS)
-        return on()
+        return deadline()
 
-    unit = task.bounds.half[:, None]
+    unit = task.bounds.half_range[:, None]
 
-    def pulled_in(flat: np.ndarray) -> np.ndarray:  # motions beyond limits are drawn back in
-        return task.drawn_in(flat.reshape(best.shape) * unit)
+    def restrict_motion(flat: np.ndarray) -> np.ndarray:  # motions beyond limits are drawn back in
+        return task.shrink_to_limits(flat.reshape(best.shape) * unit)
 
-    found = evolve(
-        lambda flat: columns.value(pulled_in(flat)),
-        (best / unit).ravel(), _FIRST, _GENERATIONS, rng, proceed,
+    solution = minimise_cma_es(
+        lambda flat: columns.evaluate_motion(restrict_motion(flat)),
+        (best / unit).ravel(), _FIRST, _GENERATIONS, rng, report_progress,
     )  # fmt: skip
-    motion = finished(task, pulled_in(found), wish, drawn, on)
+    motion = build_result(task, restrict_motion(solution), request, random_motions, deadline)
     x = motion.x
-    (here, size), (there, before) = columns.left(x), columns.left(best)
+    (here, size), (there, before) = columns.compute_remainder(x), columns.compute_remainder(best)
     names = tuple(f"{effect.id}@{joint}" for effect, joint in question.effects)
     gain = tuple(a / b if b > 0.0 else float("inf") for a, b in zip(size, before, strict=True))
-    return motion, Separation((names[0], names[1]), here, there, (gain[0], gain[1]))
+    return motion, Discrimination((names[0], names[1]), here, there, (gain[0], gain[1]))
 
 
-class _Pair:
+class _EffectColumns:
     """The columns of two effects along motions."""
 
     def __init__(
-        self, task: Task, question: Question, drawn: list[np.ndarray], laps: int, on: Deadline
+        self,
+        task: ExcitationTask,
+        question: DiscriminationProblem,
+        random_motions: list[np.ndarray],
+        laps: int,
+        deadline: Deadline,
     ) -> None:
         self.task, self._laps = task, laps
         self._reference = SignalReference(task.columns.compiled, question.beta, 0.0, {})
-        loads = [self._signals(x).load for x in on.through(drawn[:5])]
+        loads = [
+            self._compute_signals(x).load for x in deadline.iterate_in_time(random_motions[:5])
+        ]
         load = np.sqrt(np.mean(np.concatenate(loads) ** 2, axis=0))
-        self._grids = [self._grid(whose, load) for whose in question.effects]
-        sizes = [self._blocks(x) for x in on.through(drawn)]
+        self._grids = [self._build_grid(whose, load) for whose in question.effects]
+        sizes = [self._compute_blocks(x) for x in deadline.iterate_in_time(random_motions)]
         self._usual = [
             np.mean([[np.sum(block**2) for block in blocks[k]] for blocks in sizes], axis=0)
             for k in range(2)
         ]
 
-    def _grid(self, whose: Whose, load: np.ndarray) -> list[Candidate]:
+    def _build_grid(self, whose: Whose, load: np.ndarray) -> list[Candidate]:
         effect, joint = whose
         bounds, spec = self.task.bounds, self.task.columns.compiled.spec
         form = next((form for form in effect.forms if "T" not in form.names), None)
-        if form is None or effect.acts not in (Acts.JOINT, Acts.POSITION):
+        if form is None or effect.acts not in (EffectTarget.JOINT, EffectTarget.POSITION):
             raise DataError(
                 f"between: {effect.id} is no torque of one joint that a motion determines; "
                 "expected two such effects"
             )
         j = bounds.joints.index(joint)
         scale = JointScale(
-            float(bounds.speed[j]), float(2.0 * bounds.half[j]), float(load[j]) or 1.0,
-            spec.joints[j].unit == "rad", float(bounds.middle[j]),
+            float(bounds.speed[j]), float(2.0 * bounds.half_range[j]), float(load[j]) or 1.0,
+            spec.joints[j].unit == "rad", float(bounds.mid_range[j]),
         )  # fmt: skip
-        every = list(over_grid(effect, form, joint, j, scale))
+        every = list(expand_grid(effect, form, joint, j, scale))
         places = np.unique(np.linspace(0, len(every) - 1, _ENTRIES).astype(int))
         return [every[k] for k in places]
 
-    def _signals(self, x: np.ndarray) -> Signals:
-        q, qd, qdd = (np.tile(part, (self._laps, 1)) for part in self.task.series.motion(x))
+    def _compute_signals(self, x: np.ndarray) -> Signals:
+        q, qd, qdd = (
+            np.tile(part, (self._laps, 1)) for part in self.task.series.evaluate_motion(x)
+        )
         step = self.task.series.duration / len(self.task.series.time)
         time = np.arange(len(q)) * step
         segment = Segment(
@@ -176,25 +200,27 @@ class _Pair:
         )  # fmt: skip
         return Signals(segment, segment.valid, q, qd, qdd, self._reference)
 
-    def _blocks(self, x: np.ndarray) -> list[list[np.ndarray]]:
+    def _compute_blocks(self, x: np.ndarray) -> list[list[np.ndarray]]:
         """Weighted columns of both effects, one block (n J, k) for each shape."""
-        signals, weights = self._signals(x), self.task.weights[:, None]
+        signals, weights = self._compute_signals(x), self.task.weights[:, None]
         return [
             [
                 (block * weights).reshape(-1, block.shape[2])
-                for block in (all_columns(candidate, signals) for candidate in grid)
+                for block in (evaluate_columns(candidate, signals) for candidate in grid)
             ]
             for grid in self._grids
         ]
 
-    def _unexplained(self, x: np.ndarray) -> tuple[list[list[np.ndarray]], list[np.ndarray]]:
+    def _compute_unexplained(
+        self, x: np.ndarray
+    ) -> tuple[list[list[np.ndarray]], list[np.ndarray]]:
         """The blocks; and of each effect and shape, the square that model and other leave."""
-        W = self.task.rows(self.task.series.motion(x))
+        W = self.task.compute_rows(self.task.series.evaluate_motion(x))
         # Every lap has the same columns of the model: one lap of Q is that of all, scaled.
         Q = np.tile(np.linalg.qr(W)[0], (self._laps, 1)) / np.sqrt(self._laps)
-        blocks = self._blocks(x)
-        beyond = [[block - Q @ (Q.T @ block) for block in own] for own in blocks]
-        bases = [[np.linalg.qr(block)[0] for block in own] for own in beyond]
+        blocks = self._compute_blocks(x)
+        beyond = [[block - Q @ (Q.T @ block) for block in group] for group in blocks]
+        bases = [[np.linalg.qr(block)[0] for block in group] for group in beyond]
         squares = [
             np.array([
                 min(np.sum((block - Q @ (Q.T @ block)) ** 2) for Q in bases[1 - k])
@@ -204,15 +230,15 @@ class _Pair:
         ]  # fmt: skip
         return blocks, squares
 
-    def value(self, x: np.ndarray) -> float:
+    def evaluate_motion(self, x: np.ndarray) -> float:
         """Small where both are well told apart."""
-        _, squares = self._unexplained(x)
+        _, squares = self._compute_unexplained(x)
         shares = itertools.chain(*(s / u for s, u in zip(squares, self._usual, strict=True)))
         return -float(np.mean([np.log(max(share, _NOTHING)) for share in shares]))
 
-    def left(self, x: np.ndarray) -> tuple[tuple[float, float], tuple[float, float]]:
+    def compute_remainder(self, x: np.ndarray) -> tuple[tuple[float, float], tuple[float, float]]:
         """Of each effect, the share of its columns that is left, and its size; means of shapes."""
-        blocks, squares = self._unexplained(x)
+        blocks, squares = self._compute_unexplained(x)
         shares, sizes = [], []
         for k in range(2):
             whole = np.array([np.sum(block**2) for block in blocks[k]])
@@ -229,7 +255,7 @@ _ALL = 20_000
 
 
 @dataclass(frozen=True)
-class Choice:
+class MotionSubset:
     """A subset of motions.
 
     Attributes:
@@ -247,7 +273,7 @@ class Choice:
     exhaustive: bool
 
 
-def choose(rows: Sequence[np.ndarray], count: int) -> Choice:
+def choose_motions(rows: Sequence[np.ndarray], count: int) -> MotionSubset:
     """The `count` motions whose rows together have the smallest condition number.
 
     How Guegan, Khalil and Lemoine 2003 (section 5) and Gautier and Khalil 1992 choose
@@ -265,31 +291,39 @@ def choose(rows: Sequence[np.ndarray], count: int) -> Choice:
         raise DataError(f"choose: got {count} of {len(rows)} motions; expected 1 to {len(rows)}")
     triangles = [np.asarray(np.linalg.qr(W, mode="r")) for W in rows]
 
-    def value(places: Sequence[int]) -> float:
-        return condition(np.vstack([triangles[k] for k in places]))
+    def compute_subset_condition(places: Sequence[int]) -> float:
+        return compute_condition(np.vstack([triangles[k] for k in places]))
 
     exhaustive = math.comb(len(rows), count) <= _ALL
     if exhaustive:
-        best = min(itertools.combinations(range(len(rows)), count), key=value)
+        best = min(itertools.combinations(range(len(rows)), count), key=compute_subset_condition)
     else:
-        best = _exchanged(triangles, count, value)
-    if not math.isfinite(value(best)):
+        best = _exchange_motions(triangles, count, compute_subset_condition)
+    if not math.isfinite(compute_subset_condition(best)):
         raise DataError(
             f"choose: no {count} of these {len(rows)} motions excite all parameters; take more, or "
             "motions that move other joints"
         )
-    every = tuple(value([k]) for k in range(len(rows)))
-    return Choice(tuple(best), value(best), value(range(len(rows))), every, exhaustive)
+    every = tuple(compute_subset_condition([k]) for k in range(len(rows)))
+    return MotionSubset(
+        tuple(best),
+        compute_subset_condition(best),
+        compute_subset_condition(range(len(rows))),
+        every,
+        exhaustive,
+    )
 
 
-def _exchanged(
-    triangles: list[np.ndarray], count: int, measured: Callable[[Sequence[int]], float]
+def _exchange_motions(
+    triangles: list[np.ndarray],
+    count: int,
+    compute_subset_condition: Callable[[Sequence[int]], float],
 ) -> tuple[int, ...]:
     """Greedy, then one for one: by the weakest singular value first, where columns lack."""
     lengths = np.sqrt(sum(np.sum(R**2, axis=0) for R in triangles))
     scaled = [R / np.where(lengths > 0.0, lengths, 1.0) for R in triangles]
 
-    def value(places: Sequence[int]) -> float:
+    def compute_penalty(places: Sequence[int]) -> float:
         sizes = np.linalg.svd(np.vstack([scaled[k] for k in places]), compute_uv=False)
         full = np.zeros(scaled[0].shape[1])
         full[: len(sizes)] = sizes
@@ -299,16 +333,18 @@ def _exchanged(
     chosen: list[int] = []
     left = list(range(len(triangles)))
     while len(chosen) < count:
-        chosen.append(min((k for k in left if k not in chosen), key=lambda k: value([*chosen, k])))
+        chosen.append(
+            min((k for k in left if k not in chosen), key=lambda k: compute_penalty([*chosen, k]))
+        )
     chosen.sort()
-    here, improving = measured(chosen), True
+    here, improving = compute_subset_condition(chosen), True
     while improving:
         trials = [
             sorted([*(c for c in chosen if c != out), into])
             for out in chosen for into in left if into not in chosen
         ]  # fmt: skip
-        best = min(trials, key=measured)
-        improving = measured(best) < here * (1.0 - 1e-12)
+        best = min(trials, key=compute_subset_condition)
+        improving = compute_subset_condition(best) < here * (1.0 - 1e-12)
         if improving:
-            chosen, here = best, measured(best)
+            chosen, here = best, compute_subset_condition(best)
     return tuple(chosen)

@@ -25,7 +25,7 @@ from functools import cached_property
 
 import numpy as np
 
-from modeler.estimation import Machine, pseudo_inertia_of
+from modeler.estimation import PhysicalParameters, compute_pseudo_inertia
 
 INSIDE = 1e-7
 """Least eigenvalue of a body that could be built, a round one of its size being 1."""
@@ -36,7 +36,7 @@ _NONE = 1e-13  # relative: an eigenvalue that is rounding
 
 
 @dataclass(frozen=True, eq=False)
-class Beforehand:
+class Prior:
     """What is known of chi without torques.
 
     Attributes:
@@ -49,7 +49,7 @@ class Beforehand:
 
 
 @dataclass(frozen=True, eq=False)
-class Completed:
+class CompletedParameters:
     """Standard parameters.
 
     Attributes:
@@ -61,8 +61,8 @@ class Completed:
 
     chi: np.ndarray
     root: np.ndarray
-    moved: float = 0.0
-    far: float = 0.0
+    shift_in_sigmas: float = 0.0
+    total_shift: float = 0.0
 
     @cached_property
     def covariance(self) -> np.ndarray:
@@ -70,58 +70,62 @@ class Completed:
         return np.asarray(self.root @ self.root.T)
 
 
-def conditioned(K: np.ndarray, before: Beforehand, beta: np.ndarray, C: np.ndarray) -> Completed:
+def compute_completion(
+    K: np.ndarray, before: Prior, beta: np.ndarray, C: np.ndarray
+) -> CompletedParameters:
     """The Gaussian completion; K chi = beta wherever what is known beforehand lets chi move."""
     mean, S = before.mean, before.S
-    G = S @ K.T @ _inverse(K @ S @ K.T)
+    G = S @ K.T @ _invert_covariance(K @ S @ K.T)
     for _ in range(2):  # K G = 1 to the last digits (Newton)
         G = 2.0 * G - G @ (K @ G)
     chi = mean + G @ (beta - K @ mean)
     chi += G @ (beta - K @ chi)  # the rounding of the first step
     rest = np.eye(len(mean)) - G @ K
     # No difference of covariances: what beta tells is not lost in what was known of it.
-    return Completed(chi, np.hstack([rest @ _half(S), G @ _half(C)]))
+    return CompletedParameters(chi, np.hstack([rest @ _compute_root(S), G @ _compute_root(C)]))
 
 
-def buildable(
-    machine: Machine,
-    found: Completed,
+def find_nearest_physical(
+    machine: PhysicalParameters,
+    completion: CompletedParameters,
     beta: np.ndarray,
     C: np.ndarray,
     size: Mapping[str, np.ndarray],
-    hung: Mapping[str, np.ndarray],
-) -> Completed | None:
+    attached_inertia: Mapping[str, np.ndarray],
+) -> CompletedParameters | None:
     """The nearest that could be built: itself where it can; None if nothing near can.
 
     Args:
         machine: unknowns and bounds.
-        found: completion.
+        completion: completion.
         beta: (c,) of the fit.
         C: (c, c) its covariance.
         size: by link, (4, 4) W of a round body P of its size, W P W^T = 1.
-        hung: by link, (10,) what hangs on it and keeps its numbers.
+        attached_inertia: by link, (10,) what hangs on it and keeps its numbers.
     """
-    floors = {link: hung.get(link, np.zeros(10)) for link in machine.links}
-    if not impossible(machine, found.chi, size, floors):
-        return found
+    floors = {link: attached_inertia.get(link, np.zeros(10)) for link in machine.links}
+    if not find_violations(machine, completion.chi, size, floors):
+        return completion
     import cvxpy as cp  # only here: most fits can be built as they are
 
-    L = found.root[:, np.abs(found.root).any(axis=0)]
+    L = completion.root[:, np.abs(completion.root).any(axis=0)]
     if not L.size:
         return None
     deviation = np.linalg.norm(L, axis=1)
     z = cp.Variable(L.shape[1])
     bounds = []
     for place in machine.positive.values():
-        scale = max(abs(found.chi[place]), deviation[place]) or 1.0
+        scale = max(abs(completion.chi[place]), deviation[place]) or 1.0
         if L[place].any():
-            bounds.append((found.chi[place] + L[place] @ z) / scale >= 0.0)
-        elif found.chi[place] < 0.0:
+            bounds.append((completion.chi[place] + L[place] @ z) / scale >= 0.0)
+        elif completion.chi[place] < 0.0:
             return None
-    for link, own in machine.links.items():
+    for link, indices in machine.links.items():
         W = size[link]
-        now = W @ pseudo_inertia_of(found.chi[own] - floors[link]) @ W.T
-        moves = np.einsum("ai,ijk,bj->abk", W, pseudo_inertia_of(L[own]), W).reshape(16, -1)
+        now = W @ compute_pseudo_inertia(completion.chi[indices] - floors[link]) @ W.T
+        moves = np.einsum("ai,ijk,bj->abk", W, compute_pseudo_inertia(L[indices]), W).reshape(
+            16, -1
+        )
         matrix = cp.reshape(now.ravel() + moves @ z, (4, 4), order="C")
         bounds.append(matrix - _WELL_INSIDE * np.eye(4) >> 0)
     problem = cp.Problem(cp.Minimize(cp.sum_squares(z)), bounds)
@@ -130,57 +134,59 @@ def buildable(
         problem.solve(solver=cp.CLARABEL)
     if z.value is None:
         return None
-    chi = found.chi + L @ z.value
+    chi = completion.chi + L @ z.value
     places = list(machine.positive.values())
     chi[places] = np.maximum(chi[places], 0.0)
-    if impossible(machine, chi, size, floors):
+    if find_violations(machine, chi, size, floors):
         return None
     far = float(np.linalg.norm(z.value))
-    return Completed(chi, found.root, distance(machine.K @ chi - beta, C), far)
+    return CompletedParameters(
+        chi, completion.root, compute_distance(machine.K @ chi - beta, C), far
+    )
 
 
-def impossible(
-    machine: Machine,
+def find_violations(
+    machine: PhysicalParameters,
     chi: np.ndarray,
     size: Mapping[str, np.ndarray],
     floors: Mapping[str, np.ndarray],
 ) -> list[str]:
     """Links that could not be built, and parameters that are negative and must not."""
-    found = [
+    invalid_links = [
         link
-        for link, own in machine.links.items()
-        if least(chi[own] - floors[link], size[link]) < INSIDE
+        for link, indices in machine.links.items()
+        if compute_smallest_eigenvalue(chi[indices] - floors[link], size[link]) < INSIDE
     ]
-    return found + [name for name, place in machine.positive.items() if chi[place] < 0.0]
+    return invalid_links + [name for name, place in machine.positive.items() if chi[place] < 0.0]
 
 
-def least(ten: np.ndarray, size: np.ndarray) -> float:
+def compute_smallest_eigenvalue(ten: np.ndarray, size: np.ndarray) -> float:
     """Least eigenvalue of the scaled pseudo-inertia."""
-    return float(np.linalg.eigvalsh(size @ pseudo_inertia_of(ten) @ size.T)[0])
+    return float(np.linalg.eigvalsh(size @ compute_pseudo_inertia(ten) @ size.T)[0])
 
 
-def distance(apart: np.ndarray, C: np.ndarray) -> float:
+def compute_distance(apart: np.ndarray, C: np.ndarray) -> float:
     """sqrt(d^T C^-1 d): standard deviations; of what has none nothing is counted."""
-    return float(max(apart @ _inverse(C) @ apart, 0.0)) ** 0.5
+    return float(max(apart @ _invert_covariance(C) @ apart, 0.0)) ** 0.5
 
 
-def _inverse(V: np.ndarray) -> np.ndarray:
+def _invert_covariance(V: np.ndarray) -> np.ndarray:
     """Pseudo-inverse of a covariance, its rows scaled alike."""
-    safe, values, vectors = _scaled(V)
+    safe, values, vectors = _decompose_covariance(V)
     half = vectors / (safe[:, None] * np.sqrt(values))
     return np.asarray(half @ half.T)
 
 
-def _half(V: np.ndarray) -> np.ndarray:
+def _compute_root(V: np.ndarray) -> np.ndarray:
     """(m, r) root of a covariance, V = root root^T."""
-    safe, values, vectors = _scaled(V)
+    safe, values, vectors = _decompose_covariance(V)
     return np.asarray(safe[:, None] * vectors * np.sqrt(values))
 
 
-def _scaled(V: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+def _decompose_covariance(V: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Deviations, and eigenvalues with vectors of the correlation, those of rounding left out."""
     size = np.sqrt(np.maximum(np.diag(V), 0.0))
     safe = np.where(size > 0.0, size, 1.0)
     values, vectors = np.linalg.eigh(V / np.outer(safe, safe))
-    kept = values > _NONE * max(1.0, float(values.max(initial=0.0)))
-    return safe, values[kept], vectors[:, kept]
+    is_significant = values > _NONE * max(1.0, float(values.max(initial=0.0)))
+    return safe, values[is_significant], vectors[:, is_significant]

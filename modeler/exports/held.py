@@ -11,11 +11,11 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from modeler.core.brief import Brief
-from modeler.core.table import percent
-from modeler.exports.bodies import Physics
-from modeler.exports.completion import distance
-from modeler.exports.linkage import SAME_GRAVITY, gravity_of
+from modeler.core.brief import ShortRepr
+from modeler.core.table import format_percent
+from modeler.exports.bodies import ExportParameters
+from modeler.exports.completion import compute_distance
+from modeler.exports.linkage import SAME_GRAVITY, compute_gravity
 
 Torques = Callable[[np.ndarray], tuple[np.ndarray, tuple[str, ...]]]
 """From base parameters to the (rows, n) torques of the fit, and the names of their joints."""
@@ -25,7 +25,7 @@ _USUAL = 9.81  # m/s2, of programs that are told no gravity
 
 
 @dataclass(frozen=True)
-class NotHeld(Brief):
+class LostEffect(ShortRepr):
     """An effect of a joint that the format has no place for.
 
     Attributes:
@@ -43,15 +43,19 @@ class NotHeld(Brief):
     of: str = ""
 
     @property
-    def line(self) -> str:
+    def summary_line(self) -> str:
         """For people."""
         values = ", ".join(f"{name} = {value:.4g}" for name, value in self.values.items())
-        told = "" if self.share is None else f", about {percent(self.share, 2)} of {self.of}"
+        share_text = (
+            "" if self.share is None else f", about {format_percent(self.share, 2)} of {self.of}"
+        )
         where = f" of joint {self.joint}" if self.joint else ""
-        return f"{self.effect or 'parameter'}{where} ({values}){told}"
+        return f"{self.effect or 'parameter'}{where} ({values}){share_text}"
 
 
-def not_held(physics: Physics, to: str, torques: Torques | None = None) -> tuple[NotHeld, ...]:
+def find_lost_effects(
+    physics: ExportParameters, to: str, torques: Torques | None = None
+) -> tuple[LostEffect, ...]:
     """Effects that the format cannot hold, those that carry most first; none that carries nothing.
 
     URDF and SDF models hold the direction of gravity alone, and programs take 9.81 m/s2.
@@ -61,39 +65,43 @@ def not_held(physics: Physics, to: str, torques: Torques | None = None) -> tuple
         to: the format.
         torques: of the logs of the fit, if they are there.
     """
-    robot, found = physics.robot, list[NotHeld]()
-    g = float(np.linalg.norm(gravity_of(robot)))
+    robot, lost_effects = physics.robot, list[LostEffect]()
+    g = float(np.linalg.norm(compute_gravity(robot)))
     if to != "mjcf" and abs(g - _USUAL) > SAME_GRAVITY * _USUAL:
-        found.append(NotHeld("size of gravity", "", {"g": g}))
-    kept = {name for joint in robot.moving
-            for terms in physics.drive(joint.name, to).values() for name in terms}  # fmt: skip
-    for joint in robot.moving:
-        for effect, form, instance in robot.effects_on(joint.name):
+        lost_effects.append(LostEffect("size of gravity", "", {"g": g}))
+    stated_names = {
+        name
+        for joint in robot.moving_joints
+        for terms in physics.collect_drive_terms(joint.name, to).values()
+        for name in terms
+    }
+    for joint in robot.moving_joints:
+        for effect, form, instance in robot.find_joint_effects(joint.name):
             names = [f"{column.prefix}{joint.name}{instance.label}" for column in form.columns]
-            values = {n: float(physics.now.chi[physics.place[n]]) for n in names
-                      if n in physics.place and n not in kept}  # fmt: skip
+            values = {n: float(physics.completion.chi[physics.indices[n]]) for n in names
+                      if n in physics.indices and n not in stated_names}  # fmt: skip
             if any(values.values()):
-                share, of = _share(physics, list(values), joint.name, torques)
+                share, of = _compute_torque_share(physics, list(values), joint.name, torques)
                 if share is None or share >= _NOTHING:
-                    found.append(NotHeld(effect.id, joint.name, values, share, of))
-    return tuple(sorted(found, key=lambda one: -(one.share or float(not one.joint))))
+                    lost_effects.append(LostEffect(effect.id, joint.name, values, share, of))
+    return tuple(sorted(lost_effects, key=lambda one: -(one.share or float(not one.joint))))
 
 
-def _share(
-    physics: Physics, names: list[str], joint: str, torques: Torques | None
+def _compute_torque_share(
+    physics: ExportParameters, names: list[str], joint: str, torques: Torques | None
 ) -> tuple[float | None, str]:
     if physics.fit is None:
         return None, ""
-    at = [physics.place[name] for name in names]
-    own = physics.machine.K[:, at] @ physics.now.chi[at]
+    at = [physics.indices[name] for name in names]
+    contribution = physics.machine.K[:, at] @ physics.completion.chi[at]
     beta, C = physics.fit
     if torques is None:
-        whole = distance(beta, C)
-        return (distance(own, C) / whole if whole else None), "all torques"
-    part, joints = torques(own)
-    every, _ = torques(beta)
+        whole = compute_distance(beta, C)
+        return (compute_distance(contribution, C) / whole if whole else None), "all torques"
+    part, joints = torques(contribution)
+    total_torques, _ = torques(beta)
     place, of = [*range(len(joints))], "all torques"
     if joint in joints:
         place, of = [joints.index(joint)], f"the torque of joint {joint}"
-    size = float(np.linalg.norm(every[:, place]))
+    size = float(np.linalg.norm(total_torques[:, place]))
     return (float(np.linalg.norm(part[:, place])) / size if size else None), of

@@ -12,19 +12,26 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from modeler.core.errors import DataError
-from modeler.exports.bodies import Physics, carried, written
+from modeler.exports.bodies import ExportParameters, compute_central_parameters, express_parameters
 from modeler.exports.original import (
     TENSOR,
-    Placed,
+    OriginalFile,
+    PlacedLinks,
     Placement,
-    Source,
-    first,
-    inertial_axes,
-    shared_out,
-    text_at,
+    distribute_change,
+    find_first_child,
+    find_inertial_axes,
+    get_text_at,
 )
-from modeler.exports.result import Value, body_values, drive_values, kept, numbers, sigmas
-from modeler.robot import Element, about_origin, replaced
+from modeler.exports.result import (
+    Value,
+    build_body_values,
+    build_drive_values,
+    compute_sigmas,
+    format_numbers,
+    keep_unchanged,
+)
+from modeler.robot import Element, compute_standard_parameters, replace_spans
 
 _SAME = 1e-10  # of a body's scale: what is nearer has not changed
 _TURNED = ("diaginertia", "quat", "axisangle", "xyaxes", "zaxis", "euler")
@@ -45,35 +52,37 @@ _PATHS = {
 
 
 @dataclass(eq=False)
-class Edited:
+class FileEdits:
     """A file, and what is going to stand in place of some of its bytes."""
 
-    source: Source
+    source: OriginalFile
     changes: dict[tuple[int, int], str] = field(default_factory=dict)
     new: dict[int, tuple[Element, ET.Element]] = field(default_factory=dict)
 
-    def put(self, element: Element, path: str, text: str) -> None:
+    def set_number(self, element: Element, path: str, text: str) -> None:
         """Puts a number at a path, of which parts may not be there."""
-        way, _, attribute = path.partition("@")
-        tags = [tag for tag in way.split("/") if tag]
-        while tags and (child := first(element, tags[0])) is not None:
+        element_path, _, attribute = path.partition("@")
+        tags = [tag for tag in element_path.split("/") if tag]
+        while tags and (child := find_first_child(element, tags[0])) is not None:
             element = child
             tags.pop(0)
         if tags:
-            made = self.new.setdefault(id(element), (element, ET.Element("new")))[1]
+            new_element = self.new.setdefault(id(element), (element, ET.Element("new")))[1]
             for tag in tags:
-                found = made.find(tag)
-                made = ET.SubElement(made, tag) if found is None else found
-            made.attrib |= {attribute: text} if attribute else {}
-            made.text = None if attribute else text
+                existing_child = new_element.find(tag)
+                new_element = (
+                    ET.SubElement(new_element, tag) if existing_child is None else existing_child
+                )
+            new_element.attrib |= {attribute: text} if attribute else {}
+            new_element.text = None if attribute else text
         elif attribute:
-            self._attribute(element, attribute, text)
+            self._set_attribute(element, attribute, text)
         elif element.text_span is not None:
             self.changes[element.text_span] = text
         else:
-            self._child(element, text)
+            self._insert_child_text(element, text)
 
-    def _attribute(self, element: Element, name: str, text: str) -> None:
+    def _set_attribute(self, element: Element, name: str, text: str) -> None:
         if name in element.spans:
             self.changes[element.spans[name]] = text
             return
@@ -83,15 +92,15 @@ class Edited:
             end -= 1
         self.changes[end, end] = f'{self.changes.get((end, end), "")} {name}="{text}"'
 
-    def without(self, element: Element, name: str) -> None:
+    def remove_attribute(self, element: Element, name: str) -> None:
         """Takes an attribute out."""
         start, end = element.spans[name]
         head = self.source.data[element.opening[0] : start]
-        found = re.search(rb"\s+[^\s=]+\s*=\s*[\"']\Z", head)
-        assert found is not None
-        self.changes[element.opening[0] + found.start(), end + 1] = ""
+        attribute_match = re.search(rb"\s+[^\s=]+\s*=\s*[\"']\Z", head)
+        assert attribute_match is not None
+        self.changes[element.opening[0] + attribute_match.start(), end + 1] = ""
 
-    def _child(self, parent: Element, text: str) -> None:
+    def _insert_child_text(self, parent: Element, text: str) -> None:
         """Puts text before the first child, in a line of its own where that has one."""
         data, end = self.source.data, parent.opening[1]
         if data[end - 2 : end] == b"/>":
@@ -104,124 +113,143 @@ class Edited:
             text += data[line:at].decode()
         self.changes[at, at] = text
 
-    def bytes(self) -> bytes:
+    def render_bytes(self) -> bytes:
         """The file."""
-        for element, made in self.new.values():
-            text = "".join(ET.tostring(child, "unicode") for child in made)
-            self._child(element, text.replace(" />", "/>"))
-        return replaced(self.source.data, self.changes)
+        for element, new_root in self.new.values():
+            text = "".join(ET.tostring(child, "unicode") for child in new_root)
+            self._insert_child_text(element, text.replace(" />", "/>"))
+        return replace_spans(self.source.data, self.changes)
 
 
-def rewritten(
-    physics: Physics, source: Source, there: Placement, notes: list[str]
+def rewrite_file(
+    physics: ExportParameters, source: OriginalFile, placement: Placement, notes: list[str]
 ) -> tuple[bytes, list[Value]]:
     """The file with the numbers of the physics, and these; notes grow.
 
     Raises:
         DataError: MJCF that states no numbers itself, or changes those that it states.
     """
-    edited = _Edits(source)
+    edited = _NumberEditor(source)
     values = [
-        value for row, own in there.links.items() for value in edited.link(physics, row, own, notes)
+        value
+        for row, placed_links in placement.links.items()
+        for value in edited.edit_link(physics, row, placed_links, notes)
     ]
-    for name, row in there.joints.items():
+    for name, row in placement.joints.items():
         if source.tree is not None or ("joint", name) in edited.elements:
-            values += edited.joint(physics, row, name)
-    return edited.file.bytes(), values
+            values += edited.edit_joint(physics, row, name)
+    return edited.file.render_bytes(), values
 
 
-class _Edits:
+class _NumberEditor:
     """Links and joints of a file, and their new numbers."""
 
-    def __init__(self, source: Source) -> None:
-        self.source, self.file, self.paths = source, Edited(source), _PATHS[source.format]
-        named = _mjcf_elements if source.format == "mjcf" else _elements
+    def __init__(self, source: OriginalFile) -> None:
+        self.source, self.file, self.paths = source, FileEdits(source), _PATHS[source.format]
+        named = _collect_mjcf_elements if source.format == "mjcf" else _collect_elements
         self.elements = named(source.root)
         self.joints = {joint.name: joint for joint in source.tree.joints} if source.tree else {}
         self.checked = source.format != "mjcf"
 
-    def link(self, physics: Physics, row: str, own: Placed, notes: list[str]) -> Iterator[Value]:
+    def edit_link(
+        self, physics: ExportParameters, row: str, placed_links: PlacedLinks, notes: list[str]
+    ) -> Iterator[Value]:
         """Puts the numbers of the links of a row."""
-        ten = physics.ten(row)
-        if ten is None or (physics.fit is None and row not in physics.stated):
+        ten = physics.get_link_parameters(row)
+        if ten is None or (physics.fit is None and row not in physics.stated_links):
             return
-        tens = own.tens
-        others = ", ".join(name for name in tens if name != own.carrier)
+        tens = placed_links.parameters
+        others = ", ".join(name for name in tens if name != placed_links.carrier)
         whole = np.sum([np.zeros(10), *tens.values()], axis=0)
-        if _alike(ten, whole):
+        if _is_same_body(ten, whole):
             now = tens
-        elif row in physics.released and tens:
-            now = shared_out(tens, ten)
-            notes.append(f"{own.carrier}: what hangs on it is changed with it: {others}")
+        elif row in physics.released_links and tens:
+            now = distribute_change(tens, ten)
+            notes.append(f"{placed_links.carrier}: what hangs on it is changed with it: {others}")
         else:
-            now = {**tens, own.carrier: ten - whole + tens.get(own.carrier, np.zeros(10))}
+            now = {
+                **tens,
+                placed_links.carrier: ten - whole + tens.get(placed_links.carrier, np.zeros(10)),
+            }
             if others:
-                notes.append(f"{own.carrier}: what changes is on it; {others} as before")
+                notes.append(f"{placed_links.carrier}: what changes is on it; {others} as before")
         for name, new in now.items():
-            pose, was = own.poses[name], self.source.links[name]
-            axes = inertial_axes(self.source, self.elements.get(("link", name)))
-            before = None if was is None else written(about_origin(was), axes)
-            fresh = kept(written(carried(new, pose.inverse()), axes), before)
+            pose, was = placed_links.poses[name], self.source.links[name]
+            axes = find_inertial_axes(self.source, self.elements.get(("link", name)))
+            before = (
+                None
+                if was is None
+                else compute_central_parameters(compute_standard_parameters(was), axes)
+            )
+            fresh = keep_unchanged(
+                compute_central_parameters(express_parameters(new, pose.inverse()), axes), before
+            )
             if before is not None and now is tens:
                 fresh = before
             if before is None or np.any(fresh != before):
-                self._body(self._element("link", name), fresh, before)
-            elif name != own.carrier:
+                self._edit_body(self._find_element("link", name), fresh, before)
+            elif name != placed_links.carrier:
                 continue
-            in_part = row in physics.released  # only of the link
-            sigma = None if in_part else sigmas(physics, row, pose, ten - new, axes)
-            yield from body_values(name, before, fresh, sigma)
+            in_part = row in physics.released_links  # only of the link
+            sigma = None if in_part else compute_sigmas(physics, row, pose, ten - new, axes)
+            yield from build_body_values(name, before, fresh, sigma)
 
-    def _body(self, link: Element, new: np.ndarray, was: np.ndarray | None) -> None:
-        bare = was is None or first(link, "inertial") is None
+    def _edit_body(self, link: Element, new: np.ndarray, was: np.ndarray | None) -> None:
+        bare = was is None or find_first_child(link, "inertial") is None
         other = np.full(10, True) if bare else new != was
         if not self.checked:
             _check_mjcf(self.source)
             self.checked = True
         sdf, mjcf = (self.source.format == name for name in ("sdf", "mjcf"))
         if other[0]:
-            self.file.put(link, self.paths["mass"], numbers(new[:1]))
+            self.file.set_number(link, self.paths["mass"], format_numbers(new[:1]))
         if other[1:4].any():
-            angles = (text_at(link, self.paths["centre"]).split()[3:] or ["0 0 0"]) if sdf else []
-            self.file.put(link, self.paths["centre"], " ".join([numbers(new[1:4]), *angles]))
+            angles = (
+                (get_text_at(link, self.paths["centre"]).split()[3:] or ["0 0 0"]) if sdf else []
+            )
+            self.file.set_number(
+                link, self.paths["centre"], " ".join([format_numbers(new[1:4]), *angles])
+            )
         if mjcf and other[4:].any():
-            inertial = first(link, "inertial")
+            inertial = find_first_child(link, "inertial")
             for name in _TURNED if inertial is not None else ():
                 if inertial is not None and name in inertial.spans:
-                    self.file.without(inertial, name)
-            self.file.put(link, self.paths["tensor"], numbers(new[[4, 7, 9, 5, 6, 8]]))
+                    self.file.remove_attribute(inertial, name)
+            self.file.set_number(
+                link, self.paths["tensor"], format_numbers(new[[4, 7, 9, 5, 6, 8]])
+            )
         for k, key in enumerate(() if mjcf or not other[4:].any() else TENSOR, 4):
             path = self.paths["tensor"].format(key)
-            if other[k] or not text_at(link, path):
-                self.file.put(link, path, numbers(new[[k]]))
+            if other[k] or not get_text_at(link, path):
+                self.file.set_number(link, path, format_numbers(new[[k]]))
 
-    def joint(self, physics: Physics, row: str, name: str) -> list[Value]:
+    def edit_joint(self, physics: ExportParameters, row: str, name: str) -> list[Value]:
         """Puts what resists a joint."""
         stated = self.joints.get(name)
         if stated is None:
-            texts = {q: text_at(self._element("joint", name), p)
+            texts = {q: get_text_at(self._find_element("joint", name), p)
                      for q, p in self.paths.items() if q in _RESISTS}  # fmt: skip
             was = {quantity: float(text or 0.0) for quantity, text in texts.items()}
         else:
             was = {quantity: float(getattr(stated, quantity) or 0.0) for quantity in _RESISTS}
-        joint = physics.robot.joint(row)
-        values = list(drive_values(physics, joint, name, self.source.format, was))
+        joint = physics.robot.get_joint(row)
+        values = list(build_drive_values(physics, joint, name, self.source.format, was))
         for value in values:
             if value.changed:
-                self._resists(name, value)
+                self._edit_resistance(name, value)
         return values
 
-    def _resists(self, name: str, value: Value) -> None:
-        if value.quantity in ("armature", "damping") and _of_motors(self.source.root):
+    def _edit_resistance(self, name: str, value: Value) -> None:
+        if value.quantity in ("armature", "damping") and _has_actuator_terms(self.source.root):
             raise DataError(
                 f"--like {self.source.path}: actuators state armature or damping of their own, and "
                 f"{name} would have it twice; move it to the joints (times gear^2)"
             )
-        element, path = self._element("joint", name), self.paths[value.quantity]
-        _, *further = text_at(element, path).split() or [""]  # of a polynomial
-        self.file.put(element, path, " ".join([numbers([value.now]), *further]))
+        element, path = self._find_element("joint", name), self.paths[value.quantity]
+        _, *further = get_text_at(element, path).split() or [""]  # of a polynomial
+        self.file.set_number(element, path, " ".join([format_numbers([value.now]), *further]))
 
-    def _element(self, kind: str, name: str) -> Element:
+    def _find_element(self, kind: str, name: str) -> Element:
         if (kind, name) not in self.elements:
             raise DataError(
                 f"--like {self.source.path}: {kind} {name} does not stand in the file itself "
@@ -231,41 +259,48 @@ class _Edits:
         return self.elements[kind, name]
 
 
-def _elements(root: Element) -> dict[tuple[str, str], Element]:
+def _collect_elements(root: Element) -> dict[tuple[str, str], Element]:
     """Links and joints of URDF (<transmission> names joints too) and SDF."""
-    parts = root.children if root.tag == "robot" else root.walk()
+    parts = root.children if root.tag == "robot" else root.iterate_elements()
     return {(e.tag, e.attributes.get("name", "").strip()): e for e in parts
             if e.tag in ("link", "joint")}  # fmt: skip
 
 
-def _mjcf_elements(root: Element) -> dict[tuple[str, str], Element]:
+def _collect_mjcf_elements(root: Element) -> dict[tuple[str, str], Element]:
     """Bodies and joints, those without a name by their number, as the reader calls them."""
-    bodies = [e for world in root.named("worldbody") for e in world.walk() if e.tag == "body"]
-    joints = [joint for body in bodies for joint in _joints_of(body)]
-    found = {("link", e.attributes.get("name") or f"body{k}"): e for k, e in enumerate(bodies, 1)}
-    return found | {
+    bodies = [
+        e
+        for world in root.find_children("worldbody")
+        for e in world.iterate_elements()
+        if e.tag == "body"
+    ]
+    joints = [joint for body in bodies for joint in _iterate_joints(body)]
+    links = {("link", e.attributes.get("name") or f"body{k}"): e for k, e in enumerate(bodies, 1)}
+    return links | {
         ("joint", e.attributes.get("name") or f"joint{k}"): e for k, e in enumerate(joints)
     }
 
 
-def _joints_of(element: Element) -> Iterator[Element]:
+def _iterate_joints(element: Element) -> Iterator[Element]:
     """Joints of a body, those in frames too, in file order."""
     for child in element.children:
         if child.tag in ("joint", "freejoint"):
             yield child
         elif child.tag == "frame":
-            yield from _joints_of(child)
+            yield from _iterate_joints(child)
 
 
-def _of_motors(root: Element) -> bool:
+def _has_actuator_terms(root: Element) -> bool:
     """Whether actuators of MJCF have armature or damping."""
-    parts = (element for part in root.named("actuator") for element in part.walk())
+    parts = (
+        element for part in root.find_children("actuator") for element in part.iterate_elements()
+    )
     return any({"armature", "damping"} & element.attributes.keys() for element in parts)
 
 
-def _check_mjcf(source: Source) -> None:
+def _check_mjcf(source: OriginalFile) -> None:
     """Refuse files of which MuJoCo changes the numbers that they state."""
-    for element in source.root.walk():
+    for element in source.root.iterate_elements():
         stated = element.attributes
         wrong = [f"{key} changes the masses that are stated; take it out"
                  for key in _RESCALED if float(stated.get(key, "0")) > 0.0]  # fmt: skip
@@ -279,7 +314,7 @@ def _check_mjcf(source: Source) -> None:
             raise DataError(f"--like {source.path}: line {element.line}: {wrong[0]}")
 
 
-def _alike(one: np.ndarray, other: np.ndarray) -> bool:
+def _is_same_body(one: np.ndarray, other: np.ndarray) -> bool:
     """Whether two bodies are the same but for rounding, in the same frame."""
     size, mass = max(np.abs([one[:6], other[:6]]).max(), 1e-300), max(abs(one[9]), abs(other[9]))
     moment = max(np.sqrt(size * mass), np.abs(other[6:9]).max())

@@ -6,7 +6,16 @@ from dataclasses import replace
 import numpy as np
 
 from modeler.core.errors import DataError
-from modeler.robot import Joint, JointKind, LinkFrame, Loop, Pose, Robot, linear_form, turned
+from modeler.robot import (
+    Joint,
+    JointKind,
+    LinkFrame,
+    Loop,
+    Pose,
+    Robot,
+    compute_axis_rotation,
+    extract_linear_form,
+)
 
 BASE = "0"
 """Name of the frame that stands still."""
@@ -18,19 +27,23 @@ _X, _Y, _Z = np.eye(3)
 _CLOSED = 1e-9  # m, rad: what may be left of a loop
 
 
-def frame_pose(frame: LinkFrame, symbols: Mapping[str, float]) -> Pose:
+def compute_frame_pose(frame: LinkFrame, symbols: Mapping[str, float]) -> Pose:
     """Pose of a link's frame on its row."""
-    position = np.array([cell.number(symbols) for cell in frame.position])
-    return Pose(position, from_rpy([cell.number(symbols) for cell in frame.angles]))
+    position = np.array([cell.evaluate(symbols) for cell in frame.position])
+    return Pose(position, compute_rpy_rotation([cell.evaluate(symbols) for cell in frame.angles]))
 
 
-def from_rpy(angles: Sequence[float]) -> np.ndarray:
+def compute_rpy_rotation(angles: Sequence[float]) -> np.ndarray:
     """(3, 3) Rz(yaw) Ry(pitch) Rx(roll)."""
     roll, pitch, yaw = angles
-    return turned(_Z, yaw) @ turned(_Y, pitch) @ turned(_X, roll)
+    return (
+        compute_axis_rotation(_Z, yaw)
+        @ compute_axis_rotation(_Y, pitch)
+        @ compute_axis_rotation(_X, roll)
+    )
 
 
-def row_pose(joint: Joint, values: Mapping[str, float]) -> Pose:
+def compute_row_pose(joint: Joint, values: Mapping[str, float]) -> Pose:
     """T(a -> j) = Rz(gamma) Tz(b) Rx(alpha) Tx(d) Rz(theta) Tz(r).
 
     Args:
@@ -38,53 +51,53 @@ def row_pose(joint: Joint, values: Mapping[str, float]) -> Pose:
         values: of the symbols, and of its variable if it has one.
     """
     gamma, b, alpha, d, theta, r = (
-        cell.number(values)
+        cell.evaluate(values)
         for cell in (joint.gamma, joint.b, joint.alpha, joint.d, joint.theta, joint.r)
     )
-    foot = Pose(b * _Z, turned(_Z, gamma))
+    foot = Pose(b * _Z, compute_axis_rotation(_Z, gamma))
     return (
         foot
-        @ Pose(d * (turned(_X, alpha) @ _X), turned(_X, alpha))
-        @ Pose(r * _Z, turned(_Z, theta))
+        @ Pose(d * (compute_axis_rotation(_X, alpha) @ _X), compute_axis_rotation(_X, alpha))
+        @ Pose(r * _Z, compute_axis_rotation(_Z, theta))
     )
 
 
-def gravity_of(robot: Robot) -> np.ndarray:
+def compute_gravity(robot: Robot) -> np.ndarray:
     """(3,) acceleration of gravity in frame 0."""
-    symbols = robot.symbol_values()
-    return np.array([cell.number(symbols) for cell in robot.gravity])
+    symbols = robot.evaluate_symbols()
+    return np.array([cell.evaluate(symbols) for cell in robot.gravity])
 
 
-def sense(joint: Joint, symbols: Mapping[str, float]) -> float:
+def get_variable_sign(joint: Joint, symbols: Mapping[str, float]) -> float:
     """1.0, or -1.0 where the table has the variable of the row with a minus."""
     cell = joint.theta if joint.kind is JointKind.REVOLUTE else joint.r
-    return float(np.sign(linear_form(cell, symbols).coefficients[joint.variable]))
+    return float(np.sign(extract_linear_form(cell, symbols).coefficients[joint.variable]))
 
 
-def variables(robot: Robot, q: Mapping[str, float]) -> dict[str, float]:
+def evaluate_variables(robot: Robot, q: Mapping[str, float]) -> dict[str, float]:
     """Values of the symbols and of all joint variables, those that follow others included.
 
     Args:
         robot: its relations.
         q: by row; rows that are left out, and follow no other, stand at 0.
     """
-    values = robot.symbol_values()
-    free = [joint for joint in robot.moving if joint.name not in robot.relations]
+    values = robot.evaluate_symbols()
+    free = [joint for joint in robot.moving_joints if joint.name not in robot.relations]
     values |= {joint.variable: float(q.get(joint.name, 0.0)) for joint in free}
     waiting = dict(robot.relations)
     while waiting:
         ready = [row for row, cell in waiting.items() if cell.names <= values.keys()]
         for row in ready or list(waiting):
-            values[f"q{row}"] = waiting.pop(row).number(values)
+            values[f"q{row}"] = waiting.pop(row).evaluate(values)
     return values
 
 
-def poses(robot: Robot, q: Mapping[str, float]) -> dict[str, Pose]:
+def compute_row_poses(robot: Robot, q: Mapping[str, float]) -> dict[str, Pose]:
     """Pose of every row's frame in frame 0, and of frame 0, by row."""
-    values, found = variables(robot, q), {BASE: Pose()}
+    values, poses = evaluate_variables(robot, q), {BASE: Pose()}
     for joint in robot.joints:
-        found[joint.name] = found[joint.antecedent] @ row_pose(joint, values)
-    return found
+        poses[joint.name] = poses[joint.antecedent] @ compute_row_pose(joint, values)
+    return poses
 
 
 # Loops.
@@ -93,7 +106,7 @@ CLOSED_BY = ("spherical", "position", "revolute", "rigid")
 """Kinds of loops that points which meet can state."""
 
 
-def closed(robot: Robot) -> dict[str, float]:
+def close_loops(robot: Robot) -> dict[str, float]:
     """Every joint variable at [home], by row, the passive ones moved until the loops close.
 
     Raises:
@@ -101,7 +114,7 @@ def closed(robot: Robot) -> dict[str, float]:
     """
     from scipy.optimize import least_squares  # a fit has no use for it
 
-    names = [joint.name for joint in robot.moving]
+    names = [joint.name for joint in robot.moving_joints]
     if robot.loops:
         for loop in robot.loops:
             if loop.kind not in CLOSED_BY:
@@ -109,25 +122,25 @@ def closed(robot: Robot) -> dict[str, float]:
                     f"{robot.name}: loop {loop.name} is {loop.kind}, which is not written; "
                     f"expected one of {', '.join(CLOSED_BY)}, or cut the loops"
                 )
-        given = {joint.name for joint in robot.coordinates} | set(robot.relations)
-        passive = [name for name in names if name not in given]
+        leading_rows = {joint.name for joint in robot.coordinates} | set(robot.relations)
+        passive = [name for name in names if name not in leading_rows]
 
-        def gaps(x: np.ndarray) -> np.ndarray:
-            at = poses(robot, {**robot.home, **dict(zip(passive, x, strict=True))})
-            return np.concatenate([_gap(loop, at) for loop in robot.loops])
+        def compute_gaps(x: np.ndarray) -> np.ndarray:
+            at = compute_row_poses(robot, {**robot.home, **dict(zip(passive, x, strict=True))})
+            return np.concatenate([_compute_gap(loop, at) for loop in robot.loops])
 
         start = np.array([robot.home.get(name, 0.0) for name in passive])
-        found = least_squares(gaps, start, xtol=1e-15, ftol=1e-15, gtol=1e-15)
-        if np.abs(found.fun).max() > _CLOSED:
+        solution = least_squares(compute_gaps, start, xtol=1e-15, ftol=1e-15, gtol=1e-15)
+        if np.abs(solution.fun).max() > _CLOSED:
             raise DataError(
                 f"{robot.name}: its loops do not close near [home]; find it with `modeler home`"
             )
-        robot = replace(robot, home={**robot.home, **dict(zip(passive, found.x, strict=True))})
-    values = variables(robot, robot.home)
+        robot = replace(robot, home={**robot.home, **dict(zip(passive, solution.x, strict=True))})
+    values = evaluate_variables(robot, robot.home)
     return {name: values[f"q{name}"] for name in names}
 
 
-def _gap(loop: Loop, at: Mapping[str, Pose]) -> np.ndarray:
+def _compute_gap(loop: Loop, at: Mapping[str, Pose]) -> np.ndarray:
     """What is left of a loop: the points apart, and the axes, m and rad."""
     apart = at[loop.frame].inverse() @ at[loop.meets]
     R = apart.rotation

@@ -7,11 +7,17 @@ from typing import Any
 
 import numpy as np
 
-from modeler.core.brief import Brief
-from modeler.core.result import Presentation, Presented, present
+from modeler.core.brief import ShortRepr
+from modeler.core.result import Presentation, Result, register_presentations
 from modeler.core.table import Table
-from modeler.exports.bodies import Physics, carried, deviations, sizes, written
-from modeler.exports.held import NotHeld
+from modeler.exports.bodies import (
+    ExportParameters,
+    compute_central_parameters,
+    compute_magnitudes,
+    express_parameters,
+    propagate_deviations,
+)
+from modeler.exports.held import LostEffect
 from modeler.robot import Joint, Pose
 
 _HEAD = b"<!-- modeler export: "
@@ -33,7 +39,7 @@ _SAME = 1e-9  # of the size of its kind: what is nearer has not changed
 
 
 @dataclass(frozen=True)
-class Value(Brief):
+class Value(ShortRepr):
     """A number of the file.
 
     Attributes:
@@ -56,7 +62,7 @@ class Value(Brief):
 
 
 @dataclass(frozen=True, eq=False)
-class Exported(Presented):
+class Exported(Result):
     """A file for another program.
 
     Attributes:
@@ -77,8 +83,8 @@ class Exported(Presented):
     like: str
     data: bytes
     values: tuple[Value, ...]
-    not_held: tuple[NotHeld, ...]
-    moved: float
+    lost_effects: tuple[LostEffect, ...]
+    shift_in_sigmas: float
     notes: tuple[str, ...]
     functions: Mapping[str, str] = field(default_factory=dict)
     files: Mapping[str, bytes] = field(default_factory=dict)
@@ -89,57 +95,70 @@ class Exported(Presented):
             "robot": self.robot,
             "format": self.format,
             "like": self.like or None,
-            "moved_sigmas": self.moved,
+            "moved_sigmas": self.shift_in_sigmas,
             "values": [vars(value) for value in self.values],
-            "not_held": [vars(lost) for lost in self.not_held],
+            "not_held": [vars(lost) for lost in self.lost_effects],
             "notes": list(self.notes),
             "functions": dict(self.functions),
             "files": sorted(self.files),
         }
 
 
-def numbers(values: Iterable[float]) -> str:
+def format_numbers(values: Iterable[float]) -> str:
     """Shortest decimals that read as the same numbers."""
     return " ".join(repr(float(x) + 0.0).removesuffix(".0") for x in values)
 
 
-def kept(now: np.ndarray, was: np.ndarray | None) -> np.ndarray:
-    """(10,) a body as `written`, with the numbers that were there where these are the same."""
+def keep_unchanged(now: np.ndarray, was: np.ndarray | None) -> np.ndarray:
+    """(10,) a body as `compute_central_parameters`.
+
+    With the numbers that were there where these " "are the same.
+    """
     if was is None:
         return now
-    return np.where(np.abs(now - was) <= _SAME * np.maximum(sizes(now), sizes(was)), was, now)
+    return np.where(
+        np.abs(now - was) <= _SAME * np.maximum(compute_magnitudes(now), compute_magnitudes(was)),
+        was,
+        now,
+    )
 
 
-def sigmas(
-    physics: Physics,
+def compute_sigmas(
+    physics: ExportParameters,
     row: str,
     pose: Pose | None = None,
-    hung: np.ndarray | float = 0.0,
+    attached_inertia: np.ndarray | float = 0.0,
     axes: np.ndarray | None = None,
 ) -> np.ndarray | None:
-    """(10,) standard deviations of the body of a row as `written`; None of a robot.
+    """(10,) standard deviations of the body of a row as `compute_central_parameters`.
+
+    None of a robot.
 
     Args:
         physics: all numbers.
         row: whose link it is.
         pose: of the frame of the body on the row.
-        hung: (10,) what hangs on it and keeps its numbers, in the frame of the row.
+        attached_inertia: (10,) what hangs on it and keeps its numbers, in the frame of the row.
         axes: (3, 3) along which its inertia is written, in its frame.
     """
     if physics.fit is None:
         return None
-    places, back = physics.ten_places(row), (pose or Pose()).inverse()
-    spread = physics.now.covariance[np.ix_(places, places)]
-    return deviations(
-        lambda ten: written(carried(ten - hung, back), axes), physics.now.chi[places], spread
+    places, back = physics.find_link_indices(row), (pose or Pose()).inverse()
+    spread = physics.completion.covariance[np.ix_(places, places)]
+    return propagate_deviations(
+        lambda ten: compute_central_parameters(
+            express_parameters(ten - attached_inertia, back), axes
+        ),
+        physics.completion.chi[places],
+        spread,
     )
 
 
-def body_values(
+def build_body_values(
     part: str, was: np.ndarray | None, now: np.ndarray, sigma: np.ndarray | None = None
 ) -> Iterator[Value]:
-    """The numbers of a body, as `written`."""
-    same = kept(now, was)
+    """The numbers of a body, as `compute_central_parameters`."""
+    same = keep_unchanged(now, was)
     for k, (quantity, unit) in enumerate(zip(QUANTITIES, _UNITS, strict=True)):
         before = None if was is None else float(was[k])
         deviation = None if sigma is None else float(sigma[k])
@@ -147,25 +166,32 @@ def body_values(
         yield Value(part, quantity, unit, before, float(now[k]), deviation, changed)
 
 
-def drive_values(
-    physics: Physics, joint: Joint, part: str, to: str, was: dict[str, float]
+def build_drive_values(
+    physics: ExportParameters, joint: Joint, part: str, to: str, was: dict[str, float]
 ) -> Iterator[Value]:
     """Damping, friction and the like of a joint."""
-    for quantity, terms in physics.drive(joint.name, to).items():
-        now, sigma = physics.value(terms)
-        unit, before = _DRIVE_UNITS[quantity][0 if joint.angular else 1], was.get(quantity)
+    for quantity, terms in physics.collect_drive_terms(joint.name, to).items():
+        now, sigma = physics.evaluate_sum(terms)
+        unit, before = _DRIVE_UNITS[quantity][0 if joint.is_revolute else 1], was.get(quantity)
         changed = before is None or abs(now - before) > _SAME * abs(now)
         deviation = sigma if physics.fit else None
         yield Value(part, quantity, unit, before, now, deviation, changed)
 
 
-def with_comment(data: bytes, found: Exported) -> bytes:
+def insert_comment(data: bytes, exported: Exported) -> bytes:
     """The file with what it holds as one comment at its head, in place of an earlier one."""
     data = _OURS.sub(b"", data, count=1)
-    lines = [f"{found.robot}: value, was, standard deviation"]
-    lines += [_line(value) for value in found.values if _told(value) or not found.like]
-    lines += [f"not held by {found.format.upper()}: {lost.line}" for lost in found.not_held]
-    lines += found.notes
+    lines = [f"{exported.robot}: value, was, standard deviation"]
+    lines += [
+        _format_line(value)
+        for value in exported.values
+        if _is_visible_change(value) or not exported.like
+    ]
+    lines += [
+        f"not held by {exported.format.upper()}: {lost.summary_line}"
+        for lost in exported.lost_effects
+    ]
+    lines += exported.notes
     text = "\n  ".join(lines).replace("--", "- -")
     head = _DECLARATION.match(data)
     at = head.end() if head else 0
@@ -175,56 +201,62 @@ def with_comment(data: bytes, found: Exported) -> bytes:
     return data[:at] + broken + comment + data[at:]
 
 
-def _told(value: Value) -> bool:
+def _is_visible_change(value: Value) -> bool:
     """Whether a number differs in the digits that are shown."""
     return value.changed and (value.was is None or f"{value.was:.6g}" != f"{value.now:.6g}")
 
 
-def _line(value: Value) -> str:
+def _format_line(value: Value) -> str:
     was = "none" if value.was is None else f"{value.was:.6g}"
     sigma = "" if value.sigma is None else f" +- {value.sigma:.2g}"
     return f"{value.part} {value.quantity}: {value.now:.6g}{sigma} {value.unit}, was {was}"
 
 
-def _title(found: Exported) -> str:
+def _format_title(exported: Exported) -> str:
     titles = {"casadi": "CasADi", "fmu": "FMU", "ros2": "package for ROS 2"}
-    return titles.get(found.format, found.format.upper())
+    return titles.get(exported.format, exported.format.upper())
 
 
-def _summary(found: Exported) -> str:
-    changed = sum(value.changed for value in found.values)
-    told = f" like {found.like}: {changed} of {len(found.values)} numbers changed"
-    first = f"{found.robot} as {_title(found)}"
-    first += told if found.like else f": {len(found.values)} numbers" * bool(found.values)
-    first += f"{',' if found.values else ':'} {len(found.functions)} functions" * bool(
-        found.functions
+def _format_summary(exported: Exported) -> str:
+    changed = sum(value.changed for value in exported.values)
+    change_text = f" like {exported.like}: {changed} of {len(exported.values)} numbers changed"
+    first = f"{exported.robot} as {_format_title(exported)}"
+    first += (
+        change_text
+        if exported.like
+        else f": {len(exported.values)} numbers" * bool(exported.values)
     )
-    lost = [f"{_title(found)} cannot hold {one.line}" for one in found.not_held]
-    return "\n".join([first, *found.notes, *lost])
+    first += f"{',' if exported.values else ':'} {len(exported.functions)} functions" * bool(
+        exported.functions
+    )
+    lost = [
+        f"{_format_title(exported)} cannot hold {one.summary_line}" for one in exported.lost_effects
+    ]
+    return "\n".join([first, *exported.notes, *lost])
 
 
-def _values_table(found: Exported, values: Iterable[Value]) -> Table:
+def _build_values_table(exported: Exported, values: Iterable[Value]) -> Table:
     rows = [(v.part, v.quantity, v.was, v.now, v.sigma, v.unit) for v in values]
     head = "part, quantity, was, is, sigma, unit"
-    return Table.of(f"{found.robot}: numbers of the file", head, rows)
+    return Table.build(f"{exported.robot}: numbers of the file", head, rows)
 
 
-def _lost_table(found: Exported) -> Table:
+def _build_lost_table(exported: Exported) -> Table:
     rows = [
         (one.effect, one.joint, ", ".join(f"{n} = {x:.4g}" for n, x in one.values.items()),
          one.share, one.of)
-        for one in found.not_held
+        for one in exported.lost_effects
     ]  # fmt: skip
     head = "effect, joint, values, share, of"
-    return Table.of(f"{found.robot}: what {_title(found)} cannot hold", head, rows)
+    return Table.build(f"{exported.robot}: what {_format_title(exported)} cannot hold", head, rows)
 
 
-present({
-    Exported: Presentation("a file for another program", _summary, lambda found: {
-        "values": lambda: _values_table(found, found.values),
-        "changed": lambda: _values_table(found, filter(_told, found.values)),
-        "not held": lambda: _lost_table(found),
-        "functions": lambda: Table.of(
+register_presentations({
+    Exported: Presentation("a file for another program", _format_summary, lambda found: {
+        "values": lambda: _build_values_table(found, found.values),
+        "changed": lambda: _build_values_table(found, filter(_is_visible_change, found.values)),
+        "not held": lambda: _build_lost_table(found),
+        "functions": lambda: Table.build(
             f"{found.robot}: functions", "function, arguments", [*found.functions.items()]
         ),
     }, page=("values", "not held")),

@@ -10,18 +10,25 @@ from modeler.core.errors import DataError
 from modeler.estimation import IdentifiedModel
 from modeler.exports.bodies import (
     Equations,
+    ExportParameters,
     Original,
-    Physics,
-    physics_of,
-    robot_of,
-    symmetric,
-    written,
+    build_export_parameters,
+    build_symmetric_matrix,
+    compute_central_parameters,
+    get_robot,
 )
-from modeler.exports.fresh import LEAST, Names, fresh
-from modeler.exports.held import Torques, not_held
-from modeler.exports.like import rewritten
-from modeler.exports.original import TENSOR, original_of, placed, source_of
-from modeler.exports.result import Exported, Value, body_values, drive_values, sigmas, with_comment
+from modeler.exports.fresh import LEAST, Names, format_new_file
+from modeler.exports.held import Torques, find_lost_effects
+from modeler.exports.like import rewrite_file
+from modeler.exports.original import TENSOR, assign_links, collect_original, read_original
+from modeler.exports.result import (
+    Exported,
+    Value,
+    build_body_values,
+    build_drive_values,
+    compute_sigmas,
+    insert_comment,
+)
 from modeler.robot import Robot
 
 ENDINGS = {
@@ -34,7 +41,7 @@ FORMATS = ("urdf", "mjcf", "sdf", "casadi", "fmu", "simulink", "ros2")
 """All that --to may name."""
 
 
-def format_of(to: str | None, like: str, out: str) -> str:
+def choose_format(to: str | None, like: str, out: str) -> str:
     """The format that is meant; "" where the original says it.
 
     Raises:
@@ -51,8 +58,8 @@ def format_of(to: str | None, like: str, out: str) -> str:
     return ENDINGS[ending]
 
 
-def exported(
-    thing: Robot | IdentifiedModel,
+def export_robot(
+    robot_or_model: Robot | IdentifiedModel,
     to: str = "",
     like: Path | None = None,
     torques: Torques | None = None,
@@ -61,7 +68,7 @@ def exported(
     """The file, and what it holds.
 
     Args:
-        thing: a robot with values, or a model.
+        robot_or_model: a robot with values, or a model.
         to: "urdf", "mjcf", "sdf"; "" for that of the original.
         like: the original whose numbers are replaced; None for a file of its own.
         torques: of the logs of the fit, see `held`.
@@ -71,57 +78,72 @@ def exported(
         DataError: no values, another robot, or what the format cannot state.
         RobotError: a mistake in the original.
     """
-    robot = robot_of(thing)
+    robot = get_robot(robot_or_model)
     if like is None:
-        physics, notes = physics_of(thing, Original(), equations), list[str]()
-        data, values = fresh(physics, to, notes), list(_values(physics, to))
+        physics, notes = build_export_parameters(robot_or_model, Original(), equations), list[str]()
+        data, values = format_new_file(physics, to, notes), list(_build_values(physics, to))
     else:
-        source = source_of(like)
+        source = read_original(like)
         if to and to != source.format:
             raise DataError(
                 f"--like {like}: is {source.format.upper()}, and --to or the ending of --out says "
                 f"{to}; leave out --like for a file of another format"
             )
-        to, there = source.format, placed(source, robot)
-        physics, notes = physics_of(thing, original_of(there.links)), list(there.notes)
-        data, values = rewritten(physics, source, there, notes)
-    notes = [*physics.notes, *notes, *_too_small(values, to)]
-    lost = not_held(physics, to, torques)
+        to, placement = source.format, assign_links(source, robot)
+        physics, notes = (
+            build_export_parameters(robot_or_model, collect_original(placement.links)),
+            list(placement.notes),
+        )
+        data, values = rewrite_file(physics, source, placement, notes)
+    notes = [*physics.notes, *notes, *_find_too_small(values, to)]
+    lost = find_lost_effects(physics, to, torques)
     name = "" if like is None else like.name
-    found = Exported(
-        robot.name, to, name, data, tuple(values), lost, physics.now.moved, tuple(notes)
+    exported = Exported(
+        robot.name,
+        to,
+        name,
+        data,
+        tuple(values),
+        lost,
+        physics.completion.shift_in_sigmas,
+        tuple(notes),
     )
     if like is not None and data == source.data:
-        return found
-    return dataclasses.replace(found, data=with_comment(data, found))
+        return exported
+    return dataclasses.replace(exported, data=insert_comment(data, exported))
 
 
-def _values(physics: Physics, to: str) -> Iterator[Value]:
+def _build_values(physics: ExportParameters, to: str) -> Iterator[Value]:
     """The numbers of a file of its own, and what the robot file says of them."""
-    names = Names.of(physics.robot)
-    for joint in physics.robot.moving:
-        ten = physics.ten(joint.name)
+    names = Names.choose_names(physics.robot)
+    for joint in physics.robot.moving_joints:
+        ten = physics.get_link_parameters(joint.name)
         if ten is not None and ten[9]:
-            given = physics.stated_before(joint.name)
-            was = None if given is None else written(given)
-            sigma = sigmas(physics, joint.name)
-            yield from body_values(names.links[joint.name], was, written(ten), sigma)
+            nominal = physics.get_nominal_parameters(joint.name)
+            was = None if nominal is None else compute_central_parameters(nominal)
+            sigma = compute_sigmas(physics, joint.name)
+            yield from build_body_values(
+                names.links[joint.name], was, compute_central_parameters(ten), sigma
+            )
         stated = {
             quantity: sum(c * physics.nominal[name] for name, c in terms.items())
-            for quantity, terms in physics.drive(joint.name, to).items()
+            for quantity, terms in physics.collect_drive_terms(joint.name, to).items()
             if terms.keys() <= physics.nominal.keys()
         }
-        yield from drive_values(physics, joint, names.joints[joint.name], to, stated)
+        yield from build_drive_values(physics, joint, names.joints[joint.name], to, stated)
 
 
-def _too_small(values: Iterable[Value], to: str) -> Iterator[str]:
+def _find_too_small(values: Iterable[Value], to: str) -> Iterator[str]:
     """Tells of bodies that MuJoCo refuses."""
     bodies: dict[str, list[float]] = {}
     for value in values:
         if value.quantity in TENSOR:
             bodies.setdefault(value.part, []).append(value.now)
-    small = [name for name, six in bodies.items()
-             if 0.0 < np.linalg.eigvalsh(symmetric(np.array(six)))[0] < LEAST]  # fmt: skip
+    small = [
+        name
+        for name, six in bodies.items()
+        if 0.0 < np.linalg.eigvalsh(build_symmetric_matrix(np.array(six)))[0] < LEAST
+    ]
     if small and to != "sdf":
         yield (
             f"{', '.join(small)}: too small for MuJoCo, which takes no moment of inertia below "

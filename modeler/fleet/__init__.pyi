@@ -1,22 +1,22 @@
 from . import result as result
-from .fleet import fleet_of as fleet_of
+from .fleet import analyse_fleet as analyse_fleet
 from .naming import (
-    Named as Named,
-    in_order as in_order,
-    listed_logs as listed_logs,
-    named_logs as named_logs,
+    LogName as LogName,
+    arrange_logs as arrange_logs,
+    name_logs as name_logs,
+    read_log_list as read_log_list,
 )
 from .result import (
     Fleet as Fleet,
     FleetFinding as FleetFinding,
-    Followed as Followed,
-    Values as Values,
-    fleet_lines as fleet_lines,
+    QuantityHistory as QuantityHistory,
+    QuantityValues as QuantityValues,
+    format_fleet as format_fleet,
 )
 from .summary import (
     LogJob as LogJob,
     LogSummary as LogSummary,
     SkippedLog as SkippedLog,
     reduce_log as reduce_log,
-    summary as summary,
+    summarise_log as summarise_log,
 )

@@ -10,7 +10,7 @@ from typing import Literal
 import numpy as np
 from scipy.special import digamma, ndtri, polygamma, stdtr, stdtrit
 
-from modeler.fleet.naming import natural
+from modeler.fleet.naming import make_natural_key
 from modeler.fleet.summary import LogSummary
 
 Shape = Literal["trend", "jump", "one period"]
@@ -35,7 +35,7 @@ class PeriodSeries:
     sigmas: np.ndarray
 
     @property
-    def changes(self) -> np.ndarray:
+    def standardised_changes(self) -> np.ndarray:
         """From each period to the next, in standard deviations, the machine's usual one taken out.
 
         With three periods, what a straight line leaves; with two, the change itself.
@@ -63,12 +63,12 @@ class Scatter:
     degrees: float
     factor: float
 
-    def sigmas(self, series: PeriodSeries) -> np.ndarray:
+    def compute_sigmas(self, series: PeriodSeries) -> np.ndarray:
         """(p,) standard deviations of the values of a series that stays."""
         return np.hypot(series.sigmas, self.extra)
 
 
-def scatters(groups: Sequence[Sequence[PeriodSeries]]) -> list[Scatter]:
+def estimate_scatters(groups: Sequence[Sequence[PeriodSeries]]) -> list[Scatter]:
     """The scatter of each quantity, from all machines, moderated by all other quantities.
 
     Few changes say little of a variance: that of each quantity is drawn to the usual one, the more
@@ -78,31 +78,36 @@ def scatters(groups: Sequence[Sequence[PeriodSeries]]) -> list[Scatter]:
     Args:
         groups: the series of all machines, quantity by quantity.
     """
-    changes = [np.concatenate([np.zeros(0), *(own.changes for own in group)]) for group in groups]
-    degrees = np.array([_EFFICIENCY * len(own) for own in changes])
-    squares = np.array([_trimmed(own) for own in changes])
-    usual, prior = _typical_variance(squares[squares > 0.0], degrees[squares > 0.0])
-    found = []
-    for group, square, own in zip(groups, squares, degrees, strict=True):
-        variance = (own * square + prior * usual) / max(own + prior, 1e-9)
+    changes = [
+        np.concatenate([np.zeros(0), *(entry.standardised_changes for entry in group)])
+        for group in groups
+    ]
+    degrees = np.array([_EFFICIENCY * len(entry) for entry in changes])
+    squares = np.array([_estimate_trimmed_variance(entry) for entry in changes])
+    usual, prior = _estimate_typical_variance(squares[squares > 0.0], degrees[squares > 0.0])
+    scatters = []
+    for group, square, entry in zip(groups, squares, degrees, strict=True):
+        variance = (entry * square + prior * usual) / max(entry + prior, 1e-9)
         extra = max(0.0, variance - 1.0)
         sigmas = np.concatenate([np.zeros(0), *(series.sigmas for series in group)])
         size = float(np.sqrt(np.median(sigmas**2))) if sigmas.size else 0.0
-        found.append(Scatter(np.sqrt(extra) * size, max(1.0, own + prior), np.sqrt(1.0 + extra)))
-    return found
+        scatters.append(
+            Scatter(np.sqrt(extra) * size, max(1.0, entry + prior), np.sqrt(1.0 + extra))
+        )
+    return scatters
 
 
-def _trimmed(changes: np.ndarray) -> float:
+def _estimate_trimmed_variance(changes: np.ndarray) -> float:
     """Variance of normal numbers of mean 0 from the smaller ones; 0 without any."""
     count = len(changes)
     if not count:
         return 0.0
-    kept = int(np.ceil(_KEPT * count))
-    expected = ndtri(0.5 + 0.5 * (np.arange(1, kept + 1) - 0.375) / (count + 0.25))
-    return float(np.sum(np.sort(changes**2)[:kept]) / np.sum(expected**2))
+    used_count = int(np.ceil(_KEPT * count))
+    expected = ndtri(0.5 + 0.5 * (np.arange(1, used_count + 1) - 0.375) / (count + 0.25))
+    return float(np.sum(np.sort(changes**2)[:used_count]) / np.sum(expected**2))
 
 
-def _typical_variance(squares: np.ndarray, degrees: np.ndarray) -> tuple[float, float]:
+def _estimate_typical_variance(squares: np.ndarray, degrees: np.ndarray) -> tuple[float, float]:
     """Variance that quantities have, and the degrees of freedom that it stands for.
 
     Moments of log s^2: mean log s0^2 + (digamma - log)(d / 2) - (digamma - log)(d0 / 2), variance
@@ -113,8 +118,8 @@ def _typical_variance(squares: np.ndarray, degrees: np.ndarray) -> tuple[float, 
     half = 0.5 * degrees
     logs = np.log(squares) - digamma(half) + np.log(half)
     spread = float(np.var(logs, ddof=1) - np.mean(polygamma(1, half)))
-    tried = np.geomspace(0.1, _MOST_PRIOR, 100)
-    prior = float(tried[np.argmin(np.abs(polygamma(1, 0.5 * tried) - max(spread, 0.0)))])
+    grid = np.geomspace(0.1, _MOST_PRIOR, 100)
+    prior = float(grid[np.argmin(np.abs(polygamma(1, 0.5 * grid) - max(spread, 0.0)))])
     return float(np.exp(np.mean(logs) + digamma(0.5 * prior) - np.log(0.5 * prior))), prior
 
 
@@ -141,7 +146,7 @@ class Drift:
     chance: float
 
 
-def move_of(series: PeriodSeries, scatter: Scatter) -> Drift | None:
+def fit_drift(series: PeriodSeries, scatter: Scatter) -> Drift | None:
     """The best description of what a series does; None for one period.
 
     Weighted least squares of a constant and one shape, each shape in turn; the chance is that of
@@ -149,25 +154,25 @@ def move_of(series: PeriodSeries, scatter: Scatter) -> Drift | None:
     """
     if len(series.at) < 2:
         return None
-    sigma = scatter.sigmas(series)
-    tried = [_moved(series, sigma, *shape) for shape in _shapes(series.at)]
-    best = max(tried, key=lambda move: abs(move.score))
-    chance = 2.0 * float(stdtr(scatter.degrees, -abs(best.score))) * len(tried)
+    sigma = scatter.compute_sigmas(series)
+    fits = [_fit_shape(series, sigma, *shape) for shape in _build_shapes(series.at)]
+    best = max(fits, key=lambda move: abs(move.score))
+    chance = 2.0 * float(stdtr(scatter.degrees, -abs(best.score))) * len(fits)
     return dataclasses.replace(best, chance=min(1.0, chance))
 
 
-def _shapes(at: np.ndarray) -> list[tuple[Shape, int, np.ndarray]]:
+def _build_shapes(at: np.ndarray) -> list[tuple[Shape, int, np.ndarray]]:
     periods = len(at)
     place = np.arange(periods)
-    found: list[tuple[Shape, int, np.ndarray]] = []
+    shapes: list[tuple[Shape, int, np.ndarray]] = []
     if periods > 2:
-        found.append(("trend", 0, (at - at[0]) / (at[-1] - at[0])))
-    found += [("jump", i, (place >= i).astype(float)) for i in range(1, periods)]
-    found += [("one period", i, (place == i).astype(float)) for i in range(1, periods - 1)]
-    return found
+        shapes.append(("trend", 0, (at - at[0]) / (at[-1] - at[0])))
+    shapes += [("jump", i, (place >= i).astype(float)) for i in range(1, periods)]
+    shapes += [("one period", i, (place == i).astype(float)) for i in range(1, periods - 1)]
+    return shapes
 
 
-def _moved(
+def _fit_shape(
     series: PeriodSeries, sigma: np.ndarray, shape: Shape, begin: int, column: np.ndarray
 ) -> Drift:
     weights = 1.0 / sigma**2
@@ -179,13 +184,13 @@ def _moved(
     return Drift(shape, begin, change, float(1.0 / np.sqrt(spread)), level, float(score), 1.0)
 
 
-def line_of(move: Drift, at: np.ndarray) -> np.ndarray:
+def compute_line(move: Drift, at: np.ndarray) -> np.ndarray:
     """(p,) what a move adds to the level at each period."""
-    columns = {(shape, begin): column for shape, begin, column in _shapes(at)}
+    columns = {(shape, begin): column for shape, begin, column in _build_shapes(at)}
     return move.change * columns[move.shape, move.begin]
 
 
-def least_detectable(series: PeriodSeries, scatter: Scatter, level: float) -> float:
+def compute_smallest_detectable(series: PeriodSeries, scatter: Scatter, level: float) -> float:
     """The smallest straight drift over all periods that would be told at this chance.
 
     Args:
@@ -193,12 +198,12 @@ def least_detectable(series: PeriodSeries, scatter: Scatter, level: float) -> fl
         scatter: of the quantity.
         level: chance that one series may have.
     """
-    shapes = _shapes(series.at)
-    move = _moved(series, scatter.sigmas(series), *shapes[0])
-    return move.sigma * quantile(scatter.degrees, level / len(shapes))
+    shapes = _build_shapes(series.at)
+    move = _fit_shape(series, scatter.compute_sigmas(series), *shapes[0])
+    return move.sigma * compute_quantile(scatter.degrees, level / len(shapes))
 
 
-def quantile(degrees: float, chance: float) -> float:
+def compute_quantile(degrees: float, chance: float) -> float:
     """|t| that Student's t exceeds with that chance, both sides together."""
     return float(-stdtrit(degrees, 0.5 * chance))
 
@@ -215,32 +220,32 @@ _DATE = re.compile(
 _DAY = 86400.0  # s
 
 
-def in_time(summaries: Sequence[LogSummary]) -> tuple[list[LogSummary], np.ndarray, Unit]:
+def arrange_by_time(summaries: Sequence[LogSummary]) -> tuple[list[LogSummary], np.ndarray, Unit]:
     """The logs machine after machine in order of time, when each is, and in what that counts.
 
     Dates in the names of all periods rule; else the clocks of the logs, where those of each machine
     do not overlap (logs that each begin at 0 do); else the names in natural order.
     """
-    dates = [date_of(each.named.period) for each in summaries]
+    dates = [parse_date(each.log_name.period) for each in summaries]
     if all(date is not None for date in dates):
         days = np.array([0.0 if date is None else date.timestamp() for date in dates]) / _DAY
-        if _disjoint(summaries, days, days):
-            return _ordered(summaries, days, "days")
+        if _is_disjoint(summaries, days, days):
+            return _arrange_logs(summaries, days, "days")
     starts, ends = (np.array([each.span[k] for each in summaries]) / _DAY for k in (0, 1))
-    several = len({each.named.machine for each in summaries}) < len(summaries)
-    if several and _disjoint(summaries, starts, ends):
-        return _ordered(summaries, starts, "days")
-    keys = sorted({each.named.period for each in summaries}, key=natural)
-    places = np.array([float(keys.index(each.named.period)) for each in summaries])
-    return _ordered(summaries, places, "periods")
+    several = len({each.log_name.machine for each in summaries}) < len(summaries)
+    if several and _is_disjoint(summaries, starts, ends):
+        return _arrange_logs(summaries, starts, "days")
+    keys = sorted({each.log_name.period for each in summaries}, key=make_natural_key)
+    places = np.array([float(keys.index(each.log_name.period)) for each in summaries])
+    return _arrange_logs(summaries, places, "periods")
 
 
-def date_of(period: str) -> datetime.datetime | None:
+def parse_date(period: str) -> datetime.datetime | None:
     """The day, and hour if it is there, that a name says, as 2026-03-01 or 20260301_0930."""
-    found = _DATE.search(period)
-    if found is None:
+    match = _DATE.search(period)
+    if match is None:
         return None
-    parts = [int(part) for part in found.groups() if part is not None]
+    parts = [int(part) for part in match.groups() if part is not None]
     try:
         year, month, day, hour, minute, second = (*parts, 0, 0, 0)[:6]
         return datetime.datetime(year, month, day, hour, minute, second, tzinfo=datetime.UTC)
@@ -248,22 +253,22 @@ def date_of(period: str) -> datetime.datetime | None:
         return None
 
 
-def _disjoint(summaries: Sequence[LogSummary], starts: np.ndarray, ends: np.ndarray) -> bool:
+def _is_disjoint(summaries: Sequence[LogSummary], starts: np.ndarray, ends: np.ndarray) -> bool:
     """True if no two logs of a machine overlap, or begin together."""
-    machines = np.array([each.named.machine for each in summaries])
+    machines = np.array([each.log_name.machine for each in summaries])
     for machine in set(machines):
-        own = np.flatnonzero(machines == machine)
-        order = own[np.argsort(starts[own], kind="stable")]
+        log_indices = np.flatnonzero(machines == machine)
+        order = log_indices[np.argsort(starts[log_indices], kind="stable")]
         later, earlier = starts[order][1:], ends[order][:-1]
         if np.any(later <= starts[order][:-1]) or np.any(later < earlier):
             return False
     return True
 
 
-def _ordered(
+def _arrange_logs(
     summaries: Sequence[LogSummary], at: np.ndarray, unit: Unit
 ) -> tuple[list[LogSummary], np.ndarray, Unit]:
-    machines = [natural(each.named.machine) for each in summaries]
+    machines = [make_natural_key(each.log_name.machine) for each in summaries]
     order = sorted(range(len(summaries)), key=lambda k: (machines[k], at[k]))
     return [summaries[k] for k in order], at[order] - at.min(), unit
 
@@ -295,7 +300,7 @@ class Outlier:
     score: float
 
 
-def critical_deviate(count: int, step: int, chance: float) -> float:
+def compute_critical_deviate(count: int, step: int, chance: float) -> float:
     """What the most extreme of `count` normal numbers less `step` - 1 exceeds with that chance.
 
     (Rosner 1983, eq. 2.5), lambda = (n - i) t / sqrt((n - i - 1 + t^2) (n - i + 1)), t with
@@ -307,11 +312,13 @@ def critical_deviate(count: int, step: int, chance: float) -> float:
         chance: of the larger of both sides.
     """
     left = count - step
-    t = quantile(left - 1, chance / (left + 1))
+    t = compute_quantile(left - 1, chance / (left + 1))
     return float(left * t / np.sqrt((left - 1 + t**2) * (left + 1)))
 
 
-def outlying_machines(values: np.ndarray, sigmas: np.ndarray, chance: float) -> tuple[Outlier, ...]:
+def find_outlying_machines(
+    values: np.ndarray, sigmas: np.ndarray, chance: float
+) -> tuple[Outlier, ...]:
     """Machines apart, by the generalized extreme Studentized deviate.
 
     The most extreme machine is taken away, then the next, up to three and every fifth; the odd ones
@@ -341,10 +348,10 @@ def outlying_machines(values: np.ndarray, sigmas: np.ndarray, chance: float) -> 
         deviate = abs(values[most] - rest.mean()) / spread
         left.remove(most)
         taken.append(most)
-        last = i if deviate > critical_deviate(count, i, chance / steps) else last
+        last = i if deviate > compute_critical_deviate(count, i, chance / steps) else last
     others = [k for k in np.flatnonzero(np.isfinite(values)) if k not in taken[:last]]
     middle, spread = float(np.median(values[others])), float(np.std(values[others], ddof=1))
-    beyond = quantile(1e9, chance / count)
+    beyond = compute_quantile(1e9, chance / count)
     return tuple(
         Outlier(int(k), difference, spread, difference / spread)
         for k in taken[:last]

@@ -14,12 +14,12 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from modeler.core.brief import Brief
+from modeler.core.brief import ShortRepr
 from modeler.core.errors import DataError
 from modeler.core.manifest import ModuleSpec
-from modeler.estimation import least_squares, solve_by_qr
+from modeler.estimation import solve_by_qr, solve_least_squares
 from modeler.fleet.summary import LogSummary
-from modeler.numerics.least_squares import independent_columns, triangle
+from modeler.numerics.least_squares import compute_triangle, find_independent_columns
 
 # What of a robot may drift, and what a fleet has in common.
 
@@ -32,7 +32,7 @@ _SAME = 1e-8  # what is left of a column, as a share of its length, counts as ze
 
 
 @dataclass(frozen=True)
-class Quantity(Brief):
+class Quantity(ShortRepr):
     """What may drift.
 
     Attributes:
@@ -51,19 +51,19 @@ class Quantity(Brief):
     unit: str
     column: int
     place: int
-    own: bool = True
+    is_of_joint: bool = True
 
     @property
-    def whose(self) -> str:
+    def description(self) -> str:
         """In words: "joint 2"."""
         return "the load" if self.joint is None else f"joint {self.joint}"
 
 
-_LOAD = Quantity(LOAD, None, "load", "kg", -1, -1, own=False)
+_LOAD = Quantity(LOAD, None, "load", "kg", -1, -1, is_of_joint=False)
 
 
 @dataclass(frozen=True, eq=False)
-class Layout:
+class FleetLayout:
     """Columns of a fleet's equations; c base parameters, n joints.
 
     Attributes:
@@ -83,17 +83,17 @@ class Layout:
         return (*self.drifting, _LOAD) if self.load.shape[1] else self.drifting
 
     @property
-    def columns(self) -> list[int]:
+    def drift_columns(self) -> list[int]:
         """Base parameters that may drift."""
         return [q.column for q in self.drifting if q.column >= 0]
 
     @property
-    def gains(self) -> list[int]:
+    def gain_joints(self) -> list[int]:
         """Joints that have a gain, in the order in which these stand."""
         return [q.place for q in self.drifting if q.effect == GAIN]
 
 
-def layout_of(spec: ModuleSpec) -> Layout:
+def build_layout(spec: ModuleSpec) -> FleetLayout:
     """What may drift of a robot."""
     joints = {joint.name: j for j, joint in enumerate(spec.joints)}
     standard = {parameter.name: parameter for parameter in spec.standard}
@@ -107,7 +107,7 @@ def layout_of(spec: ModuleSpec) -> Layout:
         place = joints.get(whose.joint, -1)
         drifting.append(
             Quantity(whose.effect, whose.joint, base.name, base.unit, column, place,
-                     own=base.rows == (place,))
+                     is_of_joint=base.rows == (place,))
         )  # fmt: skip
     if common.any():
         drifting += [
@@ -115,14 +115,14 @@ def layout_of(spec: ModuleSpec) -> Layout:
             for j, joint in enumerate(spec.joints)
             if joint.actuated
         ]
-    return Layout(tuple(drifting), common, _load(spec))
+    return FleetLayout(tuple(drifting), common, _build_load_columns(spec))
 
 
-def _load(spec: ModuleSpec) -> np.ndarray:
+def _build_load_columns(spec: ModuleSpec) -> np.ndarray:
     """(c, r), independent columns; none if the load's mass changes no base parameter."""
     closure = spec.closure
     link = spec.joints[-1].name if closure is None else closure.carrier or closure.variables[-1]
-    kept: list[np.ndarray] = []
+    columns: list[np.ndarray] = []
     basis = np.zeros((len(spec.base), 0))
     for letters in _LOAD_ORDER:
         column = np.array([
@@ -136,9 +136,9 @@ def _load(spec: ModuleSpec) -> np.ndarray:
         for _ in range(2):
             rest = rest - basis @ (basis.T @ rest)
         if np.linalg.norm(rest) > _SAME:
-            kept.append(column)
+            columns.append(column)
             basis = np.column_stack([basis, rest / np.linalg.norm(rest)])
-    return np.column_stack(kept) if kept else np.zeros((len(spec.base), 0))
+    return np.column_stack(columns) if columns else np.zeros((len(spec.base), 0))
 
 
 _ROUNDS = 3  # of theta and gains
@@ -174,12 +174,12 @@ class FleetFit:
     """
 
     theta: np.ndarray
-    aside: tuple[str, ...]
+    unidentified: tuple[str, ...]
     logs: tuple[LogFit, ...]
-    loaded: tuple[LogFit, ...]
+    load_fits: tuple[LogFit, ...]
 
 
-def joint_fit(layout: Layout, summaries: Sequence[LogSummary]) -> FleetFit:
+def fit_fleet(layout: FleetLayout, summaries: Sequence[LogSummary]) -> FleetFit:
     """The fit of all logs together.
 
     Raises:
@@ -190,90 +190,95 @@ def joint_fit(layout: Layout, summaries: Sequence[LogSummary]) -> FleetFit:
             "the robot file has no friction and no offset, and no torque that a gain could scale: "
             "nothing can drift; name viscous, coulomb and offset under [effects], or --effects"
         )
-    sigmas = [least_squares(each.data).sigma for each in summaries]
+    sigmas = [solve_least_squares(each.data).sigma for each in summaries]
     scale = np.ones((len(summaries), len(summaries[0].data.rows)))
     for _ in range(_ROUNDS):
-        theta, aside = _common(layout, summaries, sigmas, scale)
-        blocks = _gain_blocks(layout, theta, scale.shape[1])
-        logs = _log_fits(summaries, sigmas, theta, blocks)
-        updated = _scales(layout, logs, scale.shape)
+        theta, unidentified = _fit_common(layout, summaries, sigmas, scale)
+        blocks = _build_gain_blocks(layout, theta, scale.shape[1])
+        logs = _fit_logs(summaries, sigmas, theta, blocks)
+        updated = _compute_scales(layout, logs, scale.shape)
         if np.allclose(updated, scale, rtol=0.0, atol=1e-6):
             break
         scale = updated
-    loaded: tuple[LogFit, ...] = ()
+    load_fits: tuple[LogFit, ...] = ()
     if layout.load.shape[1]:  # every log with a load in place of gains
-        blocks = [np.column_stack([_units(layout), layout.load])] * scale.shape[1]
-        loaded = _log_fits(summaries, sigmas, theta, blocks)
-    return FleetFit(theta, aside, logs, loaded)
+        blocks = [np.column_stack([_build_unit_columns(layout), layout.load])] * scale.shape[1]
+        load_fits = _fit_logs(summaries, sigmas, theta, blocks)
+    return FleetFit(theta, unidentified, logs, load_fits)
 
 
-def _common(
-    layout: Layout, summaries: Sequence[LogSummary], sigmas: Sequence[np.ndarray], scale: np.ndarray
+def _fit_common(
+    layout: FleetLayout,
+    summaries: Sequence[LogSummary],
+    sigmas: Sequence[np.ndarray],
+    scale: np.ndarray,
 ) -> tuple[np.ndarray, tuple[str, ...]]:
     """Theta (c,) of all logs with their friction and offsets eliminated, and what is set aside."""
     if not layout.common.any():
         return np.zeros(len(layout.common)), ()
     width, common = len(layout.common), np.flatnonzero(layout.common)
-    order = [*layout.columns, *common, width]
+    order = [*layout.drift_columns, *common, width]
     whole = np.zeros((0, len(common) + 1))
-    for each, sigma, own in zip(summaries, sigmas, scale, strict=True):
+    for each, sigma, log_scale in zip(summaries, sigmas, scale, strict=True):
         data = dataclasses.replace(each.data, triangles=each.data.triangles.copy())
-        data.triangles[:, :, -1] /= own[:, None]
-        below = triangle(data.whole(sigma)[:, order])[len(layout.columns) :]
-        whole = triangle(np.vstack([whole, below[:, len(layout.columns) :]]))
+        data.triangles[:, :, -1] /= log_scale[:, None]
+        below = compute_triangle(data.combine_joints(sigma)[:, order])[len(layout.drift_columns) :]
+        whole = compute_triangle(np.vstack([whole, below[:, len(layout.drift_columns) :]]))
     names = [summaries[0].data.names[i] for i in common]
-    rank = independent_columns(whole[:, :-1], names)
-    kept = list(rank.kept)
+    rank = find_independent_columns(whole[:, :-1], names)
+    used_columns = list(rank.kept_columns)
     theta = np.zeros(width)
-    if kept:
-        theta[common[kept]] = solve_by_qr(whole[:, kept], whole[:, -1])[0]
-    return theta, tuple(tangle.name for tangle in rank.aside)
+    if used_columns:
+        theta[common[used_columns]] = solve_by_qr(whole[:, used_columns], whole[:, -1])[0]
+    return theta, tuple(tangle.name for tangle in rank.dropped_columns)
 
 
 Blocks = Sequence[np.ndarray]
 """(c, d) for each joint: what of its columns each of the d unknowns is."""
 
 
-def _gain_blocks(layout: Layout, theta: np.ndarray, joints: int) -> Blocks:
+def _build_gain_blocks(layout: FleetLayout, theta: np.ndarray, joints: int) -> Blocks:
     """Friction, offset and gains."""
-    own, nothing = _units(layout), np.zeros(len(theta))
+    unit_columns, nothing = _build_unit_columns(layout), np.zeros(len(theta))
     return [
-        np.column_stack([own, *(theta if place == j else nothing for place in layout.gains)])
+        np.column_stack(
+            [unit_columns, *(theta if place == j else nothing for place in layout.gain_joints)]
+        )
         for j in range(joints)
     ]
 
 
-def _units(layout: Layout) -> np.ndarray:
-    return np.eye(len(layout.common))[:, layout.columns]
+def _build_unit_columns(layout: FleetLayout) -> np.ndarray:
+    return np.eye(len(layout.common))[:, layout.drift_columns]
 
 
-def _log_fits(
+def _fit_logs(
     summaries: Sequence[LogSummary], sigmas: Sequence[np.ndarray], theta: np.ndarray, blocks: Blocks
 ) -> tuple[LogFit, ...]:
     pairs = zip(summaries, sigmas, strict=True)
-    return tuple(_log_fit(each, sigma, theta, blocks) for each, sigma in pairs)
+    return tuple(_fit_log(each, sigma, theta, blocks) for each, sigma in pairs)
 
 
-def _log_fit(each: LogSummary, sigma: np.ndarray, theta: np.ndarray, blocks: Blocks) -> LogFit:
+def _fit_log(each: LogSummary, sigma: np.ndarray, theta: np.ndarray, blocks: Blocks) -> LogFit:
     """Least squares of one log beside theta."""
-    own = sigma
+    joint_sigma = sigma
     for _ in range(2):  # weights from the residuals of this very fit
-        kept, values, root, left = _solved(each, own, theta, blocks)
+        used_columns, values, root, left = _solve_log(each, joint_sigma, theta, blocks)
         spread = left / np.sqrt(np.maximum(each.data.rows - 1, 1))
-        own = np.maximum(spread, sigma)
+        joint_sigma = np.maximum(spread, sigma)
     bread = root @ root.T
     middle = np.zeros_like(bread)
     for j, block in enumerate(blocks):
-        z = block[:, kept]
-        middle += z.T @ each.repeats[j] @ z / own[j] ** 2
+        z = block[:, used_columns]
+        middle += z.T @ each.repeats[j] @ z / joint_sigma[j] ** 2
     white = np.diag(bread)
     ratio = np.maximum(1.0 + np.diag(bread @ middle @ bread) / white, 1.0)
-    found, sigmas = (np.full(blocks[0].shape[1], np.nan) for _ in range(2))
-    found[kept], sigmas[kept] = values, np.sqrt(white * ratio)
-    return LogFit(found, sigmas, float(np.sum((left / sigma) ** 2) + ratio.sum()))
+    all_values, sigmas = (np.full(blocks[0].shape[1], np.nan) for _ in range(2))
+    all_values[used_columns], sigmas[used_columns] = values, np.sqrt(white * ratio)
+    return LogFit(all_values, sigmas, float(np.sum((left / sigma) ** 2) + ratio.sum()))
 
 
-def _solved(
+def _solve_log(
     each: LogSummary, sigma: np.ndarray, theta: np.ndarray, blocks: Blocks
 ) -> tuple[list[int], np.ndarray, np.ndarray, np.ndarray]:
     """Columns that can be told, their values, a root of (Z^T Z)^-1, and (n,) ||r_j||."""
@@ -281,28 +286,30 @@ def _solved(
         np.column_stack([R[:, :-1] @ block, R[:, -1] - R[:, :-1] @ theta])
         for R, block in zip(each.data.triangles, blocks, strict=True)
     ]
-    whole = triangle(np.vstack([part / s for part, s in zip(parts, sigma, strict=True)]))
+    whole = compute_triangle(np.vstack([part / s for part, s in zip(parts, sigma, strict=True)]))
     names = [str(i) for i in range(whole.shape[1] - 1)]
-    kept = list(independent_columns(whole[:, :-1], names).kept)
-    if not kept:
+    used_columns = list(find_independent_columns(whole[:, :-1], names).kept_columns)
+    if not used_columns:
         left = np.array([np.linalg.norm(part[:, -1]) for part in parts])
-        return kept, np.zeros(0), np.zeros((0, 0)), left
-    values, root = solve_by_qr(whole[:, kept], whole[:, -1])
-    left = np.array([np.linalg.norm(p[:, -1] - p[:, kept] @ values) for p in parts])
-    return kept, values, root, left
+        return used_columns, np.zeros(0), np.zeros((0, 0)), left
+    values, root = solve_by_qr(whole[:, used_columns], whole[:, -1])
+    left = np.array([np.linalg.norm(p[:, -1] - p[:, used_columns] @ values) for p in parts])
+    return used_columns, values, root, left
 
 
-def _scales(layout: Layout, logs: Sequence[LogFit], shape: tuple[int, int]) -> np.ndarray:
+def _compute_scales(
+    layout: FleetLayout, logs: Sequence[LogFit], shape: tuple[int, int]
+) -> np.ndarray:
     """(logs, n) 1 + gain, of gains that stand out from the fleet."""
     scale = np.ones(shape)
-    first = len(layout.columns)
+    first = len(layout.drift_columns)
     gain = np.array([log.values[first:] for log in logs])
     sigma = np.array([log.sigmas[first:] for log in logs])
-    for i, place in enumerate(layout.gains):
-        seen = np.isfinite(gain[:, i])
-        if not seen.any():
+    for i, place in enumerate(layout.gain_joints):
+        is_known = np.isfinite(gain[:, i])
+        if not is_known.any():
             continue
-        apart = gain[:, i] - np.median(gain[seen, i])
-        out = seen & (np.abs(apart) > _STANDS_OUT * sigma[:, i])
+        apart = gain[:, i] - np.median(gain[is_known, i])
+        out = is_known & (np.abs(apart) > _STANDS_OUT * sigma[:, i])
         scale[out, place] = np.maximum(1.0 + apart[out], 0.1)
     return scale

@@ -19,7 +19,7 @@ _COLUMNS = ("machine", "period", "log")
 
 
 @dataclass(frozen=True)
-class Named:
+class LogName:
     """A log with its names.
 
     Attributes:
@@ -33,7 +33,7 @@ class Named:
     place: str
 
 
-def named_logs(places: Sequence[tuple[str, str]], pattern: str | None = None) -> tuple[Named, ...]:
+def name_logs(places: Sequence[tuple[str, str]], pattern: str | None = None) -> tuple[LogName, ...]:
     """Logs with machine and period, those of one machine together, periods in natural order.
 
     A log that the pattern does not fit is an error: a log that is left out unsaid looks like a
@@ -48,13 +48,13 @@ def named_logs(places: Sequence[tuple[str, str]], pattern: str | None = None) ->
         DataError: no such pattern, a path that it does not fit, or two logs of one machine and
             period.
     """
-    found = re.compile(_expression(PATTERN if pattern is None else pattern))
-    named = []
+    expression = re.compile(_build_expression(PATTERN if pattern is None else pattern))
+    log_names = []
     for place, window in places:
         at = f"@{window}" if window else ""
         path = Path(place)
         text = (path if path.parent.name else path.absolute()).as_posix()
-        match = found.search(text)
+        match = expression.search(text)
         if match is None:
             raise DataError(
                 f"{place}: does not fit --name {pattern or PATTERN}; expected a path that ends so; "
@@ -62,17 +62,19 @@ def named_logs(places: Sequence[tuple[str, str]], pattern: str | None = None) ->
             )
         parts = match.groupdict()
         machine = parts.get("machine") or path.absolute().parent.name
-        named.append(Named(machine, (parts.get("period") or path.stem) + at, place + at))
-    return in_order(named)
+        log_names.append(LogName(machine, (parts.get("period") or path.stem) + at, place + at))
+    return arrange_logs(log_names)
 
 
-def in_order(named: Iterable[Named]) -> tuple[Named, ...]:
+def arrange_logs(log_names: Iterable[LogName]) -> tuple[LogName, ...]:
     """Machine after machine, period after period; numbers within names count as numbers.
 
     Raises:
         DataError: two logs of one machine and period.
     """
-    ordered = sorted(named, key=lambda log: (natural(log.machine), natural(log.period)))
+    ordered = sorted(
+        log_names, key=lambda log: (make_natural_key(log.machine), make_natural_key(log.period))
+    )
     for one, other in itertools.pairwise(ordered):
         if (one.machine, one.period) == (other.machine, other.period):
             raise DataError(
@@ -83,7 +85,7 @@ def in_order(named: Iterable[Named]) -> tuple[Named, ...]:
     return tuple(ordered)
 
 
-def natural(text: str) -> list[tuple[int, int, str]]:
+def make_natural_key(text: str) -> list[tuple[int, int, str]]:
     """A key that sorts day2 before day10."""
     return [
         (0, int(part), part) if part.isdecimal() else (1, 0, part)
@@ -92,36 +94,36 @@ def natural(text: str) -> list[tuple[int, int, str]]:
     ]
 
 
-def _expression(pattern: str) -> str:
+def _build_expression(pattern: str) -> str:
     """The regular expression of a pattern, for the end of a path."""
-    parts, seen = [], set()
+    parts, fields = [], set()
     for piece in _FIELD.split(pattern):
-        if piece in ("{machine}", "{period}") and piece not in seen:
-            seen.add(piece)
+        if piece in ("{machine}", "{period}") and piece not in fields:
+            fields.add(piece)
             parts.append(f"(?P<{piece[1:-1]}>[^/]+)")
         elif piece == "*":
             parts.append("[^/]*")
         elif "{" in piece or "}" in piece:
-            what = "twice" if piece in seen else "which says nothing"
+            what = "twice" if piece in fields else "which says nothing"
             raise DataError(
                 f"--name {pattern}: got {piece}, {what}; expected {{machine}} and {{period}}, each "
                 f"once at most, as in {PATTERN}"
             )
         else:
             parts.append(re.escape(piece))
-    if not seen:
+    if not fields:
         raise DataError(
             f"--name {pattern}: neither {{machine}} nor {{period}} stands in it; expected a "
             f"pattern such as {PATTERN}"
         )
-    if "{period}" not in seen:
+    if "{period}" not in fields:
         raise DataError(
             f"--name {pattern}: no {{period}} stands in it; expected one, as in {PATTERN}"
         )
     return f"(?:^|/){''.join(parts)}$" if not pattern.startswith("/") else f"^{''.join(parts)}$"
 
 
-def listed_logs(path: Path) -> tuple[Named, ...]:
+def read_log_list(path: Path) -> tuple[LogName, ...]:
     """Logs of a list: CSV with the columns machine, period, log; or TOML with [[log]] tables.
 
     Places are relative to the folder of the list.
@@ -137,33 +139,39 @@ def listed_logs(path: Path) -> tuple[Named, ...]:
         ) from None
     except UnicodeDecodeError:
         raise DataError(f"{path}: no text; expected a list of logs, .csv or .toml") from None
-    rows = _toml_rows(path, text) if path.suffix.lower() == ".toml" else _csv_rows(path, text)
+    rows = (
+        _read_toml_rows(path, text)
+        if path.suffix.lower() == ".toml"
+        else _read_csv_rows(path, text)
+    )
     if not rows:
         raise DataError(f"{path}: no logs in it; expected rows of machine, period, log")
-    return in_order(Named(machine, period, str(path.parent / log)) for machine, period, log in rows)
+    return arrange_logs(
+        LogName(machine, period, str(path.parent / log)) for machine, period, log in rows
+    )
 
 
-def _csv_rows(path: Path, text: str) -> list[tuple[str, ...]]:
+def _read_csv_rows(path: Path, text: str) -> list[tuple[str, ...]]:
     reader = csv.DictReader(text.splitlines(), skipinitialspace=True)
     missing = [name for name in _COLUMNS if name not in (reader.fieldnames or ())]
     if missing:
         raise DataError(
             f"{path}: no column {missing[0]} in its first line; expected {', '.join(_COLUMNS)}"
         )
-    return [_checked(path, f"line {reader.line_num}", row) for row in reader]
+    return [_check_row(path, f"line {reader.line_num}", row) for row in reader]
 
 
-def _toml_rows(path: Path, text: str) -> list[tuple[str, ...]]:
+def _read_toml_rows(path: Path, text: str) -> list[tuple[str, ...]]:
     try:
         entries = parse_toml(text).get("log", [])
     except ValueError as error:
         raise DataError(f"{path}: {error}; expected TOML with [[log]] tables") from None
     if not isinstance(entries, list) or not all(isinstance(entry, dict) for entry in entries):
         raise DataError(f"{path}: log is no list of tables; expected [[log]] before each log")
-    return [_checked(path, f"log {k}", entry) for k, entry in enumerate(entries, start=1)]
+    return [_check_row(path, f"log {k}", entry) for k, entry in enumerate(entries, start=1)]
 
 
-def _checked(path: Path, where: str, row: dict) -> tuple[str, ...]:
+def _check_row(path: Path, where: str, row: dict) -> tuple[str, ...]:
     values = tuple("" if row.get(name) is None else str(row[name]).strip() for name in _COLUMNS)
     for name, value in zip(_COLUMNS, values, strict=True):
         if not value:

@@ -6,17 +6,17 @@ from typing import Any
 
 import numpy as np
 
-from modeler.core.brief import Brief
-from modeler.core.json import entries, nulled
-from modeler.core.result import Presented
-from modeler.core.table import aligned, percent
-from modeler.effects import CATALOGUE, effect_named
+from modeler.core.brief import ShortRepr
+from modeler.core.json import convert_to_plain, select_attributes
+from modeler.core.result import Result
+from modeler.core.table import align_columns, format_percent
+from modeler.effects import CATALOGUE, find_effect
 from modeler.fleet.drift import Unit
 from modeler.fleet.joint_fit import GAIN, LOAD, Quantity
 
 
 @dataclass(frozen=True)
-class Warmth:
+class TemperatureEffect:
     """A temperature beside a finding.
 
     Attributes:
@@ -30,12 +30,12 @@ class Warmth:
     lowest: float
     highest: float
     correlation: float
-    along: bool
-    shared: bool | None = None
+    is_correlated: bool
+    is_shared: bool | None = None
 
 
 @dataclass(frozen=True)
-class FleetFinding(Brief):
+class FleetFinding(ShortRepr):
     """A machine that drifts, or is apart from the others.
 
     Attributes:
@@ -65,11 +65,11 @@ class FleetFinding(Brief):
     sigma: float
     score: float
     chance: float
-    warmth: Warmth | None = None
+    temperature: TemperatureEffect | None = None
     since: int = 0
 
     @property
-    def percent(self) -> float | None:
+    def change_percent(self) -> float | None:
         """The change in % of the value before; None of what has no size of its own."""
         if self.quantity.unit == "%":
             return self.change
@@ -79,7 +79,7 @@ class FleetFinding(Brief):
 
 
 @dataclass(frozen=True, eq=False)
-class Values(Brief):
+class QuantityValues(ShortRepr):
     """One quantity of one machine; p periods.
 
     Attributes:
@@ -96,7 +96,7 @@ class Values(Brief):
 
 
 @dataclass(frozen=True, eq=False)
-class Followed(Brief):
+class QuantityHistory(ShortRepr):
     """One quantity of all machines.
 
     Attributes:
@@ -111,13 +111,13 @@ class Followed(Brief):
     quantity: Quantity
     level: float
     factor: float
-    told: float | None
-    machines: Mapping[str, Values]
+    smallest_detectable: float | None
+    machines: Mapping[str, QuantityValues]
     scores: Mapping[str, float]
 
 
 @dataclass(frozen=True, eq=False)
-class Fleet(Presented):
+class Fleet(Result):
     """What drifts where.
 
     Attributes:
@@ -137,10 +137,10 @@ class Fleet(Presented):
     unit: Unit
     machines: Mapping[str, tuple[str, ...]]
     findings: tuple[FleetFinding, ...]
-    followed: tuple[Followed, ...]
+    histories: tuple[QuantityHistory, ...]
     false_alarm: float
-    aside: tuple[str, ...]
-    left: tuple[tuple[str, str], ...]
+    unidentified: tuple[str, ...]
+    skipped_logs: tuple[tuple[str, str], ...]
     doubts: tuple[str, ...]
     notes: tuple[str, ...]
 
@@ -152,58 +152,64 @@ class Fleet(Presented):
     @property
     def verdict(self) -> str:
         """Either "drift", "odd machine" or "nothing drifts"."""
-        if any(found.shape != "odd machine" for found in self.findings):
+        if any(finding.shape != "odd machine" for finding in self.findings):
             return "drift"
         return "odd machine" if self.findings else "nothing drifts"
 
     def to_json(self) -> dict[str, Any]:
         """The result for scripts; numbers that mean nothing are null."""
-        return nulled({
-            "robot": self.robot,
-            "verdict": self.verdict,
-            "time": self.unit,
-            **entries(self, "logs machines"),
-            "findings": [_finding(found) | {"sentence": sentence(found, self.unit)}
-                         for found in self.findings],
-            "quantities": [_followed(each) for each in self.followed],
-            "false_alarm": self.false_alarm,
-            "not_told": self.aside,
-            "left_out": [{"log": place, "why": why} for place, why in self.left],
-            **entries(self, "doubts notes"),
-        })  # fmt: skip
+        return convert_to_plain(
+            {
+                "robot": self.robot,
+                "verdict": self.verdict,
+                "time": self.unit,
+                **select_attributes(self, "logs machines"),
+                "findings": [
+                    _build_finding_json(finding)
+                    | {"sentence": describe_finding(finding, self.unit)}
+                    for finding in self.findings
+                ],
+                "quantities": [_build_history_json(each) for each in self.histories],
+                "false_alarm": self.false_alarm,
+                "not_told": self.unidentified,
+                "left_out": [{"log": place, "why": why} for place, why in self.skipped_logs],
+                **select_attributes(self, "doubts notes"),
+            }
+        )
 
 
 _QUANTITY = "effect joint parameter unit"
 
 
-def _finding(found: FleetFinding) -> dict[str, Any]:
-    warmth = found.warmth
+def _build_finding_json(finding: FleetFinding) -> dict[str, Any]:
+    temperature = finding.temperature
     return {
-        "machine": found.machine,
-        **entries(found.quantity, _QUANTITY),
-        "shape": found.shape,
-        "from": found.begin,
-        "to": found.end,
-        "periods_since": found.since,
-        **entries(found, "before change"),
-        "change_percent": found.percent,
-        **entries(found, "sigma score chance"),
-        "temperature": warmth and {
-            **entries(warmth, "lowest highest correlation"),
-            "moves_along": warmth.along, "others_alike": warmth.shared,
+        "machine": finding.machine,
+        **select_attributes(finding.quantity, _QUANTITY),
+        "shape": finding.shape,
+        "from": finding.begin,
+        "to": finding.end,
+        "periods_since": finding.since,
+        **select_attributes(finding, "before change"),
+        "change_percent": finding.change_percent,
+        **select_attributes(finding, "sigma score chance"),
+        "temperature": temperature and {
+            **select_attributes(temperature, "lowest highest correlation"),
+            "moves_along": temperature.is_correlated, "others_alike": temperature.is_shared,
         },
     }  # fmt: skip
 
 
-def _followed(each: Followed) -> dict[str, Any]:
+def _build_history_json(each: QuantityHistory) -> dict[str, Any]:
     return {
-        **entries(each.quantity, _QUANTITY),
+        **select_attributes(each.quantity, _QUANTITY),
         "level": each.level,
         "scatter_factor": each.factor,
-        "would_be_told": each.told,
+        "would_be_told": each.smallest_detectable,
         "machines": {
-            name: entries(own, "periods at values sigmas") | {"score": each.scores.get(name)}
-            for name, own in each.machines.items()
+            name: select_attributes(values, "periods at values sigmas")
+            | {"score": each.scores.get(name)}
+            for name, values in each.machines.items()
         },
     }
 
@@ -211,107 +217,121 @@ def _followed(each: Followed) -> dict[str, Any]:
 # What a fleet shows, in words and as tables of text.
 
 
-def effect_title(quantity: Quantity) -> str:
+def format_effect_title(quantity: Quantity) -> str:
     """What drifts, in words of the catalogue."""
     if quantity.effect == GAIN:
         return "drive gain"
     if quantity.effect == LOAD:
         return "load on the last link"
-    effect = effect_named(quantity.effect, CATALOGUE)
+    effect = find_effect(quantity.effect, CATALOGUE)
     return quantity.effect.replace("_", " ") if effect is None else effect.title
 
 
-def sentence(found: FleetFinding, unit: Unit) -> str:
+def describe_finding(finding: FleetFinding, unit: Unit) -> str:
     """One finding, with what it may be instead."""
-    quantity = found.quantity
-    where = f"machine {found.machine}" + (
+    quantity = finding.quantity
+    where = f"machine {finding.machine}" + (
         "" if quantity.joint is None else f", joint {quantity.joint}"
     )
-    named = effect_title(quantity) + ("" if quantity.column < 0 else f" ({quantity.parameter})")
-    line = f"{where}: {named} {_happens(found, unit)}"
-    warmth = found.warmth
-    if warmth is None or not warmth.along:
+    named = format_effect_title(quantity) + (
+        "" if quantity.column < 0 else f" ({quantity.parameter})"
+    )
+    line = f"{where}: {named} {_describe_change(finding, unit)}"
+    temperature = finding.temperature
+    if temperature is None or not temperature.is_correlated:
         return line
     cause = "and may be the cause: compare periods of one temperature"
-    if warmth.shared is False:
+    if temperature.is_shared is False:
         cause = "but machines that warm alike do not change so"
     return (
-        f"{line}; the temperature of the logs moves along, {warmth.lowest:.4g} to "
-        f"{warmth.highest:.4g} (correlation {warmth.correlation:.2f}), {cause}"
+        f"{line}; the temperature of the logs moves along, {temperature.lowest:.4g} to "
+        f"{temperature.highest:.4g} (correlation {temperature.correlation:.2f}), {cause}"
     )
 
 
-def _happens(found: FleetFinding, unit: Unit) -> str:
-    up = found.change > 0.0
-    size = f"{abs(found.change):.3g} {found.quantity.unit}"
-    if found.percent is not None:
-        size = percent(0.01 * abs(found.percent))
-    after = f"{found.before:.4g} to {found.before + found.change:.4g} {found.quantity.unit}"
-    if found.shape == "odd machine":
+def _describe_change(finding: FleetFinding, unit: Unit) -> str:
+    up = finding.change > 0.0
+    size = f"{abs(finding.change):.3g} {finding.quantity.unit}"
+    if finding.change_percent is not None:
+        size = format_percent(0.01 * abs(finding.change_percent))
+    after = f"{finding.before:.4g} to {finding.before + finding.change:.4g} {finding.quantity.unit}"
+    if finding.shape == "odd machine":
         side = "above" if up else "below"
-        return f"is {size} {side} that of the other machines ({found.score:+.1f} of their spread)"
-    if found.shape == "trend":
+        return f"is {size} {side} that of the other machines ({finding.score:+.1f} of their spread)"
+    if finding.shape == "trend":
         verb = "rises" if up else "falls"
-        span = f"{found.length:.3g} {unit}"
-        return f"{verb} by {size} over {span}, from {after} ({abs(found.score):.1f} sigma)"
+        span = f"{finding.length:.3g} {unit}"
+        return f"{verb} by {size} over {span}, from {after} ({abs(finding.score):.1f} sigma)"
     stays = " and is back after it"
-    if found.shape == "jump":  # of the time after a leap in the last period nothing is known
-        told = ", the last period (whether it stays is not known)"
-        stays = " and stays" if found.since > 1 else told
+    if finding.shape == "jump":  # of the time after a leap in the last period nothing is known
+        unknown = ", the last period (whether it stays is not known)"
+        stays = " and stays" if finding.since > 1 else unknown
     verb = "leaps up" if up else "leaps down"
-    return f"{verb} by {size} at {found.begin}{stays}, from {after} ({abs(found.score):.1f} sigma)"
+    return (
+        f"{verb} by {size} at {finding.begin}{stays}, from {after} ({abs(finding.score):.1f} sigma)"
+    )
 
 
-def headline_of(found: Fleet) -> tuple[str, str]:
+def format_headline(fleet: Fleet) -> tuple[str, str]:
     """A figure and what it is."""
-    machines = f"{len(found.machines)} machine{'s' * (len(found.machines) != 1)}"
+    machines = f"{len(fleet.machines)} machine{'s' * (len(fleet.machines) != 1)}"
     less = ""
-    if found.left:
-        less = f"; {len(found.left)} log{'s' * (len(found.left) > 1)} left out"
-    if not found.findings:
-        return "nothing", f"drifts beyond doubt on {machines} in {found.logs} logs{less}"
-    hit = len({one.machine for one in found.findings})
+    if fleet.skipped_logs:
+        less = f"; {len(fleet.skipped_logs)} log{'s' * (len(fleet.skipped_logs) > 1)} left out"
+    if not fleet.findings:
+        return "nothing", f"drifts beyond doubt on {machines} in {fleet.logs} logs{less}"
+    hit = len({one.machine for one in fleet.findings})
     return f"{hit} of {machines}", f"drift or are apart from the others, beyond doubt{less}"
 
 
-def fleet_lines(found: Fleet) -> list[str]:
+def format_fleet(fleet: Fleet) -> list[str]:
     """All of it, for people."""
-    figure, what = headline_of(found)
-    lines = [f"{found.robot}: {figure} {what}"]
-    lines += [f"  {sentence(one, found.unit)}" for one in found.findings]
-    lines += ["", *aligned(rows_of(found), (0, 1)), ""]
+    figure, what = format_headline(fleet)
+    lines = [f"{fleet.robot}: {figure} {what}"]
+    lines += [f"  {describe_finding(one, fleet.unit)}" for one in fleet.findings]
+    lines += ["", *align_columns(build_table_rows(fleet), (0, 1)), ""]
     lines.append(
         "told: the smallest straight drift over all periods that would be a finding; chance of any "
-        f"finding where nothing drifts: {percent(found.false_alarm)}"
+        f"finding where nothing drifts: {format_percent(fleet.false_alarm)}"
     )
-    lines += found.notes
-    if any(one.quantity.effect == GAIN for one in found.findings):
+    lines += fleet.notes
+    if any(one.quantity.effect == GAIN for one in fleet.findings):
         lines.append(
             "a drive gain above the others: the logged torque (current times gain) is more than "
             "the motion needs, as with a weaker magnet, or a torque sensor that reads too much"
         )
-    lines += skipped_lines(found)
-    if found.aside:
-        lines.append(f"not told by any log, taken as 0: {', '.join(found.aside)}")
+    lines += format_skipped(fleet)
+    if fleet.unidentified:
+        lines.append(f"not told by any log, taken as 0: {', '.join(fleet.unidentified)}")
     return lines
 
 
-def skipped_lines(found: Fleet) -> list[str]:
+def format_skipped(fleet: Fleet) -> list[str]:
     """Logs that were not used, and why; most reasons begin with the place already."""
-    return [f"left out: {why if place in why else f'{place}: {why}'}" for place, why in found.left]
+    return [
+        f"left out: {why if place in why else f'{place}: {why}'}"
+        for place, why in fleet.skipped_logs
+    ]
 
 
 HEAD = "joint, effect, parameter, level, unit, scatter, told"
 """Of the table of what was looked at."""
 
 
-def rows_of(found: Fleet) -> list[list[str]]:
+def build_table_rows(fleet: Fleet) -> list[list[str]]:
     """Header, and a row for each quantity."""
-    return [HEAD.split(", "), *(
-        [
-            each.quantity.joint or "-", effect_title(each.quantity), each.quantity.parameter,
-            f"{each.level:.4g}" if each.level == each.level else "-", each.quantity.unit,
-            f"{each.factor:.2f}", "-" if each.told is None else f"{each.told:.2g}",
-        ]
-        for each in found.followed
-    )]  # fmt: skip
+    return [
+        HEAD.split(", "),
+        *(
+            [
+                each.quantity.joint or "-",
+                format_effect_title(each.quantity),
+                each.quantity.parameter,
+                f"{each.level:.4g}" if each.level == each.level else "-",
+                each.quantity.unit,
+                f"{each.factor:.2f}",
+                "-" if each.smallest_detectable is None else f"{each.smallest_detectable:.2g}",
+            ]
+            for each in fleet.histories
+        ),
+    ]

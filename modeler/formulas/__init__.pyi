@@ -11,50 +11,57 @@ from .cad import (
     check_known as check_known,
     compare_cad as compare_cad,
 )
-from .closed_form import ClosedForm as ClosedForm, closed_form as closed_form
+from .closed_form import ClosedForm as ClosedForm, derive_closed_form as derive_closed_form
 from .coefficients import (
     CoefficientTable as CoefficientTable,
-    coefficient_table as coefficient_table,
+    build_coefficient_table as build_coefficient_table,
 )
-from .function_sheet import SheetWriter as SheetWriter, sheet_lines as sheet_lines
-from .leg_blocks import LegBlock as LegBlock, block_form as block_form, leg_blocks as leg_blocks
-from .physical_system import PhysicalSystem as PhysicalSystem, physical_system as physical_system
+from .function_sheet import SheetWriter as SheetWriter, format_sheet_lines as format_sheet_lines
+from .leg_blocks import (
+    LegBlock as LegBlock,
+    derive_block_form as derive_block_form,
+    derive_leg_blocks as derive_leg_blocks,
+)
+from .physical_system import (
+    PhysicalSystem as PhysicalSystem,
+    build_physical_system as build_physical_system,
+)
 from .print_checks import (
     check_independent as check_independent,
     check_solutions as check_solutions,
-    wrong_definitions as wrong_definitions,
-    wrong_functions as wrong_functions,
+    find_wrong_definitions as find_wrong_definitions,
+    find_wrong_functions as find_wrong_functions,
 )
-from .print_report import check_friction as check_friction, terms_report as terms_report
-from .printed import Print as Print
+from .print_report import check_friction as check_friction, write_terms_report as write_terms_report
+from .printed import PrintedTerms as PrintedTerms
 from .regressor_form import (
     Equation as Equation,
-    equation_of as equation_of,
-    nonzero_base as nonzero_base,
-    regressor_form as regressor_form,
-    short_form as short_form,
+    derive_equation as derive_equation,
+    derive_regressor_form as derive_regressor_form,
+    derive_short_form as derive_short_form,
+    drop_zero_parameters as drop_zero_parameters,
 )
 from .solve import (
     ClosedSolution as ClosedSolution,
-    definition_lines as definition_lines,
-    determined as determined,
-    missing_lines as missing_lines,
-    solution_json as solution_json,
-    solution_lines as solution_lines,
+    find_determined as find_determined,
+    format_definition_lines as format_definition_lines,
+    format_missing_lines as format_missing_lines,
+    format_solution_lines as format_solution_lines,
+    serialise_solution as serialise_solution,
     solve as solve,
 )
 from .sufficient_sets import (
     KnownSets as KnownSets,
-    easiest_set as easiest_set,
-    known_sets as known_sets,
-    smallest_number as smallest_number,
+    count_smallest_set as count_smallest_set,
+    find_easiest_set as find_easiest_set,
+    find_known_sets as find_known_sets,
 )
-from .text import monomial_text as monomial_text
+from .text import format_monomial as format_monomial
 from .values import (
     VERIFIED as VERIFIED,
     DerivedValue as DerivedValue,
     KnownValues as KnownValues,
-    Rated as Rated,
-    known_from_text as known_from_text,
-    rated as rated,
+    RatedSet as RatedSet,
+    parse_known_values as parse_known_values,
+    rate_sets as rate_sets,
 )

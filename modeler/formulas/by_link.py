@@ -29,19 +29,24 @@ from modeler.derivation import (
     Plan,
     SymbolicModel,
     Vector,
-    along,
-    base_poses,
+    combine_along_shaft,
+    compute_base_poses,
     cross,
     dot,
-    in_block,
+    evaluate_regressor,
+    is_in_block,
     plus,
-    regressor_values,
     times,
 )
 from modeler.effects import EnergyBlock
-from modeler.formulas.closed_form import fresh_model, function_name, name_vector, written_symbols
+from modeler.formulas.closed_form import (
+    collect_symbol_names,
+    copy_model,
+    format_function_name,
+    propose_vector,
+)
 from modeler.formulas.function_sheet import VECTOR, SheetWriter
-from modeler.formulas.physical import at_origin, physical_link
+from modeler.formulas.physical import get_physical_link, move_to_origin
 from modeler.formulas.regressor_form import Equation
 
 States = tuple[np.ndarray, np.ndarray, np.ndarray]
@@ -50,15 +55,15 @@ _HALF = Fraction(1, 2)
 _STEP = 1e-30  # of imaginary time: imaginary parts are then exact derivatives
 
 
-def _numbers(
-    model: SymbolicModel, found: Sequence[Expr], states: States, **letters: float
+def _evaluate_complex(
+    model: SymbolicModel, expressions: Sequence[Expr], states: States, **letters: float
 ) -> np.ndarray:
     """(samples, expressions) at these states, moved on by an imaginary time."""
     q, qd, qdd = states
     moved = (("q", q + 1j * _STEP * qd), ("qd", qd + 1j * _STEP * qdd))
-    values: dict[str, Any] = {**model.robot.symbol_values(), **model.geometry.values, **letters}
+    values: dict[str, Any] = {**model.robot.evaluate_symbols(), **model.geometry.values, **letters}
     values |= {f"{kind}[{k}]": x[:, k] for kind, x in moved for k in range(q.shape[1])}
-    outputs = Plan(model.graph, found)(values)
+    outputs = Plan(model.graph, expressions)(values)
     return np.stack([np.broadcast_to(np.asarray(x, complex), len(q)) for x in outputs], axis=1)
 
 
@@ -78,23 +83,25 @@ def energy_functions(model: SymbolicModel, states: States) -> tuple[Equation, fl
         model: any robot; with loops the powers are those of the motors.
         states: for the difference; closed if the robot has loops.
     """
-    phi = regressor_values(model, states)
-    moves = range(phi.shape[1]) if model.closure is None else model.closure.given
+    phi = evaluate_regressor(model, states)
+    moves = range(phi.shape[1]) if model.closure is None else model.closure.actuated
     power = np.einsum("njc,nj->nc", phi, states[1][:, [*moves]])
-    model = fresh_model(model)
-    letters = written_symbols(model, {})
-    writer = SheetWriter(model.graph, letters, model.robot.halves, abbreviate=False)
+    model = copy_model(model)
+    letters = collect_symbol_names(model, {})
+    writer = SheetWriter(model.graph, letters, model.robot.has_binary_fractions, abbreviate=False)
     links = _write_energies(model, writer)
-    found = np.zeros_like(power)
+    energy_rates = np.zeros_like(power)
     for place, column in enumerate(model.columns):
         parts = [links[p.row, p.prefix] for p in column.parts if isinstance(p, LinkColumn)]
-        if in_block(column, EnergyBlock.KINETIC):  # a rotor
-            speed = along(model, column.shaft, "qd")
+        if is_in_block(column, EnergyBlock.KINETIC):  # a rotor
+            speed = combine_along_shaft(model, column.shaft, "qd")
             parts.append(_HALF * speed * speed)
-            writer.section("energy functions of rotors")
-            writer.result(f"h{column.name}", parts[-1], read=False)
+            writer.open_section("energy functions of rotors")
+            writer.add_result(f"h{column.name}", parts[-1], read=False)
         if parts:
-            found[:, place] = _numbers(model, parts, states).imag.sum(axis=1) / _STEP
+            energy_rates[:, place] = (
+                _evaluate_complex(model, parts, states).imag.sum(axis=1) / _STEP
+            )
         else:
             power[:, place] = 0.0  # friction and the like take energy, they have none
     words = (
@@ -104,55 +111,55 @@ def energy_functions(model: SymbolicModel, states: States) -> tuple[Equation, fl
         "omega<i>_<k>, V<i>_<k>: angular velocity of link k and velocity of its origin, in frame "
         "k; s, n, a, P: its axes and its origin, in frame 0",
     )
-    off = np.abs(found - power).max() / np.abs(power).max(initial=np.finfo(float).tiny)
-    return Equation(words, writer.finished(), ()), float(off)
+    off = np.abs(energy_rates - power).max() / np.abs(power).max(initial=np.finfo(float).tiny)
+    return Equation(words, writer.build_sheet(), ()), float(off)
 
 
 def _write_energies(model: SymbolicModel, writer: SheetWriter) -> dict[tuple[int, str], Expr]:
     """{(row, parameter): h}, written with what they need, the platform last."""
-    speeds = _speeds(model, model.of_rows(model.inputs("qd")))
-    placed = base_poses(model.geometry, model.frames, model.algebra)
+    speeds = _propagate_speeds(model, model.expand_to_rows(model.get_inputs("qd")))
+    placed = compute_base_poses(model.geometry, model.frames, model.algebra)
     gravity = [model.algebra.static(x) for x in model.geometry.gravity]
-    rows, bodies = model.geometry.rows, _bodies_of(model)
-    found: dict[tuple[int, str], Expr] = {}
+    rows, bodies = model.geometry.rows, _find_body_rows(model)
+    energies: dict[tuple[int, str], Expr] = {}
     for k in sorted(range(len(rows)), key=lambda k: rows[k].joint.name in model.robot.platform):
         name, (w, V), (axes, origin) = rows[k].joint.name, speeds[k], placed[k]
         for letter, vector in zip("snaP", (*axes, origin), strict=True):
-            writer.section(f"axes and origin of frame {name}, in frame 0")
-            name_vector(writer, f"{letter}{{}}_{name}", vector)
-        writer.section(f"velocities of link {name}, in frame {name}")
+            writer.open_section(f"axes and origin of frame {name}, in frame 0")
+            propose_vector(writer, f"{letter}{{}}_{name}", vector)
+        writer.open_section(f"velocities of link {name}, in frame {name}")
         for (letter, vector), i in product((("omega", w), ("V", V)), range(3)):
-            write = writer.result if k in bodies else writer.propose
+            write = writer.add_result if k in bodies else writer.propose_quantity
             write(f"{letter}{i + 1}_{name}", vector[i])
         if k in bodies:
             u = [-dot(gravity, v) for v in (*axes, origin)]
             h = [w[i] * w[j] * (_HALF if i == j else 1) for i in range(3) for j in range(i, 3)]
             h += [*plus(cross(V, w), u[:3]), _HALF * dot(V, V) + u[3]]
-            writer.section(f"energy functions of link {name}")
+            writer.open_section(f"energy functions of link {name}")
             for parameter, value in zip(PARAMETERS, h, strict=True):
-                writer.result(f"h{parameter}_{name}", value, read=False)
-                found[k, parameter] = value
-    return found
+                writer.add_result(f"h{parameter}_{name}", value, read=False)
+                energies[k, parameter] = value
+    return energies
 
 
-def _bodies_of(model: SymbolicModel) -> list[int]:
+def _find_body_rows(model: SymbolicModel) -> list[int]:
     """Rows with inertial parameters."""
     parts = (part for column in model.columns for part in column.parts)
     return sorted({part.row for part in parts if isinstance(part, LinkColumn)})
 
 
-def _speeds(model: SymbolicModel, qd: Sequence[Expr]) -> list[tuple[Vector, Vector]]:
+def _propagate_speeds(model: SymbolicModel, qd: Sequence[Expr]) -> list[tuple[Vector, Vector]]:
     """(omega, V) of every row in its frame."""
     zero = model.graph.constant(0)
-    found: list[tuple[Vector, Vector]] = []
+    link_speeds: list[tuple[Vector, Vector]] = []
     for row, frame in zip(model.geometry.rows, model.frames, strict=True):
-        w, V = ([zero] * 3, [zero] * 3) if row.parent is None else found[row.parent]
-        w, V = frame.to_link(w), frame.to_link(plus(V, cross(w, frame.p)))
+        w, V = ([zero] * 3, [zero] * 3) if row.parent is None else link_speeds[row.parent]
+        w, V = frame.rotate_to_link(w), frame.rotate_to_link(plus(V, cross(w, frame.p)))
         if row.index is not None:
-            moved = w if row.joint.angular else V
+            moved = w if row.joint.is_revolute else V
             moved[2] = moved[2] + qd[row.index] * row.rate
-        found.append((w, V))
-    return found
+        link_speeds.append((w, V))
+    return link_speeds
 
 
 # Kane's form. A vector is kept along the axes of several frames, as papers write it.
@@ -199,53 +206,59 @@ def kane_form(model: SymbolicModel, states: States) -> tuple[Equation, float]:
     Raises:
         RobotError: `[terms] triads` gives a frame other than three axes.
     """
-    own = fresh_model(model)
-    bodies, triads = _bodies(own), _triads(own)
-    names = [joint.name for joint in own.robot.free]
-    letters = written_symbols(own, {}) | {VECTOR + n: n for _, n in triads.values()}
-    writer = SheetWriter(own.graph, letters, own.robot.halves, abbreviate=False)
+    formula_model = copy_model(model)
+    bodies, triads = _build_bodies(formula_model), _read_triads(formula_model)
+    names = [joint.name for joint in formula_model.robot.free_joints]
+    letters = collect_symbol_names(formula_model, {}) | {VECTOR + n: n for _, n in triads.values()}
+    writer = SheetWriter(
+        formula_model.graph, letters, formula_model.robot.has_binary_fractions, abbreviate=False
+    )
 
-    def whole(vector: Along) -> Expr:
-        total = own.graph.constant(0)
+    def write_vector(vector: Along) -> Expr:
+        total = formula_model.graph.constant(0)
         for key, entry in vector.items():
             sign, axis = triads[key]
-            total = total + entry * sign * own.graph.symbol(VECTOR + axis)
+            total = total + entry * sign * formula_model.graph.symbol(VECTOR + axis)
         return total
 
     rows = list(enumerate(product([*bodies.values()], (0, 1)), 1))
-    writer.section("v: velocities of mass centres, angular velocities")
+    writer.open_section("v: velocities of mass centres, angular velocities")
     for _, (body, k) in rows:
         name = f"omega{body.name.upper()}" if k else f"vCM{body.name}"
-        writer.result(name, whole(body.v[k]), read=not k)
-    writer.section("beta: tangent vectors, v = beta qd")
+        writer.add_result(name, write_vector(body.v[k]), read=not k)
+    writer.open_section("beta: tangent vectors, v = beta qd")
     for (r, (body, k)), (j, name) in product(rows, enumerate(names)):
-        writer.result(function_name("beta", [str(r), name]), whole(body.beta[j][k]), read=False)
-    writer.section("p: momenta, angular momenta about the mass centres")
+        writer.add_result(
+            format_function_name("beta", [str(r), name]), write_vector(body.beta[j][k]), read=False
+        )
+    writer.open_section("p: momenta, angular momenta about the mass centres")
     for r, (body, k) in rows:
-        p = whole(body.p[1]) if k else body.mass * whole(body.v[0])
-        writer.result(f"p{r}", p, read=False)
-    writer.section("F: weights, torques of the motors with their reactions")
+        p = write_vector(body.p[1]) if k else body.mass * write_vector(body.v[0])
+        writer.add_result(f"p{r}", p, read=False)
+    writer.open_section("F: weights, torques of the motors with their reactions")
     for r, (body, k) in rows:
-        writer.result(f"F{r}", whole(body.F[k]), read=False)
+        writer.add_result(f"F{r}", write_vector(body.F[k]), read=False)
     words = (
         "rows, by body: mass centre, rotation; what is not listed is 0",
         "(F - dp/dt) . beta = 0: one equation a joint",
     )
-    return Equation(words, writer.finished(), ()), _kane_difference(own, bodies, model, states)
+    return Equation(words, writer.build_sheet(), ()), _compare_kane_torques(
+        formula_model, bodies, model, states
+    )
 
 
-def _kane_difference(
-    own: SymbolicModel, bodies: Mapping[int, _Body], model: SymbolicModel, states: States
+def _compare_kane_torques(
+    formula_model: SymbolicModel, bodies: Mapping[int, _Body], model: SymbolicModel, states: States
 ) -> float:
-    graph, rng = own.graph, np.random.default_rng(_SEED)
-    placed = base_poses(own.geometry, own.frames, own.algebra)
+    graph, rng = formula_model.graph, np.random.default_rng(_SEED)
+    placed = compute_base_poses(formula_model.geometry, formula_model.frames, formula_model.algebra)
     axes = dict(enumerate((turn for turn, _ in placed)))
     axes[-1] = [[graph.constant(int(i == j)) for j in range(3)] for i in range(3)]
     parts = [p for c in model.columns for p in c.parts if isinstance(p, LinkColumn)]
     standard = [bodies[p.row].standard[p.prefix] for p in parts]
     values = {graph.nodes[n].args[0]: float(rng.uniform(0.1, 1.0))
-              for n in graph.reachable(standard) if graph.nodes[n].op == "sym"}  # fmt: skip
-    values |= own.robot.symbol_values()
+              for n in graph.find_reachable(standard) if graph.nodes[n].op == "sym"}  # fmt: skip
+    values |= formula_model.robot.evaluate_symbols()
     needed: list[Expr] = []
     for body, k in product(bodies.values(), (0, 1)):
         weight: Along = {} if k else body.F[0]
@@ -254,93 +267,111 @@ def _kane_difference(
             for (row, i), entry in vector.items():
                 total = plus(total, times(entry, axes[row][i]))
             needed += total
-    found = _numbers(own, needed, states, **values)
-    found = found.reshape(len(states[0]), 2 * len(bodies), -1, 3)
-    force = found[:, :, 0].imag / _STEP - found[:, :, 1].real
-    tau = np.einsum("nri,nrji->nj", force, found[:, :, 2:].real)
+    samples = _evaluate_complex(formula_model, needed, states, **values)
+    samples = samples.reshape(len(states[0]), 2 * len(bodies), -1, 3)
+    force = samples[:, :, 0].imag / _STEP - samples[:, :, 1].real
+    tau = np.einsum("nri,nrji->nj", force, samples[:, :, 2:].real)
     chi = np.zeros(len(model.columns))
-    numbers = iter(_numbers(own, standard, states, **values)[0].real)
+    numbers = iter(_evaluate_complex(formula_model, standard, states, **values)[0].real)
     for c, column in enumerate(model.columns):
         chi[c] = sum(next(numbers) for p in column.parts if isinstance(p, LinkColumn))
-    wanted = regressor_values(model, states) @ chi
+    wanted = evaluate_regressor(model, states) @ chi
     return float(np.abs(tau - wanted).max() / np.abs(wanted).max())
 
 
 _SEED = 1985
 
 
-def _bodies(model: SymbolicModel) -> dict[int, _Body]:
+def _build_bodies(model: SymbolicModel) -> dict[int, _Body]:
     """By row."""
-    rows, free = model.geometry.rows, model.robot.free
-    triads, torques = _triads(model), _motor_torques(model)
+    rows, free = model.geometry.rows, model.robot.free_joints
+    triads, torques = _read_triads(model), _collect_motor_torques(model)
     units = [[model.graph.constant(int(a is b)) for a in free] for b in free]
-    ways = [_along_frames(model, model.of_rows(qd)) for qd in (model.inputs("qd"), *units)]
-    gravity, found = [model.algebra.static(x) for x in model.geometry.gravity], {}
+    ways = [
+        _resolve_along_frames(model, model.expand_to_rows(qd))
+        for qd in (model.get_inputs("qd"), *units)
+    ]
+    gravity, bodies = [model.algebra.static(x) for x in model.geometry.gravity], {}
 
-    def read(entry: Expression, _: str = "") -> Expr:
+    def read_entry(entry: Expression, _: str = "") -> Expr:
         values = {name: model.graph.symbol(name, static=True) for name in entry.names}
         constant = model.graph.constant
         return constant(0) + entry.fold(values, {}, model.graph.pi(), constant)
 
-    for k in _bodies_of(model):
-        link = physical_link(model, rows[k].joint)
-        m, c = read(link.mass), [read(x) for x in link.centre]
-        XX, XY, XZ, YY, YZ, ZZ = (read(x) for x in link.inertia)
-        pairs = [(_sum(V, _in(k, cross(w, c))), turn) for V, turn, w in (way[k] for way in ways)]
+    for k in _find_body_rows(model):
+        link = get_physical_link(model, rows[k].joint)
+        m, c = read_entry(link.mass), [read_entry(x) for x in link.centre]
+        XX, XY, XZ, YY, YZ, ZZ = (read_entry(x) for x in link.inertia)
+        pairs = [
+            (_add_components(V, _express_in_row(k, cross(w, c))), turn)
+            for V, turn, w in (way[k] for way in ways)
+        ]
         spin = [dot(line, ways[0][k][2]) for line in ([XX, XY, XZ], [XY, YY, YZ], [XZ, YZ, ZZ])]
         letters = {triads[k, i][1].split("_")[0] for i in range(3)}
-        found[k] = _Body(
-            rows[k].joint.name if len(letters) > 1 else letters.pop(), m, pairs[0],
-            tuple(pairs[1:]), ({at: m * x for at, x in pairs[0][0].items()}, _in(k, spin)),
-            (_in(-1, times(m, gravity)), torques.get(k, {})), at_origin(link, "", read),
-        )  # fmt: skip
-    return found
+        bodies[k] = _Body(
+            rows[k].joint.name if len(letters) > 1 else letters.pop(),
+            m,
+            pairs[0],
+            tuple(pairs[1:]),
+            ({at: m * x for at, x in pairs[0][0].items()}, _express_in_row(k, spin)),
+            (_express_in_row(-1, times(m, gravity)), torques.get(k, {})),
+            move_to_origin(link, "", read_entry),
+        )
+    return bodies
 
 
-def _motor_torques(model: SymbolicModel) -> dict[int, Along]:
+def _collect_motor_torques(model: SymbolicModel) -> dict[int, Along]:
     """Torque of a motor on the row that it turns, and its reaction on the body before it."""
-    rows, found = model.geometry.rows, dict[int, Along]()
+    rows, motor_torques = model.geometry.rows, dict[int, Along]()
     moving = [k for k, row in enumerate(rows) if row.index is not None]
-    if model.robot.relations or not all(rows[k].joint.angular for k in moving):
+    if model.robot.relations or not all(rows[k].joint.is_revolute for k in moving):
         return {}
     for k in moving:
-        chain = [row for row in model.geometry.ancestors(k) if row in moving]
+        chain = [row for row in model.geometry.find_ancestors(k) if row in moving]
         tau = model.graph.symbol(f"tau{rows[k].joint.name}") * rows[k].rate
         for row, torque in zip(chain[:2], (tau, -tau), strict=False):
-            found[row] = {**found.get(row, {}), (k, 2): torque}
-    return found
+            motor_torques[row] = {**motor_torques.get(row, {}), (k, 2): torque}
+    return motor_torques
 
 
-def _along_frames(model: SymbolicModel, qd: Sequence[Expr]) -> list[tuple[Along, Along, Vector]]:
+def _resolve_along_frames(
+    model: SymbolicModel, qd: Sequence[Expr]
+) -> list[tuple[Along, Along, Vector]]:
     """Of every row: velocity of the origin and rotation along the frames, rotation in its own."""
-    found: list[tuple[Along, Along, Vector]] = []
-    for k, (row, (w, _)) in enumerate(zip(model.geometry.rows, _speeds(model, qd), strict=True)):
+    row_motions: list[tuple[Along, Along, Vector]] = []
+    for k, (row, (w, _)) in enumerate(
+        zip(model.geometry.rows, _propagate_speeds(model, qd), strict=True)
+    ):
         V: Along = {}
         turn: Along = {}
         if row.parent is not None:
-            V, turn, before = found[row.parent]
-            V = _sum(V, _in(row.parent, cross(before, model.frames[k].p)))
+            V, turn, before = row_motions[row.parent]
+            V = _add_components(V, _express_in_row(row.parent, cross(before, model.frames[k].p)))
         if row.index is not None:
-            own = {(k, 2): qd[row.index] * row.rate}
-            V, turn = (V, _sum(turn, own)) if row.joint.angular else (_sum(V, own), turn)
-        found.append((V, turn, w))
-    return found
+            joint_rate = {(k, 2): qd[row.index] * row.rate}
+            V, turn = (
+                (V, _add_components(turn, joint_rate))
+                if row.joint.is_revolute
+                else (_add_components(V, joint_rate), turn)
+            )
+        row_motions.append((V, turn, w))
+    return row_motions
 
 
-def _in(row: int, vector: Vector) -> Along:
+def _express_in_row(row: int, vector: Vector) -> Along:
     return {(row, i): entry for i, entry in enumerate(vector) if entry.ref}
 
 
-def _sum(a: Along, b: Along) -> Along:
+def _add_components(a: Along, b: Along) -> Along:
     return {**a, **{at: a[at] + x if at in a else x for at, x in b.items()}}
 
 
-def _triads(model: SymbolicModel) -> dict[tuple[int, int], tuple[int, str]]:
+def _read_triads(model: SymbolicModel) -> dict[tuple[int, int], tuple[int, str]]:
     """{(row, -1 for frame 0; axis): (sign, how the unit vector is written)}."""
-    given: Any = model.robot.terms.get("triads", {})
-    found = {}
+    stated_triads: Any = model.robot.terms.get("triads", {})
+    triads = {}
     for k, name in enumerate(["0", *(row.joint.name for row in model.geometry.rows)], -1):
-        axes = given.get(name) if isinstance(given, dict) else given
+        axes = stated_triads.get(name) if isinstance(stated_triads, dict) else stated_triads
         listed = axes if isinstance(axes, list) else [] if axes else [f"{x}_{name}" for x in "xyz"]
         written = [re.fullmatch(r"(-?)([A-Za-z]+?)_?(\d\w*|(?<=_)\w+)", str(x)) for x in listed]
         read = [match.groups() for match in written if match is not None]
@@ -350,5 +381,5 @@ def _triads(model: SymbolicModel) -> dict[tuple[int, int], tuple[int, str]]:
                 'axes such as ["a3", "-a2", "a1"]'
             )
         for i, (sign, letter, index) in enumerate(read):
-            found[k, i] = (-1 if sign else 1, f"{letter}_{index}")
-    return found
+            triads[k, i] = (-1 if sign else 1, f"{letter}_{index}")
+    return triads

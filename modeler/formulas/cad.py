@@ -10,9 +10,9 @@ import numpy as np
 
 from modeler.core.errors import DataError
 from modeler.formulas.physical_system import PhysicalSystem
-from modeler.formulas.ring import places_in
+from modeler.formulas.ring import find_places
 from modeler.formulas.solve import ClosedSolution, solve
-from modeler.formulas.values import SolvedNumbers, derive_values
+from modeler.formulas.values import NumericPolynomial, derive_values
 
 FALSE_ALARM = 0.01  # of a whole table
 _ROUNDS = 30
@@ -20,12 +20,12 @@ _GROUPS = 100  # of CAD entries that are fitted
 _SETTLED = 1e-9
 
 
-def limit(tests: int) -> float:
+def compute_z_limit(tests: int) -> float:
     """|z| above which one of so many tests is significant: normal, family-wise (Bonferroni)."""
     return NormalDist().inv_cdf(1.0 - FALSE_ALARM / (2.0 * max(tests, 1)))
 
 
-def chi_squared_limit(freedom: int) -> float:
+def compute_chi_squared_limit(freedom: int) -> float:
     """What chi^2 exceeds in one table of `1 / FALSE_ALARM` (Wilson and Hilferty 1931)."""
     if freedom <= 0:
         return 0.0
@@ -69,28 +69,37 @@ def check_known(
     """
     if not solution.surplus:
         return ()
-    found = []
+    tested_rows = []
     for letter in solution.known:
         others = [x for x in solution.known if x != letter]
         other = solve(solution.system, others)
-        if letter not in other.follows:
+        if letter not in other.solved_letters:
             continue
-        given = {x: known[x] for x in others}
+        other_values = {x: known[x] for x in others}
         try:
-            derived = derive_values(other, data, covariance, given, sigmas)
+            derived = derive_values(other, data, covariance, other_values, sigmas)
         except DataError:
             continue
         if letter in derived.doubtful:
             continue
-        value, sigma = derived.value(letter), derived.sigma(letter)
-        own = sigmas.get(letter, 0.0)
-        spread = math.hypot(sigma, own)
-        found.append((letter, known[letter], own, value, sigma, _z(known[letter] - value, spread)))
-    bound = limit(len(found))
-    return tuple(KnownAgainstFit(*row, abs(row[-1]) > bound) for row in found)
+        value, sigma = derived.get_value(letter), derived.get_sigma(letter)
+        known_sigma = sigmas.get(letter, 0.0)
+        spread = math.hypot(sigma, known_sigma)
+        tested_rows.append(
+            (
+                letter,
+                known[letter],
+                known_sigma,
+                value,
+                sigma,
+                _standardise_difference(known[letter] - value, spread),
+            )
+        )
+    bound = compute_z_limit(len(tested_rows))
+    return tuple(KnownAgainstFit(*row, abs(row[-1]) > bound) for row in tested_rows)
 
 
-def _z(difference: float, sigma: float) -> float:
+def _standardise_difference(difference: float, sigma: float) -> float:
     if sigma > 0.0:
         return difference / sigma
     return 0.0 if abs(difference) < 1e-12 else math.copysign(math.inf, difference)
@@ -187,25 +196,25 @@ def compare_cad(
         sigmas: tolerances of CAD values, S their squares.
         unknown_data: {quantity: why it has no value}; these are left out.
     """
-    places = {d: places_in(system.definitions[d]) for d in system.data}
+    places = {d: find_places(system.definitions[d]) for d in system.data}
     depends = {
         d: tuple(x for x in system.letters if system.place[x] in places[d]) for d in system.data
     }
     missing = {d: [x for x in letters if x not in cad] for d, letters in depends.items()}
     left_out = {d: f"no CAD value of {', '.join(some)}" for d, some in missing.items() if some}
     left_out |= unknown_data or {}
-    kept = [i for i, name in enumerate(system.data) if name not in left_out]
-    problem = _CadProblem(system, kept, np.asarray(data), covariance, cad, sigmas or {})
-    rows = problem.rows(covariance, depends)
+    compared = [i for i, name in enumerate(system.data) if name not in left_out]
+    problem = _CadProblem(system, compared, np.asarray(data), covariance, cad, sigmas or {})
+    rows = problem.build_rows(covariance, depends)
     bad = {x for row in rows if row.suspicious for x in row.letters}
     good = {x for row in rows if not row.suspicious for x in row.letters}
     return CadComparison(
         tuple(rows),
-        limit(len(kept)),
-        problem.chi(problem.start),
+        compute_z_limit(len(compared)),
+        problem.compute_chi_squared(problem.start),
         left_out,
         tuple(x for x in system.letters if x in bad - good),
-        _explanations(problem, [x for x in system.letters if x in bad]),
+        _find_explanations(problem, [x for x in system.letters if x in bad]),
     )
 
 
@@ -213,30 +222,32 @@ class _CadProblem:
     """Residuals of the compared quantities for any values of the parameters."""
 
     def __init__(
-        self, system: PhysicalSystem, kept: Sequence[int], data: np.ndarray,
+        self, system: PhysicalSystem, compared: Sequence[int], data: np.ndarray,
         covariance: np.ndarray, cad: Mapping[str, float], sigmas: Mapping[str, float],
     ) -> None:  # fmt: skip
-        self.system, self.kept = system, list(kept)
-        self.data = data[self.kept]
-        self.polys = [SolvedNumbers(system.definitions[system.data[i]]) for i in self.kept]
-        self.start = system.point(cad)
-        J = self.jacobian(self.start)
+        self.system, self.compared = system, list(compared)
+        self.data = data[self.compared]
+        self.polys = [NumericPolynomial(system.definitions[system.data[i]]) for i in self.compared]
+        self.start = system.build_point(cad)
+        J = self.evaluate_jacobian(self.start)
         S = np.zeros(len(system.names))
         for name, value in sigmas.items():
             if name in system.place:
                 S[system.place[name]] = value**2
         from_cad = (J * S) @ J.T
-        self.cad = self.values(self.start)
-        self.cad_sigma = np.sqrt(np.diag(from_cad)) if self.kept else np.zeros(0)
-        total = covariance[np.ix_(self.kept, self.kept)] + from_cad
-        self.sigma = np.sqrt(np.diag(total)) if self.kept else np.zeros(0)
-        self.weight = _inverse_root(total)
+        self.cad = self.evaluate_quantities(self.start)
+        self.cad_sigma = np.sqrt(np.diag(from_cad)) if self.compared else np.zeros(0)
+        total = covariance[np.ix_(self.compared, self.compared)] + from_cad
+        self.sigma = np.sqrt(np.diag(total)) if self.compared else np.zeros(0)
+        self.weight = _compute_inverse_root(total)
 
-    def rows(self, covariance: np.ndarray, depends: Mapping[str, tuple[str, ...]]) -> list[CadRow]:
+    def build_rows(
+        self, covariance: np.ndarray, depends: Mapping[str, tuple[str, ...]]
+    ) -> list[CadRow]:
         """The table, most significant first."""
-        z, bound = self.z(self.start), limit(len(self.kept))
+        z, bound = self.compute_z(self.start), compute_z_limit(len(self.compared))
         rows = []
-        for k, i in enumerate(self.kept):
+        for k, i in enumerate(self.compared):
             name, sigma = self.system.data[i], math.sqrt(max(covariance[i, i], 0.0))
             both = float(self.cad[k]), float(self.cad_sigma[k])
             suspicious = bool(abs(z[k]) > bound)
@@ -246,31 +257,35 @@ class _CadProblem:
             rows.append(row)
         return sorted(rows, key=lambda row: -abs(row.z))
 
-    def values(self, point: np.ndarray) -> np.ndarray:
+    def evaluate_quantities(self, point: np.ndarray) -> np.ndarray:
         """Quantities from parameters."""
-        return np.array([poly.value(point) for poly in self.polys])
+        return np.array([poly.evaluate(point) for poly in self.polys])
 
-    def jacobian(self, point: np.ndarray) -> np.ndarray:
+    def evaluate_jacobian(self, point: np.ndarray) -> np.ndarray:
         """(quantities, generators)."""
-        return np.array([poly.slopes(point) for poly in self.polys]).reshape(-1, len(point))
+        return np.array([poly.evaluate_slopes(point) for poly in self.polys]).reshape(
+            -1, len(point)
+        )
 
-    def z(self, point: np.ndarray) -> np.ndarray:
+    def compute_z(self, point: np.ndarray) -> np.ndarray:
         """Differences by their standard deviations."""
-        difference = self.data - self.values(point)
-        return np.array([_z(a, b) for a, b in zip(difference, self.sigma, strict=True)])
+        difference = self.data - self.evaluate_quantities(point)
+        return np.array(
+            [_standardise_difference(a, b) for a, b in zip(difference, self.sigma, strict=True)]
+        )
 
-    def chi(self, point: np.ndarray) -> float:
+    def compute_chi_squared(self, point: np.ndarray) -> float:
         """Weighted sum of squares, correlations counted."""
-        r = self.weight @ (self.data - self.values(point))
+        r = self.weight @ (self.data - self.evaluate_quantities(point))
         return float(r @ r)
 
-    def promising(self, letters: Sequence[str], size: int) -> list[tuple[str, ...]]:
+    def select_promising_groups(self, letters: Sequence[str], size: int) -> list[tuple[str, ...]]:
         """Groups of that size that explain most to first order; all, if they are few."""
         groups = list(combinations(letters, size))
         if len(groups) <= _GROUPS:
             return groups
-        r = self.weight @ (self.data - self.values(self.start))
-        J = self.weight @ self.jacobian(self.start)
+        r = self.weight @ (self.data - self.evaluate_quantities(self.start))
+        J = self.weight @ self.evaluate_jacobian(self.start)
         left = []
         for group in groups:
             columns = J[:, [self.system.place[x] for x in group]]
@@ -278,19 +293,19 @@ class _CadProblem:
             left.append((float(rest @ rest), group))
         return [group for _, group in sorted(left)[:_GROUPS]]
 
-    def fitted(self, letters: Sequence[str]) -> np.ndarray:
+    def fit_letters(self, letters: Sequence[str]) -> np.ndarray:
         """The point with those letters changed for the least sum of squares (Gauss-Newton)."""
         at = [self.system.place[x] for x in letters]
         point = self.start.copy()
-        best = self.chi(point)
+        best = self.compute_chi_squared(point)
         for _ in range(_ROUNDS):
-            r = self.weight @ (self.data - self.values(point))
-            J = self.weight @ self.jacobian(point)[:, at]
+            r = self.weight @ (self.data - self.evaluate_quantities(point))
+            J = self.weight @ self.evaluate_jacobian(point)[:, at]
             step = np.linalg.lstsq(J, r, rcond=None)[0]
             for _ in range(_ROUNDS):
                 trial = point.copy()
                 trial[at] += step
-                if (chi := self.chi(trial)) <= best:
+                if (chi := self.compute_chi_squared(trial)) <= best:
                     break
                 step = step / 2.0
             else:
@@ -302,7 +317,7 @@ class _CadProblem:
         return point
 
 
-def _inverse_root(covariance: np.ndarray) -> np.ndarray:
+def _compute_inverse_root(covariance: np.ndarray) -> np.ndarray:
     """W with W' W = covariance^-1 where it has variance (its pseudo-inverse elsewhere)."""
     if not len(covariance):
         return np.zeros((0, 0))
@@ -313,19 +328,19 @@ def _inverse_root(covariance: np.ndarray) -> np.ndarray:
     return (vectors[:, keep] / np.sqrt(values[keep])).T / scale
 
 
-def _explanations(
+def _find_explanations(
     problem: _CadProblem, letters: Sequence[str], most: int = 6
 ) -> tuple[Explanation, ...]:
-    found: list[Explanation] = []
+    explanations: list[Explanation] = []
     for size in (1, 2):
-        bound = chi_squared_limit(len(problem.weight) - size)
-        for group in problem.promising(letters, size):
+        bound = compute_chi_squared_limit(len(problem.weight) - size)
+        for group in problem.select_promising_groups(letters, size):
             at = [problem.system.place[x] for x in group]
-            point = problem.fitted(group)
-            chi = problem.chi(point)
+            point = problem.fit_letters(group)
+            chi = problem.compute_chi_squared(point)
             cad, new = tuple(problem.start[at].tolist()), tuple(point[at].tolist())
-            found.append(Explanation(group, cad, new, chi, chi <= bound))
-        found.sort(key=lambda e: (not e.enough, len(e.letters), e.chi_squared, e.letters))
-        if found and found[0].enough:
-            return tuple(e for e in found if e.enough)[:most]
-    return tuple(found[:1])
+            explanations.append(Explanation(group, cad, new, chi, chi <= bound))
+        explanations.sort(key=lambda e: (not e.enough, len(e.letters), e.chi_squared, e.letters))
+        if explanations and explanations[0].enough:
+            return tuple(e for e in explanations if e.enough)[:most]
+    return tuple(explanations[:1])

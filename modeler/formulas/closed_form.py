@@ -41,19 +41,19 @@ from modeler.derivation import (
     ShaftColumn,
     SymbolicModel,
     Vector,
+    compute_frame_gravity,
+    compute_screws,
+    count_quarter_turns,
     cross,
+    derive_effect_entries,
     dot,
-    effect_entries,
-    gravity_in_frames,
-    in_block,
+    is_in_block,
     plus,
-    project,
-    quarter_turns,
-    screws,
-    with_square,
+    project_wrench,
+    replace_square,
 )
 from modeler.effects import EnergyBlock
-from modeler.formulas.energy_form import dynamics
+from modeler.formulas.energy_form import derive_energy_dynamics
 from modeler.formulas.function_sheet import Sheet, SheetWriter
 from modeler.formulas.ring import Poly, TrigRing
 from modeler.robot import Robot
@@ -61,35 +61,35 @@ from modeler.robot import Robot
 # A model on a graph of its own, prepared for formulas that people read; torques of its effects.
 
 
-def fresh_model(model: SymbolicModel) -> SymbolicModel:
+def copy_model(model: SymbolicModel) -> SymbolicModel:
     """The same model on another graph, which knows the sines of sums over parallel axes.
 
     Lengths, gravity, speeds times these sines are known too: the recursions multiply by them first.
     The graph of `model` is left as it is: emitted code would read these sines otherwise.
     """
-    found = replace(model, graph=Graph())
-    graph, geometry = found.graph, found.geometry
+    formula_model = replace(model, graph=Graph())
+    graph, geometry = formula_model.graph, formula_model.geometry
     graph.tables |= model.graph.tables
     lengths = {x for row in geometry.rows for x in (row.b, row.d, row.r)} | {*geometry.gravity}
-    factors = [found.algebra.static(x) for x in sorted(lengths, key=str) if not x.is_Number]
-    factors += found.inputs("qd") + found.inputs("qdd")
-    for angle in _angles(geometry, found.algebra):
+    factors = [formula_model.algebra.static(x) for x in sorted(lengths, key=str) if not x.is_Number]
+    factors += formula_model.get_inputs("qd") + formula_model.get_inputs("qdd")
+    for angle in _collect_angles(geometry, formula_model.algebra):
         for turned in (graph.call("cos", angle), graph.call("sin", angle)):
             for factor in factors:
                 graph.lift(factor * turned)
-    return found
+    return formula_model
 
 
-def written_symbols(model: SymbolicModel, parameters: Mapping[int, str]) -> dict[str, str]:
+def collect_symbol_names(model: SymbolicModel, parameters: Mapping[int, str]) -> dict[str, str]:
     """{symbol of the graph: how it is written}: positions, speeds, signals, named columns."""
-    found = {name: name for name in model.geometry.values}
-    for k, joint in enumerate(model.robot.free):
-        found |= {f"{kind}[{k}]": f"{kind}{joint.name}" for kind in ("q", "qd", "qdd")}
-    found |= {f"beta[{column}]": name for column, name in parameters.items()}
-    return found | {f"s[{k}]": letter for k, letter in enumerate(signal_symbols(model))}
+    symbol_names = {name: name for name in model.geometry.values}
+    for k, joint in enumerate(model.robot.free_joints):
+        symbol_names |= {f"{kind}[{k}]": f"{kind}{joint.name}" for kind in ("q", "qd", "qdd")}
+    symbol_names |= {f"beta[{column}]": name for column, name in parameters.items()}
+    return symbol_names | {f"s[{k}]": letter for k, letter in enumerate(get_signal_letters(model))}
 
 
-def signal_symbols(model: SymbolicModel) -> list[str]:
+def get_signal_letters(model: SymbolicModel) -> list[str]:
     """How the signals are written that effects read besides the motion: t1, T2, z3."""
     kinds = {
         "time": "t",
@@ -103,67 +103,69 @@ def signal_symbols(model: SymbolicModel) -> list[str]:
     return [f"{kinds[signal.kind]}{k + 1}" for k, signal in enumerate(model.signals)]
 
 
-def named_columns(base: BaseParameters) -> dict[int, str]:
+def get_base_columns(base: BaseParameters) -> dict[int, str]:
     """{column: the base parameter that has it}."""
     return {parameter.column: parameter.name for parameter in base.parameters}
 
 
-def effects_sheet(model: SymbolicModel, parameters: Mapping[int, str]) -> Sheet:
+def build_effects_sheet(model: SymbolicModel, parameters: Mapping[int, str]) -> Sheet:
     """The results of `write_effects` alone, for the parameters of those columns."""
-    model = fresh_model(model)
-    writer = SheetWriter(model.graph, written_symbols(model, parameters), model.robot.halves)
+    model = copy_model(model)
+    writer = SheetWriter(
+        model.graph, collect_symbol_names(model, parameters), model.robot.has_binary_fractions
+    )
     write_effects(model, parameters, writer)
-    return writer.finished()
+    return writer.build_sheet()
 
 
-def symbols_of(model: SymbolicModel, columns: Iterable[int]) -> dict[int, Expr]:
+def create_parameter_symbols(model: SymbolicModel, columns: Iterable[int]) -> dict[int, Expr]:
     """{column: the symbol of its parameter}."""
     return {column: model.graph.symbol(f"beta[{column}]") for column in columns}
 
 
 def write_effects(model: SymbolicModel, columns: Iterable[int], writer: SheetWriter) -> None:
     """Results e<i>, torques that effects take along the free variables; rotor inertias are in J."""
-    total = [model.graph.constant(0)] * len(model.robot.free)
-    for place, value in symbols_of(model, columns).items():
+    total = [model.graph.constant(0)] * len(model.robot.free_joints)
+    for place, value in create_parameter_symbols(model, columns).items():
         for part in model.columns[place].parts:
-            if isinstance(part, ShaftColumn) and not in_block(part, EnergyBlock.KINETIC):
-                for k, entry in effect_entries(model, part).items():
+            if isinstance(part, ShaftColumn) and not is_in_block(part, EnergyBlock.KINETIC):
+                for k, entry in derive_effect_entries(model, part).items():
                     total[k] = total[k] + value * entry
-    writer.section("friction, offsets and other effects")
-    for joint, entry in zip(model.robot.free, total, strict=True):
-        writer.result(f"e{joint.name}", entry)
+    writer.open_section("friction, offsets and other effects")
+    for joint, entry in zip(model.robot.free_joints, total, strict=True):
+        writer.add_result(f"e{joint.name}", entry)
 
 
-def _angles(geometry: Geometry, algebra: GraphAlgebra) -> list[Expr]:
+def _collect_angles(geometry: Geometry, algebra: GraphAlgebra) -> list[Expr]:
     """Angles of the rows that turn, and those between frames whose z axes are parallel."""
-    found: list[Expr] = []
+    angles: list[Expr] = []
     for k, row in enumerate(geometry.rows):
-        angle = _turn(row, algebra)
-        found.append(angle)
-        at, sign = k, _flip(row)
+        angle = _extract_angle(row, algebra)
+        angles.append(angle)
+        at, sign = k, _compare_z_axes(row)
         while sign and (parent := geometry.rows[at].parent) is not None:
             at = parent
-            before = _turn(geometry.rows[at], algebra)
+            before = _extract_angle(geometry.rows[at], algebra)
             angle = angle + (before if sign > 0 else -before)
-            found.append(angle)
-            sign *= _flip(geometry.rows[at])
-    return found
+            angles.append(angle)
+            sign *= _compare_z_axes(geometry.rows[at])
+    return angles
 
 
-def _flip(row: GeometryRow) -> int:
+def _compare_z_axes(row: GeometryRow) -> int:
     """1 if z is parallel to that of the antecedent, -1 if opposite, 0 if neither."""
     quarters = row.alpha / (sympy.pi / 2)
     return {0: 1, 2: -1}.get(int(quarters) % 4, 0) if quarters.is_Integer else 0
 
 
-def _turn(row: GeometryRow, algebra: GraphAlgebra) -> Expr:
+def _extract_angle(row: GeometryRow, algebra: GraphAlgebra) -> Expr:
     """Rate * q and constant of a row that turns, right angles left out."""
     angle = algebra.graph.constant(0)
-    if row.index is not None and row.joint.angular:
-        q = algebra.combined("q", row)
+    if row.index is not None and row.joint.is_revolute:
+        q = algebra.combine_variable("q", row)
         angle = q if row.rate > 0 else -q
     for constant in (row.theta, row.gamma):
-        _, rest = quarter_turns(constant)
+        _, rest = count_quarter_turns(constant)
         if rest:
             angle = angle + algebra.static(rest)
     return angle
@@ -181,7 +183,7 @@ _EXHAUSTIVE = 4  # joints with squares up to which every combination is tried
 
 
 @dataclass(frozen=True)
-class Function:
+class ConfigurationFunction:
     """One function of the configuration.
 
     Attributes:
@@ -219,21 +221,21 @@ class ClosedForm:
     parameters: tuple[str, ...]
     algebra: TrigRing
     gravity_factor: str
-    functions: tuple[Function, ...]
+    functions: tuple[ConfigurationFunction, ...]
     effects: Sheet
 
     @cached_property
-    def by_name(self) -> Mapping[str, Function]:
+    def by_name(self) -> Mapping[str, ConfigurationFunction]:
         """Functions by name."""
         return {function.name: function for function in self.functions}
 
     @property
-    def monomials(self) -> int:
+    def monomial_count(self) -> int:
         """Number of monomials of all functions."""
         return sum(len(function.terms) for function in self.functions)
 
 
-def closed_form(model: SymbolicModel, base: BaseParameters | None = None) -> ClosedForm:
+def derive_closed_form(model: SymbolicModel, base: BaseParameters | None = None) -> ClosedForm:
     """The dynamics of a robot as polynomials in sines and cosines of its joints.
 
     Per function and per joint, either squares of the sine or squares of the cosine are eliminated,
@@ -254,11 +256,11 @@ def closed_form(model: SymbolicModel, base: BaseParameters | None = None) -> Clo
     algebra = TrigRing(model.geometry)
     everything: Sequence[int] = range(len(model.columns))
     columns = everything if base is None else [p.column for p in base.parameters]
-    found = dynamics(model, algebra, columns)
-    factor = _gravity_factor(algebra)
-    names = [joint.name for joint in model.robot.free]
-    keep = _kept_by_paper(model.robot)
-    gravity = found.gravity
+    energy_dynamics = derive_energy_dynamics(model, algebra, columns)
+    factor = _find_gravity_factor(algebra)
+    names = [joint.name for joint in model.robot.free_joints]
+    keep = _read_sine_squares(model.robot)
+    gravity = energy_dynamics.gravity
     if factor is not None:
         letter_of = algebra.ring.gens[factor]
         gravity = {
@@ -266,8 +268,12 @@ def closed_form(model: SymbolicModel, base: BaseParameters | None = None) -> Clo
             for at, entry in gravity.items()
         }
     functions = [
-        _function(letter, names, at, entry, algebra, keep)
-        for letter, entries in (("g", gravity), ("J", found.inertia), ("S", found.christoffel))
+        _build_function(letter, names, at, entry, algebra, keep)
+        for letter, entries in (
+            ("g", gravity),
+            ("J", energy_dynamics.inertia),
+            ("S", energy_dynamics.christoffel),
+        )
         for at, entry in entries.items()
     ]
     known = [function.name for function in functions]
@@ -280,40 +286,42 @@ def closed_form(model: SymbolicModel, base: BaseParameters | None = None) -> Clo
     parameters = list(model.names)
     for parameter in base.parameters if base is not None else ():
         parameters[parameter.column] = parameter.name
-    effects = effects_sheet(model, {column: parameters[column] for column in columns})
+    effects = build_effects_sheet(model, {column: parameters[column] for column in columns})
     return ClosedForm(model.robot, tuple(parameters), algebra, letter, tuple(functions), effects)
 
 
-def function_name(letter: str, joints: Sequence[str]) -> str:
+def format_function_name(letter: str, joints: Sequence[str]) -> str:
     """Name of a function: "J12"; "J1_12" where a joint's name has several characters."""
     return letter + ("" if all(len(name) == 1 for name in joints) else "_").join(joints)
 
 
-def _function(
+def _build_function(
     letter: str, names: Sequence[str], at: tuple[int, ...], entry: Form, algebra: TrigRing,
     keep: frozenset[str] | None,
-) -> Function:  # fmt: skip
-    name = function_name(letter, [names[i] for i in at])
+) -> ConfigurationFunction:  # fmt: skip
+    name = format_function_name(letter, [names[i] for i in at])
     if keep is None:
-        entry = _fewest(entry, algebra)
+        entry = _minimise_monomials(entry, algebra)
     elif name in keep:
         turning = [i for i, motion in enumerate(algebra.motions) if motion.sine is not None]
-        entry = _with_sines(entry, algebra, turning)
-    terms = collect(entry, algebra)
+        entry = _keep_sine_squares(entry, algebra, turning)
+    terms = collect_monomials(entry, algebra)
     order = sorted(terms, reverse=True)
-    return Function(name, KINDS[letter], at, {exponents: terms[exponents] for exponents in order})
+    return ConfigurationFunction(
+        name, KINDS[letter], at, {exponents: terms[exponents] for exponents in order}
+    )
 
 
-def collect(entry: Form, algebra: TrigRing) -> dict[Exponents, dict[int, Poly]]:
+def collect_monomials(entry: Form, algebra: TrigRing) -> dict[Exponents, dict[int, Poly]]:
     """{parameter: polynomial} sorted by monomials: {monomial: {parameter: factor}}."""
     terms: dict[Exponents, dict[int, Poly]] = {}
     for column, poly in entry.items():
-        for exponents, factor in algebra.split(poly).items():
+        for exponents, factor in algebra.separate_motion(poly).items():
             terms.setdefault(exponents, {})[column] = factor
     return terms
 
 
-def _fewest(entry: Form, algebra: TrigRing) -> Form:
+def _minimise_monomials(entry: Form, algebra: TrigRing) -> Form:
     """The same function with the squares of sines kept where that saves monomials."""
     squared = [
         index
@@ -323,30 +331,30 @@ def _fewest(entry: Form, algebra: TrigRing) -> Form:
     ]
     if len(squared) <= _EXHAUSTIVE:
         sets = [c for n in range(len(squared) + 1) for c in combinations(squared, n)]
-        choices = [_with_sines(entry, algebra, chosen) for chosen in sets]
-        return min(choices, key=lambda choice: _count(choice, algebra))
-    best, count = entry, _count(entry, algebra)
+        choices = [_keep_sine_squares(entry, algebra, chosen) for chosen in sets]
+        return min(choices, key=lambda choice: _count_monomials(choice, algebra))
+    best, count = entry, _count_monomials(entry, algebra)
     for index in squared:
-        other = _with_sines(best, algebra, (index,))
-        if (fewer := _count(other, algebra)) < count:
+        other = _keep_sine_squares(best, algebra, (index,))
+        if (fewer := _count_monomials(other, algebra)) < count:
             best, count = other, fewer
     return best
 
 
-def _with_sines(entry: Form, algebra: TrigRing, joints: Sequence[int]) -> Form:
+def _keep_sine_squares(entry: Form, algebra: TrigRing, joints: Sequence[int]) -> Form:
     for index in joints:
         motion = algebra.motions[index]
         assert motion.sine is not None and motion.cosine is not None
         square = 1 - algebra.ring.gens[motion.sine] ** 2
-        entry = {c: with_square(poly, motion.cosine, square) for c, poly in entry.items()}
+        entry = {c: replace_square(poly, motion.cosine, square) for c, poly in entry.items()}
     return entry
 
 
-def _count(entry: Form, algebra: TrigRing) -> int:
+def _count_monomials(entry: Form, algebra: TrigRing) -> int:
     return len({exponents[: algebra.moving] for poly in entry.values() for exponents in poly})
 
 
-def _gravity_factor(algebra: TrigRing) -> int | None:
+def _find_gravity_factor(algebra: TrigRing) -> int | None:
     """Place of the first letter that divides every component of gravity."""
     entries = [algebra.static(entry) for entry in algebra.geometry.gravity]
     terms = [exponents for entry in entries for exponents in entry]
@@ -356,7 +364,7 @@ def _gravity_factor(algebra: TrigRing) -> int | None:
     return next((place for place in places if all(t[place] for t in terms)), None)
 
 
-def _kept_by_paper(robot: Robot) -> frozenset[str] | None:
+def _read_sine_squares(robot: Robot) -> frozenset[str] | None:
     names = robot.terms.get("keep_sine_squares")
     if names is None:
         return None
@@ -375,7 +383,7 @@ Triple = tuple[int, int, int]
 
 
 @dataclass(frozen=True)
-class _Rows:
+class _TreeQuantities:
     """Tree quantities by the index of the row's variable, zeros left out.
 
     Attributes:
@@ -396,79 +404,83 @@ def write_short_form(model: SymbolicModel, base: BaseParameters, writer: SheetWr
 
     Where all joints are free, S_kij = -S_jik and S_kii = -S_iik/2 spare their lines.
     """
-    beta = symbols_of(model, named_columns(base))
-    bodies = _composites(model, beta, writer)
-    rows = _rows(model, bodies, writer)
-    names = [joint.name for joint in model.robot.free]
-    shafts = _shafts(model, beta)
-    if model.geometry.tied:
+    beta = create_parameter_symbols(model, get_base_columns(base))
+    bodies = _build_composites(model, beta, writer)
+    rows = _derive_tree_quantities(model, bodies, writer)
+    names = [joint.name for joint in model.robot.free_joints]
+    shafts = _collect_shaft_inertias(model, beta)
+    if model.geometry.has_relations:
         _write_tied(model, rows, shafts, names, writer)
     else:
         _write_chain(rows, shafts, names, writer)
     write_effects(model, beta, writer)
 
 
-def _composites(
+def _build_composites(
     model: SymbolicModel, beta: Mapping[int, Expr], writer: SheetWriter
 ) -> list[Composite]:
     """Every link with all that it carries, in its frame."""
     zero = model.graph.constant(0)
-    links = [Composite(p, zero) for p in model.link_parameters(beta)]
+    links = [Composite(p, zero) for p in model.collect_link_parameters(beta)]
     rows = model.geometry.rows
     for k in reversed(range(len(links))):
         body, name = links[k], rows[k].joint.name
-        writer.section(f"link {name} and all that it carries, in frame {name}")
-        writer.propose(f"M{name}c", body.M)
+        writer.open_section(f"link {name} and all that it carries, in frame {name}")
+        writer.propose_quantity(f"M{name}c", body.M)
         for axis, moment in zip("XYZ", body.MS, strict=True):
-            writer.propose(f"M{axis}{name}c", moment)
+            writer.propose_quantity(f"M{axis}{name}c", moment)
         for prefix, i, j in _INERTIA:
-            writer.propose(f"{prefix}{name}c", body.J[i][j])
+            writer.propose_quantity(f"{prefix}{name}c", body.J[i][j])
         parent = rows[k].parent
         if parent is not None:
-            links[parent].carry(body, model.frames[k])
+            links[parent].add_composite(body, model.frames[k])
     return links
 
 
-def _rows(model: SymbolicModel, bodies: Sequence[Composite], writer: SheetWriter) -> _Rows:
+def _derive_tree_quantities(
+    model: SymbolicModel, bodies: Sequence[Composite], writer: SheetWriter
+) -> _TreeQuantities:
     """J, A, B and g of the rows that move."""
     geometry = model.geometry
-    down = gravity_in_frames(geometry, model.frames, model.algebra)
+    down = compute_frame_gravity(geometry, model.frames, model.algebra)
     inertia: dict[tuple[int, int], Expr] = {}
     turned: dict[Triple, Expr] = {}
     carried: dict[Triple, Expr] = {}
     gravity: dict[int, Expr] = {}
-    everything = screws(geometry, model.frames, model.algebra)
+    everything = compute_screws(geometry, model.frames, model.algebra)
     for row, body, g, chain in zip(geometry.rows, bodies, down, everything, strict=True):
         name, k = row.joint.name, row.index
         if k is None:
             continue
-        writer.section(f"axes and gravity in frame {name}")
+        writer.open_section(f"axes and gravity in frame {name}")
         for i, screw in sorted(chain.items()):
-            other = geometry.robot.moving[i].name
-            name_vector(writer, f"e{other}{{}}_{name}", screw.e)
-            name_vector(writer, f"m{other}{{}}_{name}", screw.m)
-        name_vector(writer, f"g{{}}_{name}", g)
-        f, n = body.momentum(row)
+            other = geometry.robot.moving_joints[i].name
+            propose_vector(writer, f"e{other}{{}}_{name}", screw.e)
+            propose_vector(writer, f"m{other}{{}}_{name}", screw.m)
+        propose_vector(writer, f"g{{}}_{name}", g)
+        f, n = body.compute_momentum(row)
         pull = cross(body.MS, g)
-        gravity[k] = -project(chain[k], [x * body.M for x in g], pull)
+        gravity[k] = -project_wrench(chain[k], [x * body.M for x in g], pull)
         for i, j in combinations_with_replacement(sorted(chain), 2):
-            turned[i, j, k] = _turned(body, chain[i], chain[j], row.joint.angular) * row.rate
+            turned[i, j, k] = (
+                _derive_inertia_slope(body, chain[i], chain[j], row.joint.is_revolute) * row.rate
+            )
             if j == k:
-                inertia[i, k] = project(chain[i], f, n)
+                inertia[i, k] = project_wrench(chain[i], f, n)
             if i < j:
                 a, b = chain[j], chain[i]  # a x b: how screw b changes while all turns by a
                 moved = Screw(cross(a.e, b.e), plus(cross(a.e, b.m), cross(a.m, b.e)))
-                carried[i, j, k] = -project(moved, f, n)
-    return _Rows(inertia, turned, carried, gravity)
+                carried[i, j, k] = -project_wrench(moved, f, n)
+    return _TreeQuantities(inertia, turned, carried, gravity)
 
 
-def name_vector(writer: SheetWriter, pattern: str, vector: Vector) -> None:
+def propose_vector(writer: SheetWriter, pattern: str, vector: Vector) -> None:
     """Proposes the pattern with x, y, z in its braces for the entries."""
     for axis, entry in zip(_AXES, vector, strict=True):
-        writer.propose(pattern.format(axis), entry)
+        writer.propose_quantity(pattern.format(axis), entry)
 
 
-def _turned(body: Composite, a: Screw, b: Screw, angular: bool) -> Expr:
+def _derive_inertia_slope(body: Composite, a: Screw, b: Screw, angular: bool) -> Expr:
     """a . (dI/dq) b, where the body turns about z or moves along it."""
     zero = body.M * 0
     x, y, z = body.MS
@@ -487,52 +499,61 @@ def _turned(body: Composite, a: Screw, b: Screw, angular: bool) -> Expr:
     return total + dot(moments, plus(cross(a.m, b.e), cross(b.m, a.e)))
 
 
-def _shafts(model: SymbolicModel, beta: Mapping[int, Expr]) -> dict[tuple[int, int], Expr]:
+def _collect_shaft_inertias(
+    model: SymbolicModel, beta: Mapping[int, Expr]
+) -> dict[tuple[int, int], Expr]:
     """Inertia that turns with shafts: {(i, j): value}, i <= j, of free variables."""
-    found: dict[tuple[int, int], Expr] = {}
+    shaft_inertias: dict[tuple[int, int], Expr] = {}
     for place, value in beta.items():
         for part in model.columns[place].parts:
-            if in_block(part, EnergyBlock.KINETIC):
+            if is_in_block(part, EnergyBlock.KINETIC):
                 for i, j in combinations_with_replacement(sorted(part.shaft), 2):
                     added = value * (part.shaft[i] * part.shaft[j])
-                    found[i, j] = found.get((i, j), model.graph.constant(0)) + added
-    return found
+                    shaft_inertias[i, j] = (
+                        shaft_inertias.get((i, j), model.graph.constant(0)) + added
+                    )
+    return shaft_inertias
 
 
 def _write_chain(
-    rows: _Rows, shafts: Mapping[tuple[int, int], Expr], names: Sequence[str], writer: SheetWriter
+    rows: _TreeQuantities,
+    shafts: Mapping[tuple[int, int], Expr],
+    names: Sequence[str],
+    writer: SheetWriter,
 ) -> None:
     """Results where every joint is free."""
-    writer.section("inertia matrix, J_ji = J_ij")
+    writer.open_section("inertia matrix, J_ji = J_ij")
     for (i, k), value in sorted(rows.inertia.items()):
         total = value + shafts[i, k] if (i, k) in shafts else value
-        writer.result(function_name("J", [names[i], names[k]]), total)
-    writer.section("Christoffel coefficients; S_kij = -S_jik and S_kii = -S_iik/2 for i <= j <= k")
+        writer.add_result(format_function_name("J", [names[i], names[k]]), total)
+    writer.open_section(
+        "Christoffel coefficients; S_kij = -S_jik and S_kii = -S_iik/2 for i <= j <= k"
+    )
     for i, j, k in sorted(rows.turned):
         A, B = rows.turned[i, j, k], rows.carried.get((i, j, k))
         x, y, z = names[i], names[j], names[k]
         if B is None or j == k:
-            writer.result(function_name("S", [x, y, z]), A)
+            writer.add_result(format_function_name("S", [x, y, z]), A)
             continue
-        writer.propose(function_name("A", [x, y, z]), A)
-        writer.propose(function_name("B", [x, y, z]), B)
-        writer.result(function_name("S", [x, y, z]), A + B)
-        writer.result(function_name("S", [y, x, z]), A - B)
-    writer.section("gravity")
+        writer.propose_quantity(format_function_name("A", [x, y, z]), A)
+        writer.propose_quantity(format_function_name("B", [x, y, z]), B)
+        writer.add_result(format_function_name("S", [x, y, z]), A + B)
+        writer.add_result(format_function_name("S", [y, x, z]), A - B)
+    writer.open_section("gravity")
     for i, value in sorted(rows.gravity.items()):
-        writer.result(function_name("g", [names[i]]), value)
+        writer.add_result(format_function_name("g", [names[i]]), value)
 
 
 def _write_tied(
-    model: SymbolicModel, rows: _Rows, shafts: Mapping[tuple[int, int], Expr],
+    model: SymbolicModel, rows: _TreeQuantities, shafts: Mapping[tuple[int, int], Expr],
     names: Sequence[str], writer: SheetWriter,
 ) -> None:  # fmt: skip
     """Results along the free joints: J_u = E' J E, and so on."""
-    moving = [joint.name for joint in model.robot.moving]
-    writer.section("as if every joint were free")
+    moving = [joint.name for joint in model.robot.moving_joints]
+    writer.open_section("as if every joint were free")
     for letter, entries in (("T", rows.inertia), ("A", rows.turned), ("B", rows.carried)):
         for place, value in sorted(entries.items()):
-            writer.propose(function_name(letter, [moving[i] for i in place]), value)
+            writer.propose_quantity(format_function_name(letter, [moving[i] for i in place]), value)
     forms, zero = model.geometry.forms, model.graph.constant(0)
     inertia: dict[tuple[int, int], Expr] = dict(shafts)
     for (i, k), value in rows.inertia.items():
@@ -540,40 +561,40 @@ def _write_tied(
             for (a, x), (b, y) in product(forms[at[0]].items(), forms[at[1]].items()):
                 if a <= b:
                     inertia[a, b] = inertia.get((a, b), zero) + value * (x * y)
-    writer.section("inertia matrix, J_ji = J_ij")
+    writer.open_section("inertia matrix, J_ji = J_ij")
     for at, value in sorted(inertia.items()):
-        writer.result(function_name("J", [names[i] for i in at]), value)
-    writer.section("Christoffel coefficients")
-    for triple, value in sorted(_tied_christoffel(model, rows).items()):
-        writer.result(function_name("S", [names[i] for i in triple]), value)
-    writer.section("gravity")
+        writer.add_result(format_function_name("J", [names[i] for i in at]), value)
+    writer.open_section("Christoffel coefficients")
+    for triple, value in sorted(_combine_christoffel(model, rows).items()):
+        writer.add_result(format_function_name("S", [names[i] for i in triple]), value)
+    writer.open_section("gravity")
     for a, name in enumerate(names):
         total = zero
         for i, value in rows.gravity.items():
             total = total + value * forms[i].get(a, Fraction(0))
-        writer.result(function_name("g", [name]), total)
+        writer.add_result(format_function_name("g", [name]), total)
 
 
-def _tied_christoffel(model: SymbolicModel, rows: _Rows) -> dict[Triple, Expr]:
+def _combine_christoffel(model: SymbolicModel, rows: _TreeQuantities) -> dict[Triple, Expr]:
     """S_abc, b <= c: sums over the rows of half the tree's coefficients, both orders of b, c."""
     forms, zero = model.geometry.forms, model.graph.constant(0)
-    found: dict[Triple, Expr] = {}
-    for triple, value in _symbols(rows).items():
+    coefficients: dict[Triple, Expr] = {}
+    for triple, value in _derive_christoffel_symbols(rows).items():
         for (a, x), (b, y), (c, z) in product(*(forms[i].items() for i in triple)):
             if b <= c:
                 at, twice = (a, b, c), 1 if b == c else 2
-                found[at] = found.get(at, zero) + value * (x * y * z * twice)
-    return found
+                coefficients[at] = coefficients.get(at, zero) + value * (x * y * z * twice)
+    return coefficients
 
 
-def _symbols(rows: _Rows) -> dict[Triple, Expr]:
+def _derive_christoffel_symbols(rows: _TreeQuantities) -> dict[Triple, Expr]:
     """Christoffel symbols of the tree, {(i, j, k): [jk, i]}, both orders of j and k."""
-    found: dict[Triple, Expr] = {}
+    symbols: dict[Triple, Expr] = {}
     half = Fraction(1, 2)
     for (i, j, k), A in rows.turned.items():
         B = rows.carried.get((i, j, k))
         plus_, minus = (A * half, A * half) if B is None else ((A + B) * half, (A - B) * half)
         for at, value in (((i, j, k), plus_), ((j, i, k), minus), ((k, i, j), -minus)):
-            found[at] = value
-            found[at[0], at[2], at[1]] = value
-    return found
+            symbols[at] = value
+            symbols[at[0], at[2], at[1]] = value
+    return symbols

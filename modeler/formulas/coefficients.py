@@ -10,30 +10,36 @@ from modeler.core.errors import RobotError
 from modeler.core.expression import Expression
 from modeler.derivation import (
     BaseParameters,
-    Relations,
+    LinearRelations,
     SymbolicModel,
-    linear_relations,
-    value_modulo,
+    evaluate_modulo,
+    find_linear_relations,
 )
-from modeler.formulas.closed_form import ClosedForm, Exponents, Form, Function, closed_form
+from modeler.formulas.closed_form import (
+    ClosedForm,
+    ConfigurationFunction,
+    Exponents,
+    Form,
+    derive_closed_form,
+)
 from modeler.formulas.physical import (
     SEED,
     Identifiability,
     PhysicalParameters,
-    identifiability,
-    physical_parameters,
-    random_point,
+    analyse_identifiability,
+    derive_physical_parameters,
+    draw_random_point,
 )
-from modeler.formulas.printed import Print, read_print
+from modeler.formulas.printed import PrintedTerms, read_printed_terms
 from modeler.formulas.ring import (
     BaseMap,
     Poly,
     TrigRing,
-    base_map,
-    independent_modulo,
-    polynomial_of,
+    build_base_map,
+    convert_to_polynomial,
+    find_independent_modulo,
 )
-from modeler.formulas.text import monomial_text
+from modeler.formulas.text import format_monomial
 
 PREFIX = {"gravity": "PG", "inertia": "PJ", "christoffel": "PS"}
 
@@ -81,9 +87,9 @@ class CoefficientTable:
     closed: ClosedForm
     physical: PhysicalParameters
     base: BaseParameters
-    printed: Print
+    printed: PrintedTerms
     coefficients: tuple[Coefficient, ...]
-    relations: Relations
+    relations: LinearRelations
     known_geometry: tuple[str, ...]
     identifiability: Identifiability
     map: BaseMap
@@ -99,50 +105,60 @@ class CoefficientTable:
         return tuple(parameter.name for parameter in self.base.parameters)
 
 
-def coefficient_table(model: SymbolicModel, base: BaseParameters) -> CoefficientTable:
+def build_coefficient_table(model: SymbolicModel, base: BaseParameters) -> CoefficientTable:
     """All coefficients of the closed form, named, defined and related.
 
     Raises:
         DerivationError: the robot has no closed form worth printing.
         RobotError: `[terms]` or `[physical]` of the robot file is wrong.
     """
-    printed = read_print(model.robot)
-    closed = closed_form(model)
-    physical = physical_parameters(model, closed.algebra)
+    printed = read_printed_terms(model.robot)
+    closed = derive_closed_form(model)
+    physical = derive_physical_parameters(model, closed.algebra)
     motion = closed.algebra.names[: closed.algebra.moving]
     numbered = [(k, parameter.column) for k, parameter in enumerate(base.parameters)]
     listed = []
-    for name, (function, at) in _names(closed, printed):
+    for name, (function, at) in _assign_names(closed, printed):
         form = closed.by_name[function].terms[at]
         grouped = {k: form[column] for k, column in numbered if column in form}
-        text = monomial_text(at, motion)
-        listed.append(Coefficient(name, function, at, text, form, grouped, physical.of(form)))
+        text = format_monomial(at, motion)
+        listed.append(
+            Coefficient(name, function, at, text, form, grouped, physical.convert_form(form))
+        )
     coefficients = tuple(listed)
-    found = linear_relations({c.name: vector_of(c.standard) for c in coefficients})
+    relations = find_linear_relations({c.name: flatten_form(c.standard) for c in coefficients})
     by_name = {c.name: c for c in coefficients}
-    known = _known_geometry(coefficients, closed.algebra)
-    seen = identifiability(physical, [by_name[name].physical for name in found.independent])
+    known = _find_known_geometry(coefficients, closed.algebra)
+    seen = analyse_identifiability(
+        physical, [by_name[name].physical for name in relations.independent]
+    )
     names, ring = [parameter.name for parameter in base.parameters], closed.algebra.static_ring
-    of_base = base_map(known, [by_name[name].base for name in known], names, ring)
+    of_base = build_base_map(known, [by_name[name].base for name in known], names, ring)
     return CoefficientTable(
-        closed, physical, base, printed, coefficients, found, known, seen, of_base
+        closed, physical, base, printed, coefficients, relations, known, seen, of_base
     )
 
 
-def independent_coefficients(table: CoefficientTable) -> CoefficientTable:
+def select_independent_coefficients(table: CoefficientTable) -> CoefficientTable:
     """The table with those coefficients only from which the others follow over Q."""
-    kept = set(table.relations.independent)
-    return replace(table, coefficients=tuple(c for c in table.coefficients if c.name in kept))
+    independent_names = set(table.relations.independent)
+    return replace(
+        table, coefficients=tuple(c for c in table.coefficients if c.name in independent_names)
+    )
 
 
-def vector_of(form: Form) -> dict[Any, Any]:
+def flatten_form(form: Form) -> dict[Any, Any]:
     """A linear form over Q: {(parameter, exponents of the geometry): rational number}."""
     return {(column, at): value for column, factor in form.items() for at, value in factor.items()}
 
 
-def _names(closed: ClosedForm, printed: Print) -> list[tuple[str, tuple[str, Exponents]]]:
+def _assign_names(
+    closed: ClosedForm, printed: PrintedTerms
+) -> list[tuple[str, tuple[str, Exponents]]]:
     """Names in order of the functions; monomials that the paper lacks at the end."""
-    orders = {name: _monomials(closed, name, cells) for name, cells in printed.monomials.items()}
+    orders = {
+        name: _read_monomials(closed, name, cells) for name, cells in printed.monomials.items()
+    }
     counts = dict.fromkeys(PREFIX, 0)
     named, missing = [], []
     for function in closed.functions:
@@ -154,7 +170,7 @@ def _names(closed: ClosedForm, printed: Print) -> list[tuple[str, tuple[str, Exp
     return named + [(f"{printed.missing}{i}", at) for i, at in enumerate(missing, start=1)]
 
 
-def _monomials(
+def _read_monomials(
     closed: ClosedForm, name: str, cells: tuple[Expression, ...]
 ) -> tuple[Exponents, ...]:
     where = f"robot {closed.robot.name}, [terms], monomials, {name}"
@@ -165,36 +181,40 @@ def _monomials(
         )
     algebra = closed.algebra
     motion = algebra.names[: algebra.moving]
-    found: list[Exponents] = []
+    monomials: list[Exponents] = []
     for cell in cells:
-        at = _exponents(cell, algebra)
-        if at is None or at not in function.terms or at in found:
-            have = ", ".join(monomial_text(t, motion) for t in function.terms)
+        at = _read_exponents(cell, algebra)
+        if at is None or at not in function.terms or at in monomials:
+            have = ", ".join(format_monomial(t, motion) for t in function.terms)
             raise RobotError(f'{where}: got "{cell.text}"; expected each at most once: {have}')
-        found.append(at)
-    return tuple(found)
+        monomials.append(at)
+    return tuple(monomials)
 
 
-def _exponents(cell: Expression, algebra: TrigRing) -> Exponents | None:
+def _read_exponents(cell: Expression, algebra: TrigRing) -> Exponents | None:
     """Exponents of a monomial; None if it is none."""
     generators = dict(zip(algebra.names, algebra.ring.gens[: algebra.moving], strict=False))
-    value = polynomial_of(cell, generators, algebra.ring)
+    value = convert_to_polynomial(cell, generators, algebra.ring)
     if value is None or len(value) != 1 or value.LC != 1:
         return None
     return next(iter(value))[: algebra.moving]
 
 
-def _known_geometry(coefficients: tuple[Coefficient, ...], algebra: TrigRing) -> tuple[str, ...]:
+def _find_known_geometry(
+    coefficients: tuple[Coefficient, ...], algebra: TrigRing
+) -> tuple[str, ...]:
     names = [str(symbol) for symbol in algebra.static_ring.symbols]
-    prime, point = random_point(names, random.Random(SEED))
+    prime, point = draw_random_point(names, random.Random(SEED))
     vectors = [
-        {column: value_modulo(factor, point, prime) for column, factor in c.standard.items()}
+        {column: evaluate_modulo(factor, point, prime) for column, factor in c.standard.items()}
         for c in coefficients
     ]
-    return tuple(coefficients[k].name for k in independent_modulo(vectors, prime))
+    return tuple(coefficients[k].name for k in find_independent_modulo(vectors, prime))
 
 
-def by_function(table: CoefficientTable) -> Iterator[tuple[Function, list[Coefficient]]]:
+def collect_by_function(
+    table: CoefficientTable,
+) -> Iterator[tuple[ConfigurationFunction, list[Coefficient]]]:
     """Functions with their coefficients, in order of names."""
     for function in table.closed.functions:
         yield function, [c for c in table.coefficients if c.function == function.name]

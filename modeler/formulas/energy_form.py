@@ -24,14 +24,14 @@ from modeler.derivation import (
     StandardColumn,
     SymbolicModel,
     Vector,
+    compute_frame_gravity,
+    compute_free_screws,
+    compute_poses,
     cross,
     dot,
-    free_screws,
-    gravity_in_frames,
-    in_block,
+    is_in_block,
     plus,
-    poses,
-    project,
+    project_wrench,
     times,
 )
 from modeler.effects import EnergyBlock
@@ -60,53 +60,58 @@ class EnergyDynamics:
     gravity: Entries
 
 
-def dynamics(model: SymbolicModel, ring: TrigRing, columns: Sequence[int]) -> EnergyDynamics:
+def derive_energy_dynamics(
+    model: SymbolicModel, ring: TrigRing, columns: Sequence[int]
+) -> EnergyDynamics:
     """The entries of the dynamics for those columns; friction and offsets have none.
 
     Raises:
         DerivationError: more than `MOST_PRODUCTS` products; says how many.
     """
-    frames = poses(model.geometry, ring)
-    carried = carried_screws(model.geometry, frames, ring)
+    frames = compute_poses(model.geometry, ring)
+    carried = compute_normal_screws(model.geometry, frames, ring)
     wanted = [(place, part) for place in columns for part in model.columns[place].parts]
     _check_size(model, carried, wanted)
     inertia: dict[tuple[int, ...], dict[int, Poly]] = {}
     for place, column in wanted:
         if isinstance(column, LinkColumn):
-            link, body = carried[column.row], _unit_body(column, ring)
-            for i, j in _pairs(link):
-                factor = ring.normal(_kinetic_factor(body, link[i], link[j]))
-                _add(inertia, (i, j), place, factor)
+            link, body = carried[column.row], _build_unit_body(column, ring)
+            for i, j in _enumerate_pairs(link):
+                factor = ring.normalise_polynomial(_compute_kinetic_factor(body, link[i], link[j]))
+                _add_entry(inertia, (i, j), place, factor)
     for place, column in wanted:  # inertia that turns with a shaft: constant entries c_i c_j
-        if in_block(column, EnergyBlock.KINETIC):
-            for i, j in _pairs(column.shaft):
+        if is_in_block(column, EnergyBlock.KINETIC):
+            for i, j in _enumerate_pairs(column.shaft):
                 value = column.shaft[i] * column.shaft[j]
                 factor = ring.static(sympy.Rational(value.numerator, value.denominator))
-                _add(inertia, (i, j), place, factor)
-    down = [ring_vector(v, ring) for v in gravity_in_frames(model.geometry, frames, ring)]
+                _add_entry(inertia, (i, j), place, factor)
+    down = [normalise_vector(v, ring) for v in compute_frame_gravity(model.geometry, frames, ring)]
     return EnergyDynamics(
-        _without_zeros(inertia),
-        _without_zeros(_christoffel(inertia, model.geometry.coordinates, ring)),
-        _without_zeros(_gravity(carried, down, wanted, ring)),
+        _drop_zeros(inertia),
+        _drop_zeros(_derive_christoffel(inertia, model.geometry.coordinate_count, ring)),
+        _drop_zeros(_derive_gravity(carried, down, wanted, ring)),
     )
 
 
-def carried_screws(
+def compute_normal_screws(
     geometry: Geometry, frames: Sequence[Pose], ring: TrigRing
 ) -> list[dict[int, Screw]]:
     """For every row, the screw of each free variable that moves it, in normal form."""
-    found: list[dict[int, Screw]] = []
-    for total in free_screws(geometry, frames, ring, lambda c: QQ(c.numerator, c.denominator)):
+    row_screws: list[dict[int, Screw]] = []
+    for total in compute_free_screws(
+        geometry, frames, ring, lambda c: QQ(c.numerator, c.denominator)
+    ):
         normal = {
-            k: Screw(ring_vector(x.e, ring), ring_vector(x.m, ring)) for k, x in total.items()
+            k: Screw(normalise_vector(x.e, ring), normalise_vector(x.m, ring))
+            for k, x in total.items()
         }
-        found.append({k: x for k, x in normal.items() if any(x.e) or any(x.m)})
-    return found
+        row_screws.append({k: x for k, x in normal.items() if any(x.e) or any(x.m)})
+    return row_screws
 
 
-def ring_vector(vector: Vector, ring: TrigRing) -> Vector:
+def normalise_vector(vector: Vector, ring: TrigRing) -> Vector:
     """The vector in normal form."""
-    return [ring.normal(ring.ring(x)) for x in vector]
+    return [ring.normalise_polynomial(ring.ring(x)) for x in vector]
 
 
 def _check_size(
@@ -117,7 +122,7 @@ def _check_size(
     products = 0
     for k in {column.row for _, column in wanted if isinstance(column, LinkColumn)}:
         sizes = {i: (sum(map(len, x.e)), sum(map(len, x.m))) for i, x in carried[k].items()}
-        for i, j in _pairs(sizes):
+        for i, j in _enumerate_pairs(sizes):
             (e, m), (f, n) = sizes[i], sizes[j]
             products += e * f + e * n + m * f + m * n
     if products > MOST_PRODUCTS:
@@ -128,11 +133,11 @@ def _check_size(
         )
 
 
-def _pairs(found: Mapping[int, object]) -> Iterator[tuple[int, int]]:
-    return combinations_with_replacement(sorted(found), 2)
+def _enumerate_pairs(places: Mapping[int, object]) -> Iterator[tuple[int, int]]:
+    return combinations_with_replacement(sorted(places), 2)
 
 
-def _add(
+def _add_entry(
     entries: dict[tuple[int, ...], dict[int, Poly]], at: tuple[int, ...], place: int, factor: Poly
 ) -> None:
     """Parts of one parameter add up: similar legs share theirs."""
@@ -140,18 +145,18 @@ def _add(
     entry[place] = entry[place] + factor if place in entry else factor
 
 
-def _unit_body(column: LinkColumn, ring: TrigRing) -> Composite:
+def _build_unit_body(column: LinkColumn, ring: TrigRing) -> Composite:
     """A link of which only that parameter is there, and is 1."""
     return Composite({column.prefix: ring.ring.one}, ring.ring.zero)
 
 
-def _kinetic_factor(body: Composite, a: Screw, b: Screw) -> Poly:
+def _compute_kinetic_factor(body: Composite, a: Screw, b: Screw) -> Poly:
     """Along screw a, the momentum of the body for unit speed along b."""
     f = plus(times(body.M, b.m), cross(b.e, body.MS))
-    return project(a, f, plus([dot(line, b.e) for line in body.J], cross(body.MS, b.m)))
+    return project_wrench(a, f, plus([dot(line, b.e) for line in body.J], cross(body.MS, b.m)))
 
 
-def _gravity(
+def _derive_gravity(
     carried: Sequence[Mapping[int, Screw]],
     down: Sequence[Vector],
     wanted: Sequence[tuple[int, StandardColumn]],
@@ -160,19 +165,23 @@ def _gravity(
     entries: dict[tuple[int, ...], dict[int, Poly]] = {}
     for place, column in wanted:
         if isinstance(column, LinkColumn):
-            g, body = down[column.row], _unit_body(column, ring)
+            g, body = down[column.row], _build_unit_body(column, ring)
             for i, screw in carried[column.row].items():
-                factor = -project(screw, times(body.M, g), cross(body.MS, g))
-                _add(entries, (i,), place, ring.normal(factor))
+                factor = -project_wrench(screw, times(body.M, g), cross(body.MS, g))
+                _add_entry(entries, (i,), place, ring.normalise_polynomial(factor))
     return entries
 
 
-def _christoffel(
+def _derive_christoffel(
     inertia: Entries, joints: int, ring: TrigRing
 ) -> dict[tuple[int, ...], dict[int, Poly]]:
     """S_ijk = dM_ij/dq_k + dM_ik/dq_j - dM_jk/dq_i for j < k, half of that for j = k."""
     slopes = {
-        (at, k): {p: slope for p, factor in entry.items() if (slope := ring.derivative(factor, k))}
+        (at, k): {
+            p: slope
+            for p, factor in entry.items()
+            if (slope := ring.differentiate_polynomial(factor, k))
+        }
         for at, entry in inertia.items()
         for k in range(joints)
     }
@@ -183,12 +192,12 @@ def _christoffel(
             parts = [((i, j), k, 1), ((j, k), i, -1), ((i, k), j, 1)]
             for at, by, factor in parts if j < k else [parts[0], ((j, j), i, half)]:
                 for place, slope in slopes.get((tuple(sorted(at)), by), {}).items():
-                    _add(entries, (i, j, k), place, slope * factor)
+                    _add_entry(entries, (i, j, k), place, slope * factor)
     return entries
 
 
-def _without_zeros(
+def _drop_zeros(
     entries: Mapping[tuple[int, ...], Mapping[int, Poly]],
 ) -> dict[tuple[int, ...], dict[int, Poly]]:
-    kept = {at: {p: f for p, f in entry.items() if f} for at, entry in entries.items()}
-    return {at: kept[at] for at in sorted(kept) if kept[at]}
+    nonzero = {at: {p: f for p, f in entry.items() if f} for at, entry in entries.items()}
+    return {at: nonzero[at] for at in sorted(nonzero) if nonzero[at]}

@@ -15,10 +15,10 @@ from dataclasses import dataclass, replace
 from fractions import Fraction
 from typing import Any
 
-from modeler.core.formula import latex_name
-from modeler.core.latex_display import DisplayedEquation, display
+from modeler.core.formula import format_latex_name
+from modeler.core.latex_display import DisplayedEquation, format_display
 from modeler.derivation import Expr, Graph, Node
-from modeler.formulas.text import LATEX, TEXT, TextStyle, signed_sum
+from modeler.formulas.text import LATEX, TEXT, TextStyle, format_signed_sum
 
 SHORT = 7
 """Characters up to which a quantity is written wherever it is read."""
@@ -74,7 +74,7 @@ class Sheet:
 
 
 class SheetWriter:
-    """Collects proposals and results; `finished` decides which names stay."""
+    """Collects proposals and results; `build_sheet` decides which names stay."""
 
     def __init__(
         self,
@@ -87,22 +87,22 @@ class SheetWriter:
         self._unnamed = UNNAMED if abbreviate else sys.maxsize
         self.letters = dict(letters)
         self._taken = set(self.letters.values())
-        self._own: set[str] = set()
+        self._generated: set[str] = set()
         self._section = ""
         self._lines: list[Definition] = []
         self._first: dict[int, Definition] = {}
 
-    def section(self, title: str) -> None:
+    def open_section(self, title: str) -> None:
         """What follows stands under that title."""
         self._section = title
 
-    def propose(self, name: str, value: Expr) -> None:
+    def propose_quantity(self, name: str, value: Expr) -> None:
         """A quantity that may get this name; the first name of a value stays."""
         node = abs(value.ref)
         if node not in self._first and not self._is_atom(node):
-            self._add(name, value, False)
+            self._add_definition(name, value, False)
 
-    def result(self, name: str, value: Expr, read: bool = True) -> None:
+    def add_result(self, name: str, value: Expr, read: bool = True) -> None:
         """A quantity that is asked for; zeros are left out.
 
         Args:
@@ -111,9 +111,9 @@ class SheetWriter:
             read: False if no other formula is to be written by its name.
         """
         if value.ref:
-            self._add(name, value, True, read)
+            self._add_definition(name, value, True, read)
 
-    def _add(self, name: str, value: Expr, result: bool, read: bool = True) -> None:
+    def _add_definition(self, name: str, value: Expr, result: bool, read: bool = True) -> None:
         while name in self._taken:
             name += "_"
         self._taken.add(name)
@@ -122,50 +122,54 @@ class SheetWriter:
         if read and not self._is_atom(abs(value.ref)):
             self._first.setdefault(abs(value.ref), definition)
 
-    def finished(self) -> Sheet:
+    def build_sheet(self) -> Sheet:
         """The sheet of all results and of what they need."""
         results = [Expr(self.graph, line.ref) for line in self._lines if line.result]
-        nodes = self.graph.reachable(results)
+        nodes = self.graph.find_reachable(results)
         turning = [n for n in nodes if self.graph.nodes[n].op in ("sin", "cos")]
-        trig, angles = angle_names(self.graph, turning, self.letters, self._taken)
-        read = self._all_read(results)
+        trig, angles = assign_angle_names(self.graph, turning, self.letters, self._taken)
+        read = self._find_read_nodes(results)
         nodes = [node for node in nodes if node in read]
-        names = self._chosen(nodes, trig)
-        lines = self._ordered(names)
-        if self._replaced(lines):
-            names = self._chosen(nodes, trig)
-            lines = self._ordered(names)
-        given = [line.name for line in lines if line.name in self._own]
-        self._taken -= self._own
-        new = {name: self._own_name() for name in given}  # in the order in which they are read
+        names = self._choose_names(nodes, trig)
+        lines = self._arrange_definitions(names)
+        if self._replace_early_names(lines):
+            names = self._choose_names(nodes, trig)
+            lines = self._arrange_definitions(names)
+        generated = [line.name for line in lines if line.name in self._generated]
+        self._taken -= self._generated
+        new = {
+            name: self._generate_name() for name in generated
+        }  # in the order in which they are read
         lines = tuple(replace(line, name=new.get(line.name, line.name)) for line in lines)
         names = {node: (new.get(name, name), sign) for node, (name, sign) in names.items()}
         return Sheet(self.graph, self.letters, names, lines, trig, angles, self.halves)
 
-    def _replaced(self, lines: Sequence[Definition]) -> bool:
+    def _replace_early_names(self, lines: Sequence[Definition]) -> bool:
         """Another name for values that are read before the section of their name."""
         homes = {line.name: line.section for line in self._lines}
         early = [d for d in lines if d.section != homes.get(d.name, d.section)]
         for line in early:
-            self._first[abs(line.ref)] = Definition("", self._own_name(), line.ref, False)
+            self._first[abs(line.ref)] = Definition("", self._generate_name(), line.ref, False)
         return bool(early)
 
     def _is_atom(self, node: int) -> bool:
         return node == 0 or self.graph.nodes[node].op in ATOMS
 
-    def _chosen(self, nodes: Sequence[int], trig: Mapping[int, str]) -> dict[int, tuple[str, int]]:
+    def _choose_names(
+        self, nodes: Sequence[int], trig: Mapping[int, str]
+    ) -> dict[int, tuple[str, int]]:
         """Names that are worth their line, by node; arguments before their users."""
-        edges = Counter(abs(arg) for node in nodes for arg in self._args(node))
+        edges = Counter(abs(arg) for node in nodes for arg in self._get_arguments(node))
         edges.update(abs(line.ref) for line in self._lines if line.result)
         length = {0: 1}
         chosen: dict[int, tuple[str, int]] = {}
         for node in nodes:
-            length[node] = self._length(node, length, trig)
+            length[node] = self._estimate_length(node, length, trig)
             if self._is_atom(node):
                 continue
             proposed = self._first.get(node)
             if proposed is None and edges[node] > 1 and length[node] > self._unnamed:
-                proposed = Definition("", self._own_name(), node, False)
+                proposed = Definition("", self._generate_name(), node, False)
                 self._first[node] = proposed
             least = SHORT if edges[node] > 1 else ONCE
             if proposed is not None and (proposed.result or length[node] > least):
@@ -173,84 +177,86 @@ class SheetWriter:
                 length[node] = len(proposed.name)
         return chosen
 
-    def _own_name(self) -> str:
+    def _generate_name(self) -> str:
         count = 1
         while f"k{count}" in self._taken:
             count += 1
         self._taken.add(f"k{count}")
-        self._own.add(f"k{count}")
+        self._generated.add(f"k{count}")
         return f"k{count}"
 
-    def _length(self, node: int, length: Mapping[int, int], trig: Mapping[int, str]) -> int:
+    def _estimate_length(
+        self, node: int, length: Mapping[int, int], trig: Mapping[int, str]
+    ) -> int:
         """Characters that the node takes, about."""
-        found = self.graph.nodes[node]
-        if found.op == "num":
-            return len(str(found.args[0]))
-        if found.op == "sym":
-            return len(self.letters.get(found.args[0], found.args[0]))
+        operation = self.graph.nodes[node]
+        if operation.op == "num":
+            return len(str(operation.args[0]))
+        if operation.op == "sym":
+            return len(self.letters.get(operation.args[0], operation.args[0]))
         if node in trig:
             return len(trig[node])
-        return sum(length[abs(arg)] for arg in found.args) + (3 if found.op == "add" else 1)
+        return sum(length[abs(arg)] for arg in operation.args) + (3 if operation.op == "add" else 1)
 
-    def _ordered(self, names: Mapping[int, tuple[str, int]]) -> tuple[Definition, ...]:
+    def _arrange_definitions(self, names: Mapping[int, tuple[str, int]]) -> tuple[Definition, ...]:
         """Definitions as they were proposed; what is read stands before who reads it."""
         done: set[int] = set()
         lines: list[Definition] = []
 
-        def write(node: int, section: str) -> None:
+        def write_definition(node: int, section: str) -> None:
             if node in done:
                 return
             done.add(node)
-            for read in self._reads(node, names):
-                write(read, section)
+            for read in self._find_named_arguments(node, names):
+                write_definition(read, section)
             lines.append(replace(self._first[node], section=section))
 
         for line in self._lines:
             node = abs(line.ref)
             if self._first.get(node) is line:
                 if node in names:
-                    write(node, line.section)
+                    write_definition(node, line.section)
             elif line.result:
-                for read in [node] if node in names else self._reads(node, names):
-                    write(read, line.section)
+                for read in [node] if node in names else self._find_named_arguments(node, names):
+                    write_definition(read, line.section)
                 lines.append(line)
         return tuple(lines)
 
-    def _reads(self, node: int, names: Mapping[int, tuple[str, int]]) -> list[int]:
+    def _find_named_arguments(self, node: int, names: Mapping[int, tuple[str, int]]) -> list[int]:
         """Named nodes that the definition of a node reads, in order."""
-        found: set[int] = set()
-        stack = [abs(arg) for arg in self._args(node)]
+        named_nodes: set[int] = set()
+        stack = [abs(arg) for arg in self._get_arguments(node)]
         while stack:
             at = stack.pop()
             if at in names:
-                found.add(at)
+                named_nodes.add(at)
             else:
-                stack += [abs(arg) for arg in self._args(at)]
-        return sorted(found)
+                stack += [abs(arg) for arg in self._get_arguments(at)]
+        return sorted(named_nodes)
 
-    def _all_read(self, results: Sequence[Expr]) -> set[int]:
+    def _find_read_nodes(self, results: Sequence[Expr]) -> set[int]:
         """Nodes that lines are made of, not those of angles alone."""
-        found, stack = set[int](), [abs(result.ref) for result in results]
+        read_nodes, stack = set[int](), [abs(result.ref) for result in results]
         while stack:
-            if (at := stack.pop()) not in found:
-                found.add(at)
+            if (at := stack.pop()) not in read_nodes:
+                read_nodes.add(at)
                 node = self.graph.nodes[at]
-                if not _turns(node) and node.op not in ("num", "sym"):
+                if not _is_turning(node) and node.op not in ("num", "sym"):
                     stack += [abs(arg) for arg in node.args]
-        return found
+        return read_nodes
 
-    def _args(self, node: int) -> tuple[int, ...]:
+    def _get_arguments(self, node: int) -> tuple[int, ...]:
         """Sines and cosines have a line of their own, in which their angles stand in full."""
-        found = self.graph.nodes[node]
-        return () if _turns(found) or self._is_atom(node) else found.args
+        operation = self.graph.nodes[node]
+        return () if _is_turning(operation) or self._is_atom(node) else operation.args
 
 
-def _turns(node: Node) -> bool:
+def _is_turning(node: Node) -> bool:
     """True of the sine or cosine of an angle that moves."""
     return node.op in ("sin", "cos") and not node.static
 
 
-def angle_names(
+def assign_angle_names(
     graph: Graph, nodes: Iterable[int], letters: Mapping[str, str], taken: set[str]
 ) -> tuple[dict[int, str], dict[str, int]]:
     """Names of sines and cosines, and the angles that they belong to.
@@ -267,38 +273,45 @@ def angle_names(
     trig: dict[int, str] = {}
     labels: dict[int, str] = {}
     for node in nodes:
-        found = graph.nodes[node]
-        if found.static:
+        operation = graph.nodes[node]
+        if operation.static:
             continue
-        angle = found.args[0]
+        angle = operation.args[0]
         if angle not in labels:
-            label = _label(graph, angle, letters)
+            label = _format_angle_label(graph, angle, letters)
             while {f"s{label}", f"c{label}"} & taken:
                 label += "_"
             labels[angle] = label
             taken |= {f"s{label}", f"c{label}"}
-        trig[node] = found.op[0] + labels[angle]
+        trig[node] = operation.op[0] + labels[angle]
     order = sorted(labels, key=lambda ref: (len(labels[ref]), labels[ref]))
     return trig, {labels[ref]: ref for ref in order}
 
 
-def _label(graph: Graph, angle: int, letters: Mapping[str, str]) -> str:
-    parts = sorted(_summed(graph, angle, letters), key=lambda part: part[0] < 0)
+def _format_angle_label(graph: Graph, angle: int, letters: Mapping[str, str]) -> str:
+    parts = sorted(_collect_angle_terms(graph, angle, letters), key=lambda part: part[0] < 0)
     if all(sign > 0 and len(text) == 1 for sign, text in parts):
         return "".join(sorted(text for _, text in parts))
     return "".join(("m" if sign < 0 else "p") + text for sign, text in parts).removeprefix("p")
 
 
-def _summed(graph: Graph, ref: int, letters: Mapping[str, str]) -> list[tuple[int, str]]:
+def _collect_angle_terms(
+    graph: Graph, ref: int, letters: Mapping[str, str]
+) -> list[tuple[int, str]]:
     """The terms of an angle: (sign, letters)."""
     node, sign = graph.nodes[abs(ref)], 1 if ref > 0 else -1
     if node.op == "add":
-        return [(sign * s, t) for arg in node.args for s, t in _summed(graph, arg, letters)]
+        return [
+            (sign * s, t) for arg in node.args for s, t in _collect_angle_terms(graph, arg, letters)
+        ]
     if node.op == "sym":
         return [(sign, letters.get(node.args[0], node.args[0]).removeprefix("q"))]
     if node.op == "mul" and graph.nodes[abs(node.args[0])].op == "num":
         number = str(graph.nodes[abs(node.args[0])].args[0]).replace("/", "by")
-        return [(sign * s, f"{number}x{t}") for s, t in _summed(graph, node.args[1], letters)]
+        return [
+            (sign * s, f"{number}x{t}")
+            for s, t in _collect_angle_terms(graph, node.args[1], letters)
+        ]
     return [(sign, f"n{abs(ref)}")]
 
 
@@ -331,13 +344,13 @@ _LATEX_NAMES = (
 """Names of speeds and of vectors, by frame."""
 
 
-def _collected(terms: Iterable[Term]) -> dict[tuple[Factor, ...], Term]:
+def _combine_terms(terms: Iterable[Term]) -> dict[tuple[Factor, ...], Term]:
     """{factors in one order: term}, terms alike together."""
-    found: dict[tuple[Factor, ...], Term] = {}
+    combined: dict[tuple[Factor, ...], Term] = {}
     for number, factors in terms:
-        before, first = found.get(key := tuple(sorted(factors)), (Fraction(0), factors))
-        found[key] = (before + number, first)
-    return found
+        before, first = combined.get(key := tuple(sorted(factors)), (Fraction(0), factors))
+        combined[key] = (before + number, first)
+    return combined
 
 
 class SheetPrinter:
@@ -346,7 +359,7 @@ class SheetPrinter:
     def __init__(self, sheet: Sheet, style: TextStyle = TEXT) -> None:
         self.sheet, self.style = sheet, replace(style, halves=sheet.halves)
 
-    def letter(self, name: str) -> str:
+    def format_letter(self, name: str) -> str:
         """A name: q, qd, qdd with dots, an underscore as a comma of the index."""
         if not self.style.latex:
             return name
@@ -355,99 +368,105 @@ class SheetPrinter:
                 return re.sub(pattern, latex, name)
         split = re.fullmatch(r"([A-Za-z]+)(\d\w*)", name)
         if split:
-            return f"{latex_name(split[1])}_{{{split[2].replace('_', ',')}}}"
-        return latex_name(name)
+            return f"{format_latex_name(split[1])}_{{{split[2].replace('_', ',')}}}"
+        return format_latex_name(name)
 
-    def trig(self, name: str) -> str:
+    def format_trig(self, name: str) -> str:
         """A sine or cosine, m and p of its angle as signs."""
         if self.style.latex:
             signs = re.sub(r"(?<=\d)p(?=\d)", "+", re.sub(r"(?<=\d)m(?=\d)", "-", name[1:]))
             return f"{name[0]}_{{{signs}}}"
         return name
 
-    def value(self, definition: Definition) -> str:
+    def format_value(self, definition: Definition) -> str:
         """The right side."""
         node = abs(definition.ref)
-        own = self.sheet.names.get(node)
-        if own is not None and own[0] != definition.name:  # the same as another quantity
-            return self.sum(definition.ref)
-        return self.sum(definition.ref, opened=node)
+        named_value = self.sheet.names.get(node)
+        if (
+            named_value is not None and named_value[0] != definition.name
+        ):  # the same as another quantity
+            return self.format_sum(definition.ref)
+        return self.format_sum(definition.ref, opened=node)
 
-    def sum(self, ref: int, opened: int = 0) -> str:
+    def format_sum(self, ref: int, opened: int = 0) -> str:
         """The value; the node `opened` is written out even if it has a name."""
-        terms = _collected(self._cancelled(self._terms(ref, Fraction(1), opened)))
-        units, kept = dict[str, str](), list[tuple[Fraction, str]]()
+        terms = _combine_terms(self._cancel_terms(self._collect_terms(ref, Fraction(1), opened)))
+        units, signed_terms = dict[str, str](), list[tuple[Fraction, str]]()
         for number, factors in terms.values():
             if number:
-                kept.append((number, self._product(factors)))
-                units[kept[-1][1]] = next((f[1] for f in factors if f[0] == _UNIT), "")
-        kept.sort(key=lambda term: (units[term[1]], term[0] < 0, not term[1]))
-        return signed_sum(kept, self.style)
+                signed_terms.append((number, self._format_product(factors)))
+                units[signed_terms[-1][1]] = next((f[1] for f in factors if f[0] == _UNIT), "")
+        signed_terms.sort(key=lambda term: (units[term[1]], term[0] < 0, not term[1]))
+        return format_signed_sum(signed_terms, self.style)
 
-    def _cancelled(self, terms: list[Term]) -> list[Term]:
+    def _cancel_terms(self, terms: list[Term]) -> list[Term]:
         """Brackets are opened where what is in them cancels: a (x + y) - a (x - y) is 2 a y."""
-        opened = [self._opened(term) for term in terms]
-        total = _collected(term for each in opened for term in each)
+        opened = [self._expand_bracket(term) for term in terms]
+        total = _combine_terms(term for each in opened for term in each)
         gone = {key for key, (number, _) in total.items() if not number}
         return [
             term
             for whole, each in zip(terms, opened, strict=True)
-            for term in (each if gone & {*_collected(each)} else [whole])
+            for term in (each if gone & {*_combine_terms(each)} else [whole])
         ]
 
-    def _opened(self, term: Term) -> list[Term]:
+    def _expand_bracket(self, term: Term) -> list[Term]:
         """The term multiplied out if it has one bracket."""
         number, factors = term
         brackets = [factor for factor in factors if factor[2]]
         if len(brackets) != 1:
             return [term]
         rest = [factor for factor in factors if not factor[2]]
-        inside = self._terms(brackets[0][2], number, brackets[0][2])
+        inside = self._collect_terms(brackets[0][2], number, brackets[0][2])
         return [(value, (*rest, *more)) for value, more in inside]
 
-    def _terms(self, ref: int, factor: Fraction, opened: int) -> list[Term]:
+    def _collect_terms(self, ref: int, factor: Fraction, opened: int) -> list[Term]:
         node, number = abs(ref), factor if ref > 0 else -factor
-        found = self.sheet.graph.nodes[node]
+        operation = self.sheet.graph.nodes[node]
         if node == 0:
             return []
-        if found.op == "add" and (node == opened or node not in self.sheet.names):
-            return [term for arg in found.args for term in self._terms(arg, number, opened)]
-        value, factors = self._factors(node, opened)
+        if operation.op == "add" and (node == opened or node not in self.sheet.names):
+            return [
+                term for arg in operation.args for term in self._collect_terms(arg, number, opened)
+            ]
+        value, factors = self._collect_factors(node, opened)
         return [(number * value, tuple(factors))]
 
-    def _factors(self, node: int, opened: int) -> tuple[Fraction, list[Factor]]:
+    def _collect_factors(self, node: int, opened: int) -> tuple[Fraction, list[Factor]]:
         """(number, factors) of a value that is no sum."""
-        found = self.sheet.graph.nodes[node]
+        operation = self.sheet.graph.nodes[node]
         if node in self.sheet.names and node != opened:
             name, sign = self.sheet.names[node]
-            return Fraction(sign), [(_NAMED, self.letter(name), 0)]
-        if found.op == "num":
-            return found.args[0], []
-        if found.op == "mul":
-            parts = [self._factors(abs(arg), opened) for arg in found.args]
-            sign = 1 if (found.args[0] > 0) == (found.args[1] > 0) else -1
+            return Fraction(sign), [(_NAMED, self.format_letter(name), 0)]
+        if operation.op == "num":
+            return operation.args[0], []
+        if operation.op == "mul":
+            parts = [self._collect_factors(abs(arg), opened) for arg in operation.args]
+            sign = 1 if (operation.args[0] > 0) == (operation.args[1] > 0) else -1
             return sign * parts[0][0] * parts[1][0], parts[0][1] + parts[1][1]
-        if found.op == "div":
-            return self._quotient(found.args[0], found.args[1])
-        if found.op == "add":
-            return Fraction(1), [(_BRACKET, self.style.bracket(self.sum(node, opened)), node)]
-        rank = _LETTER if found.static else _TRIG if node in self.sheet.trig else _NAMED
-        if found.op == "sym" and found.args[0].startswith(VECTOR):
+        if operation.op == "div":
+            return self._format_quotient(operation.args[0], operation.args[1])
+        if operation.op == "add":
+            return Fraction(1), [
+                (_BRACKET, self.style.add_brackets(self.format_sum(node, opened)), node)
+            ]
+        rank = _LETTER if operation.static else _TRIG if node in self.sheet.trig else _NAMED
+        if operation.op == "sym" and operation.args[0].startswith(VECTOR):
             rank = _UNIT
-        return Fraction(1), [(rank, self._atom(node), 0)]
+        return Fraction(1), [(rank, self._format_atom(node), 0)]
 
-    def _quotient(self, above: int, below: int) -> tuple[Fraction, list[Factor]]:
+    def _format_quotient(self, above: int, below: int) -> tuple[Fraction, list[Factor]]:
         """A fraction with the number in front of its numerator taken out."""
         number = Fraction(1 if above > 0 else -1)
         is_sum = self.sheet.graph.nodes[abs(above)].op == "add" and (
             abs(above) not in self.sheet.names
         )
         if is_sum:
-            text = self.sum(abs(above))
+            text = self.format_sum(abs(above))
         else:
-            value, factors = self._factors(abs(above), 0)
-            number, text = number * value, self._product(factors) or "1"
-        lower = self.sum(below)
+            value, factors = self._collect_factors(abs(above), 0)
+            number, text = number * value, self._format_product(factors) or "1"
+        lower = self.format_sum(below)
         if self.style.latex:
             return number, [(_NAMED, rf"\frac{{{text}}}{{{lower}}}", 0)]
         closed = (
@@ -456,31 +475,31 @@ class SheetPrinter:
         )
         return number, [(_NAMED, "/".join(closed), 0)]
 
-    def _atom(self, node: int) -> str:
-        found = self.sheet.graph.nodes[node]
-        if found.op == "sym":
-            letter = self.sheet.letters.get(found.args[0], found.args[0])
-            if self.style.latex and found.args[0].startswith(VECTOR):
+    def _format_atom(self, node: int) -> str:
+        operation = self.sheet.graph.nodes[node]
+        if operation.op == "sym":
+            letter = self.sheet.letters.get(operation.args[0], operation.args[0])
+            if self.style.latex and operation.args[0].startswith(VECTOR):
                 return re.sub("(.+?)_(.*)", r"\\mathbf{\1}_{\2}", letter)
-            return self.letter(letter)
+            return self.format_letter(letter)
         if node in self.sheet.trig:
-            return self.trig(self.sheet.trig[node])
-        if found.op == "pi":
+            return self.format_trig(self.sheet.trig[node])
+        if operation.op == "pi":
             return r"\pi" if self.style.latex else "pi"
-        if found.op == "pow":
-            base, exponent = (self.sum(arg) for arg in found.args)
+        if operation.op == "pow":
+            base, exponent = (self.format_sum(arg) for arg in operation.args)
             power = f"^{{{exponent}}}" if self.style.latex else f"**({exponent})"
-            return self.style.bracket(base) + power
-        argument = ", ".join(map(self.sum, found.args))
+            return self.style.add_brackets(base) + power
+        argument = ", ".join(map(self.format_sum, operation.args))
         if not self.style.latex:
-            return f"{found.op}({argument})"
-        if found.op == "sqrt":
+            return f"{operation.op}({argument})"
+        if operation.op == "sqrt":
             return f"\\sqrt{{{argument}}}"
-        known = found.op in ("sin", "cos", "tan", "exp", "tanh")
-        name = re.sub(r"(\D+)(\d*)", r"\\operatorname{\1}_{\2}", found.op).removesuffix("_{}")
-        return f"\\{found.op}({argument})" if known else f"{name}({argument})"
+        known = operation.op in ("sin", "cos", "tan", "exp", "tanh")
+        name = re.sub(r"(\D+)(\d*)", r"\\operatorname{\1}_{\2}", operation.op).removesuffix("_{}")
+        return f"\\{operation.op}({argument})" if known else f"{name}({argument})"
 
-    def _product(self, factors: Sequence[Factor]) -> str:
+    def _format_product(self, factors: Sequence[Factor]) -> str:
         order = sorted(Counter(factors).items(), key=lambda item: item[0][0])
         power = "{}^{{{}}}" if self.style.latex else "{}**{}"
         texts = (at[1] if n == 1 else power.format(at[1], n) for at, n in order)
@@ -493,61 +512,61 @@ class SheetPrinter:
 _WIDTH = 100
 
 
-def sheet_lines(sheet: Sheet) -> list[str]:
+def format_sheet_lines(sheet: Sheet) -> list[str]:
     """The formulas as lines of Python, titles as comments."""
     lines: list[str] = []
-    for title, formulas in _sections(sheet):
+    for title, formulas in _format_sections(sheet):
         lines += ["", f"# {title}", *formulas] if lines else [f"# {title}", *formulas]
     return lines
 
 
-def sheet_markdown(sheet: Sheet) -> str:
+def format_sheet_markdown(sheet: Sheet) -> str:
     """The lines of Python under headings."""
     parts = []
-    for title, formulas in _sections(sheet):
+    for title, formulas in _format_sections(sheet):
         parts += [f"## {title}", "", "```python", *formulas, "```", ""]
     return "\n".join(parts)
 
 
-def _sections(sheet: Sheet) -> list[tuple[str, list[str]]]:
+def _format_sections(sheet: Sheet) -> list[tuple[str, list[str]]]:
     """(title, lines of Python)."""
     printer, angles, section = SheetPrinter(sheet), list[str](), None
-    for name, function, angle in _turning(printer):
+    for name, function, angle in _collect_trig(printer):
         piece = f"{name} = {function}({angle})"
         if angles and len(angles[-1]) + len(piece) + 2 <= _WIDTH:
             angles[-1] += f"; {piece}"
         else:
             angles.append(piece)
-    found = [("sines and cosines", angles)] if angles else []
+    sections = [("sines and cosines", angles)] if angles else []
     for definition in sheet.definitions:
         if definition.section != section:
             section = definition.section
-            found.append((section, []))
-        line = f"{definition.name} = {printer.value(definition)}"
+            sections.append((section, []))
+        line = f"{definition.name} = {printer.format_value(definition)}"
         if len(line) > _WIDTH:
-            right = f"{definition.name} = ({printer.value(definition)})"
+            right = f"{definition.name} = ({printer.format_value(definition)})"
             more = textwrap.wrap(
                 right, _WIDTH, subsequent_indent="    ", break_on_hyphens=False,
                 break_long_words=False,
             )  # fmt: skip
-            found[-1][1].extend(more)
+            sections[-1][1].extend(more)
         else:
-            found[-1][1].append(line)
-    return found
+            sections[-1][1].append(line)
+    return sections
 
 
-def _turning(printer: SheetPrinter) -> list[tuple[str, str, str]]:
+def _collect_trig(printer: SheetPrinter) -> list[tuple[str, str, str]]:
     """(name, "sin" or "cos", angle) of every sine and cosine that is read."""
     sheet, known = printer.sheet, set(printer.sheet.trig.values())
     return [
-        (letter + label, function, printer.sum(ref))
+        (letter + label, function, printer.format_sum(ref))
         for label, ref in sheet.angles.items()
         for letter, function in (("s", "sin"), ("c", "cos"))
         if letter + label in known
     ]
 
 
-def sheet_latex(sheet: Sheet, heading: Callable[[str], str] | None = None) -> str:
+def format_sheet_latex(sheet: Sheet, heading: Callable[[str], str] | None = None) -> str:
     """One `align*` per section.
 
     Args:
@@ -556,25 +575,32 @@ def sheet_latex(sheet: Sheet, heading: Callable[[str], str] | None = None) -> st
     """
     heading, printer = heading or "% {}".format, SheetPrinter(sheet, LATEX)
     angles = [
-        DisplayedEquation(printer.trig(name), (f"\\{function}({angle})",))
-        for name, function, angle in _turning(printer)
+        DisplayedEquation(printer.format_trig(name), (f"\\{function}({angle})",))
+        for name, function, angle in _collect_trig(printer)
     ]
     blocks = {"sines and cosines": angles}
     for definition in sheet.definitions:
-        line = DisplayedEquation(printer.letter(definition.name), (printer.value(definition),))
+        line = DisplayedEquation(
+            printer.format_letter(definition.name), (printer.format_value(definition),)
+        )
         blocks.setdefault(definition.section, []).append(line)
     return "".join(
-        f"{heading(title)}\n{display(lines)}\n" for title, lines in blocks.items() if lines
+        f"{heading(title)}\n{format_display(lines)}\n" for title, lines in blocks.items() if lines
     )
 
 
-def sheet_json(sheet: Sheet) -> dict[str, Any]:
+def serialise_sheet(sheet: Sheet) -> dict[str, Any]:
     """{"angles", "definitions": [{"section", "name", "formula", "result"}]}."""
     printer = SheetPrinter(sheet)
     return {
-        "angles": {label: printer.sum(ref) for label, ref in sheet.angles.items()},
+        "angles": {label: printer.format_sum(ref) for label, ref in sheet.angles.items()},
         "definitions": [
-            {"section": d.section, "name": d.name, "formula": printer.value(d), "result": d.result}
+            {
+                "section": d.section,
+                "name": d.name,
+                "formula": printer.format_value(d),
+                "result": d.result,
+            }
             for d in sheet.definitions
         ],
     }

@@ -19,19 +19,19 @@ from sympy.polys.domains import QQ
 from sympy.polys.fields import field
 
 from modeler.core.errors import RobotError
-from modeler.derivation import OPERATIONS, BaseParameters, Expr, SymbolicModel, with_square
-from modeler.formulas.closed_form import fresh_model, named_columns, written_symbols
+from modeler.derivation import OPERATIONS, BaseParameters, Expr, SymbolicModel, replace_square
+from modeler.formulas.closed_form import collect_symbol_names, copy_model, get_base_columns
 from modeler.formulas.function_sheet import SheetWriter
 from modeler.formulas.regressor_form import (
     SOLVED,
     Equation,
-    along_row,
-    cofactor,
-    connected,
-    inverse_matrix,
+    compute_cofactor,
+    find_connected_blocks,
+    invert_matrix,
+    multiply_rows,
     propose_motion,
 )
-from modeler.formulas.ring import poly_value
+from modeler.formulas.ring import evaluate_polynomial
 
 _PRINTED = 3
 """Legs of the paper, one equation each."""
@@ -52,7 +52,7 @@ class LegBlock:
     """
 
     name: str
-    told: str
+    description: str
     rows: tuple[str, ...]
     columns: tuple[str, ...]
     entries: Matrix
@@ -62,30 +62,30 @@ class LegBlock:
         """What it is, its size, its rows and columns."""
         size = f"{len(self.rows)} x {len(self.columns)}"
         sides = f"rows {' '.join(self.rows)}; columns {' '.join(self.columns)}"
-        return f"{self.name}, {self.told}: {size}, {sides}"
+        return f"{self.name}, {self.description}: {size}, {sides}"
 
 
-def block_form(model: SymbolicModel, base: BaseParameters) -> Equation:
+def derive_block_form(model: SymbolicModel, base: BaseParameters) -> Equation:
     """The blocks as formulas, entry after entry, with the words that put them together.
 
     Raises:
         RobotError: the robot has no platform, or its legs do not stand alone.
     """
-    model = fresh_model(model)
-    letters = written_symbols(model, named_columns(base))
-    writer, proposed = SheetWriter(model.graph, letters, model.robot.halves), False
-    blocks = leg_blocks(model, base, writer)
+    model = copy_model(model)
+    letters = collect_symbol_names(model, get_base_columns(base))
+    writer, proposed = SheetWriter(model.graph, letters, model.robot.has_binary_fractions), False
+    blocks = derive_leg_blocks(model, base, writer)
     for block in blocks:
         if block.name[0] != "J" and not proposed:
             propose_motion(model, writer)
             proposed = True
-        writer.section(block.heading)
+        writer.open_section(block.heading)
         for (row, column), entry in block.entries.items():
-            writer.result(f"{block.name}_{row}_{column}", entry)
-    return Equation(_words(base, blocks), writer.finished(), ())
+            writer.add_result(f"{block.name}_{row}_{column}", entry)
+    return Equation(_describe_blocks(base, blocks), writer.build_sheet(), ())
 
 
-def _words(base: BaseParameters, blocks: Sequence[LegBlock]) -> tuple[str, ...]:
+def _describe_blocks(base: BaseParameters, blocks: Sequence[LegBlock]) -> tuple[str, ...]:
     """How the blocks make the regressor."""
     known = {block.name: block for block in blocks}
     motors, V = known["Jpinv"].rows, known["Jpinv"].columns
@@ -103,10 +103,10 @@ def _words(base: BaseParameters, blocks: Sequence[LegBlock]) -> tuple[str, ...]:
         words.append(f"(26) DP = Jp^T WP: {n} x {wide['WP']}")
     for number, k in enumerate(legs, 27):
         drive = known.get(f"Dm{k}")
-        own = f"Dm{k} on row {' '.join(drive.rows)}, else 0 | " if drive else ""
+        motor_part = f"Dm{k} on row {' '.join(drive.rows)}, else 0 | " if drive else ""
         size = f"{n} x {wide.get(f'Dm{k}', 0) + wide[f'DL{k}']}"
         equation = f"({number}) " if len(legs) == _PRINTED else ""
-        words.append(f"{equation}DB{k} = [{own}Jp^T J{k}^-T DL{k}]: {size}")
+        words.append(f"{equation}DB{k} = [{motor_part}Jp^T J{k}^-T DL{k}]: {size}")
     shared = {c for k in legs for c in known[f"DL{k}"].columns}
     if len(shared) < sum(wide[f"DL{k}"] for k in legs):
         words.append(
@@ -123,11 +123,13 @@ def _words(base: BaseParameters, blocks: Sequence[LegBlock]) -> tuple[str, ...]:
     return tuple(words)
 
 
-def leg_blocks(model: SymbolicModel, base: BaseParameters, writer: SheetWriter) -> list[LegBlock]:
+def derive_leg_blocks(
+    model: SymbolicModel, base: BaseParameters, writer: SheetWriter
+) -> list[LegBlock]:
     """The blocks, on the graph of the model: inverse Jacobians, their inverse, W_P, D_m, D_L.
 
     Raises:
-        RobotError: as `block_form`.
+        RobotError: as `derive_block_form`.
     """
     closure, robot = model.closure, model.robot
     if closure is None or not closure.platform:
@@ -135,11 +137,13 @@ def leg_blocks(model: SymbolicModel, base: BaseParameters, writer: SheetWriter) 
             f"--blocks: {robot.name} has no platform that its legs meet; blocks of legs and "
             "platform are those of a parallel robot; leave --blocks out"
         )
-    names = [joint.name for joint in robot.free]
-    V, motors = [names[p] for p in closure.platform], [names[a] for a in closure.given]
-    legs, blocks = connected(closure, closure.platform, len(names)), list[LegBlock]()
+    names = [joint.name for joint in robot.free_joints]
+    V, motors = [names[p] for p in closure.platform], [names[a] for a in closure.actuated]
+    legs, blocks = find_connected_blocks(closure, closure.platform, len(names)), list[LegBlock]()
     rates: dict[int, list[Expr]] = {}
-    values, written = _fractions([entry for line in closure.jacobian for entry in line])
+    values, write_expression = _convert_to_fractions(
+        [entry for line in closure.jacobian for entry in line]
+    )
     for k, (equations, unknown) in enumerate(legs, 1):
         if not 0 < len(unknown) <= SOLVED:
             raise RobotError(
@@ -148,31 +152,35 @@ def leg_blocks(model: SymbolicModel, base: BaseParameters, writer: SheetWriter) 
             )
         B, A = ([[values[closure.jacobian[r][u].ref] for u in at] for r in equations]
                 for at in (unknown, closure.platform))  # fmt: skip
-        cofactors = [[cofactor(B, i, j) for j in range(len(B))] for i in range(len(B))]
-        size = along_row(B[0], cofactors[0])
+        cofactors = [[compute_cofactor(B, i, j) for j in range(len(B))] for i in range(len(B))]
+        size = multiply_rows(B[0], cofactors[0])
         for j, u in enumerate(unknown):
             line = [row[j] for row in cofactors]
-            rates[u] = [written(-along_row(line, [a[p] for a in A]) / size)
+            rates[u] = [write_expression(-multiply_rows(line, [a[p] for a in A]) / size)
                         for p in range(len(V))]  # fmt: skip
-        told = f"eq. (2), qd{k} = J{k}^-1 V"
+        description = f"eq. (2), qd{k} = J{k}^-1 V"
         rows = [rates[u] for u in unknown]
-        blocks.append(_block(f"J{k}inv", told, [names[u] for u in unknown], V, rows))
-    if not {*closure.given} <= {*rates}:
+        blocks.append(_build_block(f"J{k}inv", description, [names[u] for u in unknown], V, rows))
+    if not {*closure.actuated} <= {*rates}:
         raise RobotError(
             f"--blocks: the platform of {robot.name} does not give the speeds of all its motors; "
             "blocks are those of legs with their motors; leave --blocks out"
         )
-    K = [rates[a] for a in closure.given]
-    blocks.append(_block("Jpinv", "eq. (1), Ld = Jp^-1 V", motors, V, K))
+    K = [rates[a] for a in closure.actuated]
+    blocks.append(_build_block("Jpinv", "eq. (1), Ld = Jp^-1 V", motors, V, K))
     if len(motors) <= SOLVED:
-        writer.section("parts of the inverse of Jpinv")
-        Jp = inverse_matrix(K, "Dp", writer)
-        blocks.append(_block("Jp", "the inverse of Jpinv, V = Jp Ld", V, motors, Jp))
-    return blocks + _columns(model, base, legs)
+        writer.open_section("parts of the inverse of Jpinv")
+        Jp = invert_matrix(K, "Dp", writer)
+        blocks.append(_build_block("Jp", "the inverse of Jpinv, V = Jp Ld", V, motors, Jp))
+    return blocks + _build_column_blocks(model, base, legs)
 
 
-def _block(
-    name: str, told: str, rows: Sequence[str], columns: Sequence[str], lines: list[list[Expr]]
+def _build_block(
+    name: str,
+    description: str,
+    rows: Sequence[str],
+    columns: Sequence[str],
+    lines: list[list[Expr]],
 ) -> LegBlock:
     entries = {
         (row, column): entry
@@ -180,41 +188,49 @@ def _block(
         for column, entry in zip(columns, line, strict=True)
         if not entry.is_zero
     }
-    return LegBlock(name, told, tuple(rows), tuple(columns), entries)
+    return LegBlock(name, description, tuple(rows), tuple(columns), entries)
 
 
-def _columns(
+def _build_column_blocks(
     model: SymbolicModel, base: BaseParameters, legs: Sequence[tuple[list[int], list[int]]]
 ) -> list[LegBlock]:
     """W_P, D_mi and D_Li: the columns of the opened tree, sorted by where they act."""
     closure, zero = model.closure, model.graph.constant(0)
     assert closure is not None and closure.platform is not None
-    names = [joint.name for joint in model.robot.free]
+    names = [joint.name for joint in model.robot.free_joints]
     acts = {p: {u for u in range(len(names)) if (u, p.column) in model.regressor}
             for p in base.parameters}  # fmt: skip
 
-    def block(name: str, told: str, places: Sequence[int], drive: bool | None = None) -> LegBlock:
-        motors = {*closure.given}
+    def select_block(
+        name: str, description: str, places: Sequence[int], drive: bool | None = None
+    ) -> LegBlock:
+        motors = {*closure.actuated}
         chosen = [p for p, rows in acts.items() if rows & {*places}
                   and (drive is None or (rows <= motors) is drive)]  # fmt: skip
         rows = [u for u in places if not drive or u in motors]
         lines = [[model.regressor.get((u, p.column), zero) for p in chosen] for u in rows]
-        return _block(name, told, [names[u] for u in rows], [p.name for p in chosen], lines)
+        return _build_block(
+            name, description, [names[u] for u in rows], [p.name for p in chosen], lines
+        )
 
-    found = [block("WP", "eq. (26), DP = Jp^T WP", closure.platform)]
+    blocks = [select_block("WP", "eq. (26), DP = Jp^T WP", closure.platform)]
     for k, (_, unknown) in enumerate(legs, 1):
-        found.append(block(f"Dm{k}", "eq. (25), columns of the motor", unknown, True))
-        found.append(block(f"DL{k}", "eq. (24), the other columns of the leg", unknown, False))
-    return [one for one in found if one.columns]
+        blocks.append(select_block(f"Dm{k}", "eq. (25), columns of the motor", unknown, True))
+        blocks.append(
+            select_block(f"DL{k}", "eq. (24), the other columns of the leg", unknown, False)
+        )
+    return [one for one in blocks if one.columns]
 
 
-def _fractions(expressions: Sequence[Expr]) -> tuple[dict[int, Any], Callable[[Any], Expr]]:
+def _convert_to_fractions(
+    expressions: Sequence[Expr],
+) -> tuple[dict[int, Any], Callable[[Any], Expr]]:
     """{reference: rational function of sines, cosines and letters}, and the way back.
 
     There and back sin^2 becomes 1 - cos^2, and common factors are gone.
     """
     graph = expressions[0].graph
-    reached = graph.reachable(expressions)
+    reached = graph.find_reachable(expressions)
     atoms = [n for n in reached if graph.nodes[n].op not in ("num", *OPERATIONS)]
     functions, *letters = field([f"x{n}" for n in atoms], QQ)
     values: dict[int, Any] = {0: functions(0), **dict(zip(atoms, letters, strict=True))}
@@ -232,12 +248,14 @@ def _fractions(expressions: Sequence[Expr]) -> tuple[dict[int, Any], Callable[[A
             values[n] = OPERATIONS[op](*(values[ref] for ref in args))
         values[-n] = -values[n]
 
-    def written(value: Any) -> Expr:
+    def write_expression(value: Any) -> Expr:
         parts = [value.numer, value.denom]
         for k, square in squares.items():
-            parts = [with_square(part, k, square) for part in parts]
-        found, known = functions(parts[0]) / functions(parts[1]), [Expr(graph, n) for n in atoms]
-        above, below = (poly_value(part, known) for part in (found.numer, found.denom))
+            parts = [replace_square(part, k, square) for part in parts]
+        quotient, known = functions(parts[0]) / functions(parts[1]), [Expr(graph, n) for n in atoms]
+        above, below = (
+            evaluate_polynomial(part, known) for part in (quotient.numer, quotient.denom)
+        )
         return (graph.constant(0) + above) / below
 
-    return values, written
+    return values, write_expression

@@ -11,10 +11,16 @@ from sympy.polys.orderings import lex
 from sympy.polys.rings import PolyRing
 
 from modeler.core.errors import RobotError
-from modeler.core.expression import Expression, parse
-from modeler.derivation import LinkColumn, SymbolicModel, in_block, value_modulo
+from modeler.core.expression import Expression, parse_expression
+from modeler.derivation import LinkColumn, SymbolicModel, evaluate_modulo, is_in_block
 from modeler.effects import EnergyBlock
-from modeler.formulas.ring import Poly, TrigRing, generators_of, independent_modulo, polynomial_of
+from modeler.formulas.ring import (
+    Poly,
+    TrigRing,
+    convert_to_polynomial,
+    find_independent_modulo,
+    get_generators,
+)
 from modeler.robot import Joint, PhysicalLink
 
 _GENERIC = ("m", "cx", "cy", "cz", "Ixx", "Ixy", "Ixz", "Iyy", "Iyz", "Izz")
@@ -47,27 +53,27 @@ class PhysicalParameters:
         """Names of all generators."""
         return tuple(str(symbol) for symbol in self.ring.symbols)
 
-    def of(self, form: Mapping[int, Poly]) -> Poly:
+    def convert_form(self, form: Mapping[int, Poly]) -> Poly:
         """A linear form of standard parameters in physical parameters."""
         total = self.ring.zero
         for column, factor in form.items():
-            total = total + self.lifted(factor) * self.standard[column]
+            total = total + self.lift_polynomial(factor) * self.standard[column]
         return total
 
-    def derivative(self, poly: Poly, letter: str) -> Poly:
+    def differentiate_polynomial(self, poly: Poly, letter: str) -> Poly:
         """D poly / d letter; that of an angle by its cosine and sine."""
-        places = generators_of(self.ring)
+        places = get_generators(self.ring)
         if letter in places:
             return poly.diff(places[letter])
         c, s = places[f"cos({letter})"], places[f"sin({letter})"]
         return c * poly.diff(s) - s * poly.diff(c)
 
-    def lifted(self, factor: Poly) -> Poly:
+    def lift_polynomial(self, factor: Poly) -> Poly:
         """A polynomial of the geometry in this ring."""
         return factor.set_ring(self.ring)
 
 
-def physical_parameters(model: SymbolicModel, algebra: TrigRing) -> PhysicalParameters:
+def derive_physical_parameters(model: SymbolicModel, algebra: TrigRing) -> PhysicalParameters:
     """The physical parameters of a robot: the letters of `[physical]`, or m1, cx1, ..., Ixx1, ...
 
     Huygens and Steiner: MS = m c, J = J_c + m (c.c 1 - c c').
@@ -78,12 +84,12 @@ def physical_parameters(model: SymbolicModel, algebra: TrigRing) -> PhysicalPara
     static = [str(symbol) for symbol in algebra.static_ring.symbols]
     bodies = {column.row for column in model.columns if isinstance(column, LinkColumn)}
     links = {
-        joint.name: physical_link(model, joint)
+        joint.name: get_physical_link(model, joint)
         for row, joint in enumerate(model.robot.joints)
         if row in bodies
     }
-    rotors = [c.name for c in model.columns if in_block(c, EnergyBlock.KINETIC)]
-    zeros = {name for name, value in model.robot.symbol_values().items() if value == 0.0}
+    rotors = [c.name for c in model.columns if is_in_block(c, EnergyBlock.KINETIC)]
+    zeros = {name for name, value in model.robot.evaluate_symbols().items() if value == 0.0}
     groups = [g for x in links.values() for g in ((x.mass,), x.centre, x.inertia)]
     named = (name for g in groups for name in sorted(set().union(*(entry.names for entry in g))))
     known = {*static, *zeros}
@@ -91,17 +97,17 @@ def physical_parameters(model: SymbolicModel, algebra: TrigRing) -> PhysicalPara
     ring = PolyRing(letters + static, QQ, lex)
     # Symbols given by an expression are no letters of the formulas.
     derived = set(model.robot.symbols) - set(model.geometry.values) - zeros
-    values = generators_of(ring) | dict.fromkeys(zeros, ring.zero)
+    values = get_generators(ring) | dict.fromkeys(zeros, ring.zero)
 
-    def read(entry: Expression, joint: str) -> Poly:
+    def read_entry(entry: Expression, joint: str) -> Poly:
         """An entry of `[physical]` as a polynomial."""
-        found = None if entry.names & derived else polynomial_of(entry, values, ring)
-        if found is None:
+        polynomial = None if entry.names & derived else convert_to_polynomial(entry, values, ring)
+        if polynomial is None:
             raise RobotError(
                 f'robot {model.robot.name}, [physical.{joint}]: got "{entry.text}"; expected '
                 "a polynomial of the link's letters and of symbols that are given by a number"
             )
-        return found
+        return polynomial
 
     standard: dict[int, Poly] = {}
     tables: dict[int, dict[str, Poly]] = {}
@@ -109,14 +115,14 @@ def physical_parameters(model: SymbolicModel, algebra: TrigRing) -> PhysicalPara
         if isinstance(column, LinkColumn):
             if column.row not in tables:
                 name = model.robot.joints[column.row].name
-                tables[column.row] = at_origin(links[name], name, read)
+                tables[column.row] = move_to_origin(links[name], name, read_entry)
             standard[place] = tables[column.row][column.prefix]
-        elif in_block(column, EnergyBlock.KINETIC):
-            standard[place] = read(parse(column.name), column.name)
+        elif is_in_block(column, EnergyBlock.KINETIC):
+            standard[place] = read_entry(parse_expression(column.name), column.name)
     masses = [x.mass.text for x in links.values() if x.mass.text in letters]
     alone = {x.inertia[i].text for x in links.values() for i in _DIAGONAL} | set(rotors)
     moments = tuple(name for name in letters if name in alone)
-    lengths = _lengths(algebra)
+    lengths = _find_lengths(algebra)
     kinds: dict[str, str] = {}  # one that is several is what is measured with more trouble
     for kind, entries in (
         ("mass", [x.mass for x in links.values()]),
@@ -130,12 +136,12 @@ def physical_parameters(model: SymbolicModel, algebra: TrigRing) -> PhysicalPara
     )
 
 
-def physical_link(model: SymbolicModel, joint: Joint) -> PhysicalLink:
+def get_physical_link(model: SymbolicModel, joint: Joint) -> PhysicalLink:
     """The letters of a link."""
-    found = model.robot.physical.get(joint.name)
-    if found is not None:
-        return found
-    mass, x, y, z, *inertia = (parse(f"{letter}{joint.name}") for letter in _GENERIC)
+    stated_link = model.robot.physical.get(joint.name)
+    if stated_link is not None:
+        return stated_link
+    mass, x, y, z, *inertia = (parse_expression(f"{letter}{joint.name}") for letter in _GENERIC)
     for entry in (mass, x, y, z, *inertia):
         if entry.text in model.robot.symbols:
             raise RobotError(
@@ -146,23 +152,23 @@ def physical_link(model: SymbolicModel, joint: Joint) -> PhysicalLink:
     return PhysicalLink(mass, (x, y, z), tuple(inertia))
 
 
-def _lengths(algebra: TrigRing) -> list[str]:
+def _find_lengths(algebra: TrigRing) -> list[str]:
     """Letters of the geometry without those of gravity; an angle stands for its cosine and sine."""
     geometry = algebra.geometry
     gravity = {symbol.name for entry in geometry.gravity for symbol in entry.free_symbols}
     for row in geometry.rows:
         for entry in (row.gamma, row.b, row.alpha, row.d, row.theta, row.r):
             gravity -= {symbol.name for symbol in entry.free_symbols}
-    found: dict[str, None] = {}
+    lengths: dict[str, None] = {}
     for atom in algebra.static_atoms:
         if atom.is_Symbol and atom.name != "pi":
-            found.setdefault(atom.name)
+            lengths.setdefault(atom.name)
         elif isinstance(atom, sympy.cos) and atom.free_symbols:
-            found.setdefault(str(atom.args[0]))
-    return [name for name in found if name not in gravity]
+            lengths.setdefault(str(atom.args[0]))
+    return [name for name in lengths if name not in gravity]
 
 
-def at_origin(
+def move_to_origin(
     link: PhysicalLink, joint: str, read: Callable[[Expression, str], Any]
 ) -> dict[str, Any]:
     """Standard parameters of a link by Huygens and Steiner; `read` takes entries to any algebra."""
@@ -215,29 +221,29 @@ class Identifiability:
     seed: int
 
 
-def identifiability(
+def analyse_identifiability(
     physical: PhysicalParameters, coefficients: Sequence[Poly], points: int = 2, seed: int = SEED
 ) -> Identifiability:
     """What those coefficients, polynomials of the physical parameters, tell of them."""
     slopes = {
-        letter: tuple(physical.derivative(poly, letter) for poly in coefficients)
+        letter: tuple(physical.differentiate_polynomial(poly, letter) for poly in coefficients)
         for letter in physical.letters
     }
     appearing = tuple(letter for letter, column in slopes.items() if any(column))
     chance = random.Random(seed)
-    ranks = [_rank([slopes[x] for x in appearing], physical, chance) for _ in range(points)]
+    ranks = [_compute_rank([slopes[x] for x in appearing], physical, chance) for _ in range(points)]
     return Identifiability(
         physical.letters,
         appearing,
         tuple(letter for letter in physical.letters if letter not in appearing),
-        _sums({letter: slopes[letter] for letter in appearing}),
+        _find_sums({letter: slopes[letter] for letter in appearing}),
         max(ranks),
         points,
         seed,
     )
 
 
-def _sums(slopes: Mapping[str, tuple[Poly, ...]]) -> tuple[dict[str, int], ...]:
+def _find_sums(slopes: Mapping[str, tuple[Poly, ...]]) -> tuple[dict[str, int], ...]:
     """Letters whose columns of the Jacobian are the same polynomials up to the sign."""
     groups: list[tuple[tuple[Poly, ...], dict[str, int]]] = []
     for letter, column in slopes.items():
@@ -253,27 +259,27 @@ def _sums(slopes: Mapping[str, tuple[Poly, ...]]) -> tuple[dict[str, int], ...]:
     return tuple(members for _, members in groups if len(members) > 1)
 
 
-def _rank(
+def _compute_rank(
     columns: Sequence[Sequence[Poly]], physical: PhysicalParameters, chance: random.Random
 ) -> int:
-    prime, point = random_point(physical.names, chance)
+    prime, point = draw_random_point(physical.names, chance)
     vectors = [
-        {i: value_modulo(poly, point, prime) for i, poly in enumerate(column) if poly}
+        {i: evaluate_modulo(poly, point, prime) for i, poly in enumerate(column) if poly}
         for column in columns
     ]
-    return len(independent_modulo(vectors, prime))
+    return len(find_independent_modulo(vectors, prime))
 
 
-def random_point(names: Sequence[str], chance: random.Random) -> tuple[int, list[int]]:
+def draw_random_point(names: Sequence[str], chance: random.Random) -> tuple[int, list[int]]:
     """(prime, values of the generators modulo it): random letters, angles on the circle, roots."""
     numbers = {name: sympy.sympify(name).args[0] for name in names if name.startswith("sqrt(")}
     prime = sympy.prevprime(chance.randrange(_LARGEST // 2, _LARGEST))
-    while not all(sympy.is_quad_residue(_modulo(x, prime), prime) for x in numbers.values()):
+    while not all(sympy.is_quad_residue(_reduce_modulo(x, prime), prime) for x in numbers.values()):
         prime = sympy.prevprime(prime)
     values: dict[str, int] = {}
     for name in names:
         if name in numbers:
-            values[name] = int(sympy.sqrt_mod(_modulo(numbers[name], prime), prime))
+            values[name] = int(sympy.sqrt_mod(_reduce_modulo(numbers[name], prime), prime))
         elif name.startswith("cos("):
             t = chance.randrange(2, 10**6)
             down = pow(1 + t * t, -1, prime)
@@ -284,5 +290,5 @@ def random_point(names: Sequence[str], chance: random.Random) -> tuple[int, list
     return prime, [values[name] for name in names]
 
 
-def _modulo(value: sympy.Rational, prime: int) -> int:
+def _reduce_modulo(value: sympy.Rational, prime: int) -> int:
     return int(value.p) * pow(int(value.q), -1, prime) % prime

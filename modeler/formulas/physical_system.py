@@ -14,26 +14,30 @@ from sympy.polys.domains import QQ
 from sympy.polys.orderings import lex
 from sympy.polys.rings import PolyRing
 
-from modeler.core.brief import Brief
+from modeler.core.brief import ShortRepr
 from modeler.core.errors import DerivationError, RobotError
-from modeler.derivation import BaseParameters, SymbolicModel, row_echelon, value_modulo
-from modeler.formulas.coefficients import CoefficientTable, coefficient_table
-from modeler.formulas.physical import PhysicalParameters, physical_parameters, random_point
-from modeler.formulas.render import forward_lines
+from modeler.derivation import BaseParameters, SymbolicModel, evaluate_modulo, reduce_to_echelon
+from modeler.formulas.coefficients import CoefficientTable, build_coefficient_table
+from modeler.formulas.physical import (
+    PhysicalParameters,
+    derive_physical_parameters,
+    draw_random_point,
+)
+from modeler.formulas.render import format_forward_map
 from modeler.formulas.ring import (
     Poly,
     TrigRing,
-    generators_of,
-    independent_modulo,
-    places_in,
-    poly_value,
+    evaluate_polynomial,
+    find_independent_modulo,
+    find_places,
+    get_generators,
 )
 
 _FEW = 3  # joints up to which the coefficients of the closed form are derived
 
 
 @dataclass(frozen=True)
-class PhysicalSystem(Brief):
+class PhysicalSystem(ShortRepr):
     """data = polynomials of the physical parameters.
 
     Attributes:
@@ -94,56 +98,60 @@ class PhysicalSystem(Brief):
             for letter in self.letters
         }
 
-    def point(self, values: Mapping[str, float]) -> np.ndarray:
+    def build_point(self, values: Mapping[str, float]) -> np.ndarray:
         """(generators,) the constants and these values, 0 for all others."""
-        found = np.zeros(len(self.names))
+        point = np.zeros(len(self.names))
         for name, value in (*self.constants.items(), *values.items()):
             if name in self.place:
-                found[self.place[name]] = value
-        return found
+                point[self.place[name]] = value
+        return point
 
-    def consistent(self, values: Mapping[str, Any]) -> list[Any]:
+    def derive_consistent_values(self, values: Mapping[str, Any]) -> list[Any]:
         """Values of all generators: data follow from those of letters and constants."""
         plain = [values.get(name, 0) for name in self.names]
         for name, below in self.inverse.items():
-            plain[self.place[name]] = 1 / poly_value(below, plain)
-        told = {d: poly_value(self.definitions[d], plain) for d in self.data}
-        return [told.get(name, value) for name, value in zip(self.names, plain, strict=True)]
+            plain[self.place[name]] = 1 / evaluate_polynomial(below, plain)
+        data_values = {d: evaluate_polynomial(self.definitions[d], plain) for d in self.data}
+        return [data_values.get(name, value) for name, value in zip(self.names, plain, strict=True)]
 
-    def modular_point(self, chance: random.Random) -> tuple[int, list[int]]:
+    def draw_modular_point(self, chance: random.Random) -> tuple[int, list[int]]:
         """(prime, random values modulo it), data as they follow from the letters."""
-        prime, point = random_point(self.names, chance)
+        prime, point = draw_random_point(self.names, chance)
         for name, below in self.inverse.items():
-            point[self.place[name]] = pow(value_modulo(below, point, prime), -1, prime)
+            point[self.place[name]] = pow(evaluate_modulo(below, point, prime), -1, prime)
         for name in self.data:
-            point[self.place[name]] = value_modulo(self.definitions[name], point, prime)
+            point[self.place[name]] = evaluate_modulo(self.definitions[name], point, prime)
         return prime, point
 
-    def normal(self, poly: Poly) -> Poly:
+    def normalise_polynomial(self, poly: Poly) -> Poly:
         """The same function without products of a length and its inverse."""
         gens = self.ring.gens
         ones = [gens[self.place[name]] * below - 1 for name, below in self.inverse.items()]
         return poly.rem(ones) if ones else poly
 
-    def jacobian_modulo(self, chance: random.Random) -> tuple[int, dict[str, dict[int, int]]]:
+    def compute_jacobian_modulo(
+        self, chance: random.Random
+    ) -> tuple[int, dict[str, dict[int, int]]]:
         """(prime, {letter: column of d data / d letter at a random point})."""
-        prime, point = self.modular_point(chance)
+        prime, point = self.draw_modular_point(chance)
         columns = {
-            letter: {i: value_modulo(poly, point, prime) for i, poly in enumerate(slopes) if poly}
+            letter: {
+                i: evaluate_modulo(poly, point, prime) for i, poly in enumerate(slopes) if poly
+            }
             for letter, slopes in self.slopes.items()
         }
         return prime, columns
 
-    def rank(self, letters: Sequence[str], seed: int = 2000, points: int = 2) -> int:
+    def compute_rank(self, letters: Sequence[str], seed: int = 2000, points: int = 2) -> int:
         """Generic rank of d data / d those letters, the highest of some random points."""
         chance, ranks = random.Random(seed), [0]
         for _ in range(points):
-            prime, columns = self.jacobian_modulo(chance)
-            ranks.append(len(independent_modulo([columns[x] for x in letters], prime)))
+            prime, columns = self.compute_jacobian_modulo(chance)
+            ranks.append(len(find_independent_modulo([columns[x] for x in letters], prime)))
         return max(ranks)
 
 
-def physical_system(
+def build_physical_system(
     model: SymbolicModel, base: BaseParameters, source: str | None = None
 ) -> PhysicalSystem:
     """The identified quantities of a robot as polynomials of its physical parameters.
@@ -167,20 +175,20 @@ def physical_system(
             "--from, or write --from base"
         )
     if source == "base" or tied or (source is None and len(model.robot.coordinates) > _FEW):
-        return _of_base(model, base)
+        return _build_from_base(model, base)
     try:
-        table = coefficient_table(model, base)
+        table = build_coefficient_table(model, base)
     except DerivationError:
         if source is not None:
             raise
-        return _of_base(model, base)
-    free = free_lengths(table)
+        return _build_from_base(model, base)
+    free = find_free_lengths(table)
     if source is None and not free:
-        return _of_base(model, base)
-    return _of_coefficients(model, table, free)
+        return _build_from_base(model, base)
+    return _build_from_coefficients(model, table, free)
 
 
-def free_lengths(table: CoefficientTable) -> tuple[str, ...]:
+def find_free_lengths(table: CoefficientTable) -> tuple[str, ...]:
     """Lengths whose value a fit does not need: base columns span the same functions for any.
 
     The coefficients are A(length) beta; A reduced to its independent rows must not depend on the
@@ -192,61 +200,63 @@ def free_lengths(table: CoefficientTable) -> tuple[str, ...]:
         return ()
     letters = [x for x in table.physical.letters if table.physical.kinds[x] == "length"]
     chance = random.Random(2000)
-    prime, point = random_point(names, chance)
-    before = _reduced(table, point, prime)
+    prime, point = draw_random_point(names, chance)
+    before = _reduce_coefficients(table, point, prime)
     free = []
     for letter in letters:
         if letter in names and letter in table.identifiability.appearing:
             other = list(point)
             other[names.index(letter)] = chance.randrange(1, prime)
-            if _reduced(table, other, prime) == before:
+            if _reduce_coefficients(table, other, prime) == before:
                 free.append(letter)
     return tuple(free)
 
 
-def _reduced(table: CoefficientTable, point: Sequence[int], prime: int) -> list[list[int]]:
+def _reduce_coefficients(
+    table: CoefficientTable, point: Sequence[int], prime: int
+) -> list[list[int]]:
     """A B^-1 modulo the prime: all coefficients by the independent ones."""
     used = sorted({k for c in table.coefficients for k in c.base})
     rows = {
-        c.name: [value_modulo(c.base[k], point, prime) if k in c.base else 0 for k in used]
+        c.name: [evaluate_modulo(c.base[k], point, prime) if k in c.base else 0 for k in used]
         for c in table.coefficients
     }
     size = len(table.map.rows)
     # X B = A for X: the echelon form of [B' | A'] is [1 | X'].
     both = [*(rows[name] for name in table.map.rows), *rows.values()]
     matrix = np.array(both, dtype=np.int64).T
-    if len(row_echelon(matrix, range(size), prime)) < size:
+    if len(reduce_to_echelon(matrix, range(size), prime)) < size:
         raise DerivationError("the map to the base parameters is singular at a random point")
-    found: list[list[int]] = matrix[:, size:].T.tolist()
-    return found
+    factors: list[list[int]] = matrix[:, size:].T.tolist()
+    return factors
 
 
-def _of_coefficients(
+def _build_from_coefficients(
     model: SymbolicModel, table: CoefficientTable, free: Sequence[str]
 ) -> PhysicalSystem:
     physical, algebra = table.physical, table.closed.algebra
     definitions = {name: table.by_name[name].physical for name in table.map.rows}
-    static = algebra.static_values(model.robot.symbol_values())
+    static = algebra.evaluate_static(model.robot.evaluate_symbols())
     to_data = np.zeros((len(table.map.rows), len(table.map.columns)))
     for at, factor in table.map.entries.items():
-        to_data[at] = float(poly_value(factor, static))
-    geometry = _Geometry(algebra, physical, model.robot.symbol_values())
-    base = table.map.columns, tuple(forward_lines(table))
-    return _system(model.robot.name, geometry, definitions, free, base, to_data)
+        to_data[at] = float(evaluate_polynomial(factor, static))
+    geometry = _KnownGeometry(algebra, physical, model.robot.evaluate_symbols())
+    base = table.map.columns, tuple(format_forward_map(table))
+    return _build_system(model.robot.name, geometry, definitions, free, base, to_data)
 
 
 @dataclass
-class _Geometry:
+class _KnownGeometry:
     """What is known of the geometry, as generators; quotients of lengths get names of their own."""
 
     algebra: TrigRing
     physical: PhysicalParameters
-    given: Mapping[str, float]
+    symbol_values: Mapping[str, float]
     quotients: dict[str, str] = field(default_factory=dict)
     below: dict[str, Poly] = field(default_factory=dict)
     values: dict[str, float] = field(default_factory=dict)
 
-    def factor(self, value: sympy.Expr) -> tuple[Poly, tuple[str, ...]]:
+    def convert_coefficient(self, value: sympy.Expr) -> tuple[Poly, tuple[str, ...]]:
         """(polynomial of the geometry, names of further factors).
 
         A quotient of lengths is a polynomial times the inverse of each factor below, so that
@@ -255,32 +265,36 @@ class _Geometry:
         above, below = sympy.fraction(sympy.together(value))
         number, factors = sympy.factor_list(below)
         try:
-            lower = [(x, self._polynomial(x)) for x, power in factors for _ in range(power)]
-            return self._polynomial(above / number), tuple(self._named(1 / x, p) for x, p in lower)
+            lower = [(x, self._convert_polynomial(x)) for x, power in factors for _ in range(power)]
+            return self._convert_polynomial(above / number), tuple(
+                self._add_quotient(1 / x, p) for x, p in lower
+            )
         except DerivationError:
             number, rest = sympy.sympify(value).as_coeff_Mul()
-            return self._polynomial(number), (self._named(rest, None),)
+            return self._convert_polynomial(number), (self._add_quotient(rest, None),)
 
-    def _polynomial(self, value: sympy.Expr) -> Poly:
-        static = self.algebra.split(self.algebra.static(sympy.sympify(value)))
-        return self.physical.lifted(static[(0,) * self.algebra.moving])
+    def _convert_polynomial(self, value: sympy.Expr) -> Poly:
+        static = self.algebra.separate_motion(self.algebra.static(sympy.sympify(value)))
+        return self.physical.lift_polynomial(static[(0,) * self.algebra.moving])
 
-    def _named(self, value: sympy.Expr, below: Poly | None) -> str:
-        told = {text: name for name, text in self.quotients.items()}
-        taken = {*self.physical.names, *self.given, *self.quotients}
+    def _add_quotient(self, value: sympy.Expr, below: Poly | None) -> str:
+        quotient_names = {text: name for name, text in self.quotients.items()}
+        taken = {*self.physical.names, *self.symbol_values, *self.quotients}
         fresh = next(name for k in count(1) if (name := f"k{k}") not in taken)
-        name = told.get(str(value), fresh)
+        name = quotient_names.get(str(value), fresh)
         self.quotients[name] = str(value)
         if below is not None:
             self.below[name] = below
-        self.values[name] = float(value.subs({x: self.given[x.name] for x in value.free_symbols}))
+        self.values[name] = float(
+            value.subs({x: self.symbol_values[x.name] for x in value.free_symbols})
+        )
         return name
 
 
-def _of_base(model: SymbolicModel, base: BaseParameters) -> PhysicalSystem:
+def _build_from_base(model: SymbolicModel, base: BaseParameters) -> PhysicalSystem:
     algebra = TrigRing(model.geometry)
-    physical = physical_parameters(model, algebra)
-    geometry = _Geometry(algebra, physical, model.robot.symbol_values())
+    physical = derive_physical_parameters(model, algebra)
+    geometry = _KnownGeometry(algebra, physical, model.robot.evaluate_symbols())
     columns = {column.name: i for i, column in enumerate(base.columns)}
     alone = []
     parts: dict[str, list[tuple[Poly, tuple[str, ...], Poly]]] = {}
@@ -290,11 +304,11 @@ def _of_base(model: SymbolicModel, base: BaseParameters) -> PhysicalSystem:
             alone.append(parameter.name)
         elif all(place in physical.standard for place in places):
             parts[parameter.name] = [
-                (*geometry.factor(term.coefficient), physical.standard[place])
+                (*geometry.convert_coefficient(term.coefficient), physical.standard[place])
                 for term, place in zip(parameter.terms, places, strict=True)
             ]
     ring = PolyRing([*physical.names, *geometry.quotients], QQ, lex)
-    gens = generators_of(ring)
+    gens = get_generators(ring)
     definitions = {}
     for name, terms in parts.items():
         total = ring.zero
@@ -304,14 +318,14 @@ def _of_base(model: SymbolicModel, base: BaseParameters) -> PhysicalSystem:
         if total:
             definitions[name] = total
     used = tuple(definitions)
-    return _system(
+    return _build_system(
         model.robot.name, geometry, definitions, None, (used, ()), np.eye(len(used)), tuple(alone)
     )
 
 
-def _system(
+def _build_system(
     robot: str,
-    geometry: _Geometry,
+    geometry: _KnownGeometry,
     definitions: Mapping[str, Poly],
     free: Sequence[str] | None,
     base: tuple[tuple[str, ...], tuple[str, ...]],
@@ -321,11 +335,11 @@ def _system(
     """The ring with what the definitions use, and all of them in it; None: of base parameters."""
     physical = geometry.physical
     some = next(iter(definitions.values()), physical.ring.zero).ring
-    used = _used(definitions.values(), [str(symbol) for symbol in some.symbols])
-    used |= _used(geometry.below.values(), physical.names)
+    used = _find_used(definitions.values(), [str(symbol) for symbol in some.symbols])
+    used |= _find_used(geometry.below.values(), physical.names)
     candidates = [x for x in physical.letters if physical.kinds[x] != "length" or x in (free or ())]
     letters = tuple(x for x in candidates if x in used)
-    static = geometry.algebra.static_values(geometry.given)
+    static = geometry.algebra.evaluate_static(geometry.symbol_values)
     names = map(str, geometry.algebra.static_ring.symbols)
     known = dict(zip(names, static, strict=True)) | geometry.values
     constants = {x: v for x, v in known.items() if x in used and x not in letters}
@@ -342,7 +356,7 @@ def _system(
         {x: physical.kinds[x] for x in letters},
         tuple(x for x in physical.masses if x in letters),
         tuple(x for x in physical.moments if x in letters),
-        tuple(x for x in physical.letters if x not in {*used, *alone} and _stands(x, physical)),
+        tuple(x for x in physical.letters if x not in {*used, *alone} and _has_body(x, physical)),
         alone,
         constants,
         geometry.quotients,
@@ -353,14 +367,14 @@ def _system(
     )  # fmt: skip
 
 
-def _used(polys: Iterable[Poly], names: Sequence[str]) -> set[str]:
+def _find_used(polys: Iterable[Poly], names: Sequence[str]) -> set[str]:
     """Generators that occur, an angle with both its cosine and its sine."""
-    used = {names[i] for i in places_in(*polys)}
+    used = {names[i] for i in find_places(*polys)}
     used |= {"sin" + x[3:] for x in used if x.startswith("cos(")}
     return used | {"cos" + x[3:] for x in used if x.startswith("sin(")}
 
 
-def _stands(letter: str, physical: PhysicalParameters) -> bool:
+def _has_body(letter: str, physical: PhysicalParameters) -> bool:
     """True of letters of links that have a body, and of lengths."""
     if physical.kinds[letter] == "length":
         return True

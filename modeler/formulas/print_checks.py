@@ -13,18 +13,18 @@ from sympy.polys.rings import PolyRing
 
 from modeler.core.errors import RobotError
 from modeler.core.expression import Expression
-from modeler.derivation import as_fraction, linear_relations
-from modeler.formulas.closed_form import Exponents, function_name
-from modeler.formulas.coefficients import CoefficientTable, vector_of
+from modeler.derivation import convert_to_fraction, find_linear_relations
+from modeler.formulas.closed_form import Exponents, format_function_name
+from modeler.formulas.coefficients import CoefficientTable, flatten_form
 from modeler.formulas.ring import (
     Poly,
-    combination_of,
-    generators_of,
-    number,
-    poly_value,
-    polynomial_of,
+    convert_to_polynomial,
+    evaluate_monomial,
+    evaluate_polynomial,
+    find_combination,
+    get_generators,
 )
-from modeler.formulas.text import combination_text, monomial_text, polynomial_text
+from modeler.formulas.text import format_combination, format_monomial, format_polynomial
 
 
 @dataclass(frozen=True)
@@ -88,70 +88,72 @@ class TwinCheck:
     changed: tuple[str, ...]
 
 
-def wrong_functions(table: CoefficientTable) -> list[FunctionCheck]:
+def find_wrong_functions(table: CoefficientTable) -> list[FunctionCheck]:
     """Printed functions that differ from the derived ones.
 
     Raises:
         RobotError: a printed function that is not a sum of coefficients times monomials.
     """
-    found = []
+    checks = []
     for name, printed in table.printed.functions.items():
-        joints = _joints(table, name)
-        difference = _difference(table, name, printed)
+        joints = _find_joints(table, name)
+        difference = _subtract_printed(table, name, printed)
         if difference:
             algebra = table.closed.algebra
             motion = algebra.names[: algebra.moving]
             texts = {
-                monomial_text(at, motion): _in_coefficients(table, vector)
+                format_monomial(at, motion): _express_in_coefficients(table, vector)
                 for at, vector in sorted(difference.items(), reverse=True)
             }
-            power = _power_defect(table, joints, difference)
-            found.append(FunctionCheck(name, printed.text, texts, power))
-    return found
+            power = _compute_power_defect(table, joints, difference)
+            checks.append(FunctionCheck(name, printed.text, texts, power))
+    return checks
 
 
-def _in_coefficients(table: CoefficientTable, vector: Mapping[Any, Any]) -> str:
+def _express_in_coefficients(table: CoefficientTable, vector: Mapping[Any, Any]) -> str:
     independent = {
-        name: vector_of(table.by_name[name].standard) for name in table.relations.independent
+        name: flatten_form(table.by_name[name].standard) for name in table.relations.independent
     }
-    combination = combination_of(independent, vector)
+    combination = find_combination(independent, vector)
     assert combination is not None, "a difference of coefficients is a combination of coefficients"
-    return combination_text(combination)
+    return format_combination(combination)
 
 
-def _difference(
+def _subtract_printed(
     table: CoefficientTable, name: str, printed: Expression
 ) -> dict[Exponents, dict[Any, Any]]:
     """Derived minus printed as {monomial: vector over Q}, both in normal form."""
     terms = [(c.name, c.exponents, QQ(1)) for c in table.coefficients if c.function == name]
-    terms += [(c, at, -value) for c, at, value in _printed_terms(table, name, printed)]
+    terms += [(c, at, -value) for c, at, value in _parse_printed_terms(table, name, printed)]
     total: dict[str, dict[Exponents, Any]] = {}
     for coefficient, at, value in terms:
         part = total.setdefault(coefficient, {})
         part[at] = part.get(at, 0) + value
     algebra = table.closed.algebra
     rest = (0,) * algebra.static_ring.ngens
-    found: dict[Exponents, dict[Any, Any]] = {}
+    differences: dict[Exponents, dict[Any, Any]] = {}
     for coefficient, part in total.items():
-        poly = algebra.normal(algebra.ring.zero.new({at + rest: v for at, v in part.items() if v}))
-        vector = vector_of(table.by_name[coefficient].standard)
+        poly = algebra.normalise_polynomial(
+            algebra.ring.zero.new({at + rest: v for at, v in part.items() if v})
+        )
+        vector = flatten_form(table.by_name[coefficient].standard)
         for at, value in poly.items():
-            sums = found.setdefault(at[: algebra.moving], {})
+            sums = differences.setdefault(at[: algebra.moving], {})
             for place, factor in vector.items():
                 sums[place] = sums.get(place, 0) + value * factor
-    kept = {at: {p: v for p, v in sums.items() if v} for at, sums in found.items()}
-    return {at: sums for at, sums in kept.items() if sums}
+    nonzero = {at: {p: v for p, v in sums.items() if v} for at, sums in differences.items()}
+    return {at: sums for at, sums in nonzero.items() if sums}
 
 
-def _printed_terms(
+def _parse_printed_terms(
     table: CoefficientTable, name: str, printed: Expression
 ) -> list[tuple[str, Exponents, Any]]:
     algebra = table.closed.algebra
     motion = list(algebra.names[: algebra.moving])
     names = list(table.by_name)
     ring = PolyRing(motion + names, QQ, lex)
-    poly = _evaluated(table, generators_of(ring), ring, printed, f"functions, {name}")
-    found = []
+    poly = _evaluate_text(table, get_generators(ring), ring, printed, f"functions, {name}")
+    printed_terms = []
     for exponents, value in poly.items():
         which = exponents[len(motion) :]
         if sum(which) != 1:
@@ -159,44 +161,44 @@ def _printed_terms(
                 f"robot {table.closed.robot.name}, [terms], printed, functions, {name}: got "
                 f'"{printed.text}"; expected a sum of coefficients times monomials'
             )
-        found.append((names[which.index(1)], exponents[: len(motion)], value))
-    return found
+        printed_terms.append((names[which.index(1)], exponents[: len(motion)], value))
+    return printed_terms
 
 
-def _evaluated(
+def _evaluate_text(
     table: CoefficientTable, values: Mapping[str, Any], ring: PolyRing, text: Expression, where: str
 ) -> Poly:
-    found = polynomial_of(text, values, ring)
-    if found is None:
+    polynomial = convert_to_polynomial(text, values, ring)
+    if polynomial is None:
         unknown = ", ".join(sorted(text.names - set(values)))
         raise RobotError(
             f'robot {table.closed.robot.name}, [terms], printed, {where}: got "{text.text}"'
             + (f", where {unknown} is unknown" if unknown else "")
             + "; expected a polynomial of this robot's coefficients, sines, cosines and parameters"
         )
-    return found
+    return polynomial
 
 
-def _power_defect(
+def _compute_power_defect(
     table: CoefficientTable,
     joints: tuple[int, ...],
     difference: Mapping[Exponents, Mapping[Any, Any]],
 ) -> Fraction | None:
     if not table.printed.example or len(joints) != 3:
         return None
-    state = exact_state(table)
-    balance = power_balance(table, state)
+    state = build_exact_state(table)
+    balance = compute_power_balance(table, state)
     assert balance == 0, "the derived model keeps the power balance"
-    added = -sum(state.value(at, vector) for at, vector in difference.items())
-    return balance + added * state.speed_product(joints)
+    added = -sum(state.evaluate_term(at, vector) for at, vector in difference.items())
+    return balance + added * state.multiply_speeds(joints)
 
 
-def _joints(table: CoefficientTable, name: str) -> tuple[int, ...]:
+def _find_joints(table: CoefficientTable, name: str) -> tuple[int, ...]:
     """Indices of the joints of a function, of one that is zero too."""
-    order = [joint.name for joint in table.closed.robot.free]
+    order = [joint.name for joint in table.closed.robot.free_joints]
     for letter, count in (("g", 1), ("J", 2), ("S", 3)):
         for at in product(range(len(order)), repeat=count):
-            if function_name(letter, [order[i] for i in at]) == name:
+            if format_function_name(letter, [order[i] for i in at]) == name:
                 return at
     raise RobotError(
         f"robot {table.closed.robot.name}, [terms], printed, functions: there is no function "
@@ -204,20 +206,20 @@ def _joints(table: CoefficientTable, name: str) -> tuple[int, ...]:
     )
 
 
-def wrong_definitions(table: CoefficientTable) -> list[DefinitionCheck]:
+def find_wrong_definitions(table: CoefficientTable) -> list[DefinitionCheck]:
     """Printed definitions that differ from the derived ones."""
-    ring, found = table.physical.ring, []
+    ring, checks = table.physical.ring, []
     for name, printed in table.printed.definitions.items():
-        _known(table, name, "definitions")
-        poly = _evaluated(table, generators_of(ring), ring, printed, f"definitions, {name}")
+        _check_coefficient(table, name, "definitions")
+        poly = _evaluate_text(table, get_generators(ring), ring, printed, f"definitions, {name}")
         rest = table.by_name[name].physical - poly
         if rest:
-            text = polynomial_text(rest, table.physical.names)
-            found.append(DefinitionCheck(name, printed.text, text))
-    return found
+            text = format_polynomial(rest, table.physical.names)
+            checks.append(DefinitionCheck(name, printed.text, text))
+    return checks
 
 
-def _known(table: CoefficientTable, name: str, key: str) -> None:
+def _check_coefficient(table: CoefficientTable, name: str, key: str) -> None:
     if name not in table.by_name:
         raise RobotError(
             f"robot {table.closed.robot.name}, [terms], printed, {key}: there is no coefficient "
@@ -233,14 +235,14 @@ def check_solutions(table: CoefficientTable, as_printed: bool = False) -> list[S
         as_printed: put in the printed definitions of the coefficients, where there are some.
     """
     ring = table.physical.ring
-    letters = generators_of(ring)
+    letters = get_generators(ring)
     values = {name: c.physical for name, c in table.by_name.items()} | letters
     for name, text in table.printed.definitions.items() if as_printed else ():
-        values[name] = _evaluated(table, letters, ring, text, f"definitions, {name}")
-    found = []
+        values[name] = _evaluate_text(table, letters, ring, text, f"definitions, {name}")
+    checks = []
     for letter, (above, below) in table.printed.solutions.items():
-        numerator = _evaluated(table, values, ring, above, f"solutions, {letter}")
-        denominator = _evaluated(table, values, ring, below, f"solutions, {letter}")
+        numerator = _evaluate_text(table, values, ring, above, f"solutions, {letter}")
+        denominator = _evaluate_text(table, values, ring, below, f"solutions, {letter}")
         if letter not in letters:
             raise RobotError(
                 f"robot {table.closed.robot.name}, [terms], printed, solutions: {letter} is no "
@@ -254,35 +256,35 @@ def check_solutions(table: CoefficientTable, as_printed: bool = False) -> list[S
             opposite = numerator == -denominator * letters[letter]
             verdict = f"returns -{letter}" if opposite else "wrong"
         quoted = above.text if below.text == "1" else f"({above.text}) / ({below.text})"
-        found.append(
+        checks.append(
             SolutionCheck(
                 letter,
                 quoted,
                 verdict,
-                polynomial_text(numerator, table.physical.names),
-                polynomial_text(denominator, table.physical.names),
+                format_polynomial(numerator, table.physical.names),
+                format_polynomial(denominator, table.physical.names),
             )
         )
-    return found
+    return checks
 
 
 def check_independent(table: CoefficientTable) -> dict[str, str]:
     """Coefficients printed as independent that depend on the others: {name: combination}."""
     for name in table.printed.independent:
-        _known(table, name, "independent")
-    found = linear_relations(
-        {name: vector_of(table.by_name[name].standard) for name in table.printed.independent}
+        _check_coefficient(table, name, "independent")
+    relations = find_linear_relations(
+        {name: flatten_form(table.by_name[name].standard) for name in table.printed.independent}
     )
     return {
-        name: combination_text(combination)
-        for name, combination in found.combinations.items()
-        if name not in found.independent
+        name: format_combination(combination)
+        for name, combination in relations.combinations.items()
+        if name not in relations.independent
     }
 
 
 def check_twin(table: CoefficientTable) -> TwinCheck:
     """All coefficients at the example and at its twin, exactly."""
-    first, second = example_values(table), example_values(table, twin=True)
+    first, second = get_example_values(table), get_example_values(table, twin=True)
     points = [
         [values.get(name, Fraction(0)) for name in table.physical.names]
         for values in (first, second)
@@ -290,7 +292,7 @@ def check_twin(table: CoefficientTable) -> TwinCheck:
     different = tuple(
         c.name
         for c in table.coefficients
-        if poly_value(c.physical, points[0]) != poly_value(c.physical, points[1])
+        if evaluate_polynomial(c.physical, points[0]) != evaluate_polynomial(c.physical, points[1])
     )
     changed = tuple(name for name in second if second[name] != first.get(name))
     return TwinCheck(len(table.coefficients) - len(different), different, changed)
@@ -321,19 +323,23 @@ class PowerState:
     static: tuple[Fraction, ...]
     chi: Mapping[int, Fraction]
 
-    def value(self, at: Exponents, vector: Mapping[Any, Any]) -> Fraction:
+    def evaluate_term(self, at: Exponents, vector: Mapping[Any, Any]) -> Fraction:
         """monomial * linear form of the standard parameters."""
         total = Fraction(0)
         for (column, geometry), value in vector.items():
-            total += as_fraction(value) * number(geometry, self.static) * self.chi[column]
-        return total * number(at, self.motion)
+            total += (
+                convert_to_fraction(value)
+                * evaluate_monomial(geometry, self.static)
+                * self.chi[column]
+            )
+        return total * evaluate_monomial(at, self.motion)
 
-    def speed_product(self, joints: tuple[int, ...]) -> Fraction:
+    def multiply_speeds(self, joints: tuple[int, ...]) -> Fraction:
         """qd_i qd_j qd_k."""
         return prod((self.speeds[joint] for joint in joints), start=Fraction(1))
 
 
-def example_values(table: CoefficientTable, twin: bool = False) -> dict[str, Fraction]:
+def get_example_values(table: CoefficientTable, twin: bool = False) -> dict[str, Fraction]:
     """Physical parameters of the example; lengths that it leaves out are nominal."""
     nominal = table.closed.algebra.geometry.values
     values = {name: Fraction(repr(float(value))) for name, value in nominal.items()}
@@ -341,35 +347,39 @@ def example_values(table: CoefficientTable, twin: bool = False) -> dict[str, Fra
     return {**values, **table.printed.twin} if twin else values
 
 
-def exact_state(table: CoefficientTable) -> PowerState:
+def build_exact_state(table: CoefficientTable) -> PowerState:
     """The test state of the example; physical parameters that it leaves out are 0."""
     motion: list[Fraction] = []
     for index, joint in enumerate(table.closed.algebra.motions):
         t = _HALF_TANGENTS[index % len(_HALF_TANGENTS)]
         turning = [2 * t / (1 + t * t), (1 - t * t) / (1 + t * t)]
         motion += turning if joint.variable is None else [t]
-    values = example_values(table)
+    values = get_example_values(table)
     physical = [values.get(name, Fraction(0)) for name in table.physical.names]
     shift = len(physical) - table.closed.algebra.static_ring.ngens
-    chi = {c: poly_value(poly, physical) for c, poly in table.physical.standard.items()}
-    count = table.closed.algebra.geometry.coordinates
+    chi = {c: evaluate_polynomial(poly, physical) for c, poly in table.physical.standard.items()}
+    count = table.closed.algebra.geometry.coordinate_count
     speeds = tuple(_SPEEDS[i % len(_SPEEDS)] for i in range(count))
     return PowerState(tuple(motion), speeds, tuple(physical[shift:]), chi)
 
 
-def power_balance(table: CoefficientTable, state: PowerState) -> Fraction:
+def compute_power_balance(table: CoefficientTable, state: PowerState) -> Fraction:
     """qd'S - qd' (dM/dt) qd / 2 of the derived functions, which is 0 for any mechanism, W."""
     total = Fraction(0)
     for function in table.closed.functions:
         for at, form in function.terms.items():
             if function.kind == "christoffel":
-                total += state.value(at, vector_of(form)) * state.speed_product(function.joints)
+                total += state.evaluate_term(at, flatten_form(form)) * state.multiply_speeds(
+                    function.joints
+                )
             elif function.kind == "inertia":
-                total -= _half_slope_power(table, state, function.joints, at, vector_of(form))
+                total -= _compute_half_slope_power(
+                    table, state, function.joints, at, flatten_form(form)
+                )
     return total
 
 
-def _half_slope_power(
+def _compute_half_slope_power(
     table: CoefficientTable,
     state: PowerState,
     joints: tuple[int, ...],
@@ -381,8 +391,10 @@ def _half_slope_power(
     rest = (0,) * algebra.static_ring.ngens
     monomial = algebra.ring.zero.new({at + rest: QQ(1)})
     total = Fraction(0)
-    for k in range(algebra.geometry.coordinates):
-        for moved, value in algebra.derivative(monomial, k).items():
-            slope = as_fraction(value) * state.value(moved[: algebra.moving], vector)
-            total += slope * state.speed_product((*joints, k))
+    for k in range(algebra.geometry.coordinate_count):
+        for moved, value in algebra.differentiate_polynomial(monomial, k).items():
+            slope = convert_to_fraction(value) * state.evaluate_term(
+                moved[: algebra.moving], vector
+            )
+            total += slope * state.multiply_speeds((*joints, k))
     return total / 2 if joints[0] == joints[1] else total

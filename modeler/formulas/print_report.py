@@ -6,30 +6,34 @@ from fractions import Fraction
 
 import numpy as np
 
-from modeler.derivation import BaseParameters, SymbolicModel, relation_text
-from modeler.formulas.closed_form import closed_form
-from modeler.formulas.coefficients import CoefficientTable, by_function, coefficient_table
+from modeler.derivation import BaseParameters, SymbolicModel, format_relation
+from modeler.formulas.closed_form import derive_closed_form
+from modeler.formulas.coefficients import (
+    CoefficientTable,
+    build_coefficient_table,
+    collect_by_function,
+)
 from modeler.formulas.print_checks import (
     STATE,
+    build_exact_state,
     check_independent,
     check_solutions,
     check_twin,
-    exact_state,
-    example_values,
-    power_balance,
-    wrong_definitions,
-    wrong_functions,
+    compute_power_balance,
+    find_wrong_definitions,
+    find_wrong_functions,
+    get_example_values,
 )
 from modeler.formulas.printed import Coupling
 from modeler.formulas.render import (
-    backward_lines,
     coefficients_markdown,
-    determinant_text,
-    equation,
-    forward_lines,
+    format_backward_map,
+    format_determinant,
+    format_equation,
+    format_forward_map,
 )
-from modeler.formulas.ring import classes
-from modeler.formulas.text import signed_sum
+from modeler.formulas.ring import partition_by_ratio
+from modeler.formulas.text import format_signed_sum
 
 # Coulomb friction of motors that turn with several joints: a printed term and virtual work.
 
@@ -57,17 +61,17 @@ def check_friction(coupling: Coupling) -> FrictionCheck:
     """The printed friction term and the one that follows from virtual work, at one motion."""
     G, C, qd = map(np.array, (coupling.motor_from_joint, coupling.coulomb, coupling.speed))
     motor = G @ qd
-    printed, derived = np.diag(G) * C * _signs(qd), G.T @ (C * _signs(motor))
+    printed, derived = np.diag(G) * C * _compute_signs(qd), G.T @ (C * _compute_signs(motor))
     return FrictionCheck(
         tuple(printed), tuple(derived), qd @ printed, C @ np.abs(motor), qd @ derived
     )
 
 
-def _signs(values: np.ndarray) -> np.ndarray:
+def _compute_signs(values: np.ndarray) -> np.ndarray:
     return (values > 0).astype(int) - (values < 0).astype(int)
 
 
-def print_sections(table: CoefficientTable) -> list[str]:
+def write_print_sections(table: CoefficientTable) -> list[str]:
     """Sections of the page about the print; none if the robot file quotes none."""
     printed = table.printed
     quoted = (printed.functions, printed.definitions, printed.solutions, printed.independent)
@@ -75,20 +79,20 @@ def print_sections(table: CoefficientTable) -> list[str]:
         return []
     sections = [
         "## Where the print is wrong, and how one sees it\n",
-        _independent(table),
-        _definitions(table),
-        _function_section(table),
-        _solutions(table),
-        _vanishing(table),
+        _write_independent(table),
+        _write_definitions(table),
+        _write_function_section(table),
+        _write_solutions(table),
+        _write_vanishing(table),
     ]
     if printed.coupling is not None:
-        sections.append(_friction(printed.coupling))
+        sections.append(_write_friction(printed.coupling))
     if printed.twin:
-        sections.append(_twin(table))
+        sections.append(_write_twin(table))
     return [section for section in sections if section]
 
 
-def _independent(table: CoefficientTable) -> str:
+def _write_independent(table: CoefficientTable) -> str:
     printed, dependent = table.printed.independent, check_independent(table)
     if not dependent:
         return ""
@@ -104,8 +108,8 @@ def _independent(table: CoefficientTable) -> str:
     return "\n".join([*lines, ""])
 
 
-def _definitions(table: CoefficientTable) -> str:
-    wrong, count = wrong_definitions(table), len(table.printed.definitions)
+def _write_definitions(table: CoefficientTable) -> str:
+    wrong, count = find_wrong_definitions(table), len(table.printed.definitions)
     lines = [
         "### Definitions",
         "",
@@ -133,8 +137,8 @@ def _definitions(table: CoefficientTable) -> str:
     return "\n".join([*lines, ""]) if wrong else ""
 
 
-def _function_section(table: CoefficientTable) -> str:
-    wrong = wrong_functions(table)
+def _write_function_section(table: CoefficientTable) -> str:
+    wrong = find_wrong_functions(table)
     if not wrong:
         return ""
     lines = ["### Functions", ""]
@@ -146,7 +150,7 @@ def _function_section(table: CoefficientTable) -> str:
         f"robot file at {STATE},"
     ]
     if table.printed.example:
-        balance = power_balance(table, exact_state(table))
+        balance = compute_power_balance(table, build_exact_state(table))
         lines += [f"the derived functions miss it by {balance} W, in exact arithmetic.", ""]
     lines += ["| function | derived minus printed | print misses by |", "|---|---|---|"]
     for check in wrong:
@@ -158,14 +162,16 @@ def _function_section(table: CoefficientTable) -> str:
     lines += ["```", ""]
     for name in table.closed.by_name:
         if name not in table.printed.functions:
-            own = {c.name for c in table.coefficients if c.function == name}
-            holders = [f for f, text in table.printed.functions.items() if own & text.names]
+            coefficient_names = {c.name for c in table.coefficients if c.function == name}
+            holders = [
+                f for f, text in table.printed.functions.items() if coefficient_names & text.names
+            ]
             where = f"; its terms stand in {', '.join(holders)}" if holders else ""
             lines += [f"Without a name of its own in the print: {name}{where}.", ""]
     return "\n".join(lines)
 
 
-def _solutions(table: CoefficientTable) -> str:
+def _write_solutions(table: CoefficientTable) -> str:
     checks = check_solutions(table)
     wrong = [check for check in checks if check.verdict != "right"]
     if not wrong:
@@ -186,7 +192,7 @@ def _solutions(table: CoefficientTable) -> str:
     return "\n".join([*lines, ""])
 
 
-def _vanishing(table: CoefficientTable) -> str:
+def _write_vanishing(table: CoefficientTable) -> str:
     printed, derived = set(table.printed.vanishing), set(table.identifiability.vanishing)
     if not printed or printed == derived:
         return ""
@@ -203,13 +209,13 @@ def _vanishing(table: CoefficientTable) -> str:
     return "\n".join([*lines, ""])
 
 
-def _friction(coupling: Coupling) -> str:
+def _write_friction(coupling: Coupling) -> str:
     check = check_friction(coupling)
 
-    def row(values: tuple[Fraction, ...]) -> str:
+    def format_row(values: tuple[Fraction, ...]) -> str:
         return ", ".join(f"{float(value):g}" for value in values)
 
-    matrix = "; ".join(row(line) for line in coupling.motor_from_joint)
+    matrix = "; ".join(format_row(line) for line in coupling.motor_from_joint)
     return "\n".join(
         [
             "### Friction of coupled motors",
@@ -217,21 +223,22 @@ def _friction(coupling: Coupling) -> str:
             "Printed: G_ii C_i sgn(qd_i), C being diagonal. Virtual work: (G^T C sgn(G qd))_i, "
             "with the motor speeds G qd; friction must take sum C_i |(G qd)_i|.",
             "",
-            f"With G = [{matrix}], C = ({row(coupling.coulomb)}) N m, qd = ({row(coupling.speed)}) "
+            f"With G = [{matrix}], C = ({format_row(coupling.coulomb)}) N m, qd = "
+            f"({format_row(coupling.speed)}) "
             f"rad/s the motors take {float(check.dissipated):g} W:",
             "",
             "| | joint torques, N m | power, W |",
             "|---|---|---|",
-            f"| printed | {row(check.printed)} | {float(check.printed_power):g} |",
-            f"| derived | {row(check.derived)} | {float(check.derived_power):g} |",
+            f"| printed | {format_row(check.printed)} | {float(check.printed_power):g} |",
+            f"| derived | {format_row(check.derived)} | {float(check.derived_power):g} |",
             "",
         ]
     )
 
 
-def _twin(table: CoefficientTable) -> str:
+def _write_twin(table: CoefficientTable) -> str:
     check = check_twin(table)
-    first, second = example_values(table), example_values(table, twin=True)
+    first, second = get_example_values(table), get_example_values(table, twin=True)
     lines = [
         "### Two different robots with the same torques",
         "",
@@ -252,21 +259,26 @@ def _twin(table: CoefficientTable) -> str:
 _WIDTH = 96
 
 
-def terms_report(model: SymbolicModel, base: BaseParameters) -> str:
+def write_terms_report(model: SymbolicModel, base: BaseParameters) -> str:
     """The page as Markdown: functions, relations, map, a paper's print checked, all coefficients.
 
     Raises:
         DerivationError: the robot has no closed form worth printing.
         RobotError: `[terms]` or `[physical]` of the robot file is wrong.
     """
-    table = coefficient_table(model, base)
-    parts = [_head(table), _functions(table), _relations(model, table), _map(table)]
-    parts += print_sections(table)
+    table = build_coefficient_table(model, base)
+    parts = [
+        _write_head(table),
+        _write_functions(table),
+        _write_relations(model, table),
+        _write_map(table),
+    ]
+    parts += write_print_sections(table)
     parts.append("## All coefficients\n\n" + coefficients_markdown(table))
     return "\n".join(parts)
 
 
-def _head(table: CoefficientTable) -> str:
+def _write_head(table: CoefficientTable) -> str:
     closed = table.closed
     factor = ""
     if closed.gravity_factor:
@@ -277,7 +289,7 @@ def _head(table: CoefficientTable) -> str:
         "All formulas and numbers below are computed from the robot file when this page is made; "
         "only what is called printed is quoted.",
         "",
-        f"`{equation(closed)}`",
+        f"`{format_equation(closed)}`",
         "",
         "J is the inertia matrix (symmetric), S_ijk (j <= k) the full coefficient of qd_j qd_k; s "
         f"and c are sine and cosine of a joint angle.{factor} Functions not listed are zero.",
@@ -288,15 +300,15 @@ def _head(table: CoefficientTable) -> str:
     return "\n".join(lines)
 
 
-def _functions(table: CoefficientTable) -> str:
+def _write_functions(table: CoefficientTable) -> str:
     lines = ["## The functions", "", "```text"]
-    for function, coefficients in by_function(table):
+    for function, coefficients in collect_by_function(table):
         terms = [c.name if c.monomial == "1" else f"{c.name}*{c.monomial}" for c in coefficients]
-        lines += _wrapped(f"{function.name} = ", terms)
+        lines += _wrap_terms(f"{function.name} = ", terms)
     return "\n".join([*lines, "```", ""])
 
 
-def _wrapped(head: str, terms: list[str]) -> list[str]:
+def _wrap_terms(head: str, terms: list[str]) -> list[str]:
     lines, line = [], head
     for index, term in enumerate(terms):
         piece = term if index == 0 else f" + {term}"
@@ -307,59 +319,64 @@ def _wrapped(head: str, terms: list[str]) -> list[str]:
     return [*lines, line]
 
 
-def _fewest(model: SymbolicModel) -> list[str]:
+def _describe_fewest_monomials(model: SymbolicModel) -> list[str]:
     """How many monomials the free choice of squares needs, where a paper's choice is followed."""
     if "keep_sine_squares" not in model.robot.terms:
         return []
     robot = dataclasses.replace(model.robot, terms={})
-    count = closed_form(dataclasses.replace(model, robot=robot)).monomials
+    count = derive_closed_form(dataclasses.replace(model, robot=robot)).monomial_count
     return [
         f"* The squares of sines and cosines are those of the print; the best choice per function "
         f"and joint needs {count} monomials."
     ]
 
 
-def _relations(model: SymbolicModel, table: CoefficientTable) -> str:
-    found, relations = table.identifiability, table.relations
+def _write_relations(model: SymbolicModel, table: CoefficientTable) -> str:
+    identifiability, relations = table.identifiability, table.relations
     kinds = {"gravity": 0, "inertia": 0, "christoffel": 0}
     for function in table.closed.functions:
         kinds[function.kind] += len(function.terms)
-    appearing, rank = len(found.appearing), found.jacobian_rank
+    appearing, rank = len(identifiability.appearing), identifiability.jacobian_rank
     lines = [
         "## Relations",
         "",
         f"* {kinds['gravity']} + {kinds['inertia']} + {kinds['christoffel']} = "
         f"**{len(table.coefficients)}** coefficients (gravity, inertia matrix, Christoffel). Up to "
-        f"constant factors they are {len(classes(relations))} different functions of the "
+        f"constant factors they are {len(partition_by_ratio(relations))} different functions of "
+        "the "
         "parameters.",
-        *_fewest(model),
+        *_describe_fewest_monomials(model),
         f"* Rank over Q, exact, with all lengths unknown: **{relations.rank}**; the first that are "
         "independent stand in the map below.",
         f"* Rank with the geometry known: {len(table.known_geometry)}; base parameters: "
         f"{table.base.rank}.",
-        f"* {len(found.letters)} physical parameters, of which {appearing} appear. The "
-        f"{len(found.vanishing)} without effect on any torque: "
-        f"**{', '.join(found.vanishing) or 'none'}**.",
+        f"* {len(identifiability.letters)} physical parameters, of which {appearing} appear. The "
+        f"{len(identifiability.vanishing)} without effect on any torque: "
+        f"**{', '.join(identifiability.vanishing) or 'none'}**.",
     ]
-    if found.sums:
-        sums = (signed_sum((Fraction(v), k) for k, v in group.items()) for group in found.sums)
+    if identifiability.sums:
+        sums = (
+            format_signed_sum((Fraction(v), k) for k, v in group.items())
+            for group in identifiability.sums
+        )
         lines.append(f"* Only together: {', '.join(f'`{text}`' for text in sums)}.")
     lines += [
         f"* Generic rank of d coefficients / d parameters, over the {appearing} that appear: "
-        f"**{rank}** (modulo a prime at {found.points} random points, seed {found.seed}). So at "
+        f"**{rank}** (modulo a prime at {identifiability.points} random points, seed "
+        f"{identifiability.seed}). So at "
         f"least {appearing - rank} of the {appearing} must be known to find the others.",
         "",
     ]
     return "\n".join(lines)
 
 
-def _map(table: CoefficientTable) -> str:
+def _write_map(table: CoefficientTable) -> str:
     lines = ["## Map to the base parameters", ""]
-    grouped = [relation_text(p) for p in table.base.parameters if p.terms[1:]]
+    grouped = [format_relation(p) for p in table.base.parameters if p.terms[1:]]
     if grouped:
         lines += ["Grouped parameters:", "", "```text", *grouped, "```", ""]
-    lines += ["```text", *forward_lines(table), "```", ""]
-    determinant, size = determinant_text(table), len(table.map.rows)
+    lines += ["```text", *format_forward_map(table), "```", ""]
+    determinant, size = format_determinant(table), len(table.map.rows)
     if determinant is None:
         why = (
             "not square" if size != len(table.map.columns) else "its determinant too long to print"
@@ -367,5 +384,5 @@ def _map(table: CoefficientTable) -> str:
         lines.append(f"This map is {size} x {len(table.map.columns)}, {why}.")
     else:
         lines.append(f"Determinant of this {size} x {size} map: **{determinant}**.")
-        lines += ["", "Backwards:", "", "```text", *backward_lines(table), "```"]
+        lines += ["", "Backwards:", "", "```text", *format_backward_map(table), "```"]
     return "\n".join([*lines, ""])

@@ -20,7 +20,7 @@ from fractions import Fraction
 from typing import Any
 
 from modeler.core.errors import RobotError
-from modeler.core.expression import Expression, ExpressionError, parse
+from modeler.core.expression import Expression, ExpressionError, parse_expression
 from modeler.robot import Robot
 
 _KEYS = ("source", "keep_sine_squares", "missing", "monomials", "printed", "example", "twin",
@@ -53,7 +53,7 @@ class Coupling:
 
 
 @dataclass(frozen=True)
-class Print:
+class PrintedTerms:
     """`[terms]` of a robot file, read.
 
     Attributes:
@@ -85,48 +85,53 @@ class Print:
     coupling: Coupling | None = None
 
 
-def read_print(robot: Robot) -> Print:
+def read_printed_terms(robot: Robot) -> PrintedTerms:
     """`[terms]` of the robot.
 
     Raises:
         RobotError: an unknown key, or a value of the wrong kind; says where and what is expected.
     """
     where = f"robot {robot.name}, [terms]"
-    terms = _table(robot.terms, where, _KEYS)
-    printed = _table(terms.get("printed", {}), f"{where}, printed", _PRINTED)
+    terms = _check_table(robot.terms, where, _KEYS)
+    printed = _check_table(terms.get("printed", {}), f"{where}, printed", _PRINTED)
     count = printed.get("count")
     if count is not None and (isinstance(count, bool) or not isinstance(count, int)):
         raise RobotError(f"{where}, printed, count: got {count!r}; expected a number such as 96")
-    return Print(
-        source=_text(terms.get("source", ""), f"{where}, source"),
-        missing=_text(terms.get("missing", "PX"), f"{where}, missing"),
+    return PrintedTerms(
+        source=_check_text(terms.get("source", ""), f"{where}, source"),
+        missing=_check_text(terms.get("missing", "PX"), f"{where}, missing"),
         monomials={
-            name: tuple(_expression(x, f"{where}, monomials, {name}") for x in _list(cell, where))
-            for name, cell in _table(terms.get("monomials", {}), f"{where}, monomials").items()
+            name: tuple(
+                _parse_expression(x, f"{where}, monomials, {name}")
+                for x in _check_list(cell, where)
+            )
+            for name, cell in _check_table(
+                terms.get("monomials", {}), f"{where}, monomials"
+            ).items()
         },
         count=count,
-        independent=_names(printed.get("independent", []), f"{where}, printed, independent"),
-        vanishing=_names(printed.get("vanishing", []), f"{where}, printed, vanishing"),
-        functions=_expressions(printed, "functions", where),
-        definitions=_expressions(printed, "definitions", where),
-        solutions=_solutions(printed, where),
-        example=_numbers(terms.get("example", {}), f"{where}, example"),
-        twin=_numbers(terms.get("twin", {}), f"{where}, twin"),
-        coupling=_coupling(printed, f"{where}, printed, coupling"),
+        independent=_parse_names(printed.get("independent", []), f"{where}, printed, independent"),
+        vanishing=_parse_names(printed.get("vanishing", []), f"{where}, printed, vanishing"),
+        functions=_parse_expressions(printed, "functions", where),
+        definitions=_parse_expressions(printed, "definitions", where),
+        solutions=_parse_solutions(printed, where),
+        example=_parse_numbers(terms.get("example", {}), f"{where}, example"),
+        twin=_parse_numbers(terms.get("twin", {}), f"{where}, twin"),
+        coupling=_parse_coupling(printed, f"{where}, printed, coupling"),
     )
 
 
-def _coupling(printed: Mapping[str, Any], where: str) -> Coupling | None:
+def _parse_coupling(printed: Mapping[str, Any], where: str) -> Coupling | None:
     if "coupling" not in printed:
         return None
-    table = _table(printed["coupling"], where, _COUPLING)
+    table = _check_table(printed["coupling"], where, _COUPLING)
     for key in _COUPLING:
         if key not in table:
             raise RobotError(f"{where}: {key} is missing; expected {', '.join(_COUPLING)}")
-    speed = _row(table["speed"], f"{where}, speed")
-    coulomb = _row(table["coulomb"], f"{where}, coulomb")
+    speed = _parse_row(table["speed"], f"{where}, speed")
+    coulomb = _parse_row(table["coulomb"], f"{where}, coulomb")
     place = f"{where}, motor_from_joint"
-    rows = tuple(_row(row, place) for row in _list(table["motor_from_joint"], place))
+    rows = tuple(_parse_row(row, place) for row in _check_list(table["motor_from_joint"], place))
     if {len(rows), len(coulomb), *(len(row) for row in rows)} != {len(speed)}:
         raise RobotError(
             f"{where}: got {len(rows)} rows of {', '.join(str(len(row)) for row in rows)}, "
@@ -135,12 +140,12 @@ def _coupling(printed: Mapping[str, Any], where: str) -> Coupling | None:
     return Coupling(rows, coulomb, speed)
 
 
-def _row(value: Any, where: str) -> tuple[Fraction, ...]:
-    cells = {f"entry {i}": cell for i, cell in enumerate(_list(value, where), start=1)}
-    return tuple(_numbers(cells, where).values())
+def _parse_row(value: Any, where: str) -> tuple[Fraction, ...]:
+    cells = {f"entry {i}": cell for i, cell in enumerate(_check_list(value, where), start=1)}
+    return tuple(_parse_numbers(cells, where).values())
 
 
-def _table(value: Any, where: str, keys: tuple[str, ...] = ()) -> Mapping[str, Any]:
+def _check_table(value: Any, where: str, keys: tuple[str, ...] = ()) -> Mapping[str, Any]:
     if not isinstance(value, Mapping):
         raise RobotError(f"{where}: got {value!r}; expected a table of names")
     for key in value:
@@ -149,56 +154,58 @@ def _table(value: Any, where: str, keys: tuple[str, ...] = ()) -> Mapping[str, A
     return value
 
 
-def _list(value: Any, where: str) -> list[Any]:
+def _check_list(value: Any, where: str) -> list[Any]:
     if not isinstance(value, list):
         raise RobotError(f'{where}: got {value!r}; expected a list such as ["s1*s2", "c1"]')
     return value
 
 
-def _text(value: Any, where: str) -> str:
+def _check_text(value: Any, where: str) -> str:
     if not isinstance(value, str):
         raise RobotError(f"{where}: got {value!r}; expected text")
     return value
 
 
-def _names(value: Any, where: str) -> tuple[str, ...]:
-    return tuple(_text(entry, where) for entry in _list(value, where))
+def _parse_names(value: Any, where: str) -> tuple[str, ...]:
+    return tuple(_check_text(entry, where) for entry in _check_list(value, where))
 
 
-def _expression(value: Any, where: str) -> Expression:
+def _parse_expression(value: Any, where: str) -> Expression:
     try:
-        return parse(value)
+        return parse_expression(value)
     except ExpressionError as error:
         raise RobotError(f"{where}: {error}") from None
 
 
-def _expressions(printed: Mapping[str, Any], key: str, where: str) -> dict[str, Expression]:
+def _parse_expressions(printed: Mapping[str, Any], key: str, where: str) -> dict[str, Expression]:
     here = f"{where}, printed, {key}"
-    table = _table(printed.get(key, {}), here)
-    return {name: _expression(cell, f"{here}, {name}") for name, cell in table.items()}
+    table = _check_table(printed.get(key, {}), here)
+    return {name: _parse_expression(cell, f"{here}, {name}") for name, cell in table.items()}
 
 
-def _solutions(printed: Mapping[str, Any], where: str) -> dict[str, tuple[Expression, Expression]]:
+def _parse_solutions(
+    printed: Mapping[str, Any], where: str
+) -> dict[str, tuple[Expression, Expression]]:
     here = f"{where}, printed, solutions"
-    found = {}
-    for name, cell in _table(printed.get("solutions", {}), here).items():
+    solutions = {}
+    for name, cell in _check_table(printed.get("solutions", {}), here).items():
         parts = cell if isinstance(cell, list) else [cell, 1]
         if len(parts) != 2:
             raise RobotError(
                 f"{here}, {name}: got {len(parts)} entries; expected [numerator, denominator]"
             )
-        above, below = (_expression(part, f"{here}, {name}") for part in parts)
-        found[name] = (above, below)
-    return found
+        above, below = (_parse_expression(part, f"{here}, {name}") for part in parts)
+        solutions[name] = (above, below)
+    return solutions
 
 
-def _numbers(value: Any, where: str) -> dict[str, Fraction]:
-    found = {}
-    for name, cell in _table(value, where).items():
+def _parse_numbers(value: Any, where: str) -> dict[str, Fraction]:
+    numbers = {}
+    for name, cell in _check_table(value, where).items():
         try:
-            found[name] = Fraction(cell if isinstance(cell, str) else repr(cell))
+            numbers[name] = Fraction(cell if isinstance(cell, str) else repr(cell))
         except (ValueError, ZeroDivisionError):
             raise RobotError(
                 f'{where}, {name}: got {cell!r}; expected a number such as 12 or "1063/52500"'
             ) from None
-    return found
+    return numbers

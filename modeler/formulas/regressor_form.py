@@ -14,28 +14,28 @@ from modeler.derivation import (
     Expr,
     ShaftColumn,
     SymbolicModel,
-    along,
-    meeting,
+    combine_along_shaft,
+    compute_loop_frames,
+    compute_poses,
     plus,
-    poses,
     times,
 )
 from modeler.formulas.closed_form import (
-    fresh_model,
-    name_vector,
-    named_columns,
-    signal_symbols,
+    collect_symbol_names,
+    copy_model,
+    get_base_columns,
+    get_signal_letters,
+    propose_vector,
     write_short_form,
-    written_symbols,
 )
 from modeler.formulas.function_sheet import (
     Sheet,
     SheetWriter,
-    sheet_latex,
-    sheet_lines,
-    sheet_markdown,
+    format_sheet_latex,
+    format_sheet_lines,
+    format_sheet_markdown,
 )
-from modeler.formulas.ring import TrigRing, poly_value
+from modeler.formulas.ring import TrigRing, evaluate_polynomial
 
 # Loops that tie the free variables: J_t, J_p and the closure's Jacobian in closed form.
 #
@@ -76,48 +76,48 @@ def write_loops(model: SymbolicModel, writer: SheetWriter) -> list[str]:
     """
     closure = model.closure
     assert closure is not None
-    names = [joint.name for joint in model.robot.free]
-    given = closure.platform or closure.given
-    blocks = connected(closure, given, len(names))
+    names = [joint.name for joint in model.robot.free_joints]
+    independent = closure.platform or closure.actuated
+    blocks = find_connected_blocks(closure, independent, len(names))
     _write_closure(closure, names, writer)
     spheres = _write_spheres(model, closure, writer)
-    rates: dict[int, dict[int, Expr]] = {p: {p: model.graph.constant(1)} for p in given}
+    rates: dict[int, dict[int, Expr]] = {p: {p: model.graph.constant(1)} for p in independent}
     bias: dict[int, Expr] = {}
     letter = "L" if closure.platform else "Jt"
     for block in blocks:
         if len(block[1]) <= SOLVED:
-            _write_block(closure, block, given, names, letter, writer, rates, bias)
+            _write_block(closure, block, independent, names, letter, writer, rates, bias)
     complete = all(len(unknown) <= SOLVED for _, unknown in blocks)
     if closure.platform and complete:
         complete = _write_platform(model, closure, names, writer, rates, bias)
     elif complete:
         _write_bias(closure.solved, names, bias, writer)
-    return _words(model, closure, complete, spheres)
+    return _describe_loops(model, closure, complete, spheres)
 
 
-def connected(closure: Closure, given: Sequence[int], count: int) -> list[Block]:
+def find_connected_blocks(closure: Closure, independent: Sequence[int], count: int) -> list[Block]:
     """Connected equations, in the order of their unknowns."""
-    unknown = [k for k in range(count) if k not in given]
-    found: list[tuple[set[int], set[int]]] = []
+    unknown = [k for k in range(count) if k not in independent]
+    components: list[tuple[set[int], set[int]]] = []
     for r, line in enumerate(closure.jacobian):
         reads = {k for k in unknown if not line[k].is_zero}
-        touched = [part for part in found if part[1] & reads]
-        found = [part for part in found if part not in touched]
+        touched = [part for part in components if part[1] & reads]
+        components = [part for part in components if part not in touched]
         rows = {r}.union(*(part[0] for part in touched))
-        found.append((rows, reads.union(*(part[1] for part in touched))))
-    blocks = [(sorted(rows), sorted(reads)) for rows, reads in found]
+        components.append((rows, reads.union(*(part[1] for part in touched))))
+    blocks = [(sorted(rows), sorted(reads)) for rows, reads in components]
     return sorted(blocks, key=lambda block: block[1])
 
 
 def _write_closure(closure: Closure, names: Sequence[str], writer: SheetWriter) -> None:
-    writer.section("closure equations, 0 where the loops are closed")
+    writer.open_section("closure equations, 0 where the loops are closed")
     for r, equation in enumerate(closure.equations, start=1):
-        writer.result(f"f{r}", equation)
+        writer.add_result(f"f{r}", equation)
     for r, (line, drift) in enumerate(zip(closure.jacobian, closure.drift, strict=True), start=1):
-        writer.section(f"Jacobian of f{r}, and d/dt(Jacobian) u'")
+        writer.open_section(f"Jacobian of f{r}, and d/dt(Jacobian) u'")
         for name, entry in zip(names, line, strict=True):
-            writer.result(f"F{r}_{name}", entry)
-        writer.result(f"h{r}", drift)
+            writer.add_result(f"F{r}_{name}", entry)
+        writer.add_result(f"h{r}", drift)
 
 
 def _write_spheres(model: SymbolicModel, closure: Closure, writer: SheetWriter) -> bool:
@@ -126,53 +126,58 @@ def _write_spheres(model: SymbolicModel, closure: Closure, writer: SheetWriter) 
         ring = TrigRing(model.geometry)
     except DerivationError:  # lengths that are no polynomials
         return False
-    writer.section("closure equations without the passive joints")
+    writer.open_section("closure equations without the passive joints")
     passive = {*closure.solved} - {*(closure.platform or ())}
     places = [(m.sine, m.cosine, m.variable) for m in ring.motions if passive & {*m.form}]
     turned = [k for each in places for k in each if k is not None]
     generators, call = list[Expr](), model.graph.call  # of the ring, as expressions of the graph
     for motion in ring.motions:
-        at = along(model, motion.form, "q")
+        at = combine_along_shaft(model, motion.form, "q")
         generators += [at] if motion.variable is not None else [call("sin", at), call("cos", at)]
     generators += [model.algebra.static(atom) for atom in ring.static_atoms]
-    frames, found = poses(model.geometry, ring), False
+    frames, is_written = compute_poses(model.geometry, ring), False
     for number, loop in enumerate(model.robot.loops, start=1):
-        joint, (one, other) = LOOP_JOINTS[loop.kind], meeting(model.geometry, loop, frames, ring)
+        joint, (one, other) = (
+            LOOP_JOINTS[loop.kind],
+            compute_loop_frames(model.geometry, loop, frames, ring),
+        )
         square, total = ring.ring.zero, model.graph.constant(0)
         for entry in plus(one[1], times(-1, other[1])) if joint.velocity == ALL else ():
-            entry = ring.normal(ring.ring(entry))
+            entry = ring.normalise_polynomial(ring.ring(entry))
             moved = {e: x for e, x in entry.items() if any(e[k] for k in turned)}
             w = ring.ring.zero.new(moved)
-            e = poly_value(entry - w, generators)
+            e = evaluate_polynomial(entry - w, generators)
             square, total = square + w**2, total + e * e
-        square = ring.normal(square)
+        square = ring.normalise_polynomial(square)
         if square and not any(at[k] for at in square for k in turned):
-            writer.result(f"fp{number}", total - poly_value(square, generators))
-            found = True
-    return found
+            writer.add_result(f"fp{number}", total - evaluate_polynomial(square, generators))
+            is_written = True
+    return is_written
 
 
 def _write_block(
-    closure: Closure, block: Block, given: Sequence[int], names: Sequence[str], letter: str,
+    closure: Closure, block: Block, independent: Sequence[int], names: Sequence[str], letter: str,
     writer: SheetWriter, rates: dict[int, dict[int, Expr]], bias: dict[int, Expr],
 ) -> None:  # fmt: skip
     """L = -B^-1 A and -B^-1 h of one block."""
     equations, unknown = block
-    told = ", ".join(names[k] for k in unknown)
-    writer.section(f"speeds of {told} by those of {', '.join(names[k] for k in given)}")
+    unknown_names = ", ".join(names[k] for k in unknown)
+    writer.open_section(
+        f"speeds of {unknown_names} by those of {', '.join(names[k] for k in independent)}"
+    )
     B = [[closure.jacobian[r][k] for k in unknown] for r in equations]
-    inverse = inverse_matrix(B, f"D{names[unknown[0]]}", writer)
+    inverse = invert_matrix(B, f"D{names[unknown[0]]}", writer)
     for u, line in zip(unknown, inverse, strict=True):
         rates[u] = {}
-        for p in given:
-            value = -along_row(line, [closure.jacobian[r][p] for r in equations])
+        for p in independent:
+            value = -multiply_rows(line, [closure.jacobian[r][p] for r in equations])
             if not value.is_zero:
                 rates[u][p] = value
-                writer.result(f"{letter}{names[u]}_{names[p]}", value)
-        bias[u] = -along_row(line, [closure.drift[r] for r in equations])
+                writer.add_result(f"{letter}{names[u]}_{names[p]}", value)
+        bias[u] = -multiply_rows(line, [closure.drift[r] for r in equations])
 
 
-def along_row(a: Sequence[Any], b: Sequence[Any]) -> Any:
+def multiply_rows(a: Sequence[Any], b: Sequence[Any]) -> Any:
     """sum_k a_k b_k, of expressions or of other elements of a field."""
     total = a[0] * b[0]
     for x, y in zip(a[1:], b[1:], strict=True):
@@ -180,31 +185,31 @@ def along_row(a: Sequence[Any], b: Sequence[Any]) -> Any:
     return total
 
 
-def inverse_matrix(B: Matrix, name: str, writer: SheetWriter) -> Matrix:
+def invert_matrix(B: Matrix, name: str, writer: SheetWriter) -> Matrix:
     """The inverse by cofactors over the determinant, which gets the name."""
     n = len(B)
     if n == 1:
         return [[1 / B[0][0]]]
-    cofactors = [[cofactor(B, i, j) for j in range(n)] for i in range(n)]
-    determinant = along_row(B[0], cofactors[0])
-    writer.propose(name, determinant)
+    cofactors = [[compute_cofactor(B, i, j) for j in range(n)] for i in range(n)]
+    determinant = multiply_rows(B[0], cofactors[0])
+    writer.propose_quantity(name, determinant)
     return [[cofactors[j][i] / determinant for j in range(n)] for i in range(n)]
 
 
-def cofactor(B: Sequence[Sequence[Any]], i: int, j: int) -> Any:
+def compute_cofactor(B: Sequence[Sequence[Any]], i: int, j: int) -> Any:
     """The signed minor of B without row i and column j; 1 of a matrix of one entry."""
     if len(B) == 1:
         return 1
     rest = [[x for k, x in enumerate(line) if k != j] for r, line in enumerate(B) if r != i]
-    minor = _determinant(rest)
+    minor = _expand_determinant(rest)
     return minor if (i + j) % 2 == 0 else -minor
 
 
-def _determinant(B: Sequence[Sequence[Any]]) -> Any:
+def _expand_determinant(B: Sequence[Sequence[Any]]) -> Any:
     """By the first row; the graph shares minors."""
     if len(B) == 1:
         return B[0][0]
-    return along_row(B[0], [cofactor(B, 0, j) for j in range(len(B))])
+    return multiply_rows(B[0], [compute_cofactor(B, 0, j) for j in range(len(B))])
 
 
 def _write_platform(
@@ -212,28 +217,28 @@ def _write_platform(
     rates: Mapping[int, Mapping[int, Expr]], bias: dict[int, Expr],
 ) -> bool:  # fmt: skip
     """J_p, J_t and the bias, if the inverse of K is worth printing."""
-    given, motors = closure.platform, closure.given
-    assert given is not None
+    platform, motors = closure.platform, closure.actuated
+    assert platform is not None
     if len(motors) > SOLVED:
         return False
     zero = model.graph.constant(0)
-    writer.section("J_p, inverse of the motors' rows of L")
-    K = [[rates[a].get(p, zero) for p in given] for a in motors]
-    inverse = inverse_matrix(K, "Dp", writer)
-    for p, line in zip(given, inverse, strict=True):
+    writer.open_section("J_p, inverse of the motors' rows of L")
+    K = [[rates[a].get(p, zero) for p in platform] for a in motors]
+    inverse = invert_matrix(K, "Dp", writer)
+    for p, line in zip(platform, inverse, strict=True):
         for a, value in zip(motors, line, strict=True):
-            writer.result(f"Jp{names[p]}_{names[a]}", value)
+            writer.add_result(f"Jp{names[p]}_{names[a]}", value)
     offsets = [bias.get(a, zero) for a in motors]
-    for p, line in zip(given, inverse, strict=True):
-        bias[p] = -along_row(line, offsets)
-    writer.section("J_t of the legs' passive joints")
-    passive = [k for k in rates if k not in given and k not in motors]
+    for p, line in zip(platform, inverse, strict=True):
+        bias[p] = -multiply_rows(line, offsets)
+    writer.open_section("J_t of the legs' passive joints")
+    passive = [k for k in rates if k not in platform and k not in motors]
     for u in passive:
-        row = [rates[u].get(p, zero) for p in given]
+        row = [rates[u].get(p, zero) for p in platform]
         for i, a in enumerate(motors):
-            value = along_row(row, [line[i] for line in inverse])
-            writer.result(f"Jt{names[u]}_{names[a]}", value)
-        bias[u] = bias[u] + along_row(row, [bias[p] for p in given])
+            value = multiply_rows(row, [line[i] for line in inverse])
+            writer.add_result(f"Jt{names[u]}_{names[a]}", value)
+        bias[u] = bias[u] + multiply_rows(row, [bias[p] for p in platform])
     _write_bias(closure.solved, names, bias, writer)
     return True
 
@@ -241,15 +246,17 @@ def _write_platform(
 def _write_bias(
     solved: Sequence[int], names: Sequence[str], bias: Mapping[int, Expr], writer: SheetWriter
 ) -> None:
-    writer.section("accelerations where the motors' are 0: u'' = J_t q'' + b")
+    writer.open_section("accelerations where the motors' are 0: u'' = J_t q'' + b")
     for u in solved:
-        writer.result(f"b{names[u]}", bias[u])
+        writer.add_result(f"b{names[u]}", bias[u])
 
 
-def _words(model: SymbolicModel, closure: Closure, complete: bool, spheres: bool) -> list[str]:
+def _describe_loops(
+    model: SymbolicModel, closure: Closure, complete: bool, spheres: bool
+) -> list[str]:
     """What the names mean."""
-    names = [joint.name for joint in model.robot.free]
-    motors = ", ".join(f"q{names[k]}" for k in closure.given)
+    names = [joint.name for joint in model.robot.free_joints]
+    motors = ", ".join(f"q{names[k]}" for k in closure.actuated)
     lines = [
         f"motors: {motors}; free variables u of the opened tree: "
         + ", ".join(f"q{name}" for name in names)
@@ -260,11 +267,11 @@ def _words(model: SymbolicModel, closure: Closure, complete: bool, spheres: bool
     lines.append("f_r(u) = 0, F<r>_<u> = df_r/dq_u, h<r> = d/dt(F_r) u'")
     if spheres:
         lines.append("fp<k> = 0: loop k without its passive joints (Briot and Gautier 2012: f_p)")
-    given = ", ".join(f"q{names[k]}" for k in closure.platform or ())
-    if given:
-        lines.append(f"legs by the platform: u' = L p', p = ({given}); L<u>_<p>")
+    platform_names = ", ".join(f"q{names[k]}" for k in closure.platform or ())
+    if platform_names:
+        lines.append(f"legs by the platform: u' = L p', p = ({platform_names}); L<u>_<p>")
     if complete:
-        rows = "Jp<p>_<a> of p, Jt<u>_<a> of the others" if given else "Jt<u>_<a>"
+        rows = "Jp<p>_<a> of p, Jt<u>_<a> of the others" if platform_names else "Jt<u>_<a>"
         lines.append(f"u' = J_t q', u'' = J_t q'' + b; rows of J_t: {rows}; of motors: 1 and 0")
     else:
         lines.append("u' = J_t q', u'' = J_t q'' + b by a solver, too large to write: F J_t = 0, "
@@ -290,30 +297,32 @@ class Equation:
     sheet: Sheet
     loops: tuple[str, ...]
 
-    def formulas(self) -> Formulas:
+    def format_formulas(self) -> Formulas:
         """As text, LaTeX and Markdown."""
-        text = "\n".join(sheet_lines(self.sheet))
+        text = "\n".join(format_sheet_lines(self.sheet))
         title = "; ".join(self.words)
-        return Formulas(title, text, sheet_latex(self.sheet), sheet_markdown(self.sheet))
+        return Formulas(
+            title, text, format_sheet_latex(self.sheet), format_sheet_markdown(self.sheet)
+        )
 
 
-def short_form(model: SymbolicModel, base: BaseParameters) -> Equation:
+def derive_short_form(model: SymbolicModel, base: BaseParameters) -> Equation:
     """J(q), S(q), g(q) and the effects' torques in closed form, abbreviated: the whole torque."""
-    return equation_of(model, base, motion=True)
+    return derive_equation(model, base, motion=True)
 
 
-def regressor_form(model: SymbolicModel, base: BaseParameters) -> Equation:
+def derive_regressor_form(model: SymbolicModel, base: BaseParameters) -> Equation:
     """The columns of the base parameters in closed form."""
-    return equation_of(model, base, columns=True)
+    return derive_equation(model, base, columns=True)
 
 
-def equation_of(
+def derive_equation(
     model: SymbolicModel, base: BaseParameters, *, motion: bool = False, columns: bool = False
 ) -> Equation:
     """The equation of motion, the columns, or both on one sheet, where each name is one thing."""
-    model = fresh_model(model)
-    letters = written_symbols(model, named_columns(base))
-    writer = SheetWriter(model.graph, letters, model.robot.halves)
+    model = copy_model(model)
+    letters = collect_symbol_names(model, get_base_columns(base))
+    writer = SheetWriter(model.graph, letters, model.robot.has_binary_fractions)
     loops = write_loops(model, writer) if model.closure is not None else []
     words = []
     if motion:
@@ -335,31 +344,31 @@ def equation_of(
         write_columns(model, base, writer)
         words.append(f"{'t' if loops else 'tau'} = phi beta, phi<joint>_<parameter>; what is not "
                      "listed is 0")  # fmt: skip
-    words += [*_signals(model), *_laws(model), *loops]
-    return Equation(tuple(words), writer.finished(), tuple(loops))
+    words += [*_describe_signals(model), *_describe_laws(model), *loops]
+    return Equation(tuple(words), writer.build_sheet(), tuple(loops))
 
 
-def _signals(model: SymbolicModel) -> list[str]:
+def _describe_signals(model: SymbolicModel) -> list[str]:
     """What the letters are that effects read besides the motion."""
-    letters = signal_symbols(model)
-    told = [
+    letters = get_signal_letters(model)
+    descriptions = [
         f"{letter}: {signal.kind}"
         + (f" of joint {model.robot.joints[signal.row].name}" if signal.row >= 0 else "")
         for letter, signal in zip(letters, model.signals, strict=True)
     ]
-    return ["; ".join(told)] if told else []
+    return ["; ".join(descriptions)] if descriptions else []
 
 
-def _laws(model: SymbolicModel) -> list[str]:
+def _describe_laws(model: SymbolicModel) -> list[str]:
     """What the functions are that no formula says."""
     parts = (p for c in model.columns if isinstance(c, ShaftColumn) for p in c.parts)
     effects = {part.equation.law: part.effect for part in parts}
-    told = [
+    descriptions = [
         f"{name} is the law of [own_effects.{effects[table.law]}], held beyond its ends"
         for name, table in model.graph.tables.items()
         if table.along is None
     ]
-    return ["; ".join(told)] if told else []
+    return ["; ".join(descriptions)] if descriptions else []
 
 
 def write_columns(model: SymbolicModel, base: BaseParameters, writer: SheetWriter) -> None:
@@ -374,31 +383,31 @@ def write_columns(model: SymbolicModel, base: BaseParameters, writer: SheetWrite
     With loops they are the opened tree's, and `write_loops` says how its variables are tied.
     """
     propose_motion(model, writer)
-    names = [joint.name for joint in model.robot.free]
+    names = [joint.name for joint in model.robot.free_joints]
     for parameter in base.parameters:
-        writer.section(f"column of {parameter.name}")
+        writer.open_section(f"column of {parameter.name}")
         for i, name in enumerate(names):
             value = model.regressor.get((i, parameter.column))
             if value is not None:
-                writer.result(f"phi{name}_{parameter.name}", value)
+                writer.add_result(f"phi{name}_{parameter.name}", value)
 
 
 def propose_motion(model: SymbolicModel, writer: SheetWriter) -> None:
     """Names of the recursion's quantities, link after link."""
     geometry = model.geometry
-    moved = model.link_motions(model.inputs("qd"), model.inputs("qdd"))
-    for row, motion, chain in zip(geometry.rows, moved, model.carried, strict=True):
+    moved = model.derive_link_motions(model.get_inputs("qd"), model.get_inputs("qdd"))
+    for row, motion, chain in zip(geometry.rows, moved, model.free_screws, strict=True):
         name = row.joint.name
-        writer.section(f"motion of link {name}, in frame {name}")
+        writer.open_section(f"motion of link {name}, in frame {name}")
         for letter, vector in (("w", motion.w), ("wd", motion.wd), ("vd", motion.vd)):
-            name_vector(writer, f"{letter}{{}}_{name}", vector)
+            propose_vector(writer, f"{letter}{{}}_{name}", vector)
         for axis, line in zip(_AXES, motion.U, strict=True):
-            name_vector(writer, f"U{axis}{{}}_{name}", line)
+            propose_vector(writer, f"U{axis}{{}}_{name}", line)
         for k, screw in sorted(chain.items()):
-            free = model.robot.free[k].name
+            free = model.robot.free_joints[k].name
             for axis, e, m in zip(_AXES, screw.e, screw.m, strict=True):
-                writer.propose(f"e{free}{axis}_{name}", e)
-                writer.propose(f"m{free}{axis}_{name}", m)
+                writer.propose_quantity(f"e{free}{axis}_{name}", e)
+                writer.propose_quantity(f"m{free}{axis}_{name}", m)
 
 
 # Which base parameters are 0 at the nominal values: what printed models leave out.
@@ -408,7 +417,7 @@ _ROUNDING = 1e-12
 """Of the terms of a base parameter: what is left of those that cancel."""
 
 
-def nonzero_base(model: SymbolicModel, base: BaseParameters) -> BaseParameters:
+def drop_zero_parameters(model: SymbolicModel, base: BaseParameters) -> BaseParameters:
     """The base parameters that are not 0 at the nominal values of `[parameters]`.
 
     Parameters of effects stay: their values are rarely known beforehand. The formulas hold for any
@@ -418,7 +427,7 @@ def nonzero_base(model: SymbolicModel, base: BaseParameters) -> BaseParameters:
         RobotError: the robot file states no values of inertial parameters.
     """
     known, lengths = model.robot.parameters, model.geometry.values
-    kept = []
+    nonzero_parameters = []
     for parameter in base.parameters:
         sizes = []
         for term in parameter.terms:
@@ -426,10 +435,12 @@ def nonzero_base(model: SymbolicModel, base: BaseParameters) -> BaseParameters:
             sizes.append(float(term.coefficient.subs(letters)) * known.get(term.parameter, 0.0))
         link = base.columns[parameter.column].kind == "inertial"
         if not link or abs(sum(sizes)) > _ROUNDING * sum(map(abs, sizes)):
-            kept.append(parameter)
-    if not any(base.columns[parameter.column].kind == "inertial" for parameter in kept):
+            nonzero_parameters.append(parameter)
+    if not any(
+        base.columns[parameter.column].kind == "inertial" for parameter in nonzero_parameters
+    ):
         raise RobotError(
             f"robot {model.robot.name}: all inertial base parameters are 0 at its nominal values; "
             "state them in [parameters], or leave out --nonzero"
         )
-    return replace(base, parameters=tuple(kept))
+    return replace(base, parameters=tuple(nonzero_parameters))

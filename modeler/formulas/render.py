@@ -4,22 +4,26 @@ from collections.abc import Mapping
 from fractions import Fraction
 from typing import Any
 
-from modeler.core.latex_display import DisplayedEquation, display
-from modeler.derivation import as_fraction
-from modeler.formulas.closed_form import ClosedForm, Function
+from modeler.core.latex_display import DisplayedEquation, format_display
+from modeler.derivation import convert_to_fraction
+from modeler.formulas.closed_form import ClosedForm, ConfigurationFunction
 from modeler.formulas.coefficients import CoefficientTable
-from modeler.formulas.function_sheet import sheet_latex, sheet_lines, sheet_markdown
-from modeler.formulas.ring import inverse_map
+from modeler.formulas.function_sheet import (
+    format_sheet_latex,
+    format_sheet_lines,
+    format_sheet_markdown,
+)
+from modeler.formulas.ring import invert_base_map
 from modeler.formulas.text import (
     LATEX,
     TEXT,
     TextStyle,
-    combination_text,
-    form_text,
-    monomial_text,
-    physical_text,
-    polynomial_text,
-    signed_sum,
+    format_combination,
+    format_linear_form,
+    format_monomial,
+    format_physical,
+    format_polynomial,
+    format_signed_sum,
 )
 
 # A closed form as text, LaTeX and Markdown.
@@ -30,12 +34,12 @@ EQUATION = "tau_i = sum_j J_ij qdd_j + sum_{j<=k} S_ijk qd_j qd_k"
 
 def closed_form_text(closed: ClosedForm) -> str:
     """Every function as a sum, one monomial per line."""
-    lines = [f"{closed.robot.name}: {equation(closed)}"]
+    lines = [f"{closed.robot.name}: {format_equation(closed)}"]
     for function in closed.functions:
         lines += ["", f"{function.name} ="]
-        for sign, coefficient, monomial in _signed(closed, function, TEXT):
-            lines.append(f"  {sign} {_product(coefficient, monomial, TEXT)}")
-    return "\n".join([*lines, "", *sheet_lines(closed.effects)]).rstrip() + "\n"
+        for sign, coefficient, monomial in _separate_signs(closed, function, TEXT):
+            lines.append(f"  {sign} {_format_product(coefficient, monomial, TEXT)}")
+    return "\n".join([*lines, "", *format_sheet_lines(closed.effects)]).rstrip() + "\n"
 
 
 def closed_form_latex(closed: ClosedForm) -> str:
@@ -43,69 +47,85 @@ def closed_form_latex(closed: ClosedForm) -> str:
     out = []
     for function in closed.functions:
         lines = [
-            f"{sign} {_product(coefficient, monomial, LATEX)}"
-            for sign, coefficient, monomial in _signed(closed, function, LATEX)
+            f"{sign} {_format_product(coefficient, monomial, LATEX)}"
+            for sign, coefficient, monomial in _separate_signs(closed, function, LATEX)
         ]
-        out.append(display([DisplayedEquation(latex_function(function.name), tuple(lines))]) + "\n")
-    return "".join(out) + sheet_latex(closed.effects)
+        out.append(
+            format_display([DisplayedEquation(format_latex_function(function.name), tuple(lines))])
+            + "\n"
+        )
+    return "".join(out) + format_sheet_latex(closed.effects)
 
 
-def _signed(closed: ClosedForm, function: Function, style: TextStyle) -> list[tuple[str, str, str]]:
+def _separate_signs(
+    closed: ClosedForm, function: ConfigurationFunction, style: TextStyle
+) -> list[tuple[str, str, str]]:
     """(sign, coefficient, monomial); sums stand in brackets behind a plus."""
-    found = []
-    for form, monomial in _terms(closed, function, style):
+    signed_terms = []
+    for form, monomial in _format_terms(closed, function, style):
         if " + " in form or " - " in form:
-            found.append(("+", style.bracket(form), monomial))
+            signed_terms.append(("+", style.add_brackets(form), monomial))
         else:
-            found.append(("-" if form.startswith("-") else "+", form.lstrip("-"), monomial))
-    return found
+            signed_terms.append(("-" if form.startswith("-") else "+", form.lstrip("-"), monomial))
+    return signed_terms
 
 
-def _product(coefficient: str, monomial: str, style: TextStyle) -> str:
+def _format_product(coefficient: str, monomial: str, style: TextStyle) -> str:
     return coefficient if monomial == "1" else f"{coefficient}{style.times}{monomial}"
 
 
 def closed_form_markdown(closed: ClosedForm) -> str:
     """One table per function: monomial and its coefficient."""
-    lines = [f"# Closed form of {closed.robot.title}", "", f"`{equation(closed)}`", ""]
+    lines = [f"# Closed form of {closed.robot.title}", "", f"`{format_equation(closed)}`", ""]
     for function in closed.functions:
         lines += [f"## {function.name}", "", "| monomial | coefficient |", "|---|---|"]
-        lines += [f"| `{m}` | `{form}` |" for form, m in _terms(closed, function, TEXT)] + [""]
-    return "\n".join([*lines, sheet_markdown(closed.effects)])
+        lines += [f"| `{m}` | `{form}` |" for form, m in _format_terms(closed, function, TEXT)] + [
+            ""
+        ]
+    return "\n".join([*lines, format_sheet_markdown(closed.effects)])
 
 
-def equation(closed: ClosedForm) -> str:
+def format_equation(closed: ClosedForm) -> str:
     """What the functions mean: the equation of motion."""
     factor = f"{closed.gravity_factor}*" if closed.gravity_factor else ""
     return f"{EQUATION} + {factor}g_i" + (" + e_i" if closed.effects.definitions else "")
 
 
-def _terms(closed: ClosedForm, function: Function, style: TextStyle) -> list[tuple[str, str]]:
-    algebra, style = closed.algebra, style.of(closed.robot)
+def _format_terms(
+    closed: ClosedForm, function: ConfigurationFunction, style: TextStyle
+) -> list[tuple[str, str]]:
+    algebra, style = closed.algebra, style.adjust_to_robot(closed.robot)
     motion, static = algebra.names[: algebra.moving], algebra.names[algebra.moving :]
     return [
-        (form_text(form, closed.parameters, static, style), monomial_text(at, motion, style))
+        (
+            format_linear_form(form, closed.parameters, static, style),
+            format_monomial(at, motion, style),
+        )
         for at, form in function.terms.items()
     ]
 
 
-def latex_function(name: str) -> str:
+def format_latex_function(name: str) -> str:
     """`S1_12` as `S_{1,12}`."""
     return f"{name[0]}_{{{name[1:].strip('_').replace('_', ',')}}}"
 
 
-def table_lines(table: CoefficientTable, style: TextStyle = TEXT) -> list[tuple[str, ...]]:
+def format_table_lines(table: CoefficientTable, style: TextStyle = TEXT) -> list[tuple[str, ...]]:
     """(name, function, monomial, relation, base, physical) of every coefficient, in order."""
-    algebra, physical, style = table.closed.algebra, table.physical, style.of(table.closed.robot)
+    algebra, physical, style = (
+        table.closed.algebra,
+        table.physical,
+        style.adjust_to_robot(table.closed.robot),
+    )
     motion, static = algebra.names[: algebra.moving], algebra.names[algebra.moving :]
     return [
         (
-            style.name(c.name),
+            style.format_name(c.name),
             c.function,
-            monomial_text(c.exponents, motion, style),
-            combination_text(table.relations.combinations[c.name], style),
-            form_text(c.base, table.base_names, static, style),
-            physical_text(c.physical, physical.names, physical.masses, style),
+            format_monomial(c.exponents, motion, style),
+            format_combination(table.relations.combinations[c.name], style),
+            format_linear_form(c.base, table.base_names, static, style),
+            format_physical(c.physical, physical.names, physical.masses, style),
         )
         for c in table.coefficients
     ]
@@ -116,7 +136,7 @@ def coefficients_text(table: CoefficientTable) -> str:
     rows: list[tuple[str, ...]] = [
         ("name", "in", "monomial", "relation", "base parameters", "physical parameters")
     ]
-    rows += table_lines(table)
+    rows += format_table_lines(table)
     widths = [max(len(row[i]) for row in rows) for i in range(5)]
     lines = [
         "  ".join([*(cell.ljust(w) for cell, w in zip(row, widths, strict=False)), row[5]]).rstrip()
@@ -131,64 +151,69 @@ def coefficients_markdown(table: CoefficientTable) -> str:
         "| name | function | monomial | relation | base parameters | physical parameters |",
         "|---|---|---|---|---|---|",
     ]
-    for name, function, monomial, relation, base, physical in table_lines(table):
-        told = "independent" if relation == name else f"`{relation}`"
-        lines.append(f"| {name} | {function} | `{monomial}` | {told} | `{base}` | `{physical}` |")
+    for name, function, monomial, relation, base, physical in format_table_lines(table):
+        relation_cell = "independent" if relation == name else f"`{relation}`"
+        lines.append(
+            f"| {name} | {function} | `{monomial}` | {relation_cell} | `{base}` | `{physical}` |"
+        )
     return "\n".join(lines) + "\n"
 
 
 def coefficients_latex(table: CoefficientTable) -> str:
     """An `align*` of LaTeX: every coefficient, of which monomial in which function it is."""
     equations = []
-    for name, function, monomial, relation, _, physical in table_lines(table, LATEX):
-        where = rf"\text{{of }} {monomial} \text{{ in }} {latex_function(function)}"
+    for name, function, monomial, relation, _, physical in format_table_lines(table, LATEX):
+        where = rf"\text{{of }} {monomial} \text{{ in }} {format_latex_function(function)}"
         right = relation if relation != name else physical
         equations.append(DisplayedEquation(name, (rf"{right} \quad {where}",)))
-    return display(equations) + "\n" if equations else ""
+    return format_display(equations) + "\n" if equations else ""
 
 
 # The map between independent coefficients and base parameters, as lines of text.
 
 
-def _static(table: CoefficientTable) -> tuple[str, ...]:
+def _get_static_names(table: CoefficientTable) -> tuple[str, ...]:
     return tuple(table.closed.algebra.names[table.closed.algebra.moving :])
 
 
-def forward_lines(table: CoefficientTable) -> list[str]:
+def format_forward_map(table: CoefficientTable) -> list[str]:
     """`PJ3 = XX2R + XX3R - ZZ3`, one line per coefficient that is independent."""
-    names, style = table.base_names, TEXT.of(table.closed.robot)
+    names, style = table.base_names, TEXT.adjust_to_robot(table.closed.robot)
     return [
-        f"{name} = {form_text(table.by_name[name].base, names, _static(table), style)}"
+        f"{name} = "
+        f"{format_linear_form(table.by_name[name].base, names, _get_static_names(table), style)}"
         for name in table.map.rows
     ]
 
 
-def determinant_text(table: CoefficientTable) -> str | None:
+def format_determinant(table: CoefficientTable) -> str | None:
     """Determinant of the map; None if it is not square."""
     if table.map.determinant is None:
         return None
-    return polynomial_text(table.map.determinant, _static(table), TEXT.of(table.closed.robot))
+    return format_polynomial(
+        table.map.determinant, _get_static_names(table), TEXT.adjust_to_robot(table.closed.robot)
+    )
 
 
-def backward_lines(table: CoefficientTable) -> list[str]:
+def format_backward_map(table: CoefficientTable) -> list[str]:
     """`ZZ1R = PJ7 - PJ16`, one line per base parameter; none if the map has no inverse."""
-    inverse = inverse_map(table.map, table.closed.algebra.static_ring) or {}
-    static, style = _static(table), TEXT.of(table.closed.robot)
-    return [f"{name} = {_row_text(row, static, style)}" for name, row in inverse.items()]
+    inverse = invert_base_map(table.map, table.closed.algebra.static_ring) or {}
+    static, style = _get_static_names(table), TEXT.adjust_to_robot(table.closed.robot)
+    return [f"{name} = {_format_row(row, static, style)}" for name, row in inverse.items()]
 
 
-def _row_text(row: Mapping[str, Any], static: tuple[str, ...], style: TextStyle) -> str:
+def _format_row(row: Mapping[str, Any], static: tuple[str, ...], style: TextStyle) -> str:
     """A row of the inverse: each factor is a quotient of polynomials of the geometry."""
     terms: list[tuple[Fraction, str]] = []
     for name, factor in row.items():
         above, below = factor.numer, factor.denom
         if len(above) == 1 and below.is_ground:
-            number = as_fraction(above.LC) / as_fraction(below.LC)
-            letters = polynomial_text(above.monic(), static, style)
+            number = convert_to_fraction(above.LC) / convert_to_fraction(below.LC)
+            letters = format_polynomial(above.monic(), static, style)
             terms.append((number, name if letters == "1" else f"{letters}*{name}"))
         else:
-            quotient = f"({polynomial_text(above, static, style)})"
+            quotient = f"({format_polynomial(above, static, style)})"
             if below != 1:
-                quotient += f"/({polynomial_text(below, static, style)})"
+                quotient += f"/({format_polynomial(below, static, style)})"
             terms.append((Fraction(1), f"{quotient}*{name}"))
-    return signed_sum(terms, style)
+    return format_signed_sum(terms, style)

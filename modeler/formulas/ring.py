@@ -24,14 +24,14 @@ from modeler.core.expression import Expression
 from modeler.derivation import (
     Geometry,
     GeometryRow,
-    Relations,
+    LinearRelations,
     SparseVector,
-    as_fraction,
-    coefficient_text,
-    linear_relations,
-    places_of,
-    row_echelon,
-    with_square,
+    convert_to_fraction,
+    enumerate_places,
+    find_linear_relations,
+    format_coefficient,
+    reduce_to_echelon,
+    replace_square,
 )
 
 # Which sines, cosines and travels the configuration of a robot is written in.
@@ -84,16 +84,16 @@ class Motions:
     each: tuple[RingMotion, ...]
     turns: Mapping[int, Mapping[int, int]]
 
-    def travel(self, k: int) -> int:
+    def find_travel(self, k: int) -> int:
         """Place of the generator of the free variable u[k]."""
         return next(
             m.variable for m in self.each if m.variable is not None and m.form == {k: Fraction(1)}
         )
 
 
-def motions_of(geometry: Geometry) -> Motions:
+def find_motions(geometry: Geometry) -> Motions:
     """The motions of all rows, in table order."""
-    parts = _parts(geometry)
+    parts = _find_divisors(geometry)
     names: list[str] = []
     each: list[RingMotion] = []
     turns: dict[int, Mapping[int, int]] = {}
@@ -101,11 +101,11 @@ def motions_of(geometry: Geometry) -> Motions:
         if row.index is None:
             continue
         form = geometry.forms[row.index]
-        if not row.joint.angular:
+        if not row.joint.is_revolute:
             _add_travels(form, geometry, names, each)
             continue
-        found = _in_known(form, each)
-        if found is None:
+        multiples = _express_in_motions(form, each)
+        if multiples is None:
             divided = {k: c / parts.get(k, 1) if len(form) == 1 else c for k, c in form.items()}
             free = _is_free(row, geometry)
             whose = row.joint.name
@@ -113,9 +113,9 @@ def motions_of(geometry: Geometry) -> Motions:
                 whose, form = f"{whose}_{parts[min(form)]}", divided
             each.append(RingMotion(whose, len(names), len(names) + 1, None, form))
             names += [f"s{whose}", f"c{whose}"]
-            found = _in_known(geometry.forms[row.index], each)
-            assert found is not None, "an angle is a multiple of itself"
-        turns[row.index] = found
+            multiples = _express_in_motions(geometry.forms[row.index], each)
+            assert multiples is not None, "an angle is a multiple of itself"
+        turns[row.index] = multiples
     return Motions(tuple(names), tuple(each), turns)
 
 
@@ -130,36 +130,38 @@ def _add_travels(
     known = [motion.form for motion in each if motion.variable is not None]
     for k in form:
         if {k: Fraction(1)} not in known:
-            joint = geometry.robot.free[k].name
+            joint = geometry.robot.free_joints[k].name
             each.append(RingMotion(joint, None, None, len(names), {k: Fraction(1)}))
             names.append(f"q{joint}")
 
 
-def _parts(geometry: Geometry) -> dict[int, int]:
+def _find_divisors(geometry: Geometry) -> dict[int, int]:
     """{k: n}: rows turn by whole multiples of u[k] / n."""
-    found: dict[int, int] = {}
+    divisors: dict[int, int] = {}
     for row in geometry.rows:
-        if row.index is not None and row.joint.angular:
+        if row.index is not None and row.joint.is_revolute:
             for k, coefficient in geometry.forms[row.index].items():
                 if coefficient.denominator <= _FINEST:
-                    found[k] = lcm(found.get(k, 1), coefficient.denominator)
-    return found
+                    divisors[k] = lcm(divisors.get(k, 1), coefficient.denominator)
+    return divisors
 
 
-def _in_known(form: Mapping[int, Fraction], each: list[RingMotion]) -> dict[int, int] | None:
+def _express_in_motions(
+    form: Mapping[int, Fraction], each: list[RingMotion]
+) -> dict[int, int] | None:
     """The angle as whole multiples of known motions; None if it is none, or too many."""
     for place, motion in enumerate(each):
         if motion.sine is not None and motion.form == form:
             return {place: 1}
-    found: dict[int, int] = {}
+    multiples: dict[int, int] = {}
     for k, coefficient in form.items():
         single = [i for i, m in enumerate(each) if m.sine is not None and set(m.form) == {k}]
         ratios = {i: coefficient / each[i].form[k] for i in single}
         place = next((i for i, x in ratios.items() if x.denominator == 1), -1)
         if place < 0:
             return None
-        found[place] = int(ratios[place])
-    return found if sum(map(abs, found.values())) <= _MOST_TURNS else None
+        multiples[place] = int(ratios[place])
+    return multiples if sum(map(abs, multiples.values())) <= _MOST_TURNS else None
 
 
 Poly: TypeAlias = PolyElement
@@ -179,12 +181,12 @@ class TrigRing:
 
     def __init__(self, geometry: Geometry) -> None:
         self.geometry = geometry
-        self._found = motions_of(geometry)
-        self.motions = self._found.each
-        names = list(self._found.names)
+        self._row_motions = find_motions(geometry)
+        self.motions = self._row_motions.each
+        names = list(self._row_motions.names)
         self.moving = len(names)
-        atoms = _atoms(geometry)
-        static = [coefficient_text(atom, geometry.robot.halves) for atom in atoms]
+        atoms = _collect_atoms(geometry)
+        static = [format_coefficient(atom, geometry.robot.has_binary_fractions) for atom in atoms]
         for name in static:
             if name in names:
                 raise DerivationError(
@@ -217,7 +219,9 @@ class TrigRing:
         Raises:
             DerivationError: not a polynomial of symbols, sines, cosines and roots of numbers.
         """
-        return self.normal(_polynomial(sympy.expand_trig(value), self.ring, self._place))
+        return self.normalise_polynomial(
+            _convert_polynomial(sympy.expand_trig(value), self.ring, self._place)
+        )
 
     def variable(self, row: GeometryRow) -> Poly:
         """Rate * q + offset of a prismatic joint."""
@@ -225,48 +229,48 @@ class TrigRing:
         total = self.static(row.r)
         for k, coefficient in self.geometry.forms[row.index].items():
             factor = QQ(coefficient.numerator, coefficient.denominator) * row.rate
-            total = total + self.ring.gens[self._found.travel(k)] * factor
+            total = total + self.ring.gens[self._row_motions.find_travel(k)] * factor
         return total
 
     def cos_sin(self, row: GeometryRow) -> tuple[Poly, Poly]:
         """Cosine and sine of theta = rate * q + offset, by the addition theorem."""
         c, s = self.static(sympy.cos(row.theta)), self.static(sympy.sin(row.theta))
-        if row.index is None or not row.joint.angular:
+        if row.index is None or not row.joint.is_revolute:
             return c, s
-        for place, turns in self._found.turns[row.index].items():
+        for place, turns in self._row_motions.turns[row.index].items():
             motion = self.motions[place]
             assert motion.sine is not None and motion.cosine is not None
             turn = self.ring.gens[motion.sine] * (row.rate if turns > 0 else -row.rate)
             for _ in range(abs(turns)):
                 cosine = self.ring.gens[motion.cosine]
                 c, s = c * cosine - s * turn, s * cosine + c * turn
-        return self.normal(c), self.normal(s)
+        return self.normalise_polynomial(c), self.normalise_polynomial(s)
 
-    def normal(self, poly: Poly) -> Poly:
+    def normalise_polynomial(self, poly: Poly) -> Poly:
         """The same function without squares of sines and of roots."""
         for place, square in self.squares.items():
-            poly = with_square(poly, place, square)
+            poly = replace_square(poly, place, square)
         return poly
 
-    def derivative(self, poly: Poly, index: int) -> Poly:
+    def differentiate_polynomial(self, poly: Poly, index: int) -> Poly:
         """d poly / d u of the free variable `index`, in normal form."""
         total = self.ring.zero
         for motion in self.motions:
             rate = motion.form.get(index)
             if rate:
-                slope = self._slope(poly, motion)
+                slope = self._differentiate_motion(poly, motion)
                 total = total + (
                     slope if rate == 1 else slope * QQ(rate.numerator, rate.denominator)
                 )
         return total
 
-    def _slope(self, poly: Poly, motion: RingMotion) -> Poly:
+    def _differentiate_motion(self, poly: Poly, motion: RingMotion) -> Poly:
         """The derivative by the angle or travel of one motion."""
         if motion.variable is not None:
             return poly.diff(self.ring.gens[motion.variable])
         s, c = motion.sine, motion.cosine
         assert s is not None and c is not None
-        found: dict[tuple[int, ...], Any] = {}
+        slope_terms: dict[tuple[int, ...], Any] = {}
         for exponents, value in poly.items():
             for down, up, sign in ((s, c, 1), (c, s, -1)):
                 if exponents[down]:
@@ -274,17 +278,17 @@ class TrigRing:
                     at[down] -= 1
                     at[up] += 1
                     key = tuple(at)
-                    found[key] = found.get(key, 0) + sign * exponents[down] * value
-        return with_square(_clean(self.ring, found), s, self.squares[s])
+                    slope_terms[key] = slope_terms.get(key, 0) + sign * exponents[down] * value
+        return replace_square(_drop_zeros(self.ring, slope_terms), s, self.squares[s])
 
-    def split(self, poly: Poly) -> dict[tuple[int, ...], Poly]:
+    def separate_motion(self, poly: Poly) -> dict[tuple[int, ...], Poly]:
         """{exponents of the motion generators: factor from the geometry}."""
-        found: dict[tuple[int, ...], dict[tuple[int, ...], Any]] = {}
+        factors: dict[tuple[int, ...], dict[tuple[int, ...], Any]] = {}
         for exponents, value in poly.items():
-            found.setdefault(exponents[: self.moving], {})[exponents[self.moving :]] = value
-        return {key: _clean(self.static_ring, part) for key, part in found.items()}
+            factors.setdefault(exponents[: self.moving], {})[exponents[self.moving :]] = value
+        return {key: _drop_zeros(self.static_ring, part) for key, part in factors.items()}
 
-    def static_values(self, values: Mapping[str, float]) -> list[float]:
+    def evaluate_static(self, values: Mapping[str, float]) -> list[float]:
         """Numbers of the static generators."""
         used = {symbol for atom in self._place for symbol in atom.free_symbols} - {_PI}
         numbers = {symbol: values[symbol.name] for symbol in used} | {_PI: sympy.pi}
@@ -296,21 +300,21 @@ class TrigRing:
         return tuple(self._place)
 
 
-def generators_of(ring: PolyRing) -> dict[str, Poly]:
+def get_generators(ring: PolyRing) -> dict[str, Poly]:
     """The generators by name."""
     return {str(symbol): x for symbol, x in zip(ring.symbols, ring.gens, strict=True)}
 
 
-def places_in(*polys: Poly) -> set[int]:
+def find_places(*polys: Poly) -> set[int]:
     """Places of the generators that occur."""
     return {i for poly in polys for at in poly for i, exponent in enumerate(at) if exponent}
 
 
-def _clean(ring: PolyRing, found: Mapping[tuple[int, ...], Any]) -> Poly:
-    return ring.zero.new({key: QQ.convert(value) for key, value in found.items() if value})
+def _drop_zeros(ring: PolyRing, terms: Mapping[tuple[int, ...], Any]) -> Poly:
+    return ring.zero.new({key: QQ.convert(value) for key, value in terms.items() if value})
 
 
-def _atoms(geometry: Geometry) -> list[sympy.Expr]:
+def _collect_atoms(geometry: Geometry) -> list[sympy.Expr]:
     """Generators of the geometry: letters in the order of the file, then angles, then roots."""
     values: list[sympy.Expr] = list(geometry.gravity)
     for row in geometry.rows:
@@ -321,15 +325,15 @@ def _atoms(geometry: Geometry) -> list[sympy.Expr]:
     angles: dict[str, sympy.Expr] = {}
     roots: dict[str, sympy.Expr] = {}
     for value in values:
-        _collect(sympy.expand_trig(value), letters, angles, roots)
+        _collect_parts(sympy.expand_trig(value), letters, angles, roots)
     order = {name: i for i, name in enumerate(geometry.robot.symbols)}
-    found = sorted(letters, key=lambda x: (order.get(x.name, len(order)), str(x)))
+    atoms = sorted(letters, key=lambda x: (order.get(x.name, len(order)), str(x)))
     for angle in angles.values():
-        found += [sympy.cos(angle), sympy.sin(angle)]
-    return found + list(roots.values())
+        atoms += [sympy.cos(angle), sympy.sin(angle)]
+    return atoms + list(roots.values())
 
 
-def _collect(
+def _collect_parts(
     value: sympy.Expr, letters: set, angles: dict[str, sympy.Expr], roots: dict[str, sympy.Expr]
 ) -> None:
     if value.is_Symbol or value is sympy.pi:
@@ -340,7 +344,7 @@ def _collect(
         roots.setdefault(str(value), sympy.sqrt(value.base))
     elif not value.is_Rational:
         for arg in value.args:
-            _collect(arg, letters, angles, roots)
+            _collect_parts(arg, letters, angles, roots)
 
 
 _PI = sympy.Symbol("pi", real=True)
@@ -350,7 +354,7 @@ def _is_root(value: sympy.Expr) -> bool:
     return bool(value.is_Pow and value.exp == sympy.Rational(1, 2) and value.base.is_Rational)
 
 
-def _polynomial(value: sympy.Expr, ring: PolyRing, place: Mapping[sympy.Expr, int]) -> Poly:
+def _convert_polynomial(value: sympy.Expr, ring: PolyRing, place: Mapping[sympy.Expr, int]) -> Poly:
     if value.is_Rational:
         return ring.ground_new(QQ(int(value.p), int(value.q)))
     if value is sympy.pi:
@@ -358,13 +362,13 @@ def _polynomial(value: sympy.Expr, ring: PolyRing, place: Mapping[sympy.Expr, in
     if value in place:
         return ring.gens[place[value]]
     if value.is_Add or value.is_Mul:
-        parts = [_polynomial(arg, ring, place) for arg in value.args]
+        parts = [_convert_polynomial(arg, ring, place) for arg in value.args]
         total = parts[0]
         for part in parts[1:]:
             total = total + part if value.is_Add else total * part
         return total
     if value.is_Pow and value.exp.is_Integer and value.exp > 0:
-        return _polynomial(value.base, ring, place) ** int(value.exp)
+        return _convert_polynomial(value.base, ring, place) ** int(value.exp)
     raise DerivationError(
         f"got {value} in the table; closed forms need lengths and angles whose sines are "
         "polynomials of the symbols: declare a symbol for it"
@@ -379,28 +383,28 @@ MOST_MONOMIALS = 150
 three joints with general angles (1 s); minutes at 216."""
 
 
-def combination_of(
+def find_combination(
     vectors: Mapping[str, SparseVector], vector: SparseVector
 ) -> Mapping[str, Fraction] | None:
     """`vector` as a combination of `vectors`, None if it is outside their span."""
-    found = linear_relations({**vectors, "": vector})
-    return None if "" in found.independent else found.combinations[""]
+    relations = find_linear_relations({**vectors, "": vector})
+    return None if "" in relations.independent else relations.combinations[""]
 
 
-def independent_modulo(vectors: Sequence[SparseVector], prime: int) -> list[int]:
+def find_independent_modulo(vectors: Sequence[SparseVector], prime: int) -> list[int]:
     """Places of the independent vectors of residues, first come first kept; the prime < 2**31."""
-    places = places_of(vectors)
+    places = enumerate_places(vectors)
     matrix = np.zeros((len(places), len(vectors)), dtype=np.int64)
     for k, vector in enumerate(vectors):
         for place, value in vector.items():
             matrix[places[place], k] = value
-    return [k for _, k in row_echelon(matrix, range(len(vectors)), prime)]
+    return [k for _, k in reduce_to_echelon(matrix, range(len(vectors)), prime)]
 
 
-def classes(found: Relations) -> list[list[str]]:
+def partition_by_ratio(relations: LinearRelations) -> list[list[str]]:
     """Keys that are the same up to a constant factor."""
     groups: dict[tuple[tuple[str, Fraction], ...], list[str]] = {}
-    for key, combination in found.combinations.items():
+    for key, combination in relations.combinations.items():
         first = next(iter(combination.values()), Fraction(1))
         shape = tuple((name, value / first) for name, value in combination.items())
         groups.setdefault(shape, []).append(key)
@@ -425,7 +429,7 @@ class BaseMap:
     determinant: Poly | None
 
 
-def base_map(
+def build_base_map(
     rows: Sequence[str], forms: Sequence[Mapping[int, Poly]], names: Sequence[str], ring: Any
 ) -> BaseMap:
     """The map from base parameters to coefficients.
@@ -442,32 +446,38 @@ def base_map(
     determinant = None
     size = sum(len(factor) for factor in entries.values())
     if len(used) == len(rows) and rows and size <= MOST_MONOMIALS:
-        determinant = ring(_domain_matrix(entries, len(used), ring).det())
+        determinant = ring(_build_domain_matrix(entries, len(used), ring).det())
     return BaseMap(tuple(rows), tuple(names[k] for k in used), entries, determinant)
 
 
-def inverse_map(found: BaseMap, ring: Any) -> Mapping[str, Mapping[str, Any]] | None:
+def invert_base_map(base_map: BaseMap, ring: Any) -> Mapping[str, Mapping[str, Any]] | None:
     """{base parameter: {coefficient: factor, a rational function of the geometry}}.
 
     None if the map is not square or not invertible.
     """
-    if not found.determinant:
+    if not base_map.determinant:
         return None
-    inverse = _domain_matrix(found.entries, len(found.rows), ring).to_field().inv().to_dod()
+    inverse = (
+        _build_domain_matrix(base_map.entries, len(base_map.rows), ring).to_field().inv().to_dod()
+    )
     return {
-        name: {found.rows[c]: value for c, value in sorted(inverse.get(r, {}).items())}
-        for r, name in enumerate(found.columns)
+        name: {base_map.rows[c]: value for c, value in sorted(inverse.get(r, {}).items())}
+        for r, name in enumerate(base_map.columns)
     }
 
 
-def _domain_matrix(entries: Mapping[tuple[int, int], Poly], size: int, ring: Any) -> DomainMatrix:
+def _build_domain_matrix(
+    entries: Mapping[tuple[int, int], Poly], size: int, ring: Any
+) -> DomainMatrix:
     rows: dict[int, dict[int, Poly]] = {}
     for (r, c), factor in entries.items():
         rows.setdefault(r, {})[c] = factor
     return DomainMatrix(rows, (size, size), ring.to_domain())
 
 
-def polynomial_of(expression: Expression, values: Mapping[str, Any], ring: PolyRing) -> Poly | None:
+def convert_to_polynomial(
+    expression: Expression, values: Mapping[str, Any], ring: PolyRing
+) -> Poly | None:
     """The expression as a polynomial, `values` for its names; None if it is none."""
     try:
         return ring(expression.fold(values, {}, None, lambda x: QQ(x.numerator, x.denominator)))
@@ -475,7 +485,7 @@ def polynomial_of(expression: Expression, values: Mapping[str, Any], ring: PolyR
         return None
 
 
-def number(exponents: Sequence[int], values: Sequence[Any]) -> Any:
+def evaluate_monomial(exponents: Sequence[int], values: Sequence[Any]) -> Any:
     """The monomial's value."""
     product: Any = 1
     for exponent, value in zip(exponents, values, strict=True):
@@ -484,9 +494,9 @@ def number(exponents: Sequence[int], values: Sequence[Any]) -> Any:
     return product
 
 
-def poly_value(poly: Poly, values: Sequence[Any]) -> Any:
+def evaluate_polynomial(poly: Poly, values: Sequence[Any]) -> Any:
     """The polynomial's value."""
     total: Any = 0
     for exponents, coefficient in poly.items():
-        total = total + number(exponents, values) * as_fraction(coefficient)
+        total = total + evaluate_monomial(exponents, values) * convert_to_fraction(coefficient)
     return total

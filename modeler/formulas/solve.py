@@ -11,14 +11,14 @@ from dataclasses import dataclass
 from typing import Any, Literal
 
 from modeler.core.errors import ModelerError
-from modeler.core.formula import latex_name, latex_text
-from modeler.core.latex_display import DisplayedEquation, display
-from modeler.derivation import by_powers, value_modulo
+from modeler.core.formula import escape_latex, format_latex_name
+from modeler.core.latex_display import DisplayedEquation, format_display
+from modeler.derivation import collect_powers, evaluate_modulo
 from modeler.formulas.physical import SEED
 from modeler.formulas.physical_system import PhysicalSystem
-from modeler.formulas.ring import Poly, independent_modulo, places_in
+from modeler.formulas.ring import Poly, find_independent_modulo, find_places
 from modeler.formulas.sufficient_sets import EASE
-from modeler.formulas.text import LATEX, TEXT, TextStyle, physical_text, polynomial_text
+from modeler.formulas.text import LATEX, TEXT, TextStyle, format_physical, format_polynomial
 
 _EASY = ("mass", "length", "centre", "inertia", "rotor inertia")
 _LARGEST = 400  # terms of a polynomial that is worth factoring
@@ -67,31 +67,31 @@ class ClosedSolution:
     surplus: int
 
     @property
-    def follows(self) -> tuple[str, ...]:
+    def solved_letters(self) -> tuple[str, ...]:
         """Parameters with a formula, in order."""
         return tuple(step.letter for step in self.steps)
 
 
-def determined(
+def find_determined(
     system: PhysicalSystem, known: Iterable[str], seed: int = SEED
 ) -> tuple[list[str], int]:
     """(parameters that the data determine, rank of their Jacobian): generic, locally unique.
 
     An unknown x follows if its column of d data / d unknowns is no combination of the others.
     """
-    given = set(known)
-    unknown = [x for x in system.letters if x not in given]
-    prime, columns = system.jacobian_modulo(random.Random(seed))
+    known_letters = set(known)
+    unknown = [x for x in system.letters if x not in known_letters]
+    prime, columns = system.compute_jacobian_modulo(random.Random(seed))
     vectors = [columns[x] for x in unknown]
-    rank = len(independent_modulo(vectors, prime))
+    rank = len(find_independent_modulo(vectors, prime))
     if rank == len(unknown):
         return unknown, rank
-    found = []
+    determined_letters = []
     for i, x in enumerate(unknown):
         others = vectors[:i] + vectors[i + 1 :]
-        if len(independent_modulo(others, prime)) < rank:
-            found.append(x)
-    return found, rank
+        if len(find_independent_modulo(others, prime)) < rank:
+            determined_letters.append(x)
+    return determined_letters, rank
 
 
 def solve(system: PhysicalSystem, known: Iterable[str], seed: int = SEED) -> ClosedSolution:
@@ -102,14 +102,14 @@ def solve(system: PhysicalSystem, known: Iterable[str], seed: int = SEED) -> Clo
         known: names of parameters of it.
         seed: of the random points.
     """
-    given = tuple(x for x in system.letters if x in set(known))
-    follow, rank = determined(system, given, seed)
-    unknown = [x for x in system.letters if x not in given]
+    known_letters = tuple(x for x in system.letters if x in set(known))
+    follow, rank = find_determined(system, known_letters, seed)
+    unknown = [x for x in system.letters if x not in known_letters]
     steps = _Elimination(system, unknown, follow, random.Random(seed)).run()
     have = {step.letter for step in steps}
     return ClosedSolution(
         system,
-        given,
+        known_letters,
         tuple(steps),
         tuple(x for x in unknown if x not in follow),
         tuple(x for x in follow if x not in have),
@@ -130,7 +130,7 @@ class _Elimination:
     ) -> None:  # fmt: skip
         self.system = system
         self.place = system.place
-        self.prime, self.point = system.modular_point(chance)
+        self.prime, self.point = system.draw_modular_point(chance)
         gens = system.ring.gens
         self.defined = [p - gens[self.place[d]] for d, p in system.definitions.items()]
         self.equations = self.defined
@@ -140,7 +140,7 @@ class _Elimination:
         """The steps, in order."""
         steps: list[SolvingStep] = []
         while self.wanted:
-            step = self._direct(self.wanted) or self._from_several()
+            step = self._solve_directly(self.wanted) or self._solve_from_several()
             if step is None:
                 break
             steps.append(step)
@@ -148,84 +148,84 @@ class _Elimination:
             self.wanted.discard(step.letter)
         return steps
 
-    def _from_several(self) -> SolvingStep | None:
+    def _solve_from_several(self) -> SolvingStep | None:
         """The unknown that the fewest equations tell, by elimination in these."""
         unsolved = set(self.open)
-        for letter, needed in self._needed():
+        for letter, needed in self._find_needed_equations():
             self.equations, self.open = [self.defined[i] for i in needed], set(unsolved)
-            step = self._direct({letter})
-            while step is None and self._eliminate(letter):
-                step = self._direct({letter})
-            step = step or self._root(letter)
+            step = self._solve_directly({letter})
+            while step is None and self._eliminate_unknown(letter):
+                step = self._solve_directly({letter})
+            step = step or self._find_root_equation(letter)
             self.equations, self.open = self.defined, set(unsolved)
             if step is not None:
                 return step
         return None
 
-    def _needed(self) -> list[tuple[str, list[int]]]:
+    def _find_needed_equations(self) -> list[tuple[str, list[int]]]:
         """(letter, equations that tell it, none of them too many), the fewest first.
 
         They tell x if the unit vector of x is a combination of their rows of the Jacobian.
         """
         letters = [x for x in self.system.letters if x in self.open]
         rows = [
-            {k: value_modulo(self.system.slopes[x][i], self.point, self.prime)
+            {k: evaluate_modulo(self.system.slopes[x][i], self.point, self.prime)
              for k, x in enumerate(letters) if self.system.slopes[x][i]}
             for i in range(len(self.defined))
         ]  # fmt: skip
         order = sorted(range(len(rows)), key=lambda i: -len(self.defined[i]))
-        found = []
+        candidates = []
         for letter in sorted(self.wanted):
             at = letters.index(letter)
             keep = [i for i in order if rows[i]]
             for i in list(keep):
                 fewer = [k for k in keep if k != i]
-                if self._determines([rows[k] for k in fewer], at):
+                if self._is_determined([rows[k] for k in fewer], at):
                     keep = fewer
             kind = _EASY.index(self.system.kinds[letter])
-            found.append((len(keep), kind, letter, sorted(keep)))
-        return [(letter, keep) for _, _, letter, keep in sorted(found)]
+            candidates.append((len(keep), kind, letter, sorted(keep)))
+        return [(letter, keep) for _, _, letter, keep in sorted(candidates)]
 
-    def _determines(self, rows: Sequence[Mapping[int, int]], at: int) -> bool:
+    def _is_determined(self, rows: Sequence[Mapping[int, int]], at: int) -> bool:
         """Is the unit vector of that place a combination of the rows?"""
-        rank = len(independent_modulo(rows, self.prime))
-        return len(independent_modulo([*rows, {at: 1}], self.prime)) == rank
+        rank = len(find_independent_modulo(rows, self.prime))
+        return len(find_independent_modulo([*rows, {at: 1}], self.prime)) == rank
 
-    def _unknowns(self, poly: Poly) -> set[str]:
+    def _find_unknowns(self, poly: Poly) -> set[str]:
         """Unknowns in it that have no formula yet."""
-        return {self.system.names[i] for i in places_in(poly)} & self.open
+        return {self.system.names[i] for i in find_places(poly)} & self.open
 
-    def _zero(self, poly: Poly) -> bool:
+    def _is_zero(self, poly: Poly) -> bool:
         """Is it zero for every robot, as far as a consistent random point tells?"""
-        return value_modulo(poly, self.point, self.prime) == 0
+        return evaluate_modulo(poly, self.point, self.prime) == 0
 
-    def _direct(self, wanted: set[str]) -> SolvingStep | None:
+    def _solve_directly(self, wanted: set[str]) -> SolvingStep | None:
         """A quotient for an unknown that stands alone in an equation, the shortest first."""
         for poly in sorted(self.equations, key=len):
-            letters = self._unknowns(poly)
+            letters = self._find_unknowns(poly)
             if len(letters) == 1 and letters <= wanted:
-                step = self._quotient(poly, next(iter(letters)))
+                step = self._derive_quotient(poly, next(iter(letters)))
                 if step is not None:
                     return step
         return None
 
-    def _root(self, letter: str) -> SolvingStep | None:
+    def _find_root_equation(self, letter: str) -> SolvingStep | None:
         """A polynomial of the one unknown, of the lowest degree."""
-        alone = [p for p in self.equations if self._unknowns(p) == {letter}]
+        alone = [p for p in self.equations if self._find_unknowns(p) == {letter}]
         if not alone:
             return None
         ring = self.system.ring
-        best = min(alone, key=lambda p: (_degree(p, self.place[letter]), len(p)))
+        best = min(alone, key=lambda p: (_get_degree(p, self.place[letter]), len(p)))
         return SolvingStep(letter, ring.zero, ring.one, best)
 
-    def _quotient(self, poly: Poly, letter: str) -> SolvingStep | None:
+    def _derive_quotient(self, poly: Poly, letter: str) -> SolvingStep | None:
         """The letter from a linear equation; None if it is not linear or tells nothing."""
         place = self.place[letter]
-        if _degree(poly, place) != 1:
+        if _get_degree(poly, place) != 1:
             return None
-        parts, ring = by_powers(poly, place), poly.ring
+        parts, ring = collect_powers(poly, place), poly.ring
         rest, slope = parts.get(0, ring.zero), parts[1]
-        if self._zero(slope):
+        if self._is_zero(slope):
             return None
         if slope.is_ground:
             return SolvingStep(letter, (-rest).quo_ground(slope.LC), ring.one)
@@ -236,60 +236,60 @@ class _Elimination:
             content, bottom = -content, -bottom
         return SolvingStep(letter, top.quo_ground(content), bottom)
 
-    def _eliminate(self, wanted: str) -> bool:
+    def _eliminate_unknown(self, wanted: str) -> bool:
         """Take an unknown out of all equations but one, where that is linear in it."""
         choices = []
         for at, poly in enumerate(self.equations):
-            letters = self._unknowns(poly)
+            letters = self._find_unknowns(poly)
             for letter in letters - {wanted}:
-                if _degree(poly, self.place[letter]) == 1:
-                    choices.append((self._cost(poly, letter), at, letter))
+                if _get_degree(poly, self.place[letter]) == 1:
+                    choices.append((self._estimate_cost(poly, letter), at, letter))
         for _, at, letter in sorted(choices):
-            step = self._quotient(self.equations[at], letter)
+            step = self._derive_quotient(self.equations[at], letter)
             if step is None:
                 continue
             others = self.equations[:at] + self.equations[at + 1 :]
             self.open.discard(letter)
-            self.equations = [self._without(poly, step) for poly in others]
+            self.equations = [self._insert_step(poly, step) for poly in others]
             self.equations = [poly for poly in self.equations if poly]
             return all(len(poly) <= _LARGEST for poly in self.equations)
         return False
 
-    def _cost(self, poly: Poly, letter: str) -> tuple[int, ...]:
+    def _estimate_cost(self, poly: Poly, letter: str) -> tuple[int, ...]:
         """Small for what is quickly done: few other unknowns, few other places."""
         place = self.place[letter]
-        slope = by_powers(poly, place)[1]
+        slope = collect_powers(poly, place)[1]
         return (
-            len(self._unknowns(poly)),
-            len(self._unknowns(slope)),
-            sum(_degree(other, place) for other in self.equations),
+            len(self._find_unknowns(poly)),
+            len(self._find_unknowns(slope)),
+            sum(_get_degree(other, place) for other in self.equations),
             -_EASY.index(self.system.kinds[letter]),
             len(poly),
         )
 
-    def _without(self, poly: Poly, step: SolvingStep) -> Poly:
+    def _insert_step(self, poly: Poly, step: SolvingStep) -> Poly:
         """The equation with the step put in, and only its factor that is zero."""
         place = self.place[step.letter]
-        top = _degree(poly, place)
+        top = _get_degree(poly, place)
         if top == 0:
             return poly
         total = poly.ring.zero
-        for degree, part in by_powers(poly, place).items():
+        for degree, part in collect_powers(poly, place).items():
             total += part * step.numerator**degree * step.denominator ** (top - degree)
-        total = self.system.normal(total)
-        if not self._unknowns(total):
+        total = self.system.normalise_polynomial(total)
+        if not self._find_unknowns(total):
             return poly.ring.zero
         if len(total) > _LARGEST:
             return total
         for factor, _ in total.factor_list()[1]:
-            if self._zero(factor):
+            if self._is_zero(factor):
                 return factor
         raise ModelerError(
             f"{self.system.robot}: no factor of {total} is zero at a random point; another seed"
         )
 
 
-def _degree(poly: Poly, place: int) -> int:
+def _get_degree(poly: Poly, place: int) -> int:
     return max((at[place] for at in poly), default=0)
 
 
@@ -300,26 +300,30 @@ SolutionForm = Literal["text", "latex", "python"]
 """How formulas are printed."""
 
 
-def formula(step: SolvingStep, system: PhysicalSystem, style: TextStyle = TEXT) -> str:
+def format_formula(step: SolvingStep, system: PhysicalSystem, style: TextStyle = TEXT) -> str:
     """The right side of a step's formula; the polynomial that is zero where there is none."""
     if step.equation is not None:
         parts = []
-        for power, factor in sorted(by_powers(step.equation, system.place[step.letter]).items()):
-            text = polynomial_text(factor, system.names, style)
+        for power, factor in sorted(
+            collect_powers(step.equation, system.place[step.letter]).items()
+        ):
+            text = format_polynomial(factor, system.names, style)
             if power:
-                text = style.bracket(text) + style.times + style.power(step.letter, power)
+                text = (
+                    style.add_brackets(text) + style.times + style.format_power(step.letter, power)
+                )
             parts.append(text)
         return " + ".join(reversed(parts))
-    top = physical_text(step.numerator, system.names, system.masses, style)
+    top = format_physical(step.numerator, system.names, system.masses, style)
     if step.denominator == system.ring.one:
         return top
-    bottom = physical_text(step.denominator, system.names, system.masses, style)
+    bottom = format_physical(step.denominator, system.names, system.masses, style)
     if style.latex:
         return rf"\frac{{{top}}}{{{bottom}}}"
-    return f"{_bracketed(top)}/{_bracketed(bottom, factors=True)}"
+    return f"{_add_brackets(top)}/{_add_brackets(bottom, factors=True)}"
 
 
-def _bracketed(text: str, factors: bool = False) -> str:
+def _add_brackets(text: str, factors: bool = False) -> str:
     """In brackets if it is a sum, or, below a line, a product."""
     inside = text.removeprefix("-")
     plain = " + " not in inside and " - " not in inside
@@ -328,16 +332,16 @@ def _bracketed(text: str, factors: bool = False) -> str:
     return f"({text})"
 
 
-def solution_lines(solution: ClosedSolution, form: SolutionForm = "text") -> list[str]:
+def format_solution_lines(solution: ClosedSolution, form: SolutionForm = "text") -> list[str]:
     """All formulas, one a line, each from data, known parameters and those before."""
-    return {"text": _text, "latex": _latex, "python": _python}[form](solution)
+    return {"text": _format_text, "latex": _format_latex, "python": _format_python}[form](solution)
 
 
-def _text(solution: ClosedSolution) -> list[str]:
+def _format_text(solution: ClosedSolution) -> list[str]:
     system = solution.system
     lines = [f"{name} = {text}" for name, text in system.abbreviations.items()]
     for step in solution.steps:
-        right = formula(step, system)
+        right = format_formula(step, system)
         if step.equation is None:
             lines.append(f"{step.letter} = {right}")
         else:
@@ -345,19 +349,19 @@ def _text(solution: ClosedSolution) -> list[str]:
     return lines
 
 
-def _latex(solution: ClosedSolution) -> list[str]:
+def _format_latex(solution: ClosedSolution) -> list[str]:
     system = solution.system
     rows = []
     for name, text in system.abbreviations.items():
-        right = rf"\text{{{latex_text(text)}}}"
+        right = rf"\text{{{escape_latex(text)}}}"
         if name in system.inverse:
-            below = polynomial_text(system.inverse[name], system.names, LATEX)
+            below = format_polynomial(system.inverse[name], system.names, LATEX)
             right = rf"\frac{{1}}{{{below}}}"
-        rows.append(DisplayedEquation(latex_name(name), (right,)))
+        rows.append(DisplayedEquation(format_latex_name(name), (right,)))
     for step in solution.steps:
-        left = latex_name(step.letter) if step.equation is None else "0"
-        rows.append(DisplayedEquation(left, (formula(step, system, LATEX),)))
-    lines = display(rows).splitlines() if rows else []
+        left = format_latex_name(step.letter) if step.equation is None else "0"
+        rows.append(DisplayedEquation(left, (format_formula(step, system, LATEX),)))
+    lines = format_display(rows).splitlines() if rows else []
     return [r"\begingroup\allowdisplaybreaks", *lines, r"\endgroup"]
 
 
@@ -366,15 +370,15 @@ _ROOTS = """def real_roots(factors, positive=False):
     return [float(x.real) for x in found if x.real > 0 or not positive]"""
 
 
-def _python(solution: ClosedSolution) -> list[str]:
+def _format_python(solution: ClosedSolution) -> list[str]:
     """A function of data and known parameters that returns a dict, with roots a list of them."""
     system = solution.system
     rooted = any(step.equation is not None for step in solution.steps)
     polys = [p for s in solution.steps for p in (s.numerator, s.denominator, s.equation) if p]
-    read = places_in(*polys)
+    read = find_places(*polys)
     data = [name for name in system.data if system.place[name] in read]
     made_of = [w for name in (*system.constants, *system.abbreviations.values())
-               for w in _symbols_of(name) if w not in system.abbreviations]  # fmt: skip
+               for w in _extract_symbols(name) if w not in system.abbreviations]  # fmt: skip
     arguments = [*data, *solution.known, *dict.fromkeys(made_of)]
     where = "base parameters" if system.source == "base" else "coefficients PG, PJ"
     more = ": a list, every robot that fits" if rooted else ""
@@ -385,44 +389,44 @@ def _python(solution: ClosedSolution) -> list[str]:
     indent = "    "
     for step in solution.steps:
         if step.equation is None:
-            lines.append(f"{indent}{step.letter} = {formula(step, system)}")
+            lines.append(f"{indent}{step.letter} = {format_formula(step, system)}")
         else:
-            factors = by_powers(step.equation, system.place[step.letter])
+            factors = collect_powers(step.equation, system.place[step.letter])
             texts = [
-                polynomial_text(factors.get(power, system.ring.zero), system.names)
+                format_polynomial(factors.get(power, system.ring.zero), system.names)
                 for power in range(max(factors), -1, -1)
             ]
             positive = ", positive=True" if step.letter in system.masses else ""
-            found = f"real_roots([{', '.join(texts)}]{positive})"
-            lines.append(f"{indent}for {step.letter} in {found}:")
+            root_call = f"real_roots([{', '.join(texts)}]{positive})"
+            lines.append(f"{indent}for {step.letter} in {root_call}:")
             indent += "    "
-    told = "{" + ", ".join(f'"{x}": {x}' for x in solution.follows) + "}"
-    lines += [f"{indent}found.append({told})", "    return found"] if rooted else [
-        f"    return {told}"
+    result_text = "{" + ", ".join(f'"{x}": {x}' for x in solution.solved_letters) + "}"
+    lines += [f"{indent}found.append({result_text})", "    return found"] if rooted else [
+        f"    return {result_text}"
     ]  # fmt: skip
-    used = set(_symbols_of("\n".join(lines), functions=True))
+    used = set(_extract_symbols("\n".join(lines), functions=True))
     some = [name for name in ("cos", "pi", "sin", "sqrt") if name in used]
     head = [f"from math import {', '.join(some)}"] if some else []
     head += ["from numpy import roots", "", "", _ROOTS] if rooted else []
     return [*head, "", "", *lines] if head else lines
 
 
-def _symbols_of(text: str, functions: bool = False) -> list[str]:
+def _extract_symbols(text: str, functions: bool = False) -> list[str]:
     """Names in a text, those of functions and of pi only if they are wanted."""
     word = "".join(c if c.isalnum() or c == "_" else " " for c in text).split()
     known = () if functions else ("cos", "sin", "sqrt", "pi")
     return [w for w in word if not w[0].isdigit() and w not in known]
 
 
-def definition_lines(system: PhysicalSystem) -> list[str]:
+def format_definition_lines(system: PhysicalSystem) -> list[str]:
     """What the data are made of."""
     return [
-        f"{name} = {physical_text(poly, system.names, system.masses)}"
+        f"{name} = {format_physical(poly, system.names, system.masses)}"
         for name, poly in system.definitions.items()
     ]
 
 
-def missing_lines(solution: ClosedSolution) -> list[str]:
+def format_missing_lines(solution: ClosedSolution) -> list[str]:
     """What does not follow, and what to add; empty if all follows."""
     lines = []
     if solution.undetermined:
@@ -441,7 +445,7 @@ def missing_lines(solution: ClosedSolution) -> list[str]:
     return lines
 
 
-def solution_json(solution: ClosedSolution, verified: Mapping[str, int] | None = None) -> Any:
+def serialise_solution(solution: ClosedSolution, verified: Mapping[str, int] | None = None) -> Any:
     """Plain data: formulas as text, what is known, what does not follow."""
     system = solution.system
     return {
@@ -455,7 +459,7 @@ def solution_json(solution: ClosedSolution, verified: Mapping[str, int] | None =
             {
                 "parameter": step.letter,
                 "kind": system.kinds[step.letter],
-                "quotient" if step.equation is None else "zero": formula(step, system),
+                "quotient" if step.equation is None else "zero": format_formula(step, system),
             }
             for step in solution.steps
         ],

@@ -15,9 +15,9 @@ from math import comb, prod
 
 import numpy as np
 
-from modeler.core.brief import Brief
+from modeler.core.brief import ShortRepr
 from modeler.core.errors import ModelerError
-from modeler.derivation import kernel_modulo
+from modeler.derivation import compute_kernel
 from modeler.formulas.physical import SEED
 from modeler.formulas.physical_system import PhysicalSystem
 
@@ -27,7 +27,7 @@ from modeler.formulas.physical_system import PhysicalSystem
 BLOCK = 4000  # sets reduced together
 
 
-def components(kernel: np.ndarray) -> list[tuple[list[int], list[int]]]:
+def find_components(kernel: np.ndarray) -> list[tuple[list[int], list[int]]]:
     """(rows, columns) of the parts that share no entry; a column of zeros is its own part."""
     label = list(range(len(kernel)))
     for k in range(kernel.shape[1]):
@@ -42,7 +42,9 @@ def components(kernel: np.ndarray) -> list[tuple[list[int], list[int]]]:
     return parts
 
 
-def spanning_sets(matrix: np.ndarray, size: int, prime: int) -> Iterator[tuple[float, np.ndarray]]:
+def enumerate_spanning_sets(
+    matrix: np.ndarray, size: int, prime: int
+) -> Iterator[tuple[float, np.ndarray]]:
     """(share done, sets of `size` columns that span the rows), in blocks.
 
     Elimination grows with the set: a column joins a set that comes before it, and the rest of the
@@ -61,17 +63,17 @@ def spanning_sets(matrix: np.ndarray, size: int, prime: int) -> Iterator[tuple[f
             yield done / total, sets
             continue
         if k == size - 1 and rows:
-            sets = _last(work, sets, rank, rows)
+            sets = _complete_sets(work, sets, rank, rows)
             done += len(sets)
             yield min(1.0, done / total), sets
             continue
-        grown = _grown(work, sets, rank, size, prime)
+        grown = _extend_sets(work, sets, rank, size, prime)
         for at in range(0, len(grown[0]), BLOCK):
             part = slice(at, at + BLOCK)
             stack.append((grown[0][part], grown[1][part], grown[2][part]))
 
 
-def _last(work: np.ndarray, sets: np.ndarray, rank: np.ndarray, rows: int) -> np.ndarray:
+def _complete_sets(work: np.ndarray, sets: np.ndarray, rank: np.ndarray, rows: int) -> np.ndarray:
     """Sets made full by one column more, those that span."""
     n = work.shape[2]
     after = np.arange(n)[None] > (sets[:, -1:] if sets.shape[1] else -1)
@@ -81,7 +83,7 @@ def _last(work: np.ndarray, sets: np.ndarray, rank: np.ndarray, rows: int) -> np
     return np.concatenate([sets[which], column[:, None]], axis=1)
 
 
-def _grown(
+def _extend_sets(
     work: np.ndarray, sets: np.ndarray, rank: np.ndarray, size: int, prime: int
 ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Every set with every later column, if it can still span in the end."""
@@ -94,11 +96,11 @@ def _grown(
     which, column = np.nonzero(after & reach)
     joined = joins[which, column]
     grown = work[which]
-    grown[joined] = reduced_by(grown[joined], column[joined], prime)
+    grown[joined] = reduce_by_column(grown[joined], column[joined], prime)
     return grown, np.concatenate([sets[which], column[:, None]], axis=1), rank[which] + joined
 
 
-def reduced_by(work: np.ndarray, column: np.ndarray, prime: int) -> np.ndarray:
+def reduce_by_column(work: np.ndarray, column: np.ndarray, prime: int) -> np.ndarray:
     """Matrices reduced by one of their columns, its pivot row set to zero."""
     if not len(work):
         return work
@@ -114,14 +116,14 @@ def reduced_by(work: np.ndarray, column: np.ndarray, prime: int) -> np.ndarray:
     return reduced
 
 
-def span(kernel: np.ndarray, sets: np.ndarray, prime: int) -> np.ndarray:
+def are_spanning(kernel: np.ndarray, sets: np.ndarray, prime: int) -> np.ndarray:
     """Which sets of columns have the rank of the matrix."""
     work = np.broadcast_to(kernel, (len(sets), *kernel.shape)).copy()
     rank = np.zeros(len(sets), dtype=np.int64)
     at = np.arange(len(sets))
     for k in range(sets.shape[1]):
         joins: np.ndarray = np.any(work[at, :, sets[:, k]], axis=1)
-        work[joins] = reduced_by(work[joins], sets[joins, k], prime)
+        work[joins] = reduce_by_column(work[joins], sets[joins, k], prime)
         rank += joins
     return np.asarray(rank == len(kernel))
 
@@ -138,7 +140,7 @@ MOST = 30_000_000  # sets of one component that are looked at
 
 
 @dataclass(frozen=True)
-class KnownSets(Brief):
+class KnownSets(ShortRepr):
     """The sets of `size` known parameters that make all others follow.
 
     Attributes:
@@ -165,17 +167,17 @@ class KnownSets(Brief):
     seeds: tuple[int, ...]
 
 
-def smallest_number(system: PhysicalSystem) -> int:
+def count_smallest_set(system: PhysicalSystem) -> int:
     """How many parameters must be known at least that all others follow."""
-    return len(system.letters) - system.rank(system.letters)
+    return len(system.letters) - system.compute_rank(system.letters)
 
 
-def easiest_set(system: PhysicalSystem, seed: int = SEED) -> tuple[str, ...]:
+def find_easiest_set(system: PhysicalSystem, seed: int = SEED) -> tuple[str, ...]:
     """A smallest sufficing set that is measured with the least trouble.
 
     Greedy, which is best for a matroid: fewest inertias, of these fewest mass centres.
     """
-    kernel, prime = _kernel(system, seed)
+    kernel, prime = _compute_kernel(system, seed)
     letters = system.letters
     order = sorted(range(len(letters)), key=lambda k: (EASE[system.kinds[letters[k]]], k))
     chosen: list[int] = []
@@ -185,14 +187,14 @@ def easiest_set(system: PhysicalSystem, seed: int = SEED) -> tuple[str, ...]:
             break
         if work[:, k].any():
             chosen.append(k)
-            work = reduced_by(work[None], np.array([k]), prime)[0]
+            work = reduce_by_column(work[None], np.array([k]), prime)[0]
     return tuple(system.letters[k] for k in sorted(chosen))
 
 
-def known_sets(
+def find_known_sets(
     system: PhysicalSystem,
     size: int | None = None,
-    tell: Callable[[float], None] = lambda share: None,
+    progress: Callable[[float], None] = lambda share: None,
     seed: int = SEED,
 ) -> KnownSets:
     """All sets of `size` known parameters, smallest number if None, that suffice.
@@ -200,13 +202,13 @@ def known_sets(
     Args:
         system: data as polynomials of the parameters.
         size: of the sets.
-        tell: called with the share done.
+        progress: called with the share done.
         seed: of the random points.
 
     Raises:
         ModelerError: a size that no set has, or too many sets to look at.
     """
-    letters, smallest = system.letters, smallest_number(system)
+    letters, smallest = system.letters, count_smallest_set(system)
     size = smallest if size is None else size
     if not 0 <= size <= len(letters):
         raise ModelerError(
@@ -217,50 +219,50 @@ def known_sets(
     seeds = (seed, seed + 1)
     if size < smallest:
         return KnownSets(system, size, smallest, possible, 0, {}, (), {}, seeds)
-    halves = (lambda share: tell(share / 2), lambda share: tell((1 + share) / 2))
-    tables = [_Counted(system, size, *x).table() for x in zip(seeds, halves, strict=True)]
+    halves = (lambda share: progress(share / 2), lambda share: progress((1 + share) / 2))
+    tables = [_SetCounter(system, size, *x).count_sets() for x in zip(seeds, halves, strict=True)]
     if tables[0] != tables[1]:
         raise ModelerError(f"{system.robot}: two random points disagree; choose another seed")
     table = tables[0]
     order = sorted(table, key=lambda key: (key[2], key[1], key[0]))
     classes = {key: table[key][0] for key in order}
     contains = {x: sum(e[k + 1] for e in table.values()) for k, x in enumerate(letters)}
-    easiest = _members(system, size, order[0], seed) if order else ()
+    easiest = _find_members(system, size, order[0], seed) if order else ()
     count = sum(classes.values())
     return KnownSets(system, size, smallest, possible, count, classes, easiest, contains, seeds)
 
 
-def _kernel(system: PhysicalSystem, seed: int) -> tuple[np.ndarray, int]:
+def _compute_kernel(system: PhysicalSystem, seed: int) -> tuple[np.ndarray, int]:
     """Rows that span the kernel of the Jacobian modulo a prime: the matrix of the dual."""
-    prime, columns = system.jacobian_modulo(random.Random(seed))
+    prime, columns = system.compute_jacobian_modulo(random.Random(seed))
     n = len(system.letters)
     work = np.zeros((len(system.data), n), dtype=np.int64)
     for k, letter in enumerate(system.letters):
         for i, value in columns[letter].items():
             work[i, k] = value
-    return kernel_modulo(work, prime), prime
+    return compute_kernel(work, prime), prime
 
 
 Table = dict[tuple[int, int, int], np.ndarray]
 """{class: (1 + letters,) number of sets, then for each letter of those with it}."""
 
 
-class _Counted:
+class _SetCounter:
     """The spanning sets of the dual, per class."""
 
     def __init__(
-        self, system: PhysicalSystem, size: int, seed: int, tell: Callable[[float], None]
+        self, system: PhysicalSystem, size: int, seed: int, progress: Callable[[float], None]
     ) -> None:
-        self.system, self.size, self.tell = system, size, tell
-        self.kernel, self.prime = _kernel(system, seed)
-        self.parts = components(self.kernel)
+        self.system, self.size, self.progress = system, size, progress
+        self.kernel, self.prime = _compute_kernel(system, seed)
+        self.parts = find_components(self.kernel)
 
-    def table(self) -> dict[tuple[int, int, int], list[int]]:
+    def count_sets(self) -> dict[tuple[int, int, int], list[int]]:
         """Counts of sets of the wanted size, and of those with each letter."""
         spare = self.size - len(self.kernel)
         n = len(self.system.letters)
         total: dict[int, Table] = {0: {(0, 0, 0): np.array([1] + [0] * n, dtype=object)}}
-        work = sum(self._work(part, spare) for part in self.parts)
+        work = sum(self._estimate_work(part, spare) for part in self.parts)
         if work > MOST:
             raise ModelerError(
                 f"{self.system.robot}: about {work:.1e} sets to look at, more than {MOST:.0e}; "
@@ -269,30 +271,32 @@ class _Counted:
             )
         done = 0.0
         for part in self.parts:
-            share = self._work(part, spare)
-            total = _product(total, self._part_table(part, spare, done / work, share / work), spare)
+            share = self._estimate_work(part, spare)
+            total = _combine_counts(
+                total, self._count_part(part, spare, done / work, share / work), spare
+            )
             done += share
         return {key: [int(x) for x in entry] for key, entry in total.get(spare, {}).items()}
 
-    def _work(self, part: tuple[list[int], list[int]], spare: int) -> float:
+    def _estimate_work(self, part: tuple[list[int], list[int]], spare: int) -> float:
         rows, columns = part
         return float(
             sum(comb(len(columns), len(rows) + more)
                 for more in range(min(spare, len(columns) - len(rows)) + 1))
         )  # fmt: skip
 
-    def _part_table(
+    def _count_part(
         self, part: tuple[list[int], list[int]], spare: int, start: float, share: float
     ) -> dict[int, Table]:
         """{parameters more than its rank: counts} of one component."""
         rows, columns = part
         matrix = self.kernel[np.ix_(rows, columns)]
-        found: dict[int, Table] = {}
+        counts_by_surplus: dict[int, Table] = {}
         n = len(self.system.letters)
         ease = np.array([EASE[self.system.kinds[self.system.letters[k]]] for k in columns])
         for more in range(min(spare, len(columns) - len(rows)) + 1):
-            counts = found[more] = {}
-            for at, sets in spanning_sets(matrix, len(rows) + more, self.prime):
+            counts = counts_by_surplus[more] = {}
+            for at, sets in enumerate_spanning_sets(matrix, len(rows) + more, self.prime):
                 kinds = ease[sets]
                 sums = np.stack([(kinds < 2).sum(1), (kinds == 2).sum(1), (kinds == 3).sum(1)], 1)
                 for name in np.unique(sums, axis=0):
@@ -302,29 +306,29 @@ class _Counted:
                     entry[0] += len(chosen)
                     having = np.bincount(chosen.ravel(), minlength=len(columns))
                     entry[1:][columns] += having.astype(object)
-                self.tell(start + share * at)
-        return found
+                self.progress(start + share * at)
+        return counts_by_surplus
 
 
-def _product(a: Mapping[int, Table], b: Mapping[int, Table], spare: int) -> dict[int, Table]:
+def _combine_counts(a: Mapping[int, Table], b: Mapping[int, Table], spare: int) -> dict[int, Table]:
     """Counts of the unions of sets of two parts."""
-    found: dict[int, Table] = {}
+    combined: dict[int, Table] = {}
     for (i, first), (j, second) in product(a.items(), b.items()):
         if i + j <= spare:
-            table = found.setdefault(i + j, {})
+            table = combined.setdefault(i + j, {})
             for (key, one), (other, two) in product(first.items(), second.items()):
                 name = (key[0] + other[0], key[1] + other[1], key[2] + other[2])
                 both = one * two[0] + two * one[0]
                 both[0] = one[0] * two[0]
                 table[name] = table.get(name, 0) + both
-    return found
+    return combined
 
 
-def _members(
+def _find_members(
     system: PhysicalSystem, size: int, wanted: tuple[int, int, int], seed: int, most: int = 100_000
 ) -> tuple[tuple[str, ...], ...]:
     """Sufficing sets of one class, found among all sets of that class; () if there are too many."""
-    kernel, prime = _kernel(system, seed)
+    kernel, prime = _compute_kernel(system, seed)
     groups: list[list[int]] = [[], [], []]
     for k, letter in enumerate(system.letters):
         ease = EASE[system.kinds[letter]]
@@ -333,9 +337,9 @@ def _members(
         return ()
     members_of = map(combinations, groups, wanted)
     candidates = (sorted(chain(*parts)) for parts in product(*members_of))
-    found = []
+    member_sets = []
     while block := list(islice(candidates, BLOCK)):
         sets = np.array(block, dtype=np.int64).reshape(len(block), size)
-        for members in sets[span(kernel, sets, prime)]:
-            found.append(tuple(system.letters[k] for k in members))
-    return tuple(sorted(found, key=lambda s: [system.letters.index(x) for x in s]))
+        for members in sets[are_spanning(kernel, sets, prime)]:
+            member_sets.append(tuple(system.letters[k] for k in members))
+    return tuple(sorted(member_sets, key=lambda s: [system.letters.index(x) for x in s]))

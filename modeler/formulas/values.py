@@ -14,13 +14,13 @@ import numpy as np
 from modeler.core.errors import DataError, RobotError
 from modeler.core.files import read_text
 from modeler.core.json import parse_toml
-from modeler.derivation import as_fraction, by_powers, value_modulo
+from modeler.derivation import collect_powers, convert_to_fraction, evaluate_modulo
 from modeler.formulas.physical import SEED
 from modeler.formulas.physical_system import PhysicalSystem
-from modeler.formulas.printed import read_print
-from modeler.formulas.ring import Poly, poly_value
+from modeler.formulas.printed import read_printed_terms
+from modeler.formulas.ring import Poly, evaluate_polynomial
 from modeler.formulas.solve import ClosedSolution, SolvingStep
-from modeler.robot import Robot, near
+from modeler.robot import Robot, suggest_name
 
 _REAL = 1e-6  # imaginary parts below this share of a root are rounding
 _SURE = 3.0  # standard deviations that a denominator, or what is below zero, must be away from it
@@ -50,16 +50,16 @@ class DerivedValue:
     shares: np.ndarray
     doubtful: Mapping[str, str]
 
-    def value(self, letter: str) -> float:
+    def get_value(self, letter: str) -> float:
         """Of one parameter."""
         return float(self.values[self.letters.index(letter)])
 
-    def sigma(self, letter: str) -> float:
+    def get_sigma(self, letter: str) -> float:
         """Of one parameter."""
         return float(self.sigmas[self.letters.index(letter)])
 
 
-def verify(solution: ClosedSolution, times: int = VERIFIED, seed: int = SEED) -> int:
+def verify_solution(solution: ClosedSolution, times: int = VERIFIED, seed: int = SEED) -> int:
     """Number of random robots, of `times`, for which every formula gives back the parameter.
 
     Exact: over Q; modulo a prime where the geometry has roots of numbers.
@@ -69,17 +69,17 @@ def verify(solution: ClosedSolution, times: int = VERIFIED, seed: int = SEED) ->
     for _ in range(times):
         value: Callable[[Poly], Any]
         if any(name.startswith("sqrt(") for name in system.names):
-            prime, point = system.modular_point(chance)
-            value = partial(value_modulo, point=point, prime=prime)
+            prime, point = system.draw_modular_point(chance)
+            value = partial(evaluate_modulo, point=point, prime=prime)
         else:
-            prime, point = 0, system.consistent(random_rationals(system, chance))
-            value = partial(poly_value, values=point)
-        good += all(_holds(step, value, point[system.place[step.letter]], prime)
+            prime, point = 0, system.derive_consistent_values(draw_random_rationals(system, chance))
+            value = partial(evaluate_polynomial, values=point)
+        good += all(_is_satisfied(step, value, point[system.place[step.letter]], prime)
                     for step in solution.steps)  # fmt: skip
     return good
 
 
-def random_rationals(system: PhysicalSystem, chance: random.Random) -> dict[str, Fraction]:
+def draw_random_rationals(system: PhysicalSystem, chance: random.Random) -> dict[str, Fraction]:
     """Letters and constants by chance; cosine and sine on the circle."""
     values: dict[str, Fraction] = {}
     for name in (*system.letters, *system.constants):
@@ -93,7 +93,7 @@ def random_rationals(system: PhysicalSystem, chance: random.Random) -> dict[str,
     return values
 
 
-def _holds(step: SolvingStep, value: Callable[[Poly], Any], truth: Any, prime: int) -> bool:
+def _is_satisfied(step: SolvingStep, value: Callable[[Poly], Any], truth: Any, prime: int) -> bool:
     """If the formula gives `truth`: modulo the prime, or exactly where that is 0."""
     if step.equation is not None:
         return bool(value(step.equation) == 0)
@@ -102,26 +102,26 @@ def _holds(step: SolvingStep, value: Callable[[Poly], Any], truth: Any, prime: i
     return bool(down != 0 and (rest % prime if prime else rest) == 0)
 
 
-class SolvedNumbers:
+class NumericPolynomial:
     """Polynomials of a system as arrays: values and slopes quickly."""
 
     def __init__(self, poly: Poly) -> None:
         self.powers = np.array(list(poly), dtype=int).reshape(len(poly), poly.ring.ngens)
-        self.factors = np.array([float(as_fraction(value)) for value in poly.values()])
+        self.factors = np.array([float(convert_to_fraction(value)) for value in poly.values()])
 
-    def value(self, point: np.ndarray) -> float:
+    def evaluate(self, point: np.ndarray) -> float:
         """At a point of all generators."""
         return float(self.factors @ np.prod(point**self.powers, axis=1))
 
-    def slopes(self, point: np.ndarray) -> np.ndarray:
+    def evaluate_slopes(self, point: np.ndarray) -> np.ndarray:
         """(generators,) derivatives at a point."""
-        found = np.zeros(len(point))
+        slopes = np.zeros(len(point))
         for k in np.flatnonzero(self.powers.any(axis=0)):
             lower = self.powers.copy()
             lower[:, k] = np.maximum(lower[:, k] - 1, 0)
             terms = self.factors * self.powers[:, k] * np.prod(point**lower, axis=1)
-            found[k] = terms.sum()
-        return found
+            slopes[k] = terms.sum()
+        return slopes
 
 
 def derive_values(
@@ -153,15 +153,15 @@ def derive_values(
     C = np.diag([0.0] * len(data) + spread)
     C[: len(data), : len(data)] = covariance
     # Values of all generators before the first step, and their slopes by the inputs.
-    point = system.point(known)
+    point = system.build_point(known)
     point[: len(data)] = data
     gradient = np.zeros((len(point), len(inputs)))
     for i, name in enumerate(inputs):
         gradient[system.place[name], i] = 1.0
     doubtful: dict[str, str] = {}
     for step in solution.steps:
-        _advance(step, solution, point, gradient, C, doubtful, near or {})
-    at = [system.place[letter] for letter in solution.follows]
+        _evaluate_step(step, solution, point, gradient, C, doubtful, near or {})
+    at = [system.place[letter] for letter in solution.solved_letters]
     slopes = gradient[at]
     parts = slopes * (slopes @ C)
     variance = np.maximum(parts.sum(axis=1), 0.0)
@@ -169,30 +169,31 @@ def derive_values(
         parts, variance[:, None], out=np.zeros_like(parts), where=variance[:, None] > 0
     )
     return DerivedValue(
-        solution.follows, point[at], np.sqrt(variance), inputs, slopes, shares, doubtful
+        solution.solved_letters, point[at], np.sqrt(variance), inputs, slopes, shares, doubtful
     )
 
 
-def impossible(derived: DerivedValue, system: PhysicalSystem) -> dict[str, str]:
+def find_impossible(derived: DerivedValue, system: PhysicalSystem) -> dict[str, str]:
     """Why a value is that of no body: a mass that is not above 0, a moment of inertia below it.
 
     A moment may be 0; it is told if it is below by more than 3 sigma.
     """
-    found = {}
+    kinds = {}
     for k, letter in enumerate(derived.letters):
         value, sigma = derived.values[k], derived.sigmas[k]
         if letter in system.masses and value <= 0.0:
-            found[letter] = "mass"
+            kinds[letter] = "mass"
         elif letter in system.moments and value < -_SURE * sigma:
-            found[letter] = "moment of inertia"
+            kinds[letter] = "moment of inertia"
     return {
-        letter: f"{letter} = {derived.value(letter):.4g} +- {derived.sigma(letter):.2g} is no "
+        letter: f"{letter} = {derived.get_value(letter):.4g} "
+        f"+- {derived.get_sigma(letter):.2g} is no "
         f"{what}: a known value or the fit is wrong, or the fit is not sure enough"
-        for letter, what in found.items()
+        for letter, what in kinds.items()
     }
 
 
-def _advance(
+def _evaluate_step(
     step: SolvingStep, solution: ClosedSolution, point: np.ndarray, gradient: np.ndarray,
     C: np.ndarray, doubtful: dict[str, str], near: Mapping[str, float],
 ) -> None:  # fmt: skip
@@ -200,61 +201,62 @@ def _advance(
     system = solution.system
     at = system.place[step.letter]
     if step.equation is not None:
-        point[at] = _one_root(step, system, point, near)
-        slopes = SolvedNumbers(step.equation).slopes(point)
-        own, slopes[at] = slopes[at], 0.0
-        gradient[at] = -(slopes @ gradient) / own
+        point[at] = _select_root(step, system, point, near)
+        slopes = NumericPolynomial(step.equation).evaluate_slopes(point)
+        letter_slope, slopes[at] = slopes[at], 0.0
+        gradient[at] = -(slopes @ gradient) / letter_slope
         return
-    up, down = SolvedNumbers(step.numerator), SolvedNumbers(step.denominator)
-    bottom = down.value(point)
+    up, down = NumericPolynomial(step.numerator), NumericPolynomial(step.denominator)
+    bottom = down.evaluate(point)
     if bottom == 0.0:
         raise DataError(
             f"{system.robot}: {step.letter} is a quotient by {step.denominator}, which is 0 in "
             f"this fit; {step.letter} cannot be told, add it to the known parameters"
         )
-    spread = down.slopes(point) @ gradient
+    spread = down.evaluate_slopes(point) @ gradient
     sigma = float(np.sqrt(max(spread @ C @ spread, 0.0)))
     if abs(bottom) < _SURE * sigma:
         doubtful[step.letter] = (
             f"{step.letter} is a quotient by {step.denominator} = {bottom:.3g} +- {sigma:.2g}, "
             "which may be 0: these data do not tell it"
         )
-    point[at] = up.value(point) / bottom
-    slopes = (up.slopes(point) - point[at] * down.slopes(point)) / bottom
+    point[at] = up.evaluate(point) / bottom
+    slopes = (up.evaluate_slopes(point) - point[at] * down.evaluate_slopes(point)) / bottom
     gradient[at] = slopes @ gradient
 
 
-def roots(step: SolvingStep, system: PhysicalSystem, point: np.ndarray) -> list[float]:
+def find_roots(step: SolvingStep, system: PhysicalSystem, point: np.ndarray) -> list[float]:
     """The real roots of a step's equation at a point; only positive ones for a mass."""
     assert step.equation is not None
-    parts = by_powers(step.equation, system.place[step.letter])
+    parts = collect_powers(step.equation, system.place[step.letter])
     factors = [
-        SolvedNumbers(parts[k]).value(point) if k in parts else 0.0
+        NumericPolynomial(parts[k]).evaluate(point) if k in parts else 0.0
         for k in range(max(parts), -1, -1)
     ]
-    found = np.roots(factors)
-    real = [float(x.real) for x in found if abs(x.imag) <= _REAL * abs(x)]
+    complex_roots = np.roots(factors)
+    real = [float(x.real) for x in complex_roots if abs(x.imag) <= _REAL * abs(x)]
     return sorted(x for x in real if x > 0 or step.letter not in system.masses)
 
 
-def _one_root(
+def _select_root(
     step: SolvingStep, system: PhysicalSystem, point: np.ndarray, near: Mapping[str, float]
 ) -> float:
-    found = roots(step, system, point)
-    if found and step.letter in near:
-        return min(found, key=lambda x: abs(x - near[step.letter]))
-    if len(found) == 1:
-        return found[0]
+    real_roots = find_roots(step, system, point)
+    if real_roots and step.letter in near:
+        return min(real_roots, key=lambda x: abs(x - near[step.letter]))
+    if len(real_roots) == 1:
+        return real_roots[0]
     kind = "positive " if step.letter in system.masses else ""
-    if not found:
+    if not real_roots:
         raise DataError(
             f"{system.robot}: the equation of {step.letter} has no {kind}root with these values; "
             "a known value or the fit is wrong"
         )
-    told = ", ".join(f"{x:.6g}" for x in found)
+    root_list = ", ".join(f"{x:.6g}" for x in real_roots)
     raise DataError(
-        f"{system.robot}: the equation of {step.letter} has {len(found)} {kind}roots ({told}); "
-        f"each fits the data; say which with --near {step.letter}={found[-1]:.3g}, or add a "
+        f"{system.robot}: the equation of {step.letter} has {len(real_roots)} {kind}roots "
+        f"({root_list}); "
+        f"each fits the data; say which with --near {step.letter}={real_roots[-1]:.3g}, or add a "
         "parameter to the known ones"
     )
 
@@ -280,7 +282,7 @@ class KnownValues:
     sigmas: Mapping[str, float]
 
 
-def known_from_text(text: str, system: PhysicalSystem, where: str = "--known") -> KnownValues:
+def parse_known_values(text: str, system: PhysicalSystem, where: str = "--known") -> KnownValues:
     """Reads "am=12,bm=6+-0.1,bl1".
 
     Raises:
@@ -297,9 +299,11 @@ def known_from_text(text: str, system: PhysicalSystem, where: str = "--known") -
         names.append(name)
         if equals:
             value, spread, sigma = rest.replace("±", "+-").partition("+-")
-            values[name] = _possible(name, _number(value, f"{where}, {name}"), system, where)
+            values[name] = _check_possible(
+                name, _parse_number(value, f"{where}, {name}"), system, where
+            )
             if spread:
-                sigmas[name] = _sigma(sigma, f"{where}, {name}")
+                sigmas[name] = _parse_sigma(sigma, f"{where}, {name}")
     effective = tuple(name for name in names if name in system.letters)
     return KnownValues(
         effective,
@@ -317,12 +321,12 @@ def check_symbol(name: str, system: PhysicalSystem, where: str) -> None:
     names = (*system.letters, *system.vanishing, *system.alone, *system.constants)
     if name not in names:
         raise RobotError(
-            f'{where}: got "{name}"{near(name, names)}; expected physical parameters of '
+            f'{where}: got "{name}"{suggest_name(name, names)}; expected physical parameters of '
             f"{system.robot}: {', '.join(system.letters)}"
         )
 
 
-def _number(text: Any, where: str) -> float:
+def _parse_number(text: Any, where: str) -> float:
     try:
         value = float(text)
     except (TypeError, ValueError):
@@ -332,7 +336,7 @@ def _number(text: Any, where: str) -> float:
     return value
 
 
-def _possible(name: str, value: float, system: PhysicalSystem, where: str) -> float:
+def _check_possible(name: str, value: float, system: PhysicalSystem, where: str) -> float:
     if name in system.masses and value <= 0.0:
         raise RobotError(f"{where}, {name}: got the mass {value:g} kg; expected more than 0")
     if name in system.moments and value < 0.0:
@@ -340,14 +344,14 @@ def _possible(name: str, value: float, system: PhysicalSystem, where: str) -> fl
     return value
 
 
-def _sigma(text: Any, where: str) -> float:
-    value = _number(text, f"{where}, standard deviation")
+def _parse_sigma(text: Any, where: str) -> float:
+    value = _parse_number(text, f"{where}, standard deviation")
     if value < 0.0:
         raise RobotError(f"{where}: got the standard deviation {value:g}; expected 0 or more")
     return value
 
 
-def cad_from_file(path: Path, system: PhysicalSystem) -> KnownValues:
+def read_cad_file(path: Path, system: PhysicalSystem) -> KnownValues:
     """Reads a TOML file: `am = 12.0`, `bm = [6.0, 0.1]` with a standard deviation.
 
     `relative_sigma = 0.02` gives every value without one that share of itself.
@@ -361,7 +365,7 @@ def cad_from_file(path: Path, system: PhysicalSystem) -> KnownValues:
         raise RobotError(f"{path}: cannot be read ({error.strerror}); check the path") from None
     except ValueError as error:
         raise RobotError(f"{path}: no TOML ({error}); expected lines such as am = 12.0") from None
-    share = _sigma(raw.pop(_CAD_KEY, 0.0), f"{path}, {_CAD_KEY}")
+    share = _parse_sigma(raw.pop(_CAD_KEY, 0.0), f"{path}, {_CAD_KEY}")
     values: dict[str, float] = {}
     sigmas: dict[str, float] = {}
     for name, cell in raw.items():
@@ -370,42 +374,42 @@ def cad_from_file(path: Path, system: PhysicalSystem) -> KnownValues:
         if isinstance(cell, list):
             if len(cell) != 2:
                 raise RobotError(f"{where}: got {cell}; expected [value, standard deviation]")
-            values[name], sigmas[name] = _number(cell[0], where), _sigma(cell[1], where)
+            values[name], sigmas[name] = _parse_number(cell[0], where), _parse_sigma(cell[1], where)
         else:
-            values[name] = _number(cell, where)
+            values[name] = _parse_number(cell, where)
             sigmas[name] = share * abs(values[name])
-    return _among(values, sigmas, system, str(path))
+    return _select_effective(values, sigmas, system, str(path))
 
 
-def cad_from_robot(robot: Robot, system: PhysicalSystem, where: str) -> KnownValues:
+def read_cad_example(robot: Robot, system: PhysicalSystem, where: str) -> KnownValues:
     """The example of the robot file, `[terms.example]`; lengths that it leaves out are nominal.
 
     Raises:
         RobotError: it has none.
     """
-    example = read_print(robot).example
+    example = read_printed_terms(robot).example
     if not example:
         raise RobotError(
             f"{where}: the robot file has no values of physical parameters ([terms.example]); "
             "give a file, such as --cad cad.toml"
         )
-    values = robot.symbol_values() | {name: float(value) for name, value in example.items()}
-    return _among(values, {}, system, where)
+    values = robot.evaluate_symbols() | {name: float(value) for name, value in example.items()}
+    return _select_effective(values, {}, system, where)
 
 
-def _among(
+def _select_effective(
     values: Mapping[str, float], sigmas: Mapping[str, float], system: PhysicalSystem, where: str
 ) -> KnownValues:
-    kept: Collection[str] = [name for name in values if name in system.letters]
-    if not kept:
+    effective_names: Collection[str] = [name for name in values if name in system.letters]
+    if not effective_names:
         raise RobotError(
             f"{where}: no value of a parameter with an effect on the torques; expected some of "
             f"{', '.join(system.letters)}"
         )
     return KnownValues(
-        tuple(kept),
-        {name: values[name] for name in kept},
-        {name: sigmas[name] for name in kept if sigmas.get(name, 0.0) > 0.0},
+        tuple(effective_names),
+        {name: values[name] for name in effective_names},
+        {name: sigmas[name] for name in effective_names if sigmas.get(name, 0.0) > 0.0},
     )
 
 
@@ -413,7 +417,7 @@ def _among(
 
 
 @dataclass(frozen=True)
-class Rated:
+class RatedSet:
     """How errors grow with one set of known parameters.
 
     Attributes:
@@ -430,9 +434,9 @@ class Rated:
     letter: str
 
 
-def rated(
+def rate_sets(
     system: PhysicalSystem, sets: Sequence[Sequence[str]], values: Mapping[str, float]
-) -> tuple[Rated, ...]:
+) -> tuple[RatedSet, ...]:
     """The sets by how little errors grow at one robot, the least median first.
 
     dU = J_U^-1 (dd - J_K dK), d data, U unknowns, K known; parameters that are 0 have no per cent.
@@ -442,11 +446,11 @@ def rated(
         sets: smallest sufficing sets.
         values: of all parameters, SI units; sets that fail there are left out.
     """
-    point = system.point(values)
-    polys = [SolvedNumbers(system.definitions[d]) for d in system.data]
-    J = np.array([poly.slopes(point) for poly in polys])
-    data = np.array([poly.value(point) for poly in polys])
-    found = []
+    point = system.build_point(values)
+    polys = [NumericPolynomial(system.definitions[d]) for d in system.data]
+    J = np.array([poly.evaluate_slopes(point) for poly in polys])
+    data = np.array([poly.evaluate(point) for poly in polys])
+    ratings = []
     for known in sets:
         U = [system.place[x] for x in system.letters if x not in known]
         K = [system.place[x] for x in known]
@@ -459,5 +463,5 @@ def rated(
         share[~np.isfinite(share)] = np.nan
         k = int(np.nanargmax(share))
         middle, letter = float(np.nanmedian(share)), system.names[U[k]]
-        found.append(Rated(tuple(known), middle, float(share[k]), letter))
-    return tuple(sorted(found, key=lambda r: (r.middle, r.worst)))
+        ratings.append(RatedSet(tuple(known), middle, float(share[k]), letter))
+    return tuple(sorted(ratings, key=lambda r: (r.middle, r.worst)))

@@ -2,38 +2,38 @@ from .arrays import LEAST_ROWS as LEAST_ROWS
 from .blocks import (
     Blocks as Blocks,
     ParquetBlocks as ParquetBlocks,
-    blocks_of as blocks_of,
-    windows_of as windows_of,
+    open_blocks as open_blocks,
+    read_windows as read_windows,
 )
 from .columns import Columns as Columns
 from .frames import (
     Frame as Frame,
     InMemory as InMemory,
-    columns_given as columns_given,
+    build_frame_columns as build_frame_columns,
     split_joints as split_joints,
 )
-from .guess import EITHER as EITHER, template_of as template_of
+from .guess import EITHER as EITHER, split_label as split_label
 from .inspect import (
     Clock as Clock,
     LogInspection as LogInspection,
     Positions as Positions,
-    inspect_log as inspect_log,
+    inspect_table as inspect_table,
 )
 from .log_table import LogTable as LogTable
 from .mapping import (
     LogMap as LogMap,
     MappedColumn as MappedColumn,
+    build_map as build_map,
     find_unit as find_unit,
-    map_from_table as map_from_table,
-    map_from_words as map_from_words,
-    si_unit as si_unit,
+    parse_map_options as parse_map_options,
+    resolve_si_unit as resolve_si_unit,
 )
-from .marks import Mark as Mark, marks_of as marks_of, most_of as most_of
+from .marks import Mark as Mark, find_marks as find_marks, keep_longest as keep_longest
 from .rates import (
-    clock_line as clock_line,
-    common_factor as common_factor,
+    describe_clock_factor as describe_clock_factor,
+    describe_repeats as describe_repeats,
+    find_common_factor as find_common_factor,
     is_derivative as is_derivative,
-    moves as moves,
-    repeats_line as repeats_line,
+    is_moving as is_moving,
 )
-from .stamps import coarse_clock as coarse_clock
+from .stamps import describe_coarse_clock as describe_coarse_clock

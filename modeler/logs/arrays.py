@@ -17,10 +17,17 @@ from typing import Any
 import numpy as np
 
 from modeler.core.errors import DataError
-from modeler.core.files import UNPACKED, check_unpacked
-from modeler.logs.columns import Column, Columns, NotNumbers, Wanted, missing_package, reading
-from modeler.logs.guess import role_of
-from modeler.logs.stamps import with_joined_stamps
+from modeler.core.files import UNPACKED, check_unpacked_size
+from modeler.logs.columns import (
+    Column,
+    ColumnRequest,
+    Columns,
+    NotNumericError,
+    make_package_error,
+    wrap_read_errors,
+)
+from modeler.logs.guess import guess_role
+from modeler.logs.stamps import join_stamps
 
 LEAST_ROWS = 10
 """A log of fewer rows carries no motion: fifth of a second at the slowest usual rate."""
@@ -35,7 +42,7 @@ _STEPS = ("ts", "dt", "sample_time", "sampletime", "delta_t", "t_s")
 
 
 @dataclass(frozen=True, eq=False)
-class Held:
+class NamedArray:
     """An array of a file; `data` may be on disk still.
 
     Attributes:
@@ -57,31 +64,35 @@ class Held:
 
 
 @dataclass(frozen=True, eq=False)
-class _Slice:
+class _SlicedColumn:
     """One column of an array; `values` reads one, and keeps the last: its columns follow."""
 
-    values: Callable[[Held], np.ndarray]
-    held: Held
-    place: int
+    values: Callable[[NamedArray], np.ndarray]
+    array: NamedArray
+    index: int
     across: bool  # rows of the array are the columns
 
     @property
-    def numeric(self) -> bool:
-        return self.held.data.dtype.kind in "iuf"
+    def is_numeric(self) -> bool:
+        return self.array.data.dtype.kind in "iuf"
 
-    def numbers(self) -> np.ndarray:
-        if not self.numeric:
-            raise NotNumbers(
-                f" holds {self.held.data.dtype}; expected numbers; write it as floating point"
+    def read_numbers(self) -> np.ndarray:
+        if not self.is_numeric:
+            raise NotNumericError(
+                f" holds {self.array.data.dtype}; expected numbers; write it as floating point"
             )
-        values = self.values(self.held)
+        values = self.values(self.array)
         if values.ndim == 2:
-            values = values[self.place] if self.across else values[:, self.place]
+            values = values[self.index] if self.across else values[:, self.index]
         return np.array(values, dtype=float).reshape(-1)
 
 
-def columns_of(
-    path: Path, what: str, arrays: Sequence[Held], wanted: Wanted, notes: Sequence[str] = ()
+def build_columns(
+    path: Path,
+    what: str,
+    arrays: Sequence[NamedArray],
+    wanted: ColumnRequest,
+    notes: Sequence[str] = (),
 ) -> Columns:
     """The columns of arrays: (n,) one, (n, k) and (k, n) k of them, `name[1]` to `name[k]`.
 
@@ -90,130 +101,150 @@ def columns_of(
     Raises:
         DataError: no such group, or nothing that could be a log.
     """
-    arrays = _in_group(path, arrays, wanted)
-    arrays, episodes = _chained(arrays)
-    rows = _rows(arrays)
+    arrays = _select_group(path, arrays, wanted)
+    arrays, episodes = _concatenate_episodes(arrays)
+    rows = _find_row_count(arrays)
     if rows is None:
         raise DataError(
             f"{path}: no array of {LEAST_ROWS} rows or more; expected the samples of a motion as "
-            f"arrays (n,) or (n, joints); it holds {_listed([_described(a) for a in arrays])}"
+            "arrays (n,) or (n, joints); it holds "
+            f"{_join_names([_describe_array(a) for a in arrays])}"
         )
 
     @lru_cache(maxsize=1)
-    def values(held: Held) -> np.ndarray:
-        with reading(path, what):
+    def read_values(held: NamedArray) -> np.ndarray:
+        with wrap_read_errors(path, what):
             content = np.asarray(held.data[()])
         return content.T if held.flipped else content
 
-    found = list[tuple[str, Column]]()
+    array_columns = list[tuple[str, Column]]()
     units, left = dict[str, str](), list[str]()
     for held in arrays:
-        slices = _slices(values, held, rows)
+        slices = _slice_columns(read_values, held, rows)
         if not slices:
-            left.append(_described(held))
-        found += slices
+            left.append(_describe_array(held))
+        array_columns += slices
         units |= {name: held.unit for name, _ in slices if held.unit}
-    told = [f"{_listed(left)} left out: no columns of {rows} rows"] if left else []
+    omissions = [f"{_join_names(left)} left out: no columns of {rows} rows"] if left else []
     single = (
-        (a.name, a.data[()]) for a in arrays if math.prod(a.shape) == 1 and _tells_rate(a.name)
+        (a.name, a.data[()]) for a in arrays if math.prod(a.shape) == 1 and _is_rate_name(a.name)
     )
-    columns, stamped, how = with_joined_stamps(found)
+    columns, stamped, how = join_stamps(array_columns)
     units |= stamped
     how = (*episodes, *how)
-    return Columns(columns, rows, units, (*notes, *told), rate=_stated_rate(single), told=how)
+    return Columns(
+        columns,
+        rows,
+        units,
+        (*notes, *omissions),
+        rate=_find_stated_rate(single),
+        reading_notes=how,
+    )
 
 
-def _tells_rate(name: str) -> bool:
+def _is_rate_name(name: str) -> bool:
     return re.split(r"[./]", name)[-1].lower() in (*_RATES, *_STEPS)
 
 
-def _stated_rate(values: Iterable[tuple[str, Any]]) -> float | None:
+def _find_stated_rate(values: Iterable[tuple[str, Any]]) -> float | None:
     """Hz, of single values such as fs or dt."""
     for name, value in values:
         number = (
             float(np.asarray(value).reshape(-1)[0]) if np.asarray(value).dtype.kind in "iuf" else 0
         )
-        if _tells_rate(name) and 0.0 < number < math.inf:
+        if _is_rate_name(name) and 0.0 < number < math.inf:
             return number if re.split(r"[./]", name)[-1].lower() in _RATES else 1.0 / number
     return None
 
 
-def _in_group(path: Path, arrays: Sequence[Held], wanted: Wanted) -> list[Held]:
+def _select_group(
+    path: Path, arrays: Sequence[NamedArray], wanted: ColumnRequest
+) -> list[NamedArray]:
     """The arrays inside the group that is asked for, their names from there on."""
     topic = wanted.topic.strip("/")
     if not topic:
         return list(arrays)
-    found = [
-        Held(a.name[len(topic) + 1 :], a.data, a.unit, a.flipped)
+    members = [
+        NamedArray(a.name[len(topic) + 1 :], a.data, a.unit, a.flipped)
         for a in arrays
         if a.name.startswith((f"{topic}.", f"{topic}/"))
     ]
-    if not found:
+    if not members:
         groups = sorted({a.name[:i] for a in arrays for i, c in enumerate(a.name) if c in "./"})
         raise DataError(
             f"{path}: topic {wanted.topic}: no group of that name; the groups are "
-            f"{_listed(groups) or 'none'}"
+            f"{_join_names(groups) or 'none'}"
         )
-    return found
+    return members
 
 
 @dataclass(frozen=True, eq=False)
-class _Chained:
+class _ConcatenatedArray:
     """Arrays along their first axis, one after the other; times go on from one to the next."""
 
-    parts: Sequence[Held]
+    parts: Sequence[NamedArray]
     shape: tuple[int, ...]
     dtype: np.dtype
 
     def __getitem__(self, key: tuple[()]) -> np.ndarray:
         whole = [np.asarray(part.data[()]).astype(self.dtype) for part in self.parts]
-        values = [own.T if part.flipped else own for own, part in zip(whole, self.parts,
+        values = [episode.T if part.flipped else episode for episode, part in zip(whole, self.parts,
                                                                      strict=True)]  # fmt: skip
-        if role_of(self.parts[0].name) == "time":
-            for before, own in itertools.pairwise(own for own in values if own.size > 1):
-                if own.flat[0] <= before.flat[-1]:
+        if guess_role(self.parts[0].name) == "time":
+            for before, episode in itertools.pairwise(
+                episode for episode in values if episode.size > 1
+            ):
+                if episode.flat[0] <= before.flat[-1]:
                     step = np.median(np.diff(before.reshape(-1)))
-                    own += (before.flat[-1] + step - own.flat[0]).astype(own.dtype)
+                    episode += (before.flat[-1] + step - episode.flat[0]).astype(episode.dtype)
         return np.concatenate(values)
 
 
-def _chained(arrays: Sequence[Held]) -> tuple[list[Held], list[str]]:
+def _concatenate_episodes(arrays: Sequence[NamedArray]) -> tuple[list[NamedArray], list[str]]:
     """The arrays, those of episodes one after the other, with `segment`; what is told of it.
 
     `data/demo_0/q` and `data/demo_1/q` are `data/q`. Groups that only count are episodes if their
     rows differ: those of joints have the same.
     """
-    groups: dict[str, dict[int, dict[str, Held]]] = {}
+    groups: dict[str, dict[int, dict[str, NamedArray]]] = {}
     for array in arrays:
         if array.shape and (match := _EPISODE.fullmatch(array.name)):
-            own = groups.setdefault(match[1] + match[2], {}).setdefault(int(match[3]), {})
-            own[match[1] + match[4]] = array
+            episode_arrays = groups.setdefault(match[1] + match[2], {}).setdefault(
+                int(match[3]), {}
+            )
+            episode_arrays[match[1] + match[4]] = array
     for group, numbered in groups.items():
         episodes = dict(sorted(numbered.items()))
-        rows = [Counter(a.shape[0] for a in own.values()).most_common(1)[0][0]
-                for own in episodes.values()]  # fmt: skip
+        rows = [Counter(a.shape[0] for a in episode_arrays.values()).most_common(1)[0][0]
+                for episode_arrays in episodes.values()]  # fmt: skip
         if len(rows) < 2 or not (_EPISODES.search(group) or len({*rows}) > 1):
             continue
-        inside = {id(array) for own in episodes.values() for array in own.values()}
+        inside = {
+            id(array) for episode_arrays in episodes.values() for array in episode_arrays.values()
+        }
         made, left = [array for array in arrays if id(array) not in inside], list[str]()
         for name, first in episodes[min(episodes)].items():
-            parts = [own[name] for own in episodes.values() if name in own]
+            parts = [
+                episode_arrays[name]
+                for episode_arrays in episodes.values()
+                if name in episode_arrays
+            ]
             shape = first.shape[1:]
             if [part.shape for part in parts] == [(count, *shape) for count in rows]:
-                whole = _Chained(parts, (sum(rows), *shape), first.data.dtype)
-                made.append(Held(name, whole, first.unit))
+                whole = _ConcatenatedArray(parts, (sum(rows), *shape), first.data.dtype)
+                made.append(NamedArray(name, whole, first.unit))
             else:
                 left.append(name)
-        made.append(Held("segment", np.repeat([float(n) for n in episodes], rows)))
+        made.append(NamedArray("segment", np.repeat([float(n) for n in episodes], rows)))
         return made, [
             f"{len(rows)} episodes, {group}{min(episodes)} to {max(episodes)}, one after the other "
             "as segments; --map topic=GROUP takes one",
-            *[f"{_listed(left)} left out: not alike in all episodes"] * bool(left),
+            *[f"{_join_names(left)} left out: not alike in all episodes"] * bool(left),
         ]
     return [*arrays], []
 
 
-def _rows(arrays: Sequence[Held]) -> int | None:
+def _find_row_count(arrays: Sequence[NamedArray]) -> int | None:
     """The length that most arrays have along an axis; of two the longer."""
     counts = Counter(
         n for a in arrays if len(a.shape) in (1, 2) for n in set(a.shape) if n >= LEAST_ROWS
@@ -221,25 +252,27 @@ def _rows(arrays: Sequence[Held]) -> int | None:
     return max(counts, key=lambda n: (counts[n], n), default=None)
 
 
-def _slices(
-    values: Callable[[Held], np.ndarray], held: Held, rows: int
+def _slice_columns(
+    values: Callable[[NamedArray], np.ndarray], held: NamedArray, rows: int
 ) -> list[tuple[str, Column]]:
     shape = held.shape
     if shape in ((rows,), (rows, 1), (1, rows)):
-        return [(held.name, _Slice(values, held, 0, shape == (1, rows)))]
+        return [(held.name, _SlicedColumn(values, held, 0, shape == (1, rows)))]
     if len(shape) != 2 or rows not in shape:
         return []
     across = shape[0] != rows
     count = shape[0] if across else shape[1]
-    return [(f"{held.name}[{k + 1}]", _Slice(values, held, k, across)) for k in range(count)]
+    return [(f"{held.name}[{k + 1}]", _SlicedColumn(values, held, k, across)) for k in range(count)]
 
 
-def with_fields(name: str, data: Any, **more: Any) -> list[Held]:
+def expand_fields(name: str, data: Any, **more: Any) -> list[NamedArray]:
     """An array, or those of its fields where its rows are records."""
     if data.dtype.names is None:
-        return [Held(name, data, **more)]
+        return [NamedArray(name, data, **more)]
     head = f"{name}." if name else ""
-    return [Held(f"{head}{field}", _MatField(data, field), **more) for field in data.dtype.names]
+    return [
+        NamedArray(f"{head}{field}", _MatField(data, field), **more) for field in data.dtype.names
+    ]
 
 
 @dataclass(frozen=True, eq=False)
@@ -262,30 +295,32 @@ class _MatField:
         return np.asarray(self.data[self.field])
 
 
-def _described(held: Held) -> str:
+def _describe_array(held: NamedArray) -> str:
     return f"{held.name} ({' x '.join(map(str, held.shape)) or '1 value'})"
 
 
-def _listed(names: Sequence[str]) -> str:
+def _join_names(names: Sequence[str]) -> str:
     more = f" and {len(names) - _SHOWN} more" if len(names) > _SHOWN else ""
     return ", ".join(names[:_SHOWN]) + more
 
 
-def read_numpy(path: Path, wanted: Wanted) -> Columns:
+def read_numpy(path: Path, wanted: ColumnRequest) -> Columns:
     """The columns of the arrays of an .npz file, or of the fields of an .npy file.
 
     Arrays of Python objects are refused: reading them would run what the file says.
     """
-    with reading(path, "numpy file"), path.open("rb") as file:
+    with wrap_read_errors(path, "numpy file"), path.open("rb") as file:
         content = np.load(file, allow_pickle=False)
         if isinstance(content, np.ndarray):
             name = "" if content.dtype.names else path.stem
-            arrays = with_fields(name, content)
+            arrays = expand_fields(name, content)
         else:
             with content:
-                check_unpacked(path, sum(member.file_size for member in content.zip.infolist()))
-                arrays = [a for name in content.files for a in with_fields(name, content[name])]
-    return columns_of(path, "numpy file", arrays, wanted)
+                check_unpacked_size(
+                    path, sum(member.file_size for member in content.zip.infolist())
+                )
+                arrays = [a for name in content.files for a in expand_fields(name, content[name])]
+    return build_columns(path, "numpy file", arrays, wanted)
 
 
 # MAT files of MATLAB, which are HDF5 files from 7.3 on, and HDF5 files, as columns.
@@ -301,7 +336,7 @@ _FILTERS = 64  # bytes that other filters add to a chunk, as checksums do
 
 
 @dataclass(frozen=True, eq=False)
-class _Stored:
+class _StoredDataset:
     """A dataset on disk. The file is open only while it is read: it may be written anew."""
 
     path: Path
@@ -318,66 +353,66 @@ class _Stored:
             return np.asarray(file[self.name][key])
 
 
-def read_hdf5(path: Path, wanted: Wanted) -> Columns:
+def read_hdf5(path: Path, wanted: ColumnRequest) -> Columns:
     """The columns of all datasets, by their path: `arm/q[1]`; a `units` attribute is kept."""
-    with reading(path, "HDF5"):
-        stored = _datasets(path, "an HDF5 file")
-        held = [held for one in stored for held in with_fields(one.name, one, unit=one.unit)]
-    return columns_of(path, "HDF5", held, wanted)
+    with wrap_read_errors(path, "HDF5"):
+        stored = _list_datasets(path, "an HDF5 file")
+        held = [held for one in stored for held in expand_fields(one.name, one, unit=one.unit)]
+    return build_columns(path, "HDF5", held, wanted)
 
 
-def read_mat73(path: Path, wanted: Wanted) -> Columns:
+def read_mat73(path: Path, wanted: ColumnRequest) -> Columns:
     """The same of a MAT file of version 7.3: fields of structs as `data.q[1]`."""
-    what, found, opaque = "MAT 7.3 file", list[Held](), list[str]()
-    with reading(path, what):
-        for one in _datasets(path, "a MAT file of version 7.3"):
+    what, arrays, opaque = "MAT 7.3 file", list[NamedArray](), list[str]()
+    with wrap_read_errors(path, what):
+        for one in _list_datasets(path, "a MAT file of version 7.3"):
             if one.name.startswith("#"):
                 continue  # what references point to
             if one.dtype.kind == "O" or one.kind in ("char", "cell"):
                 opaque.append(one.name)
             else:
-                found.append(Held(one.name.replace("/", "."), one, one.unit, True))
+                arrays.append(NamedArray(one.name.replace("/", "."), one, one.unit, True))
     notes = [f"{', '.join(opaque[:8])} left out: cells, objects or text"] if opaque else []
-    return columns_of(path, what, found, wanted, notes)
+    return build_columns(path, what, arrays, wanted, notes)
 
 
-def _datasets(path: Path, what: str) -> list[_Stored]:
+def _list_datasets(path: Path, what: str) -> list[_StoredDataset]:
     try:
         import h5py
     except ModuleNotFoundError:
-        raise missing_package(path, what, "h5py") from None
-    found = list[_Stored]()
+        raise make_package_error(path, what, "h5py") from None
+    datasets = list[_StoredDataset]()
 
     def visit(name: str, item: Any) -> None:
         """Lists the datasets; refuses what lies in other files."""
         if isinstance(item, h5py.Group):
             for key in item:
                 if isinstance(link := item.get(key, getlink=True), h5py.ExternalLink):
-                    raise _elsewhere(path, f"{name}/{key}".strip("/"), link.filename)
+                    raise _describe_external_link(path, f"{name}/{key}".strip("/"), link.filename)
         elif item.external:
-            raise _elsewhere(path, name, item.external[0][0])
+            raise _describe_external_link(path, name, item.external[0][0])
         elif item.is_virtual and (outside := {s.file_name for s in item.virtual_sources()} - {"."}):
-            raise _elsewhere(path, name, min(outside))
+            raise _describe_external_link(path, name, min(outside))
         elif item.shape is not None:
-            unit = next((_text(item.attrs[u]) for u in _UNITS if u in item.attrs), "")
-            kind = _text(item.attrs.get("MATLAB_class", ""))
-            found.append(_Stored(path, name, item.shape, item.dtype, kind, unit))
+            unit = next((_decode_text(item.attrs[u]) for u in _UNITS if u in item.attrs), "")
+            kind = _decode_text(item.attrs.get("MATLAB_class", ""))
+            datasets.append(_StoredDataset(path, name, item.shape, item.dtype, kind, unit))
             _check_chunks(path, item)
 
     with h5py.File(path, "r") as file:
         visit("", file)
         file.visititems(visit)
-    sizes = [math.prod(one.shape) * one.dtype.itemsize for one in found]
-    check_unpacked(path, max(sizes, default=0))  # they are read one by one
-    return found
+    sizes = [math.prod(one.shape) * one.dtype.itemsize for one in datasets]
+    check_unpacked_size(path, max(sizes, default=0))  # they are read one by one
+    return datasets
 
 
 def _check_chunks(path: Path, item: Any) -> None:
     """Refuse chunks that have no room, or are packed by zlib from more than they state."""
-    if item.chunks is None:
+    if item.read_chunks is None:
         return
-    size = math.prod(item.chunks) * item.dtype.itemsize
-    check_unpacked(path, size)
+    size = math.prod(item.read_chunks) * item.dtype.itemsize
+    check_unpacked_size(path, size)
     for at in range(item.id.get_num_chunks()) if item.compression == "gzip" else ():
         chunk = item.id.get_chunk_info(at)
         if chunk.filter_mask or chunk.size * _DEFLATE <= UNPACKED:
@@ -391,32 +426,32 @@ def _check_chunks(path: Path, item: Any) -> None:
                 raise ValueError("a chunk unpacks to more than it states")
 
 
-def _elsewhere(path: Path, name: str, place: str) -> DataError:
+def _describe_external_link(path: Path, name: str, place: str) -> DataError:
     return DataError(
         f"{path}: {name} lies in another file, {place}; expected all data in the log "
         "itself, for what a file names may be anybody's; copy them into one (h5repack, h5copy)"
     )
 
 
-def _text(value: Any) -> str:
+def _decode_text(value: Any) -> str:
     return value.decode(errors="replace") if isinstance(value, bytes) else str(value)
 
 
-def read_mat(path: Path, wanted: Wanted) -> Columns:
+def read_mat(path: Path, wanted: ColumnRequest) -> Columns:
     """The columns of a MAT file, versions 4 to 7, and 7.3 where h5py is installed."""
-    with reading(path, "MAT file"), path.open("rb") as file:
+    with wrap_read_errors(path, "MAT file"), path.open("rb") as file:
         header = file.read(520)
     if header.startswith((b"MATLAB 7.3", _HDF5)) or _HDF5 in header:
         return read_mat73(path, wanted)
     import scipy.io  # only here: other logs need not wait for it
 
-    with reading(path, "MAT file"):
+    with wrap_read_errors(path, "MAT file"):
         _check_size(path)
         content = scipy.io.loadmat(path, simplify_cells=True)
-        found, other = [], []
-        for name, value in _values(content):
+        arrays, other = [], []
+        for name, value in _list_values(content):
             if isinstance(value, np.ndarray) and value.dtype.kind in "iufb":
-                found.append(Held(name, value))
+                arrays.append(NamedArray(name, value))
             elif np.asarray(value).dtype.kind in "OV":
                 other.append(name)
     notes = []
@@ -425,9 +460,9 @@ def read_mat(path: Path, wanted: Wanted) -> Columns:
             f"{', '.join(other[:8])} left out: an object that only MATLAB reads; of a timeseries, "
             "save its Time and Data"
         )
-    columns = columns_of(path, "MAT file", found, wanted, notes)
-    single = ((n, v) for n, v in _values(content) if isinstance(v, int | float | np.number))
-    return dataclasses.replace(columns, rate=columns.rate or _stated_rate(single))
+    columns = build_columns(path, "MAT file", arrays, wanted, notes)
+    single = ((n, v) for n, v in _list_values(content) if isinstance(v, int | float | np.number))
+    return dataclasses.replace(columns, rate=columns.rate or _find_stated_rate(single))
 
 
 def _check_size(path: Path) -> None:
@@ -448,21 +483,21 @@ def _check_size(path: Path) -> None:
             while data and not unpacking.eof:
                 size += len(unpacking.decompress(data, _PIECE))
                 data = unpacking.unconsumed_tail
-                check_unpacked(path, size)
+                check_unpacked_size(path, size)
 
 
-def _values(content: Any, name: str = "", depth: int = 0) -> Iterator[tuple[str, Any]]:
+def _list_values(content: Any, name: str = "", depth: int = 0) -> Iterator[tuple[str, Any]]:
     """Every value and its name: fields after a point, entries of lists counted from 1."""
     if depth > _DEEPEST:
         return
     if isinstance(content, dict):
         for key, value in content.items():
             if isinstance(key, str) and not key.startswith("__"):
-                yield from _values(value, f"{name}.{key}" if name else key, depth + 1)
+                yield from _list_values(value, f"{name}.{key}" if name else key, depth + 1)
     elif isinstance(content, list) or (
         isinstance(content, np.ndarray) and content.dtype.kind == "O" and content.ndim == 1
     ):
         for i, value in enumerate(content):
-            yield from _values(value, f"{name}[{i + 1}]", depth + 1)
+            yield from _list_values(value, f"{name}[{i + 1}]", depth + 1)
     else:
         yield name, content

@@ -16,17 +16,17 @@ import numpy as np
 import pyarrow as pa
 
 from modeler.core.errors import DataError
-from modeler.core.files import check_unpacked
+from modeler.core.files import check_unpacked_size
 from modeler.logs.columns import (
     Column,
+    ColumnRequest,
     Columns,
     ColumnValues,
     Stream,
-    Wanted,
-    missing_package,
-    reading,
+    make_package_error,
+    wrap_read_errors,
 )
-from modeler.logs.mcap import mcap_messages, mcap_records, unpacked
+from modeler.logs.mcap import read_mcap_messages, read_mcap_records, unpack_bytes
 
 LONGEST = 64
 """Entries of an array that become columns; longer ones are images and the like."""
@@ -44,7 +44,7 @@ _HEADER = 4096  # bytes of the longest header of a record
 
 
 @dataclass(eq=False)
-class Recorded:
+class TopicMessages:
     """The messages of one topic that name the same joints.
 
     Attributes:
@@ -64,11 +64,11 @@ class Recorded:
     rows: list[list[float]] = field(default_factory=list)
 
     @property
-    def stamped(self) -> bool:
+    def has_stamps(self) -> bool:
         """True if the headers tell the time: all of them do, and it passes."""
         return min(self.headers) > 0 and (len(self.headers) < 2 or len({*self.headers}) > 1)
 
-    def stamps(self, by_header: bool) -> np.ndarray:
+    def get_stamps(self, by_header: bool) -> np.ndarray:
         """(n,) ns, by the headers or as they were received."""
         return np.array(self.headers if by_header else self.received, dtype=np.int64)
 
@@ -77,7 +77,7 @@ class Recording:
     """All that a bag holds, message after message."""
 
     def __init__(self) -> None:
-        self._parts: dict[tuple[str, tuple[str, ...]], Recorded] = {}
+        self._parts: dict[tuple[str, tuple[str, ...]], TopicMessages] = {}
         self.unreadable: set[str] = set()
 
     @property
@@ -85,30 +85,32 @@ class Recording:
         """True if no message had numbers."""
         return not self._parts
 
-    def add(self, topic: str, kind: str, received: int, message: Any) -> bool:
+    def add_message(self, topic: str, kind: str, received: int, message: Any) -> bool:
         """One message; False if it has no numbers to keep."""
-        fields, stamp = _fields(message), _stamp(message)
-        if isinstance(points := fields.get("points"), list) and _names(fields):
+        fields, stamp = _get_fields(message), _read_stamp(message)
+        if isinstance(points := fields.get("points"), list) and _find_names(fields):
             for point in points:  # of a planned trajectory, each at its own time
-                since = _nanoseconds(_fields(point).get("time_from_start"))
+                since = _read_nanoseconds(_get_fields(point).get("time_from_start"))
                 at = stamp + since if stamp else 0
-                self._add(topic, kind, received + since, at, point, "points", _names(fields))
+                self._add_values(
+                    topic, kind, received + since, at, point, "points", _find_names(fields)
+                )
             return True
-        return self._add(topic, kind, received, stamp, message, "", _names(fields))
+        return self._add_values(topic, kind, received, stamp, message, "", _find_names(fields))
 
-    def _add(
+    def _add_values(
         self, topic: str, kind: str, received: int, stamp: int, message: Any, head: str,
         names: Sequence[str],
     ) -> bool:  # fmt: skip
         labels: list[str] = []
         values: list[float] = []
-        _flatten(message, head, names, labels, values)
+        _flatten_message(message, head, names, labels, values)
         if not labels:
             return False
         key = (topic, tuple(sorted(labels)))
         part = self._parts.get(key)
         if part is None:
-            part = self._parts[key] = Recorded(topic, kind, tuple(labels))
+            part = self._parts[key] = TopicMessages(topic, kind, tuple(labels))
         if part.labels != tuple(labels):  # the same joints in another order
             value_of = dict(zip(labels, values, strict=True))
             values = [value_of[label] for label in part.labels]
@@ -117,45 +119,47 @@ class Recording:
         part.rows.append(values)
         return True
 
-    def columns(self, path: object, wanted: Wanted) -> Columns:
+    def build_columns(self, path: object, wanted: ColumnRequest) -> Columns:
         """All topics on the clock of one.
 
         Raises:
             DataError: none can be the clock, or several can.
         """
         parts = sorted(self._parts.values(), key=lambda part: -len(part.rows))
-        clock = _clock(path, parts, wanted)
-        stamps = clock.stamps(clock.stamped)
+        clock = _choose_clock(path, parts, wanted)
+        stamps = clock.get_stamps(clock.has_stamps)
         order = np.argsort(clock.received, kind="stable")
         start = int(stamps[order[0]])
-        found: dict[str, Column] = {"time": ColumnValues((stamps[order] - start) / 1e9)}
+        columns: dict[str, Column] = {"time": ColumnValues((stamps[order] - start) / 1e9)}
         notes = [
             f"rows are the messages of {clock.topic}, time from the first, by "
-            + ("their headers" if clock.stamped else "when they were received")
+            + ("their headers" if clock.has_stamps else "when they were received")
         ]
         for part in (clock, *(part for part in parts if part is not clock)):
             table = np.array(part.rows, dtype=float)
             if part is clock:
                 table = table[order]
             else:
-                alike = part.stamped and clock.stamped  # else by the clock of the recorder
-                table, oldest = _held(part, table, clock.stamps(alike)[order], alike)
+                alike = part.has_stamps and clock.has_stamps  # else by the clock of the recorder
+                table, oldest = _join_to_clock(part, table, clock.get_stamps(alike)[order], alike)
                 notes.append(
                     f"{part.topic} joined to that clock: the last message before each row, at "
                     f"most {oldest * 1e-9:.3g} s old"
                 )
             for k, label in enumerate(part.labels):
                 name = f"{part.topic.strip('/')}.{label}"
-                found.setdefault(name, ColumnValues(table[:, k]))
+                columns.setdefault(name, ColumnValues(table[:, k]))
         if self.unreadable:
             notes.append(
                 f"{', '.join(sorted(self.unreadable))} left out: messages of unknown types"
             )
         streams = [Stream(p.topic, p.kind, len(p.rows), p is clock) for p in parts]
-        return Columns(tuple(found.items()), len(stamps), {}, tuple(notes), tuple(streams))
+        return Columns(tuple(columns.items()), len(stamps), {}, tuple(notes), tuple(streams))
 
 
-def _clock(path: object, parts: Sequence[Recorded], wanted: Wanted) -> Recorded:
+def _choose_clock(
+    path: object, parts: Sequence[TopicMessages], wanted: ColumnRequest
+) -> TopicMessages:
     """The topic that is asked for, else the only JointState, else the only one."""
     parts = [part for part in parts if len(part.rows) >= _LEAST] or list(parts)
     topics = [part.topic for part in parts]
@@ -180,11 +184,11 @@ def _clock(path: object, parts: Sequence[Recorded], wanted: Wanted) -> Recorded:
     return states[0]
 
 
-def _held(
-    part: Recorded, table: np.ndarray, clock: np.ndarray, by_header: bool
+def _join_to_clock(
+    part: TopicMessages, table: np.ndarray, clock: np.ndarray, by_header: bool
 ) -> tuple[np.ndarray, float]:
     """The last message of a topic at each stamp of the clock, NaN before the first; its age, ns."""
-    stamps = part.stamps(by_header)
+    stamps = part.get_stamps(by_header)
     order = np.argsort(stamps, kind="stable")
     stamps = stamps[order]
     last = np.searchsorted(stamps, clock, side="right") - 1
@@ -195,7 +199,7 @@ def _held(
     return joined, float(age.max()) if known.any() else 0.0
 
 
-def _fields(value: Any) -> Mapping[str, Any]:
+def _get_fields(value: Any) -> Mapping[str, Any]:
     """Of a message of ROS, or of an object of JSON; none of anything else."""
     if isinstance(value, Mapping):
         return value
@@ -203,22 +207,22 @@ def _fields(value: Any) -> Mapping[str, Any]:
     return {n: getattr(value, n) for n in names if not (n.startswith("__") or n.isupper())}
 
 
-def _stamp(message: Any) -> int:
+def _read_stamp(message: Any) -> int:
     """Of the header, or of the message itself, ns; 0 without one."""
-    fields = _fields(message)
-    own = _fields(fields.get("header", message))
-    return _nanoseconds(own.get("stamp", own.get("timestamp")))
+    fields = _get_fields(message)
+    header = _get_fields(fields.get("header", message))
+    return _read_nanoseconds(header.get("stamp", header.get("timestamp")))
 
 
-def _nanoseconds(time: Any) -> int:
+def _read_nanoseconds(time: Any) -> int:
     """Of a time of ROS; 0 without one."""
-    fields = _fields(time)
-    of = [next((fields[n] for n in own if n in fields), 0)
-          for own in (("sec", "secs"), ("nanosec", "nsec", "nsecs"))]  # fmt: skip
+    fields = _get_fields(time)
+    of = [next((fields[n] for n in field_names if n in fields), 0)
+          for field_names in (("sec", "secs"), ("nanosec", "nsec", "nsecs"))]  # fmt: skip
     return int(of[0]) * 1_000_000_000 + int(of[1])
 
 
-def _names(fields: Mapping[str, Any]) -> tuple[str, ...]:
+def _find_names(fields: Mapping[str, Any]) -> tuple[str, ...]:
     for field_name in _NAMES:
         names = fields.get(field_name)
         if isinstance(names, list | tuple) and names and all(isinstance(n, str) for n in names):
@@ -226,7 +230,7 @@ def _names(fields: Mapping[str, Any]) -> tuple[str, ...]:
     return ()
 
 
-def _flatten(
+def _flatten_message(
     value: Any, label: str, names: Sequence[str], labels: list[str], values: list[float]
 ) -> None:
     """Every number in a message: fields after a point, entries of arrays in brackets.
@@ -242,30 +246,30 @@ def _flatten(
     if isinstance(value, list | tuple | np.ndarray):
         if len(value) > LONGEST:
             return
-        own = names if len(names) == len(value) else [str(k + 1) for k in range(len(value))]
-        for name, entry in zip(own, value, strict=True):
-            fields = _fields(entry)
-            said = fields.get("name", name if own is names else None)
+        entry_names = names if len(names) == len(value) else [str(k + 1) for k in range(len(value))]
+        for name, entry in zip(entry_names, value, strict=True):
+            fields = _get_fields(entry)
+            said = fields.get("name", name if entry_names is names else None)
             if not fields or not isinstance(said, str):
                 entry = float("nan") if entry is None else entry
-                _flatten(entry, f"{label}[{name}]", names, labels, values)
+                _flatten_message(entry, f"{label}[{name}]", names, labels, values)
                 continue
             first = len(labels)
-            _flatten(entry, label, _names(fields), labels, values)
+            _flatten_message(entry, label, _find_names(fields), labels, values)
             labels[first:] = [f"{one}[{said}]" for one in labels[first:]]
         return
-    fields = _fields(value)
+    fields = _get_fields(value)
     if "interface_names" in fields and "values" in fields:  # of control_msgs
         fields = dict(zip(fields["interface_names"], fields["values"], strict=True))
     for name, content in fields.items():
         if not (name == "header" and not label):
-            _flatten(content, f"{label}.{name}" if label else name, names, labels, values)
+            _flatten_message(content, f"{label}.{name}" if label else name, names, labels, values)
 
 
 # ROS bags as columns: MCAP files, folders and .db3 files of ROS 2, .bag files of ROS 1.
 
 
-def read_bag(path: Path, wanted: Wanted) -> Columns:
+def read_bag(path: Path, wanted: ColumnRequest) -> Columns:
     """The columns of the messages of a bag; of each topic that has numbers."""
     kind = path.suffix.lower()
     what = "ROS bag" if kind != ".mcap" else "MCAP"
@@ -274,22 +278,22 @@ def read_bag(path: Path, wanted: Wanted) -> Columns:
         from rosbags.highlevel import AnyReader
         from rosbags.typesys import Stores, get_typestore
     except ModuleNotFoundError:
-        raise missing_package(path, f"a {what}", "rosbags") from None
+        raise make_package_error(path, f"a {what}", "rosbags") from None
     recording, encodings = Recording(), set[str]()
-    with reading(path, what, f"record it again, or repair it (`{repair}`)"):
+    with wrap_read_errors(path, what, f"record it again, or repair it (`{repair}`)"):
         if path.is_file() and kind == ".mcap":
-            for topic, name, received, message in mcap_messages(path):
+            for topic, name, received, message in read_mcap_messages(path):
                 if message is None:
                     recording.unreadable.add(topic)
                     encodings.add(name)
                 else:
-                    recording.add(topic, name, received, message)
+                    recording.add_message(topic, name, received, message)
             if recording.unreadable and recording.is_empty:
                 raise DataError(
                     f"{path}: its messages are {' or '.join(sorted(encodings))}; expected ROS 1, "
                     "ROS 2 (cdr) or json; write the joint states as CSV, or record them as one"
                 )
-            return recording.columns(path, wanted)
+            return recording.build_columns(path, wanted)
         for file in path.rglob("*") if path.is_dir() else (path,):
             _check_packed(path, file)
         with AnyReader([path], default_typestore=get_typestore(Stores.LATEST)) as bag:
@@ -300,9 +304,11 @@ def read_bag(path: Path, wanted: Wanted) -> Columns:
                 if connection.id in empty:
                     continue
                 message = bag.deserialize(raw, connection.msgtype)
-                if not recording.add(connection.topic, connection.msgtype, received, message):
+                if not recording.add_message(
+                    connection.topic, connection.msgtype, received, message
+                ):
                     empty.add(connection.id)
-    return recording.columns(path, wanted)
+    return recording.build_columns(path, wanted)
 
 
 def _check_packed(path: Path, file: Path) -> None:
@@ -313,13 +319,13 @@ def _check_packed(path: Path, file: Path) -> None:
     """
     ending, size = file.suffix.lower(), 0
     if ending == ".mcap":
-        for _ in mcap_records(file):
+        for _ in read_mcap_records(file):
             pass
     elif ending == ".zstd":
         with pa.input_stream(str(file), compression="zstd") as packed:
             while piece := packed.read(_PIECE):
                 size += len(piece)
-                check_unpacked(path, size)
+                check_unpacked_size(path, size)
     elif ending == ".bag":
         with file.open("rb") as raw:
             raw.seek(13)
@@ -331,7 +337,7 @@ def _check_packed(path: Path, file: Path) -> None:
                     continue
                 at = header.find(b"size=") + 5
                 size += (stated := int.from_bytes(header[at : at + 4], "little"))
-                check_unpacked(path, size)
+                check_unpacked_size(path, size)
                 packing = next((p for p in ("lz4", "bz2") if f"compression={p}".encode() in header),
                                "")  # fmt: skip
-                unpacked(raw.read(length), packing, stated)
+                unpack_bytes(raw.read(length), packing, stated)

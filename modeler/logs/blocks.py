@@ -17,19 +17,31 @@ import pyarrow.csv
 import pyarrow.parquet
 
 from modeler.core.errors import DataError
-from modeler.core.files import check_unpacked
-from modeler.logs.clock_times import counted, is_beyond, is_moment, origins_of, stated_units
-from modeler.logs.columns import Columns, ColumnValues, NotNumbers, Wanted, unreadable
+from modeler.core.files import check_unpacked_size
+from modeler.logs.clock_times import (
+    convert_times,
+    find_origins,
+    find_stated_units,
+    is_beyond,
+    is_moment,
+)
+from modeler.logs.columns import (
+    ColumnRequest,
+    Columns,
+    ColumnValues,
+    NotNumericError,
+    make_read_error,
+)
 from modeler.logs.datasets import (
     Dataset,
-    dataset_of,
-    flattened,
-    needed_columns,
-    one_clock,
-    with_joint_names,
+    find_dataset,
+    flatten_table,
+    join_episodes,
+    rename_by_joint_names,
+    select_needed_columns,
 )
-from modeler.logs.dialect import TEXTS, bare, dialect_of
-from modeler.logs.stamps import stamp_pairs, with_joined_stamps
+from modeler.logs.dialect import TEXTS, detect_dialect, strip_quotes
+from modeler.logs.stamps import find_stamp_pairs, join_stamps
 
 pc: Any = lazy_loader.load("pyarrow.compute", suppress_warning=True)  # it takes long
 
@@ -44,7 +56,7 @@ _BYTES = 1 << 20  # of a file at a time
 
 
 @dataclass(frozen=True, eq=False)
-class _Arrow:
+class _ArrowColumn:
     """A column of a table of Arrow.
 
     Attributes:
@@ -64,15 +76,15 @@ class _Arrow:
         return self.origin is not None and (is_moment(kind) or pa.types.is_string(kind))
 
     @property
-    def numeric(self) -> bool:
+    def is_numeric(self) -> bool:
         t = pa.types
         numbers = (t.is_integer, t.is_floating, t.is_decimal, t.is_null)
         return self.is_time or any(is_one(self.column.type) for is_one in numbers)
 
-    def numbers(self) -> np.ndarray:
+    def read_numbers(self) -> np.ndarray:
         if self.is_time or (self.origin is not None and pa.types.is_integer(self.column.type)):
-            return counted(self.column, self.origin or 0, self.before)
-        if not self.numeric:
+            return convert_times(self.column, self.origin or 0, self.before)
+        if not self.is_numeric:
             kind = self.column.type
             text = pa.types.is_string(kind) or pa.types.is_large_string(kind)
             values = self.column.to_pylist() if text else []
@@ -81,12 +93,14 @@ class _Arrow:
                     float(value if value is not None else "nan")
                 except ValueError:
                     comma = re.fullmatch(r"\s*[+-]?\d*,\d+\s*", value or "")
-                    raise NotNumbers(
+                    raise NotNumericError(
                         f', row {row}: got "{value}"; expected a number'
                         f"{' with a decimal point' if comma else ''}; correct it, or leave the "
                         "entry empty if the measurement is missing"
                     ) from None
-            raise NotNumbers(f" holds {kind}; expected numbers; write the column as floating point")
+            raise NotNumericError(
+                f" holds {kind}; expected numbers; write the column as floating point"
+            )
         column = self.column
         if column.type != pa.float64():
             column = pc.cast(column, pa.float64(), safe=False)
@@ -94,48 +108,53 @@ class _Arrow:
         if column.null_count or not column.num_chunks:
             return np.array(column.to_numpy(), dtype=float) - first
         # Arrow's own `to_numpy` loads pandas, where it is installed.
-        return np.concatenate([np.from_dlpack(chunk) for chunk in column.chunks]) - first
+        return np.concatenate([np.from_dlpack(chunk) for chunk in column.read_chunks]) - first
 
 
-def read_csv(path: Path, wanted: Wanted) -> Columns:
+def read_csv(path: Path, wanted: ColumnRequest) -> Columns:
     """The columns of a text file."""
     del wanted  # one table, no parts
-    with arrow_errors(path, "CSV"):
-        text = _Text(path)
-        with text.dialect.open(path) as file:
+    with wrap_arrow_errors(path, "CSV"):
+        text = _TextFile(path)
+        with text.dialect.open_text(path) as file:
             file.seek(text.dialect.start)
-            return text.columns(file.read())
+            return text.parse_columns(file.read())
 
 
-def read_parquet(path: Path, wanted: Wanted) -> Columns:
+def read_parquet(path: Path, wanted: ColumnRequest) -> Columns:
     """The columns of a Parquet file."""
     del wanted
-    with arrow_errors(path, "PARQUET"):
-        table = with_texts(path, open_parquet(path).read())  # read_table refuses equal names
-        return _parquet_columns(table, dataset_of(path), origins_of(table))
+    with wrap_arrow_errors(path, "PARQUET"):
+        table = decode_texts(path, open_parquet(path).read())  # read_table refuses equal names
+        return _build_parquet_columns(table, find_dataset(path), find_origins(table))
 
 
-def read_dataset(folder: Path, wanted: Wanted) -> Columns:
+def read_dataset(folder: Path, wanted: ColumnRequest) -> Columns:
     """The columns of all Parquet files of a LeRobot dataset, one after the other."""
     del wanted
     places = sorted((folder / "data").rglob("*.parquet"))
     if not places:
         raise DataError(f"{folder}: no Parquet files in data/; copy the dataset again")
-    with arrow_errors(folder, "PARQUET"):
-        table = pa.concat_tables([with_texts(p, open_parquet(p).read()) for p in places])
-        return _parquet_columns(table, dataset_of(folder), origins_of(table))
+    with wrap_arrow_errors(folder, "PARQUET"):
+        table = pa.concat_tables([decode_texts(p, open_parquet(p).read()) for p in places])
+        return _build_parquet_columns(table, find_dataset(folder), find_origins(table))
 
 
-def _parquet_columns(
+def _build_parquet_columns(
     table: pa.Table, dataset: Dataset | None, origins: Mapping[str, int], before: int = 0,
     names: Sequence[str] = (),
 ) -> Columns:  # fmt: skip
     """With entries of lists as columns, and the clock of a dataset."""
-    table, told = one_clock(table, dataset, origins.get("index", 0))
+    table, clock_notes = join_episodes(table, dataset, origins.get("index", 0))
     counted_from = {n: first for n, first in origins.items() if n != "index" or is_beyond(first)}
-    found = arrow_columns(flattened(table, dataset), before, counted_from)
+    columns = build_arrow_columns(flatten_table(table, dataset), before, counted_from)
     rate = None if dataset is None else dataset.fps
-    return only(dataclasses.replace(found, told=(*told, *found.told), rate=rate), names)
+    return select_columns(
+        dataclasses.replace(
+            columns, reading_notes=(*clock_notes, *columns.reading_notes), rate=rate
+        ),
+        names,
+    )
 
 
 def open_parquet(path: Path, **how: Any) -> pa.parquet.ParquetFile:
@@ -148,12 +167,12 @@ def open_parquet(path: Path, **how: Any) -> pa.parquet.ParquetFile:
     meta, size = file.metadata, 8 * file.metadata.num_rows * file.metadata.num_columns
     groups = [meta.row_group(place) for place in range(meta.num_row_groups)]
     values = sum(g.column(k).num_values for g in groups for k in range(g.num_columns))
-    check_unpacked(path, max(size, 8 * values, sum(g.total_byte_size for g in groups)))
+    check_unpacked_size(path, max(size, 8 * values, sum(g.total_byte_size for g in groups)))
     texts = [f.name for f in file.schema_arrow if pa.types.is_string(f.type)]
     return pa.parquet.ParquetFile(path, read_dictionary=texts, **how) if texts else file
 
 
-def with_texts(path: Path, table: pa.Table) -> pa.Table:
+def decode_texts(path: Path, table: pa.Table) -> pa.Table:
     """The table with texts as such, which are read as numbers of a list of them: one may be long.
 
     Raises:
@@ -163,22 +182,22 @@ def with_texts(path: Path, table: pa.Table) -> pa.Table:
         if not pa.types.is_dictionary(field.type) or not pa.types.is_string(field.type.value_type):
             continue
         column = table.column(at)
-        for chunk in column.chunks:
+        for chunk in column.read_chunks:
             longest = pc.max(pc.binary_length(chunk.dictionary)).as_py() or 0
-            check_unpacked(path, longest * len(chunk))
+            check_unpacked_size(path, longest * len(chunk))
         table = table.set_column(at, field.name, pc.cast(column, pa.string()))
     return table
 
 
 @contextmanager
-def arrow_errors(path: Path, what: str) -> Iterator[None]:
+def wrap_arrow_errors(path: Path, what: str) -> Iterator[None]:
     """Errors of Arrow as one line."""
     try:
         yield
     except (pa.ArrowException, OSError) as error:
         match = _UNEVEN.search(str(error))
         if match is None:
-            raise unreadable(path, what, error, "write the file again") from None
+            raise make_read_error(path, what, error, "write the file again") from None
         quote = ', where a quote (") is open' if match[4].count('"') % 2 else ""
         raise DataError(
             f"{path}: row {int(match[1]) - 1}: got {match[3]} entries for {match[2]} "
@@ -186,15 +205,15 @@ def arrow_errors(path: Path, what: str) -> Iterator[None]:
         ) from None
 
 
-class _Text:
+class _TextFile:
     """The rows of a text file, some lines at a time."""
 
     def __init__(self, path: Path) -> None:
         self.path = path
-        self.dialect = dialect_of(path)
+        self.dialect = detect_dialect(path)
         self.names = self.dialect.head.names
 
-    def columns(self, text: bytes, wanted: Sequence[str] = (), before: int = 0) -> Columns:
+    def parse_columns(self, text: bytes, wanted: Sequence[str] = (), before: int = 0) -> Columns:
         """Those of whole lines, `before` rows after the first; an error of a row names its place.
 
         Raises:
@@ -211,16 +230,21 @@ class _Text:
         if not text.strip():
             table = pa.table({name: pa.nulls(0) for name in dict.fromkeys(names)})
         else:
-            table = self._parsed(dialect.table(text), before, parse, convert)
+            table = self._parse_rows(dialect.normalise_rows(text), before, parse, convert)
         kinds = dict(zip(table.column_names, table.schema.types, strict=True))
         texts = {name for name, kind in kinds.items() if pa.types.is_string(kind)}
         wholes = {name: first for name, first in dialect.wholes.items() if name not in texts}
-        found = arrow_columns(table, before, {**dialect.clocks, **wholes})
-        units, told = {**found.units, **head.units}, (*dialect.told, *found.told)
-        found = dataclasses.replace(found, units=units, told=told, rate=head.rate)
-        return only(found, wanted)
+        columns = build_arrow_columns(table, before, {**dialect.clocks, **wholes})
+        units, reading_notes = (
+            {**columns.units, **head.units},
+            (*dialect.reading_notes, *columns.reading_notes),
+        )
+        columns = dataclasses.replace(
+            columns, units=units, reading_notes=reading_notes, rate=head.rate
+        )
+        return select_columns(columns, wanted)
 
-    def _parsed(
+    def _parse_rows(
         self, text: bytes, before: int, parse: pa.csv.ParseOptions, convert: pa.csv.ConvertOptions
     ) -> pa.Table:
         # In memory of Arrow: what is Python's would be let go by a thread of Arrow, which ends the
@@ -235,12 +259,14 @@ class _Text:
                 if threads:
                     continue
                 # As in a file whose first line is the header, that is row 1.
-                told = re.sub(r"Row #(\d+)", lambda m: f"Row #{int(m[1]) + before + 1}", str(error))
-                raise pa.ArrowInvalid(told) from None
+                message = re.sub(
+                    r"Row #(\d+)", lambda m: f"Row #{int(m[1]) + before + 1}", str(error)
+                )
+                raise pa.ArrowInvalid(message) from None
         raise AssertionError
 
 
-def arrow_columns(
+def build_arrow_columns(
     table: pa.Table, before: int = 0, origins: Mapping[str, int] = MappingProxyType({})
 ) -> Columns:
     """The columns of a table; `before` rows of its file stand before it.
@@ -250,23 +276,23 @@ def arrow_columns(
         before: rows of the file that stand before them.
         origins: what columns of times are counted from.
     """
-    table, by_names = with_joint_names(table)
+    table, by_names = rename_by_joint_names(table)
     named = [
-        (bare(name), _Arrow(table.column(i), before, origins.get(name)))
+        (strip_quotes(name), _ArrowColumn(table.column(i), before, origins.get(name)))
         for i, name in enumerate(table.column_names)
     ]
-    columns, units, told = with_joined_stamps(named)
-    units = {**stated_units(table, origins), **units}
-    return Columns(columns, table.num_rows, units, told=(*by_names, *told))
+    columns, units, stamp_notes = join_stamps(named)
+    units = {**find_stated_units(table, origins), **units}
+    return Columns(columns, table.num_rows, units, reading_notes=(*by_names, *stamp_notes))
 
 
-def only(found: Columns, names: Sequence[str]) -> Columns:
+def select_columns(columns: Columns, names: Sequence[str]) -> Columns:
     """The columns of these names, where only some are wanted."""
-    some = tuple(own for own in found.columns if own[0] in names)
-    return dataclasses.replace(found, columns=some) if names else found
+    some = tuple(entry for entry in columns.columns if entry[0] in names)
+    return dataclasses.replace(columns, columns=some) if names else columns
 
 
-def state_of(path: Path) -> State:
+def get_file_state(path: Path) -> State:
     """Of a file that is there."""
     state = path.stat()
     return state.st_size, state.st_mtime_ns
@@ -279,7 +305,7 @@ def check_unchanged(path: Path, before: State) -> None:
         DataError: it is another than before.
     """
     try:
-        now = state_of(path)
+        now = get_file_state(path)
     except OSError as error:
         raise DataError(
             f"{path}: went away while it was read ({error.strerror}); expected it to stay; run "
@@ -296,17 +322,17 @@ class CsvBlocks:
     """The lines of a text file; a block is parsed by itself, and its columns are what it holds."""
 
     def __init__(self, path: Path) -> None:
-        self._path, self._state = path, state_of(path)
-        with arrow_errors(path, "CSV"):
-            self._text = _Text(path)
+        self._path, self._state = path, get_file_state(path)
+        with wrap_arrow_errors(path, "CSV"):
+            self._text = _TextFile(path)
             self._start, self.lists = self._text.dialect.start, self._text.dialect.lists
-            with self._open() as file:
+            with self._open_rows() as file:
                 lines = [line for _, line in zip(range(_LINES), file, strict=False) if line.strip()]
                 self._size = file.seek(0, os.SEEK_END)
         self._line = max(1.0, sum(map(len, lines)) / max(1, len(lines)))  # bytes
 
-    def _open(self) -> BinaryIO:
-        file = self._text.dialect.open(self._path)
+    def _open_rows(self) -> BinaryIO:
+        file = self._text.dialect.open_text(self._path)
         file.seek(self._start)
         return file
 
@@ -315,7 +341,7 @@ class CsvBlocks:
         """About as many as the file has."""
         return round((self._size - self._start) / self._line)
 
-    def blocks(self, size: int, names: Sequence[str] = ()) -> Iterator[Columns]:
+    def read_blocks(self, size: int, names: Sequence[str] = ()) -> Iterator[Columns]:
         """All rows in their order, about `size` at a time.
 
         Args:
@@ -326,7 +352,7 @@ class CsvBlocks:
             DataError: the file is damaged, or was written to while it was read.
         """
         read, rest = 0, b""
-        with arrow_errors(self._path, "CSV"), self._open() as file:
+        with wrap_arrow_errors(self._path, "CSV"), self._open_rows() as file:
             while True:
                 text = file.read(max(1, int(size * self._line)))
                 end = text.rfind(b"\n") + 1
@@ -335,28 +361,28 @@ class CsvBlocks:
                     continue
                 whole, rest = (rest + text[:end], text[end:]) if text else (rest, b"")
                 if whole.strip():
-                    found = self._columns(whole, names, read)
-                    yield found
-                    read += found.rows
+                    columns = self._parse_block(whole, names, read)
+                    yield columns
+                    read += columns.rows
                 if not text:
                     break
         check_unchanged(self._path, self._state)
 
-    def window(self, share: float, size: int, names: Sequence[str] = ()) -> Columns:
+    def read_window(self, share: float, size: int, names: Sequence[str] = ()) -> Columns:
         """Up to `size` rows from about a share of the file on."""
         room = int(size * self._line)
         start = max(self._start, min(self._start + int(share * self._size), self._size - room))
-        with arrow_errors(self._path, "CSV"), self._open() as file:
+        with wrap_arrow_errors(self._path, "CSV"), self._open_rows() as file:
             if start > self._start:
                 file.seek(start - 1)
                 file.readline()  # the line that begins before
             text = file.read(room)
             text += file.readline()
-            return self._text.columns(text, names)
+            return self._text.parse_columns(text, names)
 
-    def _columns(self, text: bytes, names: Sequence[str], before: int) -> Columns:
+    def _parse_block(self, text: bytes, names: Sequence[str], before: int) -> Columns:
         try:
-            return self._text.columns(text, names, before)
+            return self._text.parse_columns(text, names, before)
         except pa.ArrowInvalid:
             check_unchanged(self._path, self._state)
             raise
@@ -370,53 +396,55 @@ class ParquetBlocks:
     """
 
     def __init__(self, path: Path) -> None:
-        self._path, self._state = path, state_of(path)
-        with arrow_errors(path, "PARQUET"):
-            meta = self._open().metadata
+        self._path, self._state = path, get_file_state(path)
+        with wrap_arrow_errors(path, "PARQUET"):
+            meta = self._open_file().metadata
             rows = [meta.row_group(place).num_rows for place in range(meta.num_row_groups)]
-            self._dataset, schema = dataset_of(path), self._open().schema_arrow
+            self._dataset, schema = find_dataset(path), self._open_file().schema_arrow
             self._stored = schema.names
             timed = [f.name for f in schema if is_moment(f.type) or pa.types.is_integer(f.type)]
-            timed += [seconds for seconds, *_ in stamp_pairs(schema.names).values()]
+            timed += [seconds for seconds, *_ in find_stamp_pairs(schema.names).values()]
         self._starts = np.concatenate([[0], np.cumsum(rows, dtype=int)])  # of the row groups
         self.rows = int(self._starts[-1])
         self._origins: Mapping[str, int] = {}
         if timed and self.rows:
-            self._origins = origins_of(next(self._read(0, 1, [*dict.fromkeys(timed)])))
+            self._origins = find_origins(next(self._read_tables(0, 1, [*dict.fromkeys(timed)])))
 
-    def blocks(self, size: int, names: Sequence[str] = ()) -> Iterator[Columns]:
+    def read_blocks(self, size: int, names: Sequence[str] = ()) -> Iterator[Columns]:
         """All rows in their order, `size` at a time."""
         read = 0
-        for table in self._read(0, size, names):
-            yield _parquet_columns(table, self._dataset, self._origins, read, names)
+        for table in self._read_tables(0, size, names):
+            yield _build_parquet_columns(table, self._dataset, self._origins, read, names)
             read += table.num_rows
         check_unchanged(self._path, self._state)
 
-    def window(self, share: float, size: int, names: Sequence[str] = ()) -> Columns:
+    def read_window(self, share: float, size: int, names: Sequence[str] = ()) -> Columns:
         """Up to `size` rows from about a share of the file on."""
         start = max(0, min(int(share * self.rows), self.rows - size))
         at = int(np.argmax(self._starts[1:] > start))
         parts, rows, skip = list[pa.Table](), 0, start - int(self._starts[at])
-        for table in self._read(at, size, names):
+        for table in self._read_tables(at, size, names):
             taken = table.slice(min(skip, table.num_rows), size - rows)
             skip -= min(skip, table.num_rows)
             parts.append(taken)
             rows += taken.num_rows
             if rows >= size:
                 break
-        return _parquet_columns(pa.concat_tables(parts), self._dataset, self._origins, start, names)
+        return _build_parquet_columns(
+            pa.concat_tables(parts), self._dataset, self._origins, start, names
+        )
 
-    def _open(self) -> pa.parquet.ParquetFile:
+    def _open_file(self) -> pa.parquet.ParquetFile:
         return open_parquet(self._path, buffer_size=_BYTES, pre_buffer=False)
 
-    def _read(self, first: int, size: int, names: Sequence[str]) -> Iterator[pa.Table]:
+    def _read_tables(self, first: int, size: int, names: Sequence[str]) -> Iterator[pa.Table]:
         """The rows from the first of a row group on."""
         read, places = int(self._starts[first]), list(range(first, len(self._starts) - 1))
         try:
-            file = self._open()
-            some = needed_columns(list(names), self._stored) or None
+            file = self._open_file()
+            some = select_needed_columns(list(names), self._stored) or None
             for batch in file.iter_batches(size, row_groups=places, columns=some):
-                yield with_texts(self._path, pa.Table.from_batches([batch]))
+                yield decode_texts(self._path, pa.Table.from_batches([batch]))
                 read += batch.num_rows
         except (pa.ArrowException, OSError) as error:
             check_unchanged(self._path, self._state)
@@ -431,7 +459,7 @@ Blocks = CsvBlocks | ParquetBlocks
 """A file as consecutive blocks of rows."""
 
 
-def blocks_of(path: Path) -> Blocks | None:
+def open_blocks(path: Path) -> Blocks | None:
     """The blocks of a Parquet or CSV file; None of a format that is read whole.
 
     Raises:
@@ -447,14 +475,14 @@ def blocks_of(path: Path) -> Blocks | None:
     return None if blocks.lists else blocks  # whose cells may go over several lines
 
 
-def windows_of(blocks: Blocks, count: int, size: int) -> Columns:
+def read_windows(blocks: Blocks, count: int, size: int) -> Columns:
     """Windows spread over a file, one after the other; columns that hold numbers in all of them."""
-    found = [dict(blocks.window((k + 0.5) / count, size).columns) for k in range(count)]
+    windows = [dict(blocks.read_window((k + 0.5) / count, size).columns) for k in range(count)]
     values = tuple(
-        (name, ColumnValues(np.concatenate([own[name].numbers() for own in found])))
-        for name in found[0]
-        if all(own[name].numeric for own in found)
+        (name, ColumnValues(np.concatenate([window[name].read_numbers() for window in windows])))
+        for name in windows[0]
+        if all(window[name].is_numeric for window in windows)
     )
     rows = len(values[0][1].values) if values else 0
-    first = blocks.window(0.0, 1)
-    return Columns(values, rows, first.units, told=first.told, rate=first.rate)
+    first = blocks.read_window(0.0, 1)
+    return Columns(values, rows, first.units, reading_notes=first.reading_notes, rate=first.rate)

@@ -8,8 +8,8 @@ import lazy_loader
 import numpy as np
 import pyarrow as pa
 
-from modeler.logs.columns import NotNumbers
-from modeler.logs.stamps import stamp_pairs
+from modeler.logs.columns import NotNumericError
+from modeler.logs.stamps import find_stamp_pairs
 
 pc: Any = lazy_loader.load("pyarrow.compute", suppress_warning=True)  # it takes long
 
@@ -32,9 +32,9 @@ def is_clock(text: str) -> bool:
     return match is not None and any(match[key] for key in ("y", "c", "H"))
 
 
-def first_moment(text: str) -> int:
+def parse_moment(text: str) -> int:
     """Nanoseconds of one text, since 1970 or of a day."""
-    return int(_nanoseconds(pa.chunked_array([[text]]), 0)[0][0])
+    return int(_parse_nanoseconds(pa.chunked_array([[text]]), 0)[0][0])
 
 
 def is_beyond(number: int) -> bool:
@@ -48,7 +48,7 @@ def is_moment(kind: pa.DataType) -> bool:
     return any(is_one(kind) for is_one in (t.is_timestamp, t.is_duration, t.is_time, t.is_date))
 
 
-def counted(column: pa.ChunkedArray, origin: int, before: int) -> np.ndarray:
+def convert_times(column: pa.ChunkedArray, origin: int, before: int) -> np.ndarray:
     """(n,) from an origin on: s of times, whole numbers as they are; what is missing is NaN.
 
     Args:
@@ -60,59 +60,59 @@ def counted(column: pa.ChunkedArray, origin: int, before: int) -> np.ndarray:
         NotNumbers: a text that is no time; names its row.
     """
     if pa.types.is_string(column.type):
-        whole, missing = _nanoseconds(column, before)
+        whole, missing = _parse_nanoseconds(column, before)
         return np.where(missing, np.nan, (whole - origin) * 1e-9)
-    steps = pc.cast(pc.subtract(_whole(column), origin), pa.float64(), safe=False)
+    steps = pc.cast(pc.subtract(_convert_to_whole(column), origin), pa.float64(), safe=False)
     return np.array(steps.to_numpy()) * (1e-9 if is_moment(column.type) else 1.0)
 
 
-def _nanoseconds(column: pa.ChunkedArray, before: int) -> tuple[np.ndarray, np.ndarray]:
+def _parse_nanoseconds(column: pa.ChunkedArray, before: int) -> tuple[np.ndarray, np.ndarray]:
     """(n,) nanoseconds of texts, and whether they are missing."""
-    found = pc.extract_regex(column, _PATTERN)
+    fields = pc.extract_regex(column, _PATTERN)
 
-    def text(key: str) -> pa.ChunkedArray:
-        return pc.fill_null(pc.struct_field(found, key), "")
+    def get_text(key: str) -> pa.ChunkedArray:
+        return pc.fill_null(pc.struct_field(fields, key), "")
 
-    def number(key: str) -> np.ndarray:
-        texts = pc.replace_substring(text(key), ",", ".")
+    def get_number(key: str) -> np.ndarray:
+        texts = pc.replace_substring(get_text(key), ",", ".")
         return pc.cast(pc.if_else(pc.equal(texts, ""), "0", texts), pa.float64()).to_numpy()
 
     missing = np.array(pc.equal(pc.utf8_trim_whitespace(pc.fill_null(column, "")), ""))
-    if (wrong := np.array(pc.is_null(found)) & ~missing).any():
+    if (wrong := np.array(pc.is_null(fields)) & ~missing).any():
         row = int(np.argmax(wrong))
-        raise NotNumbers(
+        raise NotNumericError(
             f', row {before + row + 1}: got "{column[row].as_py()}"; expected a time as in the '
             "other rows; correct it, or delete the row"
         )
-    half = np.array(pc.utf8_lower(text("p")).to_pylist())
-    hours = np.where(half == "", number("H"), number("H") % 12 + 12 * (half == "pm"))
-    seconds = hours * 3600.0 + number("M") * 60.0 + number("S")
-    first, second, year = number("a"), number("b"), number("y") + number("c")
-    american = "/" in text("s").to_pylist() and first.max() <= 12
-    month = number("m") + (first if american else second)
-    day = number("d") + (second if american else first)
+    half = np.array(pc.utf8_lower(get_text("p")).to_pylist())
+    hours = np.where(half == "", get_number("H"), get_number("H") % 12 + 12 * (half == "pm"))
+    seconds = hours * 3600.0 + get_number("M") * 60.0 + get_number("S")
+    first, second, year = get_number("a"), get_number("b"), get_number("y") + get_number("c")
+    american = "/" in get_text("s").to_pylist() and first.max() <= 12
+    month = get_number("m") + (first if american else second)
+    day = get_number("d") + (second if american else first)
     months = np.where(year > 0, (year - 1970) * 12 + month - 1, 0).astype("M8[M]")
     days = months.astype("M8[D]").astype(np.int64) + np.where(year > 0, day - 1, 0).astype(np.int64)
     return days * _DAY + np.rint(seconds * 1e9).astype(np.int64), missing
 
 
-def origins_of(table: pa.Table) -> dict[str, int]:
+def find_origins(table: pa.Table) -> dict[str, int]:
     """What columns of times are counted from, as they state it: the first value of each.
 
     These are timestamps, durations, times of day, and whole numbers that no float holds.
     """
-    found = {}
-    counted = {"index", *(seconds for seconds, *_ in stamp_pairs(table.column_names).values())}
+    origins = {}
+    counted = {"index", *(seconds for seconds, *_ in find_stamp_pairs(table.column_names).values())}
     for name, column in zip(table.column_names, table.columns, strict=True):
         is_second = name in counted and pa.types.is_floating(column.type)
-        whole = pc.floor(column.slice(0, 1)) if is_second else _whole(column.slice(0, 1))
+        whole = pc.floor(column.slice(0, 1)) if is_second else _convert_to_whole(column.slice(0, 1))
         first = whole[0].as_py() if whole is not None and len(whole) else None
         if first is not None and (is_moment(column.type) or is_beyond(first) or name in counted):
-            found[name] = int(first)
-    return found
+            origins[name] = int(first)
+    return origins
 
 
-def _whole(column: pa.ChunkedArray) -> pa.ChunkedArray | None:
+def _convert_to_whole(column: pa.ChunkedArray) -> pa.ChunkedArray | None:
     """Its whole numbers, ns of times; None of what has none."""
     kind, t = column.type, pa.types
     if t.is_integer(kind):
@@ -124,7 +124,7 @@ def _whole(column: pa.ChunkedArray) -> pa.ChunkedArray | None:
     return pc.cast(pc.cast(column, ns), pa.int64())
 
 
-def stated_units(table: pa.Table, origins: Mapping[str, int]) -> dict[str, str]:
+def find_stated_units(table: pa.Table, origins: Mapping[str, int]) -> dict[str, str]:
     """`ns` for whole numbers that are nanoseconds since 1970."""
     whole = [f.name for f in table.schema if pa.types.is_integer(f.type)]
     return {n: "ns" for n in whole if _EPOCH_NS[0] < origins.get(n, 0) < _EPOCH_NS[1]}

@@ -10,7 +10,7 @@ from typing import Protocol
 
 import numpy as np
 
-from modeler.core.errors import DataError, installing, short_of_memory
+from modeler.core.errors import DataError, is_out_of_memory, suggest_install
 from modeler.core.files import PACKED, UNPACKED
 
 
@@ -18,10 +18,10 @@ class Column(Protocol):
     """One column: whether it holds numbers, and those."""
 
     @property
-    def numeric(self) -> bool:
+    def is_numeric(self) -> bool:
         """True if it holds numbers, or nothing at all."""
 
-    def numbers(self) -> np.ndarray:
+    def read_numbers(self) -> np.ndarray:
         """(rows,) floats, a copy; what is missing is NaN.
 
         Raises:
@@ -29,7 +29,7 @@ class Column(Protocol):
         """
 
 
-class NotNumbers(Exception):
+class NotNumericError(Exception):
     """Why a column has no numbers: what follows "column NAME", and what to do."""
 
 
@@ -68,13 +68,13 @@ class Columns:
     rows: int
     units: Mapping[str, str] = field(default_factory=dict)
     notes: tuple[str, ...] = ()
-    told: tuple[str, ...] = field(default=(), kw_only=True)
+    reading_notes: tuple[str, ...] = field(default=(), kw_only=True)
     streams: tuple[Stream, ...] = ()
     rate: float | None = None
 
 
 @dataclass(frozen=True)
-class Wanted:
+class ColumnRequest:
     """What of a file is wanted.
 
     Attributes:
@@ -95,17 +95,17 @@ class ColumnValues:
     values: np.ndarray
 
     @property
-    def numeric(self) -> bool:
+    def is_numeric(self) -> bool:
         """True for integers and floats."""
         return self.values.dtype.kind in "iuf"
 
-    def numbers(self) -> np.ndarray:
+    def read_numbers(self) -> np.ndarray:
         """A copy as floats."""
         return np.array(self.values, dtype=float)
 
 
 @contextmanager
-def reading(path: Path, what: str, advice: str = "write the file again") -> Iterator[None]:
+def wrap_read_errors(path: Path, what: str, advice: str = "write the file again") -> Iterator[None]:
     """Whatever another's reader raises about a damaged file, as one line.
 
     Raises:
@@ -118,12 +118,12 @@ def reading(path: Path, what: str, advice: str = "write the file again") -> Iter
     except DataError:
         raise
     except Exception as error:  # a flipped bit takes these readers anywhere
-        raise unreadable(path, what, error, advice) from None
+        raise make_read_error(path, what, error, advice) from None
 
 
-def unreadable(path: Path, what: str, error: Exception, advice: str) -> DataError:
+def make_read_error(path: Path, what: str, error: Exception, advice: str) -> DataError:
     """What another's reader raised, as one line."""
-    short = short_of_memory(error)
+    short = is_out_of_memory(error)
     if short and (path.is_dir() or path.stat().st_size > UNPACKED / PACKED):
         return DataError(
             f"{path}: more memory is asked for than there is; expected {what} that fits; raise the "
@@ -141,7 +141,7 @@ READERS = {"h5py": "hdf5", "rosbags": "rosbags", "python-calamine": "excel"}
 """Packages that read a format, and the extra that installs them."""
 
 
-def missing_package(path: Path, what: str, package: str) -> DataError:
+def make_package_error(path: Path, what: str, package: str) -> DataError:
     """The error of a format whose reader is not installed."""
     part = READERS.get(package, package)
-    return DataError(f"{path}: {what} needs the package {package}; run: {installing(part)}")
+    return DataError(f"{path}: {what} needs the package {package}; run: {suggest_install(part)}")

@@ -15,7 +15,7 @@ import pyarrow as pa
 from modeler.core.errors import DataError
 from modeler.core.files import read_file
 from modeler.core.json import JsonError, parse_json
-from modeler.logs.guess import template_of
+from modeler.logs.guess import split_label
 
 pc: Any = lazy_loader.load("pyarrow.compute", suppress_warning=True)  # it takes long
 
@@ -36,12 +36,12 @@ class Dataset:
         names: of the entries of columns of lists.
     """
 
-    place: Path
+    info_path: Path
     fps: float | None
     names: Mapping[str, tuple[str, ...]]
 
 
-def dataset_of(path: Path) -> Dataset | None:
+def find_dataset(path: Path) -> Dataset | None:
     """The dataset that a file or a folder belongs to; None without any.
 
     Raises:
@@ -60,21 +60,23 @@ def dataset_of(path: Path) -> Dataset | None:
     info = info if isinstance(info, dict) else {}
     fps, features = info.get("fps"), info.get("features")
     rate = float(fps) if isinstance(fps, int | float) and fps > 0 else None
-    found = features.items() if isinstance(features, dict) else ()
-    names = {n: tuple(_texts(f.get("names"))) for n, f in found if isinstance(f, dict)}
+    feature_items = features.items() if isinstance(features, dict) else ()
+    names = {
+        n: tuple(_collect_texts(f.get("names"))) for n, f in feature_items if isinstance(f, dict)
+    }
     return Dataset(place, rate, names)
 
 
-def _texts(names: Any) -> list[str]:
+def _collect_texts(names: Any) -> list[str]:
     """All texts of a list, or of the lists in a table: `{"motors": ["shoulder", ...]}`."""
     if isinstance(names, dict):
-        return [n for inner in names.values() for n in _texts(inner)]
+        return [n for inner in names.values() for n in _collect_texts(inner)]
     if isinstance(names, list):
-        return [n for inner in names for n in _texts(inner)]
+        return [n for inner in names for n in _collect_texts(inner)]
     return [names] if isinstance(names, str) else []
 
 
-def flattened(table: pa.Table, dataset: Dataset | None) -> pa.Table:
+def flatten_table(table: pa.Table, dataset: Dataset | None) -> pa.Table:
     """Every entry of a column of lists as a column, `observation.state[shoulder_pan]`.
 
     Fields of structs are columns too, `state.q`.
@@ -83,7 +85,7 @@ def flattened(table: pa.Table, dataset: Dataset | None) -> pa.Table:
         table = table.flatten()
     names, columns = list[str](), list[pa.ChunkedArray]()
     for name, column in zip(table.column_names, table.columns, strict=True):
-        count = _entries(column)
+        count = _count_entries(column)
         known = dataset.names.get(name, ()) if dataset is not None else ()
         labels = known if len(known) == count else [str(k + 1) for k in range(count)]
         names += [f"{name}[{label}]" for label in labels] or [name]
@@ -91,7 +93,7 @@ def flattened(table: pa.Table, dataset: Dataset | None) -> pa.Table:
     return pa.table(columns, names=names)
 
 
-def _entries(column: pa.ChunkedArray) -> int:
+def _count_entries(column: pa.ChunkedArray) -> int:
     """How many numbers or names each row has; 0 of others, or if they are not equally many."""
     kind, t = column.type, pa.types
     lists = t.is_list(kind) or t.is_large_list(kind) or t.is_fixed_size_list(kind)
@@ -102,7 +104,7 @@ def _entries(column: pa.ChunkedArray) -> int:
     return ends["max"] or 0 if ends["min"] == ends["max"] and (ends["max"] or 0) <= _WIDEST else 0
 
 
-def one_clock(
+def join_episodes(
     table: pa.Table, dataset: Dataset | None, first: int
 ) -> tuple[pa.Table, tuple[str, ...]]:
     """Episodes one after the other: the frame over fps as `timestamp`, the episode as `segment`.
@@ -123,12 +125,13 @@ def one_clock(
     if "segment" not in table.column_names:
         table = table.append_column("segment", table.column("episode_index"))
     return table, (
-        f"time is that of the frames at {dataset.fps:g} Hz, as {dataset.place.name} says; every "
+        f"time is that of the frames at {dataset.fps:g} Hz, as {dataset.info_path.name} says; "
+        "every "
         "episode is a segment",
     )
 
 
-def needed_columns(names: list[str], stored: list[str]) -> list[str]:
+def select_needed_columns(names: list[str], stored: list[str]) -> list[str]:
     """The columns of the file that hold these; none where it takes others to know."""
     whole = [n if n in stored else n.rpartition("[")[0] for n in names]
     if not whole or {*whole} - {*stored}:
@@ -138,7 +141,7 @@ def needed_columns(names: list[str], stored: list[str]) -> list[str]:
     return [n for n in dict.fromkeys([*whole, *clock, *joints]) if n in stored]
 
 
-def with_joint_names(table: pa.Table) -> tuple[pa.Table, tuple[str, ...]]:
+def rename_by_joint_names(table: pa.Table) -> tuple[pa.Table, tuple[str, ...]]:
     """Columns by the names that columns of text state, in whatever order each row has them.
 
     `name[1]` that holds "elbow" makes `position[1]` to `position[elbow]`.
@@ -148,14 +151,17 @@ def with_joint_names(table: pa.Table) -> tuple[pa.Table, tuple[str, ...]]:
     """
     families: dict[str, dict[str, str]] = {}  # template -> label -> column
     for name in table.column_names:
-        template, label = template_of(name)
+        template, label = split_label(name)
         families.setdefault(template, {})[label] = name
-    told = list[str]()
+    notes = list[str]()
     for template, named in families.items():
         if not table.num_rows or (match := _NAMES.fullmatch(template)) is None:
             continue
-        others = [t for t, own in families.items()
-                  if t != template and t.startswith(match[1]) and [*own] == [*named]]  # fmt: skip
+        others = [
+            t
+            for t, candidates in families.items()
+            if t != template and t.startswith(match[1]) and [*candidates] == [*named]
+        ]
         texts = [table.column(name) for name in named.values()]
         if not others or not all(pa.types.is_string(text.type) for text in texts):
             continue
@@ -165,11 +171,11 @@ def with_joint_names(table: pa.Table) -> tuple[pa.Table, tuple[str, ...]]:
         for other in others:
             values = [table.column(name) for name in families[other].values()]
             for name, joint in zip(families[other].values(), joints, strict=True):
-                own = [pc.if_else(pc.equal(text, joint), value, None)
+                candidates = [pc.if_else(pc.equal(text, joint), value, None)
                        for text, value in zip(texts, values, strict=True)]  # fmt: skip
                 head = other.partition("{}")[0].removesuffix("[")
                 at = table.column_names.index(name)
-                table = table.set_column(at, f"{head}[{joint}]", pc.coalesce(*own))
+                table = table.set_column(at, f"{head}[{joint}]", pc.coalesce(*candidates))
         table = table.drop_columns([*named.values()])
-        told.append(f"joints by the names in {template.replace('{}', '*')}")
-    return table, tuple(told)
+        notes.append(f"joints by the names in {template.replace('{}', '*')}")
+    return table, tuple(notes)

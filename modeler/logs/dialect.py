@@ -12,9 +12,9 @@ from pathlib import Path
 from typing import BinaryIO
 
 from modeler.core.errors import DataError
-from modeler.logs.clock_times import first_moment, is_beyond, is_clock
+from modeler.logs.clock_times import is_beyond, is_clock, parse_moment
 from modeler.logs.mapping import find_unit
-from modeler.logs.stamps import first_seconds
+from modeler.logs.stamps import find_first_seconds
 
 TEXTS = (".csv", ".txt", ".dat", ".tsv", ".log", ".asc", ".lvm")
 """How the names of text files end."""
@@ -53,7 +53,7 @@ _STEP = re.compile(
 
 
 @dataclass(frozen=True)
-class Head:
+class TableHead:
     """What stands above the rows of a table.
 
     Attributes:
@@ -68,7 +68,7 @@ class Head:
     first: int
     units: Mapping[str, str] = field(default_factory=dict)
     rate: float | None = None
-    told: tuple[str, ...] = ()
+    notes: tuple[str, ...] = ()
 
 
 @dataclass(frozen=True)
@@ -86,7 +86,7 @@ class Dialect:
         lists: True if cells hold lists, whose entries are columns.
     """
 
-    head: Head
+    head: TableHead
     start: int
     delimiter: str = ","
     decimal: str = "."
@@ -96,28 +96,28 @@ class Dialect:
     lists: bool = False
 
     @property
-    def told(self) -> tuple[str, ...]:
+    def reading_notes(self) -> tuple[str, ...]:
         """What is unlike commas, points, and names in the first line: one sentence, or nothing."""
         counted = [*self.clocks, *(n for n, first in self.wholes.items() if is_beyond(first))]
-        told = [
+        parts = [
             *([f"{_DELIMITERS[self.delimiter]} between columns"] * (self.delimiter != ",")),
-            *(["decimal commas"] * (self.decimal == ",")), *self.head.told,
+            *(["decimal commas"] * (self.decimal == ",")), *self.head.notes,
             *(["a column for each entry of lists"] * self.lists),
             *([f"in {self.encoding}"] * (not self.encoding.startswith("utf-8"))),
             *([f"{', '.join(counted)} counted from the first row"] * bool(counted)),
         ]  # fmt: skip
-        return (f"read with {', '.join(told)}",) if told else ()
+        return (f"read with {', '.join(parts)}",) if parts else ()
 
-    def open(self, path: Path) -> BinaryIO:
+    def open_text(self, path: Path) -> BinaryIO:
         """The file as bytes of UTF-8, or of an encoding that has the same digits."""
         if self.encoding.startswith("utf-16"):
             return io.BytesIO(path.read_bytes().decode(self.encoding, "replace").encode())
         return path.open("rb")
 
-    def table(self, text: bytes) -> bytes:
+    def normalise_rows(self, text: bytes) -> bytes:
         """Whole lines with one mark between their columns."""
         if self.lists:
-            text = with_lists_as(text, self.delimiter.encode())
+            text = expand_lists(text, self.delimiter.encode())
         if self.delimiter != _BLANKS:
             return text
         text = b" " + text.replace(b"\t", b" ").replace(b"\r", b"")
@@ -126,7 +126,7 @@ class Dialect:
         return text.replace(b"\n ", b"\n").replace(b" \n", b"\n").strip(b" ")
 
 
-def dialect_of(path: Path) -> Dialect:
+def detect_dialect(path: Path) -> Dialect:
     """What the first lines of a text file say of all others.
 
     Raises:
@@ -152,7 +152,7 @@ def dialect_of(path: Path) -> Dialect:
             "numbers; it is damaged, or another kind of file: give it the ending of its format"
         )
     lists = _LIST.search(raw) is not None
-    lines, starts = _lines(with_lists_as(raw, _ENTRY.encode()) if lists else raw, whole)
+    lines, starts = _split_lines(expand_lists(raw, _ENTRY.encode()) if lists else raw, whole)
     joined = b"\n".join(lines)
     try:
         text = joined.decode().removeprefix("\ufeff").split("\n")
@@ -164,24 +164,24 @@ def dialect_of(path: Path) -> Dialect:
             "the names of the columns; write the file again"
         )
     plain = [re.sub(f"{_ENTRY}[^{_ENTRY},;|\t]*", "", line) for line in text] if lists else text
-    delimiter, decimal = _marks(plain, path)
-    rows = [split(line, delimiter) for line in plain]
-    head = head_of(plain, rows, delimiter, decimal, str(path))
+    delimiter, decimal = _detect_marks(plain, path)
+    rows = [split_entries(line, delimiter) for line in plain]
+    head = detect_head(plain, rows, delimiter, decimal, str(path))
     if lists and head.first < len(text):
-        rows = [split(line, delimiter) for line in text]
+        rows = [split_entries(line, delimiter) for line in text]
         counts = [entry.count(_ENTRY) + 1 for entry in rows[head.first]]
-        head = dataclasses.replace(head, names=_entry_names(head.names, counts))
+        head = dataclasses.replace(head, names=_name_entries(head.names, counts))
         rows = [[e for entry in row for e in entry.split(_ENTRY)] for row in rows]
     row = rows[head.first] if head.first < len(rows) else []
     firsts = list(zip(head.names, row, strict=False))
-    clocks = {name: first_moment(entry) for name, entry in firsts if is_clock(entry)}
+    clocks = {name: parse_moment(entry) for name, entry in firsts if is_clock(entry)}
     wholes = {name: int(entry) for name, entry in firsts if _WHOLE.match(entry)}
-    wholes |= first_seconds(head.names, dict(firsts))
+    wholes |= find_first_seconds(head.names, dict(firsts))
     start = starts[head.first] if head.first < len(starts) else starts[-1] + len(lines[-1])
     return Dialect(head, start, delimiter, decimal, encoding, clocks, wholes, lists)
 
 
-def _entry_names(names: Sequence[str], counts: Sequence[int]) -> tuple[str, ...]:
+def _name_entries(names: Sequence[str], counts: Sequence[int]) -> tuple[str, ...]:
     """`q` of three entries: `q[1]`, `q[2]`, `q[3]`."""
     pairs = zip(names, counts, strict=True)
     return tuple(
@@ -189,23 +189,25 @@ def _entry_names(names: Sequence[str], counts: Sequence[int]) -> tuple[str, ...]
     )
 
 
-def _lines(raw: bytes, whole: bool) -> tuple[list[bytes], list[int]]:
+def _split_lines(raw: bytes, whole: bool) -> tuple[list[bytes], list[int]]:
     """Lines, and where each begins; without one that is cut off."""
-    found = [m for m in re.finditer(rb"([^\r\n]*)(\r\n|\n|\r|$)", raw) if m[2] or (whole and m[1])]
-    return [match[1] for match in found], [match.start() for match in found]
+    matches = [
+        m for m in re.finditer(rb"([^\r\n]*)(\r\n|\n|\r|$)", raw) if m[2] or (whole and m[1])
+    ]
+    return [match[1] for match in matches], [match.start() for match in matches]
 
 
-def split(line: str, delimiter: str) -> list[str]:
+def split_entries(line: str, delimiter: str) -> list[str]:
     """The entries of a line, without blanks and quotes around them."""
     if delimiter == _BLANKS:
         return line.split()
     entries = (
         next(csv.reader([line], delimiter=delimiter)) if '"' in line else line.split(delimiter)
     )
-    return [bare(entry) for entry in entries]
+    return [strip_quotes(entry) for entry in entries]
 
 
-def bare(name: str) -> str:
+def strip_quotes(name: str) -> str:
     """A text without blanks and quotes around it: `"time", "q1"` leaves both."""
     name = name.strip()
     if len(name) > 1 and name[0] == name[-1] and name[0] in "\"'":
@@ -213,7 +215,7 @@ def bare(name: str) -> str:
     return name
 
 
-def decimal_number(entry: str) -> float | None:
+def parse_decimal(entry: str) -> float | None:
     """The number that an entry is, with a decimal point or comma; None if it is none."""
     known = _NUMBERS[""].fullmatch(entry.lower()) is not None
     return float(entry.replace(",", ".")) if known else None
@@ -224,21 +226,21 @@ def _is_value(entry: str, decimal: str) -> bool:
     return _NUMBERS[decimal].fullmatch(entry.lower()) is not None or is_clock(entry)
 
 
-def _marks(lines: Sequence[str], path: Path) -> tuple[str, str]:
+def _detect_marks(lines: Sequence[str], path: Path) -> tuple[str, str]:
     """What stands between columns, and before decimals: where most entries become numbers."""
     last = [line for line in lines if line.strip()][-_JUDGED:]
 
-    def score(marks: tuple[str, str]) -> tuple[float, ...]:
+    def compute_score(marks: tuple[str, str]) -> tuple[float, ...]:
         delimiter, decimal = marks
-        rows = [split(line, delimiter) for line in last]
+        rows = [split_entries(line, delimiter) for line in last]
         width, count = Counter(map(len, rows)).most_common(1)[0]
         even = [row for row in rows if len(row) == width]
         values = sum(_is_value(e, decimal) for row in even for e in row)
         return values / len(rows), values / (width * count)
 
     kinds = [(d, m) for d in _DELIMITERS for m in ".," if d != "," or m == "."]
-    best = max(kinds, key=lambda marks: (*score(marks), -kinds.index(marks)))
-    if score(best)[0] == 0.0:
+    best = max(kinds, key=lambda marks: (*compute_score(marks), -kinds.index(marks)))
+    if compute_score(best)[0] == 0.0:
         return ",", "."
     delimiter, decimal = best
     if delimiter != "," and decimal == "." and not re.search(r"\d\.\d", "\n".join(last)):
@@ -250,9 +252,9 @@ def _marks(lines: Sequence[str], path: Path) -> tuple[str, str]:
     return delimiter, decimal
 
 
-def head_of(
+def detect_head(
     lines: Sequence[str], rows: Sequence[Sequence[str]], delimiter: str, decimal: str, where: str
-) -> Head:
+) -> TableHead:
     """Where the rows of numbers begin, and what stands above them.
 
     Args:
@@ -284,33 +286,35 @@ def head_of(
             "names of the columns; close it, or delete it"
         )
     ends = not any(row[-1] for row in even)  # with a mark, which names may lack
-    above = [_names_in(rows[i], lines[i], width, ends) for i in range(first)]
-    units = _units_at(above)
-    at = _names_at(above, decimal, units)
-    rate = _rate(lines[:first])
+    above = [_split_names(rows[i], lines[i], width, ends) for i in range(first)]
+    units = _find_units_line(above)
+    at = _find_names_line(above, decimal, units)
+    rate = _parse_rate(lines[:first])
     if at is None:
         for i in [i for i in range(first) if any(rows[i])][-1:]:
             _refuse_other_count(rows[i], lines[i], width, delimiter, decimal, where)
-        told = [f"{_counted(first)} before the rows"] * (first > 0)
+        notes = [f"{_format_line_count(first)} before the rows"] * (first > 0)
         numbered = first == 0 and len(rows) > 1 and [*rows[0]] == [str(k) for k in range(width)]
         names = tuple(f"c{k + 1}" for k in range(width))
-        if (echoed := _names_of_echo(rows[first] if first < len(rows) else [], names)) != names:
-            told.append("names as of messages with a header, for want of any")
-            return Head(echoed, first, rate=rate, told=tuple(told))
-        told.append(f"no names: columns are called c1 to c{width}" if width > 1 else "no name: c1")
-        return Head(names, first + numbered, rate=rate, told=tuple(told))
-    names = _distinct(above[at] or [], above[at - 1] if at else None)
+        if (echoed := _name_echo_columns(rows[first] if first < len(rows) else [], names)) != names:
+            notes.append("names as of messages with a header, for want of any")
+            return TableHead(echoed, first, rate=rate, notes=tuple(notes))
+        notes.append(f"no names: columns are called c1 to c{width}" if width > 1 else "no name: c1")
+        return TableHead(names, first + numbered, rate=rate, notes=tuple(notes))
+    names = _make_distinct(above[at] or [], above[at - 1] if at else None)
     stated = {}
-    told = [f"{_counted(at)} before the names"] * (at > 0)
+    notes = [f"{_format_line_count(at)} before the names"] * (at > 0)
     if units is not None and units != at:
-        stated = {n: u for n, e in zip(names, above[units] or (), strict=True) if (u := _unit(e))}
-        told.append(f"units in line {units + 1}")
+        stated = {
+            n: u for n, e in zip(names, above[units] or (), strict=True) if (u := _parse_unit(e))
+        }
+        notes.append(f"units in line {units + 1}")
     between = first - at - 1 - (units is not None and units > at)
-    told += [f"{_counted(between)} between names and rows"] * (between > 0)
-    return Head(names, first, stated, rate, tuple(told))
+    notes += [f"{_format_line_count(between)} between names and rows"] * (between > 0)
+    return TableHead(names, first, stated, rate, tuple(notes))
 
 
-def _names_of_echo(row: Sequence[str], names: tuple[str, ...]) -> tuple[str, ...]:
+def _name_echo_columns(row: Sequence[str], names: tuple[str, ...]) -> tuple[str, ...]:
     """What the columns of `ros2 topic echo --csv` are of a message that begins with a header.
 
     Of a sensor_msgs/JointState with names, positions, velocities and efforts also those.
@@ -327,7 +331,7 @@ def _names_of_echo(row: Sequence[str], names: tuple[str, ...]) -> tuple[str, ...
     return (*head, *(f"{field}[{k + 1}]" for field in fields for k in range(count)))
 
 
-def _distinct(names: Sequence[str], over: Sequence[str] | None) -> tuple[str, ...]:
+def _make_distinct(names: Sequence[str], over: Sequence[str] | None) -> tuple[str, ...]:
     """Names, `Position[J1]` where they repeat under groups; `c3` of a column without."""
     twice = len(set(names) - {""}) < len([name for name in names if name])
     if twice and over is not None:
@@ -336,17 +340,17 @@ def _distinct(names: Sequence[str], over: Sequence[str] | None) -> tuple[str, ..
     return tuple(name or f"c{k + 1}" for k, name in enumerate(names))
 
 
-def _counted(lines: int) -> str:
+def _format_line_count(lines: int) -> str:
     return f"{lines} line{'s' * (lines > 1)}"
 
 
-def _names_in(row: Sequence[str], line: str, width: int, ends: bool) -> list[str] | None:
+def _split_names(row: Sequence[str], line: str, width: int, ends: bool) -> list[str] | None:
     """The entries of a line as one for each column; None if it has not so many."""
     plain = _COMMENT.sub("", line)
     if _PROSE.match(plain):
         return None
     marks = (r"\s*[,;\t|]\s*", r"\s{2,}", r"\s+")
-    others = ([bare(e) for e in re.split(mark, plain.strip())] for mark in marks)
+    others = ([strip_quotes(e) for e in re.split(mark, plain.strip())] for mark in marks)
     for entries in (list(row), *others):
         entries = [_COMMENT.sub("", e) if k == 0 else e for k, e in enumerate(entries)]
         if len(entries) == width + 1 and entries[-1].lower() in ("", "comment"):
@@ -358,22 +362,24 @@ def _names_in(row: Sequence[str], line: str, width: int, ends: bool) -> list[str
     return None
 
 
-def _unit(entry: str) -> str:
+def _parse_unit(entry: str) -> str:
     text = re.sub(r"^[\[(]\s*|\s*[\])]$", "", entry)
     return text if re.search(r"[^\W\d]|[°%]", text) and find_unit(text) is not None else ""
 
 
-def _units_at(above: Sequence[list[str] | None]) -> int | None:
+def _find_units_line(above: Sequence[list[str] | None]) -> int | None:
     """The last line in which most entries are units, and that is not the only one."""
     for i in reversed(range(len(above))):
         entries = [e for e in above[i] or () if e.strip("-[]() ")]
-        known = sum(bool(_unit(e)) for e in entries)
+        known = sum(bool(_parse_unit(e)) for e in entries)
         if entries and 2 * known > len(entries) and sum(row is not None for row in above) > 1:
             return i
     return None
 
 
-def _names_at(above: Sequence[list[str] | None], decimal: str, units: int | None) -> int | None:
+def _find_names_line(
+    above: Sequence[list[str] | None], decimal: str, units: int | None
+) -> int | None:
     """The line of the names: the last one whose entries differ; else the last of so many."""
     words = [
         i for i, row in enumerate(above)
@@ -399,7 +405,7 @@ def _refuse_other_count(
     )
 
 
-def _rate(lines: Sequence[str]) -> float | None:
+def _parse_rate(lines: Sequence[str]) -> float | None:
     """Samples in a second, as a line above the rows states it."""
     for line in lines:
         if match := _RATE.search(line):
@@ -412,15 +418,15 @@ def _rate(lines: Sequence[str]) -> float | None:
     return None
 
 
-def with_lists_as(text: bytes, between: bytes) -> bytes:
+def expand_lists(text: bytes, between: bytes) -> bytes:
     r"""The text with the entries of each list in place of it, something between them.
 
     >>> with_lists_as(b'0.1,"[1.0, 2.0]",[3. 4.\n 5.]', b",")
     b'0.1,1.0,2.0,3.,4.,5.'
     """
 
-    def entries(found: re.Match[bytes]) -> bytes:
-        inside = re.split(rb"[\s,;]+", (found[1] or found[2]).strip(b" \r\n\t,"))
+    def replace_list(match: re.Match[bytes]) -> bytes:
+        inside = re.split(rb"[\s,;]+", (match[1] or match[2]).strip(b" \r\n\t,"))
         return between.join(entry.strip(b"'\"") for entry in inside)
 
-    return _LIST.sub(entries, text)
+    return _LIST.sub(replace_list, text)

@@ -10,27 +10,27 @@ import numpy as np
 
 from modeler.core.errors import DataError
 from modeler.logs.arrays import LEAST_ROWS
-from modeler.logs.columns import Column, Columns, NotNumbers, Wanted
-from modeler.logs.guess import role_of, template_of
+from modeler.logs.columns import Column, ColumnRequest, Columns, NotNumericError
+from modeler.logs.guess import guess_role, split_label
 
 _GAP = 3.0  # steps of a file across which it is not interpolated
 _SAME = 0.5  # of a step, that clocks of the same rows are apart at most
 
-Reader = Callable[[Path, Wanted], Columns]
+Reader = Callable[[Path, ColumnRequest], Columns]
 
 
 @dataclass(frozen=True, eq=False)
-class _Part:
+class _FilePart:
     """One file: its columns but the clock, and that."""
 
     path: Path
-    found: Columns
+    content: Columns
     clock: str | None
     key: str = ""  # ours, where [log] says which file it is
 
     @property
     def names(self) -> list[str]:
-        return [name for name, _ in self.found.columns if name != self.clock]
+        return [name for name, _ in self.content.columns if name != self.clock]
 
 
 def read_files(places: Mapping[Path, str], where: Path, reader: Reader) -> Columns:
@@ -50,45 +50,48 @@ def read_files(places: Mapping[Path, str], where: Path, reader: Reader) -> Colum
         DataError: other counts of rows without clocks, no common time, several logs, or a file that
             cannot be read.
     """
-    parts = [_part(place, key, reader) for place, key in places.items()]
-    parts, joined = _joined_by_time(parts, where)
+    parts = [_read_part(place, key, reader) for place, key in places.items()]
+    parts, joined = _join_by_time(parts, where)
     first = parts[0]
     for part in parts:
-        if part.found.rows != first.found.rows:
+        if part.content.rows != first.content.rows:
             raise DataError(
-                f"{where}: {part.path.name} has {part.found.rows} rows and {first.path.name} "
-                f"{first.found.rows}; expected the same rows, or a time column in each file of one "
+                f"{where}: {part.path.name} has {part.content.rows} rows and {first.path.name} "
+                f"{first.content.rows}; expected the same rows, or a time column in each file of "
+                "one "
                 "motion; give files of several motions one by one"
             )
     twice = {name for name, n in Counter(n for p in parts for n in p.names).items() if n > 1}
     columns, units = list[tuple[str, Column]](), dict[str, str]()
-    clock, told = _clock(parts)
+    clock, clock_note = _compare_clocks(parts)
     for part in parts:
-        own = dict(part.found.columns)
-        names = _renamed(part, twice, where)
-        columns += [(names[n], own[n]) for n in part.names]
-        units |= {names[n]: u for n, u in part.found.units.items() if n in names}
+        part_columns = dict(part.content.columns)
+        names = _rename_columns(part, twice, where)
+        columns += [(names[n], part_columns[n]) for n in part.names]
+        units |= {names[n]: u for n, u in part.content.units.items() if n in names}
         if clock is part and clock.clock is not None:
-            columns.insert(0, (clock.clock, own[clock.clock]))
-            units |= {n: u for n, u in part.found.units.items() if n == clock.clock}
-    rate = next((p.found.rate for p in parts if p.found.rate), None)
+            columns.insert(0, (clock.clock, part_columns[clock.clock]))
+            units |= {n: u for n, u in part.content.units.items() if n == clock.clock}
+    rate = next((p.content.rate for p in parts if p.content.rate), None)
     listed = ", ".join(part.path.name for part in parts)
-    said = f"one motion in {len(parts)} files: {listed}{told}"
-    notes, told_of = (_sentences(parts, name) for name in ("notes", "told"))
-    rows = first.found.rows
-    told_of = (*joined, *told_of)
-    return Columns(tuple(columns), rows, units, notes, rate=rate, told=(said, *told_of))
+    summary = f"one motion in {len(parts)} files: {listed}{clock_note}"
+    notes, reading_notes = (_collect_notes(parts, name) for name in ("notes", "told"))
+    rows = first.content.rows
+    reading_notes = (*joined, *reading_notes)
+    return Columns(
+        tuple(columns), rows, units, notes, rate=rate, reading_notes=(summary, *reading_notes)
+    )
 
 
-def _part(path: Path, key: str, reader: Reader) -> _Part:
-    found = reader(path, Wanted())
-    timed = [n for n, column in found.columns if column.numeric and role_of(n) == "time"]
-    alone = len(found.columns) == 1
-    return _Part(path, found, timed[0] if timed and not alone else None, key)
+def _read_part(path: Path, key: str, reader: Reader) -> _FilePart:
+    content = reader(path, ColumnRequest())
+    timed = [n for n, column in content.columns if column.is_numeric and guess_role(n) == "time"]
+    alone = len(content.columns) == 1
+    return _FilePart(path, content, timed[0] if timed and not alone else None, key)
 
 
 @dataclass(frozen=True, eq=False)
-class _Interpolated:
+class _InterpolatedColumn:
     """A column at the times of another file; missing across gaps of its own."""
 
     column: Column
@@ -97,17 +100,17 @@ class _Interpolated:
     widest: float  # step that is no gap, s
 
     @property
-    def numeric(self) -> bool:
-        return self.column.numeric
+    def is_numeric(self) -> bool:
+        return self.column.is_numeric
 
-    def numbers(self) -> np.ndarray:
+    def read_numbers(self) -> np.ndarray:
         after = np.clip(np.searchsorted(self.time, self.wanted), 1, len(self.time) - 1)
         apart = self.time[after] - self.time[after - 1]
-        values = np.interp(self.wanted, self.time, self.column.numbers())
+        values = np.interp(self.wanted, self.time, self.column.read_numbers())
         return np.where(apart > self.widest, np.nan, values)
 
 
-def _joined_by_time(parts: Sequence[_Part], where: Path) -> tuple[list[_Part], list[str]]:
+def _join_by_time(parts: Sequence[_FilePart], where: Path) -> tuple[list[_FilePart], list[str]]:
     """The files on the clock of the slowest, over the time that all have; how, in words.
 
     The others are interpolated, whose rows are closer. Files of equal rows and times stay.
@@ -117,7 +120,7 @@ def _joined_by_time(parts: Sequence[_Part], where: Path) -> tuple[list[_Part], l
     """
     if any(part.clock is None for part in parts):
         return [*parts], []
-    counted = [_times(part) for part in parts]
+    counted = [_read_times(part) for part in parts]
     times = [time + begins - counted[0][1] for time, begins in counted]
     if any(len(t) < LEAST_ROWS or not (np.diff(t) > 0.0).all() for t in times):
         return [*parts], []
@@ -134,16 +137,18 @@ def _joined_by_time(parts: Sequence[_Part], where: Path) -> tuple[list[_Part], l
             f"{where}: the times of its files have less than {LEAST_ROWS} rows in common: "
             f"{', '.join(spans)}; expected one clock in the same unit; shift or convert one"
         )
-    made = list[_Part]()
+    made = list[_FilePart]()
     for part, time, step in zip(parts, times, steps, strict=True):
         is_slow = part is parts[slow]
         columns = tuple(
-            (name, _Interpolated(column, time, rows, _GAP * step))
-            for name, column in part.found.columns
-            if column.numeric and (is_slow or name != part.clock)
+            (name, _InterpolatedColumn(column, time, rows, _GAP * step))
+            for name, column in part.content.columns
+            if column.is_numeric and (is_slow or name != part.clock)
         )
-        found = dataclasses.replace(part.found, columns=columns, rows=len(rows))
-        made.append(dataclasses.replace(part, found=found, clock=part.clock if is_slow else None))
+        content = dataclasses.replace(part.content, columns=columns, rows=len(rows))
+        made.append(
+            dataclasses.replace(part, content=content, clock=part.clock if is_slow else None)
+        )
     rates = (f"{p.path.name} {1.0 / s:.4g}" for p, s in zip(parts, steps, strict=True))
     return made, [
         f"joined by time, {end - begin:.4g} long, on the rows of {parts[slow].path.name}; rows per "
@@ -151,56 +156,59 @@ def _joined_by_time(parts: Sequence[_Part], where: Path) -> tuple[list[_Part], l
     ]
 
 
-def _renamed(part: _Part, twice: set[str], where: Path) -> dict[str, str]:
+def _rename_columns(part: _FilePart, twice: set[str], where: Path) -> dict[str, str]:
     """Names of the file -> names in the log."""
-    stem, labels = part.path.stem, [template_of(name) for name in part.names]
+    stem, labels = part.path.stem, [split_label(name) for name in part.names]
     alike = len({template for template, _ in labels}) == 1
-    whose = template_of(stem)[1] or stem
-    found = {}
+    whose = split_label(stem)[1] or stem
+    new_names = {}
     for name, (_, label) in zip(part.names, labels, strict=True):
         label = label if alike and label else name
         if part.key:
-            found[name] = part.key if part.key == "time" else part.key + label
-        elif role_of(stem) and (name in twice or not role_of(name)):
-            found[name] = stem if len(part.names) == 1 else f"{stem}[{label}]"
-        elif name in twice and template_of(name)[1]:
+            new_names[name] = part.key if part.key == "time" else part.key + label
+        elif guess_role(stem) and (name in twice or not guess_role(name)):
+            new_names[name] = stem if len(part.names) == 1 else f"{stem}[{label}]"
+        elif name in twice and split_label(name)[1]:
             raise DataError(
                 f"{where}: {name} is in several files, {part.path.name} among them; expected one "
                 "motion, a file for each quantity or joint; give several logs one by one"
             )
         else:
-            found[name] = f"{name}[{whose}]" if name in twice else name
-    return found
+            new_names[name] = f"{name}[{whose}]" if name in twice else name
+    return new_names
 
 
-def _clock(parts: Sequence[_Part]) -> tuple[_Part | None, str]:
+def _compare_clocks(parts: Sequence[_FilePart]) -> tuple[_FilePart | None, str]:
     """The file whose clock all rows have, and how far others are from it, in words."""
-    timed = [(part, *_times(part)) for part in parts if part.clock is not None]
+    timed = [(part, *_read_times(part)) for part in parts if part.clock is not None]
     if not timed:
         return None, ""
     first, time, start = timed[0]
-    off = [float(np.nanmax(np.abs(own + b - start - time), initial=0.0)) for _, own, b in timed]
+    off = [
+        float(np.nanmax(np.abs(other_time + b - start - time), initial=0.0))
+        for _, other_time, b in timed
+    ]
     step = float(np.median(np.abs(np.diff(time)))) if len(time) > 1 else 0.0
     return first, f", whose clocks are up to {max(off):.2g} apart: that of {first.path.name}" * (
         max(off) > 1e-6 * step
     )
 
 
-def _times(part: _Part) -> tuple[np.ndarray, float]:
+def _read_times(part: _FilePart) -> tuple[np.ndarray, float]:
     """The times of a file, and what they are counted from, in the same unit."""
-    column = dict(part.found.columns)[part.clock or ""]
+    column = dict(part.content.columns)[part.clock or ""]
     origin = getattr(column, "origin", None) or 0
     try:
-        return column.numbers(), origin * 1e-9 if getattr(column, "is_time", False) else origin
-    except NotNumbers as why:
+        return column.read_numbers(), origin * 1e-9 if getattr(column, "is_time", False) else origin
+    except NotNumericError as why:
         raise DataError(f"{part.path}: column {part.clock}{why}") from None
 
 
-def _sentences(parts: Sequence[_Part], kind: str) -> tuple[str, ...]:
+def _collect_notes(parts: Sequence[_FilePart], kind: str) -> tuple[str, ...]:
     """Notes of the files, or how they were read, each once."""
     by: dict[str, list[str]] = {}
     for part in parts:
-        for note in getattr(part.found, kind):
+        for note in getattr(part.content, kind):
             by.setdefault(note, []).append(part.path.name)
     more = {note: f" and {len(names) - 1} more" * (len(names) > 1) for note, names in by.items()}
     return tuple(f"{names[0]}{more[note]}: {note}" for note, names in by.items())

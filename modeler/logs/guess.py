@@ -12,7 +12,7 @@ import numpy as np
 
 from modeler.core.manifest import JointSpec
 from modeler.logs.mapping import ANGLE, CURRENT, FORCE, LENGTH, TIME, TORQUE, Powers, find_unit
-from modeler.logs.rates import Pair, pairs_of, units_of
+from modeler.logs.rates import RatePair, infer_units, pair_rates
 
 _WORDS: Mapping[str, str] = {
     "time": "t time timestamp stamp clock zeit temps sec seconds",
@@ -71,7 +71,7 @@ class Guess:
         others: columns with another unit in their names than the template has, by label.
     """
 
-    own: str
+    quantity: str
     template: str
     labels: tuple[str, ...]
     units: tuple[str, ...] = ()
@@ -83,14 +83,14 @@ class Guess:
         """Names in the file."""
         return tuple(self.others.get(x) or self.template.replace("{}", x) for x in self.labels)
 
-    def without_range(self) -> "Guess":
+    def drop_range_units(self) -> "Guess":
         """The same, without units that rest on a range."""
         if self.why != "by its range":
             return self
         return dataclasses.replace(self, units=("",) * len(self.labels), why="")
 
 
-def guesses(
+def guess_columns(
     columns: Mapping[str, np.ndarray], stated: Mapping[str, str],
     joints: Sequence[JointSpec] = (), names: Mapping[str, str] = MappingProxyType({}),
 ) -> list[Guess]:  # fmt: skip
@@ -103,48 +103,58 @@ def guesses(
         names: joint -> its name in logs, where that is known.
     """
     groups: dict[str, list[tuple[str, str, str]]] = {}
-    worded = _by_words([name for name in columns if not template_of(name, names.values())[1]])
+    worded = _split_by_words([name for name in columns if not split_label(name, names.values())[1]])
     for name in columns:
-        template, label = worded.get(name) or template_of(name, names.values())
-        groups.setdefault(_family(template) if label else template, []).append(
+        template, label = worded.get(name) or split_label(name, names.values())
+        groups.setdefault(_generalise_unit(template) if label else template, []).append(
             (template, label, name)
         )
-    found, ranks = dict[str, Guess](), dict[str, tuple[int, int]]()
+    guesses, ranks = dict[str, Guess](), dict[str, tuple[int, int]]()
     by_duty = bool(joints) and any(joint.drive for joint in joints)
     for group in groups.values():
         template, *_ = Counter(each for each, _, _ in group).most_common(1)[0]
         labels, own_columns = [label for _, label, _ in group], [name for *_, name in group]
         others = {label: name for each, label, name in group if each != template}
-        unit = find_unit(stated.get(own_columns[0]) or _named(own_columns[0]) or "?")
-        own = _role(template) or ("" if unit is None else _KINDS.get(unit.powers, ""))
-        words = _words_in(template)
-        if own != "qc" and own != "time" and (_is_commanded(words) or {*_FALSE.split()} & {*words}):
-            own = "qc" if own == "q" and _is_commanded(words) else ""
-        if by_duty and own == "tau" and re.search(r"load(?![a-z])", template.lower()):
-            own = "duty"  # what such drives call their load is a share of the voltage
-        if own == "time" and not all(_rises(columns[name]) for name in own_columns):
-            own = "tau" if template.lower().split()[:1] == ["t"] else ""
-        if own and (own not in found or _rank(own, template, labels) > ranks[own]):
-            ranks[own] = _rank(own, template, labels)
-            found[own] = Guess(own, template, tuple(labels), ("",) * len(labels), others=others)
-    if "time" not in found:
-        taken = {name for one in found.values() for name in one.columns}
+        unit = find_unit(stated.get(own_columns[0]) or _find_unit_in_name(own_columns[0]) or "?")
+        quantity = _guess_template_role(template) or (
+            "" if unit is None else _KINDS.get(unit.powers, "")
+        )
+        words = _split_words(template)
+        if (
+            quantity != "qc"
+            and quantity != "time"
+            and (_is_commanded(words) or {*_FALSE.split()} & {*words})
+        ):
+            quantity = "qc" if quantity == "q" and _is_commanded(words) else ""
+        if by_duty and quantity == "tau" and re.search(r"load(?![a-z])", template.lower()):
+            quantity = "duty"  # what such drives call their load is a share of the voltage
+        if quantity == "time" and not all(_is_increasing(columns[name]) for name in own_columns):
+            quantity = "tau" if template.lower().split()[:1] == ["t"] else ""
+        if quantity and (
+            quantity not in guesses or _rank_columns(quantity, template, labels) > ranks[quantity]
+        ):
+            ranks[quantity] = _rank_columns(quantity, template, labels)
+            guesses[quantity] = Guess(
+                quantity, template, tuple(labels), ("",) * len(labels), others=others
+            )
+    if "time" not in guesses:
+        taken = {name for one in guesses.values() for name in one.columns}
         free = (name for name in columns if name not in taken)
         for name in free:
             steps = np.diff(columns[name])  # of a clock they are all about the same
             if len(steps) and np.isfinite(steps).all() and 0 < steps.max() < 3 * steps.min():
-                found["time"] = Guess("time", name, ("",), ("",))
+                guesses["time"] = Guess("time", name, ("",), ("",))
                 break
     order = ("time", "q", "qd", "qdd", "qc", "tau", "current", "duty", "voltage", "temperature")
-    known = [found[own] for own in order if own in found]
-    rates = _rates(found, columns, stated)
+    known = [guesses[quantity] for quantity in order if quantity in guesses]
+    rates = _compute_rates(guesses, columns, stated)
     return [
-        _with_units(one, columns, stated, slides_of(one.labels, joints, names), rates)
+        _add_units(one, columns, stated, flag_prismatic_columns(one.labels, joints, names), rates)
         for one in known
     ]
 
 
-def slides_of(
+def flag_prismatic_columns(
     labels: Sequence[str], joints: Sequence[JointSpec],
     names: Mapping[str, str] = MappingProxyType({}),
 ) -> list[bool]:  # fmt: skip
@@ -157,39 +167,42 @@ def slides_of(
     return [by.get(label, False) for label in labels]
 
 
-def _rates(
-    found: Mapping[str, Guess], columns: Mapping[str, np.ndarray], stated: Mapping[str, str]
-) -> dict[str, Pair]:
+def _compute_rates(
+    guesses: Mapping[str, Guess], columns: Mapping[str, np.ndarray], stated: Mapping[str, str]
+) -> dict[str, RatePair]:
     """Positions with the speed of their joint, by the name of the position."""
-    if not {"time", "q", "qd"} <= set(found):
+    if not {"time", "q", "qd"} <= set(guesses):
         return {}
-    clock = found["time"].columns[0]
+    clock = guesses["time"].columns[0]
     time = columns[clock]
     named = (
-        "" if clock in stated else _named(clock) or _ranged("time", time[np.isfinite(time)], False)
+        ""
+        if clock in stated
+        else _find_unit_in_name(clock)
+        or _guess_unit_by_range("time", time[np.isfinite(time)], False)
     )
     unit = find_unit(named) if named else None
     time = time * (1.0 if unit is None else unit.factor)
-    pairs = pairs_of(speeds_by_position(found.values()), columns, time)
+    pairs = pair_rates(pair_speeds(guesses.values()), columns, time)
     return {pair.position: pair for pair in pairs}
 
 
-def speeds_by_position(found: Iterable[Guess]) -> list[tuple[str, str]]:
+def pair_speeds(guesses: Iterable[Guess]) -> list[tuple[str, str]]:
     """Columns of position and speed of the joints that have both."""
-    by = {one.own: dict(zip(one.labels, one.columns, strict=True)) for one in found}
+    by = {one.quantity: dict(zip(one.labels, one.columns, strict=True)) for one in guesses}
     positions, speeds = by.get("q", {}), by.get("qd", {})
     return [(q, speeds[label]) for label, q in positions.items() if label in speeds]
 
 
-def template_of(name: str, joints: Iterable[str] = ()) -> tuple[str, str]:
+def split_label(name: str, joints: Iterable[str] = ()) -> tuple[str, str]:
     """`pos[elbow]` -> `pos[{}]`, `elbow`; `joint3_pos` -> `joint{}_pos`, `3`.
 
     Names of joints that are known go before, the longest first: `elbow_effort` -> `{}_effort`.
     """
     for joint in sorted(joints, key=len, reverse=True):
-        own = re.search(rf"(?<![A-Za-z0-9]){re.escape(joint)}(?![A-Za-z0-9])", name)
-        if own is not None:
-            return f"{name[: own.start()]}{{}}{name[own.end() :]}", joint
+        joint_match = re.search(rf"(?<![A-Za-z0-9]){re.escape(joint)}(?![A-Za-z0-9])", name)
+        if joint_match is not None:
+            return f"{name[: joint_match.start()]}{{}}{name[joint_match.end() :]}", joint
     end = _UNIT.search(name)
     head = name[: end.start()] if end is not None and find_unit(end[1]) is not None else name
     match = _LABEL.search(head)
@@ -199,7 +212,7 @@ def template_of(name: str, joints: Iterable[str] = ()) -> tuple[str, str]:
     return f"{name[: match.start(group)]}{{}}{name[match.end(group) :]}", match[group]
 
 
-def _family(template: str) -> str:
+def _generalise_unit(template: str) -> str:
     """The template with the kind in place of the unit: `axis{} [deg]` and `axis{} [mm]` are one."""
     end = _UNIT.search(template)
     unit = None if end is None else find_unit(end[1])
@@ -207,7 +220,7 @@ def _family(template: str) -> str:
     return f"{template[: end.start()]} [{kind}]" if end and kind else template
 
 
-def _by_words(names: Sequence[str]) -> dict[str, tuple[str, str]]:
+def _split_by_words(names: Sequence[str]) -> dict[str, tuple[str, str]]:
     """Name -> template and label, of names of several joints: `elbow angle`, `shoulder angle`.
 
     The label is what stands before the word for the quantity, or after it.
@@ -217,7 +230,7 @@ def _by_words(names: Sequence[str]) -> dict[str, tuple[str, str]]:
         end = _UNIT.search(name)
         head = name if end is None else name[: end.start()]
         for word in reversed([*_WORD.finditer(head)]):
-            if _role(word[0]):
+            if _guess_template_role(word[0]):
                 before, after = head[: word.start()].rstrip(" _.-"), head[word.end() :]
                 label = before or after.strip(" _.-")
                 if label and not any(c.isdigit() for c in label):
@@ -231,24 +244,26 @@ def _by_words(names: Sequence[str]) -> dict[str, tuple[str, str]]:
     }
 
 
-def _role(template: str) -> str:
+def _guess_template_role(template: str) -> str:
     """What a template looks like, "" for nothing of ours; the last words say most.
 
     The bare name of a joint is its position.
     """
     if template == "{}":
         return "q"
-    words = _words_in(template)
+    words = _split_words(template)
     if {*_FALSE.split()} & {*words}:
         return ""
     commanded = _is_commanded(words)
     for word in reversed(words):
-        if own := _KIND_OF.get(word, ""):
-            return ("qc" if own == "q" else "") if commanded and own != "time" else own
+        if quantity := _KIND_OF.get(word, ""):
+            return (
+                ("qc" if quantity == "q" else "") if commanded and quantity != "time" else quantity
+            )
     return "qc" if words and words[-1] in ("qc", "action") else ""
 
 
-def _words_in(template: str) -> list[str]:
+def _split_words(template: str) -> list[str]:
     """The words of a name, in lower case; of what stands in brackets, those beside a joint."""
     beside = _BESIDE.search(template)
     text = f"{template.split('[')[0]} {' '.join(beside.groups()) if beside else ''}"
@@ -272,59 +287,63 @@ def _is_commanded(words: Sequence[str]) -> bool:
     return False
 
 
-def _rank(own: str, template: str, labels: Sequence[str]) -> tuple[int, int]:
+def _rank_columns(quantity: str, template: str, labels: Sequence[str]) -> tuple[int, int]:
     """How well columns serve as a quantity: the clock of a header, of others the most joints.
 
     A name of two quantities, such as `TorqueCur`, comes after one of a single quantity.
     """
-    words = _words_in(template)
-    if own == "time":
+    words = _split_words(template)
+    if quantity == "time":
         return int("header" in words), 0
     return len(labels), -len({_KIND_OF[word] for word in words if word in _KIND_OF})
 
 
-def role_of(name: str) -> str:
+def guess_role(name: str) -> str:
     """What a column of that name looks like: "time", "q", "tau" ...; "" for nothing of ours."""
-    return _role(template_of(name)[0])
+    return _guess_template_role(split_label(name)[0])
 
 
-def _rises(values: np.ndarray) -> bool:
+def _is_increasing(values: np.ndarray) -> bool:
     """True of a column that goes up, as a time does, but for a few rows; not of a constant."""
     steps = np.diff(values[np.isfinite(values)])
     return bool(len(steps) == 0 or (np.mean(steps >= 0.0) > 0.9 and steps.any()))
 
 
-def _with_units(
+def _add_units(
     one: Guess, columns: Mapping[str, np.ndarray], stated: Mapping[str, str],
-    slides: Sequence[bool], rates: Mapping[str, Pair],
+    slides: Sequence[bool], rates: Mapping[str, RatePair],
 ) -> Guess:  # fmt: skip
     """The guess with its units: what names or the file say, else what speeds or ranges suggest."""
-    told = tuple(stated.get(name) or _named(name) for name in one.columns)
-    if any(told):
-        return dataclasses.replace(one, units=told, why="stated")
+    stated_units = tuple(stated.get(name) or _find_unit_in_name(name) for name in one.columns)
+    if any(stated_units):
+        return dataclasses.replace(one, units=stated_units, why="stated")
     known = [columns[name][np.isfinite(columns[name])] for name in one.columns]
-    units = [_ranged(one.own, v, slide) for v, slide in zip(known, slides, strict=True)]
-    if one.own == "q":
+    units = [
+        _guess_unit_by_range(one.quantity, v, slide) for v, slide in zip(known, slides, strict=True)
+    ]
+    if one.quantity == "q":
         units = [
-            _by_rate(rates.get(name), unit, v)
+            _choose_unit_by_rate(rates.get(name), unit, v)
             for name, unit, v in zip(one.columns, units, known, strict=True)
         ]
     free = [
-        one.own not in ("q", "qc") or not (slide or _settled(rates.get(name)))
+        one.quantity not in ("q", "qc") or not (slide or _is_settled(rates.get(name)))
         for name, slide in zip(one.columns, slides, strict=True)
     ]
-    units = _alike(units, free, slides)
+    units = _unify_units(units, free, slides)
     return dataclasses.replace(one, units=tuple(units), why="by its range" if any(units) else "")
 
 
-def _settled(pair: Pair | None) -> bool:
+def _is_settled(pair: RatePair | None) -> bool:
     """True if a speed says what its position is in."""
-    return pair is not None and bool(units_of(pair.ratio)) and units_of(pair.ratio) != ("", "")
+    return (
+        pair is not None and bool(infer_units(pair.ratio)) and infer_units(pair.ratio) != ("", "")
+    )
 
 
-def _by_rate(pair: Pair | None, unit: str, values: np.ndarray) -> str:
+def _choose_unit_by_rate(pair: RatePair | None, unit: str, values: np.ndarray) -> str:
     """The unit of a position, where its speed decides; where it agrees, only a far way does."""
-    units = None if pair is None else units_of(pair.ratio)
+    units = None if pair is None else infer_units(pair.ratio)
     if units is None or unit in ("mm", "rev/COUNTS"):
         return unit
     if units == ("", ""):
@@ -332,16 +351,18 @@ def _by_rate(pair: Pair | None, unit: str, values: np.ndarray) -> str:
     return "" if units[0] == "rad" else units[0]
 
 
-def _alike(units: Sequence[str], free: Sequence[bool], slides: Sequence[bool]) -> list[str]:
+def _unify_units(units: Sequence[str], free: Sequence[bool], slides: Sequence[bool]) -> list[str]:
     """Columns that say nothing of their own follow the others, if most of them have one unit."""
     for unit in sorted(set(units) - {""}):
         if 2 * sum(u == unit for u in units) > sum(free):
-            own = ["mN" if unit == "mN m" and s else unit for s in slides]
-            return [u or (o if f else "") for u, o, f in zip(units, own, free, strict=True)]
+            common_units = ["mN" if unit == "mN m" and s else unit for s in slides]
+            return [
+                u or (o if f else "") for u, o, f in zip(units, common_units, free, strict=True)
+            ]
     return [*units]
 
 
-def _named(name: str) -> str:
+def _find_unit_in_name(name: str) -> str:
     """A unit at the end of a name: `t [ms]`, `pos (deg)`, `Joint A [°]`, `speed_rpm`."""
     match = re.search(r"(\s?)[\[(]([^\[\]()]+)[\])]$|_([A-Za-z]+)\d*$", name)
     text = "" if match is None else (match[2] or match[3])
@@ -349,24 +370,24 @@ def _named(name: str) -> str:
     return text if text and sure and find_unit(text) is not None else ""
 
 
-def _ranged(own: str, values: np.ndarray, slides: bool) -> str:
+def _guess_unit_by_range(quantity: str, values: np.ndarray, slides: bool) -> str:
     if not len(values):
         return ""
     span = float(np.ptp(values))
-    if own == "time":
+    if quantity == "time":
         step = float(np.median(np.diff(values))) if len(values) > 1 else 0.0
         return "" if step <= 0.2 else "ms" if step < 100 else "us" if step < 1e5 else "ns"
-    if own in ("q", "qc"):
+    if quantity in ("q", "qc"):
         if span > _COUNTS and (values == np.round(values)).all():
             return "rev/COUNTS"
         if slides:
             return "mm" if span > _LONG else ""
         return "deg" if float(np.abs(values).max()) > _TURNS else ""
-    if own == "tau":
+    if quantity == "tau":
         return ("mN" if slides else "mN m") if span > (_MIGHTY if slides else _HEAVY) else ""
-    if own == "duty":
+    if quantity == "duty":
         return "" if span <= _SHARES else "%" if span <= 100.0 * _SHARES else "0.1 %"
-    return "mA" if own == "current" and span > _STRONG else ""
+    return "mA" if quantity == "current" and span > _STRONG else ""
 
 
 # The guesses as lines: a [log] to paste, units that are unlike SI, columns that are missing.
@@ -376,10 +397,10 @@ _SHOWN = 24  # columns of a skeleton
 _MISSING = {"q": "positions", "tau": "torques"}
 
 
-def absent_roles(found: Sequence[Guess]) -> list[str]:
+def find_absent_roles(guesses: Sequence[Guess]) -> list[str]:
     """Quantities that every fit needs and that no column looks like."""
-    there = {"tau" if one.own in ("current", "duty") else one.own for one in found}
-    lacking = [words for own, words in _MISSING.items() if own not in there]
+    there = {"tau" if one.quantity in ("current", "duty") else one.quantity for one in guesses}
+    lacking = [words for quantity, words in _MISSING.items() if quantity not in there]
     if not lacking:
         return []
     return [
@@ -388,16 +409,16 @@ def absent_roles(found: Sequence[Guess]) -> list[str]:
     ]
 
 
-def unlike_si(found: Sequence[Guess]) -> list[str]:
+def describe_non_si_columns(guesses: Sequence[Guess]) -> list[str]:
     """Columns whose range looks like another unit than SI, where nobody states one."""
     lines = []
-    for one in (one for one in found if one.why == "by its range"):
+    for one in (one for one in guesses if one.why == "by its range"):
         for unit in dict.fromkeys(filter(None, one.units)):
-            own = [c for c, u in zip(one.columns, one.units, strict=True) if u == unit]
-            every = len(own) == len(one.columns) > 1
-            columns = one.template.replace("{}", "*") if every else ", ".join(own)
+            unit_columns = [c for c, u in zip(one.columns, one.units, strict=True) if u == unit]
+            every = len(unit_columns) == len(one.columns) > 1
+            columns = one.template.replace("{}", "*") if every else ", ".join(unit_columns)
             what = "counts of an encoder" if unit == "rev/COUNTS" else unit
-            looks = "looks" if every or len(own) == 1 else "look"
+            looks = "looks" if every or len(unit_columns) == 1 else "look"
             lines.append(
                 f"{columns} {looks} like {what}, by its range; say so in [log] or with --map"
             )
@@ -408,38 +429,44 @@ EITHER = "degrees, or -100..100 of each joint's calibrated range"
 """What a data set of LeRobot does not say of its positions."""
 
 
-def doubtful_degrees(found: Sequence[Guess], columns: Mapping[str, np.ndarray]) -> list[str]:
+def describe_doubtful_degrees(
+    guesses: Sequence[Guess], columns: Mapping[str, np.ndarray]
+) -> list[str]:
     """Positions of LeRobot that look like degrees and never leave -100..100."""
     return [
         f"{one.template.replace('{}', '*')} may be {EITHER}: the data set does not say which; for "
         "the latter, one of 200 parts is (range_max - range_min) / 200 of a unit rev/4096"
-        for one in found
-        if one.own == "q" and one.template.startswith("observation.state") and "deg" in one.units
+        for one in guesses
+        if one.quantity == "q"
+        and one.template.startswith("observation.state")
+        and "deg" in one.units
         and one.why == "by its range"
         and max(np.nanmax(np.abs(columns[name])) for name in one.columns) <= _HUNDRED
-    ]  # fmt: skip
+    ]
 
 
-def log_text(
-    found: Sequence[Guess], joints: Sequence[JointSpec] = (), columns: Sequence[str] = (),
+def format_log_table(
+    guesses: Sequence[Guess], joints: Sequence[JointSpec] = (), columns: Sequence[str] = (),
     names: Mapping[str, str] = MappingProxyType({}),
 ) -> str:  # fmt: skip
     """The guesses as a table [log] to paste; "" if there are none, or all is ours already.
 
     Args:
-        found: the guesses.
+        guesses: the guesses.
         joints: of the robot, if it is known.
         columns: of the file; listed if positions or torques are not among the guesses.
         names: joint -> its name in logs, where that is known.
     """
-    count = max(len(one.labels) for one in found) if found else 0
-    own = [joint.name for joint in joints] or [str(k + 1) for k in range(count)]
+    count = max(len(one.labels) for one in guesses) if guesses else 0
+    joint_names = [joint.name for joint in joints] or [str(k + 1) for k in range(count)]
     lines: list[str] = []
-    for one in found:
-        lines += _lines_of(one, own, any(line.startswith("names =") for line in lines), names)
-    if absent_roles(found):
-        there = {one.own for one in found}
-        lines.append(f"# columns of the file: {', '.join(map(_quoted, columns[:_SHOWN]))}")
+    for one in guesses:
+        lines += _format_lines(
+            one, joint_names, any(line.startswith("names =") for line in lines), names
+        )
+    if find_absent_roles(guesses):
+        there = {one.quantity for one in guesses}
+        lines.append(f"# columns of the file: {', '.join(map(_quote_text, columns[:_SHOWN]))}")
         if "q" not in there:
             lines.append('# "q<j>" = "?"  # the position of each joint, such as "COLUMN{n} [deg]"')
         if not there & {"tau", "current", "duty"}:
@@ -450,63 +477,67 @@ def log_text(
     return "\n".join([head, *lines]) + "\n" if lines else ""
 
 
-def _lines_of(one: Guess, own: Sequence[str], named: bool, names: Mapping[str, str]) -> list[str]:
+def _format_lines(
+    one: Guess, joint_names: Sequence[str], named: bool, names: Mapping[str, str]
+) -> list[str]:
     """The lines of one quantity: a pattern, and joints of another unit by themselves."""
-    ours = all(c in (one.own, *(one.own + j for j in own)) for c in one.columns)
+    ours = all(c in (one.quantity, *(one.quantity + j for j in joint_names)) for c in one.columns)
     unit = one.units[0] if len(set(one.units)) == 1 else ""
-    told = "  # by its range" if one.why == "by its range" else ""
+    comment = "  # by its range" if one.why == "by its range" else ""
     lines: list[str] = []
-    if one.own == "time" or one.labels == ("",):
-        key = one.own if one.own == "time" else f"{one.own}{own[0]}"
+    if one.quantity == "time" or one.labels == ("",):
+        key = one.quantity if one.quantity == "time" else f"{one.quantity}{joint_names[0]}"
         if not ours or unit:
-            lines.append(f"{_key(key)} = {_column(one.columns[0], unit)}{told}")
+            lines.append(f"{_format_key(key)} = {_format_column(one.columns[0], unit)}{comment}")
         return lines
     known = bool(names) and {*names.values()} <= {*one.labels}
-    mark = "{name}" if known else _mark(one.labels, own)
+    mark = "{name}" if known else _choose_mark(one.labels, joint_names)
     if not ours or unit:
         if mark == "{name}" and not named:
-            ordered = names.items() if known else zip(own, one.labels, strict=False)
-            pairs = ", ".join(f"{_key(j)} = {_quoted(n)}" for j, n in ordered)
-            told = "" if known else "  # in the order of the log: which joint is which?"
-            lines.append(f"names = {{{pairs}}}{told}")
+            ordered = names.items() if known else zip(joint_names, one.labels, strict=False)
+            pairs = ", ".join(f"{_format_key(j)} = {_quote_text(n)}" for j, n in ordered)
+            comment = "" if known else "  # in the order of the log: which joint is which?"
+            lines.append(f"names = {{{pairs}}}{comment}")
         pattern = one.template.replace("{}", mark)
-        written = _quoted(f"{pattern}{_once(one.columns[0], unit)}")
-        lines.append(f'"{one.own}<j>" = {written}{told * bool(unit)}')
+        written = _quote_text(f"{pattern}{_format_unit(one.columns[0], unit)}")
+        lines.append(f'"{one.quantity}<j>" = {written}{comment * bool(unit)}')
     if unit:
         return lines
-    counted = [str(k + (mark == "{n}")) for k in range(len(own))]
-    called = [names.get(j, j) for j in own] if known else one.labels
-    labels = {"{j}": own, "{name}": called}.get(mark, counted)
+    counted = [str(k + (mark == "{n}")) for k in range(len(joint_names))]
+    called = [names.get(j, j) for j in joint_names] if known else one.labels
+    labels = {"{j}": joint_names, "{name}": called}.get(mark, counted)
     by = dict(zip(one.labels, zip(one.columns, one.units, strict=True), strict=True))
-    for joint, label in zip(own, labels, strict=False):
+    for joint, label in zip(joint_names, labels, strict=False):
         column, own_unit = by.get(label, ("", ""))
         if own_unit and (label in one.others or not one.others):
-            lines.append(f"{_key(one.own + joint)} = {_column(column, own_unit)}{told}")
+            lines.append(
+                f"{_format_key(one.quantity + joint)} = {_format_column(column, own_unit)}{comment}"
+            )
     return lines
 
 
-def _column(name: str, unit: str) -> str:
-    return _quoted(f"{name}{_once(name, unit)}")
+def _format_column(name: str, unit: str) -> str:
+    return _quote_text(f"{name}{_format_unit(name, unit)}")
 
 
-def _key(name: str) -> str:
+def _format_key(name: str) -> str:
     """A bare key where TOML allows it."""
-    return name if name.isascii() and name.isalnum() else _quoted(name)
+    return name if name.isascii() and name.isalnum() else _quote_text(name)
 
 
-def _quoted(text: str) -> str:
+def _quote_text(text: str) -> str:
     """A text in TOML, whatever it holds."""
     return json.dumps(text, ensure_ascii=False).replace("\x7f", "\\u007f")
 
 
-def _once(column: str, unit: str) -> str:
+def _format_unit(column: str, unit: str) -> str:
     """The unit in brackets, unless the column's name has it already."""
     return "" if not unit or column.endswith(f" [{unit}]") else f" [{unit}]"
 
 
-def _mark(labels: Sequence[str], own: Sequence[str]) -> str:
+def _choose_mark(labels: Sequence[str], joint_names: Sequence[str]) -> str:
     """What stands for the label in a pattern."""
-    if set(own) <= set(labels):
+    if set(joint_names) <= set(labels):
         return "{j}"
     if all(label.isdigit() for label in labels):
         return "{n-1}" if "0" in labels else "{n}"

@@ -8,27 +8,27 @@ from typing import Any
 import numpy as np
 
 from modeler.core.errors import DataError
-from modeler.core.json import nulled
+from modeler.core.json import convert_to_plain
 from modeler.core.manifest import JointSpec
-from modeler.core.result import Presented
-from modeler.core.table import percent
+from modeler.core.result import Result
+from modeler.core.table import format_percent
 from modeler.logs.columns import Stream
 from modeler.logs.guess import (
     Guess,
-    absent_roles,
-    doubtful_degrees,
-    guesses,
-    log_text,
-    slides_of,
-    speeds_by_position,
-    unlike_si,
+    describe_doubtful_degrees,
+    describe_non_si_columns,
+    find_absent_roles,
+    flag_prismatic_columns,
+    format_log_table,
+    guess_columns,
+    pair_speeds,
 )
 from modeler.logs.log_table import LogTable
-from modeler.logs.mapping import LENGTH, LogMap, find_unit, unit_named
-from modeler.logs.rates import moves, on_grid, rate_doubts, repeats_line
-from modeler.logs.stamps import coarse_clock
-from modeler.numerics.held import repeated_rows, rows_held
-from modeler.numerics.noise import lattice_step
+from modeler.logs.mapping import LENGTH, LogMap, find_unit, parse_unit
+from modeler.logs.rates import check_rates, describe_repeats, is_moving, is_on_grid
+from modeler.logs.stamps import describe_coarse_clock
+from modeler.numerics.held import estimate_hold_length, find_repeated_rows
+from modeler.numerics.noise import estimate_lattice_step
 
 GAP = 1.5  # of a usual step
 _USUAL = 0.95  # quantile of the steps of an uneven clock
@@ -114,7 +114,7 @@ class Positions:
 
 
 @dataclass(frozen=True, eq=False)
-class LogInspection(Presented):
+class LogInspection(Result):
     """All that a log shows by itself.
 
     Attributes:
@@ -141,10 +141,10 @@ class LogInspection(Presented):
     channels: tuple[Channel, ...]
     streams: tuple[Stream, ...]
     notes: tuple[str, ...]
-    doubts: tuple[str, ...]
+    warnings: tuple[str, ...]
     suggested: str
-    plain: str
-    ranged: tuple[str, ...]
+    suggested_without_ranges: str
+    range_warnings: tuple[str, ...]
     time: np.ndarray
     steps: np.ndarray
     values: Mapping[str, np.ndarray]
@@ -152,7 +152,7 @@ class LogInspection(Presented):
 
     def to_json(self) -> dict[str, Any]:
         """Plain data, without the values; a number that is not there is null."""
-        return nulled({
+        return convert_to_plain({
             "log": self.name,
             "rows": self.rows,
             "clock": None if self.clock is None else dataclasses.asdict(self.clock)
@@ -161,12 +161,12 @@ class LogInspection(Presented):
                          for channel in self.channels],
             "streams": [dataclasses.asdict(stream) for stream in self.streams],
             "notes": list(self.notes),
-            "doubts": list(self.doubts),
+            "doubts": list(self.warnings),
             "suggested": self.suggested,
         })  # fmt: skip
 
 
-def inspect_log(
+def inspect_table(
     table: LogTable,
     mapping: LogMap,
     joints: Sequence[JointSpec] = (),
@@ -186,55 +186,67 @@ def inspect_log(
     Raises:
         DataError: no rows in that span, or a time column without values.
     """
-    values = {name: table.measured(name) for name in table.names if table.is_numeric(name)}
+    values = {name: table.read_measured(name) for name in table.names if table.is_numeric(name)}
     names = {j.name: mapping.names[j.name] for j in joints if j.name in mapping.names}
 
-    def numbers(block: LogTable) -> dict[str, np.ndarray]:  # what turns out to be text has none
+    def measure_block(
+        block: LogTable,
+    ) -> dict[str, np.ndarray]:  # what turns out to be text has none
         none = np.full(block.rows, np.nan)
-        return {name: block.measured(name) if block.is_numeric(name) else none for name in values}
+        return {
+            name: block.read_measured(name) if block.is_numeric(name) else none for name in values
+        }
 
-    blocks: Iterable[dict[str, np.ndarray]] = [values] if every is None else map(numbers, every)
+    blocks: Iterable[dict[str, np.ndarray]] = (
+        [values] if every is None else map(measure_block, every)
+    )
     if span != (None, None):
-        found = guesses(values, {}, joints, names)
-        values, every = _within(table, found, blocks, span), None
+        guesses = guess_columns(values, {}, joints, names)
+        values, every = _select_span(table, guesses, blocks, span), None
         blocks = [values]
-    found = guesses(values, {n: table.unit(n) for n in values if table.unit(n)}, joints, names)
-    units = {n: u for one in found for n, u in zip(one.columns, one.units, strict=True) if u}
-    time, clock = _clock(table, values, found)
-    shown = {name: table.in_unit(name, v) for name, v in values.items()}
-    rows, clock, extents, drawn = _all_rows(table, blocks, found, clock, every is None)
+    guesses = guess_columns(
+        values, {n: table.get_unit(n) for n in values if table.get_unit(n)}, joints, names
+    )
+    units = {n: u for one in guesses for n, u in zip(one.columns, one.units, strict=True) if u}
+    time, clock = _measure_clock(table, values, guesses)
+    shown = {name: table.convert_to_unit(name, v) for name, v in values.items()}
+    rows, clock, extents, drawn = _scan_rows(table, blocks, guesses, clock, every is None)
     channels = []
     for name, v in shown.items():
-        stated, missing = table.unit(name), sum(own.missing for own in extents[name])
-        ends = np.stack([own.ends for own in extents[name]])
-        held = np.stack([own.held for own in extents[name]])
+        stated, missing = table.get_unit(name), sum(extent.missing for extent in extents[name])
+        ends = np.stack([extent.ends for extent in extents[name]])
+        held = np.stack([extent.held for extent in extents[name]])
         low, high = float(np.fmin.reduce(ends[:, 1])), float(np.fmax.reduce(ends[:, 2]))
-        limits = _limits(ends.ravel()[1:-1], held.ravel()[1:-1], (low, high), rows - missing)
+        limits = _find_limits(ends.ravel()[1:-1], held.ravel()[1:-1], (low, high), rows - missing)
         channels.append(
             Channel(
-                name=table.called(name),
+                name=table.format_name(name),
                 unit=stated or units.get(name, ""),
                 guessed=not stated and name in units,
                 low=low,
                 high=high,
                 missing=missing,
-                resolution=lattice_step(v),
+                resolution=estimate_lattice_step(v),
                 limits=limits,
                 constant=low == high,
             )
         )
-    notes, pairs = (*table.told, *table.notes), speeds_by_position(found)
+    notes, pairs = (*table.reading_notes, *table.notes), pair_speeds(guesses)
     if every is not None:
         notes = (*notes, _TOLD.format(rows, len(time)))
     coarse = ""
     if clock is not None and clock.repeated and every is None:
-        others = (v for name, v in values.items() if table.called(name) != clock.column)
-        coarse = coarse_clock(time, others)
-    doubts = [*_of_clock(clock, coarse), *absent_roles(found), *unlike_si(found)]
-    doubts += doubtful_degrees(found, values)
-    rest = {speed for position, speed in pairs if not moves(values[position])}
-    doubts += rate_doubts(pairs, values, time)
-    doubts += _repeats(found, values, rows, clock, table.called)
+        others = (v for name, v in values.items() if table.format_name(name) != clock.column)
+        coarse = describe_coarse_clock(time, others)
+    doubts = [
+        *_describe_clock(clock, coarse),
+        *find_absent_roles(guesses),
+        *describe_non_si_columns(guesses),
+    ]
+    doubts += describe_doubtful_degrees(guesses, values)
+    rest = {speed for position, speed in pairs if not is_moving(values[position])}
+    doubts += check_rates(pairs, values, time)
+    doubts += _find_repeats(guesses, values, rows, clock, table.format_name)
     still = [
         channel.name for channel, name in zip(channels, shown, strict=True)
         if channel.constant and not (name in rest and channel.low == 0.0)
@@ -242,39 +254,54 @@ def inspect_log(
     if still:
         verb = "never changes: is it" if len(still) == 1 else "never change: are they"
         doubts.append(f"{', '.join(still)} {verb} connected?")
-    bare = [one.without_range() if one.own in ("q", "qc") else one for one in found]
-    suggested, plain = ("" if mapping.layers else log_text(f, joints, tuple(values), names)
-                        for f in (found, bare))  # fmt: skip
-    ranged = tuple(line for line in unlike_si(found) if line not in unlike_si(bare))
+    bare = [one.drop_range_units() if one.quantity in ("q", "qc") else one for one in guesses]
+    suggested, plain = ("" if mapping.layers else format_log_table(f, joints, tuple(values), names)
+                        for f in (guesses, bare))  # fmt: skip
+    ranged = tuple(
+        line
+        for line in describe_non_si_columns(guesses)
+        if line not in describe_non_si_columns(bare)
+    )
     return LogInspection(
-        table.path.name, rows, clock, tuple(channels), table.found.streams, notes, tuple(doubts),
-        suggested, plain, ranged, *drawn,
-        None if clock is None else _positions(table, values, found, joints, names, time),
-    )  # fmt: skip
+        table.path.name,
+        rows,
+        clock,
+        tuple(channels),
+        table.file_columns.streams,
+        notes,
+        tuple(doubts),
+        suggested,
+        plain,
+        ranged,
+        *drawn,
+        None if clock is None else _build_positions(table, values, guesses, joints, names, time),
+    )
 
 
-def _positions(
-    table: LogTable, values: Mapping[str, np.ndarray], found: Sequence[Guess],
+def _build_positions(
+    table: LogTable, values: Mapping[str, np.ndarray], guesses: Sequence[Guess],
     joints: Sequence[JointSpec], names: Mapping[str, str], time: np.ndarray,
 ) -> Positions | None:  # fmt: skip
-    one = next((one for one in found if one.own == "q"), None)
+    one = next((one for one in guesses if one.quantity == "q"), None)
     if one is None:
         return None
     units, columns = list[str](), list[np.ndarray]()
-    linear = slides_of(one.labels, joints, names)
+    linear = flag_prismatic_columns(one.labels, joints, names)
     for name, guessed, slides in zip(one.columns, one.units, linear, strict=True):
-        text = table.unit(name) or guessed
+        text = table.get_unit(name) or guessed
         known = find_unit(text) if text else None
         slides = slides if known is None else known.powers == LENGTH
         units.append("counts" if text and known is None else "m" if slides else "rad")
-        factor = 1.0 if known is None or table.unit(name) else known.factor  # else it is SI already
+        factor = (
+            1.0 if known is None or table.get_unit(name) else known.factor
+        )  # else it is SI already
         columns.append(values[name] * factor)
-    called = tuple(map(table.called, one.columns))
+    called = tuple(map(table.format_name, one.columns))
     return Positions(called, tuple(units), time, np.column_stack(columns))
 
 
-def _repeats(
-    found: Sequence[Guess], values: Mapping[str, np.ndarray], rows: int, clock: Clock | None,
+def _find_repeats(
+    guesses: Sequence[Guess], values: Mapping[str, np.ndarray], rows: int, clock: Clock | None,
     called: Callable[[str], str],
 ) -> list[str]:  # fmt: skip
     """Rows that a recorder wrote again, and channels that are sampled more slowly than the log.
@@ -282,38 +309,40 @@ def _repeats(
     By the rows of the windows of a long log.
     """
     q, others = (
-        [values[name] for one in found if one.own in own for name in one.columns]
-        for own in (("q",), ("tau", "current", "qd", "qdd"))
+        [values[name] for one in guesses if one.quantity in entry for name in one.columns]
+        for entry in (("q",), ("tau", "current", "qd", "qdd"))
     )
     if clock is None or not q or not others:
         return []
-    again = repeated_rows(np.column_stack(q), np.column_stack(others))
+    again = find_repeated_rows(np.column_stack(q), np.column_stack(others))
     count = round(float(again.mean()) * rows)
     held: dict[int, list[str]] = {}
-    for one in found:
-        for name in one.columns if one.own in _MEASURED else ():
-            held.setdefault(rows_held(values[name][~again]), []).append(called(name))
+    for one in guesses:
+        for name in one.columns if one.quantity in _MEASURED else ():
+            held.setdefault(estimate_hold_length(values[name][~again]), []).append(called(name))
     rate = clock.rate * (1.0 - float(again.mean()))
-    return [repeats_line(count, rows, clock.rate)] * bool(count) + [
-        f"{', '.join(names)}: holds each value for {own} rows: sampled at {rate / own:.3g} Hz, not "
+    return [describe_repeats(count, rows, clock.rate)] * bool(count) + [
+        f"{', '.join(names)}: holds each value for {entry} rows: sampled at {rate / entry:.3g} Hz, "
+        "not "
         f"{rate:.4g} Hz"
-        for own, names in held.items() if own > 1
-    ]  # fmt: skip
+        for entry, names in held.items()
+        if entry > 1
+    ]
 
 
-def _within(
-    table: LogTable, found: Sequence[Guess], blocks: Iterable[dict[str, np.ndarray]],
+def _select_span(
+    table: LogTable, guesses: Sequence[Guess], blocks: Iterable[dict[str, np.ndarray]],
     span: tuple[float | None, float | None],
 ) -> dict[str, np.ndarray]:  # fmt: skip
     """The rows of a span of time."""
     low = -np.inf if span[0] is None else span[0]
     high = np.inf if span[1] is None else span[1]
-    kept, ends, clock = [], list[float](), None
+    parts, ends, clock = [], list[float](), None
     for values in blocks:
-        time, clock = _clock(table, values, found)
-        kept.append({name: v[(time >= low) & (time < high)] for name, v in values.items()})
+        time, clock = _measure_clock(table, values, guesses)
+        parts.append({name: v[(time >= low) & (time < high)] for name, v in values.items()})
         ends += [float(np.nanmin(time)), float(np.nanmax(time))]
-    inside = {name: np.concatenate([own[name] for own in kept]) for name in kept[0]}
+    inside = {name: np.concatenate([part[name] for part in parts]) for name in parts[0]}
     if clock is None or len(next(iter(inside.values()))) < 2:
         raise DataError(
             f"{table.path}: fewer than two rows from {low:g} to {high:g} s; its times go from "
@@ -341,8 +370,8 @@ Drawn = tuple[np.ndarray, np.ndarray, dict[str, np.ndarray]]
 """Time, steps and values of a `LogInspection`."""
 
 
-def _all_rows(
-    table: LogTable, blocks: Iterable[dict[str, np.ndarray]], found: Sequence[Guess],
+def _scan_rows(
+    table: LogTable, blocks: Iterable[dict[str, np.ndarray]], guesses: Sequence[Guess],
     seen: Clock | None, whole: bool,
 ) -> tuple[int, Clock | None, dict[str, list[_Extent]], Drawn]:  # fmt: skip
     """Rows, clock, extents by channel, and what is drawn; `seen`: of the windows of a long log."""
@@ -350,30 +379,30 @@ def _all_rows(
     last: dict[str, np.ndarray] = {}  # a block knows the row before it: one step more
     for values in blocks:
         rows = {name: np.append(last.get(name, v[:0]), v) for name, v in values.items()}
-        time, clock = _clock(table, rows, found, None if whole else seen)
+        time, clock = _measure_clock(table, rows, guesses, None if whole else seen)
         if clock is None:
             time = time + sum(counts)
         else:
             clocks.append(clock)
-        own = time[1 if last else 0 :]
-        shown = {name: table.in_unit(name, v) for name, v in values.items()}
-        extents.append({name: _extent(v) for name, v in shown.items()})
-        part = own, np.stack([time[1:], np.diff(time)]), shown
-        drawn.append(part if whole else _extremes(*part))
+        block = time[1 if last else 0 :]
+        shown = {name: table.convert_to_unit(name, v) for name, v in values.items()}
+        extents.append({name: _measure_extent(v) for name, v in shown.items()})
+        part = block, np.stack([time[1:], np.diff(time)]), shown
+        drawn.append(part if whole else _find_extremes(*part))
         last = {name: v[-1:] for name, v in values.items()}
-        counts.append(len(own))
+        counts.append(len(block))
     times, steps, values_drawn = zip(*drawn, strict=True)
     time = np.concatenate(times)
     return (
         sum(counts),
-        None if seen is None else _clock_over(seen, clocks, time),
-        {name: [own[name] for own in extents] for name in last},
+        None if seen is None else _merge_clocks(seen, clocks, time),
+        {name: [block[name] for block in extents] for name in last},
         (time, np.concatenate(steps, axis=1),
-         {name: np.concatenate([own[name] for own in values_drawn]) for name in last}),
+         {name: np.concatenate([block[name] for block in values_drawn]) for name in last}),
     )  # fmt: skip
 
 
-def _extremes(time: np.ndarray, steps: np.ndarray, values: Mapping[str, np.ndarray]) -> Drawn:
+def _find_extremes(time: np.ndarray, steps: np.ndarray, values: Mapping[str, np.ndarray]) -> Drawn:
     """The rows at which time and channels are least and largest, and such steps."""
     ends = [
         [find(x) for find in (np.nanargmin, np.nanargmax)]
@@ -384,44 +413,44 @@ def _extremes(time: np.ndarray, steps: np.ndarray, values: Mapping[str, np.ndarr
     return time[rows], steps[:, ends[1]], {name: x[rows] for name, x in values.items()}
 
 
-def _clock_over(seen: Clock, clocks: Sequence[Clock], time: np.ndarray) -> Clock:
+def _merge_clocks(seen: Clock, clocks: Sequence[Clock], time: np.ndarray) -> Clock:
     """The clock of consecutive blocks."""
     duration = float(np.nanmax(time) - np.nanmin(time))
     sums = {
-        name: sum(getattr(own, name) for own in clocks)
+        name: sum(getattr(clock, name) for clock in clocks)
         for name in ("gaps", "lost", "repeated", "back")
     }
-    widest = max(clocks, key=lambda own: own.largest)
-    jitters = [own.jitter**2 for own in clocks if np.isfinite(own.jitter)] or [np.nan]
+    widest = max(clocks, key=lambda clock: clock.largest)
+    jitters = [clock.jitter**2 for clock in clocks if np.isfinite(clock.jitter)] or [np.nan]
     jitter = float(np.sqrt(np.mean(jitters)))
     return dataclasses.replace(
         widest, rate=seen.rate, tick=seen.tick, jitter=jitter, duration=duration, **sums
     )
 
 
-def _clock(
-    table: LogTable, values: Mapping[str, np.ndarray], found: Sequence[Guess],
+def _measure_clock(
+    table: LogTable, values: Mapping[str, np.ndarray], guesses: Sequence[Guess],
     seen: Clock | None = None,
 ) -> tuple[np.ndarray, Clock | None]:  # fmt: skip
     """Times of rows, and their clock, by the usual step of `seen` or their own."""
-    guess = next((one for one in found if one.own == "time"), None)
+    guess = next((one for one in guesses if one.quantity == "time"), None)
     name = guess.columns[0] if guess is not None else "time"
     if name not in values:
         return np.arange(len(next(iter(values.values()), ())), dtype=float), None
     time = values[name]
-    if guess is not None and guess.units[0] and not table.unit(name):
-        time = time * unit_named(guess.units[0]).factor
+    if guess is not None and guess.units[0] and not table.get_unit(name):
+        time = time * parse_unit(guess.units[0]).factor
     known = time[np.isfinite(time)]
     steps = np.diff(known)
     if not len(steps):
         raise DataError(f"{table.path}: column {name} has no values; expected the time of each row")
     step = float(np.median(steps)) if seen is None else 1.0 / seen.rate
-    longest = GAP * usual_step(steps, step)
+    longest = GAP * find_usual_step(steps, step)
     even = steps[(steps > 0.0) & (steps <= longest)]
     gaps = np.flatnonzero(steps > longest) if step > 0.0 else np.array([], dtype=int)
     widest = int(gaps[np.argmax(steps[gaps])]) if gaps.size else 0
     return time, Clock(
-        column=table.called(name),
+        column=table.format_name(name),
         rate=1.0 / step if step > 0.0 else np.nan,
         jitter=float(np.std(even)) / step if even.size and step > 0.0 else np.nan,
         gaps=int(gaps.size),
@@ -431,27 +460,27 @@ def _clock(
         repeated=int(np.sum(steps == 0.0)),
         back=int(np.sum(steps < 0.0)),
         duration=float(known.max() - known.min()),
-        tick=_tick(even, step),
+        tick=_find_tick(even, step),
     )
 
 
-def usual_step(steps: np.ndarray, step: float) -> float:
+def find_usual_step(steps: np.ndarray, step: float) -> float:
     """Longest step, s, of an uneven clock but for the rarest; `step` of an even one."""
     known = steps[steps > 0.0]
     return max(step, float(np.quantile(known, _USUAL))) if len(known) else step
 
 
-def _tick(steps: np.ndarray, step: float) -> float:
+def _find_tick(steps: np.ndarray, step: float) -> float:
     """What steps of a clock differ by, if they are whole multiples apart; else 0."""
     off = np.abs(steps - step)
     off = off[off > 1e-4 * step]
     if not off.size:
         return 0.0
     tick = float(off.min())
-    return tick if on_grid(off, tick) else 0.0
+    return tick if is_on_grid(off, tick) else 0.0
 
 
-def _extent(values: np.ndarray) -> _Extent:
+def _measure_extent(values: np.ndarray) -> _Extent:
     finite = values[np.isfinite(values)]
     missing = values.size - finite.size
     if not finite.size:
@@ -465,7 +494,7 @@ def _extent(values: np.ndarray) -> _Extent:
     return _Extent(missing, np.array([at[0], low, high, np.nan, at[-1]]), np.array(held))
 
 
-def _limits(
+def _find_limits(
     ends: np.ndarray, held: np.ndarray, limits: tuple[float, float], rows: int
 ) -> tuple[tuple[float, float], ...]:
     """Ends of the range at which so many values stay for some rows, and for which share of all.
@@ -479,7 +508,7 @@ def _limits(
     return tuple((end, count / rows) for end, count in counts if count > _STUCK * rows)
 
 
-def _of_clock(clock: Clock | None, coarse: str) -> list[str]:
+def _describe_clock(clock: Clock | None, coarse: str) -> list[str]:
     """What a clock should not do."""
     if clock is None:
         return ["no column looks like the time: name it with --map time=COLUMN, or give --map rate"]
@@ -496,5 +525,7 @@ def _of_clock(clock: Clock | None, coarse: str) -> list[str]:
             f"{clock.largest:.4g} s at {clock.at:.4g} s"
         )
     if clock.jitter > max(_JITTER, clock.tick * clock.rate):
-        lines.append(f"{clock.column} is uneven: its steps differ by {percent(clock.jitter)}")
+        lines.append(
+            f"{clock.column} is uneven: its steps differ by {format_percent(clock.jitter)}"
+        )
     return lines

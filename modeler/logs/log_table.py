@@ -8,9 +8,16 @@ import numpy as np
 from modeler.core.errors import DataError
 from modeler.core.manifest import JointSpec
 from modeler.logs.arrays import LEAST_ROWS
-from modeler.logs.columns import Column, Columns, NotNumbers, Wanted
-from modeler.logs.guess import role_of
-from modeler.logs.mapping import LogMap, MappedColumn, Unit, find_unit, near, si_unit
+from modeler.logs.columns import Column, ColumnRequest, Columns, NotNumericError
+from modeler.logs.guess import guess_role
+from modeler.logs.mapping import (
+    LogMap,
+    MappedColumn,
+    Unit,
+    find_unit,
+    resolve_si_unit,
+    suggest_name,
+)
 from modeler.logs.readers import read_columns
 
 _TINY, _HUGE = 1e-100, 1e100  # in any unit; squares of what is beyond are no numbers any more
@@ -18,7 +25,7 @@ _SHOWN = 40  # names of columns that a message lists
 _FEW = 6
 
 
-def _motion_of(joints: Sequence[JointSpec]) -> set[str]:
+def _list_motion_names(joints: Sequence[JointSpec]) -> set[str]:
     """Our names of what is measured of joints."""
     return {f"{kind}{joint.name}" for kind in ("q", "qd", "qdd", "qc", "tau", "current")
             for joint in joints}  # fmt: skip
@@ -52,31 +59,37 @@ class LogTable:
         self.path = path
         mapping = mapping or LogMap()
         self.whole, self.before = whole or part is None, before
-        self.found = part or read_columns(path, Wanted(mapping.topic, any_topic, mapping.files))
-        self.rows: int = self.found.rows
+        self.file_columns = part or read_columns(
+            path, ColumnRequest(mapping.topic, any_topic, mapping.files)
+        )
+        self.rows: int = self.file_columns.rows
         self._joints = joints
-        self._columns: dict[str, Column] = dict(self.found.columns)
+        self._columns: dict[str, Column] = dict(self.file_columns.columns)
         self._check()
-        self._entries, self._guessed = mapping.entries(joints), bool(mapping.told)
+        self._entries, self._guessed = mapping.expand_entries(joints), bool(mapping.guess_notes)
         if mapping.rate:
             self._entries.pop("time", None)
         self._taken: dict[str, str] = {}  # which an error of the next line reads
-        self._taken = self._matched()
+        self._taken = self._match_columns()
         timed = "time" in self._taken or "time" in self._columns
-        timed = timed or any(role_of(n) == "time" for n in self._columns)
-        self._rate = mapping.rate or (None if timed else self.found.rate)
+        timed = timed or any(guess_role(n) == "time" for n in self._columns)
+        self._rate = mapping.rate or (None if timed else self.file_columns.rate)
         self._said = "" if mapping.rate else ", as the file says"
         self.rated = self._rate is not None
         used = set(self._taken.values())
         used |= {"time"} if self._rate else set()
         others = [name for name in self._columns if name not in used and name not in self._taken]
         self.names: tuple[str, ...] = (*self._taken, *(["time"] if self._rate else []), *others)
-        self._units = {name: self._unit(name) for name in self.names}
-        self.notes: tuple[str, ...] = (*self.found.notes, *self._notes())
-        self.told: tuple[str, ...] = (*self.found.told, *mapping.told, *self._taken_as_stated())
+        self._units = {name: self._find_unit(name) for name in self.names}
+        self.notes: tuple[str, ...] = (*self.file_columns.notes, *self._collect_notes())
+        self.reading_notes: tuple[str, ...] = (
+            *self.file_columns.reading_notes,
+            *mapping.guess_notes,
+            *self._describe_stated_units(),
+        )
 
     def _check(self) -> None:
-        names = [name for name, _ in self.found.columns]
+        names = [name for name, _ in self.file_columns.columns]
         if len(self._columns) < len(names):
             twice = sorted(name for name in self._columns if names.count(name) > 1)
             places = [f"{k}" for k, name in enumerate(names, start=1) if name == twice[0]]
@@ -90,67 +103,76 @@ class LogTable:
                 "longer motion"
             )
 
-    def _matched(self) -> dict[str, str]:
+    def _match_columns(self) -> dict[str, str]:
         """Our name -> column of the file, of the entries whose column is there.
 
         Raises:
             DataError: none of the columns that a strict entry names is there.
         """
-        found = {}
-        for own, entry in self._entries.items():
+        matched = {}
+        for our_name, entry in self._entries.items():
             there = next((name for name in entry.columns if name in self._columns), None)
             if there is not None:
-                found[own] = there
-        for own, taken in found.items():
-            first = next(o for o, c in found.items() if c == taken)
-            if first != own and self._entries[own].like(self._entries[first]):
+                matched[our_name] = there
+        for our_name, taken in matched.items():
+            first = next(o for o, c in matched.items() if c == taken)
+            if first != our_name and self._entries[our_name].has_same_scale(self._entries[first]):
                 raise DataError(
-                    f"{self.path}: column {taken} is taken as {first} and as {own}; expected a "
+                    f"{self.path}: column {taken} is taken as {first} and as {our_name}; expected "
+                    "a "
                     "column for each; correct [log] or --map"
                 )
-        for own, entry in self._entries.items():
-            if entry.strict and own not in found:
+        for our_name, entry in self._entries.items():
+            if entry.strict and our_name not in matched:
                 alike = [o for o, e in self._entries.items() if e.where == entry.where]
-                if not any(other in found for other in alike):
-                    raise DataError(f"{self.path}: {entry.where}: {self._absent(own)}")
-        return found
+                if not any(other in matched for other in alike):
+                    raise DataError(
+                        f"{self.path}: {entry.where}: {self._describe_absent(our_name)}"
+                    )
+        return matched
 
-    def _unit(self, own: str) -> Unit | None:
+    def _find_unit(self, our_name: str) -> Unit | None:
         """What a column is converted from; None if it is in SI units."""
-        if own == "time" and self._rate:
+        if our_name == "time" and self._rate:
             return None
-        column, entry = self._taken.get(own, own), self._entries.get(own)
-        stated = entry.unit if entry is not None and own in self._taken else None
-        if stated is None and (text := self.found.units.get(column)):
+        column, entry = self._taken.get(our_name, our_name), self._entries.get(our_name)
+        stated = entry.unit if entry is not None and our_name in self._taken else None
+        if stated is None and (text := self.file_columns.units.get(column)):
             stated = find_unit(text)
             entry = MappedColumn((), where=f"{self.path}: column {column}")
         where = entry.where if entry is not None else ""
-        return None if stated is None else si_unit(own, where or own, stated, self._joints)
+        return (
+            None
+            if stated is None
+            else resolve_si_unit(our_name, where or our_name, stated, self._joints)
+        )
 
-    def _notes(self) -> list[str]:
+    def _collect_notes(self) -> list[str]:
         """Entries of [log] that found nothing, units that nobody knows."""
         lines = []
-        for own, entry in self._entries.items():
-            if own not in self._taken and own not in self._columns and own != "time":
-                lines.append(f"no column {entry.columns[0]} for {own}")
+        for our_name, entry in self._entries.items():
+            if our_name not in self._taken and our_name not in self._columns and our_name != "time":
+                lines.append(f"no column {entry.columns[0]} for {our_name}")
         unknown = [
-            n for n, t in self.found.units.items() if n in self._columns and not find_unit(t)
+            n for n, t in self.file_columns.units.items() if n in self._columns and not find_unit(t)
         ]
         if unknown:
-            named = ", ".join(f'{name} "{self.found.units[name]}"' for name in unknown[:_FEW])
+            named = ", ".join(
+                f'{name} "{self.file_columns.units[name]}"' for name in unknown[:_FEW]
+            )
             lines.append(f"the file states units that are not understood, taken as SI: {named}")
         return lines
 
-    def _taken_as_stated(self) -> list[str]:
+    def _describe_stated_units(self) -> list[str]:
         """Units of the file's own, a time without column."""
         stated = [
-            f"{own} in {unit.text}"
-            for own, unit in self._units.items()
-            if unit is not None and not (own in self._taken and self._entries[own].unit)
+            f"{our_name} in {unit.text}"
+            for our_name, unit in self._units.items()
+            if unit is not None and not (our_name in self._taken and self._entries[our_name].unit)
         ]
         lines = [f"by the units that the file states: {', '.join(stated)}"] if stated else []
         if self._rate:
-            beside = next((n for n in self._columns if n == "time" or role_of(n) == "time"), "")
+            beside = next((n for n in self._columns if n == "time" or guess_role(n) == "time"), "")
             why = f"column {beside} is not used" if beside else "no time column"
             lines.append(f"{why}: rows counted at {self._rate:g} Hz{self._said}")
         return lines
@@ -158,69 +180,70 @@ class LogTable:
     def __contains__(self, name: str) -> bool:
         return name in self._units
 
-    def column(self, name: str) -> str:
+    def find_file_column(self, name: str) -> str:
         """The file's own name of a column of ours."""
         return self._taken.get(name, name)
 
-    def called(self, name: str) -> str:
+    def format_name(self, name: str) -> str:
         """A column as the user knows it: `t (time)`, or `time` if that is its name in the file."""
         column = self._taken.get(name, name)
         if column == name and name in self._entries and name not in self._columns:
             column = self._entries[name].columns[0]
         return name if column == name else f"{column} ({name})"
 
-    def unit(self, name: str) -> str:
+    def get_unit(self, name: str) -> str:
         """What a column is known to be converted from; "" if nobody said."""
         unit = self._units[name]
         return "" if unit is None else unit.text
 
-    def in_unit(self, name: str, values: np.ndarray) -> np.ndarray:
+    def convert_to_unit(self, name: str, values: np.ndarray) -> np.ndarray:
         """SI values of a column in the unit that it is known to be in."""
         unit = self._units[name]
         return values if unit is None else values / unit.factor - unit.zero
 
-    def as_logged(self, name: str, values: np.ndarray) -> np.ndarray:
+    def convert_to_logged(self, name: str, values: np.ndarray) -> np.ndarray:
         """The same as the file has it: with its sign, scale and offset too."""
-        entry, values = self._entries.get(name), self.in_unit(name, values)
+        entry, values = self._entries.get(name), self.convert_to_unit(name, values)
         if entry is None or name not in self._taken:
             return values
         return (values - entry.offset) / (entry.sign * entry.scale)
 
-    def source(self, name: str) -> str:
+    def describe_source(self, name: str) -> str:
         """The same, ours first: `tau2`, or `tau2 from moment_b`."""
-        column = self.column(name)
+        column = self.find_file_column(name)
         return name if column == name else f"{name} from {column}"
 
     def is_numeric(self, name: str) -> bool:
         """True if the column holds numbers (or nothing at all)."""
         if name == "time" and self._rate:
             return True
-        return self._columns[self._taken.get(name, name)].numeric
+        return self._columns[self._taken.get(name, name)].is_numeric
 
-    def numbers(self, name: str) -> np.ndarray:
+    def read_numbers(self, name: str) -> np.ndarray:
         """The column as floats in SI units, (rows,); null, NaN and infinite entries are NaN.
 
         Raises:
             DataError: the column is missing or holds something else than numbers.
         """
         if name not in self:
-            raise DataError(f"{self.path}: {self._absent(name)}")
+            raise DataError(f"{self.path}: {self._describe_absent(name)}")
         if name == "time" and self._rate:
             return np.arange(self.before, self.before + self.rows) / self._rate
         column = self._columns[self._taken.get(name, name)]
-        if getattr(column, "is_time", False) and name in _motion_of(self._joints):
+        if getattr(column, "is_time", False) and name in _list_motion_names(self._joints):
             raise DataError(
-                f"{self.path}: column {self.called(name)} holds dates or times of day; expected "
+                f"{self.path}: column {self.format_name(name)} holds dates or times of day; "
+                "expected "
                 f"numbers; say which column it is: --map {name}=COLUMN"
             )
         try:
-            values = column.numbers()
-        except NotNumbers as why:
-            raise DataError(f"{self.path}: column {self.called(name)}{why}") from None
+            values = column.read_numbers()
+        except NotNumericError as why:
+            raise DataError(f"{self.path}: column {self.format_name(name)}{why}") from None
         values[~np.isfinite(values)] = np.nan
-        return self._converted(name, values)
+        return self._convert_values(name, values)
 
-    def _converted(self, name: str, values: np.ndarray) -> np.ndarray:
+    def _convert_values(self, name: str, values: np.ndarray) -> np.ndarray:
         entry, unit = self._entries.get(name), self._units[name]
         if entry is not None and name in self._taken:
             if entry.sign * entry.scale != 1.0:
@@ -234,25 +257,27 @@ class LogTable:
                 values *= unit.factor
         return values
 
-    def measured(self, name: str) -> np.ndarray:
+    def read_measured(self, name: str) -> np.ndarray:
         """The same of something that was measured: specks are 0, what is beyond all measure NaN."""
-        values = self.numbers(name)
+        values = self.read_numbers(name)
         values[np.abs(values) < _TINY] = 0.0
         if (beyond := np.abs(values) > _HUGE).any():
             row = int(np.argmax(beyond))
             raise DataError(
-                f"{self.path}: column {self.called(name)}, row {self.before + row + 1}: got "
+                f"{self.path}: column {self.format_name(name)}, row {self.before + row + 1}: got "
                 f"{values[row]:.3g}; expected a measurement, below {_HUGE:g} in any unit; repair "
                 "it, or leave the entry empty"
             )
         return values
 
-    def _absent(self, name: str) -> str:
-        there = [column for column, _ in self.found.columns]
+    def _describe_absent(self, name: str) -> str:
+        there = [column for column, _ in self.file_columns.columns]
         entry = self._entries.get(name)
         wanted = name if entry is None else entry.columns[-1]
-        other = next((own for own, column in self._taken.items() if column == wanted), None)
-        hint = f" (it is taken as {other})" if other else near(wanted, there)
+        other = next(
+            (our_name for our_name, column in self._taken.items() if column == wanted), None
+        )
+        hint = f" (it is taken as {other})" if other else suggest_name(wanted, there)
         head, colon, unit = wanted.rpartition(":")
         if colon and head in there:
             hint = f' (if column {head} is meant, "{unit}" is no unit that is known)'

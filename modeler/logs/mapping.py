@@ -12,7 +12,7 @@ from typing import Any
 
 from modeler.core.errors import DataError
 from modeler.core.files import read_text
-from modeler.core.json import parse_toml, shown
+from modeler.core.json import parse_toml, shorten_value
 from modeler.core.manifest import JointSpec
 
 # Units by name, as factors to SI (`deg`, `N m`, `rev/8192`), and which a column may be in.
@@ -106,7 +106,7 @@ class Unit:
             if power
         )
 
-    def as_quantity(self, powers: Powers) -> "Unit | None":
+    def convert_to_quantity(self, powers: Powers) -> "Unit | None":
         """The unit as one of that quantity; None if it measures something else.
 
         A kg or lb where a force is due means its weight.
@@ -119,33 +119,55 @@ class Unit:
         return None
 
 
-def _unit(factor: float, powers: Powers, zero: float = 0.0) -> Unit:
+def _make_unit(factor: float, powers: Powers, zero: float = 0.0) -> Unit:
     return Unit("", factor, powers, zero)
 
 
-_TABLE: Mapping[str, Unit] = MappingProxyType({
-    "m": _unit(1.0, LENGTH), "in": _unit(_INCH, LENGTH), "inch": _unit(_INCH, LENGTH),
-    "ft": _unit(12.0 * _INCH, LENGTH),
-    "g": _unit(1e-3, MASS), "lb": _unit(_POUND, MASS), "oz": _unit(_POUND / 16.0, MASS),
-    "s": _unit(1.0, TIME), "sec": _unit(1.0, TIME), "min": _unit(60.0, TIME),
-    "h": _unit(3600.0, TIME), "Hz": _unit(1.0, (0, 0, -1, 0, 0, 0)),
-    "rad": _unit(1.0, ANGLE), "deg": _unit(math.pi / 180.0, ANGLE),
-    "Grad": _unit(math.pi / 180.0, ANGLE),  # German; an English "grad" may be a gon, and is none
-    "°": _unit(math.pi / 180.0, ANGLE),
-    "rev": _unit(2.0 * math.pi, ANGLE), "turn": _unit(2.0 * math.pi, ANGLE),
-    "arcmin": _unit(math.pi / 10800.0, ANGLE), "arcsec": _unit(math.pi / 648000.0, ANGLE),
-    "rpm": _unit(math.pi / 30.0, (0, 0, -1, 1, 0, 0)),
-    "A": _unit(1.0, CURRENT), "V": _unit(1.0, VOLTAGE),
-    "N": _unit(1.0, FORCE), "Nm": _unit(1.0, TORQUE), "kgf": _unit(GRAVITY, FORCE),
-    "kp": _unit(GRAVITY, FORCE), "lbf": _unit(_POUND * GRAVITY, FORCE),
-    "ozf": _unit(_POUND / 16.0 * GRAVITY, FORCE),
-    "degC": _unit(1.0, HEAT), "°C": _unit(1.0, HEAT), "K": _unit(1.0, HEAT, -273.15),
-    "degF": _unit(5.0 / 9.0, HEAT, -32.0), "°F": _unit(5.0 / 9.0, HEAT, -32.0),
-    "percent": _unit(0.01, NONE), "%": _unit(0.01, NONE),
-})  # fmt: skip
+_TABLE: Mapping[str, Unit] = MappingProxyType(
+    {
+        "m": _make_unit(1.0, LENGTH),
+        "in": _make_unit(_INCH, LENGTH),
+        "inch": _make_unit(_INCH, LENGTH),
+        "ft": _make_unit(12.0 * _INCH, LENGTH),
+        "g": _make_unit(1e-3, MASS),
+        "lb": _make_unit(_POUND, MASS),
+        "oz": _make_unit(_POUND / 16.0, MASS),
+        "s": _make_unit(1.0, TIME),
+        "sec": _make_unit(1.0, TIME),
+        "min": _make_unit(60.0, TIME),
+        "h": _make_unit(3600.0, TIME),
+        "Hz": _make_unit(1.0, (0, 0, -1, 0, 0, 0)),
+        "rad": _make_unit(1.0, ANGLE),
+        "deg": _make_unit(math.pi / 180.0, ANGLE),
+        "Grad": _make_unit(
+            math.pi / 180.0, ANGLE
+        ),  # German; an English "grad" may be a gon, and is none
+        "°": _make_unit(math.pi / 180.0, ANGLE),
+        "rev": _make_unit(2.0 * math.pi, ANGLE),
+        "turn": _make_unit(2.0 * math.pi, ANGLE),
+        "arcmin": _make_unit(math.pi / 10800.0, ANGLE),
+        "arcsec": _make_unit(math.pi / 648000.0, ANGLE),
+        "rpm": _make_unit(math.pi / 30.0, (0, 0, -1, 1, 0, 0)),
+        "A": _make_unit(1.0, CURRENT),
+        "V": _make_unit(1.0, VOLTAGE),
+        "N": _make_unit(1.0, FORCE),
+        "Nm": _make_unit(1.0, TORQUE),
+        "kgf": _make_unit(GRAVITY, FORCE),
+        "kp": _make_unit(GRAVITY, FORCE),
+        "lbf": _make_unit(_POUND * GRAVITY, FORCE),
+        "ozf": _make_unit(_POUND / 16.0 * GRAVITY, FORCE),
+        "degC": _make_unit(1.0, HEAT),
+        "°C": _make_unit(1.0, HEAT),
+        "K": _make_unit(1.0, HEAT, -273.15),
+        "degF": _make_unit(5.0 / 9.0, HEAT, -32.0),
+        "°F": _make_unit(5.0 / 9.0, HEAT, -32.0),
+        "percent": _make_unit(0.01, NONE),
+        "%": _make_unit(0.01, NONE),
+    }
+)
 
 
-def unit_named(text: str) -> Unit:
+def parse_unit(text: str) -> Unit:
     """The unit of that text: names with products, quotients and powers, `deg/s^2`, `rev/8192`.
 
     Raises:
@@ -163,7 +185,7 @@ def find_unit(text: str) -> Unit | None:
     text, count = text.strip().replace("²", "^2"), 0
     while at < len(text):
         match = _FACTOR.match(text, at)
-        one = None if match is None else _simple(match[2])
+        one = None if match is None else _parse_simple_unit(match[2])
         if match is None or one is None or (match[1] and count == 0):
             return None
         if len(match[3] or "") > len("-9") or abs(int(match[3] or 1)) > 9:
@@ -180,46 +202,46 @@ def find_unit(text: str) -> Unit | None:
     return Unit(text, factor, powers, zero if count == 1 and powers == HEAT else 0.0)
 
 
-def _simple(name: str) -> Unit | None:
+def _parse_simple_unit(name: str) -> Unit | None:
     """A number, a unit of the table, or one with a prefix."""
     if name[0].isdigit():
-        return _unit(float(name), NONE) if float(name) > 0.0 else None
+        return _make_unit(float(name), NONE) if float(name) > 0.0 else None
     name = _WORDS.get(name.lower(), name)
     if name in _TABLE:
         return _TABLE[name]
     prefix, rest = name[0], name[1:]
     if prefix in _PREFIXES and rest in _PREFIXED:
         base = _TABLE[rest]
-        return _unit(_PREFIXES[prefix] * base.factor, base.powers)
+        return _make_unit(_PREFIXES[prefix] * base.factor, base.powers)
     return None
 
 
-def si_unit(own: str, where: str, unit: Unit, joints: Sequence[JointSpec]) -> Unit:
+def resolve_si_unit(our_name: str, where: str, unit: Unit, joints: Sequence[JointSpec]) -> Unit:
     """The unit of an entry as one of what our column measures.
 
     Raises:
         DataError: it measures something else; names the entry, the joint and what was expected.
     """
-    wanted, what, example = _wanted(own, joints)
+    wanted, what, example = _find_expected(our_name, joints)
     if wanted is None:
         return unit
     if wanted == CURRENT and unit.powers in (NONE, VOLTAGE):
         return unit  # drive units: what the drive gain is of
-    found = unit.as_quantity(wanted)
-    if found is None:
+    converted = unit.convert_to_quantity(wanted)
+    if converted is None:
         also = "; a current is called current<j>" if unit.powers == CURRENT else ""
         raise DataError(
-            f'{where}: got unit "{unit.text}", which is {unit.kind}; {own} is {what}: '
+            f'{where}: got unit "{unit.text}", which is {unit.kind}; {our_name} is {what}: '
             f"expected a unit such as {example}{also}"
         )
-    return found
+    return converted
 
 
-def _wanted(own: str, joints: Sequence[JointSpec]) -> tuple[Powers | None, str, str]:
+def _find_expected(our_name: str, joints: Sequence[JointSpec]) -> tuple[Powers | None, str, str]:
     """Powers, in words, and examples of units; None for a column that may measure anything."""
-    if own == "time":
+    if our_name == "time":
         return TIME, "a time", "s, ms, us, ns"
-    if own.startswith("temperature"):
+    if our_name.startswith("temperature"):
         return HEAT, "a temperature", "degC, K, degF"
     for joint in joints:
         of_joint = {
@@ -230,7 +252,7 @@ def _wanted(own: str, joints: Sequence[JointSpec]) -> tuple[Powers | None, str, 
             **_MOTION[joint.unit],
         }
         for prefix, (powers, what, example) in of_joint.items():
-            if own == f"{prefix}{joint.name}":
+            if our_name == f"{prefix}{joint.name}":
                 return powers, f"{what} of joint {joint.name}, which is {joint.kind}", example
     return None, "", ""
 
@@ -267,22 +289,22 @@ class MappedColumn:
     where: str = ""
     strict: bool = False
 
-    def like(self, other: "MappedColumn") -> bool:
+    def has_same_scale(self, other: "MappedColumn") -> bool:
         """True if the same number means the same to both."""
-        kept = ("unit", "sign", "scale", "offset")
-        return all(getattr(self, name) == getattr(other, name) for name in kept)
+        scale_fields = ("unit", "sign", "scale", "offset")
+        return all(getattr(self, name) == getattr(other, name) for name in scale_fields)
 
-    def of(self, joint: str, place: int, name: str) -> "MappedColumn":
+    def expand_for_joint(self, joint: str, place: int, name: str) -> "MappedColumn":
         """The entry of a pattern for one joint."""
 
-        def text(token: re.Match[str]) -> str:
+        def replace_token(token: re.Match[str]) -> str:
             words = {"{j}": joint, "{name}": name}
             return words.get(token[0]) or f"{place + 1 + int(token[1] or 0)}"
 
-        written = [_TOKEN.sub(text, column) for column in self.columns]
+        written = [_TOKEN.sub(replace_token, column) for column in self.columns]
         return dataclasses.replace(self, columns=tuple(written))
 
-    def table(self) -> str | dict[str, Any]:
+    def build_table(self) -> str | dict[str, Any]:
         """The entry as [log] has it."""
         column = self.columns[0]
         if (self.sign, self.scale, self.offset) == (1.0, 1.0, 0.0):
@@ -314,9 +336,9 @@ class LogMap:
     rate: float | None = None
     files: Mapping[str, str] = field(default_factory=dict)
     auto: bool = False
-    told: tuple[str, ...] = ()
+    guess_notes: tuple[str, ...] = ()
 
-    def overriding(self, other: "LogMap") -> "LogMap":
+    def merge_over(self, other: "LogMap") -> "LogMap":
         """This one, and under it another."""
         return LogMap(
             (*other.layers, *self.layers),
@@ -325,40 +347,42 @@ class LogMap:
             self.rate or other.rate,
             self.files or other.files,
             self.auto or other.auto,
-            (*other.told, *self.told),
+            (*other.guess_notes, *self.guess_notes),
         )
 
-    def table(self, joints: Sequence[JointSpec] = ()) -> dict[str, Any]:
-        """What is said, as one table [log]: `map_from_table` of it reads logs alike.
+    def build_table(self, joints: Sequence[JointSpec] = ()) -> dict[str, Any]:
+        """What is said, as one table [log]: `build_map` of it reads logs alike.
 
         A pattern of a layer goes before entries of lower layers for single joints of a robot.
         """
-        found: dict[str, MappedColumn] = {}
+        entries: dict[str, MappedColumn] = {}
         for layer in self.layers:
             for key in (key for key in layer if JOINT in key):
-                for own in (key.replace(JOINT, joint.name) for joint in joints):
-                    found.pop(own, None)
-            found |= layer
+                for joint_key in (key.replace(JOINT, joint.name) for joint in joints):
+                    entries.pop(joint_key, None)
+            entries |= layer
         said = {"topic": self.topic, "rate": self.rate, "names": dict(self.names),
                 "files": dict(self.files)}  # fmt: skip
-        return {k: v for k, v in said.items() if v} | {k: e.table() for k, e in found.items()}
+        return {k: v for k, v in said.items() if v} | {
+            k: e.build_table() for k, e in entries.items()
+        }
 
-    def entries(self, joints: Sequence[JointSpec]) -> dict[str, MappedColumn]:
+    def expand_entries(self, joints: Sequence[JointSpec]) -> dict[str, MappedColumn]:
         """Our name -> entry, for the joints of a robot; an entry of its own beats a pattern."""
-        found: dict[str, MappedColumn] = {}
+        entries: dict[str, MappedColumn] = {}
         for layer in self.layers:
             for key in sorted(layer, key=lambda key: JOINT not in key):
                 if JOINT not in key:
-                    found[key] = layer[key]
+                    entries[key] = layer[key]
                     continue
                 for place, joint in enumerate(joints):
                     name = self.names.get(joint.name, joint.name)
-                    own = key.replace(JOINT, joint.name)
-                    found[own] = layer[key].of(joint.name, place, name)
-        return found
+                    joint_key = key.replace(JOINT, joint.name)
+                    entries[joint_key] = layer[key].expand_for_joint(joint.name, place, name)
+        return entries
 
 
-def map_from_table(table: Any, where: str, strict: bool = False) -> LogMap:
+def build_map(table: Any, where: str, strict: bool = False) -> LogMap:
     """The map that a table [log] states.
 
     Args:
@@ -373,27 +397,28 @@ def map_from_table(table: Any, where: str, strict: bool = False) -> LogMap:
     if not isinstance(table, Mapping):
         raise DataError(f'{where}: expected a table, such as "q<j>" = "position_{{j}} [deg]"')
     entries = {
-        key: dataclasses.replace(_entry(value, f"{where}, {key}", key), strict=strict)
+        key: dataclasses.replace(_parse_entry(value, f"{where}, {key}", key), strict=strict)
         for key, value in table.items()
         if key not in _SETTINGS
     }
     topic = table.get("topic", "")
     if not isinstance(topic, str):
         raise DataError(
-            f'{where}, topic: got {shown(topic)}; expected a name such as "/joint_states"'
+            f'{where}, topic: got {shorten_value(topic)}; expected a name such as "/joint_states"'
         )
     names, rate = table.get("names", {}), None
     if not isinstance(names, Mapping) or not all(isinstance(n, str) for n in names.values()):
         raise DataError(
-            f"{where}, names: got {shown(names)}; expected a table such as "
+            f"{where}, names: got {shorten_value(names)}; expected a table such as "
             '{1 = "waist", 2 = "shoulder"}'
         )
-    if table.get("rate") is not None and (rate := _float(table, "rate", where)) <= 0.0:
+    if table.get("rate") is not None and (rate := _parse_float(table, "rate", where)) <= 0.0:
         raise DataError(f"{where}: rate is {rate:g}; expected the samples in a second, such as 500")
     files = table.get("files", {})
     if not isinstance(files, Mapping) or not all(map(_is_ending, files.values())):
         raise DataError(
-            f"{where}, files: got {shown(files)}; expected how the names of the files of one log "
+            f"{where}, files: got {shorten_value(files)}; expected how the names of the files of "
+            "one log "
             'end, such as {q = "_q.csv", tau = "_tau.csv"}'
         )
     named = {str(joint): name for joint, name in names.items()}
@@ -405,19 +430,19 @@ def _is_ending(name: Any) -> bool:
     return isinstance(name, str) and not name.startswith("/") and ".." not in name.split("/")
 
 
-def map_from_words(words: Sequence[str]) -> LogMap:
+def parse_map_options(words: Sequence[str]) -> LogMap:
     """The map that `--map` states, several times over: FILE.toml, or NAME=COLUMN[:UNIT].
 
     Raises:
         DataError: a word that is neither, or a file that cannot be read.
     """
-    found = LogMap()
+    log_map = LogMap()
     for word in words:
-        found = _of_word(word).overriding(found)
-    return found
+        log_map = _parse_map_option(word).merge_over(log_map)
+    return log_map
 
 
-def _of_word(word: str) -> LogMap:
+def _parse_map_option(word: str) -> LogMap:
     where = f"--map {word}"
     if word.endswith(".toml") and "=" not in word:
         path = Path(word)
@@ -428,7 +453,7 @@ def _of_word(word: str) -> LogMap:
             raise DataError(f"--map {path}: {why}") from None
         except ValueError as error:  # of TOML, or of UTF-8
             raise DataError(f"--map {path}: not TOML ({error}); correct that line") from None
-        return map_from_table(document.get("log", document), f"{path}: [log]", strict=True)
+        return build_map(document.get("log", document), f"{path}: [log]", strict=True)
     if word.strip() == AUTO:
         return LogMap(auto=True)
     key, equals, column = (part.strip() for part in word.partition("="))
@@ -439,46 +464,50 @@ def _of_word(word: str) -> LogMap:
         )
     if key == "rate":
         try:
-            return map_from_table({"rate": float(column)}, where)
+            return build_map({"rate": float(column)}, where)
         except ValueError:
             raise DataError(f"{where}: got {column}; expected a number") from None
     if key == "topic":
-        return map_from_table({"topic": column}, where)
+        return build_map({"topic": column}, where)
     if key == "names":
-        return map_from_table({"names": dict(_pair(p, where) for p in column.split(","))}, where)
+        return build_map({"names": dict(_parse_pair(p, where) for p in column.split(","))}, where)
     table: dict[str, Any] = {"column": column}
     head, colon, unit = column.rpartition(":")
     if colon and head and find_unit(unit) is not None:
         table = {"column": head.strip(), "unit": unit.strip()}
     if table["column"].startswith("-"):
         table |= {"column": table["column"][1:].strip(), "sign": -1}
-    return map_from_table({key: table}, "--map", strict=True)
+    return build_map({key: table}, "--map", strict=True)
 
 
-def _pair(text: str, where: str) -> tuple[str, str]:
+def _parse_pair(text: str, where: str) -> tuple[str, str]:
     joint, colon, name = (part.strip() for part in text.partition(":"))
     if not (joint and colon and name):
         raise DataError(f"{where}: got {text}; expected JOINT:NAME,JOINT:NAME such as 1:waist")
     return joint, name
 
 
-def _entry(value: Any, where: str, key: str) -> MappedColumn:
+def _parse_entry(value: Any, where: str, key: str) -> MappedColumn:
     if key.count(JOINT) > 1 or not key.strip():
         raise DataError(f"{where}: expected a name such as q2, or a pattern such as q{JOINT}")
     table = {"column": value} if isinstance(value, str) else value
     if not isinstance(table, Mapping):
         raise DataError(
-            f"{where}: got {shown(value)}; expected the name of a column, or a table such as "
+            f"{where}: got {shorten_value(value)}; expected the name of a column, or a table such "
+            "as "
             '{column = "position_2", unit = "deg", sign = -1}'
         )
     for name in table:
         if name not in _KEYS:
             raise DataError(
-                f"{where}: unknown key {name}{near(name, _KEYS)}; expected {', '.join(_KEYS)}"
+                f"{where}: unknown key {name}{suggest_name(name, _KEYS)}; expected "
+                f"{', '.join(_KEYS)}"
             )
     column = table.get("column", key.replace(JOINT, "{j}"))
     if not isinstance(column, str) or not column.strip():
-        raise DataError(f'{where}: column is {shown(column)}; expected a name such as "position_2"')
+        raise DataError(
+            f'{where}: column is {shorten_value(column)}; expected a name such as "position_2"'
+        )
     columns: tuple[str, ...] = (column.strip(),)
     stated, unit = table.get("unit"), None
     match = _BRACKETS.fullmatch(column.strip())
@@ -486,25 +515,27 @@ def _entry(value: Any, where: str, key: str) -> MappedColumn:
         columns, stated = (column.strip(), match[1]), table.get("unit", match[2])
     if stated is not None:
         unit = find_unit(stated) if isinstance(stated, str) else None
-    sign, scale, offset = (_float(table, name, where) for name in ("sign", "scale", "offset"))
+    sign, scale, offset = (_parse_float(table, name, where) for name in ("sign", "scale", "offset"))
     if abs(sign) != 1.0:
         raise DataError(f"{where}: sign is {sign:g}; expected 1 or -1; a factor is called scale")
     if scale == 0.0:
         raise DataError(f"{where}: scale is 0; expected what the number is multiplied by")
     if stated is not None and unit is None:
-        raise DataError(f"{where}: got unit {shown(stated)}; expected a unit such as {EXAMPLES}")
+        raise DataError(
+            f"{where}: got unit {shorten_value(stated)}; expected a unit such as {EXAMPLES}"
+        )
     return MappedColumn(columns, unit, sign, scale, offset, where)
 
 
-def _float(table: Mapping[str, Any], name: str, where: str) -> float:
+def _parse_float(table: Mapping[str, Any], name: str, where: str) -> float:
     value = table.get(name, 0.0 if name == "offset" else 1.0)
     number = isinstance(value, int | float) and not isinstance(value, bool)
     if not number or not -_LARGEST <= value <= _LARGEST:
-        raise DataError(f"{where}: {name} is {shown(value)}; expected a number")
+        raise DataError(f"{where}: {name} is {shorten_value(value)}; expected a number")
     return float(value)
 
 
-def near(name: str, names: Sequence[str]) -> str:
+def suggest_name(name: str, names: Sequence[str]) -> str:
     """` (did you mean q1?)` for a misspelt name, else nothing."""
-    found = difflib.get_close_matches(name, names, n=2, cutoff=0.6)
-    return f" (did you mean {' or '.join(found)}?)" if found else ""
+    matches = difflib.get_close_matches(name, names, n=2, cutoff=0.6)
+    return f" (did you mean {' or '.join(matches)}?)" if matches else ""

@@ -5,8 +5,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from modeler.logs.guess import role_of
-from modeler.logs.inspect import GAP, HELD, LogInspection, usual_step
+from modeler.logs.guess import guess_role
+from modeler.logs.inspect import GAP, HELD, LogInspection, find_usual_step
 
 MOST = 100
 """Marks of one kind in one channel; of more, the longest."""
@@ -36,25 +36,25 @@ class Mark:
     line: str
 
 
-def marks_of(seen: LogInspection) -> list[Mark]:
+def find_marks(seen: LogInspection) -> list[Mark]:
     """Gaps and faults of the clock, missing values, ends of a range at which a channel stays.
 
     Of a long log, of which not all rows are kept, the clock alone.
     """
     if seen.clock is None:
         return []
-    found = [*_of_clock(seen)]
+    marks = [*_mark_clock(seen)]
     if seen.time.size == seen.rows:
-        found += _of_channels(seen)
-    return most_of(found)
+        marks += _mark_channels(seen)
+    return keep_longest(marks)
 
 
-def _of_clock(seen: LogInspection) -> Iterator[Mark]:
+def _mark_clock(seen: LogInspection) -> Iterator[Mark]:
     assert seen.clock is not None
     time, step = seen.steps
     usual, name = 1.0 / seen.clock.rate if seen.clock.rate > 0.0 else np.inf, seen.clock.column
     if seen.time.size == seen.rows:
-        usual = usual_step(step, usual)
+        usual = find_usual_step(step, usual)
     for k in np.flatnonzero(step > GAP * usual):
         line = f"{name}: no rows for {step[k]:.4g} s"
         yield Mark("gap", name, float(time[k] - step[k]), float(time[k]), line)
@@ -65,19 +65,19 @@ def _of_clock(seen: LogInspection) -> Iterator[Mark]:
         yield Mark("repeated", name, float(time[k]), float(time[k]), f"{name} stands twice")
 
 
-def _of_channels(seen: LogInspection) -> Iterator[Mark]:
+def _mark_channels(seen: LogInspection) -> Iterator[Mark]:
     for channel, (name, values) in zip(seen.channels, seen.values.items(), strict=True):
-        for start, end in _runs(np.isnan(values) & np.isfinite(seen.time), seen.time, 1):
+        for start, end in _find_runs(np.isnan(values) & np.isfinite(seen.time), seen.time, 1):
             line = f"{channel.name} has no value for {end - start:.4g} s"
             yield Mark("missing", channel.name, start, end, line)
-        for value, _ in channel.limits if role_of(name) in DRIVEN else ():
-            for start, end in _runs(values == value, seen.time, HELD):
+        for value, _ in channel.limits if guess_role(name) in DRIVEN else ():
+            for start, end in _find_runs(values == value, seen.time, HELD):
                 what = f"{value:.4g} {channel.unit}".rstrip()
                 line = f"{channel.name} stays at its limit {what} for {end - start:.4g} s: clipped?"
                 yield Mark("limit", channel.name, start, end, line)
 
 
-def _runs(flags: np.ndarray, time: np.ndarray, least: int) -> Iterator[tuple[float, float]]:
+def _find_runs(flags: np.ndarray, time: np.ndarray, least: int) -> Iterator[tuple[float, float]]:
     """First and last time of so many flagged rows one after the other; near ones are one."""
     rows = np.flatnonzero(flags)
     for run in np.split(rows, np.flatnonzero(np.diff(rows) > _NEAR) + 1):
@@ -85,10 +85,15 @@ def _runs(flags: np.ndarray, time: np.ndarray, least: int) -> Iterator[tuple[flo
             yield float(time[run[0]]), float(time[run[-1]])
 
 
-def most_of(found: Iterable[Mark]) -> list[Mark]:
+def keep_longest(marks: Iterable[Mark]) -> list[Mark]:
     """In the order of time; of a kind in a channel the longest ones."""
     by: dict[tuple[str, str], list[Mark]] = {}
-    for mark in found:
+    for mark in marks:
         by.setdefault((mark.kind, mark.channel), []).append(mark)
-    longest = (sorted(own, key=lambda one: one.start - one.end)[:MOST] for own in by.values())
-    return sorted((one for own in longest for one in own), key=lambda one: one.start)
+    longest = (
+        sorted(channel_marks, key=lambda one: one.start - one.end)[:MOST]
+        for channel_marks in by.values()
+    )
+    return sorted(
+        (one for channel_marks in longest for one in channel_marks), key=lambda one: one.start
+    )

@@ -14,7 +14,7 @@ from typing import Any
 
 import pyarrow as pa
 
-from modeler.core.files import check_unpacked
+from modeler.core.files import check_unpacked_size
 
 _MAGIC = b"\x89MCAP0\r\n"
 _SCHEMA, _CHANNEL, _MESSAGE, _CHUNK, _END = 3, 4, 5, 6, (2, 15)  # footer, end of data
@@ -22,7 +22,7 @@ _SCHEMA, _CHANNEL, _MESSAGE, _CHUNK, _END = 3, 4, 5, 6, (2, 15)  # footer, end o
 Read = Callable[[bytes], Any]
 
 
-def mcap_messages(path: Path) -> Iterator[tuple[str, str, int, Any]]:
+def read_mcap_messages(path: Path) -> Iterator[tuple[str, str, int, Any]]:
     """Topic, type, time of receipt [ns] and content of all messages, in the order of the file.
 
     The content of a message that is not read is None; its encoding stands before its type.
@@ -36,17 +36,17 @@ def mcap_messages(path: Path) -> Iterator[tuple[str, str, int, Any]]:
     stores = {"ros1": get_typestore(Stores.EMPTY), "cdr": get_typestore(Stores.EMPTY)}
     schemas: dict[int, tuple[str, str, bytes]] = {}
     channels: dict[int, tuple[str, str, Read | None]] = {}
-    for kind, body in mcap_records(path):
+    for kind, body in read_mcap_records(path):
         number = struct.unpack_from("<H", body)[0] if len(body) > 1 else 0
         if kind == _SCHEMA:
-            name, at = _text(body, 2)
-            form, at = _text(body, at)
+            name, at = _read_text(body, 2)
+            form, at = _read_text(body, at)
             schemas[number] = name, form, body[at + 4 :]
         elif kind == _CHANNEL:
-            topic, at = _text(body, 4)
-            encoding, _ = _text(body, at)
+            topic, at = _read_text(body, 4)
+            encoding, _ = _read_text(body, at)
             schema = schemas.get(struct.unpack_from("<H", body, 2)[0], ("", "", b""))
-            read = json.loads if encoding == "json" else _reader(stores.get(encoding), *schema)
+            read = json.loads if encoding == "json" else _find_reader(stores.get(encoding), *schema)
             channels[number] = topic, schema[0] if read else f"{encoding} {schema[0]}".strip(), read
         elif kind == _MESSAGE:
             topic, name, read = channels[number]
@@ -54,7 +54,7 @@ def mcap_messages(path: Path) -> Iterator[tuple[str, str, int, Any]]:
             yield topic, name, struct.unpack_from("<Q", body, 6)[0], content
 
 
-def _reader(store: Any, name: str, form: str, definition: bytes) -> Read | None:
+def _find_reader(store: Any, name: str, form: str, definition: bytes) -> Read | None:
     """Of messages of a type of ROS, by its definition or by its name; None of others."""
     from rosbags.typesys import Stores, TypesysError, get_typestore
     from rosbags.typesys import get_types_from_idl, get_types_from_msg  # isort: skip
@@ -65,17 +65,17 @@ def _reader(store: Any, name: str, form: str, definition: bytes) -> Read | None:
     with suppress(TypesysError):  # a definition that is not understood
         if form.endswith("idl"):
             for part in filter(str.strip, text.split("=" * 80 + "\n")):
-                own = part.partition("\n")[2] if part.startswith("IDL:") else part
-                store.register(get_types_from_idl(own))
+                idl_text = part.partition("\n")[2] if part.startswith("IDL:") else part
+                store.register_report_modules(get_types_from_idl(idl_text))
         elif text:
-            store.register(get_types_from_msg(text, kind))
+            store.register_report_modules(get_types_from_msg(text, kind))
         else:
             store = get_typestore(Stores.LATEST)
     read = store.deserialize_ros1 if form == "ros1msg" else store.deserialize_cdr
     return (lambda data: read(data, kind)) if kind in store.fielddefs else None
 
 
-def mcap_records(path: Path) -> Iterator[tuple[int, bytes]]:
+def read_mcap_records(path: Path) -> Iterator[tuple[int, bytes]]:
     """Type and content of every record, of chunks those inside.
 
     A chunk is unpacked to the size that it states and no further.
@@ -90,17 +90,17 @@ def mcap_records(path: Path) -> Iterator[tuple[int, bytes]]:
             start = file.read(min(length, 28))
             if kind == _CHUNK and len(start) >= 24:
                 size += struct.unpack_from("<Q", start, 16)[0]
-                check_unpacked(path, size)
+                check_unpacked_size(path, size)
             body = start + file.read(length - len(start))
             if len(body) < length:
                 raise ValueError(f"it ends within a record, at byte {file.tell()}")
-            yield from _in_chunk(body) if kind == _CHUNK else ((kind, body),)
+            yield from _read_chunk(body) if kind == _CHUNK else ((kind, body),)
 
 
-def _in_chunk(body: bytes) -> Iterator[tuple[int, bytes]]:
+def _read_chunk(body: bytes) -> Iterator[tuple[int, bytes]]:
     size, checksum = struct.unpack_from("<QI", body, 16)
-    packing, at = _text(body, 28)
-    data, at = unpacked(body[at + 8 :], packing, size), 0
+    packing, at = _read_text(body, 28)
+    data, at = unpack_bytes(body[at + 8 :], packing, size), 0
     if checksum and zlib.crc32(data) != checksum:
         raise ValueError("a chunk has another checksum than it states")
     while at < size:
@@ -111,13 +111,13 @@ def _in_chunk(body: bytes) -> Iterator[tuple[int, bytes]]:
         at = end
 
 
-def _text(body: bytes, at: int) -> tuple[str, int]:
+def _read_text(body: bytes, at: int) -> tuple[str, int]:
     """A text after its length, and where what follows begins."""
     end = at + 4 + struct.unpack_from("<I", body, at)[0]
     return body[at + 4 : end].decode(), end
 
 
-def unpacked(data: bytes, packing: str, size: int) -> bytes:
+def unpack_bytes(data: bytes, packing: str, size: int) -> bytes:
     """So many bytes; never more are unpacked.
 
     Raises:

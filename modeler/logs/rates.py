@@ -6,8 +6,8 @@ from itertools import permutations
 
 import numpy as np
 
-from modeler.core.table import percent
-from modeler.numerics.held import noise_of
+from modeler.core.table import format_percent
+from modeler.numerics.held import estimate_channel_noise
 
 RATES: Mapping[str, float] = {
     "rad/s": 1.0, "deg/s": np.pi / 180.0, "rpm": np.pi / 30.0, "rev/s": 2.0 * np.pi,
@@ -23,7 +23,7 @@ _NEARBY = 3.0  # usual windows: a longer one lies across a gap
 
 
 @dataclass(frozen=True)
-class Pair:
+class RatePair:
     """A position, and the speed that should be its derivative.
 
     Attributes:
@@ -36,19 +36,19 @@ class Pair:
     ratio: float
 
 
-def pairs_of(
+def pair_rates(
     names: Sequence[tuple[str, str]], values: Mapping[str, np.ndarray], time: np.ndarray
-) -> list[Pair]:
+) -> list[RatePair]:
     """The ratio of every speed to the derivative of its position."""
-    found = []
+    pairs = []
     for position, speed in names:
-        slope, mean = compared(values[position], values[speed], time)
-        like = moves(values[position]) and abs(_alike(slope, mean)) >= _LIKE
-        found.append(Pair(position, speed, _ratio(slope, mean) if like else np.nan))
-    return found
+        slope, mean = compare_slopes(values[position], values[speed], time)
+        like = is_moving(values[position]) and abs(_correlate(slope, mean)) >= _LIKE
+        pairs.append(RatePair(position, speed, _fit_ratio(slope, mean) if like else np.nan))
+    return pairs
 
 
-def compared(
+def compare_slopes(
     position: np.ndarray, speed: np.ndarray, time: np.ndarray
 ) -> tuple[np.ndarray, np.ndarray]:
     """Slopes of a position over windows, and means of a speed over the same; (m,) each.
@@ -60,7 +60,7 @@ def compared(
     t, q, v = time[there], position[there], speed[there]
     if len(t) < _LEAST:
         return np.zeros(0), np.zeros(0)
-    noise = [noise_of(x) for x in (q, v)]
+    noise = [estimate_channel_noise(x) for x in (q, v)]
     area = np.append(0.0, np.cumsum(0.5 * np.diff(t) * (v[1:] + v[:-1])))
     for rows in (2, 4, 8, 16, 32, 64):
         long = t[rows:] - t[:-rows]
@@ -74,11 +74,11 @@ def compared(
 
 def is_derivative(position: np.ndarray, speed: np.ndarray, time: np.ndarray) -> bool:
     """False if a joint moves, and its speed does not follow."""
-    alike = abs(_alike(*compared(position, speed, time)))
-    return not moves(position) or not alike < _LIKE
+    alike = abs(_correlate(*compare_slopes(position, speed, time)))
+    return not is_moving(position) or not alike < _LIKE
 
 
-def moves(values: np.ndarray) -> bool:
+def is_moving(values: np.ndarray) -> bool:
     """True of a position that goes beyond its resolution and its noise.
 
     The noise is that of third differences, the median of their size: a motion has none.
@@ -86,16 +86,16 @@ def moves(values: np.ndarray) -> bool:
     known = values[np.isfinite(values)]
     if len(known) < _LEAST:
         return False
-    return float(np.ptp(known)) > _MOVES * noise_of(known)
+    return float(np.ptp(known)) > _MOVES * estimate_channel_noise(known)
 
 
-def on_grid(steps: np.ndarray, step: float) -> bool:
+def is_on_grid(steps: np.ndarray, step: float) -> bool:
     """True if steps, but for a tenth of them, are whole multiples of one."""
     off = np.abs(steps / step - np.round(steps / step))
     return float(np.quantile(off, 0.9)) < 0.05
 
 
-def units_of(ratio: float) -> tuple[str, str] | None:
+def infer_units(ratio: float) -> tuple[str, str] | None:
     """Units of position and speed that such a ratio looks like; ("", "") if they agree."""
     if not np.isfinite(ratio):
         return None
@@ -110,23 +110,27 @@ def units_of(ratio: float) -> tuple[str, str] | None:
     return (first, second) if off < _NEAR else None
 
 
-def rate_doubts(
+def check_rates(
     names: Sequence[tuple[str, str]], values: Mapping[str, np.ndarray], time: np.ndarray
 ) -> list[str]:
     """Speeds that are not the derivative of their position, of the joints that move."""
-    names = [(q, qd) for q, qd in names if moves(values[q])]
-    lines, found = list[str](), pairs_of(names, values, time)
-    factor = common_factor([pair.ratio for pair in found])
+    names = [(q, qd) for q, qd in names if is_moving(values[q])]
+    lines, pairs = list[str](), pair_rates(names, values, time)
+    factor = find_common_factor([pair.ratio for pair in pairs])
     steps = np.diff(time[np.isfinite(time)])
-    if factor is not None and len(found) > 1 and steps.size:
-        return [clock_line(factor, 1.0 / float(np.median(steps)))]
-    for pair in found:
-        line = _ratio_doubt(pair) if np.isfinite(pair.ratio) else _unlike(pair, names, values, time)
+    if factor is not None and len(pairs) > 1 and steps.size:
+        return [describe_clock_factor(factor, 1.0 / float(np.median(steps)))]
+    for pair in pairs:
+        line = (
+            _describe_ratio(pair)
+            if np.isfinite(pair.ratio)
+            else _describe_mismatch(pair, names, values, time)
+        )
         lines += [line] if line else []
     return lines
 
 
-def common_factor(ratios: Sequence[float]) -> float | None:
+def find_common_factor(ratios: Sequence[float]) -> float | None:
     """By what all speeds are off the derivatives of their positions; None if by 1, or not alike.
 
     Args:
@@ -140,14 +144,14 @@ def common_factor(ratios: Sequence[float]) -> float | None:
     return factor if alike else None
 
 
-def clock_line(factor: float, rate: float) -> str:
+def describe_clock_factor(factor: float, rate: float) -> str:
     """What one factor on all joints means.
 
     Args:
         factor: of the speeds to the derivatives.
         rate: of the rows, Hz.
     """
-    units, unit = units_of(factor), ""
+    units, unit = infer_units(factor), ""
     if units is not None and any(units):
         unit = f", or positions are in {units[0]} and speeds in {units[1]}"
     return (
@@ -158,7 +162,7 @@ def clock_line(factor: float, rate: float) -> str:
     )
 
 
-def repeats_line(repeated: int, rows: int, rate: float) -> str:
+def describe_repeats(repeated: int, rows: int, rate: float) -> str:
     """What rows that repeat the one before them in all channels mean.
 
     Args:
@@ -167,20 +171,24 @@ def repeats_line(repeated: int, rows: int, rate: float) -> str:
         rate: of them, Hz.
     """
     return (
-        f"all channels: {repeated} rows ({percent(repeated / rows)}) repeat the row before them: "
+        f"all channels: {repeated} rows ({format_percent(repeated / rows)}) repeat the row before "
+        "them: "
         "the recorder is faster than the robot, which gave about "
         f"{rate * (1.0 - repeated / rows):.3g} rows a second; repeats are left out; record at the "
         "rate of the robot"
     )
 
 
-def _unlike(
-    pair: Pair, names: Sequence[tuple[str, str]], values: Mapping[str, np.ndarray], time: np.ndarray
+def _describe_mismatch(
+    pair: RatePair,
+    names: Sequence[tuple[str, str]],
+    values: Mapping[str, np.ndarray],
+    time: np.ndarray,
 ) -> str:
     speed = values[pair.speed]
-    like = {q: _alike(*compared(values[q], speed, time)) for q, _ in names}
-    own = like.pop(pair.position)
-    if not np.isfinite(own):
+    like = {q: _correlate(*compare_slopes(values[q], speed, time)) for q, _ in names}
+    correlation = like.pop(pair.position)
+    if not np.isfinite(correlation):
         return ""
     others = {q: abs(other) for q, other in like.items()}
     other = max(others, key=lambda q: np.nan_to_num(others[q]), default="")
@@ -189,21 +197,21 @@ def _unlike(
             f"{pair.speed} is the derivative of {other}, not of {pair.position}: are columns "
             "exchanged?"
         )
-    return f"{pair.speed} is not the derivative of {pair.position} (correlation {own:.2f})"
+    return f"{pair.speed} is not the derivative of {pair.position} (correlation {correlation:.2f})"
 
 
-def _ratio_doubt(pair: Pair) -> str:
+def _describe_ratio(pair: RatePair) -> str:
     """What a speed is times the derivative of its position, if not 1, and what that looks like."""
     if abs(pair.ratio - 1.0) < _NEAR:
         return ""
     if abs(pair.ratio + 1.0) < _NEAR:
         return f"{pair.speed} has the other sign of the derivative of {pair.position}"
-    units = units_of(pair.ratio)
+    units = infer_units(pair.ratio)
     words = f": {pair.position} in {units[0]} and {pair.speed} in {units[1]}?" if units else ""
     return f"{pair.speed} is {pair.ratio:.3g} times the derivative of {pair.position}{words}"
 
 
-def _alike(a: np.ndarray, b: np.ndarray) -> float:
+def _correlate(a: np.ndarray, b: np.ndarray) -> float:
     both = np.isfinite(a) & np.isfinite(b)
     if both.sum() < _LEAST:
         return np.nan
@@ -213,7 +221,7 @@ def _alike(a: np.ndarray, b: np.ndarray) -> float:
         return float(np.corrcoef(a[both], b[both])[0, 1])
 
 
-def _ratio(slope: np.ndarray, speed: np.ndarray) -> float:
+def _fit_ratio(slope: np.ndarray, speed: np.ndarray) -> float:
     both = np.isfinite(slope) & np.isfinite(speed)
     size = float(slope[both] @ slope[both])
     return float(slope[both] @ speed[both]) / size if 0.0 < size < np.inf else np.nan

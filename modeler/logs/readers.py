@@ -7,13 +7,13 @@ from modeler.core.errors import DataError
 from modeler.logs.arrays import read_hdf5, read_mat, read_numpy
 from modeler.logs.bags import read_bag
 from modeler.logs.blocks import read_csv, read_dataset, read_parquet
-from modeler.logs.columns import Columns, Wanted
+from modeler.logs.columns import ColumnRequest, Columns
 from modeler.logs.datasets import INFO
 from modeler.logs.dialect import TEXTS
 from modeler.logs.folders import read_files
 from modeler.logs.sheets import read_sheets
 
-_READERS: Mapping[str, Callable[[Path, Wanted], Columns]] = {
+_READERS: Mapping[str, Callable[[Path, ColumnRequest], Columns]] = {
     ".parquet": read_parquet, **dict.fromkeys(TEXTS, read_csv), ".xlsx": read_sheets,
     ".mat": read_mat, ".h5": read_hdf5, ".hdf5": read_hdf5, ".mcap": read_bag, ".db3": read_bag,
     ".bag": read_bag, ".npz": read_numpy, ".npy": read_numpy,
@@ -23,7 +23,7 @@ BAG = "metadata.yaml"
 """The file that makes a folder a ROS 2 bag."""
 
 
-def read_columns(path: Path, wanted: Wanted) -> Columns:
+def read_columns(path: Path, wanted: ColumnRequest) -> Columns:
     """The columns of a file, of the folder of a ROS 2 bag or a dataset, or of several files.
 
     Raises:
@@ -36,7 +36,7 @@ def read_columns(path: Path, wanted: Wanted) -> Columns:
     except OSError as error:
         raise DataError(f"{path}: cannot be read ({error.strerror}); check the path") from None
     if wanted.files and not path.is_file():
-        return read_files(_parts(path, wanted.files), path, read_columns)
+        return read_files(_locate_parts(path, wanted.files), path, read_columns)
     if path.is_dir():
         return _read_folder(path, wanted)
     reader = _READERS.get(path.suffix.lower())
@@ -54,7 +54,7 @@ def read_columns(path: Path, wanted: Wanted) -> Columns:
     return reader(path, wanted)
 
 
-def _parts(path: Path, files: Mapping[str, str]) -> dict[Path, str]:
+def _locate_parts(path: Path, files: Mapping[str, str]) -> dict[Path, str]:
     """The files that [log] names, in a folder or with a beginning of all their names."""
     places = {key: path / end if path.is_dir() else Path(f"{path}{end}")
               for key, end in files.items()}  # fmt: skip
@@ -67,7 +67,7 @@ def _parts(path: Path, files: Mapping[str, str]) -> dict[Path, str]:
     return {place: key for key, place in places.items()}
 
 
-def _read_folder(path: Path, wanted: Wanted) -> Columns:
+def _read_folder(path: Path, wanted: ColumnRequest) -> Columns:
     if (path / BAG).is_file():
         return read_bag(path, wanted)
     if (path / INFO).is_file():

@@ -8,7 +8,7 @@ from scipy.linalg.lapack import dtbtrs
 from scipy.ndimage import gaussian_filter1d
 from scipy.sparse import csr_array
 
-from modeler.core.brief import Brief
+from modeler.core.brief import ShortRepr
 
 SPREAD = 0.1325
 """Standard deviation of the Gaussian weights times the cut-off: its gain is -3 dB there."""
@@ -27,7 +27,7 @@ LEAST_WEIGHT = 0.5
 
 
 @dataclass(frozen=True, eq=False)
-class RowFilter(Brief):
+class RowFilter(ShortRepr):
     """F in F y = F W beta: row k is the Gaussian-weighted mean of the samples around one sample.
 
     The equation holds for any F, so no choice of it biases beta. Weights are not negative and have
@@ -42,7 +42,7 @@ class RowFilter(Brief):
     weights: csr_array
     centres: np.ndarray
 
-    def means(
+    def average_samples(
         self, values: np.ndarray, usable: np.ndarray,
         used: np.ndarray | None = None, whole: np.ndarray | None = None,
     ) -> np.ndarray:  # fmt: skip
@@ -50,28 +50,28 @@ class RowFilter(Brief):
 
         Rows that are not used (rows,), if that is given, are means over whole (samples,).
         """
-        masked = only(self.weights, usable, used, whole)
+        masked = restrict_weights(self.weights, usable, used, whole)
         total = masked @ np.ones(len(usable))
         flat = masked @ values.reshape(len(values), -1)
         flat = flat / np.where(total > 0.0, total, 1.0)[:, None]
         return flat.reshape(len(self.centres), *values.shape[1:])
 
-    def window(self, rows: slice) -> slice:
+    def find_sample_range(self, rows: slice) -> slice:
         """Samples that those rows reach."""
         start, stop = self.weights.indptr[rows.start], self.weights.indptr[rows.stop]
         reached = self.weights.indices[start:stop]
         return slice(int(reached.min()), int(reached.max()) + 1)
 
-    def part(self, rows: slice, window: slice) -> "RowFilter":
+    def extract_rows(self, rows: slice, window: slice) -> "RowFilter":
         """The same filter for a few rows, over a window of the samples."""
         return RowFilter(self.weights[rows, window], self.centres[rows] - window.start)
 
-    def share(self, usable: np.ndarray) -> np.ndarray:
+    def compute_usable_share(self, usable: np.ndarray) -> np.ndarray:
         """(rows, joints) share of each row's weight on usable samples (samples, joints)."""
         return (self.weights @ usable.astype(float)) / self.weights.sum(axis=1)[:, None]
 
 
-def only(
+def restrict_weights(
     weights: csr_array, usable: np.ndarray,
     used: np.ndarray | None = None, whole: np.ndarray | None = None,
 ) -> csr_array:  # fmt: skip
@@ -87,7 +87,7 @@ def only(
     return csr_array((data, weights.indices, weights.indptr), shape=weights.shape)
 
 
-def spacing(step: float, cutoff: float, decimation: int | None) -> int:
+def choose_row_spacing(step: float, cutoff: float, decimation: int | None) -> int:
     """Samples from one row to the next; halves go up, whatever their rounding.
 
     Args:
@@ -100,16 +100,16 @@ def spacing(step: float, cutoff: float, decimation: int | None) -> int:
     return decimation
 
 
-def reach_of(step: float, cutoff: float) -> int:
+def compute_reach(step: float, cutoff: float) -> int:
     """Samples to both sides of a row's centre that it is a mean over."""
     spread = SPREAD / (cutoff * step) if cutoff > 0.0 else 0.0
     return int(np.ceil(_REACH * spread)) if spread > _NONE else 0
 
 
-def filter_at(centres: np.ndarray, samples: int, step: float, cutoff: float) -> RowFilter:
+def build_row_filter(centres: np.ndarray, samples: int, step: float, cutoff: float) -> RowFilter:
     """The filter of a segment of so many samples, with rows centred on some of them (rows,)."""
     spread = SPREAD / (cutoff * step) if cutoff > 0.0 else 0.0  # samples
-    reach = reach_of(step, cutoff)
+    reach = compute_reach(step, cutoff)
     offsets = np.arange(-reach, reach + 1)
     bell = np.exp(-0.5 * (offsets / spread) ** 2) if reach else np.ones(1)
     bell = bell / bell.sum()
@@ -120,8 +120,8 @@ def filter_at(centres: np.ndarray, samples: int, step: float, cutoff: float) -> 
     return RowFilter(weights, centres)
 
 
-def moving_means(values: np.ndarray, step: float, cutoff: float) -> np.ndarray:
-    """(samples, ...) what the rows of `filter_at` would hold, centred on every sample.
+def compute_moving_means(values: np.ndarray, step: float, cutoff: float) -> np.ndarray:
+    """(samples, ...) what the rows of `build_row_filter` would hold, centred on every sample.
 
     Outside the segment values count as 0: divide by the same means of ones.
 
@@ -152,7 +152,7 @@ def moving_means(values: np.ndarray, step: float, cutoff: float) -> np.ndarray:
 _ANGLES = (np.pi / 8.0, 3.0 * np.pi / 8.0)
 
 
-def forwards_and_backwards(
+def apply_zero_phase_lowpass(
     values: np.ndarray, step: float, cutoff: float, padding: int
 ) -> np.ndarray:
     """`values` (n, k) through the low-pass in time and then against it: twice 3 dB at the cut-off.
@@ -169,12 +169,12 @@ def forwards_and_backwards(
     before = 2.0 * values[0] - values[1 : padding + 1][::-1]
     after = 2.0 * values[-1] - values[::-1][1 : padding + 1]
     longer = np.concatenate([before, values, after])
-    there = _once(longer, step, cutoff)
-    back = _once(there[::-1], step, cutoff)[::-1]
+    there = _apply_lowpass(longer, step, cutoff)
+    back = _apply_lowpass(there[::-1], step, cutoff)[::-1]
     return np.ascontiguousarray(back[padding : padding + len(values)])
 
 
-def _once(values: np.ndarray, step: float, cutoff: float) -> np.ndarray:
+def _apply_lowpass(values: np.ndarray, step: float, cutoff: float) -> np.ndarray:
     """Forwards, after the first value for ever: that is what all of it is measured from."""
     start = values[0].copy()
     y = np.asfortranarray(values - start)
@@ -182,18 +182,18 @@ def _once(values: np.ndarray, step: float, cutoff: float) -> np.ndarray:
     for angle in _ANGLES:
         damping = 2.0 * K * np.cos(angle)
         whole = 1.0 + damping + K * K
-        driven = _driven(y, (1.0, 2.0, 1.0))
+        driven = _compute_forward_terms(y, (1.0, 2.0, 1.0))
         driven *= K * K / whole
-        y = _answered(driven, 2.0 * (K * K - 1.0) / whole, (1.0 - damping + K * K) / whole)
+        y = _solve_recursion(driven, 2.0 * (K * K - 1.0) / whole, (1.0 - damping + K * K) / whole)
     return np.asarray(y + start)
 
 
-def recursion(x: np.ndarray, b: np.ndarray, a: np.ndarray) -> np.ndarray:
+def apply_biquad(x: np.ndarray, b: np.ndarray, a: np.ndarray) -> np.ndarray:
     """y (n,) of y(n) + a1 y(n-1) + a2 y(n-2) = b0 x(n) + b1 x(n-1) + b2 x(n-2), 0 before x (n,)."""
-    return np.asarray(_answered(_driven(x[:, None], b), a[1], a[2])[:, 0])
+    return np.asarray(_solve_recursion(_compute_forward_terms(x[:, None], b), a[1], a[2])[:, 0])
 
 
-def _answered(driven: np.ndarray, a1: float, a2: float) -> np.ndarray:
+def _solve_recursion(driven: np.ndarray, a1: float, a2: float) -> np.ndarray:
     """y (n, k) of y(n) + a1 y(n-1) + a2 y(n-2) = driven (n, k), which is overwritten."""
     diagonals = np.ones((3, len(driven)), order="F")
     diagonals[1], diagonals[2] = a1, a2
@@ -202,7 +202,7 @@ def _answered(driven: np.ndarray, a1: float, a2: float) -> np.ndarray:
     return np.asarray(y)
 
 
-def _driven(x: np.ndarray, b: Sequence[float] | np.ndarray) -> np.ndarray:
+def _compute_forward_terms(x: np.ndarray, b: Sequence[float] | np.ndarray) -> np.ndarray:
     """b0 x(n) + b1 x(n-1) + b2 x(n-2), 0 before the first."""
     total = np.asfortranarray(b[0] * x) if b[0] != 1.0 else x.copy(order="F")
     total[1:] += b[1] * x[:-1]

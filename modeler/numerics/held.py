@@ -4,7 +4,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from modeler.numerics.noise import lattice_step, white_noise
+from modeler.numerics.noise import estimate_lattice_step, estimate_white_noise
 
 OFTEN = 0.01
 """Share of the rows that repeat the one before from which on a recorder is faster than a robot."""
@@ -31,19 +31,21 @@ OVERSHOOT = 15.0
 _FEW = 3  # long runs of equal values that may be faults
 
 
-def equal_rows(values: np.ndarray) -> np.ndarray:
+def find_equal_rows(values: np.ndarray) -> np.ndarray:
     """(n,) True where a row of values (n, k) is, to the bit, the one before it; NaN is NaN."""
     same = (values[1:] == values[:-1]) | (np.isnan(values[1:]) & np.isnan(values[:-1]))
     return np.concatenate([[False], same.all(axis=1)])
 
 
-def lengths_of_runs(new: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+def find_run_lengths(new: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """Starts and lengths of the runs that begin where new (n,) is True; the first always does."""
     starts = np.flatnonzero(np.concatenate([[True], new[1:]]))
     return starts, np.diff(starts, append=len(new))
 
 
-def repeated_rows(positions: np.ndarray, others: np.ndarray, always: bool = False) -> np.ndarray:
+def find_repeated_rows(
+    positions: np.ndarray, others: np.ndarray, always: bool = False
+) -> np.ndarray:
     """(n,) True at the rows that a recorder wrote again, as it was faster than the robot.
 
     Then all channels repeat together, again and again, a few rows each time. One channel repeats
@@ -54,26 +56,26 @@ def repeated_rows(positions: np.ndarray, others: np.ndarray, always: bool = Fals
         others: (n, k) all other channels that were measured at the same time.
         always: it is known already that the log has such rows.
     """
-    still = equal_rows(positions)
-    same = still & equal_rows(others)
-    _, length = lengths_of_runs(~same)
+    still = find_equal_rows(positions)
+    same = still & find_equal_rows(others)
+    _, length = find_run_lengths(~same)
     usual = max(float(np.median(length)), 1.0)
     same &= ~np.repeat(length > RESTS * usual, length)
     fresh = np.column_stack([positions, others])[~same]
     anew = np.mean(fresh[1:] != fresh[:-1], axis=0) if len(fresh) > 1 else np.zeros(1)
     often = same.mean() > OFTEN and same.sum() > TOGETHER * still.sum() and anew.max() > ANEW
-    if always or (often and all(rows_held(own) == 1 for own in fresh.T)):
+    if always or (often and all(estimate_hold_length(channel) == 1 for channel in fresh.T)):
         return np.asarray(same)
     return np.zeros(len(same), dtype=bool)
 
 
-def longest_usual(values: np.ndarray) -> int:
+def find_longest_usual_run(values: np.ndarray) -> int:
     """Samples of the longest run of equal values (n,) but for the three longest of all."""
-    _, length = lengths_of_runs(np.concatenate([[True], np.diff(values) != 0.0]))
+    _, length = find_run_lengths(np.concatenate([[True], np.diff(values) != 0.0]))
     return int(np.sort(length)[-_FEW - 1]) if len(length) > _FEW else len(values)
 
 
-def frozen_runs(values: np.ndarray, position: np.ndarray, usual: int) -> list[tuple[int, int]]:
+def find_frozen_runs(values: np.ndarray, position: np.ndarray, usual: int) -> list[tuple[int, int]]:
     """[start, stop) where a channel repeats a value far longer than it does else, in motion.
 
     Not at its largest and smallest value, where it may be at a limit, and not at 0: switched off.
@@ -81,11 +83,11 @@ def frozen_runs(values: np.ndarray, position: np.ndarray, usual: int) -> list[tu
     Args:
         values: (n,) of the channel, without gaps.
         position: (n,) of its joint.
-        usual: `longest_usual` of the whole channel.
+        usual: `find_longest_usual_run` of the whole channel.
     """
-    starts, length = lengths_of_runs(np.concatenate([[True], np.diff(values) != 0.0]))
+    starts, length = find_run_lengths(np.concatenate([[True], np.diff(values) != 0.0]))
     long = length > max(LEAST, LONGER * usual)
-    least = 2.0 * OVERSHOOT * noise_of(position) if long.any() else 0.0
+    least = 2.0 * OVERSHOOT * estimate_channel_noise(position) if long.any() else 0.0
     return [
         (int(start) + 1, int(start + count))
         for start, count in zip(starts[long], length[long], strict=True)
@@ -95,14 +97,14 @@ def frozen_runs(values: np.ndarray, position: np.ndarray, usual: int) -> list[tu
     ]
 
 
-def noise_of(values: np.ndarray) -> float:
+def estimate_channel_noise(values: np.ndarray) -> float:
     """Standard deviation of a channel's noise (n,), or of its steps, the larger; 0 of a few."""
     if len(values) < LEAST:
         return 0.0
-    return max(lattice_step(values) / float(np.sqrt(12.0)), white_noise(values))
+    return max(estimate_lattice_step(values) / float(np.sqrt(12.0)), estimate_white_noise(values))
 
 
-def rows_held(values: np.ndarray) -> int:
+def estimate_hold_length(values: np.ndarray) -> int:
     """Rows for which a channel (n,) repeats each value, as it is sampled more slowly; 1: none.
 
     Only runs between two changes of more than `COARSE` lattice steps count: a slow motion stays on
@@ -111,10 +113,10 @@ def rows_held(values: np.ndarray) -> int:
     there = values[np.isfinite(values)]
     if len(there) < LEAST:
         return 1
-    starts, length = lengths_of_runs(np.concatenate([[True], np.diff(there) != 0.0]))
+    starts, length = find_run_lengths(np.concatenate([[True], np.diff(there) != 0.0]))
     if len(starts) < FEWEST:
         return 1
-    jumps = np.abs(np.diff(there[starts])) > COARSE * lattice_step(there)
+    jumps = np.abs(np.diff(there[starts])) > COARSE * estimate_lattice_step(there)
     both = np.append(False, jumps[:-1] & jumps[1:])
     runs = length[:-1][both]
     _, again = np.unique(there[starts[:-1][both]], return_counts=True)
@@ -126,7 +128,9 @@ def rows_held(values: np.ndarray) -> int:
     return round(usual) if alike and usual >= 2.0 else 1
 
 
-def interpolated(time: np.ndarray, values: np.ndarray, rows: int, smooth: bool) -> np.ndarray:
+def interpolate_held_channel(
+    time: np.ndarray, values: np.ndarray, rows: int, smooth: bool
+) -> np.ndarray:
     """(n,) a held channel, straight or smoothly from each new value to the next.
 
     Args:
@@ -136,7 +140,7 @@ def interpolated(time: np.ndarray, values: np.ndarray, rows: int, smooth: bool) 
         smooth: by a cubic spline, whose second derivative does not leap.
     """
     there = np.flatnonzero(np.isfinite(values))
-    starts, length = lengths_of_runs(np.concatenate([[True], np.diff(values[there]) != 0.0]))
+    starts, length = find_run_lengths(np.concatenate([[True], np.diff(values[there]) != 0.0]))
     age = np.arange(len(there)) - np.repeat(starts, length)
     fresh = there[(age % rows == 0) & (age < np.repeat(np.maximum(length - rows // 2, 1), length))]
     if smooth and len(fresh) > 1:
@@ -186,36 +190,36 @@ EVEN = 20
 """Rows of one stay that shows a clip by itself; else there are two stays."""
 
 
-def clips_of(values: np.ndarray) -> tuple[Clip, ...]:
+def find_clips(values: np.ndarray) -> tuple[Clip, ...]:
     """The ends of the range at which a position (n,) is cut off.
 
     A motion that is cut off reaches the end without slowing down, stays there to the bit, and
     leaves it as fast.
     """
     there = values[np.isfinite(values)]
-    found = []
+    clips = []
     for sign in (1.0, -1.0):
         x = sign * there
         if len(x) <= LEAST or np.ptp(x) == 0.0:
             continue
         top = float(x.max())
-        starts, length = lengths_of_runs(np.concatenate([[True], np.diff(x == top) != 0]))
-        least = OVERSHOOT * noise_of(x)
+        starts, length = find_run_lengths(np.concatenate([[True], np.diff(x == top) != 0]))
+        least = OVERSHOOT * estimate_channel_noise(x)
         stays = [
             int(count)
             for start, count in zip(starts, length, strict=True)
             if x[start] == top
             and count >= 5
-            and _unbraked(x[:start], least)
-            and _unbraked(x[start + count :][::-1], least)
+            and _is_unbraked(x[:start], least)
+            and _is_unbraked(x[start + count :][::-1], least)
         ]
         enough = len(stays) > 1 or max(stays, default=0) >= EVEN
         if enough and sum(stays) > 0.5 * np.sum(x == top):
-            found.append(Clip(sign * top, sign > 0.0))
-    return tuple(found)
+            clips.append(Clip(sign * top, sign > 0.0))
+    return tuple(clips)
 
 
-def _unbraked(before: np.ndarray, least: float) -> bool:
+def _is_unbraked(before: np.ndarray, least: float) -> bool:
     """True if a motion (m,) goes on to its last value as fast as it was before, and not slowly.
 
     Over three rows, or so many that it goes farther than its noise.

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.linalg import qr, solve_triangular
 
-from modeler.core.brief import Brief
+from modeler.core.brief import ShortRepr
 
 TOLERANCE = 1e-8
 """Pivots below this share of the first, columns scaled to length one, count as zero. Dependencies
@@ -18,7 +18,7 @@ _TOLD = 1e-3  # share of a column's length that another must carry to be named
 
 
 @dataclass(frozen=True)
-class SetAside:
+class DroppedColumn:
     """A column that was set aside.
 
     Attributes:
@@ -31,7 +31,7 @@ class SetAside:
     into: tuple[str, ...]
     pivot: float
 
-    def sentence(self) -> str:
+    def describe(self) -> str:
         """What happened and what to do."""
         if not self.into:
             return (
@@ -56,13 +56,13 @@ class Rank:
         first_dropped: largest pivot dropped; 0 if none.
     """
 
-    kept: tuple[int, ...]
-    aside: tuple[SetAside, ...]
+    kept_columns: tuple[int, ...]
+    dropped_columns: tuple[DroppedColumn, ...]
     last_kept: float
     first_dropped: float
 
 
-def independent_columns(R: np.ndarray, names: Sequence[str]) -> Rank:
+def find_independent_columns(R: np.ndarray, names: Sequence[str]) -> Rank:
     """Independent columns of R (or W), by QR with column pivoting of the scaled columns.
 
     Args:
@@ -71,24 +71,26 @@ def independent_columns(R: np.ndarray, names: Sequence[str]) -> Rank:
     """
     lengths = np.linalg.norm(R, axis=0)
     active = np.flatnonzero(lengths > _IDLE * lengths.max(initial=0.0))
-    aside = [SetAside(names[i], (), 0.0) for i in range(len(names)) if i not in set(active)]
+    dropped_columns = [
+        DroppedColumn(names[i], (), 0.0) for i in range(len(names)) if i not in set(active)
+    ]
     if not active.size:
-        return Rank((), tuple(aside), 0.0, 0.0)
+        return Rank((), tuple(dropped_columns), 0.0, 0.0)
     triangle, order = qr(R[:, active] / lengths[active], mode="r", pivoting=True)
     pivots = np.abs(np.diag(triangle)) / abs(triangle[0, 0])
     rank = int(np.sum(pivots > TOLERANCE))
-    kept, dropped = active[order[:rank]], active[order[rank:]]
+    kept_columns, dropped = active[order[:rank]], active[order[rank:]]
     if len(dropped):
         shares = solve_triangular(triangle[:rank, :rank], triangle[:rank, rank:])
         for position, column in enumerate(dropped):
             share = shares[:, position]
-            into = tuple(names[kept[i]] for i in np.argsort(-np.abs(share))
+            into = tuple(names[kept_columns[i]] for i in np.argsort(-np.abs(share))
                          if abs(share[i]) > _TOLD)  # fmt: skip
             pivot = pivots[rank + position] if rank + position < len(pivots) else 0.0
-            aside.append(SetAside(names[column], into[:6], float(pivot)))
+            dropped_columns.append(DroppedColumn(names[column], into[:6], float(pivot)))
     return Rank(
-        kept=tuple(int(i) for i in sorted(kept)),
-        aside=tuple(aside),
+        kept_columns=tuple(int(i) for i in sorted(kept_columns)),
+        dropped_columns=tuple(dropped_columns),
         last_kept=float(pivots[rank - 1]),
         first_dropped=float(pivots[rank]) if rank < len(pivots) else 0.0,
     )
@@ -97,13 +99,15 @@ def independent_columns(R: np.ndarray, names: Sequence[str]) -> Rank:
 # Columns of unlike units: scaled before anything is decomposed.
 
 
-def column_lengths(matrix: np.ndarray) -> np.ndarray:
+def compute_column_norms(matrix: np.ndarray) -> np.ndarray:
     """(c,) norms of the columns; 1 for a column of zeros."""
     length = np.linalg.norm(matrix, axis=0)
     return np.where(length > 0.0, length, 1.0)
 
 
-def scaled_least_squares(W: np.ndarray, y: np.ndarray, cutoff: float | None = None) -> np.ndarray:
+def solve_scaled_least_squares(
+    W: np.ndarray, y: np.ndarray, cutoff: float | None = None
+) -> np.ndarray:
     """(c, ...) of least ||y - W beta||; 0 along directions that W does not see.
 
     Args:
@@ -111,12 +115,12 @@ def scaled_least_squares(W: np.ndarray, y: np.ndarray, cutoff: float | None = No
         y: (rows, ...).
         cutoff: singular value, over the largest, below which nothing is seen; None: rounding.
     """
-    length = column_lengths(W)
-    found = np.linalg.lstsq(W / length, y, rcond=cutoff)[0]
-    return np.asarray(found / length.reshape(-1, *(1,) * (found.ndim - 1)))
+    length = compute_column_norms(W)
+    solution = np.linalg.lstsq(W / length, y, rcond=cutoff)[0]
+    return np.asarray(solution / length.reshape(-1, *(1,) * (solution.ndim - 1)))
 
 
-def whitening(gram: np.ndarray, cutoff: float) -> np.ndarray:
+def compute_whitening(gram: np.ndarray, cutoff: float) -> np.ndarray:
     """(c, r) T with T^T G T = 1 where G sees anything; T T^T is its pseudo-inverse.
 
     Args:
@@ -125,15 +129,17 @@ def whitening(gram: np.ndarray, cutoff: float) -> np.ndarray:
     """
     length = np.sqrt(np.where(np.diag(gram) > 0.0, np.diag(gram), 1.0))
     values, vectors = np.linalg.eigh(gram / np.outer(length, length))
-    kept = values > cutoff * float(values.max(initial=1e-300))
-    return np.asarray(vectors[:, kept] / np.sqrt(values[kept]) / length[:, None])
+    is_significant = values > cutoff * float(values.max(initial=1e-300))
+    return np.asarray(
+        vectors[:, is_significant] / np.sqrt(values[is_significant]) / length[:, None]
+    )
 
 
 # The data of a fit as one small triangle per joint: everything else is computed from these.
 
 
 @dataclass(frozen=True, eq=False)
-class Compressed:
+class CompressedRegression:
     """R of [W_j y_j] = Q R for the rows of each joint; c columns, n joints.
 
     For any beta, ||y_j - W_j beta|| = ||R_j [-beta; 1]||: no row is needed again.
@@ -150,40 +156,42 @@ class Compressed:
     rows: np.ndarray
     free: np.ndarray
 
-    def residual_norms(self, beta: np.ndarray) -> np.ndarray:
+    def compute_residual_norms(self, beta: np.ndarray) -> np.ndarray:
         """(n,) ||y_j - W_j beta||, N m or N."""
         return np.linalg.norm(self.triangles @ np.append(-beta, 1.0), axis=1)
 
-    def torque_norms(self) -> np.ndarray:
+    def compute_torque_norms(self) -> np.ndarray:
         """(n,) ||y_j||."""
         return np.linalg.norm(self.triangles[:, :, -1], axis=1)
 
-    def torque_rms(self) -> np.ndarray:
+    def compute_torque_rms(self) -> np.ndarray:
         """(n,) root mean square of y_j."""
-        return self.torque_norms() / np.sqrt(np.maximum(self.rows, 1))
+        return self.compute_torque_norms() / np.sqrt(np.maximum(self.rows, 1))
 
-    def whole(self, sigma: np.ndarray) -> np.ndarray:
+    def combine_joints(self, sigma: np.ndarray) -> np.ndarray:
         """Triangle (c + 1, c + 1) of all rows, those of joint j divided by sigma_j."""
         weighted = self.triangles / sigma[:, None, None]
-        return triangle(weighted.reshape(-1, weighted.shape[2]))
+        return compute_triangle(weighted.reshape(-1, weighted.shape[2]))
 
-    def without(self, names: Sequence[str]) -> "Compressed":
+    def drop_columns(self, names: Sequence[str]) -> "CompressedRegression":
         """The same data without some columns."""
-        kept = [i for i, name in enumerate(self.names) if name not in set(names)]
-        return Compressed(
-            tuple(self.names[i] for i in kept),
-            self.triangles[:, :, [*kept, len(self.names)]],
+        kept_indices = [i for i, name in enumerate(self.names) if name not in set(names)]
+        return CompressedRegression(
+            tuple(self.names[i] for i in kept_indices),
+            self.triangles[:, :, [*kept_indices, len(self.names)]],
             self.rows,
             self.free,
         )
 
 
-def triangle(matrix: np.ndarray) -> np.ndarray:
+def compute_triangle(matrix: np.ndarray) -> np.ndarray:
     """R of matrix = Q R, (min(rows, columns), columns)."""
     return np.asarray(np.linalg.qr(matrix, mode="r"))
 
 
-def merged(first: Compressed, second: Compressed) -> Compressed:
+def merge_compressed(
+    first: CompressedRegression, second: CompressedRegression
+) -> CompressedRegression:
     """The rows of both: R of [R1; R2] per joint, as [W1 y1; W2 y2] has the same R^T R.
 
     Each triangle errs backwards by rounding of its own rows only, so any order of merging is as
@@ -196,18 +204,18 @@ def merged(first: Compressed, second: Compressed) -> Compressed:
     """
     assert first.names == second.names and np.array_equal(first.free, second.free)
     stacked = np.concatenate([first.triangles, second.triangles], axis=1)
-    triangles = np.stack([triangle(own) for own in stacked])
-    return Compressed(first.names, triangles, first.rows + second.rows, first.free)
+    triangles = np.stack([compute_triangle(joint_rows) for joint_rows in stacked])
+    return CompressedRegression(first.names, triangles, first.rows + second.rows, first.free)
 
 
-def compress(
+def compress_rows(
     W: np.ndarray,
     y: np.ndarray,
     joint: np.ndarray,
     joints: int,
     names: Sequence[str],
     free: Sequence[int] = (),
-) -> Compressed:
+) -> CompressedRegression:
     """Compress y = W beta.
 
     Args:
@@ -222,19 +230,19 @@ def compress(
     assert W.shape == (len(y), len(names)) and np.isfinite(W).all() and np.isfinite(y).all()
     triangles = np.zeros((joints, size, size))
     for j in range(joints):
-        own = joint == j
-        if own.any():
-            own_triangle = triangle(np.column_stack([W[own], y[own]]))
-            triangles[j, : len(own_triangle)] = own_triangle
+        is_of_joint = joint == j
+        if is_of_joint.any():
+            joint_triangle = compute_triangle(np.column_stack([W[is_of_joint], y[is_of_joint]]))
+            triangles[j, : len(joint_triangle)] = joint_triangle
     rows = np.bincount(joint, minlength=joints)
-    return Compressed(tuple(names), triangles, rows, np.isin(np.arange(joints), free))
+    return CompressedRegression(tuple(names), triangles, rows, np.isin(np.arange(joints), free))
 
 
 # Least squares of many rows from few: the orthogonal part of a QR decomposition is left out.
 
 
 @dataclass(frozen=True, eq=False)
-class ReducedRows(Brief):
+class ReducedRows(ShortRepr):
     """As many rows as there are columns, with the same squares and products; J joints.
 
     Attributes:
@@ -249,7 +257,7 @@ class ReducedRows(Brief):
 
 
 @dataclass(frozen=True, eq=False)
-class Reduction(Brief):
+class Reduction(ShortRepr):
     """What takes rows to few, by joint: [W y] = Q R.
 
     Attributes:
@@ -260,13 +268,13 @@ class Reduction(Brief):
     Q: tuple[np.ndarray, ...]
     R: tuple[np.ndarray, ...]
 
-    def beside(self, extra: Sequence[Sequence[np.ndarray | None]]) -> ReducedRows:
+    def append_columns(self, extra: Sequence[Sequence[np.ndarray | None]]) -> ReducedRows:
         """The rows with further columns, (rows_j, k) each by joint; None where they are zero."""
         sizes = [next(c.shape[1] for c in columns if c is not None) for columns in extra]
         W, y = [], []
         for j, (Q, R) in enumerate(zip(self.Q, self.R, strict=True)):
             parts = [columns[j] for columns in extra]
-            more = _beside(Q, parts, sizes)
+            more = _append_joint_columns(Q, parts, sizes)
             below = np.zeros((len(more) - len(R), R.shape[1]))
             whole = np.hstack([np.vstack([R, below]), more])
             W.append(np.delete(whole, R.shape[1] - 1, axis=1))
@@ -274,13 +282,13 @@ class Reduction(Brief):
         return ReducedRows(tuple(W), tuple(y), np.array([len(Q) for Q in self.Q]))
 
 
-def reduction(W: Sequence[np.ndarray], y: Sequence[np.ndarray]) -> Reduction:
+def reduce_rows(W: Sequence[np.ndarray], y: Sequence[np.ndarray]) -> Reduction:
     """Of the rows of every joint."""
-    every = [_reduced(w, t) for w, t in zip(W, y, strict=True)]
+    every = [_reduce_joint_rows(w, t) for w, t in zip(W, y, strict=True)]
     return Reduction(tuple(Q for Q, _ in every), tuple(R for _, R in every))
 
 
-def _reduced(W: np.ndarray, y: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+def _reduce_joint_rows(W: np.ndarray, y: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """Q and R of [W y]; columns that are 0 throughout, those of other joints, take no part."""
     seen = np.append(W.any(axis=0), True)
     Q, R = np.linalg.qr(np.column_stack([W[:, seen[:-1]], y]))
@@ -289,7 +297,9 @@ def _reduced(W: np.ndarray, y: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     return Q, whole
 
 
-def _beside(Q: np.ndarray, parts: Sequence[np.ndarray | None], sizes: Sequence[int]) -> np.ndarray:
+def _append_joint_columns(
+    Q: np.ndarray, parts: Sequence[np.ndarray | None], sizes: Sequence[int]
+) -> np.ndarray:
     """(few + more, k) further columns of one joint: within Q, and below it what Q lacks."""
     inside = np.zeros((Q.shape[1], sum(sizes)))
     ends = np.cumsum([0, *sizes])
@@ -297,9 +307,9 @@ def _beside(Q: np.ndarray, parts: Sequence[np.ndarray | None], sizes: Sequence[i
     places = [i for k in shown for i in range(ends[k], ends[k + 1])]
     if not places:
         return inside
-    own = np.hstack([part for part in parts if part is not None])
-    inside[:, places] = Q.T @ own
-    rest = np.linalg.qr(own - Q @ inside[:, places], mode="r")
+    joint_columns = np.hstack([part for part in parts if part is not None])
+    inside[:, places] = Q.T @ joint_columns
+    rest = np.linalg.qr(joint_columns - Q @ inside[:, places], mode="r")
     below = np.zeros((len(rest), sum(sizes)))
     below[:, places] = rest
     return np.vstack([inside, below])
@@ -309,7 +319,7 @@ _PARALLEL = 1e-11
 """Eigenvalue of their Gram matrix, over the largest, below which columns are dependent."""
 
 
-def turn_of(W: Sequence[np.ndarray], sigma: np.ndarray) -> np.ndarray:
+def compute_joint_whitening(W: Sequence[np.ndarray], sigma: np.ndarray) -> np.ndarray:
     """(c, r) that makes weighted columns orthonormal over the rows of all joints at once.
 
     Args:
@@ -317,7 +327,7 @@ def turn_of(W: Sequence[np.ndarray], sigma: np.ndarray) -> np.ndarray:
         sigma: (J,) of each joint; the weights are its inverse.
     """
     gram = np.asarray(sum((w.T @ w) / s**2 for w, s in zip(W, sigma, strict=True)))
-    return whitening(gram, _PARALLEL)
+    return compute_whitening(gram, _PARALLEL)
 
 
 # The median of weighted values.
@@ -326,7 +336,7 @@ def turn_of(W: Sequence[np.ndarray], sigma: np.ndarray) -> np.ndarray:
 _SAME = 1e-6  # of all weight; less is rounding
 
 
-def weighted_median(values: np.ndarray, weights: np.ndarray) -> float:
+def compute_weighted_median(values: np.ndarray, weights: np.ndarray) -> float:
     """The smallest value up to which at least half of the weight lies.
 
     Half but for `_SAME`: of equal weights whose last digits differ, every choice of these digits

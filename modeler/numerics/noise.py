@@ -37,34 +37,34 @@ LEAST = 4 * _HALF
 """Values below which nothing can be said."""
 
 
-def robust_deviation(values: np.ndarray) -> float:
+def estimate_robust_deviation(values: np.ndarray) -> float:
     """1.4826 median |values|: their standard deviation about 0 if most of them are Gaussian."""
     return 1.4826 * float(np.median(np.abs(values)))
 
 
-def white_noise(values: np.ndarray) -> float:
+def estimate_white_noise(values: np.ndarray) -> float:
     """Standard deviation of white noise on a smooth signal, from its third differences."""
-    return robust_deviation(np.diff(values, 3)) / float(np.sqrt(20.0))
+    return estimate_robust_deviation(np.diff(values, 3)) / float(np.sqrt(20.0))
 
 
-def departures(values: np.ndarray) -> np.ndarray:
+def subtract_running_median(values: np.ndarray) -> np.ndarray:
     """(n,) values less their running median over 11 samples: of a smooth signal all but nothing."""
-    return np.asarray(values - running_median(values))
+    return np.asarray(values - compute_running_median(values))
 
 
-def running_median(values: np.ndarray) -> np.ndarray:
+def compute_running_median(values: np.ndarray) -> np.ndarray:
     """(n,) median over 11 samples; at the ends over those that there are, mirrored."""
     return np.asarray(median_filter(values, 2 * _HALF + 1, mode="reflect"))
 
 
-def threshold(departed: np.ndarray, resolution: float, share: float) -> float:
+def compute_outlier_threshold(departed: np.ndarray, resolution: float, share: float) -> float:
     """Departure below which no value of a channel is lone.
 
     The largest of `NOISES` robust standard deviations, `CROWD` times what a share of the values
     exceeds, and `STEPS` resolution steps.
 
     Args:
-        departed: (n,) `departures` of the channel, of all its stretches.
+        departed: (n,) `subtract_running_median` of the channel, of all its stretches.
         resolution: its smallest step.
         share: of the values that may be lone, 8 at least.
     """
@@ -73,45 +73,51 @@ def threshold(departed: np.ndarray, resolution: float, share: float) -> float:
         return float("inf")
     rare = min(len(size) - 1, max(LEAST_RARE, round(share * len(size))))
     common = float(np.partition(size, len(size) - 1 - rare)[len(size) - 1 - rare])
-    return max(NOISES * robust_deviation(departed), CROWD * common, STEPS * resolution)
+    return max(NOISES * estimate_robust_deviation(departed), CROWD * common, STEPS * resolution)
 
 
-def floor_here(departed: Sequence[np.ndarray], floor: float, share: float) -> float:
+def compute_local_threshold(departed: Sequence[np.ndarray], floor: float, share: float) -> float:
     """The floor of a whole channel, or that of a part of it where many values exceed it.
 
     What happens again and again in a part is no lone value there, however quiet the rest is.
 
     Args:
-        departed: (n,) `departures` of the stretches of the part.
-        floor: `threshold` of the whole channel.
+        departed: (n,) `subtract_running_median` of the stretches of the part.
+        floor: `compute_outlier_threshold` of the whole channel.
         share: of the values that may be lone.
     """
-    beyond = sum(int(np.count_nonzero(np.abs(own) > floor)) for own in departed)
+    beyond = sum(
+        int(np.count_nonzero(np.abs(stretch_departures) > floor)) for stretch_departures in departed
+    )
     if beyond <= LEAST_RARE:
         return floor
-    return max(floor, threshold(np.concatenate(departed), 0.0, share))
+    return max(floor, compute_outlier_threshold(np.concatenate(departed), 0.0, share))
 
 
-def lone(departed: np.ndarray, floor: float) -> np.ndarray:
+def find_isolated_outliers(departed: np.ndarray, floor: float) -> np.ndarray:
     """Places of the lone values of one stretch, increasing.
 
     Args:
-        departed: (n,) `departures` of the stretch.
+        departed: (n,) `subtract_running_median` of the stretch.
         floor: what they exceed, besides `NEAR` times the fourth largest within 30 samples. The
             first and the last ten are not judged: a machine that is just switched on leaps too, and
             the start-up of the position filter costs these samples anyway.
     """
     size = np.abs(departed)
     size[:END] = size[max(0, len(size) - END) :] = 0.0
-    found = [int(k) for k in np.flatnonzero(size > floor) if size[k] > NEAR * nearby(size, int(k))]
-    return np.array(found, dtype=int)
+    places = [
+        int(k)
+        for k in np.flatnonzero(size > floor)
+        if size[k] > NEAR * compute_nearby_level(size, int(k))
+    ]
+    return np.array(places, dtype=int)
 
 
-def nearby(size: np.ndarray, place: int) -> float:
+def compute_nearby_level(size: np.ndarray, place: int) -> float:
     """The fourth largest of size (n,) within 30 samples of a place, the place included."""
     window = size[max(0, place - REACH) : place + REACH + 1]
-    kept = max(0, len(window) - 1 - FEW)
-    return float(np.partition(window, kept)[kept])
+    order = max(0, len(window) - 1 - FEW)
+    return float(np.partition(window, order)[order])
 
 
 # What noise does not do: return in the next lap, last, come in outbursts.
@@ -135,7 +141,7 @@ _FEW_OF_LOG = 20
 _PARTS = 40  # of the rows in order
 
 
-def forgotten(cutoff: float) -> float:
+def compute_noise_memory(cutoff: float) -> float:
     """s after which noise behind a parallel filter of a cut-off (Hz, 0: none) is forgotten.
 
     Torque noise and quantisation are forgotten within a tenth of a second; a brake that drags, a
@@ -144,7 +150,7 @@ def forgotten(cutoff: float) -> float:
     return max(LATER, FORGOTTEN / cutoff) if cutoff else LATER
 
 
-def returning(
+def estimate_recurring_share(
     time: np.ndarray, r: np.ndarray, run: np.ndarray, later: Sequence[float]
 ) -> float | None:
     """Share of a residual's variance that is there some time later: it lasts, or comes back.
@@ -160,11 +166,11 @@ def returning(
     """
     products, square = [np.zeros(0)], 0.0
     logs = [(run == k, step) for k, step in enumerate(later) if step]
-    logs = [(own, step) for own, step in logs if own.sum() >= _FEW_OF_LOG]
-    for own, step in logs:
-        second = at(time[own], r[own], time[own] + step)
+    logs = [(is_of_log, step) for is_of_log, step in logs if is_of_log.sum() >= _FEW_OF_LOG]
+    for is_of_log, step in logs:
+        second = interpolate_between_gaps(time[is_of_log], r[is_of_log], time[is_of_log] + step)
         both = np.isfinite(second)
-        first, second = r[own][both], second[both]
+        first, second = r[is_of_log][both], second[both]
         products.append(first * second)
         square += 0.5 * float(first @ first + second @ second)
     if not logs:
@@ -177,7 +183,7 @@ def returning(
     return total / square if total > SURE * scatter else 0.0
 
 
-def at(time: np.ndarray, values: np.ndarray, then: np.ndarray) -> np.ndarray:
+def interpolate_between_gaps(time: np.ndarray, values: np.ndarray, then: np.ndarray) -> np.ndarray:
     """(m,) values at other times, straight between neighbours; NaN outside, and in gaps.
 
     Args:
@@ -193,7 +199,7 @@ def at(time: np.ndarray, values: np.ndarray, then: np.ndarray) -> np.ndarray:
     return np.where(inside, np.interp(then, time, values), np.nan)
 
 
-def outbursts(r: np.ndarray, block: np.ndarray) -> float:
+def estimate_burst_share(r: np.ndarray, block: np.ndarray) -> float:
     """Share of a residual's energy in outbursts: 0 for noise that is even over time.
 
     What exceeds the median energy of the blocks, if their mean is several times that. Blocks with
@@ -224,7 +230,7 @@ _ANEW = 0.9  # of the values are new levels, or of the differences one step: bel
 _SMALL = 10.0  # steps: larger differences add their rounding, and say less
 
 
-def lattice_step(values: np.ndarray) -> float:
+def estimate_lattice_step(values: np.ndarray) -> float:
     """Step of the lattice that the values (n,) lie on; 0 if they lie on none.
 
     Least squares over small differences of neighbours, or of levels where neighbours are too far
@@ -236,13 +242,13 @@ def lattice_step(values: np.ndarray) -> float:
     new = len(levels) / max(1, len(there))
     for rounding in (_DECIMAL * largest, _SINGLE * largest):
         for gaps, share in ((np.abs(np.diff(there)), new), (np.diff(levels), 1.0)):
-            step = _step_of(gaps[gaps > rounding], share)
+            step = _fit_lattice_step(gaps[gaps > rounding], share)
             if step > 4.0 * _SINGLE * largest:
                 return step
     return 0.0
 
 
-def _step_of(gaps: np.ndarray, levels: float) -> float:
+def _fit_lattice_step(gaps: np.ndarray, levels: float) -> float:
     """Least-squares step of differences (m,) above rounding; 0 if they have none.
 
     Args:

@@ -12,7 +12,7 @@ _LOOK = 10  # steps that are to bring something
 
 
 @dataclass(frozen=True)
-class Landscape:
+class ObjectiveFunction:
     """A function on an open set.
 
     Attributes:
@@ -22,12 +22,16 @@ class Landscape:
     """
 
     value: Callable[[np.ndarray], float]
-    slope: Callable[[np.ndarray], np.ndarray]
-    reach: Callable[[np.ndarray, np.ndarray], float]
+    gradient: Callable[[np.ndarray], np.ndarray]
+    boundary_distance: Callable[[np.ndarray, np.ndarray], float]
 
 
-def descend(
-    landscape: Landscape, x: np.ndarray, steps: int, settled: float, proceed: Callable[[], bool]
+def minimise_bfgs(
+    landscape: ObjectiveFunction,
+    x: np.ndarray,
+    steps: int,
+    tolerance: float,
+    proceed: Callable[[], bool],
 ) -> np.ndarray:
     """The lowest point that BFGS comes to from x, (d,).
 
@@ -35,42 +39,45 @@ def descend(
         landscape: the function.
         x: inside of the set.
         steps: at most so many.
-        settled: it ends where ten steps together bring less than this.
+        tolerance: it ends where ten steps together bring less than this.
         proceed: asked before each value; False ends it.
     """
     value = landscape.value(x)
-    slope = landscape.slope(x)
-    curve, fresh, values = _steepest(slope), True, [value]
+    slope = landscape.gradient(x)
+    curve, fresh, values = _build_initial_inverse_hessian(slope), True, [value]
     for _ in range(steps):
         if not proceed():
             break
         way = -curve @ slope
-        found = _lower(landscape, x, value, way, float(way @ slope), proceed)
-        if found is None:
+        lower_point = _search_line(landscape, x, value, way, float(way @ slope), proceed)
+        if lower_point is None:
             if fresh:
                 break
-            curve, fresh = _steepest(slope), True  # a kink: what was learnt of curvature misleads
+            curve, fresh = (
+                _build_initial_inverse_hessian(slope),
+                True,
+            )  # a kink: what was learnt of curvature misleads
             continue
-        ahead, new = found
-        after = landscape.slope(ahead)
-        curve, fresh = _updated(curve, ahead - x, after - slope, fresh), False
+        ahead, new = lower_point
+        after = landscape.gradient(ahead)
+        curve, fresh = _update_inverse_hessian(curve, ahead - x, after - slope, fresh), False
         x, value, slope = ahead, new, after
         values.append(value)
-        if len(values) > _LOOK and values[-1 - _LOOK] - value < settled:
+        if len(values) > _LOOK and values[-1 - _LOOK] - value < tolerance:
             break
     return x
 
 
-def _steepest(slope: np.ndarray) -> np.ndarray:
+def _build_initial_inverse_hessian(slope: np.ndarray) -> np.ndarray:
     return np.eye(len(slope)) / max(float(np.linalg.norm(slope)), 1e-12)
 
 
-def _lower(
-    landscape: Landscape, x: np.ndarray, value: float, way: np.ndarray, fall: float,
+def _search_line(
+    landscape: ObjectiveFunction, x: np.ndarray, value: float, way: np.ndarray, fall: float,
     proceed: Callable[[], bool],
 ) -> tuple[np.ndarray, float] | None:  # fmt: skip
     """A point along `way` that is lower than promised in part, and its value."""
-    share = min(1.0, _NEAR * landscape.reach(x, way))
+    share = min(1.0, _NEAR * landscape.boundary_distance(x, way))
     while fall < 0.0 and share > _SHORTEST and proceed():
         ahead = x + share * way
         new = landscape.value(ahead)
@@ -80,7 +87,9 @@ def _lower(
     return None
 
 
-def _updated(curve: np.ndarray, step: np.ndarray, change: np.ndarray, first: bool) -> np.ndarray:
+def _update_inverse_hessian(
+    curve: np.ndarray, step: np.ndarray, change: np.ndarray, first: bool
+) -> np.ndarray:
     """The inverse of the second derivative, with what one step taught of it (BFGS)."""
     along = float(step @ change)
     if not along > 1e-10 * float(np.linalg.norm(step) * np.linalg.norm(change)):
@@ -95,7 +104,7 @@ def _updated(curve: np.ndarray, step: np.ndarray, change: np.ndarray, first: boo
     )
 
 
-def evolve(
+def minimise_cma_es(
     value: Callable[[np.ndarray], float],
     x: np.ndarray,
     size: float,

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from modeler.core.brief import Brief
+from modeler.core.brief import ShortRepr
 
 _LONGEST = 1024  # samples of one Welch window
 _LAG = 2.0  # s, longest lag of the autocorrelation
@@ -13,19 +13,19 @@ _FORGOTTEN = 0.2  # autocorrelation below which the past is called forgotten
 
 
 @dataclass(frozen=True, eq=False)
-class ResidualSpectrum(Brief):
+class ResidualSpectrum(ShortRepr):
     """Autocorrelation and power spectral density of one residual."""
 
     period: float  # s between samples
     correlation: np.ndarray  # (lags,) autocorrelation at 0, 1, ... samples; correlation[0] = 1
-    memory: float  # s until the autocorrelation is below 0.2; one period for white noise
+    correlation_time: float  # s until the autocorrelation is below 0.2; one period for white noise
     frequency: np.ndarray  # (m,) Hz, without 0
     density: np.ndarray  # (m,) (N m)^2/Hz or N^2/Hz
     peak: float  # Hz, of the largest density, weighted over two frequency steps either side
     peak_share: float  # of the power, within two frequency steps of the peak
 
 
-def residual_spectrum(
+def estimate_residual_spectrum(
     time: np.ndarray, segment: np.ndarray, e: np.ndarray
 ) -> ResidualSpectrum | None:
     """Spectrum of one joint's residual; None when no segment is long enough (16 samples).
@@ -39,13 +39,13 @@ def residual_spectrum(
         segment: (n,) number of the evenly sampled stretch of each row.
         e: residual on all rows, (n,), NaN where the row does not count.
     """
-    pieces, period = _pieces(time, segment, e)
+    pieces, period = _collect_segments(time, segment, e)
     if not pieces:
         return None
-    correlation = _autocorrelation(pieces, round(_LAG / period))
-    frequency, density = _welch(pieces, period)
+    correlation = _estimate_autocorrelation(pieces, round(_LAG / period))
+    frequency, density = _average_welch_density(pieces, period)
     below = np.flatnonzero(correlation < _FORGOTTEN)
-    memory = int(below[0]) if below.size else correlation.size
+    lags_until_decay = int(below[0]) if below.size else correlation.size
     top = int(np.argmax(density))
     around = slice(max(top - 2, 0), top + 3)
     near = float(density[around].sum())
@@ -53,7 +53,7 @@ def residual_spectrum(
     return ResidualSpectrum(
         period=period,
         correlation=correlation,
-        memory=memory * period,
+        correlation_time=lags_until_decay * period,
         frequency=frequency,
         density=density,
         peak=float(frequency[around] @ density[around]) / near if near else 0.0,
@@ -61,7 +61,7 @@ def residual_spectrum(
     )
 
 
-def spans(segment: np.ndarray) -> list[slice]:
+def find_segment_slices(segment: np.ndarray) -> list[slice]:
     """The stretches of equal segment number, in row order."""
     if segment.size == 0:
         return []
@@ -71,22 +71,24 @@ def spans(segment: np.ndarray) -> list[slice]:
     return [slice(a, b) for a, b in zip(starts, stops, strict=True)]
 
 
-def _pieces(time: np.ndarray, segment: np.ndarray, e: np.ndarray) -> tuple[list[np.ndarray], float]:
+def _collect_segments(
+    time: np.ndarray, segment: np.ndarray, e: np.ndarray
+) -> tuple[list[np.ndarray], float]:
     """Centred residual of each usable segment (NaN where it does not count), and the period."""
     centred = e - np.nanmean(e)
-    found = []
-    for span in spans(segment):
+    segments = []
+    for span in find_segment_slices(segment):
         rows = span.stop - span.start
         if rows >= 16 and np.isfinite(e[span]).sum() >= 16:
-            found.append((centred[span], float(np.median(np.diff(time[span])))))
-    if not found:
+            segments.append((centred[span], float(np.median(np.diff(time[span])))))
+    if not segments:
         return [], 0.0
-    steps = np.repeat([step for _, step in found], [piece.size for piece, _ in found])
+    steps = np.repeat([step for _, step in segments], [piece.size for piece, _ in segments])
     period = float(np.median(steps))
-    return [piece for piece, step in found if abs(step - period) < 0.05 * period], period
+    return [piece for piece, step in segments if abs(step - period) < 0.05 * period], period
 
 
-def _autocorrelation(pieces: list[np.ndarray], lags: int) -> np.ndarray:
+def _estimate_autocorrelation(pieces: list[np.ndarray], lags: int) -> np.ndarray:
     """Mean product of pairs that both count and lie in one segment, over the mean square."""
     lags = max(2, min(lags, max(piece.size for piece in pieces) // 2))
     product, pairs = np.zeros(lags), np.zeros(lags)
@@ -101,20 +103,24 @@ def _autocorrelation(pieces: list[np.ndarray], lags: int) -> np.ndarray:
     return mean / mean[0] if mean[0] > 0.0 else np.eye(1, lags)[0]
 
 
-def _welch(pieces: list[np.ndarray], period: float) -> tuple[np.ndarray, np.ndarray]:
+def _average_welch_density(
+    pieces: list[np.ndarray], period: float
+) -> tuple[np.ndarray, np.ndarray]:
     """Welch densities (Hann, half overlap) of the segments, averaged by samples that count."""
     # a quarter of the longest segment: about seven windows to average over
     window = min(_LONGEST, max(16, max(piece.size for piece in pieces) // 4))
     total, weight = np.zeros(window // 2 + 1), 0.0
     for piece in pieces:
         counts = float(np.isfinite(piece).sum())
-        density = welch(np.nan_to_num(piece), min(window, piece.size), window, period)
+        density = estimate_welch_density(
+            np.nan_to_num(piece), min(window, piece.size), window, period
+        )
         total = total + density * piece.size  # = counts * (density scaled by size / counts)
         weight += counts
     return np.fft.rfftfreq(window, period)[1:], total[1:] / weight
 
 
-def welch(values: np.ndarray, length: int, size: int, period: float) -> np.ndarray:
+def estimate_welch_density(values: np.ndarray, length: int, size: int, period: float) -> np.ndarray:
     """(size // 2 + 1,) one-sided power density, mean over half overlapping Hann windows.
 
     That of scipy.signal.welch without detrending; scipy.signal takes long to load.
@@ -135,7 +141,7 @@ def welch(values: np.ndarray, length: int, size: int, period: float) -> np.ndarr
     return np.asarray(power)
 
 
-def coherence(x: np.ndarray, y: np.ndarray, frequency: float) -> float:
+def estimate_coherence(x: np.ndarray, y: np.ndarray, frequency: float) -> float:
     """Share of y's power (n,) that follows x (n,), around a frequency in periods a sample."""
     length = max(16, min(256, len(x) // 8))
     if len(x) < 2 * length:
@@ -143,14 +149,15 @@ def coherence(x: np.ndarray, y: np.ndarray, frequency: float) -> float:
     hann = 0.5 - 0.5 * np.cos(2.0 * np.pi * np.arange(length) / length)
     a, b = (
         np.fft.rfft(
-            hann * np.lib.stride_tricks.sliding_window_view(np.diff(own, 2), length)[:: length // 2]
+            hann
+            * np.lib.stride_tricks.sliding_window_view(np.diff(values, 2), length)[:: length // 2]
         )
-        for own in (x, y)
+        for values in (x, y)
     )
     place = round(frequency * length)
     near = slice(max(1, place - 1), place + 2)
     both = np.abs(np.mean(a * np.conj(b), axis=0)[near]) ** 2
-    each = (np.mean(np.abs(own) ** 2, axis=0)[near] for own in (a, b))
+    each = (np.mean(np.abs(values) ** 2, axis=0)[near] for values in (a, b))
     return float(np.max(both / np.maximum(np.multiply(*each), 1e-300)))
 
 
@@ -168,7 +175,7 @@ _FEWEST = 100  # samples
 
 
 @dataclass(frozen=True, eq=False)
-class OrderSpectrum(Brief):
+class OrderSpectrum(ShortRepr):
     """Of one joint.
 
     Attributes:
@@ -186,7 +193,9 @@ class OrderSpectrum(Brief):
     power: float
 
 
-def order_spectrum(q: np.ndarray, r: np.ndarray, unit: str, reached: float) -> OrderSpectrum | None:
+def compute_order_spectrum(
+    q: np.ndarray, r: np.ndarray, unit: str, reached: float
+) -> OrderSpectrum | None:
     """(2/n) |sum r exp(-i m q)| by order m; None if the joint rests.
 
     A wave A cos(m q + phase) that is passed often gives A at m. Positions are sorted into cells,
@@ -210,8 +219,8 @@ def order_spectrum(q: np.ndarray, r: np.ndarray, unit: str, reached: float) -> O
     order = np.arange(len(spectrum)) * (2.0 * np.pi / stroke) * cells / length
     amplitude = np.abs(spectrum)
     resolution = 2.0 * np.pi / stroke
-    kept = (order >= LEAST_WAVES * resolution) & (order <= highest) & (order <= reached)
-    order, amplitude = order[kept], amplitude[kept]
+    is_in_range = (order >= LEAST_WAVES * resolution) & (order <= highest) & (order <= reached)
+    order, amplitude = order[is_in_range], amplitude[is_in_range]
     if order.size < 32:
         return None
     # The floor is the median over a wide neighbourhood.
@@ -242,7 +251,7 @@ SHORTEST = 2.0
 _SPARSE = 10  # steps in the time of a log for each of its rows, from which on pauses fill it
 
 
-def longest_stretch(time: np.ndarray, step: float) -> slice:
+def find_longest_stretch(time: np.ndarray, step: float) -> slice:
     """All rows; where pauses fill the time of a log, the longest stretch between them.
 
     Args:
@@ -256,7 +265,7 @@ def longest_stretch(time: np.ndarray, step: float) -> slice:
     return slice(int(ends[longest]), int(ends[longest + 1]))
 
 
-def lap(since: np.ndarray, q: np.ndarray) -> float:
+def estimate_lap_period(since: np.ndarray, q: np.ndarray) -> float:
     """Period of a motion that repeats at least once, s; 0 if it does not.
 
     Args:
@@ -264,7 +273,7 @@ def lap(since: np.ndarray, q: np.ndarray) -> float:
         q: (s, J) positions.
     """
     step = float(np.median(np.diff(since))) if len(since) > 2 else 0.0
-    rows = longest_stretch(since, step)
+    rows = find_longest_stretch(since, step)
     since, q = since[rows] - since[rows][:1], q[rows]
     count = int(since[-1] / step) + 1 if step > 0.0 and len(since) else 0
     if count < 8 or since[-1] < 2 * SHORTEST:
@@ -275,7 +284,9 @@ def lap(since: np.ndarray, q: np.ndarray) -> float:
         return 0.0
     likeness = np.ones(count // 2 + 1)
     for x in moved:
-        likeness = np.minimum(likeness, _likeness((x - x.mean()) / x.std(), count // 2 + 1))
+        likeness = np.minimum(
+            likeness, _compute_self_similarity((x - x.mean()) / x.std(), count // 2 + 1)
+        )
     first = int(SHORTEST / step)
     high = np.flatnonzero(likeness[first:] > ALIKE) + first
     low = np.flatnonzero(likeness < 0.8)
@@ -288,7 +299,7 @@ def lap(since: np.ndarray, q: np.ndarray) -> float:
     return float(near[np.argmax(likeness[near])] * step)
 
 
-def _likeness(x: np.ndarray, lags: int) -> np.ndarray:
+def _compute_self_similarity(x: np.ndarray, lags: int) -> np.ndarray:
     """1 - mean squared difference of x(t + lag) and x(t) over twice its variance, by lag."""
     count = len(x)
     spectrum = np.fft.rfft(x, 2 * count)
@@ -318,16 +329,16 @@ class MotionSpectrum:
 
     frequency: np.ndarray
     power: np.ndarray
-    white: np.ndarray
+    noise_power: np.ndarray
 
     @property
-    def above(self) -> np.ndarray:
+    def power_above_noise(self) -> np.ndarray:
         """(n, J) power less the largest value that the white noise takes: 0 where it may be it."""
-        largest = self.white * (np.log(len(self.frequency)) + _NEVER)
+        largest = self.noise_power * (np.log(len(self.frequency)) + _NEVER)
         return np.maximum(self.power - largest, 0.0)
 
 
-def motion_spectrum(positions: np.ndarray, step: float) -> MotionSpectrum:
+def compute_motion_spectrum(positions: np.ndarray, step: float) -> MotionSpectrum:
     """The periodogram of positions (samples, J): Hann window, trend removed.
 
     The white noise is the median over the upper half of the frequencies, where measured positions
@@ -352,7 +363,7 @@ _THIRDS = 3  # of an octave
 
 
 @dataclass(frozen=True, eq=False)
-class BandSpectrum(Brief):
+class BandSpectrum(ShortRepr):
     """Means over third octaves; m of them, J channels.
 
     Attributes:
@@ -364,7 +375,7 @@ class BandSpectrum(Brief):
     density: np.ndarray
 
 
-def band_spectrum(
+def compute_band_spectrum(
     channels: Sequence[np.ndarray], steps: Sequence[float], order: int
 ) -> BandSpectrum:
     """Power densities of signals whose low frequencies would leak over all others.
@@ -387,7 +398,7 @@ def band_spectrum(
         length = min(len(level), max(8, round(WINDOW_SECONDS / step)))
         if length < 8:
             continue
-        power, frames = _blackman(level, length, step)
+        power, frames = _estimate_blackman_density(level, length, step)
         f = np.fft.rfftfreq(length, step)
         gain = (2.0 * np.sin(np.pi * f[1:] * step)) ** (2 * order)
         place = np.searchsorted(edges, f[1:], side="right") - 1
@@ -399,7 +410,9 @@ def band_spectrum(
     return BandSpectrum(np.sqrt(edges[1:] * edges[:-1]), density)
 
 
-def _blackman(values: np.ndarray, length: int, step: float) -> tuple[np.ndarray, int]:
+def _estimate_blackman_density(
+    values: np.ndarray, length: int, step: float
+) -> tuple[np.ndarray, int]:
     """(length // 2 + 1, J) one-sided density, mean over half overlapping windows; how many."""
     window = np.blackman(length)
     starts = range(0, len(values) - length + 1, max(1, length // 2))

@@ -24,7 +24,7 @@ _PARTS = 40  # of the rows in order: what noise makes of one has nothing to do w
 
 
 @dataclass(frozen=True, eq=False)
-class Flexible:
+class NonparametricBaseline:
     """What the rival says of one joint.
 
     Attributes:
@@ -37,17 +37,17 @@ class Flexible:
     prediction: np.ndarray
     share: float
     sigma: float = 0.0
-    alone: dict[str, float] = field(default_factory=dict)
+    share_by_set: dict[str, float] = field(default_factory=dict)
 
     @property
-    def sure(self) -> bool:
+    def is_significant(self) -> bool:
         """True if the share is more than chance, also in noise that has a colour."""
         return self.share > MIN_T_RATIO * self.sigma
 
 
-def flexible(
+def fit_nonparametric_baseline(
     sets: Iterable[tuple[str, np.ndarray]], residual: np.ndarray, fold: np.ndarray
-) -> Flexible:
+) -> NonparametricBaseline:
     """The residual as predicted by sets of functions where they were not fitted.
 
     Each set is fitted by ridge regression; the sets and their ridges are added with weights that
@@ -66,62 +66,70 @@ def flexible(
     energy = float(y @ y)
     rows = [np.flatnonzero(fold == f) for f in np.unique(fold)]
     enough = y.size >= LEAST and len(rows) >= 3 and energy != 0.0
-    every = ((name, _standard(values)) for name, values in sets) if enough else ()
-    found = {name: _crossed(values, y, rows) for name, values in every if values.shape[1]}
-    if not found:
-        return Flexible(np.full(y.size, mean), 0.0)
-    left = [float(np.sum((y - _stacked(columns, y, rows)) ** 2)) for columns in found.values()]
-    alone = {name: max(0.0, 1.0 - e / energy) for name, e in zip(found, left, strict=True)}
-    predicted = _stacked(np.concatenate([*found.values()], axis=2), y, rows)
+    every = ((name, _standardise_columns(values)) for name, values in sets) if enough else ()
+    predictions = {
+        name: _cross_predict(values, y, rows) for name, values in every if values.shape[1]
+    }
+    if not predictions:
+        return NonparametricBaseline(np.full(y.size, mean), 0.0)
+    left = [
+        float(np.sum((y - _combine_predictions(columns, y, rows)) ** 2))
+        for columns in predictions.values()
+    ]
+    alone = {name: max(0.0, 1.0 - e / energy) for name, e in zip(predictions, left, strict=True)}
+    predicted = _combine_predictions(np.concatenate([*predictions.values()], axis=2), y, rows)
     gain = y**2 - (y - predicted) ** 2
     parts = np.add.reduceat(gain, np.arange(_PARTS) * y.size // _PARTS)
     share, sigma = float(gain.sum()), float(np.sqrt(_PARTS) * parts.std(ddof=1))
-    return Flexible(predicted + mean, max(0.0, share / energy), sigma / energy, alone)
+    return NonparametricBaseline(predicted + mean, max(0.0, share / energy), sigma / energy, alone)
 
 
-def stretches(run: np.ndarray) -> np.ndarray:
+def assign_folds(run: np.ndarray) -> np.ndarray:
     """(n,) folds for rows in order of time, their log by number: each log in eight stretches."""
     fold = np.zeros(run.size, dtype=int)
     for log in np.unique(run):
-        own = np.flatnonzero(run == log)
-        fold[own] = (np.arange(own.size) * _FOLDS // own.size + log) % _FOLDS
+        log_rows = np.flatnonzero(run == log)
+        fold[log_rows] = (np.arange(log_rows.size) * _FOLDS // log_rows.size + log) % _FOLDS
     return fold
 
 
-def _crossed(X: np.ndarray, y: np.ndarray, rows: list[np.ndarray]) -> np.ndarray:
+def _cross_predict(X: np.ndarray, y: np.ndarray, rows: list[np.ndarray]) -> np.ndarray:
     """(folds, n, ridges): at [f], rows of fold g by fits to all but f and g; g may be f."""
-    own = [X[r] for r in rows]
-    grams = [x.T @ x for x in own]
-    sides = [x.T @ y[r].astype(np.float32) for x, r in zip(own, rows, strict=True)]
+    fold_columns = [X[r] for r in rows]
+    grams = [x.T @ x for x in fold_columns]
+    sides = [x.T @ y[r].astype(np.float32) for x, r in zip(fold_columns, rows, strict=True)]
     G, u = sum(grams), sum(sides)
     theta = np.zeros((len(rows), len(rows), len(_RIDGES), X.shape[1]), dtype=np.float32)
     for f, g in combinations_with_replacement(range(len(rows)), 2):
         gram, side = G - grams[f] - (f != g) * grams[g], u - sides[f] - (f != g) * sides[g]
         for k, ridge in enumerate(_RIDGES):
-            theta[f, g, k] = theta[g, f, k] = _solved(gram, ridge * X.shape[1], side)
-    found = np.zeros((len(rows), len(X), len(_RIDGES)))
-    for g, x in enumerate(own):
-        said = x @ theta[:, g].reshape(-1, X.shape[1]).T
-        found[:, rows[g]] = said.reshape(len(x), len(rows), -1).swapaxes(0, 1)
-    return found
+            theta[f, g, k] = theta[g, f, k] = _solve_ridge(gram, ridge * X.shape[1], side)
+    predictions = np.zeros((len(rows), len(X), len(_RIDGES)))
+    for g, x in enumerate(fold_columns):
+        fold_predictions = x @ theta[:, g].reshape(-1, X.shape[1]).T
+        predictions[:, rows[g]] = fold_predictions.reshape(len(x), len(rows), -1).swapaxes(0, 1)
+    return predictions
 
 
-def _stacked(columns: np.ndarray, y: np.ndarray, rows: list[np.ndarray]) -> np.ndarray:
+def _combine_predictions(columns: np.ndarray, y: np.ndarray, rows: list[np.ndarray]) -> np.ndarray:
     """(n,) sum of predictions (folds, n, c), the weights of a fold by what others say of others."""
     predicted = np.zeros(y.size)
-    for f, own in enumerate(rows):
-        said = columns[f]
-        gram = said.T @ said - said[own].T @ said[own]
-        side = said.T @ y - said[own].T @ y[own]
+    for f, fold_rows in enumerate(rows):
+        fold_predictions = columns[f]
+        gram = (
+            fold_predictions.T @ fold_predictions
+            - fold_predictions[fold_rows].T @ fold_predictions[fold_rows]
+        )
+        side = fold_predictions.T @ y - fold_predictions[fold_rows].T @ y[fold_rows]
         scale = float(np.trace(gram)) / len(gram)
         if scale > 0.0:
             root = np.linalg.cholesky(gram + 1e-6 * scale * np.eye(len(gram)))
             weights, _ = nnls(root.T, np.linalg.solve(root, side))
-            predicted[own] = said[own] @ weights
+            predicted[fold_rows] = fold_predictions[fold_rows] @ weights
     return predicted
 
 
-def _solved(gram: np.ndarray, ridge: float, side: np.ndarray) -> np.ndarray:
+def _solve_ridge(gram: np.ndarray, ridge: float, side: np.ndarray) -> np.ndarray:
     """x of (gram + ridge 1) x = side, for a symmetric gram."""
     matrix = gram.copy().T  # in the order of LAPACK, which then copies nothing
     matrix.flat[:: len(matrix) + 1] += ridge
@@ -130,7 +138,7 @@ def _solved(gram: np.ndarray, ridge: float, side: np.ndarray) -> np.ndarray:
     return np.asarray(x)
 
 
-def _standard(values: np.ndarray) -> np.ndarray:
+def _standardise_columns(values: np.ndarray) -> np.ndarray:
     """Mean 0 and standard deviation 1, in single precision; without what is constant."""
     if not len(values):
         return values[:, :0]
@@ -145,26 +153,26 @@ def _standard(values: np.ndarray) -> np.ndarray:
 # Splines of one coordinate, and of two: what laws that are learned are made of.
 
 
-def beyond(low: float, high: float, cells: int) -> tuple[float, float]:
+def extend_axis(low: float, high: float, cells: int) -> tuple[float, float]:
     """The ends of an axis, with a cell on either side of what was seen to come to rest in."""
     cell = (high - low) / (cells - 2)
     digits = 3 - math.floor(math.log10(cell))  # of the ends: a robot file shows them
     return round(low - cell, digits), round(high + cell, digits)
 
 
-def flat_ends(cells: int) -> csr_array:
+def build_flat_ends(cells: int) -> csr_array:
     """(cells + 3, cells - 1) coefficients of which three are one at either end: it is held."""
     place = np.clip(np.arange(cells + BESIDE) - 2, 0, cells - 2)
     return csr_array((np.ones(place.size), (np.arange(place.size), place)))
 
 
-def second_differences(free: csr_array) -> csr_array:
+def build_second_differences(free: csr_array) -> csr_array:
     """(p - 2, f) of the coefficients (p, f) of one axis: how rough a curve is."""
     size = free.shape[0]
     return diags_array([1.0, -2.0, 1.0], offsets=[0, 1, 2], shape=(size - 2, size)).tocsr() @ free
 
 
-def spline_products(
+def compute_spline_products(
     values: np.ndarray, ends: Sequence[tuple[float, float]], cells: Sequence[int]
 ) -> csr_array:
     """(n, p) products of the splines of each axis, times the last of the values (n, axes + 1)."""
@@ -173,9 +181,9 @@ def spline_products(
     columns, weights = np.zeros((len(values), 1), dtype=int), values[:, -1:]
     for axis, x in enumerate(values.T[:-1]):
         count = cells[axis] + BESIDE
-        k, w = law.place(axis, x)
-        own = k[:, None] + np.arange(BESIDE + 1)
-        columns = (columns[:, :, None] * count + own[:, None, :]).reshape(len(values), -1)
+        k, w = law.locate_cells(axis, x)
+        cell_columns = k[:, None] + np.arange(BESIDE + 1)
+        columns = (columns[:, :, None] * count + cell_columns[:, None, :]).reshape(len(values), -1)
         weights = (weights[:, :, None] * np.column_stack(w)[:, None, :]).reshape(len(values), -1)
         size *= count
     starts = np.arange(len(values) + 1) * columns.shape[1]
@@ -185,7 +193,7 @@ def spline_products(
 # Curves: columns whose sums are any smooth function of one coordinate.
 
 
-def curve(x: np.ndarray, knots: int = 16) -> np.ndarray:
+def build_hat_functions(x: np.ndarray, knots: int = 16) -> np.ndarray:
     """(n, p) hats over x (n,): straight between knots, half at quantiles, half evenly spread.
 
     Quantiles put resolution where the data are (around zero velocity), even spacing covers the
@@ -208,15 +216,15 @@ def curve(x: np.ndarray, knots: int = 16) -> np.ndarray:
     return columns
 
 
-def friction_curve(v: np.ndarray) -> np.ndarray:
+def build_friction_functions(v: np.ndarray) -> np.ndarray:
     """(n, p) of a speed: smooth on either side of zero, with a step there."""
-    return np.column_stack((curve(v), np.sign(v)))
+    return np.column_stack((build_hat_functions(v), np.sign(v)))
 
 
-def drift_curve(time: np.ndarray, run: np.ndarray, knots: int = 5) -> np.ndarray:
+def build_drift_functions(time: np.ndarray, run: np.ndarray, knots: int = 5) -> np.ndarray:
     """(n, knots * logs) slow functions of time, each log its own."""
-    own = run[:, None] == np.unique(run)
-    return np.hstack([curve(time, knots) * rows[:, None] for rows in own.T])
+    is_of_log = run[:, None] == np.unique(run)
+    return np.hstack([build_hat_functions(time, knots) * rows[:, None] for rows in is_of_log.T])
 
 
 # What the flexible rival reads: functions of all that was measured, whatever their cause.
@@ -255,11 +263,11 @@ class Measurements:
     load: np.ndarray
     torque: np.ndarray
     direction: np.ndarray
-    slips: np.ndarray
-    further: dict[str, np.ndarray]
+    bristle_states: np.ndarray
+    extra_sets: dict[str, np.ndarray]
 
 
-def functions(measured: Measurements) -> Iterator[tuple[str, np.ndarray]]:
+def generate_function_sets(measured: Measurements) -> Iterator[tuple[str, np.ndarray]]:
     """Sets of functions with names: "own", "surface" of the joint, "0", ... of others, "wide".
 
     Curves are sums of hats over one coordinate, with and without the direction of the joint:
@@ -269,39 +277,57 @@ def functions(measured: Measurements) -> Iterator[tuple[str, np.ndarray]]:
     generator = np.random.default_rng(5)
     m, j = measured, measured.joint
     way = m.direction[:, None]
-    own = np.column_stack([x[:, j] for x in (m.q, m.v, m.a, m.load)])
-    yield "own", _of_joint(m, way)
-    bent = _fourier(own, _OWN, generator), _fourier(own[:, :2], _BENT, generator) * way
+    joint_motion = np.column_stack([x[:, j] for x in (m.q, m.v, m.a, m.load)])
+    yield "own", _build_joint_functions(m, way)
+    bent = (
+        _draw_fourier_features(joint_motion, _OWN, generator),
+        _draw_fourier_features(joint_motion[:, :2], _BENT, generator) * way,
+    )
     yield "surface", np.column_stack(bent)
     for k in range(m.q.shape[1]):
         if k != j:
-            yield str(k), _of_other(m, k, way, generator)
+            yield str(k), _build_other_joint_functions(m, k, way, generator)
     near = np.column_stack([m.q, m.v])
-    yield "sum", np.hstack([curve(x, _SUM) for x in (*m.q.T, *m.v.T)])
-    yield "wide", np.column_stack([near, m.a, m.load, m.torque, _fourier(near, _WIDE, generator)])
-    yield "pairs", _fourier(near, _PAIRS, generator, few=2)
-    yield from m.further.items()
+    yield "sum", np.hstack([build_hat_functions(x, _SUM) for x in (*m.q.T, *m.v.T)])
+    yield (
+        "wide",
+        np.column_stack(
+            [near, m.a, m.load, m.torque, _draw_fourier_features(near, _WIDE, generator)]
+        ),
+    )
+    yield "pairs", _draw_fourier_features(near, _PAIRS, generator, few=2)
+    yield from m.extra_sets.items()
 
 
-def _of_joint(m: Measurements, way: np.ndarray) -> np.ndarray:
-    parts = [m.slips, way]
+def _build_joint_functions(m: Measurements, way: np.ndarray) -> np.ndarray:
+    parts = [m.bristle_states, way]
     for name, knots in _KNOTS.items():
-        hats = curve(getattr(m, name)[:, m.joint], knots)
+        hats = build_hat_functions(getattr(m, name)[:, m.joint], knots)
         parts += [hats] if name == "v" else [hats, hats * way]
     return np.hstack(parts)
 
 
-def _of_other(
+def _build_other_joint_functions(
     m: Measurements, k: int, way: np.ndarray, generator: np.random.Generator
 ) -> np.ndarray:
-    curves = [curve(getattr(m, name)[:, k], knots) for name, knots in _OTHER.items()]
+    curves = [build_hat_functions(getattr(m, name)[:, k], knots) for name, knots in _OTHER.items()]
     plain = np.column_stack([x[:, k] for x in (m.v, m.a, m.load, m.torque)])
     both = np.column_stack([m.q[:, k], m.v[:, k]])
-    return np.hstack([*curves, curves[0][:, ::2] * way, plain, np.abs(plain) * way,
-                      np.sign(m.v[:, [k]]), _fourier(both, _PAIR, generator)])  # fmt: skip
+    return np.hstack(
+        [
+            *curves,
+            curves[0][:, ::2] * way,
+            plain,
+            np.abs(plain) * way,
+            np.sign(m.v[:, [k]]),
+            _draw_fourier_features(both, _PAIR, generator),
+        ]
+    )
 
 
-def _fourier(x: np.ndarray, count: int, generator: np.random.Generator, few: int = 0) -> np.ndarray:
+def _draw_fourier_features(
+    x: np.ndarray, count: int, generator: np.random.Generator, few: int = 0
+) -> np.ndarray:
     """(n, count) cosines of random directions, lengths of order one in standard deviations.
 
     Args:

@@ -1,20 +1,20 @@
 from .channels import (
-    Doubt as Doubt,
+    DataWarning as DataWarning,
+    MotionTransform as MotionTransform,
     ThinnedRows as ThinnedRows,
-    Turn as Turn,
-    clocks as clocks,
-    thinned as thinned,
-    turns as turns,
-    zero as zero,
+    propose_clocks as propose_clocks,
+    propose_transforms as propose_transforms,
+    propose_zero as propose_zero,
+    thin_rows as thin_rows,
 )
 from .chunk import (
     SPREAD as SPREAD,
     Chunk as Chunk,
-    chunks as chunks,
-    chunks_between as chunks_between,
+    cut_window as cut_window,
+    read_chunks as read_chunks,
+    read_chunks_between as read_chunks_between,
     read_part as read_part,
     read_spread as read_spread,
-    window as window,
 )
 from .log import (
     FINGER as FINGER,
@@ -22,93 +22,93 @@ from .log import (
     MOST_WHOLE as MOST_WHOLE,
     Log as Log,
     LogRows as LogRows,
-    check_apart as check_apart,
-    shared_rows as shared_rows,
+    check_no_overlap as check_no_overlap,
+    has_shared_rows as has_shared_rows,
 )
 from .low_speed import (
-    bristle as bristle,
-    lag as lag,
-    shafts as shafts,
-    signals_along as signals_along,
-    signals_of as signals_of,
-    since_reversal as since_reversal,
+    apply_lag as apply_lag,
+    compute_bristle_state as compute_bristle_state,
+    compute_signals as compute_signals,
+    compute_signals_along as compute_signals_along,
+    compute_time_since_reversal as compute_time_since_reversal,
+    find_shafts as find_shafts,
 )
 from .motion import (
     HIGHEST as HIGHEST,
     Segment as Segment,
-    differentiated as differentiated,
-    low_pass as low_pass,
-    travel_since_reversal as travel_since_reversal,
+    apply_low_pass as apply_low_pass,
+    compute_travel_since_reversal as compute_travel_since_reversal,
+    differentiate_positions as differentiate_positions,
 )
 from .motion_noise import ChannelNoise as ChannelNoise, MotionNoise as MotionNoise
 from .observation import (
     MASKS as MASKS,
     WHY as WHY,
-    Evaluated as Evaluated,
+    ModelRegressor as ModelRegressor,
     Observation as Observation,
-    masks_of as masks_of,
-    model_torque as model_torque,
-    no_row_left as no_row_left,
-    observed as observed,
-    observed_alike as observed_alike,
-    stacked as stacked,
+    assemble_observation as assemble_observation,
+    build_no_row_error as build_no_row_error,
+    build_observation as build_observation,
+    classify_rows as classify_rows,
+    compute_model_torque as compute_model_torque,
+    rebuild_observation as rebuild_observation,
 )
 from .observe import (
     SAMPLES as SAMPLES,
     TREMBLES as TREMBLES,
-    Look as Look,
+    CutoffSearch as CutoffSearch,
+    compute_chatter_ratios as compute_chatter_ratios,
     observe as observe,
-    trembling as trembling,
 )
 from .prepare import (
     LogRepair as LogRepair,
-    Prepared as Prepared,
+    PreparedLogs as PreparedLogs,
     choose_cutoffs as choose_cutoffs,
-    nearest_closed as nearest_closed,
-    noise_of_positions as noise_of_positions,
-    prepare as prepare,
-    without_open as without_open,
+    close_segments as close_segments,
+    estimate_position_noise as estimate_position_noise,
+    find_nearest_closed as find_nearest_closed,
+    prepare_logs as prepare_logs,
 )
 from .read import (
     FileSource as FileSource,
     MemorySource as MemorySource,
     Source as Source,
-    log_in_memory as log_in_memory,
-    log_of as log_of,
+    build_log as build_log,
+    build_table as build_table,
+    open_source as open_source,
     read_log as read_log,
-    source_of as source_of,
-    table_in_memory as table_in_memory,
+    read_log_in_memory as read_log_in_memory,
 )
 from .reduce import (
-    blocks as blocks,
-    fitted_torque as fitted_torque,
+    add_stretch as add_stretch,
+    compute_fitted_torque as compute_fitted_torque,
+    compute_triangles as compute_triangles,
     is_streamed as is_streamed,
-    triangles as triangles,
-    with_stretch as with_stretch,
+    iterate_blocks as iterate_blocks,
 )
 from .report import (
     Bands as Bands,
     DataReport as DataReport,
     LogReport as LogReport,
-    bands_of as bands_of,
+    build_bands as build_bands,
 )
-from .segments import runs as runs
+from .segments import find_runs as find_runs
 from .settings import (
     ChosenProcessing as ChosenProcessing,
     Processing as Processing,
-    processing_from_json as processing_from_json,
+    read_processing as read_processing,
 )
-from .stretch import Stretch as Stretch
+from .stretch import FilteredSegment as FilteredSegment
 from .survey import (
     WINDOW as WINDOW,
     WINDOWS as WINDOWS,
-    FactsSoFar as FactsSoFar,
+    KnownFacts as KnownFacts,
     LogChoices as LogChoices,
-    Passes as Passes,
+    LogPasses as LogPasses,
     Survey as Survey,
     WholeLogNeeded as WholeLogNeeded,
-    rows_of_chunk as rows_of_chunk,
-    streamed_report as streamed_report,
-    survey as survey,
+    build_chunk_rows as build_chunk_rows,
+    build_streamed_report as build_streamed_report,
+    choose_from_windows as choose_from_windows,
 )
-from .tally import Facts as Facts
+from .tally import LogFacts as LogFacts

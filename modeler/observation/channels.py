@@ -7,13 +7,13 @@ from functools import partial
 import numpy as np
 from scipy.sparse import block_diag, csr_array, diags_array
 
-from modeler.core.brief import Brief
-from modeler.numerics.filters import only
-from modeler.observation.low_speed import signals_of
+from modeler.core.brief import ShortRepr
+from modeler.numerics.filters import restrict_weights
+from modeler.observation.low_speed import compute_signals
 from modeler.observation.motion import Segment
 from modeler.observation.observation import Observation
-from modeler.observation.prepare import nearest_closed
-from modeler.observation.reduce import columns_at
+from modeler.observation.prepare import find_nearest_closed
+from modeler.observation.reduce import evaluate_columns_at
 from modeler.runtime import CompiledModel
 
 MOST = 400
@@ -25,7 +25,7 @@ _TAPS = 16  # samples of each row, of the many over which the parallel filter ta
 
 
 @dataclass(frozen=True)
-class Doubt(Brief):
+class DataWarning(ShortRepr):
     """Why a log, or a fit to it, may not be what it looks like.
 
     Attributes:
@@ -40,11 +40,11 @@ class Doubt(Brief):
     """
 
     line: str
-    certain: bool = False
-    values: bool = False
+    is_certain: bool = False
+    affects_values: bool = False
     joint: int = -1
-    unseen: bool = False
-    about: tuple[str, ...] = ()
+    is_undetectable: bool = False
+    joints: tuple[str, ...] = ()
 
 
 @dataclass(frozen=True, eq=False)
@@ -73,61 +73,63 @@ class ThinnedRows:
         every = [np.stack([s.q[k], s.qd[k], s.qdd[k]]) for s, k in self.samples]
         return np.concatenate(every, axis=1)
 
-    def filtered(self, values: np.ndarray) -> np.ndarray:
+    def filter_values(self, values: np.ndarray) -> np.ndarray:
         """(m, n, k) rows of what the samples have, (samples, n, k)."""
         return np.stack([mean @ values[:, j] for j, mean in enumerate(self.means)], axis=1)
 
-    def turned(self, compiled: CompiledModel, turn: "Turn") -> np.ndarray:
+    def transform_columns(self, compiled: CompiledModel, turn: "MotionTransform") -> np.ndarray:
         """(m, n, c) columns of the motion with other positions, or by another clock."""
         q, qd, qdd = self.motion @ turn.motion
         moved = q + turn.offset, turn.speed * qd, turn.speed**2 * qdd
-        return self._filtered(compiled, compiled.base_regressor, *moved)
+        return self._filter_function(compiled, compiled.base_regressor, *moved)
 
-    def shifted(
+    def shift_columns(
         self, compiled: CompiledModel, shift: np.ndarray, beta: np.ndarray | None = None
     ) -> np.ndarray:
         """(m, n, c) columns of the motion of each joint, shift (n,) s later.
 
         With parameters beta (c,) their torques, (m, n).
         """
-        found = []
+        motions = []
         for s, k in self.samples:
             place = (s.time[k, None] + shift - s.time[0]) / s.step
             below = np.clip(place.astype(int), 0, s.samples - 2)
             above = np.clip(place - below, 0.0, 1.0)
             joint = np.arange(len(shift))
-            found.append(np.stack([
+            motions.append(np.stack([
                 x[below, joint] * (1.0 - above) + x[below + 1, joint] * above
                 for x in (s.q, s.qd, s.qdd)
             ]))  # fmt: skip
-        of = compiled.base_regressor if beta is None else partial(_torque, compiled, beta)
-        return self._filtered(compiled, of, *np.concatenate(found, axis=1))
+        of = compiled.base_regressor if beta is None else partial(_compute_torque, compiled, beta)
+        return self._filter_function(compiled, of, *np.concatenate(motions, axis=1))
 
-    def _filtered(
+    def _filter_function(
         self, compiled: CompiledModel, of: Callable[..., np.ndarray],
         q: np.ndarray, qd: np.ndarray, qdd: np.ndarray,
     ) -> np.ndarray:  # fmt: skip
         """(m, n, ...) filtered values of a function of a motion of the samples."""
-        nearest = nearest_closed(compiled, q)  # a motion that was changed may leave what closes
+        nearest = find_nearest_closed(
+            compiled, q
+        )  # a motion that was changed may leave what closes
         if nearest is not None:
             q = np.ascontiguousarray(q[nearest])
         values = of(q, qd, qdd, self.read)
         out = np.zeros((self.means[0].shape[0], *values.shape[1:]))
         spans = compiled.pattern.spans
         for j, mean in enumerate(self.means):
-            own = (slice(None), j, spans[j]) if values.ndim == 3 else (slice(None), j)
-            out[own] = mean @ values[own]
+            index = (slice(None), j, spans[j]) if values.ndim == 3 else (slice(None), j)
+            out[index] = mean @ values[index]
         return out
 
 
-def _torque(
+def _compute_torque(
     compiled: CompiledModel, beta: np.ndarray, q: np.ndarray, qd: np.ndarray, qdd: np.ndarray,
     read: np.ndarray | None,
 ) -> np.ndarray:  # fmt: skip
     return compiled.inverse_dynamics(q, qd, qdd, beta, read)
 
 
-def thinned(compiled: CompiledModel, observation: Observation) -> ThinnedRows:
+def thin_rows(compiled: CompiledModel, observation: Observation) -> ThinnedRows:
     """At most so many of the rows of the observation, evenly; fewer of many joints."""
     most = max(1, min(MOST, _CELLS // len(observation.joints)))
     every = max(1, -(-len(observation.time) // most))
@@ -144,26 +146,26 @@ def thinned(compiled: CompiledModel, observation: Observation) -> ThinnedRows:
         reached = np.unique(weights.indices)
         reached = reached[reached % max(1, width // _TAPS) == 0]
         weights = weights[:, reached]
-        for own, usable in zip(means, part.usable[reached].T, strict=True):
-            masked = only(weights, usable)
+        for joint_means, usable in zip(means, part.usable[reached].T, strict=True):
+            masked = restrict_weights(weights, usable)
             total = masked.sum(axis=1)
-            own.append(diags_array(1.0 / np.where(total > 0.0, total, 1.0)) @ masked)
+            joint_means.append(diags_array(1.0 / np.where(total > 0.0, total, 1.0)) @ masked)
         samples.append((part.segment, reached))
-        signals = signals_of(compiled, part.segment)
+        signals = compute_signals(compiled, part.segment)
         read += [] if signals is None else [signals[reached]]
     place = np.concatenate(chosen)
     return ThinnedRows(
-        W=columns_at(observation, place),
+        W=evaluate_columns_at(observation, place),
         tau=observation.torque[place],
         used=observation.used[place],
-        means=tuple(block_diag(own, format="csr") for own in means),
+        means=tuple(block_diag(joint_means, format="csr") for joint_means in means),
         samples=tuple(samples),
         read=np.concatenate(read) if read else None,
     )
 
 
 @dataclass(frozen=True)
-class Turn:
+class MotionTransform:
     """What may be wrong with positions, or with the clock, and what mends it.
 
     Attributes:
@@ -181,7 +183,7 @@ class Turn:
     speed: float = 1.0
 
 
-def clocks(observation: Observation) -> Iterator[Turn]:
+def propose_clocks(observation: Observation) -> Iterator[MotionTransform]:
     """All motion faster or slower than it is logged."""
     same = np.eye(len(observation.joints))
     for speed in _CLOCKS:
@@ -189,24 +191,26 @@ def clocks(observation: Observation) -> Iterator[Turn]:
             f"the clock seems to be wrong: with all motion {speed:g} times as fast, torques are "
             "those of a machine; check the time column, its unit and rate"
         )
-        yield Turn(line, same, np.zeros(len(same)), np.arange(len(same)), speed)
+        yield MotionTransform(line, same, np.zeros(len(same)), np.arange(len(same)), speed)
 
 
-def zero(observation: Observation, j: int, degrees: int) -> Turn:
+def propose_zero(observation: Observation, j: int, degrees: int) -> MotionTransform:
     """Positions of a joint that turns, counted from another zero."""
     line = (
         f"joint {observation.joints[j].name}: its zero seems to be off by {degrees} degrees, by "
         "gravity and the other joints; check the zero of that encoder against the table"
     )
     same = np.eye(len(observation.joints))
-    return Turn(line, same, -np.deg2rad(degrees) * same[j], np.arange(len(same)))
+    return MotionTransform(line, same, -np.deg2rad(degrees) * same[j], np.arange(len(same)))
 
 
-def turns(observation: Observation, zeros_only: bool = False) -> Iterator[Turn]:
+def propose_transforms(
+    observation: Observation, zeros_only: bool = False
+) -> Iterator[MotionTransform]:
     """Positions from another zero; in other units, reversed, exchanged, or with the torques too."""
     for j, joint in enumerate(observation.joints):
         for degrees in (90, -90, 180) if joint.unit == "rad" else ():
-            yield zero(observation, j, degrees)
+            yield propose_zero(observation, j, degrees)
     if zeros_only:
         return
     joints, names = observation.joints, [joint.name for joint in observation.joints]
@@ -216,14 +220,16 @@ def turns(observation: Observation, zeros_only: bool = False) -> Iterator[Turn]:
                        (("turns", 2.0 * np.pi), ("cm", 1e-2))):  # fmt: skip
         units = [rad if joint.unit == "rad" else metre for joint in joints]
         factors = np.array([factor for _, factor in units])
-        told = " or ".join(dict.fromkeys(unit for unit, _ in units))
-        yield Turn(f"the positions look like {told}; {expected}", np.diag(factors), none, same)
+        units_text = " or ".join(dict.fromkeys(unit for unit, _ in units))
+        yield MotionTransform(
+            f"the positions look like {units_text}; {expected}", np.diag(factors), none, same
+        )
         for j, (unit, factor) in enumerate(units):
             line = f"joint {names[j]}: its position looks like {unit}; {expected}"
-            yield Turn(line, np.diag(np.where(same == j, factor, 1.0)), none, same)
+            yield MotionTransform(line, np.diag(np.where(same == j, factor, 1.0)), none, same)
     for j in range(len(joints)):
         line = f"joint {names[j]}: its position seems to be counted the other way; check its sign"
-        yield Turn(line, np.diag(np.where(same == j, -1.0, 1.0)), none, same)
+        yield MotionTransform(line, np.diag(np.where(same == j, -1.0, 1.0)), none, same)
         for k in range(j):
             order = same.copy()
             order[[j, k]] = order[[k, j]]
@@ -233,4 +239,4 @@ def turns(observation: Observation, zeros_only: bool = False) -> Iterator[Turn]:
                     f"joints {names[k]} and {names[j]}: their {what} look exchanged; check the "
                     "order of the columns"
                 )
-                yield Turn(line, swap, none, torque)
+                yield MotionTransform(line, swap, none, torque)

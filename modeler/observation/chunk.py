@@ -10,9 +10,16 @@ import numpy as np
 
 from modeler.core.errors import DataError
 from modeler.core.manifest import ModuleSpec
-from modeler.numerics.filters import reach_of
-from modeler.observation.log import FINGER, Log, finger, fingerprint_of
-from modeler.observation.read import FileSource, Ranges, Source, cut, joined, windows_joined
+from modeler.numerics.filters import compute_reach
+from modeler.observation.log import FINGER, Log, combine_hashes, compute_block_hash
+from modeler.observation.read import (
+    ChannelRanges,
+    FileSource,
+    Source,
+    cut_rows,
+    join_logs,
+    join_windows,
+)
 from modeler.observation.settings import ChosenProcessing
 
 MEMORY = 12.0
@@ -36,7 +43,7 @@ class Chunk:
 
     number: int
     start: int
-    own: slice
+    inner_rows: slice
     log: Log
     last: bool
 
@@ -46,31 +53,37 @@ class Chunk:
 
         In the middle of two rows, as samples of a uniform grid lie on rows but for rounding.
         """
-        time, own = self.log.time, self.own
-        start = -np.inf if self.number == 0 else float(time[own.start - 1 : own.start + 1].mean())
-        return start, np.inf if self.last else float(time[own.stop - 1 : own.stop + 1].mean())
+        time, inner_rows = self.log.time, self.inner_rows
+        start = (
+            -np.inf
+            if self.number == 0
+            else float(time[inner_rows.start - 1 : inner_rows.start + 1].mean())
+        )
+        return start, np.inf if self.last else float(
+            time[inner_rows.stop - 1 : inner_rows.stop + 1].mean()
+        )
 
     @property
     def rows(self) -> int:
         """Of its own."""
-        return self.own.stop - self.own.start
+        return self.inner_rows.stop - self.inner_rows.start
 
-    def holds(self, time: np.ndarray) -> np.ndarray:
+    def is_inside(self, time: np.ndarray) -> np.ndarray:
         """(n,) True at the times (n,), s, that are its own."""
         start, stop = self.span
         return np.asarray((time >= start) & (time < stop))
 
-    def has(self, rows: np.ndarray | int) -> np.ndarray:
+    def is_inner(self, rows: np.ndarray | int) -> np.ndarray:
         """True for the rows of `log` that are its own."""
-        return np.asarray((self.own.start <= rows) & (rows < self.own.stop))
+        return np.asarray((self.inner_rows.start <= rows) & (rows < self.inner_rows.stop))
 
 
-def whole_log(log: Log) -> Chunk:
+def wrap_log(log: Log) -> Chunk:
     """A log as its one chunk."""
     return Chunk(0, 0, slice(0, log.rows), log, True)
 
 
-def margin(processing: ChosenProcessing, step: float) -> int:
+def compute_margin(processing: ChosenProcessing, step: float) -> int:
     """Rows beside a chunk that filters and searches of its own rows reach.
 
     Zero-phase filtering of a chunk then differs from that of the whole log by what the position
@@ -85,60 +98,72 @@ def margin(processing: ChosenProcessing, step: float) -> int:
     window = 1.0 / (parallel * step) if parallel > 0.0 else 0.0  # in which derivatives are checked
     delay = abs(processing.delay) / step
     edge = (processing.edge or 0.0) / step
-    reach = reach_of(step, parallel)
+    reach = compute_reach(step, parallel)
     return _BESIDE + int(np.ceil(max(memory, edge) + reach + window + delay))
 
 
-def chunks(source: Source, own: int, beside: int) -> Iterator[Chunk]:
+def read_chunks(source: Source, chunk_rows: int, margin_rows: int) -> Iterator[Chunk]:
     """All rows of a log as chunks.
 
     Args:
         source: of the log.
-        own: rows of each, but for the last.
-        beside: rows of its margins.
+        chunk_rows: rows of each, but for the last.
+        margin_rows: rows of its margins.
     """
     held, first, rows, number = list[Log](), 0, 0, 0  # first: row of the log that held begins with
-    for block in chain(source.blocks(own), [None]):
+    for block in chain(source.read_blocks(chunk_rows), [None]):
         if block is not None:
             held.append(block)
             rows += block.rows
         # behind the last block there is no margin to wait for
-        while first + rows > number * own + (own + beside if block is not None else 0):
-            log = joined(held)
-            last = block is None and first + rows <= (number + 1) * own
-            yield _chunk(log, first, number, own, beside, last)
+        while first + rows > number * chunk_rows + (
+            chunk_rows + margin_rows if block is not None else 0
+        ):
+            log = join_logs(held)
+            last = block is None and first + rows <= (number + 1) * chunk_rows
+            yield _cut_chunk(log, first, number, chunk_rows, margin_rows, last)
             number += 1
-            kept = max(0, number * own - beside) - first
-            held, first, rows = [cut(log, slice(kept, None))], first + kept, log.rows - kept
+            dropped_rows = max(0, number * chunk_rows - margin_rows) - first
+            held, first, rows = (
+                [cut_rows(log, slice(dropped_rows, None))],
+                first + dropped_rows,
+                log.rows - dropped_rows,
+            )
 
 
-def chunks_between(source: Source, numbers: range, own: int, beside: int) -> Iterator[Chunk]:
+def read_chunks_between(
+    source: Source, numbers: range, chunk_rows: int, margin_rows: int
+) -> Iterator[Chunk]:
     """Some of those chunks, of a log whose rows can be read from anywhere; the same to the bit.
 
     Args:
         source: whose windows begin at the very row that is asked for.
         numbers: of the chunks, from 0, one after the other.
-        own: as of `chunks`.
-        beside: as of `chunks`.
+        chunk_rows: as of `read_chunks`.
+        margin_rows: as of `read_chunks`.
     """
-    start = max(0, numbers[0] * own - beside)
-    stop = min((numbers[-1] + 1) * own + beside, source.rows)
-    log = source.window((start + 0.5) / source.rows, stop - start)
+    start = max(0, numbers[0] * chunk_rows - margin_rows)
+    stop = min((numbers[-1] + 1) * chunk_rows + margin_rows, source.rows)
+    log = source.read_window((start + 0.5) / source.rows, stop - start)
     for number in numbers:
-        yield _chunk(log, start, number, own, beside, source.rows <= (number + 1) * own)
+        yield _cut_chunk(
+            log, start, number, chunk_rows, margin_rows, source.rows <= (number + 1) * chunk_rows
+        )
 
 
-def _chunk(log: Log, first: int, number: int, own: int, beside: int, last: bool) -> Chunk:
-    start, stop = number * own, min((number + 1) * own, first + log.rows)
-    low, high = max(first, start - beside), min(stop + beside, first + log.rows)
-    part = cut(log, slice(low - first, high - first))
+def _cut_chunk(
+    log: Log, first: int, number: int, chunk_rows: int, margin_rows: int, last: bool
+) -> Chunk:
+    start, stop = number * chunk_rows, min((number + 1) * chunk_rows, first + log.rows)
+    low, high = max(first, start - margin_rows), min(stop + margin_rows, first + log.rows)
+    part = cut_rows(log, slice(low - first, high - first))
     return Chunk(number, start, slice(start - low, stop - low), part, last)
 
 
 # A piece of a log by time.
 
 
-def window(
+def cut_window(
     log: Log, start: float | None, end: float | None, span: tuple[float, float] | None = None
 ) -> Log:
     """The rows of `log` with start <= time < end, s; None leaves that side open.
@@ -167,11 +192,13 @@ def window(
             f"{last:g} s"
         )
     sides = ("" if time is None else f"{time:g}" for time in (start, end))
-    return dataclasses.replace(cut(log, rows), name=f"{log.name}@{':'.join(sides)}")
+    return dataclasses.replace(cut_rows(log, rows), name=f"{log.name}@{':'.join(sides)}")
 
 
 def read_part(source: FileSource, spec: ModuleSpec, start: float | None, end: float | None) -> Log:
-    """What `window` makes of the whole log. All rows are read: a piece has the log's fingerprint.
+    """What `cut_window` makes of the whole log. All rows are read.
+
+    A piece has the log's fingerprint.
 
     Args:
         source: of a log of more than `log.LONG` rows.
@@ -187,10 +214,10 @@ def read_part(source: FileSource, spec: ModuleSpec, start: float | None, end: fl
     def there(chunk: Chunk) -> Log | None:
         return chunk.log if chunk.log.time[0] < high and chunk.log.time[-1] >= low else None
 
-    kept, last, span = _passed(source, spec, there)
-    log = joined(kept or [last])
+    parts, last, span = _read_parts(source, spec, there)
+    log = join_logs(parts or [last])
     whole = dataclasses.replace(log, notes=last.notes, content=last.content)
-    return window(whole, start, end, span)
+    return cut_window(whole, start, end, span)
 
 
 SPREAD = 2**20
@@ -213,33 +240,35 @@ def read_spread(source: FileSource, spec: ModuleSpec) -> Log:
 
     def there(chunk: Chunk) -> Log | None:
         # copies: of a view all rows would stay
-        return cut(chunk.log, np.arange(min(size, chunk.rows))) if chunk.number in places else None
+        return (
+            cut_rows(chunk.log, np.arange(min(size, chunk.rows)))
+            if chunk.number in places
+            else None
+        )
 
-    kept, last, span = _passed(source, spec, there)
-    rows, least = sum(log.rows for log in kept), min(log.rows for log in kept)
+    parts, last, span = _read_parts(source, spec, there)
+    rows, least = sum(log.rows for log in parts), min(log.rows for log in parts)
     note = (
-        f"{source.rows} rows; {rows} of them are looked at, in {len(kept)} stretches of "
+        f"{source.rows} rows; {rows} of them are looked at, in {len(parts)} stretches of "
         f"{least * last.step:.3g} s that are spread evenly over {span[1] - span[0]:.6g} s"
     )
-    return dataclasses.replace(
-        windows_joined(kept), notes=(*last.notes, note), content=last.content
-    )
+    return dataclasses.replace(join_windows(parts), notes=(*last.notes, note), content=last.content)
 
 
-def _passed(
+def _read_parts(
     source: FileSource, spec: ModuleSpec, there: Callable[[Chunk], Log | None]
 ) -> tuple[list[Log], Log, tuple[float, float]]:
     """What is kept of a log that is read once; its end, with what all rows tell; its times."""
-    kept, fingers, ranges, start = list[Log](), list[bytes](), list[Ranges](), None
-    for chunk in chunks(source, FINGER, 0):
+    parts, hashes, ranges, start = list[Log](), list[bytes](), list[ChannelRanges](), None
+    for chunk in read_chunks(source, FINGER, 0):
         log = chunk.log
-        fingers.append(finger(log.time, log.q, log.tau))
-        ranges.append(Ranges.of(log))
+        hashes.append(compute_block_hash(log.time, log.q, log.tau))
+        ranges.append(ChannelRanges.compute_from(log))
         start = log.span[0] if start is None else start
         if (part := there(chunk)) is not None:
-            kept.append(part)
+            parts.append(part)
     assert start is not None
-    seen = reduce(Ranges.merged_with, ranges)
-    seen.check(source.place[0], spec)
-    notes, content = (*log.notes, *seen.doubts(log.step, spec)), fingerprint_of(fingers)
-    return kept, dataclasses.replace(log, notes=notes, content=content), (start, log.span[1])
+    seen = reduce(ChannelRanges.merged_with, ranges)
+    seen.check_values(source.place[0], spec)
+    notes, content = (*log.notes, *seen.collect_warnings(log.step, spec)), combine_hashes(hashes)
+    return parts, dataclasses.replace(log, notes=notes, content=content), (start, log.span[1])

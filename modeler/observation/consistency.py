@@ -7,12 +7,16 @@ from typing import Literal
 import numpy as np
 
 from modeler.core.errors import DataError
-from modeler.logs import clock_line, common_factor, is_derivative, moves
-from modeler.numerics.held import noise_of
-from modeler.numerics.least_squares import weighted_median
-from modeler.numerics.noise import lattice_step, robust_deviation, white_noise
+from modeler.logs import describe_clock_factor, find_common_factor, is_derivative, is_moving
+from modeler.numerics.held import estimate_channel_noise
+from modeler.numerics.least_squares import compute_weighted_median
+from modeler.numerics.noise import (
+    estimate_lattice_step,
+    estimate_robust_deviation,
+    estimate_white_noise,
+)
 from modeler.observation.log import Log
-from modeler.observation.segments import Piece
+from modeler.observation.segments import RawSegment
 
 # Means of a logged derivative and difference quotients of what it derives from, over windows.
 
@@ -23,7 +27,7 @@ Column = Literal["qd", "qdd"]
 
 
 @dataclass(frozen=True, eq=False)
-class Windows:
+class DerivativeWindows:
     """Window means of one piece: logged derivative and difference quotient, (n - 2m, joints)."""
 
     time: np.ndarray
@@ -39,9 +43,9 @@ class Windows:
         return self.logged - self.quotient
 
 
-def windows_of(
-    piece: Piece, column: Column, lower: str, cutoff: float, delay: np.ndarray
-) -> Windows:
+def build_windows(
+    piece: RawSegment, column: Column, lower: str, cutoff: float, delay: np.ndarray
+) -> DerivativeWindows:
     """The windows of one period of the parallel filter, 7 samples at least.
 
     Args:
@@ -64,10 +68,10 @@ def windows_of(
     mean, quotient, slope = (
         (v[2 * half :] - v[: -2 * half]) / length for v in (integral, below, logged)
     )
-    return Windows(piece.time[half:-half], piece.step, half, mean, quotient, slope)
+    return DerivativeWindows(piece.time[half:-half], piece.step, half, mean, quotient, slope)
 
 
-def size_of(values: np.ndarray) -> np.ndarray:
+def compute_size(values: np.ndarray) -> np.ndarray:
     """(joints,) of (n, joints): root mean square weighted by energy, so long rests do not count."""
     total = np.sum(values**2, axis=0)
     return np.sqrt(np.sum(values**4, axis=0) / np.where(total > 0.0, total, 1.0))
@@ -92,7 +96,7 @@ _STEP = 5e-3  # s
 
 
 @dataclass(frozen=True)
-class Late:
+class DerivativeDelay:
     """A logged derivative that lags behind, or runs ahead of, what it derives from.
 
     Attributes:
@@ -109,7 +113,7 @@ class Late:
     samples: float
     share: float
 
-    def sentence(self, used: str) -> str:
+    def describe(self, used: str) -> str:
         """Text, with what becomes of the column."""
         way = "lags behind" if self.seconds > 0.0 else "runs ahead of"
         whose = "in all joints" if self.column in ("qd", "qdd") else "and not all joints do"
@@ -119,9 +123,9 @@ class Late:
         )
 
 
-def lateness(
-    pieces: Sequence[Piece], joints: Sequence[str], column: Column, lower: str, cutoff: float
-) -> tuple[list[Late], np.ndarray]:
+def estimate_delays(
+    pieces: Sequence[RawSegment], joints: Sequence[str], column: Column, lower: str, cutoff: float
+) -> tuple[list[DerivativeDelay], np.ndarray]:
     """What is late, and (joints,) s by which each column is; 0 if small or not to be told.
 
     A delay is that which makes the sum of the absolute differences least, between the window means
@@ -136,65 +140,81 @@ def lateness(
         lower: of what it derives from.
         cutoff: of the parallel filter, Hz.
     """
-    errors = _Errors(pieces, column, lower, cutoff)
+    errors = _DelayErrors(pieces, column, lower, cutoff)
     none, step = np.zeros(len(joints)), pieces[0].step
-    before = errors.sums(none)
+    before = errors.sum_errors(none)
     far = np.any((before > _FAR * errors.whole) & (errors.whole > 0.0))
-    own = errors.refined(errors.scanned(before) if far else none)
-    left = errors.sums(own)
-    common = np.full(len(joints), np.median(own[errors.size > 0.0]) if errors.size.any() else 0.0)
-    together = errors.sums(common)
-    told = (np.abs(own) >= _TOLD * step) & (left <= _BELIEVED * before)
-    own = np.where(told & (left < _LEFT_OF_MEAN * errors.whole), own, 0.0)
+    delays = errors.refine_delays(errors.scan_delays(before) if far else none)
+    left = errors.sum_errors(delays)
+    common = np.full(
+        len(joints), np.median(delays[errors.size > 0.0]) if errors.size.any() else 0.0
+    )
+    together = errors.sum_errors(common)
+    is_significant = (np.abs(delays) >= _TOLD * step) & (left <= _BELIEVED * before)
+    delays = np.where(is_significant & (left < _LEFT_OF_MEAN * errors.whole), delays, 0.0)
     halves = together.sum() <= _BELIEVED * before.sum()
-    if halves and abs(common[0]) >= _TOLD * step and np.all(together <= 2.0 * errors.sums(own)):
+    if (
+        halves
+        and abs(common[0]) >= _TOLD * step
+        and np.all(together <= 2.0 * errors.sum_errors(delays))
+    ):
         mean = float(before.sum() / max(float(errors.whole.sum()), 1e-300))
-        return [Late(column, lower, common[0], common[0] / step, mean)], common
+        return [DerivativeDelay(column, lower, common[0], common[0] / step, mean)], common
     share = before / np.maximum(errors.whole, 1e-300)
     late = [
-        Late(f"{column}{joints[j]}", f"{lower}{joints[j]}", own[j], own[j] / step, float(share[j]))
-        for j in map(int, np.flatnonzero(own))
+        DerivativeDelay(
+            f"{column}{joints[j]}",
+            f"{lower}{joints[j]}",
+            delays[j],
+            delays[j] / step,
+            float(share[j]),
+        )
+        for j in map(int, np.flatnonzero(delays))
     ]
-    return late, own
+    return late, delays
 
 
-class _Errors:
+class _DelayErrors:
     """Differences between window means and quotients, by joint, for delays that are taken out."""
 
-    def __init__(self, pieces: Sequence[Piece], column: Column, lower: str, cutoff: float) -> None:
+    def __init__(
+        self, pieces: Sequence[RawSegment], column: Column, lower: str, cutoff: float
+    ) -> None:
         self._pieces, self._levels, self._cutoff = pieces, (column, lower), cutoff
-        quotient, _, _ = self._parts(np.zeros(getattr(pieces[0], lower).shape[1]))
-        self.size = size_of(quotient)
+        quotient, _, _ = self._collect_parts(np.zeros(getattr(pieces[0], lower).shape[1]))
+        self.size = compute_size(quotient)
         self.whole = np.sum(np.abs(quotient), axis=0)
 
-    def _parts(self, delay: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-        found = [windows_of(piece, *self._levels, self._cutoff, delay) for piece in self._pieces]
-        parts = [(part.quotient, part.error, part.slope) for part in found]
-        quotient, error, slope = (np.concatenate(own) for own in zip(*parts, strict=True))
+    def _collect_parts(self, delay: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+        windows = [
+            build_windows(piece, *self._levels, self._cutoff, delay) for piece in self._pieces
+        ]
+        parts = [(part.quotient, part.error, part.slope) for part in windows]
+        quotient, error, slope = (np.concatenate(group) for group in zip(*parts, strict=True))
         return quotient, error, slope
 
-    def sums(self, delay: np.ndarray) -> np.ndarray:
+    def sum_errors(self, delay: np.ndarray) -> np.ndarray:
         """(joints,) of the absolute differences."""
-        return np.asarray(np.sum(np.abs(self._parts(delay)[1]), axis=0))
+        return np.asarray(np.sum(np.abs(self._collect_parts(delay)[1]), axis=0))
 
-    def scanned(self, before: np.ndarray) -> np.ndarray:
+    def scan_delays(self, before: np.ndarray) -> np.ndarray:
         """(joints,) the best of delays in steps of 5 ms."""
         best, least = np.zeros(len(before)), before.copy()
         for candidate in np.arange(_EARLIEST, _LATEST + 0.5 * _STEP, _STEP):
-            sums = self.sums(np.full(len(before), candidate))
+            sums = self.sum_errors(np.full(len(before), candidate))
             better = sums < least
             best[better], least[better] = candidate, sums[better]
         return best
 
-    def refined(self, delay: np.ndarray) -> np.ndarray:
+    def refine_delays(self, delay: np.ndarray) -> np.ndarray:
         """(joints,) the delays after a few steps of least absolute values, error + delay slope."""
         delay = delay.copy()
         for _ in range(_TURNS):
-            _, error, slope = self._parts(delay)
+            _, error, slope = self._collect_parts(delay)
             for j in np.flatnonzero(self.size):
                 there = slope[:, j] != 0.0
                 e, v = error[there, j], slope[there, j]
-                delay[j] += weighted_median(-e / v, np.abs(v)) if v.size else 0.0
+                delay[j] += compute_weighted_median(-e / v, np.abs(v)) if v.size else 0.0
         return delay
 
 
@@ -239,7 +259,7 @@ class Contradiction:
     largest: float
     time: float
 
-    def line(self) -> str:
+    def format_line(self) -> str:
         """Text."""
         return (
             f"{self.column}: {self.samples} samples disagree with the difference quotient of "
@@ -249,7 +269,7 @@ class Contradiction:
 
 
 @dataclass(frozen=True, eq=False)
-class Consistency:
+class DerivativeCheck:
     """What the check of one log found.
 
     Attributes:
@@ -261,29 +281,29 @@ class Consistency:
 
     bad: tuple[np.ndarray, ...]
     contradictions: tuple[Contradiction, ...]
-    late: tuple[Late, ...] = ()
+    delays: tuple[DerivativeDelay, ...] = ()
     used: str = AS_LOGGED
 
     @property
     def notes(self) -> tuple[str, ...]:
         """The delays, one sentence each."""
-        return tuple(late.sentence(self.used) for late in self.late)
+        return tuple(late.describe(self.used) for late in self.delays)
 
     @property
-    def harmful(self) -> bool:
+    def is_harmful(self) -> bool:
         """True if a delay is large enough to spoil what is made of the column."""
-        return any(late.share > HARM for late in self.late)
+        return any(late.share > HARM for late in self.delays)
 
 
-def without_late(check: Consistency, pieces: Sequence[Piece]) -> Consistency:
+def discard_contradictions(check: DerivativeCheck, pieces: Sequence[RawSegment]) -> DerivativeCheck:
     """The check where positions are differentiated: nothing is contradicted, the delay is told."""
     bad = tuple(np.zeros(len(piece.time), dtype=bool) for piece in pieces)
-    return Consistency(bad, (), check.late, POSITIONS)
+    return DerivativeCheck(bad, (), check.delays, POSITIONS)
 
 
-def consistency(
-    log: Log, pieces: Sequence[Piece], parallel_cutoff: float, refuse: bool = True
-) -> Consistency:
+def check_derivatives(
+    log: Log, pieces: Sequence[RawSegment], parallel_cutoff: float, refuse: bool = True
+) -> DerivativeCheck:
     """Which samples of a log carry a velocity or acceleration that cannot be.
 
     Over every window of T = 1 / parallel_cutoff (7 samples at least) the mean of a derivative is,
@@ -310,33 +330,36 @@ def consistency(
         DataError: a column that disagrees by half and more wherever its joint moves.
     """
     bad = [np.zeros(len(piece.time), dtype=bool) for piece in pieces]
-    found: list[Contradiction] = []
-    late: list[Late] = []
+    contradictions: list[Contradiction] = []
+    late: list[DerivativeDelay] = []
     levels: tuple[tuple[Column, str], ...] = (("qd", "q"), ("qdd", "qd"))
     for column, lower in levels:
         if not pieces or getattr(pieces[0], column) is None:
             break
-        found_late, delay = lateness(pieces, log.joints, column, lower, parallel_cutoff)
+        found_late, delay = estimate_delays(pieces, log.joints, column, lower, parallel_cutoff)
         late += found_late
-        windows = [windows_of(piece, column, lower, parallel_cutoff, delay) for piece in pieces]
-        steps = np.array([lattice_step(own) for own in getattr(log, lower).T])
+        windows = [build_windows(piece, column, lower, parallel_cutoff, delay) for piece in pieces]
+        steps = np.array([estimate_lattice_step(values) for values in getattr(log, lower).T])
         if refuse:
-            noise = [[white_noise(own) for own in getattr(piece, lower).T] for piece in pieces]
+            noise = [
+                [estimate_white_noise(values) for values in getattr(piece, lower).T]
+                for piece in pieces
+            ]
             noises = np.maximum(steps, np.median(noise, axis=0))
             _refuse_wrong(log, column, lower, windows, noises)
         for j, joint in enumerate(log.joints):
-            flags, limit = _contradicted(windows, steps[j], j)
+            flags, limit = _find_contradicted(windows, steps[j], j)
             masks = [
                 np.pad(flag, part.half, mode="edge")
                 for flag, part in zip(flags, windows, strict=True)
             ]
-            for mask, own in zip(bad, masks, strict=True):
-                mask |= own
+            for mask, values in zip(bad, masks, strict=True):
+                mask |= values
             if np.any(np.concatenate(flags)):
                 error = np.concatenate([np.abs(part.error[:, j]) for part in windows])
                 worst = int(np.argmax(np.where(np.concatenate(flags), error, 0.0)))
                 time = np.concatenate([part.time for part in windows])
-                found.append(
+                contradictions.append(
                     Contradiction(
                         column=f"{column}{joint}",
                         of=f"{lower}{joint}",
@@ -346,19 +369,19 @@ def consistency(
                         time=float(time[worst]),
                     )
                 )
-    return Consistency(tuple(bad), tuple(found), tuple(late))
+    return DerivativeCheck(tuple(bad), tuple(contradictions), tuple(late))
 
 
-def _contradicted(
-    windows: Sequence[Windows], resolution: float, j: int
+def _find_contradicted(
+    windows: Sequence[DerivativeWindows], resolution: float, j: int
 ) -> tuple[list[np.ndarray], float]:
     """Windows of joint j beyond the limit, by piece; and the limit of a window of full length."""
     full = max(part.half for part in windows)
     # A piece too short for the full window has the more noise in its quotients.
     noisier = [full / part.half for part in windows]
     scaled = [part.error[:, j] / n for part, n in zip(windows, noisier, strict=True)]
-    scatter = robust_deviation(np.concatenate(scaled))
-    size = float(size_of(np.concatenate([part.quotient[:, [j]] for part in windows]))[0])
+    scatter = estimate_robust_deviation(np.concatenate(scaled))
+    size = float(compute_size(np.concatenate([part.quotient[:, [j]] for part in windows]))[0])
     length = 2 * full * windows[0].step
     random = max(SCATTERS * scatter, STEPS * resolution / length)
     flags = [
@@ -369,7 +392,7 @@ def _contradicted(
 
 
 def _refuse_wrong(
-    log: Log, column: Column, lower: str, windows: Sequence[Windows], noise: np.ndarray
+    log: Log, column: Column, lower: str, windows: Sequence[DerivativeWindows], noise: np.ndarray
 ) -> None:
     """Raises DataError if a column is no derivative of the one below it at all.
 
@@ -379,25 +402,30 @@ def _refuse_wrong(
     quotients, logged = (
         np.concatenate([getattr(part, name) for part in windows]) for name in ("quotient", "logged")
     )
-    size = size_of(quotients)
+    size = compute_size(quotients)
     length = 2 * min(part.half for part in windows) * windows[0].step
-    gains = {j: _gain(logged[:, j], quotients[:, j]) for j in map(int, np.flatnonzero(size))}
+    gains = {
+        j: _estimate_gain(logged[:, j], quotients[:, j]) for j in map(int, np.flatnonzero(size))
+    }
     scaled = {
         j for j, gain in gains.items()
-        if gain and _misfit(logged[:, j] / gain, quotients[:, j], size[j]) < WRONG
+        if gain and _compute_misfit(logged[:, j] / gain, quotients[:, j], size[j]) < WRONG
     }  # fmt: skip
     like = [gain for j, gain in gains.items() if j in scaled and gain > 0.0]
-    factor = common_factor(like) if len(like) > max(1.0, 0.5 * len(gains)) else None
+    factor = find_common_factor(like) if len(like) > max(1.0, 0.5 * len(gains)) else None
     if column == "qd" and factor is not None and abs(factor - 1.0) > WRONG:
         raise DataError(
-            f"{log.name}: {clock_line(factor, 1.0 / log.step)}; or fit with --derivatives "
+            f"{log.name}: {describe_clock_factor(factor, 1.0 / log.step)}; or fit with "
+            "--derivatives "
             "position, which believes the clock"
         )
     for j in map(int, np.flatnonzero(size * length > _CLEAR * noise)):
-        misfits = [_misfit(logged[:, j], *other) for other in zip(quotients.T, size, strict=True)]
+        misfits = [
+            _compute_misfit(logged[:, j], *other) for other in zip(quotients.T, size, strict=True)
+        ]
         both = getattr(log, lower)[:, j], getattr(log, column)[:, j], log.time
         near = abs(gains[j] - 1.0) < SHARE and is_derivative(*both)  # it is coarse, and no more
-        if misfits[j] <= WRONG or near or not moves(both[0]):
+        if misfits[j] <= WRONG or near or not is_moving(both[0]):
             continue
         other = int(np.argmin(misfits))
         if other != j and misfits[other] < 0.5 * WRONG:
@@ -416,20 +444,20 @@ def _refuse_wrong(
         )
 
 
-def _gain(logged: np.ndarray, quotient: np.ndarray) -> float:
+def _estimate_gain(logged: np.ndarray, quotient: np.ndarray) -> float:
     """What a logged derivative is times the difference quotient."""
     there = quotient != 0.0
-    return weighted_median(logged[there] / quotient[there], np.abs(quotient[there]))
+    return compute_weighted_median(logged[there] / quotient[there], np.abs(quotient[there]))
 
 
-def _misfit(logged: np.ndarray, quotient: np.ndarray, size: float) -> float:
+def _compute_misfit(logged: np.ndarray, quotient: np.ndarray, size: float) -> float:
     """Mean absolute disagreement as a share of the quotient's, while either moves."""
     moving = np.maximum(np.abs(logged), np.abs(quotient)) > SHARE * size
     total = float(np.sum(np.abs(quotient[moving])))
     return float(np.sum(np.abs(logged - quotient)[moving])) / total if total else float("inf")
 
 
-def quieter(pieces: Sequence[Piece], cutoff: float) -> bool:
+def is_position_quieter(pieces: Sequence[RawSegment], cutoff: float) -> bool:
     """True if differentiating the position is quieter than the logged velocity on most joints.
 
     White noise of standard deviation s_q on the position, through the position filter of cut-off
@@ -444,12 +472,12 @@ def quieter(pieces: Sequence[Piece], cutoff: float) -> bool:
     for piece in pieces:
         if piece.qd is None or piece.qdd is not None or len(piece.time) < 8:
             return False
-        own = 2.0 * np.pi * min(cutoff, 0.5 / piece.step) / np.sqrt(3.0)
-        moved.append([own * noise_of(column) for column in piece.q.T])
-        logged.append([noise_of(column) for column in piece.qd.T])
+        gain = 2.0 * np.pi * min(cutoff, 0.5 / piece.step) / np.sqrt(3.0)
+        moved.append([gain * estimate_channel_noise(column) for column in piece.q.T])
+        logged.append([estimate_channel_noise(column) for column in piece.qd.T])
     if not logged:
         return False
     q = np.concatenate([piece.q for piece in pieces])
-    moves = np.ptp(q, axis=0) > STEPS * np.array([lattice_step(column) for column in q.T])
+    moves = np.ptp(q, axis=0) > STEPS * np.array([estimate_lattice_step(column) for column in q.T])
     noisier = np.median(logged, axis=0) > QUIETER * np.median(moved, axis=0)
     return bool(moves.any() and np.mean(noisier[moves]) > 0.5)

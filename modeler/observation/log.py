@@ -8,7 +8,7 @@ from typing import Protocol
 import numpy as np
 
 from modeler.core.errors import DataError
-from modeler.core.result import Presented
+from modeler.core.result import Result
 
 GAP = 5.0
 """A step longer than this many median steps ends a piece of motion."""
@@ -33,7 +33,7 @@ class LogRows(Protocol):
 
 
 @dataclass(frozen=True, eq=False)
-class Log(Presented):
+class Log(Result):
     """One measured run; n rows, joints in the order of the manifest, SI units.
 
     A missing measurement is NaN and stays in its row; nothing has been filtered or left out.
@@ -77,7 +77,7 @@ class Log(Presented):
     robot_steps: tuple[float, float] | None = None
     induced: tuple[float, ...] = ()
     path: str = ""
-    told: tuple[str, ...] = ()
+    reading_notes: tuple[str, ...] = ()
 
     @property
     def rows(self) -> int:
@@ -93,15 +93,15 @@ class Log(Presented):
     def missing(self) -> dict[str, int]:
         """Column -> rows without a value; only columns that have any."""
         kinds = {"q": self.q, "qd": self.qd, "qdd": self.qdd, "qc": self.commanded}
-        found = {
+        missing_rows = {
             f"{prefix}{name}": int(np.isnan(values[:, j]).sum())
             for prefix, values in kinds.items() if values is not None
             for j, name in enumerate(self.joints)
         }  # fmt: skip
         sources = self.torque_source or [f"tau{name}" for name in self.joints]
         for source, values in zip(sources, self.tau.T, strict=True):
-            found[source.split()[0]] = int(np.isnan(values).sum())
-        return {column: count for column, count in found.items() if count}
+            missing_rows[source.split()[0]] = int(np.isnan(values).sum())
+        return {column: count for column, count in missing_rows.items() if count}
 
     @property
     def piece_number(self) -> np.ndarray:
@@ -142,7 +142,7 @@ MOST_WHOLE = 5_000_000
 """Rows of a file that is read at once: about 5 GB with six joints."""
 
 
-def fingerprint(*measurements: np.ndarray) -> str:
+def compute_fingerprint(*measurements: np.ndarray) -> str:
     """A text that equal arrays share and others do not: SHA-256 of their numbers, in hexadecimal.
 
     The numbers and not the bytes of the file: a copy as CSV of a Parquet log is the same run. A
@@ -152,21 +152,27 @@ def fingerprint(*measurements: np.ndarray) -> str:
         measurements: (n, ...) each.
     """
     rows = len(measurements[0])
-    return finger(*measurements).hex() if rows <= LONG else fingerprint_of(fingers(*measurements))
+    return (
+        compute_block_hash(*measurements).hex()
+        if rows <= LONG
+        else combine_hashes(compute_block_hashes(*measurements))
+    )
 
 
-def fingers(*measurements: np.ndarray) -> tuple[bytes, ...]:
+def compute_block_hashes(*measurements: np.ndarray) -> tuple[bytes, ...]:
     """Those of the blocks of a long log: rows from a multiple of `FINGER` on."""
     starts = range(0, len(measurements[0]), FINGER)
-    return tuple(finger(*(values[k : k + FINGER] for values in measurements)) for k in starts)
+    return tuple(
+        compute_block_hash(*(values[k : k + FINGER] for values in measurements)) for k in starts
+    )
 
 
-def fingerprint_of(fingers: Sequence[bytes]) -> str:
+def combine_hashes(hashes: Sequence[bytes]) -> str:
     """That of a long log."""
-    return hashlib.sha256(b"".join(fingers)).hexdigest()
+    return hashlib.sha256(b"".join(hashes)).hexdigest()
 
 
-def finger(*measurements: np.ndarray) -> bytes:
+def compute_block_hash(*measurements: np.ndarray) -> bytes:
     """That of one block."""
     content = hashlib.sha256()
     for values in measurements:
@@ -178,7 +184,7 @@ def finger(*measurements: np.ndarray) -> bytes:
     return content.digest()
 
 
-def shared_rows(log: LogRows, content: str, start: float, end: float) -> bool:
+def has_shared_rows(log: LogRows, content: str, start: float, end: float) -> bool:
     """True if `log` holds rows of the file with that fingerprint from `start` to `end`, s."""
     same = log.content != "" and log.content == content
     return same and log.span[0] <= end and start <= log.span[1]
@@ -187,7 +193,7 @@ def shared_rows(log: LogRows, content: str, start: float, end: float) -> bool:
 # Logs that are used together: every row has one part, fitted, explained or held out.
 
 
-def check_apart(
+def check_no_overlap(
     logs: Sequence[LogRows], holdout: Sequence[LogRows] = (), places: Sequence[str] = ()
 ) -> None:
     """Refuse rows that are given twice, and held-out rows that are also explained.
@@ -200,11 +206,11 @@ def check_apart(
     Raises:
         DataError: names the two logs.
     """
-    for given, typed in ((logs, places), (holdout, ())):
-        names = typed or [log.name for log in given]
-        for index, log in enumerate(given):
-            for first, other in zip(names, given[:index], strict=False):
-                if shared_rows(log, other.content, *other.span):
+    for group, typed in ((logs, places), (holdout, ())):
+        names = typed or [log.name for log in group]
+        for index, log in enumerate(group):
+            for first, other in zip(names, group[:index], strict=False):
+                if has_shared_rows(log, other.content, *other.span):
                     raise DataError(
                         f"{names[index]}: got rows of {first} again; rows that repeat count "
                         "twice, and their noise looks like something that returns; give each row "
@@ -212,7 +218,7 @@ def check_apart(
                     )
     for other in holdout:
         for log in logs:
-            if shared_rows(other, log.content, *log.span):
+            if has_shared_rows(other, log.content, *log.span):
                 raise DataError(
                     f"--holdout {other.name}: shares rows with {log.name}; expected other motion; "
                     "leave it out, or split the log with FILE@START:END"

@@ -8,8 +8,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from modeler.core.errors import DataError, LoopError
-from modeler.numerics.filters import recursion
-from modeler.observation.motion import Segment, near
+from modeler.numerics.filters import apply_biquad
+from modeler.observation.motion import Segment, dilate_flags
 from modeler.observation.motion_noise import MotionNoise
 from modeler.observation.settings import ChosenProcessing
 from modeler.runtime import CompiledModel
@@ -38,12 +38,12 @@ class FrictionShaft:
     joints: tuple[int, ...]
     unit: str
 
-    def speed(self, qd: np.ndarray) -> np.ndarray:
+    def compute_speed(self, qd: np.ndarray) -> np.ndarray:
         """(n,) from joint velocities (n, joints)."""
         return qd @ np.asarray(self.coefficients)
 
 
-def shafts(model: CompiledModel) -> tuple[FrictionShaft, ...]:
+def find_shafts(model: CompiledModel) -> tuple[FrictionShaft, ...]:
     """The shafts whose columns leap at standstill, found by creeping both ways past it.
 
     Each base column's leap is measured while one joint after the other creeps forwards and
@@ -51,14 +51,14 @@ def shafts(model: CompiledModel) -> tuple[FrictionShaft, ...]:
     leaps for the joints its shaft turns with, by the shaft's coefficient on the rows it acts on.
     """
     joints = len(model.spec.joints)
-    state = np.tile(_anywhere(model), (joints, 1))
+    state = np.tile(_choose_posture(model), (joints, 1))
     creep = _CREEP * np.eye(joints)
     still = np.zeros((joints, joints))
     signals = np.full((joints, len(model.spec.signals)), 0.5) if model.spec.signals else None
     forwards = model.base_regressor(state, creep, still, signals)
     backwards = model.base_regressor(state, -creep, still, signals)
     leap = 0.5 * (forwards - backwards)  # (moved, row, column)
-    found: dict[tuple[float, ...], FrictionShaft] = {}
+    shaft_by_coefficients: dict[tuple[float, ...], FrictionShaft] = {}
     scale = np.max(np.abs(leap), axis=(0, 1))
     for column in np.flatnonzero(scale > 1e-3):
         share = leap[:, :, column] / scale[column]
@@ -70,13 +70,19 @@ def shafts(model: CompiledModel) -> tuple[FrictionShaft, ...]:
         else:  # E^T sign(E qd): the leap on the rows is the shaft's coefficient
             coefficients[moved] = share[moved[0], moved]
         key = tuple(round(float(c), 9) for c in coefficients)
-        acted = rows if key not in found else tuple(sorted({*rows, *found[key].joints}))
+        acted = (
+            rows
+            if key not in shaft_by_coefficients
+            else tuple(sorted({*rows, *shaft_by_coefficients[key].joints}))
+        )
         names = "+".join(model.spec.joints[j].name for j in moved)
-        found[key] = FrictionShaft(names, key, acted, model.spec.joints[moved[0]].unit)
-    return tuple(found.values())
+        shaft_by_coefficients[key] = FrictionShaft(
+            names, key, acted, model.spec.joints[moved[0]].unit
+        )
+    return tuple(shaft_by_coefficients.values())
 
 
-def _anywhere(model: CompiledModel) -> np.ndarray:
+def _choose_posture(model: CompiledModel) -> np.ndarray:
     """(joints,) positions, none of them special; of a robot with loops as near home as closes."""
     joints, closure = len(model.spec.joints), model.spec.closure
     state = np.random.default_rng(1).uniform(0.2, 1.0, joints)
@@ -93,21 +99,21 @@ def _anywhere(model: CompiledModel) -> np.ndarray:
     return home
 
 
-def with_every_joint(model: CompiledModel) -> tuple[FrictionShaft, ...]:
+def find_all_shafts(model: CompiledModel) -> tuple[FrictionShaft, ...]:
     """The shafts, and every joint with a motor that is none of them.
 
     For looking at dry friction that the model lacks.
     """
-    found, joints = list(shafts(model)), model.spec.joints
-    names = {part.name for part in found}
+    all_shafts, joints = list(find_shafts(model)), model.spec.joints
+    names = {part.name for part in all_shafts}
     for j, joint in enumerate(joints):
         if joint.actuated and joint.name not in names:
-            own = tuple(float(i == j) for i in range(len(joints)))
-            found.append(FrictionShaft(joint.name, own, (j,), joint.unit))
-    return tuple(found)
+            coefficients = tuple(float(i == j) for i in range(len(joints)))
+            all_shafts.append(FrictionShaft(joint.name, coefficients, (j,), joint.unit))
+    return tuple(all_shafts)
 
 
-def floors_of(
+def compute_speed_floors(
     processing: ChosenProcessing, parts: Sequence[FrictionShaft], segments: Sequence[Segment],
     noise: MotionNoise,
 ) -> dict[str, float]:  # fmt: skip
@@ -118,14 +124,14 @@ def floors_of(
     step of logged speeds, which are 0 or a step at lower ones.
     """
     floors, low = {}, processing.low_speed
-    for part, top in zip(parts, top_speeds(parts, segments, noise), strict=True):
-        step = noise.speed_step(part.coefficients) if low else 0.0
-        own = max(low * top, min(step, WIDEST * top)) if top else float("inf")
-        floors[part.name] = processing.speed_floors.get(part.name, own)
+    for part, top in zip(parts, compute_top_speeds(parts, segments, noise), strict=True):
+        step = noise.compute_speed_step(part.coefficients) if low else 0.0
+        floor = max(low * top, min(step, WIDEST * top)) if top else float("inf")
+        floors[part.name] = processing.speed_floors.get(part.name, floor)
     return floors
 
 
-def top_speeds(
+def compute_top_speeds(
     parts: Sequence[FrictionShaft], segments: Sequence[Segment], noise: MotionNoise | None = None,
     least: Mapping[str, float] = IDLE_TRAVEL,
 ) -> list[float]:  # fmt: skip
@@ -136,8 +142,8 @@ def top_speeds(
         if noise is not None and not any(noise.joints[j].moves for j in turned):
             tops.append(0.0)
             continue
-        speeds = np.concatenate([np.abs(part.speed(s.qd[s.whole])) for s in segments])
-        travel = np.concatenate([part.speed(s.q[s.whole]) for s in segments])
+        speeds = np.concatenate([np.abs(part.compute_speed(s.qd[s.whole])) for s in segments])
+        travel = np.concatenate([part.compute_speed(s.q[s.whole]) for s in segments])
         idle = not travel.size or np.ptp(travel) < least[part.unit]
         tops.append(0.0 if idle else float(np.quantile(speeds, TOP)))
     return tops
@@ -156,7 +162,7 @@ PERIODS = 0.7
 """Periods of the position filter over which a reversal is smeared."""
 
 
-def wide_floors(
+def compute_wide_floors(
     processing: ChosenProcessing, parts: Sequence[FrictionShaft], segments: Sequence[Segment],
     noise: MotionNoise,
 ) -> dict[str, float]:  # fmt: skip
@@ -166,13 +172,13 @@ def wide_floors(
     itself over `PERIODS` of its cut-off.
     """
     floors, cutoff = {}, processing.position_cutoff
-    for part, top in zip(parts, top_speeds(parts, segments, noise), strict=True):
-        doubtful = WIDE_SIGMAS * noise.doubtful_speed(part.coefficients, cutoff)
+    for part, top in zip(parts, compute_top_speeds(parts, segments, noise), strict=True):
+        doubtful = WIDE_SIGMAS * noise.compute_speed_noise(part.coefficients, cutoff)
         floors[part.name] = min(max(WIDE * top, doubtful), WIDEST * top) or float("inf")
     return floors
 
 
-def moving(
+def find_moving_samples(
     segment: Segment, parts: Sequence[FrictionShaft], floors: Mapping[str, float],
     margin: float = 0.0,
 ) -> np.ndarray:  # fmt: skip
@@ -185,16 +191,16 @@ def moving(
     for part in parts:
         if segment.rests and {*np.flatnonzero(part.coefficients)} <= {*segment.rests}:
             continue  # gravity on it counts
-        speed = part.speed(segment.qd)
+        speed = part.compute_speed(segment.qd)
         slow = np.abs(speed) < floors[part.name]
         if reach:
             slow[1:] |= np.diff(np.sign(speed)) != 0.0
-            slow = near(slow, reach)
+            slow = dilate_flags(slow, reach)
         fast[np.ix_(slow, list(part.joints))] = False
     return fast
 
 
-def at_rest(
+def clear_resting_speeds(
     segments: Sequence[Segment], parts: Sequence[FrictionShaft], still: Sequence[str] = ()
 ) -> tuple[Segment, ...]:
     """The segments without speeds of joints that rest all along a log: noise has no sign.
@@ -205,10 +211,10 @@ def at_rest(
         still: names of those that move in no log.
     """
     turned = {part.name: np.flatnonzero(part.coefficients) for part in parts}
-    found = []
+    cleared_segments = []
     for segment in segments:
-        own = [s.q for s in segments if s.run == segment.run]
-        travel = np.ptp(np.concatenate(own), axis=0)
+        positions = [s.q for s in segments if s.run == segment.run]
+        travel = np.ptp(np.concatenate(positions), axis=0)
         whole = np.ptp(np.concatenate([s.q for s in segments]), axis=0)
         joints = tuple(
             int(j[0]) for part in parts
@@ -219,14 +225,14 @@ def at_rest(
             qd, qdd = segment.qd.copy(), segment.qdd.copy()
             qd[:, joints] = qdd[:, joints] = 0.0
             segment = dataclasses.replace(segment, qd=qd, qdd=qdd, rests=joints)
-        found.append(segment)
-    return tuple(found)
+        cleared_segments.append(segment)
+    return tuple(cleared_segments)
 
 
 # Inner states along measured positions, as `advance` of the C steps them.
 
 
-def bristle(q: np.ndarray, distance: float) -> np.ndarray:
+def compute_bristle_state(q: np.ndarray, distance: float) -> np.ndarray:
     """(n,) the state z of Dahl's friction along positions q (n,), from z = sign v at the start.
 
     z' = (v/d)(1 - z sign v): between reversals z = s + (z0 - s) exp(-travel/d), s = sign v.
@@ -234,21 +240,23 @@ def bristle(q: np.ndarray, distance: float) -> np.ndarray:
     step = np.diff(q)
     if not step.any():
         return np.zeros(len(q))
-    direction = _carried(np.sign(step))
+    direction = _carry_direction(np.sign(step))
     begins = np.concatenate([[0], np.flatnonzero(np.diff(direction)) + 1])
     lengths = np.diff(np.append(begins, len(step)))
     travel = np.abs(q[1:] - np.repeat(q[begins], lengths))
     left = np.exp(-travel / distance)
-    way, kept = direction[begins], left[begins + lengths - 1]
+    way, remaining = direction[begins], left[begins + lengths - 1]
     apart = np.empty(len(begins))  # z - s at each turn
     before = float(direction[0])
-    for k, (s, share) in enumerate(zip(way.tolist(), kept.tolist(), strict=True)):
+    for k, (s, share) in enumerate(zip(way.tolist(), remaining.tolist(), strict=True)):
         apart[k] = before - s
         before = s + (before - s) * share
     return np.concatenate([direction[:1], direction + np.repeat(apart, lengths) * left])
 
 
-def since_reversal(q: np.ndarray, step: float, back: float) -> tuple[np.ndarray, np.ndarray]:
+def compute_time_since_reversal(
+    q: np.ndarray, step: float, back: float
+) -> tuple[np.ndarray, np.ndarray]:
     """Direction and s since the joint last turned back, along positions q (n,); each (n,).
 
     It has turned once it has come back by more than `back`, which takes twice as long at constant
@@ -259,27 +267,29 @@ def since_reversal(q: np.ndarray, step: float, back: float) -> tuple[np.ndarray,
     far = np.flatnonzero(np.abs(q - q[0]) > back)
     if not len(far):
         return way, since
-    way[0] = told = float(np.sign(q[far[0]] - q[0]))
+    way[0] = direction = float(np.sign(q[far[0]] - q[0]))
     ago = 0.0
     for k, share in enumerate((np.diff(q) / back).tolist(), start=1):
-        moved, ago = told + share, ago + step
-        if moved * told < 0.0:
+        moved, ago = direction + share, ago + step
+        if moved * direction < 0.0:
             ago = min(ago, 2.0 * (1.0 + abs(moved)) * step / abs(share))
-            told = math.copysign(1.0, moved)
+            direction = math.copysign(1.0, moved)
         else:
-            told = min(1.0, max(-1.0, moved))
-        way[k], since[k] = told, ago
+            direction = min(1.0, max(-1.0, moved))
+        way[k], since[k] = direction, ago
     return way, since
 
 
-def lag(x: np.ndarray, step: float, tau: float) -> np.ndarray:
+def apply_lag(x: np.ndarray, step: float, tau: float) -> np.ndarray:
     """(n,) z of z' = (x - z)/tau along x (n,) at even steps, s; at rest under the first x."""
-    kept = math.exp(-step / tau)
-    driven = np.append(0.0, (1.0 - kept) * (0.5 * (x[1:] + x[:-1]) - x[0]))
-    return np.asarray(x[0] + recursion(driven, np.array([1.0, 0, 0]), np.array([1.0, -kept, 0])))
+    decay = math.exp(-step / tau)
+    driven = np.append(0.0, (1.0 - decay) * (0.5 * (x[1:] + x[:-1]) - x[0]))
+    return np.asarray(
+        x[0] + apply_biquad(driven, np.array([1.0, 0, 0]), np.array([1.0, -decay, 0]))
+    )
 
 
-def _carried(direction: np.ndarray) -> np.ndarray:
+def _carry_direction(direction: np.ndarray) -> np.ndarray:
     """Zeros replaced by the last direction before them, at the start by the first after."""
     known = np.flatnonzero(direction)
     place = np.searchsorted(known, np.arange(len(direction)), side="right") - 1
@@ -293,7 +303,7 @@ Temperature = Callable[[str], np.ndarray]
 """(n,) of the joint of that name."""
 
 
-def signals_of(model: CompiledModel, segment: Segment) -> np.ndarray | None:
+def compute_signals(model: CompiledModel, segment: Segment) -> np.ndarray | None:
     """(n, m) the input `s` of the model's functions; None if it has none.
 
     Raises:
@@ -302,10 +312,12 @@ def signals_of(model: CompiledModel, segment: Segment) -> np.ndarray | None:
     if segment.read is not None:
         return segment.read
     motion = segment.q, segment.qd, segment.qdd
-    return signals_along(model, motion, segment.time, lambda joint: _temperature(segment, joint))
+    return compute_signals_along(
+        model, motion, segment.time, lambda joint: _read_temperature(segment, joint)
+    )
 
 
-def signals_along(
+def compute_signals_along(
     model: CompiledModel, motion: Sequence[np.ndarray], time: np.ndarray, temperature: Temperature
 ) -> np.ndarray | None:
     """(n, m) the same along q, qd, qdd (n, joints) at even times (n,)."""
@@ -320,18 +332,22 @@ def signals_along(
         elif signal.kind == "temperature":
             read[:, k] = temperature(signal.joint)
         elif signal.kind == "slip":
-            read[:, k] = bristle(motion[0][:, names.index(signal.joint)], signal.value)
+            read[:, k] = compute_bristle_state(
+                motion[0][:, names.index(signal.joint)], signal.value
+            )
         elif signal.kind == "direction":  # the time since it changed stands after it
             q = motion[0][:, names.index(signal.joint)]
-            read[:, [k, k + 1]] = np.stack(since_reversal(q, step, signal.value), axis=1)
+            read[:, [k, k + 1]] = np.stack(
+                compute_time_since_reversal(q, step, signal.value), axis=1
+            )
         elif signal.kind == "followed":  # a step of no length gives it
             read[:, k] = model.advance(0.0 * motion[0], 0.0, read, *motion)[:, k]
         elif signal.kind == "lag":
-            read[:, k] = lag(read[:, k - 1], step, signal.value)
+            read[:, k] = apply_lag(read[:, k - 1], step, signal.value)
     return read
 
 
-def _temperature(segment: Segment, joint: str) -> np.ndarray:
+def _read_temperature(segment: Segment, joint: str) -> np.ndarray:
     for name in (f"temperature{joint}", "temperature"):
         if name in segment.extra:
             return segment.extra[name]

@@ -9,9 +9,9 @@ from typing import Any
 import numpy as np
 from scipy.ndimage import maximum_filter1d
 
-from modeler.core.brief import Brief
-from modeler.numerics.filters import forwards_and_backwards
-from modeler.observation.segments import SHORT, Piece, longer_runs
+from modeler.core.brief import ShortRepr
+from modeler.numerics.filters import apply_zero_phase_lowpass
+from modeler.observation.segments import SHORT, RawSegment, select_long_runs
 from modeler.observation.settings import Processing
 
 HIGHEST = 0.4
@@ -35,7 +35,7 @@ CAUSES = (EDGE, MISSING, BRIDGES, CONTRADICTED, SATURATED, OPEN)
 
 
 @dataclass(frozen=True, eq=False)
-class Segment(Brief):
+class Segment(ShortRepr):
     """One uniform stretch of motion, ready for the model; n samples.
 
     Attributes:
@@ -79,7 +79,7 @@ class Segment(Brief):
         """Between samples of the log, s."""
         return self.step / self.every
 
-    def thinned(self, every: int, read: np.ndarray | None) -> "Segment":
+    def thin_samples(self, every: int, read: np.ndarray | None) -> "Segment":
         """Every so manieth sample of a segment, and of what effects of its model read (n, m)."""
         arrays: dict[str, Any] = {n: getattr(self, n)[::every].copy() for n in _SAMPLED}
         extra = {name: values[::every].copy() for name, values in self.extra.items()}
@@ -97,7 +97,7 @@ class Segment(Brief):
 _SAMPLED = ("time", "q", "qd", "qdd", "tau", "whole", "cause")
 
 
-def segment_of(piece: Piece, processing: Processing) -> Segment | None:
+def build_segment(piece: RawSegment, processing: Processing) -> Segment | None:
     """The piece with its velocities and accelerations; None if it is all edge.
 
     q is filtered by a zero-phase Butterworth low-pass of order 4 (forwards and backwards), then
@@ -110,38 +110,38 @@ def segment_of(piece: Piece, processing: Processing) -> Segment | None:
         processing: with `position_cutoff` chosen.
     """
     cutoff = min(processing.position_cutoff or 0.0, HIGHEST / piece.step)
-    edge = edge_of(piece, processing)
+    edge = compute_edge(piece, processing)
     if piece.qd is not None and piece.qdd is not None:
         q, qd, qdd = piece.q, piece.qd, piece.qdd
     else:
         if piece.step * (len(piece.time) - 1) <= 2 * edge * piece.step:
             return None
-        q = low_pass(piece.q, piece.step, cutoff)
+        q = apply_low_pass(piece.q, piece.step, cutoff)
         if piece.qd is not None:
-            qd = low_pass(piece.qd, piece.step, cutoff)
+            qd = apply_low_pass(piece.qd, piece.step, cutoff)
             qdd = np.gradient(qd, piece.step, axis=0)
         else:
-            _, qd, qdd = differentiated(q, piece.step)
+            _, qd, qdd = differentiate_positions(q, piece.step)
     whole = np.ones(len(piece.time), dtype=bool)
     if edge:
         whole[:edge] = whole[-edge:] = False
-    cause = _causes(piece, whole, edge, cutoff, processing.keep_saturated)
+    cause = _classify_samples(piece, whole, edge, cutoff, processing.keep_saturated)
     tau, wanted = piece.tau, piece.commanded
     if processing.delay != 0.0:
         earlier = piece.time - processing.delay
-        tau = np.column_stack([np.interp(earlier, piece.time, own) for own in tau.T])
+        tau = np.column_stack([np.interp(earlier, piece.time, column) for column in tau.T])
     if any(piece.induced):
-        speed = qd if piece.qd is not None else _steep(q, piece.step)
+        speed = qd if piece.qd is not None else _differentiate_wide(q, piece.step)
         tau = tau - np.multiply(piece.induced, speed)
     if wanted is not None:
-        wanted = low_pass(wanted, piece.step, cutoff)
+        wanted = apply_low_pass(wanted, piece.step, cutoff)
     return Segment(
         piece.run, piece.time, piece.step, q, qd, qdd, tau, piece.extra, whole, cause, wanted
     )
 
 
-def _causes(
-    piece: Piece, whole: np.ndarray, edge: int, cutoff: float, keep_saturated: bool
+def _classify_samples(
+    piece: RawSegment, whole: np.ndarray, edge: int, cutoff: float, keep_saturated: bool
 ) -> np.ndarray:
     """(n, joints) why samples do not count, as places in CAUSES; -1 where they do.
 
@@ -149,12 +149,12 @@ def _causes(
     few missing samples that take less than 0.4 periods of the cut-off leave no bend.
     """
     few = min(SHORT, int(_SHORT_PERIODS / (cutoff * piece.step)) - 1) if cutoff else 0
-    bent = longer_runs(piece.bridged, few) if few > 0 else piece.bridged
+    bent = select_long_runs(piece.bridged, few) if few > 0 else piece.bridged
     flags = {
         EDGE: ~whole[:, None],
         MISSING: piece.bridged[:, None] | ~piece.valid,
-        BRIDGES: near(bent, edge)[:, None],
-        CONTRADICTED: near(piece.contradicted, edge)[:, None],
+        BRIDGES: dilate_flags(bent, edge)[:, None],
+        CONTRADICTED: dilate_flags(piece.contradicted, edge)[:, None],
         SATURATED: piece.clipped & (not keep_saturated),
     }
     cause = np.full(piece.valid.shape, -1, dtype=np.int8)
@@ -163,14 +163,14 @@ def _causes(
     return cause
 
 
-def near(flags: np.ndarray, reach: int) -> np.ndarray:
+def dilate_flags(flags: np.ndarray, reach: int) -> np.ndarray:
     """(n,) True within so many samples of a flagged one."""
     if not reach or not flags.any():
         return flags
     return np.asarray(maximum_filter1d(flags.view(np.uint8), 2 * reach + 1) > 0)
 
 
-def edge_of(piece: Piece, processing: Processing) -> int:
+def compute_edge(piece: RawSegment, processing: Processing) -> int:
     """Samples at either end of a piece that are lost to the low-pass of its positions."""
     if piece.qd is not None and piece.qdd is not None:
         return 0
@@ -181,14 +181,14 @@ def edge_of(piece: Piece, processing: Processing) -> int:
     return max(1, round(seconds / piece.step))  # the outermost second difference does not exist
 
 
-def differentiated(q: np.ndarray, step: float) -> np.ndarray:
+def differentiate_positions(q: np.ndarray, step: float) -> np.ndarray:
     """(3, n, joints) positions (n, joints), velocities and accelerations: central differences."""
     qdd = np.zeros_like(q)
     qdd[1:-1] = (q[2:] - 2.0 * q[1:-1] + q[:-2]) / step**2
     return np.stack([q, np.gradient(q, step, axis=0), qdd])
 
 
-def _steep(q: np.ndarray, step: float) -> np.ndarray:
+def _differentiate_wide(q: np.ndarray, step: float) -> np.ndarray:
     """Velocities (n, joints) by differences over five samples, of error (omega step)^4 / 30.
 
     What a motor induces is many times the friction that is asked for: at 30 Hz, the half percent
@@ -199,43 +199,43 @@ def _steep(q: np.ndarray, step: float) -> np.ndarray:
     return np.asarray(qd)
 
 
-def low_pass(values: np.ndarray, step: float, cutoff: float) -> np.ndarray:
+def apply_low_pass(values: np.ndarray, step: float, cutoff: float) -> np.ndarray:
     """`values` (n, ...) through the zero-phase Butterworth low-pass; as they are for cutoff 0."""
     if cutoff == 0.0:
         return values
     # Odd extension over the start-up time; scipy's default is too short for a low cut-off.
     padding = min(len(values) - 1, max(15, round(2.0 / (cutoff * step))))
     flat = values.reshape(len(values), -1)
-    return forwards_and_backwards(flat, step, cutoff, padding).reshape(values.shape)
+    return apply_zero_phase_lowpass(flat, step, cutoff, padding).reshape(values.shape)
 
 
 # How far a joint has come since it last turned back.
 
 
-def travel_since_reversal(q: np.ndarray, least: float = 0.0) -> np.ndarray:
+def compute_travel_since_reversal(q: np.ndarray, least: float = 0.0) -> np.ndarray:
     """(n,) |q - q at the last turning point|; before the first one, from the first sample.
 
     Args:
         q: (n,) positions of one joint without a gap, rad or m.
         least: rad or m; a way back of no more than this is noise of the encoder, and no turn.
     """
-    turns = np.array([0, *_turning_points(q, least)])
+    turns = np.array([0, *_find_turning_points(q, least)])
     last = turns[np.searchsorted(turns, np.arange(len(q)), side="right") - 1]
     return np.abs(q - q[last])
 
 
-def _turning_points(q: np.ndarray, least: float) -> list[int]:
+def _find_turning_points(q: np.ndarray, least: float) -> list[int]:
     """Samples at which the joint turns back by more than `least`, increasing."""
     moving = np.flatnonzero(np.diff(q))
     leaps = np.sign(np.diff(q)[moving])
     corners = [*(moving[1:][np.diff(leaps) != 0]), len(q) - 1]
-    found: list[int] = []
+    turning_points: list[int] = []
     way, farthest = 0.0, 0
     for corner in map(int, corners):
         step = q[corner] - q[farthest]
         if step * way >= 0.0 and (way != 0.0 or abs(step) > least):
             way, farthest = way or float(np.sign(step)), corner
         elif step * way < 0.0 and abs(step) > least:
-            found.append(farthest)
+            turning_points.append(farthest)
             way, farthest = -way, corner
-    return found
+    return turning_points

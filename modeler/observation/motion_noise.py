@@ -12,11 +12,16 @@ from typing import Any
 
 import numpy as np
 
-from modeler.core.brief import Brief
+from modeler.core.brief import ShortRepr
 from modeler.core.manifest import JointSpec
-from modeler.core.table import percent
-from modeler.numerics.spectra import BandSpectrum, MotionSpectrum, band_spectrum, motion_spectrum
-from modeler.observation.segments import Piece
+from modeler.core.table import format_percent
+from modeler.numerics.spectra import (
+    BandSpectrum,
+    MotionSpectrum,
+    compute_band_spectrum,
+    compute_motion_spectrum,
+)
+from modeler.observation.segments import RawSegment
 
 FLAT = 3.0
 """The spectrum meets its floor where it is less than this many times its median over the two
@@ -47,7 +52,7 @@ WHITE = 1.0
 
 
 @dataclass(frozen=True)
-class ChannelNoise(Brief):
+class ChannelNoise(ShortRepr):
     """Noise of what is measured of one joint's motion, as plain data.
 
     Attributes:
@@ -99,7 +104,7 @@ class ChannelNoise(Brief):
         size = self.deviation / max(2.0 * np.pi * self.band_hz, 1.0) ** (2 - self.order)
         return size < EXACT and self.step < EXACT
 
-    def speed_deviation(self, cutoff: float) -> float:
+    def compute_speed_deviation(self, cutoff: float) -> float:
         """Standard deviation of the noise of the speed below a cut-off (Hz), unit/s.
 
         White noise of density N differentiated, sigma_v^2 = N (2 pi)^2 f^3 / 3; of a logged speed
@@ -109,18 +114,18 @@ class ChannelNoise(Brief):
         factor = (2.0 * np.pi) ** 2 / 3.0 if self.order == 2 else 1.0
         return float(np.sqrt(self.density * factor * cutoff**power))
 
-    def acceleration_density(self, frequency: float) -> float:
+    def compute_acceleration_density(self, frequency: float) -> float:
         """Its noise as that of the acceleration: (2 pi f)^(2 order) N, (unit/s^2)^2/Hz."""
         return float(self.density * (2.0 * np.pi * frequency) ** (2 * self.order))
 
-    def words(self) -> str:
+    def format_words(self) -> str:
         """Its noise in words."""
-        size, unit = self.milli(self.deviation)
+        size, unit = self.scale_to_milli(self.deviation)
         coloured = f", growing as f^-{self.colour:.1f}" if self.colour else ""
         above = self.hides_above_hz or np.inf
         return f"joint {self.joint} {size:.2g} {unit} above {above:.2g} Hz{coloured}"
 
-    def milli(self, size: float) -> tuple[float, str]:
+    def scale_to_milli(self, size: float) -> tuple[float, str]:
         """A size and its unit: mrad or mm if it is small; counts stay counts."""
         small = size < 0.1 and self.unit in ("rad", "m")
         unit = self.unit + ("/s2", "/s", "")[self.order]
@@ -128,7 +133,7 @@ class ChannelNoise(Brief):
 
 
 @dataclass(frozen=True)
-class MotionNoise(Brief):
+class MotionNoise(ShortRepr):
     """Of all joints.
 
     Attributes:
@@ -167,54 +172,56 @@ class MotionNoise(Brief):
         """What is measured, in words."""
         return f"{'logged ' if self.order < 2 else ''}{MEASURED[self.order]}"
 
-    def of_last_floors(
+    def take_last_floors(
         self, which: Callable[[ChannelNoise], bool] = lambda joint: True
     ) -> "MotionNoise":
-        """The noise if what looks like a floor, and falls again, is motion: see `floor_of`.
+        """The noise if what looks like a floor, and falls again, is motion: see `find_floor`.
 
         Args:
             which: the joints of which that is taken.
         """
         every = (
-            dataclasses.replace(own, **floor_of(self.spectra, j, own.band_hz, self.rate, last=True))
-            if which(own)
-            else own
-            for j, own in enumerate(self.joints)
+            dataclasses.replace(
+                channel, **find_floor(self.spectra, j, channel.band_hz, self.rate, last=True)
+            )
+            if which(channel)
+            else channel
+            for j, channel in enumerate(self.joints)
         )
         return dataclasses.replace(self, joints=tuple(every))
 
-    def doubtful_speed(self, coefficients: Sequence[float], cutoff: float) -> float:
+    def compute_speed_noise(self, coefficients: Sequence[float], cutoff: float) -> float:
         """Standard deviation of the noise of a shaft's speed below a cut-off, Hz, or D f if more.
 
         Args:
             coefficients: (J,) of the joints' speeds in that of the shaft.
             cutoff: of the position filter.
         """
-        own = [joint.speed_deviation(cutoff) for joint in self.joints]
+        deviations = [joint.compute_speed_deviation(cutoff) for joint in self.joints]
         per = (0.0, 1.0, cutoff)[self.order]
         step = [joint.step * per for joint in self.joints]
-        return float(np.linalg.norm(np.asarray(coefficients) * np.maximum(own, step)))
+        return float(np.linalg.norm(np.asarray(coefficients) * np.maximum(deviations, step)))
 
-    def speed_step(self, coefficients: Sequence[float]) -> float:
+    def compute_speed_step(self, coefficients: Sequence[float]) -> float:
         """Resolution of a shaft's speed where speeds were logged; else 0."""
-        own = [joint.step if self.order == 1 else 0.0 for joint in self.joints]
-        return float(np.linalg.norm(np.asarray(coefficients) * own))
+        steps = [joint.step if self.order == 1 else 0.0 for joint in self.joints]
+        return float(np.linalg.norm(np.asarray(coefficients) * steps))
 
-    def channel_lines(self) -> list[str]:
+    def format_channels(self) -> list[str]:
         """A line of each channel: its noise, from where on it hides the motion, its resolution."""
-        told = []
+        lines = []
         for joint in self.joints:
             if joint.moves and not joint.is_exact:
-                size, unit = joint.milli(joint.step)
+                size, unit = joint.scale_to_milli(joint.step)
                 step = f", in steps of {size:.3g} {unit}" if joint.step else ""
-                told.append(f"noise of the {self.quantity}: {joint.words()}{step}")
+                lines.append(f"noise of the {self.quantity}: {joint.format_words()}{step}")
         rest = [joint.joint for joint in self.joints if not joint.moves]
         if rest:
             verb = "rest" if len(rest) > 1 else "rests"
-            told.append(f"joint{'s' * (len(rest) > 1)} {', '.join(rest)} {verb}")
-        return told + self._exact()
+            lines.append(f"joint{'s' * (len(rest) > 1)} {', '.join(rest)} {verb}")
+        return lines + self._describe_exact()
 
-    def _exact(self) -> list[str]:
+    def _describe_exact(self) -> list[str]:
         """A line on the joints whose motion was not measured."""
         names = [joint.joint for joint in self.moving if joint.is_exact]
         if not names:
@@ -224,29 +231,29 @@ class MotionNoise(Brief):
             "measurement noise: they are planned, filtered or simulated"
         ]
 
-    def lines(self) -> list[str]:
+    def format_lines(self) -> list[str]:
         """One line: of each joint that moves, how large its noise is and where it begins."""
         if not self.moving:
             return []
-        every = "; ".join(joint.words() for joint in self.moving if not joint.is_exact)
+        every = "; ".join(joint.format_words() for joint in self.moving if not joint.is_exact)
         title = f"noise of the {self.quantity}, and from what frequency on it hides the motion"
-        return [f"{title}: {every}"] * bool(every) + self._exact()
+        return [f"{title}: {every}"] * bool(every) + self._describe_exact()
 
-    def why_cutoff(self, chosen: float) -> str:
+    def explain_cutoff(self, chosen: float) -> str:
         """Why a position filter of this cut-off (Hz) was chosen."""
-        found = self.cutoff
-        if chosen > 1.05 * found:
+        noise_cutoff = self.cutoff
+        if chosen > 1.05 * noise_cutoff:
             return (
-                f"the {self.quantity} are noise above {found:.2g} Hz; twice the parallel "
+                f"the {self.quantity} are noise above {noise_cutoff:.2g} Hz; twice the parallel "
                 "filter, which takes that off"
             )
-        if found > 0.99 * HIGHEST_CUTOFF:  # a mean of logarithms
+        if noise_cutoff > 0.99 * HIGHEST_CUTOFF:  # a mean of logarithms
             return f"the {self.quantity} are no noise up to there"
         return f"above, the spectrum of the {self.quantity} is that of their noise"
 
 
-def motion_noise(
-    joints: Sequence[JointSpec], pieces: Sequence[Piece], bands: np.ndarray
+def estimate_motion_noise(
+    joints: Sequence[JointSpec], pieces: Sequence[RawSegment], bands: np.ndarray
 ) -> MotionNoise:
     """The noise of the motion in all logs.
 
@@ -258,7 +265,7 @@ def motion_noise(
     order = 2 if any(piece.qd is None for piece in pieces) else 1
     order = 0 if all(piece.qdd is not None for piece in pieces) else order
     measured = [(p.qdd, p.qd, p.q)[order] for p in pieces]
-    spectra = band_spectrum(
+    spectra = compute_band_spectrum(
         [np.asarray(x) for x in measured], [piece.step for piece in pieces], order
     )
     rate = 1.0 / float(np.median([piece.step for piece in pieces]))
@@ -266,9 +273,9 @@ def motion_noise(
     logged = [[piece.q_step or none, piece.qd_step or none] for piece in pieces]
     steps = np.max(np.array(logged), axis=0)
     for j, (joint, band) in enumerate(zip(joints, bands, strict=True)):
-        q, own = np.concatenate([piece.q[:, j] for piece in pieces]), spectra.density[:, j]
+        q, density = np.concatenate([piece.q[:, j] for piece in pieces]), spectra.density[:, j]
         moves = bool(np.isfinite(band)) and float(np.ptp(q)) > STILL * steps[0, j]
-        hz, seen = spectra.frequency[np.isfinite(own)], own[np.isfinite(own)]
+        hz, seen = spectra.frequency[np.isfinite(density)], density[np.isfinite(density)]
         band_hz = float(band) if moves else 0.0
         every.append(
             ChannelNoise(
@@ -278,20 +285,20 @@ def motion_noise(
                 moves=moves,
                 step=float(steps[min(1, 2 - order), j]) if order else 0.0,
                 band_hz=band_hz,
-                frequency=tuple(map(_rounded, hz)),
-                spectrum=tuple(map(_rounded, seen)),
-                **floor_of(spectra, j, band_hz, rate),
+                frequency=tuple(map(_shorten_number, hz)),
+                spectrum=tuple(map(_shorten_number, seen)),
+                **find_floor(spectra, j, band_hz, rate),
             )
         )
     return MotionNoise(tuple(every), rate, spectra)
 
 
-def _rounded(value: float) -> float:
+def _shorten_number(value: float) -> float:
     """To four digits, as pictures need it."""
     return float(f"{value:.4g}")
 
 
-def floor_of(
+def find_floor(
     spectra: BandSpectrum, j: int, band: float, rate: float, last: bool = False
 ) -> dict[str, Any]:
     """The floor that the spectrum of joint j meets, as fields of its noise.
@@ -305,8 +312,8 @@ def floor_of(
             of the motion may be flat before it does.
     """
     f, S = spectra.frequency, spectra.density[:, j]
-    kept = (f > band) & np.isfinite(S)
-    f, S = f[kept], S[kept]
+    is_above_band = (f > band) & np.isfinite(S)
+    f, S = f[is_above_band], S[is_above_band]
     density, meets, colour = (S[-1], f[-1], 0.0) if f.size else (0.0, None, 0.0)
     for k in range(len(f)):
         above = S[(f > f[k]) & (f <= f[k] * 2.0**OCTAVES)]
@@ -314,7 +321,7 @@ def floor_of(
             continue
         beyond = S[f > f[k] * 2.0**OCTAVES]
         if not (last and beyond.size and S[k] > FLAT**2 * np.median(beyond)):
-            density, meets, colour = np.median(above), f[k], _colour(f[k:], S[k:])
+            density, meets, colour = np.median(above), f[k], _estimate_spectral_slope(f[k:], S[k:])
             break
     return {
         "density": float(density),
@@ -324,7 +331,7 @@ def floor_of(
     }
 
 
-def _colour(f: np.ndarray, S: np.ndarray) -> float:
+def _estimate_spectral_slope(f: np.ndarray, S: np.ndarray) -> float:
     if len(f) < 6 or not (S > 0.0).all():
         return 0.0
     slope = -float(np.polyfit(np.log(f), np.log(S), 1)[0])
@@ -356,7 +363,7 @@ REST = 0.01
 _STEPS = 6  # per octave
 
 
-def motion_bands(piece: Piece, measured: MotionSpectrum) -> np.ndarray:
+def estimate_motion_bands(piece: RawSegment, measured: MotionSpectrum) -> np.ndarray:
     """(J,) Hz below which 99 % of the velocity's energy lies in one piece; NaN of joints at rest.
 
     What counts is the power above white noise, up to where the joint rings or trembles; where
@@ -367,20 +374,22 @@ def motion_bands(piece: Piece, measured: MotionSpectrum) -> np.ndarray:
         piece: of a log.
         measured: spectrum of its positions.
     """
-    frequency, above = measured.frequency, measured.above
+    frequency, above = measured.frequency, measured.power_above_noise
     joints = range(above.shape[1])
     speed = above * frequency[:, None] ** 2
-    rings = [ringing(frequency, speed[:, j], j)[1] for j in joints]
-    ends = [_end(frequency[:n], above[:n, j]) for j, n in zip(joints, rings, strict=True)]
+    rings = [find_ringing(frequency, speed[:, j], j)[1] for j in joints]
+    ends = [
+        _find_motion_end(frequency[:n], above[:n, j]) for j, n in zip(joints, rings, strict=True)
+    ]
     size = np.array([np.sqrt(above[: ends[j], j].sum()) for j in joints])
     moves = (size > REST * size.max()) & (np.ptp(piece.q, axis=0) > 0.0)
-    ends = _together(frequency, above, ends, moves)
+    ends = _align_ends(frequency, above, ends, moves)
     window = 2.0 / (len(piece.time) * piece.step)
-    band = np.fmin(_bands(frequency, above, ends), _commanded(piece))
+    band = np.fmin(_compute_bands(frequency, above, ends), _compute_commanded_band(piece))
     return np.where(moves, np.sqrt(np.maximum(0.0, band**2 - window**2)), np.nan)
 
 
-def _together(
+def _align_ends(
     frequency: np.ndarray, above: np.ndarray, ends: list[int], moves: np.ndarray
 ) -> list[int]:
     """The ends of the motion, where a joint that is far faster than the others only trembles.
@@ -390,20 +399,22 @@ def _together(
     """
     if not moves.any():
         return ends
-    band = _bands(frequency, above, ends)
+    band = _compute_bands(frequency, above, ends)
     most = int(np.searchsorted(frequency, APART * np.median(band[moves])))
     return [
-        most if most < end and own > frequency[most] and _small(above[:end, j], most) else end
-        for j, (end, own) in enumerate(zip(ends, band, strict=True))
+        most
+        if most < end and joint_band > frequency[most] and _is_small(above[:end, j], most)
+        else end
+        for j, (end, joint_band) in enumerate(zip(ends, band, strict=True))
     ]
 
 
-def _bands(frequency: np.ndarray, power: np.ndarray, ends: Sequence[int]) -> np.ndarray:
+def _compute_bands(frequency: np.ndarray, power: np.ndarray, ends: Sequence[int]) -> np.ndarray:
     """(J,) energy bands of the power (n, J) before each joint's end."""
-    return np.array([energy_band(frequency[:n], power[:n, j]) for j, n in enumerate(ends)])
+    return np.array([compute_energy_band(frequency[:n], power[:n, j]) for j, n in enumerate(ends)])
 
 
-def energy_band(frequency: np.ndarray, power: np.ndarray) -> float:
+def compute_energy_band(frequency: np.ndarray, power: np.ndarray) -> float:
     """Frequency below which 99 % of the velocity's energy lies, Hz; 0 without any.
 
     Args:
@@ -414,17 +425,17 @@ def energy_band(frequency: np.ndarray, power: np.ndarray) -> float:
     return float(frequency[np.searchsorted(total, SHARE * total[-1])]) if total[-1] > 0.0 else 0.0
 
 
-def _commanded(piece: Piece) -> np.ndarray:
+def _compute_commanded_band(piece: RawSegment) -> np.ndarray:
     """(J,) band of the commanded positions, Hz; NaN where none is known, or none moves."""
     if piece.commanded is None:
         return np.full(piece.q.shape[1], np.nan)
-    command = motion_spectrum(piece.commanded, piece.step)
-    size = np.sqrt(command.above.sum(axis=0))
-    band = [energy_band(command.frequency, own) for own in command.above.T]
+    command = compute_motion_spectrum(piece.commanded, piece.step)
+    size = np.sqrt(command.power_above_noise.sum(axis=0))
+    band = [compute_energy_band(command.frequency, power) for power in command.power_above_noise.T]
     return np.where(size > REST * size.max(), band, np.nan)
 
 
-def _end(frequency: np.ndarray, above: np.ndarray) -> int:
+def _find_motion_end(frequency: np.ndarray, above: np.ndarray) -> int:
     """Index of the first frequency that is not motion.
 
     Motion fades with frequency, noise and shaking grow before they fade: the position's energy per
@@ -438,24 +449,24 @@ def _end(frequency: np.ndarray, above: np.ndarray) -> int:
         return len(frequency)
     octaves = np.log2(frequency[-1] / frequency[1])
     grid = frequency[1] * 2.0 ** np.arange(0.0, octaves, 1.0 / _STEPS)
-    energy = _per_octave(frequency, above, grid)
+    energy = _integrate_octaves(frequency, above, grid)
     start = int(np.argmax(energy))
-    while (valley := _valley(energy[start:])) is not None:
+    while (valley := _find_valley(energy[start:])) is not None:
         first, last = (start + place for place in valley)
         bottom = grid[first + int(np.argmin(energy[first : last + 1]))]
         parted = int(np.searchsorted(frequency, bottom))
-        if _small(above, parted):
+        if _is_small(above, parted):
             return parted
         start = last
     return len(frequency)
 
 
-def _small(power: np.ndarray, place: int) -> bool:
+def _is_small(power: np.ndarray, place: int) -> bool:
     """True if what stands from there on in power (n,) is none of the motion before."""
     return bool(power[place:].sum() < TREMBLING**2 * power[:place].sum())
 
 
-def _per_octave(frequency: np.ndarray, energy: np.ndarray, grid: np.ndarray) -> np.ndarray:
+def _integrate_octaves(frequency: np.ndarray, energy: np.ndarray, grid: np.ndarray) -> np.ndarray:
     """(m,) energy within half an octave of each frequency of the grid (m,), Hz."""
     total = np.concatenate([[0.0], np.cumsum(energy)])
     low = np.searchsorted(frequency, grid / np.sqrt(2.0))
@@ -463,7 +474,7 @@ def _per_octave(frequency: np.ndarray, energy: np.ndarray, grid: np.ndarray) -> 
     return np.asarray(total[high] - total[low])
 
 
-def _valley(energy: np.ndarray) -> tuple[int, int] | None:
+def _find_valley(energy: np.ndarray) -> tuple[int, int] | None:
     """First and last place of the first valley of energies (m,) per octave; None without one.
 
     It is an octave wide or more, and lower than what stands on either side by `VALLEY`.
@@ -513,16 +524,18 @@ class Ringing:
     frequency: float
     share: float
 
-    def sentence(self, name: str) -> str:
+    def describe(self, name: str) -> str:
         """For the report."""
         return (
-            f"joint {name} rings at {self.frequency:.3g} Hz, with {percent(self.share)} of "
+            f"joint {name} rings at {self.frequency:.3g} Hz, with {format_percent(self.share)} of "
             "its velocity's energy, far above its motion; the cut-offs are chosen without it, and "
             "friction looks smoother than it is: look at the controller's gains"
         )
 
 
-def ringing(frequency: np.ndarray, energy: np.ndarray, joint: int) -> tuple[Ringing | None, int]:
+def find_ringing(
+    frequency: np.ndarray, energy: np.ndarray, joint: int
+) -> tuple[Ringing | None, int]:
     """What rings, and the index of the first frequency that does; all of them if nothing does.
 
     Ringing is energy above `RINGS_ABOVE` Hz that an empty gap of two octaves parts from motion.

@@ -10,19 +10,19 @@ import numpy as np
 
 from modeler.core.errors import DataError
 from modeler.core.manifest import JointSpec
-from modeler.core.result import Presented
+from modeler.core.result import Result
 from modeler.numerics.filters import LEAST_WEIGHT
-from modeler.observation.chunk import whole_log
+from modeler.observation.chunk import wrap_log
 from modeler.observation.log import Log
 from modeler.observation.low_speed import (
     PERIODS,
-    at_rest,
-    floors_of,
-    moving,
-    shafts,
-    signals_of,
-    wide_floors,
-    with_every_joint,
+    clear_resting_speeds,
+    compute_signals,
+    compute_speed_floors,
+    compute_wide_floors,
+    find_all_shafts,
+    find_moving_samples,
+    find_shafts,
 )
 from modeler.observation.motion import (
     BRIDGES,
@@ -34,10 +34,10 @@ from modeler.observation.motion import (
     SATURATED,
     Segment,
 )
-from modeler.observation.prepare import Prepared, without_open
+from modeler.observation.prepare import PreparedLogs, close_segments
 from modeler.observation.report import DataReport
-from modeler.observation.stretch import Stretch, stretch
-from modeler.observation.tally import joint_reports, log_report, tally
+from modeler.observation.stretch import FilteredSegment, filter_segment
+from modeler.observation.tally import build_joint_reports, build_log_report, count_rows
 from modeler.runtime import CompiledModel, NonzeroPattern, Triangles
 
 COMPLETE = 0.95
@@ -47,7 +47,7 @@ COMPLETE = 0.95
 
 
 @dataclass(frozen=True, eq=False)
-class Observation(Presented):
+class Observation(Result):
     """Filtered, decimated data of all logs: s samples, n joints, c base parameters.
 
     Attributes:
@@ -81,7 +81,7 @@ class Observation(Presented):
     qdd: np.ndarray
     torque: np.ndarray
     used: np.ndarray
-    stretches: tuple[Stretch, ...]
+    stretches: tuple[FilteredSegment, ...]
     regressor: Callable[[Segment, slice], np.ndarray]
     report: DataReport
     steady: np.ndarray | None = None
@@ -89,7 +89,7 @@ class Observation(Presented):
     @cached_property
     def columns(self) -> np.ndarray:
         """(s, n, c) filtered regressor: torque = columns beta + residual."""
-        return self.filtered(self.regressor)
+        return self.filter_columns(self.regressor)
 
     @cached_property
     def W(self) -> np.ndarray:
@@ -131,51 +131,51 @@ class Observation(Presented):
         A row at the edge of a masked reversal is the mean of few samples, and what the filter makes
         of the sign of a speed there looks like physics.
         """
-        shares = [part.rows.share(part.usable) for part in self.stretches]
+        shares = [part.rows.compute_usable_share(part.usable) for part in self.stretches]
         return self.used & (np.concatenate(shares) >= COMPLETE)
 
-    def with_rows(self, used: np.ndarray) -> "Observation":
+    def select_rows(self, used: np.ndarray) -> "Observation":
         """The same with other rows (s, n) that count."""
         ends = np.cumsum([len(part.used) for part in self.stretches])[:-1]
         pairs = zip(self.stretches, np.split(used, ends), strict=True)
-        parts = tuple(dataclasses.replace(part, used=own) for part, own in pairs)
+        parts = tuple(dataclasses.replace(part, used=part_used) for part, part_used in pairs)
         return dataclasses.replace(self, used=used, stretches=parts)
 
-    def predicted(self, beta: np.ndarray) -> np.ndarray:
+    def predict(self, beta: np.ndarray) -> np.ndarray:
         """(s, n) torque of the model, filtered like the measurement: columns beta."""
         return self.columns @ beta
 
-    def filtered(self, evaluate: Callable[[Segment, slice], np.ndarray]) -> np.ndarray:
+    def filter_columns(self, evaluate: Callable[[Segment, slice], np.ndarray]) -> np.ndarray:
         """Further columns (s, n, ...) through the same filter, row for row beside `columns`.
 
         Args:
             evaluate: (b, n, ...) for the b samples of a segment in a window.
         """
         return np.concatenate(
-            [part.filtered(partial(evaluate, part.segment)) for part in self.stretches]
+            [part.filter_columns(partial(evaluate, part.segment)) for part in self.stretches]
         )
 
 
 # A compiled model over the segments of an observation: its regressor, and what needs none.
 
 
-class Evaluated:
+class ModelRegressor:
     """The base regressor over the samples of a segment, with what its effects read."""
 
-    def __init__(self, model: CompiledModel, stretches: Sequence[Stretch]) -> None:
+    def __init__(self, model: CompiledModel, stretches: Sequence[FilteredSegment]) -> None:
         self._model = model
-        self._signals = {part.segment: signals_of(model, part.segment) for part in stretches}
+        self._signals = {part.segment: compute_signals(model, part.segment) for part in stretches}
 
     def __call__(self, s: Segment, w: slice | np.ndarray) -> np.ndarray:
         """(b, n, c) for the b samples of a window, or of indices."""
-        return self._model.base_regressor(s.q[w], s.qd[w], s.qdd[w], self._read(s, w))
+        return self._model.base_regressor(s.q[w], s.qd[w], s.qdd[w], self._read_signals(s, w))
 
     @property
     def pattern(self) -> NonzeroPattern:
         """Which columns can enter the torque of each joint."""
         return self._model.pattern
 
-    def torque(
+    def compute_torque(
         self, s: Segment, w: slice | np.ndarray, beta: np.ndarray, turn: np.ndarray | None = None
     ) -> np.ndarray:
         """(b, n) torque of the model, by the inverse dynamics; w may be indices.
@@ -184,27 +184,29 @@ class Evaluated:
         """
         motion = s.q[w], s.qd[w], s.qdd[w]
         q, qd, qdd = motion if turn is None else (x @ turn for x in motion)
-        return self._model.inverse_dynamics(q, qd, qdd, beta, self._read(s, w))
+        return self._model.inverse_dynamics(q, qd, qdd, beta, self._read_signals(s, w))
 
-    def triangles(self, part: Stretch, use: np.ndarray, state: Triangles | None) -> Triangles:
+    def compute_triangles(
+        self, part: FilteredSegment, use: np.ndarray, state: Triangles | None
+    ) -> Triangles:
         """Triangles of the rows of a stretch whose rows are samples; use (rows, n) bool."""
         some = np.flatnonzero(use.any(axis=1))
         s, w = part.segment, part.rows.centres[some]
-        found = self._model.triangles(
-            s.q[w], s.qd[w], s.qdd[w], s.tau[w], use[some], self._read(s, w), state=state
+        part_triangles = self._model.triangles(
+            s.q[w], s.qd[w], s.qdd[w], s.tau[w], use[some], self._read_signals(s, w), state=state
         )
-        if found.left_out.any():  # the regressor says of which sample, and why
-            bad = part.rows.centres[some][found.left_out]
-            self._model.base_regressor(s.q[bad], s.qd[bad], s.qdd[bad], self._read(s, bad))
-        return found
+        if part_triangles.left_out.any():  # the regressor says of which sample, and why
+            bad = part.rows.centres[some][part_triangles.left_out]
+            self._model.base_regressor(s.q[bad], s.qd[bad], s.qdd[bad], self._read_signals(s, bad))
+        return part_triangles
 
-    def _read(self, s: Segment, w: slice | np.ndarray) -> np.ndarray | None:
+    def _read_signals(self, s: Segment, w: slice | np.ndarray) -> np.ndarray | None:
         read = self._signals[s]
         return None if read is None else read[w]
 
 
-def observed(
-    model: CompiledModel, logs: Sequence[Log], prepared: Prepared, every_joint: bool = False
+def build_observation(
+    model: CompiledModel, logs: Sequence[Log], prepared: PreparedLogs, every_joint: bool = False
 ) -> Observation:
     """The observation of logs that are prepared already, for this or a like robot.
 
@@ -212,22 +214,24 @@ def observed(
         DataError: no usable row.
         LoopError: hardly a sample closes the loops.
     """
-    segments, open_times = without_open(model, logs, prepared.segments)
-    parts = with_every_joint(model) if every_joint else shafts(model)
+    segments, open_times = close_segments(model, logs, prepared.segments)
+    parts = find_all_shafts(model) if every_joint else find_shafts(model)
     seen = prepared.processing, parts, segments
-    floors = floors_of(*seen, prepared.noise)
+    floors = compute_speed_floors(*seen, prepared.noise)
     chosen = dataclasses.replace(prepared.processing, speed_floors=floors)
     still = [name for name, floor in floors.items() if floor == float("inf")]
-    segments = at_rest(segments, parts, still)
-    stretches = tuple(stretch(segment, parts, chosen) for segment in segments)
+    segments = clear_resting_speeds(segments, parts, still)
+    stretches = tuple(filter_segment(segment, parts, chosen) for segment in segments)
     tallies, reports = [], []
     for run, (log, times, of) in enumerate(zip(logs, open_times, prepared.logs, strict=True)):
-        own = [part for part in stretches if part.segment.run == run]
-        whole = tally(whole_log(log), of.pieces, of.cuts, own, of.check)
+        log_stretches = [part for part in stretches if part.segment.run == run]
+        whole = count_rows(wrap_log(log), of.pieces, of.cuts, log_stretches, of.check)
         wrong = of.check.contradictions if of.check else ()
-        decimation = max((part.decimation for part in own), default=1)
+        decimation = max((part.decimation for part in log_stretches), default=1)
         tallies.append(whole)
-        reports.append(log_report(log, model.spec, of, whole, of.defects, wrong, decimation, times))
+        reports.append(
+            build_log_report(log, model.spec, of, whole, of.defects, wrong, decimation, times)
+        )
     report = DataReport(
         processing=chosen,
         choices=prepared.choices,
@@ -235,58 +239,61 @@ def observed(
         band=prepared.band,
         lowered=prepared.lowered,
         logs=tuple(reports),
-        joints=joint_reports(model.spec.joints, parts, floors, tallies),
+        joints=build_joint_reports(model.spec.joints, parts, floors, tallies),
     )
     if parts and all(floor == float("inf") for floor in floors.values()):
         names = ", ".join(log.name for log in logs)
         raise DataError(f"{names}: no joint moves; expected a motion; move every joint")
     if not any(part.used.any() for part in stretches):
-        raise no_row_left(report)
-    rows = stacked(model, [log.name for log in logs], stretches, report)
+        raise build_no_row_error(report)
+    rows = assemble_observation(model, [log.name for log in logs], stretches, report)
     if every_joint or not parts:
         return rows
-    wide, far = wide_floors(*seen, prepared.noise), []
+    wide, far = compute_wide_floors(*seen, prepared.noise), []
     margin = PERIODS / chosen.position_cutoff if chosen.position_cutoff else 0.0
     for part in stretches:
-        usable = part.segment.valid & moving(part.segment, parts, wide, margin)
-        far.append(part.used & (part.rows.share(usable) >= LEAST_WEIGHT))
+        usable = part.segment.valid & find_moving_samples(part.segment, parts, wide, margin)
+        far.append(part.used & (part.rows.compute_usable_share(usable) >= LEAST_WEIGHT))
     return dataclasses.replace(rows, steady=np.concatenate(far))
 
 
-def no_row_left(report: DataReport) -> DataError:
+def build_no_row_error(report: DataReport) -> DataError:
     """What is told of logs without a usable row."""
     notes = [f"{log.name}: {note}" for log in report.logs for note in log.notes]
     return DataError(
         f"{', '.join(log.name for log in report.logs)}: no usable row is left: "
-        + "; ".join([*(joint.line() for joint in report.joints), *notes])
+        + "; ".join([*(joint.format_line() for joint in report.joints), *notes])
         + "; check these columns, or record longer and faster motion of every joint"
     )
 
 
-def observed_alike(model: CompiledModel, like: Observation) -> Observation:
+def rebuild_observation(model: CompiledModel, like: Observation) -> Observation:
     """What a robot makes of logs that another one has seen, which masks the same samples."""
-    return dataclasses.replace(like, **_columns_of(model, like.stretches))
+    return dataclasses.replace(like, **_describe_columns(model, like.stretches))
 
 
-def _columns_of(model: CompiledModel, stretches: Sequence[Stretch]) -> dict[str, Any]:
+def _describe_columns(model: CompiledModel, stretches: Sequence[FilteredSegment]) -> dict[str, Any]:
     """What an observation has of its robot."""
     return {
         "robot": model.spec.robot,
         "joints": model.spec.joints,
         "names": tuple(base.name for base in model.spec.base),
         "units": tuple(base.unit for base in model.spec.base),
-        "regressor": Evaluated(model, stretches),
+        "regressor": ModelRegressor(model, stretches),
     }
 
 
-def stacked(
-    model: CompiledModel, logs: Sequence[str], stretches: tuple[Stretch, ...], report: DataReport
+def assemble_observation(
+    model: CompiledModel,
+    logs: Sequence[str],
+    stretches: tuple[FilteredSegment, ...],
+    report: DataReport,
 ) -> Observation:
     """The rows of some stretches of logs of these names, with what is told of them."""
-    motion = np.concatenate([_motion(part) for part in stretches])
+    motion = np.concatenate([_filter_motion(part) for part in stretches])
     counts = [len(part.rows.centres) for part in stretches]
     return Observation(
-        **_columns_of(model, stretches),
+        **_describe_columns(model, stretches),
         logs=tuple(logs),
         run=np.repeat([part.segment.run for part in stretches], counts),
         segment=np.repeat(np.arange(len(stretches)), counts),
@@ -294,20 +301,20 @@ def stacked(
         q=motion[:, 0],
         qd=motion[:, 1],
         qdd=motion[:, 2],
-        torque=np.concatenate([part.torque() for part in stretches]),
+        torque=np.concatenate([part.filter_torque() for part in stretches]),
         used=np.concatenate([part.used for part in stretches]),
         stretches=stretches,
         report=report,
     )
 
 
-def _motion(part: Stretch) -> np.ndarray:
+def _filter_motion(part: FilteredSegment) -> np.ndarray:
     """(rows, 3, joints) q, qd, qdd over all whole samples."""
     s = part.segment
     return np.concatenate(
         [
-            rows.means(np.stack([s.q[w], s.qd[w], s.qdd[w]], axis=1), s.whole[w])
-            for rows, w, _ in part.parts()
+            rows.average_samples(np.stack([s.q[w], s.qd[w], s.qdd[w]], axis=1), s.whole[w])
+            for rows, w, _ in part.iterate_parts()
         ]
     )
 
@@ -333,25 +340,25 @@ _OF = {
 }  # fmt: skip
 
 
-def masks_of(observation: Observation) -> np.ndarray:
+def classify_rows(observation: Observation) -> np.ndarray:
     """(s, n) place in MASKS of what most weight of a row falls on; -1 where the row counts.
 
     Args:
         observation: of logs.
     """
     of = np.array([MASKS.index(_OF[name]) for name in CAUSES] + [0])  # the last: low speed
-    found = []
+    masks = []
     for part in observation.stretches:
         flags = np.where(part.usable, -1, of[part.segment.cause])
-        shares = np.stack([part.rows.share(flags == k) for k in range(len(MASKS))])
-        found.append(np.where(part.used, -1, np.argmax(shares, axis=0)).astype(np.int8))
-    return np.concatenate(found)
+        shares = np.stack([part.rows.compute_usable_share(flags == k) for k in range(len(MASKS))])
+        masks.append(np.where(part.used, -1, np.argmax(shares, axis=0)).astype(np.int8))
+    return np.concatenate(masks)
 
 
 # The torque of a model over the samples of an observation, through the filter of its rows.
 
 
-def model_torque(
+def compute_model_torque(
     observation: Observation, model: CompiledModel, beta: np.ndarray, turn: np.ndarray | None = None
 ) -> np.ndarray:
     """(s, n) `observation.predicted(beta)` without its columns, by the inverse dynamics.
@@ -362,5 +369,5 @@ def model_torque(
         beta: (c,) base parameters of the model.
         turn: (n, n) if given, the motion is q turn instead of q.
     """
-    torque = Evaluated(model, observation.stretches).torque
-    return observation.filtered(partial(torque, beta=beta, turn=turn))
+    torque = ModelRegressor(model, observation.stretches).compute_torque
+    return observation.filter_columns(partial(torque, beta=beta, turn=turn))

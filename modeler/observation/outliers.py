@@ -9,33 +9,40 @@ import numpy as np
 from scipy.ndimage import maximum_filter
 
 from modeler.core.manifest import ModuleSpec
-from modeler.core.table import percent
-from modeler.logs import repeats_line
+from modeler.core.table import format_percent
+from modeler.logs import describe_repeats
 from modeler.numerics.held import (
     RESTS,
     Clip,
-    clips_of,
-    frozen_runs,
-    interpolated,
-    longest_usual,
-    repeated_rows,
-    rows_held,
+    estimate_hold_length,
+    find_clips,
+    find_frozen_runs,
+    find_longest_usual_run,
+    find_repeated_rows,
+    interpolate_held_channel,
 )
 from modeler.numerics.noise import (
     LEAST,
     NEAR,
     STEPS,
-    floor_here,
-    lattice_step,
-    lone,
-    nearby,
-    running_median,
-    threshold,
+    compute_local_threshold,
+    compute_nearby_level,
+    compute_outlier_threshold,
+    compute_running_median,
+    estimate_lattice_step,
+    find_isolated_outliers,
 )
 from modeler.observation.log import Log
-from modeler.observation.read import cut
-from modeler.observation.segments import runs
-from modeler.observation.spikes import Defect, Kind, Usual, glitches, unexplained, usual_of
+from modeler.observation.read import cut_rows
+from modeler.observation.segments import find_runs
+from modeler.observation.spikes import (
+    Defect,
+    Kind,
+    TorqueScales,
+    compute_torque_scales,
+    find_spikes,
+    select_unexplained,
+)
 
 # Positions that leap from one sample to the next, as no joint can: wraps, spikes, new zeros.
 
@@ -62,7 +69,7 @@ RARE = 2e-2
 
 
 @dataclass(frozen=True, eq=False)
-class LeapWalk:
+class EncoderJumpScan:
     """Steps of positions (n, J) with uniform time but for jitter, from each sample to the next.
 
     Attributes:
@@ -80,10 +87,10 @@ class LeapWalk:
     fastest: np.ndarray
 
 
-def walked(
+def scan_jumps(
     time: np.ndarray, q: np.ndarray, revolute: np.ndarray, resolution: np.ndarray,
     logged: np.ndarray,
-) -> LeapWalk:  # fmt: skip
+) -> EncoderJumpScan:  # fmt: skip
     """The steps of one stretch without gaps.
 
     Args:
@@ -97,23 +104,23 @@ def walked(
     usual = float(np.median(dt))
     turns, speed, excess = np.zeros_like(steps), np.zeros_like(steps), np.zeros_like(steps)
     for j in range(q.shape[1]):
-        speed[:, j] = running_median(steps[:, j] / dt)
-        excess[:, j] = _excess(steps[:, j], speed[:, j], dt, usual)
+        speed[:, j] = compute_running_median(steps[:, j] / dt)
+        excess[:, j] = _compute_excess(steps[:, j], speed[:, j], dt, usual)
         if revolute[j]:
-            turns[:, j] = _whole_turns(excess[:, j], resolution[j])
+            turns[:, j] = _find_whole_turns(excess[:, j], resolution[j])
             if turns[:, j].any():
                 whole = steps[:, j] - _TURN * turns[:, j]
-                speed[:, j] = running_median(whole / dt)
-                excess[:, j] = _excess(whole, speed[:, j], dt, usual)
+                speed[:, j] = compute_running_median(whole / dt)
+                excess[:, j] = _compute_excess(whole, speed[:, j], dt, usual)
     excess[dt > _LATE * usual] = 0.0
-    found = np.fmax(np.abs(steps - _TURN * turns) / dt[:, None], np.abs(logged[1:]))
+    speeds = np.fmax(np.abs(steps - _TURN * turns) / dt[:, None], np.abs(logged[1:]))
     beside = np.ones((2 * _AROUND + 1, 1), dtype=bool)
     beside[_AROUND] = False
-    fastest = maximum_filter(found, footprint=beside, mode="nearest")
-    return LeapWalk(q, turns, speed, excess, fastest)
+    fastest = maximum_filter(speeds, footprint=beside, mode="nearest")
+    return EncoderJumpScan(q, turns, speed, excess, fastest)
 
 
-def floors(walks: Sequence[LeapWalk], resolution: np.ndarray) -> np.ndarray:
+def compute_jump_floors(walks: Sequence[EncoderJumpScan], resolution: np.ndarray) -> np.ndarray:
     """(J,) rad or m that a step must have too much to be a leap, over all stretches of a log.
 
     What is lone, and more than the step that the joint makes at its top speed: a smaller leap is
@@ -124,19 +131,27 @@ def floors(walks: Sequence[LeapWalk], resolution: np.ndarray) -> np.ndarray:
     excess = np.concatenate([walk.excess for walk in walks])
     steps = np.concatenate([np.diff(walk.q, axis=0) - _TURN * walk.turns for walk in walks])
     top = np.quantile(np.abs(steps), _TOP, axis=0)
-    lonely = [threshold(own, one, RARE) for own, one in zip(excess.T, resolution, strict=True)]
+    lonely = [
+        compute_outlier_threshold(joint_excess, one, RARE)
+        for joint_excess, one in zip(excess.T, resolution, strict=True)
+    ]
     return np.maximum(lonely, top)
 
 
-def floors_here(walks: Sequence[LeapWalk], known: np.ndarray) -> np.ndarray:
-    """(J,) `floors` of a whole log for a part of it, higher where the part is rougher."""
+def compute_local_floors(walks: Sequence[EncoderJumpScan], known: np.ndarray) -> np.ndarray:
+    """(J,) `compute_jump_floors` of a whole log for a part of it.
+
+    Higher where the part is " "rougher.
+    """
     return np.array([
-        floor_here([walk.excess[:, j] for walk in walks], floor, RARE)
+        compute_local_threshold([walk.excess[:, j] for walk in walks], floor, RARE)
         for j, floor in enumerate(known)
     ])  # fmt: skip
 
 
-def _excess(step: np.ndarray, speed: np.ndarray, dt: np.ndarray, usual: float) -> np.ndarray:
+def _compute_excess(
+    step: np.ndarray, speed: np.ndarray, dt: np.ndarray, usual: float
+) -> np.ndarray:
     """What a step has beyond speed x time; a stamp that came late or early excuses it.
 
     The rows may have been sampled evenly and stamped unevenly, or the other way round.
@@ -146,19 +161,21 @@ def _excess(step: np.ndarray, speed: np.ndarray, dt: np.ndarray, usual: float) -
     return np.asarray(step - np.minimum(np.maximum(step, low), high))
 
 
-def _whole_turns(excess: np.ndarray, resolution: float) -> np.ndarray:
+def _find_whole_turns(excess: np.ndarray, resolution: float) -> np.ndarray:
     """(n,) whole turns of each step, where they leave no more than its neighbours have."""
     turns = np.round(excess / _TURN)
     places = np.flatnonzero(turns)
     left = np.abs(excess - _TURN * turns)
     for k in places:
-        tolerated = max(NEAR * nearby(left, int(k)), STEPS * resolution, _TURNED * _TURN)
+        tolerated = max(
+            NEAR * compute_nearby_level(left, int(k)), STEPS * resolution, _TURNED * _TURN
+        )
         if left[k] > min(tolerated, 0.25 * _TURN):
             turns[k] = 0.0
     return np.asarray(turns)
 
 
-def leaps_of(walk: LeapWalk, time: np.ndarray, j: int, floor: float) -> list[Defect]:
+def find_jumps(walk: EncoderJumpScan, time: np.ndarray, j: int, floor: float) -> list[Defect]:
     """The leaps of joint j, increasing in time.
 
     Args:
@@ -171,19 +188,22 @@ def leaps_of(walk: LeapWalk, time: np.ndarray, j: int, floor: float) -> list[Def
         Defect("wrap", int(k) + 1, int(k) + 1, float(_TURN * walk.turns[k, j]))
         for k in np.flatnonzero(walk.turns[:, j])
     ]
-    rest, places = [], _sudden(walk.excess[:, j], lone(walk.excess[:, j], floor))
+    rest, places = (
+        [],
+        _select_sudden(walk.excess[:, j], find_isolated_outliers(walk.excess[:, j], floor)),
+    )
     while places:
         k = places.pop(0)
-        held = _frozen_until(walk, time, j, k)
+        held = _count_frozen(walk, time, j, k)
         if held:
             rest.append(Defect("frozen", k + 1 - held, k + 1, float(walk.excess[k, j])))
             continue
-        there = _spike_leap(walk, j, k, places)
+        there = _find_spike(walk, j, k, places)
         if there is not None:
             places = [later for later in places if later > there.stop - 1]
             rest.append(there)
             continue
-        kind: Kind = "lost" if _loses_rows(walk, k) else "zero"
+        kind: Kind = "lost" if _is_row_loss(walk, k) else "zero"
         first, last = max(0, k - _SIDES), min(len(time) - 1, k + 1 + _SIDES)
         way = walk.q[last, j] - walk.q[first, j] - _TURN * walk.turns[first:last, j].sum()
         if abs(way) > walk.fastest[k, j] * (time[last] - time[first]):
@@ -191,21 +211,23 @@ def leaps_of(walk: LeapWalk, time: np.ndarray, j: int, floor: float) -> list[Def
     return sorted(wraps + rest, key=lambda leap: leap.start)
 
 
-def _sudden(excess: np.ndarray, places: np.ndarray) -> list[int]:
+def _select_sudden(excess: np.ndarray, places: np.ndarray) -> list[int]:
     """The places whose neighbours, if they are no leaps themselves, go on as ever.
 
     Mass has to be moved: a motion that is fast for its sampling leaps too, and runs out beside it.
     """
-    found = []
+    sudden = []
     for k in map(int, places):
         beside = [abs(excess[i]) for i in (k - 1, k + 1) if i not in places]
-        tolerated = max(_RUNS_OUT * abs(excess[k]), NEAR * nearby(np.abs(excess), k) / 2.0)
+        tolerated = max(
+            _RUNS_OUT * abs(excess[k]), NEAR * compute_nearby_level(np.abs(excess), k) / 2.0
+        )
         if max(beside, default=0.0) < tolerated:
-            found.append(k)
-    return found
+            sudden.append(k)
+    return sudden
 
 
-def _frozen_until(walk: LeapWalk, time: np.ndarray, j: int, k: int) -> int:
+def _count_frozen(walk: EncoderJumpScan, time: np.ndarray, j: int, k: int) -> int:
     """Samples up to k that repeat the one before them, if the leap after k makes up for them."""
     q = walk.q[:, j]
     start = k
@@ -221,7 +243,7 @@ def _frozen_until(walk: LeapWalk, time: np.ndarray, j: int, k: int) -> int:
     return held if way != 0.0 and abs(leap - way) < _MADE_UP * abs(way) else 0
 
 
-def _spike_leap(walk: LeapWalk, j: int, k: int, later: list[int]) -> Defect | None:
+def _find_spike(walk: EncoderJumpScan, j: int, k: int, later: list[int]) -> Defect | None:
     """The samples after k that are elsewhere, if a leap leads back."""
     size = float(walk.excess[k, j])
     left, farthest = size, abs(size)
@@ -236,7 +258,7 @@ def _spike_leap(walk: LeapWalk, j: int, k: int, later: list[int]) -> Defect | No
     return None
 
 
-def _loses_rows(walk: LeapWalk, k: int) -> bool:
+def _is_row_loss(walk: EncoderJumpScan, k: int) -> bool:
     """True if one and the same lost time explains the leaps of all joints between two samples."""
     speed, excess = walk.speed[k], walk.excess[k]
     size = float(np.linalg.norm(excess))
@@ -301,7 +323,7 @@ class ChannelScales:
 
     steps: np.ndarray
     leaps: np.ndarray
-    torque: Usual | None
+    torque: TorqueScales | None
     floors: Mapping[str, np.ndarray | None]
     repeats: bool
     clips: tuple[tuple[Clip, ...], ...]
@@ -316,8 +338,11 @@ ALWAYS = ("wrap", "repeated")
 """Kinds that are mended without a fit: nothing is measured otherwise then."""
 
 
-def defects(
-    log: Log, spec: ModuleSpec, usual: ChannelScales | None = None, repairs: Repairs | None = None
+def repair_log(
+    log: Log,
+    spec: ModuleSpec,
+    channel_scales: ChannelScales | None = None,
+    repairs: Repairs | None = None,
 ) -> tuple[Log, Defects, ChannelScales]:
     """The log mended; what looks like a defect; and what is usual in the log.
 
@@ -329,153 +354,178 @@ def defects(
     Args:
         log: as it was read, or some consecutive rows of one.
         spec: the robot's manifest; it names the joints.
-        usual: in the whole log of which this is a part; None: it is all of it.
+        channel_scales: in the whole log of which this is a part; None: it is all of it.
         repairs: what is mended besides `ALWAYS`; None: all.
     """
 
-    def mended_by(name: str, found: Sequence[Sequence[Defect]]) -> list[list[Defect]]:
+    def mended_by(name: str, defects_by_joint: Sequence[Sequence[Defect]]) -> list[list[Defect]]:
         return [
-            [one for one in own
+            [one for one in channel
              if repairs is None or one.kind in ALWAYS or (name, j, one.kind) in repairs]
-            for j, own in enumerate(found)
+            for j, channel in enumerate(defects_by_joint)
         ]  # fmt: skip
 
-    again = _repeats(log, usual)
-    kept = np.flatnonzero(~again)
+    again = _find_repeats(log, channel_scales)
+    kept_rows = np.flatnonzero(~again)
     fresh = log
     if again.any():
-        steps = np.diff(log.time[kept])
+        steps = np.diff(log.time[kept_rows])
         longest = 1.5 * log.step + float(steps[steps <= RESTS * np.median(steps)].max())
         rate = float(np.quantile(steps, _WITHIN)), longest
-        fresh = dataclasses.replace(cut(log, kept), robot_steps=rate)
-    held = _held(fresh) if usual is None else usual.held
+        fresh = dataclasses.replace(cut_rows(log, kept_rows), robot_steps=rate)
+    held = _count_held_rows(fresh) if channel_scales is None else channel_scales.held
     quick = [rows == 1 for rows in held["q"]]
-    clips = usual.clips if usual is not None else tuple(
-        clips_of(own) if is_quick else () for own, is_quick in zip(fresh.q.T, quick, strict=True)
-    )  # fmt: skip
-    clipped = [_clipped(own, ends) for own, ends in zip(fresh.q.T, clips, strict=True)]
-    q = _without(fresh.q, mended_by("q", clipped))
-    leaps, parts, steps, least = _leaps(dataclasses.replace(fresh, q=q), spec, usual, quick)
-    stays = tuple(map(longest_usual, fresh.tau.T)) if usual is None else usual.stays
-    others, lonely, torque = _spikes(fresh, usual)
-    found = {"q": [sorted(both[0] + both[1], key=lambda one: one.start)
+    clips = (
+        channel_scales.clips
+        if channel_scales is not None
+        else tuple(
+            find_clips(channel) if is_quick else ()
+            for channel, is_quick in zip(fresh.q.T, quick, strict=True)
+        )
+    )
+    clipped = [_find_clipped(channel, ends) for channel, ends in zip(fresh.q.T, clips, strict=True)]
+    q = _remove_defects(fresh.q, mended_by("q", clipped))
+    leaps, parts, steps, least = _find_all_jumps(
+        dataclasses.replace(fresh, q=q), spec, channel_scales, quick
+    )
+    stays = (
+        tuple(map(find_longest_usual_run, fresh.tau.T))
+        if channel_scales is None
+        else channel_scales.stays
+    )
+    others, lonely, torque = _find_spikes(fresh, channel_scales)
+    defects_by_channel = {"q": [sorted(both[0] + both[1], key=lambda one: one.start)
                    for both in zip(clipped, leaps, strict=True)], **others}  # fmt: skip
-    for own, stuck in zip(found["tau"], _frozen(fresh, stays), strict=True):
-        own += stuck
+    for channel, stuck in zip(defects_by_channel["tau"], _find_frozen(fresh, stays), strict=True):
+        channel += stuck
     segment, values = fresh.piece_number, dict[str, np.ndarray]()
-    for name, by_joint in found.items():
+    for name, by_joint in defects_by_channel.items():
         for j, rows in enumerate(held[name]):
             if rows > 1:
                 size, time = float(rows), float(fresh.time[0])
                 by_joint[j] = [one for one in by_joint[j] if one.kind == "wrap"]
                 by_joint[j].append(Defect("held", 0, 0, size, time))
         ours = mended_by(name, by_joint)
-        values[name] = _without(q if name == "q" else getattr(fresh, name), ours)
-        for j, own in enumerate(ours):
-            if name == "q" and own:
-                _join(values[name][:, j], own, parts)
-            if any(one.kind == "held" for one in own):
+        values[name] = _remove_defects(q if name == "q" else getattr(fresh, name), ours)
+        for j, channel in enumerate(ours):
+            if name == "q" and channel:
+                _join_positions(values[name][:, j], channel, parts)
+            if any(one.kind == "held" for one in channel):
                 column = values[name][:, j]
-                column[:] = interpolated(fresh.time, column, held[name][j], smooth=name == "q")
-        lost = [one.start for own in ours for one in own if one.kind == "lost"]
+                column[:] = interpolate_held_channel(
+                    fresh.time, column, held[name][j], smooth=name == "q"
+                )
+        lost = [one.start for channel in ours for one in channel if one.kind == "lost"]
         segment = segment + (np.arange(fresh.rows)[:, None] >= np.array(lost, int)).sum(axis=1)
     new = segment if (segment != fresh.piece_number).any() else fresh.segment
     mended = dataclasses.replace(
         fresh, segment=new, q=values["q"], tau=values["tau"], qd=values.get("qd"),
         qdd=values.get("qdd"),
     )  # fmt: skip
-    found = {
-        name: [[_at(one, kept, log) for one in own] for own in by_joint]
-        for name, by_joint in found.items()
+    defects_by_channel = {
+        name: [[_locate_defect(one, kept_rows, log) for one in channel] for channel in by_joint]
+        for name, by_joint in defects_by_channel.items()
     }
     if again.any():
-        every = [Defect("repeated", *run, 0.0, float(log.time[run[0]])) for run in runs(again)]
-        found["rows"] = [every]
+        every = [Defect("repeated", *run, 0.0, float(log.time[run[0]])) for run in find_runs(again)]
+        defects_by_channel["rows"] = [every]
     scales = ChannelScales(steps, least, torque, lonely, bool(again.any()), clips, stays, held)
-    return mended, found, usual or scales
+    return mended, defects_by_channel, channel_scales or scales
 
 
-def _held(log: Log) -> dict[str, tuple[int, ...]]:
+def _count_held_rows(log: Log) -> dict[str, tuple[int, ...]]:
     """(J,) rows for which the values of each channel are held; 1: they are not."""
     channels = {"q": log.q, "tau": log.tau, "qd": log.qd, "qdd": log.qdd}
-    return {name: tuple(map(rows_held, x.T)) for name, x in channels.items() if x is not None}
+    return {
+        name: tuple(map(estimate_hold_length, x.T)) for name, x in channels.items() if x is not None
+    }
 
 
-def _repeats(log: Log, usual: ChannelScales | None) -> np.ndarray:
+def _find_repeats(log: Log, channel_scales: ChannelScales | None) -> np.ndarray:
     """(n,) True at rows that a recorder wrote again."""
-    if usual is not None and not usual.repeats:
+    if channel_scales is not None and not channel_scales.repeats:
         return np.zeros(log.rows, dtype=bool)
     others = [values for values in (log.tau, log.qd, log.qdd) if values is not None]
-    return repeated_rows(log.q, np.column_stack(others), always=usual is not None)
+    return find_repeated_rows(log.q, np.column_stack(others), always=channel_scales is not None)
 
 
-def _clipped(values: np.ndarray, ends: Sequence[Clip]) -> list[Defect]:
+def _find_clipped(values: np.ndarray, ends: Sequence[Clip]) -> list[Defect]:
     """Stays at the ends of the range at which a position is cut off; none where it goes beyond."""
-    found = []
+    clipped = []
     for end in ends:
         beyond = values > end.value if end.upper else values < end.value
         if not beyond.any():
-            found += [Defect("clipped", *run, end.value) for run in runs(values == end.value)]
-    return sorted(found, key=lambda one: one.start)
+            clipped += [
+                Defect("clipped", *run, end.value) for run in find_runs(values == end.value)
+            ]
+    return sorted(clipped, key=lambda one: one.start)
 
 
-def _frozen(log: Log, held: Sequence[int]) -> list[list[Defect]]:
+def _find_frozen(log: Log, held: Sequence[int]) -> list[list[Defect]]:
     """Torques that repeat a value while their joint moves, by joint."""
-    found: list[list[Defect]] = []
+    frozen: list[list[Defect]] = []
     for j, (tau, q) in enumerate(zip(log.tau.T, log.q.T, strict=True)):
         rows = np.flatnonzero(np.isfinite(tau) & np.isfinite(q))
-        stuck = frozen_runs(tau[rows], q[rows], held[j]) if rows.size else []
+        stuck = find_frozen_runs(tau[rows], q[rows], held[j]) if rows.size else []
         every = [Defect("frozen", *run, 0.0) for run in stuck]
-        found.append([_at(one, rows, log) for one in every])
-    return found
+        frozen.append([_locate_defect(one, rows, log) for one in every])
+    return frozen
 
 
-def _leaps(
-    log: Log, spec: ModuleSpec, usual: ChannelScales | None, quick: Sequence[bool]
+def _find_all_jumps(
+    log: Log, spec: ModuleSpec, channel_scales: ChannelScales | None, quick: Sequence[bool]
 ) -> tuple[list[list[Defect]], list[np.ndarray], np.ndarray, np.ndarray]:
     """Leaps of positions by joint, and stretches that they were sought in; steps and floors."""
     positions: list[list[Defect]] = [[] for _ in spec.joints]
     revolute = np.array([joint.kind == "revolute" for joint in spec.joints])
-    steps = np.array([lattice_step(own) for own in log.q.T]) if usual is None else usual.steps
+    steps = (
+        np.array([estimate_lattice_step(column) for column in log.q.T])
+        if channel_scales is None
+        else channel_scales.steps
+    )
     there = np.isfinite(log.q).all(axis=1)
-    stretches = [rows for rows in _stretches(log, there) if len(rows) > LEAST]
+    stretches = [rows for rows in _iterate_stretches(log, there) if len(rows) > LEAST]
     logged = np.zeros_like(log.q) if log.qd is None else log.qd
-    walks = [walked(log.time[k], log.q[k], revolute, steps, logged[k]) for k in stretches]
-    least = floors(walks, steps) if usual is None else floors_here(walks, usual.leaps)
+    walks = [scan_jumps(log.time[k], log.q[k], revolute, steps, logged[k]) for k in stretches]
+    least = (
+        compute_jump_floors(walks, steps)
+        if channel_scales is None
+        else compute_local_floors(walks, channel_scales.leaps)
+    )
     for rows, walk in zip(stretches, walks, strict=True):
         for j in range(len(spec.joints)):
-            found = leaps_of(walk, log.time[rows], j, least[j])
+            jumps = find_jumps(walk, log.time[rows], j, least[j])
             if not quick[j]:
-                found = [leap for leap in found if leap.kind == "wrap"]
+                jumps = [leap for leap in jumps if leap.kind == "wrap"]
             if log.robot_steps is not None:  # rows of such a log come when they come
-                found = [leap for leap in found if leap.kind != "lost"]
-            positions[j] += [_at(leap, rows, log) for leap in found]
+                jumps = [leap for leap in jumps if leap.kind != "lost"]
+            positions[j] += [_locate_defect(leap, rows, log) for leap in jumps]
     return positions, stretches, steps, least
 
 
-def _stretches(log: Log, there: np.ndarray) -> Iterator[np.ndarray]:
+def _iterate_stretches(log: Log, there: np.ndarray) -> Iterator[np.ndarray]:
     """Rows (k,) of each stretch without a gap among those that are there (n,)."""
     rows = np.flatnonzero(there)
     cut = (np.diff(log.time[rows]) > log.gap) | (np.diff(log.piece_number[rows]) != 0)
     yield from np.split(rows, np.flatnonzero(cut) + 1)
 
 
-def _at(found: Defect, rows: np.ndarray, log: Log) -> Defect:
+def _locate_defect(defect: Defect, rows: np.ndarray, log: Log) -> Defect:
     """What was found in a stretch, at rows (k,) of the log."""
-    start = int(rows[found.start])
-    stop = int(rows[found.stop - 1]) + 1 if found.stop > found.start else start
-    return dataclasses.replace(found, start=start, stop=stop, time=float(log.time[start]))
+    start = int(rows[defect.start])
+    stop = int(rows[defect.stop - 1]) + 1 if defect.stop > defect.start else start
+    return dataclasses.replace(defect, start=start, stop=stop, time=float(log.time[start]))
 
 
-def _placed(
-    found: Sequence[Sequence[Defect]], stretches: Sequence[np.ndarray], log: Log
+def _locate_defects(
+    by_stretch: Sequence[Sequence[Defect]], stretches: Sequence[np.ndarray], log: Log
 ) -> list[Defect]:
     """What was found in some stretches, at rows of the log."""
-    pairs = zip(found, stretches, strict=True)
-    return [_at(one, rows, log) for own, rows in pairs for one in own]
+    pairs = zip(by_stretch, stretches, strict=True)
+    return [_locate_defect(one, rows, log) for defects, rows in pairs for one in defects]
 
 
-def _join(q: np.ndarray, leaps: Sequence[Defect], parts: Sequence[np.ndarray]) -> None:
+def _join_positions(q: np.ndarray, leaps: Sequence[Defect], parts: Sequence[np.ndarray]) -> None:
     """Count positions (n,) on, in place, from the longest stretch between two leaps."""
     for rows in parts:
         offset, edges = np.zeros(len(rows)), [0]
@@ -488,13 +538,13 @@ def _join(q: np.ndarray, leaps: Sequence[Defect], parts: Sequence[np.ndarray]) -
         q[rows] -= offset - offset[longest]
 
 
-def _spikes(
-    log: Log, usual: ChannelScales | None
-) -> tuple[Defects, dict[str, np.ndarray | None], Usual | None]:
+def _find_spikes(
+    log: Log, channel_scales: ChannelScales | None
+) -> tuple[Defects, dict[str, np.ndarray | None], TorqueScales | None]:
     """Spikes of torques, logged velocities and accelerations, by joint; and what is usual."""
-    found: Defects = {}
+    defects_by_channel: Defects = {}
     floors: dict[str, np.ndarray | None] = {}
-    torque = None if usual is None else usual.torque
+    torque = None if channel_scales is None else channel_scales.torque
     for name in ("tau", "qd", "qdd"):
         values = getattr(log, name)
         if values is None:
@@ -502,34 +552,38 @@ def _spikes(
         there = np.isfinite(values).all(axis=1)
         if name == "tau":
             there &= np.isfinite(log.q).all(axis=1)
-        rows = [own for own in _stretches(log, there) if len(own) >= LEAST]
-        parts = [values[own] for own in rows]
-        spikes, floors[name] = glitches(parts, None if usual is None else usual.floors[name])
+        rows = [part for part in _iterate_stretches(log, there) if len(part) >= LEAST]
+        parts = [values[part] for part in rows]
+        spikes, floors[name] = find_spikes(
+            parts, None if channel_scales is None else channel_scales.floors[name]
+        )
         if name == "tau" and parts:
-            speeds = [np.gradient(log.q[own], log.time[own], axis=0) for own in rows]
-            torque = torque or usual_of(parts, speeds)
-            spikes = unexplained(spikes, parts, speeds, torque)
-        found[name] = [_placed(own, rows, log) for own in spikes] or [[] for _ in log.joints]
-    return found, floors, torque
+            speeds = [np.gradient(log.q[part], log.time[part], axis=0) for part in rows]
+            torque = torque or compute_torque_scales(parts, speeds)
+            spikes = select_unexplained(spikes, parts, speeds, torque)
+        defects_by_channel[name] = [_locate_defects(part, rows, log) for part in spikes] or [
+            [] for _ in log.joints
+        ]
+    return defects_by_channel, floors, torque
 
 
-def _without(values: np.ndarray, found: Sequence[Sequence[Defect]]) -> np.ndarray:
-    kept = values.copy() if any(found) else values
-    for j, own in enumerate(found):
-        for one in own:
-            kept[one.start : one.stop, j] = np.nan
-    return kept
+def _remove_defects(values: np.ndarray, defects: Sequence[Sequence[Defect]]) -> np.ndarray:
+    cleaned = values.copy() if any(defects) else values
+    for j, channel in enumerate(defects):
+        for one in channel:
+            cleaned[one.start : one.stop, j] = np.nan
+    return cleaned
 
 
-def column_of(log: Log, spec: ModuleSpec, name: str, j: int) -> str:
+def find_column(log: Log, spec: ModuleSpec, name: str, j: int) -> str:
     """A channel as the log calls it."""
     if name == "tau" and log.torque_source:
         return log.torque_source[j].split()[0]
     return f"{name}{spec.joints[j].name}"
 
 
-def damages(
-    log: Log, rows: int, spec: ModuleSpec, found: Defects, repairs: Mapping[str, float]
+def describe_damages(
+    log: Log, rows: int, spec: ModuleSpec, defects_by_channel: Defects, repairs: Mapping[str, float]
 ) -> tuple[Damage, ...]:
     """What was found in the rows of a log, in words.
 
@@ -537,18 +591,22 @@ def damages(
         log: it, or a part of it.
         rows: of the whole log.
         spec: the robot's manifest.
-        found: in all rows.
+        defects_by_channel: in all rows.
         repairs: by column and kind, the held-out error mended over that as logged.
     """
-    told = [_recorded_again(log, rows, own) for own in found.get("rows", ()) if own]
-    for name, by_joint in found.items():
+    descriptions = [
+        _describe_repeats(log, rows, channel)
+        for channel in defects_by_channel.get("rows", ())
+        if channel
+    ]
+    for name, by_joint in defects_by_channel.items():
         if name == "rows":
             continue
-        for j, own in enumerate(by_joint):
-            joint, column = spec.joints[j], column_of(log, spec, name, j)
+        for j, channel in enumerate(by_joint):
+            joint, column = spec.joints[j], find_column(log, spec, name, j)
             unit = joint.effort_unit if name == "tau" else f"{joint.unit}{_PER[name]}"
-            for kind in dict.fromkeys(one.kind for one in own):
-                same = [one for one in own if one.kind == kind]
+            for kind in dict.fromkeys(one.kind for one in channel):
+                same = [one for one in channel if one.kind == kind]
                 size = max((one.size for one in same), key=abs)
                 samples, many = sum(one.stop - one.start for one in same), len(same) > 1
                 first, rate = f"at {same[0].time:.6g} s", 1.0 / log.step
@@ -561,7 +619,10 @@ def damages(
                 )
                 done, score = _DONE.get(kind, "not used"), repairs.get(f"{column} {kind}", np.nan)
                 if done == "not used":
-                    done = f"{samples} sample{'s' * (samples > 1)} ({percent(samples / rows)} of "
+                    done = (
+                        f"{samples} sample{'s' * (samples > 1)} "
+                        f"({format_percent(samples / rows)} of "
+                    )
                     done += "the rows) not used"
                 is_mended = kind in ALWAYS or score < CONFIRMED
                 if not is_mended:
@@ -571,24 +632,24 @@ def damages(
                 line = f"{column}: {words}; {done}"
                 if is_mended and kind in _ADVICE:
                     line += f"; {_ADVICE[kind]}"
-                when = _when(same, log.step)
+                when = _compute_times(same, log.step)
                 seen = Damage(column, joint.name, kind, *when, samples, abs(size), unit, line)
-                told.append(dataclasses.replace(seen, is_mended=is_mended))
-    return tuple(told)
+                descriptions.append(dataclasses.replace(seen, is_mended=is_mended))
+    return tuple(descriptions)
 
 
-def repairs_named(log: Log, spec: ModuleSpec, names: Collection[str]) -> set[tuple[str, int, str]]:
+def parse_repairs(log: Log, spec: ModuleSpec, names: Collection[str]) -> set[tuple[str, int, str]]:
     """`Repairs` by names as "q2 zero"."""
     return {
         (name, j, kind)
         for name in _PER
         for j in range(len(spec.joints))
         for kind in get_args(Kind)
-        if f"{column_of(log, spec, name, j)} {kind}" in names
+        if f"{find_column(log, spec, name, j)} {kind}" in names
     }
 
 
-def confirmed(repairs: Mapping[str, float]) -> frozenset[str]:
+def select_confirmed(repairs: Mapping[str, float]) -> frozenset[str]:
     """Those that a fit confirmed."""
     return frozenset(name for name, score in repairs.items() if score < CONFIRMED)
 
@@ -598,16 +659,20 @@ CONFIRMED = 0.95
 false claims have 0.997 and more."""
 
 
-def _when(found: Sequence[Defect], step: float) -> tuple[tuple[float, ...], tuple[float, ...]]:
+def _compute_times(
+    defects: Sequence[Defect], step: float
+) -> tuple[tuple[float, ...], tuple[float, ...]]:
     """When each begins, and how long it is bad, s."""
-    return tuple(one.time for one in found), tuple((one.stop - one.start) * step for one in found)
+    return tuple(one.time for one in defects), tuple(
+        (one.stop - one.start) * step for one in defects
+    )
 
 
-def _recorded_again(log: Log, rows: int, found: Sequence[Defect]) -> Damage:
+def _describe_repeats(log: Log, rows: int, defects: Sequence[Defect]) -> Damage:
     """Rows that were recorded more than once."""
-    count = sum(one.stop - one.start for one in found)
-    when, rate = _when(found[:1], log.step), 1.0 / log.step
-    line = repeats_line(count, rows, rate)
+    count = sum(one.stop - one.start for one in defects)
+    when, rate = _compute_times(defects[:1], log.step), 1.0 / log.step
+    line = describe_repeats(count, rows, rate)
     return Damage("all channels", "", "repeated", *when, count, rate, "Hz", line)
 
 

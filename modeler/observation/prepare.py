@@ -7,27 +7,38 @@ from functools import cached_property
 
 import numpy as np
 
-from modeler.core.brief import Brief
+from modeler.core.brief import ShortRepr
 from modeler.core.errors import DataError, LoopError
 from modeler.core.manifest import JointSpec, ModuleSpec
 from modeler.logs import Positions, is_derivative
 from modeler.numerics.held import COARSE
-from modeler.numerics.least_squares import weighted_median
-from modeler.numerics.spectra import MotionSpectrum, coherence, motion_spectrum
-from modeler.observation.consistency import Consistency, consistency, quieter, without_late
+from modeler.numerics.least_squares import compute_weighted_median
+from modeler.numerics.spectra import MotionSpectrum, compute_motion_spectrum, estimate_coherence
+from modeler.observation.consistency import (
+    DerivativeCheck,
+    check_derivatives,
+    discard_contradictions,
+    is_position_quieter,
+)
 from modeler.observation.log import Log
-from modeler.observation.motion import CAUSES, HIGHEST, OPEN, Segment, edge_of, segment_of
+from modeler.observation.motion import CAUSES, HIGHEST, OPEN, Segment, build_segment, compute_edge
 from modeler.observation.motion_noise import (
     RANDOM_WALK,
     MotionNoise,
     Ringing,
-    motion_bands,
-    motion_noise,
-    ringing,
+    estimate_motion_bands,
+    estimate_motion_noise,
+    find_ringing,
 )
-from modeler.observation.outliers import ChannelScales, Defects, confirmed, defects, repairs_named
+from modeler.observation.outliers import (
+    ChannelScales,
+    Defects,
+    parse_repairs,
+    repair_log,
+    select_confirmed,
+)
 from modeler.observation.report import Bands
-from modeler.observation.segments import Piece, SplitReport, split
+from modeler.observation.segments import RawSegment, SplitReport, split_log
 from modeler.observation.settings import ChosenProcessing, Processing
 from modeler.runtime import CompiledModel
 
@@ -42,7 +53,7 @@ LEAST_PARALLEL = 5.0  # Hz
 
 
 @dataclass(frozen=True, eq=False)
-class PreparedLog(Brief):
+class PreparedLog(ShortRepr):
     """A log, mended and cut into uniform pieces.
 
     Attributes:
@@ -56,18 +67,18 @@ class PreparedLog(Brief):
         repairs: those of its defects that a fit tried, and their held-out errors.
     """
 
-    pieces: tuple[Piece, ...]
+    pieces: tuple[RawSegment, ...]
     cuts: SplitReport
     derivatives: str
-    check: Consistency | None
+    check: DerivativeCheck | None
     rings: tuple[str, ...]
     defects: Defects
-    usual: ChannelScales
+    channel_scales: ChannelScales
     repairs: Mapping[str, float]
 
 
 @dataclass(frozen=True, eq=False)
-class Prepared(Brief):
+class PreparedLogs(ShortRepr):
     """All logs, and what is chosen for them.
 
     Attributes:
@@ -87,7 +98,7 @@ class Prepared(Brief):
     lowered: Bands | None = None
 
     @property
-    def pieces(self) -> tuple[Piece, ...]:
+    def pieces(self) -> tuple[RawSegment, ...]:
         """Of all logs."""
         return tuple(piece for log in self.logs for piece in log.pieces)
 
@@ -99,17 +110,18 @@ class Prepared(Brief):
             DataError: all of them are.
         """
         every, chosen = self.pieces, self.processing
-        filtered = [segment_of(piece, chosen) for piece in every]
+        filtered = [build_segment(piece, chosen) for piece in every]
         if any(filtered):
             return tuple(segment for segment in filtered if segment is not None)
         longest = max(every, key=lambda piece: len(piece.time))
         raise DataError(
             f"no more than {(len(longest.time) - 1) * longest.step:.2g} s without a gap; expected "
-            f"more than {2.0 * edge_of(longest, chosen) * longest.step:.2g} s: the ends are lost "
+            f"more than {2.0 * compute_edge(longest, chosen) * longest.step:.2g} s: the ends are "
+            "lost "
             f"to the {chosen.position_cutoff:g} Hz low-pass of the positions; record longer motions"
         )
 
-    def uncommanded(self) -> "Prepared":
+    def drop_commands(self) -> "PreparedLogs":
         """Without commanded positions, of which rows of torques know nothing."""
         logs = tuple(
             dataclasses.replace(
@@ -119,7 +131,7 @@ class Prepared(Brief):
         )
         return dataclasses.replace(self, logs=logs)
 
-    def with_cutoffs(self, position: float, parallel: float) -> "Prepared":
+    def set_cutoffs(self, position: float, parallel: float) -> "PreparedLogs":
         """With other filters."""
         chosen = dataclasses.replace(
             self.processing, position_cutoff=position, parallel_cutoff=parallel
@@ -128,7 +140,7 @@ class Prepared(Brief):
 
 
 @dataclass(frozen=True, eq=False)
-class LogRepair(Brief):
+class LogRepair(ShortRepr):
     """Logs to be mended once, however often they are prepared: it is the same for any filters.
 
     Attributes:
@@ -140,40 +152,42 @@ class LogRepair(Brief):
     spec: ModuleSpec
 
     @cached_property
-    def _mended(self) -> "dict[tuple[int, frozenset[str]], tuple[Log, Defects, ChannelScales]]":
+    def _repaired_logs(
+        self,
+    ) -> "dict[tuple[int, frozenset[str]], tuple[Log, Defects, ChannelScales]]":
         return {}
 
-    def mended(self, run: int, processing: Processing) -> tuple[Log, Defects, ChannelScales]:
-        """What `defects` makes of a log, with the repairs that a fit confirmed."""
+    def get_repaired(self, run: int, processing: Processing) -> tuple[Log, Defects, ChannelScales]:
+        """What `repair_log` makes of a log, with the repairs that a fit confirmed."""
         log, spec = self.logs[run], self.spec
-        key = run, confirmed(processing.repairs_of(log.name))
-        if key not in self._mended:
-            some = repairs_named(log, spec, key[1])
-            self._mended[key] = defects(log, spec, repairs=some)
-        return self._mended[key]
+        key = run, select_confirmed(processing.repairs_of(log.name))
+        if key not in self._repaired_logs:
+            some = parse_repairs(log, spec, key[1])
+            self._repaired_logs[key] = repair_log(log, spec, repairs=some)
+        return self._repaired_logs[key]
 
-    def cut(self, processing: Processing) -> "CutLogs":
+    def cut_logs(self, processing: Processing) -> "CutLogs":
         """The logs in pieces; what is known of them as long as nothing is filtered."""
-        used = tuple(_speeds_used(log, processing) for log in self.logs)
-        key = processing.keep_damaged, used, confirmed(processing.repairs or {})
-        if key not in self._cut:
+        used = tuple(_has_speeds(log, processing) for log in self.logs)
+        key = processing.keep_damaged, used, select_confirmed(processing.repairs or {})
+        if key not in self._cut_by_choice:
             logs = self.logs
             if not processing.keep_damaged:
-                logs = [self.mended(run, processing)[0] for run in range(len(logs))]
+                logs = [self.get_repaired(run, processing)[0] for run in range(len(logs))]
             cut = [
-                split(log, run, own, logged=self.logs[run].tau)
-                for run, (log, own) in enumerate(zip(logs, used, strict=True))
+                split_log(log, run, has_speeds, logged=self.logs[run].tau)
+                for run, (log, has_speeds) in enumerate(zip(logs, used, strict=True))
             ]
-            self._cut[key] = CutLogs(self.spec, logs, cut)
-        return self._cut[key]
+            self._cut_by_choice[key] = CutLogs(self.spec, logs, cut)
+        return self._cut_by_choice[key]
 
     @cached_property
-    def _cut(self) -> "dict[tuple[bool, tuple[bool, ...], frozenset[str]], CutLogs]":
+    def _cut_by_choice(self) -> "dict[tuple[bool, tuple[bool, ...], frozenset[str]], CutLogs]":
         return {}
 
 
 @dataclass(frozen=True, eq=False)
-class CutLogs(Brief):
+class CutLogs(ShortRepr):
     """Logs in uniform pieces.
 
     Attributes:
@@ -184,48 +198,48 @@ class CutLogs(Brief):
 
     spec: ModuleSpec
     logs: Sequence[Log]
-    cut: Sequence[tuple[tuple[Piece, ...], SplitReport]]
+    cut: Sequence[tuple[tuple[RawSegment, ...], SplitReport]]
 
     @cached_property
-    def pieces(self) -> list[Piece]:
+    def pieces(self) -> list[RawSegment]:
         """Of all logs."""
-        return [piece for own, _ in self.cut for piece in own]
+        return [piece for log_pieces, _ in self.cut for piece in log_pieces]
 
     @cached_property
     def spectra(self) -> list[MotionSpectrum]:
         """Of the positions of each piece."""
-        return spectra_of(self.pieces)
+        return compute_spectra(self.pieces)
 
     @cached_property
     def bands(self) -> np.ndarray:
-        """(J,) `joint_bands`."""
-        return joint_bands(self.pieces, self.spectra)
+        """(J,) `estimate_joint_bands`."""
+        return estimate_joint_bands(self.pieces, self.spectra)
 
     @cached_property
     def noise(self) -> MotionNoise:
         """Of the positions."""
-        pieces = [without_speeds(piece) for piece in self.pieces]
-        return motion_noise(self.spec.joints, pieces, self.bands)
+        pieces = [drop_speeds(piece) for piece in self.pieces]
+        return estimate_motion_noise(self.spec.joints, pieces, self.bands)
 
 
-def prepare(
-    spec: ModuleSpec, logs: Sequence[Log], processing: Processing, mending: LogRepair | None = None
-) -> Prepared:
+def prepare_logs(
+    spec: ModuleSpec, logs: Sequence[Log], processing: Processing, repair: LogRepair | None = None
+) -> PreparedLogs:
     """Mend, split and resample; the noise of the motion, and the cut-offs that it asks for.
 
     Args:
         spec: the robot's manifest.
         logs: read with it.
         processing: what is asked of it.
-        mending: of the same logs, where it is shared.
+        repair: of the same logs, where it is shared.
 
     Raises:
         DataError: no logs, a log of another robot, a value that cannot be, nothing long enough to
             differentiate, or a logged derivative that is none.
     """
     check_logs(spec, logs, processing)
-    mending = mending or LogRepair(logs, spec)
-    seen = mending.cut(processing)
+    repair = repair or LogRepair(logs, spec)
+    seen = repair.cut_logs(processing)
     logs, pieces = seen.logs, seen.pieces
     if not pieces:
         raise DataError(
@@ -237,32 +251,40 @@ def prepare(
     positions = seen.noise
     chosen, _ = choose_cutoffs(processing, pieces, positions)
     rated = [piece for piece in pieces if piece.qd is not None]
-    noisy = processing.derivatives == "auto" and quieter(rated, chosen.position_cutoff)
+    noisy = processing.derivatives == "auto" and is_position_quieter(rated, chosen.position_cutoff)
     steps, prepared = [joint.step for joint in positions.joints], []
-    for run, (log, (own, cuts)) in enumerate(zip(logs, seen.cut, strict=True)):
-        _, damage, usual = mending.mended(run, processing)
-        found, check, source = _derived(log, own, chosen, noisy)
+    for run, (log, (log_pieces, cuts)) in enumerate(zip(logs, seen.cut, strict=True)):
+        _, damage, channel_scales = repair.get_repaired(run, processing)
+        used_pieces, check, source = _choose_derivatives(log, log_pieces, chosen, noisy)
         # what is left of rows that repeat comes unevenly, as it was stamped
         own_spectra = [s for p, s in zip(pieces, seen.spectra, strict=True) if p.run == run]
-        rings = [] if usual.repeats else what_rings(own_spectra, steps, own)
-        rings = [ring for ring in rings if usual.held["q"][ring.joint] == 1]
-        said = tuple(ring.sentence(spec.joints[ring.joint].name) for ring in rings)
+        rings = (
+            [] if channel_scales.repeats else find_ringing_joints(own_spectra, steps, log_pieces)
+        )
+        rings = [ring for ring in rings if channel_scales.held["q"][ring.joint] == 1]
+        said = tuple(ring.describe(spec.joints[ring.joint].name) for ring in rings)
         repairs = processing.repairs_of(log.name)
-        prepared.append(PreparedLog(found, cuts, source, check, said, damage, usual, repairs))
+        prepared.append(
+            PreparedLog(used_pieces, cuts, source, check, said, damage, channel_scales, repairs)
+        )
     pieces = [piece for log in prepared for piece in log.pieces]
-    given = all(piece.qd is not None for piece in pieces)
-    noise = motion_noise(spec.joints, pieces, seen.bands) if given else positions
+    has_logged_speeds = all(piece.qd is not None for piece in pieces)
+    noise = (
+        estimate_motion_noise(spec.joints, pieces, seen.bands) if has_logged_speeds else positions
+    )
     chosen, choices = choose_cutoffs(processing, pieces, noise)
-    return Prepared(chosen, choices, tuple(prepared), noise, shown_band(noise.band, pieces))
+    return PreparedLogs(
+        chosen, choices, tuple(prepared), noise, compute_visible_band(noise.band, pieces)
+    )
 
 
-def _speeds_used(log: Log, processing: Processing) -> bool:
+def _has_speeds(log: Log, processing: Processing) -> bool:
     return processing.derivatives != "position" and log.qd is not None
 
 
-def _derived(
-    log: Log, pieces: tuple[Piece, ...], processing: ChosenProcessing, noisy: bool
-) -> tuple[tuple[Piece, ...], Consistency | None, str]:
+def _choose_derivatives(
+    log: Log, pieces: tuple[RawSegment, ...], processing: ChosenProcessing, noisy: bool
+) -> tuple[tuple[RawSegment, ...], DerivativeCheck | None, str]:
     """The pieces of a log with the logged velocities that are used; their check, and their source.
 
     Args:
@@ -272,20 +294,20 @@ def _derived(
         noisy: positions that are differentiated have less noise.
     """
     keep, check = processing.keep_contradicted, None
-    if _speeds_used(log, processing):
-        check = consistency(log, pieces, processing.parallel_cutoff, refuse=not keep)
+    if _has_speeds(log, processing):
+        check = check_derivatives(log, pieces, processing.parallel_cutoff, refuse=not keep)
     auto = processing.derivatives == "auto" and not keep
     wrong = [
         name for name, q, qd in zip(log.joints, log.q.T, log.qd.T, strict=True)
         if not is_derivative(q, qd, log.time)
     ] if auto and check is not None and log.qd is not None else []  # fmt: skip
-    late = check is not None and check.harmful and auto
+    late = check is not None and check.is_harmful and auto
     if check is not None and not noisy and not late and not wrong:
         source = "qd and qdd as logged" if log.qdd is not None else "qd as logged, qdd from it"
-        return pieces if keep else believed(pieces, check), check, source
-    pieces, source = tuple(map(without_speeds, pieces)), "qd and qdd by differentiating q"
+        return pieces if keep else exclude_contradicted(pieces, check), check, source
+    pieces, source = tuple(map(drop_speeds, pieces)), "qd and qdd by differentiating q"
     if check is not None and late:
-        check, why = without_late(check, pieces), ", as logged derivatives come late"
+        check, why = discard_contradictions(check, pieces), ", as logged derivatives come late"
     else:
         why = ", whose noise is less than that of the logged qd" if check else ""
         why = f", as logged qd{wrong[0]} does not follow q{wrong[0]}" if wrong else why
@@ -293,7 +315,9 @@ def _derived(
     return pieces, check, source + why
 
 
-def believed(pieces: Sequence[Piece], check: Consistency) -> tuple[Piece, ...]:
+def exclude_contradicted(
+    pieces: Sequence[RawSegment], check: DerivativeCheck
+) -> tuple[RawSegment, ...]:
     """The pieces without their contradicted samples: an acceleration enters every torque.
 
     Where accelerations come from the logged velocities, the filter carries a wrong velocity as far
@@ -328,22 +352,26 @@ def check_logs(spec: ModuleSpec, logs: Sequence[Log], processing: Processing) ->
             )
 
 
-def _check_nyquist(logs: Sequence[Log], pieces: Sequence[Piece], processing: Processing) -> None:
+def _check_nyquist(
+    logs: Sequence[Log], pieces: Sequence[RawSegment], processing: Processing
+) -> None:
     """A filter above half the sampling rate does not exist; one that is not needed may be any."""
-    given = processing.position_cutoff or 0.0
+    cutoff = processing.position_cutoff or 0.0
     for piece in pieces:
         rate = 1.0 / piece.step
-        if given >= 0.5 * rate and piece.qdd is None:
+        if cutoff >= 0.5 * rate and piece.qdd is None:
             log = logs[piece.run]
             raise DataError(
-                f"{log.name}: position filter (--cutoff) of {given:g} Hz on a log "
+                f"{log.name}: position filter (--cutoff) of {cutoff:g} Hz on a log "
                 f"sampled at {rate:.4g} Hz; expected less than its Nyquist frequency of "
                 f"{0.5 * rate:.4g} Hz; give a lower --cutoff, or sample faster"
                 + "".join(f"; {log.name}: {note}" for note in log.notes)
             )
 
 
-def _check_windows(logs: Sequence[Log], pieces: Sequence[Piece], processing: Processing) -> None:
+def _check_windows(
+    logs: Sequence[Log], pieces: Sequence[RawSegment], processing: Processing
+) -> None:
     """A filter that averages over more than the motion leaves one row of it, however long it takes.
 
     The longest piece holds at least a period of either cut-off, and two rows.
@@ -387,7 +415,9 @@ def check_size(log: Log, spec: ModuleSpec) -> None:
             )
 
 
-def joint_bands(pieces: Sequence[Piece], spectra: Sequence[MotionSpectrum]) -> np.ndarray:
+def estimate_joint_bands(
+    pieces: Sequence[RawSegment], spectra: Sequence[MotionSpectrum]
+) -> np.ndarray:
     """(J,) Hz below which 99 % of each velocity's energy lies; NaN of a joint at rest.
 
     The median over the pieces in which the joint moves, by their lengths.
@@ -397,16 +427,18 @@ def joint_bands(pieces: Sequence[Piece], spectra: Sequence[MotionSpectrum]) -> n
         spectra: of their positions.
     """
     lengths = np.array([len(piece.time) * piece.step for piece in pieces])
-    found = np.stack([motion_bands(*pair) for pair in zip(pieces, spectra, strict=True)])
-    bands = np.full(found.shape[1], np.nan)
-    for j, own in enumerate(found.T):
-        moved = np.isfinite(own)
+    piece_bands = np.stack(
+        [estimate_motion_bands(*pair) for pair in zip(pieces, spectra, strict=True)]
+    )
+    bands = np.full(piece_bands.shape[1], np.nan)
+    for j, joint_values in enumerate(piece_bands.T):
+        moved = np.isfinite(joint_values)
         if moved.any():
-            bands[j] = weighted_median(own[moved], lengths[moved])
+            bands[j] = compute_weighted_median(joint_values[moved], lengths[moved])
     return bands
 
 
-def noise_of_positions(seen: Positions | None) -> MotionNoise | None:
+def estimate_position_noise(seen: Positions | None) -> MotionNoise | None:
     """The noise of the positions of a log whose robot is not known; None without motion.
 
     Args:
@@ -424,31 +456,33 @@ def noise_of_positions(seen: Positions | None) -> MotionNoise | None:
         for name, unit in zip(seen.names, seen.units, strict=True)
     ]
     q = values[rises]
-    pieces, _ = split(Log("", seen.names, time[rises], q, np.zeros_like(q)), 0, False)
+    pieces, _ = split_log(Log("", seen.names, time[rises], q, np.zeros_like(q)), 0, False)
     if not pieces:
         return None
-    found = motion_noise(joints, pieces, joint_bands(pieces, spectra_of(pieces)))
-    return found.of_last_floors(lambda joint: joint.colour > RANDOM_WALK)
+    noise = estimate_motion_noise(
+        joints, pieces, estimate_joint_bands(pieces, compute_spectra(pieces))
+    )
+    return noise.take_last_floors(lambda joint: joint.colour > RANDOM_WALK)
 
 
-def shown_band(band: float, pieces: Sequence[Piece]) -> float:
+def compute_visible_band(band: float, pieces: Sequence[RawSegment]) -> float:
     """Hz of the fastest joint, as the window of a piece shows it: 2/T at least."""
     lengths = np.array([len(piece.time) * piece.step for piece in pieces])
-    return float(np.hypot(band, 2.0 / weighted_median(lengths, lengths)))
+    return float(np.hypot(band, 2.0 / compute_weighted_median(lengths, lengths)))
 
 
-def without_speeds(piece: Piece) -> Piece:
+def drop_speeds(piece: RawSegment) -> RawSegment:
     """The piece with its velocities to be taken from the positions."""
     return dataclasses.replace(piece, qd=None, qdd=None)
 
 
-def spectra_of(pieces: Sequence[Piece]) -> list[MotionSpectrum]:
+def compute_spectra(pieces: Sequence[RawSegment]) -> list[MotionSpectrum]:
     """The spectrum of each piece's positions."""
-    return [motion_spectrum(piece.q, piece.step) for piece in pieces]
+    return [compute_motion_spectrum(piece.q, piece.step) for piece in pieces]
 
 
-def what_rings(
-    spectra: Sequence[MotionSpectrum], steps: Sequence[float], pieces: Sequence[Piece]
+def find_ringing_joints(
+    spectra: Sequence[MotionSpectrum], steps: Sequence[float], pieces: Sequence[RawSegment]
 ) -> list[Ringing]:
     """Joints that ring in the longest of some pieces, by more than the steps of their encoders.
 
@@ -462,21 +496,26 @@ def what_rings(
     """
     if not spectra:
         return []
-    longest, piece = max(zip(spectra, pieces, strict=True), key=lambda own: len(own[0].frequency))
-    speed = longest.above * longest.frequency[:, None] ** 2
-    found = []
-    for j, own in enumerate(speed.T):
-        ring, first = ringing(longest.frequency, own, j)
-        size = float(np.sqrt(longest.above[first:, j].sum()))
+    longest, piece = max(
+        zip(spectra, pieces, strict=True), key=lambda energy: len(energy[0].frequency)
+    )
+    speed = longest.power_above_noise * longest.frequency[:, None] ** 2
+    rings = []
+    for j, energy in enumerate(speed.T):
+        ring, first = find_ringing(longest.frequency, energy, j)
+        size = float(np.sqrt(longest.power_above_noise[first:, j].sum()))
         if ring is None or size <= COARSE * steps[j]:
             continue
-        if coherence(piece.q[:, j], piece.tau[:, j], ring.frequency * piece.step) > ANSWERS:
-            found.append(ring)
-    return found
+        if (
+            estimate_coherence(piece.q[:, j], piece.tau[:, j], ring.frequency * piece.step)
+            > ANSWERS
+        ):
+            rings.append(ring)
+    return rings
 
 
 def choose_cutoffs(
-    processing: Processing, pieces: Sequence[Piece], noise: MotionNoise
+    processing: Processing, pieces: Sequence[RawSegment], noise: MotionNoise
 ) -> tuple[ChosenProcessing, tuple[str, ...]]:
     """The processing with the widest cut-offs that the motion asks for, and what it was chosen by.
 
@@ -504,33 +543,35 @@ def choose_cutoffs(
             f"joint{'' if one else 's'} {', '.join(rest)} rest{'s' if one else ''}: not counted in "
             "the motion band"
         )
-    given, highest = processing.position_cutoff, HIGHEST * slowest
+    given_cutoff, highest = processing.position_cutoff, HIGHEST * slowest
     parallel = processing.parallel_cutoff
     if parallel is None:
-        parallel = min(max(LEAST_PARALLEL, PARALLEL_BANDS * band), 0.5 * (given or highest))
-        parallel = two_digits(parallel)
+        parallel = min(max(LEAST_PARALLEL, PARALLEL_BANDS * band), 0.5 * (given_cutoff or highest))
+        parallel = round_to_two_digits(parallel)
     logged = all(piece.qdd is not None for piece in pieces)
-    position = given
+    position = given_cutoff
     if position is None:
-        position = two_digits(min(max(noise.cutoff, 2.0 * parallel), highest))
+        position = round_to_two_digits(min(max(noise.cutoff, 2.0 * parallel), highest))
     if not logged and 0.0 < position < 5.0 * band:
         higher, better = "give a higher --cutoff, or leave it out", "sample faster or move slower"
         said.append(
             f"position filter {position:g} Hz is less than 5 x the motion band of joint "
             f"{fastest.joint}, {band:.3g} Hz: accelerations are damped; "
-            f"{better if given is None else higher}"
+            f"{better if given_cutoff is None else higher}"
         )
-    own = [n for n in ("position_cutoff", "parallel_cutoff") if getattr(processing, n) is None]
+    automatic = [
+        n for n in ("position_cutoff", "parallel_cutoff") if getattr(processing, n) is None
+    ]
     choices = {
         "position_cutoff": position,
         "parallel_cutoff": parallel,
         "speed_floors": processing.speed_floors or {},
-        "chosen": tuple(dict.fromkeys((*processing.chosen, *own))),
+        "chosen": tuple(dict.fromkeys((*processing.chosen, *automatic))),
     }
     return ChosenProcessing(**{**vars(processing), **choices}), tuple(said)
 
 
-def two_digits(value: float) -> float:
+def round_to_two_digits(value: float) -> float:
     """As it is told, and used."""
     return float(f"{value:.2g}")
 
@@ -546,7 +587,7 @@ FEWEST = 0.1
 """Where a smaller share of the samples closes, the model is of another machine or other units."""
 
 
-def nearest_closed(model: CompiledModel, *postures: np.ndarray) -> np.ndarray | None:
+def find_nearest_closed(model: CompiledModel, *postures: np.ndarray) -> np.ndarray | None:
     """(n,) the nearest sample, in time, whose postures all close; its own place where its own do.
 
     Args:
@@ -569,7 +610,7 @@ def nearest_closed(model: CompiledModel, *postures: np.ndarray) -> np.ndarray | 
     return np.asarray(np.where(nearer, good[before], good[after]))
 
 
-def without_open(
+def close_segments(
     model: CompiledModel, logs: Sequence[Log], segments: Sequence[Segment]
 ) -> tuple[tuple[Segment, ...], tuple[tuple[float, ...], ...]]:
     """The segments with another posture where theirs does not close, and those times of each log.
@@ -578,13 +619,13 @@ def without_open(
         LoopError: fewer than a tenth of the samples close; says how many, and where the first.
     """
     times: list[tuple[float, ...]] = [() for _ in logs]
-    both = [closed(model, segment) for segment in segments]
+    both = [close_segment(model, segment) for segment in segments]
     for segment, open_ in both:
         times[segment.run] += tuple(segment.time[open_ & segment.whole].tolist())
     whole = sum(int(segment.whole.sum()) for segment in segments)
-    count = sum(len(own) for own in times)
+    count = sum(len(open_times) for open_times in times)
     if count > (1.0 - FEWEST) * whole:
-        run = next(run for run, own in enumerate(times) if own)
+        run = next(run for run, open_times in enumerate(times) if open_times)
         first = times[run][0]
         segment = next(s for s in segments if s.run == run and first in s.time)
         where = ", ".join(f"{value:.6g}" for value in segment.q[segment.time == first][0])
@@ -597,11 +638,11 @@ def without_open(
     return tuple(segment for segment, _ in both), tuple(times)
 
 
-def closed(model: CompiledModel, segment: Segment) -> tuple[Segment, np.ndarray]:
+def close_segment(model: CompiledModel, segment: Segment) -> tuple[Segment, np.ndarray]:
     """The segment with postures that close the loops, and (n,) True where its own does not."""
     if model.spec.closure is None:
         return segment, np.zeros(segment.samples, dtype=bool)
-    nearest = nearest_closed(model, segment.q)
+    nearest = find_nearest_closed(model, segment.q)
     if nearest is None:
         home = np.asarray(model.spec.closure.home)[list(model.spec.closure.given)]
         q, open_ = np.tile(home, (segment.samples, 1)), np.ones(segment.samples, dtype=bool)

@@ -17,11 +17,11 @@ from modeler.logs import (
     LogMap,
     LogTable,
     ParquetBlocks,
-    blocks_of,
-    coarse_clock,
-    columns_given,
+    build_frame_columns,
+    describe_coarse_clock,
+    open_blocks,
 )
-from modeler.observation.log import MOST_WHOLE, Log, fingerprint
+from modeler.observation.log import MOST_WHOLE, Log, compute_fingerprint
 
 _SLOW_STEP = 0.2  # s; a median step above it is more likely a time column in ms
 _SHORTEST_STEP, _LONGEST_STEP = 1e-7, 1e7  # s; beyond, squares of it say nothing any more
@@ -46,23 +46,23 @@ def read_log(path: str | Path, spec: ModuleSpec, mapping: LogMap | None = None) 
             missing or not numeric, time does not increase, or no joint has a measured torque.
     """
     path = Path(path)
-    blocks = blocks_of(path)
+    blocks = open_blocks(path)
     if blocks is not None and blocks.rows > MOST_WHOLE:  # as far as it says before it is read
         raise DataError(
             f"{path}: got {blocks.rows} rows; expected at most {MOST_WHOLE} where all are in "
             "memory; give a part of it, FILE@START:END; `modeler log`, `diagnose`, `compare` of "
             "one model, and `fit` by weighted or ordinary least squares read logs of any length"
         )
-    return whole_log(LogTable(path, mapping, spec.joints), spec)
+    return read_whole_log(LogTable(path, mapping, spec.joints), spec)
 
 
-def log_in_memory(
-    given: InMemory, spec: ModuleSpec, mapping: LogMap | None = None, where: str = "log"
+def read_log_in_memory(
+    data: InMemory, spec: ModuleSpec, mapping: LogMap | None = None, where: str = "log"
 ) -> Log:
     """The same of a frame or a dict of arrays; it is named after what it holds.
 
     Args:
-        given: it.
+        data: it.
         spec: the robot's manifest.
         mapping: names and units of its columns.
         where: what messages call it.
@@ -70,33 +70,33 @@ def log_in_memory(
     Raises:
         DataError: as `read_log`.
     """
-    log = whole_log(table_in_memory(given, spec.joints, mapping, where), spec)
+    log = read_whole_log(build_table(data, spec.joints, mapping, where), spec)
     return dataclasses.replace(log, name=f"frame {log.content[:6]}", path="")
 
 
-def table_in_memory(
-    given: InMemory, joints: Sequence[JointSpec], mapping: LogMap | None, where: str
+def build_table(
+    data: InMemory, joints: Sequence[JointSpec], mapping: LogMap | None, where: str
 ) -> LogTable:
     """Its columns under our names."""
-    columns = columns_given(given, where, joints)
+    columns = build_frame_columns(data, where, joints)
     return LogTable(Path(where), mapping, joints, part=columns, whole=True)
 
 
-def whole_log(table: LogTable, spec: ModuleSpec) -> Log:
+def read_whole_log(table: LogTable, spec: ModuleSpec) -> Log:
     """All rows of a log, with what only they can tell.
 
     Raises:
         DataError: as `read_log`.
     """
-    log = log_of(table, spec)
-    ranges = Ranges.of(log)
-    notes = (*log.notes, *ranges.doubts(log.step, spec))
-    ranges.check(table.path, spec)
-    content = fingerprint(log.time, log.q, log.tau)
+    log = build_log(table, spec)
+    ranges = ChannelRanges.compute_from(log)
+    notes = (*log.notes, *ranges.collect_warnings(log.step, spec))
+    ranges.check_values(table.path, spec)
+    content = compute_fingerprint(log.time, log.q, log.tau)
     return dataclasses.replace(log, notes=notes, content=content)
 
 
-def log_of(table: LogTable, spec: ModuleSpec, measured: bool = True) -> Log:
+def build_log(table: LogTable, spec: ModuleSpec, measured: bool = True) -> Log:
     """The rows of a table as a log, each looked at by itself.
 
     Args:
@@ -107,51 +107,56 @@ def log_of(table: LogTable, spec: ModuleSpec, measured: bool = True) -> Log:
     Raises:
         DataError: as `read_log` does, but for what only a whole log can tell.
     """
-    time = _time(table)
-    told: list[str] = [*table.told, *table.notes, *_untold_speeds(table, spec)]
+    time = _read_time(table)
+    reading_notes: list[str] = [
+        *table.reading_notes,
+        *table.notes,
+        *_check_induced_voltage(table, spec),
+    ]
     positions = []
     for joint in spec.joints:
         if f"q{joint.name}" not in table and not joint.actuated:
             raise DataError(
-                f"{table.path}: no column {table.called(f'q{joint.name}')}: joint {joint.name} of "
+                f"{table.path}: no column {table.format_name(f'q{joint.name}')}: joint "
+                f"{joint.name} of "
                 f"{spec.robot} is passive and its position must be logged, or computed from the "
                 "closed loops before; add the column"
             )
-        positions.append(table.measured(f"q{joint.name}"))
+        positions.append(table.read_measured(f"q{joint.name}"))
     none = np.full(table.rows, np.nan), "not read", 0.0
-    torques = [_torque(table, joint, spec) if measured else none for joint in spec.joints]
+    torques = [_read_torque(table, joint, spec) if measured else none for joint in spec.joints]
     return Log(
         name=table.path.name,
         joints=tuple(joint.name for joint in spec.joints),
         time=time,
         q=np.column_stack(positions),
         tau=np.column_stack([values for values, _, _ in torques]),
-        qd=_optional(table, "qd", spec, told),
-        qdd=_optional(table, "qdd", spec, told),
-        commanded=_optional(table, "qc", spec, told),
-        segment=_segment(table),
-        extra=_extra(table, spec, told),
+        qd=_read_optional(table, "qd", spec, reading_notes),
+        qdd=_read_optional(table, "qdd", spec, reading_notes),
+        commanded=_read_optional(table, "qc", spec, reading_notes),
+        segment=_read_segment(table),
+        extra=_read_extra(table, spec, reading_notes),
         torque_source=tuple(source for _, source, _ in torques),
-        notes=tuple(_duty_doubts(table, spec)),
+        notes=tuple(_check_duties(table, spec)),
         induced=tuple(k for *_, k in torques) if any(k for *_, k in torques) else (),
         path=str(table.path),
-        told=tuple(told),
+        reading_notes=tuple(reading_notes),
     )
 
 
-def needed(table: LogTable, spec: ModuleSpec) -> list[str]:
+def find_needed_columns(table: LogTable, spec: ModuleSpec) -> list[str]:
     """The file's names of the columns that a fit of these joints reads."""
-    used = _used_names(spec) | {"time", "segment"}
+    used = _collect_names(spec) | {"time", "segment"}
     return [
-        table.column(name)
+        table.find_file_column(name)
         for name in table.names
         if (name in used or name.startswith("temperature")) and table.is_numeric(name)
         and not (name == "time" and table.rated)
     ]  # fmt: skip
 
 
-def _time(table: LogTable) -> np.ndarray:
-    time, name = table.numbers("time"), table.called("time")
+def _read_time(table: LogTable) -> np.ndarray:
+    time, name = table.read_numbers("time"), table.format_name("time")
     bad = np.flatnonzero(~np.isfinite(time))
     if bad.size:
         raise DataError(
@@ -161,10 +166,12 @@ def _time(table: LogTable) -> np.ndarray:
     back = np.flatnonzero(np.diff(time) <= 0.0)
     if back.size:
         row = int(back[0]) + 1
-        channels = (table.numbers(n) for n in table.names if n != "time" and table.is_numeric(n))
-        if coarse := coarse_clock(time, channels):
+        channels = (
+            table.read_numbers(n) for n in table.names if n != "time" and table.is_numeric(n)
+        )
+        if coarse := describe_coarse_clock(time, channels):
             raise DataError(f"{table.path}: column {name}, row {table.before + row + 1}: {coarse}")
-        raise backwards(table, table.before + row, time[row - 1], time[row])
+        raise build_time_error(table, table.before + row, time[row - 1], time[row])
     step = float(np.median(np.diff(time))) if len(time) > 1 else 1.0
     if not _SHORTEST_STEP <= step <= _LONGEST_STEP:
         raise DataError(
@@ -175,36 +182,39 @@ def _time(table: LogTable) -> np.ndarray:
     return time
 
 
-def backwards(table: LogTable, row: int, before: float, time: float) -> DataError:
+def build_time_error(table: LogTable, row: int, before: float, time: float) -> DataError:
     """The error of a row, counted from 0, whose time is not after the one before it."""
     remedy = "sort the file, or split it where the clock restarts"
     if time == before:
         remedy = "delete rows written twice; if times are rounded, give the rate, --map rate=HZ"
     return DataError(
-        f"{table.path}: column {table.called('time')}, row {row + 1}: {time:.9g} s after "
+        f"{table.path}: column {table.format_name('time')}, row {row + 1}: {time:.9g} s after "
         f"{before:.9g} s; expected increasing time; {remedy}"
     )
 
 
-def _torque(table: LogTable, joint: JointSpec, spec: ModuleSpec) -> tuple[np.ndarray, str, float]:
+def _read_torque(
+    table: LogTable, joint: JointSpec, spec: ModuleSpec
+) -> tuple[np.ndarray, str, float]:
     """Its torque, where that comes from, and the torque per speed that is to be taken from it."""
     tau, current, duty = (f"{kind}{joint.name}" for kind in ("tau", "current", "duty"))
     if tau in table:
-        return table.measured(tau), table.source(tau), 0.0
+        return table.read_measured(tau), table.describe_source(tau), 0.0
     if current in table:
         if joint.drive_gain is None:
             raise DataError(
-                f"{table.path}: {table.called(current)} is in drive units and {spec.robot} has no "
+                f"{table.path}: {table.format_name(current)} is in drive units and {spec.robot} "
+                "has no "
                 f"drive gain for joint {joint.name}; write [drive_gains] {joint.name} = torque per "
                 f"unit in the robot file, log {tau}, or let `modeler fit --method tls` find it"
             )
-        source = f"{table.source(current)} x {joint.drive_gain:g}"
-        return joint.drive_gain * table.measured(current), source, 0.0
+        source = f"{table.describe_source(current)} x {joint.drive_gain:g}"
+        return joint.drive_gain * table.read_measured(current), source, 0.0
     if duty in table:
-        return _by_duty(table, joint, spec)
+        return _compute_duty_torque(table, joint, spec)
     if not joint.actuated:
         return np.zeros(table.rows), "0 (passive)", 0.0
-    called = " or ".join(map(table.called, (tau, current, *([duty] if joint.drive else []))))
+    called = " or ".join(map(table.format_name, (tau, current, *([duty] if joint.drive else []))))
     raise DataError(
         f"{table.path}: no column {called}: joint {joint.name} of "
         f"{spec.robot} is actuated; log its torque, or its current and give the drive gain; "
@@ -212,25 +222,28 @@ def _torque(table: LogTable, joint: JointSpec, spec: ModuleSpec) -> tuple[np.nda
     )
 
 
-def _by_duty(table: LogTable, joint: JointSpec, spec: ModuleSpec) -> tuple[np.ndarray, str, float]:
+def _compute_duty_torque(
+    table: LogTable, joint: JointSpec, spec: ModuleSpec
+) -> tuple[np.ndarray, str, float]:
     """The torque gain (duty voltage - k_e qd) / R of a joint, its last term apart."""
     duty, voltage, drive = f"duty{joint.name}", f"voltage{joint.name}", joint.drive
     if drive is None or joint.drive_gain is None:
         raise DataError(
-            f"{table.path}: {table.called(duty)} is a share of a voltage, and {spec.robot} has no "
+            f"{table.path}: {table.format_name(duty)} is a share of a voltage, and {spec.robot} "
+            "has no "
             f"voltage model for joint {joint.name}; write [drives] {joint.name} = {{voltage = 12, "
             "resistance = 4.4, gain = 1.1} with the numbers of its motor in the robot file"
         )
     per_volt = joint.drive_gain / drive.resistance
-    supply = table.measured(voltage) if voltage in table else drive.voltage
-    by = table.source(voltage) if voltage in table else f"{drive.voltage:g} V"
+    supply = table.read_measured(voltage) if voltage in table else drive.voltage
+    by = table.describe_source(voltage) if voltage in table else f"{drive.voltage:g} V"
     induced = per_volt * drive.k_e
     lost = f" - {induced:.4g} qd{joint.name}" if induced else ""
-    source = f"{table.source(duty)} x {by} x {per_volt:.4g}{lost}"
-    return per_volt * supply * table.measured(duty), source, induced
+    source = f"{table.describe_source(duty)} x {by} x {per_volt:.4g}{lost}"
+    return per_volt * supply * table.read_measured(duty), source, induced
 
 
-def _duties(table: LogTable, spec: ModuleSpec) -> list[JointSpec]:
+def _find_duty_joints(table: LogTable, spec: ModuleSpec) -> list[JointSpec]:
     """Joints whose torque comes of a duty."""
     return [
         joint for joint in spec.joints
@@ -239,20 +252,26 @@ def _duties(table: LogTable, spec: ModuleSpec) -> list[JointSpec]:
     ]  # fmt: skip
 
 
-def _duty_doubts(table: LogTable, spec: ModuleSpec) -> list[str]:
+def _check_duties(table: LogTable, spec: ModuleSpec) -> list[str]:
     """Sentences on duties that are no shares of 1."""
-    names = [f"duty{joint.name}" for joint in _duties(table, spec)]
-    largest = {n: float(np.nanmax(np.abs(table.measured(n)), initial=0.0)) for n in names}
+    names = [f"duty{joint.name}" for joint in _find_duty_joints(table, spec)]
+    largest = {n: float(np.nanmax(np.abs(table.read_measured(n)), initial=0.0)) for n in names}
     return [
-        f"{table.called(name)} reaches {value:.4g}: expected a share from -1 to 1; is it in %? "
+        f"{table.format_name(name)} reaches {value:.4g}: expected a share from -1 to 1; is it in "
+        "%? "
         f"say so in [log] or with --map"
-        for name, value in largest.items() if value > _WHOLE_DUTY
-    ]  # fmt: skip
+        for name, value in largest.items()
+        if value > _WHOLE_DUTY
+    ]
 
 
-def _untold_speeds(table: LogTable, spec: ModuleSpec) -> list[str]:
+def _check_induced_voltage(table: LogTable, spec: ModuleSpec) -> list[str]:
     """What is told where a voltage model has no k_e."""
-    names = [joint.name for joint in _duties(table, spec) if joint.drive and not joint.drive.k_e]
+    names = [
+        joint.name
+        for joint in _find_duty_joints(table, spec)
+        if joint.drive and not joint.drive.k_e
+    ]
     what = f"joint{'s' * (len(names) > 1)} {', '.join(names)}"
     return [
         f"{what}: without k_e in [drives], what the motor induces is part of the viscous friction "
@@ -260,54 +279,59 @@ def _untold_speeds(table: LogTable, spec: ModuleSpec) -> list[str]:
     ] if names else []  # fmt: skip
 
 
-def _optional(table: LogTable, prefix: str, spec: ModuleSpec, told: list[str]) -> np.ndarray | None:
+def _read_optional(
+    table: LogTable, prefix: str, spec: ModuleSpec, reading_notes: list[str]
+) -> np.ndarray | None:
     names = [f"{prefix}{joint.name}" for joint in spec.joints]
     there = [name for name in names if name in table]
     if len(there) == len(names):
-        return np.column_stack([table.measured(name) for name in names])
+        return np.column_stack([table.read_measured(name) for name in names])
     if there:
         absent = [name for name in names if name not in table]
-        told.append(
-            f"{', '.join(map(table.called, absent))} missing, so the logged {prefix} of the other "
+        reading_notes.append(
+            f"{', '.join(map(table.format_name, absent))} missing, so the logged {prefix} of the "
+            "other "
             "joints is not used"
         )
     return None
 
 
-def _segment(table: LogTable) -> np.ndarray | None:
-    values = table.numbers("segment") if "segment" in table else None
+def _read_segment(table: LogTable) -> np.ndarray | None:
+    values = table.read_numbers("segment") if "segment" in table else None
     bad = np.flatnonzero(np.isnan(values)) if values is not None else np.zeros(0)
     if bad.size:
         raise DataError(
-            f"{table.path}: column {table.called('segment')}, row "
+            f"{table.path}: column {table.format_name('segment')}, row "
             f"{table.before + bad[0] + 1}: no value; number every row, or leave the column out"
         )
     return values
 
 
-def _used_names(spec: ModuleSpec) -> set[str]:
+def _collect_names(spec: ModuleSpec) -> set[str]:
     prefixes = ("q", "qd", "qdd", "qc", "tau", "current")
     by_duty = {f"{kind}{j.name}" for kind in ("duty", "voltage") for j in spec.joints if j.drive}
     return by_duty | {f"{prefix}{joint.name}" for prefix in prefixes for joint in spec.joints}
 
 
-def _extra(table: LogTable, spec: ModuleSpec, told: list[str]) -> dict[str, np.ndarray]:
-    known = _used_names(spec) | {"time", "segment"}
+def _read_extra(
+    table: LogTable, spec: ModuleSpec, reading_notes: list[str]
+) -> dict[str, np.ndarray]:
+    known = _collect_names(spec) | {"time", "segment"}
     # A current beside a torque is a measurement of its own: temperature and gain effects want it.
     known -= {f"current{joint.name}" for joint in spec.joints if f"tau{joint.name}" in table}
     others = [name for name in table.names if name not in known]
     text = [name for name in others if not table.is_numeric(name)]
     if text:
-        told.append(f"{', '.join(text)} not numeric, left out")
-    found = {name: table.measured(name) for name in others if name not in text}
-    return found | _temperatures(table, found, told)
+        reading_notes.append(f"{', '.join(text)} not numeric, left out")
+    columns = {name: table.read_measured(name) for name in others if name not in text}
+    return columns | _interpolate_temperatures(table, columns, reading_notes)
 
 
-def _temperatures(
-    table: LogTable, extra: dict[str, np.ndarray], told: list[str]
+def _interpolate_temperatures(
+    table: LogTable, extra: dict[str, np.ndarray], reading_notes: list[str]
 ) -> dict[str, np.ndarray]:
     """Temperatures, which are slow: between logged values they are taken from a straight line."""
-    found = {}
+    temperatures = {}
     for name, values in extra.items():
         logged = np.isfinite(values)
         if not name.startswith("temperature") or logged.all():
@@ -316,19 +340,20 @@ def _temperatures(
             continue  # other rows may tell
         if not logged.any():
             raise DataError(
-                f"{table.path}: {table.called(name)} has no values; record it, or drop the column"
+                f"{table.path}: {table.format_name(name)} has no values; record it, or drop the "
+                "column"
             )
-        time = table.numbers("time")
-        found[name] = np.interp(time, time[logged], values[logged])
-        told.append(
+        time = table.read_numbers("time")
+        temperatures[name] = np.interp(time, time[logged], values[logged])
+        reading_notes.append(
             f"{name} has no value in {int((~logged).sum())} of {len(values)} rows: taken between "
             "the others"
         )
-    return found
+    return temperatures
 
 
 @dataclass(frozen=True, eq=False)
-class Ranges:
+class ChannelRanges:
     """Between which values the channels of a log lie; J joints, infinite without any.
 
     Attributes:
@@ -342,41 +367,41 @@ class Ranges:
     high: np.ndarray
 
     @staticmethod
-    def of(log: Log) -> "Ranges":
+    def compute_from(log: Log) -> "ChannelRanges":
         """Of some rows."""
         channels = (log.q, log.tau)
         there = np.stack([np.isfinite(values).sum(axis=0) for values in channels])
         low = np.stack([np.fmin.reduce(values, axis=0) for values in channels])
         high = np.stack([np.fmax.reduce(values, axis=0) for values in channels])
-        return Ranges(there, np.where(there, low, np.inf), np.where(there, high, -np.inf))
+        return ChannelRanges(there, np.where(there, low, np.inf), np.where(there, high, -np.inf))
 
     @property
     def torques(self) -> tuple[tuple[float, float], ...]:
         """(J,) smallest and largest torque."""
         return tuple(zip(self.low[1].tolist(), self.high[1].tolist(), strict=True))
 
-    def merged_with(self, other: "Ranges") -> "Ranges":
+    def merged_with(self, other: "ChannelRanges") -> "ChannelRanges":
         """Of the rows of both."""
-        return Ranges(
+        return ChannelRanges(
             self.values + other.values,
             np.minimum(self.low, other.low),
             np.maximum(self.high, other.high),
         )
 
-    def doubts(self, step: float, spec: ModuleSpec) -> list[str]:
+    def collect_warnings(self, step: float, spec: ModuleSpec) -> list[str]:
         """Sentences on units and dead channels; usable, so no error."""
-        found = []
+        warnings = []
         if step > _SLOW_STEP:
-            found.append(f"median time step {step:.3g} s: is the column in seconds?")
+            warnings.append(f"median time step {step:.3g} s: is the column in seconds?")
         span = self.high - self.low
         for index, joint in enumerate(spec.joints):
             if joint.kind == "revolute" and span[0, index] > _FAR:
-                found.append(f"q{joint.name} spans {span[0, index]:.4g}: is it in rad?")
+                warnings.append(f"q{joint.name} spans {span[0, index]:.4g}: is it in rad?")
             if joint.actuated and span[1, index] == 0.0:
-                found.append(f"the torque of joint {joint.name} never changes: is it connected?")
-        return found
+                warnings.append(f"the torque of joint {joint.name} never changes: is it connected?")
+        return warnings
 
-    def check(self, path: Path, spec: ModuleSpec) -> None:
+    def check_values(self, path: Path, spec: ModuleSpec) -> None:
         """Refuse a log without measurements.
 
         Raises:
@@ -425,37 +450,39 @@ class FileSource:
         self.name, self.place, self.content = path.name, (path, mapping), ""
         self.rows, self.exact = blocks.rows, isinstance(blocks, ParquetBlocks)
         self._blocks, self._spec = blocks, spec
-        table = self._table(blocks.window(0.0, _FIRST))
-        whole = log_of(table, spec)
-        self._notes, self._how = whole.notes, whole.told
-        self._names = needed(table, spec)
+        table = self._build_table(blocks.read_window(0.0, _FIRST))
+        whole = build_log(table, spec)
+        self._notes, self._how = whole.notes, whole.reading_notes
+        self._names = find_needed_columns(table, spec)
 
-    def blocks(self, size: int) -> Iterator[Log]:
+    def read_blocks(self, size: int) -> Iterator[Log]:
         """All rows in their order, about `size` at a time.
 
         Raises:
             DataError: the log is damaged, or its time does not increase.
         """
         before, last, warm = 0, -np.inf, dict[str, float]()
-        for columns in self._blocks.blocks(size, self._names):
-            table = self._table(columns, before)
-            log = log_of(table, self._spec)
+        for columns in self._blocks.read_blocks(size, self._names):
+            table = self._build_table(columns, before)
+            log = build_log(table, self._spec)
             if log.time[0] <= last:
-                raise backwards(table, before, last, float(log.time[0]))
+                raise build_time_error(table, before, last, float(log.time[0]))
             before, last = before + log.rows, float(log.time[-1])
-            yield self._told(log, warm)
+            yield self._add_notes(log, warm)
 
-    def window(self, share: float, size: int) -> Log:
+    def read_window(self, share: float, size: int) -> Log:
         """Up to `size` consecutive rows from about a share of the log on."""
-        columns = self._blocks.window(share, size, self._names)
-        return self._told(log_of(self._table(columns, int(share * self.rows)), self._spec), {})
+        columns = self._blocks.read_window(share, size, self._names)
+        return self._add_notes(
+            build_log(self._build_table(columns, int(share * self.rows)), self._spec), {}
+        )
 
-    def _table(self, part: Columns, before: int = 0) -> LogTable:
+    def _build_table(self, part: Columns, before: int = 0) -> LogTable:
         return LogTable(*self.place, self._spec.joints, part=part, before=before)
 
-    def _told(self, log: Log, last: dict[str, float]) -> Log:
+    def _add_notes(self, log: Log, last: dict[str, float]) -> Log:
         """With the notes; slow columns without a value in its rows have the last before them."""
-        found = {}
+        extra = {}
         for name, values in log.extra.items():
             if not np.isfinite(values).any():
                 if name not in last:
@@ -465,8 +492,8 @@ class FileSource:
                     )
                 values = np.full(len(values), last[name])
             last[name] = float(values[np.isfinite(values)][-1])
-            found[name] = values
-        return dataclasses.replace(log, notes=self._notes, told=self._how, extra=found)
+            extra[name] = values
+        return dataclasses.replace(log, notes=self._notes, reading_notes=self._how, extra=extra)
 
 
 class MemorySource:
@@ -475,53 +502,53 @@ class MemorySource:
     def __init__(self, log: Log) -> None:
         self.log, self.name, self.rows, self.content = log, log.name, log.rows, log.content
 
-    def blocks(self, size: int) -> Iterator[Log]:
+    def read_blocks(self, size: int) -> Iterator[Log]:
         """All rows in their order."""
         for first in range(0, self.rows, size):
-            yield cut(self.log, slice(first, first + size))
+            yield cut_rows(self.log, slice(first, first + size))
 
-    def window(self, share: float, size: int) -> Log:
+    def read_window(self, share: float, size: int) -> Log:
         """Some rows."""
         first = max(0, min(int(share * self.rows), self.rows - size))
-        return cut(self.log, slice(first, first + size))
+        return cut_rows(self.log, slice(first, first + size))
 
 
 Source = FileSource | MemorySource
 """Rows of one log."""
 
 
-def source_of(path: Path, spec: ModuleSpec, mapping: LogMap | None = None) -> FileSource | None:
+def open_source(path: Path, spec: ModuleSpec, mapping: LogMap | None = None) -> FileSource | None:
     """The rows of a file that can be read in blocks; None of another format.
 
     Raises:
         DataError: the file is damaged, or lacks a column.
     """
-    blocks = blocks_of(path)
+    blocks = open_blocks(path)
     return None if blocks is None else FileSource(path, blocks, spec, mapping)
 
 
-def joined(logs: Sequence[Log]) -> Log:
+def join_logs(logs: Sequence[Log]) -> Log:
     """Consecutive rows of one log, put together."""
     if len(logs) == 1:
         return logs[0]
     columns: dict[str, Any] = {}
     for name in _COLUMNS:
-        own = [getattr(log, name) for log in logs]
-        columns[name] = None if any(part is None for part in own) else np.concatenate(own)
+        parts = [getattr(log, name) for log in logs]
+        columns[name] = None if any(part is None for part in parts) else np.concatenate(parts)
     extra = {name: np.concatenate([log.extra[name] for log in logs]) for name in logs[0].extra}
     return dataclasses.replace(logs[0], **columns, extra=extra)
 
 
-def windows_joined(logs: Sequence[Log]) -> Log:
+def join_windows(logs: Sequence[Log]) -> Log:
     """Windows of one log, increasing in time, as a log whose segments they are."""
     numbers, first = [], 0
     for log in logs:
         numbers.append(first + log.piece_number)
         first = int(numbers[-1][-1]) + 1
-    return dataclasses.replace(joined(logs), segment=np.concatenate(numbers))
+    return dataclasses.replace(join_logs(logs), segment=np.concatenate(numbers))
 
 
-def cut(log: Log, rows: slice | np.ndarray) -> Log:
+def cut_rows(log: Log, rows: slice | np.ndarray) -> Log:
     """Some rows of a log: consecutive ones, or those of a mask (n,)."""
     whole = {name: getattr(log, name) for name in _COLUMNS}
     parts: dict[str, Any] = {n: v if v is None else v[rows] for n, v in whole.items()}

@@ -9,9 +9,9 @@ from functools import partial
 
 import numpy as np
 
-from modeler.observation.observation import Evaluated, Observation
-from modeler.observation.stretch import Stretch
-from modeler.runtime import Triangles, no_rows, of_rows
+from modeler.observation.observation import ModelRegressor, Observation
+from modeler.observation.stretch import FilteredSegment
+from modeler.runtime import Triangles, make_empty_triangles, reduce_rows
 
 KEPT = 2**26
 """Bytes of the filtered regressor up to which it is kept."""
@@ -25,50 +25,58 @@ def is_streamed(observation: Observation) -> bool:
     What passes by is the regressor of a compiled model; another one is kept.
     """
     large = 8 * observation.used.size * len(observation.names) > KEPT
-    compiled = isinstance(observation.regressor, Evaluated)
+    compiled = isinstance(observation.regressor, ModelRegressor)
     return large and compiled and "columns" not in vars(observation)
 
 
-def blocks(observation: Observation) -> Iterator[tuple[slice, np.ndarray]]:
+def iterate_blocks(observation: Observation) -> Iterator[tuple[slice, np.ndarray]]:
     """Samples (b of them) and their filtered regressor (b, n, c), in order."""
-    for part, own in _stretches(observation):
-        for rows, columns in part.blocks(partial(observation.regressor, part.segment)):
-            yield slice(own.start + rows.start, own.start + rows.stop), columns
+    for part, part_rows in _iterate_stretches(observation):
+        for rows, columns in part.iterate_blocks(partial(observation.regressor, part.segment)):
+            yield slice(part_rows.start + rows.start, part_rows.start + rows.stop), columns
 
 
-def columns_at(observation: Observation, places: np.ndarray) -> np.ndarray:
+def evaluate_columns_at(observation: Observation, places: np.ndarray) -> np.ndarray:
     """(m, n, c) filtered regressor of some samples (m,), ascending."""
     if not is_streamed(observation):
         return np.asarray(observation.columns[places])
-    found = []
-    for part, own in _stretches(observation):
-        rows = places[(places >= own.start) & (places < own.stop)] - own.start
+    columns = []
+    for part, part_rows in _iterate_stretches(observation):
+        rows = places[(places >= part_rows.start) & (places < part_rows.stop)] - part_rows.start
         if is_unfiltered(part):
-            found.append(observation.regressor(part.segment, part.rows.centres[rows]))
+            columns.append(observation.regressor(part.segment, part.rows.centres[rows]))
         elif rows.size:
-            found.append(part.at(rows, partial(observation.regressor, part.segment)))
-    return np.concatenate(found)
+            columns.append(part.filter_rows(rows, partial(observation.regressor, part.segment)))
+    return np.concatenate(columns)
 
 
-def fitted_torque(observation: Observation, beta: np.ndarray, keep: np.ndarray) -> np.ndarray:
+def compute_fitted_torque(
+    observation: Observation, beta: np.ndarray, keep: np.ndarray
+) -> np.ndarray:
     """(s, n) torque of the model, `columns beta`, where keep (s, n); 0 elsewhere."""
     regressor = observation.regressor
-    assert isinstance(regressor, Evaluated)
-    return np.where(keep, observation.filtered(partial(regressor.torque, beta=beta)), 0.0)
+    assert isinstance(regressor, ModelRegressor)
+    return np.where(
+        keep, observation.filter_columns(partial(regressor.compute_torque, beta=beta)), 0.0
+    )
 
 
-def triangles(observation: Observation, keep: np.ndarray) -> Triangles:
+def compute_triangles(observation: Observation, keep: np.ndarray) -> Triangles:
     """Triangles of [W_j y_j] over the rows keep (s, n) bool."""
     regressor = observation.regressor
-    assert isinstance(regressor, Evaluated)
-    state = no_rows(regressor.pattern)
-    for part, own in _stretches(observation):
-        state = with_stretch(regressor, part, observation.torque[own], keep[own], state)
+    assert isinstance(regressor, ModelRegressor)
+    state = make_empty_triangles(regressor.pattern)
+    for part, part_rows in _iterate_stretches(observation):
+        state = add_stretch(regressor, part, observation.torque[part_rows], keep[part_rows], state)
     return state
 
 
-def with_stretch(
-    regressor: Evaluated, part: Stretch, torque: np.ndarray, keep: np.ndarray, state: Triangles
+def add_stretch(
+    regressor: ModelRegressor,
+    part: FilteredSegment,
+    torque: np.ndarray,
+    keep: np.ndarray,
+    state: Triangles,
 ) -> Triangles:
     """Triangles with the rows of a stretch added.
 
@@ -82,20 +90,20 @@ def with_stretch(
     if not keep.any():
         return state
     if is_unfiltered(part):
-        return regressor.triangles(part, keep, state)
+        return regressor.compute_triangles(part, keep, state)
     spans = regressor.pattern.spans
-    for rows, columns in part.blocks(partial(regressor, part.segment), _ADDED, spans):
+    for rows, columns in part.iterate_blocks(partial(regressor, part.segment), _ADDED, spans):
         used = np.ascontiguousarray(keep[rows])
-        state = of_rows(state.pattern, columns, torque[rows], used, state)
+        state = reduce_rows(state.pattern, columns, torque[rows], used, state)
     return state
 
 
-def is_unfiltered(part: Stretch) -> bool:
+def is_unfiltered(part: FilteredSegment) -> bool:
     """True if the rows of a stretch are samples: no parallel filter, whatever the decimation."""
     return len(part.rows.weights.data) == len(part.rows.centres)
 
 
-def _stretches(observation: Observation) -> Iterator[tuple[Stretch, slice]]:
+def _iterate_stretches(observation: Observation) -> Iterator[tuple[FilteredSegment, slice]]:
     first = 0
     for part in observation.stretches:
         count = len(part.rows.centres)

@@ -7,9 +7,9 @@ import numpy as np
 
 from modeler.core.errors import DataError, LoopError
 from modeler.observation.log import Log
-from modeler.observation.observation import Observation, observed
-from modeler.observation.outliers import ALWAYS, CONFIRMED, Defects, column_of
-from modeler.observation.prepare import LogRepair, Prepared, check_logs, prepare
+from modeler.observation.observation import Observation, build_observation
+from modeler.observation.outliers import ALWAYS, CONFIRMED, Defects, find_column
+from modeler.observation.prepare import LogRepair, PreparedLogs, check_logs, prepare_logs
 from modeler.observation.settings import Processing
 from modeler.runtime import CompiledModel
 
@@ -23,7 +23,7 @@ SEVERAL = ("held", "lost")
 """Kinds that befall several joints alike: one hypothesis."""
 
 
-def with_repairs(model: CompiledModel, logs: Sequence[Log], asked: Processing) -> Processing:
+def choose_repairs(model: CompiledModel, logs: Sequence[Log], asked: Processing) -> Processing:
     """The processing with the score of every repair; what is known already stays.
 
     A repair is a hypothesis. Its score is the error out of block of a weighted fit to the log that
@@ -38,20 +38,20 @@ def with_repairs(model: CompiledModel, logs: Sequence[Log], asked: Processing) -
     check_logs(model.spec, logs, asked)
     if asked.repairs is not None or asked.keep_damaged:
         return asked
-    mending = LogRepair(logs, model.spec)
+    repair = LogRepair(logs, model.spec)
     open_ = [
         (log, tried)
         for run, log in enumerate(logs)
-        for tried in _hypotheses(log, model, mending.mended(run, asked)[1])
+        for tried in _propose_repairs(log, model, repair.get_repaired(run, asked)[1])
     ]
     chosen = dataclasses.replace(asked, repairs={})
     if not open_:
         return chosen
     try:
         every = dict.fromkeys((f"{log.name}: {key}" for log, keys in open_ for key in keys), 0.0)
-        whole = prepare(model.spec, logs, dataclasses.replace(asked, repairs=every), mending)
+        whole = prepare_logs(model.spec, logs, dataclasses.replace(asked, repairs=every), repair)
         cutoffs = whole.processing.position_cutoff, whole.processing.parallel_cutoff
-        base = _fit(model, logs, chosen, mending, cutoffs)
+        base = _fit_blocks(model, logs, chosen, repair, cutoffs)
     except (DataError, LoopError):
         return chosen
     is_new = True
@@ -63,8 +63,8 @@ def with_repairs(model: CompiledModel, logs: Sequence[Log], asked: Processing) -
                 chosen, repairs={**(chosen.repairs or {}), **dict.fromkeys(names, 0.0)}
             )
             try:
-                mended = _fit(model, logs, tried, mending, cutoffs)
-                score = _score(mended, base)
+                mended = _fit_blocks(model, logs, tried, repair, cutoffs)
+                score = _compute_score(mended, base)
             except (DataError, LoopError):
                 continue
             scores = {**(chosen.repairs or {}), **dict.fromkeys(names, score)}
@@ -75,13 +75,15 @@ def with_repairs(model: CompiledModel, logs: Sequence[Log], asked: Processing) -
     return chosen
 
 
-def _hypotheses(log: Log, model: CompiledModel, found: Defects) -> Iterator[tuple[str, ...]]:
+def _propose_repairs(
+    log: Log, model: CompiledModel, defects_by_channel: Defects
+) -> Iterator[tuple[str, ...]]:
     """Names of defects, as "q2 zero", that are mended together."""
     several: dict[str, list[str]] = {}
-    for name, by_joint in found.items():
-        for j, own in enumerate(by_joint if name != "rows" else ()):
-            for kind in dict.fromkeys(one.kind for one in own if one.kind not in ALWAYS):
-                key = f"{column_of(log, model.spec, name, j)} {kind}"
+    for name, by_joint in defects_by_channel.items():
+        for j, channel in enumerate(by_joint if name != "rows" else ()):
+            for kind in dict.fromkeys(one.kind for one in channel if one.kind not in ALWAYS):
+                key = f"{find_column(log, model.spec, name, j)} {kind}"
                 if kind in SEVERAL:
                     several.setdefault(f"{name} {kind}", []).append(key)
                 else:
@@ -94,19 +96,21 @@ class BlockFit:
     """Rows of logs, and what a fit to other blocks leaves of each (s, n)."""
 
     rows: Observation
-    left: np.ndarray
+    residual: np.ndarray
 
 
-def _fit(
-    model: CompiledModel, logs: Sequence[Log], processing: Processing, mending: LogRepair,
+def _fit_blocks(
+    model: CompiledModel, logs: Sequence[Log], processing: Processing, repair: LogRepair,
     cutoffs: tuple[float, float],
 ) -> BlockFit:  # fmt: skip
-    prepared: Prepared = prepare(model.spec, logs, processing, mending).with_cutoffs(*cutoffs)
-    rows = observed(model, logs, prepared)
-    return BlockFit(rows, left_out(rows))
+    prepared: PreparedLogs = prepare_logs(model.spec, logs, processing, repair).set_cutoffs(
+        *cutoffs
+    )
+    rows = build_observation(model, logs, prepared)
+    return BlockFit(rows, compute_left_out_residual(rows))
 
 
-def left_out(rows: Observation) -> np.ndarray:
+def compute_left_out_residual(rows: Observation) -> np.ndarray:
     """(s, n) torque less what a weighted fit to the other blocks of time predicts.
 
     No parameter makes more torque than the joint has: what a motion does not show is near 0.
@@ -121,8 +125,8 @@ def left_out(rows: Observation) -> np.ndarray:
     weak, left = np.maximum(np.max(size, axis=0), 1e-12), np.full(y.shape, np.nan)
     scale = 1.0 / np.sqrt(weak)
     parts = {
-        (j, b): (W[own, j] * scale, y[own, j], own)
-        for j in driven for b in range(BLOCKS) if (own := used[:, j] & (block == b)).any()
+        (j, b): (W[is_used, j] * scale, y[is_used, j], is_used)
+        for j in driven for b in range(BLOCKS) if (is_used := used[:, j] & (block == b)).any()
     }  # fmt: skip
     least = {j: 1e-9 * sigma[j] for j in driven}
     for _ in range(WEIGHTINGS):
@@ -136,26 +140,26 @@ def left_out(rows: Observation) -> np.ndarray:
                 continue
             gram = np.sum([g for g, _ in some], axis=0) + np.eye(len(scale))
             beta = np.linalg.solve(gram, np.sum([r for _, r in some], axis=0))
-            for (j, other), (A, t, own) in parts.items():
+            for (j, other), (A, t, is_used) in parts.items():
                 if other == b:
-                    left[own, j] = t - A @ beta
+                    left[is_used, j] = t - A @ beta
         for j in driven:
             sigma[j] = max(float(np.sqrt(np.nanmean(left[:, j] ** 2))), least[j])
     return left
 
 
-def _score(mended: BlockFit, logged: BlockFit) -> float:
+def _compute_score(mended: BlockFit, logged: BlockFit) -> float:
     """Geometric mean over joints of the ratio of errors on rows that both have."""
     a, b = mended.rows, logged.rows
     start, span = float(a.time.min()), float(np.ptp(np.append(a.time, b.time))) + 1.0
-    one, other = (own.time - start + 2.0 * span * own.run for own in (a, b))
+    one, other = (fit_rows.time - start + 2.0 * span * fit_rows.run for fit_rows in (a, b))
     order = np.argsort(other)
     place = np.clip(np.searchsorted(other[order], one), 1, len(order) - 1)
     nearest = order[place - (one - other[order[place - 1]] < other[order[place]] - one)]
     close = np.abs(other[nearest] - one) <= 0.6 * np.median(np.diff(other[order]))
     ratios = []
     for j in range(a.torque.shape[1]):
-        left = np.stack([mended.left[close, j], logged.left[nearest[close], j]])
+        left = np.stack([mended.residual[close, j], logged.residual[nearest[close], j]])
         left = left[:, np.isfinite(left).all(axis=0)]
         if left.shape[1] > BLOCKS:
             errors = np.maximum(np.sqrt(np.mean(left**2, axis=1)), 1e-300)

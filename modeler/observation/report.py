@@ -3,9 +3,9 @@
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 
-from modeler.core.brief import Brief
-from modeler.core.result import Presented
-from modeler.core.table import percent
+from modeler.core.brief import ShortRepr
+from modeler.core.result import Result
+from modeler.core.table import format_percent
 from modeler.logs import Mark
 from modeler.observation.consistency import SCATTERS, SHARE, STEPS, Contradiction
 from modeler.observation.motion_noise import ChannelNoise, MotionNoise
@@ -15,7 +15,7 @@ from modeler.observation.settings import ChosenProcessing
 
 
 @dataclass(frozen=True)
-class LogReport(Brief):
+class LogReport(ShortRepr):
     """One log on its way to rows of W.
 
     Attributes:
@@ -68,9 +68,9 @@ class LogReport(Brief):
     torque_source: tuple[str, ...] = ()
     open_times: tuple[float, ...] = ()
     path: str = ""
-    told: tuple[str, ...] = ()
+    reading_notes: tuple[str, ...] = ()
 
-    def lines(self) -> list[str]:
+    def format_lines(self) -> list[str]:
         """Text, the first line always, the others where there is something to say."""
         text = [
             f"{self.name}: {self.rows} rows at {self.rate:.4g} Hz -> {self.samples} samples "
@@ -81,7 +81,7 @@ class LogReport(Brief):
             text.append(f"  {self.pieces} pieces{gap}; no filter runs across their ends")
         if self.resampled and self.jitter > JITTER:  # else a few rows were bridged
             text.append(
-                f"  time steps vary by up to {percent(self.jitter)}: {self.resampled} of "
+                f"  time steps vary by up to {format_percent(self.jitter)}: {self.resampled} of "
                 f"{self.pieces} pieces resampled on a uniform grid"
             )
         if self.short:
@@ -90,46 +90,46 @@ class LogReport(Brief):
             text.append(f"  {column}: {count} rows without a value; bridged, not used for the fit")
         for joint, count in self.saturated.items():
             text.append(f"  joint {joint}: torque stuck at its limit in {count} rows")
-        text += [f"  {line}" for line in joined_lines(self.damages)]
+        text += [f"  {line}" for line in join_lines(self.damages)]
         if self.contradicted:
             text.append(f"  {self.contradicted} samples with impossible derivatives, all joints:")
-        text += [f"  {found.line()}" for found in self.contradictions]
-        text += [f"  {line}" for line in self._open()]
-        return text + [f"  {note}" for note in (*self.told, *self.notes)]
+        text += [f"  {contradiction.format_line()}" for contradiction in self.contradictions]
+        text += [f"  {line}" for line in self._describe_open_loops()]
+        return text + [f"  {note}" for note in (*self.reading_notes, *self.notes)]
 
-    def doubts(self) -> list[str]:
+    def collect_warnings(self) -> list[str]:
         """What is wrong with the measurements, one sentence each, with the name of the file."""
-        found = [
+        warnings = [
             f"{column} has no value in {count} of {self.rows} rows; they are not used, but look "
             "why the logger left them out"
             for column, count in self.missing.items()
         ]
-        found += joined_lines([damage for damage in self.damages if damage.is_mended])
-        found += [
+        warnings += join_lines([damage for damage in self.damages if damage.is_mended])
+        warnings += [
             f"the torque of joint {joint} is clipped in {count} of {self.rows} rows; they are not "
             "used, but drive slower or with less load"
             for joint, count in self.saturated.items()
         ]
         if self.contradicted:
-            found.append(
+            warnings.append(
                 "the logged speeds or accelerations are not those of the positions in "
                 f"{self.contradicted} samples; they are not used, but check these channels"
             )
-        found += self._open()
-        return [f"{self.name}: {line}" for line in (*found, *self.notes)]
+        warnings += self._describe_open_loops()
+        return [f"{self.name}: {line}" for line in (*warnings, *self.notes)]
 
-    def marks(self) -> list[Mark]:
+    def collect_marks(self) -> list[Mark]:
         """What no robot does, where it lies."""
-        found = [
+        marks = [
             Mark(one.kind, one.column, start, start + lasts, one.line)
             for one in self.damages
             if one.is_mended
             for start, lasts in zip(one.times, one.lasts, strict=True)
         ]
         loops = "the loops cannot be closed here; not used, but check positions and geometry"
-        return found + [Mark("open", "all joints", t, t, loops) for t in self.open_times]
+        return marks + [Mark("open", "all joints", t, t, loops) for t in self.open_times]
 
-    def _open(self) -> list[str]:
+    def _describe_open_loops(self) -> list[str]:
         """A sentence where loops cannot be closed."""
         if not self.open_times:
             return []
@@ -141,16 +141,16 @@ class LogReport(Brief):
         ]
 
 
-def joined_lines(damages: Sequence[Damage]) -> list[str]:
+def join_lines(damages: Sequence[Damage]) -> list[str]:
     """Their lines; of channels of which the same is said, one."""
-    found: dict[str, list[str]] = {}
+    columns_by_text: dict[str, list[str]] = {}
     for one in damages:
-        found.setdefault(one.line.removeprefix(f"{one.column}: "), []).append(one.column)
-    return [f"{', '.join(columns)}: {rest}" for rest, columns in found.items()]
+        columns_by_text.setdefault(one.line.removeprefix(f"{one.column}: "), []).append(one.column)
+    return [f"{', '.join(columns)}: {rest}" for rest, columns in columns_by_text.items()]
 
 
 @dataclass(frozen=True)
-class JointReport(Brief):
+class JointReport(ShortRepr):
     """Rows of one joint.
 
     Attributes:
@@ -172,10 +172,10 @@ class JointReport(Brief):
     samples: int = 0
     lost: Mapping[str, int] = field(default_factory=dict)
 
-    def line(self) -> str:
+    def format_line(self) -> str:
         """Text."""
         if self.used == 0:
-            return f"joint {self.name}: {self._why_none()}"
+            return f"joint {self.name}: {self._explain_empty()}"
         if self.speed_floor is None:
             return f"joint {self.name}: {self.used} rows"
         if self.speed_floor == float("inf"):
@@ -184,26 +184,27 @@ class JointReport(Brief):
                 "identifiable"
             )
         return (
-            f"joint {self.name}: {self.used} rows; {percent(self.slow)} of the samples masked "
+            f"joint {self.name}: {self.used} rows; {format_percent(self.slow)} of the samples "
+            "masked "
             f"below {self.speed_floor:.3g} {self.unit}, where the sign of the speed is "
             "doubtful"
         )
 
-    def _why_none(self) -> str:
+    def _explain_empty(self) -> str:
         """The cause that most samples share, when no row is left."""
         slow = round(self.slow * (self.samples - sum(self.lost.values())))
         cause = max(self.lost, key=lambda name: self.lost[name], default="")
         if slow >= self.lost.get(cause, 0):
             return (
-                f"0 rows; {percent(self.slow)} of the samples masked below "
+                f"0 rows; {format_percent(self.slow)} of the samples masked below "
                 f"{self.speed_floor:.3g} {self.unit}: it hardly moves, or the time column is not "
                 "in seconds"
             )
-        return f"0 rows; {percent(self.lost[cause] / self.samples)} of its samples {cause}"
+        return f"0 rows; {format_percent(self.lost[cause] / self.samples)} of its samples {cause}"
 
 
 @dataclass(frozen=True)
-class Bands(Brief):
+class Bands(ShortRepr):
     """The cut-offs, what chose them, and the noise of the motion, as plain data.
 
     Attributes:
@@ -229,7 +230,7 @@ class Bands(Brief):
     widest_values: tuple[float, ...] = ()
 
 
-def bands_of(noise: MotionNoise | None, processing: ChosenProcessing | None = None) -> Bands:
+def build_bands(noise: MotionNoise | None, processing: ChosenProcessing | None = None) -> Bands:
     """What is known of the noise of the motion, and of cut-offs that nothing was lowered for."""
     joints = noise.joints if noise else ()
     if processing is None:
@@ -238,7 +239,7 @@ def bands_of(noise: MotionNoise | None, processing: ChosenProcessing | None = No
 
 
 @dataclass(frozen=True)
-class DataReport(Presented):
+class DataReport(Result):
     """All of it.
 
     Attributes:
@@ -262,13 +263,13 @@ class DataReport(Presented):
     @property
     def bands(self) -> Bands:
         """The cut-offs and the noise of the motion as plain data."""
-        return self.lowered or bands_of(self.noise, self.processing)
+        return self.lowered or build_bands(self.noise, self.processing)
 
-    def doubts(self) -> list[str]:
+    def collect_warnings(self) -> list[str]:
         """What is wrong with the measurements of all logs, one sentence each."""
-        return [line for log in self.logs for line in log.doubts()]
+        return [line for log in self.logs for line in log.collect_warnings()]
 
-    def notes(self) -> list[str]:
+    def collect_notes(self) -> list[str]:
         """What looks like a defect of a log and is used as logged, one sentence each."""
         return [
             f"note: {log.name}: {damage.line}"
@@ -277,10 +278,10 @@ class DataReport(Presented):
             if not damage.is_mended
         ]
 
-    def lines(self) -> list[str]:
+    def format_lines(self) -> list[str]:
         """Lines of text for people."""
-        lines = [line for log in self.logs for line in log.lines()]
-        lines += [*(self.noise.lines() if self.noise else ()), *self.choices]
+        lines = [line for log in self.logs for line in log.format_lines()]
+        lines += [*(self.noise.format_lines() if self.noise else ()), *self.choices]
         if any(log.saturated for log in self.logs):
             used = "used" if self.processing.keep_saturated else "not used"
             lines.append(f"rows with a torque at its limit are {used}")
@@ -300,4 +301,4 @@ class DataReport(Presented):
                 f"{100 * SHARE:g} % of the derivative's size and {STEPS:g} resolution steps per "
                 "window; --derivatives position differentiates the positions instead"
             )
-        return lines + [joint.line() for joint in self.joints]
+        return lines + [joint.format_line() for joint in self.joints]

@@ -6,8 +6,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from modeler.numerics.held import noise_of, rows_held
-from modeler.numerics.noise import lattice_step
+from modeler.numerics.held import estimate_channel_noise, estimate_hold_length
+from modeler.numerics.noise import estimate_lattice_step
 from modeler.observation.log import Log
 
 JITTER = 0.01
@@ -30,7 +30,7 @@ MOVES = 10.0
 
 
 @dataclass(frozen=True, eq=False)
-class Piece:
+class RawSegment:
     """One uniform stretch of a log, before differentiation; n samples.
 
     Attributes:
@@ -86,13 +86,13 @@ class SplitReport:
     short: np.ndarray
 
 
-def split(
+def split_log(
     log: Log,
     run: int,
     logged_motion: bool,
     extremes: Sequence[tuple[float, float] | None] | None = None,
     logged: np.ndarray | None = None,
-) -> tuple[tuple[Piece, ...], SplitReport]:
+) -> tuple[tuple[RawSegment, ...], SplitReport]:
     """The uniform pieces of a log.
 
     Cut where `segment` changes and where a step exceeds 5 median steps; rows without a position
@@ -112,8 +112,8 @@ def split(
     ends = [None] * log.tau.shape[1] if extremes is None else extremes
     clipped = np.column_stack(
         [
-            saturated(*own)
-            for own in zip(
+            find_saturated(*part)
+            for part in zip(
                 log.tau.T, log.q.T, ends, (log.tau if logged is None else logged).T, strict=True
             )
         ]
@@ -124,20 +124,24 @@ def split(
     if log.segment is not None:
         cut = cut | (np.diff(log.segment[rows]) != 0)
     groups = np.split(rows, np.flatnonzero(cut) + 1)
-    kept = [group for group in groups if len(group) >= _LEAST]
+    long_groups = [group for group in groups if len(group) >= _LEAST]
     report = SplitReport(
         gaps=log.time[rows[1:][gap]],
         widths=steps[gap],
         jitter=float(np.max(np.abs(inside / log.step - 1.0))) if inside.size else 0.0,
         short=log.time[np.concatenate([rows[:0], *(g for g in groups if len(g) < _LEAST)])],
     )
-    q_step = tuple(map(lattice_step, log.q.T))
-    qd_step = () if log.qd is None else tuple(map(lattice_step, log.qd.T))
-    pieces = (_piece(log, run, group, clipped, logged_motion) for group in kept)
-    return tuple(dataclasses.replace(own, q_step=q_step, qd_step=qd_step) for own in pieces), report
+    q_step = tuple(map(estimate_lattice_step, log.q.T))
+    qd_step = () if log.qd is None else tuple(map(estimate_lattice_step, log.qd.T))
+    pieces = (_build_piece(log, run, group, clipped, logged_motion) for group in long_groups)
+    return tuple(
+        dataclasses.replace(part, q_step=q_step, qd_step=qd_step) for part in pieces
+    ), report
 
 
-def _piece(log: Log, run: int, rows: np.ndarray, clipped: np.ndarray, logged_motion: bool) -> Piece:
+def _build_piece(
+    log: Log, run: int, rows: np.ndarray, clipped: np.ndarray, logged_motion: bool
+) -> RawSegment:
     measured = log.time[rows]
     samples = max(_LEAST, round((measured[-1] - measured[0]) / log.step) + 1)
     time = np.linspace(measured[0], measured[-1], samples)
@@ -152,17 +156,17 @@ def _piece(log: Log, run: int, rows: np.ndarray, clipped: np.ndarray, logged_mot
     usual = float(np.quantile(steps, _USUAL)) if len(steps) else 0.0
     beside = max(_NEAR * step, 0.5 * (log.robot_steps or (0.0, 0.0))[1], _HALF * usual)
     bridged = np.abs(time - measured[near]) > beside
-    short = bridged & ~longer_runs(bridged, SHORT)
+    short = bridged & ~select_long_runs(bridged, SHORT)
 
     def on_grid(values: np.ndarray) -> np.ndarray:
-        return values[rows] if uniform else _moved(measured, values[rows], time, short)
+        return values[rows] if uniform else _resample_values(measured, values[rows], time, short)
 
     def smooth(values: np.ndarray | None, wanted: bool) -> np.ndarray | None:
         return on_grid(values) if values is not None and wanted else None
 
-    tau, valid = _bridge(time, measured, log.tau[rows], bridged, beside)
+    tau, valid = _bridge_torque(time, measured, log.tau[rows], bridged, beside)
     asked = log.commanded
-    return Piece(
+    return RawSegment(
         run=run,
         time=time,
         step=step,
@@ -181,7 +185,7 @@ def _piece(log: Log, run: int, rows: np.ndarray, clipped: np.ndarray, logged_mot
     )
 
 
-def _moved(
+def _resample_values(
     measured: np.ndarray, values: np.ndarray, time: np.ndarray, short: np.ndarray
 ) -> np.ndarray:
     """Values at other times: monotone cubics, and within short bridges cubic splines."""
@@ -193,15 +197,15 @@ def _moved(
     return np.asarray(moved)
 
 
-def longer_runs(flags: np.ndarray, length: int) -> np.ndarray:
+def select_long_runs(flags: np.ndarray, length: int) -> np.ndarray:
     """The flags (n,) that stand in runs of more than `length`."""
-    kept = np.zeros(len(flags), dtype=bool)
-    for start, stop in runs(flags):
-        kept[start:stop] = stop - start > length
-    return kept
+    is_long = np.zeros(len(flags), dtype=bool)
+    for start, stop in find_runs(flags):
+        is_long[start:stop] = stop - start > length
+    return is_long
 
 
-def _bridge(
+def _bridge_torque(
     time: np.ndarray, measured: np.ndarray, tau: np.ndarray, bridged: np.ndarray, beside: float
 ) -> tuple[np.ndarray, np.ndarray]:
     """Torque on the grid, missing entries bridged linearly; and where it and all else is measured.
@@ -230,7 +234,7 @@ def _bridge(
     return values, valid
 
 
-def saturated(
+def find_saturated(
     values: np.ndarray, position: np.ndarray, extremes: tuple[float, float] | None = None,
     logged: np.ndarray | None = None,
 ) -> np.ndarray:  # fmt: skip
@@ -248,40 +252,40 @@ def saturated(
         extremes: smallest and largest value of the log elsewhere, of which these are a part.
         logged: (n,) the torque before it was mended: between held samples it is interpolated.
     """
-    found = np.zeros(len(values), dtype=bool)
+    is_saturated = np.zeros(len(values), dtype=bool)
     if not len(values):
-        return found
+        return is_saturated
     low, high = float(np.fmin.reduce(values)), float(np.fmax.reduce(values))
     if not low < high:
-        return found
+        return is_saturated
     ends = [low, high]
     if extremes is not None:
         ends = [low] * (low <= extremes[0]) + [high] * (high >= extremes[1])
     found_runs = [
         (end, (start, stop))
         for end in ends
-        for start, stop in runs(values == end)
+        for start, stop in find_runs(values == end)
         if stop - start >= LEAST_RUN
     ]
-    least = MOVES * noise_of(position[np.isfinite(position)]) if found_runs else 0.0
+    least = MOVES * estimate_channel_noise(position[np.isfinite(position)]) if found_runs else 0.0
     moved = {
         end for end, (start, stop) in found_runs
         if abs(position[stop - 1] - position[start]) > least
     }  # fmt: skip
-    if not moved or rows_held(values if logged is None else logged) >= LEAST_RUN:
-        return found
+    if not moved or estimate_hold_length(values if logged is None else logged) >= LEAST_RUN:
+        return is_saturated
     found_runs = [(end, run) for end, run in found_runs if end in moved]
-    step = lattice_step(values)
+    step = estimate_lattice_step(values)
     resolution = step if len(np.unique(values[np.isfinite(values)])) > SWITCHES else 0.0
     for extreme, (start, stop) in found_runs:
         beside = [values[i] for i in (start - 1, stop) if 0 <= i < len(values)]
         leap = max((abs(extreme - v) for v in beside if np.isfinite(v)), default=0.0)
         if leap > QUANTA * resolution:
-            found[start:stop] = True
-    return found
+            is_saturated[start:stop] = True
+    return is_saturated
 
 
-def runs(flags: np.ndarray) -> list[tuple[int, int]]:
+def find_runs(flags: np.ndarray) -> list[tuple[int, int]]:
     """[start, stop) of each stretch of True in flags (n,)."""
     edges = np.flatnonzero(np.diff(flags.astype(np.int8), prepend=0, append=0)).tolist()
     return list(zip(edges[::2], edges[1::2], strict=True))

@@ -5,12 +5,12 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Any, get_args
 
-from modeler.core.brief import Brief
+from modeler.core.brief import ShortRepr
 from modeler.core.errors import LOW_SPEED, DataError, Derivatives
 
 
 @dataclass(frozen=True)
-class Processing(Brief):
+class Processing(ShortRepr):
     """Choices of the processing; None is chosen from the logs and stated in the report.
 
     Attributes:
@@ -112,7 +112,7 @@ def _is_number(value: object) -> bool:
     return isinstance(value, int | float) and not isinstance(value, bool)
 
 
-def processing_from_json(raw: Mapping[str, Any]) -> Processing:
+def read_processing(raw: Mapping[str, Any]) -> Processing:
     """Read `Processing.to_json` back.
 
     Raises:

@@ -8,12 +8,12 @@ import numpy as np
 
 from modeler.numerics.noise import (
     REACH,
-    departures,
-    floor_here,
-    lattice_step,
-    lone,
-    nearby,
-    threshold,
+    compute_local_threshold,
+    compute_nearby_level,
+    compute_outlier_threshold,
+    estimate_lattice_step,
+    find_isolated_outliers,
+    subtract_running_median,
 )
 
 LONGEST = 3
@@ -65,7 +65,7 @@ Spikes = list[list[list[Defect]]]
 """By joint and stretch."""
 
 
-def glitches(
+def find_spikes(
     stretches: Sequence[np.ndarray], floors: np.ndarray | None = None
 ) -> tuple[Spikes, np.ndarray | None]:
     """The lone departures of channels from their running median, in runs of up to 3.
@@ -81,28 +81,28 @@ def glitches(
     """
     if not stretches:
         return [], floors
-    channels = [[own[:, j] for own in stretches] for j in range(stretches[0].shape[1])]
-    departed = [[departures(own) for own in channel] for channel in channels]
+    channels = [[part[:, j] for part in stretches] for j in range(stretches[0].shape[1])]
+    departed = [[subtract_running_median(part) for part in channel] for channel in channels]
     if floors is None:
-        floors = np.array(list(map(_floor, channels, departed)))
-    found = []
+        floors = np.array(list(map(_compute_floor, channels, departed)))
+    spikes = []
     for channel, sizes, floor in zip(channels, departed, floors, strict=True):
-        here = floor_here(sizes, float(floor), RARE)
+        here = compute_local_threshold(sizes, float(floor), RARE)
         pairs = zip(channel, sizes, strict=True)
-        found.append([_lone_runs(values, own, here) for values, own in pairs])
-    return found, floors
+        spikes.append([_find_lone_runs(values, part, here) for values, part in pairs])
+    return spikes, floors
 
 
-def _floor(channel: Sequence[np.ndarray], departed: Sequence[np.ndarray]) -> float:
+def _compute_floor(channel: Sequence[np.ndarray], departed: Sequence[np.ndarray]) -> float:
     """Departure below which no value of a whole channel is a spike."""
     whole = np.concatenate(channel)
     low, high = np.quantile(whole, [0.01, 0.99])
-    lonely = threshold(np.concatenate(departed), lattice_step(whole), RARE)
+    lonely = compute_outlier_threshold(np.concatenate(departed), estimate_lattice_step(whole), RARE)
     return max(lonely, SHARE * float(high - low))
 
 
-def _lone_runs(values: np.ndarray, departed: np.ndarray, floor: float) -> list[Defect]:
-    places, spikes = lone(departed, floor), list[Defect]()
+def _find_lone_runs(values: np.ndarray, departed: np.ndarray, floor: float) -> list[Defect]:
+    places, spikes = find_isolated_outliers(departed, floor), list[Defect]()
     for run in np.split(places, np.flatnonzero(np.diff(places) > 1) + 1):
         if not 0 < len(run) <= LONGEST:
             continue
@@ -115,7 +115,7 @@ def _lone_runs(values: np.ndarray, departed: np.ndarray, floor: float) -> list[D
 
 
 @dataclass(frozen=True, eq=False)
-class Usual:
+class TorqueScales:
     """What is usual in the torques and speeds of a log; J joints.
 
     Attributes:
@@ -127,14 +127,19 @@ class Usual:
     top: np.ndarray
 
 
-def usual_of(torques: Sequence[np.ndarray], speeds: Sequence[np.ndarray]) -> Usual:
+def compute_torque_scales(
+    torques: Sequence[np.ndarray], speeds: Sequence[np.ndarray]
+) -> TorqueScales:
     """Of the stretches (n, J) of a whole log, one at least."""
     low, high = np.quantile(np.concatenate(torques), [0.01, 0.99], axis=0)
-    return Usual(high - low, np.quantile(np.abs(np.concatenate(speeds)), 0.98, axis=0))
+    return TorqueScales(high - low, np.quantile(np.abs(np.concatenate(speeds)), 0.98, axis=0))
 
 
-def unexplained(
-    found: Spikes, torques: Sequence[np.ndarray], speeds: Sequence[np.ndarray], usual: Usual
+def select_unexplained(
+    spikes_by_joint: Spikes,
+    torques: Sequence[np.ndarray],
+    speeds: Sequence[np.ndarray],
+    torque_scales: TorqueScales,
 ) -> Spikes:
     """The spikes of torques that no motion and no blow explains.
 
@@ -143,39 +148,42 @@ def unexplained(
     channel (1 % to 99 % of its values).
 
     Args:
-        found: by `glitches` of the torques.
+        spikes_by_joint: by `find_spikes` of the torques.
         torques: (n, J) by stretch; a joint without a measured torque is all 0.
         speeds: (n, J) by stretch.
-        usual: in the whole log.
+        torque_scales: in the whole log.
     """
-    if not any(spikes for by_joint in found for spikes in by_joint):
-        return found
-    sizes = [np.abs(np.column_stack([departures(own) for own in tau.T])) for tau in torques]
+    if not any(spikes for by_joint in spikes_by_joint for spikes in by_joint):
+        return spikes_by_joint
+    sizes = [
+        np.abs(np.column_stack([subtract_running_median(column) for column in tau.T]))
+        for tau in torques
+    ]
     return [
         [
             [spike for spike in spikes
-             if not _blow(size, j, spike) and not _answered(speed[:, j], spike)
-             and (abs(spike.size) > usual.range[j]
-                  or _moves(speed[:, j], spike, _SLOW * usual.top[j]))]
+             if not _is_impact(size, j, spike) and not _is_corroborated(speed[:, j], spike)
+             and (abs(spike.size) > torque_scales.range[j]
+                  or _is_moving(speed[:, j], spike, _SLOW * torque_scales.top[j]))]
             for spikes, size, speed in zip(by_stretch, sizes, speeds, strict=True)
         ]
-        for j, by_stretch in enumerate(found)
+        for j, by_stretch in enumerate(spikes_by_joint)
     ]  # fmt: skip
 
 
-def _blow(sizes: np.ndarray, j: int, spike: Defect) -> bool:
+def _is_impact(sizes: np.ndarray, j: int, spike: Defect) -> bool:
     """True if another torque departs too, around the same time."""
     first, last = max(0, spike.start - _AROUND), spike.stop + _AROUND
     for k in range(sizes.shape[1]):
         if k == j:
             continue
         place = first + int(np.argmax(sizes[first:last, k]))
-        if sizes[place, k] > TOGETHER * nearby(sizes[:, k], place):
+        if sizes[place, k] > TOGETHER * compute_nearby_level(sizes[:, k], place):
             return True
     return False
 
 
-def _answered(speed: np.ndarray, spike: Defect) -> bool:
+def _is_corroborated(speed: np.ndarray, spike: Defect) -> bool:
     """True if the speed changes across a spike as it rarely does, or did not before."""
     mean = np.convolve(speed, np.ones(_MEAN) / _MEAN, mode="valid")
     change = np.abs(mean[_MEAN + 1 :] - mean[: -_MEAN - 1])  # centred on sample _MEAN + k
@@ -186,7 +194,7 @@ def _answered(speed: np.ndarray, spike: Defect) -> bool:
     return across > float(np.quantile(change, _RARELY)) or across > _STARTS * before > 0.0
 
 
-def _moves(speed: np.ndarray, spike: Defect, least: float) -> bool:
+def _is_moving(speed: np.ndarray, spike: Defect, least: float) -> bool:
     """True if a joint moves one way, and not slowly, around a spike."""
     around = speed[max(0, spike.start - _AROUND) : spike.stop + _AROUND]
     return bool(np.min(around) > least or np.max(around) < -least)

@@ -8,24 +8,43 @@ from itertools import chain
 import numpy as np
 
 from modeler.core.errors import DataError, LoopError
-from modeler.numerics.filters import spacing
-from modeler.observation.chunk import Chunk, margin
-from modeler.observation.consistency import consistency
-from modeler.observation.log import FINGER, LONG, Log, fingerprint, fingerprint_of, fingers
-from modeler.observation.low_speed import REST_TRAVEL, FrictionShaft, at_rest, shafts, top_speeds
-from modeler.observation.motion import Segment, segment_of
-from modeler.observation.observation import Observation, observed
-from modeler.observation.observe import lowered
-from modeler.observation.outliers import ChannelScales, confirmed, defects, repairs_named
-from modeler.observation.prepare import PreparedLog, believed, check_size, closed, prepare
-from modeler.observation.read import Ranges, Source, cut, joined, windows_joined
-from modeler.observation.repairs import with_repairs
+from modeler.numerics.filters import choose_row_spacing
+from modeler.observation.chunk import Chunk, compute_margin
+from modeler.observation.consistency import check_derivatives
+from modeler.observation.log import (
+    FINGER,
+    LONG,
+    Log,
+    combine_hashes,
+    compute_block_hashes,
+    compute_fingerprint,
+)
+from modeler.observation.low_speed import (
+    REST_TRAVEL,
+    FrictionShaft,
+    clear_resting_speeds,
+    compute_top_speeds,
+    find_shafts,
+)
+from modeler.observation.motion import Segment, build_segment
+from modeler.observation.observation import Observation, build_observation
+from modeler.observation.observe import limit_cutoffs
+from modeler.observation.outliers import ChannelScales, parse_repairs, repair_log, select_confirmed
+from modeler.observation.prepare import (
+    PreparedLog,
+    check_size,
+    close_segment,
+    exclude_contradicted,
+    prepare_logs,
+)
+from modeler.observation.read import ChannelRanges, Source, cut_rows, join_logs, join_windows
+from modeler.observation.repairs import choose_repairs
 from modeler.observation.report import DataReport, LogReport
-from modeler.observation.segments import Piece, split
+from modeler.observation.segments import RawSegment, split_log
 from modeler.observation.settings import ChosenProcessing, Processing
 from modeler.observation.spikes import Defect
-from modeler.observation.stretch import Stretch, row_centres, stretch
-from modeler.observation.tally import Facts, joint_reports, log_report, tally
+from modeler.observation.stretch import FilteredSegment, choose_row_centres, filter_segment
+from modeler.observation.tally import LogFacts, build_joint_reports, build_log_report, count_rows
 from modeler.runtime import CompiledModel
 
 WINDOWS = 8
@@ -79,12 +98,12 @@ class LogChoices:
     processing: ChosenProcessing
     decimation: int
     logged: bool
-    usual: ChannelScales
+    channel_scales: ChannelScales
     extremes: Extremes
     shafts: tuple[FrictionShaft, ...]
     step: float
-    own: int
-    beside: int
+    chunk_rows: int
+    margin_rows: int
 
 
 @dataclass(frozen=True, eq=False)
@@ -107,7 +126,7 @@ class Survey:
 
 
 @dataclass(frozen=True, eq=False)
-class FactsSoFar:
+class KnownFacts:
     """What an earlier pass over the logs found, that the windows did not show.
 
     Attributes:
@@ -119,11 +138,11 @@ class FactsSoFar:
     extremes: Mapping[int, Extremes] = dataclasses.field(default_factory=dict)
 
 
-def survey(
+def choose_from_windows(
     model: CompiledModel,
     sources: Sequence[Source],
     processing: Processing,
-    known: FactsSoFar,
+    known: KnownFacts,
     rows: int = FINGER,
 ) -> Survey:
     """Looks at windows of the logs and chooses.
@@ -139,53 +158,60 @@ def survey(
         DataError: a log is damaged.
         WholeNeeded: `observe` refuses the windows.
     """
-    windows = [_windows(source, _count(sources, k)) for k, source in enumerate(sources)]
-    looked = [k for k, own in enumerate(windows) if own]
-    logs = [windows_joined(own) if own else None for own in windows]
+    windows = [
+        _read_windows(source, _count_windows(sources, k)) for k, source in enumerate(sources)
+    ]
+    looked = [k for k, log_windows in enumerate(windows) if log_windows]
+    logs = [join_windows(log_windows) if log_windows else None for log_windows in windows]
     seen = [log for log in logs if log is not None]
     try:
-        processing = with_repairs(model, seen, processing)
-        prepared = prepare(model.spec, seen, processing)
-        observation = observed(model, seen, lowered(model, prepared, processing))
+        processing = choose_repairs(model, seen, processing)
+        prepared = prepare_logs(model.spec, seen, processing)
+        observation = build_observation(model, seen, limit_cutoffs(model, prepared, processing))
     except (DataError, LoopError) as error:  # what is wrong here may be right elsewhere
-        where = f"the {sum(len(own) for own in windows)} windows"
+        where = f"the {sum(len(log_windows) for log_windows in windows)} windows"
         raise WholeLogNeeded(f"{error}; found in {where} by which long logs are judged") from None
-    chosen, parts = observation.report.processing, shafts(model)
+    chosen, parts = observation.report.processing, find_shafts(model)
     chosen = dataclasses.replace(chosen, speed_floors={**chosen.speed_floors, **known.floors})
     places = tuple(looked.index(k) if k in looked else 0 for k in range(len(sources)))
     every = []
     for k, (source, at) in enumerate(zip(sources, places, strict=True)):
-        log = logs[k] or source.window(0.5, WINDOW)
+        log = logs[k] or source.read_window(0.5, WINDOW)
         if log.rows < 2:
             raise DataError(
                 f"{log.name}: {log.rows} rows where it was looked at; expected a motion; leave it "
                 "out"
             )
-        ranges, beside = Ranges.of(log), margin(chosen, log.step)
+        ranges, beside = ChannelRanges.compute_from(log), compute_margin(chosen, log.step)
         fresh = [piece.step for piece in prepared.logs[at].pieces if k in looked]
         every.append(
             LogChoices(
                 run=k,
                 name=source.name,
                 processing=chosen,
-                decimation=spacing(
+                decimation=choose_row_spacing(
                     (*fresh, log.step)[0], chosen.parallel_cutoff, chosen.decimation
                 ),
                 logged=prepared.logs[at].check is not None,
-                usual=prepared.logs[at].usual,
+                channel_scales=prepared.logs[at].channel_scales,
                 extremes=known.extremes.get(k) or ranges.torques,
                 shafts=parts,
                 step=log.step,
-                own=rows * max(1, -(-4 * beside // rows)),  # most of what is read
-                beside=beside,
+                chunk_rows=rows * max(1, -(-4 * beside // rows)),  # most of what is read
+                margin_rows=beside,
             )
         )
-    count, rows_seen = sum(len(own) for own in windows), sum(log.rows for log in seen)
-    told = tuple(dataclasses.replace(prepared.logs[at], pieces=()) for at in places)  # memory
-    return Survey(observation, told, tuple(every), count, rows_seen)
+    count, rows_seen = (
+        sum(len(log_windows) for log_windows in windows),
+        sum(log.rows for log in seen),
+    )
+    prepared_logs = tuple(
+        dataclasses.replace(prepared.logs[at], pieces=()) for at in places
+    )  # memory
+    return Survey(observation, prepared_logs, tuple(every), count, rows_seen)
 
 
-def _count(sources: Sequence[Source], k: int) -> int:
+def _count_windows(sources: Sequence[Source], k: int) -> int:
     """Windows of a log."""
     if len(sources) > MOST_WINDOWS:
         return int(k % -(-len(sources) // MOST_WINDOWS) == 0)
@@ -193,21 +219,21 @@ def _count(sources: Sequence[Source], k: int) -> int:
     return max(1, round(WINDOWS * sources[k].rows / max(1, total)))
 
 
-def _windows(source: Source, count: int) -> list[Log]:
+def _read_windows(source: Source, count: int) -> list[Log]:
     """Windows of a log, increasing in time."""
     if not count:
         return []
-    first = source.window(0.5 / count, WINDOW)
+    first = source.read_window(0.5 / count, WINDOW)
     size = int(np.clip(round(SECONDS / first.step), WINDOW, LONGEST)) if first.rows > 1 else WINDOW
     if count * size > 0.7 * source.rows:
-        return [source.window(0.0, max(size, min(source.rows, count * size)))]
-    found: list[Log] = []
+        return [source.read_window(0.0, max(size, min(source.rows, count * size)))]
+    windows: list[Log] = []
     for k in range(count):
-        log = _moving(source, (k / count, (k + 1) / count), size)
-        if not found or log.time[0] > found[-1].time[-1]:
-            found.append(log)
-    _check_unit(found)
-    return found
+        log = _find_moving_window(source, (k / count, (k + 1) / count), size)
+        if not windows or log.time[0] > windows[-1].time[-1]:
+            windows.append(log)
+    _check_unit(windows)
+    return windows
 
 
 def _check_unit(windows: Sequence[Log]) -> None:
@@ -218,7 +244,7 @@ def _check_unit(windows: Sequence[Log]) -> None:
     Raises:
         DataError: rows of two windows come at rates that no logger has both of.
     """
-    moving = [log for log in windows if log.rows > 1 and _moves(log)]
+    moving = [log for log in windows if log.rows > 1 and _is_moving(log)]
     for log in moving[1:]:
         first, ratio = moving[0], log.step / moving[0].step
         if max(ratio, 1.0 / ratio) > UNIT:
@@ -230,15 +256,15 @@ def _check_unit(windows: Sequence[Log]) -> None:
             )
 
 
-def _moving(source: Source, part: tuple[float, float], size: int) -> Log:
+def _find_moving_window(source: Source, part: tuple[float, float], size: int) -> Log:
     """A window in which something moves, in a part of a log; that in its middle if none does."""
     start, stop = part
-    looks = (source.window(start + place * (stop - start), size) for place in _PLACES)
+    looks = (source.read_window(start + place * (stop - start), size) for place in _PLACES)
     middle = next(looks)
-    return next((log for log in chain([middle], looks) if _moves(log)), middle)
+    return next((log for log in chain([middle], looks) if _is_moving(log)), middle)
 
 
-def _moves(log: Log) -> bool:
+def _is_moving(log: Log) -> bool:
     there = log.q[np.isfinite(log.q).all(axis=1)]
     return bool(len(there) and np.ptp(there, axis=0).max() > _TRAVEL)
 
@@ -246,9 +272,9 @@ def _moves(log: Log) -> bool:
 # What a chunk makes of its rows, with every choice given.
 
 
-def rows_of_chunk(
+def build_chunk_rows(
     model: CompiledModel, chunk: Chunk, chosen: LogChoices
-) -> tuple[tuple[Stretch, ...], Facts]:
+) -> tuple[tuple[FilteredSegment, ...], LogFacts]:
     """The rows of a chunk: mended, split, filtered and differentiated as those of a whole log.
 
     Its stretches have the rows that are its own and no others.
@@ -258,58 +284,61 @@ def rows_of_chunk(
     """
     spec, processing = model.spec, chosen.processing
     check_size(chunk.log, spec)
-    names = confirmed(processing.repairs_of(chosen.name))
-    repairs = repairs_named(chunk.log, spec, names)
-    mended, found, _ = defects(chunk.log, spec, chosen.usual, repairs)
+    names = select_confirmed(processing.repairs_of(chosen.name))
+    repairs = parse_repairs(chunk.log, spec, names)
+    mended, defects_by_channel, _ = repair_log(chunk.log, spec, chosen.channel_scales, repairs)
     log = chunk.log if processing.keep_damaged else mended
-    pieces, cuts = split(log, chosen.run, chosen.logged, chosen.extremes)
+    pieces, cuts = split_log(log, chosen.run, chosen.logged, chosen.extremes)
     check = None
     if chosen.logged:
-        check = consistency(log, pieces, processing.parallel_cutoff, refuse=False)
+        check = check_derivatives(log, pieces, processing.parallel_cutoff, refuse=False)
         if not processing.keep_contradicted:
-            pieces = believed(pieces, check)
-    filtered = [segment_of(piece, processing) for piece in pieces]
-    both = [closed(model, segment) for segment in filtered if segment is not None]
+            pieces = exclude_contradicted(pieces, check)
+    filtered = [build_segment(piece, processing) for piece in pieces]
+    both = [close_segment(model, segment) for segment in filtered if segment is not None]
     still = [part for part in chosen.shafts if processing.speed_floors[part.name] == float("inf")]
-    segments = at_rest([segment for segment, _ in both], still, [part.name for part in still])
-    stretches = tuple(
-        stretch(s, chosen.shafts, processing, _centres(s, chunk, chosen)) for s in segments
+    segments = clear_resting_speeds(
+        [segment for segment, _ in both], still, [part.name for part in still]
     )
-    own = cut(chunk.log, chunk.own)
+    stretches = tuple(
+        filter_segment(s, chosen.shafts, processing, _find_centres(s, chunk, chosen))
+        for s in segments
+    )
+    inner_log = cut_rows(chunk.log, chunk.inner_rows)
     start, stop = chunk.span
-    return stretches, Facts(
-        tally=tally(chunk, pieces, cuts, stretches, check),
+    return stretches, LogFacts(
+        tally=count_rows(chunk, pieces, cuts, stretches, check),
         defects={
-            name: [_own(chunk, some, name == "rows") for some in by_joint]
-            for name, by_joint in found.items()
+            name: [_select_inner(chunk, some, name == "rows") for some in by_joint]
+            for name, by_joint in defects_by_channel.items()
         },
         contradictions=tuple(
             one for one in (check.contradictions if check else ()) if start <= one.time < stop
         ),
-        ranges=Ranges.of(own),
-        fingers=fingers(own.time, own.q, own.tau),
-        clipped=_clipped(chunk.log, pieces),
-        awake=_awake(segments, chosen),
+        ranges=ChannelRanges.compute_from(inner_log),
+        block_hashes=compute_block_hashes(inner_log.time, inner_log.q, inner_log.tau),
+        clipped=_find_clipped(chunk.log, pieces),
+        moving_shafts=_find_moving_shafts(segments, chosen),
         open_times=tuple(
             float(t)
             for segment, open_ in both
             for t in segment.time[open_ & segment.whole]
             if start <= t < stop
         ),
-        span=(float(own.time[0]), float(own.time[-1])),
+        span=(float(inner_log.time[0]), float(inner_log.time[-1])),
     )
 
 
-def _own(chunk: Chunk, found: Sequence[Defect], together: bool) -> list[Defect]:
+def _select_inner(chunk: Chunk, defects: Sequence[Defect], together: bool) -> list[Defect]:
     """What was found in the chunk's own rows; together: as one, of as many rows."""
-    own = [one for one in found if chunk.has(one.start)]
-    if not together or not own:
-        return own
-    rows = sum(one.stop - one.start for one in own)
-    return [dataclasses.replace(own[0], stop=own[0].start + rows)]
+    inner = [one for one in defects if chunk.is_inner(one.start)]
+    if not together or not inner:
+        return inner
+    rows = sum(one.stop - one.start for one in inner)
+    return [dataclasses.replace(inner[0], stop=inner[0].start + rows)]
 
 
-def _centres(segment: Segment, chunk: Chunk, chosen: LogChoices) -> np.ndarray:
+def _find_centres(segment: Segment, chunk: Chunk, chosen: LogChoices) -> np.ndarray:
     """Samples on which the chunk's own rows are centred.
 
     A segment that begins and ends in the chunk has them where it would have them in a whole log.
@@ -320,33 +349,33 @@ def _centres(segment: Segment, chunk: Chunk, chosen: LogChoices) -> np.ndarray:
     if not inside.size:
         return inside
     log = chunk.log
-    begins = chunk.number == 0 and chunk.own.start == 0
+    begins = chunk.number == 0 and chunk.inner_rows.start == 0
     open_before = segment.time[0] <= log.time[0] and not begins
     open_behind = segment.time[-1] >= log.time[-1] and not chunk.last
     if open_before or open_behind:
-        first = (every - 1) // 2 - (chunk.start - chunk.own.start)  # row of the chunk's log
+        first = (every - 1) // 2 - (chunk.start - chunk.inner_rows.start)  # row of the chunk's log
         anchor = float(log.time[first % every]) if log.rows > every else float(log.time[0])
         phase = round((anchor - segment.time[0]) / segment.step) - int(inside[0])
         centres = inside[phase % every :: every]
     else:
-        centres = row_centres(segment, every)
-    return np.asarray(centres[chunk.holds(segment.time[centres])])
+        centres = choose_row_centres(segment, every)
+    return np.asarray(centres[chunk.is_inside(segment.time[centres])])
 
 
-def _clipped(log: Log, pieces: Sequence[Piece]) -> np.ndarray:
+def _find_clipped(log: Log, pieces: Sequence[RawSegment]) -> np.ndarray:
     """(2, J) the ends of each torque's range that were taken for a limit; NaN of the others."""
-    found = []
+    limits = []
     for end in (np.fmin.reduce(log.tau, axis=0), np.fmax.reduce(log.tau, axis=0)):
         at = [np.any(piece.clipped & (piece.tau == end), axis=0) for piece in pieces]
-        found.append(np.where(np.any(at, axis=0), end, np.nan))
-    return np.stack(found)
+        limits.append(np.where(np.any(at, axis=0), end, np.nan))
+    return np.stack(limits)
 
 
-def _awake(segments: Sequence[Segment], chosen: LogChoices) -> dict[str, float]:
+def _find_moving_shafts(segments: Sequence[Segment], chosen: LogChoices) -> dict[str, float]:
     """Top speeds of the shafts that move, and were taken to stand still."""
     floors, moving = chosen.processing.speed_floors, [s for s in segments if s.whole.any()]
     still = [part for part in chosen.shafts if floors[part.name] == float("inf")]
-    tops = top_speeds(still, moving, least=REST_TRAVEL) if moving else []
+    tops = compute_top_speeds(still, moving, least=REST_TRAVEL) if moving else []
     return {part.name: top for part, top in zip(still, tops, strict=False) if top > 0.0}
 
 
@@ -354,7 +383,7 @@ def _awake(segments: Sequence[Segment], chosen: LogChoices) -> dict[str, float]:
 
 
 @dataclass(frozen=True, eq=False)
-class Passes:
+class LogPasses:
     """What long logs were read for.
 
     Attributes:
@@ -363,18 +392,19 @@ class Passes:
         passes: over the logs.
     """
 
-    found: Survey
-    facts: tuple[Facts, ...]
+    survey: Survey
+    facts: tuple[LogFacts, ...]
     passes: int
 
-    def sentences(self) -> tuple[str, ...]:
+    def format_sentences(self) -> tuple[str, ...]:
         """Which rows were read for what."""
-        told = self.to_json()
+        counts = self.to_json()
         passes = "once" if self.passes == 1 else f"{self.passes} times"
         return (
-            f"long logs: all {told['rows']} rows are read {passes}, in {told['chunks']} chunks "
+            f"long logs: all {counts['rows']} rows are read {passes}, in {counts['chunks']} chunks "
             "that overlap by what the filters remember; "
-            f"{told['rows_in_windows']} of them, in {told['windows']} windows, are looked at for "
+            f"{counts['rows_in_windows']} of them, in {counts['windows']} windows, are looked at "
+            "for "
             "the choices below, doubts about channels, and what needs samples side by side",
         )
 
@@ -385,12 +415,14 @@ class Passes:
             "passes": self.passes,
             "chunks": sum(tally.count("chunks") for tally in tallies),
             "rows": sum(tally.count("rows") for tally in tallies),
-            "windows": self.found.windows,
-            "rows_in_windows": self.found.rows,
+            "windows": self.survey.windows,
+            "rows_in_windows": self.survey.rows,
         }
 
 
-def streamed_report(model: CompiledModel, sources: Sequence[Source], passes: Passes) -> DataReport:
+def build_streamed_report(
+    model: CompiledModel, sources: Sequence[Source], passes: LogPasses
+) -> DataReport:
     """What happened to all rows of long logs.
 
     Args:
@@ -398,30 +430,30 @@ def streamed_report(model: CompiledModel, sources: Sequence[Source], passes: Pas
         sources: of the logs.
         passes: over them.
     """
-    found, facts = passes.found, passes.facts
-    looked, chosen = found.observation.report, found.chosen[0]
-    floors, tallies = chosen.processing.speed_floors, [own.tally for own in facts]
+    log_survey, facts = passes.survey, passes.facts
+    looked, chosen = log_survey.observation.report, log_survey.chosen[0]
+    floors, tallies = chosen.processing.speed_floors, [log_facts.tally for log_facts in facts]
     return dataclasses.replace(
         looked,
         processing=chosen.processing,
-        choices=(*passes.sentences(), *looked.choices),
-        logs=tuple(_log_report(model, source, k, passes) for k, source in enumerate(sources)),
-        joints=joint_reports(model.spec.joints, chosen.shafts, floors, tallies),
+        choices=(*passes.format_sentences(), *looked.choices),
+        logs=tuple(_build_log_report(model, source, k, passes) for k, source in enumerate(sources)),
+        joints=build_joint_reports(model.spec.joints, chosen.shafts, floors, tallies),
     )
 
 
-def _log_report(model: CompiledModel, source: Source, k: int, passes: Passes) -> LogReport:
-    facts, chosen, found = passes.facts[k], passes.found.chosen[k], passes.found
-    counts, first, content = facts.tally, source.window(0.0, 2), source.content
+def _build_log_report(model: CompiledModel, source: Source, k: int, passes: LogPasses) -> LogReport:
+    facts, chosen, log_survey = passes.facts[k], passes.survey.chosen[k], passes.survey
+    counts, first, content = facts.tally, source.read_window(0.0, 2), source.content
     if not content and counts.count("rows") > LONG:
-        content = fingerprint_of(facts.fingers)
+        content = combine_hashes(facts.block_hashes)
     elif not content:
-        whole = joined(list(source.blocks(LONG)))
-        content = fingerprint(whole.time, whole.q, whole.tau)
-    notes = (*first.notes, *facts.ranges.doubts(chosen.step, model.spec))
+        whole = join_logs(list(source.read_blocks(LONG)))
+        content = compute_fingerprint(whole.time, whole.q, whole.tau)
+    notes = (*first.notes, *facts.ranges.collect_warnings(chosen.step, model.spec))
     log = dataclasses.replace(first, name=source.name, notes=notes, content=content)
-    report = log_report(
-        log, model.spec, found.logs[k], counts, facts.defects, facts.contradictions,
+    report = build_log_report(
+        log, model.spec, log_survey.logs[k], counts, facts.defects, facts.contradictions,
         chosen.decimation, facts.open_times,
     )  # fmt: skip
     return dataclasses.replace(report, rate=1.0 / chosen.step, span=facts.span)

@@ -10,16 +10,16 @@ import numpy as np
 
 from modeler.core.manifest import JointSpec, ModuleSpec
 from modeler.observation.chunk import Chunk
-from modeler.observation.consistency import Consistency, Contradiction
+from modeler.observation.consistency import Contradiction, DerivativeCheck
 from modeler.observation.log import Log
 from modeler.observation.low_speed import FrictionShaft
 from modeler.observation.motion import CAUSES
-from modeler.observation.outliers import Defects, damages
+from modeler.observation.outliers import Defects, describe_damages
 from modeler.observation.prepare import PreparedLog
-from modeler.observation.read import Ranges, cut
+from modeler.observation.read import ChannelRanges, cut_rows
 from modeler.observation.report import JointReport, LogReport
-from modeler.observation.segments import Piece, SplitReport
-from modeler.observation.stretch import Stretch
+from modeler.observation.segments import RawSegment, SplitReport
+from modeler.observation.stretch import FilteredSegment
 
 
 @dataclass(frozen=True, eq=False)
@@ -46,12 +46,12 @@ class Tally:
         return int(self.sums[name])
 
 
-def tally(
+def count_rows(
     chunk: Chunk,
-    pieces: Sequence[Piece],
+    pieces: Sequence[RawSegment],
     cuts: SplitReport,
-    stretches: Sequence[Stretch],
-    check: Consistency | None,
+    stretches: Sequence[FilteredSegment],
+    check: DerivativeCheck | None,
 ) -> Tally:
     """Counts of a chunk's own rows.
 
@@ -63,27 +63,31 @@ def tally(
         check: of its logged derivatives.
     """
     none = np.zeros(len(chunk.log.joints), dtype=int)
-    own = [chunk.holds(piece.time) for piece in pieces]
-    begun = [piece for piece, rows in zip(pieces, own, strict=True) if rows[0]]
-    clipped = [piece.clipped[rows].sum(axis=0) for piece, rows in zip(pieces, own, strict=True)]
+    inner_masks = [chunk.is_inside(piece.time) for piece in pieces]
+    begun = [piece for piece, rows in zip(pieces, inner_masks, strict=True) if rows[0]]
+    clipped = [
+        piece.clipped[rows].sum(axis=0) for piece, rows in zip(pieces, inner_masks, strict=True)
+    ]
     bad = () if check is None else check.bad
-    widths = cuts.widths[chunk.holds(cuts.gaps)]
+    widths = cuts.widths[chunk.is_inside(cuts.gaps)]
     sums: dict[str, Any] = {
         "chunks": 1,
         "rows": chunk.rows,
         "gaps": len(widths),
         "pieces": len(begun),
         "resampled": sum(piece.resampled for piece in begun),
-        "short": chunk.holds(cuts.short).sum() + sum(int(rows.sum()) for rows in own),
-        "missing": Counter(cut(chunk.log, chunk.own).missing),
+        "short": chunk.is_inside(cuts.short).sum() + sum(int(rows.sum()) for rows in inner_masks),
+        "missing": Counter(cut_rows(chunk.log, chunk.inner_rows).missing),
         "clipped": sum(clipped, none),
-        "contradicted": sum(int(flags[rows].sum()) for flags, rows in zip(bad, own, strict=False)),
+        "contradicted": sum(
+            int(flags[rows].sum()) for flags, rows in zip(bad, inner_masks, strict=False)
+        ),
         "samples": 0,
         "full": 0,
         **{name: none for name in ("used", "valid", "usable", *CAUSES)},
     }
     for part in stretches:
-        s, inside = part.segment, np.flatnonzero(chunk.holds(part.segment.time))
+        s, inside = part.segment, np.flatnonzero(chunk.is_inside(part.segment.time))
         rows = slice(inside[0], inside[-1] + 1) if inside.size else slice(0, 0)
         valid, full = s.valid[rows].sum(axis=0), rows.stop - rows.start
         counts = {"valid": valid, "usable": part.usable[rows].sum(axis=0), "full": full,
@@ -97,7 +101,7 @@ def tally(
 
 
 @dataclass(frozen=True, eq=False)
-class Facts:
+class LogFacts:
     """Of some consecutive rows of a log; J joints.
 
     Attributes:
@@ -116,59 +120,61 @@ class Facts:
     tally: Tally
     defects: Defects
     contradictions: tuple[Contradiction, ...]
-    ranges: Ranges
-    fingers: tuple[bytes, ...]
+    ranges: ChannelRanges
+    block_hashes: tuple[bytes, ...]
     clipped: np.ndarray
-    awake: Mapping[str, float]
+    moving_shafts: Mapping[str, float]
     open_times: tuple[float, ...]
     span: tuple[float, float]
 
-    def merged_with(self, later: "Facts") -> "Facts":
+    def merged_with(self, later: "LogFacts") -> "LogFacts":
         """Of these rows, and of those that follow them."""
         low, high = np.stack([self.clipped, later.clipped], axis=1)
         defects = dict(self.defects)
         for name, more in later.defects.items():
             before = defects.get(name) or [[] for _ in more]
             defects[name] = [a + b for a, b in zip(before, more, strict=True)] if more else before
-        return Facts(
+        return LogFacts(
             tally=self.tally.merged_with(later.tally),
             defects=defects,
-            contradictions=_contradictions(self.contradictions, later.contradictions),
+            contradictions=_merge_contradictions(self.contradictions, later.contradictions),
             ranges=self.ranges.merged_with(later.ranges),
-            fingers=self.fingers + later.fingers,
+            block_hashes=self.block_hashes + later.block_hashes,
             clipped=np.stack([np.fmax(*low), np.fmin(*high)]),
-            awake={name: max(self.awake.get(name, 0.0), later.awake.get(name, 0.0))
-                   for name in {**self.awake, **later.awake}},
+            moving_shafts={
+                name: max(self.moving_shafts.get(name, 0.0), later.moving_shafts.get(name, 0.0))
+                for name in {**self.moving_shafts, **later.moving_shafts}
+            },
             open_times=self.open_times + later.open_times,
             span=(self.span[0], later.span[1]),
-        )  # fmt: skip
+        )
 
-    def wrongly_clipped(self) -> bool:
+    def is_wrongly_clipped(self) -> bool:
         """True if torques were taken for a limit that others exceed: only a later pass knows."""
         low, high = self.clipped
         return bool(np.any(low > self.ranges.low[1]) or np.any(high < self.ranges.high[1]))
 
-    def first(self, kind: str) -> dict[int, float]:
+    def find_first(self, kind: str) -> dict[int, float]:
         """Joints whose position has a defect of a kind -> time of the first, s."""
         return {
-            j: own[0].time
+            j: same_kind[0].time
             for j, every in enumerate(self.defects.get("q", []))
-            if (own := [one for one in every if one.kind == kind])
+            if (same_kind := [one for one in every if one.kind == kind])
         }
 
 
-def _contradictions(
+def _merge_contradictions(
     first: tuple[Contradiction, ...], later: tuple[Contradiction, ...]
 ) -> tuple[Contradiction, ...]:
     """By column, in the order in which they were found."""
-    found = {one.column: one for one in first}
+    by_column = {one.column: one for one in first}
     for one in later:
-        before = found.get(one.column, one)
+        before = by_column.get(one.column, one)
         worse = one if one.largest > before.largest else before
         samples = one.samples + (before.samples if before is not one else 0)
         limit = max(before.limit, one.limit)
-        found[one.column] = dataclasses.replace(worse, samples=samples, limit=limit)
-    return tuple(found.values())
+        by_column[one.column] = dataclasses.replace(worse, samples=samples, limit=limit)
+    return tuple(by_column.values())
 
 
 # The counts in the words of a report.
@@ -177,7 +183,7 @@ def _contradictions(
 _TOLD = ("rows", "gaps", "pieces", "resampled", "short", "samples", "contradicted")
 
 
-def log_report(
+def build_log_report(
     log: Log, spec: ModuleSpec, prepared: PreparedLog, facts: Tally, defects: Defects,
     contradictions: Sequence[Contradiction], decimation: int, open_times: tuple[float, ...],
 ) -> LogReport:  # fmt: skip
@@ -207,17 +213,17 @@ def log_report(
         notes=log.notes + prepared.rings + (prepared.check.notes if prepared.check else ()),
         contradictions=tuple(contradictions),
         **counts,
-        damages=damages(log, counts["rows"], spec, defects, prepared.repairs),
+        damages=describe_damages(log, counts["rows"], spec, defects, prepared.repairs),
         content=log.content,
         span=log.span,
         torque_source=log.torque_source,
         open_times=open_times,
         path=log.path,
-        told=log.told,
+        reading_notes=log.reading_notes,
     )
 
 
-def joint_reports(
+def build_joint_reports(
     joints: Sequence[JointSpec],
     parts: Sequence[FrictionShaft],
     floors: Mapping[str, float],
@@ -232,15 +238,15 @@ def joint_reports(
         tallies: of all logs.
     """
     counted = ("full", "used", "valid", "usable", *CAUSES)
-    reports, sums = [], {name: sum(own.sums[name] for own in tallies) for name in counted}
+    reports, sums = [], {name: sum(values.sums[name] for values in tallies) for name in counted}
     for j, joint in enumerate(joints):
-        own = [floors[part.name] for part in parts if j in part.joints]
+        values = [floors[part.name] for part in parts if j in part.joints]
         reports.append(
             JointReport(
                 name=joint.name,
                 used=int(sums["used"][j]),
                 slow=float(1.0 - sums["usable"][j] / max(1, sums["valid"][j])),
-                speed_floor=max(own) if own else None,
+                speed_floor=max(values) if values else None,
                 unit=f"{joint.unit}/s",
                 samples=int(sums["full"]),
                 lost={cause: int(sums[cause][j]) for cause in CAUSES if sums[cause][j]},

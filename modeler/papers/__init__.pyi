@@ -1,13 +1,17 @@
-from .briot import briot_methods as briot_methods
-from .check import Line as Line, LineVerdict as LineVerdict, check_paper as check_paper
-from .guegan import guegan_methods as guegan_methods
-from .hanssen import hanssen_methods as hanssen_methods
-from .houda import houda_methods as houda_methods
+from .briot import reproduce_briot as reproduce_briot
+from .check import (
+    CheckedLine as CheckedLine,
+    LineVerdict as LineVerdict,
+    check_paper as check_paper,
+)
+from .guegan import reproduce_guegan as reproduce_guegan
+from .hanssen import reproduce_hanssen as reproduce_hanssen
+from .houda import reproduce_houda as reproduce_houda
 from .methods import MethodTable as MethodTable, Outcome as Outcome
 from .paper import (
     SLIPS as SLIPS,
-    DerivedPaper as DerivedPaper,
+    DerivedRobot as DerivedRobot,
     Paper as Paper,
-    derived_robot as derived_robot,
+    derive_robot as derive_robot,
     read_paper as read_paper,
 )

@@ -11,26 +11,26 @@ from dataclasses import replace
 import numpy as np
 
 from modeler.codegen import derive, generate
-from modeler.core.builtin import builtin_text
+from modeler.core.builtin import read_builtin_robot
 from modeler.core.figure import Curve, Panel, Picture
 from modeler.core.style import BLACK, ORANGE, SKY, Style
-from modeler.core.table import percent
+from modeler.core.table import format_percent
 from modeler.estimation import GainFit, Payload, identify_gains, identify_with_payloads
 from modeler.observation import Log, observe
 from modeler.papers.methods import (
+    MethodRow,
     MethodTable,
     Outcome,
-    Row,
-    figures,
-    judged,
-    logged,
-    quoted,
-    recovered,
+    build_log,
+    judge_outcome,
+    judge_recovery,
+    read_quotation,
+    read_table,
 )
 from modeler.papers.paper import Paper
-from modeler.robot import Limits, Robot, robot_from_text, with_drive_gains
-from modeler.runtime import CompiledModel, compiled_once
-from modeler.simulation import SimulatedLog, SimulationSettings, hidden_from_text, simulate
+from modeler.robot import Limits, Robot, parse_robot_text, replace_drive_gains
+from modeler.runtime import CompiledModel, load_cached_model
+from modeler.simulation import SimulatedLog, SimulationSettings, parse_hidden_effect, simulate
 
 ROBOT = "orthoglide-2012"
 SECONDS, RATE, NOISE = 15.0, 400.0, 0.02
@@ -48,42 +48,48 @@ SETTING = (
 )
 
 
-def briot_methods(paper: Paper, report: Callable[[float], None]) -> list[MethodTable]:
+def reproduce_briot(paper: Paper, report: Callable[[float], None]) -> list[MethodTable]:
     """Gains, slides and motors of Table 3, and the second load with both sets of gains."""
-    table = figures(paper, "Table 3")
+    table = read_table(paper, "Table 3")
     gains = {f"1{k}": table[f"gtau{k}"][0] for k in "123"}
-    (maker,) = quoted(paper, "637pi")[1:]
-    mass, second = quoted(paper, "M7 = 1.983kg")[0], quoted(paper, "a second payload")[0]
+    (maker,) = read_quotation(paper, "637pi")[1:]
+    mass, second = (
+        read_quotation(paper, "M7 = 1.983kg")[0],
+        read_quotation(paper, "a second payload")[0],
+    )
     # The motors' effects only, and gains of 1: logs in drive units.
     text = re.sub(
-        r"^(rotor_inertia|viscous|coulomb) = .*$", r'\1 = ["1{i}"]', builtin_text(ROBOT), flags=re.M
+        r"^(rotor_inertia|viscous|coulomb) = .*$",
+        r'\1 = ["1{i}"]',
+        read_builtin_robot(ROBOT),
+        flags=re.M,
     )
-    robot = robot_from_text(with_drive_gains(text, dict.fromkeys(JOINTS, 1.0)), ROBOT)
+    robot = parse_robot_text(replace_drive_gains(text, dict.fromkeys(JOINTS, 1.0)), ROBOT)
     derivation = derive(robot)
-    compiled = compiled_once(generate(derivation))
-    machine = _machine(robot, table, [c.name for c in derivation.base.columns])
+    compiled = load_cached_model(generate(derivation))
+    machine = _build_machine(robot, table, [c.name for c in derivation.base.columns])
     runs = []
     for seed, load in enumerate((0.0, mass, second), 1):
         settings = SimulationSettings(
             duration=SECONDS, rate=RATE, seed=seed, torque_noise=0.0, linear_resolution=1e-6,
             motion="point-to-point", limits=dict.fromkeys(JOINTS, LIMITS),
-            hidden=(hidden_from_text(f"payload:mass={load}"),) if load else (),
+            hidden=(parse_hidden_effect(f"payload:mass={load}"),) if load else (),
         )  # fmt: skip
         runs.append(simulate(machine, settings))
         report(seed / 3)
     rng = np.random.default_rng(2012)
-    bare, loaded, other = (_currents(run, gains, rng) for run in runs)
+    bare, loaded, other = (_simulate_currents(run, gains, rng) for run in runs)
     known = Payload((loaded.name,), mass=mass)
-    found = identify_gains(compiled, observe(compiled, [bare, loaded]), [known])
+    gain_fit = identify_gains(compiled, observe(compiled, [bare, loaded]), [known])
     cases = [
-        _weighed(compiled, bare, other, dict.fromkeys(JOINTS, maker)),
-        _weighed(compiled, bare, other, found.gains),
+        _weigh_load(compiled, bare, other, dict.fromkeys(JOINTS, maker)),
+        _weigh_load(compiled, bare, other, gain_fit.gains),
     ]
-    figure = _figure_3(compiled, found, loaded, mass)
-    return [_table_3(table, found), figure, _second_load(paper, cases)]
+    figure = _build_figure_3(compiled, gain_fit, loaded, mass)
+    return [_build_table_3(table, gain_fit), figure, _build_second_load_table(paper, cases)]
 
 
-def _machine(robot: Robot, table: Mapping[str, tuple[float, ...]], names: list[str]) -> Robot:
+def _build_machine(robot: Robot, table: Mapping[str, tuple[float, ...]], names: list[str]) -> Robot:
     """Slides and motors such that M11R, M12R, M13R and Ia13 are those of Table 3.
 
     M1iR is Ia1i + M1i + M3i - MX3i/d4, and for leg 1, which carries the platform, besides
@@ -106,14 +112,16 @@ def _machine(robot: Robot, table: Mapping[str, tuple[float, ...]], names: list[s
     return replace(robot, parameters=values)
 
 
-def _currents(run: SimulatedLog, gains: Mapping[str, float], rng: np.random.Generator) -> Log:
+def _simulate_currents(
+    run: SimulatedLog, gains: Mapping[str, float], rng: np.random.Generator
+) -> Log:
     """What is logged: torque over gain, with noise."""
     tau = run.tau[:, [run.joints.index(joint) for joint in JOINTS]]
     tau = tau + NOISE * np.sqrt(np.mean(tau**2, axis=0)) * rng.normal(size=tau.shape)
-    return logged(run, JOINTS, tau / np.array([gains[j] for j in JOINTS]), "current{} x 1")
+    return build_log(run, JOINTS, tau / np.array([gains[j] for j in JOINTS]), "current{} x 1")
 
 
-def _weighed(
+def _weigh_load(
     compiled: CompiledModel, bare: Log, loaded: Log, gains: Mapping[str, float]
 ) -> tuple[float, float]:
     """Mass of the load of `loaded`, kg, and its sigma, with these gains."""
@@ -124,48 +132,55 @@ def _weighed(
     return mass.value, mass.sigma or 0.0
 
 
-def _table_3(table: Mapping[str, tuple[float, ...]], found: GainFit) -> MethodTable:
+def _build_table_3(table: Mapping[str, tuple[float, ...]], gain_fit: GainFit) -> MethodTable:
     rows = []
     for word, values in table.items():
         name = word.replace("gtau", "g_tau1")
-        for p in (*found.result.gains, *found.result.parameters):
+        for p in (*gain_fit.result.gains, *gain_fit.result.parameters):
             if p.name == name and (p.name[0] == "g" or p.name[:-1] in _SET):
                 printed = f"{values[0]:.5g} ({values[-1]:.3g} %)"
-                rows.append(recovered(word, printed, values[0], p.value, p.sigma or 0.0))
-    last = found.result.singular_values[-2:]
+                rows.append(judge_recovery(word, printed, values[0], p.value, p.sigma or 0.0))
+    last = gain_fit.result.singular_values[-2:]
     why = "singular values of the currents beside the model: a gap, or no gains"
-    outcome = judged(last[0] > 2 * last[1], Outcome.DERIVED)
-    rows.append(Row("s[-2]/s[-1]", "-", f"{last[0] / last[1]:.4g}", outcome, why))
+    outcome = judge_outcome(last[0] > 2 * last[1], Outcome.DERIVED)
+    rows.append(MethodRow("s[-2]/s[-1]", "-", f"{last[0] / last[1]:.4g}", outcome, why))
     return MethodTable("Table 3: drive gains, slides and motors", SETTING, tuple(rows))
 
 
-def _figure_3(compiled: CompiledModel, found: GainFit, log: Log, mass: float) -> MethodTable:
+def _build_figure_3(
+    compiled: CompiledModel, gain_fit: GainFit, log: Log, mass: float
+) -> MethodTable:
     """Efforts of the loaded run by the gains that were found, rebuilt with the load and without."""
-    tau = log.tau * np.array([found.gains[joint] for joint in JOINTS])
+    tau = log.tau * np.array([gain_fit.gains[joint] for joint in JOINTS])
     observation = observe(compiled, [replace(log, tau=tau)])
     load = compiled.base_parameters([mass * (p.name == "M6") for p in compiled.spec.standard])
     used, measured = observation.used, observation.torque
 
-    def computed(beta: np.ndarray) -> np.ndarray:
-        return observation.filtered(
+    def compute_efforts(beta: np.ndarray) -> np.ndarray:
+        return observation.filter_columns(
             lambda s, w: compiled.inverse_dynamics(s.q[w], s.qd[w], s.qdd[w], beta)[:, :, None]
         )[:, :, 0]
 
     efforts = {
-        "computed with the load": computed(found.result.beta + load),
-        "computed without it": computed(found.result.beta),
+        "computed with the load": compute_efforts(gain_fit.result.beta + load),
+        "computed without it": compute_efforts(gain_fit.result.beta),
         "measured": measured,
     }
-    own, bare = (
+    loaded, bare = (
         np.linalg.norm(np.where(used, measured - model, 0.0), axis=0)
         / np.linalg.norm(np.where(used, measured, 0.0), axis=0)
         for model in list(efforts.values())[:2]
     )
     rows = [
-        Row(f"motor {joint}", '"well simulated"', f"{percent(a)}; without load {percent(b)}",
-            judged(FELT * a < b, Outcome.HOLDS), f"{FELT:g} times as much without")
-        for joint, a, b in zip(JOINTS, own, bare, strict=True)
-    ]  # fmt: skip
+        MethodRow(
+            f"motor {joint}",
+            '"well simulated"',
+            f"{format_percent(a)}; without load {format_percent(b)}",
+            judge_outcome(FELT * a < b, Outcome.HOLDS),
+            f"{FELT:g} times as much without",
+        )
+        for joint, a, b in zip(JOINTS, loaded, bare, strict=True)
+    ]
     shown = observation.time < SHOWN
     panels = [
         (Panel(f"Motor {joint}", "time, s", "force, N", tuple(
@@ -189,12 +204,15 @@ _SET = ("M11", "M12", "M13", "Ia1", "Fv1", "Fs1")
 """What the simulated machine has of Table 3, the last letter left out."""
 
 
-def _second_load(paper: Paper, cases: list[tuple[float, float]]) -> MethodTable:
-    load, *printed, width = quoted(paper, "a second payload")[:4]
-    rows = [Row("weighed", f"{load:g} kg", f"{load:g} kg", Outcome.SHOWN)]
+def _build_second_load_table(paper: Paper, cases: list[tuple[float, float]]) -> MethodTable:
+    load, *printed, width = read_quotation(paper, "a second payload")[:4]
+    rows = [MethodRow("weighed", f"{load:g} kg", f"{load:g} kg", Outcome.SHOWN)]
     names = ("case 1: the maker's gains", "case 2: the identified gains")
     why = f"within {width:g} kg, the paper's 2 sigma"
     for which, theirs, (ours, sigma) in zip(names, printed, cases, strict=True):
-        found, outcome = f"{ours:.4f} +- {sigma:.2g} kg", judged(abs(ours - theirs) <= width)
-        rows.append(Row(which, f"{theirs:g} kg", found, outcome, why))
+        mass_text, outcome = (
+            f"{ours:.4f} +- {sigma:.2g} kg",
+            judge_outcome(abs(ours - theirs) <= width),
+        )
+        rows.append(MethodRow(which, f"{theirs:g} kg", mass_text, outcome, why))
     return MethodTable("The second load, weighed by the robot", SETTING[:1], tuple(rows))

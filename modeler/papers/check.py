@@ -6,11 +6,11 @@ from dataclasses import dataclass, replace
 
 from modeler.core.errors import RobotError
 from modeler.core.expression import ExpressionError
-from modeler.papers.compared import Robots, same
+from modeler.papers.compared import Robots, compare_line
 from modeler.papers.paper import Paper, PrintedLine
 from modeler.papers.quotation import QuotationError
 from modeler.papers.readings import READINGS
-from modeler.papers.wrist import coefficient_quotations
+from modeler.papers.wrist import collect_coefficient_quotations
 
 
 class LineVerdict(enum.Enum):
@@ -27,7 +27,7 @@ class LineVerdict(enum.Enum):
 
 
 @dataclass(frozen=True)
-class Line:
+class CheckedLine:
     """One statement and its verdict.
 
     Attributes:
@@ -51,44 +51,46 @@ class Line:
     corrected: str = ""
 
 
-def check_paper(paper: Paper, derived: Robots) -> list[Line]:
+def check_paper(paper: Paper, derived: Robots) -> list[CheckedLine]:
     """All lines with their verdicts.
 
     Args:
         paper: as read.
         derived: its robots, by name.
     """
-    lines = [*paper.lines, *coefficient_quotations(paper, derived)]
-    checked = [check_line(paper, one, derived) for line in lines for one in written_out(line)]
+    lines = [*paper.lines, *collect_coefficient_quotations(paper, derived)]
+    checked = [check_line(paper, one, derived) for line in lines for one in expand_legs(line)]
     return checked + [
-        Line("", place, "", "", LineVerdict.UNCHECKED, "", why)
+        CheckedLine("", place, "", "", LineVerdict.UNCHECKED, "", why)
         for place, why in paper.unchecked.items()
     ]
 
 
-def written_out(line: PrintedLine) -> list[PrintedLine]:
+def expand_legs(line: PrintedLine) -> list[PrintedLine]:
     """One line for each leg, but for what speaks of all legs together."""
     together = line.check in ("names", "closure")
     return [line] if together else [replace(line, legs=(leg,)) for leg in line.legs]
 
 
-def check_line(paper: Paper, line: PrintedLine, derived: Robots) -> Line:
+def check_line(paper: Paper, line: PrintedLine, derived: Robots) -> CheckedLine:
     """The verdict on one line of one leg."""
     try:
-        if line.seal and seal_of(line) != line.seal:
+        if line.seal and compute_checksum(line) != line.seal:
             raise QuotationError("the numbers are not those that were read from the paper")
-        found = READINGS[line.check](paper, line, derived)
-        equal, exact = same(found, line)
+        comparison = READINGS[line.check](paper, line, derived)
+        equal, exact = compare_line(comparison, line)
         if equal and line.corrected:
             right = replace(line, quote=line.corrected, difference="")
-            if not same(READINGS[line.check](paper, right, derived), right)[0]:
+            if not compare_line(READINGS[line.check](paper, right, derived), right)[0]:
                 raise QuotationError(f"the corrected form does not hold: {line.corrected}")
     except (QuotationError, ExpressionError, RobotError) as error:
-        return _line(line, str(error), LineVerdict.DIFFERENT)
-    return _line(line, found.text, _verdict(line, equal, exact, found.weak))
+        return _build_checked_line(line, str(error), LineVerdict.DIFFERENT)
+    return _build_checked_line(
+        line, comparison.text, _classify_line(line, equal, exact, comparison.is_inequality)
+    )
 
 
-def _verdict(line: PrintedLine, equal: bool, exact: bool, weak: bool) -> LineVerdict:
+def _classify_line(line: PrintedLine, equal: bool, exact: bool, weak: bool) -> LineVerdict:
     if not equal:
         return LineVerdict.DIFFERENT
     if line.ours:
@@ -102,14 +104,16 @@ def _verdict(line: PrintedLine, equal: bool, exact: bool, weak: bool) -> LineVer
     return LineVerdict.EQUAL if exact else LineVerdict.ROUNDED
 
 
-def _line(line: PrintedLine, derived: str, verdict: LineVerdict) -> Line:
+def _build_checked_line(line: PrintedLine, derived: str, verdict: LineVerdict) -> CheckedLine:
     leg = line.legs[0] if len(line.legs) == 1 else ""
     place = line.place + (f", i = {leg}" if leg else "")
     printed = "; ".join((line.text, *line.given))
-    return Line(line.robot, place, printed, derived, verdict, line.slip, line.why, line.corrected)
+    return CheckedLine(
+        line.robot, place, printed, derived, verdict, line.slip, line.why, line.corrected
+    )
 
 
-def seal_of(line: PrintedLine) -> str:
+def compute_checksum(line: PrintedLine) -> str:
     """Fingerprint of the quotation, spaces left out."""
     text = "".join("".join((line.quote, *line.given)).split())
     return f"{zlib.crc32(text.encode()):08x}"

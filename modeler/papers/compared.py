@@ -6,14 +6,14 @@ from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, field
 from fractions import Fraction
 
-from modeler.papers.paper import DerivedPaper, Paper, PrintedLine
-from modeler.papers.quotation import Amount, Monomial, Sum, added, read_sum, times
+from modeler.papers.paper import DerivedRobot, Paper, PrintedLine
+from modeler.papers.quotation import Amount, Monomial, Sum, add_sums, multiply_monomials, read_sum
 
 _SLACK = 1 + 1e-9
 
 
 @dataclass(frozen=True)
-class Compared:
+class LineComparison:
     """What a line prints and what is derived.
 
     Attributes:
@@ -29,52 +29,54 @@ class Compared:
     derived: Sum
     text: str
     values: Mapping[str, float] = field(default_factory=dict)
-    settled: bool = False
-    weak: bool = False
+    is_difference_included: bool = False
+    is_inequality: bool = False
 
 
-Robots = Mapping[str, DerivedPaper]
-Reading = Callable[[Paper, PrintedLine, Robots], Compared]
+Robots = Mapping[str, DerivedRobot]
+Reading = Callable[[Paper, PrintedLine, Robots], LineComparison]
 
 
-def joined(parts: Mapping[str, Sum]) -> Sum:
+def join_sums(parts: Mapping[str, Sum]) -> Sum:
     """Sums of several places as one: every term carries its place as a factor `in<place>`."""
     return {
-        times(monomial, ((f"in{place}", 1),)): value
+        multiply_monomials(monomial, ((f"in{place}", 1),)): value
         for place, part in parts.items()
         for monomial, value in part.items()
     }
 
 
-def in_order(parts: Iterable[Sum]) -> Sum:
+def join_in_order(parts: Iterable[Sum]) -> Sum:
     """Sums by their place: each term of the second has the factor `in2`."""
-    return joined({str(k): part for k, part in enumerate(parts, 1)})
+    return join_sums({str(k): part for k, part in enumerate(parts, 1)})
 
 
-def numbered(values: Iterable[Amount | int]) -> Sum:
+def join_numbers(values: Iterable[Amount | int]) -> Sum:
     """Numbers by their place: the second is called `in2`."""
     amounts = (v if isinstance(v, Amount) else Amount(Fraction(v)) for v in values)
-    return added(in_order({(): value} for value in amounts))
+    return add_sums(join_in_order({(): value} for value in amounts))
 
 
-def same(found: Compared, line: PrintedLine) -> tuple[bool, bool]:
+def compare_line(comparison: LineComparison, line: PrintedLine) -> tuple[bool, bool]:
     """(printed + known difference is what is derived, all of it exactly and not only as rounded).
 
     A coefficient that is printed with a point is compared as a number, to half a unit of its last
     digit; all others exactly.
     """
     # Derived minus printed, as the paper's file states it in our names.
-    difference = "" if found.settled else line.difference.replace("{i}", line.legs[0])
+    difference = (
+        "" if comparison.is_difference_included else line.difference.replace("{i}", line.legs[0])
+    )
     known = read_sum(difference, str) if difference else {}
-    printed = _by_name(added(found.printed, known), found.values)
-    derived = _by_name(found.derived, found.values)
+    printed = _group_by_name(add_sums(comparison.printed, known), comparison.values)
+    derived = _group_by_name(comparison.derived, comparison.values)
     if printed.keys() != derived.keys():
         return False, False
     exact = True
     for name, parts in printed.items():
         if any(value.half for value in parts.values()):
             exact = False
-            wanted, left = (_number(p, found.values) for p in (derived[name], parts))
+            wanted, left = (_evaluate_amount(p, comparison.values) for p in (derived[name], parts))
             if abs(wanted.value - left.value) > left.half * Fraction(_SLACK):
                 return False, False
         elif {m: v.value for m, v in parts.items()} != {
@@ -84,17 +86,19 @@ def same(found: Compared, line: PrintedLine) -> tuple[bool, bool]:
     return True, exact
 
 
-def _by_name(whole: Sum, values: Mapping[str, float]) -> dict[Monomial, dict[Monomial, Amount]]:
+def _group_by_name(
+    whole: Sum, values: Mapping[str, float]
+) -> dict[Monomial, dict[Monomial, Amount]]:
     """{names that are no symbols: {symbols: coefficient}}."""
-    found: dict[Monomial, dict[Monomial, Amount]] = {}
+    groups: dict[Monomial, dict[Monomial, Amount]] = {}
     for monomial, value in whole.items():
         name = tuple(part for part in monomial if part[0] not in values)
         rest = tuple(part for part in monomial if part[0] in values)
-        found.setdefault(name, {})[rest] = value
-    return found
+        groups.setdefault(name, {})[rest] = value
+    return groups
 
 
-def _number(parts: Mapping[Monomial, Amount], values: Mapping[str, float]) -> Amount:
+def _evaluate_amount(parts: Mapping[Monomial, Amount], values: Mapping[str, float]) -> Amount:
     total = Amount(Fraction(0))
     for monomial, value in parts.items():
         factor = 1.0
@@ -104,7 +108,7 @@ def _number(parts: Mapping[Monomial, Amount], values: Mapping[str, float]) -> Am
     return total
 
 
-def renamer(paper: Paper, line: PrintedLine, leg: str = "") -> Callable[[str], str]:
+def build_renamer(paper: Paper, line: PrintedLine, leg: str = "") -> Callable[[str], str]:
     """The function from a printed name to ours.
 
     `i` at the end is the leg; the index of a leg that follows R goes in front of it

@@ -14,12 +14,20 @@ import numpy as np
 from modeler.codegen import derive, generate, load
 from modeler.estimation import FitResult, identify
 from modeler.observation import Observation, observe, read_log
-from modeler.papers.guegan_blocks import block_table
-from modeler.papers.guegan_motion import motion_table
-from modeler.papers.methods import MethodTable, Outcome, Row, figures, judged, quoted, recovered
+from modeler.papers.guegan_blocks import build_block_table
+from modeler.papers.guegan_motion import build_motion_table
+from modeler.papers.methods import (
+    MethodRow,
+    MethodTable,
+    Outcome,
+    judge_outcome,
+    judge_recovery,
+    read_quotation,
+    read_table,
+)
 from modeler.papers.paper import Paper
 from modeler.robot import Limits, Robot
-from modeler.runtime import CompiledModel, compiled_once
+from modeler.runtime import CompiledModel, load_cached_model
 from modeler.simulation import SimulationSettings, simulate, write_log
 
 WHOLE, ROBOT = "orthoglide-2003", "orthoglide-2003-similar-legs"
@@ -44,35 +52,35 @@ LETTERS = {
 """Names of Tables 2 and 3 that are not ours with small letters."""
 
 
-def guegan_methods(paper: Paper, report: Callable[[float], None]) -> list[MethodTable]:
+def reproduce_guegan(paper: Paper, report: Callable[[float], None]) -> list[MethodTable]:
     """Tables 2 and 3, the condition numbers, and the direction along which Table 2 is noise."""
     table_2, table_3 = (
         {
             LETTERS.get(word, word.replace("FV", "Fv").replace("FS", "Fs")): values
-            for word, values in figures(paper, place).items()
+            for word, values in read_table(paper, place).items()
         }
         for place in ("Table 2", "Table 3")
     )
     truth = {name: values[0] for name, values in table_3.items()}
     each, derivation = (derive(load(name)) for name in (WHOLE, ROBOT))
-    compiled = compiled_once(generate(derivation))
-    blocks = block_table((each, compiled_once(generate(each))), (derivation, compiled))
-    observation, exact = _simulated(derivation.robot, truth, compiled, report)
-    full, reduced = identify(observation), identify(_chosen(observation, truth))
-    printed = [figures(paper, f"{place}, condition number")["Condition"][0]
+    compiled = load_cached_model(generate(derivation))
+    blocks = build_block_table((each, load_cached_model(generate(each))), (derivation, compiled))
+    observation, exact = _simulate_logs(derivation.robot, truth, compiled, report)
+    full, reduced = identify(observation), identify(_select_parameters(observation, truth))
+    printed = [read_table(paper, f"{place}, condition number")["Condition"][0]
                for place in ("Table 2", "Table 3")]  # fmt: skip
-    own, rows = derivation.robot.limits["11"], quoted(paper, "65814 x 23")[0]
+    robot_limits, rows = derivation.robot.limits["11"], read_quotation(paper, "65814 x 23")[0]
     return [
         blocks,
-        _all_parameters(table_2, truth, full),
-        _weak_direction(table_2, observation.names, exact),
-        _essential(table_3, full, reduced),
-        _conditions(printed, full, reduced),
-        motion_table(compiled, own, rows, printed),
+        _build_all_parameters_table(table_2, truth, full),
+        _build_weak_direction_table(table_2, observation.names, exact),
+        _build_essential_table(table_3, full, reduced),
+        _build_condition_table(printed, full, reduced),
+        build_motion_table(compiled, robot_limits, rows, printed),
     ]
 
 
-def _machine(robot: Robot, truth: Mapping[str, float]) -> Robot:
+def _build_machine(robot: Robot, truth: Mapping[str, float]) -> Robot:
     """Slides and platform alone, with the values of Table 3."""
     parameters = {"MP": truth["MPR"]}
     for leg in "123":
@@ -85,14 +93,14 @@ def _machine(robot: Robot, truth: Mapping[str, float]) -> Robot:
     return replace(robot, shared=(), links={**robot.links, **empty}, parameters=parameters)
 
 
-def _simulated(
+def _simulate_logs(
     robot: Robot,
     truth: Mapping[str, float],
     compiled: CompiledModel,
     report: Callable[[float], None],
 ) -> tuple[Observation, np.ndarray]:
     """What is measured on all motions, and the regressor along the motions as they were."""
-    machine, logs, exact = _machine(robot, truth), [], []
+    machine, logs, exact = _build_machine(robot, truth), [], []
     with tempfile.TemporaryDirectory() as folder:
         for seed in range(RUNS):
             settings = SimulationSettings(
@@ -108,46 +116,46 @@ def _simulated(
     return observe(compiled, logs), np.concatenate(exact)
 
 
-def _chosen(observation: Observation, names: Mapping[str, float]) -> Observation:
+def _select_parameters(observation: Observation, names: Mapping[str, float]) -> Observation:
     """The same rows with the columns of these parameters only."""
-    kept = [i for i, name in enumerate(observation.names) if name in names]
+    columns = [i for i, name in enumerate(observation.names) if name in names]
     return replace(
         observation,
-        regressor=lambda segment, window: observation.regressor(segment, window)[..., kept],
-        names=tuple(observation.names[i] for i in kept),
-        units=tuple(observation.units[i] for i in kept),
+        regressor=lambda segment, window: observation.regressor(segment, window)[..., columns],
+        names=tuple(observation.names[i] for i in columns),
+        units=tuple(observation.units[i] for i in columns),
     )
 
 
-def _all_parameters(
+def _build_all_parameters_table(
     printed: Mapping[str, tuple[float, ...]], truth: Mapping[str, float], full: FitResult
 ) -> MethodTable:
     """Table 2; the truth of what Table 3 leaves out is 0."""
-    rows = _recovered(printed, truth, full)
+    rows = _compare_parameters(printed, truth, full)
     theirs = [abs(printed[name][1]) for name in WEAK]
     ours = [p.relative_sigma_percent or 0.0 for p in full.parameters if p.name in WEAK]
     what, why = "%sigma of " + ", ".join(WEAK), f"{BAD:g} % and more: not well identified"
-    outcome = judged(min(*theirs, *ours) >= BAD, Outcome.HOLDS)
-    rows.append(Row(what, _range(theirs), _range(ours), outcome, why))
+    outcome = judge_outcome(min(*theirs, *ours) >= BAD, Outcome.HOLDS)
+    rows.append(MethodRow(what, _format_range(theirs), _format_range(ours), outcome, why))
     return MethodTable("Table 2: all base parameters", SETTING, tuple(rows))
 
 
-def _recovered(
+def _compare_parameters(
     printed: Mapping[str, tuple[float, ...]], truth: Mapping[str, float], fit: FitResult
-) -> list[Row]:
+) -> list[MethodRow]:
     rows = []
     for p in fit.parameters:
         value, percent = printed[p.name]
         text = f"{value:.5g} ({abs(percent):.3g} %)"
-        rows.append(recovered(p.name, text, truth.get(p.name, 0.0), p.value, p.sigma or 0.0))
+        rows.append(judge_recovery(p.name, text, truth.get(p.name, 0.0), p.value, p.sigma or 0.0))
     return rows
 
 
-def _range(values: list[float]) -> str:
+def _format_range(values: list[float]) -> str:
     return f"{min(values):.3g} % to {max(values):.3g} %"
 
 
-def _weak_direction(
+def _build_weak_direction_table(
     printed: Mapping[str, tuple[float, ...]], names: tuple[str, ...], exact: np.ndarray
 ) -> MethodTable:
     """The right singular vector of the smallest singular value: Table 2 is noise along it."""
@@ -155,17 +163,17 @@ def _weak_direction(
     ours = {name: weakest[i] / weakest[names.index("MX2")] for i, name in enumerate(names)}
     theirs = {name: printed[name][0] / printed["MX2"][0] for name in WEAK}
     rows = [
-        Row(
+        MethodRow(
             f"{name}/MX2", f"{theirs[name]:.3f}", f"{ours[name]:.3f}",
-            judged(abs(theirs[name] - ours[name]) < 0.05),
+            judge_outcome(abs(theirs[name] - ours[name]) < 0.05),
             f"within 0.05; derived {DIRECTION[name]:.3g}",
         )
         for name in WEAK
         if name != "MX2"
     ]  # fmt: skip
     rest = max(abs(value) for name, value in ours.items() if name not in WEAK)
-    outcome = judged(rest < 0.1, Outcome.DERIVED)
-    rows.append(Row("all others", "-", f"{rest:.2g}", outcome, "less than 0.1"))
+    outcome = judge_outcome(rest < 0.1, Outcome.DERIVED)
+    rows.append(MethodRow("all others", "-", f"{rest:.2g}", outcome, "less than 0.1"))
     return MethodTable(
         "The direction that noise follows in Table 2",
         ("values of Table 2 divided by its MX2, beside the weakest singular vector of W;",
@@ -174,25 +182,31 @@ def _weak_direction(
     )  # fmt: skip
 
 
-def _essential(
+def _build_essential_table(
     printed: Mapping[str, tuple[float, ...]], full: FitResult, reduced: FitResult
 ) -> MethodTable:
     """Table 3, its selection, and both condition numbers."""
-    rows = _recovered(printed, {name: value for name, (value, _) in printed.items()}, reduced)
+    rows = _compare_parameters(
+        printed, {name: value for name, (value, _) in printed.items()}, reduced
+    )
     left = [p.name for p in full.parameters if not p.essential]
     theirs, ours = str(len(full.parameters) - len(printed)), f"{len(left)} by the F-test"
-    rows.append(Row("left out", theirs, ours, Outcome.SHOWN, ", ".join(left)))
+    rows.append(MethodRow("left out", theirs, ours, Outcome.SHOWN, ", ".join(left)))
     return MethodTable("Table 3: essential parameters", SETTING[:1], tuple(rows))
 
 
-def _conditions(printed: list[float], full: FitResult, reduced: FitResult) -> MethodTable:
+def _build_condition_table(
+    printed: list[float], full: FitResult, reduced: FitResult
+) -> MethodTable:
     """Condition numbers, each of its own motions; what must agree is what leaving ten out does."""
     rows = []
     for theirs, fit in zip(printed, (full, reduced), strict=True):
         what, number = f"{len(fit.parameters)} columns", f"{fit.condition_number:.4g}"
         why = "of other motions: see the next table"
-        rows.append(Row(what, f"{theirs:g}", number, Outcome.SHOWN, why))
+        rows.append(MethodRow(what, f"{theirs:g}", number, Outcome.SHOWN, why))
     fall, ours = printed[0] / printed[1], full.condition_number / reduced.condition_number
-    outcome = judged(min(fall, ours) > FALL, Outcome.HOLDS)
-    rows.append(Row("their ratio", f"{fall:.3g}", f"{ours:.3g}", outcome, f"more than {FALL:g}"))
+    outcome = judge_outcome(min(fall, ours) > FALL, Outcome.HOLDS)
+    rows.append(
+        MethodRow("their ratio", f"{fall:.3g}", f"{ours:.3g}", outcome, f"more than {FALL:g}")
+    )
     return MethodTable("Condition numbers of W", (), tuple(rows))

@@ -7,9 +7,9 @@ states; so is what the scan prints in its place, letter by letter.
 import numpy as np
 
 from modeler.codegen import Derivation
-from modeler.derivation import random_states
-from modeler.formulas import SheetWriter, leg_blocks
-from modeler.papers.methods import MethodTable, Outcome, Row, judged
+from modeler.derivation import draw_random_states
+from modeler.formulas import SheetWriter, derive_leg_blocks
+from modeler.papers.methods import MethodRow, MethodTable, Outcome, judge_outcome
 from modeler.runtime import CompiledModel
 
 STATES, SEED = 20, 2003
@@ -24,21 +24,21 @@ _SETTING = (
 )
 
 
-def block_table(*robots: tuple[Derivation, CompiledModel]) -> MethodTable:
+def build_block_table(*robots: tuple[Derivation, CompiledModel]) -> MethodTable:
     """The blocks of robots with three legs as printed, as derived, and in the emitted C.
 
     Args:
         robots: with legs of their own, and with legs alike.
     """
-    rows = [row for derivation, compiled in robots for row in _rows(derivation, compiled)]
+    rows = [row for derivation, compiled in robots for row in _compare_blocks(derivation, compiled)]
     return MethodTable("Blocks of eqs. (1), (2) and (23) to (30)", _SETTING, tuple(rows))
 
 
-def _rows(derivation: Derivation, compiled: CompiledModel) -> list[Row]:
+def _compare_blocks(derivation: Derivation, compiled: CompiledModel) -> list[MethodRow]:
     model, closure = derivation.model, derivation.model.closure
     assert closure is not None
-    states = random_states(model, STATES, np.random.default_rng(SEED))
-    at, free = list(closure.given), [joint.name for joint in model.robot.free]
+    states = draw_random_states(model, STATES, np.random.default_rng(SEED))
+    at, free = list(closure.actuated), [joint.name for joint in model.robot.free_joints]
     q, qd, qdd = (numbers[:, at] for numbers in states)
     phi, G = compiled.base_regressor(q, qd, qdd), compiled.coupling(q)
     names = [p.name for p in derivation.base.parameters]
@@ -46,22 +46,22 @@ def _rows(derivation: Derivation, compiled: CompiledModel) -> list[Row]:
     for kind, numbers in zip(("q", "qd", "qdd"), states, strict=True):
         read |= {f"{kind}[{k}]": column for k, column in enumerate(numbers.T)}
     of, c = dict[str, np.ndarray](), dict[str, np.ndarray]()  # our block; the same of the C
-    for block in leg_blocks(model, derivation.base, SheetWriter(model.graph, {})):
+    for block in derive_leg_blocks(model, derivation.base, SheetWriter(model.graph, {})):
         of[block.name] = np.zeros((STATES, len(block.rows), len(block.columns)))
-        found = model.graph.evaluate([*block.entries.values()], read)
-        for (row, column), value in zip(block.entries, found, strict=True):
+        block_values = model.graph.evaluate_outputs([*block.entries.values()], read)
+        for (row, column), value in zip(block.entries, block_values, strict=True):
             of[block.name][:, block.rows.index(row), block.columns.index(column)] = value
         known = block.columns[0] in names
         c[block.name] = (
             phi[:, :, [names.index(x) for x in block.columns]] if known
             else G[:, [free.index(x) for x in block.rows]]
         )  # fmt: skip
-    return _compared(of, c, [name[2:] for name in of if name.startswith("DL")], phi)
+    return _build_rows(of, c, [name[2:] for name in of if name.startswith("DL")], phi)
 
 
-def _compared(
+def _build_rows(
     of: dict[str, np.ndarray], c: dict[str, np.ndarray], legs: list[str], phi: np.ndarray
-) -> list[Row]:
+) -> list[MethodRow]:
     Jp = of["Jp"].swapaxes(1, 2)  # J_p^T
     DP, drives, ends, scans = Jp @ of["WP"], list[np.ndarray](), [], []
     for i, k in enumerate(legs):
@@ -71,37 +71,41 @@ def _compared(
         scans.append(Jp @ np.linalg.inv(inverse).swapaxes(1, 2) @ D)
     if c["DL1"].shape[2] * len(legs) > phi.shape[2]:  # shared: legs alike
         printed, right = "Jp^T sum_i [Ji^T DLi]", np.sum(ends, axis=0)
-        return [_row("(30) DLS", printed, right, c["DL1"], np.sum(scans, axis=0)),
-                _row("(30) Dsym", "its blocks", np.dstack([DP, *drives, right]),
+        return [_build_row("(30) DLS", printed, right, c["DL1"], np.sum(scans, axis=0)),
+                _build_row("(30) Dsym", "its blocks", np.dstack([DP, *drives, right]),
                      np.dstack([c["WP"], *(c[f"Dm{k}"] for k in legs), c["DL1"]]))]  # fmt: skip
-    rows = [_row("(1) Jp^-1", "Ld = Jp^-1 V", of["Jpinv"] @ of["Jp"], c["Jpinv"])]
-    rows += [_row(f"(2) J{k}^-1", f"qd{k} = J{k}^-1 V", of[f"J{k}inv"] @ of["Jp"], c[f"J{k}inv"])
-             for k in legs]  # fmt: skip
-    rows += [_row(f"(25) Dm{k}", "ddotq1i, dotq1i, sign(dotq1i), 1", drive, c[f"Dm{k}"])
+    rows = [_build_row("(1) Jp^-1", "Ld = Jp^-1 V", of["Jpinv"] @ of["Jp"], c["Jpinv"])]
+    rows += [
+        _build_row(f"(2) J{k}^-1", f"qd{k} = J{k}^-1 V", of[f"J{k}inv"] @ of["Jp"], c[f"J{k}inv"])
+        for k in legs
+    ]
+    rows += [_build_row(f"(25) Dm{k}", "ddotq1i, dotq1i, sign(dotq1i), 1", drive, c[f"Dm{k}"])
              for k, drive in zip(legs, drives, strict=True)]  # fmt: skip
-    rows.append(_row("(26) DP", "Jp^T (dotVP - g)", DP, c["WP"]))
+    rows.append(_build_row("(26) DP", "Jp^T (dotVP - g)", DP, c["WP"]))
     parts, wanted = [DP], [c["WP"]]
     for n, k in enumerate(legs):
         parts.append(np.dstack([drives[n], ends[n]]))
         wanted.append(np.dstack([c[f"Dm{k}"], c[f"DL{k}"]]))
         scan = np.dstack([drives[n], scans[n]])
-        rows.append(_row(f"({27 + n}) DB{k}", f"Jp^T J{k}^T DL{k}", parts[-1], wanted[-1], scan))
-    return [*rows, _row("(23) DBrob", "its blocks", np.dstack(parts), np.dstack(wanted))]
+        rows.append(
+            _build_row(f"({27 + n}) DB{k}", f"Jp^T J{k}^T DL{k}", parts[-1], wanted[-1], scan)
+        )
+    return [*rows, _build_row("(23) DBrob", "its blocks", np.dstack(parts), np.dstack(wanted))]
 
 
-def _row(
+def _build_row(
     what: str, printed: str, ours: np.ndarray, c: np.ndarray, scan: np.ndarray | None = None
-) -> Row:
-    error, size = _off(ours, c), " x ".join(map(str, c.shape[1:]))
+) -> MethodRow:
+    error, size = _compute_relative_error(ours, c), " x ".join(map(str, c.shape[1:]))
     if scan is None:
-        return Row(f"{what}, {size}", printed, f"{error:.1e}", judged(error < SAME))
-    well = judged(error < SAME and _off(scan, c) > WRONG, Outcome.DERIVED)
-    told, why = (
-        f"{printed}: {_off(scan, c):.2g}",
+        return MethodRow(f"{what}, {size}", printed, f"{error:.1e}", judge_outcome(error < SAME))
+    well = judge_outcome(error < SAME and _compute_relative_error(scan, c) > WRONG, Outcome.DERIVED)
+    printed_text, why = (
+        f"{printed}: {_compute_relative_error(scan, c):.2g}",
         "with the inverse of J_i that equal power demands",
     )
-    return Row(f"{what}, {size}", told, f"{error:.1e}", well, why)
+    return MethodRow(f"{what}, {size}", printed_text, f"{error:.1e}", well, why)
 
 
-def _off(block: np.ndarray, c: np.ndarray) -> float:
+def _compute_relative_error(block: np.ndarray, c: np.ndarray) -> float:
     return float(np.max(np.abs(block - c)) / np.max(np.abs(c)))

@@ -11,21 +11,21 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from modeler.excitation import Bounds, Wish, excite
-from modeler.papers.methods import MethodTable, Outcome, Row, judged
+from modeler.excitation import MotionBounds, MotionRequest, design_motion
+from modeler.papers.methods import MethodRow, MethodTable, Outcome, judge_outcome
 from modeler.robot import Limits
 from modeler.runtime import CompiledModel
-from modeler.simulation import point_to_point_reference
+from modeler.simulation import build_point_to_point_reference
 
 RATE, RUNS, TRIED, DRAWN, STARTS = 400.0, 10, 60, 30, 3
 """Hz; motions together; of which they are chosen; tens at random; choices that are begun."""
 SPEEDS = (0.4, 0.8, 1.2)  # m/s, with ten times as much in m/s^2
 ESSENTIAL = 13  # first columns: platform and motors
-SEARCH = Wish(duration=10.0, harmonics=6, criterion="condition", starts=2)
+SEARCH = MotionRequest(duration=10.0, harmonics=6, criterion="condition", starts=2)
 _BETTER = 1e-4
 
 
-def cube_range(length: float, straight: float) -> tuple[float, float]:
+def compute_cube_range(length: float, straight: float) -> tuple[float, float]:
     """Range of the motors over the cube where the platform is 1/2 to 2 times as fast as they.
 
     On its diagonal p = t (1, 1, 1), from where the bars of length D are straight, rows of J_p^-1
@@ -41,7 +41,7 @@ def cube_range(length: float, straight: float) -> tuple[float, float]:
     return straight + low, straight + high + length - math.sqrt(length**2 - 2.0 * high**2)
 
 
-def conditions(
+def compute_condition_numbers(
     compiled: CompiledModel, limits: Limits, lasts: float
 ) -> tuple[np.ndarray, float, float]:
     """Condition numbers of W without noise, columns as they are, in SI units.
@@ -57,45 +57,51 @@ def conditions(
     """
     grams = []
     for seed in range(TRIED):
-        motion = point_to_point_reference((limits,) * len(compiled.spec.joints), lasts, RATE, seed)
+        motion = build_point_to_point_reference(
+            (limits,) * len(compiled.spec.joints), lasts, RATE, seed
+        )
         if not compiled.closing_status(motion.q).any():
             W = compiled.observation(motion.q, motion.qd, motion.qdd)
             grams.append(W.T @ W)
     every, rng = np.stack(grams), np.random.default_rng(0)
     tens = [rng.permutation(len(every))[:RUNS] for _ in range(DRAWN)]
     sums = [every[ten].sum(axis=0) for ten in tens]
-    few = [_condition(gram[:ESSENTIAL, :ESSENTIAL]) for gram in sums]
-    chosen = min(_exchanged(every, ten) for ten in tens[:STARTS])
-    return np.sort([_condition(gram) for gram in sums]), chosen, float(np.median(few))
+    few = [_compute_condition_number(gram[:ESSENTIAL, :ESSENTIAL]) for gram in sums]
+    chosen = min(_exchange_motions(every, ten) for ten in tens[:STARTS])
+    return (
+        np.sort([_compute_condition_number(gram) for gram in sums]),
+        chosen,
+        float(np.median(few)),
+    )
 
 
-def _exchanged(every: np.ndarray, ten: np.ndarray) -> float:
+def _exchange_motions(every: np.ndarray, ten: np.ndarray) -> float:
     """The condition number when no exchange of one motion makes it smaller."""
-    kept, least, better = list(ten), _condition(every[ten].sum(axis=0)), True
+    motions, least, better = list(ten), _compute_condition_number(every[ten].sum(axis=0)), True
     while better:
         better = False
         for place in range(RUNS):
-            rest = every[np.delete(kept, place)].sum(axis=0)
-            for other in set(range(len(every))) - {*kept}:
-                tried = _condition(rest + every[other])
+            rest = every[np.delete(motions, place)].sum(axis=0)
+            for other in set(range(len(every))) - {*motions}:
+                tried = _compute_condition_number(rest + every[other])
                 if tried < (1.0 - _BETTER) * least:
-                    kept[place], least, better = other, tried, True
+                    motions[place], least, better = other, tried, True
     return least
 
 
-def _condition(gram: np.ndarray) -> float:
+def _compute_condition_number(gram: np.ndarray) -> float:
     sizes = np.linalg.eigvalsh(gram)
     return float(np.sqrt(sizes[-1] / sizes[0]))
 
 
-def motion_table(
-    compiled: CompiledModel, own: Limits, rows: float, printed: Sequence[float]
+def build_motion_table(
+    compiled: CompiledModel, robot_limits: Limits, rows: float, printed: Sequence[float]
 ) -> MethodTable:
     """What motions within several limits reach, beside the printed numbers.
 
     Args:
         compiled: with legs alike, 23 columns.
-        own: limits of the robot file.
+        robot_limits: limits of the robot file.
         rows: of the printed W.
         printed: condition numbers of 23 and of 13 columns.
     """
@@ -104,21 +110,26 @@ def motion_table(
     home = np.array(spec.closure.home)[list(spec.closure.given)]  # where the bars are straight
     (D,) = (symbol.value for symbol in spec.symbols if symbol.name == "D4")
     lasts = rows / len(spec.joints) / RATE / RUNS
-    cube = [Limits(*cube_range(D, home[0]), v, 10.0 * v) for v in SPEEDS]
-    table, all_, few = list[Row](), f"{printed[0]:.5g}", f"{printed[1]:.4g}"
+    cube = [Limits(*compute_cube_range(D, home[0]), v, 10.0 * v) for v in SPEEDS]
+    table, all_, few = list[MethodRow](), f"{printed[0]:.5g}", f"{printed[1]:.4g}"
     reached = list[float]()
-    for limits in (own, *cube):
-        drawn, chosen, essential = conditions(compiled, limits, lasts)
+    for limits in (robot_limits, *cube):
+        drawn, chosen, essential = compute_condition_numbers(compiled, limits, lasts)
         ours = f"{np.median(drawn):.4g} ({drawn[0]:.4g} to {drawn[-1]:.4g}); {essential:.3g}"
         why = f"ten chosen of {TRIED}: {chosen:.4g}"
-        table.append(Row(_told(limits), f"{all_}; {few}", ours, Outcome.SHOWN, why))
-        reached += [chosen, drawn[-1]] if limits is not own else []
-    for limits in (own, cube[1]):
-        what, found = f"Fourier series, {_told(limits)}", _searched(compiled, limits, home)
-        table.append(Row(what, all_, f"{found:.4g}", Outcome.SHOWN, "`modeler excite`, 10 s"))
+        table.append(MethodRow(_format_limits(limits), f"{all_}; {few}", ours, Outcome.SHOWN, why))
+        reached += [chosen, drawn[-1]] if limits is not robot_limits else []
+    for limits in (robot_limits, cube[1]):
+        what, condition = (
+            f"Fourier series, {_format_limits(limits)}",
+            _search_condition_number(compiled, limits, home),
+        )
+        table.append(
+            MethodRow(what, all_, f"{condition:.4g}", Outcome.SHOWN, "`modeler excite`, 10 s")
+        )
     least, most = min(reached), max(reached)
-    table.append(Row("in reach over the cube", all_, f"{least:.4g} to {most:.4g}",
-                     judged(least < printed[0] < most, Outcome.HOLDS),
+    table.append(MethodRow("in reach over the cube", all_, f"{least:.4g} to {most:.4g}",
+                     judge_outcome(least < printed[0] < most, Outcome.HOLDS),
                      "between ten chosen motions and ten slow ones"))  # fmt: skip
     setting = (
         f"the paper prints no limits, only {rows:g} rows: ten motions of {lasts:.2f} s at 2.5 ms "
@@ -130,18 +141,18 @@ def motion_table(
     return MethodTable(title, setting, tuple(table))
 
 
-def _told(limits: Limits) -> str:
+def _format_limits(limits: Limits) -> str:
     return (f"{limits.lower:.3f} to {limits.upper:.3f} m, {limits.speed:g} m/s, "
             f"{limits.acceleration:g} m/s2")  # fmt: skip
 
 
-def _searched(compiled: CompiledModel, limits: Limits, home: np.ndarray) -> float:
+def _search_condition_number(compiled: CompiledModel, limits: Limits, home: np.ndarray) -> float:
     """The same of the Fourier series that the search for an exciting motion finds."""
     joints, one = tuple(joint.name for joint in compiled.spec.joints), np.ones(len(home))
     low, high, speed, more = (getattr(limits, name) * one
                               for name in ("lower", "upper", "speed", "acceleration"))  # fmt: skip
-    bounds = Bounds(joints, low, high, speed, more, np.inf * one, home=home)
-    found = excite(compiled, bounds, SEARCH).sampled(RATE)
-    motion = (np.stack([found[k + j] for j in joints], axis=1) for k in ("q", "qd", "qdd"))
+    bounds = MotionBounds(joints, low, high, speed, more, np.inf * one, home=home)
+    samples = design_motion(compiled, bounds, SEARCH).sample_motion(RATE)
+    motion = (np.stack([samples[k + j] for j in joints], axis=1) for k in ("q", "qd", "qdd"))
     W = compiled.observation(*motion)
-    return _condition(W.T @ W)
+    return _compute_condition_number(W.T @ W)

@@ -11,18 +11,31 @@ from dataclasses import replace
 import numpy as np
 
 from modeler.codegen import Derivation, derive, generate
-from modeler.core.builtin import builtin_text
-from modeler.core.expression import parse
+from modeler.core.builtin import read_builtin_robot
+from modeler.core.expression import parse_expression
 from modeler.core.figure import Curve, Panel, Picture
 from modeler.core.style import BLUE, GREEN, GREY, VERMILLION, Style
-from modeler.core.table import percent
-from modeler.estimation import Directions, TwoStepFit, identify_in_two_steps
-from modeler.formulas import determined, known_sets, physical_system, smallest_number
+from modeler.core.table import format_percent
+from modeler.estimation import JointDirections, TwoStepFit, identify_in_two_steps
+from modeler.formulas import (
+    build_physical_system,
+    count_smallest_set,
+    find_determined,
+    find_known_sets,
+)
 from modeler.observation import observe
-from modeler.papers.methods import MethodTable, Outcome, Row, judged, logged, quoted, recovered
+from modeler.papers.methods import (
+    MethodRow,
+    MethodTable,
+    Outcome,
+    build_log,
+    judge_outcome,
+    judge_recovery,
+    read_quotation,
+)
 from modeler.papers.paper import Paper
-from modeler.robot import Limits, Robot, joint_directions, robot_from_text
-from modeler.runtime import CompiledModel, compiled_once
+from modeler.robot import Limits, Robot, compute_joint_directions, parse_robot_text
+from modeler.runtime import CompiledModel, load_cached_model
 from modeler.simulation import Reference, SimulationSettings, simulate
 
 SECONDS, RATE, BANDWIDTH, NOISE = 240.0, 400.0, 60.0, 0.02
@@ -42,37 +55,41 @@ SETTING = (
 )
 
 
-def hanssen_methods(paper: Paper, report: Callable[[float], None]) -> list[MethodTable]:
+def reproduce_hanssen(paper: Paper, report: Callable[[float], None]) -> list[MethodTable]:
     """J11 in two steps; the singular values of Phi; which parameters follow from which."""
     names = tuple(f"PJ{k}" for k in range(1, 8))
-    truth = dict(zip(names, quoted(paper, "J11 = 0.0398")[-7:], strict=True))
-    robot = robot_from_text(builtin_text("wrist") + '\n[effects]\ncoulomb = "all"\n', "wrist")
+    truth = dict(zip(names, read_quotation(paper, "J11 = 0.0398")[-7:], strict=True))
+    robot = parse_robot_text(
+        read_builtin_robot("wrist") + '\n[effects]\ncoulomb = "all"\n', "wrist"
+    )
     derivation = derive(robot)
-    compiled = compiled_once(generate(derivation))
+    compiled = load_cached_model(generate(derivation))
     settings = SimulationSettings(
         duration=SECONDS, rate=RATE, seed=SEED, bandwidth=BANDWIDTH, torque_noise=NOISE,
         motion="one-joint", limits=dict.fromkeys("123", LIMITS),
     )  # fmt: skip
-    run = simulate(_machine(robot, derivation, truth), settings)
+    run = simulate(_build_machine(robot, derivation, truth), settings)
     report(0.5)
-    observation = observe(compiled, [logged(run, run.joints, run.tau)])
-    steps = identify_in_two_steps(compiled, observation, Directions(joint_directions(robot)))
+    observation = observe(compiled, [build_log(run, run.joints, run.tau)])
+    steps = identify_in_two_steps(
+        compiled, observation, JointDirections(compute_joint_directions(robot))
+    )
     monomials = next(line.quote for line in paper.lines if line.check == "monomials").split(";")
-    tables = [*_inertia(paper, truth, steps, monomials), _one_step(steps)]
-    tables.append(_figure_2(_machine(robot, derivation, truth), compiled, steps))
+    tables = [*_build_inertia_tables(paper, truth, steps, monomials), _build_one_step_table(steps)]
+    tables.append(_build_figure_2(_build_machine(robot, derivation, truth), compiled, steps))
     report(0.8)
-    tables.append(_known(paper, derivation))
+    tables.append(_build_known_table(paper, derivation))
     return tables
 
 
-def _machine(robot: Robot, derivation: Derivation, truth: Mapping[str, float]) -> Robot:
+def _build_machine(robot: Robot, derivation: Derivation, truth: Mapping[str, float]) -> Robot:
     """Links whose J11 has these coefficients; body 3 carries PJ1, PJ2, PJ4, PJ5.
 
     PJ1 = YY3 - XX3, PJ2 = -2 XY3, PJ4 = -2 YZ3 + 2 bl1 MY3, PJ5 = 2 XZ3 - 2 bl1 MX3,
     PJ3 = XX2R - PJ1 - ZZ3, PJ6 = 2 XY2, PJ7 = ZZ1 + YY2 + ZZ3; MX3 = MY3 = 0.
     """
     values = dict.fromkeys((column.name for column in derivation.base.columns), 0.0)
-    bl1 = robot.symbols["bl1"].number()
+    bl1 = robot.symbols["bl1"].evaluate()
     values |= {"M1": 12.0, "MX1": -0.36, "MY1": -0.24, "M2": 6.0, "MX2": -0.12, "MZ2": 0.06}
     values |= {"M3": 4.0, "MZ3": 0.24, "YY3": 0.3, "ZZ3": 0.3, "YY2": 0.08, "ZZ2": 0.08}
     values["XX3"] = values["YY3"] - truth["PJ1"]
@@ -85,70 +102,98 @@ def _machine(robot: Robot, derivation: Derivation, truth: Mapping[str, float]) -
     return replace(robot, parameters=values | COULOMB)
 
 
-def _inertia(
+def _build_inertia_tables(
     paper: Paper, truth: Mapping[str, float], steps: TwoStepFit, monomials: list[str]
 ) -> list[MethodTable]:
     """P = pinv(Phi) J11 with rows as sure as step 1 is of them."""
     moved = [c for c in steps.steps.configurations if c.joint == 0]
-    inertia, sigma = np.array([c.coefficients(0)[0][1:] for c in moved]).T
-    functions = [parse(text.strip().replace("^", "**").replace(" ", "*")) for text in monomials]
-    phi = np.array([[f.number(_trigonometry(c.pose)) for f in functions] for c in moved])
+    inertia, sigma = np.array([c.compute_coefficients(0)[0][1:] for c in moved]).T
+    functions = [
+        parse_expression(text.strip().replace("^", "**").replace(" ", "*")) for text in monomials
+    ]
+    phi = np.array([[f.evaluate(_compute_trigonometry(c.pose)) for f in functions] for c in moved])
     inverse = np.linalg.pinv(phi / sigma[:, None])
     values, deviations = inverse @ (inertia / sigma), np.linalg.norm(inverse, axis=1)
     rows = [
-        recovered(name, f"{truth[name]:g}", truth[name], float(value), float(deviation))
+        judge_recovery(name, f"{truth[name]:g}", truth[name], float(value), float(deviation))
         for name, value, deviation in zip(truth, values, deviations, strict=True)
     ]
     return [
         MethodTable(f"Eq. (3): J11 from {len(moved)} configurations", SETTING, tuple(rows)),
-        _singular(quoted(paper, "3.63")[:7], np.linalg.svd(phi, compute_uv=False)),
+        _build_singular_values_table(
+            read_quotation(paper, "3.63")[:7], np.linalg.svd(phi, compute_uv=False)
+        ),
     ]
 
 
-def _trigonometry(pose: np.ndarray) -> dict[str, float]:
+def _compute_trigonometry(pose: np.ndarray) -> dict[str, float]:
     sines = {f"s{k + 1}": float(np.sin(angle)) for k, angle in enumerate(pose)}
     return sines | {f"c{k + 1}": float(np.cos(angle)) for k, angle in enumerate(pose)}
 
 
-def _singular(printed: tuple[float, ...], ours: np.ndarray) -> MethodTable:
+def _build_singular_values_table(printed: tuple[float, ...], ours: np.ndarray) -> MethodTable:
     rows = [
-        Row("singular values", _listed(printed), _listed(tuple(ours)), Outcome.SHOWN,
-            "of other configurations"),
-        Row("last over first", f"{printed[-1] / printed[0]:.3f}", f"{ours[-1] / ours[0]:.3f}",
-            Outcome.SHOWN, "the paper asks for about 0.1"),
-        Row("rank of Phi", str(len(printed)), str(int(np.sum(ours > 1e-8 * ours[0]))),
-            judged(len(printed) == int(np.sum(ours > 1e-8 * ours[0])))),
-    ]  # fmt: skip
+        MethodRow(
+            "singular values",
+            _format_values(printed),
+            _format_values(tuple(ours)),
+            Outcome.SHOWN,
+            "of other configurations",
+        ),
+        MethodRow(
+            "last over first",
+            f"{printed[-1] / printed[0]:.3f}",
+            f"{ours[-1] / ours[0]:.3f}",
+            Outcome.SHOWN,
+            "the paper asks for about 0.1",
+        ),
+        MethodRow(
+            "rank of Phi",
+            str(len(printed)),
+            str(int(np.sum(ours > 1e-8 * ours[0]))),
+            judge_outcome(len(printed) == int(np.sum(ours > 1e-8 * ours[0]))),
+        ),
+    ]
     return MethodTable("Persistent excitation of J11", (), tuple(rows))
 
 
-def _listed(values: tuple[float, ...]) -> str:
+def _format_values(values: tuple[float, ...]) -> str:
     return " ".join(f"{value:.2f}" for value in values)
 
 
-def _one_step(steps: TwoStepFit) -> MethodTable:
+def _build_one_step_table(steps: TwoStepFit) -> MethodTable:
     """What the paper does not print: both ways on the same data."""
     two, one = steps.result, steps.one_step
     known = [sum(p.sigma is not None for p in fit.parameters) for fit in (two, one)]
     rows = [
-        Row("parameters found", "-", f"{known[0]} in two steps, {known[1]} in one", Outcome.SHOWN,
-            "joints that stand with dry friction tell nothing of J12"),
-        Row("relative error of the torques", "-",
-            f"{percent(two.relative_error)} in two steps, {percent(one.relative_error)} in "
-            "one", Outcome.SHOWN),
-    ]  # fmt: skip
+        MethodRow(
+            "parameters found",
+            "-",
+            f"{known[0]} in two steps, {known[1]} in one",
+            Outcome.SHOWN,
+            "joints that stand with dry friction tell nothing of J12",
+        ),
+        MethodRow(
+            "relative error of the torques",
+            "-",
+            f"{format_percent(two.relative_error)} in two steps, "
+            f"{format_percent(one.relative_error)} in "
+            "one",
+            Outcome.SHOWN,
+        ),
+    ]
     return MethodTable("Two steps beside one step", (), tuple(rows))
 
 
-def _figure_2(machine: Robot, compiled: CompiledModel, steps: TwoStepFit) -> MethodTable:
+def _build_figure_2(machine: Robot, compiled: CompiledModel, steps: TwoStepFit) -> MethodTable:
     """A ramp of joint 1 at a configuration that no step has seen: measured and modelled torque."""
     settings = SimulationSettings(
-        rate=RATE, seed=2, bandwidth=BANDWIDTH, torque_noise=NOISE, commanded=_ramp(),
+        rate=RATE, seed=2, bandwidth=BANDWIDTH, torque_noise=NOISE, commanded=_build_ramp(),
         limits=dict.fromkeys("123", LIMITS),
     )  # fmt: skip
     run = simulate(machine, settings)
     beta = np.array([parameter.value for parameter in steps.result.parameters])
-    (part,) = observe(compiled, [logged(run, run.joints, run.tau)]).stretches
+    (part,) = observe(compiled, [build_log(run, run.joints, run.tau)]).stretches
     moved, known = part.segment, part.usable[:, 0]  # at rest dry friction is anything
     time, torque = moved.time, moved.tau[:, 0]
     model = (compiled.base_regressor(moved.q, moved.qd, moved.qdd) @ beta)[:, 0]
@@ -156,8 +201,14 @@ def _figure_2(machine: Robot, compiled: CompiledModel, steps: TwoStepFit) -> Met
     missed, noise, size = (float(np.std(x[known])) for x in (model - exact, torque - exact, exact))
     why = "less than the noise; joint 1 at a configuration that the fit has not seen"
     rows = (
-        Row("noise of the measured torque", "-", percent(noise / size), Outcome.SHOWN),
-        Row("the model's error", "-", percent(missed / size), judged(missed < noise), why),
+        MethodRow("noise of the measured torque", "-", format_percent(noise / size), Outcome.SHOWN),
+        MethodRow(
+            "the model's error",
+            "-",
+            format_percent(missed / size),
+            judge_outcome(missed < noise),
+            why,
+        ),
     )
     left = (
         Curve("measured", time, torque, Style(GREY, 0.7)),
@@ -184,33 +235,35 @@ _CAPTION = (
 )
 
 
-def _ramp() -> Reference:
+def _build_ramp() -> Reference:
     """Joint 1 from -1 to 1 rad and back at 2 rad/s, its speed changing in half a second."""
     time, rise = np.arange(round(3.4 * RATE)) / RATE, 0.5
-    found = np.zeros((3, len(time), 3))
-    found[0] = (-1.0, 0.7, -0.5)
+    motion = np.zeros((3, len(time), 3))
+    motion[0] = (-1.0, 0.7, -0.5)
     for start, speed in ((0.1, 2.0), (1.1, -2.0), (1.7, -2.0), (2.7, 2.0)):
         s = np.clip((time - start) / rise, 0.0, 1.0)
         turn, after = 2 * np.pi * s, np.maximum(time - start - rise, 0.0)
         lag = (np.cos(turn) - 1) / (2 * np.pi) ** 2
-        found[0, :, 0] += speed * (rise * (s**2 / 2 + lag) + after)
-        found[1, :, 0] += speed * (s - np.sin(turn) / (2 * np.pi))
-        found[2, :, 0] += speed / rise * (1 - np.cos(turn))
-    return Reference(time, *found)
+        motion[0, :, 0] += speed * (rise * (s**2 / 2 + lag) + after)
+        motion[1, :, 0] += speed * (s - np.sin(turn) / (2 * np.pi))
+        motion[2, :, 0] += speed / rise * (1 - np.cos(turn))
+    return Reference(time, *motion)
 
 
-def _known(paper: Paper, derivation: Derivation) -> MethodTable:
+def _build_known_table(paper: Paper, derivation: Derivation) -> MethodTable:
     """Which physical parameters follow: the paper's claim, and the count of all choices."""
-    system = physical_system(derivation.model, derivation.base, "coefficients")
-    claim, rest = quoted(paper, "From these, 18")
-    found, _ = determined(system, KNOWN)
+    system = build_physical_system(derivation.model, derivation.base, "coefficients")
+    claim, rest = read_quotation(paper, "From these, 18")
+    determined_parameters, _ = find_determined(system, KNOWN)
     what = "parameters that follow from " + ", ".join(KNOWN)
-    why = "the statement is wrong: " + ", ".join(found) + " alone"
-    outcome = judged(len(found) == FOLLOW, Outcome.DERIVED)
-    rows = [Row(what, f"{claim:g}", str(len(found)), outcome, why)]
-    for size, expected in ((int(rest), 0), (smallest_number(system), 61_879)):
-        sets = known_sets(system, size)
+    why = "the statement is wrong: " + ", ".join(determined_parameters) + " alone"
+    outcome = judge_outcome(len(determined_parameters) == FOLLOW, Outcome.DERIVED)
+    rows = [MethodRow(what, f"{claim:g}", str(len(determined_parameters)), outcome, why)]
+    for size, expected in ((int(rest), 0), (count_smallest_set(system), 61_879)):
+        sets = find_known_sets(system, size)
         what, counted = f"sets of {size} from which all others follow", sets.count == expected
-        outcome = judged(counted, Outcome.DERIVED)
-        rows.append(Row(what, "-", f"{sets.count} of {sets.possible}", outcome, "our consequence"))
+        outcome = judge_outcome(counted, Outcome.DERIVED)
+        rows.append(
+            MethodRow(what, "-", f"{sets.count} of {sets.possible}", outcome, "our consequence")
+        )
     return MethodTable("Physical parameters that must be known", (), tuple(rows))

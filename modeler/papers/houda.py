@@ -10,13 +10,21 @@ from dataclasses import replace
 import numpy as np
 
 from modeler.codegen import derive, generate
-from modeler.core.builtin import builtin_text
-from modeler.estimation import FitResult, friction_by_direction, identify, identify_energy
+from modeler.core.builtin import read_builtin_robot
+from modeler.estimation import FitResult, compute_friction_by_direction, identify, identify_energy
 from modeler.observation import Log, observe
-from modeler.papers.methods import MethodTable, Outcome, Row, judged, logged, quoted, recovered
+from modeler.papers.methods import (
+    MethodRow,
+    MethodTable,
+    Outcome,
+    build_log,
+    judge_outcome,
+    judge_recovery,
+    read_quotation,
+)
 from modeler.papers.paper import Paper
-from modeler.robot import Robot, robot_from_text
-from modeler.runtime import CompiledModel, compiled_once
+from modeler.robot import Robot, parse_robot_text
+from modeler.runtime import CompiledModel, load_cached_model
 from modeler.simulation import SimulatedLog, SimulationSettings, simulate
 
 RUNS, SECONDS, RATE, NOISE = 6, 10.0, 204.0, 0.02
@@ -31,18 +39,20 @@ SETTING = (
 )
 
 
-def houda_methods(paper: Paper, report: Callable[[float], None]) -> list[MethodTable]:
+def reproduce_houda(paper: Paper, report: Callable[[float], None]) -> list[MethodTable]:
     """Masses and friction by direction from both models, and how sure each of them is."""
-    first, second = quoted(paper, "First"), quoted(paper, "Second")
-    axis = quoted(paper, "Fs1 = 1,39")
+    first, second = read_quotation(paper, "First"), read_quotation(paper, "Second")
+    axis = read_quotation(paper, "Fs1 = 1,39")
     fs1, fv1, fs2, fv2 = axis
     friction = {"s1": first[1:], "s2": second[1:], LEG: (fv1, fs1, fv2, fs2)}
-    (platform,) = quoted(paper, "MRp")
+    (platform,) = read_quotation(paper, "MRp")
     truth = {"Ms1": first[0], "Ms2R": second[0], "MPR": platform}
     for joint, values in friction.items():
         truth |= dict(zip((n.format(joint) for n in FRICTION), values, strict=True))
-    machine = _machine(truth, friction)
-    compiled = compiled_once(generate(derive(robot_from_text(_text(both_ways=True), "evra"))))
+    machine = _build_machine(truth, friction)
+    compiled = load_cached_model(
+        generate(derive(parse_robot_text(_write_robot_text(both_ways=True), "evra")))
+    )
     runs = []
     for seed in range(RUNS):
         settings = SimulationSettings(
@@ -51,25 +61,25 @@ def houda_methods(paper: Paper, report: Callable[[float], None]) -> list[MethodT
         runs.append(simulate(machine, settings))
         report((seed + 1) / (RUNS + 1))
     rng = np.random.default_rng(90)
-    observation = observe(compiled, [_log(compiled, run, friction, rng) for run in runs])
+    observation = observe(compiled, [_simulate_log(compiled, run, friction, rng) for run in runs])
     torque, energy = identify(observation), identify_energy(compiled, observation).result
     return [
-        _values(f"Table 1 and axis B4P4, {name} model", truth, compiled, fit)
+        _build_value_table(f"Table 1 and axis B4P4, {name} model", truth, compiled, fit)
         for name, fit in (("torque", torque), ("energy", energy))
-    ] + [_compared(energy)]
+    ] + [_build_comparison_table(energy)]
 
 
-def _text(both_ways: bool) -> str:
+def _write_robot_text(both_ways: bool) -> str:
     effects = ["viscous", "coulomb", "offset"] + ["asymmetric_viscous"] * both_ways
-    return builtin_text("evra") + "\n[effects]\n" + "\n".join(f'{e} = "all"' for e in effects)
+    return read_builtin_robot("evra") + "\n[effects]\n" + "\n".join(f'{e} = "all"' for e in effects)
 
 
-def _machine(truth: Mapping[str, float], friction: Mapping[str, tuple[float, ...]]) -> Robot:
+def _build_machine(truth: Mapping[str, float], friction: Mapping[str, tuple[float, ...]]) -> Robot:
     """Slides, platform and legs such that Ms1, Ms2R and MPR are those of the paper.
 
     Ms2R carries the two lower links of each leg, MPR the third.
     """
-    robot = robot_from_text(_text(both_ways=False), "evra")
+    robot = parse_robot_text(_write_robot_text(both_ways=False), "evra")
     values = dict(robot.parameters)
     legs = "123456"
     values["Ms1"] = truth["Ms1"]
@@ -86,7 +96,7 @@ def _machine(truth: Mapping[str, float], friction: Mapping[str, tuple[float, ...
     return replace(robot, parameters=values)
 
 
-def _log(
+def _simulate_log(
     compiled: CompiledModel,
     run: SimulatedLog,
     friction: Mapping[str, tuple[float, ...]],
@@ -99,28 +109,32 @@ def _log(
         speed = run.truth.qd[:, run.joints.index(joint)]
         tau[:, joints.index(joint)] += (there - back) / 2 * np.abs(speed)
     tau += NOISE * np.sqrt(np.mean(tau**2, axis=0)) * rng.normal(size=tau.shape)
-    return logged(run, joints, tau)
+    return build_log(run, joints, tau)
 
 
-def _values(
+def _build_value_table(
     title: str, truth: Mapping[str, float], compiled: CompiledModel, fit: FitResult
 ) -> MethodTable:
-    found = {p.name: (p.value, p.sigma or 0.0) for p in fit.parameters}
-    found |= {d.name: (d.value, d.sigma) for d in friction_by_direction(compiled.spec, fit)}
-    rows = [recovered(n, f"{value:g}", value, *found[n]) for n, value in truth.items()]
+    estimates = {p.name: (p.value, p.sigma or 0.0) for p in fit.parameters}
+    estimates |= {
+        d.name: (d.value, d.sigma) for d in compute_friction_by_direction(compiled.spec, fit)
+    }
+    rows = [judge_recovery(n, f"{value:g}", value, *estimates[n]) for n, value in truth.items()]
     return MethodTable(title, SETTING, tuple(rows))
 
 
-def _compared(energy: FitResult) -> MethodTable:
+def _build_comparison_table(energy: FitResult) -> MethodTable:
     """What the paper does not print: both models on the same data."""
     assert energy.energy is not None, "identify_energy compares"
     rows = []
     torque, simpson, trapezoid = energy.energy.figures
     for model in (torque, simpson, trapezoid):
         text = f"condition {model.condition_scaled:.4g}, {model.known} parameters below 10 %"
-        rows.append(Row(model.model, "-", f"{model.rows} rows, {text}", Outcome.SHOWN))
+        rows.append(MethodRow(model.model, "-", f"{model.rows} rows, {text}", Outcome.SHOWN))
     ratio = simpson.torque_sigma / torque.torque_sigma
     what = "uncertainty of predicted torques, energy over torque"
     why = "our consequence: at equal data the torque model is the surer"
-    rows.append(Row(what, "-", f"{ratio:.3g}", judged(ratio > 1.0, Outcome.DERIVED), why))
+    rows.append(
+        MethodRow(what, "-", f"{ratio:.3g}", judge_outcome(ratio > 1.0, Outcome.DERIVED), why)
+    )
     return MethodTable("The energy model beside the torque model", (), tuple(rows))

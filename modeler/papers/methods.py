@@ -9,10 +9,10 @@ import numpy as np
 
 from modeler.core.errors import RobotError
 from modeler.core.figure import Picture
-from modeler.core.table import percent
+from modeler.core.table import format_percent
 from modeler.observation import Log
 from modeler.papers.paper import Paper
-from modeler.papers.quotation import numbers_of
+from modeler.papers.quotation import read_numbers
 from modeler.simulation import SimulatedLog
 
 ZMAX = 4.0
@@ -35,7 +35,7 @@ class Outcome(enum.Enum):
 
 
 @dataclass(frozen=True)
-class Row:
+class MethodRow:
     """One line.
 
     Attributes:
@@ -70,16 +70,16 @@ class MethodTable:
 
     title: str
     setting: tuple[str, ...]
-    rows: tuple[Row, ...]
+    rows: tuple[MethodRow, ...]
     picture: Picture | None = None
 
 
-def judged(holds: bool, well: Outcome = Outcome.REPRODUCED) -> Outcome:
+def judge_outcome(holds: bool, well: Outcome = Outcome.REPRODUCED) -> Outcome:
     """Reproduced, or not."""
     return well if holds else Outcome.FAILED
 
 
-def recovered(name: str, printed: str, truth: float, value: float, sigma: float) -> Row:
+def judge_recovery(name: str, printed: str, truth: float, value: float, sigma: float) -> MethodRow:
     """A parameter whose truth the simulated robot has: within `ZMAX` of its sigmas.
 
     It is found only if its sigma is no more than `LARGEST` of the value: with a larger one nearly
@@ -87,32 +87,34 @@ def recovered(name: str, printed: str, truth: float, value: float, sigma: float)
     """
     z = (value - truth) / sigma if sigma > 0.0 else float("inf")
     share = sigma / abs(value) if value else float("inf")
-    text = f"{value:.5g} +- {sigma:.2g} ({percent(share)})"
+    text = f"{value:.5g} +- {sigma:.2g} ({format_percent(share)})"
     why = f"{truth:.5g}, {z:+.1f} sigma"
     if abs(z) >= ZMAX:
-        return Row(name, printed, text, Outcome.FAILED, why)
+        return MethodRow(name, printed, text, Outcome.FAILED, why)
     if share > LARGEST:
-        return Row(name, printed, text, Outcome.UNDETERMINED, f"sigma {percent(share)}; {why}")
-    return Row(name, printed, text, Outcome.RECOVERED, why)
+        return MethodRow(
+            name, printed, text, Outcome.UNDETERMINED, f"sigma {format_percent(share)}; {why}"
+        )
+    return MethodRow(name, printed, text, Outcome.RECOVERED, why)
 
 
-def figures(paper: Paper, place: str) -> Mapping[str, tuple[float, ...]]:
+def read_table(paper: Paper, place: str) -> Mapping[str, tuple[float, ...]]:
     """The numbers of a printed table: {first word of a quotation: the numbers that follow}.
 
     Raises:
         RobotError: the paper's file quotes no such table.
     """
-    found = {}
+    rows = {}
     for line in paper.lines:
         word, _, rest = line.quote.partition(" ")
         if line.place == place and re.fullmatch(r"[A-Za-z]\w*", word):
-            found[word] = tuple(float(number.value) for number in numbers_of(rest))
-    if not found:
+            rows[word] = tuple(float(number.value) for number in read_numbers(rest))
+    if not rows:
         raise RobotError(f"paper {paper.name}: its file quotes no {place}")
-    return found
+    return rows
 
 
-def quoted(paper: Paper, start: str) -> tuple[float, ...]:
+def read_quotation(paper: Paper, start: str) -> tuple[float, ...]:
     """The numbers of the quotation that starts so, and of those given with it.
 
     Raises:
@@ -120,14 +122,14 @@ def quoted(paper: Paper, start: str) -> tuple[float, ...]:
     """
     for line in paper.lines:
         if line.quote.startswith(start):
-            return tuple(float(n.value) for n in numbers_of("; ".join((line.quote, *line.given))))
+            return tuple(float(n.value) for n in read_numbers("; ".join((line.quote, *line.given))))
     raise RobotError(f'paper {paper.name}: its file quotes nothing that starts with "{start}"')
 
 
 # A paper's machine in simulation: its compiled model, and what is logged of its runs.
 
 
-def logged(
+def build_log(
     run: SimulatedLog, joints: tuple[str, ...], tau: np.ndarray, source: str = "tau{}"
 ) -> Log:
     """A simulated run as a log of some joints, with torques (samples, joints) of its own."""

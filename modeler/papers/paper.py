@@ -22,21 +22,21 @@ from typing import Any
 import numpy as np
 import sympy
 
-from modeler.core.builtin import paper_names
+from modeler.core.builtin import list_papers
 from modeler.core.errors import RobotError
-from modeler.core.expression import parse
-from modeler.core.json import built
+from modeler.core.expression import parse_expression
+from modeler.core.json import build_instance
 from modeler.derivation import (
     BaseParameters,
     SymbolicModel,
-    base_parameters,
+    derive_base_parameters,
     derive_model,
-    random_states,
+    draw_random_states,
 )
 from modeler.formulas import (
     CoefficientTable,
     Equation,
-    coefficient_table,
+    build_coefficient_table,
     energy_functions,
     function_sheet,
     kane_form,
@@ -46,9 +46,9 @@ from modeler.papers.quotation import (
     Monomial,
     QuotationError,
     Sum,
+    format_sum,
+    multiply_monomials,
     read_sum,
-    sum_text,
-    times,
 )
 from modeler.robot import Robot, read_robot
 
@@ -155,7 +155,7 @@ def read_paper(name: str) -> Paper:
     Raises:
         RobotError: there is none; lists those there are.
     """
-    texts = {paper: (_FOLDER / f"{paper}.toml").read_text("utf-8") for paper in paper_names()}
+    texts = {paper: (_FOLDER / f"{paper}.toml").read_text("utf-8") for paper in list_papers()}
     name = next((paper for paper in texts if f'\nrobot = "{name}"\n' in texts[paper]), name)
     if name not in texts:
         raise RobotError(f'there is no paper "{name}"; expected one of {", ".join(texts)}')
@@ -166,7 +166,7 @@ def read_paper(name: str) -> Paper:
         common = {"robot": document["robot"]} | entry
         quotes = common.pop("quotes", None)
         seals = [{}] if quotes is None else [{"quote": q, "seal": s} for q, s in quotes.items()]
-        lines += [_line(common | own) for own in seals]
+        lines += [_build_line(common | quotation) for quotation in seals]
     coefficients = document.get("coefficients", "")
     named = [name for line in lines for name in (line.robot, line.through) if name]
     robots = dict.fromkeys(named + [coefficients] * bool(coefficients))
@@ -175,7 +175,8 @@ def read_paper(name: str) -> Paper:
         title=document["title"],
         robots=tuple(robots),
         variants={
-            key: built(Variant, entry) for key, entry in document.get("variants", {}).items()
+            key: build_instance(Variant, entry)
+            for key, entry in document.get("variants", {}).items()
         },
         lines=tuple(lines),
         names=document.get("names", {}),
@@ -185,10 +186,10 @@ def read_paper(name: str) -> Paper:
     )
 
 
-def _line(entry: Mapping[str, Any]) -> PrintedLine:
+def _build_line(entry: Mapping[str, Any]) -> PrintedLine:
     assert bool(entry.get("quote")) != bool(entry.get("ours")), f"{entry} is quoted or ours"
     assert entry.get("slip", "scan") in SLIPS, f"{entry['slip']} is no slip"
-    return built(PrintedLine, entry)
+    return build_instance(PrintedLine, entry)
 
 
 # What is derived of a robot, in the form in which quotations are compared with it.
@@ -199,7 +200,7 @@ def _line(entry: Mapping[str, Any]) -> PrintedLine:
 
 
 @dataclass(frozen=True)
-class DerivedPaper:
+class DerivedRobot:
     """A robot with its model and base parameters."""
 
     robot: Robot
@@ -216,9 +217,9 @@ class DerivedPaper:
         """Every base parameter as a sum of standard parameters."""
         return {
             p.name: {
-                times(monomial, ((term.parameter, 1),)): value
+                multiply_monomials(monomial, ((term.parameter, 1),)): value
                 for term in p.terms
-                for monomial, value in sum_of(term.coefficient).items()
+                for monomial, value in expand_to_sum(term.coefficient).items()
             }
             for p in self.base.parameters
         }
@@ -229,82 +230,84 @@ class DerivedPaper:
         return tuple(column.name for column in self.base.columns)
 
     @cached_property
-    def kept(self) -> frozenset[str]:
+    def independent_parameters(self) -> frozenset[str]:
         """Standard parameters whose columns are those of base parameters."""
         return frozenset(self.base.columns[p.column].name for p in self.base.parameters)
 
     @cached_property
     def grouping(self) -> Mapping[str, list[sympy.Rational]]:
         """By standard parameter: how much of it is in each base parameter, at nominal values."""
-        found = {name: [sympy.S.Zero] * self.base.rank for name in self.standard}
+        shares = {name: [sympy.S.Zero] * self.base.rank for name in self.standard}
         for k, parameter in enumerate(self.base.parameters):
             for term in parameter.terms:
                 put = {s: self.values[s.name] for s in term.coefficient.free_symbols}
-                found[term.parameter][k] = sympy.Rational(float(term.coefficient.subs(put)))
-        return found
+                shares[term.parameter][k] = sympy.Rational(float(term.coefficient.subs(put)))
+        return shares
 
     @cached_property
     def table(self) -> CoefficientTable:
         """Coefficients of the closed form."""
-        return coefficient_table(self.model, self.base)
+        return build_coefficient_table(self.model, self.base)
 
     @cached_property
     def kane(self) -> Mapping[str, str]:
         """Formulas of Kane's form, by name."""
-        sheet = function_sheet.sheet_json(self.forms["kane"][0].sheet)
+        sheet = function_sheet.serialise_sheet(self.forms["kane"][0].sheet)
         return {each["name"]: each["formula"] for each in sheet["definitions"]}
 
     @cached_property
     def forms(self) -> Mapping[str, tuple[Equation, float]]:
         """Energy functions, and without loops Kane's form, with how far each is from the model."""
-        states = random_states(self.model, 20, np.random.default_rng(2000))
-        found = {"energy": energy_functions(self.model, states)}
-        return found if self.robot.loops else found | {"kane": kane_form(self.model, states)}
+        states = draw_random_states(self.model, 20, np.random.default_rng(2000))
+        equations = {"energy": energy_functions(self.model, states)}
+        return (
+            equations if self.robot.loops else equations | {"kane": kane_form(self.model, states)}
+        )
 
     @cached_property
-    def tied(self) -> Mapping[str, Sum]:
+    def dependent_variables(self) -> Mapping[str, Sum]:
         """Joint variables that follow others, and those that follow themselves."""
-        free = {j.variable: read_sum(j.variable, str) for j in self.robot.moving}
+        free = {j.variable: read_sum(j.variable, str) for j in self.robot.moving_joints}
         tied = {f"q{name}": read_sum(text.text, str) for name, text in self.robot.relations.items()}
         return free | tied
 
 
-def derived_robot(name: str, variant: Variant | None = None) -> DerivedPaper:
+def derive_robot(name: str, variant: Variant | None = None) -> DerivedRobot:
     """A built-in robot, or one of that name that differs from a built-in one as `variant` says."""
     robot = read_robot(name if variant is None else variant.of)
     if variant is not None:
-        robot = replace(robot.opened() if variant.open else robot, name=name)
+        robot = replace(robot.open_loops() if variant.open else robot, name=name)
         if variant.gravity:
-            x, y, z = (parse(text) for text in variant.gravity)
+            x, y, z = (parse_expression(text) for text in variant.gravity)
             robot = replace(robot, gravity=(x, y, z))
     model = derive_model(robot)
-    return DerivedPaper(robot, model, base_parameters(model))
+    return DerivedRobot(robot, model, derive_base_parameters(model))
 
 
-def sum_of(expression: sympy.Expr) -> Sum:
+def expand_to_sum(expression: sympy.Expr) -> Sum:
     """An expression of symbols, sines and cosines as a sum."""
-    found: dict[Monomial, Amount] = {}
+    monomials: dict[Monomial, Amount] = {}
     for term in sympy.Add.make_args(sympy.expand(expression)):
         number, rest = term.as_coeff_Mul()
         if number:
             value = sympy.Rational(number)
             powers = sorted((str(b), int(e)) for b, e in rest.as_powers_dict().items() if b != 1)
-            found[tuple(powers)] = Amount(Fraction(int(value.p), int(value.q)))
-    return found
+            monomials[tuple(powers)] = Amount(Fraction(int(value.p), int(value.q)))
+    return monomials
 
 
-def expression_of(whole: Sum, symbols: Mapping[str, sympy.Expr]) -> sympy.Expr:
+def build_expression(whole: Sum, symbols: Mapping[str, sympy.Expr]) -> sympy.Expr:
     """A sum as an expression, with these for its names where they are given."""
-    return sympy.sympify(sum_text(whole).replace("^", "**"), symbols)
+    return sympy.sympify(format_sum(whole).replace("^", "**"), symbols)
 
 
-def without_squared_sines(expression: sympy.Expr) -> sympy.Expr:
+def eliminate_squared_sines(expression: sympy.Expr) -> sympy.Expr:
     """The normal form in which an expression that is zero for all angles is 0."""
-    found = sympy.expand(expression)
-    for sine in found.atoms(sympy.sin):
+    reduced = sympy.expand(expression)
+    for sine in reduced.wave_free_columns(sympy.sin):
         s, square = sympy.Dummy(), 1 - sympy.cos(sine.args[0]) ** 2
-        found = sympy.rem(found.subs(sine, s), s**2 - square, s).subs(s, sine)
-    return sympy.expand(found)
+        reduced = sympy.rem(reduced.subs(sine, s), s**2 - square, s).subs(s, sine)
+    return sympy.expand(reduced)
 
 
 _BINARY: Mapping[type, Callable[[Any, Any], Any]] = {
@@ -317,7 +320,7 @@ _COMPARED: Mapping[type, Callable[[Any, Any], bool]] = {
 }  # fmt: skip
 
 
-def evaluate(text: str, values: Mapping[str, Any]) -> Any:
+def evaluate_expression(text: str, values: Mapping[str, Any]) -> Any:
     """The value of an expression.
 
     Args:
@@ -327,26 +330,26 @@ def evaluate(text: str, values: Mapping[str, Any]) -> Any:
     Raises:
         QuotationError: it asks for what there is not.
     """
-    return _walk(ast.parse(text, mode="eval").body, values, text)
+    return _evaluate_node(ast.parse(text, mode="eval").body, values, text)
 
 
-def _walk(node: ast.expr, values: Mapping[str, Any], text: str) -> Any:
+def _evaluate_node(node: ast.expr, values: Mapping[str, Any], text: str) -> Any:
     if isinstance(node, ast.Constant):
         return node.value
     if isinstance(node, ast.Name) and node.id in values:
         return values[node.id]
     if isinstance(node, ast.UnaryOp) and isinstance(node.op, ast.USub):
-        return -_walk(node.operand, values, text)
+        return -_evaluate_node(node.operand, values, text)
     if isinstance(node, ast.BinOp):
-        left, right = (_walk(side, values, text) for side in (node.left, node.right))
+        left, right = (_evaluate_node(side, values, text) for side in (node.left, node.right))
         return _BINARY[type(node.op)](left, right)
     if isinstance(node, ast.Compare):
-        chain = [_walk(part, values, text) for part in (node.left, *node.comparators)]
+        chain = [_evaluate_node(part, values, text) for part in (node.left, *node.comparators)]
         steps = zip(node.ops, chain, chain[1:], strict=False)
         return all(_COMPARED[type(op)](a, b) for op, a, b in steps)
     if isinstance(node, ast.Call):
-        arguments = [_walk(argument, values, text) for argument in node.args]
-        return _walk(node.func, values, text)(*arguments)
+        arguments = [_evaluate_node(argument, values, text) for argument in node.args]
+        return _evaluate_node(node.func, values, text)(*arguments)
     raise QuotationError(f'"{text}" asks for {ast.unparse(node)}, which is not known here')
 
 
@@ -357,7 +360,7 @@ _ARITHMETIC: Mapping[str, Any] = {
 }  # fmt: skip
 
 
-def quantities(derived: DerivedPaper) -> dict[str, Any]:
+def collect_quantities(derived: DerivedRobot) -> dict[str, Any]:
     """What can be asked of a robot: sets of names, by pattern, and what counts them.
 
     `standard`, `base`, `zero` (without effect), `grouped` (neither base nor zero), `joints`,
@@ -365,14 +368,14 @@ def quantities(derived: DerivedPaper) -> dict[str, Any]:
     a is grouped with b.
     """
     robot, base = derived.robot, derived.base
-    joints = [joint for joint in robot.moving if joint.name not in robot.platform]
+    joints = [joint for joint in robot.moving_joints if joint.name not in robot.platform]
     zero = frozenset(base.unidentifiable)
     standard = frozenset(derived.standard)
     sets: dict[str, frozenset[str]] = {
         "standard": standard,
         "base": frozenset(derived.relations),
         "zero": zero,
-        "grouped": standard - zero - derived.kept,
+        "grouped": standard - zero - derived.independent_parameters,
         "joints": frozenset(joint.name for joint in joints),
         "actuated": frozenset(joint.name for joint in joints if joint.actuated),
         "passive": frozenset(joint.name for joint in joints if not joint.actuated),
@@ -380,39 +383,45 @@ def quantities(derived: DerivedPaper) -> dict[str, Any]:
             robot.joints[c.row].name for c in base.columns if c.kind == "inertial"
         ),
     }  # fmt: skip
-    found = {**_ARITHMETIC, **{name: _pattern(members) for name, members in sets.items()}}
-    found["prefix"] = lambda names: frozenset(
+    known = {**_ARITHMETIC, **{name: _build_matcher(members) for name, members in sets.items()}}
+    known["prefix"] = lambda names: frozenset(
         column.prefix for column in base.columns if column.name in names
     )
-    found["efforts"] = lambda names: frozenset(f"Gamma{name}" for name in names)
-    found["within"] = lambda own, others: _within(derived, own, others)
-    found["terms"] = lambda name: len(derived.relations.get(name, ()))
-    return found | (_coefficients(derived) if robot.physical else {})
+    known["efforts"] = lambda names: frozenset(f"Gamma{name}" for name in names)
+    known["within"] = lambda candidates, others: _find_within(derived, candidates, others)
+    known["terms"] = lambda name: len(derived.relations.get(name, ()))
+    return known | (_collect_coefficients(derived) if robot.physical else {})
 
 
-def _pattern(members: frozenset[str]) -> Callable[..., frozenset[str]]:
-    def chosen(*patterns: str) -> frozenset[str]:
+def _build_matcher(members: frozenset[str]) -> Callable[..., frozenset[str]]:
+    def select_names(*patterns: str) -> frozenset[str]:
         if not patterns:
             return members
         return frozenset(n for n in members if any(fnmatchcase(n, p) for p in patterns))
 
-    return chosen
+    return select_names
 
 
-def _within(derived: DerivedPaper, own: frozenset[str], others: frozenset[str]) -> frozenset[str]:
-    """What of `own` is grouped and a combination of `others` and of what is kept of `own`."""
+def _find_within(
+    derived: DerivedRobot, candidates: frozenset[str], others: frozenset[str]
+) -> frozenset[str]:
+    """The `candidates` that are grouped and combinations of `others` and of kept ones."""
     columns = derived.grouping
-    basis = [columns[name] for name in sorted(others | (own & derived.kept)) if any(columns[name])]
+    basis = [
+        columns[name]
+        for name in sorted(others | (candidates & derived.independent_parameters))
+        if any(columns[name])
+    ]
     rank = sympy.Matrix(basis).rank()
-    grouped = (name for name in own - derived.kept if any(columns[name]))
+    grouped = (name for name in candidates - derived.independent_parameters if any(columns[name]))
     return frozenset(n for n in grouped if sympy.Matrix([*basis, columns[n]]).rank() == rank)
 
 
-def _coefficients(derived: DerivedPaper) -> dict[str, Any]:
+def _collect_coefficients(derived: DerivedRobot) -> dict[str, Any]:
     """Of a robot whose links have a paper's letters."""
     table = derived.table
     known = table.identifiability
-    names = [joint.name for joint in derived.robot.moving]
+    names = [joint.name for joint in derived.robot.moving_joints]
     return {
         "coefficients": len(table.coefficients),
         "independent": len(table.relations.independent),

@@ -48,7 +48,7 @@ class Amount:
 Sum = Mapping[Monomial, Amount]
 
 
-def amount(text: str) -> Amount:
+def read_amount(text: str) -> Amount:
     """`3.23`: with half a unit of its last digit; `3`: exact; a decimal comma is a point."""
     text = text.replace(",", ".")
     digits = len(text.partition(".")[2])
@@ -56,13 +56,13 @@ def amount(text: str) -> Amount:
     return Amount(Fraction(text), half)
 
 
-def numbers_of(text: str) -> list[Amount]:
+def read_numbers(text: str) -> list[Amount]:
     """The numbers of a quotation in their order; digits of names such as `M7` do not count."""
     joined = re.sub(r"(?<=\d) (?=\d{3}(?!\d))", "", text)
-    return [amount(found) for found in _NUMBER.findall(joined)]
+    return [read_amount(number) for number in _NUMBER.findall(joined)]
 
 
-def sides(text: str) -> tuple[str, str]:
+def separate_sides(text: str) -> tuple[str, str]:
     """The two sides of an equation."""
     left, equal, right = text.partition("=")
     if not equal:
@@ -82,27 +82,27 @@ def read_sum(text: str, rename: Callable[[str], str], legs: Iterable[str] = ()) 
         QuotationError: it is no sum of products.
     """
 
-    def written_out(match: re.Match[str]) -> str:
+    def expand_legs(match: re.Match[str]) -> str:
         term = match.group(1)
         return "(" + " + ".join(re.sub(r"(?<=\d)i\b", leg, term) for leg in legs) + ")"
 
-    tokens = _tokens(_SUM.sub(written_out, text))
+    tokens = _read_tokens(_SUM.sub(expand_legs, text))
     reader = _QuotationReader(tokens, rename)
-    found = reader.sum()
+    parsed_sum = reader.read_terms()
     if reader.at != len(tokens):
         raise QuotationError(f'"{text}" cannot be read from "{"".join(tokens[reader.at :])}" on')
-    return found
+    return parsed_sum
 
 
-def _tokens(text: str) -> list[str]:
-    found, at = [], 0
+def _read_tokens(text: str) -> list[str]:
+    tokens, at = [], 0
     while at < len(text.rstrip()):
         match = _TOKEN.match(text, at)
         if match is None:
             raise QuotationError(f'"{text}" cannot be read from "{text[at:]}" on')
-        found.append(match.group().strip().replace("**", "^"))
+        tokens.append(match.group().strip().replace("**", "^"))
         at = match.end()
-    return found
+    return tokens
 
 
 class _QuotationReader:
@@ -111,70 +111,76 @@ class _QuotationReader:
     def __init__(self, tokens: list[str], rename: Callable[[str], str]) -> None:
         self.tokens, self.rename, self.at = tokens, rename, 0
 
-    def _next(self) -> str:
+    def _get_next(self) -> str:
         return self.tokens[self.at] if self.at < len(self.tokens) else ""
 
-    def _take(self) -> str:
-        token = self._next()
+    def _take_token(self) -> str:
+        token = self._get_next()
         self.at += 1
         return token
 
-    def sum(self) -> dict[Monomial, Amount]:
+    def read_terms(self) -> dict[Monomial, Amount]:
         parts: list[Sum] = []
-        while not parts or self._next() in ("+", "-"):
-            sign = self._take() if self._next() in ("+", "-") else "+"
-            part = self._product()
+        while not parts or self._get_next() in ("+", "-"):
+            sign = self._take_token() if self._get_next() in ("+", "-") else "+"
+            part = self._read_product()
             parts.append({m: -value for m, value in part.items()} if sign == "-" else part)
-        return added(*parts)
+        return add_sums(*parts)
 
-    def _product(self) -> dict[Monomial, Amount]:
-        found = self._factor()
-        while (token := self._next()) and token not in ("+", "-", ")", "]"):
+    def _read_product(self) -> dict[Monomial, Amount]:
+        product = self._read_factor()
+        while (token := self._get_next()) and token not in ("+", "-", ")", "]"):
             if token in ("*", "/"):
-                self._take()
-            factor = self._factor()
-            found = _product(found, _inverse(factor) if token == "/" else factor)
-        return found
+                self._take_token()
+            factor = self._read_factor()
+            product = _multiply_sums(product, _invert_monomial(factor) if token == "/" else factor)
+        return product
 
-    def _factor(self) -> dict[Monomial, Amount]:
-        token = self._take()
-        found: dict[Monomial, Amount]
+    def _read_factor(self) -> dict[Monomial, Amount]:
+        token = self._take_token()
+        factor: dict[Monomial, Amount]
         if token in ("(", "["):
-            found = self.sum()
-            self._take()
+            factor = self.read_terms()
+            self._take_token()
         elif token[:1].isdigit():
-            found = {(): amount(token)}
+            factor = {(): read_amount(token)}
         elif token[:1].isalpha():
             if token in _FUNCTIONS:
-                found = {((f"{token}({self._argument()})", 1),): Amount(Fraction(1))}
+                factor = {((f"{token}({self._read_argument()})", 1),): Amount(Fraction(1))}
             else:
-                found = {((self.rename(token), 1),): Amount(Fraction(1))}
+                factor = {((self.rename(token), 1),): Amount(Fraction(1))}
         else:
             raise QuotationError(f'got "{token or "the end"}"; expected a name or a number')
-        if self._next() == "^":
-            self._take()
-            power, base = self._take(), found
+        if self._get_next() == "^":
+            self._take_token()
+            power, base = self._take_token(), factor
             if not power.isdigit():
                 raise QuotationError(f'got the exponent "{power}"; expected a number')
             for _ in range(int(power) - 1):
-                found = _product(found, base)
-        return found
+                factor = _multiply_sums(factor, base)
+        return factor
 
-    def _argument(self) -> str:
+    def _read_argument(self) -> str:
         """`theta2` or `(theta2)`."""
-        token = self._take()
+        token = self._take_token()
         if token != "(":
             return self.rename(token)
-        name = self.rename(self._take())
-        self._take()
+        name = self.rename(self._take_token())
+        self._take_token()
         return name
 
 
-def _product(a: Sum, b: Sum) -> dict[Monomial, Amount]:
-    return added(*({times(left, right): x * y} for left, x in a.items() for right, y in b.items()))
+def _multiply_sums(a: Sum, b: Sum) -> dict[Monomial, Amount]:
+    return add_sums(
+        *(
+            {multiply_monomials(left, right): x * y}
+            for left, x in a.items()
+            for right, y in b.items()
+        )
+    )
 
 
-def _inverse(a: Sum) -> dict[Monomial, Amount]:
+def _invert_monomial(a: Sum) -> dict[Monomial, Amount]:
     if len(a) != 1:
         raise QuotationError("a sum stands below a fraction line; expected a product")
     ((monomial, value),) = a.items()
@@ -183,7 +189,7 @@ def _inverse(a: Sum) -> dict[Monomial, Amount]:
     return {tuple((name, -power) for name, power in monomial): Amount(1 / value.value)}
 
 
-def times(left: Monomial, right: Monomial) -> Monomial:
+def multiply_monomials(left: Monomial, right: Monomial) -> Monomial:
     """The product of two monomials."""
     powers = dict(left)
     for name, power in right:
@@ -191,7 +197,7 @@ def times(left: Monomial, right: Monomial) -> Monomial:
     return tuple(sorted((n, p) for n, p in powers.items() if p))
 
 
-def added(*sums: Sum) -> dict[Monomial, Amount]:
+def add_sums(*sums: Sum) -> dict[Monomial, Amount]:
     """The sum of sums."""
     total: dict[Monomial, Amount] = {}
     for part in sums:
@@ -200,7 +206,7 @@ def added(*sums: Sum) -> dict[Monomial, Amount]:
     return {monomial: value for monomial, value in total.items() if value.value}
 
 
-def replaced(a: Sum, values: Mapping[str, Sum]) -> dict[Monomial, Amount]:
+def replace_names(a: Sum, values: Mapping[str, Sum]) -> dict[Monomial, Amount]:
     """The sum with sums put in for names."""
     total: dict[Monomial, Amount] = {}
     for monomial, value in a.items():
@@ -208,19 +214,19 @@ def replaced(a: Sum, values: Mapping[str, Sum]) -> dict[Monomial, Amount]:
         for name, power in monomial:
             if name in values and power > 0:
                 for _ in range(power):
-                    part = _product(part, values[name])
+                    part = _multiply_sums(part, values[name])
             else:
-                part = _product(part, {((name, power),): Amount(Fraction(1))})
-        total = added(total, part)
+                part = _multiply_sums(part, {((name, power),): Amount(Fraction(1))})
+        total = add_sums(total, part)
     return total
 
 
-def sum_text(a: Sum) -> str:
+def format_sum(a: Sum) -> str:
     """`ZZ2 + D4^2*M4`: as people read it."""
     text = ""
     for monomial, value in a.items():
-        above = [_power(name, power) for name, power in monomial if power > 0]
-        below = [_power(name, -power) for name, power in monomial if power < 0]
+        above = [_format_power(name, power) for name, power in monomial if power > 0]
+        below = [_format_power(name, -power) for name, power in monomial if power < 0]
         size = abs(value.value)
         number = f"{float(size):.4g}" if value.half or size.denominator > 1000 else str(size)
         if number != "1" or not above:
@@ -230,5 +236,5 @@ def sum_text(a: Sum) -> str:
     return text.removeprefix(" + ").replace(" - ", "-", 1) if text[:3] == " - " else text[3:] or "0"
 
 
-def _power(name: str, power: int) -> str:
+def _format_power(name: str, power: int) -> str:
     return name if power == 1 else f"{name}^{power}"

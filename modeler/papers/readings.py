@@ -9,29 +9,37 @@ from typing import Any
 import numpy as np
 import sympy
 
-from modeler.derivation import GeometryRow, base_poses, pose, poses
-from modeler.papers.compared import Compared, Reading, Robots, in_order, joined, numbered, renamer
+from modeler.derivation import GeometryRow, compute_base_poses, compute_pose, compute_poses
+from modeler.papers.compared import (
+    LineComparison,
+    Reading,
+    Robots,
+    build_renamer,
+    join_in_order,
+    join_numbers,
+    join_sums,
+)
 from modeler.papers.paper import (
-    DerivedPaper,
+    DerivedRobot,
     Paper,
     PrintedLine,
-    evaluate,
-    expression_of,
-    quantities,
-    sum_of,
-    without_squared_sines,
+    build_expression,
+    collect_quantities,
+    eliminate_squared_sines,
+    evaluate_expression,
+    expand_to_sum,
 )
 from modeler.papers.quotation import (
     Amount,
     Monomial,
     QuotationError,
     Sum,
-    added,
-    numbers_of,
+    add_sums,
+    format_sum,
+    read_numbers,
     read_sum,
-    replaced,
-    sides,
-    sum_text,
+    replace_names,
+    separate_sides,
 )
 from modeler.papers.wrist import WRIST_READINGS
 
@@ -42,40 +50,40 @@ ELEMENTS = ("XX", "XY", "XZ", "YY", "YZ", "ZZ", "MX", "MY", "MZ", "M")
 """Parameters of a link in the order of its row of functions."""
 
 
-def _relation_reading(paper: Paper, line: PrintedLine, robots: Robots) -> Compared:
+def _compare_relation(paper: Paper, line: PrintedLine, robots: Robots) -> LineComparison:
     """`ZZ2Ri = ZZ2i + ...`: a base parameter, or a combination of them, as a sum."""
-    found, leg = robots[line.robot], line.legs[0]
-    left, right = sides(line.text)
-    rename = renamer(paper, line, leg)
-    puts = _assumed(paper, line)
+    robot, leg = robots[line.robot], line.legs[0]
+    left, right = separate_sides(line.text)
+    rename = build_renamer(paper, line, leg)
+    puts = _read_assumptions(paper, line)
     printed = read_sum(right, rename, _LEGS[:3])
     if line.through:
-        printed = replaced(printed, _of_a_leg(robots[line.through], found))
+        printed = replace_names(printed, _expand_leg_relations(robots[line.through], robot))
     target = rename(left)
-    own, _, combination = line.of.partition(" = ")
-    wanted = read_sum(combination if own == target else target, str)
-    lost = {name for m in wanted for name, _ in m} - set(found.relations) - set(found.standard)
-    if lost - set(found.values) or (own != target and target not in found.relations):
-        return Compared(printed, {}, f"{target} is no base parameter")
-    derived = replaced(wanted, found.relations)
-    return Compared(
-        replaced(printed, puts), replaced(derived, puts),
-        f"{target} = {sum_text(derived)}", found.values,
+    left_name, _, combination = line.of.partition(" = ")
+    wanted = read_sum(combination if left_name == target else target, str)
+    lost = {name for m in wanted for name, _ in m} - set(robot.relations) - set(robot.standard)
+    if lost - set(robot.values) or (left_name != target and target not in robot.relations):
+        return LineComparison(printed, {}, f"{target} is no base parameter")
+    derived = replace_names(wanted, robot.relations)
+    return LineComparison(
+        replace_names(printed, puts), replace_names(derived, puts),
+        f"{target} = {format_sum(derived)}", robot.values,
     )  # fmt: skip
 
 
-def _assumed(paper: Paper, line: PrintedLine) -> dict[str, Sum]:
+def _read_assumptions(paper: Paper, line: PrintedLine) -> dict[str, Sum]:
     """What the quotations of `given` put in for a name, for every leg."""
     puts: dict[str, Sum] = {}
     for text in line.given:
-        left, right = sides(text)
+        left, right = separate_sides(text)
         for leg in _LEGS:
-            rename = renamer(paper, line, leg)
+            rename = build_renamer(paper, line, leg)
             puts[rename(left)] = read_sum(right, rename)
     return puts
 
 
-def _of_a_leg(leg: DerivedPaper, whole: DerivedPaper) -> dict[str, Sum]:
+def _expand_leg_relations(leg: DerivedRobot, whole: DerivedRobot) -> dict[str, Sum]:
     """Base parameters of an isolated leg, written for every leg of the robot."""
     common = leg.values.keys() & whole.values.keys()
     return {
@@ -89,42 +97,42 @@ def _of_a_leg(leg: DerivedPaper, whole: DerivedPaper) -> dict[str, Sum]:
     }
 
 
-def _numbers_reading(paper: Paper, line: PrintedLine, robots: Robots) -> Compared:
+def _compare_numbers(paper: Paper, line: PrintedLine, robots: Robots) -> LineComparison:
     """Every number of the quotation, in order, against an expression of `gives`."""
-    numbers = numbers_of(line.text)
+    numbers = read_numbers(line.text)
     if len(numbers) != len(line.gives):
         raise QuotationError(f"{len(numbers)} numbers are quoted, {len(line.gives)} are derived")
-    known = quantities(robots[line.robot])
-    values = [Fraction(evaluate(text, known)) for text in line.gives]
+    known = collect_quantities(robots[line.robot])
+    values = [Fraction(evaluate_expression(text, known)) for text in line.gives]
     text = ", ".join(str(value) for value in values)
-    derived = numbered(Amount(value) for value in values)
-    return Compared(numbered(numbers), derived, text)
+    derived = join_numbers(Amount(value) for value in values)
+    return LineComparison(join_numbers(numbers), derived, text)
 
 
-def _names_reading(paper: Paper, line: PrintedLine, robots: Robots) -> Compared:
+def _compare_names(paper: Paper, line: PrintedLine, robots: Robots) -> LineComparison:
     """The names of the quotation, over all legs, against a set."""
-    if any(number.value for number in numbers_of(line.text)):
+    if any(number.value for number in read_numbers(line.text)):
         raise QuotationError(f'"{line.text}" is no list of names, nor of names that are 0')
     printed: dict[Monomial, Amount] = {}
     for leg in line.legs:
-        rename = renamer(paper, line, leg)
+        rename = build_renamer(paper, line, leg)
         for name in re.findall(r"\b(?!and\b)[A-Za-z][A-Za-z0-9]*", line.text):
             printed[((rename(name), 1),)] = _ONE
-    names = evaluate(line.gives[0], quantities(robots[line.robot]))
+    names = evaluate_expression(line.gives[0], collect_quantities(robots[line.robot]))
     derived: Sum = {((name, 1),): _ONE for name in sorted(names)}
-    return Compared(printed, derived, ", ".join(sorted(names)))
+    return LineComparison(printed, derived, ", ".join(sorted(names)))
 
 
-def _arithmetic_reading(paper: Paper, line: PrintedLine, robots: Robots) -> Compared:
+def _compare_arithmetic(paper: Paper, line: PrintedLine, robots: Robots) -> LineComparison:
     """Numbers of the quotation, called a, b, c, ..., that follow from each other.
 
     Each entry of `gives` is `c = 100*b/abs(a)`, to half a unit of the last digit of c, or a
     comparison that must hold.
     """
     text = "; ".join((line.text, *line.given))
-    numbers = {chr(ord("a") + i): n for i, n in enumerate(numbers_of(text))}
+    numbers = {chr(ord("a") + i): n for i, n in enumerate(read_numbers(text))}
     floats: dict[str, Any] = {name: float(number.value) for name, number in numbers.items()}
-    known = quantities(robots[line.robot])
+    known = collect_quantities(robots[line.robot])
     printed: dict[Monomial, Amount] = {}
     derived: dict[Monomial, Amount] = {}
     texts = []
@@ -134,48 +142,50 @@ def _arithmetic_reading(paper: Paper, line: PrintedLine, robots: Robots) -> Comp
             number = numbers.get(letter)
             if number is None:
                 raise QuotationError(f"the quotation has no number {letter}")
-            value = Fraction(evaluate(formula, known | floats))
+            value = Fraction(evaluate_expression(formula, known | floats))
             half = number.half or Fraction(1, 2)
             for name, other in numbers.items():  # how far the rounding of each may move it
                 moved = known | floats | {name: float(other.value + other.half)}
-                half += abs(Fraction(evaluate(formula, moved)) - value)
+                half += abs(Fraction(evaluate_expression(formula, moved)) - value)
             printed[((letter, 1),)] = Amount(number.value, half)
             derived[((letter, 1),)] = Amount(value)
             texts.append(f"{letter} = {float(value):.4g}")
         else:
-            holds = evaluate(entry, known | floats)
+            holds = evaluate_expression(entry, known | floats)
             printed[((entry, 1),)] = _ONE
             derived = derived | ({((entry, 1),): _ONE} if holds else {})
             texts.append(f"{entry}: {'yes' if holds else 'no'}")
     weak = any(re.search("[<>]", entry) for entry in line.gives)
-    return Compared(printed, derived, ", ".join(texts), weak=weak)
+    return LineComparison(printed, derived, ", ".join(texts), is_inequality=weak)
 
 
-def _rotation_reading(paper: Paper, line: PrintedLine, robots: Robots) -> Compared:
+def _compare_rotation(paper: Paper, line: PrintedLine, robots: Robots) -> LineComparison:
     """`sin theta2 qd1; cos theta2 qd1; qd2`: a link's angular velocity, in its own frame.
 
     The link is the last of `gives`, reached from a base at rest over the rows before it; their
     angles are theta1, theta2, ..., their speeds qd1, qd2, ...; component 1 is called `in1`.
     """
-    found = [sum_of(part) for part in _rotation(robots[line.robot], line.gives)]
-    rename = renamer(paper, line)
-    printed = in_order(read_sum(part, rename) for part in line.text.split(";"))
-    text = "; ".join(sum_text(part) for part in found)
-    return Compared(printed, in_order(found), text)
+    components = [expand_to_sum(part) for part in _compute_rotation(robots[line.robot], line.gives)]
+    rename = build_renamer(paper, line)
+    printed = join_in_order(read_sum(part, rename) for part in line.text.split(";"))
+    text = "; ".join(format_sum(part) for part in components)
+    return LineComparison(printed, join_in_order(components), text)
 
 
-def _element_reading(paper: Paper, line: PrintedLine, robots: Robots) -> Compared:
+def _compare_element(paper: Paper, line: PrintedLine, robots: Robots) -> LineComparison:
     """`h3^1 = (cos theta2 qd1)^2`: an element (1 to 6) of the row of the last link of `gives`."""
     left, _, right = line.text.partition("=")
     place = re.fullmatch(r"h(\d)\^([1-6])", left.strip())
     if place is None or int(place.group(1)) != len(line.gives):
         raise QuotationError(f"got {left.strip()}; expected 1 to 6 of link {len(line.gives)}")
-    derived = sum_of(_elements(robots[line.robot], line.gives)[int(place.group(2)) - 1])
-    printed = read_sum(right, renamer(paper, line))
-    return Compared(printed, derived, sum_text(derived))
+    derived = expand_to_sum(
+        _compute_elements(robots[line.robot], line.gives)[int(place.group(2)) - 1]
+    )
+    printed = read_sum(right, build_renamer(paper, line))
+    return LineComparison(printed, derived, format_sum(derived))
 
 
-def _column_reading(paper: Paper, line: PrintedLine, robots: Robots) -> Compared:
+def _compare_column(paper: Paper, line: PrintedLine, robots: Robots) -> LineComparison:
     """`alpha2 = [0 0 0 1 ...]^T`: which elements of a link give the first one of the next.
 
     The links are the last two of `gives`; entry 4 is called `in4`, their number `entries`.
@@ -184,37 +194,37 @@ def _column_reading(paper: Paper, line: PrintedLine, robots: Robots) -> Compared
     if cells is None or int(cells[1]) != len(line.gives) - 1:
         raise QuotationError(f'"{line.text}" is no column of digits')
     numbers = [int(cell) for cell in cells[2].split()]
-    before, after = (_elements(robots[line.robot], line.gives[:n]) for n in (-1, None))
+    before, after = (_compute_elements(robots[line.robot], line.gives[:n]) for n in (-1, None))
     alike = [int(sympy.expand(part - after[0]) == 0) for part in before]
     alike += [0] * (len(ELEMENTS) - len(alike))
-    told = f"[{' '.join(map(str, alike))}]^T"
-    return Compared(_column(numbers), _column(alike), told)
+    column_text = f"[{' '.join(map(str, alike))}]^T"
+    return LineComparison(_build_column_sum(numbers), _build_column_sum(alike), column_text)
 
 
-def _column(numbers: list[int]) -> Sum:
-    return added(numbered(numbers), {(("entries", 1),): Amount(Fraction(len(numbers)))})
+def _build_column_sum(numbers: list[int]) -> Sum:
+    return add_sums(join_numbers(numbers), {(("entries", 1),): Amount(Fraction(len(numbers)))})
 
 
-def _elements(derived: DerivedPaper, rows: tuple[str, ...]) -> list[sympy.Expr]:
+def _compute_elements(derived: DerivedRobot, rows: tuple[str, ...]) -> list[sympy.Expr]:
     """What the six inertias of the last link are multiplied with in its kinetic energy."""
-    w = dict(zip(_W, _rotation(derived, rows), strict=True))
+    w = dict(zip(_W, _compute_rotation(derived, rows), strict=True))
     return [sympy.expand(_ENERGY.diff(p).subs(w)) for p in _PARAMETERS[:6]]
 
 
-def _rotation(derived: DerivedPaper, rows: tuple[str, ...]) -> list[sympy.Expr]:
+def _compute_rotation(derived: DerivedRobot, rows: tuple[str, ...]) -> list[sympy.Expr]:
     """w_j = R^T w_(j-1) + qd_j z_j from a base at rest; a slide adds nothing."""
     by_name = {row.joint.name: row for row in derived.model.geometry.rows}
     w = [sympy.Integer(0)] * 3
     for index, name in enumerate(rows, 1):
         row = by_name[name]
-        moved = {name: sympy.Symbol(f"theta{index}") - row.theta} if row.joint.angular else {}
-        w = pose(row, _Moved(moved)).to_link(w)
+        moved = {name: sympy.Symbol(f"theta{index}") - row.theta} if row.joint.is_revolute else {}
+        w = compute_pose(row, _SympyAlgebra(moved)).rotate_to_link(w)
         w[2] += sympy.Symbol(f"qd{index}") * len(moved)
     return [sympy.expand(part) for part in w]
 
 
 @dataclass(frozen=True)
-class _Moved:
+class _SympyAlgebra:
     """Algebra of the recursions over sympy: rows at these values of rate * q, 0 without one."""
 
     values: Mapping[str, sympy.Expr]
@@ -226,38 +236,38 @@ class _Moved:
         return row.r + self.values.get(row.joint.name, 0)
 
     def cos_sin(self, row: GeometryRow) -> tuple[sympy.Expr, sympy.Expr]:
-        angle = row.theta + int(row.joint.angular) * self.values.get(row.joint.name, 0)
+        angle = row.theta + int(row.joint.is_revolute) * self.values.get(row.joint.name, 0)
         return sympy.cos(angle), sympy.sin(angle)
 
 
-def _vector(name: str) -> sympy.Matrix:
+def _build_vector(name: str) -> sympy.Matrix:
     return sympy.Matrix(sympy.symbols(f"{name}1:4"))
 
 
 _PARAMETERS = sympy.symbols(" ".join(ELEMENTS))
 _XX, _XY, _XZ, _YY, _YZ, _ZZ, *_MS, _M = _PARAMETERS
-_W, _V, _G, _P, _R, _S = (_vector(name) for name in "wvgPrS")
-_AXES = sympy.Matrix.hstack(*(_vector(name) for name in "sna"))
+_W, _V, _G, _P, _R, _S = (_build_vector(name) for name in "wvgPrS")
+_AXES = sympy.Matrix.hstack(*(_build_vector(name) for name in "sna"))
 _INERTIA = sympy.Matrix([[_XX, _XY, _XZ], [_XY, _YY, _YZ], [_XZ, _YZ, _ZZ]])
 _MOMENTS = {(0, 0, 0): _M, (1, 0, 0): _MS[0], (0, 1, 0): _MS[1], (0, 0, 1): _MS[2]}
 _MOMENTS |= {(1, 1, 0): -_XY, (1, 0, 1): -_XZ, (0, 1, 1): -_YZ}
 _MOMENTS |= {(2, 0, 0): _YY + _ZZ - _XX, (0, 2, 0): _XX + _ZZ - _YY, (0, 0, 2): _XX + _YY - _ZZ}
 
 
-def _integral(density: sympy.Expr) -> sympy.Expr:
+def _integrate_over_mass(density: sympy.Expr) -> sympy.Expr:
     """Over the masses of a body at r in its frame: J is int |r|^2 - r r' dm, MS int r dm."""
-    found = sympy.Integer(0)
+    integral = sympy.Integer(0)
     for powers, factor in sympy.Poly(sympy.expand(density), *_R).terms():
-        found += factor * _MOMENTS[powers] / (2 if 2 in powers else 1)
-    return sympy.expand(found)
+        integral += factor * _MOMENTS[powers] / (2 if 2 in powers else 1)
+    return sympy.expand(integral)
 
 
 _SPEED = _V + _W.cross(_R)
-_ENERGY = _integral(_SPEED.dot(_SPEED) / 2)
-_HEIGHT = -_integral(_G.dot(_P + _AXES * _R))
+_ENERGY = _integrate_over_mass(_SPEED.dot(_SPEED) / 2)
+_HEIGHT = -_integrate_over_mass(_G.dot(_P + _AXES * _R))
 
 
-def _evaluated(text: str, names: Mapping[str, Any]) -> Any:
+def _evaluate_text(text: str, names: Mapping[str, Any]) -> Any:
     """The value of `omegak^T Jk omegak + ...`: letters by `names`, side by side or with x."""
     known: dict[str, Any] = {"cross": lambda a, b: a.cross(b)}
     for k, word in enumerate(sorted(names, key=len, reverse=True)):
@@ -265,21 +275,25 @@ def _evaluated(text: str, names: Mapping[str, Any]) -> Any:
     text = re.sub(r"(n\d+) +x +(n\d+)", r"cross(\1, \2)", text.translate({91: "(", 93: ")"}))
     text = re.sub(r"(?<=[\w)])\s+(?=[\w(])", "*", text.strip())
     try:
-        return evaluate(text, known)
+        return evaluate_expression(text, known)
     except (SyntaxError, TypeError, ValueError) as error:  # of shapes that do not fit, too
         raise QuotationError(f'"{text}" cannot be read: {error}') from error
 
 
-def _body_reading(paper: Paper, line: PrintedLine, robots: Robots) -> Compared:
+def _compare_body(paper: Paper, line: PrintedLine, robots: Robots) -> LineComparison:
     """`1/2 [omegak^T Jk omegak + ...]`: `gives` "E" or "U" of a body, from those of its masses."""
-    own = {"E": _ENERGY, "U": _HEIGHT.subs(dict(zip(_MS, _M * _S, strict=True)))}[line.gives[0]]
+    derived_form = {"E": _ENERGY, "U": _HEIGHT.subs(dict(zip(_MS, _M * _S, strict=True)))}[
+        line.gives[0]
+    ]
     names = {"omegak^T": _W.T, "omegak": _W, "Jk": _INERTIA, "Mk": _M, "Vk^T": _V.T, "Vk": _V}
     names |= {"MSk^T": sympy.Matrix(_MS).T, "^0g^T": _G.T, "^0Pk": _P, "^0Ak": _AXES, "^kSk": _S}
-    printed, derived = (sum_of(sympy.expand(x)) for x in (_evaluated(line.text, names)[0], own))
-    return Compared(printed, derived, sum_text(derived))
+    printed, derived = (
+        expand_to_sum(sympy.expand(x)) for x in (_evaluate_text(line.text, names)[0], derived_form)
+    )
+    return LineComparison(printed, derived, format_sum(derived))
 
 
-def _recursion_reading(paper: Paper, line: PrintedLine, robots: Robots) -> Compared:
+def _compare_recursion(paper: Paper, line: PrintedLine, robots: Robots) -> LineComparison:
     """`^kRk-1 ^k-1omegak-1 + barsigmak qdk ^kak`: "angular" or "linear" velocity of link k.
 
     Of T_k = T_k-1 A(q) comes T_k^-1 T_k' = A^-1 (T_k-1^-1 T_k-1') A + A^-1 A'; sigma is 0 where q
@@ -292,40 +306,42 @@ def _recursion_reading(paper: Paper, line: PrintedLine, robots: Robots) -> Compa
     before = _W.hat().row_join(_V).col_join(0 * last)
     turned, slid = (back * (before * A + A.diff(moved) * qd) for moved in (theta, r))
     twist = turned + (slid - turned) * sigma
-    own = {"angular": [twist[2, 1], twist[0, 2], twist[1, 0]], "linear": [*twist[:3, 3]]}
+    velocities = {"angular": [twist[2, 1], twist[0, 2], twist[1, 0]], "linear": [*twist[:3, 3]]}
     names = {"^kRk-1": R.T, "^k-1omegak-1": _W, "^komegak-1": R.T * _W, "^k-1Vk-1": _V}
     names |= {"^k-1Pk": P, "barsigmak": 1 - sigma, "sigmak": sigma, "qdk": qd}
     names["^kak"] = sympy.Matrix([0, 0, 1])
     printed, derived = (
-        in_order(sum_of(without_squared_sines(x)) for x in v)
-        for v in (_evaluated(line.text, names), own[line.gives[0]])
+        join_in_order(expand_to_sum(eliminate_squared_sines(x)) for x in v)
+        for v in (_evaluate_text(line.text, names), velocities[line.gives[0]])
     )
-    return Compared(printed, derived, "A^-1 twist A + A^-1 A' of frames k-1 and k")
+    return LineComparison(printed, derived, "A^-1 twist A + A^-1 A' of frames k-1 and k")
 
 
-def _energy_reading(paper: Paper, line: PrintedLine, robots: Robots) -> Compared:
+def _compare_energy(paper: Paper, line: PrintedLine, robots: Robots) -> LineComparison:
     """What a parameter of a link is multiplied with in its energy: `1/2 w1 w1`, `-^0g^T0sk`.
 
     E = w'Jw/2 + M v'v/2 + MS.(v x w), U = -g.(M P + A MS), A = [s n a]; J is symmetric, products
     of inertia come twice. `gives` are the parameters; `ek ... | ...` is a row of E, `uk` one of U.
     """
     energy = _HEIGHT if line.text.startswith("uk ") else _ENERGY
-    found = {name: sum_of(energy.diff(sympy.Symbol(name))) for name in line.gives}
+    energy_terms = {name: expand_to_sum(energy.diff(sympy.Symbol(name))) for name in line.gives}
     text = re.sub(
         r"\^[0k]([A-Za-z])k?\^T ?\^?[0k]([A-Za-z])k?",
-        lambda found: f"({' + '.join(f'{found[1]}{n} {found[2]}{n}' for n in '123')})",
+        lambda energy_terms: (
+            f"({' + '.join(f'{energy_terms[1]}{n} {energy_terms[2]}{n}' for n in '123')})"
+        ),
         re.sub(r"^([eu]k |hs\^1 = )", "", line.text).replace(",s", ""),
     )
-    rename = renamer(paper, line)
+    rename = build_renamer(paper, line)
     cells = [read_sum(cell, rename) for cell in text.split("|")]
     if len(cells) != len(line.gives):
         raise QuotationError(f"{len(cells)} elements are quoted, {len(line.gives)} are derived")
     printed = dict(zip(line.gives, cells, strict=True))
-    told = " | ".join(sum_text(part) for part in found.values())
-    return Compared(joined(printed), joined(found), told)
+    derived_text = " | ".join(format_sum(part) for part in energy_terms.values())
+    return LineComparison(join_sums(printed), join_sums(energy_terms), derived_text)
 
 
-def _effort_reading(paper: Paper, line: PrintedLine, robots: Robots) -> Compared:
+def _compare_effort(paper: Paper, line: PrintedLine, robots: Robots) -> LineComparison:
     """`^0Jp^T ^0J1^T DL1`: `gives[2]`, forces at `gives[0]`, as forces at `gives[1]`.
 
     Places are "motors", with speeds Jp^-1 V, "leg", Ji^-1 V, and "platform", V. Equal power,
@@ -335,69 +351,71 @@ def _effort_reading(paper: Paper, line: PrintedLine, robots: Robots) -> Compared
     names = {"motors": "Jp", "leg": f"J{what[-1]}"}
     wanted = [names[there]] if there in names else []
     wanted += [f"{names[here]}inv"] if here in names else []
-    given = re.findall(r"\^0(J\w)\^T", line.text)
+    jacobians = re.findall(r"\^0(J\w)\^T", line.text)
     rest = re.sub(r"\^0J\w\^T|sum_i|\^0|[\[\]( =]", "", line.text)
     printed, derived = (
         {tuple((name, 1) for name in sorted(chain)): Amount(Fraction(1))}
-        for chain in ([*given, rest], [*wanted, what])
+        for chain in ([*jacobians, rest], [*wanted, what])
     )
     shown = " ".join(f"{name.removesuffix('inv')}^{'-' * name.endswith('inv')}T" for name in wanted)
-    return Compared(printed, derived, f"{shown} {what}")
+    return LineComparison(printed, derived, f"{shown} {what}")
 
 
-def _digits_reading(paper: Paper, line: PrintedLine, robots: Robots) -> Compared:
+def _compare_digits(paper: Paper, line: PrintedLine, robots: Robots) -> LineComparison:
     """`12`: digits that agree, 12 or more, of a form, "energy" or "kane", and the derivation."""
     off = robots[line.robot].forms[line.gives[0]][1]
-    digits = numbered([min(12, int(-np.log10(off + 1e-16)))])
-    return Compared(numbered(numbers_of(line.text)), digits, f"{off:.0e} of the largest")
+    digits = join_numbers([min(12, int(-np.log10(off + 1e-16)))])
+    return LineComparison(
+        join_numbers(read_numbers(line.text)), digits, f"{off:.0e} of the largest"
+    )
 
 
 _COLUMNS = ("j", "a", "mu", "sigma", "gamma", "b", "alpha", "d", "theta", "r")
 
 
-def _row_reading(paper: Paper, line: PrintedLine, robots: Robots) -> Compared:
+def _compare_row(paper: Paper, line: PrintedLine, robots: Robots) -> LineComparison:
     """A row of the table, cells between bars, against the robot's; cell r is called `inr`."""
     leg = line.legs[0]
     cells = [cell.strip() for cell in line.text.split("|")]
     if len(cells) != len(_COLUMNS):
         raise QuotationError(f"{len(cells)} cells are quoted, a row has {len(_COLUMNS)}")
     cells[:2] = [cell.replace("i", leg) for cell in cells[:2]]
-    rename = renamer(paper, line, leg)
-    printed = joined({c: read_sum(x, rename) for c, x in zip(_COLUMNS, cells, strict=True)})
-    found = next((j for j in robots[line.robot].robot.joints if j.name == cells[0]), None)
-    if found is None:
+    rename = build_renamer(paper, line, leg)
+    printed = join_sums({c: read_sum(x, rename) for c, x in zip(_COLUMNS, cells, strict=True)})
+    joint = next((j for j in robots[line.robot].robot.joints if j.name == cells[0]), None)
+    if joint is None:
         raise QuotationError(f"there is no row {cells[0]}")
-    cells = [found.name, found.antecedent, str(int(found.actuated)), str(int(found.kind))]
-    cells += [getattr(found, column).text for column in _COLUMNS[4:]]
-    own = {c: read_sum(text, str) for c, text in zip(_COLUMNS, cells, strict=True)}
-    text = " | ".join(sum_text(part) for part in own.values())
-    return Compared(printed, joined(own), text)
+    cells = [joint.name, joint.antecedent, str(int(joint.actuated)), str(int(joint.kind))]
+    cells += [getattr(joint, column).text for column in _COLUMNS[4:]]
+    row_sums = {c: read_sum(text, str) for c, text in zip(_COLUMNS, cells, strict=True)}
+    text = " | ".join(format_sum(part) for part in row_sums.values())
+    return LineComparison(printed, join_sums(row_sums), text)
 
 
-def _tied_reading(paper: Paper, line: PrintedLine, robots: Robots) -> Compared:
+def _compare_tied(paper: Paper, line: PrintedLine, robots: Robots) -> LineComparison:
     """`q4i = -q3i, q7i = q3i`: joints that follow others; `of` is a cut joint, which has no row."""
-    rename = renamer(paper, line, line.legs[0])
+    rename = build_renamer(paper, line, line.legs[0])
     printed: dict[str, Sum] = {}
     pairs = r"(\w+) (\w+) \+ (\w+) (\w+)"  # (a, b) + (c, d) = 0
     for equation in re.sub(pairs, r"\3 = -\1, \4 = -\2", line.text).split(","):
-        left, right = sides(equation)
+        left, right = separate_sides(equation)
         name = rename(left)
         if name in printed:
             raise QuotationError(f"{name} is given twice")
         printed[name] = read_sum(right, rename)
-    tied = dict(robots[line.robot].tied)
+    tied = dict(robots[line.robot].dependent_variables)
     if line.of:
         left, _, right = line.of.partition("=")
-        tied[rename(left.strip())] = replaced(read_sum(right, rename), tied)
+        tied[rename(left.strip())] = replace_names(read_sum(right, rename), tied)
     lost = set(printed) - set(tied)
     if lost:
         raise QuotationError(f"there is no joint variable {', '.join(sorted(lost))}")
     derived: dict[str, Sum] = {name: tied[name] for name in printed}
-    text = ", ".join(f"{name} = {sum_text(part)}" for name, part in derived.items())
-    return Compared(joined(printed), joined(derived), text)
+    text = ", ".join(f"{name} = {format_sum(part)}" for name, part in derived.items())
+    return LineComparison(join_sums(printed), join_sums(derived), text)
 
 
-def _closure_reading(paper: Paper, line: PrintedLine, robots: Robots) -> Compared:
+def _compare_closure(paper: Paper, line: PrintedLine, robots: Robots) -> LineComparison:
     """The place of frame `gives[0]`, where a leg meets the platform, derived from the table.
 
     `d4 cos q2i cos q3i + a deltai; ...; ...`: along the axes of the leg's first frame, with deltai
@@ -410,99 +428,103 @@ def _closure_reading(paper: Paper, line: PrintedLine, robots: Robots) -> Compare
     if len(texts) != len(line.legs):
         raise QuotationError(f"{len(texts)} expressions are quoted for {len(line.legs)} legs")
     for leg, text in zip(line.legs, texts, strict=True):
-        rename = renamer(paper, line, leg)
-        text = _with_deltas(text, int(leg))
-        turn, place = _placed(robots[line.robot], line.gives[0].replace("{i}", leg), f"1{leg}")
+        rename = build_renamer(paper, line, leg)
+        text = _replace_deltas(text, int(leg))
+        turn, place = _compute_place(
+            robots[line.robot], line.gives[0].replace("{i}", leg), f"1{leg}"
+        )
         if ";" in text:
             printed |= {f"{leg}x{k}": read_sum(x, rename) for k, x in enumerate(text.split(";"))}
             along = enumerate(turn.T * place)
-            derived |= {f"{leg}x{k}": sum_of(without_squared_sines(x)) for k, x in along}
+            derived |= {f"{leg}x{k}": expand_to_sum(eliminate_squared_sines(x)) for k, x in along}
         else:
             put = {symbol.name: symbol for symbol in place.free_symbols}
             put |= dict(zip("xyz", place, strict=True))
-            left = expression_of(read_sum(text, rename), put)
-            printed[leg] = sum_of(without_squared_sines(left))
-    told = "; ".join(sum_text(part) for part in (derived or printed).values())
-    return Compared(joined(printed), joined(derived), told)
+            left = build_expression(read_sum(text, rename), put)
+            printed[leg] = expand_to_sum(eliminate_squared_sines(left))
+    derived_text = "; ".join(format_sum(part) for part in (derived or printed).values())
+    return LineComparison(join_sums(printed), join_sums(derived), derived_text)
 
 
-def _with_deltas(text: str, leg: int) -> str:
-    def number(found: re.Match[str]) -> str:
-        third = (leg + int(found[2] or 0)) % 3 == 0
-        return str(int(third != bool(found[1])))
+def _replace_deltas(text: str, leg: int) -> str:
+    def replace_delta(match: re.Match[str]) -> str:
+        third = (leg + int(match[2] or 0)) % 3 == 0
+        return str(int(third != bool(match[1])))
 
-    return re.sub(r"(bar)?deltai(?:\+(\d))?", number, text)
+    return re.sub(r"(bar)?deltai(?:\+(\d))?", replace_delta, text)
 
 
-def _placed(derived: DerivedPaper, name: str, first: str) -> tuple[sympy.Matrix, sympy.Matrix]:
+def _compute_place(
+    derived: DerivedRobot, name: str, first: str
+) -> tuple[sympy.Matrix, sympy.Matrix]:
     """(rotation of the row `first`, place of the origin of the row `name`), both in frame 0."""
     geometry = derived.model.geometry
-    free = [sympy.Symbol(joint.variable) for joint in geometry.robot.free]
+    free = [sympy.Symbol(joint.variable) for joint in geometry.robot.free_joints]
     moving = [row for row in geometry.rows if row.index is not None]
-    moved = _Moved({
+    moved = _SympyAlgebra({
         row.joint.name: row.rate * sum(sympy.Rational(v) * free[u] for u, v in form.items())
         for row, form in zip(moving, geometry.forms, strict=True)
     })  # fmt: skip
-    found = base_poses(geometry, poses(geometry, moved), moved)
-    places = {row.joint.name: place for row, place in zip(geometry.rows, found, strict=True)}
+    frame_poses = compute_base_poses(geometry, compute_poses(geometry, moved), moved)
+    places = {row.joint.name: place for row, place in zip(geometry.rows, frame_poses, strict=True)}
     return sympy.Matrix(places[first][0]).T, sympy.Matrix(places[name][1])
 
 
-def _platform_reading(paper: Paper, line: PrintedLine, robots: Robots) -> Compared:
+def _compare_platform(paper: Paper, line: PrintedLine, robots: Robots) -> LineComparison:
     """`phip = diag(ddotx, ...)`: what the platform's mass is multiplied with, its force.
 
     Newton: m (acceleration - gravity), a column; entry 2 of a column is `in2`, entry (2, 2) of a
     matrix `in2x2`.
     """
-    found = re.fullmatch(r"phip = (diag)?\((.*)\)", line.text)
-    if found is None:
+    match = re.fullmatch(r"phip = (diag)?\((.*)\)", line.text)
+    if match is None:
         raise QuotationError(f'"{line.text}" is no list of forces')
-    cells = [read_sum(cell, str) for cell in found[2].split(",")]
-    printed = joined({f"{k}x{k}" if found[1] else str(k): c for k, c in enumerate(cells, 1)})
+    cells = [read_sum(cell, str) for cell in match[2].split(",")]
+    printed = join_sums({f"{k}x{k}" if match[1] else str(k): c for k, c in enumerate(cells, 1)})
     force = [
-        sum_of(sympy.Symbol(f"ddot{axis}") - part)
+        expand_to_sum(sympy.Symbol(f"ddot{axis}") - part)
         for axis, part in zip("xyz", robots[line.robot].model.geometry.gravity, strict=True)
     ]
-    text = f"the column ({', '.join(sum_text(part) for part in force)})"
-    return Compared(printed, in_order(force), text)
+    text = f"the column ({', '.join(format_sum(part) for part in force)})"
+    return LineComparison(printed, join_in_order(force), text)
 
 
-def _matrix_reading(paper: Paper, line: PrintedLine, robots: Robots) -> Compared:
+def _compare_matrix(paper: Paper, line: PrintedLine, robots: Robots) -> LineComparison:
     """Rows of G^T, `1 0 0; 0 1 -1`: G = d(all joints of `gives[1]`) / d(those of `gives[0]`)."""
-    tied = robots[line.robot].tied
+    tied = robots[line.robot].dependent_variables
     above, below = line.gives[1].split(), line.gives[0].split()
-    derived = [[_slope(tied[name], by) for name in above] for by in below]
+    derived = [[_find_slope(tied[name], by) for name in above] for by in below]
     printed = [[read_sum(cell, str) for cell in row.split()] for row in line.text.split(";")]
-    text = "; ".join(" ".join(map(sum_text, row)) for row in derived)
-    return Compared(_entries(printed), _entries(derived), text)
+    text = "; ".join(" ".join(map(format_sum, row)) for row in derived)
+    return LineComparison(_join_entries(printed), _join_entries(derived), text)
 
 
-def _entries(rows: list[list[Sum]]) -> Sum:
-    return joined({f"{i}x{j}": cell for i, row in enumerate(rows) for j, cell in enumerate(row)})
+def _join_entries(rows: list[list[Sum]]) -> Sum:
+    return join_sums({f"{i}x{j}": cell for i, row in enumerate(rows) for j, cell in enumerate(row)})
 
 
-def _slope(whole: Sum, name: str) -> Sum:
+def _find_slope(whole: Sum, name: str) -> Sum:
     key = ((name, 1),)
     return {(): whole[key]} if key in whole else {}
 
 
 READINGS: Mapping[str, Reading] = {
-    "relation": _relation_reading,
-    "numbers": _numbers_reading,
-    "names": _names_reading,
-    "arithmetic": _arithmetic_reading,
-    "row": _row_reading,
-    "tied": _tied_reading,
-    "rows": _matrix_reading,
-    "rotation": _rotation_reading,
-    "element": _element_reading,
-    "column": _column_reading,
-    "energy": _energy_reading,
-    "body": _body_reading,
-    "recursion": _recursion_reading,
-    "digits": _digits_reading,
-    "effort": _effort_reading,
-    "closure": _closure_reading,
-    "platform": _platform_reading,
+    "relation": _compare_relation,
+    "numbers": _compare_numbers,
+    "names": _compare_names,
+    "arithmetic": _compare_arithmetic,
+    "row": _compare_row,
+    "tied": _compare_tied,
+    "rows": _compare_matrix,
+    "rotation": _compare_rotation,
+    "element": _compare_element,
+    "column": _compare_column,
+    "energy": _compare_energy,
+    "body": _compare_body,
+    "recursion": _compare_recursion,
+    "digits": _compare_digits,
+    "effort": _compare_effort,
+    "closure": _compare_closure,
+    "platform": _compare_platform,
     **WRIST_READINGS,
 }

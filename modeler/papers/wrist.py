@@ -7,34 +7,41 @@ from dataclasses import replace
 from fractions import Fraction
 from typing import Any
 
-from modeler.core.expression import Expression, parse
+from modeler.core.expression import Expression, parse_expression
 from modeler.formulas import (
     CoefficientTable,
-    Print,
+    PrintedTerms,
     check_friction,
     check_independent,
     check_solutions,
-    monomial_text,
-    wrong_definitions,
-    wrong_functions,
+    find_wrong_definitions,
+    find_wrong_functions,
+    format_monomial,
 )
-from modeler.papers.compared import Compared, Reading, Robots, in_order, joined, numbered
-from modeler.papers.paper import DerivedPaper, Paper, PrintedLine
+from modeler.papers.compared import (
+    LineComparison,
+    Reading,
+    Robots,
+    join_in_order,
+    join_numbers,
+    join_sums,
+)
+from modeler.papers.paper import DerivedRobot, Paper, PrintedLine
 from modeler.papers.quotation import (
     Amount,
     QuotationError,
     Sum,
-    added,
-    amount,
+    add_sums,
+    format_sum,
+    read_amount,
     read_sum,
-    replaced,
-    sum_text,
+    replace_names,
 )
 
 _PLACES = {"definition": "section 2.2", "function": "section 2.2", "solution": "section 4"}
 
 
-def coefficient_quotations(paper: Paper, robots: Robots) -> list[PrintedLine]:
+def collect_coefficient_quotations(paper: Paper, robots: Robots) -> list[PrintedLine]:
     """The quotations of the robot file, with what the paper's file says is wrong in them."""
     if not paper.coefficients:
         return []
@@ -54,103 +61,112 @@ def coefficient_quotations(paper: Paper, robots: Robots) -> list[PrintedLine]:
     return lines
 
 
-def _only(table: CoefficientTable, **entries: object) -> CoefficientTable:
+def _restrict_print(table: CoefficientTable, **entries: object) -> CoefficientTable:
     """The table, its print holding these entries and nothing else."""
-    kept = table.printed
-    alone = Print(missing=kept.missing, monomials=kept.monomials, example=kept.example)
+    full_print = table.printed
+    alone = PrintedTerms(
+        missing=full_print.missing, monomials=full_print.monomials, example=full_print.example
+    )
     return replace(table, printed=replace(alone, **entries))  # type: ignore[arg-type]
 
 
-def _read(text: str) -> Expression:
-    return parse(" ".join(text.split()))
+def _parse_formula(text: str) -> Expression:
+    return parse_expression(" ".join(text.split()))
 
 
-def _stated(line: PrintedLine, found: str, right: str) -> Compared:
+def _compare_difference(line: PrintedLine, difference: str, right: str) -> LineComparison:
     """Equal if what is found to differ is what the paper's file says."""
-    different: Sum = {} if found == line.difference else {(("difference", 1),): Amount(Fraction(1))}
-    text = f"derived - printed: {found}" if found else right
-    return Compared(different, {}, text, settled=True)
+    different: Sum = (
+        {} if difference == line.difference else {(("difference", 1),): Amount(Fraction(1))}
+    )
+    text = f"derived - printed: {difference}" if difference else right
+    return LineComparison(different, {}, text, is_difference_included=True)
 
 
-def _function(paper: Paper, line: PrintedLine, robots: Robots) -> Compared:
+def _compare_function(paper: Paper, line: PrintedLine, robots: Robots) -> LineComparison:
     name, _, text = line.quote.partition(" = ")
-    printed = _read(text)
-    table = _only(robots[line.robot].table, functions={name: printed})
-    parts = [f"({v})*{k}" for c in wrong_functions(table) for k, v in c.difference.items()]
+    printed = _parse_formula(text)
+    table = _restrict_print(robots[line.robot].table, functions={name: printed})
+    parts = [f"({v})*{k}" for c in find_wrong_functions(table) for k, v in c.difference.items()]
     # Coefficients that number terms of other functions, equal in value or not.
-    own = {n: c.function for n, c in table.by_name.items() if n in printed.names}
-    parts += [f"{n} is of {function}" for n, function in own.items() if function != name]
-    return _stated(line, "; ".join(parts), "the same")
+    functions_by_name = {n: c.function for n, c in table.by_name.items() if n in printed.names}
+    parts += [
+        f"{n} is of {function}" for n, function in functions_by_name.items() if function != name
+    ]
+    return _compare_difference(line, "; ".join(parts), "the same")
 
 
-def _definition(paper: Paper, line: PrintedLine, robots: Robots) -> Compared:
+def _compare_definition(paper: Paper, line: PrintedLine, robots: Robots) -> LineComparison:
     name, _, text = line.quote.partition(" = ")
-    table = _only(robots[line.robot].table, definitions={name: _read(text)})
-    found = "; ".join(check.difference for check in wrong_definitions(table))
-    return _stated(line, found, "the same")
+    table = _restrict_print(robots[line.robot].table, definitions={name: _parse_formula(text)})
+    difference = "; ".join(check.difference for check in find_wrong_definitions(table))
+    return _compare_difference(line, difference, "the same")
 
 
-def _solution(paper: Paper, line: PrintedLine, robots: Robots) -> Compared:
+def _compare_solution(paper: Paper, line: PrintedLine, robots: Robots) -> LineComparison:
     name, _, text = line.quote.partition(" = ")
     above, _, below = text.partition(" over ")
-    table = _only(
-        robots[line.robot].table, solutions={name: (_read(above), _read(below or "1"))}
-    )  # fmt: skip
+    table = _restrict_print(
+        robots[line.robot].table,
+        solutions={name: (_parse_formula(above), _parse_formula(below or "1"))},
+    )
     (check,) = check_solutions(table)
     if check.verdict == "right":
-        return _stated(line, "", f"returns {name}")
-    found = check.verdict + (f", numerator {check.numerator}" if "0" in check.verdict else "")
-    return replace(_stated(line, found, ""), text=found)
+        return _compare_difference(line, "", f"returns {name}")
+    difference = check.verdict + (f", numerator {check.numerator}" if "0" in check.verdict else "")
+    return replace(_compare_difference(line, difference, ""), text=difference)
 
 
-def _independent(paper: Paper, line: PrintedLine, robots: Robots) -> Compared:
+def _compare_independent(paper: Paper, line: PrintedLine, robots: Robots) -> LineComparison:
     """The list of independent coefficients: those that are defined, and independent."""
     table, names = robots[line.robot].table, tuple(line.quote.split(", "))
     if names != tuple(table.printed.definitions):
         raise QuotationError("the list names others than the printed definitions")
-    dependent = check_independent(_only(table, independent=names))
-    found = "; ".join(f"{name} = {text}" for name, text in dependent.items())
-    return replace(_stated(line, found, "independent"), text=found or "independent")
+    dependent = check_independent(_restrict_print(table, independent=names))
+    difference = "; ".join(f"{name} = {text}" for name, text in dependent.items())
+    return replace(
+        _compare_difference(line, difference, "independent"), text=difference or "independent"
+    )
 
 
-def _monomials(paper: Paper, line: PrintedLine, robots: Robots) -> Compared:
+def _compare_monomials(paper: Paper, line: PrintedLine, robots: Robots) -> LineComparison:
     """`s2^2; c2 s2; 1`: the monomials of a function in the order of its coefficients."""
-    derived = [at for _, at in _terms(robots[line.robot], line.gives[0])]
+    derived = [at for _, at in _collect_terms(robots[line.robot], line.gives[0])]
     printed = [read_sum(text, str) for text in line.quote.split(";")]
-    text = "; ".join(sum_text(part) for part in derived)
-    return Compared(in_order(printed), in_order(derived), text)
+    text = "; ".join(format_sum(part) for part in derived)
+    return LineComparison(join_in_order(printed), join_in_order(derived), text)
 
 
-def _values(paper: Paper, line: PrintedLine, robots: Robots) -> Compared:
+def _compare_values(paper: Paper, line: PrintedLine, robots: Robots) -> LineComparison:
     """A function with numbers for its coefficients, against the list that gives them by name."""
     name, _, text = line.quote.partition(" = ")
     values = {}
     for entry in ", ".join(line.given).split(","):
         key, _, number = entry.partition("=")
-        values[key.strip()] = amount(number.strip())
-    terms = _terms(robots[line.robot], name)
+        values[key.strip()] = read_amount(number.strip())
+    terms = _collect_terms(robots[line.robot], name)
     if {key for key, _ in terms} != set(values):
         raise QuotationError(f"the list names others than the coefficients of {name}")
     derived = {
         monomial: Amount(values[key].value) for key, at in terms for monomial in at
     }  # fmt: skip
-    return Compared(read_sum(text, str), derived, f"{name} = {sum_text(derived)}")
+    return LineComparison(read_sum(text, str), derived, f"{name} = {format_sum(derived)}")
 
 
-def _terms(derived: DerivedPaper, function: str) -> list[tuple[str, Sum]]:
+def _collect_terms(derived: DerivedRobot, function: str) -> list[tuple[str, Sum]]:
     """(coefficient, its monomial) of a function, in order of the coefficients."""
     algebra = derived.table.closed.algebra
     names = algebra.names[: algebra.moving]
-    found = [c for c in derived.table.coefficients if c.function == function]
-    return [(c.name, read_sum(monomial_text(c.exponents, names), str)) for c in found]
+    coefficients = [c for c in derived.table.coefficients if c.function == function]
+    return [(c.name, read_sum(format_monomial(c.exponents, names), str)) for c in coefficients]
 
 
 _TERM = re.compile(r"[*\s]*\b(?:([nabc])_?([123])|v\^?(CM)([abc]))$")
 
 
-def _along(text: str) -> dict[str, Sum]:
+def _read_components(text: str) -> dict[str, Sum]:
     """{vector: factor} of `-at3 qd1 a2 + at2 qd1 a3`, whose terms end with unit vectors or vCMa."""
-    found: dict[str, Sum] = {}
+    components: dict[str, Sum] = {}
     for term in re.findall(r"[+-]?(?:[^-+()]|\((?:[^()]|\([^()]*\))*\))+", text.strip()):
         axis = _TERM.search(term.rstrip())
         if axis is None:
@@ -158,19 +174,22 @@ def _along(text: str) -> dict[str, Sum]:
         factors = term[: axis.start()]
         size = read_sum(f"{factors}{' ' if factors[-1:].isalnum() else ' 1'}", str)
         name = "".join(filter(None, axis.groups()))
-        found[name] = added(found.get(name, {}), size)
-    return found
+        components[name] = add_sums(components.get(name, {}), size)
+    return components
 
 
-def _kane(paper: Paper, line: PrintedLine, robots: Robots) -> Compared:
+def _compare_kane(paper: Paper, line: PrintedLine, robots: Robots) -> LineComparison:
     """Rows of Kane's form, those of `gives`, along unit vectors, `;` between; with g = 1."""
-    own = [robots[line.robot].kane[name] for name in line.gives]
-    printed, derived = (in_order(joined(_along(x)) for x in v) for v in (line.text.split(";"), own))
+    formulas = [robots[line.robot].kane[name] for name in line.gives]
+    printed, derived = (
+        join_in_order(join_sums(_read_components(x)) for x in v)
+        for v in (line.text.split(";"), formulas)
+    )
     unit: Sum = {(): Amount(Fraction(1))}
-    return Compared(printed, replaced(derived, {"g": unit}), "; ".join(own))
+    return LineComparison(printed, replace_names(derived, {"g": unit}), "; ".join(formulas))
 
 
-def _indices(paper: Paper, line: PrintedLine, robots: Robots) -> Compared:
+def _compare_indices(paper: Paper, line: PrintedLine, robots: Robots) -> LineComparison:
     """`Jij ddotqi + Sijk qdj qdk + gi = taui`: the index of each term that no summation takes.
 
     `gives` are the terms of the equation, `Jddotq`; an index that stands three times is doubled.
@@ -182,40 +201,40 @@ def _indices(paper: Paper, line: PrintedLine, robots: Robots) -> Compared:
         name = re.sub(r"([A-Za-z]+?)[ijk]+\b|[ ()]", r"\1", term)
         printed[name] = read_sum("*".join(free) or "0", str)
     derived = {name: read_sum("i", str) for name in line.gives}
-    return Compared(joined(printed), joined(derived), "i in every term")
+    return LineComparison(join_sums(printed), join_sums(derived), "i in every term")
 
 
-def _friction(paper: Paper, line: PrintedLine, robots: Robots) -> Compared:
+def _compare_friction(paper: Paper, line: PrintedLine, robots: Robots) -> LineComparison:
     """`Gii Cik sgn(qdk)` at the robot file's motion, against G' C sgn(G qd)."""
-    found = re.fullmatch(r"G([ijk]{2}) C([ijk]{2}) sgn\(qd([ijk])\)", line.text)
+    match = re.fullmatch(r"G([ijk]{2}) C([ijk]{2}) sgn\(qd([ijk])\)", line.text)
     coupling = robots[line.robot].table.printed.coupling
-    if found is None or coupling is None:
+    if match is None or coupling is None:
         raise QuotationError(f'"{line.text}" is no friction of coupled motors')
     G, C = coupling.motor_from_joint, coupling.coulomb
     printed = dict.fromkeys(range(3), Fraction(0))
-    used = sorted({*"i", *found[1], *found[2], *found[3]})
+    used = sorted({*"i", *match[1], *match[2], *match[3]})
     for at in itertools.product(range(3), repeat=len(used)):
         index = dict(zip(used, at, strict=True))
-        (a, b), (c, d) = ([index[x] for x in pair] for pair in (found[1], found[2]))
-        speed = coupling.speed[index[found[3]]]
+        (a, b), (c, d) = ([index[x] for x in pair] for pair in (match[1], match[2]))
+        speed = coupling.speed[index[match[3]]]
         printed[index["i"]] += G[a][b] * C[c] * (c == d) * ((speed > 0) - (speed < 0))
     derived = check_friction(coupling).derived
     text = ", ".join(f"{float(value):g}" for value in derived)
-    return Compared(
-        numbered(map(Amount, printed.values())), numbered(map(Amount, derived)),
+    return LineComparison(
+        join_numbers(map(Amount, printed.values())), join_numbers(map(Amount, derived)),
         f"G' C sgn(G qd); at the motion of docs/robots/wrist.md {text} N m",
     )  # fmt: skip
 
 
 WRIST_READINGS: Mapping[str, Reading] = {
-    "function": _function,
-    "definition": _definition,
-    "solution": _solution,
-    "independent": _independent,
-    "monomials": _monomials,
-    "values": _values,
-    "velocity": _kane,
-    "applied": _kane,
-    "indices": _indices,
-    "friction": _friction,
+    "function": _compare_function,
+    "definition": _compare_definition,
+    "solution": _compare_solution,
+    "independent": _compare_independent,
+    "monomials": _compare_monomials,
+    "values": _compare_values,
+    "velocity": _compare_kane,
+    "applied": _compare_kane,
+    "indices": _compare_indices,
+    "friction": _compare_friction,
 }

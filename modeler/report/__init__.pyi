@@ -1,52 +1,58 @@
 from . import comparison as comparison, notebook as notebook, page as page
 from .comparison import (
-    all_pictures as all_pictures,
-    comparison_page as comparison_page,
-    contest_page as contest_page,
+    build_comparison_page as build_comparison_page,
+    build_model_comparison_page as build_model_comparison_page,
+    draw_all_pictures as draw_all_pictures,
 )
-from .derivation import derivation_page as derivation_page, relations_html as relations_html
-from .diagnosis import diagnosis_page as diagnosis_page
+from .derivation import (
+    build_derivation_page as build_derivation_page,
+    render_relations as render_relations,
+)
+from .diagnosis import build_diagnosis_page as build_diagnosis_page
 from .estimators import (
-    estimators_page as estimators_page,
-    remarks_of as remarks_of,
-    table_of as table_of,
-    values_of as values_of,
+    build_estimators_page as build_estimators_page,
+    collect_remarks as collect_remarks,
+    tabulate_estimates as tabulate_estimates,
+    tabulate_estimators as tabulate_estimators,
 )
 from .figure_page import write_files as write_files
-from .fit import fit_page as fit_page
-from .fleet import fleet_page as fleet_page
+from .fit import build_fit_page as build_fit_page
+from .fleet import build_fleet_page as build_fleet_page
 from .history import (
-    additions_page as additions_page,
-    effect_page as effect_page,
-    step_name as step_name,
+    build_effect_page as build_effect_page,
+    build_history_page as build_history_page,
+    format_step_name as format_step_name,
 )
 from .log import (
-    channel_rows as channel_rows,
-    clock_line as clock_line,
-    log_page as log_page,
-    log_pictures as log_pictures,
+    build_log_page as build_log_page,
+    describe_clock as describe_clock,
+    draw_log_pictures as draw_log_pictures,
+    tabulate_channels as tabulate_channels,
 )
-from .nearest_page import nearest_html as nearest_html
+from .nearest_page import render_nearest_page as render_nearest_page
 from .page import (
     Origin as Origin,
     Page as Page,
-    after_add as after_add,
-    after_compare as after_compare,
-    after_diagnosis as after_diagnosis,
-    after_fit as after_fit,
-    after_stated as after_stated,
+    suggest_after_add as suggest_after_add,
+    suggest_after_compare as suggest_after_compare,
+    suggest_after_diagnosis as suggest_after_diagnosis,
+    suggest_after_fit as suggest_after_fit,
+    suggest_after_stated as suggest_after_stated,
     write_page as write_page,
 )
 from .robot_closing import Posture as Posture
-from .robot_drawing import modes_bytes as modes_bytes, picture_bytes as picture_bytes
+from .robot_drawing import render_modes as render_modes, render_picture as render_picture
 from .robot_page import (
     PICTURE_KINDS as PICTURE_KINDS,
-    modes_html as modes_html,
-    page_content as page_content,
-    posture_json as posture_json,
-    posture_lines as posture_lines,
-    robot_html as robot_html,
+    build_page_content as build_page_content,
+    describe_posture as describe_posture,
+    render_modes_page as render_modes_page,
+    render_robot_page as render_robot_page,
+    serialise_posture as serialise_posture,
     show as show,
 )
-from .robot_skeleton import size_of as size_of, skeleton_of as skeleton_of
-from .values import relation as relation
+from .robot_skeleton import (
+    build_skeleton as build_skeleton,
+    estimate_robot_size as estimate_robot_size,
+)
+from .values import format_relation as format_relation

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 
 from modeler import validation
 from modeler.core.figure import Picture
-from modeler.core.table import percent
+from modeler.core.table import format_percent
 from modeler.report.blocks import (
     Code,
     Figure,
@@ -22,16 +22,19 @@ from modeler.report.page import Origin, Page, Section
 # The page of a free run.
 
 
-def free_run_page(found: validation.FreeRun, origin: Origin) -> Page:
+def build_free_run_page(free_run: validation.FreeRun, origin: Origin) -> Page:
     """The table of a free run, what is said of it, measured and simulated positions by joint."""
-    fits = [joint.fit for joint in found.joints if joint.fit is not None]
+    fits = [joint.fit for joint in free_run.joints if joint.fit is not None]
     worst = f"{min(fits):.3g} %" if fits and min(fits) > 0.0 else "nothing"
     return Page(
-        title=f"{found.robot}: free run in windows of {found.window:g} s",
+        title=f"{free_run.robot}: free run in windows of {free_run.window:g} s",
         headline=(worst, "of the position is simulated right, on the joint that is worst"),
         sections=[
-            Section("Positions", [Code(found.summary())]),
-            *(Section(p.title, [Figure(p, False)]) for p in validation.free_run_pictures(found)),
+            Section("Positions", [Code(free_run.summary())]),
+            *(
+                Section(p.title, [Figure(p, False)])
+                for p in validation.draw_free_run_pictures(free_run)
+            ),
         ],
         origin=origin,
         command="compare",
@@ -41,103 +44,123 @@ def free_run_page(found: validation.FreeRun, origin: Origin) -> Page:
 # The page of several models side by side.
 
 
-def contest_page(
-    found: validation.Contest, provenance: Sequence[str] = (), held_out: bool | None = None
+def build_model_comparison_page(
+    comparison: validation.ModelComparison,
+    provenance: Sequence[str] = (),
+    held_out: bool | None = None,
 ) -> Page:
     """The page of models side by side.
 
     Args:
-        found: from `contest`.
+        comparison: from `contest`.
         provenance: lines on how the data came about.
         held_out: False if a model was fitted on rows of these logs.
     """
-    first = found.predictions[0]
+    first = comparison.predictions[0]
     return Page(
-        title=f"{first.robot}: {len(found.names)} models side by side",
-        headline=validation.headline_of(found),
-        sections=_model_sections(found),
-        origin=Origin(", ".join(found.names), first.logs, held_out),
-        facts=[(name, _fact(found, k)) for k, name in enumerate(found.names)],
+        title=f"{first.robot}: {len(comparison.names)} models side by side",
+        headline=validation.describe_winner(comparison),
+        sections=_build_model_sections(comparison),
+        origin=Origin(", ".join(comparison.names), first.logs, held_out),
+        facts=[(name, _describe_model(comparison, k)) for k, name in enumerate(comparison.names)],
         provenance=provenance,
         command="compare",
     )
 
 
-def contest_pictures(found: validation.Contest) -> list[Picture]:
+def draw_model_pictures(comparison: validation.ModelComparison) -> list[Picture]:
     """Measured torque and that of every model, joint by joint."""
-    return [_picture(found, item) for item in found.joints]
+    return [_draw_model_picture(comparison, item) for item in comparison.joints]
 
 
-def _fact(found: validation.Contest, k: int) -> str:
+def _describe_model(comparison: validation.ModelComparison, k: int) -> str:
     errors = ", ".join(
-        f"{percent(error)} of the {unit}" if len(found.by_unit[k]) > 1 else percent(error)
-        for unit, error in found.by_unit[k].items()
+        f"{format_percent(error)} of the {unit}"
+        if len(comparison.by_unit[k]) > 1
+        else format_percent(error)
+        for unit, error in comparison.by_unit[k].items()
     )
-    won = found.wins(k)
+    won = comparison.find_best_joints(k)
     best = f"joint {', '.join(won)}" if won else "no joint"
     return f"error {errors}; best beyond doubt on {best}"
 
 
-def _model_sections(found: validation.Contest) -> list[Section]:
-    said = Items([("", line) for line in validation.contest_sentences(found)])
-    return [Section("Verdict", [said, _errors(found), _sizes(found)])] + [
-        Section(f"Joint {item.joint.name}", [Figure(_picture(found, item), titled=False)],
-                f"joint-{item.joint.name}")
-        for item in found.joints
-    ]  # fmt: skip
+def _build_model_sections(comparison: validation.ModelComparison) -> list[Section]:
+    said = Items([("", line) for line in validation.describe_model_comparison(comparison)])
+    return [
+        Section("Verdict", [said, _tabulate_errors(comparison), _tabulate_residuals(comparison)])
+    ] + [
+        Section(
+            f"Joint {item.joint.name}",
+            [Figure(_draw_model_picture(comparison, item), titled=False)],
+            f"joint-{item.joint.name}",
+        )
+        for item in comparison.joints
+    ]
 
 
-def _picture(found: validation.Contest, item: validation.JointContest) -> Picture:
-    joints = [info.name for info in found.predictions[0].joints]
-    return validation.overlay_picture(found.names, found.predictions, joints.index(item.joint.name))
+def _draw_model_picture(
+    comparison: validation.ModelComparison, item: validation.JointModelComparison
+) -> Picture:
+    joints = [info.name for info in comparison.predictions[0].joints]
+    return validation.draw_overlay_picture(
+        comparison.names, comparison.predictions, joints.index(item.joint.name)
+    )
 
 
-def _errors(found: validation.Contest) -> PageTable:
-    top = max((e for item in found.joints for e in item.errors), default=0.0) or 1.0
+def _tabulate_errors(comparison: validation.ModelComparison) -> PageTable:
+    top = max((e for item in comparison.joints for e in item.errors), default=0.0) or 1.0
     rows: list[list[str | PageCell]] = [
         [
             PageCell(item.joint.name, link=f"joint-{item.joint.name}"),
-            *(PageCell(percent(e), e / top) for e in item.errors),
-            "-" if item.best is None else found.names[item.best],
-            f"{item.chance:.2g}" if item.chance >= 1e-6 else "under 1e-6",
+            *(PageCell(format_percent(e), e / top) for e in item.errors),
+            "-" if item.best is None else comparison.names[item.best],
+            f"{item.p_value:.2g}" if item.p_value >= 1e-6 else "under 1e-6",
         ]
-        for item in found.joints
+        for item in comparison.joints
     ]
     return PageTable(
-        ["joint", *found.names, "best beyond doubt", "chance"],
+        ["joint", *comparison.names, "best beyond doubt", "chance"],
         rows,
         "Relative error: norm of measured minus predicted torque (force) over the norm of what was "
         "measured, each joint by itself, on the rows that count for every model. Chance: that the "
         "best and its nearest rival are equally good, from the spread of the difference between "
-        f"blocks of time; beyond doubt is less than {percent(validation.DOUBT)}, shared among the "
+        f"blocks of time; beyond doubt is less than {format_percent(validation.DOUBT)}, shared "
+        "among the "
         "rivals.",
-        dict.fromkeys(found.names, "bar") | {"best beyond doubt": "text"},
+        dict.fromkeys(comparison.names, "bar") | {"best beyond doubt": "text"},
     )
 
 
-def _sizes(found: validation.Contest) -> PageTable:
+def _tabulate_residuals(comparison: validation.ModelComparison) -> PageTable:
     rows = [
         [item.joint.name, *(f"{rms:.3g} {item.joint.effort_unit}" for rms in item.rms)]
-        for item in found.joints
+        for item in comparison.joints
     ]
-    return PageTable(["joint", *found.names], rows, "Root mean square of what each model leaves.")
+    return PageTable(
+        ["joint", *comparison.names], rows, "Root mean square of what each model leaves."
+    )
 
 
 # All pictures of a comparison, and as files.
 
 
-def joint_pictures(
+def draw_joint_pictures(
     comparison: validation.Comparison, item: validation.JointComparison
 ) -> tuple[Picture, ...]:
     """The pictures of one joint: against time, then against each coordinate."""
-    found = comparison.prediction
-    return validation.time_picture(found, item), validation.residual_picture(found, item)
+    prediction = comparison.prediction
+    return validation.draw_time_picture(prediction, item), validation.draw_residual_picture(
+        prediction, item
+    )
 
 
-def all_pictures(comparison: validation.Comparison) -> tuple[Picture, ...]:
+def draw_all_pictures(comparison: validation.Comparison) -> tuple[Picture, ...]:
     """The overview, then the pictures of each judged joint."""
-    drawn = [picture for item in comparison.joints for picture in joint_pictures(comparison, item)]
-    return (validation.overview_picture(comparison), *drawn)
+    drawn = [
+        picture for item in comparison.joints for picture in draw_joint_pictures(comparison, item)
+    ]
+    return (validation.draw_overview_picture(comparison), *drawn)
 
 
 _TAGS = {"pattern": "pattern left", "noise": "noise only", "other": "unclear"}
@@ -154,7 +177,7 @@ _HEAD = (
 )  # fmt: skip
 
 
-def comparison_page(
+def build_comparison_page(
     comparison: validation.Comparison, provenance: Sequence[str] = (), origin: Origin | None = None
 ) -> Page:
     """The page of a comparison.
@@ -165,13 +188,13 @@ def comparison_page(
         origin: model, logs, and whether they were held out; robot and logs if it is left out.
     """
     prediction = comparison.prediction
-    figure, _, rest = validation.headline(comparison).partition(" of ")
+    figure, _, rest = validation.write_headline(comparison).partition(" of ")
     return Page(
         title=f"{prediction.robot}: measured against predicted torque",
         headline=(figure, f"of {rest}" if rest else ""),
-        sections=_sections(comparison),
+        sections=_build_sections(comparison),
         origin=origin or Origin(prediction.robot, prediction.logs),
-        facts=_facts(comparison),
+        facts=_collect_facts(comparison),
         provenance=(
             f"Robot: {prediction.robot}.",
             f"Logs: {', '.join(prediction.logs)}.",
@@ -183,43 +206,50 @@ def comparison_page(
     )
 
 
-def _sections(comparison: validation.Comparison) -> list[Section]:
-    method = " ".join(f"{line}." for line in validation.method_lines(comparison))
+def _build_sections(comparison: validation.Comparison) -> list[Section]:
+    method = " ".join(f"{line}." for line in validation.describe_methods(comparison))
     table = PageTable(
         _HEAD,
-        [_table_row(item, comparison) for item in comparison.joints],
+        [_build_table_row(item, comparison) for item in comparison.joints],
         "Relative error is the norm of measured minus predicted torque (force) over the norm of "
         "what was measured, each joint by itself, over the samples that count. R\u00b2 compares "
         "with the best constant. Sigma is the rms standard deviation of the prediction by the "
         "covariance of the fit. " + method,
         {"relative error": "bar", "at": "text"},
     )
-    found = [Section("Verdict", [Verdict(_judged(comparison)), table, *_log_table(comparison)])]
+    sections = [
+        Section("Verdict", [Verdict(_judge_joints(comparison)), table, *_tabulate_logs(comparison)])
+    ]
     if comparison.joints:
-        found.append(
-            Section("All joints", [Figure(validation.overview_picture(comparison), titled=False)])
+        sections.append(
+            Section(
+                "All joints", [Figure(validation.draw_overview_picture(comparison), titled=False)]
+            )
         )
     for item in comparison.joints:
-        pictures = [Figure(picture) for picture in joint_pictures(comparison, item)]
-        name, said = item.joint.name, Paragraph(validation.joint_verdict(item))
-        found.append(Section(f"Joint {name}", [said, *pictures], f"joint-{name}"))
-    return found
+        pictures = [Figure(picture) for picture in draw_joint_pictures(comparison, item)]
+        name, said = item.joint.name, Paragraph(validation.write_joint_verdict(item))
+        sections.append(Section(f"Joint {name}", [said, *pictures], f"joint-{name}"))
+    return sections
 
 
-def _facts(comparison: validation.Comparison) -> list[tuple[str, str]]:
+def _collect_facts(comparison: validation.Comparison) -> list[tuple[str, str]]:
     """The three answers of the first screen."""
     if not comparison.joints:
         return []
     return [
-        ("How good?", _how_good(comparison.joints)),
-        ("Where does it fail?", _where(comparison.joints)),
-        ("Does the residual still have structure?", _what_is_left(comparison.joints)),
+        ("How good?", _describe_fit_quality(comparison.joints)),
+        ("Where does it fail?", _describe_worst_region(comparison.joints)),
+        (
+            "Does the residual still have structure?",
+            _describe_remaining_structure(comparison.joints),
+        ),
     ]
 
 
-def _how_good(joints: tuple[validation.JointComparison, ...]) -> str:
+def _describe_fit_quality(joints: tuple[validation.JointComparison, ...]) -> str:
     below = sum(item.relative_error < 0.1 for item in joints)
-    middle = percent(statistics.median(item.relative_error for item in joints))
+    middle = format_percent(statistics.median(item.relative_error for item in joints))
     text = f"{below} of {len(joints)} joints are within 10 %; the middle one is at {middle}."
     defined = [item for item in joints if not math.isnan(item.r2)]
     if defined:
@@ -228,23 +258,23 @@ def _how_good(joints: tuple[validation.JointComparison, ...]) -> str:
     return text
 
 
-def _where(joints: tuple[validation.JointComparison, ...]) -> str:
+def _describe_worst_region(joints: tuple[validation.JointComparison, ...]) -> str:
     worst = max(joints, key=lambda item: item.relative_error)
     window = worst.worst
     region = max(worst.regions, key=lambda part: part.energy_share - part.time_share)
     return (
-        f"Most on joint {worst.joint.name} ({percent(worst.relative_error)}): "
-        f"{percent(region.energy_share)} of its squared residual while "
-        f"{_REGION_PHRASES[region.name]} ({percent(region.time_share)} of the samples); "
+        f"Most on joint {worst.joint.name} ({format_percent(worst.relative_error)}): "
+        f"{format_percent(region.energy_share)} of its squared residual while "
+        f"{_REGION_PHRASES[region.name]} ({format_percent(region.time_share)} of the samples); "
         f"worst at {window.start:.2f}-{window.end:.2f} s of {window.log}."
     )
 
 
-def _what_is_left(joints: tuple[validation.JointComparison, ...]) -> str:
+def _describe_remaining_structure(joints: tuple[validation.JointComparison, ...]) -> str:
     named = []
     for item in joints:
-        pattern, other = validation.best_pattern(item), validation.best_other(item)
-        if validation.wrong_scale(item) is not None and item.scale is not None:
+        pattern, other = validation.find_best_pattern(item), validation.find_best_other(item)
+        if validation.describe_wrong_scale(item) is not None and item.scale is not None:
             named.append((item.scale.mended, f"joint {item.joint.name} has a wrong sign or scale"))
         elif other is not None:
             named.append((other[1], f"joint {item.joint.name} follows the velocity of {other[0]}"))
@@ -252,17 +282,17 @@ def _what_is_left(joints: tuple[validation.JointComparison, ...]) -> str:
             named.append((pattern[1], f"joint {item.joint.name} follows {pattern[0].phrase}"))
     if named:
         named.sort(reverse=True)
-        listed = "; ".join(f"{text} ({percent(share)})" for share, text in named[:3])
+        listed = "; ".join(f"{text} ({format_percent(share)})" for share, text in named[:3])
         return f"Yes, on {len(named)} of {len(joints)} joints: {listed}."
-    if all(validation.looks_like_noise(item) for item in joints):
+    if all(validation.is_noise_like(item) for item in joints):
         return "No: the residual of every joint looks like noise."
     return "No pattern in the joints' motion, but not all of it is noise: see below."
 
 
-def _judged(comparison: validation.Comparison) -> list[JudgedLine]:
+def _judge_joints(comparison: validation.Comparison) -> list[JudgedLine]:
     lines = []
     for item in comparison.joints:
-        kind, text = validation.kind_of_residual(item), validation.joint_verdict(item)
+        kind, text = validation.classify_residual(item), validation.write_joint_verdict(item)
         first, _, rest = text.partition(": ")
         lines.append(JudgedLine(kind, _TAGS[kind], first, rest, f"joint-{item.joint.name}"))
     lines += [
@@ -272,7 +302,7 @@ def _judged(comparison: validation.Comparison) -> list[JudgedLine]:
     return lines
 
 
-def _table_row(
+def _build_table_row(
     item: validation.JointComparison, comparison: validation.Comparison
 ) -> list[str | PageCell]:
     unit = item.joint.effort_unit
@@ -280,24 +310,24 @@ def _table_row(
     share = item.relative_error / top if top else 0.0
     return [
         PageCell(item.joint.name, link=f"joint-{item.joint.name}"),
-        PageCell(percent(item.relative_error), share),
+        PageCell(format_percent(item.relative_error), share),
         f"{item.rms:.3g} {unit}",
         "-" if item.predicted_sigma is None else f"{item.predicted_sigma:.2g} {unit}",
         f"{item.measured_rms:.3g} {unit}",
         f"{item.largest.value:.3g} {unit}",
         f"{item.largest.time:.2f} s of {item.largest.log}",
-        validation.or_dash(item.r2, ".4f"),
-        percent(None if item.shares is None else item.shares.systematic),
-        percent(None if item.shares is None else item.shares.floor),
+        validation.format_or_dash(item.r2, ".4f"),
+        format_percent(None if item.shares is None else item.shares.systematic),
+        format_percent(None if item.shares is None else item.shares.floor),
         f"{item.bias:+.2g} {unit}",
         str(item.samples),
     ]
 
 
-def _log_table(comparison: validation.Comparison) -> list[PageTable]:
+def _tabulate_logs(comparison: validation.Comparison) -> list[PageTable]:
     """Relative error of each log and joint; nothing for a single log."""
     if len(comparison.logs) < 2:
         return []
-    head, *rows = validation.by_log(comparison, "all")
+    head, *rows = validation.tabulate_logs(comparison, "all")
     caption = "Relative error by log: of all joints together (rows stacked), and of each by itself."
     return [PageTable(head, rows, caption)]

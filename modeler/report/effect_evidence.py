@@ -4,9 +4,17 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from modeler.core.table import WORDS, percent
-from modeler.diagnosis import Base, Search, State, Step, columns_of, rival, state_of
-from modeler.report.evidence_axes import Axis, Bins, axis_of, bins_of, calm_rows
+from modeler.core.table import WORDS, format_percent
+from modeler.diagnosis import (
+    GramBlocks,
+    Search,
+    SearchStep,
+    State,
+    build_columns,
+    build_state,
+    fit_residual_baseline,
+)
+from modeler.report.evidence_axes import Axis, Bins, build_axis, build_bins, find_inliers
 
 
 @dataclass(frozen=True, eq=False)
@@ -24,19 +32,20 @@ class Evidence:
             where the axis is the effect itself.
         calm: (rows_j,) False for the few wild rows that no mean counts.
         bins: of the axis.
-        own_sigma: (b,) standard deviations of the means of `own`; None where that is None.
+        own_sigma: (b,) standard deviations of the means of `effect_torque`; None where that is
+            None.
     """
 
-    step: Step
+    step: SearchStep
     without: State
     full: State
     j: int
     axis: Axis
-    rival: np.ndarray | None
-    own: np.ndarray | None
-    calm: np.ndarray
+    baseline: np.ndarray | None
+    effect_torque: np.ndarray | None
+    is_inlier: np.ndarray
     bins: Bins
-    own_sigma: np.ndarray | None = None
+    effect_torque_sigma: np.ndarray | None = None
 
     @property
     def before(self) -> np.ndarray:
@@ -44,7 +53,7 @@ class Evidence:
         return self.without.residual[self.j]
 
     @property
-    def adds(self) -> np.ndarray:
+    def contribution(self) -> np.ndarray:
         """(rows_j,) what the effect takes out of the residual."""
         return self.before - self.after
 
@@ -53,14 +62,14 @@ class Evidence:
         """(rows_j,) residual with it."""
         return self.full.residual[self.j]
 
-    def errors(self) -> np.ndarray:
+    def compute_errors(self) -> np.ndarray:
         """(b,) half widths of 95 % intervals of the bins' means about the effect."""
-        return self.bins.errors(self.axis.turned(self.after), self.block)
+        return self.bins.compute_errors(self.axis.apply_direction(self.after), self.block)
 
     @property
     def block(self) -> np.ndarray:
         """(rows_j,) block of time."""
-        return self.without.base.block[self.j]
+        return self.without.gram_blocks.block[self.j]
 
     @property
     def unit(self) -> str:
@@ -68,80 +77,101 @@ class Evidence:
         return self.without.data.compiled.spec.joints[self.j].effort_unit
 
 
-def evidence_of(found: Search, step: Step) -> Evidence:
+def collect_evidence(search: Search, step: SearchStep) -> Evidence:
     """What there is to draw of an effect.
 
     Args:
-        found: the search.
+        search: the search.
         step: of the effect.
     """
-    full, others = found.end, [s.pick for s in found.steps if s is not step]
-    start = found.start
-    without = state_of(start.data, others, full.beta) if others else start
-    j = _joint(step, without, full)
-    adds = without.residual[j] - full.residual[j]
-    axis = axis_of(full, step.pick, j, adds)
-    calm = calm_rows(full.residual[j], full.base.block[j])
-    own = None if axis.shows == "itself" else _own(found, step, j)
-    bins = bins_of(axis.x, adds if own is None else own, without.base.block[j], calm)
+    full, others = search.end, [s.candidate for s in search.steps if s is not step]
+    start = search.start
+    without = build_state(start.data, others, full.beta) if others else start
+    j = _choose_joint(step, without, full)
+    contribution = without.residual[j] - full.residual[j]
+    axis = build_axis(full, step.candidate, j, contribution)
+    is_inlier = find_inliers(full.residual[j], full.gram_blocks.block[j])
+    effect_torque = None if axis.shows == "itself" else _compute_effect_torque(search, step, j)
+    bins = build_bins(
+        axis.x,
+        contribution if effect_torque is None else effect_torque,
+        without.gram_blocks.block[j],
+        is_inlier,
+    )
     return Evidence(
-        step=step, without=without, full=full, j=j, axis=axis,
-        rival=rival(without, j, without.residual[j]).prediction, own=own, calm=calm,
-        bins=bins, own_sigma=None if own is None else law_sigma(found, step, j, axis, bins),
-    )  # fmt: skip
+        step=step,
+        without=without,
+        full=full,
+        j=j,
+        axis=axis,
+        baseline=fit_residual_baseline(without, j, without.residual[j]).prediction,
+        effect_torque=effect_torque,
+        is_inlier=is_inlier,
+        bins=bins,
+        effect_torque_sigma=None
+        if effect_torque is None
+        else compute_law_sigma(search, step, j, axis, bins),
+    )
 
 
-def _joint(step: Step, without: State, full: State) -> int:
+def _choose_joint(step: SearchStep, without: State, full: State) -> int:
     """The effect's own joint, or where it explains most."""
-    if step.judged.alone:
-        return step.pick.index
+    if step.score.is_local:
+        return step.candidate.index
     falls = [
         float(np.sum(before**2) - np.sum(after**2)) / size**2 if size > 0.0 else 0.0
         for before, after, size in zip(
-            without.residual, full.residual, without.base.sigma, strict=True
+            without.residual, full.residual, without.gram_blocks.sigma, strict=True
         )
     ]
     return int(np.argmax(falls))
 
 
-def _own(found: Search, step: Step, j: int) -> np.ndarray | None:
+def _compute_effect_torque(search: Search, step: SearchStep, j: int) -> np.ndarray | None:
     """(rows_j,) torque of the effect on joint j, whether or not the model could imitate it."""
-    place = next(i for i, s in enumerate(found.steps) if s is step)
-    columns = columns_of(found.end.rows, step.pick)[j]
-    return None if columns is None else columns @ found.end.values[place]
+    place = next(i for i, s in enumerate(search.steps) if s is step)
+    columns = build_columns(search.end.rows, step.candidate)[j]
+    return None if columns is None else columns @ search.end.values[place]
 
 
-def figures(item: Evidence) -> str:
+def describe_residuals(item: Evidence) -> str:
     """What is left on blocks of time that were left out of the fit, N m or N, and in percent."""
     size = float(np.sqrt(np.mean(item.without.rows.y[item.j] ** 2)))
 
-    def rms_left(left: np.ndarray) -> str:
+    def format_rms(left: np.ndarray) -> str:
         rms = float(np.sqrt(np.mean(left**2)))
-        return f"{rms:.3g} {item.unit} ({percent(rms / size if size > 0.0 else None)})"
+        return f"{rms:.3g} {item.unit} ({format_percent(rms / size if size > 0.0 else None)})"
 
-    before, after = (crossed(state, item.j) for state in (item.without, item.full))
+    before, after = (
+        compute_cross_validated_residual(state, item.j) for state in (item.without, item.full)
+    )
     joint = item.without.data.compiled.spec.joints[item.j].name
     text = (
         f"Rms residual of joint {joint} on left-out blocks of the training logs: "
-        f"{rms_left(before)} without the effect, {rms_left(after)} with it"
+        f"{format_rms(before)} without the effect, {format_rms(after)} with it"
     )
-    if item.rival is None:
+    if item.baseline is None:
         return f"{text}."
     return (
-        f"{text}, {rms_left(before - item.rival)} with the flexible rival, which stands for any "
+        f"{text}, {format_rms(before - item.baseline)} with the flexible rival, which stands for "
+        "any "
         f"smooth law of what was measured. Percent of the joint's rms {WORDS[item.unit]}, "
         f"{size:.3g} {item.unit}."
     )
 
 
-def crossed(state: State, j: int) -> np.ndarray:
+def compute_cross_validated_residual(state: State, j: int) -> np.ndarray:
     """(rows_j,) residual of joint j, every row by the fit to all other folds, N m or N."""
-    base = state.base
-    beta = base.crossed.beta[base.crossed.place[base.block[j]]]
-    return np.asarray(base.sigma[j] * (base.y[j] - np.einsum("ij,ij->i", base.columns[j], beta)))
+    base = state.gram_blocks
+    beta = base.fold_fits.beta[base.fold_fits.fold_index[base.block[j]]]
+    return np.asarray(
+        base.sigma[j] * (base.y[j] - np.einsum("ij,ij->i", base.whitened_columns[j], beta))
+    )
 
 
-def law_sigma(found: Search, step: Step, j: int, axis: Axis, bins: Bins) -> np.ndarray | None:
+def compute_law_sigma(
+    search: Search, step: SearchStep, j: int, axis: Axis, bins: Bins
+) -> np.ndarray | None:
     """(b,) standard deviations of the mean torque of an effect in each bin, N m or N.
 
     The torque is m beta_e with the means m of the effect's columns, so its variance is m C m^T.
@@ -153,30 +183,32 @@ def law_sigma(found: Search, step: Step, j: int, axis: Axis, bins: Bins) -> np.n
     time: rows of one block share their noise. Shapes are taken as known.
 
     Args:
-        found: the search.
+        search: the search.
         step: of the effect.
         j: index of the joint that is drawn.
         axis: on which it is drawn.
         bins: of the axis.
     """
-    place = next(i for i, s in enumerate(found.steps) if s is step)
-    columns = columns_of(found.end.rows, step.pick)[j]
+    place = next(i for i, s in enumerate(search.steps) if s is step)
+    columns = build_columns(search.end.rows, step.candidate)[j]
     if columns is None:
         return None
-    covariance = covariance_of(found.end.base)
-    first = covariance.shape[0] - sum(len(values) for values in found.end.values[place:])
-    own = slice(first, first + len(found.end.values[place]))
-    means = np.column_stack([bins.means(axis.turned(column)) for column in columns.T])
-    variance = np.einsum("bi,ij,bj->b", means, covariance[own, own], means)
+    covariance = compute_covariance(search.end.gram_blocks)
+    first = covariance.shape[0] - sum(len(values) for values in search.end.values[place:])
+    effect_columns = slice(first, first + len(search.end.values[place]))
+    means = np.column_stack(
+        [bins.compute_means(axis.apply_direction(column)) for column in columns.T]
+    )
+    variance = np.einsum("bi,ij,bj->b", means, covariance[effect_columns, effect_columns], means)
     return np.asarray(np.sqrt(np.maximum(variance, 0.0)))
 
 
-def covariance_of(base: Base) -> np.ndarray:
-    """(f + extra, f + extra) C of all parameters of a state, as `law_sigma` states it."""
+def compute_covariance(base: GramBlocks) -> np.ndarray:
+    """(f + extra, f + extra) C of all parameters of a state, as `compute_law_sigma` states it."""
     G, u = base.G.sum(axis=0), base.u.sum(axis=0)
     inverse = np.linalg.pinv(G)
-    theta, scores = inverse @ u, np.zeros((base.blocks, len(u)))
-    for columns, y, block in zip(base.columns, base.y, base.block, strict=True):
+    theta, scores = inverse @ u, np.zeros((base.block_count, len(u)))
+    for columns, y, block in zip(base.whitened_columns, base.y, base.block, strict=True):
         np.add.at(scores, block, columns * (y - columns @ theta)[:, None])
-    meat = scores.T @ scores * base.blocks / max(1, base.blocks - 1)
-    return np.asarray(base.turn @ inverse @ meat @ inverse @ base.turn.T)
+    meat = scores.T @ scores * base.block_count / max(1, base.block_count - 1)
+    return np.asarray(base.whitening_matrix @ inverse @ meat @ inverse @ base.whitening_matrix.T)

@@ -7,8 +7,8 @@ import numpy as np
 from scipy.special import stdtrit
 
 from modeler.diagnosis import Candidate, Signals, State
-from modeler.effects import NOISE, TURN, Acts, Shows
-from modeler.observation import travel_since_reversal
+from modeler.effects import NOISE, TURN, EffectTarget, SignatureAxis
+from modeler.observation import compute_travel_since_reversal
 
 
 @dataclass(frozen=True, eq=False)
@@ -23,89 +23,95 @@ class Axis:
             where the direction is no matter.
     """
 
-    shows: Shows
+    shows: SignatureAxis
     label: str
     x: np.ndarray
-    way: np.ndarray | None
+    direction: np.ndarray | None
 
     @property
-    def times(self) -> str:
+    def label_suffix(self) -> str:
         """Behind the word residual."""
-        return "" if self.way is None else " x sign of velocity"
+        return "" if self.direction is None else " x sign of velocity"
 
-    def turned(self, y: np.ndarray) -> np.ndarray:
+    def apply_direction(self, y: np.ndarray) -> np.ndarray:
         """(rows_j,) y, times the direction of motion where that matters."""
-        return y if self.way is None else y * self.way
+        return y if self.direction is None else y * self.direction
 
 
-def axis_of(state: State, pick: Candidate, j: int, own: np.ndarray) -> Axis:
+def build_axis(state: State, pick: Candidate, j: int, effect_torque: np.ndarray) -> Axis:
     """The axis of an effect on joint j.
 
     Args:
         state: rows and model.
         pick: the effect.
         j: index of the joint that is drawn.
-        own: (rows_j,) torque of the effect there, N m or N.
+        effect_torque: (rows_j,) torque of the effect there, N m or N.
     """
-    shows = _shown(pick, j)
+    shows = _choose_axis(pick, j)
     joint = state.data.compiled.spec.joints[j]
     if shows == "itself":
-        return Axis(shows, f"what the effect adds [{joint.effort_unit}]", own, None)
-    way = np.sign(state.rows.filtered(j, [_VALUES["v"](pick, s, j) for s in state.rows.signals]))
+        return Axis(shows, f"what the effect adds [{joint.effort_unit}]", effect_torque, None)
+    way = np.sign(
+        state.rows.filter_samples(j, [_VALUES["v"](pick, s, j) for s in state.rows.signals])
+    )
     # where the effect turns with the motion and the axis does not say which way it goes
-    slips = pick.form.memory is not None and pick.form.memory.kind == "slip"
+    slips = pick.form.internal_state is not None and pick.form.internal_state.kind == "slip"
     turns = shows not in ("v", "a", "waves") and ("v" in pick.form.names or slips)
     values = [_VALUES[shows](pick, s, j) for s in state.rows.signals]
     if shows == "load" and turns:
         values = [np.abs(value) for value in values]
-    label = _label(shows, pick, joint.unit, joint.effort_unit, turns)
-    return Axis(shows, label, state.rows.filtered(j, values), way if turns else None)
+    label = _write_label(shows, pick, joint.unit, joint.effort_unit, turns)
+    return Axis(shows, label, state.rows.filter_samples(j, values), way if turns else None)
 
 
-def _shown(pick: Candidate, j: int) -> Shows:
+def _choose_axis(pick: Candidate, j: int) -> SignatureAxis:
     """The axis of the effect; of a joint that it reaches only through others, its own torque."""
     shows = pick.effect.shows
-    if pick.local and j != pick.index:
+    if pick.is_local and j != pick.index:
         return "itself"
     return "t" if shows == "T" and "T" not in pick.form.names else shows
 
 
-def _of_shaft(pick: Candidate, motion: np.ndarray, j: int) -> np.ndarray:
+def _select_shaft_motion(pick: Candidate, motion: np.ndarray, j: int) -> np.ndarray:
     """(n,) of joint j, or of the motor that turns with several joints."""
-    if pick.effect.acts is not Acts.MOTOR:
+    if pick.effect.acts is not EffectTarget.MOTOR:
         return motion[:, j]
-    return np.asarray(sum(factor * motion[:, k] for k, factor in pick.turn.items()))
+    return np.asarray(sum(factor * motion[:, k] for k, factor in pick.coupling.items()))
 
 
-def _load(pick: Candidate, signals: Signals, j: int) -> np.ndarray:
+def _compute_load(pick: Candidate, signals: Signals, j: int) -> np.ndarray:
     """Of gravity, and of inertia as far as the effect's share w counts it."""
-    share = pick.shapes.get("w", 1.0) if "static" in pick.form.names else 1.0
+    share = pick.nonlinear_parameters.get("w", 1.0) if "static" in pick.form.names else 1.0
     static = signals.static[:, j]
     return np.asarray(static + share * (signals.load[:, j] - static))
 
 
-def _temperature(pick: Candidate, signals: Signals, j: int) -> np.ndarray:
-    heat = signals.temperature(pick.joint or "")
+def _read_temperature(pick: Candidate, signals: Signals, j: int) -> np.ndarray:
+    heat = signals.compute_temperature(pick.joint or "")
     return np.zeros(len(signals.q)) if heat is None else heat
 
 
-_VALUES: dict[Shows, Callable[[Candidate, Signals, int], np.ndarray]] = {
+_VALUES: dict[SignatureAxis, Callable[[Candidate, Signals, int], np.ndarray]] = {
     "q": lambda pick, s, j: s.q[:, j],
-    "v": lambda pick, s, j: _of_shaft(pick, s.v, j),
-    "a": lambda pick, s, j: _of_shaft(pick, s.a, j),
-    "load": _load,
+    "v": lambda pick, s, j: _select_shaft_motion(pick, s.v, j),
+    "a": lambda pick, s, j: _select_shaft_motion(pick, s.a, j),
+    "load": _compute_load,
     "torque": lambda pick, s, j: s.torque[:, j],
     "rate": lambda pick, s, j: s.rate[:, j],
     "t": lambda pick, s, j: s.time,
-    "T": _temperature,
-    "since": lambda pick, s, j: s.since(j, pick.shapes.get(TURN, NOISE)),
-    "travel": lambda pick, s, j: travel_since_reversal(s.q[:, j]),
-    "waves": lambda pick, s, j: np.degrees((pick.shapes["m"] * s.q[:, j]) % (2.0 * np.pi)),
+    "T": _read_temperature,
+    "since": lambda pick, s, j: s.compute_reversal_time(
+        j, pick.nonlinear_parameters.get(TURN, NOISE)
+    ),
+    "travel": lambda pick, s, j: compute_travel_since_reversal(s.q[:, j]),
+    "waves": lambda pick, s, j: np.degrees(
+        (pick.nonlinear_parameters["m"] * s.q[:, j]) % (2.0 * np.pi)
+    ),
 }
 
 
-def _label(shows: Shows, pick: Candidate, unit: str, effort: str, turns: bool) -> str:
-    of = " of the motor" if pick.effect.acts is Acts.MOTOR else ""
+def _write_label(shows: SignatureAxis, pick: Candidate, unit: str, effort: str, turns: bool) -> str:
+    of = " of the motor" if pick.effect.acts is EffectTarget.MOTOR else ""
     return {
         "q": f"position [{unit}]",
         "v": f"velocity{of} [{unit}/s]",
@@ -153,13 +159,13 @@ class Bins:
         """Number of bins."""
         return len(self.centre)
 
-    def means(self, y: np.ndarray) -> np.ndarray:
+    def compute_means(self, y: np.ndarray) -> np.ndarray:
         """(b,) means of y (rows,)."""
         held = self.place >= 0
         total = np.bincount(self.place[held], y[held], self.count)
         return np.asarray(total / np.bincount(self.place[held], minlength=self.count))
 
-    def errors(self, y: np.ndarray, block: np.ndarray) -> np.ndarray:
+    def compute_errors(self, y: np.ndarray, block: np.ndarray) -> np.ndarray:
         """(b,) half widths of the 95 % intervals of the means; NaN where one block fills a bin.
 
         Rows of one block of time share their noise: the spread between blocks counts,
@@ -170,7 +176,7 @@ class Bins:
             block: (rows,) block of time of each row.
         """
         held = self.place >= 0
-        place, mean = self.place[held], self.means(y)
+        place, mean = self.place[held], self.compute_means(y)
         deviation = y[held] - mean[place]
         cell, inverse = np.unique(
             np.column_stack([place, block[held]]), axis=0, return_inverse=True
@@ -183,7 +189,7 @@ class Bins:
         return np.asarray(error * stdtrit(free, 0.975))
 
 
-def bins_of(x: np.ndarray, weight: np.ndarray, block: np.ndarray, calm: np.ndarray) -> Bins:
+def build_bins(x: np.ndarray, weight: np.ndarray, block: np.ndarray, is_inlier: np.ndarray) -> Bins:
     """About 40 bins of x: half of them share the rows evenly, half the square of an effect.
 
     So an effect that acts in a narrow place is seen there. No bin has rows of both signs, and
@@ -193,17 +199,17 @@ def bins_of(x: np.ndarray, weight: np.ndarray, block: np.ndarray, calm: np.ndarr
         x: (rows,) the axis.
         weight: (rows,) torque of the effect.
         block: (rows,) block of time of each row.
-        calm: (rows,) False for rows that are left out.
+        is_inlier: (rows,) False for rows that are left out.
     """
     square = weight**2
-    total = float(square[calm].sum())
-    mass = np.full(len(x), 1.0 / max(1, int(calm.sum())))
+    total = float(square[is_inlier].sum())
+    mass = np.full(len(x), 1.0 / max(1, int(is_inlier.sum())))
     mass += square / total if total > 0.0 else mass
     place = np.full(len(x), -1)
     edges, made = [0], 0
     for side in (x < 0.0, x >= 0.0):
-        rows = np.flatnonzero(side & calm)
-        parts = _pieces(rows[np.argsort(x[rows], kind="stable")], mass, block)
+        rows = np.flatnonzero(side & is_inlier)
+        parts = _cut_bins(rows[np.argsort(x[rows], kind="stable")], mass, block)
         for part in parts:
             place[part] = made
             made += 1
@@ -213,7 +219,7 @@ def bins_of(x: np.ndarray, weight: np.ndarray, block: np.ndarray, calm: np.ndarr
     return Bins(place, centre, tuple(dict.fromkeys(e for e in edges if e < made)))
 
 
-def _pieces(order: np.ndarray, mass: np.ndarray, block: np.ndarray) -> list[np.ndarray]:
+def _cut_bins(order: np.ndarray, mass: np.ndarray, block: np.ndarray) -> list[np.ndarray]:
     """The rows cut into bins, in this order; what is left over at the end joins the last."""
     full = 2.0 / COUNT
     parts: list[np.ndarray] = []
@@ -232,7 +238,7 @@ def _pieces(order: np.ndarray, mass: np.ndarray, block: np.ndarray) -> list[np.n
     return parts
 
 
-def calm_rows(left: np.ndarray, block: np.ndarray) -> np.ndarray:
+def find_inliers(left: np.ndarray, block: np.ndarray) -> np.ndarray:
     """(rows,) False for the wild ones: far out with everything in the model, and in few blocks.
 
     Args:

@@ -24,13 +24,13 @@ _SETTINGS: Any = {
 }
 
 
-def images(picture: Picture) -> dict[str, bytes]:
+def render_images(picture: Picture) -> dict[str, bytes]:
     """The picture as PNG (150 dpi) and SVG files, 12 inches wide, without a date or version."""
     with matplotlib.rc_context(_SETTINGS):
-        figure = _figure(picture)
-        png = _saved(figure, "png", {"Software": None})
+        figure = _build_figure(picture)
+        png = _save_figure(figure, "png", {"Software": None})
         figure.set_layout_engine("none")  # laid out by now; the layout is the slow part
-        return {"png": png, "svg": _saved(figure, "svg", {"Date": None, "Creator": None})}
+        return {"png": png, "svg": _save_figure(figure, "svg", {"Date": None, "Creator": None})}
 
 
 class Drawing(Figure):
@@ -42,19 +42,19 @@ class Drawing(Figure):
         return stream.getvalue()
 
 
-def drawing(picture: Picture) -> Drawing:
+def draw_figure(picture: Picture) -> Drawing:
     """The picture as a figure of matplotlib, 12 inches wide."""
     with matplotlib.rc_context(_SETTINGS):
-        return _figure(picture)
+        return _build_figure(picture)
 
 
-def _saved(figure: Figure, kind: str, metadata: dict[str, None]) -> bytes:
+def _save_figure(figure: Figure, kind: str, metadata: dict[str, None]) -> bytes:
     stream = io.BytesIO()
     figure.savefig(stream, format=kind, dpi=150, metadata=metadata)
     return stream.getvalue()
 
 
-def _figure(picture: Picture) -> Drawing:
+def _build_figure(picture: Picture) -> Drawing:
     figure = Drawing(figsize=(12.0, picture.height / 100.0), layout="constrained")
     FigureCanvasAgg(figure)
     figure.suptitle(picture.title, x=0.01, ha="left", fontsize=11, fontweight="bold")
@@ -71,11 +71,11 @@ def _figure(picture: Picture) -> Drawing:
             _draw_panel(axes[row, column], panel)
             if not picture.shared_time or row == last:
                 axes[row, column].set_xlabel(panel.x_label)
-    _legend(figure, picture, axes)
+    _draw_legend(figure, picture, axes)
     return figure
 
 
-def _legend(figure: Figure, picture: Picture, axes: Any) -> None:
+def _draw_legend(figure: Figure, picture: Picture, axes: Any) -> None:
     """One legend for the picture: the series of panels that have several."""
     handles: dict[str, Any] = {}
     for row, panels in enumerate(picture.panels):
@@ -118,14 +118,14 @@ def _draw_panel(axes: Any, panel: Panel) -> None:
             f" {text}", (place, 1.0), xycoords=("data", "axes fraction"), fontsize=7, va="top"
         )
     for series in panel.series:
-        _draw(axes, series)
+        _draw_series(axes, series)
     if panel.x_range is not None:
         axes.set_xlim(panel.x_range)
     if panel.y_range is not None:
         axes.set_ylim(panel.y_range)
 
 
-def _draw(axes: Any, series: Series) -> None:
+def _draw_series(axes: Any, series: Series) -> None:
     if isinstance(series, Heat):
         _draw_heat(axes, series)
     elif isinstance(series, Bars):
@@ -167,7 +167,7 @@ def _draw(axes: Any, series: Series) -> None:
 
 def _draw_bars(axes: Any, series: Bars) -> None:
     stacked = series.base is not None
-    drawn = axes.bar(
+    drawn = axes.show_progress(
         series.names,
         series.values,
         bottom=series.base,

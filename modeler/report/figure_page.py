@@ -10,7 +10,7 @@ import numpy as np
 
 from modeler.core.figure import Band, Bars, Curve, Heat, Means, Panel, Picture, Points, Series
 from modeler.core.files import write_atomically
-from modeler.core.json import entries
+from modeler.core.json import select_attributes
 
 # The numbers of all pictures of a page in one compressed block, each array once.
 
@@ -19,8 +19,8 @@ _LEVELS = 65534  # between the smallest and the largest value; one more level is
 _SINGLE = 1e-6  # of the range of x: less than a pixel of any screen
 
 
-class Numbers:
-    """Arrays by number; `block()` holds them all.
+class ArrayStore:
+    """Arrays by number; `encode_block()` holds them all.
 
     What a screen shows is kept: values on linear axes to 1/65534 of their range, those that must
     stay apart (x of a curve) or span decades in single precision, or double where that is too
@@ -33,7 +33,7 @@ class Numbers:
         self._kinds: list[list[float]] = []
         self._bytes: list[bytes] = []
 
-    def coarse(self, values: np.ndarray) -> int:
+    def add_coarse(self, values: np.ndarray) -> int:
         """The number of an array that a linear axis shows; what is not finite becomes NaN."""
         exact = np.asarray(values, dtype=np.float64)
         held = np.isfinite(exact)
@@ -41,9 +41,9 @@ class Numbers:
         step = span / _LEVELS or 1.0
         levels = np.full(exact.shape, _LEVELS + 1, dtype="<u2")
         levels[held] = np.round((exact[held] - low) / step)
-        return self._add(levels, [float(low), float(step)])
+        return self._add_array(levels, [float(low), float(step)])
 
-    def exact(self, values: np.ndarray) -> int:
+    def add_exact(self, values: np.ndarray) -> int:
         """The number of an array in single or double precision."""
         whole = np.asarray(values, dtype=np.float64)
         held = whole[np.isfinite(whole)]
@@ -51,9 +51,9 @@ class Numbers:
             single = whole.astype(np.float32)
         away = np.abs(held - held.astype(np.float32)).max() if held.size else 0.0
         enough = not held.size or away <= _SINGLE * np.ptp(held) or np.ptp(held) == 0.0
-        return self._add(single if enough else whole, [])
+        return self._add_array(single if enough else whole, [])
 
-    def _add(self, values: np.ndarray, scale: list[float]) -> int:
+    def _add_array(self, values: np.ndarray, scale: list[float]) -> int:
         count, size = values.size, values.itemsize
         content = np.ascontiguousarray(values, dtype=values.dtype.newbyteorder("<")).tobytes()
         key = repr((size, scale)).encode() + content
@@ -64,21 +64,21 @@ class Numbers:
             self._bytes.append(planes.tobytes())
         return self._places[key]
 
-    def block(self) -> dict[str, Any]:
+    def encode_block(self) -> dict[str, Any]:
         """What the page holds.
 
         `arrays`: of each its count, the bytes of a value, and of two-byte levels the lowest value
         and the step. `data`: gzip of them all, as base64.
         """
-        return {"arrays": self._kinds, "data": packed(b"".join(self._bytes))}
+        return {"arrays": self._kinds, "data": compress_base64(b"".join(self._bytes))}
 
 
-def packed(content: bytes) -> str:
+def compress_base64(content: bytes) -> str:
     """gzip as base64, the same for the same content."""
     return base64.b64encode(gzip.compress(content, 9, mtime=0)).decode("ascii")
 
 
-def drawn(picture: Picture, numbers: Numbers) -> dict[str, Any]:
+def describe_picture(picture: Picture, numbers: ArrayStore) -> dict[str, Any]:
     """Panels and series of a picture; arrays by their number.
 
     Maps of cells (`Heat`) are left out: a page shows them as tables.
@@ -87,54 +87,60 @@ def drawn(picture: Picture, numbers: Numbers) -> dict[str, Any]:
         picture: what to draw.
         numbers: takes the arrays.
     """
-    rows, heights, widths = plotted(picture)
+    rows, heights, widths = arrange_panels(picture)
     return {
         "name": picture.name,
         "height": round(picture.height * sum(heights) / sum(picture.heights)),
         "shared": picture.shared_time,
         "heights": list(heights),
         "widths": list(widths),
-        "rows": [[_panel(panel, numbers) for panel in row] for row in rows],
+        "rows": [[_describe_panel(panel, numbers) for panel in row] for row in rows],
     }
 
 
-def plotted(picture: Picture) -> tuple[Sequence[Sequence[Panel]], Sequence[float], Sequence[float]]:
+def arrange_panels(
+    picture: Picture,
+) -> tuple[Sequence[Sequence[Panel]], Sequence[float], Sequence[float]]:
     """Rows of panels with axes, their heights and the widths of the columns.
 
     Where maps of cells stand between them, the others are put side by side.
     """
     panels = [panel for row in picture.panels for panel in row]
-    if not cells(picture):
+    if not find_heat_maps(picture):
         return picture.panels, picture.heights, picture.widths
-    kept = [
+    plotted_panels = [
         panel
         for panel in panels
         if not any(isinstance(s, Heat) for s in panel.series)
         and any(len(s.values if isinstance(s, Bars | Heat) else s.x) for s in panel.series)
     ]
-    return ([kept], picture.heights[:1], [1.0] * len(kept)) if kept else ((), (), ())
+    return (
+        ([plotted_panels], picture.heights[:1], [1.0] * len(plotted_panels))
+        if plotted_panels
+        else ((), (), ())
+    )
 
 
-def cells(picture: Picture) -> list[tuple[Panel, Heat]]:
+def find_heat_maps(picture: Picture) -> list[tuple[Panel, Heat]]:
     """The maps of cells of a picture, each with its panel."""
     panels = [panel for row in picture.panels for panel in row]
     return [(panel, s) for panel in panels for s in panel.series if isinstance(s, Heat)]
 
 
-def keys(picture: Picture) -> list[tuple[str, str, str]]:
+def collect_legend(picture: Picture) -> list[tuple[str, str, str]]:
     """The legend, of panels with several series: label, colour, kind of mark; each label once."""
-    found: dict[str, tuple[str, str, str]] = {}
-    for panel in (panel for row in plotted(picture)[0] for panel in row):
+    legend: dict[str, tuple[str, str, str]] = {}
+    for panel in (panel for row in arrange_panels(picture)[0] for panel in row):
         for series in panel.series if len(panel.series) > 1 else ():
             if not isinstance(series, Heat):
-                mark = (series.label, _shade(series), _mark(series))
-                found.setdefault(series.label, mark)
+                mark = (series.label, _mix_colour(series), _choose_mark(series))
+                legend.setdefault(series.label, mark)
         for span in panel.spans:
-            found.setdefault(span.label, (span.label, span.color, "span"))
-    return list(found.values())
+            legend.setdefault(span.label, (span.label, span.color, "span"))
+    return list(legend.values())
 
 
-def _shade(series: Curve | Points | Means | Band | Bars) -> str:
+def _mix_colour(series: Curve | Points | Means | Band | Bars) -> str:
     """The colour; of a band, whose ground shines through, mixed with white."""
     style = series.style
     if not isinstance(series, Band):
@@ -143,13 +149,13 @@ def _shade(series: Curve | Points | Means | Band | Bars) -> str:
     return "#" + "".join(f"{round(255 - style.opacity * (255 - part)):02x}" for part in parts)
 
 
-def _mark(series: Series) -> str:
+def _choose_mark(series: Series) -> str:
     if isinstance(series, Curve):
         return "dashes" if series.style.dash else "line"
     return "bar" if isinstance(series, Bars | Band) else "dots"
 
 
-def _panel(panel: Panel, numbers: Numbers) -> dict[str, Any]:
+def _describe_panel(panel: Panel, numbers: ArrayStore) -> dict[str, Any]:
     return {
         "title": panel.title,
         "x": panel.x_label,
@@ -157,42 +163,50 @@ def _panel(panel: Panel, numbers: Numbers) -> dict[str, Any]:
         "log": panel.scale == "log",
         "zero": panel.zero,
         "marks": [[float(place), text] for place, text in panel.marks],
-        "shade": _ends(panel.shade),
+        "shade": _convert_range(panel.shade),
         "spans": [[span.color, span.ends.round(4).tolist()] for span in panel.spans],
-        "xrange": _ends(panel.x_range),
-        "yrange": _ends(panel.y_range),
+        "xrange": _convert_range(panel.x_range),
+        "yrange": _convert_range(panel.y_range),
         "series": [
-            _series(s, numbers, panel.scale == "log")
+            _describe_series(s, numbers, panel.scale == "log")
             for s in panel.series
             if not isinstance(s, Heat)
         ],
     }
 
 
-def _ends(ends: tuple[float, float] | None) -> list[float] | None:
+def _convert_range(ends: tuple[float, float] | None) -> list[float] | None:
     return None if ends is None else [float(ends[0]), float(ends[1])]
 
 
-def _series(
-    series: Curve | Points | Means | Band | Bars, numbers: Numbers, log: bool
+def _describe_series(
+    series: Curve | Points | Means | Band | Bars, numbers: ArrayStore, log: bool
 ) -> dict[str, Any]:
     style = series.style
-    found: dict[str, Any] = {"label": series.label, **entries(style, "color width opacity")}
+    fields: dict[str, Any] = {
+        "label": series.label,
+        **select_attributes(style, "color width opacity"),
+    }
     if isinstance(series, Bars):
-        base = None if series.base is None else numbers.exact(series.base)
-        y = numbers.exact(series.values)
-        return found | {"kind": "bars", **entries(series, "names texts"), "y": y, "base": base}
+        base = None if series.base is None else numbers.add_exact(series.base)
+        y = numbers.add_exact(series.values)
+        return fields | {
+            "kind": "bars",
+            **select_attributes(series, "names texts"),
+            "y": y,
+            "base": base,
+        }
     if isinstance(series, Band):
-        places = {"low": numbers.exact(series.low), "high": numbers.exact(series.high)}
-        return found | {"kind": "band", "x": numbers.exact(series.x)} | places
-    along = numbers.exact if log else numbers.coarse
-    across = along if isinstance(series, Points) else numbers.exact
-    found |= {"x": across(series.x), "y": along(series.y)}
+        places = {"low": numbers.add_exact(series.low), "high": numbers.add_exact(series.high)}
+        return fields | {"kind": "band", "x": numbers.add_exact(series.x)} | places
+    along = numbers.add_exact if log else numbers.add_coarse
+    across = along if isinstance(series, Points) else numbers.add_exact
+    fields |= {"x": across(series.x), "y": along(series.y)}
     if isinstance(series, Means):
-        return found | {"kind": "means", "error": along(series.error)}
+        return fields | {"kind": "means", "error": along(series.error)}
     if isinstance(series, Points):
-        return found | {"kind": "points"}
-    return found | {"kind": "curve", "dash": style.dash}
+        return fields | {"kind": "points"}
+    return fields | {"kind": "curve", "dash": style.dash}
 
 
 def write_files(
@@ -208,11 +222,11 @@ def write_files(
     Raises:
         ModelerError: the folder cannot be written.
     """
-    from modeler.report.figure_matplotlib import images  # matplotlib takes long to load
+    from modeler.report.figure_matplotlib import render_images  # matplotlib takes long to load
 
     written = []
     for number, picture in enumerate(pictures, start=1):
-        files = {**images(picture), "csv": picture_csv(picture).encode()}
+        files = {**render_images(picture), "csv": format_csv(picture).encode()}
         for kind, content in files.items():
             place = Path(folder) / f"{picture.name}.{kind}"
             write_atomically(place, content)
@@ -222,27 +236,28 @@ def write_files(
     return tuple(written)
 
 
-def picture_csv(picture: Picture) -> str:
+def format_csv(picture: Picture) -> str:
     """The numbers behind a picture: panel, series, x, y, error; five significant digits."""
     lines = ["panel,series,x,y,error"]
     for panel in (panel for row in picture.panels for panel in row):
         for series in panel.series:
             lines += [
-                f"{_quote(panel.title)},{_quote(series.label)},{row}" for row in _rows(series)
+                f"{_quote_label(panel.title)},{_quote_label(series.label)},{row}"
+                for row in _format_rows(series)
             ]
     return "\n".join(lines) + "\n"
 
 
-def _rows(series: Series) -> list[str]:
+def _format_rows(series: Series) -> list[str]:
     if isinstance(series, Heat):
         return [
-            f"{_quote(column)} / {_quote(row)},{series.values[i, j]:.5g},"
+            f"{_quote_label(column)} / {_quote_label(row)},{series.values[i, j]:.5g},"
             for i, row in enumerate(series.rows)
             for j, column in enumerate(series.columns)
         ]
     if isinstance(series, Bars):
         pairs = zip(series.names, series.values, strict=True)
-        return [f"{_quote(name)},{value:.5g}," for name, value in pairs]
+        return [f"{_quote_label(name)},{value:.5g}," for name, value in pairs]
     if isinstance(series, Means):
         triples = zip(series.x, series.y, series.error, strict=True)
         return [f"{x:.5g},{y:.5g},{error:.5g}".replace("nan", "") for x, y, error in triples]
@@ -254,6 +269,6 @@ def _rows(series: Series) -> list[str]:
     return [f"{x:.7g},{y:.5g}," for x, y in both if np.isfinite(y)]
 
 
-def _quote(text: str) -> str:
+def _quote_label(text: str) -> str:
     """Commas would shift the columns; line breaks of labels are no part of a name."""
     return text.replace(",", ";").replace("\n", " ")

@@ -26,32 +26,32 @@ if TYPE_CHECKING:
 _MOST_BARS = 40
 
 
-def picture_figure(picture: Picture) -> "Drawing":
+def draw_picture(picture: Picture) -> "Drawing":
     """The picture as a figure."""
-    from modeler.report.figure_matplotlib import drawing  # it takes long to load
+    from modeler.report.figure_matplotlib import draw_figure  # it takes long to load
 
-    return drawing(picture)
+    return draw_figure(picture)
 
 
-def picture_figures(drawn: Mapping[str, Callable[[], Picture]]) -> Figures:
+def collect_figures(drawn: Mapping[str, Callable[[], Picture]]) -> Figures:
     """Figures by name, each drawn when it is asked for."""
-    return {name: partial(_drawn_by, draw) for name, draw in drawn.items()}
+    return {name: partial(_draw_deferred, draw) for name, draw in drawn.items()}
 
 
-def _drawn_by(draw: Callable[[], Picture]) -> "Drawing":
-    return picture_figure(draw())
+def _draw_deferred(draw: Callable[[], Picture]) -> "Drawing":
+    return draw_picture(draw())
 
 
-def robot_figure(robot: Robot) -> "Drawing":
+def draw_robot(robot: Robot) -> "Drawing":
     """The robot at its [home], as wide as a column of a paper."""
     from modeler.report.figure_matplotlib import Drawing
-    from modeler.report.robot_drawing import picture_figure as skeleton_figure
+    from modeler.report.robot_drawing import draw_skeleton as skeleton_figure
 
-    found = show(robot)
-    return skeleton_figure(found.skeleton, found.posture, Drawing)
+    shown_robot = show(robot)
+    return skeleton_figure(shown_robot.skeleton, shown_robot.posture, Drawing)
 
 
-def parameters_figure(fit: FitResult) -> "Drawing":
+def draw_parameters(fit: FitResult) -> "Drawing":
     """How sure each parameter is: its sigma in percent of its value."""
     known = [p for p in fit.parameters if p.relative_sigma_percent is not None][:_MOST_BARS]
     shares = np.array([min(p.relative_sigma_percent or 0.0, 100.0) for p in known])
@@ -63,7 +63,7 @@ def parameters_figure(fit: FitResult) -> "Drawing":
     names = tuple(p.name for p in known)
     bars = Bars("relative sigma", names, shares, texts, Style(BLUE))
     label = "sigma [% of the value], at most 100 drawn"
-    return picture_figure(Picture(
+    return draw_picture(Picture(
         name="parameters", title=f"{fit.robot}: how sure the parameters are", caption="",
         panels=((Panel(f"{len(known)} of {len(fit.parameters)} base parameters", "", label,
                        (bars,)),),),
@@ -71,7 +71,7 @@ def parameters_figure(fit: FitResult) -> "Drawing":
     ))  # fmt: skip
 
 
-def errors_picture(diagnosis: "Diagnosis") -> Picture:
+def draw_errors_picture(diagnosis: "Diagnosis") -> Picture:
     """Relative error of every joint, without and with the effects."""
     panels, names = [], tuple(diagnosis.joints)
     for title, entry, color in (
@@ -85,29 +85,29 @@ def errors_picture(diagnosis: "Diagnosis") -> Picture:
     return Picture("errors", title, "", (tuple(panels),), 380)
 
 
-def log_figure(
+def draw_log(
     title: str, joints: Sequence[str], time: np.ndarray, q: np.ndarray, tau: np.ndarray
 ) -> "Drawing":
     """Positions and torques of all joints against time."""
     panels = tuple(
-        (Panel(what, "time [s]", label, curves(joints, time, list(values.T)), zero=True),)
+        (Panel(what, "time [s]", label, build_curves(joints, time, list(values.T)), zero=True),)
         for what, label, values in (
             ("positions", "q [rad, m]", q),
             ("torques", "tau [N m, N]", tau),
         )
     )
-    return picture_figure(Picture(
+    return draw_picture(Picture(
         name="channels", title=title, caption="", panels=panels, height=620, shared_time=True,
     ))  # fmt: skip
 
 
-def curves(
+def build_curves(
     names: Sequence[str], time: np.ndarray, columns: Sequence[np.ndarray], limit: int = LIMIT
 ) -> tuple[Curve, ...]:
     """Columns against time, each in a colour of its own and of at most `limit` points."""
-    found = []
+    curves = []
     for k, (name, values) in enumerate(zip(names, columns, strict=True)):
         rows = thin_curves((values,), limit)
         style = Style(COLORS[k % len(COLORS)], dash=k >= len(COLORS))
-        found.append(Curve(name, time[rows], values[rows], style))
-    return tuple(found)
+        curves.append(Curve(name, time[rows], values[rows], style))
+    return tuple(curves)

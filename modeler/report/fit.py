@@ -6,48 +6,61 @@ from functools import partial
 import numpy as np
 
 from modeler import estimation
-from modeler.core.estimators import titled
+from modeler.core.estimators import find_estimator_title
 from modeler.core.result import Figures, Presentation, Tables
-from modeler.core.table import Table, percent
-from modeler.estimation import Addition, FitResult, IdentifiedModel, ParameterEstimate, SideBySide
+from modeler.core.table import Table, format_percent
+from modeler.estimation import (
+    Addition,
+    FitResult,
+    IdentifiedModel,
+    MethodComparison,
+    ParameterEstimate,
+)
 from modeler.report.blocks import Items, JudgedLine, PageTable, Verdict
-from modeler.report.estimators import estimators_page, remarks_of, table_of, values_of
-from modeler.report.figures import parameters_figure, picture_figure
-from modeler.report.history import additions_page, step_name, waterfall_picture
-from modeler.report.noise import noise_blocks, noise_picture
-from modeler.report.page import Origin, Page, Section, after_fit
-from modeler.report.values import joints_table, values_table
+from modeler.report.estimators import (
+    build_estimators_page,
+    collect_remarks,
+    tabulate_estimates,
+    tabulate_estimators,
+)
+from modeler.report.figures import draw_parameters, draw_picture
+from modeler.report.history import build_history_page, draw_waterfall_picture, format_step_name
+from modeler.report.noise import build_noise_blocks, draw_noise_picture
+from modeler.report.page import Origin, Page, Section, suggest_after_fit
+from modeler.report.values import tabulate_joint_errors, tabulate_values
 
 
-def _fit_summary(fit: FitResult) -> str:
+def _summarise_fit(fit: FitResult) -> str:
     first = (f"{fit.robot}: {len(fit.parameters)} base parameters by {fit.method}, relative error "
-             f"{percent(fit.relative_error)}{_refused(fit)}")  # fmt: skip
-    return "\n".join([first, *fit.lines()])
+             f"{format_percent(fit.relative_error)}{_describe_refusal(fit)}")  # fmt: skip
+    return "\n".join([first, *fit.format_lines()])
 
 
-def _refused(fit: FitResult) -> str:
+def _describe_refusal(fit: FitResult) -> str:
     """That a fit is not usable, and why: for a headline; "" of one that is."""
     verdict = fit.verdict
     return "" if verdict is None or verdict.usable else f"; {verdict.line.partition(';')[0]}"
 
 
-def fit_tables(fit: FitResult) -> Tables:
+def collect_fit_tables(fit: FitResult) -> Tables:
     """The tables of a fit; those of loads, gains and the reduced model where there are any."""
     reduced = () if fit.essential is None else fit.essential.parameters
     named = {"essential": ("reduced model", reduced), "loads": ("loads", fit.loads),
              "gains": ("drive gains", fit.gains)}  # fmt: skip
     return {
-        "parameters": lambda: _estimates(f"{fit.robot}: base parameters", fit.parameters),
-        "errors": lambda: _errors(fit),
+        "parameters": lambda: _build_estimates_table(
+            f"{fit.robot}: base parameters", fit.parameters
+        ),
+        "errors": lambda: _tabulate_errors(fit),
         **{
-            name: partial(_estimates, f"{fit.robot}: {title}", parameters)
+            name: partial(_build_estimates_table, f"{fit.robot}: {title}", parameters)
             for name, (title, parameters) in named.items()
             if parameters or (name == "essential" and fit.essential is not None)
         },
     }
 
 
-def _estimates(title: str, parameters: Sequence[ParameterEstimate]) -> Table:
+def _build_estimates_table(title: str, parameters: Sequence[ParameterEstimate]) -> Table:
     known = any(p.prior is not None for p in parameters)
     rows = [
         (p.name, p.value if p.sigma is not None else None, p.sigma, p.relative_sigma_percent,
@@ -55,46 +68,46 @@ def _estimates(title: str, parameters: Sequence[ParameterEstimate]) -> Table:
         for p in parameters
     ]  # fmt: skip
     head = "parameter, value, sigma, relative_sigma_percent, unit, essential"
-    return Table.of(title, f"{head}, prior share" if known else head, rows)
+    return Table.build(title, f"{head}, prior share" if known else head, rows)
 
 
-def _errors(fit: FitResult) -> Table:
-    return Table.of(
+def _tabulate_errors(fit: FitResult) -> Table:
+    return Table.build(
         f"{fit.robot}: what the fit leaves",
         "joint, relative error, rms, unit, rows",
         [(j.name, j.relative_error, j.rms, j.unit, j.rows) for j in fit.joints],
-        f"all rows together: {percent(fit.relative_error)}, on the logs of the fit",
+        f"all rows together: {format_percent(fit.relative_error)}, on the logs of the fit",
     )  # fmt: skip
 
 
-def _fit_figures(fit: FitResult) -> Figures:
-    picture = noise_picture(fit.bands)
-    noise = {} if picture is None else {"noise": partial(picture_figure, picture)}
-    return {"parameters": lambda: parameters_figure(fit), **noise}
+def _collect_fit_figures(fit: FitResult) -> Figures:
+    picture = draw_noise_picture(fit.bands)
+    noise = {} if picture is None else {"noise": partial(draw_picture, picture)}
+    return {"parameters": lambda: draw_parameters(fit), **noise}
 
 
-def _model_summary(model: IdentifiedModel) -> str:
+def _summarise_model(model: IdentifiedModel) -> str:
     logs = ", ".join(log.name for log in model.logs)
     lines = [f"model of {model.spec.robot}: {len(model.beta)} base parameters by "
-             f"{model.fit.method}, fitted on {logs}{_refused(model.fit)}"]  # fmt: skip
-    lines += [_step_line(step) for step in model.history]
-    return "\n".join([*lines, *model.fit.lines()])
+             f"{model.fit.method}, fitted on {logs}{_describe_refusal(model.fit)}"]  # fmt: skip
+    lines += [_describe_step(step) for step in model.history]
+    return "\n".join([*lines, *model.fit.format_lines()])
 
 
-def _model_tables(model: IdentifiedModel) -> Tables:
-    found = dict(fit_tables(model.fit))
+def _collect_model_tables(model: IdentifiedModel) -> Tables:
+    tables = dict(collect_fit_tables(model.fit))
     if model.history:
-        found["waterfall"] = lambda: _waterfall(model)
-    found["logs"] = lambda: Table.of(
+        tables["waterfall"] = lambda: _tabulate_history(model)
+    tables["logs"] = lambda: Table.build(
         "logs of the fit", "log, rows, samples, from [s], to [s]",
         [(log.name, log.rows, log.samples, log.start, log.end) for log in model.logs],
     )  # fmt: skip
-    return found
+    return tables
 
 
-def _waterfall(model: IdentifiedModel) -> Table:
+def _tabulate_history(model: IdentifiedModel) -> Table:
     held = ", ".join(model.history[-1].held_out)
-    return Table.of(
+    return Table.build(
         f"{model.spec.robot}: error after every effect",
         "effect, joint, error, on the fitted logs",
         [(step.effect or "as fitted", step.joint, step.error, step.training_error)
@@ -103,47 +116,58 @@ def _waterfall(model: IdentifiedModel) -> Table:
     )  # fmt: skip
 
 
-def _model_figures(model: IdentifiedModel) -> Figures:
-    found = dict(_fit_figures(model.fit))
+def _collect_model_figures(model: IdentifiedModel) -> Figures:
+    figures = dict(_collect_fit_figures(model.fit))
     if model.history:
-        picture = waterfall_picture(model.history)
-        found["waterfall"] = lambda: picture_figure(picture)
-    return found
+        picture = draw_waterfall_picture(model.history)
+        figures["waterfall"] = lambda: draw_picture(picture)
+    return figures
 
 
-def _step_line(step: Addition) -> str:
-    fitted = percent(step.training_error)
-    return f"{step_name(step)}: error {percent(step.error)} ({fitted} on the fitted logs)"
+def _describe_step(step: Addition) -> str:
+    fitted = format_percent(step.training_error)
+    return (
+        f"{format_step_name(step)}: error {format_percent(step.error)} ({fitted} on the "
+        "fitted logs)"
+    )
 
 
-def _trials_summary(trials: SideBySide) -> str:
-    fitted = sum(own.fit is not None for own in trials.tried)
-    first = f"{trials.robot}: {fitted} of {len(trials.tried)} estimators fit these logs"
-    said = [f"{method}: {remark}" for method, remark in remarks_of(trials.tried)]
-    return "\n".join([first, *trials.data, *said])
+def _summarise_trials(trials: MethodComparison) -> str:
+    fitted = sum(trial.fit is not None for trial in trials.results)
+    first = f"{trials.robot}: {fitted} of {len(trials.results)} estimators fit these logs"
+    remarks = [f"{method}: {remark}" for method, remark in collect_remarks(trials.results)]
+    return "\n".join([first, *trials.data, *remarks])
 
 
-def _trials_tables(trials: SideBySide) -> Tables:
-    errors, values = table_of(trials.tried), values_of(trials.tried)
+def _collect_trials_tables(trials: MethodComparison) -> Tables:
+    errors, values = tabulate_estimators(trials.results), tabulate_estimates(trials.results)
     return {
-        "errors": lambda: Table.of("estimators on the same logs", errors[0], errors[1:]),
-        "values": lambda: Table.of("values and standard deviations", values[0], values[1:]),
+        "errors": lambda: Table.build("estimators on the same logs", errors[0], errors[1:]),
+        "values": lambda: Table.build("values and standard deviations", values[0], values[1:]),
     }
 
 
 PRESENTATIONS = {
-    FitResult: Presentation("a fit", _fit_summary, fit_tables, _fit_figures,
-                            ("parameters", "errors")),
-    IdentifiedModel: Presentation("a model", _model_summary, _model_tables, _model_figures,
-                                  ("parameters", "errors", "waterfall"),
-                                  lambda m, notes: (additions_page if m.history else fit_page)(
-                                      m, notes),
-                                  dict.fromkeys(("", ".json"), estimation.save_model)),
-    Addition: Presentation("an addition", _step_line),
-    SideBySide: Presentation("a comparison of estimators", _trials_summary, _trials_tables,
-                             document=lambda s, notes: estimators_page(
-                                 s.robot, s.tried, [*s.data, *notes])),
-}  # fmt: skip
+    FitResult: Presentation(
+        "a fit", _summarise_fit, collect_fit_tables, _collect_fit_figures, ("parameters", "errors")
+    ),
+    IdentifiedModel: Presentation(
+        "a model",
+        _summarise_model,
+        _collect_model_tables,
+        _collect_model_figures,
+        ("parameters", "errors", "waterfall"),
+        lambda m, notes: (build_history_page if m.history else build_fit_page)(m, notes),
+        dict.fromkeys(("", ".json"), estimation.save_model),
+    ),
+    Addition: Presentation("an addition", _describe_step),
+    MethodComparison: Presentation(
+        "a comparison of estimators",
+        _summarise_trials,
+        _collect_trials_tables,
+        document=lambda s, notes: build_estimators_page(s.robot, s.tried, [*s.data, *notes]),
+    ),
+}
 
 
 # The page of a fit: values with sigma, what each is the sum of, condition, doubts.
@@ -153,7 +177,7 @@ _TANGLED = 0.95  # correlation of two estimates from which on they are told
 _MOST = 12  # pairs that are told
 
 
-def fit_page(
+def build_fit_page(
     model: IdentifiedModel, provenance: Sequence[str] = (), place: str = "MODEL",
     following: Sequence[str] = (),
 ) -> Page:  # fmt: skip
@@ -167,19 +191,19 @@ def fit_page(
     """
     fit = model.fit
     judged = "nobody has judged it" if fit.verdict is None else fit.verdict.line
-    following = following or after_fit(place, ["LOG"], fit.robot, fit)
+    following = following or suggest_after_fit(place, ["LOG"], fit.robot, fit)
     return Page(
         title=f"{fit.robot}: fitted values",
-        headline=(fit.error_told(), f"left on the fitted logs: {judged}"),
-        sections=_sections(model),
+        headline=(fit.format_error(), f"left on the fitted logs: {judged}"),
+        sections=_build_sections(model),
         origin=Origin(place, [log.name for log in model.logs], False, following),
-        facts=_facts(fit),
+        facts=_collect_facts(fit),
         provenance=provenance,
         command="fit",
     )
 
 
-def _facts(fit: FitResult) -> list[tuple[str, str]]:
+def _collect_facts(fit: FitResult) -> list[tuple[str, str]]:
     sure = [p for p in fit.parameters if (p.relative_sigma_percent or np.inf) < 10.0]
     aside = [p.name for p in fit.parameters if p.sigma is None]
     facts = [
@@ -187,27 +211,30 @@ def _facts(fit: FitResult) -> list[tuple[str, str]]:
          f"{sum(p.essential for p in fit.parameters)} are essential"),
         ("Condition number", f"{fit.condition_number:.4g}; {fit.condition_scaled:.4g} with columns "
          f"of length one; {fit.rows} rows of {fit.samples} samples"),
-        ("Estimator", titled(fit.method)),
+        ("Estimator", find_estimator_title(fit.method)),
     ]  # fmt: skip
     if aside:
         facts.append(("Set aside", ", ".join(aside)))
     return facts
 
 
-def _sections(model: IdentifiedModel) -> list[Section]:
+def _build_sections(model: IdentifiedModel) -> list[Section]:
     fit = model.fit
-    found = [Section("Verdict", _judged(fit)), Section("Joints", [joints_table(fit)])]
+    sections = [
+        Section("Verdict", _build_verdict_blocks(fit)),
+        Section("Joints", [tabulate_joint_errors(fit)]),
+    ]
     caption = (
         "SI units. Sigma is one standard deviation from the scatter of the residuals; the bar is "
         "full at 30 %. A parameter without a sum is a standard parameter by itself."
     )
-    found.append(Section("Values", [values_table(fit.parameters, model.spec.base, caption)]))
+    sections.append(Section("Values", [tabulate_values(fit.parameters, model.spec.base, caption)]))
     for title, others in (("Loads", fit.loads), ("Drive gains", fit.gains)):
         if others:
-            found.append(Section(title, [values_table(others)]))
-    if noise := noise_blocks(fit.bands):
-        found.append(Section("Noise of the motion", noise))
-    pairs = correlated_pairs(model)
+            sections.append(Section(title, [tabulate_values(others)]))
+    if noise := build_noise_blocks(fit.bands):
+        sections.append(Section("Noise of the motion", noise))
+    pairs = find_correlated_pairs(model)
     if pairs:
         table = PageTable(
             ("parameter", "and", "correlation"),
@@ -216,11 +243,11 @@ def _sections(model: IdentifiedModel) -> list[Section]:
             "better than either; more exciting motion parts them.",
             {"and": "text"},
         )
-        found.append(Section("What the data hardly tell apart", [table]))
-    return found
+        sections.append(Section("What the data hardly tell apart", [table]))
+    return sections
 
 
-def _judged(fit: FitResult) -> list[Verdict | Items]:
+def _build_verdict_blocks(fit: FitResult) -> list[Verdict | Items]:
     blocks: list[Verdict | Items] = []
     if fit.verdict is not None:
         kind, tag = ("noise", "valid") if fit.verdict.usable else ("pattern", "not valid")
@@ -233,7 +260,7 @@ def _judged(fit: FitResult) -> list[Verdict | Items]:
     return blocks
 
 
-def correlated_pairs(model: IdentifiedModel) -> list[tuple[str, str, float]]:
+def find_correlated_pairs(model: IdentifiedModel) -> list[tuple[str, str, float]]:
     """Pairs of parameters whose estimates correlate by more than 0.95, worst first."""
     deviation = np.sqrt(np.diag(model.covariance))
     size = np.where(deviation > 0.0, deviation, np.inf)

@@ -9,44 +9,47 @@ from modeler import validation
 from modeler.core.figure import Picture
 from modeler.core.result import Figures, Presentation, Tables
 from modeler.core.table import Cell, Table
-from modeler.diagnosis import Diagnosis, Finding, Step, blind_spots, lines
-from modeler.report.comparison import comparison_page, contest_page
-from modeler.report.diagnosis import diagnosis_page
-from modeler.report.effect_evidence import evidence_of
-from modeler.report.evidence import evidence_picture
-from modeler.report.figures import errors_picture, picture_figures
+from modeler.diagnosis import Diagnosis, Finding, SearchStep, describe_undetectable, format_lines
+from modeler.report.comparison import build_comparison_page, build_model_comparison_page
+from modeler.report.diagnosis import build_diagnosis_page
+from modeler.report.effect_evidence import collect_evidence
+from modeler.report.evidence import draw_evidence_picture
+from modeler.report.figures import collect_figures, draw_errors_picture
 
 
-def _contest_summary(found: validation.Contest) -> str:
-    first = f"{found.predictions[0].robot}: {len(found.names)} models on {found.samples} samples"
-    return "\n".join([first, *validation.contest_lines(found)])
+def _summarise_model_comparison(comparison: validation.ModelComparison) -> str:
+    first = (
+        f"{comparison.predictions[0].robot}: {len(comparison.names)} models on "
+        f"{comparison.samples} samples"
+    )
+    return "\n".join([first, *validation.format_model_comparison(comparison)])
 
 
-def _contest_tables(found: validation.Contest) -> Tables:
-    head = ["joint", *found.names, "best beyond doubt", "chance"]
+def _collect_model_comparison_tables(comparison: validation.ModelComparison) -> Tables:
+    head = ["joint", *comparison.names, "best beyond doubt", "chance"]
     rows = [
         (item.joint.name, *item.errors,
-         None if item.best is None else found.names[item.best], item.chance)
-        for item in found.joints
+         None if item.best is None else comparison.names[item.best], item.p_value)
+        for item in comparison.joints
     ]  # fmt: skip
-    return {"errors": lambda: Table.of("relative error of each model", head, rows)}
+    return {"errors": lambda: Table.build("relative error of each model", head, rows)}
 
 
-def _comparison_summary(comparison: validation.Comparison) -> str:
-    first = f"{comparison.prediction.robot}: {validation.headline(comparison)}"
-    return "\n".join([first, comparison.summary(), *validation.verdict(comparison)])
+def _summarise_comparison(comparison: validation.Comparison) -> str:
+    first = f"{comparison.prediction.robot}: {validation.write_headline(comparison)}"
+    return "\n".join([first, comparison.summary(), *validation.write_verdict(comparison)])
 
 
-def _comparison_tables(comparison: validation.Comparison) -> Tables:
+def _collect_comparison_tables(comparison: validation.Comparison) -> Tables:
     return {
-        "errors": lambda: _errors(comparison),
-        "logs": lambda: _by_log(comparison),
-        "residuals": lambda: _residuals(comparison),
-        "torques": lambda: _torques(comparison),
+        "errors": lambda: _tabulate_errors(comparison),
+        "logs": lambda: _tabulate_logs(comparison),
+        "residuals": lambda: _tabulate_residuals(comparison),
+        "torques": lambda: _tabulate_torques(comparison),
     }
 
 
-def _errors(comparison: validation.Comparison) -> Table:
+def _tabulate_errors(comparison: validation.Comparison) -> Table:
     rows = [
         (item.joint.name, item.relative_error, item.rms, item.joint.effort_unit,
          item.largest.value, item.largest.time, item.largest.log, item.r2,
@@ -54,80 +57,85 @@ def _errors(comparison: validation.Comparison) -> Table:
          None if item.shares is None else item.shares.floor, item.bias)
         for item in comparison.joints
     ]  # fmt: skip
-    return Table.of(
+    return Table.build(
         f"{comparison.prediction.robot}: measured against predicted",
         "joint, relative error, rms, unit, largest, at [s], of, R2, repeatable, noise, bias",
-        rows, " ".join(f"{line}." for line in validation.method_lines(comparison)),
+        rows, " ".join(f"{line}." for line in validation.describe_methods(comparison)),
     )  # fmt: skip
 
 
-def _by_log(comparison: validation.Comparison) -> Table:
+def _tabulate_logs(comparison: validation.Comparison) -> Table:
     joints = [f"joint {name}" for name, _ in comparison.logs[0].joints]
     rows = [(log.log, log.samples, log.relative_error, *(e for _, e in log.joints))
             for log in comparison.logs]  # fmt: skip
     head = ["log", "samples", "all joints", *joints]
-    return Table.of("relative error of each log", head, rows)
+    return Table.build("relative error of each log", head, rows)
 
 
-def _residuals(comparison: validation.Comparison) -> Table:
+def _tabulate_residuals(comparison: validation.Comparison) -> Table:
     """Measured minus predicted torque, one row a sample; rows that do not count are NaN."""
-    found = comparison.prediction
-    head = [f"{joint.name} [{joint.effort_unit}]" for joint in found.joints]
-    return Table.of(
+    prediction = comparison.prediction
+    head = [f"{joint.name} [{joint.effort_unit}]" for joint in prediction.joints]
+    return Table.build(
         "measured minus predicted torque of each joint", ["log", "time [s]", *head],
-        _rows(found, validation.residual(found)),
+        _build_rows(prediction, validation.compute_residual(prediction)),
         "rows that do not count for a joint have no value",
     )  # fmt: skip
 
 
-def _torques(comparison: validation.Comparison) -> Table:
+def _tabulate_torques(comparison: validation.Comparison) -> Table:
     """Measured and predicted torque side by side."""
-    found = comparison.prediction
-    both = np.concatenate([found.measured, found.predicted], axis=1)
+    prediction = comparison.prediction
+    both = np.concatenate([prediction.measured, prediction.predicted], axis=1)
     head = [f"{what} {joint.name} [{joint.effort_unit}]"
-            for what in ("measured", "predicted") for joint in found.joints]  # fmt: skip
-    return Table.of("torques of each joint", ["log", "time [s]", *head], _rows(found, both))
+            for what in ("measured", "predicted") for joint in prediction.joints]  # fmt: skip
+    return Table.build(
+        "torques of each joint", ["log", "time [s]", *head], _build_rows(prediction, both)
+    )
 
 
-def _rows(found: validation.Prediction, values: np.ndarray) -> list[tuple[Cell, ...]]:
-    triples = zip(found.run.tolist(), found.time.tolist(), values.tolist(), strict=True)
-    return [(found.logs[run], time, *row) for run, time, row in triples]
+def _build_rows(prediction: validation.Prediction, values: np.ndarray) -> list[tuple[Cell, ...]]:
+    triples = zip(prediction.run.tolist(), prediction.time.tolist(), values.tolist(), strict=True)
+    return [(prediction.logs[run], time, *row) for run, time, row in triples]
 
 
-def _comparison_figures(comparison: validation.Comparison) -> Figures:
-    drawn = {"overview": partial(validation.overview_picture, comparison)}
+def _collect_comparison_figures(comparison: validation.Comparison) -> Figures:
+    drawn = {"overview": partial(validation.draw_overview_picture, comparison)}
     for item in comparison.joints:
         for kind, picture in (
-            ("time", validation.time_picture),
-            ("residual", validation.residual_picture),
+            ("time", validation.draw_time_picture),
+            ("residual", validation.draw_residual_picture),
         ):
             drawn[f"{kind} {item.joint.name}"] = partial(picture, comparison.prediction, item)
-    return picture_figures(drawn)
+    return collect_figures(drawn)
 
 
-def _diagnosis_tables(diagnosis: Diagnosis) -> Tables:
+def _collect_diagnosis_tables(diagnosis: Diagnosis) -> Tables:
     blind = "what these logs cannot show", "effect, why"
     return {
-        "effects": lambda: _effects(diagnosis),
-        "joints": lambda: _joints(diagnosis),
-        "rivals": lambda: Table.of(
+        "effects": lambda: _tabulate_effects(diagnosis),
+        "joints": lambda: _tabulate_joints(diagnosis),
+        "rivals": lambda: Table.build(
             "rivals of the first effect", "effect, joint, gain", diagnosis.rivals
         ),
-        "blind spots": lambda: Table.of(*blind, blind_spots(diagnosis)),
+        "blind spots": lambda: Table.build(*blind, describe_undetectable(diagnosis)),
     }  # fmt: skip
 
 
-def _effects(diagnosis: Diagnosis) -> Table:
-    rows = [_finding(f, "missing" if f.status == "fact" else f.status) for f in diagnosis.effects]
-    rows += [_finding(f, "refines the model") for f in diagnosis.refinements]
-    return Table.of(
+def _tabulate_effects(diagnosis: Diagnosis) -> Table:
+    rows = [
+        _build_finding_row(f, "missing" if f.status == "fact" else f.status)
+        for f in diagnosis.effects
+    ]
+    rows += [_build_finding_row(f, "refines the model") for f in diagnosis.refinements]
+    return Table.build(
         f"{diagnosis.robot}: {diagnosis.verdict}",
         "effect, joint, error before, error after, gain, values [SI], what, evidence",
         rows, diagnosis.sentences[0],
     )  # fmt: skip
 
 
-def _finding(finding: Finding, what: str) -> tuple[Cell, ...]:
+def _build_finding_row(finding: Finding, what: str) -> tuple[Cell, ...]:
     values = ", ".join(
         f"{name} = {value:.4g} {finding.units.get(name, '')}".rstrip()
         for name, value in finding.parameters.items()
@@ -136,54 +144,77 @@ def _finding(finding: Finding, what: str) -> tuple[Cell, ...]:
     return finding.effect, finding.joint, *errors, finding.gain, values, what, finding.evidence
 
 
-def _joints(diagnosis: Diagnosis) -> Table:
+def _tabulate_joints(diagnosis: Diagnosis) -> Table:
     rows = [
         (name, j.error_before, j.error_after, j.rms_before, j.rms_after, j.unit,
          j.explained, j.systematic, j.noise)
         for name, j in diagnosis.joints.items()
     ]  # fmt: skip
-    return Table.of(
+    return Table.build(
         "errors without and with the effects",
         "joint, error, with effects, rms, rms with effects, unit, explained, systematic, "
         "noise", rows,
     )  # fmt: skip
 
 
-def _diagnosis_figures(diagnosis: Diagnosis) -> Figures:
+def _collect_diagnosis_figures(diagnosis: Diagnosis) -> Figures:
     drawn: dict[str, Callable[[], Picture]] = {}
     for step in diagnosis.search.steps:
-        name = step.pick.effect.id + (f"@{step.pick.joint}" if step.pick.joint else "")
-        drawn[name] = partial(_evidence, diagnosis, step)
-    return picture_figures(drawn | {"errors": partial(errors_picture, diagnosis)})
+        name = step.candidate.effect.id + (
+            f"@{step.candidate.joint}" if step.candidate.joint else ""
+        )
+        drawn[name] = partial(_draw_evidence, diagnosis, step)
+    return collect_figures(drawn | {"errors": partial(draw_errors_picture, diagnosis)})
 
 
-def _evidence(diagnosis: Diagnosis, step: Step) -> Picture:
-    return evidence_picture(evidence_of(diagnosis.search, step))
+def _draw_evidence(diagnosis: Diagnosis, step: SearchStep) -> Picture:
+    return draw_evidence_picture(collect_evidence(diagnosis.search, step))
 
 
-def _free_run_tables(found: validation.FreeRun) -> Tables:
-    return {"joints": lambda: Table.of(
-        f"{found.robot}: free run in windows of {found.window:g} s",
+def _collect_free_run_tables(free_run: validation.FreeRun) -> Tables:
+    return {"joints": lambda: Table.build(
+        f"{free_run.robot}: free run in windows of {free_run.window:g} s",
         "joint, position [%], constant speed [%], whole run [%], horizon [s], largest error, unit",
         [(j.name, j.fit, j.constant_speed, j.whole, j.horizon, j.largest, j.unit)
-         for j in found.joints],
+         for j in free_run.joints],
         "position: 100 % is the logged one, 0 % its mean",
     )}  # fmt: skip
 
 
-def _free_run_figures(found: validation.FreeRun) -> Figures:
-    drawn = [partial(validation.free_run_picture, found, j) for j in range(len(found.joints))]
-    names = [f"joint {joint.name}" for joint in found.joints]
-    return picture_figures(dict(zip(names, drawn, strict=True)))
+def _collect_free_run_figures(free_run: validation.FreeRun) -> Figures:
+    drawn = [
+        partial(validation.draw_free_run_picture, free_run, j) for j in range(len(free_run.joints))
+    ]
+    names = [f"joint {joint.name}" for joint in free_run.joints]
+    return collect_figures(dict(zip(names, drawn, strict=True)))
 
 
 PRESENTATIONS = {
-    validation.FreeRun: Presentation("a free run", validation.FreeRun.summary, _free_run_tables,
-                                     _free_run_figures),
-    validation.Contest: Presentation("a contest of models", _contest_summary, _contest_tables,
-                                     document=contest_page),
-    validation.Comparison: Presentation("a comparison", _comparison_summary, _comparison_tables,
-                                        _comparison_figures, document=comparison_page),
-    Diagnosis: Presentation("a diagnosis", lambda d: "\n".join(lines(d)), _diagnosis_tables,
-                            _diagnosis_figures, ("effects", "joints"), diagnosis_page),
-}  # fmt: skip
+    validation.FreeRun: Presentation(
+        "a free run",
+        validation.FreeRun.summary,
+        _collect_free_run_tables,
+        _collect_free_run_figures,
+    ),
+    validation.ModelComparison: Presentation(
+        "a contest of models",
+        _summarise_model_comparison,
+        _collect_model_comparison_tables,
+        document=build_model_comparison_page,
+    ),
+    validation.Comparison: Presentation(
+        "a comparison",
+        _summarise_comparison,
+        _collect_comparison_tables,
+        _collect_comparison_figures,
+        document=build_comparison_page,
+    ),
+    Diagnosis: Presentation(
+        "a diagnosis",
+        lambda d: "\n".join(format_lines(d)),
+        _collect_diagnosis_tables,
+        _collect_diagnosis_figures,
+        ("effects", "joints"),
+        build_diagnosis_page,
+    ),
+}

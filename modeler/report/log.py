@@ -8,14 +8,21 @@ import numpy as np
 from modeler.core.figure import Panel, Picture, Points
 from modeler.core.result import Figures, Presentation, Tables
 from modeler.core.style import SLATE, Style
-from modeler.core.table import Cell, Table, percent
+from modeler.core.table import Cell, Table, format_percent
 from modeler.core.thinning import thin_points
-from modeler.excitation import Exciting
-from modeler.logs import Clock, LogInspection, template_of
-from modeler.observation import Bands, DataReport, Log, Observation, bands_of, noise_of_positions
+from modeler.excitation import ExcitingMotion
+from modeler.logs import Clock, LogInspection, split_label
+from modeler.observation import (
+    Bands,
+    DataReport,
+    Log,
+    Observation,
+    build_bands,
+    estimate_position_noise,
+)
 from modeler.report.blocks import Code, Figure, Items, PageTable, Paragraph
-from modeler.report.figures import curves, log_figure, picture_figure
-from modeler.report.noise import noise_blocks, noise_picture
+from modeler.report.figures import build_curves, draw_log, draw_picture
+from modeler.report.noise import build_noise_blocks, draw_noise_picture
 from modeler.report.page import Origin, Page, Section
 from modeler.simulation import SimulatedLog, write_log
 
@@ -23,49 +30,54 @@ _HEAD = ("channel", "unit", "least", "greatest", "resolution", "missing", "remar
 _LIMIT = 600  # points of one curve
 
 
-def log_page(
-    look: LogInspection, doubts: Sequence[str], provenance: Sequence[str],
+def build_log_page(
+    inspection: LogInspection, doubts: Sequence[str], provenance: Sequence[str],
     bands: Bands | None = None,
 ) -> Page:  # fmt: skip
     """The page of a log.
 
     Args:
-        look: what is in the log.
+        inspection: what is in the log.
         doubts: about it, those of a fit too.
         provenance: lines on how it was read.
         bands: of its fit; None: the noise of its positions alone.
     """
-    head, *rows = channel_rows(look)
+    head, *rows = tabulate_channels(inspection)
     table = PageTable(head, rows, kinds=dict.fromkeys(("unit", "remarks"), "text"))
     listed = Items([("", line) for line in doubts]) if doubts else Paragraph("None.")
     sections = [
         Section("Doubts", [listed]),
-        Section("Channels", [table, *map(Figure, channel_pictures(look))]),
+        Section("Channels", [table, *map(Figure, draw_channel_pictures(inspection))]),
     ]
-    noise = noise_blocks(bands or bands_of(noise_of_positions(look.positions)))
+    noise = build_noise_blocks(bands or build_bands(estimate_position_noise(inspection.positions)))
     if noise:
         sections.append(Section("Noise of the motion", noise))
-    picture = clock_picture(look)
-    if look.clock is not None and picture is not None:
-        sections.append(Section("Clock", [Paragraph(clock_line(look.clock)), Figure(picture)]))
-    if look.suggested:
-        sections.append(Section("A [log] to start from", [Code(look.suggested)]))
+    picture = draw_clock_picture(inspection)
+    if inspection.clock is not None and picture is not None:
+        sections.append(
+            Section("Clock", [Paragraph(describe_clock(inspection.clock)), Figure(picture)])
+        )
+    if inspection.suggested:
+        sections.append(Section("A [log] to start from", [Code(inspection.suggested)]))
     return Page(
-        f"What is in {look.name}",
+        f"What is in {inspection.name}",
         (str(len(doubts)), "doubts" if len(doubts) != 1 else "doubt"),
         sections,
-        Origin(logs=(look.name,)),
-        [("rows", str(look.rows)), ("clock", clock_line(look.clock) if look.clock else "none")],
-        provenance=[*look.notes, *provenance],
+        Origin(logs=(inspection.name,)),
+        [
+            ("rows", str(inspection.rows)),
+            ("clock", describe_clock(inspection.clock) if inspection.clock else "none"),
+        ],
+        provenance=[*inspection.notes, *provenance],
         command="log",
     )
 
 
-def clock_line(clock: Clock) -> str:
+def describe_clock(clock: Clock) -> str:
     """The clock in words."""
     rate = f"{clock.rate:.6g} Hz" if clock.rate > 0.0 else "unknown rate"
     parts = [f"{clock.column}: {rate} over {clock.duration:.4g} s"]
-    uneven = f"jitter {percent(clock.jitter)} of a step"
+    uneven = f"jitter {format_percent(clock.jitter)} of a step"
     parts += [uneven if clock.jitter > 1e-6 else "even"] * (clock.rate > 0.0)
     if clock.gaps:
         parts.append(
@@ -80,13 +92,14 @@ def clock_line(clock: Clock) -> str:
     return ", ".join(parts)
 
 
-def channel_rows(look: LogInspection) -> list[list[str]]:
+def tabulate_channels(inspection: LogInspection) -> list[list[str]]:
     """Header and one row a channel, as text."""
     rows = [list(_HEAD)]
-    for channel in look.channels:
+    for channel in inspection.channels:
         remarks = ["never changes"] if channel.constant else []
         remarks += [
-            f"stays at {x:.4g} in {percent(share)} of the rows" for x, share in channel.limits
+            f"stays at {x:.4g} in {format_percent(share)} of the rows"
+            for x, share in channel.limits
         ]
         rows.append([
             channel.name,
@@ -100,31 +113,38 @@ def channel_rows(look: LogInspection) -> list[list[str]]:
     return rows
 
 
-def log_pictures(look: LogInspection, bands: Bands | None = None) -> list[Picture]:
-    """All pictures of a log; `bands` as of `log_page`."""
-    noise = noise_picture(bands or bands_of(noise_of_positions(look.positions)))
-    return [*channel_pictures(look), *(p for p in (noise, clock_picture(look)) if p is not None)]
+def draw_log_pictures(inspection: LogInspection, bands: Bands | None = None) -> list[Picture]:
+    """All pictures of a log; `bands` as of `build_log_page`."""
+    noise = draw_noise_picture(bands or build_bands(estimate_position_noise(inspection.positions)))
+    return [
+        *draw_channel_pictures(inspection),
+        *(p for p in (noise, draw_clock_picture(inspection)) if p is not None),
+    ]
 
 
-def channel_pictures(look: LogInspection) -> list[Picture]:
+def draw_channel_pictures(inspection: LogInspection) -> list[Picture]:
     """One picture for the columns of each kind, against time."""
     groups: dict[str, list[str]] = {}
-    for name in look.values:
-        groups.setdefault(template_of(name)[0], []).append(name)
-    time = f"time column {look.clock.column}" if look.clock is not None else ""
+    for name in inspection.values:
+        groups.setdefault(split_label(name)[0], []).append(name)
+    time = f"time column {inspection.clock.column}" if inspection.clock is not None else ""
     return [
-        _against_time(look, number, template, names)
+        _draw_channels(inspection, number, template, names)
         for number, (template, names) in enumerate(groups.items(), start=1)
         if template != "time" and not (len(names) == 1 and time.endswith(names[0]))
     ]
 
 
-def _against_time(look: LogInspection, number: int, template: str, names: Sequence[str]) -> Picture:
+def _draw_channels(
+    inspection: LogInspection, number: int, template: str, names: Sequence[str]
+) -> Picture:
     title = template.replace("{}", "*")
-    unit = next((c.unit for c in look.channels if c.unit and names[0] in c.name), "")
+    unit = next((c.unit for c in inspection.channels if c.unit and names[0] in c.name), "")
     label = f"{title} [{unit}]" if unit else title
-    drawn = curves(names, look.time, [look.values[name] for name in names], _LIMIT)
-    panel = Panel("", _time_label(look), label, drawn)
+    drawn = build_curves(
+        names, inspection.time, [inspection.values[name] for name in names], _LIMIT
+    )
+    panel = Panel("", _choose_time_label(inspection), label, drawn)
     caption = (
         f"{title} against time, as logged, {len(names)} columns: every extreme is drawn, values "
         "between them are thinned. A value that is missing breaks its line."
@@ -132,16 +152,18 @@ def _against_time(look: LogInspection, number: int, template: str, names: Sequen
     return Picture(f"channels_{number}", title, caption, ((panel,),), 320)
 
 
-def clock_picture(look: LogInspection) -> Picture | None:
+def draw_clock_picture(inspection: LogInspection) -> Picture | None:
     """The steps of the clock against time; None without a clock."""
-    time, steps = look.steps[0], 1e3 * look.steps[1]
-    if look.clock is None or not np.isfinite(steps).any():
+    time, steps = inspection.steps[0], 1e3 * inspection.steps[1]
+    if inspection.clock is None or not np.isfinite(steps).any():
         return None
     rows = thin_points(time, steps)
     dots = Points("step", time[rows], steps[rows], Style(SLATE, width=2.0))
     known = steps[np.isfinite(steps)]
     reach = (min(0.0, float(known.min())), float(max(known.max(), 2.0 * np.median(known))))
-    panel = Panel("", _time_label(look), "step of the clock [ms]", (dots,), y_range=reach)
+    panel = Panel(
+        "", _choose_time_label(inspection), "step of the clock [ms]", (dots,), y_range=reach
+    )
     caption = (
         "Time from each row to the next. A level line is a steady clock; dots above it are gaps, "
         "dots at or below 0 times that repeat or go back."
@@ -149,30 +171,37 @@ def clock_picture(look: LogInspection) -> Picture | None:
     return Picture("clock", "Clock", caption, ((panel,),), 260)
 
 
-def _time_label(look: LogInspection) -> str:
-    return "row" if look.clock is None else "time [s]"
+def _choose_time_label(inspection: LogInspection) -> str:
+    return "row" if inspection.clock is None else "time [s]"
 
 
 # Logs, observations of them, and motions.
 
 
-def _inspection_summary(look: LogInspection) -> str:
-    clock = "no clock" if look.clock is None else clock_line(look.clock)
-    lines = [f"{look.name}: {look.rows} rows, {len(look.channels)} channels", clock]
-    lines += [f"note: {note}" for note in look.notes]
-    return "\n".join([*lines, *([f"doubt: {doubt}" for doubt in look.doubts] or ["no doubts"])])
+def _summarise_inspection(inspection: LogInspection) -> str:
+    clock = "no clock" if inspection.clock is None else describe_clock(inspection.clock)
+    lines = [
+        f"{inspection.name}: {inspection.rows} rows, {len(inspection.channels)} channels",
+        clock,
+    ]
+    lines += [f"note: {note}" for note in inspection.notes]
+    return "\n".join(
+        [*lines, *([f"doubt: {doubt}" for doubt in inspection.warnings] or ["no doubts"])]
+    )
 
 
-def _inspection_tables(look: LogInspection) -> Tables:
-    head, *rows = channel_rows(look)
-    return {"channels": lambda: Table.of(f"channels of {look.name}", head, rows)}
+def _collect_inspection_tables(inspection: LogInspection) -> Tables:
+    head, *rows = tabulate_channels(inspection)
+    return {"channels": lambda: Table.build(f"channels of {inspection.name}", head, rows)}
 
 
-def _inspection_figures(look: LogInspection) -> Figures:
-    return {picture.name: partial(picture_figure, picture) for picture in log_pictures(look)}
+def _collect_inspection_figures(inspection: LogInspection) -> Figures:
+    return {
+        picture.name: partial(draw_picture, picture) for picture in draw_log_pictures(inspection)
+    }
 
 
-def _log_summary(log: Log) -> str:
+def _summarise_log(log: Log) -> str:
     span = float(log.time[-1] - log.time[0])
     channels = [name for name in ("qd", "qdd", "commanded") if getattr(log, name) is not None]
     lines = [f"{log.name}: {log.rows} rows, {span:.4g} s at {1.0 / log.step:.4g} Hz, joints "
@@ -182,7 +211,7 @@ def _log_summary(log: Log) -> str:
     return "\n".join([*lines, *log.notes])
 
 
-def _log_channels(log: Log) -> dict[str, np.ndarray]:
+def _collect_log_channels(log: Log) -> dict[str, np.ndarray]:
     """Every column by name; units are SI."""
     kinds = {"q": log.q, "qd": log.qd, "qdd": log.qdd, "qc": log.commanded, "tau": log.tau}
     return {
@@ -193,22 +222,24 @@ def _log_channels(log: Log) -> dict[str, np.ndarray]:
     } | dict(log.extra)
 
 
-def _log_tables(log: Log) -> Tables:
-    def channels() -> Table:
-        rows = [_channel(name, values) for name, values in _log_channels(log).items()]
+def _collect_log_tables(log: Log) -> Tables:
+    def build_channel_table() -> Table:
+        rows = [
+            _build_channel_row(name, values) for name, values in _collect_log_channels(log).items()
+        ]
         head = "channel, least, largest, rms, missing"
-        return Table.of(f"channels of {log.name}, SI units", head, rows)
+        return Table.build(f"channels of {log.name}, SI units", head, rows)
 
-    def data() -> Table:
+    def build_data_table() -> Table:
         """Every row; a long table."""
-        columns = {"time": log.time, **_log_channels(log)}
+        columns = {"time": log.time, **_collect_log_channels(log)}
         rows = tuple(map(tuple, np.column_stack([*columns.values()]).tolist()))
         return Table(log.name, tuple((name, "") for name in columns), rows)
 
-    return {"channels": channels, "data": data}
+    return {"channels": build_channel_table, "data": build_data_table}
 
 
-def _channel(name: str, values: np.ndarray) -> tuple[Cell, ...]:
+def _build_channel_row(name: str, values: np.ndarray) -> tuple[Cell, ...]:
     there = values[np.isfinite(values)]
     if not there.size:
         return name, None, None, None, int(values.size)
@@ -216,12 +247,12 @@ def _channel(name: str, values: np.ndarray) -> tuple[Cell, ...]:
             int(values.size - there.size))  # fmt: skip
 
 
-def _log_figures(log: Log | SimulatedLog) -> Figures:
+def _collect_log_figures(log: Log | SimulatedLog) -> Figures:
     title = log.name if isinstance(log, Log) else f"{log.robot}, simulated"
-    return {"channels": lambda: log_figure(title, log.joints, log.time, log.q, log.tau)}
+    return {"channels": lambda: draw_log(title, log.joints, log.time, log.q, log.tau)}
 
 
-def _simulated_summary(log: SimulatedLog) -> str:
+def _summarise_simulated_log(log: SimulatedLog) -> str:
     lines = [f"{log.robot}, simulated: {len(log.time)} samples of {len(log.joints)} joints, "
              f"{float(log.time[-1] - log.time[0]):.4g} s, seed {log.settings.seed}"]  # fmt: skip
     for effect in log.truth.hidden:
@@ -231,41 +262,41 @@ def _simulated_summary(log: SimulatedLog) -> str:
     return "\n".join(lines)
 
 
-def _simulated_tables(log: SimulatedLog) -> Tables:
+def _collect_simulated_tables(log: SimulatedLog) -> Tables:
     truth = log.truth
     rows = [(name, value, name in truth.drawn) for name, value in truth.parameters.items()]
     title = f"{log.robot}: true parameters"
-    return {"truth": lambda: Table.of(title, "parameter, value [SI], drawn", rows)}
+    return {"truth": lambda: Table.build(title, "parameter, value [SI], drawn", rows)}
 
 
-def _observation_summary(observation: Observation) -> str:
+def _summarise_observation(observation: Observation) -> str:
     rows, columns = int(observation.used.sum()), len(observation.names)
     first = (f"{observation.robot}: {rows} rows of {len(observation.time)} samples, {columns} "
              f"columns, from {', '.join(observation.logs)}")  # fmt: skip
-    return "\n".join([first, *observation.report.lines()])
+    return "\n".join([first, *observation.report.format_lines()])
 
 
-def _report_tables(report: DataReport) -> Tables:
+def _collect_report_tables(report: DataReport) -> Tables:
     joints = [(j.name, j.used, j.samples, j.slow, j.speed_floor, j.unit) for j in report.joints]
     logs = [(log.name, log.rows, log.rate, log.samples, log.decimation, log.pieces, log.derivatives)
             for log in report.logs]  # fmt: skip
     of_joint = "joint, rows, samples, share slow, speed floor, unit"
     of_log = "log, rows, rate [Hz], samples, one of, pieces, derivatives"
     return {
-        "joints": lambda: Table.of("rows of each joint", of_joint, joints),
-        "logs": lambda: Table.of("logs", of_log, logs),
+        "joints": lambda: Table.build("rows of each joint", of_joint, joints),
+        "logs": lambda: Table.build("logs", of_log, logs),
     }
 
 
-def _motion_summary(motion: Exciting) -> str:
+def _summarise_motion(motion: ExcitingMotion) -> str:
     return "\n".join([f"{motion.robot}: a motion of {motion.series.duration:g} s, condition number "
-                      f"{motion.quality.condition:.4g}", *motion.lines()])  # fmt: skip
+                      f"{motion.quality.condition:.4g}", *motion.format_lines()])  # fmt: skip
 
 
-def _limits(motion: Exciting) -> Table:
-    b, u = motion.bounds, motion.used
+def _tabulate_limits(motion: ExcitingMotion) -> Table:
+    b, u = motion.bounds, motion.usage
     columns = (u.lower, u.upper, b.lower, b.upper, u.speed, b.speed, u.acceleration, b.acceleration)
-    return Table.of(
+    return Table.build(
         f"{motion.robot}: what the motion uses of the limits, SI units",
         "joint, lower, upper, lower limit, upper limit, speed, speed limit, acceleration, "
         "acceleration limit",
@@ -274,14 +305,26 @@ def _limits(motion: Exciting) -> Table:
 
 
 PRESENTATIONS = {
-    LogInspection: Presentation("a look at a log", _inspection_summary, _inspection_tables,
-                                _inspection_figures,
-                                document=lambda look, notes: log_page(look, look.doubts, notes)),
-    Log: Presentation("a log", _log_summary, _log_tables, _log_figures),
-    SimulatedLog: Presentation("a simulated log", _simulated_summary, _simulated_tables,
-                               _log_figures, files=dict.fromkeys((".parquet", ".csv"), write_log)),
-    Observation: Presentation("an observation", _observation_summary,
-                              lambda o: _report_tables(o.report)),
-    DataReport: Presentation("a report", lambda r: "\n".join(r.lines()), _report_tables),
-    Exciting: Presentation("a motion", _motion_summary, lambda m: {"limits": partial(_limits, m)}),
-}  # fmt: skip
+    LogInspection: Presentation(
+        "a look at a log",
+        _summarise_inspection,
+        _collect_inspection_tables,
+        _collect_inspection_figures,
+        document=lambda look, notes: build_log_page(look, look.doubts, notes),
+    ),
+    Log: Presentation("a log", _summarise_log, _collect_log_tables, _collect_log_figures),
+    SimulatedLog: Presentation(
+        "a simulated log",
+        _summarise_simulated_log,
+        _collect_simulated_tables,
+        _collect_log_figures,
+        files=dict.fromkeys((".parquet", ".csv"), write_log),
+    ),
+    Observation: Presentation(
+        "an observation", _summarise_observation, lambda o: _collect_report_tables(o.report)
+    ),
+    DataReport: Presentation("a report", lambda r: "\n".join(r.lines()), _collect_report_tables),
+    ExcitingMotion: Presentation(
+        "a motion", _summarise_motion, lambda m: {"limits": partial(_tabulate_limits, m)}
+    ),
+}

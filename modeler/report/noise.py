@@ -17,28 +17,31 @@ _TORQUE, _OF_NOISE = Style(GREEN, 1.6), Style(VERMILLION, 1.6)
 _POSITION, _PARALLEL = Style(PINK, 1.4), Style(BLACK, 1.4)
 
 
-def noise_blocks(bands: Bands | None) -> list[Block]:
+def build_noise_blocks(bands: Bands | None) -> list[Block]:
     """What chose the cut-offs, and the picture; nothing where nothing moves."""
-    picture = noise_picture(bands)
+    picture = draw_noise_picture(bands)
     if bands is None or picture is None:
         return []
     said = [Items([("", line) for line in bands.chosen_by])] if bands.chosen_by else []
     return [*said, Figure(picture, titled=False)]
 
 
-def noise_picture(bands: Bands | None) -> Picture | None:
+def draw_noise_picture(bands: Bands | None) -> Picture | None:
     """Spectrum and floor of each joint that moves; beside them its torque, if a fit said it."""
     moving = [one for one in bands.noise if one.moves and any(one.spectrum)] if bands else []
     if bands is None or not moving:
         return None
     fitted = any(one.torque_noise for one in moving)
-    rows = tuple((_motion(one, bands), *[_torque(one, bands)] * fitted) for one in moving)
-    caption = _caption(bands, moving[0].of, fitted)
+    rows = tuple(
+        (_build_motion_panel(one, bands), *[_build_torque_panel(one, bands)] * fitted)
+        for one in moving
+    )
+    caption = _write_caption(bands, moving[0].of, fitted)
     height = 60 + _ROW * len(rows)
     return Picture("noise_of_the_motion", "Noise of the motion", caption, rows, height)
 
 
-def _motion(one: ChannelNoise, bands: Bands) -> Panel:
+def _build_motion_panel(one: ChannelNoise, bands: Bands) -> Panel:
     """Its spectrum, and the floor that it meets."""
     f, S = np.array(one.frequency), np.array(one.spectrum)
     f, S = f[S > 0.0], S[S > 0.0]
@@ -47,17 +50,19 @@ def _motion(one: ChannelNoise, bands: Bands) -> Panel:
     if one.density and one.hides_above_hz:
         along = np.array([one.hides_above_hz, f[-1]])
         series.append(Curve("floor: its noise", along, np.full(2, one.density), _FLOOR))
-        series.append(_upright("the noise hides the motion", one.hides_above_hz, ends, _MEETS))
+        series.append(
+            _build_vertical_curve("the noise hides the motion", one.hides_above_hz, ends, _MEETS)
+        )
     band = np.array([[min(f[0], one.band_hz) / 2.0, one.band_hz]])
     colour = f", noise of f^-{one.colour:.1f}" if one.colour else ""
     unit = {4: one.unit, 2: f"({one.unit}/s)", 0: f"({one.unit}/s2)"}[_POWER[one.of]]
     title, label = f"Joint {one.joint}: {one.of}{colour}", f"density [{unit}^2/Hz]"
     spans = (Span("motion band", band, PALE["blue"]),) if one.band_hz else ()
-    every = (*series, *_cutoffs(bands, ends))
+    every = (*series, *_build_cutoff_curves(bands, ends))
     return Panel(title, "frequency [Hz]", label, every, "log", spans=spans)
 
 
-def _torque(one: ChannelNoise, bands: Bands) -> Panel:
+def _build_torque_panel(one: ChannelNoise, bands: Bands) -> Panel:
     """A f^p, p = 4 of positions, against the level of the torque."""
     A, T, power = one.torque_of_noise, one.torque_noise, _POWER[one.of]
     if not A or not T or not power:  # without a motor or rows, or with exact accelerations
@@ -70,21 +75,25 @@ def _torque(one: ChannelNoise, bands: Bands) -> Panel:
     label = f"density [({'N' if one.unit == 'm' else 'N m'})^2/Hz]"
     title = f"Joint {one.joint}: torques{', which limits' * (one.joint == bands.limited_by)}"
     level = Curve("noise of the torque", np.array([f[0], f[-1]]), np.full(2, T), _TORQUE)
-    curves = Curve("torque of that noise", along, noise, _OF_NOISE), level, *_cutoffs(bands, ends)
+    curves = (
+        Curve("torque of that noise", along, noise, _OF_NOISE),
+        level,
+        *_build_cutoff_curves(bands, ends),
+    )
     return Panel(title, "frequency [Hz]", label, curves, "log")
 
 
-def _cutoffs(bands: Bands, ends: tuple[float, float]) -> list[Curve]:
+def _build_cutoff_curves(bands: Bands, ends: tuple[float, float]) -> list[Curve]:
     both = (("position filter", bands.position_cutoff, _POSITION),
             ("parallel filter", bands.parallel_cutoff, _PARALLEL))  # fmt: skip
-    return [_upright(label, at, ends, style) for label, at, style in both if at]
+    return [_build_vertical_curve(label, at, ends, style) for label, at, style in both if at]
 
 
-def _upright(label: str, at: float, ends: tuple[float, float], style: Style) -> Curve:
+def _build_vertical_curve(label: str, at: float, ends: tuple[float, float], style: Style) -> Curve:
     return Curve(label, np.full(2, at), np.array(ends), style)
 
 
-def _caption(bands: Bands, of: str, fitted: bool) -> str:
+def _write_caption(bands: Bands, of: str, fitted: bool) -> str:
     text = (
         f"Power density of the {of} (blue, means over third octaves) and the floor that it meets, "
         "the noise of the sensor (orange); from the dashed line on, it hides the motion. The band "

@@ -7,7 +7,7 @@ when a result is first shown.
 from functools import partial
 from importlib import import_module
 
-from modeler.core.result import present, present_later
+from modeler.core.result import register_lazily, register_presentations
 
 _SHOWN = {
     "derivation": "Robot Derivation Emitted CompiledModel HomeModes",
@@ -19,11 +19,11 @@ _SHOWN = {
 """Classes of results, by the file of this package whose `PRESENTATIONS` say how they are shown."""
 
 
-def register() -> None:
+def register_report_modules() -> None:
     """Says who knows how the results of every stage are shown."""
     for module, names in _SHOWN.items():
-        present_later(names.split(), partial(_load, module))
+        register_lazily(names.split(), partial(_load_presentations, module))
 
 
-def _load(module: str) -> None:
-    present(import_module(f"modeler.report.{module}").PRESENTATIONS)
+def _load_presentations(module: str) -> None:
+    register_presentations(import_module(f"modeler.report.{module}").PRESENTATIONS)

@@ -13,9 +13,16 @@ from typing import TYPE_CHECKING, Any
 import jinja2
 
 from modeler.core.figure import Picture
-from modeler.core.files import page_place, resource_dir, write_atomically
+from modeler.core.files import locate_resources, resolve_page_path, write_atomically
 from modeler.report.blocks import Block, Figure
-from modeler.report.figure_page import Numbers, cells, drawn, keys, packed, plotted
+from modeler.report.figure_page import (
+    ArrayStore,
+    arrange_panels,
+    collect_legend,
+    compress_base64,
+    describe_picture,
+    find_heat_maps,
+)
 
 if TYPE_CHECKING:
     from modeler.diagnosis import Diagnosis
@@ -33,65 +40,65 @@ class Drawings:
     """The pictures of one page, as its template asks for them."""
 
     def __init__(self) -> None:
-        self.numbers = Numbers()
+        self.numbers = ArrayStore()
         self.any = False
 
     def content(self, picture: Picture) -> str:
         """What the script draws it from."""
         self.any = True
-        return script_json(drawn(picture, self.numbers))
+        return encode_script_json(describe_picture(picture, self.numbers))
 
     def block(self) -> str:
         """The numbers of all pictures so far."""
-        return script_json(self.numbers.block())
+        return encode_script_json(self.numbers.encode_block())
 
 
-def render(template: str, **values: Any) -> str:
+def render_template(template: str, **values: Any) -> str:
     """Text of `templates/pages/<template>.html.jinja` with these values."""
-    made = _environment().get_template(f"{template}.html.jinja")
+    made = _build_environment().get_template(f"{template}.html.jinja")
     return made.render(drawings=Drawings(), **values)
 
 
-def script_json(content: Any) -> str:
+def encode_script_json(content: Any) -> str:
     """JSON that may stand inside a script element."""
     text = json.dumps(content, allow_nan=False, separators=(",", ":"), ensure_ascii=False)
     return text.replace("<", "\\u003c")
 
 
 @functools.cache
-def _environment() -> jinja2.Environment:
+def _build_environment() -> jinja2.Environment:
     made = jinja2.Environment(
-        loader=jinja2.FileSystemLoader(resource_dir("templates") / "pages"),
+        loader=jinja2.FileSystemLoader(locate_resources("templates") / "pages"),
         undefined=jinja2.StrictUndefined,
         trim_blocks=True,
         lstrip_blocks=True,
         autoescape=True,
     )
     made.globals.update(
-        asset=_asset,
-        plotly=_plotly,
-        plotted=plotted,
-        cells=cells,
-        keys=keys,
-        json=script_json,
+        asset=_read_asset,
+        plotly=_read_plotly,
+        plotted=arrange_panels,
+        cells=find_heat_maps,
+        keys=collect_legend,
+        json=encode_script_json,
         about=None,
     )
-    made.filters["share"] = _share
+    made.filters["share"] = _format_share
     return made
 
 
 @functools.cache
-def _asset(name: str) -> str:
+def _read_asset(name: str) -> str:
     """A style or a script of our own as it is."""
-    return (resource_dir("templates") / "pages" / name).read_text(encoding="utf-8")
+    return (locate_resources("templates") / "pages" / name).read_text(encoding="utf-8")
 
 
 @functools.cache
-def _plotly() -> str:
-    return packed((resource_dir("templates") / PLOTLY).read_bytes())
+def _read_plotly() -> str:
+    return compress_base64((locate_resources("templates") / PLOTLY).read_bytes())
 
 
-def _share(value: float, top: float) -> str:
+def _format_share(value: float, top: float) -> str:
     """0 to 1, as a style may say it."""
     return f"{min(1.0, max(0.0, value / top)) if value == value and top > 0.0 else 0.0:.3f}"
 
@@ -107,7 +114,7 @@ _ORDER = ("derive", "show", "home", "fit", "estimators", "compare", "diagnose", 
 
 
 @dataclass(frozen=True)
-class Entry:
+class PageEntry:
     """A page of the folder.
 
     Attributes:
@@ -155,36 +162,39 @@ def write_index(folder: Path, title: str = "") -> Path | None:
         ModelerError: the place cannot be written.
     """
     place = Path(folder) / NAME
-    if place.exists() and (_about(place) or {}).get("command") != "index":
+    if place.exists() and (_read_about(place) or {}).get("command") != "index":
         return None
-    found = entries(Path(folder))
+    page_entries = find_pages(Path(folder))
     name = title or Path(folder).resolve().name
-    write_atomically(place, render("index", title=name, entries=found, about={"command": "index"}))
+    write_atomically(
+        place,
+        render_template("index", title=name, entries=page_entries, about={"command": "index"}),
+    )
     return place
 
 
-def entries(folder: Path) -> list[Entry]:
+def find_pages(folder: Path) -> list[PageEntry]:
     """Our pages in a folder and in its folders, in the order in which one reads them."""
     pages = [*folder.glob("*.html"), *folder.glob("*/*.html")]
-    found = []
+    page_entries = []
     for path in pages:
-        about = _about(path)
+        about = _read_about(path)
         if about is not None and about.get("command") != "index":
             place = path.relative_to(folder).as_posix()
             texts = {name: str(about.get(name) or "") for name in _TEXTS}
             logs, held = about.get("logs"), about.get("held_out")
-            found.append(
-                Entry(
+            page_entries.append(
+                PageEntry(
                     place=place,
                     logs=tuple(map(str, logs)) if isinstance(logs, list) else (),
                     held_out=held if isinstance(held, bool) else None,
                     **texts | {"title": texts["title"] or place},
                 )
             )
-    return sorted(found, key=lambda entry: (entry.folder, entry.rank))
+    return sorted(page_entries, key=lambda entry: (entry.folder, entry.rank))
 
 
-def _about(path: Path) -> dict[str, object] | None:
+def _read_about(path: Path) -> dict[str, object] | None:
     """What a page says of itself; None for a page of somebody else."""
     try:
         with path.open(encoding="utf-8") as file:
@@ -246,26 +256,26 @@ class Page:
 
     def __str__(self) -> str:
         """The HTML."""
-        return page_text(self)
+        return render_page(self)
 
-    def pictures(self) -> list[Picture]:
+    def collect_pictures(self) -> list[Picture]:
         """All that it shows, in order, each under a name of its own."""
         blocks = (block for section in self.sections for block in section.blocks)
-        found: dict[str, Picture] = {}
+        pictures: dict[str, Picture] = {}
         for picture in (block.picture for block in blocks if isinstance(block, Figure)):
             name = picture.name
-            alike = sum(own == name or own.startswith(f"{name}_again_") for own in found)
-            name = f"{name}_again_{alike}" if name in found else name
-            found[name] = dataclasses.replace(picture, name=name)
-        return list(found.values())
+            alike = sum(other == name or other.startswith(f"{name}_again_") for other in pictures)
+            name = f"{name}_again_{alike}" if name in pictures else name
+            pictures[name] = dataclasses.replace(picture, name=name)
+        return list(pictures.values())
 
 
-def page_text(sheet: Page) -> str:
+def render_page(sheet: Page) -> str:
     """The page as text; its security policy forbids any network access."""
-    return render("sheet", sheet=sheet, about=_page_facts(sheet))
+    return render_template("sheet", sheet=sheet, about=_collect_page_facts(sheet))
 
 
-def _page_facts(sheet: Page) -> dict[str, Any]:
+def _collect_page_facts(sheet: Page) -> dict[str, Any]:
     """What the index of a folder says of the page."""
     texts = (sheet.command, sheet.title, *sheet.headline, sheet.origin.model)
     logs, held = list(sheet.origin.logs), sheet.origin.held_out
@@ -286,8 +296,8 @@ def write_page(path: Path, sheet: Page) -> Path:
     Raises:
         ModelerError: the place cannot be written.
     """
-    place = page_place(Path(path), _FILES.get(sheet.command, f"{sheet.command}.html"))
-    write_atomically(place, page_text(sheet))
+    place = resolve_page_path(Path(path), _FILES.get(sheet.command, f"{sheet.command}.html"))
+    write_atomically(place, render_page(sheet))
     if place != Path(path):
         write_index(place.parent)
     return place
@@ -296,7 +306,7 @@ def write_page(path: Path, sheet: Page) -> Path:
 # The command to go on with, after each page, with the files of the one that was given.
 
 
-def after_fit(
+def suggest_after_fit(
     model: str, logs: Sequence[str], robot: str, fit: "FitResult", mapped: Sequence[str] = ()
 ) -> list[str]:
     """Compare the model with logs, and look for what it lacks; first what the fit asks for.
@@ -308,23 +318,26 @@ def after_fit(
         fit: judged.
         mapped: what `--map` was given; the model keeps it, the robot file does not.
     """
-    judge = f"modeler compare {_listed([model, *logs])} --report compare.html"
-    look = f"modeler diagnose {_listed([model, *logs])} --report diagnosis.html"
+    judge = f"modeler compare {_quote_words([model, *logs])} --report compare.html"
+    look = f"modeler diagnose {_quote_words([model, *logs])} --report diagnosis.html"
     verdict = fit.verdict
     if verdict is not None and not verdict.usable:
-        words = "".join(f" --map {_listed([word])}" for word in mapped)
-        return [f"modeler log {_listed(logs[:1])} --robot {_listed([robot])}{words}", look]
-    return [look, judge] if _lacks(fit) else [judge, look]
+        words = "".join(f" --map {_quote_words([word])}" for word in mapped)
+        return [
+            f"modeler log {_quote_words(logs[:1])} --robot {_quote_words([robot])}{words}",
+            look,
+        ]
+    return [look, judge] if _is_effect_missing(fit) else [judge, look]
 
 
-def _lacks(fit: "FitResult") -> bool:
+def _is_effect_missing(fit: "FitResult") -> bool:
     """True if an effect seems to be missing."""
     if fit.verdict is not None and fit.verdict.valid_for != "parameters":
         return True
     return any("`modeler diagnose`" in line for line in fit.sentences)
 
 
-def after_compare(
+def suggest_after_compare(
     model: str, fitted: Sequence[str], logs: Sequence[str], held_out: bool, noise: bool = False
 ) -> str:
     """Look for what is missing; if nothing is, go to the controller.
@@ -337,29 +350,34 @@ def after_compare(
         noise: True if nothing else is left on any joint.
     """
     if noise:
-        return _taken(model)
+        return _suggest_generate(model)
     if not held_out:
-        return f"modeler diagnose {_listed([model, *logs])}"
-    return f"modeler diagnose {_listed([model, *fitted])}{_held(logs)}"
+        return f"modeler diagnose {_quote_words([model, *logs])}"
+    return f"modeler diagnose {_quote_words([model, *fitted])}{_format_holdout(logs)}"
 
 
-def after_stated(robot: str, logs: Sequence[str], mapped: Sequence[str] = ()) -> str:
+def suggest_after_stated(robot: str, logs: Sequence[str], mapped: Sequence[str] = ()) -> str:
     """Fit what a robot file states otherwise."""
-    words = "".join(f" --map {_listed([word])}" for word in mapped)
+    words = "".join(f" --map {_quote_words([word])}" for word in mapped)
     stem = Path(robot).name.partition(".")[0]
-    return f"modeler fit {_listed([robot, *logs])}{words} --out {_listed([f'{stem}.model.json'])}"
+    return (
+        f"modeler fit {_quote_words([robot, *logs])}{words} --out "
+        f"{_quote_words([f'{stem}.model.json'])}"
+    )
 
 
-def after_diagnosis(
+def suggest_after_diagnosis(
     model: str, logs: Sequence[str], holdout: Sequence[str], diagnosis: "Diagnosis",
     effects_from: str | None = None,
 ) -> list[str]:  # fmt: skip
     """Add the effects that have columns; without any, see what is left, or take the model."""
-    named = diagnosis.addable
+    named = diagnosis.addable_findings
     if not named and diagnosis.verdict == "nothing significant":
-        return [_taken(model)]
+        return [_suggest_generate(model)]
     if not named:
-        return [f"modeler compare {_listed([model, *(holdout or logs)])} --report compare.html"]
+        return [
+            f"modeler compare {_quote_words([model, *(holdout or logs)])} --report compare.html"
+        ]
     first = named[0]
     effect = shlex.quote(first.effect) + (
         f" --joint {shlex.quote(first.joint)}" if first.joint else ""
@@ -367,33 +385,36 @@ def after_diagnosis(
     effect = "auto" if sum(not f.doubt for f in named) > 1 else effect
     path = Path(model)
     better = path.with_name(f"{path.name.partition('.')[0]}-improved{''.join(path.suffixes)}")
-    words = f"modeler add {_listed([model])} {effect} {_listed(logs)}{_held(holdout)}"
+    words = (
+        f"modeler add {_quote_words([model])} {effect} "
+        f"{_quote_words(logs)}{_format_holdout(holdout)}"
+    )
     words += f" --effects-from {shlex.quote(effects_from)}" if effects_from else ""
-    return [f"{words} --out {_listed([str(better)])}"]
+    return [f"{words} --out {_quote_words([str(better)])}"]
 
 
-def after_add(
+def suggest_after_add(
     model: str, logs: Sequence[str], holdout: Sequence[str], fit: "FitResult"
 ) -> list[str]:
     """Compare the new model with what was never fitted, if given; take it to the controller.
 
     First see what it lacks still, if it does.
     """
-    own = _listed([model])
-    look = f"modeler diagnose {own} {_listed(logs)}{_held(holdout)}"
-    judge = f"modeler compare {_listed([model, *(holdout or logs)])}"
-    return [*([look] if _lacks(fit) else []), judge, _taken(model)]
+    model_word = _quote_words([model])
+    look = f"modeler diagnose {model_word} {_quote_words(logs)}{_format_holdout(holdout)}"
+    judge = f"modeler compare {_quote_words([model, *(holdout or logs)])}"
+    return [*([look] if _is_effect_missing(fit) else []), judge, _suggest_generate(model)]
 
 
-def _held(holdout: Sequence[str]) -> str:
-    return "".join(f" --holdout {_listed([log])}" for log in holdout)
+def _format_holdout(holdout: Sequence[str]) -> str:
+    return "".join(f" --holdout {_quote_words([log])}" for log in holdout)
 
 
-def _taken(model: str) -> str:
+def _suggest_generate(model: str) -> str:
     """To the controller."""
     folder = f"{Path(model).name.partition('.')[0]}_c"
-    return f"modeler generate {_listed([model])} --out {_listed([folder])}"
+    return f"modeler generate {_quote_words([model])} --out {_quote_words([folder])}"
 
 
-def _listed(words: Sequence[str]) -> str:
+def _quote_words(words: Sequence[str]) -> str:
     return " ".join(shlex.quote(word) for word in words)

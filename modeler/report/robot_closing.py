@@ -10,7 +10,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from modeler.report.robot_skeleton import BASE, Skeleton, poses, size_of
+from modeler.report.robot_skeleton import BASE, Skeleton, compute_poses, estimate_robot_size
 from modeler.robot import Loop
 
 CLOSED = 1e-9
@@ -25,7 +25,7 @@ _COMPLEX_STEP = 1e-30
 
 
 @dataclass(frozen=True)
-class Gap:
+class LoopGap:
     """How far a loop is open.
 
     Attributes:
@@ -39,7 +39,7 @@ class Gap:
     loop: Loop
     distance: float
     angle: float
-    way: np.ndarray
+    path: np.ndarray
 
 
 @dataclass(frozen=True)
@@ -64,24 +64,33 @@ class Posture:
     note: str = ""
 
 
-def home_posture(skeleton: Skeleton) -> Posture:
+def find_home_posture(skeleton: Skeleton) -> Posture:
     """[home] with its loops closed by the passive joints, else by all; else as it is stated."""
     stated = skeleton.stated
-    size = size_of(skeleton, stated)
-    for places, held in ((skeleton.solved, True), (tuple(range(len(stated))), False)):
-        found = closed_from(skeleton, stated, places, size)
-        if found is not None:
-            return Posture(found, size_of(skeleton, found), True, held, _loose(skeleton, found))
+    size = estimate_robot_size(skeleton, stated)
+    for places, held in ((skeleton.dependent_places, True), (tuple(range(len(stated))), False)):
+        closed_u = solve_closure(skeleton, stated, places, size)
+        if closed_u is not None:
+            return Posture(
+                closed_u,
+                estimate_robot_size(skeleton, closed_u),
+                True,
+                held,
+                _find_loose_joints(skeleton, closed_u),
+            )
     return Posture(stated, size, False, True)
 
 
-def _loose(skeleton: Skeleton, u: np.ndarray) -> tuple[str, ...]:
+def _find_loose_joints(skeleton: Skeleton, u: np.ndarray) -> tuple[str, ...]:
     """Names of the joints that the loops leave undetermined at u to first order."""
-    places = skeleton.solved
+    places = skeleton.dependent_places
     if not places or not skeleton.robot.loops:
         return ()
-    size = size_of(skeleton, u)
-    J = jacobian(skeleton, u, size, places) * np.where(skeleton.travels, size, 1.0)[list(places)]
+    size = estimate_robot_size(skeleton, u)
+    J = (
+        compute_jacobian(skeleton, u, size, places)
+        * np.where(skeleton.is_travel, size, 1.0)[list(places)]
+    )
     _, sizes, turned = np.linalg.svd(J)
     idle = turned[int(np.sum(sizes > _SINGULAR * sizes[0])) :]
     if not len(idle):
@@ -92,7 +101,7 @@ def _loose(skeleton: Skeleton, u: np.ndarray) -> tuple[str, ...]:
     )
 
 
-def closed_from(
+def solve_closure(
     skeleton: Skeleton, start: np.ndarray, places: Sequence[int], size: float
 ) -> np.ndarray | None:
     """The closed posture that is found from `start` by moving `places`; None if none is.
@@ -104,78 +113,96 @@ def closed_from(
         size: a length of the robot, m.
     """
     u = np.array(start, dtype=float)
-    scale = np.where(skeleton.travels, size, 1.0)[list(places)]
+    scale = np.where(skeleton.is_travel, size, 1.0)[list(places)]
     for _ in range(_ITERATIONS):
-        f = residuals(skeleton, u, size)
+        f = compute_residuals(skeleton, u, size)
         if np.max(np.abs(f), initial=0.0) < _ENOUGH or not places:
             break
-        J = jacobian(skeleton, u, size, places) * scale
+        J = compute_jacobian(skeleton, u, size, places) * scale
         step = np.linalg.lstsq(J, -f, rcond=_RANK)[0]
         step *= min(1.0, _LONGEST / max(float(np.max(np.abs(step))), 1e-300))
         u[list(places)] += step * scale
         if np.max(np.abs(step)) < 1e-15:
             break
-    f = residuals(skeleton, u, size)
+    f = compute_residuals(skeleton, u, size)
     return u if np.max(np.abs(f), initial=0.0) < CLOSED else None
 
 
-def jacobian(skeleton: Skeleton, u: np.ndarray, size: float, places: Sequence[int]) -> np.ndarray:
-    """(equations, places) derivatives of `residuals`."""
+def compute_jacobian(
+    skeleton: Skeleton, u: np.ndarray, size: float, places: Sequence[int]
+) -> np.ndarray:
+    """(equations, places) derivatives of `compute_residuals`."""
     columns = []
     for k in places:
         moved = u.astype(complex)
         moved[k] += 1j * _COMPLEX_STEP
-        columns.append(residuals(skeleton, moved, size).imag / _COMPLEX_STEP)
+        columns.append(compute_residuals(skeleton, moved, size).imag / _COMPLEX_STEP)
     return np.array(columns).T
 
 
-def residuals(skeleton: Skeleton, u: np.ndarray, size: float) -> np.ndarray:
+def compute_residuals(skeleton: Skeleton, u: np.ndarray, size: float) -> np.ndarray:
     """What vanishes where the loops are closed: lengths in robot sizes, direction cosines."""
-    frames = poses(skeleton, u)
-    found = [
+    frames = compute_poses(skeleton, u)
+    parts = [
         np.atleast_1d(value)
         for loop in skeleton.robot.loops
-        for value in _KINDS[loop.kind](*_meeting(skeleton, frames, loop), size)
+        for value in _KINDS[loop.kind](*_select_loop_frames(skeleton, frames, loop), size)
     ]
-    return np.concatenate(found) if found else np.zeros(0)
+    return np.concatenate(parts) if parts else np.zeros(0)
 
 
-def _meeting(skeleton: Skeleton, frames: np.ndarray, loop: Loop) -> tuple[np.ndarray, np.ndarray]:
-    numbers = (skeleton.number(loop.frame), skeleton.number(loop.meets))
+def _select_loop_frames(
+    skeleton: Skeleton, frames: np.ndarray, loop: Loop
+) -> tuple[np.ndarray, np.ndarray]:
+    numbers = (skeleton.find_row(loop.frame), skeleton.find_row(loop.meets))
     one, other = (np.eye(4) if i == BASE else frames[i] for i in numbers)
     return one, other
 
 
-def _way(a: np.ndarray, b: np.ndarray, size: float) -> np.ndarray:
+def _compute_offset(a: np.ndarray, b: np.ndarray, size: float) -> np.ndarray:
     return np.asarray((b[:3, 3] - a[:3, 3]) / size)
 
 
-def _axis(a: np.ndarray, b: np.ndarray, number: int) -> np.ndarray:
+def _compute_axis_difference(a: np.ndarray, b: np.ndarray, number: int) -> np.ndarray:
     return np.asarray(a[:3, number] - b[:3, number])
 
 
-def _beside(a: np.ndarray, b: np.ndarray, size: float) -> np.ndarray:
-    return np.cross(a[:3, 2], _way(a, b, size))
+def _compute_lateral_offset(a: np.ndarray, b: np.ndarray, size: float) -> np.ndarray:
+    return np.cross(a[:3, 2], _compute_offset(a, b, size))
 
 
 _KINDS: Mapping[str, Callable[[np.ndarray, np.ndarray, float], list[np.ndarray]]] = {
-    "position": lambda a, b, s: [_way(a, b, s)],
-    "spherical": lambda a, b, s: [_way(a, b, s)],
-    "universal": lambda a, b, s: [_way(a, b, s), a[:3, 2] @ b[:3, 2]],
-    "revolute": lambda a, b, s: [_way(a, b, s), _axis(a, b, 2)],
-    "cylindrical": lambda a, b, s: [_beside(a, b, s), _axis(a, b, 2)],
-    "prismatic": lambda a, b, s: [_beside(a, b, s), _axis(a, b, 2), _axis(a, b, 0)],
-    "planar": lambda a, b, s: [a[:3, 2] @ _way(a, b, s), _axis(a, b, 2)],
-    "rigid": lambda a, b, s: [_way(a, b, s), _axis(a, b, 2), _axis(a, b, 0)],
+    "position": lambda a, b, s: [_compute_offset(a, b, s)],
+    "spherical": lambda a, b, s: [_compute_offset(a, b, s)],
+    "universal": lambda a, b, s: [_compute_offset(a, b, s), a[:3, 2] @ b[:3, 2]],
+    "revolute": lambda a, b, s: [_compute_offset(a, b, s), _compute_axis_difference(a, b, 2)],
+    "cylindrical": lambda a, b, s: [
+        _compute_lateral_offset(a, b, s),
+        _compute_axis_difference(a, b, 2),
+    ],
+    "prismatic": lambda a, b, s: [
+        _compute_lateral_offset(a, b, s),
+        _compute_axis_difference(a, b, 2),
+        _compute_axis_difference(a, b, 0),
+    ],
+    "planar": lambda a, b, s: [
+        a[:3, 2] @ _compute_offset(a, b, s),
+        _compute_axis_difference(a, b, 2),
+    ],
+    "rigid": lambda a, b, s: [
+        _compute_offset(a, b, s),
+        _compute_axis_difference(a, b, 2),
+        _compute_axis_difference(a, b, 0),
+    ],
 }
 
 
-def gaps_of(skeleton: Skeleton, u: np.ndarray) -> tuple[Gap, ...]:
+def compute_gaps(skeleton: Skeleton, u: np.ndarray) -> tuple[LoopGap, ...]:
     """How far every loop is open at u."""
-    frames = poses(skeleton, u)
+    frames = compute_poses(skeleton, u)
     gaps = []
     for loop in skeleton.robot.loops:
-        a, b = _meeting(skeleton, frames, loop)
+        a, b = _select_loop_frames(skeleton, frames, loop)
         way, z = b[:3, 3] - a[:3, 3], a[:3, 2]
         allowed = np.zeros(3)
         if loop.kind in ("cylindrical", "prismatic"):
@@ -184,16 +211,16 @@ def gaps_of(skeleton: Skeleton, u: np.ndarray) -> tuple[Gap, ...]:
             allowed = way - z * (z @ way)
         points = np.array([a[:3, 3], a[:3, 3] + allowed, b[:3, 3]])
         distance = float(np.linalg.norm(way - allowed))
-        gaps.append(Gap(loop, distance, _angle(loop.kind, a, b), points))
+        gaps.append(LoopGap(loop, distance, _compute_gap_angle(loop.kind, a, b), points))
     return tuple(gaps)
 
 
-def _angle(kind: str, a: np.ndarray, b: np.ndarray) -> float:
+def _compute_gap_angle(kind: str, a: np.ndarray, b: np.ndarray) -> float:
     """The largest angle between directions that should agree."""
     if kind in ("position", "spherical"):
         return 0.0
     if kind == "universal":
         return float(abs(np.arcsin(np.clip(a[:3, 2] @ b[:3, 2], -1.0, 1.0))))
     axes = (0, 2) if kind in ("rigid", "prismatic") else (2,)
-    chords = [float(np.linalg.norm(_axis(a, b, k))) for k in axes]
+    chords = [float(np.linalg.norm(_compute_axis_difference(a, b, k))) for k in axes]
     return 2.0 * float(np.arcsin(min(1.0, max(chords) / 2.0)))

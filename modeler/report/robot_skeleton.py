@@ -5,8 +5,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from modeler.core.brief import Brief
-from modeler.robot import Joint, JointKind, Robot, linear_form
+from modeler.core.brief import ShortRepr
+from modeler.robot import Joint, JointKind, Robot, extract_linear_form
 
 BASE = -1
 """Number of the base among the rows."""
@@ -15,7 +15,7 @@ _CELLS = ("gamma", "b", "alpha", "d", "theta", "r")
 
 
 @dataclass(frozen=True)
-class SkeletonRow(Brief):
+class SkeletonRow(ShortRepr):
     """One row of the table, in numbers: rad and m.
 
     Attributes:
@@ -38,7 +38,7 @@ class SkeletonRow(Brief):
 
 
 @dataclass(frozen=True)
-class Skeleton(Brief):
+class Skeleton(ShortRepr):
     """A robot's table, loops and home in numbers.
 
     Attributes:
@@ -53,51 +53,53 @@ class Skeleton(Brief):
     robot: Robot
     rows: tuple[SkeletonRow, ...]
     free: tuple[str, ...]
-    given: tuple[int, ...]
+    independent_places: tuple[int, ...]
     stated: np.ndarray
     gravity: np.ndarray
 
     @property
-    def solved(self) -> tuple[int, ...]:
+    def dependent_places(self) -> tuple[int, ...]:
         """Places in u of the variables that the loops determine."""
-        return tuple(k for k in range(len(self.free)) if k not in self.given)
+        return tuple(k for k in range(len(self.free)) if k not in self.independent_places)
 
     @property
-    def travels(self) -> np.ndarray:
+    def is_travel(self) -> np.ndarray:
         """(free,) True where u is a travel in m."""
-        return np.array([not self.robot.joint(name).angular for name in self.free], dtype=bool)
+        return np.array(
+            [not self.robot.get_joint(name).is_revolute for name in self.free], dtype=bool
+        )
 
-    def number(self, name: str) -> int:
+    def find_row(self, name: str) -> int:
         """Place of the row of that name; `BASE` for "0"."""
         return next((i for i, row in enumerate(self.rows) if row.joint.name == name), BASE)
 
-    def body(self, row: int) -> int:
+    def find_body_row(self, row: int) -> int:
         """The moving row that carries the frame of that row; `BASE` for the base."""
-        while row != BASE and not self.rows[row].joint.moves:
+        while row != BASE and not self.rows[row].joint.is_moving:
             row = self.rows[row].parent
         return row
 
-    def depth(self, row: int) -> int:
+    def count_depth(self, row: int) -> int:
         """How many moving joints, those of the platform apart, lie between the row and the base."""
         count = 0
         while row != BASE:
-            count += self.rows[row].joint.moves and not self.rows[row].virtual
+            count += self.rows[row].joint.is_moving and not self.rows[row].virtual
             row = self.rows[row].parent
         return count
 
 
-def skeleton_of(robot: Robot) -> Skeleton:
+def build_skeleton(robot: Robot) -> Skeleton:
     """The numbers of a robot's table, at the values of its symbols."""
-    values = robot.symbol_values()
-    free = tuple(joint.name for joint in robot.free)
+    values = robot.evaluate_symbols()
+    free = tuple(joint.name for joint in robot.free_joints)
     places = {joint.name: i for i, joint in enumerate(robot.joints)}
-    forms = _forms(robot, values, free)
+    forms = _build_joint_forms(robot, values, free)
     rows = []
     for joint in robot.joints:
         cells: dict[str, float] = {}
         rate = 0.0
         for name in _CELLS:
-            affine = linear_form(getattr(joint, name), values)
+            affine = extract_linear_form(getattr(joint, name), values)
             cells[name] = affine.constant
             rate += affine.coefficients.get(joint.variable, 0.0)
         form = forms.get(joint.name, np.zeros(1 + len(free)))
@@ -107,30 +109,30 @@ def skeleton_of(robot: Robot) -> Skeleton:
         robot=robot,
         rows=tuple(rows),
         free=free,
-        given=tuple(free.index(joint.name) for joint in robot.coordinates),
+        independent_places=tuple(free.index(joint.name) for joint in robot.coordinates),
         stated=np.array([robot.home.get(name, 0.0) for name in free]),
-        gravity=np.array([component.number(values) for component in robot.gravity]),
+        gravity=np.array([component.evaluate(values) for component in robot.gravity]),
     )
 
 
-def _forms(
+def _build_joint_forms(
     robot: Robot, values: Mapping[str, float], free: tuple[str, ...]
 ) -> dict[str, np.ndarray]:
     """Of every moving row: constant, then coefficients of u."""
-    found = {name: np.eye(1 + len(free))[1 + k] for k, name in enumerate(free)}
+    forms = {name: np.eye(1 + len(free))[1 + k] for k, name in enumerate(free)}
     left = dict(robot.relations)
     while left:
         for name in list(left):
-            form = linear_form(left[name], values)
+            form = extract_linear_form(left[name], values)
             owners = {variable[1:]: c for variable, c in form.coefficients.items()}
-            if owners.keys() <= found.keys():
+            if owners.keys() <= forms.keys():
                 total = np.eye(1 + len(free))[0] * form.constant
-                found[name] = sum((c * found[o] for o, c in owners.items()), total)
+                forms[name] = sum((c * forms[o] for o, c in owners.items()), total)
                 del left[name]
-    return found
+    return forms
 
 
-def kind_word(joint: Joint) -> str:
+def format_joint_kind(joint: Joint) -> str:
     """`revolute`, `prismatic`, `fixed`."""
     return JointKind(joint.kind).name.lower()
 
@@ -138,7 +140,7 @@ def kind_word(joint: Joint) -> str:
 # Where the frames are: poses from the table, and what a joint moves.
 
 
-def poses(skeleton: Skeleton, u: np.ndarray) -> np.ndarray:
+def compute_poses(skeleton: Skeleton, u: np.ndarray) -> np.ndarray:
     """(rows, 4, 4) poses of all frames in frame 0.
 
     T(a -> j) = Rz(gamma) Tz(b) Rx(alpha) Tx(d) Rz(theta) Tz(r) (Khalil and Kleinfinger 1986).
@@ -147,43 +149,43 @@ def poses(skeleton: Skeleton, u: np.ndarray) -> np.ndarray:
         skeleton: the table.
         u: (free,) variables; may be complex, for derivatives.
     """
-    found = np.empty((len(skeleton.rows), 4, 4), dtype=np.result_type(u, float))
+    frame_poses = np.empty((len(skeleton.rows), 4, 4), dtype=np.result_type(u, float))
     for i, row in enumerate(skeleton.rows):
-        before = np.eye(4) if row.parent == BASE else found[row.parent]
+        before = np.eye(4) if row.parent == BASE else frame_poses[row.parent]
         q = row.constant + row.coefficients @ u
         theta, r = row.cells["theta"], row.cells["r"]
-        moved = (theta + row.rate * q, r) if row.joint.angular else (theta, r + row.rate * q)
-        found[i] = before @ foot(row) @ _screw_z(*moved)
-    return found
+        moved = (theta + row.rate * q, r) if row.joint.is_revolute else (theta, r + row.rate * q)
+        frame_poses[i] = before @ compute_foot_pose(row) @ _compute_screw(*moved)
+    return frame_poses
 
 
-def foot(row: SkeletonRow) -> np.ndarray:
+def compute_foot_pose(row: SkeletonRow) -> np.ndarray:
     """(4, 4) pose of the foot of the joint axis in the antecedent frame: before theta and r."""
     cells = row.cells
     tilt = np.eye(4)
     c, s = np.cos(cells["alpha"]), np.sin(cells["alpha"])
     tilt[1:3, 1:3] = [[c, -s], [s, c]]
     tilt[0, 3] = cells["d"]
-    return np.asarray(_screw_z(cells["gamma"], cells["b"]) @ tilt)
+    return np.asarray(_compute_screw(cells["gamma"], cells["b"]) @ tilt)
 
 
-def corner(row: SkeletonRow) -> np.ndarray:
+def compute_corner(row: SkeletonRow) -> np.ndarray:
     """(3,) where the common normal leaves the antecedent's z axis, in the antecedent frame."""
     return np.array([0.0, 0.0, row.cells["b"]])
 
 
-def _screw_z(angle: complex | float, travel: complex | float) -> np.ndarray:
+def _compute_screw(angle: complex | float, travel: complex | float) -> np.ndarray:
     c, s = np.cos(angle), np.sin(angle)
     return np.array([[c, -s, 0, 0], [s, c, 0, 0], [0, 0, 1, travel], [0, 0, 0, 1]])
 
 
-def size_of(skeleton: Skeleton, u: np.ndarray) -> float:
+def estimate_robot_size(skeleton: Skeleton, u: np.ndarray) -> float:
     """A length of the robot, m: the diagonal of the box around its frames; 1 without any extent."""
-    frames = poses(skeleton, u)
+    frames = compute_poses(skeleton, u)
     points = [np.zeros(3)]
     for i, row in enumerate(skeleton.rows):
         before = np.eye(4) if row.parent == BASE else frames[row.parent]
-        points += [frames[i][:3, 3], (before @ foot(row))[:3, 3]]
+        points += [frames[i][:3, 3], (before @ compute_foot_pose(row))[:3, 3]]
     span = np.ptp(np.array(points), axis=0)
     size = float(np.linalg.norm(span))
     return 1.0 if size <= 1e-9 else size

@@ -2,50 +2,53 @@ from .body_tree import (
     BodyTree as BodyTree,
     Inertial as Inertial,
     Pose as Pose,
-    about_origin as about_origin,
-    moving_links as moving_links,
-    together as together,
-    turned as turned,
+    collect_moving_links as collect_moving_links,
+    combine_inertials as combine_inertials,
+    compute_axis_rotation as compute_axis_rotation,
+    compute_standard_parameters as compute_standard_parameters,
 )
-from .cells import linear_form as linear_form
+from .cells import extract_linear_form as extract_linear_form
 from .conventions import (
-    written_cell as written_cell,
-    written_letter as written_letter,
-    written_table as written_table,
+    build_written_table as build_written_table,
+    get_written_letter as get_written_letter,
+    locate_written_cell as locate_written_cell,
 )
 from .edit import (
-    home_lines as home_lines,
-    robot_with_effects as robot_with_effects,
-    with_coupling as with_coupling,
-    with_drive_gains as with_drive_gains,
-    with_effect as with_effect,
-    with_effect_on as with_effect_on,
-    with_effects as with_effects,
-    with_fitted as with_fitted,
-    with_gravity as with_gravity,
-    with_home_text as with_home_text,
-    with_limits as with_limits,
-    with_log as with_log,
-    with_own_effect as with_own_effect,
-    with_reference as with_reference,
-    with_symbol as with_symbol,
-    written_limits as written_limits,
-    written_symbols as written_symbols,
+    format_home_lines as format_home_lines,
+    insert_coupling as insert_coupling,
+    insert_effect as insert_effect,
+    insert_own_effect as insert_own_effect,
+    read_limit_texts as read_limit_texts,
+    read_symbol_texts as read_symbol_texts,
+    replace_drive_gains as replace_drive_gains,
+    replace_effects as replace_effects,
+    replace_fitted_values as replace_fitted_values,
+    replace_gravity as replace_gravity,
+    replace_home as replace_home,
+    replace_limits as replace_limits,
+    replace_log_table as replace_log_table,
+    replace_reference as replace_reference,
+    replace_robot_effects as replace_robot_effects,
+    replace_symbol as replace_symbol,
+    set_joint_effect as set_joint_effect,
 )
 from .loops import read_home as read_home
-from .mdh_rows import roll_pitch_yaw as roll_pitch_yaw
-from .mjcf import mjcf_tree as mjcf_tree
-from .motors import joint_directions as joint_directions
-from .parameter_words import ParameterWords as ParameterWords, parameter_words as parameter_words
+from .mdh_rows import compute_roll_pitch_yaw as compute_roll_pitch_yaw
+from .mjcf import read_mjcf_tree as read_mjcf_tree
+from .motors import compute_joint_directions as compute_joint_directions
+from .parameter_words import (
+    ParameterDescription as ParameterDescription,
+    describe_parameters as describe_parameters,
+)
 from .pasted import (
     PastedTable as PastedTable,
-    pasted_cells as pasted_cells,
-    pasted_robot as pasted_robot,
-    pasted_table as pasted_table,
-    with_pasted as with_pasted,
+    build_pasted_robot as build_pasted_robot,
+    insert_pasted_table as insert_pasted_table,
+    parse_pasted_cells as parse_pasted_cells,
+    parse_pasted_table as parse_pasted_table,
 )
-from .quaternions import rotation_matrix as rotation_matrix
-from .read import read_robot as read_robot, robot_from_text as robot_from_text
+from .quaternions import compute_quaternion_rotation as compute_quaternion_rotation
+from .read import parse_robot_text as parse_robot_text, read_robot as read_robot
 from .robot import (
     INERTIAL as INERTIAL,
     LOOP_KINDS as LOOP_KINDS,
@@ -57,32 +60,32 @@ from .robot import (
     LinkFrame as LinkFrame,
     Loop as Loop,
     PhysicalLink as PhysicalLink,
-    Place as Place,
     Robot as Robot,
     SharedParameter as SharedParameter,
-    listed as listed,
-    near as near,
+    TomlCell as TomlCell,
+    join_names as join_names,
+    suggest_name as suggest_name,
 )
 from .shared_effects import (
     SharedEffects as SharedEffects,
-    exported_effect as exported_effect,
-    shared_effects as shared_effects,
+    collect_shared_effects as collect_shared_effects,
+    export_effect as export_effect,
 )
 from .start import (
     check_new_robot as check_new_robot,
     convert as convert,
+    fill_template as fill_template,
     new_robot as new_robot,
-    template_robot as template_robot,
 )
 from .table_text import (
     TableText as TableText,
-    cell_of as cell_of,
-    convention_of as convention_of,
-    table_text as table_text,
-    with_cell as with_cell,
-    with_row as with_row,
-    without_row as without_row,
+    find_table_text as find_table_text,
+    insert_row as insert_row,
+    locate_error_cell as locate_error_cell,
+    read_table_convention as read_table_convention,
+    remove_row as remove_row,
+    replace_cell as replace_cell,
 )
-from .tree_cuts import lock_values as lock_values
-from .urdf import urdf_tree as urdf_tree
-from .xml_source import Element as Element, parse_xml as parse_xml, replaced as replaced
+from .tree_cuts import parse_lock_values as parse_lock_values
+from .urdf import read_urdf_tree as read_urdf_tree
+from .xml_source import Element as Element, parse_xml as parse_xml, replace_spans as replace_spans

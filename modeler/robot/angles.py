@@ -17,17 +17,17 @@ _SINES = (0.0, math.sin(math.pi / 12), 0.5, math.sqrt(0.5), math.sqrt(0.75),
 """Of 0, pi/12, .. pi/2, each the double next to it."""
 
 
-def exact_angle(digits: str) -> str | None:
+def recognise_angle(digits: str) -> str | None:
     """The multiple of pi/12 that the printed number is a rounding of; None if it is of none.
 
     Args:
         digits: a decimal number, rad.
     """
-    count = twelfths(digits)
-    return None if count is None else pi_multiple(Fraction(count, 12))
+    count = count_twelfths(digits)
+    return None if count is None else format_pi_multiple(Fraction(count, 12))
 
 
-def twelfths(digits: str) -> int | None:
+def count_twelfths(digits: str) -> int | None:
     """How many twelfths of pi the printed number is a rounding of; None if of no whole number.
 
     `1.5708`, `1.571`, `1.57080` and the cut-off `3.1415` are: from the multiple to the number it
@@ -42,9 +42,9 @@ def twelfths(digits: str) -> int | None:
     if count == 0 or count > 24:
         return None
     least = COARSE if count % 6 == 0 else FINE
-    decimals = _decimals(number.normalize())
+    decimals = _count_decimals(number.normalize())
     if decimals < least:
-        decimals = _decimals(number)
+        decimals = _count_decimals(number)
     if decimals < least:
         return None
     unit = 10.0 ** -min(decimals, 15)
@@ -53,26 +53,26 @@ def twelfths(digits: str) -> int | None:
     return -count if digits.startswith("-") else count
 
 
-def cosine_sine(angle: float) -> tuple[float, float]:
+def compute_cosine_sine(angle: float) -> tuple[float, float]:
     """Both, of the double next to a multiple of pi/12 as that multiple has them: cos pi/2 is 0."""
     count = round(angle * 12 / math.pi)
     if abs(angle - count * math.pi / 12) > 2 * math.ulp(max(1.0, abs(angle))):
         return math.cos(angle), math.sin(angle)
-    return _sine_of_twelfths(count + 6), _sine_of_twelfths(count)
+    return _compute_twelfth_sine(count + 6), _compute_twelfth_sine(count)
 
 
-def _sine_of_twelfths(count: int) -> float:
+def _compute_twelfth_sine(count: int) -> float:
     half, place = divmod(count % 24, 12)
     return (-1.0 if half and place else 1.0) * _SINES[min(place, 12 - place)]
 
 
-def _decimals(number: Decimal) -> int:
+def _count_decimals(number: Decimal) -> int:
     exponent = number.as_tuple().exponent
     assert isinstance(exponent, int)
     return -exponent
 
 
-def exact_terms(tree: ast.expr, rounded: dict[str, str]) -> ast.expr:
+def recognise_angle_terms(tree: ast.expr, rounded: dict[str, str]) -> ast.expr:
     """The angle with its decimal terms, and whole multiples of such, put as what they mean.
 
     Args:
@@ -84,27 +84,29 @@ def exact_terms(tree: ast.expr, rounded: dict[str, str]) -> ast.expr:
         whole = [isinstance(s, ast.Constant) and isinstance(s.value, int) for s in sides]
         if isinstance(tree.op, ast.Add | ast.Sub) or any(whole):
             return ast.BinOp(
-                exact_terms(sides[0], rounded), tree.op, exact_terms(sides[1], rounded)
+                recognise_angle_terms(sides[0], rounded),
+                tree.op,
+                recognise_angle_terms(sides[1], rounded),
             )
     minus = isinstance(tree, ast.UnaryOp) and isinstance(tree.op, ast.USub)
     number = tree.operand if isinstance(tree, ast.UnaryOp) else tree
     if isinstance(number, ast.Constant) and isinstance(number.value, float):
         digits = f"{'-' if minus else ''}{number.value!r}"
-        angle = exact_angle(digits)
+        angle = recognise_angle(digits)
         if angle is not None:
             rounded[digits] = angle
             return ast.parse(angle, mode="eval").body
     elif isinstance(tree, ast.UnaryOp):
-        return ast.UnaryOp(tree.op, exact_terms(tree.operand, rounded))
+        return ast.UnaryOp(tree.op, recognise_angle_terms(tree.operand, rounded))
     return tree
 
 
-def told_angles(rounded: dict[str, str]) -> str:
+def describe_rounded_angles(rounded: dict[str, str]) -> str:
     """What to tell of them."""
     return "rounded angles are exact here: " + ", ".join(f"{d} is {a}" for d, a in rounded.items())
 
 
-def pi_multiple(turns: Fraction) -> str:
+def format_pi_multiple(turns: Fraction) -> str:
     """`turns` times pi as text: `pi/2`, `-pi`, `3*pi/4`, `0`."""
     if turns == 0:
         return "0"

@@ -1,8 +1,8 @@
 """Rigid bodies and the joints between them, as URDF, MJCF and SDF state a robot.
 
 A file's robot is a tree of bodies, each with a frame that the file has chosen. The readers of these
-formats make a `BodyTree` of it; `moving_links` puts together what fixed joints hold together; the
-rows of the MDH table follow from the axes (`modeler.robot.mdh_rows`).
+formats make a `BodyTree` of it; `collect_moving_links` puts together what fixed joints hold
+together; the rows of the MDH table follow from the axes (`modeler.robot.mdh_rows`).
 """
 
 import math
@@ -12,8 +12,13 @@ from fractions import Fraction
 
 import numpy as np
 
-from modeler.core.toml_cells import shown
-from modeler.robot.angles import cosine_sine, pi_multiple, told_angles, twelfths
+from modeler.core.toml_cells import quote_value
+from modeler.robot.angles import (
+    compute_cosine_sine,
+    count_twelfths,
+    describe_rounded_angles,
+    format_pi_multiple,
+)
 from modeler.robot.robot import JointKind
 
 NOUGHT = 1e-6
@@ -22,13 +27,15 @@ MOST_NAMED = 6
 """Names and numbers that a note tells: more nobody reads."""
 
 
-def several(names: Iterable[str]) -> str:
+def summarise_names(names: Iterable[str]) -> str:
     """`"a", "b" and 12 more`."""
-    each = list(dict.fromkeys(names))
-    return ", ".join(shown(name) for name in each[:MOST_NAMED]) + _rest(len(each))
+    unique_names = list(dict.fromkeys(names))
+    return ", ".join(quote_value(name) for name in unique_names[:MOST_NAMED]) + _format_remainder(
+        len(unique_names)
+    )
 
 
-def _rest(count: int) -> str:
+def _format_remainder(count: int) -> str:
     return f" and {count - MOST_NAMED} more" if count > MOST_NAMED else ""
 
 
@@ -46,22 +53,22 @@ class Roundings:
     angles: dict[str, str] = field(default_factory=dict)
     zeros: int = 0
 
-    def angle(self, digits: str) -> float:
-        """What the printed angle means, rad: by `twelfths`, or as near as `NOUGHT`."""
+    def snap_angle(self, digits: str) -> float:
+        """What the printed angle means, rad: by `count_twelfths`, or as near as `NOUGHT`."""
         value = float(digits)
         if self.exact:
             return value
-        count, nearest = twelfths(digits), round(value * 12 / math.pi)
+        count, nearest = count_twelfths(digits), round(value * 12 / math.pi)
         if count is None and abs(value - nearest * math.pi / 12) <= NOUGHT:
             count = nearest
         if count is None or value == count * math.pi / 12:
             return value
         if count:
-            self.angles[digits] = pi_multiple(Fraction(count, 12))
+            self.angles[digits] = format_pi_multiple(Fraction(count, 12))
         self.zeros += not count
         return count * math.pi / 12
 
-    def lengths(self, values: np.ndarray) -> np.ndarray:
+    def snap_lengths(self, values: np.ndarray) -> np.ndarray:
         """What printed lengths, or parts of a unit axis, mean."""
         dust = (values != 0.0) & (abs(values) < NOUGHT)
         if self.exact:
@@ -69,11 +76,11 @@ class Roundings:
         self.zeros += int(dust.sum())
         return np.where(dust, 0.0, values)
 
-    def notes(self) -> Iterator[str]:
+    def describe_roundings(self) -> Iterator[str]:
         """What to tell of them."""
         if self.angles:
-            most = told_angles(dict(list(self.angles.items())[:MOST_NAMED]))
-            yield f"{most}{_rest(len(self.angles))}; --exact-decimals keeps them"
+            most = describe_rounded_angles(dict(list(self.angles.items())[:MOST_NAMED]))
+            yield f"{most}{_format_remainder(len(self.angles))}; --exact-decimals keeps them"
         if self.zeros:
             yield f"{self.zeros} lengths, angles and parts of axes below {NOUGHT:g} are 0 here"
 
@@ -92,9 +99,9 @@ class Pose:
 
     def __matmul__(self, other: "Pose") -> "Pose":
         """The pose of c in a, from that of b in a and that of c in b."""
-        return Pose(self.place(other.position), self.rotation @ other.rotation)
+        return Pose(self.transform_point(other.position), self.rotation @ other.rotation)
 
-    def place(self, point: np.ndarray) -> np.ndarray:
+    def transform_point(self, point: np.ndarray) -> np.ndarray:
         """A point of b, in a."""
         return self.rotation @ point + self.position
 
@@ -117,15 +124,15 @@ class Inertial:
     centre: np.ndarray
     inertia: np.ndarray
 
-    def seen_from(self, pose: Pose) -> "Inertial":
+    def express_in(self, pose: Pose) -> "Inertial":
         """The same in the frame a, in which the body's frame b has that pose."""
         turn = pose.rotation
-        return Inertial(self.mass, pose.place(self.centre), turn @ self.inertia @ turn.T)
+        return Inertial(self.mass, pose.transform_point(self.centre), turn @ self.inertia @ turn.T)
 
 
-def turned(axis: np.ndarray, angle: float) -> np.ndarray:
+def compute_axis_rotation(axis: np.ndarray, angle: float) -> np.ndarray:
     """(3, 3) the rotation about an axis of length one (Rodrigues), exact for right angles."""
-    cosine, sine = cosine_sine(angle)
+    cosine, sine = compute_cosine_sine(angle)
     along = np.outer(axis, axis)
     x, y, z = axis
     across = np.array([[0.0, -z, y], [z, 0.0, -x], [-y, x, 0.0]])
@@ -133,7 +140,7 @@ def turned(axis: np.ndarray, angle: float) -> np.ndarray:
     return np.asarray(along + cosine * (np.eye(3) - along) + sine * across + 0.0)
 
 
-def doubt(body: Inertial, slack: float = 0.0) -> str:
+def find_inertia_defect(body: Inertial, slack: float = 0.0) -> str:
     """Why no body can have these values, or nobody has weighed them; "" if there is no doubt.
 
     The principal moments of a body are not negative, and none is larger than the sum of the others
@@ -161,7 +168,7 @@ def doubt(body: Inertial, slack: float = 0.0) -> str:
     return ""
 
 
-def about_origin(body: Inertial) -> np.ndarray:
+def compute_standard_parameters(body: Inertial) -> np.ndarray:
     """(10,) XX XY XZ YY YZ ZZ about the origin of the frame, MX MY MZ, M: standard parameters."""
     c, m = body.centre, body.mass
     tensor = body.inertia + m * (c @ c * np.eye(3) - np.outer(c, c))
@@ -213,19 +220,19 @@ class TreeJoint:
     offset: float = 0.0
     actuated: bool = True
 
-    def at(self, position: float) -> Pose:
+    def compute_pose(self, position: float) -> Pose:
         """The frame of the child in that of the parent, at a joint position."""
         step = position - self.zero
         if self.kind is JointKind.FIXED or step == 0.0:
             return self.pose
         if self.kind is JointKind.PRISMATIC:
             return self.pose @ Pose(step * self.axis)
-        turn = turned(self.axis, step)
+        turn = compute_axis_rotation(self.axis, step)
         return self.pose @ Pose(self.point - turn @ self.point, turn)
 
 
 @dataclass(frozen=True, eq=False)
-class Meeting:
+class LoopClosure:
     """A joint that closes a loop: a frame on one body meets a frame on another.
 
     Attributes:
@@ -256,9 +263,10 @@ class BodyTree:
         meetings: points that close loops.
         gravity: (3,) acceleration of gravity in frame 0, m/s2.
         hidden: bodies that the reader made up, between several joints of one body.
-        doubted: body -> why its values are no measurement (`doubt`): they make no prior.
+        doubted: body -> why its values are no measurement (`find_inertia_defect`): they make no
+            prior.
         unread: joint -> "file: line: joint: kind" of those of a kind that we do not have, ball,
-            free, planar; `fixed` among `joints` until `tree_cuts.cut` has cut them off, locked
+            free, planar; `fixed` among `joints` until `tree_cuts.cut_tree` has cut them off, locked
             them, or refuses.
         home: posture near which the meetings are closed, joint -> position; empty: every joint at
             its `zero`.
@@ -270,23 +278,23 @@ class BodyTree:
     root: str
     bodies: Mapping[str, Inertial | None]
     joints: tuple[TreeJoint, ...]
-    meetings: tuple[Meeting, ...] = ()
+    loop_closures: tuple[LoopClosure, ...] = ()
     gravity: np.ndarray = field(default_factory=lambda: np.array([0.0, 0.0, -9.81]))
-    hidden: frozenset[str] = frozenset()
-    doubted: Mapping[str, str] = field(default_factory=dict)
-    unread: Mapping[str, str] = field(default_factory=dict)
+    auxiliary_bodies: frozenset[str] = frozenset()
+    unreliable_bodies: Mapping[str, str] = field(default_factory=dict)
+    unsupported_joints: Mapping[str, str] = field(default_factory=dict)
     home: Mapping[str, float] = field(default_factory=dict)
     notes: tuple[str, ...] = ()
 
 
-def poses_at(tree: BodyTree, positions: Mapping[str, float]) -> dict[str, Pose]:
+def compute_body_poses(tree: BodyTree, positions: Mapping[str, float]) -> dict[str, Pose]:
     """Of every body's frame in frame 0; joints that lead stand at 0 where nothing is said."""
     poses = {tree.root: Pose()}
     for joint in tree.joints:
         at = positions.get(joint.leader or joint.name, 0.0)
         if joint.leader:
             at = joint.ratio * at + joint.offset
-        poses[joint.child] = poses[joint.parent] @ joint.at(at)
+        poses[joint.child] = poses[joint.parent] @ joint.compute_pose(at)
     return poses
 
 
@@ -311,7 +319,7 @@ class MovingLink:
     inertial: Inertial | None
 
 
-def moving_links(tree: BodyTree) -> list[MovingLink]:
+def collect_moving_links(tree: BodyTree) -> list[MovingLink]:
     """The links of the tree, bodies on fixed joints lumped; the first stands still.
 
     The order of the others is that of the joints that move.
@@ -330,19 +338,25 @@ def moving_links(tree: BodyTree) -> list[MovingLink]:
             at = len(members) - 1
         link_of[joint.child] = at
     return [
-        MovingLink(joint, parent, pose, own, together(_stated(tree, own)))
-        for (joint, parent, pose), own in zip(joints, members, strict=True)
+        MovingLink(
+            joint,
+            parent,
+            pose,
+            link_bodies,
+            combine_inertials(_collect_inertials(tree, link_bodies)),
+        )
+        for (joint, parent, pose), link_bodies in zip(joints, members, strict=True)
     ]
 
 
-def _stated(tree: BodyTree, members: Mapping[str, Pose]) -> Iterator[Inertial]:
+def _collect_inertials(tree: BodyTree, members: Mapping[str, Pose]) -> Iterator[Inertial]:
     for name, pose in members.items():
         body = tree.bodies[name]
         if body is not None:
-            yield body.seen_from(pose)
+            yield body.express_in(pose)
 
 
-def together(bodies: Iterator[Inertial]) -> Inertial | None:
+def combine_inertials(bodies: Iterator[Inertial]) -> Inertial | None:
     """One body of several in the same frame; None of none."""
     parts = list(bodies)
     if len(parts) < 2:

@@ -10,9 +10,9 @@ from fractions import Fraction
 from typing import Any
 
 from modeler.core import rounded
-from modeler.core.expression import FUNCTIONS, LARGEST_EXPONENT, Expression, parse
-from modeler.core.toml_cells import LARGEST, Place, listed, near, shown
-from modeler.robot.angles import exact_terms, pi_multiple
+from modeler.core.expression import FUNCTIONS, LARGEST_EXPONENT, Expression, parse_expression
+from modeler.core.toml_cells import LARGEST, TomlCell, join_names, quote_value, suggest_name
+from modeler.robot.angles import format_pi_multiple, recognise_angle_terms
 
 # Expressions that are linear in the joint variables, taken apart.
 
@@ -40,7 +40,7 @@ class Linear:
         )
 
     def __neg__(self) -> "Linear":
-        return self._times(-1.0)
+        return self._multiply_by(-1.0)
 
     def __sub__(self, other: "Linear") -> "Linear":
         return self + -other
@@ -49,8 +49,8 @@ class Linear:
         if self.coefficients and other.coefficients:
             raise NotLinear
         if self.coefficients:
-            return self._times(other.constant)
-        return other._times(self.constant)
+            return self._multiply_by(other.constant)
+        return other._multiply_by(self.constant)
 
     def __truediv__(self, other: "Linear") -> "Linear":
         if other.coefficients:
@@ -63,24 +63,24 @@ class Linear:
         )
 
     def __pow__(self, exponent: "Linear | int") -> "Linear":
-        power = exponent if isinstance(exponent, int) else exponent._number()
+        power = exponent if isinstance(exponent, int) else exponent._get_constant()
         if abs(power) > LARGEST_EXPONENT:
             raise HighPower
-        value = rounded.power(self._number(), power)
+        value = rounded.compute_power(self._get_constant(), power)
         if isinstance(value, complex):
             raise ArithmeticError
         return Linear(float(value))
 
-    def _times(self, factor: float) -> "Linear":
+    def _multiply_by(self, factor: float) -> "Linear":
         return Linear(self.constant * factor, {n: c * factor for n, c in self.coefficients.items()})
 
-    def _number(self) -> float:
+    def _get_constant(self) -> float:
         if self.coefficients:
             raise NotLinear
         return self.constant
 
 
-def linear_form(expression: Expression, symbols: Mapping[str, float]) -> Linear:
+def extract_linear_form(expression: Expression, symbols: Mapping[str, float]) -> Linear:
     """The expression as constant + sum of coefficient * variable; zero coefficients left out.
 
     Every name that is not among `symbols` is a variable.
@@ -101,19 +101,19 @@ def linear_form(expression: Expression, symbols: Mapping[str, float]) -> Linear:
     return form
 
 
-def _lifted(name: str) -> Callable[["Linear"], "Linear"]:
+def _lift_function(name: str) -> Callable[["Linear"], "Linear"]:
     function = rounded.FUNCTIONS[name]
 
-    def lifted(argument: Linear) -> Linear:
+    def apply_function(argument: Linear) -> Linear:
         try:
-            return Linear(function(argument._number()))
+            return Linear(function(argument._get_constant()))
         except ValueError as error:  # sqrt(-1)
             raise ArithmeticError from error
 
-    return lifted
+    return apply_function
 
 
-_LIFTED = {name: _lifted(name) for name in FUNCTIONS}
+_LIFTED = {name: _lift_function(name) for name in FUNCTIONS}
 
 
 LARGEST_LENGTH = 1e4
@@ -128,8 +128,8 @@ _QUARTER = math.pi / 2
 _EXACT = 1e-9  # rad; nearer to a multiple of pi/2 than this is that multiple
 
 
-def form_at(
-    expression: Expression, symbols: Mapping[str, float], place: Place, example: str = "q5 + q6"
+def read_linear_form(
+    expression: Expression, symbols: Mapping[str, float], place: TomlCell, example: str = "q5 + q6"
 ) -> Linear:
     """The expression as a linear form in the names that are not among `symbols`.
 
@@ -137,30 +137,34 @@ def form_at(
         RobotError: not linear, or without a value (division by zero, overflow).
     """
     try:
-        form = linear_form(expression, symbols)
+        form = extract_linear_form(expression, symbols)
     except NotLinear:
-        raise place.error(
-            f"got {shown(expression.text)}, which is not linear in its variables; "
-            f"expected a sum such as {shown(example)}"
+        raise place.make_error(
+            f"got {quote_value(expression.text)}, which is not linear in its variables; "
+            f"expected a sum such as {quote_value(example)}"
         ) from None
     except HighPower:
-        raise place.error(
-            f"got {shown(expression.text)}, with a larger exponent; expected at most "
+        raise place.make_error(
+            f"got {quote_value(expression.text)}, with a larger exponent; expected at most "
             f"{LARGEST_EXPONENT}: check the symbols in it"
         ) from None
     except ArithmeticError:
-        raise place.error(
-            f"got {shown(expression.text)}, which has no finite real value with the declared "
+        raise place.make_error(
+            f"got {quote_value(expression.text)}, which has no finite real value with the declared "
             "symbols; check the divisors, roots and powers"
         ) from None
     check_size(expression, (form.constant, *form.coefficients.values()), LARGEST, place)
     return form
 
 
-def joint_sum(
-    expression: Expression, symbols: Mapping[str, float], variables: Collection[str], place: Place,
-    example: str, only: str = "",
-) -> Linear:  # fmt: skip
+def read_joint_sum(
+    expression: Expression,
+    symbols: Mapping[str, float],
+    variables: Collection[str],
+    place: TomlCell,
+    example: str,
+    only: str = "",
+) -> Linear:
     """The expression as a sum of joint variables, none of which is turned far up or down.
 
     Args:
@@ -175,28 +179,31 @@ def joint_sum(
         RobotError: an unknown name, not linear, a coefficient beyond `LARGEST_RATIO`, a constant.
     """
     check_declared(expression, {**symbols, **dict.fromkeys(variables, 0.0)}, place)
-    form = form_at(expression, symbols, place, example)
+    form = read_linear_form(expression, symbols, place, example)
     check_size(expression, form.coefficients.values(), LARGEST_RATIO, place)
     if only and form.constant != 0.0:
-        raise place.error(
-            f"got {shown(expression.text)}, with the constant {form.constant:g}; expected a sum of "
+        raise place.make_error(
+            f"got {quote_value(expression.text)}, with the constant {form.constant:g}; expected a "
+            "sum of "
             f"joint variables only{only}"
         )
     return form
 
 
-def length_at(expression: Expression, symbols: Mapping[str, float], place: Place) -> float:
+def read_length(expression: Expression, symbols: Mapping[str, float], place: TomlCell) -> float:
     """Value of a constant that is a length, m, or an acceleration of gravity, m/s2.
 
     Raises:
         RobotError: no finite value, or one beyond `LARGEST_LENGTH`.
     """
-    constant = form_at(expression, symbols, place).constant
+    constant = read_linear_form(expression, symbols, place).constant
     check_size(expression, (constant,), LARGEST_LENGTH, place)
     return constant
 
 
-def check_size(expression: Expression, values: Iterable[float], most: float, place: Place) -> None:
+def check_size(
+    expression: Expression, values: Iterable[float], most: float, place: TomlCell
+) -> None:
     """Refuse values beyond `most`.
 
     Raises:
@@ -204,26 +211,27 @@ def check_size(expression: Expression, values: Iterable[float], most: float, pla
     """
     for value in values:
         if abs(value) > most:
-            raise place.error(
-                f"got {shown(expression.text)}, which is {value:.4g}; expected at most {most:g} in "
+            raise place.make_error(
+                f"got {quote_value(expression.text)}, which is {value:.4g}; expected at most "
+                f"{most:g} in "
                 "SI units: check the units, the divisors and the symbols in it"
             )
 
 
-def check_count(count: int, most: int, what: str, place: Place) -> None:
+def check_count(count: int, most: int, what: str, place: TomlCell) -> None:
     """Refuse more of them than a table may have.
 
     Raises:
         RobotError: says how many there are.
     """
     if count > most:  # before any work that nobody could wait for
-        raise place.error(
+        raise place.make_error(
             f"got {count} {what}; expected at most {most}: model parts of the robot in files of "
             "their own"
         )
 
 
-def check_declared(expression: Expression, known: Mapping[str, Any], place: Place) -> None:
+def check_declared(expression: Expression, known: Mapping[str, Any], place: TomlCell) -> None:
     """Refuse names that are not known: declared symbols, and joint variables where they may stand.
 
     Raises:
@@ -231,21 +239,22 @@ def check_declared(expression: Expression, known: Mapping[str, Any], place: Plac
     """
     for name in sorted(expression.names):
         if name not in known:
-            advice = near(name, known) or "; declare it in [symbols] with its value"
-            raise place.error(
-                f"got {shown(expression.text)}: {name} is not declared; expected numbers or names "
-                f"among {listed(list(known)[:12])}{advice}"
+            advice = suggest_name(name, known) or "; declare it in [symbols] with its value"
+            raise place.make_error(
+                f"got {quote_value(expression.text)}: {name} is not declared; expected numbers or "
+                "names "
+                f"among {join_names(list(known)[:12])}{advice}"
             )
 
 
 def check_unit(
-    expression: Expression, of: Mapping[str, Collection[str]], unit: str, place: Place
+    expression: Expression, of: Mapping[str, Collection[str]], unit: str, place: TomlCell
 ) -> None:
     """Refuse a length where an angle stands, and an angle where a length stands.
 
     Args:
         expression: what stands there.
-        of: what its symbols are measured in; see `Expression.units`.
+        of: what its symbols are measured in; see `Expression.infer_units`.
         unit: expected, rad or m.
         place: of the expression.
 
@@ -253,57 +262,57 @@ def check_unit(
         RobotError: all that is in it is measured in the other unit.
     """
     other = {"rad": "m", "m": "rad"}.get(unit, "")
-    if expression.units(of) == {other}:
-        raise place.error(
-            f"got {shown(expression.text)}, {_MEASURED[other]}; expected {_MEASURED[unit]}, "
+    if expression.infer_units(of) == {other}:
+        raise place.make_error(
+            f"got {quote_value(expression.text)}, {_MEASURED[other]}; expected {_MEASURED[unit]}, "
             f"{unit}: are two columns or entries swapped?"
         )
 
 
-def number_at(place: Place, symbols: Mapping[str, float], unit: str = "") -> float:
+def read_number(place: TomlCell, symbols: Mapping[str, float], unit: str = "") -> float:
     """The cell as a number, in `unit`; it may be an expression of the declared symbols.
 
     Raises:
         RobotError: not a number, or a name that is not declared.
     """
-    expression = place.expression()
+    expression = place.read_expression()
     check_unit(expression, {}, unit, place)
     check_declared(expression, symbols, place)
-    return form_at(expression, symbols, place).constant
+    return read_linear_form(expression, symbols, place).constant
 
 
-def name_of(value: Any) -> Any:
+def normalise_row_name(value: Any) -> Any:
     """A row number that stands without quotes as its name: 1 as "1"; anything else as it is."""
     if isinstance(value, int) and not isinstance(value, bool) and 0 <= value < 10**6:
         return str(value)
     return value
 
 
-def robot_name(*wanted: str) -> str:
+def choose_robot_name(*candidates: str) -> str:
     """The first of these with the letters that names may have; `robot` if none has any."""
-    for each in wanted:
-        plain = unicodedata.normalize("NFKD", each).encode("ascii", "ignore").decode()
+    for candidate in candidates:
+        plain = unicodedata.normalize("NFKD", candidate).encode("ascii", "ignore").decode()
         name = re.sub(r"[^A-Za-z0-9_-]+", "-", plain).strip("-_")
         if name:
             return name
     return "robot"
 
 
-def check_name_length(name: str, place: Place) -> None:
+def check_name_length(name: str, place: TomlCell) -> None:
     """Refuse a name of more than `MOST_NAME_LETTERS`.
 
     Raises:
         RobotError: says how long it is.
     """
     if len(name) > MOST_NAME_LETTERS:
-        raise place.error(
-            f"got the name {shown(name)} of {len(name)} letters; expected at most "
+        raise place.make_error(
+            f"got the name {quote_value(name)} of {len(name)} letters; expected at most "
             f"{MOST_NAME_LETTERS} (it becomes part of names in the C code)"
         )
 
 
-def exact_angle_at(
-    expression: Expression, variable: str | None, place: Place, rounded: dict[str, str]
+def read_exact_angle(
+    expression: Expression, variable: str | None, place: TomlCell, rounded: dict[str, str]
 ) -> Expression:
     """The angle with decimals that are multiples of pi put as exactly these.
 
@@ -320,20 +329,23 @@ def exact_angle_at(
         RobotError: degrees.
     """
     if not expression.names - {variable}:
-        form = form_at(expression, {}, place)
+        form = read_linear_form(expression, {}, place)
         if abs(form.constant) > 4 * _QUARTER + _EXACT:
-            raise place.error(
-                f"got {shown(expression.text)}: {form.constant:g} rad is more than a turn; angles "
+            raise place.make_error(
+                f"got {quote_value(expression.text)}: {form.constant:g} rad is more than a turn; "
+                "angles "
                 'are in radians, write "90 deg" or "pi/2" for 90 degrees'
             )
         turns = round(form.constant / _QUARTER)
         if not expression.uses_pi and abs(form.constant - turns * _QUARTER) <= _EXACT:
-            multiple = pi_multiple(Fraction(turns, 2))
+            multiple = format_pi_multiple(Fraction(turns, 2))
             if not form.coefficients:
-                return parse(multiple)
+                return parse_expression(multiple)
             head = f"{variable}" if form.coefficients[variable or ""] > 0 else f"-{variable}"
-            return parse(f"{head} + {multiple}".replace("+ -", "- ").removesuffix(" + 0"))
-    return expression.rewritten(lambda tree: exact_terms(tree, rounded))
+            return parse_expression(
+                f"{head} + {multiple}".replace("+ -", "- ").removesuffix(" + 0")
+            )
+    return expression.rewrite(lambda tree: recognise_angle_terms(tree, rounded))
 
 
 # The `[symbols]` table and the gravity of a robot file.
@@ -349,7 +361,7 @@ C_WORDS = """
 
 
 def read_symbols(
-    place: Place, variables: Collection[str]
+    place: TomlCell, variables: Collection[str]
 ) -> tuple[dict[str, Expression], dict[str, float]]:
     """Symbols, so ordered that each stands after those its value uses, and what they are worth.
 
@@ -360,12 +372,13 @@ def read_symbols(
     Raises:
         RobotError: a bad name, a value that is no number, a circle of values.
     """
-    table = place.table("[symbols] D3 = 0.45")
+    table = place.read_table("[symbols] D3 = 0.45")
     symbols = {}
     for name, cell in table.items():
         if not _NAME.fullmatch(name):
-            raise place.error(
-                f"got the name {shown(name)}; expected a letter, then letters, digits or _, such "
+            raise place.make_error(
+                f"got the name {quote_value(name)}; expected a letter, then letters, digits or _, "
+                "such "
                 "as D3"
             )
         check_name_length(name, place)
@@ -378,14 +391,16 @@ def read_symbols(
         }
         for what, is_taken in taken.items():
             if is_taken:
-                raise place.error(f"{shown(name)} is the name of {what}; choose another name")
-        symbols[name] = place.at(name, cell).expression()
-        check_declared(symbols[name], table, place.at(name))
-    return _ordered(symbols, place)
+                raise place.make_error(
+                    f"{quote_value(name)} is the name of {what}; choose another name"
+                )
+        symbols[name] = place.enter(name, cell).read_expression()
+        check_declared(symbols[name], table, place.enter(name))
+    return _resolve_symbols(symbols, place)
 
 
 def read_gravity(
-    place: Place, variables: Collection[str], symbols: Mapping[str, float]
+    place: TomlCell, variables: Collection[str], symbols: Mapping[str, float]
 ) -> tuple[Expression, Expression, Expression]:
     """Acceleration of gravity in frame 0, m/s2.
 
@@ -393,24 +408,24 @@ def read_gravity(
         RobotError: not three entries, or entries that are not constants.
     """
     gravity = []
-    for number, cell in enumerate(place.entries('[0, 0, "-g"]', length=3), start=1):
-        here = place.at(f"entry {number}", cell)
-        expression = here.expression()
+    for number, cell in enumerate(place.read_list('[0, 0, "-g"]', length=3), start=1):
+        here = place.enter(f"entry {number}", cell)
+        expression = here.read_expression()
         moving = sorted(expression.names & set(variables))
         if moving:
-            raise here.error(
-                f"got {shown(expression.text)}, which uses the joint variable {moving[0]}; "
+            raise here.make_error(
+                f"got {quote_value(expression.text)}, which uses the joint variable {moving[0]}; "
                 "gravity is constant in frame 0: expected numbers and symbols"
             )
         check_declared(expression, symbols, here)
-        length_at(expression, symbols, here)
+        read_length(expression, symbols, here)
         gravity.append(expression)
     x, y, z = gravity
     return x, y, z
 
 
-def _ordered(
-    symbols: Mapping[str, Expression], place: Place
+def _resolve_symbols(
+    symbols: Mapping[str, Expression], place: TomlCell
 ) -> tuple[dict[str, Expression], dict[str, float]]:
     ordered: dict[str, Expression] = {}
     values: dict[str, float] = {}
@@ -419,9 +434,9 @@ def _ordered(
         ready = next((n for n, e in waiting.items() if e.names <= ordered.keys()), None)
         if ready is None:
             names = ", ".join(waiting)
-            raise place.error(
+            raise place.make_error(
                 f"the values of {names} refer to each other in a circle; give one of them a number"
             )
         ordered[ready] = waiting.pop(ready)
-        values[ready] = form_at(ordered[ready], values, place.at(ready)).constant
+        values[ready] = read_linear_form(ordered[ready], values, place.enter(ready)).constant
     return ordered, values

@@ -14,8 +14,8 @@ from dataclasses import dataclass, field
 from types import MappingProxyType
 from typing import Any, NamedTuple
 
-from modeler.core.expression import Expression, parse
-from modeler.core.toml_cells import Place, listed, near, shown
+from modeler.core.expression import Expression, parse_expression
+from modeler.core.toml_cells import TomlCell, join_names, quote_value, suggest_name
 from modeler.robot.robot import Joint, Robot
 
 COLUMNS = ("j", "a", "mu", "sigma", "gamma", "b", "alpha", "d", "theta", "r")
@@ -55,7 +55,7 @@ _ENDS = ("tool", "end", "flange", "last")
 
 
 @dataclass(frozen=True)
-class RowPlace(Place):
+class RowPlace(TomlCell):
     """The place of a row of the table.
 
     Attributes:
@@ -68,20 +68,20 @@ class RowPlace(Place):
     letters: Mapping[str, str] = field(default_factory=lambda: _EMPTY)
     before: "RowPlace | None" = None
 
-    def owner(self, column: str) -> "RowPlace":
+    def find_owner(self, column: str) -> "RowPlace":
         """Where that cell is written."""
         return self.before if self.before and column in ("alpha", "d") else self
 
-    def letter(self, column: str) -> str:
+    def get_letter(self, column: str) -> str:
         """How the table calls that column of Khalil's."""
         return self.letters.get(column, column)
 
-    def column(self, column: str, value: Any = None) -> Place:
+    def locate_column(self, column: str, value: Any = None) -> TomlCell:
         """The place of a cell."""
-        return self.owner(column).at(f"column {self.letter(column)}", value)
+        return self.find_owner(column).enter(f"column {self.get_letter(column)}", value)
 
 
-def read_convention(table: Place, document: Mapping[str, Any]) -> str:
+def read_convention(table: TomlCell, document: Mapping[str, Any]) -> str:
     """Whose table it is.
 
     Args:
@@ -91,30 +91,32 @@ def read_convention(table: Place, document: Mapping[str, Any]) -> str:
     Raises:
         RobotError: nobody's, or a classical one of a robot that is not serial.
     """
-    place = table.at("convention", table.table(table_example("khalil")).get("convention", "khalil"))
+    place = table.enter(
+        "convention", table.read_table(format_table_example("khalil")).get("convention", "khalil")
+    )
     if place.value not in list(CONVENTIONS):
-        names = listed(f'"{name}"' for name in CONVENTIONS)
-        raise place.mismatch(f"one of {names}{near(place.value, CONVENTIONS)}")
+        names = join_names(f'"{name}"' for name in CONVENTIONS)
+        raise place.make_mismatch(f"one of {names}{suggest_name(place.value, CONVENTIONS)}")
     branched = [key for key in ("legs", "platform", "loops") if key in document]
     if place.value == "classical" and branched:
         key = branched[0] if branched[0] == "legs" else f"[{branched[0]}]"
-        raise place.error(f'got "classical", and the file has {key}; {_SERIAL}')
+        raise place.make_error(f'got "classical", and the file has {key}; {_SERIAL}')
     return str(place.value)
 
 
-def table_example(convention: str) -> str:
+def format_table_example(convention: str) -> str:
     """Columns and a row, as text."""
     return f"columns = {_ONE_ROW[convention]}"
 
 
-def khalil_columns(place: Place, convention: str) -> list[str]:
+def read_khalil_columns(place: TomlCell, convention: str) -> list[str]:
     """The columns of the table as Khalil calls them.
 
     Raises:
         RobotError: columns that such a table has not, or twice, or no names of rows.
     """
-    given = place.entries(_ONE_ROW[convention].split(", rows")[0])
-    columns = [_GREEK.get(c, c) if isinstance(c, str) else c for c in given]
+    written_columns = place.read_list(_ONE_ROW[convention].split(", rows")[0])
+    columns = [_GREEK.get(c, c) if isinstance(c, str) else c for c in written_columns]
     ours = {letter: column for column, letter in CONVENTIONS[convention].items()}
     for number, column in enumerate(columns, start=1):
         if column not in list(ours):
@@ -127,18 +129,23 @@ def khalil_columns(place: Place, convention: str) -> list[str]:
                 advice = (
                     f'; r of Khalil is d in this table, and d is a: convention = "{convention}"'
                 )
-            raise place.error(
-                f"entry {number} is {shown(column)}{near(column, ours)}; expected names among "
-                f"{listed(ours)}{advice}"
+            raise place.make_error(
+                f"entry {number} is {quote_value(column)}{suggest_name(column, ours)}; expected "
+                "names among "
+                f"{join_names(ours)}{advice}"
             )
         if column in columns[: number - 1]:
-            raise place.error(f"{shown(column)} stands twice; remove one and its cells")
+            raise place.make_error(f"{quote_value(column)} stands twice; remove one and its cells")
     if "j" not in columns:
-        raise place.error(f'column "j" (row names) is missing, got {shown(columns)}; add it')
+        raise place.make_error(
+            f'column "j" (row names) is missing, got {quote_value(columns)}; add it'
+        )
     return [ours[column] for column in columns]
 
 
-def check_whose(columns: Sequence[str], rows: Sequence[Row], place: Place, stated: bool) -> None:
+def check_convention(
+    columns: Sequence[str], rows: Sequence[Row], place: TomlCell, stated: bool
+) -> None:
     """Refuse a table that reads like that of another convention than it is said to be.
 
     Args:
@@ -154,8 +161,8 @@ def check_whose(columns: Sequence[str], rows: Sequence[Row], place: Place, state
     convention = place.value.get("convention", "khalil")
     if convention != "khalil":
         if len(rows) > 1 and [row.get("d") for row in rows] == above:
-            raise place.at("column a").error(
-                f"got {listed(above)}, the names of the rows above; a is a length in this "
+            raise place.enter("column a").make_error(
+                f"got {join_names(above)}, the names of the rows above; a is a length in this "
                 'convention: write convention = "khalil", where a is the antecedent'
             )
         return
@@ -170,9 +177,10 @@ def check_whose(columns: Sequence[str], rows: Sequence[Row], place: Place, state
         named = all(isinstance(cell, str) and not is_length(cell) for cell in cells)
         foreign &= list(map(str, cells)) != above and not (named and set(cells) != {"0"})
     if foreign:
-        raise place.at("columns").error(
-            f"got {listed(order)}, which reads like another notation, in which "
-            f"{'a is a length' if 'a' in order else 'd is along z'}; {whose_line(columns, rows)}"
+        raise place.enter("columns").make_error(
+            f"got {join_names(order)}, which reads like another notation, in which "
+            f"{'a is a length' if 'a' in order else 'd is along z'}; "
+            f"{suggest_convention(columns, rows)}"
         )
 
 
@@ -183,7 +191,7 @@ def is_length(cell: Any) -> bool:
     return isinstance(cell, str) and not cell.isdigit() and any(c.isdigit() for c in cell)
 
 
-def whose_line(columns: Sequence[str], rows: Sequence[Row]) -> str:
+def suggest_convention(columns: Sequence[str], rows: Sequence[Row]) -> str:
     """The line to write, by where the table begins and ends with zeros."""
     zero = [all(row.get(c, 0) in (0, "0") for c in ("alpha", "a")) for row in rows]
     classical = columns.index("theta") < columns.index("alpha") if "alpha" in columns else False
@@ -201,23 +209,23 @@ def whose_line(columns: Sequence[str], rows: Sequence[Row]) -> str:
     )
 
 
-def shifted(rows: Sequence[tuple[Row, RowPlace]]) -> list[tuple[Row, RowPlace]]:
+def shift_classical_rows(rows: Sequence[tuple[Row, RowPlace]]) -> list[tuple[Row, RowPlace]]:
     """Classical rows as Khalil's; a fixed frame ends the last link where it has a or alpha."""
-    found: list[tuple[Row, RowPlace]] = []
+    khalil_rows: list[tuple[Row, RowPlace]] = []
     carried: Row = {}
     before: RowPlace | None = None
     for row, place in rows:
-        own = {c: cell for c, cell in row.items() if c not in ("alpha", "d")}
-        here = RowPlace(place.file, place.spot, None, place.row, place.letters, before)
-        found.append(({**own, **carried}, here))
+        unshifted_cells = {c: cell for c, cell in row.items() if c not in ("alpha", "d")}
+        here = RowPlace(place.file, place.location, None, place.row, place.letters, before)
+        khalil_rows.append(({**unshifted_cells, **carried}, here))
         carried, before = {c: row[c] for c in ("alpha", "d") if c in row}, place
     if before is not None and any(cell not in (0, "0") for cell in carried.values()):
         names = [row["j"] for row, _ in rows]
         name = next(n for n in (*_ENDS, *(f"end{k}" for k in range(len(rows)))) if n not in names)
         end = {"j": name, "a": names[-1], "mu": 0, "sigma": 2, **carried}
-        spot = before.spot.replace(f'"{names[-1]}"', f'"{name}"')
-        found.append((end, RowPlace(before.file, spot, None, name, before.letters, before)))
-    return found
+        spot = before.location.replace(f'"{names[-1]}"', f'"{name}"')
+        khalil_rows.append((end, RowPlace(before.file, spot, None, name, before.letters, before)))
+    return khalil_rows
 
 
 # The table of a robot in the letters in which it was given.
@@ -240,7 +248,7 @@ class WrittenCell(NamedTuple):
     @property
     def expression(self) -> Expression:
         """What stands there."""
-        return parse(0) if self.joint is None else getattr(self.joint, self.column)
+        return parse_expression(0) if self.joint is None else getattr(self.joint, self.column)
 
 
 @dataclass(frozen=True)
@@ -260,26 +268,26 @@ class WrittenTable:
     step: str
 
 
-def written_cell(robot: Robot, joint: Joint, column: str) -> str:
+def locate_written_cell(robot: Robot, joint: Joint, column: str) -> str:
     """`row "3", column alpha`: where the file has that cell of Khalil's."""
-    row, letter = _written(robot, joint, column)
+    row, letter = _locate_cell(robot, joint, column)
     return f'row "{row}", column {letter}'
 
 
-def written_letter(robot: Robot, joint: Joint, column: str) -> str:
+def get_written_letter(robot: Robot, joint: Joint, column: str) -> str:
     """`alpha`, or `alpha of 3`: how the file calls that cell of Khalil's."""
-    row, letter = _written(robot, joint, column)
+    row, letter = _locate_cell(robot, joint, column)
     return letter if row == joint.name else f"{letter} of {row}"
 
 
-def _written(robot: Robot, joint: Joint, column: str) -> tuple[str, str]:
+def _locate_cell(robot: Robot, joint: Joint, column: str) -> tuple[str, str]:
     """Row and letter."""
     carried = robot.convention == "classical" and column in ("alpha", "d")
     row = joint.antecedent if carried else joint.name
     return row, CONVENTIONS[robot.convention].get(column, column)
 
 
-def written_table(robot: Robot) -> WrittenTable:
+def build_written_table(robot: Robot) -> WrittenTable:
     """The table of a robot as its file has it."""
     letters = CONVENTIONS[robot.convention]
     after = {joint.antecedent: joint for joint in robot.joints if joint.name not in robot.motors}

@@ -8,7 +8,7 @@ from typing import Any
 from modeler.core.builtin import OTHER_PROGRAMS
 from modeler.core.errors import RobotError
 from modeler.core.files import read_file
-from modeler.robot.robot_text import Converted
+from modeler.robot.robot_text import ConvertedRobot
 
 # Atomic: comments are not tried in all ways of taking them together.
 _FIRST = re.compile(
@@ -16,7 +16,9 @@ _FIRST = re.compile(
 )
 
 
-def converted(path: str | Path, exact_decimals: bool = False, **part: Any) -> Converted:
+def convert_robot_file(
+    path: str | Path, exact_decimals: bool = False, **part: Any
+) -> ConvertedRobot:
     """Another program's robot file as the text of ours.
 
     What begins with `<robot>` is a URDF, with `<mujoco>` an MJCF, whatever the file is called.
@@ -24,7 +26,7 @@ def converted(path: str | Path, exact_decimals: bool = False, **part: Any) -> Co
     Args:
         path: the file.
         exact_decimals: take printed angles and lengths as they are: 1.5708 is no pi/2.
-        part: base, tip, locks of `tree_cuts.cut`.
+        part: base, tip, locks of `tree_cuts.cut_tree`.
 
     Raises:
         RobotError: no such file, a format that is not read, or a mistake in it.
@@ -40,15 +42,15 @@ def converted(path: str | Path, exact_decimals: bool = False, **part: Any) -> Co
             "x.xml or x.par"
         )
     if path.suffix.lower() in OTHER_PROGRAMS[1:] or is_robot_xml(data):
-        return _tree_text(path, data, exact_decimals, part)
+        return _convert_xml(path, data, exact_decimals, part)
     if exact_decimals or any(part.values()):
         raise RobotError(
             f"{path}: --base, --tip, --lock and --exact-decimals are for URDF and MJCF; leave them "
             "out"
         )
-    from modeler.robot.par_convert import par_to_toml
+    from modeler.robot.par_convert import convert_par_file
 
-    return par_to_toml(data, str(path))
+    return convert_par_file(data, str(path))
 
 
 def is_robot_xml(data: bytes) -> bool:
@@ -56,20 +58,22 @@ def is_robot_xml(data: bytes) -> bool:
     return _FIRST.match(data) is not None
 
 
-def _tree_text(path: Path, data: bytes, exact_decimals: bool, part: Mapping[str, Any]) -> Converted:
-    from modeler.robot.tree_cuts import cut
-    from modeler.robot.tree_text import tree_to_toml
-    from modeler.robot.urdf import urdf_tree
+def _convert_xml(
+    path: Path, data: bytes, exact_decimals: bool, part: Mapping[str, Any]
+) -> ConvertedRobot:
+    from modeler.robot.tree_cuts import cut_tree
+    from modeler.robot.tree_text import convert_tree
+    from modeler.robot.urdf import read_urdf_tree
 
-    first = found[1] if (found := _FIRST.match(data)) else b""
+    first = root_match[1] if (root_match := _FIRST.match(data)) else b""
     if first == b"sdf":
         raise RobotError(
             f"{path}: is SDF, which is not read; give the URDF that it was made from, or an MJCF"
         )
     if first == b"mujoco":  # or what one includes, as is told there
-        from modeler.robot.mjcf import mjcf_tree
+        from modeler.robot.mjcf import read_mjcf_tree
 
-        tree = mjcf_tree(path, exact_decimals)
+        tree = read_mjcf_tree(path, exact_decimals)
     else:
-        tree = urdf_tree(data, str(path), exact_decimals)
-    return tree_to_toml(cut(tree, **part), str(path))
+        tree = read_urdf_tree(data, str(path), exact_decimals)
+    return convert_tree(cut_tree(tree, **part), str(path))

@@ -9,19 +9,19 @@ from fractions import Fraction
 from typing import Any
 
 from modeler.core.errors import RobotError
-from modeler.core.toml_cells import Place, near, toml_key, toml_text
-from modeler.effects import CATALOGUE, PASSIVE_FRICTION, PASSIVE_FRICTION_IS, Effect, effect_named
-from modeler.robot.angles import pi_multiple
-from modeler.robot.effects import parameter_owners, read_own_effects
-from modeler.robot.loops import MARK, expanded, leg_names
-from modeler.robot.read import robot_from_text
+from modeler.core.toml_cells import TomlCell, format_toml, format_toml_key, suggest_name
+from modeler.effects import CATALOGUE, PASSIVE_FRICTION, PASSIVE_FRICTION_IS, Effect, find_effect
+from modeler.robot.angles import format_pi_multiple
+from modeler.robot.effects import collect_parameter_owners, read_own_effects
+from modeler.robot.loops import MARK, expand_legs, read_leg_names
+from modeler.robot.read import parse_robot_text
 from modeler.robot.robot import INERTIAL, Robot
 
 Effects = Mapping[str, str | list]
 """Effect id or alias -> "all", the names of the joints that have it, or tables with shapes."""
 
 
-def with_effect(
+def insert_effect(
     text: str, effect: str, joint: str, shapes: Mapping[str, float], everyone: Sequence[str] = ()
 ) -> str:
     """The robot file with an effect on one joint more.
@@ -34,10 +34,10 @@ def with_effect(
         everyone: the joints that "all" means.
 
     Raises:
-        RobotError: see `with_effects`.
+        RobotError: see `replace_effects`.
     """
     effects: dict[str, str | list] = dict(tomllib.loads(text).get("effects", {}))
-    known = effect_named(effect, _catalogue(text))
+    known = find_effect(effect, _read_catalogue(text))
     assert known is not None
     ids = (known.id, *known.aliases)
     name = next((n for n in effects if n in ids), effect)
@@ -52,10 +52,10 @@ def with_effect(
     if shapes:  # tables and names do not mix
         before = [{"joint": b} if isinstance(b, str) else b for b in before]
     effects[name] = [*before, entry if shapes else joint]
-    return with_effects(text, effects)
+    return replace_effects(text, effects)
 
 
-def with_own_effect(text: str, name: str, definition: Mapping[str, Any]) -> str:
+def insert_own_effect(text: str, name: str, definition: Mapping[str, Any]) -> str:
     """The robot file with the definition of one effect more.
 
     Args:
@@ -68,43 +68,43 @@ def with_own_effect(text: str, name: str, definition: Mapping[str, Any]) -> str:
     """
     if name in tomllib.loads(text).get("own_effects", {}):
         raise RobotError(f"[own_effects.{name}]: the robot has it already; choose another name")
-    lines = [f"{toml_key(key)} = {toml_text(value)}" for key, value in definition.items()]
-    return _at_end([text], f"[own_effects.{toml_key(name)}]", *lines)
+    lines = [f"{format_toml_key(key)} = {format_toml(value)}" for key, value in definition.items()]
+    return _append_table([text], f"[own_effects.{format_toml_key(name)}]", *lines)
 
 
-def _catalogue(text: str) -> tuple[Effect, ...]:
+def _read_catalogue(text: str) -> tuple[Effect, ...]:
     """The effects that the robot of the file may have."""
-    own = tomllib.loads(text).get("own_effects", {})
-    return (*CATALOGUE, *read_own_effects(own, Place("robot file")))
+    definitions = tomllib.loads(text).get("own_effects", {})
+    return (*CATALOGUE, *read_own_effects(definitions, TomlCell("robot file")))
 
 
-def with_parameters(text: str, values: Mapping[str, float]) -> str:
+def replace_parameters(text: str, values: Mapping[str, float]) -> str:
     """The robot file with these nominal values, and others only for what they leave open."""
     before = dict(tomllib.loads(text).get("parameters", {}))
-    sure = before.pop("uncertainty", None)
-    if sure is not None:
-        text = _with_numbers(text, "parameters.uncertainty", sure)
-    return _with_numbers(text, "parameters", {**before, **values})
+    uncertainty = before.pop("uncertainty", None)
+    if uncertainty is not None:
+        text = _replace_numbers(text, "parameters.uncertainty", uncertainty)
+    return _replace_numbers(text, "parameters", {**before, **values})
 
 
-def with_fitted(text: str, values: Mapping[str, float]) -> str:
+def replace_fitted_values(text: str, values: Mapping[str, float]) -> str:
     """The robot file with fitted values, of inertial parameters only those that it may state."""
-    robot = robot_from_text(text, "robot of the model")
+    robot = parse_robot_text(text, "robot of the model")
     stateable = {
-        f"{prefix}{joint.name}": prefix in robot.inertial(joint.name)
-        for joint in robot.moving
+        f"{prefix}{joint.name}": prefix in robot.get_inertial_prefixes(joint.name)
+        for joint in robot.moving_joints
         for prefix in INERTIAL
     }
     stated = {name: value for name, value in values.items() if stateable.get(name, True)}
-    return with_parameters(text, stated) if stated else text
+    return replace_parameters(text, stated) if stated else text
 
 
-def with_reference(text: str, values: Mapping[str, float]) -> str:
+def replace_reference(text: str, values: Mapping[str, float]) -> str:
     """The robot file with another table [reference]."""
-    return _with_numbers(text, "reference", values)
+    return _replace_numbers(text, "reference", values)
 
 
-def with_drive_gains(text: str, gains: Mapping[str, float]) -> str:
+def replace_drive_gains(text: str, gains: Mapping[str, float]) -> str:
     """The robot file with other gains: in [drives] where they stand there, else in [drive_gains].
 
     Raises:
@@ -115,61 +115,63 @@ def with_drive_gains(text: str, gains: Mapping[str, float]) -> str:
         name: drive | {"gain": gains.get(name, drive["gain"])} for name, drive in drives.items()
     }
     if known != drives:
-        text = _with_table(text, "drives", known, "one joint a line")
+        text = _replace_table(text, "drives", known, "one joint a line")
     others = {name: gain for name, gain in gains.items() if name not in drives}
     if not others and "drive_gains" not in tomllib.loads(text):
         return text
-    changed = _with_numbers(text, "drive_gains", others)
-    return _checked(changed, text, "drive_gains", others, "one joint a line")
+    changed = _replace_numbers(text, "drive_gains", others)
+    return _check_change(changed, text, "drive_gains", others, "one joint a line")
 
 
-def with_log(text: str, table: Mapping[str, Any]) -> str:
+def replace_log_table(text: str, table: Mapping[str, Any]) -> str:
     """The robot file with another table [log], where the old one stood, or at the end.
 
     Raises:
         RobotError: the file's own table is written in a way that cannot be replaced line by line.
     """
-    return _with_table(text, "log", table, "one entry a line")
+    return _replace_table(text, "log", table, "one entry a line")
 
 
-def _with_table(text: str, name: str, table: Mapping[str, Any], how: str) -> str:
+def _replace_table(text: str, name: str, table: Mapping[str, Any], how: str) -> str:
     """The text with another table, where the old one stood, or at the end; `how` to write it."""
     head = rf"\[\s*{name}\s*[].]"
-    own = [k for k, (line, _) in enumerate(_lines(text)) if re.match(head, line)]
+    old_lines = [k for k, (line, _) in enumerate(_iterate_lines(text)) if re.match(head, line)]
     lines = text.rstrip("\n").split("\n")
     new = [
         f"[{name}]",
-        *(f"{toml_key(key)} = {toml_text(entry)}" for key, entry in table.items()),
+        *(f"{format_toml_key(key)} = {format_toml(entry)}" for key, entry in table.items()),
         "",
     ]
-    kept = [line for k, line in enumerate(lines) if k not in own]
-    at = own[0] if own else len(kept)
-    before = kept[:at] if own else [*kept, ""]
-    changed = "\n".join([*before, *new, *kept[at:]]).rstrip("\n") + "\n"
-    return _checked(changed, text, name, dict(table), how)
+    other_lines = [line for k, line in enumerate(lines) if k not in old_lines]
+    at = old_lines[0] if old_lines else len(other_lines)
+    before = other_lines[:at] if old_lines else [*other_lines, ""]
+    changed = "\n".join([*before, *new, *other_lines[at:]]).rstrip("\n") + "\n"
+    return _check_change(changed, text, name, dict(table), how)
 
 
-def _checked(changed: str, text: str, table: str, entries: dict[str, Any], how: str) -> str:
+def _check_change(changed: str, text: str, table: str, entries: dict[str, Any], how: str) -> str:
     """The changed text, if all that differs is what that table says."""
-    if _document(changed) != {**tomllib.loads(text), table: entries}:
+    if _parse_document(changed) != {**tomllib.loads(text), table: entries}:
         raise RobotError(
             f"the [{table}] table cannot be replaced; write it as a table of its own, {how}"
         )
     return changed
 
 
-def _with_numbers(text: str, table: str, values: Mapping[str, float]) -> str:
+def _replace_numbers(text: str, table: str, values: Mapping[str, float]) -> str:
     """The text with another table of numbers, at its end."""
-    kept = [line for head, line in _lines(text) if head != f"[{table}]"]
-    return _at_end(kept, f"[{table}]", *(f'"{name}" = {value!r}' for name, value in values.items()))
+    other_lines = [line for head, line in _iterate_lines(text) if head != f"[{table}]"]
+    return _append_table(
+        other_lines, f"[{table}]", *(f'"{name}" = {value!r}' for name, value in values.items())
+    )
 
 
-def _at_end(lines: Sequence[str], *table: str) -> str:
+def _append_table(lines: Sequence[str], *table: str) -> str:
     """The text with a table after one blank line."""
     return "\n".join(["\n".join(lines).rstrip(), "", *table]) + "\n"
 
 
-def _lines(text: str) -> Iterator[tuple[str, str]]:
+def _iterate_lines(text: str) -> Iterator[tuple[str, str]]:
     """Every line with the head of the table that it belongs to: its own, or the last before it."""
     head = ""
     for line in text.splitlines():
@@ -178,7 +180,7 @@ def _lines(text: str) -> Iterator[tuple[str, str]]:
         yield head, line
 
 
-def _document(text: str) -> dict[str, Any] | None:
+def _parse_document(text: str) -> dict[str, Any] | None:
     """What the text says; None if it is no TOML any more."""
     try:
         return tomllib.loads(text)
@@ -186,7 +188,7 @@ def _document(text: str) -> dict[str, Any] | None:
         return None
 
 
-def with_gravity(text: str, gravity: Sequence[float]) -> str:
+def replace_gravity(text: str, gravity: Sequence[float]) -> str:
     """The robot file with another gravity, m/s^2 in frame 0.
 
     Raises:
@@ -199,17 +201,17 @@ def with_gravity(text: str, gravity: Sequence[float]) -> str:
     return changed
 
 
-def with_coupling(text: str, joint: str, speed: str) -> str:
+def insert_coupling(text: str, joint: str, speed: str) -> str:
     """The robot file with one motor more that turns with several joints."""
     lines = text.splitlines()
     entry = f'"{joint}" = "{speed}"'
     for place, line in enumerate(lines):
         if line.split("#")[0].strip() == "[coupling]":
             return "\n".join([*lines[: place + 1], entry, *lines[place + 1 :]]) + "\n"
-    return _at_end(lines, "[coupling]", entry)
+    return _append_table(lines, "[coupling]", entry)
 
 
-def with_effects(text: str, effects: Effects) -> str:
+def replace_effects(text: str, effects: Effects) -> str:
     """The robot file with another `[effects]` table.
 
     Nominal values of effects that are gone leave `[parameters]` with them: they would be values
@@ -218,27 +220,27 @@ def with_effects(text: str, effects: Effects) -> str:
     Raises:
         RobotError: the file's own table is written in a way that cannot be replaced line by line.
     """
-    catalogue, motors = _catalogue(text), tomllib.loads(text).get("motors", {})
+    catalogue, motors = _read_catalogue(text), tomllib.loads(text).get("motors", {})
 
-    def belongs(parameter: str) -> bool:
-        return _belongs(parameter, effects, catalogue, motors)
+    def is_retained(parameter: str) -> bool:
+        return _has_owner(parameter, effects, catalogue, motors)
 
-    def others(document: dict[str, Any] | None) -> dict[str, Any] | None:
+    def strip_effects(document: dict[str, Any] | None) -> dict[str, Any] | None:
         """What it says but for its effects and the values of effects that are gone."""
         if document is None:
             return None
-        values = {n: v for n, v in document.get("parameters", {}).items() if belongs(n)}
+        values = {n: v for n, v in document.get("parameters", {}).items() if is_retained(n)}
         return {**document, "effects": None, "parameters": values}
 
-    kept = []
-    for head, line in _lines(text):
+    remaining_lines = []
+    for head, line in _iterate_lines(text):
         entry = re.match(r"\s*[\"']?([\w{}]+)[\"']?\s*=", line)
-        gone = head == "[parameters]" and entry is not None and not belongs(entry[1])
-        if head != "[effects]" and not gone:
-            kept.append(line)
-    lines = ["[effects]", *(f"{name} = {toml_text(joints)}" for name, joints in effects.items())]
-    changed = _at_end(kept, *lines)
-    if others(tomllib.loads(text)) != others(_document(changed)):
+        is_removed = head == "[parameters]" and entry is not None and not is_retained(entry[1])
+        if head != "[effects]" and not is_removed:
+            remaining_lines.append(line)
+    lines = ["[effects]", *(f"{name} = {format_toml(joints)}" for name, joints in effects.items())]
+    changed = _append_table(remaining_lines, *lines)
+    if strip_effects(tomllib.loads(text)) != strip_effects(_parse_document(changed)):
         raise RobotError(
             "the [effects] table cannot be replaced; write it as a table of its own, one effect a "
             "line, each with its joints on the same line"
@@ -246,7 +248,7 @@ def with_effects(text: str, effects: Effects) -> str:
     return changed
 
 
-def robot_with_effects(
+def replace_robot_effects(
     robot: Robot, effects: str | Sequence[str] | Mapping[str, Any], where: str
 ) -> Robot:
     """The robot with other effects.
@@ -262,30 +264,31 @@ def robot_with_effects(
     """
     if isinstance(effects, str):
         effects = [name.strip() for name in effects.split(",") if name.strip()]
-    wanted = dict(effects) if isinstance(effects, Mapping) else dict.fromkeys(effects, "all")
+    effect_table = dict(effects) if isinstance(effects, Mapping) else dict.fromkeys(effects, "all")
     known = [effect.id for effect in robot.catalogue]
-    for name in wanted:
-        if effect_named(name, robot.catalogue) is None:
+    for name in effect_table:
+        if find_effect(name, robot.catalogue) is None:
             raise RobotError(
-                f"{where}: got {name}{near(name, known)}; expected some of {', '.join(known)}"
+                f"{where}: got {name}{suggest_name(name, known)}; expected some of "
+                f"{', '.join(known)}"
             )
-    return robot_from_text(with_effects(robot.text, wanted), f"{robot.name} with {where}")
+    return parse_robot_text(replace_effects(robot.text, effect_table), f"{robot.name} with {where}")
 
 
-def _belongs(
+def _has_owner(
     parameter: str, effects: Effects, catalogue: Sequence[Effect], motors: Collection[str]
 ) -> bool:
     """True if the parameter is a link's, or one of these effects'.
 
     Its prefix is the longest, or one that a motor's name follows: Fvm1 is Fv of a motor m1.
     """
-    owners = parameter_owners(catalogue)
+    owners = collect_parameter_owners(catalogue)
     prefixes = [p for p in (*INERTIAL, *owners) if parameter.startswith(p)]
     prefix = max(prefixes, key=lambda p: (parameter[len(p) :] in motors, len(p)), default="")
     if prefix not in owners:
         return True
     for name, joints in effects.items():
-        effect = effect_named(name, catalogue)
+        effect = find_effect(name, catalogue)
         if effect is None:
             continue
         parts = PASSIVE_FRICTION_IS if effect.id == PASSIVE_FRICTION else (effect.id,)
@@ -295,8 +298,8 @@ def _belongs(
     return False
 
 
-def with_effect_on(
-    text: str, effect: str, joint: str, wanted: bool, everyone: Sequence[str]
+def set_joint_effect(
+    text: str, effect: str, joint: str, is_present: bool, everyone: Sequence[str]
 ) -> str:
     """The robot file where a joint has a plain effect, or has it no more.
 
@@ -304,28 +307,28 @@ def with_effect_on(
         text: of the file.
         effect: id.
         joint: name.
-        wanted: True: it has it.
+        is_present: True: it has it.
         everyone: the joints that "all" means.
 
     Raises:
-        RobotError: see `with_effects`.
+        RobotError: see `replace_effects`.
     """
-    effects: dict[str, Any] = dict(_stated(text, "effects"))
-    known = effect_named(effect, _catalogue(text))
+    effects: dict[str, Any] = dict(_read_expanded_table(text, "effects"))
+    known = find_effect(effect, _read_catalogue(text))
     ids = (effect,) if known is None else (known.id, *known.aliases)
     name = next((n for n in effects if n in ids), effect)
     before = effects.get(name, [])
     has = list(everyone) if before == "all" else list(before)
-    kept = [e for e in has if (e["joint"] if isinstance(e, dict) else e) != joint]
-    kept += [joint] if wanted else []
-    every = sorted(map(str, kept)) == sorted(everyone)
-    effects[name] = "all" if every else [e for e in everyone if e in kept] + [
-        e for e in kept if e not in everyone
+    entries = [e for e in has if (e["joint"] if isinstance(e, dict) else e) != joint]
+    entries += [joint] if is_present else []
+    is_everywhere = sorted(map(str, entries)) == sorted(everyone)
+    effects[name] = "all" if is_everywhere else [e for e in everyone if e in entries] + [
+        e for e in entries if e not in everyone
     ]  # fmt: skip
-    return with_effects(text, {n: joints for n, joints in effects.items() if joints})
+    return replace_effects(text, {n: joints for n, joints in effects.items() if joints})
 
 
-def with_limits(text: str, joint: str, cells: Sequence[str]) -> str:
+def replace_limits(text: str, joint: str, cells: Sequence[str]) -> str:
     """The robot file with other limits of a joint; without them where all cells are empty.
 
     Args:
@@ -336,14 +339,14 @@ def with_limits(text: str, joint: str, cells: Sequence[str]) -> str:
     Raises:
         RobotError: the file's own table is written in a way that cannot be replaced line by line.
     """
-    limits = dict(_stated(text, "limits"))
-    limits[joint] = [_cell(cell) for cell in cells]
+    limits = dict(_read_expanded_table(text, "limits"))
+    limits[joint] = [_parse_cell(cell) for cell in cells]
     if not any(cell.strip() for cell in cells):
         del limits[joint]
-    return _with_table(text, "limits", limits, "one joint a line")
+    return _replace_table(text, "limits", limits, "one joint a line")
 
 
-def with_symbol(text: str, name: str, value: str) -> str:
+def replace_symbol(text: str, name: str, value: str) -> str:
     """The robot file with another value of a letter; its comment stays.
 
     Args:
@@ -355,41 +358,41 @@ def with_symbol(text: str, name: str, value: str) -> str:
         RobotError: [symbols] has no line of that letter.
     """
     lines = text.splitlines()
-    for place, (head, line) in enumerate(_lines(text)):
+    for place, (head, line) in enumerate(_iterate_lines(text)):
         entry = _ENTRY.fullmatch(line)
         if head == "[symbols]" and entry is not None and entry["name"].strip("\"'") == name:
-            start = f"{entry['key']}{toml_text(_cell(value))}"
-            kept = entry["rest"].lstrip()
-            lines[place] = f"{start.ljust(len(line) - len(kept))}{kept}".rstrip()
-            if kept and not lines[place].startswith(f"{start} "):
-                lines[place] = f"{start} {kept}"
+            start = f"{entry['key']}{format_toml(_parse_cell(value))}"
+            comment = entry["rest"].lstrip()
+            lines[place] = f"{start.ljust(len(line) - len(comment))}{comment}".rstrip()
+            if comment and not lines[place].startswith(f"{start} "):
+                lines[place] = f"{start} {comment}"
             return "\n".join(lines) + "\n"
     raise RobotError(f"[symbols], {name}: its line is not found; edit the file as text")
 
 
-def written_symbols(text: str) -> dict[str, str]:
+def read_symbol_texts(text: str) -> dict[str, str]:
     """The letters of a robot file and their values, as it has them."""
     stated = tomllib.loads(text).get("symbols", {})
     return {name: v if isinstance(v, str) else f"{v:.15g}" for name, v in stated.items()}
 
 
-def written_limits(text: str) -> dict[str, tuple[str, ...]]:
+def read_limit_texts(text: str) -> dict[str, tuple[str, ...]]:
     """Lower, upper, speed, acceleration by joint, as a robot file has them."""
-    stated = _stated(text, "limits")
+    stated = _read_expanded_table(text, "limits")
     return {
         joint: tuple(e if isinstance(e, str) else f"{e:.15g}" for e in cells)
         for joint, cells in stated.items()
     }
 
 
-def _stated(text: str, table: str) -> Mapping[str, Any]:
+def _read_expanded_table(text: str, table: str) -> Mapping[str, Any]:
     """A table with its entries for every leg."""
     document = tomllib.loads(text)
-    found: Mapping[str, Any] = expanded(document, Place("robot file")).get(table, {})
-    return found
+    entries: Mapping[str, Any] = expand_legs(document, TomlCell("robot file")).get(table, {})
+    return entries
 
 
-def _cell(text: str) -> str | float:
+def _parse_cell(text: str) -> str | float:
     """A number as such, all else as text."""
     plain = text.strip()
     try:
@@ -406,12 +409,12 @@ _ENTRY = re.compile(
     r"(?P<key>\s*(?P<name>[\w.-]+|\"[^\"]*\"|'[^']*')\s*=\s*)"
     r"(?P<value>\"[^\"]*\"|'[^']*'|[^#\s\"']+)(?P<rest>\s*(?:#.*)?)"
 )
-_WHERE = Place("robot file").at("[home]")
+_WHERE = TomlCell("robot file").enter("[home]")
 _KEPT = 1e-6
 """Values that differ by less are left as they are written: -pi/2 stays -pi/2."""
 
 
-def with_home_text(text: str, stated: Mapping[str, float], home: Mapping[str, float]) -> str:
+def replace_home(text: str, stated: Mapping[str, float], home: Mapping[str, float]) -> str:
     """The robot file with that `[home]`; comments, and values that stay, as they were written.
 
     Args:
@@ -422,10 +425,10 @@ def with_home_text(text: str, stated: Mapping[str, float], home: Mapping[str, fl
     Raises:
         RobotError: the file's own [home] is written in a way that cannot be replaced line by line.
     """
-    legs = leg_names(_WHERE.holding(tomllib.loads(text).get("legs")))
-    for lines in _written(text.splitlines(), stated, home, legs):
+    legs = read_leg_names(_WHERE.with_value(tomllib.loads(text).get("legs")))
+    for lines in _generate_home_edits(text.splitlines(), stated, home, legs):
         changed = "\n".join(lines) + "\n"
-        if _says(changed, text, home):
+        if _is_home_stated(changed, text, home):
             return changed
     raise RobotError(
         "[home] cannot be replaced; write it as a table of its own, one joint a line, such as "
@@ -433,12 +436,14 @@ def with_home_text(text: str, stated: Mapping[str, float], home: Mapping[str, fl
     )
 
 
-def home_lines(home: Mapping[str, float]) -> list[str]:
+def format_home_lines(home: Mapping[str, float]) -> list[str]:
     """`q2 = -1.2` for every row."""
-    return [f"{toml_key(f'q{name}')} = {_number(value)}" for name, value in home.items()]
+    return [
+        f"{format_toml_key(f'q{name}')} = {_format_number(value)}" for name, value in home.items()
+    ]
 
 
-def _written(
+def _generate_home_edits(
     lines: Sequence[str],
     stated: Mapping[str, float],
     home: Mapping[str, float],
@@ -451,22 +456,22 @@ def _written(
     heads = [i for i, line in enumerate(lines) if _HEADER.fullmatch(line)]
     names = {i: lines[i].split("#")[0].strip(" []\t\"'") for i in heads}
 
-    def span(name: str) -> tuple[int, int] | None:
+    def find_table_span(name: str) -> tuple[int, int] | None:
         """Where the first table of that name begins, and where the next does."""
         begin = next((i for i in heads if names[i] == name), None)
         if begin is None:
             return None
         return begin, next((i for i in heads if i > begin), len(lines))
 
-    if found := span("home"):
-        begin, end = found
+    if table_span := find_table_span("home"):
+        begin, end = table_span
         while end > begin + 1 and (not lines[end - 1].strip() or _is_comment(lines[end - 1])):
             end -= 1  # blank lines and comments after the entries belong to the next table
-        body = _body(lines[begin + 1 : end], stated, home, legs)
+        body = _edit_home_entries(lines[begin + 1 : end], stated, home, legs)
         yield [*lines[: begin + 1], *body, *lines[end:]]
-    table = ["[home]", *home_lines(home), ""]
-    if found := span("loops"):
-        begin, end = found
+    table = ["[home]", *format_home_lines(home), ""]
+    if table_span := find_table_span("loops"):
+        begin, end = table_span
         while end > begin and _is_comment(lines[end - 1]):
             end -= 1  # a comment above a table belongs to it
         gap = [] if not lines[end - 1].strip() else [""]
@@ -478,7 +483,7 @@ def _is_comment(line: str) -> bool:
     return line.lstrip().startswith("#")
 
 
-def _body(
+def _edit_home_entries(
     lines: Sequence[str],
     stated: Mapping[str, float],
     home: Mapping[str, float],
@@ -487,38 +492,38 @@ def _body(
     """The entries of the table: changed in place, then those that it lacks."""
     left, body = dict(home), list[str]()
     for line in lines:
-        found = _ENTRY.fullmatch(line)
-        if found is None:
+        entry = _ENTRY.fullmatch(line)
+        if entry is None:
             body.append(line)
             continue
-        pattern = found["name"].strip("\"'")
+        pattern = entry["name"].strip("\"'")
         filled = [pattern.replace(MARK, leg) for leg in legs] if MARK in pattern else [pattern]
         names = [name.removeprefix("q") for name in filled]
         values = {name: left.pop(name) for name in names if name in left}
         if all(abs(stated.get(name, math.inf) - value) < _KEPT for name, value in values.items()):
             body.append(line)
-        elif len(values) == len(names) and len({_number(v) for v in values.values()}) == 1:
-            body.append(found["key"] + _number(values[names[0]]) + found["rest"])
+        elif len(values) == len(names) and len({_format_number(v) for v in values.values()}) == 1:
+            body.append(entry["key"] + _format_number(values[names[0]]) + entry["rest"])
         else:
-            first, *others = home_lines(values)
-            body += [first + found["rest"], *others]
-    return body + home_lines(left)
+            first, *others = format_home_lines(values)
+            body += [first + entry["rest"], *others]
+    return body + format_home_lines(left)
 
 
-def _number(value: float) -> str:
+def _format_number(value: float) -> str:
     """As short as it may be; multiples of pi/6 and pi/4 as such."""
     twelfths = value / (math.pi / 12)
     whole = round(twelfths)
     if whole and (whole % 2 == 0 or whole % 3 == 0) and abs(value - whole * math.pi / 12) < _KEPT:
-        return json.dumps(pi_multiple(Fraction(whole, 12)))
+        return json.dumps(format_pi_multiple(Fraction(whole, 12)))
     return repr(float(f"{value:.12g}") + 0.0)
 
 
-def _says(changed: str, text: str, home: Mapping[str, float]) -> bool:
+def _is_home_stated(changed: str, text: str, home: Mapping[str, float]) -> bool:
     """True if the changed text states that home, and else what the text states."""
     try:
         after, before = tomllib.loads(changed), tomllib.loads(text)
-        stated = expanded(after, _WHERE).get("home", {})
+        stated = expand_legs(after, _WHERE).get("home", {})
     except (tomllib.TOMLDecodeError, RobotError):
         return False
     others = [{k: v for k, v in document.items() if k != "home"} for document in (after, before)]

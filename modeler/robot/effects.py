@@ -5,21 +5,21 @@ import re
 from collections.abc import Collection, Mapping, Sequence
 from typing import Any
 
-from modeler.core.toml_cells import Place, listed, near, shown
+from modeler.core.toml_cells import TomlCell, join_names, quote_value, suggest_name
 from modeler.effects import (
     CATALOGUE,
     EXAMPLE,
     PASSIVE_FRICTION,
     PASSIVE_FRICTION_IS,
-    Acts,
     Effect,
+    EffectTarget,
     check_finite,
-    effect_named,
+    find_effect,
     read_definition,
 )
-from modeler.robot.cells import number_at
+from modeler.robot.cells import read_number
 from modeler.robot.robot import INERTIAL, EffectInstance, EffectUse, Joint
-from modeler.robot.sections import Coupling, joint_at
+from modeler.robot.sections import Coupling, find_joint
 
 _ID = re.compile(r"[a-z][a-z0-9_]*")
 _WORDS = ("all", "auto", "undo", "rigid_body")  # mean something else where ids stand
@@ -27,7 +27,10 @@ _LOGGED = ("q", "qc", "qd", "qdd", "tau", "current", "temperature")  # columns o
 
 
 def read_own_effects(
-    value: Any, place: Place, joints: Collection[str] | None = None, before: Sequence[Effect] = ()
+    value: Any,
+    place: TomlCell,
+    joints: Collection[str] | None = None,
+    before: Sequence[Effect] = (),
 ) -> tuple[Effect, ...]:
     """The effects that the file defines, in its order.
 
@@ -40,28 +43,30 @@ def read_own_effects(
     Raises:
         RobotError: names that the catalogue has, and what `read_definition` refuses.
     """
-    found: list[Effect] = []
-    for name, cell in place.at("[own_effects]", value).table(EXAMPLE).items():
-        here = place.at(f"[own_effects.{name}]", cell)
+    effects: list[Effect] = []
+    for name, cell in place.enter("[own_effects]", value).read_table(EXAMPLE).items():
+        here = place.enter(f"[own_effects.{name}]", cell)
         if not _ID.fullmatch(name) or name in _WORDS:
-            raise here.error(
-                f"got the name {shown(name)}; expected small letters, digits and _, such as brake, "
-                f"and not {listed(_WORDS)}"
+            raise here.make_error(
+                f"got the name {quote_value(name)}; expected small letters, digits and _, such as "
+                "brake, "
+                f"and not {join_names(_WORDS)}"
             )
-        if effect := effect_named(name):
-            raise here.error(
-                f"{shown(name)} is {effect.id} of the catalogue, which stays as it is; choose "
+        if effect := find_effect(name):
+            raise here.make_error(
+                f"{quote_value(name)} is {effect.id} of the catalogue, which stays as it is; "
+                "choose "
                 "another name"
             )
-        taken = parameter_owners((*CATALOGUE, *before, *found)) | dict.fromkeys(
+        taken = collect_parameter_owners((*CATALOGUE, *before, *effects)) | dict.fromkeys(
             INERTIAL, "the links"
         )
         taken |= dict.fromkeys(_LOGGED, "the logs")
-        found.append(read_definition(name, here, taken, joints=joints))
-    return tuple(found)
+        effects.append(read_definition(name, here, taken, joints=joints))
+    return tuple(effects)
 
 
-def parameter_owners(effects: Sequence[Effect]) -> dict[str, str]:
+def collect_parameter_owners(effects: Sequence[Effect]) -> dict[str, str]:
     """Name of a parameter without its joint -> the effect that has it."""
     return {c.prefix: e.id for e in effects for form in e.forms for c in form.columns}
 
@@ -74,7 +79,7 @@ _ZERO = {"t": "t0", "T": "T0"}
 
 
 def read_effects(
-    place: Place,
+    place: TomlCell,
     moving: Mapping[str, Joint],
     coupling: Coupling,
     catalogue: Sequence[Effect],
@@ -98,44 +103,46 @@ def read_effects(
         RobotError: unknown effects, joints or shapes.
     """
     uses: dict[str, EffectUse] = {}
-    for name, cell in place.table('[effects] viscous = "all"').items():
-        effect = _effect(name, catalogue, place)
+    for name, cell in place.read_table('[effects] viscous = "all"').items():
+        effect = _read_effect(name, catalogue, place)
         if effect.id in uses:
-            raise place.error(
-                f"{shown(name)} is {effect.id}, which stands there already; keep one of them"
+            raise place.make_error(
+                f"{quote_value(name)} is {effect.id}, which stands there already; keep one of them"
             )
-        here = place.at(name, cell)
-        if effect.coupled and not coupling:
-            raise here.error(
+        here = place.enter(name, cell)
+        if effect.is_coupled and not coupling:
+            raise here.make_error(
                 "acts on motors that turn with several joints, and the file couples none; add a "
                 'table [coupling] with a line such as "6" = "q5 + q6"'
             )
-        away = platform if effect.acts is Acts.PASSIVE else ()
-        rows = {row: joint for row, joint in moving.items() if row not in away}
+        excluded_rows = platform if effect.acts is EffectTarget.PASSIVE else ()
+        rows = {row: joint for row, joint in moving.items() if row not in excluded_rows}
         if isinstance(cell, list) and any(isinstance(entry, dict) for entry in cell):
-            uses[effect.id] = _shaped(effect, rows, coupling, here)
-        elif effect.forms[0].free:
-            raise here.mismatch(f"its shapes, as in {_example(effect)}")
+            uses[effect.id] = _read_effect_instances(effect, rows, coupling, here)
+        elif effect.forms[0].free_parameters:
+            raise here.make_mismatch(f"its shapes, as in {_format_example(effect)}")
         else:  # shapes of one value have that value
-            joints = _joints(effect, rows, coupling, here)
-            fixed = {shape.name: shape.grid[0] for shape in effect.forms[0].shapes}
+            joints = _read_effect_joints(effect, rows, coupling, here)
+            fixed = {shape.name: shape.grid[0] for shape in effect.forms[0].nonlinear_parameters}
             shaped = tuple(EffectInstance(joint, 0, fixed) for joint in joints) if fixed else ()
             uses[effect.id] = EffectUse(effect.id, joints, shaped)
         for name in uses[effect.id].joints:
-            if read := effect.forms[0].reads_as_other(name):
-                raise here.error(
-                    f"joint {shown(name)} is the one whose {listed(read)} it reads as another's; "
-                    f"write {listed(r[0] for r in read)} for its own, or take the joint out"
+            if read := effect.forms[0].find_references_to(name):
+                raise here.make_error(
+                    f"joint {quote_value(name)} is the one whose {join_names(read)} it reads as "
+                    "another's; "
+                    f"write {join_names(r[0] for r in read)} for its own, or take the joint out"
                 )
-    if rubbing := uses.pop(PASSIVE_FRICTION, None):  # it becomes what it is made of
+    if passive_friction := uses.pop(PASSIVE_FRICTION, None):  # it becomes what it is made of
         for part in PASSIVE_FRICTION_IS:
             has = uses[part].joints if part in uses else ()
-            if twice := [name for name in rubbing.joints if name in has]:
-                raise place.at(PASSIVE_FRICTION).error(
-                    f"joint {shown(twice[0])} has {part} already, which is a part of it; take the "
+            if repeated_joints := [name for name in passive_friction.joints if name in has]:
+                raise place.enter(PASSIVE_FRICTION).make_error(
+                    f"joint {quote_value(repeated_joints[0])} has {part} already, which is a part "
+                    "of it; take the "
                     "joint out of one of them"
                 )
-            both = {*has, *rubbing.joints}
+            both = {*has, *passive_friction.joints}
             uses[part] = EffectUse(part, tuple(name for name in moving if name in both))
     return tuple(uses[e.id] for e in catalogue if e.id in uses and uses[e.id].joints)
 
@@ -144,108 +151,124 @@ def needs_reference(effect: Effect, instance: EffectInstance) -> bool:
     """True if the effect depends on the torques of the links."""
     loads = {"load", "static", "torque"}
     named = not effect.forms[instance.form].names.isdisjoint(loads)
-    return named or effect.acts is Acts.POSITION
+    return named or effect.acts is EffectTarget.POSITION
 
 
-def _effect(name: str, catalogue: Sequence[Effect], place: Place) -> Effect:
-    effect = effect_named(name, catalogue)
+def _read_effect(name: str, catalogue: Sequence[Effect], place: TomlCell) -> Effect:
+    effect = find_effect(name, catalogue)
     if effect is None:
-        written = [e for e in catalogue if e.written]
+        written = [e for e in catalogue if e.can_be_stated]
         names = [known for e in written for known in (e.id, *e.aliases)]
-        raise place.error(
-            f"there is no effect {shown(name)}{near(name, names)}; expected one of "
-            f"{listed(e.id for e in written)}, or [own_effects.{name}]"
+        raise place.make_error(
+            f"there is no effect {quote_value(name)}{suggest_name(name, names)}; expected one of "
+            f"{join_names(e.id for e in written)}, or [own_effects.{name}]"
         )
-    if not effect.written:
-        raise place.error(
+    if not effect.can_be_stated:
+        raise place.make_error(
             f"{effect.id} is no function of the joints' motion, so it has no column; see "
             f"`modeler effects {effect.id}`, and `modeler add` for what can be done"
         )
     return effect
 
 
-def _joints(
-    effect: Effect, moving: Mapping[str, Joint], coupling: Coupling, place: Place
+def _read_effect_joints(
+    effect: Effect, moving: Mapping[str, Joint], coupling: Coupling, place: TomlCell
 ) -> tuple[str, ...]:
-    passive = effect.acts is Acts.PASSIVE
+    passive = effect.acts is EffectTarget.PASSIVE
     if passive and all(joint.actuated for joint in moving.values()):
-        raise place.error("acts on joints without motor, and every joint has one; leave it out")
+        raise place.make_error(
+            "acts on joints without motor, and every joint has one; leave it out"
+        )
     if place.value == "all":
         return tuple(
             name
             for name, joint in moving.items()
-            if (name in coupling if effect.coupled else joint.actuated is not passive)
+            if (name in coupling if effect.is_coupled else joint.actuated is not passive)
         )
     if not isinstance(place.value, list):
-        raise place.mismatch('the joints that have it: "all" or ["1", "2"]')
-    named = [joint_at(entry, moving, place).name for entry in place.value]
+        raise place.make_mismatch('the joints that have it: "all" or ["1", "2"]')
+    named = [find_joint(entry, moving, place).name for entry in place.value]
     for name in named:
         if named.count(name) > 1:
-            raise place.error(f"joint {shown(name)} stands there twice; name it once")
+            raise place.make_error(f"joint {quote_value(name)} stands there twice; name it once")
         _check_coupled(effect, name, coupling, place)
         if passive and moving[name].actuated:
-            raise place.error(f"joint {shown(name)} has a motor; write viscous and coulomb for it")
+            raise place.make_error(
+                f"joint {quote_value(name)} has a motor; write viscous and coulomb for it"
+            )
     return tuple(name for name in moving if name in named)
 
 
-def _check_coupled(effect: Effect, name: str, coupling: Coupling, place: Place) -> None:
-    if effect.coupled and name not in coupling:
-        raise place.error(
-            f"joint {shown(name)} has no line in [coupling], which has {listed(coupling)}; "
+def _check_coupled(effect: Effect, name: str, coupling: Coupling, place: TomlCell) -> None:
+    if effect.is_coupled and name not in coupling:
+        raise place.make_error(
+            f"joint {quote_value(name)} has no line in [coupling], which has "
+            f"{join_names(coupling)}; "
             "add one, or take the joint out"
         )
 
 
-def _shaped(
-    effect: Effect, moving: Mapping[str, Joint], coupling: Coupling, place: Place
+def _read_effect_instances(
+    effect: Effect, moving: Mapping[str, Joint], coupling: Coupling, place: TomlCell
 ) -> EffectUse:
-    found: list[EffectInstance] = []
+    instances: list[EffectInstance] = []
     for entry in place.value:
         if not isinstance(entry, dict) or "joint" not in entry:
-            raise place.error(f"got {shown(entry)}; expected tables, as in {_example(effect)}")
-        name = joint_at(entry["joint"], moving, place).name
+            raise place.make_error(
+                f"got {quote_value(entry)}; expected tables, as in {_format_example(effect)}"
+            )
+        name = find_joint(entry["joint"], moving, place).name
         _check_coupled(effect, name, coupling, place)
-        given = {key: value for key, value in entry.items() if key != "joint"}
-        number = _form_of(effect, given, place)
+        stated_values = {key: value for key, value in entry.items() if key != "joint"}
+        number = _find_form(effect, stated_values, place)
         form = effect.forms[number]
-        shapes = {s.name: s.grid[0] for s in form.shapes if len(s.grid) == 1}
-        for key, worth in given.items():
-            at = place.at(key, worth)  # "30 deg" of an angle
-            shapes[key] = number_at(at, {}) if isinstance(worth, str) else at.number("0.1")
-        here = place.at(f"joint {shown(name)}")
-        for shape in form.shapes:  # lengths, times, powers below zero; ripples without waves
-            worth, waves = shapes[shape.name], shape.scale == "waves"
+        shapes = {s.name: s.grid[0] for s in form.nonlinear_parameters if len(s.grid) == 1}
+        for key, parameter_value in stated_values.items():
+            at = place.enter(key, parameter_value)  # "30 deg" of an angle
+            shapes[key] = (
+                read_number(at, {}) if isinstance(parameter_value, str) else at.read_number("0.1")
+            )
+        here = place.enter(f"joint {quote_value(name)}")
+        for (
+            shape
+        ) in form.nonlinear_parameters:  # lengths, times, powers below zero; ripples without waves
+            parameter_value, waves = shapes[shape.name], shape.scale == "waves"
             positive = waves or (shape.scale != "own" and min(shape.grid) >= 0.0)
-            if positive and (worth < 0.0 or (waves and worth == 0.0)):
-                raise here.at(shape.name).error(
-                    f"got {worth:g} ({shape.meaning}); expected a number above 0"
+            if positive and (parameter_value < 0.0 or (waves and parameter_value == 0.0)):
+                raise here.enter(shape.name).make_error(
+                    f"got {parameter_value:g} ({shape.meaning}); expected a number above 0"
                 )
         check_finite(form, here, shapes)
         if EffectInstance(name, number, shapes) in [
-            dataclasses.replace(other, label="") for other in found
+            dataclasses.replace(other, label="") for other in instances
         ]:
-            raise here.error(
-                f"{listed(f'{k} = {v:g}' for k, v in shapes.items())} stands twice; remove one"
+            raise here.make_error(
+                f"{join_names(f'{k} = {v:g}' for k, v in shapes.items())} stands twice; remove one"
             )
-        before = sum(other.joint == name for other in found)
-        found.append(EffectInstance(name, number, shapes, f"_{before + 1}" if before else ""))
-    joints = tuple(name for name in moving if any(i.joint == name for i in found))
-    return EffectUse(effect.id, joints, tuple(found))
+        before = sum(other.joint == name for other in instances)
+        instances.append(EffectInstance(name, number, shapes, f"_{before + 1}" if before else ""))
+    joints = tuple(name for name in moving if any(i.joint == name for i in instances))
+    return EffectUse(effect.id, joints, tuple(instances))
 
 
-def _form_of(effect: Effect, given: Mapping[str, Any], place: Place) -> int:
+def _find_form(effect: Effect, stated_values: Mapping[str, Any], place: TomlCell) -> int:
     """Place of the form that these shapes belong to."""
     for number, form in enumerate(effect.forms):
         zeros = {_ZERO[name] for name in form.names if name in _ZERO}
-        if {s.name for s in form.free} <= given.keys() <= {s.name for s in form.shapes} | zeros:
+        if (
+            {s.name for s in form.free_parameters}
+            <= stated_values.keys()
+            <= {s.name for s in form.nonlinear_parameters} | zeros
+        ):
             return number
-    raise place.error(
-        f"got the shapes {listed(given) if given else 'none'}; expected {_example(effect)}"
+    raise place.make_error(
+        f"got the shapes {join_names(stated_values) if stated_values else 'none'}; expected "
+        f"{_format_example(effect)}"
     )
 
 
-def _example(effect: Effect) -> str:
+def _format_example(effect: Effect) -> str:
     """How the effect is written."""
-    shapes = effect.forms[0].free or effect.forms[-1].free
+    shapes = effect.forms[0].free_parameters or effect.forms[-1].free_parameters
     values = "".join(f", {s.name} = {s.grid[0] if s.grid else 7:g}" for s in shapes)
     return f'{effect.id} = [{{joint = "2"{values}}}]'

@@ -13,8 +13,8 @@ from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
 
-from modeler.core.errors import RobotError, on_one_line
-from modeler.robot.body_tree import several
+from modeler.core.errors import RobotError, flatten_message
+from modeler.robot.body_tree import summarise_names
 from modeler.robot.xml_source import Element
 
 _NOTHING = ("", "false", "no", "none")
@@ -40,7 +40,7 @@ class ElementTable:
     default: Mapping[str, str]
     same: Mapping[str, str]
 
-    def verdict(self, path: str, attribute: str = "") -> str:
+    def classify_path(self, path: str, attribute: str = "") -> str:
         """read, idle, told or refused; "" for what the table does not know."""
         name = f"{path}@{attribute}" if attribute else path
         for part in ("refused", "told"):
@@ -53,40 +53,46 @@ class ElementTable:
         known = {part: getattr(self, part).get(path, "").split() for part in ("read", "idle")}
         return next((p for p, names in known.items() if attribute in names or "**" in names), "")
 
-    def path(self, parent: str, tag: str) -> str:
+    def extend_path(self, parent: str, tag: str) -> str:
         """Of a child; bodies in bodies, and defaults in defaults, count once."""
-        own = self.same.get(tag, tag)
+        path_name = self.same.get(tag, tag)
         known = tag in self.same
-        return parent if known and (not own or parent.endswith(f"/{own}")) else f"{parent}/{own}"
+        return (
+            parent
+            if known and (not path_name or parent.endswith(f"/{path_name}"))
+            else f"{parent}/{path_name}"
+        )
 
-    def notes(self, roots: Iterable[tuple[str, Element]]) -> list[str]:
+    def collect_notes(self, roots: Iterable[tuple[str, Element]]) -> list[str]:
         """What to tell of files, those that are included behind their own.
 
         Raises:
             RobotError: the first that is refused.
         """
-        told: dict[str, list[str]] = {}
+        names_by_sentence: dict[str, list[str]] = {}
         for where, root in roots:
-            for element, name, key, sentence in self._met(root):
+            for element, name, key, sentence in self._find_reported(root):
                 called = name or f"line {element.line}"
                 if key in self.refused:
                     line = f"{where}: line {element.line}: {sentence}"
-                    raise RobotError(on_one_line(line.format(called)))
-                if sentence not in told and len(told) >= _MOST_NOTES:
+                    raise RobotError(flatten_message(line.format(called)))
+                if sentence not in names_by_sentence and len(names_by_sentence) >= _MOST_NOTES:
                     sentence = "other elements are not known here and are passed over: {}"
-                told.setdefault(sentence, []).append(called)
-        return [sentence.format(several(names)) for sentence, names in told.items()]
+                names_by_sentence.setdefault(sentence, []).append(called)
+        return [
+            sentence.format(summarise_names(names)) for sentence, names in names_by_sentence.items()
+        ]
 
-    def _met(self, root: Element) -> Iterator[tuple[Element, str, str, str]]:
+    def _find_reported(self, root: Element) -> Iterator[tuple[Element, str, str, str]]:
         """What is told or refused: element, what it belongs to, key in the table, sentence."""
         waiting = [(root, self.same.get(root.tag, root.tag), "")]
         while waiting:
             element, path, name = waiting.pop()
-            own = element.attributes
-            name = (own.get("name") or own.get("reference") or name).strip()
-            for attribute, value in (("", _text(element)), *own.items()):
+            attributes = element.attributes
+            name = (attributes.get("name") or attributes.get("reference") or name).strip()
+            for attribute, value in (("", _get_value_text(element)), *attributes.items()):
                 key = f"{path}@{attribute}" if attribute else path
-                verdict = self.verdict(path, attribute)
+                verdict = self.classify_path(path, attribute)
                 if not verdict and not attribute.startswith("xmlns"):
                     unknown = f"{attribute[:60]} of " * bool(attribute) + f"<{element.tag[:60]}>"
                     yield element, name, "", _UNKNOWN.format(unknown)
@@ -96,7 +102,9 @@ class ElementTable:
                     break
             else:
                 name = name if "/" in path else ""
-                waiting += [(e, self.path(path, e.tag), name) for e in reversed(element.children)]
+                waiting += [
+                    (e, self.extend_path(path, e.tag), name) for e in reversed(element.children)
+                ]
 
     def _is_default(self, name: str, value: str | None) -> bool:
         if value is None:
@@ -107,7 +115,7 @@ class ElementTable:
 
 
 @cache
-def element_table(format: str) -> ElementTable:
+def load_element_table(format: str) -> ElementTable:
     """Of "urdf" or "mjcf"."""
     text = Path(__file__).with_name(f"{format}_elements.toml").read_text(encoding="utf-8")
     parts = tomllib.loads(text)
@@ -121,9 +129,9 @@ def _is_nothing(word: str) -> bool:
         return word in _NOTHING
 
 
-def _text(element: Element) -> str | None:
+def _get_value_text(element: Element) -> str | None:
     """Its value, where it is a value and nothing else."""
     if element.children:
         return None
-    own = {key: value for key, value in element.attributes.items() if key != "name"}
-    return own.get("value") if own else element.text or None
+    attributes = {key: value for key, value in element.attributes.items() if key != "name"}
+    return attributes.get("value") if attributes else element.text or None

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from modeler.robot.body_tree import BodyTree, Meeting, Pose, poses_at
+from modeler.robot.body_tree import BodyTree, LoopClosure, Pose, compute_body_poses
 from modeler.robot.robot import JointKind
 
 _STEP = 1e-6  # rad, m, of central differences
@@ -14,7 +14,7 @@ _TIES = {
 """Kind -> which of `_apart` it ties; the others tie the three of the origin."""
 
 
-def independent_joints(tree: BodyTree) -> set[str]:
+def choose_independent_joints(tree: BodyTree) -> set[str]:
     """As many joints as the loops leave free, those that are nearest to the base first.
 
     The rank is taken where no loop is closed: it is that of the mechanism wherever it does not
@@ -28,29 +28,36 @@ def independent_joints(tree: BodyTree) -> set[str]:
     q = np.random.default_rng(0).uniform(-1.0, 1.0, len(leading))
     names = [joint.name for joint in leading]
 
-    def apart(q: np.ndarray) -> np.ndarray:
-        poses = poses_at(tree, dict(zip(names, q.tolist(), strict=True)))
-        return np.concatenate([_tied(meeting, poses) for meeting in tree.meetings])
+    def compute_closure_errors(q: np.ndarray) -> np.ndarray:
+        poses = compute_body_poses(tree, dict(zip(names, q.tolist(), strict=True)))
+        return np.concatenate(
+            [_compute_closure_error(meeting, poses) for meeting in tree.loop_closures]
+        )
 
     steps = _STEP * np.eye(len(q))
-    J = np.column_stack([(apart(q + h) - apart(q - h)) / (2 * _STEP) for h in steps])
-    rank, dependent = _rank(J), list(range(len(names)))
+    J = np.column_stack(
+        [
+            (compute_closure_errors(q + h) - compute_closure_errors(q - h)) / (2 * _STEP)
+            for h in steps
+        ]
+    )
+    rank, dependent = _compute_rank(J), list(range(len(names)))
     for k in range(len(names)):
         others = [i for i in dependent if i != k]
-        if len(dependent) > rank and _rank(J[:, others]) == rank:
+        if len(dependent) > rank and _compute_rank(J[:, others]) == rank:
             dependent = others
     return {name for k, name in enumerate(names) if k not in dependent}
 
 
-def _tied(meeting: Meeting, poses: dict[str, Pose]) -> np.ndarray:
+def _compute_closure_error(meeting: LoopClosure, poses: dict[str, Pose]) -> np.ndarray:
     """What the joint that closes a loop holds at 0."""
     one = poses[meeting.body] @ meeting.pose
-    way = one.inverse() @ (poses[meeting.other] @ meeting.other_pose)
-    R = way.rotation
-    every = np.array([*way.position, R[0, 2], R[1, 2], R[0, 1], R[2, 2]])
-    return every[list(_TIES.get(meeting.kind, (0, 1, 2)))]
+    relative_pose = one.inverse() @ (poses[meeting.other] @ meeting.other_pose)
+    R = relative_pose.rotation
+    residuals = np.array([*relative_pose.position, R[0, 2], R[1, 2], R[0, 1], R[2, 2]])
+    return residuals[list(_TIES.get(meeting.kind, (0, 1, 2)))]
 
 
-def _rank(matrix: np.ndarray) -> int:
+def _compute_rank(matrix: np.ndarray) -> int:
     values = np.linalg.svd(matrix, compute_uv=False) if matrix.size else np.zeros(1)
     return int(np.sum(values > _RANK * max(values[0], 1e-3)))

@@ -23,7 +23,7 @@ from dataclasses import dataclass, field, replace
 
 import numpy as np
 
-from modeler.robot.angles import cosine_sine
+from modeler.robot.angles import compute_cosine_sine
 from modeler.robot.body_tree import MovingLink, Pose, TreeJoint
 from modeler.robot.conventions import GEOMETRY
 from modeler.robot.robot import JointKind
@@ -86,7 +86,7 @@ Loop = tuple[tuple[int, Pose], tuple[int, Pose]]
 """Two links, and of each the frame, in its file frame, that meets the other."""
 
 
-def exact_length(length: float) -> float:
+def snap_length(length: float) -> float:
     """The decimal that it is but for rounding, else the length itself."""
     for digits in range(_DECIMALS + 1):
         if abs(length - (short := round(length, digits))) <= _ROUNDING * max(1.0, abs(length)):
@@ -94,25 +94,25 @@ def exact_length(length: float) -> float:
     return length
 
 
-def exact_turn(angle: float) -> float:
+def snap_angle(angle: float) -> float:
     """The angle in (-pi, pi], as a multiple of pi/12 or a decimal if it is one but for rounding."""
     angle = math.remainder(angle, math.tau)
     twelfths = round(angle / _TWELFTH)
     if abs(angle - twelfths * _TWELFTH) < PARALLEL:
         return math.pi if twelfths == -12 else twelfths * _TWELFTH
-    return exact_length(angle)
+    return snap_length(angle)
 
 
-def row_pose(cells: Mapping[str, float]) -> Pose:
+def compute_row_pose(cells: Mapping[str, float]) -> Pose:
     """Rz(gamma) Tz(b) Rx(alpha) Tx(d) Rz(theta) Tz(r)."""
     gamma, b, alpha, d, theta, r = (cells.get(column, 0.0) for column in GEOMETRY)
-    c, s = cosine_sine(alpha)
+    c, s = compute_cosine_sine(alpha)
     middle = Pose(np.array([d, 0.0, 0.0]), np.array([[1.0, 0.0, 0.0], [0.0, c, -s], [0.0, s, c]]))
-    return _screw(gamma, b) @ middle @ _screw(theta, r)
+    return _compute_screw(gamma, b) @ middle @ _compute_screw(theta, r)
 
 
-def _screw(angle: float, length: float) -> Pose:
-    c, s = cosine_sine(angle)
+def _compute_screw(angle: float, length: float) -> Pose:
+    c, s = compute_cosine_sine(angle)
     turn = np.array([[c, -s, 0.0], [s, c, 0.0], [0.0, 0.0, 1.0]])
     return Pose(np.array([0.0, 0.0, length]), turn)
 
@@ -129,9 +129,9 @@ class _Axis:
     along: np.ndarray
     through: np.ndarray | None
 
-    def seen_in(self, pose: Pose) -> "_Axis":
+    def express_in(self, pose: Pose) -> "_Axis":
         """The same in the frame a, in which the frame b has that pose."""
-        through = None if self.through is None else pose.place(self.through)
+        through = None if self.through is None else pose.transform_point(self.through)
         return _Axis(pose.rotation @ self.along, through)
 
 
@@ -153,43 +153,43 @@ class _Normal:
     tilt: float | None = None
 
 
-def _normal(axis: _Axis, reach: float) -> _Normal:
+def _compute_common_normal(axis: _Axis, reach: float) -> _Normal:
     x, y, z = axis.along
     point = axis.through
     if math.hypot(x, y) < PARALLEL:
-        return _Normal() if point is None else _towards(point[:2])
+        return _Normal() if point is None else _compute_point_normal(point[:2])
     gamma = math.atan2(x, -y)
     if point is None:
         return _Normal(gamma)
     along = np.array([math.cos(gamma), math.sin(gamma)])
     across = np.array([-along[1], along[0]])
-    way = -(across @ point[:2]) / (across @ axis.along[:2])
-    b = float(point[2] + way * z)
-    if max(abs(b), abs(way)) <= FAR * reach:
+    distance = -(across @ point[:2]) / (across @ axis.along[:2])
+    b = float(point[2] + distance * z)
+    if max(abs(b), abs(distance)) <= FAR * reach:
         return _Normal(gamma, b, float(along @ point[:2]))
     meets = point - point[2] / z * axis.along
-    near = _towards(meets[:2])
+    near = _compute_point_normal(meets[:2])
     return _Normal(near.gamma, None, near.d, gamma)
 
 
-def _towards(point: np.ndarray) -> _Normal:
+def _compute_point_normal(point: np.ndarray) -> _Normal:
     d = math.hypot(*point)
-    return _Normal(math.atan2(point[1], point[0]), None, d) if exact_length(d) else _Normal()
+    return _Normal(math.atan2(point[1], point[0]), None, d) if snap_length(d) else _Normal()
 
 
-def _folded(angle: float) -> float:
+def _fold_angle(angle: float) -> float:
     """The angle or its opposite direction, exact, in (-pi/2, pi/2]."""
-    angle = exact_turn(angle)
+    angle = snap_angle(angle)
     if -math.pi / 2 + PARALLEL < angle <= math.pi / 2 + PARALLEL:
         return angle
-    return exact_turn(angle + math.pi)
+    return snap_angle(angle + math.pi)
 
 
 _BEFORE_JOINT = 3.0
 """What gamma or b costs, a cell of `theta` or `r` being 1: a serial table has none."""
 
 
-def _weight(number: float, angle: bool = False) -> float:
+def _compute_cell_cost(number: float, angle: bool = False) -> float:
     """What a cell costs."""
     if number == 0.0:
         return 0.0
@@ -198,7 +198,7 @@ def _weight(number: float, angle: bool = False) -> float:
 
 
 @dataclass
-class _Rows:
+class _RowBuilder:
     """The rows as they are made, link by link.
 
     Attributes:
@@ -214,77 +214,79 @@ class _Rows:
     reach: float
     axes: list[_Axis]
     points: Mapping[int, Sequence[np.ndarray]]
-    leads: Mapping[int, int]
-    stands: dict[int, tuple[str, Pose]] = field(default_factory=dict)
+    loop_leaders: Mapping[int, int]
+    base_rows: dict[int, tuple[str, Pose]] = field(default_factory=dict)
     frames: list[Pose] = field(default_factory=lambda: [Pose()])
     rows: list[MdhRow] = field(default_factory=list)
 
-    def normals(self, link: int, frame: Pose) -> list[_Normal]:
+    def compute_normals(self, link: int, frame: Pose) -> list[_Normal]:
         """To the axes and points that a link carries, from a frame on it."""
         back = frame.inverse()
         axes = [
-            self.axes[k].seen_in(back @ other.pose)
+            self.axes[k].express_in(back @ other.pose)
             for k, other in enumerate(self.links)
             if other.parent == link
         ]
-        points = [back.place(point) for point in self.points.get(link, ())]
-        found = [_normal(axis, self.reach) for axis in axes]
-        return found + [replace(_towards(p[:2]), b=float(p[2])) for p in points]
+        points = [back.transform_point(point) for point in self.points.get(link, ())]
+        normals = [_compute_common_normal(axis, self.reach) for axis in axes]
+        return normals + [replace(_compute_point_normal(p[:2]), b=float(p[2])) for p in points]
 
-    def add(self, k: int) -> None:
+    def add_row(self, k: int) -> None:
         """The row of link k, and the fixed one before it where that is needed."""
         link = self.links[k]
         joint, name = link.joint, f"{k}"
         assert joint is not None
-        antecedent, before = self.stand(k)
+        antecedent, before = self.get_base_row(k)
         before = before.inverse() @ link.pose  # file frame k on the row before
-        axis = self.axes[k].seen_in(before)
-        normal = _normal(axis, self.reach)
-        cells, start = _foot(normal), Pose()
+        axis = self.axes[k].express_in(before)
+        normal = _compute_common_normal(axis, self.reach)
+        cells, start = _compute_foot_cells(normal), Pose()
         if normal.tilt is not None:
-            d = exact_length(normal.d * _sign(cells["gamma"], normal.gamma))
-            cells |= {"d": d, "theta": _folded(normal.tilt - cells["gamma"])}
+            d = snap_length(normal.d * _get_fold_sign(cells["gamma"], normal.gamma))
+            cells |= {"d": d, "theta": _fold_angle(normal.tilt - cells["gamma"])}
             self.rows.append(MdhRow(f"{name}f", antecedent, cells))
-            antecedent, start, cells = f"{name}f", row_pose(cells), {}
-        axis = axis.seen_in((start @ row_pose(cells)).inverse())
-        cells |= _across(axis)
-        placed = before.inverse() @ start @ row_pose(cells)  # in file frame k
+            antecedent, start, cells = f"{name}f", compute_row_pose(cells), {}
+        axis = axis.express_in((start @ compute_row_pose(cells)).inverse())
+        cells |= _compute_axis_cells(axis)
+        placed = before.inverse() @ start @ compute_row_pose(cells)  # in file frame k
         revolute = joint.kind is JointKind.REVOLUTE
         zero = joint.zero
-        theta, r = self._chosen(k, placed, (zero, 0.0) if revolute else (0.0, zero))
+        theta, r = self._choose_theta_r(k, placed, (zero, 0.0) if revolute else (0.0, zero))
         cells |= {"theta": theta, "r": r}
         self.rows.append(MdhRow(name, antecedent, cells, joint))
-        at_zero = _screw(theta + zero, r) if revolute else _screw(theta, r + zero)
+        at_zero = _compute_screw(theta + zero, r) if revolute else _compute_screw(theta, r + zero)
         self.frames.append(placed @ at_zero)
 
-    def stand(self, k: int) -> tuple[str, Pose]:
+    def get_base_row(self, k: int) -> tuple[str, Pose]:
         """The row before that of link k, and its pose in the file frame of the link before."""
-        parent, lead = self.links[k].parent, self.leads.get(k)
-        if lead in self.stands:
-            return self.stands[lead]
+        parent, lead = self.links[k].parent, self.loop_leaders.get(k)
+        if lead in self.base_rows:
+            return self.base_rows[lead]
         frame, name = self.frames[parent], f"{parent}"
         if lead is None:
             return name, frame
-        axis = self.axes[k].seen_in(frame.inverse() @ self.links[k].pose)
-        normal = _normal(axis, self.reach)
+        axis = self.axes[k].express_in(frame.inverse() @ self.links[k].pose)
+        normal = _compute_common_normal(axis, self.reach)
         if axis.through is not None and normal.tilt is None:
-            cells = _foot(normal)
-            cells |= _across(axis.seen_in(row_pose(cells).inverse()))
+            cells = _compute_foot_cells(normal)
+            cells |= _compute_axis_cells(axis.express_in(compute_row_pose(cells).inverse()))
             if any(cells.values()):
-                name, frame = f"{k}s", frame @ row_pose(cells)
+                name, frame = f"{k}s", frame @ compute_row_pose(cells)
                 self.rows.append(MdhRow(name, f"{parent}", cells))
-        self.stands[lead] = name, frame
+        self.base_rows[lead] = name, frame
         return name, frame
 
-    def end(self, link: int, pose: Pose, other: int) -> End:
+    def locate_end(self, link: int, pose: Pose, other: int) -> End:
         """The row that carries a frame of a link, which meets one of another."""
         while other and self.links[other].parent != link:
             other = self.links[other].parent
-        own = f"{link}", self.frames[link]
-        name, frame = self.stands.get(self.leads.get(other, 0), own)
+        link_row = f"{link}", self.frames[link]
+        name, frame = self.base_rows.get(self.loop_leaders.get(other, 0), link_row)
         return name, frame.inverse() @ pose
 
-    def _chosen(self, k: int, placed: Pose, plain: tuple[float, float]) -> tuple[float, float]:
+    def _choose_theta_r(
+        self, k: int, placed: Pose, plain: tuple[float, float]
+    ) -> tuple[float, float]:
         """theta and r of the row of link k, without its variable.
 
         Args:
@@ -292,62 +294,64 @@ class _Rows:
             placed: its axis, as the row has it before theta and r, in its file frame.
             plain: turn and shift from there that make both 0.
         """
-        normals = self.normals(k, placed)
+        normals = self.compute_normals(k, placed)
         feet = [n.b for n in normals if n.b is not None]
 
-        def of_shift(h: float) -> float:
-            others = (_weight(exact_length(b - h)) for b in feet)
-            return _weight(exact_length(h - plain[1])) + _BEFORE_JOINT * sum(others)
+        def compute_shift_cost(h: float) -> float:
+            others = (_compute_cell_cost(snap_length(b - h)) for b in feet)
+            return _compute_cell_cost(snap_length(h - plain[1])) + _BEFORE_JOINT * sum(others)
 
-        r = exact_length(min([plain[1], *feet], key=of_shift) - plain[1])
-        at = placed @ _screw(0.0, r + plain[1])
-        normals = self.normals(k, at)
-        ways = [n.gamma for n in normals if n.gamma is not None]
+        r = snap_length(min([plain[1], *feet], key=compute_shift_cost) - plain[1])
+        at = placed @ _compute_screw(0.0, r + plain[1])
+        normals = self.compute_normals(k, at)
+        angles = [n.gamma for n in normals if n.gamma is not None]
 
-        def of_turn(phi: float) -> float:
-            others = (_weight(_folded(gamma - phi), angle=True) for gamma in ways)
-            return _weight(exact_turn(phi - plain[0]), True) + _BEFORE_JOINT * sum(others)
+        def compute_turn_cost(phi: float) -> float:
+            others = (_compute_cell_cost(_fold_angle(gamma - phi), angle=True) for gamma in angles)
+            return _compute_cell_cost(snap_angle(phi - plain[0]), True) + _BEFORE_JOINT * sum(
+                others
+            )
 
-        both = [gamma + half for gamma in ways for half in (0.0, math.pi)]
-        return exact_turn(min([plain[0], *both], key=of_turn) - plain[0]), r
+        both = [gamma + half for gamma in angles for half in (0.0, math.pi)]
+        return snap_angle(min([plain[0], *both], key=compute_turn_cost) - plain[0]), r
 
 
-def _foot(normal: _Normal) -> dict[str, float]:
+def _compute_foot_cells(normal: _Normal) -> dict[str, float]:
     """gamma and b: to the foot of the common normal, x along it."""
-    return {"gamma": _folded(normal.gamma or 0.0), "b": exact_length(normal.b or 0.0)}
+    return {"gamma": _fold_angle(normal.gamma or 0.0), "b": snap_length(normal.b or 0.0)}
 
 
-def _across(axis: _Axis) -> dict[str, float]:
+def _compute_axis_cells(axis: _Axis) -> dict[str, float]:
     """alpha and d: from the foot to the axis."""
-    cells = {"alpha": exact_turn(math.atan2(-axis.along[1], axis.along[2]))}
+    cells = {"alpha": snap_angle(math.atan2(-axis.along[1], axis.along[2]))}
     if axis.through is not None:
-        cells["d"] = exact_length(float(axis.through[0]))
+        cells["d"] = snap_length(float(axis.through[0]))
     return cells
 
 
-def _leads(links: Sequence[MovingLink], loops: Sequence[Loop]) -> dict[int, int]:
+def _find_loop_leaders(links: Sequence[MovingLink], loops: Sequence[Loop]) -> dict[int, int]:
     """Link -> the first of those that stand on the same one, and are of one loop."""
     leads: dict[int, int] = {}
     for loop in loops:
-        ways: list[list[int]] = []
+        chains: list[list[int]] = []
         for link, _ in loop:
-            ways.append([link])
-            while ways[-1][-1] > 0:
-                ways[-1].append(links[ways[-1][-1]].parent)
-        common = next(link for link in ways[0] if link in ways[1])
-        own = [way[way.index(common) - 1] for way in ways if way[0] != common]
-        olds = {leads.get(k, k) for k in own}
-        own += [k for k, lead in leads.items() if lead in olds]
-        leads |= dict.fromkeys(own, min(olds))
+            chains.append([link])
+            while chains[-1][-1] > 0:
+                chains[-1].append(links[chains[-1][-1]].parent)
+        common = next(link for link in chains[0] if link in chains[1])
+        branch_links = [chain[chain.index(common) - 1] for chain in chains if chain[0] != common]
+        olds = {leads.get(k, k) for k in branch_links}
+        branch_links += [k for k, lead in leads.items() if lead in olds]
+        leads |= dict.fromkeys(branch_links, min(olds))
     return leads
 
 
-def _sign(folded: float, angle: float | None) -> int:
+def _get_fold_sign(folded: float, angle: float | None) -> int:
     """-1 if the direction was turned round."""
     return 1 if angle is None or math.cos(folded - angle) > 0.0 else -1
 
 
-def _axes(links: Sequence[MovingLink]) -> list[_Axis]:
+def _collect_axes(links: Sequence[MovingLink]) -> list[_Axis]:
     """The axes of the joints; that of a sliding joint where it makes the table simplest.
 
     On the axis of the only joint that the link carries, if they are parallel; else it may be
@@ -361,34 +365,42 @@ def _axes(links: Sequence[MovingLink]) -> list[_Axis]:
         if through is None:
             carried = [i for i, link in enumerate(links) if link.parent == k]
             if len(carried) == 1:
-                other = axes[carried[0]].seen_in(links[carried[0]].pose)
+                other = axes[carried[0]].express_in(links[carried[0]].pose)
                 if np.linalg.norm(np.cross(other.along, joint.axis)) < PARALLEL:
                     through = other.through
         axes[k] = _Axis(joint.axis, through)
     return axes
 
 
-def mdh_table(links: Sequence[MovingLink], loops: Sequence[Loop] = ()) -> MdhTable:
+def build_mdh_table(links: Sequence[MovingLink], loops: Sequence[Loop] = ()) -> MdhTable:
     """The rows of a tree; row j, counted from 1, moves link j, and q_j is the file's position.
 
     Args:
         links: as `moving_links` gives them.
         loops: frames that meet.
     """
-    ways = [float(np.linalg.norm(link.pose.position)) for link in links]
+    link_lengths = [float(np.linalg.norm(link.pose.position)) for link in links]
     points: dict[int, list[np.ndarray]] = {}
     for k, pose in itertools.chain(*loops):
         points.setdefault(k, []).append(pose.position)
-    made = _Rows(links, max(ways) or 1.0, _axes(links), points, _leads(links, loops))
+    builder = _RowBuilder(
+        links,
+        max(link_lengths) or 1.0,
+        _collect_axes(links),
+        points,
+        _find_loop_leaders(links, loops),
+    )
     for k in range(1, len(links)):
-        made.add(k)
+        builder.add_row(k)
     names = tuple(f"{k}" for k in range(len(links)))
-    places = tuple(frame.inverse() for frame in made.frames)
-    ends = tuple((made.end(*one, two[0]), made.end(*two, one[0])) for one, two in loops)
-    return MdhTable(tuple(made.rows), names, places, ends)
+    places = tuple(frame.inverse() for frame in builder.frames)
+    ends = tuple(
+        (builder.locate_end(*one, two[0]), builder.locate_end(*two, one[0])) for one, two in loops
+    )
+    return MdhTable(tuple(builder.rows), names, places, ends)
 
 
-def roll_pitch_yaw(rotation: np.ndarray) -> tuple[float, float, float]:
+def compute_roll_pitch_yaw(rotation: np.ndarray) -> tuple[float, float, float]:
     """Angles of R = Rz(yaw) Ry(pitch) Rx(roll), exact where they are; roll is 0 where free."""
     level = math.hypot(rotation[0, 0], rotation[1, 0])
     pitch = math.atan2(-rotation[2, 0], level)
@@ -396,20 +408,20 @@ def roll_pitch_yaw(rotation: np.ndarray) -> tuple[float, float, float]:
         roll, yaw = 0.0, math.atan2(-rotation[0, 1], rotation[1, 1])
     else:
         yaw = math.atan2(rotation[1, 0], rotation[0, 0])
-        left = _screw(-yaw, 0.0).rotation @ rotation
+        left = _compute_screw(-yaw, 0.0).rotation @ rotation
         roll = math.atan2(-left[1, 2], left[1, 1])
-    return exact_turn(roll), exact_turn(pitch), exact_turn(yaw)
+    return snap_angle(roll), snap_angle(pitch), snap_angle(yaw)
 
 
-def towards(point: np.ndarray) -> dict[str, float]:
+def compute_point_row(point: np.ndarray) -> dict[str, float]:
     """gamma, b and d of a fixed row whose origin is at a point of the frame before it."""
-    way = _towards(point[:2])
-    gamma = _folded(way.gamma or 0.0)
-    d = exact_length(way.d * _sign(gamma, way.gamma))
-    return {"gamma": gamma, "b": exact_length(float(point[2])), "d": d}
+    normal = _compute_point_normal(point[:2])
+    gamma = _fold_angle(normal.gamma or 0.0)
+    d = snap_length(normal.d * _get_fold_sign(gamma, normal.gamma))
+    return {"gamma": gamma, "b": snap_length(float(point[2])), "d": d}
 
 
-def fixed_row(pose: Pose, free_about_z: bool) -> dict[str, float]:
+def compute_fixed_row(pose: Pose, free_about_z: bool) -> dict[str, float]:
     """The cells of a fixed row that stands as a frame does in the one before it.
 
     Args:
@@ -419,17 +431,17 @@ def fixed_row(pose: Pose, free_about_z: bool) -> dict[str, float]:
     along, place = pose.rotation[:, 2].tolist(), pose.position.tolist()
     parallel = math.hypot(*along[:2]) < PARALLEL
     gamma = math.atan2(place[1], place[0]) if parallel else math.atan2(along[0], -along[1])
-    gamma = _folded(gamma)
-    rest = _screw(-gamma, 0.0) @ pose
+    gamma = _fold_angle(gamma)
+    rest = _compute_screw(-gamma, 0.0) @ pose
     x, y, z = rest.position.tolist()
-    alpha = exact_turn(math.atan2(-rest.rotation[1, 2], rest.rotation[2, 2]))
+    alpha = snap_angle(math.atan2(-rest.rotation[1, 2], rest.rotation[2, 2]))
     r = 0.0 if parallel else -y / math.sin(alpha)
-    back = row_pose({"alpha": -alpha}).rotation @ rest.rotation
+    back = compute_row_pose({"alpha": -alpha}).rotation @ rest.rotation
     return {
         "gamma": gamma,
-        "b": exact_length(z - r * math.cos(alpha)),
+        "b": snap_length(z - r * math.cos(alpha)),
         "alpha": alpha,
-        "d": exact_length(x),
-        "theta": 0.0 if free_about_z else exact_turn(math.atan2(back[1, 0], back[0, 0])),
-        "r": exact_length(r),
+        "d": snap_length(x),
+        "theta": 0.0 if free_about_z else snap_angle(math.atan2(back[1, 0], back[0, 0])),
+        "r": snap_length(r),
     }

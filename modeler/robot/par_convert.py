@@ -4,21 +4,29 @@ from dataclasses import dataclass, field
 from pathlib import PurePath
 
 import modeler.robot.robot_text as toml
-from modeler.core.toml_cells import listed
-from modeler.robot.cells import robot_name
+from modeler.core.toml_cells import join_names
+from modeler.robot.cells import choose_robot_name
 from modeler.robot.conventions import GEOMETRY
 from modeler.robot.par_table import (
     Counts,
     ParFrame,
     Symbols,
-    counts,
-    frames,
-    gravity,
-    table_cells,
-    variables,
+    convert_gravity,
+    convert_table_cells,
+    find_joint_variables,
+    read_counts,
+    read_par_frames,
 )
-from modeler.robot.par_text import BASE, FORCES, INERTIA, JOINTS, ParFormula, Statements, scan
-from modeler.robot.robot_text import Converted, TextRow
+from modeler.robot.par_text import (
+    BASE,
+    FORCES,
+    INERTIA,
+    JOINTS,
+    ParFormula,
+    Statements,
+    scan_statements,
+)
+from modeler.robot.robot_text import ConvertedRobot, TextRow
 
 # What a `.par` file says of the links: which parameters they have, values, friction, rotors.
 
@@ -45,15 +53,15 @@ class Bodies:
     notes: list[str] = field(default_factory=list)
     others: list[str] = field(default_factory=list)
 
-    def add(self, name: str, cell: ParFormula) -> None:
+    def add_parameter(self, name: str, cell: ParFormula) -> None:
         """Keep the value of a parameter, or its letter if that is another."""
         if cell.literal is not None:
             self.parameters[name] = float(cell.literal)
         elif cell.text.lower() != name.lower():
-            self.others.append(f"{name} (there {cell.written})")
+            self.others.append(f"{name} (there {cell.source_text})")
 
 
-def bodies(statements: Statements, found: Counts, made: list[ParFrame]) -> Bodies:
+def read_bodies(statements: Statements, counts: Counts, frames: list[ParFrame]) -> Bodies:
     """The parameters of links 1 .. NL, and what is left out.
 
     A parameter that is 0 beside letters is one that the link has not; beside numbers only, a
@@ -64,16 +72,16 @@ def bodies(statements: Statements, found: Counts, made: list[ParFrame]) -> Bodie
     """
     result = Bodies()
 
-    def cell(key: str, k: int) -> ParFormula:
-        return statements.formula(key, k + found.floating, f"{key}{k + 1}")
+    def read_cell(key: str, k: int) -> ParFormula:
+        return statements.read_formula(key, k + counts.floating, f"{key}{k + 1}")
 
-    for k in range(found.links):
-        cells = {key: cell(key, k) for key in INERTIA}
-        if made[k].home is None:
+    for k in range(counts.links):
+        cells = {key: read_cell(key, k) for key in INERTIA}
+        if frames[k].variable_column is None:
             if any(key in statements.by_key and not cells[key].is_zero for key in INERTIA):
                 result.notes.append(
                     f"parameters of frame {k + 1} are left out: it is fixed (Sigma 2), count them "
-                    f"to link {made[k].antecedent}"
+                    f"to link {frames[k].antecedent}"
                 )
             continue
         has = [key for key, entry in cells.items() if not entry.is_zero]
@@ -82,50 +90,54 @@ def bodies(statements: Statements, found: Counts, made: list[ParFrame]) -> Bodie
         if len(has) < len(INERTIA):
             result.links[f"{k + 1}"] = has
         for key in has:
-            result.add(f"{key}{k + 1}", cells[key])
-    for j in range(found.links, found.joints):
-        if made[j].home is not None:
+            result.add_parameter(f"{key}{k + 1}", cells[key])
+    for j in range(counts.links, counts.joints):
+        if frames[j].variable_column is not None:
             result.links[f"{j + 1}"] = []
     without = []
     for key, (effect, prefix) in _EFFECT.items():
         if key not in statements.by_key:
             continue
-        for k in range(found.links):
-            entry = cell(key, k)
-            if entry.is_zero or made[k].home is None:
+        for k in range(counts.links):
+            entry = read_cell(key, k)
+            if entry.is_zero or frames[k].variable_column is None:
                 continue
-            if effect == "rotor_inertia" and not made[k].mu:
-                without.append(entry.written)
+            if effect == "rotor_inertia" and not frames[k].mu:
+                without.append(entry.source_text)
                 continue
             result.effects.setdefault(effect, []).append(f"{k + 1}")
-            result.add(f"{prefix}{k + 1}", entry)
-    rubbing = {name for each in ("viscous", "coulomb") for name in result.effects.get(each, ())}
-    if offset := [f"{k + 1}" for k in range(found.links) if made[k].mu and f"{k + 1}" in rubbing]:
+            result.add_parameter(f"{prefix}{k + 1}", entry)
+    friction_joints = {
+        name for each in ("viscous", "coulomb") for name in result.effects.get(each, ())
+    }
+    if offset := [
+        f"{k + 1}" for k in range(counts.links) if frames[k].mu and f"{k + 1}" in friction_joints
+    ]:
         result.effects["offset"] = offset
-        result.notes.append(f"added to the joints with friction: offset ({listed(offset)})")
+        result.notes.append(f"added to the joints with friction: offset ({join_names(offset)})")
     if without:
         result.notes.append(
-            f"{listed(without)}: left out, rotor inertias of joints without a motor (Mu 0)"
+            f"{join_names(without)}: left out, rotor inertias of joints without a motor (Mu 0)"
         )
     if result.others:
         result.notes.append(
-            f"parameters that are not letters of their own: {listed(result.others)}"
+            f"parameters that are not letters of their own: {join_names(result.others)}"
         )
-    _left_out(statements, found, result)
+    _describe_omissions(statements, counts, result)
     return result
 
 
-def _left_out(statements: Statements, found: Counts, result: Bodies) -> None:
+def _describe_omissions(statements: Statements, counts: Counts, result: Bodies) -> None:
     """Say what of the file has no place in a robot file."""
-    if found.floating:
+    if counts.floating:
         result.notes.append(
             "is_mobile, is_floating: the base stands still here, its own parameters are left out"
         )
-    forces = [key for key in FORCES if any(e != "0" for e in statements.entries(key))]
-    springs = [key for key in ("eta", "k") if any(e != "0" for e in statements.entries(key))]
-    states = [key for key in JOINTS[:3] if _has_numbers(statements.entries(key))]
-    moves = [key for key in BASE[:4] if any(not _zero(e) for e in statements.entries(key))]
-    if not _states_gravity(statements):  # VP0 is gravity then
+    forces = [key for key in FORCES if any(e != "0" for e in statements.get_entries(key))]
+    springs = [key for key in ("eta", "k") if any(e != "0" for e in statements.get_entries(key))]
+    states = [key for key in JOINTS[:3] if _has_numbers(statements.get_entries(key))]
+    moves = [key for key in BASE[:4] if any(not _is_zero(e) for e in statements.get_entries(key))]
+    if not _has_gravity(statements):  # VP0 is gravity then
         moves = [key for key in moves if key != "VP0"]
     for why, keys in (
         ("a robot file states no forces on links; see modeler effects external_force", forces),
@@ -134,36 +146,36 @@ def _left_out(statements: Statements, found: Counts, result: Bodies) -> None:
         ("the base stands still here", moves),
     ):
         if keys:
-            result.notes.append(f"{listed(keys)} are left out: {why}")
-    if statements.entries("Z") and list(statements.entries("Z")) != _IDENTITY:
+            result.notes.append(f"{join_names(keys)} are left out: {why}")
+    if statements.get_entries("Z") and list(statements.get_entries("Z")) != _IDENTITY:
         result.notes.append("Z is left out: frame 0 is where the robot starts")
 
 
 def _has_numbers(entries: tuple[str, ...]) -> bool:
-    return any(entry[:1] in "0123456789.+-" and not _zero(entry) for entry in entries)
+    return any(entry[:1] in "0123456789.+-" and not _is_zero(entry) for entry in entries)
 
 
-def _zero(entry: str) -> bool:
+def _is_zero(entry: str) -> bool:
     try:
         return float(entry) == 0
     except ValueError:
         return False
 
 
-def _states_gravity(statements: Statements) -> bool:
-    return any(not _zero(entry) for entry in statements.entries("G"))
+def _has_gravity(statements: Statements) -> bool:
+    return any(not _is_zero(entry) for entry in statements.get_entries("G"))
 
 
-def gravity_entries(statements: Statements, notes: list[str]) -> tuple[str, ...]:
+def read_gravity_entries(statements: Statements, notes: list[str]) -> tuple[str, ...]:
     """G; -VP0 where the file has gravity as an acceleration of the base; downwards without both."""
-    if _states_gravity(statements):
-        return statements.entries("G")
-    base = statements.entries("VP0")
-    if any(not _zero(entry) for entry in base):
+    if _has_gravity(statements):
+        return statements.get_entries("G")
+    base = statements.get_entries("VP0")
+    if any(not _is_zero(entry) for entry in base):
         notes.append("gravity is -VP0: the file has it as an acceleration of the base")
-        return tuple("0" if _zero(entry) else f"-({entry})" for entry in base)
-    if statements.entries("G"):
-        return statements.entries("G")
+        return tuple("0" if _is_zero(entry) else f"-({entry})" for entry in base)
+    if statements.get_entries("G"):
+        return statements.get_entries("G")
     notes.append("the file has no G: gravity is taken along -z0")
     return ("0", "0", "-9.81")
 
@@ -174,7 +186,7 @@ _NO_HOME = (
 )
 
 
-def par_to_toml(data: bytes, where: str) -> Converted:
+def convert_par_file(data: bytes, where: str) -> ConvertedRobot:
     """The robot file that says what the SYMORO file says.
 
     Frames 1 .. NL are rows; frames NL + 1 .. NJ are rows without a body, each tied rigidly to its
@@ -191,53 +203,59 @@ def par_to_toml(data: bytes, where: str) -> Converted:
         Robotica 15, 1997; W. Khalil, E. Dombre, Modeling, identification and control of robots,
         2002, section 7.3 (closed chains).
     """
-    statements = scan(data, where)
-    found = counts(statements)
-    made = frames(statements, found)
+    statements = scan_statements(data, where)
+    counts = read_counts(statements)
+    frames = read_par_frames(statements, counts)
     symbols = Symbols()
-    if not found.loops and not any(frame.mu for frame in made):  # it says nothing of motors
-        for frame in made:
-            frame.mu = int(frame.home is not None)
+    if not counts.loops and not any(frame.mu for frame in frames):  # it says nothing of motors
+        for frame in frames:
+            frame.mu = int(frame.variable_column is not None)
         symbols.notes.append("Mu is 0 for every joint: all are taken as actuated")
-    names = variables(made, statements)
+    names = find_joint_variables(frames, statements)
     other = [theirs for theirs, ours in names.items() if theirs != ours]
     if other:
-        symbols.notes.append(f"joint variables are called q<row> here: {listed(other)}")
-    table_cells(made, found, names, symbols, statements.place)
-    links = bodies(statements, found, made)
-    pull = gravity(gravity_entries(statements, symbols.notes), symbols, statements.place)
-    notes = [*symbols.notes, *links.notes, *([_NO_HOME] if found.loops else [])]
-    kind = statements.scalar("Type", "[012]", "0 (simple), 1 (tree) or 2 (closed)")
-    if kind and (kind == "2") != bool(found.loops):
+        symbols.notes.append(f"joint variables are called q<row> here: {join_names(other)}")
+    convert_table_cells(frames, counts, names, symbols, statements.place)
+    links = read_bodies(statements, counts, frames)
+    pull = convert_gravity(
+        read_gravity_entries(statements, symbols.notes), symbols, statements.place
+    )
+    notes = [*symbols.notes, *links.notes, *([_NO_HOME] if counts.loops else [])]
+    kind = statements.read_scalar("Type", "[012]", "0 (simple), 1 (tree) or 2 (closed)")
+    if kind and (kind == "2") != bool(counts.loops):
         notes.append(
-            f"Type is {kind}, but NJ - NL says that {found.loops} joints are cut, which counts"
+            f"Type is {kind}, but NJ - NL says that {counts.loops} joints are cut, which counts"
         )
-    name = robot_name(statements.name, PurePath(where).stem)
+    name = choose_robot_name(statements.name, PurePath(where).stem)
     source = f"SYMORO file {PurePath(where).name}"
-    head = toml.head_lines(name, statements.name, source, notes, pull)
-    return Converted(toml.joined([*head, *_tables(symbols, found, links, made)]), tuple(notes))
+    head = toml.format_head(name, statements.name, source, notes, pull)
+    return ConvertedRobot(
+        toml.join_lines([*head, *_format_tables(symbols, counts, links, frames)]), tuple(notes)
+    )
 
 
-def _tables(symbols: Symbols, found: Counts, links: Bodies, made: list[ParFrame]) -> list[str]:
+def _format_tables(
+    symbols: Symbols, counts: Counts, links: Bodies, frames: list[ParFrame]
+) -> list[str]:
     """`[symbols]` and all below."""
     rows = [
         TextRow(f"{frame.number}", f"{frame.antecedent}", frame.mu, frame.sigma, {
             c: "0" if frame.cells[c].is_zero else frame.cells[c].text for c in GEOMETRY
         })
-        for frame in made
+        for frame in frames
     ]  # fmt: skip
     loops = [  # every cut joint meets its second frame
-        (f"cut{k + 1}", f"{found.links + k + 1}", f"{found.joints + k + 1}", "rigid")
-        for k in range(found.loops)
+        (f"cut{k + 1}", f"{counts.links + k + 1}", f"{counts.joints + k + 1}", "rigid")
+        for k in range(counts.loops)
     ]
-    has = [f"{name} = {toml.name_list(keys)}" for name, keys in links.links.items()]
-    actuated = [f"{frame.number}" for frame in made if frame.mu]
-    numbers = [f"{name} = {worth!r}" for name, worth in links.parameters.items()]
+    has = [f"{name} = {toml.format_name_list(keys)}" for name, keys in links.links.items()]
+    actuated = [f"{frame.number}" for frame in frames if frame.mu]
+    numbers = [f"{name} = {value!r}" for name, value in links.parameters.items()]
     return [
-        *toml.section("[symbols]", toml.symbol_lines(symbols.values, symbols.comments)),
-        *toml.mdh_lines(rows),
-        *toml.loop_lines(loops),
-        *toml.section(toml.LINKS, has),
-        *toml.section("[effects]", toml.effect_lines(links.effects, actuated)),
-        *toml.section(toml.PARAMETERS, numbers),
+        *toml.format_section("[symbols]", toml.format_symbols(symbols.values, symbols.comments)),
+        *toml.format_mdh(rows),
+        *toml.format_loops(loops),
+        *toml.format_section(toml.LINKS, has),
+        *toml.format_section("[effects]", toml.format_effects(links.effects, actuated)),
+        *toml.format_section(toml.PARAMETERS, numbers),
     ]

@@ -9,8 +9,8 @@ import re
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 
-from modeler.core.expression import FUNCTIONS, ExpressionError, parse, written
-from modeler.core.toml_cells import Place, listed, near, shown
+from modeler.core.expression import FUNCTIONS, ExpressionError, format_tree, parse_expression
+from modeler.core.toml_cells import TomlCell, join_names, quote_value, suggest_name
 
 SCALARS = ("NF", "NL", "NJ", "Type", "is_mobile", "is_floating")
 FRAMES = ("Ant", "Sigma", "b", "d", "r", "gamma", "alpha", "Mu", "theta")
@@ -43,11 +43,11 @@ class Statement:
 
     key: str
     entries: tuple[str, ...]
-    place: Place
+    place: TomlCell
 
-    def entry_place(self, number: int) -> Place:
+    def locate_entry(self, number: int) -> TomlCell:
         """Where entry `number`, counted from 1, stands."""
-        return self.place.at(f"{self.key}, entry {number}")
+        return self.place.enter(f"{self.key}, entry {number}")
 
 
 @dataclass(frozen=True)
@@ -62,14 +62,14 @@ class Statements:
 
     name: str
     by_key: dict[str, Statement]
-    place: Place
+    place: TomlCell
 
-    def entries(self, key: str) -> tuple[str, ...]:
+    def get_entries(self, key: str) -> tuple[str, ...]:
         """The list of that key; empty if the file has none."""
         statement = self.by_key.get(key)
         return statement.entries if statement else ()
 
-    def scalar(self, key: str, pattern: str, expected: str) -> str:
+    def read_scalar(self, key: str, pattern: str, expected: str) -> str:
         """The one value of that key in small letters; empty if the file has none.
 
         Raises:
@@ -80,10 +80,10 @@ class Statements:
             return ""
         text = statement.entries[0]
         if not re.fullmatch(pattern, text.lower()):
-            raise statement.place.error(f'{key}: got "{text}"; expected {expected}')
+            raise statement.place.make_error(f'{key}: got "{text}"; expected {expected}')
         return text.lower()
 
-    def formula(self, key: str, k: int, default: str) -> "ParFormula":
+    def read_formula(self, key: str, k: int, default: str) -> "ParFormula":
         """Entry k, counted from 0, of the list of that key; the default if the file has none.
 
         Raises:
@@ -91,11 +91,11 @@ class Statements:
         """
         statement = self.by_key.get(key)
         if statement is None:
-            return formula(default, self.place)
-        return formula(statement.entries[k], statement.entry_place(k + 1))
+            return parse_formula(default, self.place)
+        return parse_formula(statement.entries[k], statement.locate_entry(k + 1))
 
 
-def scan(data: bytes, where: str) -> Statements:
+def scan_statements(data: bytes, where: str) -> Statements:
     """The statements of a file.
 
     Keys may be written in capitals or not, and in any order; line ends and encoding are found.
@@ -103,32 +103,34 @@ def scan(data: bytes, where: str) -> Statements:
     Raises:
         RobotError: it is no such file; an unknown key, a key twice, a list that is not closed.
     """
-    place = Place(where)
-    text = _decoded(data, place)
+    place = TomlCell(where)
+    text = _decode_text(data, place)
     named = _NAME.search(text)
-    bare = _COMMENT.sub(lambda found: re.sub(r"[^\n]", " ", found[0]), text)
+    bare = _COMMENT.sub(lambda match: re.sub(r"[^\n]", " ", match[0]), text)
     opened = bare.find("(*")
     if opened >= 0:
-        raise _line(place, bare, opened).error('the comment "(*" is not closed; end it with "*)"')
+        raise _locate_line(place, bare, opened).make_error(
+            'the comment "(*" is not closed; end it with "*)"'
+        )
     by_key: dict[str, Statement] = {}
     at = 0
     while re.search(r"[^\s;]", bare[at:]):
-        statement, at = _statement(bare, at, place)
+        statement, at = _read_statement(bare, at, place)
         if statement.key in by_key:
-            raise statement.place.error(
-                f"{statement.key} stands twice, first on {by_key[statement.key].place.spot}; "
+            raise statement.place.make_error(
+                f"{statement.key} stands twice, first on {by_key[statement.key].place.location}; "
                 "remove one"
             )
         by_key[statement.key] = statement
     if "Ant" not in by_key:
-        raise place.error(
+        raise place.make_error(
             "is no SYMORO file: the list Ant is missing; expected Ant = {0,1,...}, the antecedent "
             "of every frame, beside Sigma, d, r, alpha, theta"
         )
     return Statements(named[1].strip() if named else "", by_key, place)
 
 
-def _decoded(data: bytes, place: Place) -> str:
+def _decode_text(data: bytes, place: TomlCell) -> str:
     """The text; comments of old files are in the encoding of Windows."""
     if data.startswith(_UTF16):
         text = data.decode("utf-16", errors="replace")
@@ -138,44 +140,49 @@ def _decoded(data: bytes, place: Place) -> str:
         except UnicodeDecodeError:
             text = data.decode("cp1252", errors="replace")
     if "\0" in text:
-        raise place.error("is no text; expected a SYMORO file, such as KEY = {0,1,2} line by line")
+        raise place.make_error(
+            "is no text; expected a SYMORO file, such as KEY = {0,1,2} line by line"
+        )
     return text.replace("\r\n", "\n").replace("\r", "\n").rstrip("\x1a")  # end of file in DOS
 
 
-def _line(place: Place, text: str, at: int) -> Place:
-    return place.at(f"line {text.count(chr(10), 0, at) + 1}")
+def _locate_line(place: TomlCell, text: str, at: int) -> TomlCell:
+    return place.enter(f"line {text.count(chr(10), 0, at) + 1}")
 
 
-def _statement(text: str, at: int, place: Place) -> tuple[Statement, int]:
+def _read_statement(text: str, at: int, place: TomlCell) -> tuple[Statement, int]:
     """The statement that starts at or after `at`, and where it ends."""
     head = _HEAD.match(text, at)
     start = at + len(text[at:]) - len(re.sub(r"^[\s;]*", "", text[at:]))
-    here = _line(place, text, start)
+    here = _locate_line(place, text, start)
     if head is None:
         got = text[start:].splitlines()[0].strip()
-        raise here.error(f"got {shown(got)}; expected KEY = {{...}} or KEY = number")
+        raise here.make_error(f"got {quote_value(got)}; expected KEY = {{...}} or KEY = number")
     key = _KEY.get(head[1].lower())
     if key is None:
-        raise here.error(
-            f"unknown keyword {shown(head[1])}{near(head[1], KEYS)}; expected one of {listed(KEYS)}"
+        raise here.make_error(
+            f"unknown keyword {quote_value(head[1])}{suggest_name(head[1], KEYS)}; expected one of "
+            f"{join_names(KEYS)}"
         )
-    here = place.at(here.spot)
+    here = place.enter(here.location)
     if text[head.end() : head.end() + 1] != "{":
         value = re.compile(r"[^\n;]*").match(text, head.end())
         assert value is not None
         if key not in SCALARS:
-            raise here.error(f"{key}: got {shown(value[0].strip())}; expected a list in braces")
+            raise here.make_error(
+                f"{key}: got {quote_value(value[0].strip())}; expected a list in braces"
+            )
         return Statement(key, (value[0].strip(),), here), value.end()
     end = text.find("}", head.end())
     inner = text[head.end() + 1 : end]
     if end < 0 or "=" in inner or "{" in inner:
-        raise here.error(f"{key}: the list is not closed; end it with }}")
+        raise here.make_error(f"{key}: the list is not closed; end it with }}")
     if key in SCALARS:
-        raise here.error(f"{key}: got a list; expected one number, as in {key} = 6")
-    return Statement(key, _entries(inner, key, here), here), end + 1
+        raise here.make_error(f"{key}: got a list; expected one number, as in {key} = 6")
+    return Statement(key, _parse_entries(inner, key, here), here), end + 1
 
 
-def _entries(inner: str, key: str, place: Place) -> tuple[str, ...]:
+def _parse_entries(inner: str, key: str, place: TomlCell) -> tuple[str, ...]:
     """The entries between commas that stand in no parentheses."""
     entries, depth = [""], 0
     for letter in inner:
@@ -189,7 +196,7 @@ def _entries(inner: str, key: str, place: Place) -> tuple[str, ...]:
         return ()
     for number, entry in enumerate(entries, start=1):
         if not entry:
-            raise place.at(f"{key}, entry {number}").error(
+            raise place.enter(f"{key}, entry {number}").make_error(
                 "is empty; expected a number, a letter or an expression"
             )
     return tuple(entries)
@@ -221,7 +228,7 @@ class ParFormula:
     """
 
     tree: ast.expr
-    written: str
+    source_text: str
 
     @property
     def names(self) -> frozenset[str]:
@@ -233,9 +240,9 @@ class ParFormula:
     @property
     def literal(self) -> str | None:
         """The number as its digits are written, if it is nothing but a number."""
-        if not _PLAIN.fullmatch(self.written):
+        if not _PLAIN.fullmatch(self.source_text):
             return None
-        return self.written.replace(" ", "").replace("*^", "e")
+        return self.source_text.replace(" ", "").replace("*^", "e")
 
     @property
     def is_zero(self) -> bool:
@@ -245,31 +252,31 @@ class ParFormula:
     @property
     def text(self) -> str:
         """As robot files spell it."""
-        return written(self.tree)
+        return format_tree(self.tree)
 
-    def replaced(self, tree: ast.expr) -> "ParFormula":
+    def replace_tree(self, tree: ast.expr) -> "ParFormula":
         """Another formula in its place."""
-        return ParFormula(tree, written(tree))
+        return ParFormula(tree, format_tree(tree))
 
 
-def formula(entry: str, place: Place) -> ParFormula:
+def parse_formula(entry: str, place: TomlCell) -> ParFormula:
     """The formula of an entry: `-Pi/2`, `Sqrt[b^2 + d6^2]`, `0.45`.
 
     Raises:
         RobotError: it is none.
     """
     try:
-        tree = parsed(_spelled(entry))
-        parse(ast.unparse(_with_stand_ins(tree)))
+        tree = parse_python(_translate_spelling(entry))
+        parse_expression(ast.unparse(_replace_inverse_calls(tree)))
     except (SyntaxError, ValueError, RecursionError, MemoryError, ExpressionError):
-        raise place.error(
-            f"got {shown(entry)}; expected a number, a letter, or arithmetic of these with "
+        raise place.make_error(
+            f"got {quote_value(entry)}; expected a number, a letter, or arithmetic of these with "
             f"{', '.join(sorted({*FUNCTIONS, *INVERSE}))}"
         ) from None
     return ParFormula(tree, entry)
 
 
-def rewritten(tree: ast.expr, replace: Callable[[ast.expr], ast.expr]) -> ast.expr:
+def rewrite_tree(tree: ast.expr, replace: Callable[[ast.expr], ast.expr]) -> ast.expr:
     """A copy of the formula with its names and calls replaced, innermost first."""
 
     class Rewrite(ast.NodeTransformer):
@@ -280,31 +287,31 @@ def rewritten(tree: ast.expr, replace: Callable[[ast.expr], ast.expr]) -> ast.ex
             self.generic_visit(node)
             return replace(node)
 
-    result: ast.expr = Rewrite().visit(parsed(ast.unparse(tree)))
+    result: ast.expr = Rewrite().visit(parse_python(ast.unparse(tree)))
     return result
 
 
-def parsed(text: str) -> ast.expr:
+def parse_python(text: str) -> ast.expr:
     """The tree of a formula in Python's spelling."""
     return ast.parse(text, mode="eval").body
 
 
-def called(node: ast.expr) -> str:
+def get_called_name(node: ast.expr) -> str:
     """Name of the function that is called; empty if none is."""
     if isinstance(node, ast.Call) and isinstance(node.func, ast.Name):
         return node.func.id
     return ""
 
 
-def renamed(tree: ast.expr, names: Mapping[str, str]) -> ast.expr:
+def rename_letters(tree: ast.expr, names: Mapping[str, str]) -> ast.expr:
     """The formula with other names."""
-    return rewritten(
+    return rewrite_tree(
         tree,
         lambda n: ast.Name(names.get(n.id, n.id), ast.Load()) if isinstance(n, ast.Name) else n,
     )
 
 
-def _spelled(entry: str) -> str:
+def _translate_spelling(entry: str) -> str:
     """The entry in Python's spelling."""
     parts = []
     for number, name, opened, operator, space, other in _TOKEN.findall(entry):
@@ -319,29 +326,31 @@ def _spelled(entry: str) -> str:
             parts.append(("pi" if is_pi else known or letter) + ("(" if opened else ""))
         else:
             parts.append({"^": "**", "[": "(", "]": ")"}.get(operator, operator) or space)
-    return _two_arguments("".join(parts).strip())
+    return _translate_arctan("".join(parts).strip())
 
 
-def _two_arguments(text: str) -> str:
+def _translate_arctan(text: str) -> str:
     """Mathematica's ArcTan[x, y] is atan2(y, x)."""
 
-    def turned(node: ast.expr) -> ast.expr:
-        if isinstance(node, ast.Call) and called(node) == "atan" and len(node.args) == 2:
+    def swap_arguments(node: ast.expr) -> ast.expr:
+        if isinstance(node, ast.Call) and get_called_name(node) == "atan" and len(node.args) == 2:
             return ast.Call(ast.Name("atan2", ast.Load()), node.args[::-1], [])
         return node
 
-    return ast.unparse(rewritten(parsed(text), turned)) if "atan(" in text else text
+    return (
+        ast.unparse(rewrite_tree(parse_python(text), swap_arguments)) if "atan(" in text else text
+    )
 
 
-def _with_stand_ins(tree: ast.expr) -> ast.expr:
+def _replace_inverse_calls(tree: ast.expr) -> ast.expr:
     """The formula with functions that robot files have: to be checked by their grammar."""
 
-    def plain(node: ast.expr) -> ast.expr:
-        name = called(node)
+    def replace_inverse_call(node: ast.expr) -> ast.expr:
+        name = get_called_name(node)
         if not isinstance(node, ast.Call) or name not in INVERSE or node.keywords:
             return node
         if len(node.args) != (2 if name == "atan2" else 1):
             raise ValueError(name)
         return functools.reduce(lambda one, other: ast.BinOp(one, ast.Add(), other), node.args)
 
-    return rewritten(tree, plain)
+    return rewrite_tree(tree, replace_inverse_call)

@@ -8,7 +8,7 @@ from modeler.robot.robot import Joint, Robot
 
 
 @dataclass(frozen=True)
-class ParameterWords:
+class ParameterDescription:
     """A standard parameter.
 
     Attributes:
@@ -22,45 +22,47 @@ class ParameterWords:
     rows: tuple[str, ...]
 
 
-def parameter_words(robot: Robot) -> dict[str, ParameterWords]:
+def describe_parameters(robot: Robot) -> dict[str, ParameterDescription]:
     """Every standard parameter of the robot, by its name; shared ones besides their members."""
-    found = dict(_single(robot))
+    descriptions = dict(_iterate_descriptions(robot))
     for shared in robot.shared:
-        members = [found[name] for name in shared.members if name in found]
+        members = [descriptions[name] for name in shared.members if name in descriptions]
         if members:
             rows = tuple(row for member in members for row in member.rows)
             same = f"of the links {', '.join(rows)} alike"
             words = members[0].words.replace(f"of link {rows[0]}", same)
-            found[shared.name] = ParameterWords(words, members[0].unit, rows)
-    return found
+            descriptions[shared.name] = ParameterDescription(words, members[0].unit, rows)
+    return descriptions
 
 
-def _single(robot: Robot) -> Iterator[tuple[str, ParameterWords]]:
-    for joint in robot.moving:
-        for prefix in robot.inertial(joint.name):
-            yield prefix + joint.name, _inertial(prefix, joint.name)
-        for effect, form, instance in robot.effects_on(joint.name):
+def _iterate_descriptions(robot: Robot) -> Iterator[tuple[str, ParameterDescription]]:
+    for joint in robot.moving_joints:
+        for prefix in robot.get_inertial_prefixes(joint.name):
+            yield prefix + joint.name, _describe_inertial(prefix, joint.name)
+        for effect, form, instance in robot.find_joint_effects(joint.name):
             for column in form.columns:
                 name = f"{column.prefix}{joint.name}{instance.label}"
-                yield name, _of_effect(effect, column, joint)
+                yield name, _describe_effect_parameter(effect, column, joint)
 
 
-def _inertial(prefix: str, link: str) -> ParameterWords:
+def _describe_inertial(prefix: str, link: str) -> ParameterDescription:
     where = f"of link {link}"
     if prefix == "M":
-        return ParameterWords(f"mass {where}", "kg", (link,))
+        return ParameterDescription(f"mass {where}", "kg", (link,))
     axes = [letter.lower() + link for letter in prefix.removeprefix("M")]
     if prefix.startswith("M"):
         words = f"first moment {where} along {axes[0]}: mass times centre"
-        return ParameterWords(words, "kg m", (link,))
+        return ParameterDescription(words, "kg m", (link,))
     if axes[0] == axes[1]:
         words = f"moment of inertia {where} about {axes[0]}, at the origin of frame {link}"
     else:
         words = f"product of inertia {where}, of {axes[0]} and {axes[1]}"
-    return ParameterWords(words, "kg m\u00b2", (link,))
+    return ParameterDescription(words, "kg m\u00b2", (link,))
 
 
-def _of_effect(effect: Effect, column: EffectColumn, joint: Joint) -> ParameterWords:
-    unit = column.unit_revolute if joint.angular else column.unit_prismatic
+def _describe_effect_parameter(
+    effect: Effect, column: EffectColumn, joint: Joint
+) -> ParameterDescription:
+    unit = column.unit_revolute if joint.is_revolute else column.unit_prismatic
     unit = unit.replace("^2", "\u00b2").replace("*", " ")
-    return ParameterWords(f"{effect.title}, joint {joint.name}", unit, (joint.name,))
+    return ParameterDescription(f"{effect.title}, joint {joint.name}", unit, (joint.name,))

@@ -14,11 +14,11 @@ from dataclasses import dataclass
 
 from modeler.core.errors import RobotError
 from modeler.core.expression import FUNCTIONS
-from modeler.core.toml_cells import listed
+from modeler.core.toml_cells import join_names
 from modeler.robot.conventions import ANGLES, CONVENTIONS
-from modeler.robot.edit import with_limits
-from modeler.robot.start import template_robot
-from modeler.robot.table_text import with_table
+from modeler.robot.edit import replace_limits
+from modeler.robot.start import fill_template
+from modeler.robot.table_text import replace_table
 
 _FULL_TURN = 6.3  # rad: a larger angle is in degrees
 _LONGEST = 20.0  # m: a larger length is in mm
@@ -75,10 +75,10 @@ class PastedTable:
     rows: tuple[tuple[str, ...], ...]
     symbols: tuple[str, ...]
     notes: tuple[str, ...]
-    headed: bool
+    has_headings: bool
 
 
-def pasted_table(text: str, convention: str = "") -> PastedTable:
+def parse_pasted_table(text: str, convention: str = "") -> PastedTable:
     """The table in a text from the clipboard.
 
     Args:
@@ -88,13 +88,13 @@ def pasted_table(text: str, convention: str = "") -> PastedTable:
     Raises:
         RobotError: it has no cells, or columns that nobody can name.
     """
-    lines = _cells(text.translate(_SIGNS))
+    lines = _parse_cells(text.translate(_SIGNS))
     if not lines or max(map(len, lines)) < 2:
         raise RobotError(
             "pasted table: got no cells; expected lines of cells, as a spreadsheet copies them, "
             "such as `1  0  0  q1  0` under headings such as `j  alpha  d  theta  r`"
         )
-    heads = [_heading(cell) for cell in lines[0]]
+    heads = [_parse_heading(cell) for cell in lines[0]]
     named = sum(head is not None and head[0] != "j" for head in heads) >= 2
     body = lines[1:] if named else lines
     if not body:
@@ -105,10 +105,10 @@ def pasted_table(text: str, convention: str = "") -> PastedTable:
         if unknown:
             raise RobotError(
                 f'pasted table, headings: got "{unknown[0]}"; expected letters among '
-                f"{listed(dict.fromkeys(_LETTER.values()))}, each with a unit or without"
+                f"{join_names(dict.fromkeys(_LETTER.values()))}, each with a unit or without"
             )
         known = [head for head in heads if head is not None]
-        convention = convention or _whose(known, body)
+        convention = convention or _infer_convention(known, body)
         columns, units = [head[0] for head in known], [head[2] for head in known]
     else:
         convention = convention or "khalil"
@@ -117,8 +117,9 @@ def pasted_table(text: str, convention: str = "") -> PastedTable:
         if not columns:
             raise RobotError(
                 f"pasted table: got {len(body[0])} columns without headings; expected "
-                f"{listed(map(str, sorted(_GUESSED[convention])))} of them, or a first line with "
-                f"headings among {listed(CONVENTIONS[convention].values())}"
+                f"{join_names(map(str, sorted(_GUESSED[convention])))} of them, or a first line "
+                "with "
+                f"headings among {join_names(CONVENTIONS[convention].values())}"
             )
         notes.append(f"no headings: taken as {' '.join(columns)}")
     if convention == "khalil":
@@ -126,13 +127,13 @@ def pasted_table(text: str, convention: str = "") -> PastedTable:
     allowed = [*CONVENTIONS[convention].values()]
     if wrong := [c for c in columns if c not in allowed or columns.count(c) > 1]:
         raise RobotError(
-            f"pasted table, headings: got {listed(columns)}; expected each once, of a table of "
-            f"convention {convention}: {listed(allowed)}; {wrong[0]} is wrong or stands twice"
+            f"pasted table, headings: got {join_names(columns)}; expected each once, of a table of "
+            f"convention {convention}: {join_names(allowed)}; {wrong[0]} is wrong or stands twice"
         )
-    return _table(columns, units, body, convention, notes, named)
+    return _build_table(columns, units, body, convention, notes, named)
 
 
-def _cells(text: str) -> list[list[str]]:
+def _parse_cells(text: str) -> list[list[str]]:
     """Lines of cells, without those that are empty everywhere."""
     lines = [line for line in text.splitlines() if line.strip(" \t;|&\\")]
     mark = next((m for m in "\t;|&" if any(m in line for line in lines)), "")
@@ -147,21 +148,21 @@ def _cells(text: str) -> list[list[str]]:
             rows = [line.split() for line in lines]
     width = max(map(len, rows), default=0)
     full = [[" ".join(cell.split()) for cell in [*row, *[""] * (width - len(row))]] for row in rows]
-    kept = [k for k in range(width) if any(row[k] for row in full)]
-    return [[row[k] for k in kept] for row in full]
+    used_columns = [k for k in range(width) if any(row[k] for row in full)]
+    return [[row[k] for k in used_columns] for row in full]
 
 
-def _heading(cell: str) -> tuple[str, str, str] | None:
+def _parse_heading(cell: str) -> tuple[str, str, str] | None:
     """Letter, index, unit of a heading; None of what is none."""
     text, unit = cell.lower().strip(), ""
     measure = _MEASURE.search(text)
     if measure is not None and measure[1] in _UNITS:
         text, unit = text[: measure.start()], _UNITS[measure[1]]
-    found = _HEADING.fullmatch(re.sub(r"[\s\\_{}()$.*]", "", text))
-    return None if found is None else (_LETTER[found[1]], found[2] or "", unit)
+    heading = _HEADING.fullmatch(re.sub(r"[\s\\_{}()$.*]", "", text))
+    return None if heading is None else (_LETTER[heading[1]], heading[2] or "", unit)
 
 
-def _whose(heads: Sequence[tuple[str, str, str]], body: Sequence[Sequence[str]]) -> str:
+def _infer_convention(heads: Sequence[tuple[str, str, str]], body: Sequence[Sequence[str]]) -> str:
     """By the letters, their indices, their order; a of Khalil's is the name of the row above."""
     letters = [letter for letter, _, _ in heads]
     behind = {letter for letter, index, _ in heads if index.endswith("-1")}
@@ -175,23 +176,25 @@ def _whose(heads: Sequence[tuple[str, str, str]], body: Sequence[Sequence[str]])
     return "classical" if letters.index("theta") < letters.index("alpha") else "craig"
 
 
-def _table(
+def _build_table(
     columns: list[str], units: list[str], body: Sequence[Sequence[str]], convention: str,
     notes: list[str], headed: bool,
 ) -> PastedTable:  # fmt: skip
     khalil = {letter: column for column, letter in CONVENTIONS[convention].items()}
     kinds = [khalil[column] for column in columns]
-    rows = [{kind: _plain(cell) for kind, cell in zip(kinds, row, strict=True)} for row in body]
+    rows = [
+        {kind: _clean_cell(cell) for kind, cell in zip(kinds, row, strict=True)} for row in body
+    ]
     for number, row in enumerate(rows, start=1):
         row["j"] = re.sub(r"\W|_|^(joint|link|axis)", "", row.get("j", "").lower()) or str(number)
         row["sigma"] = _SIGMAS.get(row.get("sigma", "").lower(), row.get("sigma", ""))
     unit_of = dict(zip(kinds, units, strict=True))
     for kind in kinds:
         if kind in _GEOMETRY and not unit_of[kind]:
-            unit_of[kind] = _unit_by_size(kind, CONVENTIONS[convention][kind], rows, notes)
+            unit_of[kind] = _infer_unit(kind, CONVENTIONS[convention][kind], rows, notes)
     for row in rows:
-        _with_variable(row)
-        row |= {k: _measured(row[k], unit_of.get(k, "")) for k in _GEOMETRY if k in row}
+        _insert_variable(row)
+        row |= {k: _append_unit(row[k], unit_of.get(k, "")) for k in _GEOMETRY if k in row}
         row["mu"] = row.get("mu") or ("0" if row["sigma"] == "2" else "1")
     letters = CONVENTIONS[convention]
     used = ["j", *(c for c in letters if c in kinds or any(row.get(c, "0") != "0" for row in rows))]
@@ -199,14 +202,14 @@ def _table(
     cells = tuple(tuple(row.get(column) or "0" for column in used) for row in rows)
     names = {row["j"] for row in rows}
     known = {*FUNCTIONS, "pi", "deg", "mm", "cm", "m", "in", *names, *(f"q{n}" for n in names)}
-    found = (n for row in cells for cell in row[1:] for n in re.findall(r"[A-Za-z]\w*", cell))
-    symbols = tuple(dict.fromkeys(name for name in found if name not in known))
+    cell_names = (n for row in cells for cell in row[1:] for n in re.findall(r"[A-Za-z]\w*", cell))
+    symbols = tuple(dict.fromkeys(name for name in cell_names if name not in known))
     return PastedTable(
         convention, tuple(letters[c] for c in used), cells, symbols, tuple(notes), headed
     )
 
 
-def _plain(cell: str) -> str:
+def _clean_cell(cell: str) -> str:
     """A cell with points for decimal commas, degrees as `deg`, without marks of variables."""
     cell = re.sub(r"(?<=\d),(?=\d{3}(\D|$))(?=.*\.)", "", cell)  # 1,234.5
     cell = re.sub(r"(?<=\d),(?=\d)", ".", cell)
@@ -218,7 +221,7 @@ def _plain(cell: str) -> str:
     return "0" if cell in ("-", "--", "/") else cell
 
 
-def _with_variable(row: dict[str, str]) -> None:
+def _insert_variable(row: dict[str, str]) -> None:
     """The joint variable as q<j>, in its column; a number there is its offset."""
     name, variable = row["j"], f"q{row['j']}"
     turns = rf"\b(?:theta|th|q|t){re.escape(name)}\b|^(?:theta|q|var|variable)$"
@@ -239,7 +242,7 @@ def _with_variable(row: dict[str, str]) -> None:
     row[home] = cell
 
 
-def _unit_by_size(kind: str, letter: str, rows: Sequence[dict[str, str]], notes: list[str]) -> str:
+def _infer_unit(kind: str, letter: str, rows: Sequence[dict[str, str]], notes: list[str]) -> str:
     """The unit of a column without one, where its numbers are too large for rad or m."""
     cells = [row.get(kind, "") for row in rows]
     if any(_UNIT.search(cell) for cell in cells):
@@ -255,45 +258,45 @@ def _unit_by_size(kind: str, letter: str, rows: Sequence[dict[str, str]], notes:
     return ""
 
 
-def _measured(cell: str, unit: str) -> str:
+def _append_unit(cell: str, unit: str) -> str:
     """The numbers of a cell with the unit of their column."""
     if unit in ("", "rad", "m") or _UNIT.search(cell):
         return cell
 
-    def with_unit(found: "re.Match[str]") -> str:
-        return found[0] if float(found[1]) == 0 else f"{found[0]} {unit}"
+    def add_unit(number_match: "re.Match[str]") -> str:
+        return number_match[0] if float(number_match[1]) == 0 else f"{number_match[0]} {unit}"
 
     terms = r"(?<![\w.*/])(?<![*/] )(\d+(?:\.\d*)?(?:[eE][+-]?\d+)?)(?![\w.])(?!\s*[*/(])"
-    return re.sub(terms, with_unit, cell)
+    return re.sub(terms, add_unit, cell)
 
 
-def pasted_robot(table: PastedTable, name: str) -> str:
+def build_pasted_robot(table: PastedTable, name: str) -> str:
     """A robot file with that table, which derives as it is.
 
     Args:
         table: pasted.
         name: of the robot.
     """
-    begun = template_robot(name, joints="P", convention=table.convention)
-    return with_pasted(with_limits(begun, "1", ("",) * 4), table)
+    begun = fill_template(name, joints="P", convention=table.convention)
+    return insert_pasted_table(replace_limits(begun, "1", ("",) * 4), table)
 
 
-def symbol_line(name: str) -> str:
+def format_symbol_line(name: str) -> str:
     """A line of `[symbols]` for a name whose value is to be written yet."""
     angle = name.lower().startswith(("alpha", "theta", "gamma", "beta", "phi", "th"))
     unit = "rad" if angle else "m"
     return f"{name} = {_PLACEHOLDER}".ljust(38) + f"# {unit}: a placeholder, write the value"
 
 
-def with_pasted(text: str, table: PastedTable) -> str:
+def insert_pasted_table(text: str, table: PastedTable) -> str:
     """A robot file with another table, and lines for the symbols that it lacks.
 
     Raises:
         RobotError: the file has no table that can be replaced.
     """
-    changed = with_table(text, table.columns, table.rows, table.convention)
+    changed = replace_table(text, table.columns, table.rows, table.convention)
     known = tomllib.loads(changed).get("symbols", {})
-    missing = [symbol_line(name) for name in table.symbols if name not in known]
+    missing = [format_symbol_line(name) for name in table.symbols if name not in known]
     if not missing:
         return changed
     head = re.search(r"(?m)^[ \t]*\[[ \t]*symbols[ \t]*\][^\n]*\n", changed)
@@ -304,7 +307,7 @@ def with_pasted(text: str, table: PastedTable) -> str:
     return changed[: head.end()] + "\n".join([*missing, changed[head.end() :]])
 
 
-def pasted_cells(text: str) -> list[list[str]]:
+def parse_pasted_cells(text: str) -> list[list[str]]:
     """A block of cells from the clipboard, for a part of a table: as they are, but readable."""
     lines = io.StringIO(text.translate(_SIGNS).strip("\r\n"))
-    return [[_plain(cell) for cell in row] for row in csv.reader(lines, delimiter="\t")]
+    return [[_clean_cell(cell) for cell in row] for row in csv.reader(lines, delimiter="\t")]

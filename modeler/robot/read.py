@@ -11,34 +11,34 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
-from modeler.core.builtin import OTHER_PROGRAMS, builtin_names, builtin_text
+from modeler.core.builtin import OTHER_PROGRAMS, list_builtin_robots, read_builtin_robot
 from modeler.core.errors import RobotError
 from modeler.core.files import read_text
 from modeler.core.json import TomlError, parse_toml
-from modeler.core.toml_cells import Place, listed, near, shown
-from modeler.robot.angles import told_angles
+from modeler.core.toml_cells import TomlCell, join_names, quote_value, suggest_name
+from modeler.robot.angles import describe_rounded_angles
 from modeler.robot.cells import check_name_length, read_gravity, read_symbols
 from modeler.robot.conventions import read_convention
-from modeler.robot.conversion import converted, is_robot_xml
+from modeler.robot.conversion import convert_robot_file, is_robot_xml
 from modeler.robot.effects import needs_reference, read_effects, read_own_effects
 from modeler.robot.loops import (
-    expanded,
-    leg_names,
+    expand_legs,
     read_home,
+    read_leg_names,
     read_loops,
     read_platform,
     read_relations,
 )
 from modeler.robot.motors import (
+    build_motor_rows,
     check_driven,
-    motor_rows,
+    merge_shared_names,
     read_links,
     read_motors,
     read_shared,
-    shared_names,
 )
 from modeler.robot.robot import Joint, Robot
-from modeler.robot.robot_text import Converted
+from modeler.robot.robot_text import ConvertedRobot
 from modeler.robot.sections import (
     read_capsules,
     read_coupling,
@@ -53,7 +53,7 @@ from modeler.robot.sections import (
     read_physical,
     read_tool,
 )
-from modeler.robot.table import Rows, check_units, table_joints, table_rows
+from modeler.robot.table import Rows, build_joints, check_units, read_table_rows
 
 _KEYS = (
     "name", "title", "notes", "gravity", "priority", "legs", "shared", "symbols", "mdh",
@@ -79,28 +79,29 @@ def read_robot(robot: str | Path) -> Robot:
     Raises:
         RobotError: no such file or name, or a mistake in the file.
     """
-    if isinstance(robot, str) and robot in builtin_names():
-        return robot_from_text(builtin_text(robot), robot)
+    if isinstance(robot, str) and robot in list_builtin_robots():
+        return parse_robot_text(read_builtin_robot(robot), robot)
     if not str(robot).strip():
         raise RobotError(
-            f'robot: got ""; expected a robot file or a built-in robot ({listed(builtin_names())})'
+            'robot: got ""; expected a robot file or a built-in robot '
+            f"({join_names(list_builtin_robots())})"
         )
     path = Path(robot)
     if path.suffix.lower() in OTHER_PROGRAMS:
-        return of_other_program(converted(path), path)
-    text = file_text(path)
+        return build_converted_robot(convert_robot_file(path), path)
+    text = read_file_text(path)
     if is_robot_xml(text.encode()):  # under another name
-        return of_other_program(converted(path), path)
+        return build_converted_robot(convert_robot_file(path), path)
     if text.lstrip().startswith("{"):  # as JSON does and a robot file never
         what = "a model file" if '"modeler model"' in text else "JSON"
         raise RobotError(
             f"{path}: is {what}; expected a robot: give its robot file (TOML) or the name of a "
             "built-in one; models are taken by `modeler compare`, `add` and others"
         )
-    return robot_from_text(text, str(path))
+    return parse_robot_text(text, str(path))
 
 
-def file_text(path: Path) -> str:
+def read_file_text(path: Path) -> str:
     """What a file says.
 
     Raises:
@@ -115,16 +116,16 @@ def file_text(path: Path) -> str:
         ) from None
     except OSError as error:
         raise RobotError(f"{path}: cannot be read ({error.strerror}); check the path") from None
-    raise RobotError(_not_found(path))
+    raise RobotError(_describe_missing_file(path))
 
 
-def of_other_program(found: Converted, path: str | Path) -> Robot:
+def build_converted_robot(converted: ConvertedRobot, path: str | Path) -> Robot:
     """The robot of another program's file; its readings say what was decided."""
-    read = robot_from_text(found.text, f"{path}, as a robot file")
-    return dataclasses.replace(read, readings=(*found.notes, *read.readings))
+    read = parse_robot_text(converted.text, f"{path}, as a robot file")
+    return dataclasses.replace(read, readings=(*converted.notes, *read.readings))
 
 
-def robot_from_text(text: str, where: str) -> Robot:
+def parse_robot_text(text: str, where: str) -> Robot:
     """The robot that the TOML text describes.
 
     Args:
@@ -134,132 +135,147 @@ def robot_from_text(text: str, where: str) -> Robot:
     Raises:
         RobotError: a mistake in the text.
     """
-    place = Place(where)
-    document = expanded(_document(text, place), place)
+    place = TomlCell(where)
+    document = expand_legs(_read_document(text, place), place)
 
-    def section(key: str, otherwise: Any = None) -> Place:
-        return place.at(f"[{key}]", document.get(key, otherwise))
+    def locate_section(key: str, otherwise: Any = None) -> TomlCell:
+        return place.enter(f"[{key}]", document.get(key, otherwise))
 
-    platform_rows, platform = read_platform(section("platform"))
-    convention = read_convention(section("mdh"), document)
-    rows = table_rows(section("mdh"), platform_rows, convention)
-    rows += motor_rows(section("motors", {}), rows)
-    variables = _joint_columns(rows)
-    symbols, values = read_symbols(section("symbols", {}), variables)
-    motors, driven = read_motors(section("motors", {}), rows, values)
+    platform_rows, platform = read_platform(locate_section("platform"))
+    convention = read_convention(locate_section("mdh"), document)
+    rows = read_table_rows(locate_section("mdh"), platform_rows, convention)
+    rows += build_motor_rows(locate_section("motors", {}), rows)
+    variables = _collect_joint_columns(rows)
+    symbols, values = read_symbols(locate_section("symbols", {}), variables)
+    motors, driven = read_motors(locate_section("motors", {}), rows, values)
     rounded, readings = dict[str, str](), list[str]()
-    relations = read_relations(section("relations", {}), driven, rows, values, rounded, readings)
-    title = place.at("title", document.get("title", document["name"])).text('"my robot"')
+    relations = read_relations(
+        locate_section("relations", {}), driven, rows, values, rounded, readings
+    )
+    title = place.enter("title", document.get("title", document["name"])).read_text('"my robot"')
     if len(title.splitlines()) > 1:
-        raise place.at("title", title).mismatch("one line; put the rest into notes")
+        raise place.enter("title", title).make_mismatch("one line; put the rest into notes")
     robot = Robot(
         name=document["name"],
         title=title,
-        gravity=read_gravity(place.at("gravity", document["gravity"]), variables, values),
+        gravity=read_gravity(place.enter("gravity", document["gravity"]), variables, values),
         symbols=symbols,
-        joints=table_joints(rows, values, rounded),
+        joints=build_joints(rows, values, rounded),
         relations=relations,
         motors={m: {j: float(c) for j, c in row.items()} for m, row in motors.items()},
         platform=platform,
         convention=convention,
         text=text,
     )
-    readings += [_ROUNDED.format(told_angles(rounded))] if rounded else []
-    readings += check_units(robot, values, section("mdh"))
+    readings += [_ROUNDED.format(describe_rounded_angles(rounded))] if rounded else []
+    readings += check_units(robot, values, locate_section("mdh"))
     robot = dataclasses.replace(robot, readings=tuple(readings))
     if "notes" in document:
-        notes = place.at("notes", document["notes"]).text('"my robot"')
+        notes = place.enter("notes", document["notes"]).read_text('"my robot"')
         robot = dataclasses.replace(robot, notes=notes)
-    check_driven(robot, place.at("[motors]"))
-    return _with_tables(robot, document, values, place)
+    check_driven(robot, place.enter("[motors]"))
+    return _read_tables(robot, document, values, place)
 
 
-def _with_tables(
-    robot: Robot, document: Mapping[str, Any], values: Mapping[str, float], place: Place
+def _read_tables(
+    robot: Robot, document: Mapping[str, Any], values: Mapping[str, float], place: TomlCell
 ) -> Robot:
     """The robot with what the tables say that name its joints."""
 
-    def section(key: str) -> Place:
-        return place.at(f"[{key}]", document.get(key, {}))
+    def locate_section(key: str) -> TomlCell:
+        return place.enter(f"[{key}]", document.get(key, {}))
 
-    moving = {joint.name: joint for joint in robot.moving}
-    coupling = read_coupling(section("coupling"), moving, values)
-    own = read_own_effects(document.get("own_effects", {}), place, moving)
-    robot = dataclasses.replace(robot, own_effects=own)
-    effects = read_effects(section("effects"), moving, coupling, robot.catalogue, robot.platform)
+    moving = {joint.name: joint for joint in robot.moving_joints}
+    coupling = read_coupling(locate_section("coupling"), moving, values)
+    own_effects = read_own_effects(document.get("own_effects", {}), place, moving)
+    robot = dataclasses.replace(robot, own_effects=own_effects)
+    effects = read_effects(
+        locate_section("effects"), moving, coupling, robot.catalogue, robot.platform
+    )
     links: dict[str, tuple[str, ...]] = dict.fromkeys(robot.platform[:-1], ())
     links |= dict.fromkeys(robot.motors, ())
-    links |= read_links(section("links"), moving)
+    links |= read_links(locate_section("links"), moving)
     robot = dataclasses.replace(robot, links=links, effects=effects)
-    every = _parameter_names(robot, moving, place)
-    legs = leg_names(place.at("legs", document.get("legs")))
-    shared = read_shared(place.at("shared", document.get("shared", [])), every, legs)
-    known = shared_names(every, shared)
-    loops = read_loops(place.at("[loops]", document.get("loops")), robot.joints)
-    if loops and not any(joint.actuated for joint in robot.free):
-        raise place.at("[loops]").error(
+    parameter_names = _collect_parameter_names(robot, moving, place)
+    legs = read_leg_names(place.enter("legs", document.get("legs")))
+    shared = read_shared(place.enter("shared", document.get("shared", [])), parameter_names, legs)
+    known = merge_shared_names(parameter_names, shared)
+    loops = read_loops(place.enter("[loops]", document.get("loops")), robot.joints)
+    if loops and not any(joint.actuated for joint in robot.free_joints):
+        raise place.enter("[loops]").make_error(
             "no joint is actuated; write mu 1 in the rows that have a motor"
         )
-    home = read_home(section("home"), moving, values)
-    for joint in robot.moving:
-        for effect, _, instance in robot.effects_on(joint.name):
+    home = read_home(locate_section("home"), moving, values)
+    for joint in robot.moving_joints:
+        for effect, _, instance in robot.find_joint_effects(joint.name):
             if needs_reference(effect, instance) and "reference" not in document:
-                raise section("reference").error(
+                raise locate_section("reference").make_error(
                     f"is missing; {effect.id} depends on the torques of the links: state their "
                     "parameters there, as `modeler add` does"
                 )
     standard = "names of standard parameters, such as ZZ1"
     names = (
-        f"names such as {listed(known[:12])} (friction and rotors only where [effects] has them)"
+        f"names such as {join_names(known[:12])} (friction and rotors only where [effects] "
+        "has them)"
     )
-    parameters, uncertainty = read_parameters(section("parameters"), known, names)
-    readings, drive_gains = [*robot.readings], read_drive_gains(section("drive_gains"), moving)
-    drive_gains, drives = read_drives(section("drives"), moving, drive_gains, readings)
+    parameters, uncertainty = read_parameters(locate_section("parameters"), known, names)
+    readings, drive_gains = (
+        [*robot.readings],
+        read_drive_gains(locate_section("drive_gains"), moving),
+    )
+    drive_gains, drives = read_drives(locate_section("drives"), moving, drive_gains, readings)
     robot = dataclasses.replace(
         robot,
         readings=tuple(readings),
         loops=loops,
         home=home,
         shared=shared,
-        reference=read_numbers(section("reference"), known, "[reference]", standard),
+        reference=read_numbers(locate_section("reference"), known, "[reference]", standard),
         coupling=coupling,
-        priority=_priority(place.at("priority", document.get("priority", [])), known, robot),
+        priority=_read_priority(
+            place.enter("priority", document.get("priority", [])), known, robot
+        ),
         parameters=parameters,
         uncertainty=uncertainty,
         drive_gains=drive_gains,
         drives=drives,
-        limits=read_limits(section("limits"), moving, values),
-        physical=read_physical(section("physical"), moving),
-        terms=section("terms").table("[terms]"),
-        log=section("log").table('"q<j>" = "position_{j} [deg]"'),
-        fit=read_fit(section("fit")),
-        diagnose=read_diagnose(section("diagnose")),
+        limits=read_limits(locate_section("limits"), moving, values),
+        physical=read_physical(locate_section("physical"), moving),
+        terms=locate_section("terms").read_table("[terms]"),
+        log=locate_section("log").read_table('"q<j>" = "position_{j} [deg]"'),
+        fit=read_fit(locate_section("fit")),
+        diagnose=read_diagnose(locate_section("diagnose")),
         frames=read_frames(
-            place.at("[frames]", document.get("frames")), [j.name for j in robot.joints], values
+            place.enter("[frames]", document.get("frames")), [j.name for j in robot.joints], values
         ),
     )
-    tool = read_tool(place.at("[tool]", document.get("tool")), robot, values)
-    capsules, planes = read_capsules(section("capsules"), [j.name for j in robot.joints], values)
+    tool = read_tool(place.enter("[tool]", document.get("tool")), robot, values)
+    capsules, planes = read_capsules(
+        locate_section("capsules"), [j.name for j in robot.joints], values
+    )
     return dataclasses.replace(robot, tool=tool, capsules=capsules, planes=planes)
 
 
-def _not_found(path: Path) -> str:
-    names = builtin_names()
+def _describe_missing_file(path: Path) -> str:
+    names = list_builtin_robots()
     if path.is_dir():
-        return f"{path}: is a folder; expected a robot file or a built-in robot ({listed(names)})"
+        return (
+            f"{path}: is a folder; expected a robot file or a built-in robot ({join_names(names)})"
+        )
     if path.suffix or len(path.parts) > 1:
         return (
-            f"{path}: there is no such file{near(path.stem, names)}; expected a robot file "
+            f"{path}: there is no such file{suggest_name(path.stem, names)}; expected a robot file "
             f"(`modeler new {path.with_suffix('.toml')}` begins one) or a built-in robot "
-            f"({listed(names)})"
+            f"({join_names(names)})"
         )
     return (
-        f"{shown(str(path))} is neither a file nor a built-in robot{near(str(path), names)}; "
-        f"built-in are {listed(names)}"
+        f"{quote_value(str(path))} is neither a file nor a built-in "
+        f"robot{suggest_name(str(path), names)}; "
+        f"built-in are {join_names(names)}"
     )
 
 
-def toml_document(text: str, place: Place) -> dict[str, Any]:
+def parse_toml_document(text: str, place: TomlCell) -> dict[str, Any]:
     """What a TOML text says.
 
     Raises:
@@ -273,33 +289,33 @@ def toml_document(text: str, place: Place) -> dict[str, Any]:
             marks = [mark for mark in ('"""', "'''") if text.count(mark) % 2]
             end = max((text.rfind(mark) for mark in marks), default=len(text))
             what = "a string opened by three quotes" if marks else "the last string or list"
-            raise place.at(f"line {text.count(chr(10), 0, end) + 1}").error(
+            raise place.enter(f"line {text.count(chr(10), 0, end) + 1}").make_error(
                 f"not TOML ({error}); {what} is never closed: close it"
             ) from None
         if match is None:
-            raise place.error(f"cannot be read as TOML: {error}") from None
-        raise place.at(f"line {match[2]}, column {match[3]}").error(
+            raise place.make_error(f"cannot be read as TOML: {error}") from None
+        raise place.enter(f"line {match[2]}, column {match[3]}").make_error(
             f"not TOML ({match[1]}); correct that line (texts stand in quotes, entries are "
             "separated by commas)"
         ) from None
 
 
-def _document(text: str, place: Place) -> dict[str, Any]:
-    document = toml_document(text, place)
-    place.holding(document).checked_table(_KEYS, "")
+def _read_document(text: str, place: TomlCell) -> dict[str, Any]:
+    document = parse_toml_document(text, place)
+    place.with_value(document).read_checked_table(_KEYS, "")
     for key, advice in _NEEDED.items():
         if key not in document:
-            raise place.at(key).error(f"is missing; {advice}")
-    name = place.at("name", document["name"])
+            raise place.enter(key).make_error(f"is missing; {advice}")
+    name = place.enter("name", document["name"])
     if not isinstance(name.value, str) or not _ROBOT_NAME.fullmatch(name.value):
-        raise name.mismatch(
+        raise name.make_mismatch(
             'letters, digits, - and _ such as "arm-2" (it becomes part of names in the C code)'
         )
     check_name_length(name.value, name)
     return document
 
 
-def _joint_columns(rows: Rows) -> dict[str, str]:
+def _collect_joint_columns(rows: Rows) -> dict[str, str]:
     """Names of positions, speeds and accelerations of all rows -> row.
 
     Raises:
@@ -310,15 +326,17 @@ def _joint_columns(rows: Rows) -> dict[str, str]:
         for prefix in ("q", "qc", "qd", "qdd"):
             column = f"{prefix}{row['j']}"
             if column in columns:
-                raise place.error(
+                raise place.make_error(
                     f"the name makes {column} mean two things, with row "
-                    f"{shown(columns[column])}; choose another name"
+                    f"{quote_value(columns[column])}; choose another name"
                 )
             columns[column] = row["j"]
     return columns
 
 
-def _parameter_names(robot: Robot, moving: Mapping[str, Joint], place: Place) -> tuple[str, ...]:
+def _collect_parameter_names(
+    robot: Robot, moving: Mapping[str, Joint], place: TomlCell
+) -> tuple[str, ...]:
     """Names of the standard parameters.
 
     Raises:
@@ -326,40 +344,47 @@ def _parameter_names(robot: Robot, moving: Mapping[str, Joint], place: Place) ->
     """
     names: dict[str, str] = {}
     for name in moving:
-        prefixes = list(robot.inertial(name))
-        own = [f"{prefix}{name}" for prefix in prefixes]
-        for _, form, instance in robot.effects_on(name):
-            own += [f"{column.prefix}{name}{instance.label}" for column in form.columns]
-        for parameter in own:
+        prefixes = list(robot.get_inertial_prefixes(name))
+        joint_parameters = [f"{prefix}{name}" for prefix in prefixes]
+        for _, form, instance in robot.find_joint_effects(name):
+            joint_parameters += [
+                f"{column.prefix}{name}{instance.label}" for column in form.columns
+            ]
+        for parameter in joint_parameters:
             if parameter in robot.symbols:
-                raise place.at("[symbols]").error(
-                    f"{shown(parameter)} is the name of a standard parameter; choose another name"
+                raise place.enter("[symbols]").make_error(
+                    f"{quote_value(parameter)} is the name of a standard parameter; choose another "
+                    "name"
                 )
             if parameter in names:
-                raise place.at(f'[mdh] row "{name}"').error(
+                raise place.enter(f'[mdh] row "{name}"').make_error(
                     f"the name makes {parameter} mean two parameters, with row "
-                    f"{shown(names[parameter])}; choose another name"
+                    f"{quote_value(names[parameter])}; choose another name"
                 )
             names[parameter] = name
     for parameter, name in names.items():
         if parameter.endswith("R") and parameter[:-1] in names:
-            raise place.at(f'[mdh] row "{name}"').error(
+            raise place.enter(f'[mdh] row "{name}"').make_error(
                 f"the name makes {parameter} a parameter, which is also how {parameter[:-1]} is "
                 "called when others group into it; choose a name that does not end in R"
             )
     return tuple(names)
 
 
-def _priority(place: Place, known: tuple[str, ...], robot: Robot) -> tuple[str, ...]:
+def _read_priority(place: TomlCell, known: tuple[str, ...], robot: Robot) -> tuple[str, ...]:
     """The patterns that match a parameter; those of effects that the robot lacks are left out."""
-    patterns = place.entries('["ZZ*", "Ia?"]')
+    patterns = place.read_list('["ZZ*", "Ia?"]')
     prefixes = [c.prefix for e in robot.catalogue for form in e.forms for c in form.columns]
-    possible = [*known, *(prefix + joint.name for prefix in prefixes for joint in robot.moving)]
+    possible = [
+        *known,
+        *(prefix + joint.name for prefix in prefixes for joint in robot.moving_joints),
+    ]
     for entry in patterns:
-        pattern = place.holding(entry).text('"ZZ*"')
+        pattern = place.with_value(entry).read_text('"ZZ*"')
         if not any(fnmatch.fnmatchcase(name, pattern) for name in possible):
-            raise place.error(
-                f"{shown(pattern)} matches no parameter{near(pattern, known)}; expected names or "
-                f"patterns of {listed(known[:12])} ..."
+            raise place.make_error(
+                f"{quote_value(pattern)} matches no parameter{suggest_name(pattern, known)}; "
+                "expected names or "
+                f"patterns of {join_names(known[:12])} ..."
             )
     return tuple(p for p in patterns if any(fnmatch.fnmatchcase(name, p) for name in known))

@@ -5,12 +5,16 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 from typing import Any
 
-from modeler.core.brief import Brief
+from modeler.core.brief import ShortRepr
 from modeler.core.expression import Expression
 from modeler.core.manifest import DriveSpec
-from modeler.core.result import Presented
-from modeler.core.toml_cells import Place as Place, listed as listed, near as near
-from modeler.effects import CATALOGUE, Effect, Form, effect_named
+from modeler.core.result import Result
+from modeler.core.toml_cells import (
+    TomlCell as TomlCell,
+    join_names as join_names,
+    suggest_name as suggest_name,
+)
+from modeler.effects import CATALOGUE, Effect, Form, find_effect
 
 # One row of a modified Denavit-Hartenberg table.
 
@@ -24,7 +28,7 @@ class JointKind(enum.IntEnum):
 
 
 @dataclass(frozen=True)
-class Joint(Brief):
+class Joint(ShortRepr):
     """Frame j on link j, placed from its antecedent frame a(j).
 
     T(a -> j) = Rz(gamma) Tz(b) Rx(alpha) Tx(d) Rz(theta) Tz(r) (Khalil and Kleinfinger 1986);
@@ -53,24 +57,24 @@ class Joint(Brief):
         return f"q{self.name}"
 
     @property
-    def moves(self) -> bool:
+    def is_moving(self) -> bool:
         """False for a frame fixed on its antecedent (sigma = 2), which carries no link."""
         return self.kind is not JointKind.FIXED
 
     @property
-    def angular(self) -> bool:
+    def is_revolute(self) -> bool:
         """True for a revolute joint."""
         return self.kind is JointKind.REVOLUTE
 
     @property
     def unit(self) -> str:
         """Unit of the joint variable."""
-        return "rad" if self.angular else "m"
+        return "rad" if self.is_revolute else "m"
 
     @property
     def effort_unit(self) -> str:
         """Unit of the joint torque or force."""
-        return "N m" if self.angular else "N"
+        return "N m" if self.is_revolute else "N"
 
 
 INERTIAL = ("XX", "XY", "XZ", "YY", "YZ", "ZZ", "MX", "MY", "MZ", "M")
@@ -91,7 +95,7 @@ class EffectInstance:
 
     joint: str
     form: int = 0
-    shapes: Mapping[str, float] = field(default_factory=dict)
+    nonlinear_parameters: Mapping[str, float] = field(default_factory=dict)
     label: str = ""
 
 
@@ -107,16 +111,16 @@ class EffectUse:
 
     effect: str
     joints: tuple[str, ...]
-    shaped: tuple[EffectInstance, ...] = ()
+    stated_instances: tuple[EffectInstance, ...] = ()
 
     @property
     def instances(self) -> tuple[EffectInstance, ...]:
         """The effect on every joint, as often as it stands there."""
-        return self.shaped or tuple(EffectInstance(joint) for joint in self.joints)
+        return self.stated_instances or tuple(EffectInstance(joint) for joint in self.joints)
 
 
 @dataclass(frozen=True)
-class PhysicalLink(Brief):
+class PhysicalLink(ShortRepr):
     """How a paper writes a link: mass, mass centre, inertia about the mass centre.
 
     Attributes:
@@ -141,7 +145,7 @@ class Limits:
 
 
 @dataclass(frozen=True)
-class LinkFrame(Brief):
+class LinkFrame(ShortRepr):
     """The frame of a link in another program's file: where it is on a row of the table.
 
     Its pose in the frame of the row is Trans(x, y, z) Rz(yaw) Ry(pitch) Rx(roll), as URDF has it.
@@ -214,7 +218,7 @@ class SharedParameter:
 
 
 @dataclass(frozen=True)
-class Robot(Presented):
+class Robot(Result):
     """A robot: serial, tree-structured, or with closed loops.
 
     Attributes:
@@ -302,20 +306,20 @@ class Robot(Presented):
         """Name and title as a line."""
         return self.name if self.title == self.name else f"{self.name}: {self.title}"
 
-    def opened(self) -> "Robot":
+    def open_loops(self) -> "Robot":
         """The virtual tree: no loops, no relations, every joint of the table actuated."""
-        joints = tuple(replace(joint, actuated=joint.moves) for joint in self.joints)
+        joints = tuple(replace(joint, actuated=joint.is_moving) for joint in self.joints)
         return replace(self, joints=joints, loops=(), relations={})
 
     @property
-    def moving(self) -> tuple[Joint, ...]:
+    def moving_joints(self) -> tuple[Joint, ...]:
         """Rows with a joint variable, in table order."""
-        return tuple(joint for joint in self.joints if joint.moves)
+        return tuple(joint for joint in self.joints if joint.is_moving)
 
     @property
-    def free(self) -> tuple[Joint, ...]:
+    def free_joints(self) -> tuple[Joint, ...]:
         """Moving rows whose variable does not follow others, in table order."""
-        return tuple(joint for joint in self.moving if joint.name not in self.relations)
+        return tuple(joint for joint in self.moving_joints if joint.name not in self.relations)
 
     @property
     def coordinates(self) -> tuple[Joint, ...]:
@@ -323,26 +327,28 @@ class Robot(Presented):
 
         The free rows of a tree; the actuated ones among them once loops tie the others to them.
         """
-        return tuple(joint for joint in self.free if joint.actuated or not self.loops)
+        return tuple(joint for joint in self.free_joints if joint.actuated or not self.loops)
 
     @property
-    def log_words(self) -> Mapping[str, object]:
+    def log_mapping(self) -> Mapping[str, object]:
         """[log]; where it is silent on names, logs call joints as the file that they are from."""
         names = {frame.row: frame.joint for frame in self.frames.values() if frame.joint}
         return {"names": names, **self.log} if names else self.log
 
     @property
-    def halves(self) -> bool:
+    def has_binary_fractions(self) -> bool:
         """True if lengths and angles of the file hold decimals such as 0.5, 0.75 or 1.125."""
         cells = [
             getattr(j, c) for j in self.joints for c in ("gamma", "b", "alpha", "d", "theta", "r")
         ]
-        given = (e for e in self.symbols.values() if e.names or e.uses_pi)
-        parts = (x.denominator for e in (*cells, *self.gravity, *given) for x in e.decimals)
+        constant_symbols = (e for e in self.symbols.values() if e.names or e.uses_pi)
+        parts = (
+            x.denominator for e in (*cells, *self.gravity, *constant_symbols) for x in e.decimals
+        )
         return any(n > 1 and n & (n - 1) == 0 for n in parts)
 
     @property
-    def kept_first(self) -> tuple[str, ...]:
+    def priority_parameters(self) -> tuple[str, ...]:
         """`priority`; where none is stated, the platform's parameters.
 
         What moves the platform is what people look for, and legs group into it more simply than
@@ -351,40 +357,40 @@ class Robot(Presented):
         if self.priority or not self.platform:
             return self.priority
         name = self.platform[-1]
-        return tuple(f"{prefix}{name}" for prefix in self.inertial(name))
+        return tuple(f"{prefix}{name}" for prefix in self.get_inertial_prefixes(name))
 
     @property
     def catalogue(self) -> tuple[Effect, ...]:
         """The effects that the robot may have: those of the catalogue, then its own."""
         return (*CATALOGUE, *self.own_effects)
 
-    def inertial(self, name: str) -> tuple[str, ...]:
+    def get_inertial_prefixes(self, name: str) -> tuple[str, ...]:
         """Prefixes of the inertial parameters of the link of that row."""
         return self.links.get(name, INERTIAL)
 
-    def joint(self, name: str) -> Joint:
+    def get_joint(self, name: str) -> Joint:
         """Row of that name."""
         return next(joint for joint in self.joints if joint.name == name)
 
-    def effects_on(self, joint: str) -> list[tuple[Effect, Form, EffectInstance]]:
+    def find_joint_effects(self, joint: str) -> list[tuple[Effect, Form, EffectInstance]]:
         """The effects of a joint, in catalogue order."""
-        found = []
+        joint_effects = []
         for use in self.effects:
-            effect = effect_named(use.effect, self.catalogue)
+            effect = find_effect(use.effect, self.catalogue)
             if effect is None:  # one that only the simulator would refuse
                 continue
             for instance in use.instances:
                 if instance.joint == joint:
-                    found.append((effect, effect.forms[instance.form], instance))
-        return found
+                    joint_effects.append((effect, effect.forms[instance.form], instance))
+        return joint_effects
 
     def has_effect(self, effect: str, joint: str) -> bool:
         """True if that joint carries that effect."""
         return any(use.effect == effect and joint in use.joints for use in self.effects)
 
-    def symbol_values(self) -> dict[str, float]:
+    def evaluate_symbols(self) -> dict[str, float]:
         """Numbers of all declared symbols."""
         values: dict[str, float] = {}
         for name, expression in self.symbols.items():
-            values[name] = expression.number(values)
+            values[name] = expression.evaluate(values)
         return values

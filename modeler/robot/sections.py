@@ -7,8 +7,8 @@ from typing import Any, get_args
 from modeler.core.errors import GAIN_METHOD, TWO_STEPS, Derivatives, Method
 from modeler.core.expression import Expression
 from modeler.core.manifest import DriveSpec
-from modeler.core.toml_cells import Place, listed, near, shown
-from modeler.robot.cells import joint_sum, name_of, number_at
+from modeler.core.toml_cells import TomlCell, join_names, quote_value, suggest_name
+from modeler.robot.cells import normalise_row_name, read_joint_sum, read_number
 from modeler.robot.robot import Joint, Limits, LinkCapsule, LinkFrame, PhysicalLink, Robot
 
 Coupling = dict[str, dict[str, float]]
@@ -18,35 +18,36 @@ INERTIAL_UNCERTAINTY = "inertial"
 """What stands for every body in `[parameters.uncertainty]`."""
 
 
-def joint_at(name: Any, moving: Mapping[str, Joint], place: Place) -> Joint:
+def find_joint(name: Any, moving: Mapping[str, Joint], place: TomlCell) -> Joint:
     """The moving joint of that name.
 
     Raises:
         RobotError: no such joint; lists those there are.
     """
-    key = name_of(name)
+    key = normalise_row_name(name)
     if not isinstance(key, str) or key not in moving:
-        raise place.error(
-            f"there is no moving joint {shown(name)}{near(key, moving)}; expected one of "
-            f"{listed(moving)}"
+        raise place.make_error(
+            f"there is no moving joint {quote_value(name)}{suggest_name(key, moving)}; expected "
+            "one of "
+            f"{join_names(moving)}"
         )
     return moving[key]
 
 
-def _by_joint(
-    place: Place, moving: Mapping[str, Joint], example: str
-) -> Iterator[tuple[Joint, Place]]:
+def _iterate_joints(
+    place: TomlCell, moving: Mapping[str, Joint], example: str
+) -> Iterator[tuple[Joint, TomlCell]]:
     """The joints that a table names, each with its cell.
 
     Raises:
         RobotError: no table, or a name of no moving joint.
     """
-    for name, here in place.items(example):
-        yield joint_at(name, moving, here), here
+    for name, here in place.read_items(example):
+        yield find_joint(name, moving, here), here
 
 
 def read_coupling(
-    place: Place, moving: Mapping[str, Joint], symbols: Mapping[str, float]
+    place: TomlCell, moving: Mapping[str, Joint], symbols: Mapping[str, float]
 ) -> Coupling:
     """Motors that turn with several joints: {joint of the motor: {joint: coefficient}}.
 
@@ -54,14 +55,14 @@ def read_coupling(
         RobotError: unknown joints, or a speed that is not a sum of joint variables.
     """
     coupling: Coupling = {}
-    for motor, here in _by_joint(place, moving, '[coupling] "6" = "q5 + q6"'):
-        expression = here.expression()
+    for motor, here in _iterate_joints(place, moving, '[coupling] "6" = "q5 + q6"'):
+        expression = here.read_expression()
         variables = {joint.variable: joint for joint in moving.values()}
         only = ', such as "q5 + q6"'
-        form = joint_sum(expression, symbols, variables, here, "q5 + q6", only)
+        form = read_joint_sum(expression, symbols, variables, here, "q5 + q6", only)
         if motor.variable not in form.coefficients:
-            raise here.error(
-                f"got {shown(expression.text)}, without {motor.variable}; the motor of joint "
+            raise here.make_error(
+                f"got {quote_value(expression.text)}, without {motor.variable}; the motor of joint "
                 f"{motor.name} must turn with its own joint"
             )
         coupling[motor.name] = {
@@ -73,7 +74,7 @@ def read_coupling(
 
 
 def read_numbers(
-    place: Place, known: Collection[str], table: str, expected: str
+    place: TomlCell, known: Collection[str], table: str, expected: str
 ) -> dict[str, float]:
     """Values of standard parameters: `[parameters]` or `[reference]`.
 
@@ -86,18 +87,19 @@ def read_numbers(
     Raises:
         RobotError: an unknown parameter, or no number.
     """
-    found = {}
-    for name, cell in place.table(f"{table} ZZ1 = 0.5").items():
+    values = {}
+    for name, cell in place.read_table(f"{table} ZZ1 = 0.5").items():
         if name not in known:
-            raise place.error(
-                f"there is no parameter {shown(name)}{near(name, known)}; expected {expected}"
+            raise place.make_error(
+                f"there is no parameter {quote_value(name)}{suggest_name(name, known)}; expected "
+                f"{expected}"
             )
-        found[name] = place.at(name, cell).number("0.5")
-    return found
+        values[name] = place.enter(name, cell).read_number("0.5")
+    return values
 
 
 def read_parameters(
-    place: Place, known: Collection[str], expected: str
+    place: TomlCell, known: Collection[str], expected: str
 ) -> tuple[dict[str, float], dict[str, float]]:
     """Values of standard parameters, and how sure they are: `[parameters]`.
 
@@ -113,68 +115,73 @@ def read_parameters(
     Raises:
         RobotError: an unknown parameter, no number, or a doubt about a value that is not stated.
     """
-    table = dict(place.table("[parameters] ZZ1 = 0.5"))
-    inner = place.at("uncertainty").holding(table.pop("uncertainty", {}))
-    inner = Place(place.file, "[parameters.uncertainty]", inner.value)
-    sure = dict(inner.table("[parameters.uncertainty] inertial = 0.10"))
-    entries = [(place, table.pop("held", [])), (inner, sure.pop("held", []))]
+    table = dict(place.read_table("[parameters] ZZ1 = 0.5"))
+    inner = place.enter("uncertainty").with_value(table.pop("uncertainty", {}))
+    inner = TomlCell(place.file, "[parameters.uncertainty]", inner.value)
+    uncertainty_table = dict(inner.read_table("[parameters.uncertainty] inertial = 0.10"))
+    entries = [(place, table.pop("held", [])), (inner, uncertainty_table.pop("held", []))]
     held = {
-        here.at("held").holding(name).text('"Ia3"'): here
+        here.enter("held").with_value(name).read_text('"Ia3"'): here
         for here, names in entries
-        for name in here.at("held").holding(names).entries('held = ["Ia3"]')
+        for name in here.enter("held").with_value(names).read_list('held = ["Ia3"]')
     }
-    values = read_numbers(place.holding(table), known, "[parameters]", expected)
-    found = {}
-    for name, cell in sure.items():
-        here = inner.at(name, cell)
-        found[name] = here.number("0.1")
-        if found[name] <= 0.0:
-            raise here.mismatch("a standard deviation above 0; a value that is certain is held")
+    values = read_numbers(place.with_value(table), known, "[parameters]", expected)
+    uncertainty = {}
+    for name, cell in uncertainty_table.items():
+        here = inner.enter(name, cell)
+        uncertainty[name] = here.read_number("0.1")
+        if uncertainty[name] <= 0.0:
+            raise here.make_mismatch(
+                "a standard deviation above 0; a value that is certain is held"
+            )
         if name != INERTIAL_UNCERTAINTY:
-            _stated(name, values, known, here)
-        elif found[name] > 1.0:
-            raise here.mismatch("a share of 1 at most, such as 0.10 for 10 %")
+            _check_stated(name, values, known, here)
+        elif uncertainty[name] > 1.0:
+            raise here.make_mismatch("a share of 1 at most, such as 0.10 for 10 %")
         elif not any(name.startswith("M") for name in values):
-            raise here.error(
+            raise here.make_error(
                 "got no body to which it applies; state masses, first moments and inertias in "
                 "[parameters], such as M1 = 4.0"
             )
     for name, here in held.items():
-        _stated(name, values, known, here.at("held"))
-        if name in found:
-            raise here.at("held").error(
-                f"{shown(name)} has an uncertainty too; expected one of both: leave one out"
+        _check_stated(name, values, known, here.enter("held"))
+        if name in uncertainty:
+            raise here.enter("held").make_error(
+                f"{quote_value(name)} has an uncertainty too; expected one of both: leave one out"
             )
-    return values, found | dict.fromkeys(held, 0.0)
+    return values, uncertainty | dict.fromkeys(held, 0.0)
 
 
-def _stated(name: str, values: Mapping[str, float], known: Collection[str], place: Place) -> None:
+def _check_stated(
+    name: str, values: Mapping[str, float], known: Collection[str], place: TomlCell
+) -> None:
     """Refuse a name without a value."""
     if name not in known:
-        raise place.error(
-            f"there is no parameter {shown(name)}{near(name, [*known, INERTIAL_UNCERTAINTY])}; "
+        raise place.make_error(
+            "there is no parameter "
+            f"{quote_value(name)}{suggest_name(name, [*known, INERTIAL_UNCERTAINTY])}; "
             f"expected names of [parameters], or {INERTIAL_UNCERTAINTY} for every body"
         )
     if name not in values:
-        raise place.error(f"{name} has no value; write {name} = ... in [parameters]")
+        raise place.make_error(f"{name} has no value; write {name} = ... in [parameters]")
 
 
-def read_drive_gains(place: Place, moving: Mapping[str, Joint]) -> dict[str, float]:
+def read_drive_gains(place: TomlCell, moving: Mapping[str, Joint]) -> dict[str, float]:
     """Joint torque per unit of the logged current, by joint.
 
     Raises:
         RobotError: unknown joint, or a gain that is no number or zero.
     """
     gains = {}
-    for joint, here in _by_joint(place, moving, '[drive_gains] "1" = 12.5'):
-        gains[joint.name] = _gain(here)
+    for joint, here in _iterate_joints(place, moving, '[drive_gains] "1" = 12.5'):
+        gains[joint.name] = _read_gain(here)
     return gains
 
 
-def _gain(place: Place) -> float:
-    gain = place.number("12.5")
+def _read_gain(place: TomlCell) -> float:
+    gain = place.read_number("12.5")
     if gain == 0.0:
-        raise place.error(
+        raise place.make_error(
             "got 0; expected joint torque per unit of logged current, not zero; leave the "
             "joint out if its gain is unknown"
         )
@@ -186,7 +193,7 @@ _EFFICIENT = 1.1  # gain over k_e; the same number of a motor without losses
 
 
 def read_drives(
-    place: Place, moving: Mapping[str, Joint], gains: Mapping[str, float], readings: list[str]
+    place: TomlCell, moving: Mapping[str, Joint], gains: Mapping[str, float], readings: list[str]
 ) -> tuple[dict[str, float], dict[str, DriveSpec]]:
     """Gains and voltage models: `[drives]`.
 
@@ -203,41 +210,43 @@ def read_drives(
         RobotError: unknown joint or key, a gain that is missing, zero, or stated twice, a voltage
             without a resistance or the other way round, or numbers that no motor has.
     """
-    found, drives = dict(gains), dict[str, DriveSpec]()
-    for joint, here in _by_joint(place, moving, f"[drives] {_DRIVE}"):
-        table = here.checked_table(("voltage", "resistance", "k_e", "gain"), f"[drives] {_DRIVE}")
-        numbers = {key: here.at(key, value).number("1.1") for key, value in table.items()}
+    all_gains, drives = dict(gains), dict[str, DriveSpec]()
+    for joint, here in _iterate_joints(place, moving, f"[drives] {_DRIVE}"):
+        table = here.read_checked_table(
+            ("voltage", "resistance", "k_e", "gain"), f"[drives] {_DRIVE}"
+        )
+        numbers = {key: here.enter(key, value).read_number("1.1") for key, value in table.items()}
         if joint.name in gains:
-            raise here.error(
+            raise here.make_error(
                 f"joint {joint.name} stands in [drive_gains] too; expected one of both: move its "
                 "number here, as gain"
             )
         if "gain" not in numbers:
-            raise here.error(
+            raise here.make_error(
                 f"gain is missing; write joint torque per unit of current, as in {_DRIVE}; 1 if it "
                 "is unknown: torques are in units of the drive then"
             )
-        gain = found[joint.name] = _gain(here.at("gain", table["gain"]))
+        gain = all_gains[joint.name] = _read_gain(here.enter("gain", table["gain"]))
         if set(numbers) == {"gain"}:
             continue
         for key in ("voltage", "resistance"):
             if numbers.get(key, 0.0) <= 0.0:
-                raise here.at(key, table.get(key, 0)).mismatch(
+                raise here.enter(key, table.get(key, 0)).make_mismatch(
                     f"a number above 0, as in {_DRIVE}; a drive that logs currents has gain alone"
                 )
         drive = drives[joint.name] = DriveSpec(
             numbers["voltage"], numbers["resistance"], numbers.get("k_e", 0.0)
         )
         if drive.k_e * gain < 0.0:
-            raise here.at("k_e", table["k_e"]).mismatch(
+            raise here.enter("k_e", table["k_e"]).make_mismatch(
                 f"the sign of gain ({gain:g}): what a motor induces brakes it"
             )
         if abs(gain) > _EFFICIENT * abs(drive.k_e) > 0.0:
             readings.append(
-                f"{here.spot}: a gain of {gain:g} is {gain / drive.k_e:.3g} times k_e; without "
+                f"{here.location}: a gain of {gain:g} is {gain / drive.k_e:.3g} times k_e; without "
                 "losses both are one number: is k_e that of the joint (times the gear ratio)?"
             )
-    return found, drives
+    return all_gains, drives
 
 
 _SHARE, _POSITIVE = "a share from 0 to 1, such as 0.05", "a number of 0 or more, such as 20"
@@ -251,44 +260,44 @@ FIT_OPTIONS: Mapping[str, str | tuple[str, ...]] = {
 """What `[fit]` may hold, by names of options of `modeler fit`: words, or what is expected."""
 
 
-def read_fit(place: Place) -> dict[str, Any]:
+def read_fit(place: TomlCell) -> dict[str, Any]:
     """Options of `modeler fit` that this robot needs always: `[fit]`.
 
     Raises:
         RobotError: an unknown option, or a value that it cannot have.
     """
-    table = place.checked_table(FIT_OPTIONS, "[fit] cutoff = 20")
+    table = place.read_checked_table(FIT_OPTIONS, "[fit] cutoff = 20")
     for name, value in table.items():
-        here, expected = place.at(name, value), FIT_OPTIONS[name]
+        here, expected = place.enter(name, value), FIT_OPTIONS[name]
         number = isinstance(value, int | float) and not isinstance(value, bool)
-        fine = {
+        is_valid = {
             "true or false": isinstance(value, bool),
             _POSITIVE: number and 0.0 <= value < math.inf,
             _SHARE: number and 0.0 <= value < 1.0,
         }.get(expected, isinstance(value, int) and number and value >= 1)  # type: ignore[arg-type]
         if isinstance(expected, tuple):
-            fine, known = value in expected, expected
-            expected = f"one of {listed(known)}{near(str(value), known)}"
-        if not fine:
-            raise here.mismatch(expected)
+            is_valid, known = value in expected, expected
+            expected = f"one of {join_names(known)}{suggest_name(str(value), known)}"
+        if not is_valid:
+            raise here.make_mismatch(expected)
     return table
 
 
-def read_diagnose(place: Place) -> dict[str, Any]:
+def read_diagnose(place: TomlCell) -> dict[str, Any]:
     """Options of `modeler diagnose` that this robot needs always: `[diagnose]`.
 
     Raises:
         RobotError: an unknown option, or no list of effects.
     """
-    table = place.checked_table(("without",), '[diagnose] without = ["spring@2"]')
-    here = place.at("without", table.get("without", []))
-    for entry in here.entries('["spring@2"]'):
-        here.holding(entry).text('"spring@2"')
+    table = place.read_checked_table(("without",), '[diagnose] without = ["spring@2"]')
+    here = place.enter("without", table.get("without", []))
+    for entry in here.read_list('["spring@2"]'):
+        here.with_value(entry).read_text('"spring@2"')
     return table
 
 
 def read_limits(
-    place: Place, moving: Mapping[str, Joint], symbols: Mapping[str, float]
+    place: TomlCell, moving: Mapping[str, Joint], symbols: Mapping[str, float]
 ) -> dict[str, Limits]:
     """Range of motion by joint.
 
@@ -296,24 +305,25 @@ def read_limits(
         RobotError: unknown joint, wrong entries, an empty range.
     """
     limits = {}
-    for joint, here in _by_joint(place, moving, '[limits] "1" = [-2, 2, 3, 10]'):
-        cells = here.entries("[lower, upper, speed, acceleration]", length=4)
+    for joint, here in _iterate_joints(place, moving, '[limits] "1" = [-2, 2, 3, 10]'):
+        cells = here.read_list("[lower, upper, speed, acceleration]", length=4)
         lower, upper, speed, acceleration = (
-            number_at(here.at(f"entry {k}", e), symbols, joint.unit) for k, e in enumerate(cells, 1)
+            read_number(here.enter(f"entry {k}", e), symbols, joint.unit)
+            for k, e in enumerate(cells, 1)
         )
         if lower >= upper:
-            raise here.error(
+            raise here.make_error(
                 f"got lower {lower:g} and upper {upper:g} {joint.unit}; expected lower < upper"
             )
         if speed <= 0.0 or acceleration <= 0.0:
-            raise here.error(
+            raise here.make_error(
                 f"got speed {speed:g} and acceleration {acceleration:g}; expected both positive"
             )
         limits[joint.name] = Limits(lower, upper, speed, acceleration)
     return limits
 
 
-def read_physical(place: Place, moving: Mapping[str, Joint]) -> dict[str, PhysicalLink]:
+def read_physical(place: TomlCell, moving: Mapping[str, Joint]) -> dict[str, PhysicalLink]:
     """The letters of a paper for the links, by joint; letters need not be declared.
 
     Raises:
@@ -323,23 +333,23 @@ def read_physical(place: Place, moving: Mapping[str, Joint]) -> dict[str, Physic
     variables = {joint.variable for joint in moving.values()}
     keys = ("mass", "centre", "inertia")
     example = 'mass = "m1", centre = [x, y, z], inertia = [XX, ..., ZZ]'
-    for joint, here in _by_joint(place, moving, "[physical.1]"):
-        table = here.checked_table(keys, example, missing=f"expected {listed(keys)}")
-        mass, centre, inertia = (here.at(key, table[key]) for key in keys)
-        (m,) = _letters([mass.value], variables, mass)
-        x, y, z = _letters(centre.entries("[x, y, z]", 3), variables, centre)
-        six = _letters(inertia.entries("[XX, XY, XZ, YY, YZ, ZZ]", 6), variables, inertia)
+    for joint, here in _iterate_joints(place, moving, "[physical.1]"):
+        table = here.read_checked_table(keys, example, missing=f"expected {join_names(keys)}")
+        mass, centre, inertia = (here.enter(key, table[key]) for key in keys)
+        (m,) = _read_letters([mass.value], variables, mass)
+        x, y, z = _read_letters(centre.read_list("[x, y, z]", 3), variables, centre)
+        six = _read_letters(inertia.read_list("[XX, XY, XZ, YY, YZ, ZZ]", 6), variables, inertia)
         links[joint.name] = PhysicalLink(m, (x, y, z), tuple(six))
     return links
 
 
-def _letters(entries: list[Any], variables: set[str], place: Place) -> list[Expression]:
+def _read_letters(entries: list[Any], variables: set[str], place: TomlCell) -> list[Expression]:
     """The entries, which hold no joint variable."""
-    expressions = [place.holding(entry).expression() for entry in entries]
+    expressions = [place.with_value(entry).read_expression() for entry in entries]
     for expression in expressions:
         if expression.names & variables:
-            raise place.error(
-                f"got {shown(expression.text)}, which uses the joint variable "
+            raise place.make_error(
+                f"got {quote_value(expression.text)}, which uses the joint variable "
                 f"{min(expression.names & variables)}; links are rigid: expected letters and "
                 "numbers"
             )
@@ -352,7 +362,7 @@ _FRAMES = 'columns = ["link", "row", "x"], rows = [["hand", "6", 0.1]]'
 
 
 def read_frames(
-    place: Place, rows: Collection[str], symbols: Mapping[str, float]
+    place: TomlCell, rows: Collection[str], symbols: Mapping[str, float]
 ) -> dict[str, LinkFrame]:
     """Links of another program's file on the rows of the table: `[frames]`.
 
@@ -361,43 +371,45 @@ def read_frames(
     """
     if place.value is None:
         return {}
-    table = place.checked_table(("columns", "rows"), f"[frames] {_FRAMES}", "", f"write {_FRAMES}")
-    found: dict[str, LinkFrame] = {}
-    lines = _lines(place, table, ("link", "row"), FRAME_COLUMNS, _FRAMES)
+    table = place.read_checked_table(
+        ("columns", "rows"), f"[frames] {_FRAMES}", "", f"write {_FRAMES}"
+    )
+    frames: dict[str, LinkFrame] = {}
+    lines = _iterate_rows(place, table, ("link", "row"), FRAME_COLUMNS, _FRAMES)
     for k, (line, cells) in enumerate(lines, start=1):
-        link = line.at("column link", cells["link"]).text('"hand"')
-        spot = place.at(f"row {k} ({shown(link)})")
-        if link in found:
-            raise spot.error("the link stands there twice; keep one of the rows")
-        row = _carrier(cells["row"], rows, spot)
+        link = line.enter("column link", cells["link"]).read_text('"hand"')
+        spot = place.enter(f"row {k} ({quote_value(link)})")
+        if link in frames:
+            raise spot.make_error("the link stands there twice; keep one of the rows")
+        row = _read_carrier_row(cells["row"], rows, spot)
         joint = cells.get("joint", "")
         if not isinstance(joint, str):
-            raise spot.at("column joint", joint).mismatch('a name, or "" for none')
-        found[link] = LinkFrame(row, joint, *_pose_cells(spot, "column ", cells, symbols))
-    return found
+            raise spot.enter("column joint", joint).make_mismatch('a name, or "" for none')
+        frames[link] = LinkFrame(row, joint, *_read_pose_cells(spot, "column ", cells, symbols))
+    return frames
 
 
-def _lines(
-    place: Place, table: Mapping[str, Any], needed: tuple[str, ...], known: tuple[str, ...],
+def _iterate_rows(
+    place: TomlCell, table: Mapping[str, Any], needed: tuple[str, ...], known: tuple[str, ...],
     example: str,
-) -> Iterator[tuple[Place, dict[str, Any]]]:  # fmt: skip
+) -> Iterator[tuple[TomlCell, dict[str, Any]]]:  # fmt: skip
     """The rows of a table with columns, each with its cells by column."""
-    here = place.at("columns", table["columns"])
-    columns = here.entries(example)
+    here = place.enter("columns", table["columns"])
+    columns = here.read_list(example)
     if {*needed} - {*columns} or {*columns} - {*known} or len({*columns}) < len(columns):
-        rest = listed([name for name in known if name not in needed])
-        raise here.mismatch(f"{', '.join(needed)} and any of {rest}, each once")
-    for k, entry in enumerate(place.at("rows", table["rows"]).entries(example), start=1):
-        line = place.at(f"row {k}", entry)
-        yield line, dict(zip(columns, line.entries(example, len(columns)), strict=True))
+        rest = join_names([name for name in known if name not in needed])
+        raise here.make_mismatch(f"{', '.join(needed)} and any of {rest}, each once")
+    for k, entry in enumerate(place.enter("rows", table["rows"]).read_list(example), start=1):
+        line = place.enter(f"row {k}", entry)
+        yield line, dict(zip(columns, line.read_list(example, len(columns)), strict=True))
 
 
-def _carrier(name: Any, rows: Collection[str], place: Place) -> str:
+def _read_carrier_row(name: Any, rows: Collection[str], place: TomlCell) -> str:
     """A row of the table, or "0"."""
-    row = name_of(name)
+    row = normalise_row_name(name)
     if row not in ("0", *rows):
-        raise place.at("column row", row).mismatch(
-            f'the name of a row, or "0" for the base{near(row, rows)}'
+        raise place.enter("column row", row).make_mismatch(
+            f'the name of a row, or "0" for the base{suggest_name(row, rows)}'
         )
     return str(row)
 
@@ -407,50 +419,54 @@ _CAPSULES = 'columns = ["row", "radius"], rows = [["1", 0.05]]'
 
 
 def read_capsules(
-    place: Place, rows: Collection[str], symbols: Mapping[str, float]
+    place: TomlCell, rows: Collection[str], symbols: Mapping[str, float]
 ) -> tuple[tuple[LinkCapsule, ...], dict[str, tuple[float, ...]]]:
     """What links fill, and planes of the surroundings: `[capsules]`.
 
     Raises:
         RobotError: columns, names of rows, or numbers are wrong.
     """
-    table = dict(place.table(f"[capsules] {_CAPSULES}"))
-    planes, found = {}, []
-    flat = place.at("planes", table.pop("planes", {}))
-    for name, here in flat.items("planes = {floor = [0, 0, 1, 0]}"):
-        four = here.entries("[x, y, z, offset], the normal that points to where is room", 4)
-        planes[name] = tuple(number_at(here.holding(cell), symbols, "m") for cell in four)
+    table = dict(place.read_table(f"[capsules] {_CAPSULES}"))
+    planes, capsules = {}, []
+    flat = place.enter("planes", table.pop("planes", {}))
+    for name, here in flat.read_items("planes = {floor = [0, 0, 1, 0]}"):
+        four = here.read_list("[x, y, z, offset], the normal that points to where is room", 4)
+        planes[name] = tuple(read_number(here.with_value(cell), symbols, "m") for cell in four)
         if not any(planes[name][:3]):
-            raise here.error("got the normal (0, 0, 0); expected a direction, such as [0, 0, 1, 0]")
-    given = place.holding(table)
+            raise here.make_error(
+                "got the normal (0, 0, 0); expected a direction, such as [0, 0, 1, 0]"
+            )
+    stated_table = place.with_value(table)
     if table:
-        given.checked_table(
+        stated_table.read_checked_table(
             ("columns", "rows"), f"[capsules] {_CAPSULES}", "", f"write {_CAPSULES}"
         )
     known = ("row", "radius", *_ENDS)
-    for line, cells in _lines(place, table, known[:2], known, _CAPSULES) if table else ():
-        row = _carrier(cells.pop("row"), rows, line)
+    for line, cells in _iterate_rows(place, table, known[:2], known, _CAPSULES) if table else ():
+        row = _read_carrier_row(cells.pop("row"), rows, line)
         sizes = {
-            name: number_at(line.at(f"column {name}", cell), symbols, "m")
+            name: read_number(line.enter(f"column {name}", cell), symbols, "m")
             for name, cell in cells.items()
         }
         if sizes["radius"] <= 0.0:
-            raise line.at("column radius", cells["radius"]).mismatch("a length above 0, in m")
+            raise line.enter("column radius", cells["radius"]).make_mismatch(
+                "a length above 0, in m"
+            )
         ends = [sizes.get(name, 0.0) for name in _ENDS]
         both = (tuple(ends[:3]), tuple(ends[3:])) if len(sizes) > 1 else None
-        found.append(LinkCapsule(row, sizes["radius"], both))
-    return tuple(found), planes
+        capsules.append(LinkCapsule(row, sizes["radius"], both))
+    return tuple(capsules), planes
 
 
-def _pose_cells(
-    place: Place, kind: str, cells: Mapping[str, Any], symbols: Mapping[str, float]
+def _read_pose_cells(
+    place: TomlCell, kind: str, cells: Mapping[str, Any], symbols: Mapping[str, float]
 ) -> tuple[_Three, _Three]:
     """Position x, y, z and angles roll, pitch, yaw; what is left out is 0."""
     numbers = []
     for name in FRAME_COLUMNS[3:]:
-        here = place.at(f"{kind}{name}", cells.get(name, 0))
-        number_at(here, symbols, "m" if len(name) == 1 else "rad")
-        numbers.append(here.expression())
+        here = place.enter(f"{kind}{name}", cells.get(name, 0))
+        read_number(here, symbols, "m" if len(name) == 1 else "rad")
+        numbers.append(here.read_expression())
     x, y, z, roll, pitch, yaw = numbers
     return (x, y, z), (roll, pitch, yaw)
 
@@ -458,7 +474,7 @@ def _pose_cells(
 _TOOL = '[tool] with x, y, z, roll, pitch, yaw, and row = "6" or link = "flange"'
 
 
-def read_tool(place: Place, robot: Robot, symbols: Mapping[str, float]) -> LinkFrame | None:
+def read_tool(place: TomlCell, robot: Robot, symbols: Mapping[str, float]) -> LinkFrame | None:
     """The frame whose motion a controller commands: `[tool]`.
 
     It stands on a row of the table, or on a link of `[frames]`, in whose frame it is placed; on the
@@ -469,39 +485,42 @@ def read_tool(place: Place, robot: Robot, symbols: Mapping[str, float]) -> LinkF
     """
     if place.value is None:
         return None
-    table = place.checked_table(("row", "link", *FRAME_COLUMNS[3:]), _TOOL)
+    table = place.read_checked_table(("row", "link", *FRAME_COLUMNS[3:]), _TOOL)
     if "row" in table and "link" in table:
-        raise place.error("both row and link are given; keep one of them")
+        raise place.make_error("both row and link are given; keep one of them")
     row, under = table.get("row"), None
     if "link" in table:
-        here = place.at("link", table["link"])
-        if here.text('"flange"') not in robot.frames:
-            raise here.mismatch(f"a link of [frames]{near(here.value, robot.frames)}")
+        here = place.enter("link", table["link"])
+        if here.read_text('"flange"') not in robot.frames:
+            raise here.make_mismatch(f"a link of [frames]{suggest_name(here.value, robot.frames)}")
         under = robot.frames[here.value]
         row = under.row
     elif row is None:
-        ends = _ends(robot)
+        ends = _find_ends(robot)
         if len(ends) != 1:
-            raise place.error(
-                f"the robot has {len(ends)} ends, {listed(ends)}; say which row carries the tool, "
+            raise place.make_error(
+                f"the robot has {len(ends)} ends, {join_names(ends)}; say which row carries the "
+                "tool, "
                 f'as row = "{ends[-1]}"'
             )
         (row,) = ends
     rows = [joint.name for joint in robot.joints]
-    if name_of(row) not in rows:
-        raise place.at("row", row).mismatch(f"the name of a row{near(row, rows)}")
-    return LinkFrame(name_of(row), "", *_pose_cells(place, "", table, symbols), on=under)
+    if normalise_row_name(row) not in rows:
+        raise place.enter("row", row).make_mismatch(f"the name of a row{suggest_name(row, rows)}")
+    return LinkFrame(
+        normalise_row_name(row), "", *_read_pose_cells(place, "", table, symbols), on=under
+    )
 
 
-def _ends(robot: Robot) -> list[str]:
+def _find_ends(robot: Robot) -> list[str]:
     """Moving rows that carry no other; of a robot with a platform, that which carries it."""
     if robot.platform:
         return [robot.platform[-1]]
     before = {joint.name: joint.antecedent for joint in robot.joints}
     carrying = set[str]()
-    for joint in robot.moving:
+    for joint in robot.moving_joints:
         row = joint.antecedent
         while row in before and row not in carrying:
             carrying.add(row)
             row = before[row]
-    return [j.name for j in robot.moving if j.name not in carrying | {*robot.motors}]
+    return [j.name for j in robot.moving_joints if j.name not in carrying | {*robot.motors}]

@@ -5,15 +5,20 @@ import string
 from collections.abc import Mapping
 from pathlib import Path
 
-from modeler.core.builtin import TEMPLATES, template_text
+from modeler.core.builtin import TEMPLATES, read_template
 from modeler.core.errors import DataError, RobotError
-from modeler.core.files import Kind, destination, write_atomically, write_unless_other
-from modeler.robot.cells import robot_name
+from modeler.core.files import (
+    DestinationKind,
+    resolve_destination,
+    write_atomically,
+    write_without_overwriting,
+)
+from modeler.robot.cells import choose_robot_name
 from modeler.robot.conventions import CONVENTIONS, GEOMETRY, STEPS
-from modeler.robot.conversion import converted
-from modeler.robot.read import of_other_program, robot_from_text
+from modeler.robot.conversion import convert_robot_file
+from modeler.robot.read import build_converted_robot, parse_robot_text
 from modeler.robot.robot import Robot
-from modeler.robot.robot_text import aligned
+from modeler.robot.robot_text import align_cells
 
 MOST_JOINTS = 20
 SERIAL = "serial"
@@ -51,8 +56,8 @@ def new_robot(
     """
     place = Path(path)
     check_new_robot(place, force)
-    text = template_robot(robot_name(place.stem), template, joints, convention)
-    robot = robot_from_text(text, str(place))
+    text = fill_template(choose_robot_name(place.stem), template, joints, convention)
+    robot = parse_robot_text(text, str(place))
     write_atomically(place, text)
     return robot
 
@@ -88,10 +93,10 @@ def convert(
         RobotError: no such file, a format that is not read, or a mistake in it.
         DataError: a file that is there.
     """
-    found = converted(file, exact_decimals, base=base, tip=tip, locks=lock)
-    robot = of_other_program(found, file)
+    converted = convert_robot_file(file, exact_decimals, base=base, tip=tip, locks=lock)
+    robot = build_converted_robot(converted, file)
     if out is not None:
-        write_unless_other(Path(out), found.text, force)
+        write_without_overwriting(Path(out), converted.text, force)
     return robot
 
 
@@ -101,14 +106,14 @@ def check_new_robot(place: Path, force: bool) -> None:
         raise DataError(
             f"{place}: got {place.suffix or 'no ending'}; expected a name such as arm.toml"
         )
-    if destination(place).kind is Kind.FILE and not force:
+    if resolve_destination(place).kind is DestinationKind.FILE and not force:
         raise DataError(
             f"{place}: there is such a file; choose another name, or write over it with --force "
             "(force=True)"
         )
 
 
-def template_robot(
+def fill_template(
     name: str, template: str = SERIAL, joints: str = "RRR", convention: str = "khalil"
 ) -> str:
     """The text of a robot file that derives as it is, with comments on what to change.
@@ -138,10 +143,12 @@ def template_robot(
             "has its own; leave them out, or take the template serial"
         )
     values = {"name": name, "title": f"{name}, {_TITLES[template]}"}
-    return string.Template(template_text(template)).substitute(values | _serial(kinds, convention))
+    return string.Template(read_template(template)).substitute(
+        values | _build_serial_values(kinds, convention)
+    )
 
 
-def _serial(kinds: str, convention: str) -> dict[str, str]:
+def _build_serial_values(kinds: str, convention: str) -> dict[str, str]:
     """What stands in the template of a serial robot."""
     rows, lengths = [], dict[str, str]()
     for j, kind in enumerate(kinds, start=1):
@@ -162,10 +169,10 @@ def _serial(kinds: str, convention: str) -> dict[str, str]:
     cells += [
         [row[c] if c != "j" and row[c] in "01" else f'"{row[c]}"' for c in columns] for row in rows
     ]
-    head, *lines = aligned(cells)
+    head, *lines = align_cells(cells)
     stated = f'convention = "{convention}"\n' if convention != "khalil" else ""
     body = "".join(f"          [{line}],\n" for line in lines)
-    symbols = [f"{name} = {worth}".ljust(38) + "# m" for name, worth in lengths.items()]
+    symbols = [f"{name} = {length}".ljust(38) + "# m" for name, length in lengths.items()]
     ranges = {"R": ('["-90 deg", "90 deg", 2, 8]', "rad, rad/s, rad/s^2"),
               "P": ("[-0.3, 0.3, 0.5, 3]", "m, m/s, m/s^2")}  # fmt: skip
     limits = [

@@ -4,8 +4,8 @@ import re
 from collections.abc import Collection, Mapping, Sequence
 from typing import Any
 
-from modeler.core.expression import Expression, parse
-from modeler.core.toml_cells import Place, listed, near, shown
+from modeler.core.expression import Expression, parse_expression
+from modeler.core.toml_cells import TomlCell, join_names, quote_value, suggest_name
 from modeler.robot.cells import (
     LARGEST_LENGTH,
     check_count,
@@ -13,10 +13,10 @@ from modeler.robot.cells import (
     check_name_length,
     check_size,
     check_unit,
-    exact_angle_at,
-    form_at,
-    length_at,
-    name_of,
+    normalise_row_name,
+    read_exact_angle,
+    read_length,
+    read_linear_form,
 )
 from modeler.robot.conventions import (
     ANGLES,
@@ -24,13 +24,13 @@ from modeler.robot.conventions import (
     GEOMETRY,
     Row,
     RowPlace,
-    check_whose,
+    check_convention,
+    format_table_example,
     is_length,
-    khalil_columns,
-    shifted,
-    table_example,
-    whose_line,
-    written_cell,
+    locate_written_cell,
+    read_khalil_columns,
+    shift_classical_rows,
+    suggest_convention,
 )
 from modeler.robot.robot import Joint, JointKind, Robot
 
@@ -51,8 +51,8 @@ HOME = {JointKind.REVOLUTE: "theta", JointKind.PRISMATIC: "r"}
 """Column of the joint variable."""
 
 
-def table_rows(
-    place: Place, platform: Sequence[tuple[Row, RowPlace]] = (), convention: str = "khalil"
+def read_table_rows(
+    place: TomlCell, platform: Sequence[tuple[Row, RowPlace]] = (), convention: str = "khalil"
 ) -> Rows:
     """The rows of `[mdh]` as {Khalil's column: cell}, each with its place.
 
@@ -62,50 +62,50 @@ def table_rows(
     Raises:
         RobotError: columns, row lengths, row names or antecedents are wrong.
     """
-    example = table_example(convention)
-    stated = {"convention": convention, **place.table(f"[mdh] {example}")}
-    table = place.holding(stated).checked_table(
+    example = format_table_example(convention)
+    stated = {"convention": convention, **place.read_table(f"[mdh] {example}")}
+    table = place.with_value(stated).read_checked_table(
         ("columns", "rows", "convention"), "", "expected columns, rows and convention only",
         missing=f"write {example}",
     )  # fmt: skip
-    columns = khalil_columns(place.at("columns", table["columns"]), convention)
-    listed_rows = place.at("rows", table["rows"]).entries(example)
+    columns = read_khalil_columns(place.enter("columns", table["columns"]), convention)
+    listed_rows = place.enter("rows", table["rows"]).read_list(example)
     count = len(listed_rows) + len(platform)
-    told = "rows, those of all legs and of the platform counted"
-    check_count(count, MOST_ROWS, told, place.at("rows"))
+    description = "rows, those of all legs and of the platform counted"
+    check_count(count, MOST_ROWS, description, place.enter("rows"))
     if not listed_rows:
-        raise place.at("rows").error(
+        raise place.enter("rows").make_error(
             f"the table is empty; write one row per joint, as in {example}"
         )
     letters = CONVENTIONS[convention]
     rows: list[tuple[Row, RowPlace]] = list(platform)
     for number, cells in enumerate(listed_rows, start=1):
-        row = _row(number, cells, columns, letters, place)
-        name = _row_name(place.at(f"row {number}, column j", row["j"]))
-        here = RowPlace(place.file, place.at(f'row "{name}"').spot, None, name, letters)
+        row = _read_row(number, cells, columns, letters, place)
+        name = _read_row_name(place.enter(f"row {number}, column j", row["j"]))
+        here = RowPlace(place.file, place.enter(f'row "{name}"').location, None, name, letters)
         names = [earlier["j"] for earlier, _ in rows]
         if name in names:
             first = names.index(name) + 1 - len(platform)
             where = f"in rows {first} and" if first > 0 else "in [platform] and in row"
-            raise here.error(
-                f"the name {shown(name)} stands {where} {number}; give each row its own name"
+            raise here.make_error(
+                f"the name {quote_value(name)} stands {where} {number}; give each row its own name"
             )
         row["j"] = name
         rows.append((row, here))
-    given = [row for row, _ in rows[len(platform) :]]
-    check_whose(columns, given, place.holding(stated), "convention" in place.value)
-    for row, above in zip(given, ["0", *(row["j"] for row in given)], strict=False):
-        row["a"] = name_of(row.get("a", above))
+    file_rows = [row for row, _ in rows[len(platform) :]]
+    check_convention(columns, file_rows, place.with_value(stated), "convention" in place.value)
+    for row, above in zip(file_rows, ["0", *(row["j"] for row in file_rows)], strict=False):
+        row["a"] = normalise_row_name(row.get("a", above))
     if convention == "classical":
-        rows = shifted(rows)
+        rows = shift_classical_rows(rows)
     _check_antecedents(rows, columns)
     return tuple(rows)
 
 
-def table_joints(
+def build_joints(
     rows: Rows, symbols: Mapping[str, float], rounded: dict[str, str]
 ) -> tuple[Joint, ...]:
-    """The joints of checked rows (`table_rows`).
+    """The joints of checked rows (`read_table_rows`).
 
     Args:
         rows: cells by column, with their places.
@@ -115,9 +115,9 @@ def table_joints(
     Raises:
         RobotError: a cell is wrong; says row, column, got, expected.
     """
-    kinds = {row["j"]: row_kind(row, place) for row, place in rows}
+    kinds = {row["j"]: read_row_kind(row, place) for row, place in rows}
     if all(kind is JointKind.FIXED for kind in kinds.values()):
-        raise rows[0][1].error(
+        raise rows[0][1].make_error(
             "no row of the table moves; expected at least one joint with sigma 0 (revolute) "
             "or 1 (prismatic)"
         )
@@ -126,12 +126,12 @@ def table_joints(
         name, kind = row["j"], kinds[row["j"]]
         # The place of the variable last: one in the wrong column is told there, not as missing.
         order = sorted(GEOMETRY, key=lambda column: column == HOME.get(kind))
-        cells = {c: _cell(row.get(c, 0), c, place, kinds, symbols, rounded) for c in order}
-        joints.append(Joint(name, row["a"], _actuated(row, kind, place), kind, **cells))
+        cells = {c: _read_cell(row.get(c, 0), c, place, kinds, symbols, rounded) for c in order}
+        joints.append(Joint(name, row["a"], _read_actuated(row, kind, place), kind, **cells))
     return tuple(joints)
 
 
-def check_units(robot: Robot, values: Mapping[str, float], place: Place) -> list[str]:
+def check_units(robot: Robot, values: Mapping[str, float], place: TomlCell) -> list[str]:
     """Refuse angles in columns of lengths and the reverse.
 
     Args:
@@ -146,46 +146,49 @@ def check_units(robot: Robot, values: Mapping[str, float], place: Place) -> list
         RobotError: names the cell.
     """
     units: dict[str, Collection[str]] = {}
-    for name, worth in robot.symbols.items():
-        units[name] = worth.units(units) or {""}
-    longest, told = LONGEST_LINK, list[str]()
+    for name, expression in robot.symbols.items():
+        units[name] = expression.infer_units(units) or {""}
+    longest, notes = LONGEST_LINK, list[str]()
     for joint in robot.joints:
         for column in GEOMETRY:
-            cell, at = getattr(joint, column), place.at(written_cell(robot, joint, column))
+            cell, at = (
+                getattr(joint, column),
+                place.enter(locate_written_cell(robot, joint, column)),
+            )
             check_unit(cell, units, "rad" if column in ANGLES else "m", at)
             size = abs(cell.number({joint.variable: 0.0, **values}))
             if column not in ANGLES and size > longest and "m" not in cell.units(units):
-                longest, told = size, [_IN_MM.format(at.spot, size)]
-    return told
+                longest, notes = size, [_IN_MM.format(at.location, size)]
+    return notes
 
 
-def _row(
-    number: int, cells: Any, columns: list[str], letters: Mapping[str, str], place: Place
+def _read_row(
+    number: int, cells: Any, columns: list[str], letters: Mapping[str, str], place: TomlCell
 ) -> Row:
     # The name is told if it can be read: it is what the user looks for.
     named = isinstance(cells, list) and cells and columns[0] == "j"
-    name = f" ({shown(cells[0])})" if named else ""
-    here = place.at(f"row {number}{name}", cells)
-    cells = here.entries('["1", "0", 0, 0, "q1", 0]')
+    name = f" ({quote_value(cells[0])})" if named else ""
+    here = place.enter(f"row {number}{name}", cells)
+    cells = here.read_list('["1", "0", 0, 0, "q1", 0]')
     if len(cells) != len(columns):
-        raise here.error(
+        raise here.make_error(
             f"got {len(cells)} cells, expected {len(columns)}, one for each of "
-            f"{listed(letters[column] for column in columns)}; "
+            f"{join_names(letters[column] for column in columns)}; "
             f"{'add' if len(cells) < len(columns) else 'remove'} {abs(len(columns) - len(cells))}"
         )
     return dict(zip(columns, cells, strict=True))
 
 
-def _row_name(place: Place) -> str:
-    name = name_of(place.value)
+def _read_row_name(place: TomlCell) -> str:
+    name = normalise_row_name(place.value)
     if not isinstance(name, str) or not ROW_NAME.fullmatch(name):
-        raise place.mismatch(
+        raise place.make_mismatch(
             'a name of letters and digits such as "1" or "12" (it becomes part of names in the C '
             "code)"
         )
     check_name_length(name, place)
     if name == "0":
-        raise place.error('got "0", which is the base; number the rows from "1"')
+        raise place.make_error('got "0", which is the base; number the rows from "1"')
     return name
 
 
@@ -194,32 +197,40 @@ def _check_antecedents(rows: list[tuple[Row, RowPlace]], columns: list[str]) -> 
     seen = ["0"]
     for row, place in rows:
         name, antecedent = row["j"], row["a"]
-        here = place.column("a", antecedent)
+        here = place.locate_column("a", antecedent)
         if not isinstance(antecedent, str) or antecedent not in {"0", *antecedents}:
-            raise here.mismatch(
-                f'"0" (the base) or the name of an earlier row ({listed(seen[1:])})'
-                f"{near(antecedent, antecedents)}{_whose_hint(antecedent, rows, columns)}"
+            raise here.make_mismatch(
+                f'"0" (the base) or the name of an earlier row ({join_names(seen[1:])})'
+                f"{suggest_name(antecedent, antecedents)}"
+                f"{_explain_length(antecedent, rows, columns)}"
             )
         if antecedent not in seen:
-            told = f"is a later row; move row {shown(antecedent)} above row {shown(name)}"
-            if cycle := _cycle(name, antecedents):
-                told = f"closes the circle {' -> '.join(cycle)}; every chain of antecedents must "
-                told += 'end at "0"'
-            raise here.error(f"got {shown(antecedent)}, which {told}")
+            problem = (
+                f"is a later row; move row {quote_value(antecedent)} above row {quote_value(name)}"
+            )
+            if cycle := _find_cycle(name, antecedents):
+                problem = (
+                    f"closes the circle {' -> '.join(cycle)}; every chain of antecedents must "
+                )
+                problem += 'end at "0"'
+            raise here.make_error(f"got {quote_value(antecedent)}, which {problem}")
         seen.append(name)
 
 
-def _whose_hint(antecedent: Any, rows: list[tuple[Row, RowPlace]], columns: list[str]) -> str:
+def _explain_length(antecedent: Any, rows: list[tuple[Row, RowPlace]], columns: list[str]) -> str:
     """What to say of a length where Khalil's table has the antecedent."""
     letters = isinstance(antecedent, str) and all(row["j"].isdigit() for row, _ in rows)
-    if "r" in columns or "d" not in columns or rows[-1][1].letter("a") != "a":
+    if "r" in columns or "d" not in columns or rows[-1][1].get_letter("a") != "a":
         return ""
     if not is_length(antecedent) and (not letters or antecedent.isdigit()):
         return ""
-    return f"; a is a length in the tables of others: {whose_line(columns, [r for r, _ in rows])}"
+    return (
+        "; a is a length in the tables of others: "
+        f"{suggest_convention(columns, [r for r, _ in rows])}"
+    )
 
 
-def _cycle(name: str, antecedents: Mapping[str, str]) -> list[str]:
+def _find_cycle(name: str, antecedents: Mapping[str, str]) -> list[str]:
     """The rows from `name` back to itself, empty if its chain ends elsewhere."""
     chain = [name]
     while (following := antecedents.get(chain[-1])) is not None:
@@ -229,35 +240,35 @@ def _cycle(name: str, antecedents: Mapping[str, str]) -> list[str]:
     return []
 
 
-def row_kind(row: Row, place: RowPlace) -> JointKind:
+def read_row_kind(row: Row, place: RowPlace) -> JointKind:
     """Sigma of a row.
 
     Raises:
         RobotError: not 0, 1 or 2.
     """
-    cell = place.column("sigma", row.get("sigma", 0))
-    return JointKind(_one_of(3, cell, "0 (revolute), 1 (prismatic) or 2 (fixed)"))
+    cell = place.locate_column("sigma", row.get("sigma", 0))
+    return JointKind(_read_choice(3, cell, "0 (revolute), 1 (prismatic) or 2 (fixed)"))
 
 
-def _one_of(count: int, place: Place, expected: str) -> int:
+def _read_choice(count: int, place: TomlCell, expected: str) -> int:
     """The cell, which must be one of 0, 1, ..."""
     if type(place.value) is not int or place.value not in range(count):
-        raise place.mismatch(expected)
+        raise place.make_mismatch(expected)
     return place.value
 
 
-def _actuated(row: Row, kind: JointKind, place: RowPlace) -> bool:
+def _read_actuated(row: Row, kind: JointKind, place: RowPlace) -> bool:
     if "mu" not in row:
         return kind is not JointKind.FIXED
-    cell = _one_of(2, place.column("mu", row["mu"]), "1 (actuated) or 0 (passive)")
+    cell = _read_choice(2, place.locate_column("mu", row["mu"]), "1 (actuated) or 0 (passive)")
     if cell == 1 and kind is JointKind.FIXED:
-        raise place.column("mu").error(
+        raise place.locate_column("mu").make_error(
             "got 1 on a fixed row (sigma 2), which has no motor; write 0, or correct sigma"
         )
     return cell == 1
 
 
-def _cell(
+def _read_cell(
     cell: Any,
     column: str,
     where: RowPlace,
@@ -265,50 +276,57 @@ def _cell(
     symbols: Mapping[str, float],
     rounded: dict[str, str],
 ) -> Expression:
-    row = where.owner(column).row  # whose cell it is in the file
-    place = where.column(column, cell)
-    expression = place.expression()
-    got = f"got {shown(expression.text)}"
-    own, home = f"q{row}", HOME.get(kinds[row])
+    row = where.find_owner(column).row  # whose cell it is in the file
+    place = where.locate_column(column, cell)
+    expression = place.read_expression()
+    got = f"got {quote_value(expression.text)}"
+    row_variable, home = f"q{row}", HOME.get(kinds[row])
     for name in sorted(expression.names):  # joint variables stand in the place of their own only
-        if name == own and home is None:
-            raise place.error(f"{got}, but the row is fixed (sigma 2); remove {name} or set sigma")
-        if name == own and column != home:
-            raise place.error(
+        if name == row_variable and home is None:
+            raise place.make_error(
+                f"{got}, but the row is fixed (sigma 2); remove {name} or set sigma"
+            )
+        if name == row_variable and column != home:
+            raise place.make_error(
                 f"{got}, but {name} of a {'revolute' if home == 'theta' else 'prismatic'} joint "
-                f"belongs into column {where.letter(home or '')}; move it there, or correct sigma"
-                + (_ALONG_Z if where.letter(column) == "d" and home == "r" else "")
+                f"belongs into column {where.get_letter(home or '')}; move it there, or correct "
+                "sigma" + (_ALONG_Z if where.get_letter(column) == "d" and home == "r" else "")
             )
-        if name != own and name.startswith("q") and name[1:] in kinds:
-            raise place.error(
-                f"{got}, which uses the variable {name} of another row; expected {own} and "
+        if name != row_variable and name.startswith("q") and name[1:] in kinds:
+            raise place.make_error(
+                f"{got}, which uses the variable {name} of another row; expected {row_variable} "
+                "and "
                 "constants, or, where the joint follows others, a sum of their variables in "
-                f"column {' or '.join(map(where.letter, [home] if home else HOME.values()))} "
-                f"without {own}"
+                f"column {' or '.join(map(where.get_letter, [home] if home else HOME.values()))} "
+                f"without {row_variable}"
             )
     if column == home:
-        example = f"{own} + {'pi/2' if column == 'theta' else '0.1'}"
-        if own not in expression.names:
-            raise place.error(
-                f"{got}, without the joint variable; expected {own}, the variable of this row, as "
-                f"in {shown(example)}; a row that does not move has sigma 2"
+        example = f"{row_variable} + {'pi/2' if column == 'theta' else '0.1'}"
+        if row_variable not in expression.names:
+            raise place.make_error(
+                f"{got}, without the joint variable; expected {row_variable}, the variable of this "
+                "row, as "
+                f"in {quote_value(example)}; a row that does not move has sigma 2"
             )
-    check_declared(expression, {**symbols, own: 0.0} if column == home else symbols, place)
+    check_declared(expression, {**symbols, row_variable: 0.0} if column == home else symbols, place)
     if column == home:
-        form = form_at(expression, symbols, place, example)
-        factor = form.coefficients.get(own, 0.0)
+        form = read_linear_form(expression, symbols, place, example)
+        factor = form.coefficients.get(row_variable, 0.0)
         if factor not in (1.0, -1.0):
-            raise place.error(
-                f"{got}: {own} has the coefficient {factor:g}; expected 1 or -1, as in "
-                f'{shown(example)} or "-{own}" (a gear ratio belongs into the drive gain)'
+            raise place.make_error(
+                f"{got}: {row_variable} has the coefficient {factor:g}; expected 1 or -1, as in "
+                f'{quote_value(example)} or "-{row_variable}" (a gear ratio belongs into the drive '
+                "gain)"
             )
         if column not in ANGLES:  # a prismatic joint's offset is a length
             check_size(expression, (form.constant,), LARGEST_LENGTH, place)
     elif column in ANGLES:
-        form_at(expression, symbols, place)
+        read_linear_form(expression, symbols, place)
     else:
-        length_at(expression, symbols, place)
+        read_length(expression, symbols, place)
     if column in ANGLES:
-        return exact_angle_at(expression, own if column == home else None, place, rounded)
+        return read_exact_angle(
+            expression, row_variable if column == home else None, place, rounded
+        )
     # -0.0 and the like: one zero, so that everyone may drop it.
-    return parse(0) if expression.is_zero else expression
+    return parse_expression(0) if expression.is_zero else expression

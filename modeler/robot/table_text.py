@@ -8,7 +8,7 @@ from typing import TypeVar
 
 from modeler.core.errors import RobotError
 from modeler.robot.loops import MARK
-from modeler.robot.robot_text import columns_and_rows
+from modeler.robot.robot_text import format_columns_and_rows
 
 _Entry = TypeVar("_Entry")
 _NAMES = (("j", "parent"), ("j", "a"))
@@ -45,20 +45,20 @@ class TableText:
     rows: tuple[tuple[str, ...], ...]
 
 
-def table_text(text: str) -> TableText | None:
+def find_table_text(text: str) -> TableText | None:
     """The cells of the table; None where the text has none that can be found."""
-    found = _arrays(text)
-    if found is None:
+    arrays = _find_arrays(text)
+    if arrays is None:
         return None
-    columns, rows = found
+    columns, rows = arrays
 
-    def cells(array: _Array) -> tuple[str, ...]:
-        return tuple(_bare(text[start:end]) for start, end in array.cells)
+    def extract_cells(array: _Array) -> tuple[str, ...]:
+        return tuple(_strip_quotes(text[start:end]) for start, end in array.cells)
 
-    return TableText(cells(columns), tuple(map(cells, rows.arrays)))
+    return TableText(extract_cells(columns), tuple(map(extract_cells, rows.arrays)))
 
 
-def with_cell(text: str, row: int, column: int, cell: str) -> str:
+def replace_cell(text: str, row: int, column: int, cell: str) -> str:
     """The text with another cell; the columns stay below each other where there is room.
 
     Args:
@@ -70,11 +70,13 @@ def with_cell(text: str, row: int, column: int, cell: str) -> str:
     Raises:
         RobotError: there is no such cell, or it cannot be replaced.
     """
-    columns, rows = _table(text)
-    array = columns if row < 0 else _at(rows.arrays, row, "row")
-    start, end = _at(array.cells, column, "column")
-    name = "" if row < 0 else _bare(text[slice(*_at(columns.cells, column, "column"))])
-    new = quoted_cell(cell, row < 0 or name in _NAMES[convention_of(text) == "khalil"])
+    columns, rows = _require_arrays(text)
+    array = columns if row < 0 else _get_item(rows.arrays, row, "row")
+    start, end = _get_item(array.cells, column, "column")
+    name = (
+        "" if row < 0 else _strip_quotes(text[slice(*_get_item(columns.cells, column, "column"))])
+    )
+    new = quote_table_cell(cell, row < 0 or name in _NAMES[read_table_convention(text) == "khalil"])
     behind = re.match(r",( *)", text[end:])
     if behind is not None:
         width = end - start + len(behind[1])
@@ -83,38 +85,40 @@ def with_cell(text: str, row: int, column: int, cell: str) -> str:
     return text[:start] + new + text[end:]
 
 
-def with_row(text: str, after: int, cells: Sequence[str]) -> str:
+def insert_row(text: str, after: int, cells: Sequence[str]) -> str:
     """The text with a row more, behind the row of that number.
 
     Raises:
         RobotError: there is no such row, or no table.
     """
-    columns, rows = _table(text)
-    names = [_bare(text[slice(*span)]) for span in columns.cells]
-    kept = _NAMES[convention_of(text) == "khalil"]
-    line = ", ".join(quoted_cell(c, n in kept) for c, n in zip(cells, names, strict=False))
+    columns, rows = _require_arrays(text)
+    names = [_strip_quotes(text[slice(*span)]) for span in columns.cells]
+    name_columns = _NAMES[read_table_convention(text) == "khalil"]
+    line = ", ".join(
+        quote_table_cell(c, n in name_columns) for c, n in zip(cells, names, strict=False)
+    )
     line = f"[{line}],"
-    place = _at(rows.arrays, after, "row").end
+    place = _get_item(rows.arrays, after, "row").end
     comma = re.match(r"[ \t]*,", text[place:])
     head = text[:place] + ("" if comma else ",")
     rest = text[place:]
-    own = re.match(r"[^\n]*", rest)
-    assert own is not None
+    line_rest = re.match(r"[^\n]*", rest)
+    assert line_rest is not None
     # A comment behind the row stays behind it; the table may end on that line.
-    closing = len(own[0]) >= rows.end - place
-    cut = (comma.end() if comma else 0) if closing else own.end()
+    closing = len(line_rest[0]) >= rows.end - place
+    cut = (comma.end() if comma else 0) if closing else line_rest.end()
     return f"{head}{rest[:cut]}\n          {line}{rest[cut:]}"
 
 
-def without_row(text: str, row: int) -> str:
+def remove_row(text: str, row: int) -> str:
     """The text without that row.
 
     Raises:
         RobotError: there is no such row.
     """
-    _, rows = _table(text)
-    own = _at(rows.arrays, row, "row")
-    start, end = own.start, own.end
+    _, rows = _require_arrays(text)
+    row_array = _get_item(rows.arrays, row, "row")
+    start, end = row_array.start, row_array.end
     behind = re.match(r"[ \t]*,?[ \t]*(?:#[^\n]*)?(?=\n)|[ \t]*,?[ \t]*", text[end:])
     end += behind.end() if behind else 0
     line = text.rfind("\n", 0, start)
@@ -123,7 +127,7 @@ def without_row(text: str, row: int) -> str:
     return text[:start] + text[end:]
 
 
-def with_table(
+def replace_table(
     text: str, columns: Sequence[str], rows: Sequence[Sequence[str]], convention: str
 ) -> str:
     """The text with another table.
@@ -137,18 +141,18 @@ def with_table(
     Raises:
         RobotError: there is no table.
     """
-    arrays = _table(text)
-    head = text.index("\n", _section(text)[0]) + 1
+    arrays = _require_arrays(text)
+    head = text.index("\n", _find_section(text)[0]) + 1
     names = _NAMES[convention == "khalil"]
     cells = [
-        [quoted_cell(c, n in names) for c, n in zip(row, columns, strict=True)] for row in rows
+        [quote_table_cell(c, n in names) for c, n in zip(row, columns, strict=True)] for row in rows
     ]
     stated = [f'convention = "{convention}"'] if convention != "khalil" else []
-    lines = "\n".join([*stated, *columns_and_rows(columns, cells)]).rstrip()
+    lines = "\n".join([*stated, *format_columns_and_rows(columns, cells)]).rstrip()
     return text[:head] + lines + text[max(array.end for array in arrays) :]
 
 
-def cell_of(error: str, text: str) -> tuple[int, str] | None:
+def locate_error_cell(error: str, text: str) -> tuple[int, str] | None:
     """The row and the column that the line of a reader is about.
 
     Args:
@@ -159,7 +163,7 @@ def cell_of(error: str, text: str) -> tuple[int, str] | None:
         Number of the row, from 0, -1 for the names of columns, and the column as the line calls
         it, "" for the row as a whole; None of a line that is about something else.
     """
-    table = table_text(text)
+    table = find_table_text(text)
     about = re.search(r"\[mdh\],? (?:(columns?)\b|row (?:(\d+)\b|\"([^\"]*)\"))", error)
     if table is None or about is None:
         return None
@@ -173,20 +177,20 @@ def cell_of(error: str, text: str) -> tuple[int, str] | None:
     if about[2]:
         return int(about[2]) - 1, column
     for row, cells in enumerate(table.rows):
-        own = dict(zip(table.columns, cells, strict=False)).get("j", "")
-        if re.fullmatch(re.escape(own).replace(re.escape(MARK), r"\w+"), about[3]):
+        row_name = dict(zip(table.columns, cells, strict=False)).get("j", "")
+        if re.fullmatch(re.escape(row_name).replace(re.escape(MARK), r"\w+"), about[3]):
             return row, column
     return None
 
 
-def convention_of(text: str) -> str:
+def read_table_convention(text: str) -> str:
     """Whose table it is, as the text has it."""
-    begin, end = _section(text)
+    begin, end = _find_section(text)
     stated = re.search(r"(?m)^[ \t]*convention[ \t]*=[ \t]*[\"'](\w+)", text[begin:end])
     return stated[1] if stated else "khalil"
 
 
-def _section(text: str) -> tuple[int, int]:
+def _find_section(text: str) -> tuple[int, int]:
     """Where `[mdh]` begins and ends."""
     head = _HEAD.search(text)
     if head is None:
@@ -195,28 +199,28 @@ def _section(text: str) -> tuple[int, int]:
     return head.start(), following
 
 
-def _arrays(text: str) -> tuple[_Array, _Array] | None:
+def _find_arrays(text: str) -> tuple[_Array, _Array] | None:
     """`columns` and `rows`."""
     try:
-        begin, end = _section(text)
+        begin, end = _find_section(text)
     except RobotError:
         return None
-    found = dict[str, _Array]()
+    arrays = dict[str, _Array]()
     for key in _KEY.finditer(text, begin, end):
-        array = _array(text, key.end())
+        array = _parse_array(text, key.end())
         if array is not None:
-            found.setdefault(key[1], array)
-    return (found["columns"], found["rows"]) if len(found) == 2 else None
+            arrays.setdefault(key[1], array)
+    return (arrays["columns"], arrays["rows"]) if len(arrays) == 2 else None
 
 
-def _table(text: str) -> tuple[_Array, _Array]:
-    found = _arrays(text)
-    if found is None:
+def _require_arrays(text: str) -> tuple[_Array, _Array]:
+    arrays = _find_arrays(text)
+    if arrays is None:
         raise RobotError("[mdh]: columns and rows are not found; edit the file as text")
-    return found
+    return arrays
 
 
-def _array(text: str, start: int) -> _Array | None:
+def _parse_array(text: str, start: int) -> _Array | None:
     """The array that begins there; None if it does not end."""
     open_: list[_Array] = []
     for token in _TOKEN.finditer(text, start):
@@ -225,21 +229,21 @@ def _array(text: str, start: int) -> _Array | None:
         elif token.lastgroup == "cell":
             open_[-1].cells.append(token.span())
         elif token.lastgroup == "close":
-            own = open_.pop()
-            own.end = token.end()
+            closed_array = open_.pop()
+            closed_array.end = token.end()
             if not open_:
-                return own
-            open_[-1].arrays.append(own)
+                return closed_array
+            open_[-1].arrays.append(closed_array)
     return None
 
 
-def _at(items: "Sequence[_Entry]", number: int, what: str) -> "_Entry":
+def _get_item(items: "Sequence[_Entry]", number: int, what: str) -> "_Entry":
     if not 0 <= number < len(items):
         raise RobotError(f"[mdh]: there is no {what} {number + 1}; edit the file as text")
     return items[number]
 
 
-def _bare(cell: str) -> str:
+def _strip_quotes(cell: str) -> str:
     if cell[:1] not in "\"'":
         return cell
     try:
@@ -248,7 +252,7 @@ def _bare(cell: str) -> str:
         return cell[1:-1]
 
 
-def quoted_cell(cell: str, name: bool) -> str:
+def quote_table_cell(cell: str, name: bool) -> str:
     """As TOML has it: numbers that are no names bare, all else as text; "" is 0."""
     plain = " ".join(cell.split()) or "0"
     if not name and re.fullmatch(r"[+-]?(0|[1-9]\d*)(\.\d+)?", plain):

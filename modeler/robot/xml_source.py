@@ -58,11 +58,11 @@ class Element:
     text: str = ""
     text_span: Span | None = None
 
-    def named(self, *tags: str) -> "list[Element]":
+    def find_children(self, *tags: str) -> "list[Element]":
         """Its children of these tags."""
         return [child for child in self.children if child.tag in tags]
 
-    def walk(self) -> "Iterator[Element]":
+    def iterate_elements(self) -> "Iterator[Element]":
         """Itself, and all elements in it, in file order."""
         waiting = [self]
         while waiting:
@@ -90,10 +90,10 @@ def parse_xml(data: bytes, where: str) -> Element:
         raise RobotError(f"{where}: is UTF-16 or UTF-32 text; save the file as UTF-8")
     if not data.strip():
         raise RobotError(f"{where}: is empty; expected XML")
-    return _Reading(data, where).root()
+    return _XmlReader(data, where).read_root()
 
 
-def _encoding(data: bytes, where: str) -> str:
+def _read_encoding(data: bytes, where: str) -> str:
     """The codec that the declaration names; UTF-8 without one."""
     declared = _DECLARATION.match(data)
     stated = _STATED_ENCODING.search(declared[1]) if declared else None
@@ -105,7 +105,7 @@ def _encoding(data: bytes, where: str) -> str:
     raise RobotError(f'{where}: line {line}: encoding="{name[:20]}"; save the file as UTF-8')
 
 
-def _blanked(data: bytes) -> bytes:
+def _erase_comments(data: bytes) -> bytes:
     """The data without declaration and comments: spaces, and as many lines and bytes as before."""
     parts, at = [], 0
     if declared := _DECLARATION.match(data):
@@ -127,7 +127,7 @@ def _blanked(data: bytes) -> bytes:
 
 
 @dataclass(slots=True)
-class _Open:
+class _OpenElement:
     """An element whose end has not come."""
 
     element: Element
@@ -135,72 +135,78 @@ class _Open:
     children: list[Element] = field(default_factory=list)
 
 
-class _Reading:
+class _XmlReader:
     """One pass of expat over a text."""
 
     def __init__(self, data: bytes, where: str) -> None:
-        self._data, self._where, self._encoding = data, where, _encoding(data, where)
-        self._open: list[_Open] = [_Open(Element("", {}, 0, {}, (0, 0)))]  # around the root
+        self._data, self._where, self._encoding = data, where, _read_encoding(data, where)
+        self._open: list[_OpenElement] = [
+            _OpenElement(Element("", {}, 0, {}, (0, 0)))
+        ]  # around the root
         self._count = 0
         self._expat = expat.ParserCreate(self._encoding)
         self._expat.buffer_text = self._expat.ordered_attributes = True
-        self._expat.StartDoctypeDeclHandler = self._doctype
-        self._expat.StartElementHandler = self._start
-        self._expat.EndElementHandler = self._end
+        self._expat.StartDoctypeDeclHandler = self._refuse_doctype
+        self._expat.StartElementHandler = self._open_element
+        self._expat.EndElementHandler = self._close_element
         self._expat.CharacterDataHandler = lambda text: self._open[-1].text.append(text)
 
-    def root(self) -> Element:
-        text = _blanked(self._data)
+    def read_root(self) -> Element:
+        text = _erase_comments(self._data)
         try:
             for start in range(0, len(text), _PIECE):
                 self._expat.Parse(text[start : start + _PIECE], False)
                 if start - self._expat.CurrentByteIndex > LARGEST_TAG:
                     most = f"{LARGEST_TAG // 2**20} MiB"
-                    raise self._error(f"a tag or comment of more than {most}; shorten it")
+                    raise self._build_error(f"a tag or comment of more than {most}; shorten it")
             self._expat.Parse(b"", True)
         except expat.ExpatError as error:
-            raise self._malformed(error) from None
+            raise self._explain_malformed(error) from None
         return self._open[0].children[0]
 
-    def _error(self, what: str, line: int = 0) -> RobotError:
+    def _build_error(self, what: str, line: int = 0) -> RobotError:
         return RobotError(f"{self._where}: line {line or self._expat.CurrentLineNumber}: {what}")
 
-    def _malformed(self, error: expat.ExpatError) -> RobotError:
+    def _explain_malformed(self, error: expat.ExpatError) -> RobotError:
         try:
-            _blanked(self._data).decode(self._encoding)
+            _erase_comments(self._data).decode(self._encoding)
         except UnicodeDecodeError as wrong:
             line = self._data.count(b"\n", 0, wrong.start) + 1
-            told = f"byte {wrong.start} is not {self._encoding.upper()}"
-            return self._error(f"{told}; save the file as UTF-8", line)
+            problem = f"byte {wrong.start} is not {self._encoding.upper()}"
+            return self._build_error(f"{problem}; save the file as UTF-8", line)
         what = (expat.ErrorString(error.code) or "").removeprefix("not well-formed ").strip("()")
-        for still in self._open[-1:0:-1]:
-            what += f"; <{still.element.tag[:60]}> of line {still.element.line} is open"
+        for open_element in self._open[-1:0:-1]:
+            what += (
+                f"; <{open_element.element.tag[:60]}> of line {open_element.element.line} is open"
+            )
             break
-        told = f"not well-formed XML, column {error.offset + 1}: {what}"
-        return self._error(f"{told}; mend the tags and quotes there", error.lineno)
+        problem = f"not well-formed XML, column {error.offset + 1}: {what}"
+        return self._build_error(f"{problem}; mend the tags and quotes there", error.lineno)
 
-    def _doctype(self, *_parts: object) -> None:
-        raise self._error(
+    def _refuse_doctype(self, *_parts: object) -> None:
+        raise self._build_error(
             "<!DOCTYPE> and its entities are not read, for they can stand for any amount of text; "
             "take it out and write what its entities stand for"
         )
 
-    def _start(self, tag: str, pairs: list[str]) -> None:
+    def _open_element(self, tag: str, pairs: list[str]) -> None:
         self._count += 1
         if self._count > MOST_ELEMENTS or len(self._open) > DEEPEST:
             most = f"{MOST_ELEMENTS} elements, or than {DEEPEST} inside each other"
-            raise self._error(f"more than {most}; is this a robot?")
+            raise self._build_error(f"more than {most}; is this a robot?")
         begin = self._expat.CurrentByteIndex
         at, spans = begin + 1 + len(tag.encode(self._encoding)), {}
-        while found := _ATTRIBUTE.match(self._data, at):
-            at = found.end()
-            spans[found[1].decode(self._encoding)] = found.span(found.lastindex or 0)
+        while attribute_match := _ATTRIBUTE.match(self._data, at):
+            at = attribute_match.end()
+            spans[attribute_match[1].decode(self._encoding)] = attribute_match.span(
+                attribute_match.lastindex or 0
+            )
         attributes = dict(zip(pairs[::2], pairs[1::2], strict=True))
         opening = begin, self._data.index(b">", at) + 1
         line = self._expat.CurrentLineNumber
-        self._open.append(_Open(Element(tag, attributes, line, spans, opening)))
+        self._open.append(_OpenElement(Element(tag, attributes, line, spans, opening)))
 
-    def _end(self, _tag: str) -> None:
+    def _close_element(self, _tag: str) -> None:
         ended = self._open.pop()
         done, behind = ended.element, ended.element.opening[1]
         done.children, done.text = tuple(ended.children), "".join(ended.text).strip()
@@ -215,7 +221,7 @@ class _Reading:
         self._open[-1].children.append(done)
 
 
-def replaced(data: bytes, changes: Mapping[Span, str]) -> bytes:
+def replace_spans(data: bytes, changes: Mapping[Span, str]) -> bytes:
     """The bytes with others in place of some spans; all else stays as it is.
 
     Args:

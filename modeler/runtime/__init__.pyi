@@ -1,19 +1,19 @@
 from .build import (
-    cache_folder as cache_folder,
+    build_portable_library as build_portable_library,
+    find_cache_folder as find_cache_folder,
     find_toolchain as find_toolchain,
-    portable_library as portable_library,
 )
 from .fused import (
     NonzeroPattern as NonzeroPattern,
     Triangles as Triangles,
-    no_rows as no_rows,
-    of_rows as of_rows,
+    make_empty_triangles as make_empty_triangles,
+    reduce_rows as reduce_rows,
 )
 from .gpu import GpuModel as GpuModel, load_gpu as load_gpu
 from .model import (
     CompiledModel as CompiledModel,
-    compiled_once as compiled_once,
-    load as load,
+    load_cached_model as load_cached_model,
     load_folder as load_folder,
+    load_module as load_module,
 )
-from .threads import mapped as mapped
+from .threads import map_parts as map_parts

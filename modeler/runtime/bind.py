@@ -11,7 +11,7 @@ import cffi
 import numpy as np
 
 from modeler.core.errors import BuildError, ManifestError
-from modeler.core.files import resource_dir
+from modeler.core.files import locate_resources
 from modeler.core.manifest import FunctionSpec, ModuleSpec
 from modeler.runtime.build import build_library
 
@@ -41,7 +41,7 @@ _INPUT = "typedef struct { const double *data; size_t step; } modeler_input;"
 _BATCH = "void modeler_batch_{}(void *, size_t, const modeler_input *, double *, size_t{});"
 
 
-def _opened(declared: str, path: Path) -> tuple[cffi.FFI, Any]:
+def _open_library(declared: str, path: Path) -> tuple[cffi.FFI, Any]:
     """The library at `path` with these functions.
 
     Raises:
@@ -57,7 +57,7 @@ def _opened(declared: str, path: Path) -> tuple[cffi.FFI, Any]:
         ) from error
 
 
-class _Arrays:
+class _ArrayLibrary:
     """A loaded library of either precision, and the arrays that it reads and writes.
 
     Arrays are float64 here, whatever the precision of the code: that in single precision is given
@@ -76,9 +76,9 @@ class _Arrays:
         if self._single:
             declared = re.sub(r"\bdouble\b", "float", declared)
             declared = re.sub(r"\bmodeler_", "modelerf_", declared)
-        self._ffi, self._library = _opened(declared, path)
+        self._ffi, self._library = _open_library(declared, path)
 
-    def _own(self, arrays: Sequence[np.ndarray]) -> list[np.ndarray]:
+    def _prepare_inputs(self, arrays: Sequence[np.ndarray]) -> list[np.ndarray]:
         """The arrays as the code reads them."""
         assert all(a.flags.c_contiguous and a.dtype == np.float64 for a in arrays)
         if not self._single:
@@ -86,25 +86,25 @@ class _Arrays:
         with np.errstate(over="ignore"):  # infinite in single precision: the results will tell
             return [array.astype(np.float32) for array in arrays]
 
-    def _place(self, out: np.ndarray) -> np.ndarray:
+    def _prepare_output(self, out: np.ndarray) -> np.ndarray:
         """Where the code writes what is for `out`."""
         assert out.dtype == np.float64
         return np.empty_like(out, dtype=np.float32) if self._single else out
 
-    def _give_back(self, result: np.ndarray, out: np.ndarray) -> None:
+    def _copy_back(self, result: np.ndarray, out: np.ndarray) -> None:
         if result is not out:
             out[...] = result
 
-    def _integers(self, array: np.ndarray) -> Any:
+    def _cast_integers(self, array: np.ndarray) -> Any:
         assert array.flags.c_contiguous and array.dtype == np.intc
         return self._ffi.cast("int *", array.ctypes.data)
 
-    def _numbers(self, array: np.ndarray) -> Any:
+    def _cast_numbers(self, array: np.ndarray) -> Any:
         # The address itself: half the time of from_buffer; the caller holds the array.
         return self._ffi.cast("float *" if self._single else "double *", array.ctypes.data)
 
 
-class Library(_Arrays):
+class Library(_ArrayLibrary):
     """A loaded library; its functions release the interpreter lock and may run in threads.
 
     Attributes:
@@ -118,13 +118,13 @@ class Library(_Arrays):
             BuildError: it cannot be loaded.
             ManifestError: it was emitted with another manifest.
         """
-        super().__init__(spec, _declarations(spec), path)
+        super().__init__(spec, _write_declarations(spec), path)
         try:
-            answer = self._ffi.string(self._function("signature")()).decode()
-            if answer != spec.signature():
+            answer = self._ffi.string(self._get_function("signature")()).decode()
+            if answer != spec.compute_signature():
                 raise ManifestError(
                     f"{spec.robot}: the compiled code answers {answer}, the manifest expects "
-                    f"{spec.signature()}; one of them is older, generate both again"
+                    f"{spec.compute_signature()}; one of them is older, generate both again"
                 )
             for function in spec.every_function:
                 getattr(self._library, function.name)
@@ -134,22 +134,22 @@ class Library(_Arrays):
                 "generate both again"
             ) from error
 
-    def _function(self, role: str) -> Any:
+    def _get_function(self, role: str) -> Any:
         return getattr(self._library, f"{self.spec.prefix}_{role}")
 
-    def address(self, name: str) -> int:
+    def find_address(self, name: str) -> int:
         """Where a function of the library stands, for C that calls it; the caller holds this."""
         return int(self._ffi.cast("uintptr_t", getattr(self._library, name)))
 
     @property
-    def singles(self) -> list[int]:
+    def closing_addresses(self) -> list[int]:
         """Where C stands that closes loops: tables, and functions as the unit of tiles has them."""
         names = [f"{self.spec.prefix}_{name}" for name in ("loops", "posed", "tree_next")]
         names.append(f"{self._runtime}_eliminated")
         return [int(self._ffi.cast("uintptr_t", self._ffi.addressof(self._library, name)))
                 for name in names]  # fmt: skip
 
-    def batch(
+    def run_batch(
         self,
         function: FunctionSpec,
         inputs: Sequence[np.ndarray],
@@ -166,26 +166,30 @@ class Library(_Arrays):
         """
         assert (status is not None) == function.status
         assert len(inputs) == len(function.inputs)
-        runtime, arrays, result = self._runtime, self._own(inputs), self._place(out)
+        runtime, arrays, result = (
+            self._runtime,
+            self._prepare_inputs(inputs),
+            self._prepare_output(out),
+        )
         kind = "" if status is None else "status_"
         if not hasattr(self._library, f"{runtime}_batch_{kind}{len(inputs)}"):
-            self._one_by_one(function, arrays, result, status)
-            self._give_back(result, out)
+            self._run_samples(function, arrays, result, status)
+            self._copy_back(result, out)
             return
-        given = self._ffi.new(f"{runtime}_input[]", len(arrays))
-        for place, array in zip(given, arrays, strict=True):
-            place.data = self._numbers(array)
+        input_structs = self._ffi.new(f"{runtime}_input[]", len(arrays))
+        for place, array in zip(input_structs, arrays, strict=True):
+            place.data = self._cast_numbers(array)
             place.step = array.shape[1] if array.ndim == 2 else 0
         samples = len(out)
         step = out.size // samples if samples else 0
         pointer = self._ffi.cast("void *", getattr(self._library, function.name))
-        arguments = [pointer, samples, given, self._numbers(result), step]
+        arguments = [pointer, samples, input_structs, self._cast_numbers(result), step]
         if status is not None:
-            arguments.append(self._integers(status))
+            arguments.append(self._cast_integers(status))
         getattr(self._library, f"{runtime}_batch_{kind}{len(inputs)}")(*arguments)
-        self._give_back(result, out)
+        self._copy_back(result, out)
 
-    def _one_by_one(
+    def _run_samples(
         self,
         function: FunctionSpec,
         arrays: Sequence[np.ndarray],
@@ -195,12 +199,12 @@ class Library(_Arrays):
         """The same where the C has no loop over samples for such a function."""
         call, rows = getattr(self._library, function.name), result.reshape(len(result), -1)
         for sample, row in enumerate(rows):
-            own = (array[sample] if array.ndim == 2 else array for array in arrays)
-            told = call(*map(self._numbers, own), self._numbers(row))
+            sample_arrays = (array[sample] if array.ndim == 2 else array for array in arrays)
+            sample_status = call(*map(self._cast_numbers, sample_arrays), self._cast_numbers(row))
             if status is not None:
-                status[sample] = told
+                status[sample] = sample_status
 
-    def observation(
+    def fill_observation(
         self, states: Sequence[np.ndarray], W: np.ndarray, status: np.ndarray | None = None
     ) -> None:
         """Fill W, (n*joints, columns).
@@ -210,18 +214,22 @@ class Library(_Arrays):
             W: is filled.
             status: (n,) of the loops, where there are any.
         """
-        arrays, result = self._own(states), self._place(W)
-        arguments = [self._numbers(a) for a in (*arrays, result)]
+        arrays, result = self._prepare_inputs(states), self._prepare_output(W)
+        arguments = [self._cast_numbers(a) for a in (*arrays, result)]
         if status is not None:
-            arguments.append(self._integers(status))
-        self._function("observation")(len(states[0]), *arguments)
-        self._give_back(result, W)
+            arguments.append(self._cast_integers(status))
+        self._get_function("observation")(len(states[0]), *arguments)
+        self._copy_back(result, W)
 
-    def base_parameters(self, function: FunctionSpec, chi: np.ndarray, beta: np.ndarray) -> None:
+    def fill_base_parameters(
+        self, function: FunctionSpec, chi: np.ndarray, beta: np.ndarray
+    ) -> None:
         """Fill beta from chi by the grouping relations."""
-        (given,), result = self._own([chi]), self._place(beta)
-        getattr(self._library, function.name)(self._numbers(given), self._numbers(result))
-        self._give_back(result, beta)
+        (parameters,), result = self._prepare_inputs([chi]), self._prepare_output(beta)
+        getattr(self._library, function.name)(
+            self._cast_numbers(parameters), self._cast_numbers(result)
+        )
+        self._copy_back(result, beta)
 
 
 def check_names(spec: ModuleSpec) -> None:
@@ -254,7 +262,7 @@ def check_names(spec: ModuleSpec) -> None:
             )
 
 
-def _declarations(spec: ModuleSpec) -> str:
+def _write_declarations(spec: ModuleSpec) -> str:
     loops = spec.closure is not None
     lines = [
         _INPUT,
@@ -262,10 +270,12 @@ def _declarations(spec: ModuleSpec) -> str:
         *(_BATCH.format(f"status_{count}", ", int *") for count in range(1, 6)),
         f"const char *{spec.prefix}_signature(void);",
     ]
-    if spec.has("_batch"):
+    if spec.has_unit("_batch"):
         states = ", ".join(["const double *"] * (4 if spec.signals else 3))
-        told = ", int *" if loops else ""
-        lines.append(f"void {spec.prefix}_observation(size_t, {states}, double *{told});")
+        status_argument = ", int *" if loops else ""
+        lines.append(
+            f"void {spec.prefix}_observation(size_t, {states}, double *{status_argument});"
+        )
     if loops:
         lines.append(f"extern const char {spec.prefix}_loops[];")
         names = (f"{spec.prefix}_posed", f"{spec.prefix}_tree_next", "modeler_eliminated")
@@ -316,7 +326,7 @@ size_t modeler_rows_triangle(const modeler_rows *, int, double *, size_t *, void
 """
 
 
-class Functions(NamedTuple):
+class EntryFunctions(NamedTuple):
     """Addresses of the functions that evaluate a base regressor's entries; 0 for none.
 
     Attributes:
@@ -330,7 +340,7 @@ class Functions(NamedTuple):
     tile: int = 0
 
 
-class Samples(NamedTuple):
+class SampleArrays(NamedTuple):
     """Arrays of one call, C-contiguous, one row per sample; see `modeler_samples`."""
 
     q: np.ndarray
@@ -341,9 +351,9 @@ class Samples(NamedTuple):
     use: np.ndarray | None
     weight: np.ndarray | None
 
-    def part(self, block: slice) -> "Samples":
+    def select_block(self, block: slice) -> "SampleArrays":
         """The samples of a block."""
-        return Samples._make(None if array is None else array[block] for array in self)
+        return SampleArrays._make(None if array is None else array[block] for array in self)
 
 
 class FusedLibrary:
@@ -355,49 +365,64 @@ class FusedLibrary:
         Raises:
             BuildError: it cannot be loaded.
         """
-        self._ffi, self._library = _opened(_FUSED_DECLARED, path)
+        self._ffi, self._library = _open_library(_FUSED_DECLARED, path)
 
-    def level(self, wanted: int = 0) -> int:
+    def resolve_level(self, wanted: int = 0) -> int:
         """Which instructions a wanted level means here; 0: the best.
 
         1: those of every processor of its kind, 2: AVX2, 3: AVX-512.
         """
         return int(self._library.modeler_fused_level(wanted))
 
-    def triangles(
-        self, rows_of_entries: np.ndarray, functions: Functions, given: Samples, level: int,
-        state: np.ndarray, rows: np.ndarray,
-    ) -> np.ndarray:  # fmt: skip
+    def add_samples(
+        self,
+        rows_of_entries: np.ndarray,
+        functions: EntryFunctions,
+        samples: SampleArrays,
+        level: int,
+        state: np.ndarray,
+        rows: np.ndarray,
+    ) -> np.ndarray:
         """Add samples to a state; (samples,) True for those that were left out.
 
         Args:
             rows_of_entries: (entries,) C int, row after row.
             functions: that evaluate the entries.
-            given: the samples.
+            samples: the samples.
             level: of instructions.
             state: triangles of all joints one after another, changed.
             rows: (joints,) of numpy.uintp, increased.
         """
-        source = self._source(rows_of_entries, functions, given.q.shape[1])
-        work = self._work(self._library.modeler_fused_work(source))
-        bad = np.zeros(len(given.q), dtype=np.uint8)
+        source = self._make_source(rows_of_entries, functions, samples.q.shape[1])
+        work = self._allocate_work(self._library.modeler_fused_work(source))
+        bad = np.zeros(len(samples.q), dtype=np.uint8)
         self._library.modeler_fused_triangles(
-            source, len(given.q), self._samples(given), level,
-            self._pointer(state), self._pointer(rows), self._pointer(bad), self._pointer(work),
-        )  # fmt: skip
+            source,
+            len(samples.q),
+            self._make_samples(samples),
+            level,
+            self._make_pointer(state),
+            self._make_pointer(rows),
+            self._make_pointer(bad),
+            self._make_pointer(work),
+        )
         return bad.view(bool)
 
-    def merge(
+    def merge_states(
         self, rows_of_entries: np.ndarray, joints: int, state: np.ndarray, other: np.ndarray
     ) -> None:
         """Add the rows of another state to a state."""
-        source = self._source(rows_of_entries, Functions(0), joints)
-        work = self._work(self._library.modeler_fused_work(source))
+        source = self._make_source(rows_of_entries, EntryFunctions(0), joints)
+        work = self._allocate_work(self._library.modeler_fused_work(source))
         self._library.modeler_fused_merge(
-            source, 0, self._pointer(state), self._pointer(other), self._pointer(work)
+            source,
+            0,
+            self._make_pointer(state),
+            self._make_pointer(other),
+            self._make_pointer(work),
         )
 
-    def rows(
+    def add_rows(
         self, W: np.ndarray, y: np.ndarray, use: np.ndarray | None, columns: np.ndarray,
         level: int, triangle: np.ndarray,
     ) -> tuple[int, int]:  # fmt: skip
@@ -412,59 +437,66 @@ class FusedLibrary:
             triangle: of these columns, changed.
         """
         assert W.strides[1] == 8 and W.dtype == y.dtype == np.float64
-        given = {
-            "rows": len(W), "step": W.strides[0] // 8, "y_step": y.strides[0] // 8,
-            "use_step": 0 if use is None else use.strides[0], "columns": len(columns),
-            "column": self._pointer(columns), "W": self._pointer(W), "y": self._pointer(y),
-            "use": self._pointer(use),
-        }  # fmt: skip
+        fields = {
+            "rows": len(W),
+            "step": W.strides[0] // 8,
+            "y_step": y.strides[0] // 8,
+            "use_step": 0 if use is None else use.strides[0],
+            "columns": len(columns),
+            "column": self._make_pointer(columns),
+            "W": self._make_pointer(W),
+            "y": self._make_pointer(y),
+            "use": self._make_pointer(use),
+        }
         added = np.zeros(1, dtype=np.uintp)
-        work = self._work(self._library.modeler_rows_work(len(columns)))
+        work = self._allocate_work(self._library.modeler_rows_work(len(columns)))
         left = self._library.modeler_rows_triangle(
-            self._ffi.new("modeler_rows *", given), level, self._pointer(triangle),
-            self._pointer(added), self._pointer(work),
+            self._ffi.new("modeler_rows *", fields), level, self._make_pointer(triangle),
+            self._make_pointer(added), self._make_pointer(work),
         )  # fmt: skip
         return int(added[0]), int(left)
 
-    def _source(self, rows_of_entries: np.ndarray, functions: Functions, joints: int) -> Any:
+    def _make_source(
+        self, rows_of_entries: np.ndarray, functions: EntryFunctions, joints: int
+    ) -> Any:
         plain, reads = functions.entries, functions.signals
         return self._ffi.new(
             "modeler_source *",
             {
                 "joints": joints, "signals": reads, "nonzeros": len(rows_of_entries),
-                "row": self._pointer(rows_of_entries),
+                "row": self._make_pointer(rows_of_entries),
                 "tile": self._ffi.cast("void *", functions.tile),
                 "entries": self._ffi.cast("void *", 0 if reads else plain),
                 "entries_signals": self._ffi.cast("void *", plain if reads else 0),
             },
         )  # fmt: skip
 
-    def _samples(self, given: Samples) -> Any:
-        arrays = {name: self._pointer(array) for name, array in given._asdict().items()}
+    def _make_samples(self, samples: SampleArrays) -> Any:
+        arrays = {name: self._make_pointer(array) for name, array in samples._asdict().items()}
         return self._ffi.new("modeler_samples *", arrays)
 
-    def _pointer(self, array: np.ndarray | None) -> Any:
+    def _make_pointer(self, array: np.ndarray | None) -> Any:
         # The caller holds the array.
         return self._ffi.cast("void *", 0 if array is None else array.ctypes.data)
 
     @staticmethod
-    def _work(size: int) -> np.ndarray:
+    def _allocate_work(size: int) -> np.ndarray:
         return np.empty(size, dtype=np.uint8)
 
 
-def fused_library() -> FusedLibrary:
+def load_fused_library() -> FusedLibrary:
     """The library, compiled once per machine and then taken from the cache.
 
     Raises:
         BuildError: no compiler, or it refused.
     """
-    return _loaded(tuple(os.environ.get(name, "") for name in _DECISIVE))
+    return _load_cached(tuple(os.environ.get(name, "") for name in _DECISIVE))
 
 
 @lru_cache(maxsize=4)
-def _loaded(environment: tuple[str, ...]) -> FusedLibrary:
+def _load_cached(environment: tuple[str, ...]) -> FusedLibrary:
     """For variables of these values."""
-    folder = resource_dir("csrc")
+    folder = locate_resources("csrc")
     texts = {name: (folder / name).read_text("utf-8") for name in _SOURCES}
     texts |= {name: (folder / "include" / name).read_text("utf-8") for name in _HEADERS}
     return FusedLibrary(build_library(texts))
@@ -497,7 +529,7 @@ void modeler_tile_closed(const modeler_tiled *, size_t, const double *, const do
 """
 
 
-class TileLibrary(_Arrays):
+class TileLibrary(_ArrayLibrary):
     """A loaded library; its functions release the interpreter lock and may run in threads."""
 
     def __init__(self, spec: ModuleSpec, path: Path, library: Library) -> None:
@@ -509,23 +541,23 @@ class TileLibrary(_Arrays):
         """
         super().__init__(spec, _TILE_DECLARED.format(prefix=spec.prefix), path)
         answer = getattr(self._library, f"{spec.prefix}_tile_signature")()
-        if (got := self._ffi.string(answer).decode()) != spec.signature():
+        if (got := self._ffi.string(answer).decode()) != spec.compute_signature():
             raise ManifestError(
                 f"{spec.robot}: the code of the tiles answers {got}, the manifest expects "
-                f"{spec.signature()}; one of them is older, generate both again"
+                f"{spec.compute_signature()}; one of them is older, generate both again"
             )
-        given = getattr(self._library, f"{spec.prefix}_tiled")()
-        self._tiled = self._ffi.new(f"{self._runtime}_tiled *", given[0])
+        tiled = getattr(self._library, f"{spec.prefix}_tiled")()
+        self._tiled = self._ffi.new(f"{self._runtime}_tiled *", tiled[0])
         if spec.closure is not None:
-            self._singles = self._ffi.new("uintptr_t[]", library.singles)
+            self._singles = self._ffi.new("uintptr_t[]", library.closing_addresses)
             self._tiled.singles = self._singles
 
     @property
-    def tile(self) -> int:
+    def tile_address(self) -> int:
         """Where the function of one tile stands, for C that calls it; the caller holds this."""
         return int(self._ffi.cast("uintptr_t", self._tiled.tile))
 
-    def fill(
+    def fill_samples(
         self, inputs: Sequence[np.ndarray], out: np.ndarray, dense: bool,
         status: np.ndarray | None = None,
     ) -> None:  # fmt: skip
@@ -538,25 +570,30 @@ class TileLibrary(_Arrays):
             dense: with what is always 0.
             status: (n,) C int, of a robot with loops.
         """
-        arrays, result = self._own(inputs), self._place(out)
-        pointers = [self._numbers(array) for array in arrays]
-        work = np.empty(self._function("work")(self._tiled), dtype=np.uint8)
-        given, start = [self._tiled, len(inputs[0])], self._ffi.cast("void *", work.ctypes.data)
+        arrays, result = self._prepare_inputs(inputs), self._prepare_output(out)
+        pointers = [self._cast_numbers(array) for array in arrays]
+        work = np.empty(self._get_function("work")(self._tiled), dtype=np.uint8)
+        leading_arguments, start = (
+            [self._tiled, len(inputs[0])],
+            self._ffi.cast("void *", work.ctypes.data),
+        )
         rows = [] if result.flags.c_contiguous else [result.strides[1] // result.itemsize]
         if status is not None:
-            more = [self._numbers(result), *(rows or [0]), self._integers(status), start]
-            self._function("closed")(*given, *pointers, *more)
+            more = [self._cast_numbers(result), *(rows or [0]), self._cast_integers(status), start]
+            self._get_function("closed")(*leading_arguments, *pointers, *more)
         else:
             pointers += [self._ffi.NULL] * (4 - len(inputs))
             name = "columns" if rows else "observation" if dense else "nonzeros"
-            self._function(name)(*given, *pointers, self._numbers(result), *rows, start)
-        self._give_back(result, out)
+            self._get_function(name)(
+                *leading_arguments, *pointers, self._cast_numbers(result), *rows, start
+            )
+        self._copy_back(result, out)
 
-    def _function(self, name: str) -> Any:
+    def _get_function(self, name: str) -> Any:
         return getattr(self._library, f"{self._runtime}_tile_{name}")
 
 
-def tile_library(spec: ModuleSpec, files: Mapping[str, str], library: Library) -> TileLibrary:
+def load_tile_library(spec: ModuleSpec, files: Mapping[str, str], library: Library) -> TileLibrary:
     """The library of these files, compiled once and then taken from the cache.
 
     Args:

@@ -15,7 +15,7 @@ from pathlib import Path
 
 from modeler.core.errors import BuildError
 from modeler.runtime import microsoft
-from modeler.runtime.threads import mapped
+from modeler.runtime.threads import map_parts
 
 _WINDOWS = sys.platform == "win32"
 
@@ -74,20 +74,20 @@ def find_toolchain() -> Toolchain:
     """
     wanted = os.environ.get("CC", "").strip()
     if wanted:
-        command = (wanted,) if shutil.which(wanted) else _words("CC", wanted)
+        command = (wanted,) if shutil.which(wanted) else _split_words("CC", wanted)
         if shutil.which(command[0]) is None:
             raise BuildError(
                 f'C compiler: got CC="{wanted}", which is not found; correct it, or {_INSTALL}'
             )
     else:
-        found = [(name,) for name in _NAMES if shutil.which(name) is not None]
-        if not found:
+        available = [(name,) for name in _NAMES if shutil.which(name) is not None]
+        if not available:
             raise BuildError(f"C compiler: none of {', '.join(_NAMES)} is found; {_INSTALL}")
-        command = found[0]
-    return _examined(command, _words("CFLAGS", os.environ.get("CFLAGS", "")))
+        command = available[0]
+    return _examine_compiler(command, _split_words("CFLAGS", os.environ.get("CFLAGS", "")))
 
 
-def _words(variable: str, text: str) -> tuple[str, ...]:
+def _split_words(variable: str, text: str) -> tuple[str, ...]:
     try:
         return tuple(shlex.split(text.replace("\\", "/") if _WINDOWS else text))
     except ValueError as error:
@@ -98,63 +98,69 @@ def _words(variable: str, text: str) -> tuple[str, ...]:
 
 
 @lru_cache(maxsize=8)
-def _examined(command: tuple[str, ...], own: tuple[str, ...]) -> Toolchain:
-    used = (*_ALWAYS, *(own or _chosen(command)))
+def _examine_compiler(command: tuple[str, ...], user_flags: tuple[str, ...]) -> Toolchain:
+    used = (*_ALWAYS, *(user_flags or _choose_flags(command)))
     # The predefined macros name the compiler's version and, with -march=native, this processor.
-    macros = _run(command, [*used, "-dM", "-E", "-x", "c", os.devnull])
-    if macros.returncode != 0 and not _knows(command, []):
-        alone = _run(command, [])
+    macros = _run_compiler(command, [*used, "-dM", "-E", "-x", "c", os.devnull])
+    if macros.returncode != 0 and not _can_use(command, []):
+        alone = _run_compiler(command, [])
         if microsoft.BANNER in (banner := alone.stderr + alone.stdout):
-            flags = (*microsoft.ALWAYS, *(own or ("/O2", *_of_microsoft(command))))
+            flags = (*microsoft.ALWAYS, *(user_flags or ("/O2", *_find_microsoft_flags(command))))
             return Toolchain(command, flags, banner, microsoft=True)
-    elif own and macros.returncode != 0:
-        said = macros.stderr.strip().partition("\n")[0]
+    elif user_flags and macros.returncode != 0:
+        message = macros.stderr.strip().partition("\n")[0]
         raise BuildError(
-            f'C compiler: {shlex.join(command)} refuses CFLAGS="{shlex.join(own)}" ({said}); '
+            f'C compiler: {shlex.join(command)} refuses CFLAGS="{shlex.join(user_flags)}" '
+            f"({message}); "
             "correct it, or leave it empty"
         )
     return Toolchain(command, used, macros.stdout)
 
 
-def _of_microsoft(command: tuple[str, ...]) -> list[str]:
+def _find_microsoft_flags(command: tuple[str, ...]) -> list[str]:
     """The wanted flags that this cl knows."""
     with tempfile.TemporaryDirectory() as scratch:
         empty = Path(scratch) / "empty.c"
         empty.touch()
-        tried = {f: _run(command, microsoft.checking(f, empty)) for f in microsoft.WANTED}
+        tried = {
+            f: _run_compiler(command, microsoft.build_check_arguments(f, empty))
+            for f in microsoft.WANTED
+        }
     return [flag for flag, ended in tried.items() if ended.returncode == 0]
 
 
-def _chosen(command: tuple[str, ...]) -> list[str]:
+def _choose_flags(command: tuple[str, ...]) -> list[str]:
     """The wanted flags that the compiler knows; none of a kind that its command has already."""
-    stated = {_kind(word) for word in command[1:]}
-    wanted = [each for each in _WANTED if not stated & {_kind(flag) for flag in each}]
-    optimised = [] if _kind(_OPTIMISED) in stated else [_OPTIMISED]
+    stated = {_get_flag_kind(word) for word in command[1:]}
+    wanted = [each for each in _WANTED if not stated & {_get_flag_kind(flag) for flag in each}]
+    optimised = [] if _get_flag_kind(_OPTIMISED) in stated else [_OPTIMISED]
     favourites = [alternatives[0] for alternatives in wanted]
-    if _knows(command, favourites):  # one start of the compiler instead of one per flag
+    if _can_use(command, favourites):  # one start of the compiler instead of one per flag
         return optimised + favourites
     flags = optimised
-    if not _knows(command, []):  # of another kind
+    if not _can_use(command, []):  # of another kind
         return flags
     for alternatives in wanted:
-        flags += [flag for flag in alternatives if _knows(command, [flag])][:1]
+        flags += [flag for flag in alternatives if _can_use(command, [flag])][:1]
     return flags
 
 
-def _kind(flag: str) -> str:
+def _get_flag_kind(flag: str) -> str:
     """What a flag says something of: -O2 and -Os, -march=native and -march=core2 are of a kind."""
     if flag.startswith("-O"):
         return "-O"
     return flag.partition("=")[0].replace("-fno-", "-f", 1)
 
 
-def _knows(command: Sequence[str], flags: Sequence[str]) -> bool:
+def _can_use(command: Sequence[str], flags: Sequence[str]) -> bool:
     # clang only warns of flags that it ignores.
     test = ["-Werror", *flags, "-fsyntax-only", "-x", "c", os.devnull]
-    return _run(command, test).returncode == 0
+    return _run_compiler(command, test).returncode == 0
 
 
-def _run(command: Sequence[str], arguments: Sequence[str]) -> subprocess.CompletedProcess[str]:
+def _run_compiler(
+    command: Sequence[str], arguments: Sequence[str]
+) -> subprocess.CompletedProcess[str]:
     try:
         return subprocess.run(
             [*command, *arguments], capture_output=True, text=True, errors="replace", check=False
@@ -175,14 +181,14 @@ def compile_library(tools: Toolchain, folder: Path, sources: Sequence[str], outp
     def compile_one(source: str) -> str:
         result = str(folder / f"{source}.obj")
         if tools.microsoft:
-            _checked(tools, microsoft.compiling(folder, folder / source, result))
+            _run_checked(tools, microsoft.build_compile_arguments(folder, folder / source, result))
         else:
-            _checked(tools, ["-I", str(folder), "-c", "-o", result, str(folder / source)])
+            _run_checked(tools, ["-I", str(folder), "-c", "-o", result, str(folder / source)])
         return result
 
     # Threads only wait here: each for a compiler that is a process of its own.
-    objects = list(mapped(compile_one, sources))
-    _checked(tools, _linking(tools, folder / "exports.def", objects, output))
+    objects = list(map_parts(compile_one, sources))
+    _run_checked(tools, _build_link_arguments(tools, folder / "exports.def", objects, output))
     if not output.is_file():
         raise BuildError(
             f"C compiler: {shlex.join(tools.command)} ended without a mistake, and made nothing; "
@@ -190,17 +196,19 @@ def compile_library(tools: Toolchain, folder: Path, sources: Sequence[str], outp
         )
 
 
-def _linking(tools: Toolchain, listed: Path, objects: Sequence[str], output: Path) -> Sequence[str]:
+def _build_link_arguments(
+    tools: Toolchain, export_list: Path, objects: Sequence[str], output: Path
+) -> Sequence[str]:
     if not (tools.microsoft or "#define _MSC_VER " in tools.identity):
         return ["-shared", "-o", str(output), *objects, "-lm"]
-    listed.write_text(microsoft.exports(objects), encoding="ascii")
+    export_list.write_text(microsoft.format_exports(objects), encoding="ascii")
     if tools.microsoft:
-        return microsoft.linking(objects, output, listed)
-    return ["-shared", "-o", str(output), *objects, f"-Wl,/DEF:{listed}"]
+        return microsoft.build_link_arguments(objects, output, export_list)
+    return ["-shared", "-o", str(output), *objects, f"-Wl,/DEF:{export_list}"]
 
 
-def _checked(tools: Toolchain, arguments: Sequence[str]) -> None:
-    result = _run([*tools.command, *tools.flags], arguments)
+def _run_checked(tools: Toolchain, arguments: Sequence[str]) -> None:
+    result = _run_compiler([*tools.command, *tools.flags], arguments)
     if result.returncode != 0:
         words = result.stderr.strip() or result.stdout.strip()  # cl writes there
         words = words or f"exit status {result.returncode}, without a word"
@@ -213,7 +221,7 @@ def _checked(tools: Toolchain, arguments: Sequence[str]) -> None:
 _PORTABLE = (*_ALWAYS, "-O2", "-ffp-contract=off", "-fvisibility=hidden")
 
 
-def portable_library(sources: Mapping[str, str]) -> bytes:
+def build_portable_library(sources: Mapping[str, str]) -> bytes:
     """A shared library of these C files that runs on any processor of this kind.
 
     Args:
@@ -238,21 +246,21 @@ def portable_library(sources: Mapping[str, str]) -> bytes:
 # loaded may go: the system keeps its content until the process ends.
 
 
-def cache_folder() -> Path:
+def find_cache_folder() -> Path:
     """$MODELER_CACHE, else $XDG_CACHE_HOME/modeler, else where the system keeps caches.
 
     That is ~/.cache/modeler, ~/Library/Caches/modeler on macOS, %LOCALAPPDATA%/modeler on Windows.
     """
-    own = os.environ.get("MODELER_CACHE", "")
-    if own:
-        return Path(own)
+    configured = os.environ.get("MODELER_CACHE", "")
+    if configured:
+        return Path(configured)
     shared = os.environ.get("XDG_CACHE_HOME", "")
     shared = shared or (_WINDOWS and os.environ.get("LOCALAPPDATA", "")) or ""
     usual = "Library/Caches" if sys.platform == "darwin" else ".cache"
     return (Path(shared) if shared else Path.home() / usual) / "modeler"
 
 
-def libraries(folder: Path) -> list[Path]:
+def list_libraries(folder: Path) -> list[Path]:
     """The libraries of an entry; none where there is no entry."""
     try:
         return sorted(path for path in folder.iterdir() if path.suffix == SUFFIX)
@@ -260,7 +268,7 @@ def libraries(folder: Path) -> list[Path]:
         return []
 
 
-def whole(library: Path) -> bool:
+def is_intact(library: Path) -> bool:
     """True for a library that is what was built: its name is the hash of its content.
 
     False too where another process has removed it.
@@ -271,13 +279,13 @@ def whole(library: Path) -> bool:
         return False
 
 
-def placed(made: Path, final: Path) -> None:
+def move_into_cache(made: Path, final: Path) -> None:
     """Moves a library into its folder."""
     final.parent.mkdir(exist_ok=True)
     try:
         made.replace(final)
     except PermissionError:  # Windows: a process has it loaded, who built the same
-        if not whole(final):
+        if not is_intact(final):
             raise
 
 
@@ -298,10 +306,10 @@ def build_library(sources: Mapping[str, str]) -> Path:
         BuildError: no compiler, the compiler refused, or the cache cannot be written.
     """
     tools = find_toolchain()
-    folder = cache_folder() / _key(sources, tools)
+    folder = find_cache_folder() / _compute_key(sources, tools)
     try:
-        kept = _intact(folder)
-        return kept if kept is not None else _build(sources, tools, folder)
+        cached = _find_intact_library(folder)
+        return cached if cached is not None else _build_entry(sources, tools, folder)
     except IsADirectoryError as error:
         raise BuildError(
             f"{error.filename}: is a folder; expected a compiled library of the cache; remove it"
@@ -313,7 +321,7 @@ def build_library(sources: Mapping[str, str]) -> Path:
         ) from error
 
 
-def _key(sources: Mapping[str, str], tools: Toolchain) -> str:
+def _compute_key(sources: Mapping[str, str], tools: Toolchain) -> str:
     parts = [*tools.command, *tools.flags, tools.identity]
     for name in sorted(sources):
         parts += [name, sources[name]]
@@ -322,12 +330,12 @@ def _key(sources: Mapping[str, str], tools: Toolchain) -> str:
     return hashlib.sha256(text.encode()).hexdigest()
 
 
-def _intact(folder: Path) -> Path | None:
+def _find_intact_library(folder: Path) -> Path | None:
     """The library of `folder`, if it is still what was built."""
-    return next((path for path in libraries(folder) if whole(path)), None)
+    return next((path for path in list_libraries(folder) if is_intact(path)), None)
 
 
-def _build(sources: Mapping[str, str], tools: Toolchain, folder: Path) -> Path:
+def _build_entry(sources: Mapping[str, str], tools: Toolchain, folder: Path) -> Path:
     cache = folder.parent
     cache.mkdir(parents=True, exist_ok=True)
     with tempfile.TemporaryDirectory(dir=cache, prefix=".build-") as scratch:
@@ -337,8 +345,8 @@ def _build(sources: Mapping[str, str], tools: Toolchain, folder: Path) -> Path:
         units = [name for name in sorted(sources) if name.endswith(".c")]
         compile_library(tools, Path(scratch), units, made)
         final = folder / f"{hashlib.sha256(made.read_bytes()).hexdigest()}{SUFFIX}"
-        placed(made, final)
-    for other in libraries(folder):
-        if other != final and not whole(other):
+        move_into_cache(made, final)
+    for other in list_libraries(folder):
+        if other != final and not is_intact(other):
             other.unlink(missing_ok=True)
     return final

@@ -12,13 +12,13 @@ from typing import Any
 
 import numpy as np
 
-from modeler.core.brief import Brief
-from modeler.core.checks import as_mask, as_samples, no_signals, same_samples
+from modeler.core.brief import ShortRepr
+from modeler.core.checks import check_mask, check_sample_counts, check_samples, reject_signals
 from modeler.core.errors import ManifestError, ShapeError
 from modeler.core.manifest import FunctionSpec, ModuleSpec
 from modeler.runtime import bind
-from modeler.runtime.bind import Functions, FusedLibrary, Library, Samples, TileLibrary
-from modeler.runtime.threads import mapped, shares
+from modeler.runtime.bind import EntryFunctions, FusedLibrary, Library, SampleArrays, TileLibrary
+from modeler.runtime.threads import map_parts, split_samples
 
 BLOCK = 16384
 """Samples that are reduced by themselves."""
@@ -27,7 +27,7 @@ _DENSE = 4096  # those of a robot whose whole regressor is evaluated: 13 MB of 4
 
 
 @dataclass(frozen=True, eq=False)
-class NonzeroPattern(Brief):
+class NonzeroPattern(ShortRepr):
     """Which columns can enter the rows of each joint; n joints, c columns.
 
     Attributes:
@@ -41,20 +41,23 @@ class NonzeroPattern(Brief):
     @cached_property
     def sizes(self) -> list[int]:
         """Of the packed triangles: columns and torque, then zeros up to a multiple of 4."""
-        return [(len(own) + 1 + 3) // 4 * 4 for own in self.columns]
+        return [(len(joint_columns) + 1 + 3) // 4 * 4 for joint_columns in self.columns]
 
     @cached_property
     def rows_of_entries(self) -> np.ndarray:
         """(entries,) joint of each entry, joint after joint."""
-        counts = [len(own) for own in self.columns]
+        counts = [len(joint_columns) for joint_columns in self.columns]
         return np.repeat(np.arange(len(counts), dtype=np.intc), counts)
 
     @cached_property
     def spans(self) -> list[slice]:
         """Of each joint, from its first column to its last; all others are 0."""
-        return [slice(own[0], own[-1] + 1) if own.size else slice(0) for own in self.columns]
+        return [
+            slice(joint_columns[0], joint_columns[-1] + 1) if joint_columns.size else slice(0)
+            for joint_columns in self.columns
+        ]
 
-    def parts(self, packed: np.ndarray) -> list[np.ndarray]:
+    def split_triangles(self, packed: np.ndarray) -> list[np.ndarray]:
         """The square triangle of each joint, views."""
         ends = np.cumsum([size * size for size in self.sizes])
         return [
@@ -63,10 +66,12 @@ class NonzeroPattern(Brief):
         ]
 
 
-def pattern_of(entries: Sequence[tuple[int, int]], joints: int, width: int) -> NonzeroPattern:
+def build_pattern(entries: Sequence[tuple[int, int]], joints: int, width: int) -> NonzeroPattern:
     """The pattern of (joint, column) entries."""
     columns = [sorted(c for joint, c in entries if joint == j) for j in range(joints)]
-    return NonzeroPattern(tuple(np.array(own, dtype=np.intc) for own in columns), width)
+    return NonzeroPattern(
+        tuple(np.array(joint_columns, dtype=np.intc) for joint_columns in columns), width
+    )
 
 
 @dataclass(frozen=True, eq=False)
@@ -93,49 +98,54 @@ class Triangles:
         """
         size = self.pattern.width + 1
         whole = np.zeros((len(self.rows), size, size))
-        parts = self.pattern.parts(self.packed)
-        for own, columns, part in zip(whole, self.pattern.columns, parts, strict=True):
+        parts = self.pattern.split_triangles(self.packed)
+        for triangle, columns, part in zip(whole, self.pattern.columns, parts, strict=True):
             places = np.append(columns, size - 1)
-            own[np.ix_(places, places)] = part[: len(places), : len(places)]
+            triangle[np.ix_(places, places)] = part[: len(places), : len(places)]
         return whole
 
 
-def no_rows(pattern: NonzeroPattern) -> Triangles:
+def make_empty_triangles(pattern: NonzeroPattern) -> Triangles:
     """The triangles of no rows."""
     packed = np.zeros(sum(size * size for size in pattern.sizes))
     rows = np.zeros(len(pattern.columns), dtype=np.uintp)
     return Triangles(pattern, packed, rows, np.zeros(0, dtype=bool))
 
 
-def of_samples(
-    pattern: NonzeroPattern, functions: Functions, given: Samples, state: Triangles | None = None,
+def reduce_samples(
+    pattern: NonzeroPattern,
+    functions: EntryFunctions,
+    samples: SampleArrays,
+    state: Triangles | None = None,
     level: int = 0,
-) -> Triangles:  # fmt: skip
+) -> Triangles:
     """Triangles of samples whose entries a compiled function evaluates, sample by sample.
 
     Args:
         pattern: of the entries, whose order is joint after joint.
         functions: that evaluate them.
-        given: checked arrays.
+        samples: checked arrays.
         state: of earlier samples, which these are added to.
         level: of instructions; 0: the best of this processor.
     """
-    library = bind.fused_library()
+    library = bind.load_fused_library()
 
-    def one(block: slice) -> Triangles:
-        own, part = no_rows(pattern), given.part(block)
-        bad = library.triangles(
-            pattern.rows_of_entries, functions, part, level, own.packed, own.rows
+    def reduce_block(block: slice) -> Triangles:
+        triangles, part = make_empty_triangles(pattern), samples.select_block(block)
+        bad = library.add_samples(
+            pattern.rows_of_entries, functions, part, level, triangles.packed, triangles.rows
         )
-        return Triangles(pattern, own.packed, own.rows, bad)
+        return Triangles(pattern, triangles.packed, triangles.rows, bad)
 
-    return _merged(library, pattern, mapped(one, _blocks(len(given.q), BLOCK)), state)
+    return _merge_blocks(
+        library, pattern, map_parts(reduce_block, _split_blocks(len(samples.q), BLOCK)), state
+    )
 
 
-def of_dense(
+def reduce_dense_samples(
     pattern: NonzeroPattern,
     evaluate: Callable[[slice], tuple[np.ndarray, np.ndarray]],
-    given: Samples,
+    samples: SampleArrays,
     state: Triangles | None = None,
 ) -> Triangles:
     """Triangles of samples whose whole regressor is evaluated, some at a time.
@@ -143,27 +153,29 @@ def of_dense(
     Args:
         pattern: of the entries.
         evaluate: (b, n, c) of the b samples of a block, and (b,) True where it has no value.
-        given: checked arrays.
+        samples: checked arrays.
         state: of earlier samples, which these are added to.
     """
-    library = bind.fused_library()
+    library = bind.load_fused_library()
 
-    def one(block: slice) -> Triangles:
+    def reduce_block(block: slice) -> Triangles:
         phi, without = evaluate(block)
-        part = given.part(block)
+        part = samples.select_block(block)
         use = np.ones(part.tau.shape, dtype=bool) if part.use is None else part.use
         tau, known = part.tau, np.isfinite(phi).all(axis=2) & np.isfinite(part.tau)
         if part.weight is not None:
             phi, tau = phi * part.weight[:, :, None], tau * part.weight
             known &= np.isfinite(part.weight)
         left = (use & (~known | without[:, None])).any(axis=1)
-        own = of_rows(pattern, phi, tau, use & ~left[:, None])
-        return Triangles(pattern, own.packed, own.rows, left)
+        triangles = reduce_rows(pattern, phi, tau, use & ~left[:, None])
+        return Triangles(pattern, triangles.packed, triangles.rows, left)
 
-    return _merged(library, pattern, mapped(one, _blocks(len(given.q), _DENSE)), state)
+    return _merge_blocks(
+        library, pattern, map_parts(reduce_block, _split_blocks(len(samples.q), _DENSE)), state
+    )
 
 
-def of_rows(
+def reduce_rows(
     pattern: NonzeroPattern, phi: np.ndarray, y: np.ndarray, use: np.ndarray | None,
     state: Triangles | None = None, level: int = 0,
 ) -> Triangles:  # fmt: skip
@@ -177,39 +189,42 @@ def of_rows(
         state: of earlier rows, which these are added to.
         level: of instructions; 0: the best of this processor.
     """
-    library, before = bind.fused_library(), no_rows(pattern) if state is None else state
+    library, before = (
+        bind.load_fused_library(),
+        make_empty_triangles(pattern) if state is None else state,
+    )
     packed, rows, phi = before.packed.copy(), before.rows.copy(), np.ascontiguousarray(phi)
-    kept = None if use is None else use.view(np.uint8)
+    mask = None if use is None else use.view(np.uint8)
     for j, (columns, triangle) in enumerate(
-        zip(pattern.columns, pattern.parts(packed), strict=True)
+        zip(pattern.columns, pattern.split_triangles(packed), strict=True)
     ):
-        flags = None if kept is None else kept[:, j]
-        added, _ = library.rows(phi[:, j], y[:, j], flags, columns, level, triangle)
+        flags = None if mask is None else mask[:, j]
+        added, _ = library.add_rows(phi[:, j], y[:, j], flags, columns, level, triangle)
         rows[j] += np.uintp(added)
     return Triangles(pattern, packed, rows, np.zeros(0, dtype=bool))
 
 
-def _merged(
+def _merge_blocks(
     library: FusedLibrary,
     pattern: NonzeroPattern,
     parts: Iterable[Triangles],
     state: Triangles | None,
 ) -> Triangles:
     """The rows of all parts, added to those of a state."""
-    found = no_rows(pattern) if state is None else state
-    packed, rows, left = found.packed.copy(), found.rows.copy(), [np.zeros(0, dtype=bool)]
+    before = make_empty_triangles(pattern) if state is None else state
+    packed, rows, left = before.packed.copy(), before.rows.copy(), [np.zeros(0, dtype=bool)]
     fresh = state is None
     for part in parts:
         if fresh:
             packed, fresh = part.packed, False
         else:
-            library.merge(pattern.rows_of_entries, len(rows), packed, part.packed)
+            library.merge_states(pattern.rows_of_entries, len(rows), packed, part.packed)
         rows += part.rows
         left.append(part.left_out)
     return Triangles(pattern, packed, rows, np.concatenate(left))
 
 
-def _blocks(samples: int, size: int) -> list[slice]:
+def _split_blocks(samples: int, size: int) -> list[slice]:
     return [slice(i, min(i + size, samples)) for i in range(0, samples, size)]
 
 
@@ -225,7 +240,7 @@ TILED_FROM = 2**18
 _SLICE = 2**14  # samples that a thread is worth starting for
 
 
-def checked_out(out: np.ndarray, shape: tuple[int, int], columns: bool = False) -> np.ndarray:
+def check_output(out: np.ndarray, shape: tuple[int, int], columns: bool = False) -> np.ndarray:
     """`out`, if it can be filled; `columns`: it may be Fortran-contiguous too.
 
     Raises:
@@ -244,7 +259,7 @@ def checked_out(out: np.ndarray, shape: tuple[int, int], columns: bool = False) 
     return out
 
 
-class Batches:
+class BatchEvaluator:
     """What a compiled model makes of many samples; n samples, c base parameters."""
 
     spec: ModuleSpec
@@ -275,14 +290,14 @@ class Batches:
                 f"{self.spec.robot} has loops: every entry of its regressor can differ from 0; "
                 "use base_regressor"
             )
-        inputs = self._motion(q, qd, qdd, s)
+        inputs = self._check_motion(q, qd, qdd, s)
         shape = (len(inputs[0]), len(self.spec.nonzeros))
-        values = np.empty(shape) if out is None else checked_out(out, shape)
-        if not self._fill(inputs, values, dense=False):
-            self._library.batch(self._functions["base_regressor_nonzeros"], inputs, values)
+        values = np.empty(shape) if out is None else check_output(out, shape)
+        if not self._fill_by_tiles(inputs, values, dense=False):
+            self._library.run_batch(self._functions["base_regressor_nonzeros"], inputs, values)
         return values
 
-    def _fill(
+    def _fill_by_tiles(
         self, inputs: Sequence[np.ndarray], out: np.ndarray, dense: bool,
         status: np.ndarray | None = None,
     ) -> bool:  # fmt: skip
@@ -296,11 +311,13 @@ class Batches:
             return False
         each = len(out) // samples if out.ndim == 2 else 1  # rows of a sample
 
-        def part(piece: slice) -> None:
+        def fill_part(piece: slice) -> None:
             rows = out[each * piece.start : each * piece.stop]
-            tiles.fill([array[piece] for array in inputs], rows, dense, status)
+            tiles.fill_samples([array[piece] for array in inputs], rows, dense, status)
 
-        for _ in mapped(part, [slice(0, samples)] if loops else shares(samples, _SLICE)):
+        for _ in map_parts(
+            fill_part, [slice(0, samples)] if loops else split_samples(samples, _SLICE)
+        ):
             pass
         return True
 
@@ -310,29 +327,29 @@ class Batches:
         wanted = self.spec.tile_sources
         if not wanted or not all(name in self._tile_files for name in wanted):
             return None
-        return bind.tile_library(self.spec, self._tile_files, self._library)
+        return bind.load_tile_library(self.spec, self._tile_files, self._library)
 
-    def _motion(self, q: Any, qd: Any, qdd: Any, s: Any) -> tuple[np.ndarray, ...]:
+    def _check_motion(self, q: Any, qd: Any, qdd: Any, s: Any) -> tuple[np.ndarray, ...]:
         """Checked q, qd, qdd and, where effects read any, signals."""
-        states = self._states({"q": q, "qd": qd, "qdd": qdd})
-        signals = self._signals(s, len(states["q"]))
+        states = self._check_states({"q": q, "qd": qd, "qdd": qdd})
+        signals = self._check_signals(s, len(states["q"]))
         return (*states.values(), *(() if signals is None else (signals,)))
 
-    def _states(self, arrays: Mapping[str, Any]) -> dict[str, np.ndarray]:
-        checked = {name: as_samples(a, name, self._joints) for name, a in arrays.items()}
-        same_samples(checked)
+    def _check_states(self, arrays: Mapping[str, Any]) -> dict[str, np.ndarray]:
+        checked = {name: check_samples(a, name, self._joints) for name, a in arrays.items()}
+        check_sample_counts(checked)
         return checked
 
-    def _signals(self, s: Any, samples: int, finite: bool = True) -> np.ndarray | None:
+    def _check_signals(self, s: Any, samples: int, finite: bool = True) -> np.ndarray | None:
         """(n, m) signals of effects; None where the robot has none, and must be given none."""
         wanted = len(self.spec.signals)
         if not wanted:
-            no_signals(s, self.spec.robot)
+            reject_signals(s, self.spec.robot)
             return None
         if s is None:
             names = ", ".join(f"{x.kind} {x.joint}".strip() for x in self.spec.signals)
             raise ShapeError(f"{self.spec.robot}: its effects read signals; give s ({names})")
-        checked = as_samples(s, "s", wanted, finite)
+        checked = check_samples(s, "s", wanted, finite)
         if len(checked) != samples:
             raise ShapeError(f"s: got {len(checked)} samples, expected {samples} as of q")
         return checked
@@ -380,35 +397,37 @@ class Batches:
                     f"{state.pattern.width} base parameters), expected those of {self.spec.robot} "
                     f"({len(pattern.columns)} joints, {width} base parameters)"
                 )
-        given = self._measured((q, qd, qdd, tau), use, s, weight)
+        samples = self._check_measurements((q, qd, qdd, tau), use, s, weight)
         if self.spec.closure is None and self.spec.precision == "double":
-            return of_samples(pattern, self._entries(len(given.q)), given, state)
+            return reduce_samples(
+                pattern, self._get_entry_functions(len(samples.q)), samples, state
+            )
         function = self._functions["base_regressor"]
 
-        def evaluate(block: slice) -> tuple[np.ndarray, np.ndarray]:
+        def evaluate_block(block: slice) -> tuple[np.ndarray, np.ndarray]:
             """The base regressor of a block, and where it has no value: loops may not close."""
-            part = given.part(block)
+            part = samples.select_block(block)
             out = np.zeros((len(part.q), *function.outputs[0].shape))
             status = np.zeros(len(out), dtype=np.intc)
             states = [array for array in (part.q, part.qd, part.qdd, part.s) if array is not None]
-            self._library.batch(function, states, out, status if function.status else None)
+            self._library.run_batch(function, states, out, status if function.status else None)
             return out, status != 0
 
-        return of_dense(pattern, evaluate, given, state)
+        return reduce_dense_samples(pattern, evaluate_block, samples, state)
 
-    def _measured(
+    def _check_measurements(
         self, motion: tuple[Any, Any, Any, Any], use: Any, s: Any, weight: Any
-    ) -> Samples:
+    ) -> SampleArrays:
         """Checked arrays; but for weights in use they may be not finite."""
         wanted = dict(zip(("q", "qd", "qdd", "tau"), motion, strict=True))
         wanted |= {} if weight is None else {"weight": weight}
         arrays = {
-            name: as_samples(value, name, self._joints, finite=False)
+            name: check_samples(value, name, self._joints, finite=False)
             for name, value in wanted.items()
         }
-        samples = same_samples(arrays)
-        rows = None if use is None else as_mask(use, "use", (samples, self._joints))
-        read = self._signals(s, samples, False)
+        samples = check_sample_counts(arrays)
+        rows = None if use is None else check_mask(use, "use", (samples, self._joints))
+        read = self._check_signals(s, samples, False)
         if weight is not None:
             values, used = arrays["weight"], True if rows is None else rows
             wrong = np.argwhere(~(np.isfinite(values) & (values >= 0.0)) & used)
@@ -419,16 +438,18 @@ class Batches:
                     "from 0), expected finite numbers, at least 0"
                 )
         q, qd, qdd, tau = (arrays[name] for name in ("q", "qd", "qdd", "tau"))
-        return Samples(q, qd, qdd, tau, read, rows, arrays.get("weight"))
+        return SampleArrays(q, qd, qdd, tau, read, rows, arrays.get("weight"))
 
-    def _entries(self, samples: int) -> Functions:
+    def _get_entry_functions(self, samples: int) -> EntryFunctions:
         name = f"{self.spec.prefix}_base_regressor_nonzeros"
         tiles = self._tiles if samples >= TILED_FROM else None  # compiled where there are many
         self._functions[name.removeprefix(f"{self.spec.prefix}_")]
-        address = self._library.address(name)
-        return Functions(address, len(self.spec.signals), 0 if tiles is None else tiles.tile)
+        address = self._library.find_address(name)
+        return EntryFunctions(
+            address, len(self.spec.signals), 0 if tiles is None else tiles.tile_address
+        )
 
     @cached_property
     def pattern(self) -> NonzeroPattern:
         """Which columns can enter the torque of each joint."""
-        return pattern_of(self.spec.nonzeros, self._joints, len(self.spec.base))
+        return build_pattern(self.spec.nonzeros, self._joints, len(self.spec.base))

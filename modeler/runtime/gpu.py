@@ -9,9 +9,9 @@ from typing import Any
 
 import numpy as np
 
-from modeler.core.checks import as_mask, as_samples, no_signals, same_samples
-from modeler.core.errors import BuildError, ManifestError, ShapeError, installing
-from modeler.core.manifest import CUDA_THREADS, Emitted, ModuleSpec
+from modeler.core.checks import check_mask, check_sample_counts, check_samples, reject_signals
+from modeler.core.errors import BuildError, ManifestError, ShapeError, suggest_install
+from modeler.core.manifest import CUDA_THREADS, EmittedModule, ModuleSpec
 
 _BLOCKS = 1024
 """Blocks that sum products, at most: fixed, so that sums do not depend on the processor."""
@@ -38,7 +38,7 @@ class GpuModel:
             BuildError: no CuPy, no graphics processor, or the compiler refused.
         """
         self.spec = spec
-        self._cupy = _cupy()
+        self._cupy = _import_cupy()
         try:
             module = self._cupy.RawModule(code=source)
             self._nonzeros, self._gram = (
@@ -53,7 +53,7 @@ class GpuModel:
         Row k holds phi[i, joint, column] of all samples i with (joint, column) =
         `spec.nonzeros[k]`.
         """
-        states = self._states({"q": q, "qd": qd, "qdd": qdd}, s)
+        states = self._transfer_states({"q": q, "qd": qd, "qdd": qdd}, s)
         samples = len(states[0])
         values = self._cupy.empty((len(self.spec.nonzeros), samples))
         if samples:
@@ -79,10 +79,10 @@ class GpuModel:
             use: (n, joints) False for rows that are left out.
             s: signals of effects, where there are any.
         """
-        states = self._states({"q": q, "qd": qd, "qdd": qdd, "tau": tau}, s)
+        states = self._transfer_states({"q": q, "qd": qd, "qdd": qdd, "tau": tau}, s)
         samples, cupy = len(states[0]), self._cupy
         if use is not None:
-            mask = as_mask(_on_host(use), "use", (samples, len(self.spec.joints)))
+            mask = check_mask(_copy_to_host(use), "use", (samples, len(self.spec.joints)))
             use = cupy.asarray(mask.astype(np.uint8))
         torque = states.pop(3)
         sizes = [len(columns) + 1 for columns in self.columns]
@@ -91,9 +91,9 @@ class GpuModel:
         sums = cupy.zeros((max(blocks, 1), products))
         if samples:
             # A number in the place of an address: 0 is NULL.
-            given = (*states, torque, np.uint64(0) if use is None else use)
-            self._gram((blocks,), (CUDA_THREADS,), (np.uint64(samples), *given, sums))
-        return _squares(_on_host(sums.sum(axis=0)), sizes)
+            arguments = (*states, torque, np.uint64(0) if use is None else use)
+            self._gram((blocks,), (CUDA_THREADS,), (np.uint64(samples), *arguments, sums))
+        return _unpack_squares(_copy_to_host(sums.sum(axis=0)), sizes)
 
     @property
     def columns(self) -> tuple[tuple[int, ...], ...]:
@@ -101,24 +101,27 @@ class GpuModel:
         joints = range(len(self.spec.joints))
         return tuple(tuple(c for row, c in self.spec.nonzeros if row == joint) for joint in joints)
 
-    def _states(self, arrays: dict[str, Any], s: Any) -> list[Any]:
+    def _transfer_states(self, arrays: dict[str, Any], s: Any) -> list[Any]:
         """The arrays on the processor, then the signals if there are any."""
         joints, signals = len(self.spec.joints), len(self.spec.signals)
         if not signals:
-            no_signals(s, self.spec.robot)
+            reject_signals(s, self.spec.robot)
         elif s is None:
             raise ShapeError(f"{self.spec.robot}: its effects read signals; give s")
         wanted = {name: (array, joints) for name, array in arrays.items()}
         wanted |= {"s": (s, signals)} if signals else {}
-        found = {name: self._there(*given, name=name) for name, given in wanted.items()}
-        same_samples(found)
-        order = [name for name in ("q", "qd", "qdd", "tau", "s") if name in found]
-        return [found[name] for name in order]
+        transferred = {
+            name: self._transfer_array(*array_and_width, name=name)
+            for name, array_and_width in wanted.items()
+        }
+        check_sample_counts(transferred)
+        order = [name for name in ("q", "qd", "qdd", "tau", "s") if name in transferred]
+        return [transferred[name] for name in order]
 
-    def _there(self, value: Any, width: int, name: str) -> Any:
+    def _transfer_array(self, value: Any, width: int, name: str) -> Any:
         cupy = self._cupy
         if not hasattr(value, "__cuda_array_interface__"):
-            return cupy.asarray(as_samples(value, name, width))
+            return cupy.asarray(check_samples(value, name, width))
         array = cupy.ascontiguousarray(value, dtype=np.float64)
         if array.ndim != 2 or array.shape[1] != width:
             raise ShapeError(f"{name}: got shape {array.shape}, expected (samples, {width})")
@@ -127,7 +130,7 @@ class GpuModel:
         return array
 
 
-def load_gpu(emitted: Emitted) -> GpuModel:
+def load_gpu(emitted: EmittedModule) -> GpuModel:
     """The kernels of a module, compiled for the graphics processor of this machine.
 
     Raises:
@@ -143,12 +146,12 @@ def load_gpu(emitted: Emitted) -> GpuModel:
     return GpuModel(emitted.spec, source)
 
 
-def _cupy() -> Any:
+def _import_cupy() -> Any:
     """CuPy, if there is one and it finds a processor."""
     try:
         import cupy
     except ImportError:
-        raise BuildError(f"GPU: CuPy is not installed; {installing('gpu')}") from None
+        raise BuildError(f"GPU: CuPy is not installed; {suggest_install('gpu')}") from None
     try:
         count = cupy.cuda.runtime.getDeviceCount()
     except Exception as error:  # of CUDA, with a class of its own
@@ -161,18 +164,18 @@ def _cupy() -> Any:
     return cupy
 
 
-def _on_host(array: Any) -> np.ndarray:
+def _copy_to_host(array: Any) -> np.ndarray:
     return np.asarray(array.get() if hasattr(array, "get") else array)
 
 
-def _squares(products: np.ndarray, sizes: Sequence[int]) -> list[np.ndarray]:
+def _unpack_squares(products: np.ndarray, sizes: Sequence[int]) -> list[np.ndarray]:
     """Symmetric matrices of their upper triangles, one after another."""
-    found, start = [], 0
+    squares, start = [], 0
     for size in sizes:
         rows, columns = np.triu_indices(size)
         square = np.zeros((size, size))
         square[rows, columns] = products[start : start + len(rows)]
         square[columns, rows] = square[rows, columns]
-        found.append(square)
+        squares.append(square)
         start += len(rows)
-    return found
+    return squares

@@ -18,28 +18,28 @@ WANTED = ("/fp:contract",)
 _EXTERNAL = 2  # IMAGE_SYM_CLASS_EXTERNAL
 
 
-def checking(flag: str, empty: Path) -> list[str]:
+def build_check_arguments(flag: str, empty: Path) -> list[str]:
     """Arguments that end without a mistake if the compiler knows the flag."""
     return [*ALWAYS, flag, "/Zs", str(empty)]
 
 
-def compiling(folder: Path, source: Path, result: str) -> list[str]:
+def build_compile_arguments(folder: Path, source: Path, result: str) -> list[str]:
     """Arguments beside the flags."""
     return ["/I", str(folder), "/c", f"/Fo{result}", str(source)]
 
 
-def linking(objects: Sequence[str], output: Path, listed: Path) -> list[str]:
-    """The same, for a library of objects whose exports `listed` names."""
-    return ["/LD", *objects, f"/Fe{output}", "/link", f"/DEF:{listed}"]
+def build_link_arguments(objects: Sequence[str], output: Path, export_list: Path) -> list[str]:
+    """The same, for a library of objects whose exports `export_list` names."""
+    return ["/LD", *objects, f"/Fe{output}", "/link", f"/DEF:{export_list}"]
 
 
-def exports(objects: Iterable[str]) -> str:
+def format_exports(objects: Iterable[str]) -> str:
     """The list for the linker (a module-definition file) of all that the objects define."""
-    names = {name for place in objects for name in exported(Path(place).read_bytes())}
+    names = {name for place in objects for name in read_exported_names(Path(place).read_bytes())}
     return "\n".join(["EXPORTS", *sorted(names), ""])
 
 
-def exported(coff: bytes) -> list[str]:
+def read_exported_names(coff: bytes) -> list[str]:
     """Functions and tables that an object defines for others.
 
     From its symbol table, as in "PE Format", sections "COFF File Header" and "COFF Symbol Table":

@@ -6,14 +6,14 @@ from typing import Any, Literal
 
 import numpy as np
 
-from modeler.core.checks import as_vector
+from modeler.core.checks import check_vector
 from modeler.core.errors import LoopError, ManifestError, ShapeError, SolutionError
 from modeler.core.files import read_file
-from modeler.core.manifest import MANIFEST, Emitted, FunctionSpec, ModuleSpec, module_from_json
-from modeler.core.result import Presented
+from modeler.core.manifest import MANIFEST, EmittedModule, FunctionSpec, ModuleSpec, parse_manifest
+from modeler.core.result import Result
 from modeler.runtime.bind import Library, check_names
 from modeler.runtime.build import build_library
-from modeler.runtime.fused import Batches, checked_out
+from modeler.runtime.fused import BatchEvaluator, check_output
 
 _STATUS = {
     1: "the loops cannot be closed",
@@ -31,7 +31,7 @@ _REFUSED = {
 """The same without loops."""
 
 
-class _Functions(dict[str, FunctionSpec]):
+class _FunctionTable(dict[str, FunctionSpec]):
     """Functions of a module by name without the robot's; what is not there is told."""
 
     def __init__(self, spec: ModuleSpec) -> None:
@@ -51,7 +51,7 @@ class _Functions(dict[str, FunctionSpec]):
         )
 
 
-class CompiledModel(Batches, Presented):
+class CompiledModel(BatchEvaluator, Result):
     """tau = M(q) qdd + c(q, qd) + g(q) + f(qd) = phi beta, over n samples at once.
 
     q, qd, qdd, tau are (n, joints) in the order of `spec.joints`, SI units; beta is (c,) in the
@@ -74,23 +74,23 @@ class CompiledModel(Batches, Presented):
         self._tile_files = tile_files or {}
         self.log: Mapping[str, object] = log or {}
         self._library = library
-        self._functions = _Functions(spec)
+        self._functions = _FunctionTable(spec)
         self._joints = len(spec.joints)
 
     def __reduce__(self) -> tuple[Callable[..., "CompiledModel"], tuple[Any, ...]]:
         """Pickled as its C: where it lands it is compiled, or taken from the cache there."""
-        return load, (self.spec, dict(self._tile_files), self.log)
+        return load_module, (self.spec, dict(self._tile_files), self.log)
 
     def base_regressor(self, q: Any, qd: Any, qdd: Any, s: Any = None) -> np.ndarray:
         """Phi of the base parameters, (n, joints, c): tau = phi beta.
 
         Large batches are evaluated as those of `observation` and `nonzeros`.
         """
-        return self._evaluate("base_regressor", {"q": q, "qd": qd, "qdd": qdd}, s=s)
+        return self._evaluate_function("base_regressor", {"q": q, "qd": qd, "qdd": qdd}, s=s)
 
     def regressor(self, q: Any, qd: Any, qdd: Any, s: Any = None) -> np.ndarray:
         """Phi of the standard parameters, (n, joints, p): tau = phi chi."""
-        return self._evaluate("regressor", {"q": q, "qd": qd, "qdd": qdd}, s=s)
+        return self._evaluate_function("regressor", {"q": q, "qd": qd, "qdd": qdd}, s=s)
 
     def observation(
         self, q: Any, qd: Any, qdd: Any, out: np.ndarray | None = None, s: Any = None,
@@ -107,35 +107,35 @@ class CompiledModel(Batches, Presented):
             s: signals of effects, where there are any.
             order: of a new W in memory: "F" column after column, as LAPACK has it.
         """
-        if not self.spec.has("_batch"):
+        if not self.spec.has_unit("_batch"):
             self._functions["observation"]
-        inputs = self._motion(q, qd, qdd, s)
+        inputs = self._check_motion(q, qd, qdd, s)
         shape = (len(inputs[0]) * self._joints, len(self.spec.base))
-        W = np.empty(shape, order=order) if out is None else checked_out(out, shape, columns=True)
-        status = self._no_status(len(inputs[0]))
-        if not self._fill(inputs, W, dense=True, status=status):
+        W = np.empty(shape, order=order) if out is None else check_output(out, shape, columns=True)
+        status = self._make_status(len(inputs[0]))
+        if not self._fill_by_tiles(inputs, W, dense=True, status=status):
             rows = W if W.flags.c_contiguous else np.empty(shape)
-            self._library.observation(inputs, rows, status)
+            self._library.fill_observation(inputs, rows, status)
             if rows is not W:
                 W[...] = rows
-        self._check(status, inputs[0])
+        self._check_status(status, inputs[0])
         return W
 
     def inverse_dynamics(self, q: Any, qd: Any, qdd: Any, beta: Any, s: Any = None) -> np.ndarray:
         """Tau, (n, joints), by the Newton-Euler recursion."""
-        return self._evaluate("inverse_dynamics", {"q": q, "qd": qd, "qdd": qdd}, beta, s)
+        return self._evaluate_function("inverse_dynamics", {"q": q, "qd": qd, "qdd": qdd}, beta, s)
 
     def inertia_matrix(self, q: Any, beta: Any) -> np.ndarray:
         """M(q), (n, joints, joints), rotor inertias included."""
-        return self._evaluate("inertia_matrix", {"q": q}, beta)
+        return self._evaluate_function("inertia_matrix", {"q": q}, beta)
 
     def gravity(self, q: Any, beta: Any) -> np.ndarray:
         """g(q), (n, joints)."""
-        return self._evaluate("gravity", {"q": q}, beta)
+        return self._evaluate_function("gravity", {"q": q}, beta)
 
     def coriolis(self, q: Any, qd: Any, beta: Any) -> np.ndarray:
         """c(q, qd), (n, joints): Coriolis and centripetal torques."""
-        return self._evaluate("coriolis", {"q": q, "qd": qd}, beta)
+        return self._evaluate_function("coriolis", {"q": q, "qd": qd}, beta)
 
     def friction(
         self, qd: Any, beta: Any, q: Any = None, qdd: Any = None, s: Any = None
@@ -152,7 +152,7 @@ class CompiledModel(Batches, Presented):
             if "qdd" in reads:
                 why = ": its effects depend on positions and loads; give q and qdd"
             raise ShapeError(self.spec.robot + why)
-        return self._evaluate("friction", states, beta, s)
+        return self._evaluate_function("friction", states, beta, s)
 
     def close(self, q: Any) -> np.ndarray:
         """All free variables u of the opened tree, (n, len(u)), in the order of the manifest.
@@ -160,49 +160,55 @@ class CompiledModel(Batches, Presented):
         Raises:
             LoopError: the loops cannot be closed; names the sample.
         """
-        return self._evaluate("close", {"q": q}) if self._loops else self._states({"q": q})["q"]
+        return (
+            self._evaluate_function("close", {"q": q})
+            if self._has_loops
+            else self._check_states({"q": q})["q"]
+        )
 
     def closing_status(self, q: Any) -> np.ndarray:
         """(n,) 0 where the loops close, else the status of the C code; never raises for loops."""
-        given = self._states({"q": q})["q"]
-        status = np.zeros(len(given), dtype=np.intc)
-        if self._loops:
-            out = np.empty((len(given), *self._functions["close"].outputs[0].shape))
-            self._library.batch(self._functions["close"], [given], out, status)
+        positions = self._check_states({"q": q})["q"]
+        status = np.zeros(len(positions), dtype=np.intc)
+        if self._has_loops:
+            out = np.empty((len(positions), *self._functions["close"].outputs[0].shape))
+            self._library.run_batch(self._functions["close"], [positions], out, status)
         return status
 
     def coupling(self, q: Any) -> np.ndarray:
         """G of ud = G qd, (n, len(u), joints); rows of the platform are its Jacobian."""
-        if not self._loops:
-            n = len(self._states({"q": q})["q"])
+        if not self._has_loops:
+            n = len(self._check_states({"q": q})["q"])
             return np.broadcast_to(np.eye(self._joints), (n, self._joints, self._joints)).copy()
-        return self._evaluate("coupling", {"q": q})
+        return self._evaluate_function("coupling", {"q": q})
 
     def platform_close(self, x: Any) -> np.ndarray:
         """U, (n, len(u)), from the platform's coordinates."""
-        return self._evaluate("platform_close", {"x": x})
+        return self._evaluate_function("platform_close", {"x": x})
 
     def platform_base_regressor(self, x: Any, xd: Any, xdd: Any) -> np.ndarray:
         """Phi of f = phi beta, (n, joints, c): forces along the platform's coordinates."""
-        return self._evaluate("platform_base_regressor", {"x": x, "xd": xd, "xdd": xdd})
+        return self._evaluate_function("platform_base_regressor", {"x": x, "xd": xd, "xdd": xdd})
 
     def platform_inverse_dynamics(self, x: Any, xd: Any, xdd: Any, beta: Any) -> np.ndarray:
         """f, (n, joints), along the platform's coordinates."""
-        return self._evaluate("platform_inverse_dynamics", {"x": x, "xd": xd, "xdd": xdd}, beta)
+        return self._evaluate_function(
+            "platform_inverse_dynamics", {"x": x, "xd": xd, "xdd": xdd}, beta
+        )
 
     def forward_kinematics(self, q: Any) -> np.ndarray:
         """[R | p] of the frame of every moving row in frame 0, (n, rows, 3, 4); p in m.
 
         Columns of R are the frame's axes: a point x of frame j stands at R x + p.
         """
-        return self._evaluate("forward_kinematics", {"q": q})
+        return self._evaluate_function("forward_kinematics", {"q": q})
 
     def base_parameters(self, chi: Any) -> np.ndarray:
         """Beta, (c,), from chi, (p,), by the grouping relations."""
         function = self._functions["base_parameters"]
-        given = as_vector(chi, "chi", len(self.spec.standard))
+        parameters = check_vector(chi, "chi", len(self.spec.standard))
         beta = np.empty(len(self.spec.base))
-        self._library.base_parameters(function, given, beta)
+        self._library.fill_base_parameters(function, parameters, beta)
         return beta
 
     def advance(
@@ -220,11 +226,11 @@ class CompiledModel(Batches, Presented):
         """
         if "advance" not in self._functions:
             raise ManifestError(f"{self.spec.robot} has no effects that read signals")
-        given = {"dq": dq, "dt": [dt], "s": s, "q": q, "qd": qd, "qdd": qdd}
+        arguments = {"dq": dq, "dt": [dt], "s": s, "q": q, "qd": qd, "qdd": qdd}
         wanted = [argument.name for argument in self._functions["advance"].inputs]
-        if missing := [name for name in wanted if given[name] is None]:
+        if missing := [name for name in wanted if arguments[name] is None]:
             raise ShapeError(f"{self.spec.robot}: its effects lag; give {', '.join(missing)}")
-        after = self.evaluate("advance", **{name: given[name] for name in wanted})
+        after = self.evaluate("advance", **{name: arguments[name] for name in wanted})
         return after if np.ndim(s) == 2 else after[0]
 
     def evaluate(self, role: str, **arrays: Any) -> np.ndarray:
@@ -240,16 +246,16 @@ class CompiledModel(Batches, Presented):
             LoopError: the function returns a status that is not 0; names the sample.
             SolutionError: the same of a robot without loops.
         """
-        out, status, inputs = self._called(role, arrays)
-        self._check(status, inputs[0], "" if self._loops else role)
+        out, status, inputs = self._call_function(role, arrays)
+        self._check_status(status, inputs[0], "" if self._has_loops else role)
         return out
 
-    def statuses(self, role: str, **arrays: Any) -> np.ndarray:
+    def evaluate_status(self, role: str, **arrays: Any) -> np.ndarray:
         """(n,) what an emitted function returns for each sample; as `evaluate`, never refused."""
-        _, status, inputs = self._called(role, arrays)
+        _, status, inputs = self._call_function(role, arrays)
         return np.zeros(len(inputs[0]), dtype=np.intc) if status is None else status
 
-    def _called(
+    def _call_function(
         self, role: str, arrays: Mapping[str, Any]
     ) -> tuple[np.ndarray, np.ndarray | None, list[np.ndarray]]:
         """Output, statuses, inputs."""
@@ -259,10 +265,10 @@ class CompiledModel(Batches, Presented):
             raise ShapeError(
                 f"{role}: got {', '.join(arrays) or 'nothing'}; expected {', '.join(wanted)}"
             )
-        given = {name: np.asarray(arrays[name], dtype=float) for name in wanted}
-        samples = max(len(x) if x.ndim == 2 else 1 for x in given.values())
+        checked_arrays = {name: np.asarray(arrays[name], dtype=float) for name in wanted}
+        samples = max(len(x) if x.ndim == 2 else 1 for x in checked_arrays.values())
         inputs = []
-        for name, x in given.items():
+        for name, x in checked_arrays.items():
             if x.shape not in ((wanted[name],), (samples, wanted[name])):
                 raise ShapeError(
                     f"{role}: {name} has the shape {x.shape}; expected ({wanted[name]},) or "
@@ -271,43 +277,43 @@ class CompiledModel(Batches, Presented):
             inputs.append(np.ascontiguousarray(x))
         out = np.empty((samples, *function.outputs[0].shape))
         status = np.zeros(samples, dtype=np.intc) if function.status else None
-        self._library.batch(function, inputs, out, status)
+        self._library.run_batch(function, inputs, out, status)
         return out, status, inputs
 
-    def _evaluate(
+    def _evaluate_function(
         self, role: str, states: Mapping[str, Any], beta: Any = None, s: Any = None
     ) -> np.ndarray:
         function: FunctionSpec = self._functions[role]
-        given = self._states(states)
-        samples = len(next(iter(given.values())))
+        arguments = self._check_states(states)
+        samples = len(next(iter(arguments.values())))
         names = [argument.name for argument in function.inputs]
         if "beta" in names:
-            given["beta"] = as_vector(beta, "beta", len(self.spec.base))
-        signals = self._signals(s, samples) if "s" in names or s is not None else None
+            arguments["beta"] = check_vector(beta, "beta", len(self.spec.base))
+        signals = self._check_signals(s, samples) if "s" in names or s is not None else None
         if signals is not None:
-            given["s"] = signals
+            arguments["s"] = signals
         out = np.empty((samples, *function.outputs[0].shape))
-        inputs = [given[name] for name in names]
-        if role == "base_regressor" and self._fill(inputs, out, dense=True):
+        inputs = [arguments[name] for name in names]
+        if role == "base_regressor" and self._fill_by_tiles(inputs, out, dense=True):
             return out
-        status = self._no_status(samples) if function.status else None
-        self._library.batch(function, inputs, out, status)
-        self._check(status, inputs[0])
+        status = self._make_status(samples) if function.status else None
+        self._library.run_batch(function, inputs, out, status)
+        self._check_status(status, inputs[0])
         return out
 
     @property
-    def _loops(self) -> bool:
+    def _has_loops(self) -> bool:
         return self.spec.closure is not None
 
-    def _no_status(self, samples: int) -> np.ndarray | None:
-        return np.zeros(samples, dtype=np.intc) if self._loops else None
+    def _make_status(self, samples: int) -> np.ndarray | None:
+        return np.zeros(samples, dtype=np.intc) if self._has_loops else None
 
-    def _check(self, status: np.ndarray | None, given: np.ndarray, role: str = "") -> None:
+    def _check_status(self, status: np.ndarray | None, inputs: np.ndarray, role: str = "") -> None:
         """Raises LoopError for the first sample that does not close, or that the role refuses."""
         if status is None or not np.any(status):
             return
         first = int(np.flatnonzero(status)[0])
-        where = ", ".join(f"{value:.6g}" for value in given[first])
+        where = ", ".join(f"{value:.6g}" for value in inputs[first])
         more = int(np.count_nonzero(status)) - 1
         also = f" (and {more} more)" if more else ""
         at, code = f"{self.spec.robot}: sample {first + 1}{also}", int(status[first])
@@ -322,7 +328,7 @@ class CompiledModel(Batches, Presented):
         )
 
 
-def load(
+def load_module(
     spec: ModuleSpec, files: Mapping[str, str], log: Mapping[str, object] | None = None
 ) -> CompiledModel:
     """The compiled model of an emitted module; compiled once, then taken from the cache.
@@ -361,19 +367,19 @@ def load_folder(folder: Path | str) -> CompiledModel:
         raise ManifestError(
             f"{folder}: no {MANIFEST}; expected a folder that `modeler generate` wrote"
         )
-    spec = module_from_json(_content(manifest), str(manifest))
+    spec = parse_manifest(_read_content(manifest), str(manifest))
     check_names(spec)
     files = {}
     for name in (*spec.sources, *spec.tile_sources):
         if (folder / name).is_file():
             try:
-                files[name] = _content(folder / name).decode()
+                files[name] = _read_content(folder / name).decode()
             except UnicodeDecodeError:
                 raise ManifestError(f"{folder / name}: no text; generate it again") from None
-    return load(spec, files)
+    return load_module(spec, files)
 
 
-def _content(path: Path) -> bytes:
+def _read_content(path: Path) -> bytes:
     try:
         return read_file(path)
     except OSError as error:
@@ -386,13 +392,13 @@ def _content(path: Path) -> bytes:
 _MODELS: dict[str, CompiledModel] = {}  # of this process, by signature
 
 
-def compiled_once(emitted: Emitted) -> CompiledModel:
+def load_cached_model(emitted: EmittedModule) -> CompiledModel:
     """The compiled model of an emitted module; the same object every time.
 
     Raises:
-        BuildError: see `load`.
+        BuildError: see `load_module`.
     """
-    signature = emitted.spec.signature()
+    signature = emitted.spec.compute_signature()
     if signature not in _MODELS:
-        _MODELS[signature] = load(emitted.spec, emitted.code, emitted.log)
+        _MODELS[signature] = load_module(emitted.spec, emitted.code, emitted.log)
     return _MODELS[signature]

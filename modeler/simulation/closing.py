@@ -10,7 +10,7 @@ import numpy as np
 
 from modeler.core.errors import DataError, RobotError
 from modeler.robot import Limits, Robot
-from modeler.simulation.rigid import FUNCTIONS, Frame, world_frames
+from modeler.simulation.rigid import FUNCTIONS, Frame, compute_world_frames
 from modeler.simulation.trajectory import Reference
 
 # What ties the joints of a simulated robot: relations and loops, as equations in all joints.
@@ -32,49 +32,49 @@ class Constraints:
         units: (moving rows,) 1 for an angle, the robot's size [m] for a travel.
     """
 
-    given: list[int]
-    others: list[int]
-    value: ca.Function
-    slope: ca.Function
+    coordinate_rows: list[int]
+    passive_rows: list[int]
+    residual: ca.Function
+    jacobian: ca.Function
     curvature: ca.Function
     units: np.ndarray
 
 
-def constraints_of(robot: Robot) -> Constraints:
+def build_constraints(robot: Robot) -> Constraints:
     """The equations of a robot's relations and loops; lengths in sizes of the robot."""
-    moving = robot.moving
+    moving = robot.moving_joints
     v, vd = ca.SX.sym("v", len(moving)), ca.SX.sym("vd", len(moving))
     names = [joint.name for joint in moving]
     variables = {joint.variable: v[i] for i, joint in enumerate(moving)}
-    values = {**robot.symbol_values(), **variables}
+    values = {**robot.evaluate_symbols(), **variables}
     rows = [
         v[names.index(name)] - relation.fold(values, FUNCTIONS, float(np.pi), float)
         for name, relation in robot.relations.items()
     ]
     # The largest of the robot's lengths, m; 1 where none has a symbol.
-    lengths = [abs(value) for name, value in robot.symbol_values().items() if name != "g"]
+    lengths = [abs(value) for name, value in robot.evaluate_symbols().items() if name != "g"]
     size = max(lengths, default=1.0) or 1.0
     frames = {
         name: Frame(frame.rotation, frame.position / size, frame.axis)
-        for name, frame in world_frames(robot, v).items()
+        for name, frame in compute_world_frames(robot, v).items()
     }
     for loop in robot.loops:
         rows += _KINDS[loop.kind](frames[loop.frame], frames[loop.meets])
     c = ca.vertcat(*rows)
     slope = ca.jacobian(c, v)
-    given = [names.index(joint.name) for joint in robot.coordinates]
-    bend = ca.jtimes(slope @ vd, v, vd)
+    coordinate_rows = [names.index(joint.name) for joint in robot.coordinates]
+    curvature = ca.jtimes(slope @ vd, v, vd)
     return Constraints(
-        given=given,
-        others=[i for i in range(len(names)) if i not in given],
-        value=ca.Function("c", [v], [ca.densify(ca.cse(c))]),
-        slope=ca.Function("J", [v], [ca.densify(ca.cse(slope))]),
-        curvature=ca.Function("k", [v, vd], [ca.densify(ca.cse(bend))]),
-        units=np.array([1.0 if joint.angular else size for joint in moving]),
+        coordinate_rows=coordinate_rows,
+        passive_rows=[i for i in range(len(names)) if i not in coordinate_rows],
+        residual=ca.Function("c", [v], [ca.densify(ca.cse(c))]),
+        jacobian=ca.Function("J", [v], [ca.densify(ca.cse(slope))]),
+        curvature=ca.Function("k", [v, vd], [ca.densify(ca.cse(curvature))]),
+        units=np.array([1.0 if joint.is_revolute else size for joint in moving]),
     )
 
 
-def sampled(function: ca.Function, *samples: np.ndarray) -> np.ndarray:
+def evaluate_samples(function: ca.Function, *samples: np.ndarray) -> np.ndarray:
     """(n, rows, columns) of a function of vectors, for samples (n, its length) of each."""
     rows, columns = function.size_out(0)
     count = len(samples[0])
@@ -90,34 +90,38 @@ def sampled(function: ca.Function, *samples: np.ndarray) -> np.ndarray:
     return values.transpose(0, 2, 1)
 
 
-def _position(a: Frame, b: Frame) -> list[ca.SX]:
+def _compare_positions(a: Frame, b: Frame) -> list[ca.SX]:
     return [a.position - b.position]
 
 
-def _same_axis(a: Frame, b: Frame) -> list[ca.SX]:
+def _compare_axes(a: Frame, b: Frame) -> list[ca.SX]:
     return [a.rotation[:, 2] - b.rotation[:, 2]]
 
 
-def _same_axes(a: Frame, b: Frame) -> list[ca.SX]:
+def _compare_rotations(a: Frame, b: Frame) -> list[ca.SX]:
     return [ca.vec(a.rotation - b.rotation)]
 
 
-def _beside(a: Frame, b: Frame) -> list[ca.SX]:
+def _compare_lines(a: Frame, b: Frame) -> list[ca.SX]:
     return [ca.cross(a.rotation[:, 2], b.position - a.position)]
 
 
 _KINDS: Mapping[str, Callable[[Frame, Frame], list[ca.SX]]] = {
-    "position": _position,
-    "spherical": _position,
-    "universal": lambda a, b: [*_position(a, b), ca.dot(a.rotation[:, 2], b.rotation[:, 2])],
-    "revolute": lambda a, b: [*_position(a, b), *_same_axis(a, b)],
-    "cylindrical": lambda a, b: [*_beside(a, b), *_same_axis(a, b)],
-    "prismatic": lambda a, b: [*_beside(a, b), *_same_axes(a, b)],
-    "planar": lambda a, b: [
-        ca.dot(a.rotation[:, 2], b.position - a.position), *_same_axis(a, b)
+    "position": _compare_positions,
+    "spherical": _compare_positions,
+    "universal": lambda a, b: [
+        *_compare_positions(a, b),
+        ca.dot(a.rotation[:, 2], b.rotation[:, 2]),
     ],
-    "rigid": lambda a, b: [*_position(a, b), *_same_axes(a, b)],
-}  # fmt: skip
+    "revolute": lambda a, b: [*_compare_positions(a, b), *_compare_axes(a, b)],
+    "cylindrical": lambda a, b: [*_compare_lines(a, b), *_compare_axes(a, b)],
+    "prismatic": lambda a, b: [*_compare_lines(a, b), *_compare_rotations(a, b)],
+    "planar": lambda a, b: [
+        ca.dot(a.rotation[:, 2], b.position - a.position),
+        *_compare_axes(a, b),
+    ],
+    "rigid": lambda a, b: [*_compare_positions(a, b), *_compare_rotations(a, b)],
+}
 
 
 _CLOSED = 1e-11  # sizes of the robot, and of direction cosines
@@ -131,7 +135,7 @@ _SINGULAR = 1e-6  # of the sizes of the passive joints' columns, one after the o
 _CHUNK = 2000  # samples
 
 
-def followed(
+def compute_closed_postures(
     robot: Robot,
     constraints: Constraints,
     q: np.ndarray,
@@ -143,38 +147,40 @@ def followed(
         RobotError: `home` does not close, or leaves joints undetermined.
         DataError: the loops do not close on the way; says where.
     """
-    v = _at_home(robot, constraints)
-    v = _led(robot, constraints, v, q[0], "on the way from [home] to the first sample")
+    v = _close_at_home(robot, constraints)
+    v = _close_stepwise(robot, constraints, v, q[0], "on the way from [home] to the first sample")
     out = np.empty((len(q), len(v)))
-    for part in _chunks(len(q)):
-        out[part] = _between(robot, constraints, v, q[part], part.start)
+    for part in _iterate_chunks(len(q)):
+        out[part] = _interpolate_postures(robot, constraints, v, q[part], part.start)
         v = out[part.stop - 1]
         if progress is not None:
             progress(part.stop / len(q))
     return out
 
 
-def rates(
+def compute_rates(
     constraints: Constraints, v: np.ndarray, qd: np.ndarray, qdd: np.ndarray
 ) -> tuple[np.ndarray, np.ndarray]:
     """(n, moving rows) speeds and accelerations that the constraints allow.
 
     J vd = 0 and J vdd + J' vd = 0 at closed postures v, for those of the coordinates.
     """
-    given, others = constraints.given, constraints.others
+    coordinate_rows, others = constraints.coordinate_rows, constraints.passive_rows
     vd, vdd = np.zeros_like(v), np.zeros_like(v)
-    vd[:, given], vdd[:, given] = qd, qdd
-    for part in _chunks(len(v)):
-        J = sampled(constraints.slope, v[part])
+    vd[:, coordinate_rows], vdd[:, coordinate_rows] = qd, qdd
+    for part in _iterate_chunks(len(v)):
+        J = evaluate_samples(constraints.jacobian, v[part])
         Q, R = np.linalg.qr(J[:, :, others])
-        driven = J[:, :, given]
-        vd[part, others] = -_least(Q, R, np.einsum("nij,nj->ni", driven, qd[part]))
-        bend = sampled(constraints.curvature, v[part], vd[part])[:, :, 0]
-        vdd[part, others] = -_least(Q, R, np.einsum("nij,nj->ni", driven, qdd[part]) + bend)
+        driven = J[:, :, coordinate_rows]
+        vd[part, others] = -_solve_least_squares(Q, R, np.einsum("nij,nj->ni", driven, qd[part]))
+        curvature_term = evaluate_samples(constraints.curvature, v[part], vd[part])[:, :, 0]
+        vdd[part, others] = -_solve_least_squares(
+            Q, R, np.einsum("nij,nj->ni", driven, qdd[part]) + curvature_term
+        )
     return vd, vdd
 
 
-def motor_torques(constraints: Constraints, v: np.ndarray, load: np.ndarray) -> np.ndarray:
+def compute_motor_torques(constraints: Constraints, v: np.ndarray, load: np.ndarray) -> np.ndarray:
     """(n, coordinates) motor torques that, with the constraint forces, make up the joints' load.
 
     load = S tau + J^T lambda: the rows of joints without motor give the multipliers lambda (the
@@ -185,78 +191,83 @@ def motor_torques(constraints: Constraints, v: np.ndarray, load: np.ndarray) -> 
         v: (n, moving rows) closed postures.
         load: (n, moving rows) M vdd + h of the open tree, friction included.
     """
-    given, others = constraints.given, constraints.others
-    tau = np.empty((len(v), len(given)))
-    for part in _chunks(len(v)):
-        J = sampled(constraints.slope, v[part])
+    coordinate_rows, others = constraints.coordinate_rows, constraints.passive_rows
+    tau = np.empty((len(v), len(coordinate_rows)))
+    for part in _iterate_chunks(len(v)):
+        J = evaluate_samples(constraints.jacobian, v[part])
         Q, R = np.linalg.qr(J[:, :, others])
         carried = np.linalg.solve(R.transpose(0, 2, 1), load[part, others][:, :, None])
         multipliers = Q @ carried
-        tau[part] = load[part, given] - np.einsum("nij,ni->nj", J[:, :, given], multipliers[..., 0])
+        tau[part] = load[part, coordinate_rows] - np.einsum(
+            "nij,ni->nj", J[:, :, coordinate_rows], multipliers[..., 0]
+        )
     return tau
 
 
-def distances(constraints: Constraints, v: np.ndarray) -> np.ndarray:
+def compute_singularity_distances(constraints: Constraints, v: np.ndarray) -> np.ndarray:
     """(n,) least singular value of J in the joints that follow; 0 in a singular posture.
 
     Lengths count in sizes of the robot.
     """
     least = np.empty(len(v))
-    for part in _chunks(len(v)):
-        J = sampled(constraints.slope, v[part]) * constraints.units
-        _, R = np.linalg.qr(J[:, :, constraints.others])
+    for part in _iterate_chunks(len(v)):
+        J = evaluate_samples(constraints.jacobian, v[part]) * constraints.units
+        _, R = np.linalg.qr(J[:, :, constraints.passive_rows])
         least[part] = np.linalg.svd(R, compute_uv=False)[:, -1]
     return least
 
 
-def _chunks(count: int) -> Iterator[slice]:
+def _iterate_chunks(count: int) -> Iterator[slice]:
     return (slice(begin, min(begin + _CHUNK, count)) for begin in range(0, count, _CHUNK))
 
 
-def _least(Q: np.ndarray, R: np.ndarray, right: np.ndarray) -> np.ndarray:
+def _solve_least_squares(Q: np.ndarray, R: np.ndarray, right: np.ndarray) -> np.ndarray:
     """(n, columns) least squares solutions of Q R x = right."""
     turned = np.einsum("nij,ni->nj", Q, right)
     return np.linalg.solve(R, turned[:, :, None])[:, :, 0]
 
 
-def _at_home(robot: Robot, constraints: Constraints) -> np.ndarray:
-    names = [joint.name for joint in robot.moving]
-    home = _solved(constraints, np.array([robot.home.get(name, 0.0) for name in names]))
+def _close_at_home(robot: Robot, constraints: Constraints) -> np.ndarray:
+    names = [joint.name for joint in robot.moving_joints]
+    home = _solve_posture(constraints, np.array([robot.home.get(name, 0.0) for name in names]))
     if home is None:
         raise RobotError(
             f"simulation: the loops of {robot.name} do not close at [home]; state values near a "
             "closed posture, and check the lengths"
         )
-    J = constraints.slope(home).full()[:, constraints.others]
+    J = constraints.jacobian(home).full()[:, constraints.passive_rows]
     _, sizes, turned = np.linalg.svd(J)
     free = turned[np.sum(sizes > _SINGULAR * sizes[0]) :]
     if len(free):
-        loose = np.array(names)[constraints.others][np.max(np.abs(free), axis=0) > _SINGULAR]
+        undetermined_joints = np.array(names)[constraints.passive_rows][
+            np.max(np.abs(free), axis=0) > _SINGULAR
+        ]
         raise RobotError(
-            f"simulation: joints {', '.join(loose)} of {robot.name} can move at [home] with the "
+            f"simulation: joints {', '.join(undetermined_joints)} of {robot.name} can move at "
+            "[home] with the "
             "actuated joints locked; actuate one of them, add a loop or a relation, or correct "
             "[home]"
         )
     return home
 
 
-def _led(
+def _close_stepwise(
     robot: Robot, constraints: Constraints, v: np.ndarray, q: np.ndarray, where: str
 ) -> np.ndarray:
     """The closed posture at q, from the closed posture v, straight and in small steps."""
-    begin = v[constraints.given]
+    begin = v[constraints.coordinate_rows]
     steps = max(1, int(np.ceil(np.max(np.abs(q - begin)) / _STRIDE)))
     for share in np.arange(1, steps + 1) / steps:
         start = v.copy()
-        start[constraints.given] = begin + share * (q - begin)
-        found = _solved(constraints, start)
-        if found is None or not _same_mode(constraints, v, found):
-            raise _not_closed(robot, start[constraints.given], where)
-        v = found
+        start[constraints.coordinate_rows] = begin + share * (q - begin)
+        posture = _solve_posture(constraints, start)
+        if posture is None or not _is_same_mode(constraints, v, posture):
+            raise _build_closure_error(robot, start[constraints.coordinate_rows], where)
+        v = posture
     return v
 
 
-def _same_mode(constraints: Constraints, before: np.ndarray, after: np.ndarray) -> bool:
+def _is_same_mode(constraints: Constraints, before: np.ndarray, after: np.ndarray) -> bool:
     """True if no joint jumped, and no singular posture lies between two near postures.
 
     Of square Jacobians, the ratio of the determinants is above 0; of redundant equations, that of
@@ -264,64 +275,68 @@ def _same_mode(constraints: Constraints, before: np.ndarray, after: np.ndarray) 
     """
     if np.max(np.abs(after - before)) > _JUMP:
         return False
-    old, new = (constraints.slope(v).full()[:, constraints.others] for v in (before, after))
+    old, new = (
+        constraints.jacobian(v).full()[:, constraints.passive_rows] for v in (before, after)
+    )
     return bool(np.linalg.det(np.linalg.lstsq(old, new, rcond=_RANK)[0]) > 0)
 
 
-def _between(
+def _interpolate_postures(
     robot: Robot, constraints: Constraints, before: np.ndarray, q: np.ndarray, first: int
 ) -> np.ndarray:
     """Closed postures at q: some one after the other, those between them all at once."""
     travel = np.cumsum(np.max(np.abs(np.diff(q, axis=0, prepend=q[:1])), axis=1))
     anchors = np.unique([0, *np.flatnonzero(np.diff(travel // _APART)), len(q) - 1])
-    found = []
+    anchor_postures = []
     for k in anchors:
-        before = _led(robot, constraints, before, q[k], f"at sample {first + k + 1}")
-        found.append(before)
+        before = _close_stepwise(robot, constraints, before, q[k], f"at sample {first + k + 1}")
+        anchor_postures.append(before)
     start = np.column_stack([
-        np.interp(np.arange(len(q)), anchors, column) for column in np.array(found).T
+        np.interp(np.arange(len(q)), anchors, column) for column in np.array(anchor_postures).T
     ])  # fmt: skip
-    start[:, constraints.given] = q
-    v, closed = _polished(constraints, start)
+    start[:, constraints.coordinate_rows] = q
+    v, closed = _refine_postures(constraints, start)
     wrong = ~closed | (np.max(np.abs(v - start), axis=1) > _JUMP)
     if np.any(wrong):
         k = int(np.argmax(wrong))
-        raise _not_closed(robot, q[k], f"at sample {first + k + 1}")
+        raise _build_closure_error(robot, q[k], f"at sample {first + k + 1}")
     return v
 
 
-def _polished(constraints: Constraints, v: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+def _refine_postures(constraints: Constraints, v: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """Newton for all samples at once; (n, moving rows), and (n,) True where loops are closed."""
     v = v.copy()
     for _ in range(_ITERATIONS):
-        c = sampled(constraints.value, v)[:, :, 0]
+        c = evaluate_samples(constraints.residual, v)[:, :, 0]
         open_ = np.flatnonzero(np.max(np.abs(c), axis=1) >= _CLOSED)
         if not open_.size:
             break
-        Q, R = np.linalg.qr(sampled(constraints.slope, v[open_])[:, :, constraints.others])
+        Q, R = np.linalg.qr(
+            evaluate_samples(constraints.jacobian, v[open_])[:, :, constraints.passive_rows]
+        )
         diagonal = np.abs(np.diagonal(R, axis1=1, axis2=2))
         if not np.all(diagonal.min(axis=1) > _SINGULAR * diagonal.max(axis=1)):
             break  # joints that are not given are not determined
-        step = _least(Q, R, c[open_])
+        step = _solve_least_squares(Q, R, c[open_])
         longest = np.max(np.abs(step), axis=1, keepdims=True)
-        v[open_[:, None], constraints.others] -= step * np.minimum(1.0, _LONGEST / longest)
-    return v, np.max(np.abs(sampled(constraints.value, v)[:, :, 0]), axis=1) < _CLOSED
+        v[open_[:, None], constraints.passive_rows] -= step * np.minimum(1.0, _LONGEST / longest)
+    return v, np.max(np.abs(evaluate_samples(constraints.residual, v)[:, :, 0]), axis=1) < _CLOSED
 
 
-def _solved(constraints: Constraints, v: np.ndarray) -> np.ndarray | None:
+def _solve_posture(constraints: Constraints, v: np.ndarray) -> np.ndarray | None:
     """Newton on the rows that are not given, by least squares; None if it does not converge."""
     v = v.copy()
     for _ in range(_ITERATIONS):
-        c = constraints.value(v).full().ravel()
+        c = constraints.residual(v).full().ravel()
         if np.max(np.abs(c)) < _CLOSED:
             return v
-        J = constraints.slope(v).full()[:, constraints.others]
+        J = constraints.jacobian(v).full()[:, constraints.passive_rows]
         step = np.linalg.lstsq(J, -c, rcond=_RANK)[0]
-        v[constraints.others] += step * min(1.0, _LONGEST / np.max(np.abs(step)))
+        v[constraints.passive_rows] += step * min(1.0, _LONGEST / np.max(np.abs(step)))
     return None
 
 
-def _not_closed(robot: Robot, q: np.ndarray, where: str) -> DataError:
+def _build_closure_error(robot: Robot, q: np.ndarray, where: str) -> DataError:
     joints = ", ".join(joint.name for joint in robot.coordinates)
     values = ", ".join(f"{x:.4g}" for x in q)
     return DataError(
@@ -333,32 +348,32 @@ def _not_closed(robot: Robot, q: np.ndarray, where: str) -> DataError:
 # Relations of a simulated robot as a matrix: all joints of the tree from the free ones.
 
 
-def tree_from_free(robot: Robot) -> tuple[np.ndarray, np.ndarray]:
+def compute_tree_map(robot: Robot) -> tuple[np.ndarray, np.ndarray]:
     """F (moving rows, free rows) and c (moving rows,) of v = F u + c.
 
     Args:
         robot: u are the variables of `robot.free`, v those of `robot.moving`.
     """
-    names = [joint.name for joint in robot.moving]
-    at_zero = robot.symbol_values() | {joint.variable: 0.0 for joint in robot.moving}
+    names = [joint.name for joint in robot.moving_joints]
+    at_zero = robot.evaluate_symbols() | {joint.variable: 0.0 for joint in robot.moving_joints}
     follows, constant = np.zeros((len(names), len(names))), np.zeros(len(names))
     for name, relation in robot.relations.items():
         row = names.index(name)
-        constant[row] = relation.number(at_zero)
-        for k, joint in enumerate(robot.moving):
+        constant[row] = relation.evaluate(at_zero)
+        for k, joint in enumerate(robot.moving_joints):
             if joint.variable in relation.names:
-                follows[row, k] = relation.number(at_zero | {joint.variable: 1.0}) - constant[row]
-    own = np.zeros((len(names), len(robot.free)))
-    for k, joint in enumerate(robot.free):
-        own[names.index(joint.name), k] = 1.0
+                follows[row, k] = relation.evaluate(at_zero | {joint.variable: 1.0}) - constant[row]
+    selection = np.zeros((len(names), len(robot.free_joints)))
+    for k, joint in enumerate(robot.free_joints):
+        selection[names.index(joint.name), k] = 1.0
     # Relations may hold joints that follow others themselves; never in a circle.
     left = np.eye(len(names)) - follows
-    return np.linalg.solve(left, own), np.linalg.solve(left, constant)
+    return np.linalg.solve(left, selection), np.linalg.solve(left, constant)
 
 
-def untied(robot: Robot) -> tuple[np.ndarray, np.ndarray]:
+def build_identity_map(robot: Robot) -> tuple[np.ndarray, np.ndarray]:
     """The same matrix and constants with every moving row free."""
-    count = len(robot.moving)
+    count = len(robot.moving_joints)
     return np.eye(count), np.zeros(count)
 
 
@@ -389,10 +404,10 @@ class ClosedMotion:
 
     reference: Reference
     v: np.ndarray
-    share: float
+    range_share: float
 
 
-def closed_motion(
+def find_closed_motion(
     robot: Robot,
     constraints: Constraints,
     limits: tuple[Limits, ...],
@@ -402,7 +417,8 @@ def closed_motion(
     """The motion over the largest share of the range that keeps away from singular postures.
 
     The loops close all along, and every posture keeps half of home's distance to a singular one
-    (see `distances`). Near one the motors' torques grow without bound, and so does every error.
+    (see `compute_singularity_distances`). Near one the motors' torques grow without bound, and so
+    does every error.
 
     Args:
         robot: with loops.
@@ -416,16 +432,26 @@ def closed_motion(
         DataError: no share of the range will do.
     """
     home = np.array([robot.home.get(joint.name, 0.0) for joint in robot.coordinates])
-    least = KEPT * distances(constraints, followed(robot, constraints, home[None]))[0]
+    least = (
+        KEPT
+        * compute_singularity_distances(
+            constraints, compute_closed_postures(robot, constraints, home[None])
+        )[0]
+    )
 
-    def keeps_away(reference: Reference) -> bool:
+    def is_clear_of_singularities(reference: Reference) -> bool:
         """True if the loops close from home on, nowhere nearer than `least` to a singularity."""
         first = reference.q[0] - home
-        way = np.linspace(0.0, 1.0, 1 + int(np.ceil(np.max(np.abs(first)) / _NEAR)))
-        every = max(1, round(1 / (_LOOKS * (reference.time[1] - reference.time[0]))))
-        q = np.vstack([home + way[:, None] * first, reference.q[::every]])
+        fractions = np.linspace(0.0, 1.0, 1 + int(np.ceil(np.max(np.abs(first)) / _NEAR)))
+        stride = max(1, round(1 / (_LOOKS * (reference.time[1] - reference.time[0]))))
+        q = np.vstack([home + fractions[:, None] * first, reference.q[::stride]])
         try:
-            return bool(distances(constraints, followed(robot, constraints, q)).min() >= least)
+            return bool(
+                compute_singularity_distances(
+                    constraints, compute_closed_postures(robot, constraints, q)
+                ).min()
+                >= least
+            )
         except DataError:
             return False
 
@@ -438,8 +464,8 @@ def closed_motion(
             upper = middle + share * (limit.upper - middle)
             near.append(dataclasses.replace(limit, lower=lower, upper=upper))
         reference = motion(tuple(near))
-        if keeps_away(reference):
-            v = followed(robot, constraints, reference.q, progress)
+        if is_clear_of_singularities(reference):
+            v = compute_closed_postures(robot, constraints, reference.q, progress)
             return ClosedMotion(reference, v, share)
         share *= _NARROWER
     joints = ", ".join(joint.name for joint in robot.coordinates)

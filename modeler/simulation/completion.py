@@ -13,7 +13,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from modeler.robot import INERTIAL
-from modeler.simulation.rigid import is_physical, pseudo_inertia, standard_from_pseudo_inertia
+from modeler.simulation.rigid import compute_pseudo_inertia, convert_pseudo_inertia, is_physical
 
 _SUMS = {"XX": (1, 2), "YY": (0, 2), "ZZ": (0, 1)}  # XX = int y2 dm + int z2 dm, ...
 _OUTSIDE = {"XY": (0, 1), "XZ": (0, 2), "YZ": (1, 2), "MX": (0, 3), "MY": (1, 3), "MZ": (2, 3)}
@@ -38,7 +38,7 @@ class Completion:
     """
 
     values: dict[str, float] | None
-    impossible: bool = False
+    is_impossible: bool = False
 
 
 @dataclass(frozen=True)
@@ -51,7 +51,7 @@ class _BodyProblem:
     rows: np.ndarray  # (m,) those of the pseudo-inertia that are not zero
 
 
-def completed(stated: Mapping[str, float], reference: Mapping[str, float]) -> Completion:
+def complete_body(stated: Mapping[str, float], reference: Mapping[str, float]) -> Completion:
     """The stated parameters, and for the others those of the nearest possible body.
 
     Nearest: least log-determinant divergence tr(P R^-1) - log det(P R^-1) from the reference R,
@@ -65,42 +65,44 @@ def completed(stated: Mapping[str, float], reference: Mapping[str, float]) -> Co
         return Completion(dict(reference))
     if len(stated) == len(INERTIAL):
         return Completion(dict(stated)) if is_physical(stated) else Completion(None, True)
-    near = pseudo_inertia(reference) * (
+    near = compute_pseudo_inertia(reference) * (
         stated["M"] / reference["M"] if stated.get("M", 0.0) > 0 else 1.0
     )
-    problem = _problem(stated, near)
+    problem = _build_problem(stated, near)
     if problem is None:
-        return Completion(None, impossible=True)
+        return Completion(None, is_impossible=True)
     if not problem.rows.size:
         return Completion(dict.fromkeys(INERTIAL, 0.0) | dict(stated))
-    x = _feasible(problem)
+    x = _find_feasible(problem)
     if x is None:
         return Completion(None)
-    if x.size and _least(_matrix(problem, x)) > _STRICT:
-        x = _nearest(problem, near, x)
+    if x.size and _compute_smallest_eigenvalue(_build_matrix(problem, x)) > _STRICT:
+        x = _find_nearest(problem, near, x)
     elif x.size:
-        x = _flattened(problem, x)
-    if _least(_matrix(problem, x)) < -_EDGE:
-        return Completion(None, impossible=True)
+        x = _flatten_solution(problem, x)
+    if _compute_smallest_eigenvalue(_build_matrix(problem, x)) < -_EDGE:
+        return Completion(None, is_impossible=True)
     scale = problem.scale[problem.rows]
-    found = np.zeros((4, 4))
-    found[np.ix_(problem.rows, problem.rows)] = _matrix(problem, x) * np.outer(scale, scale)
-    values = {**standard_from_pseudo_inertia(found), **stated}
+    completed_matrix = np.zeros((4, 4))
+    completed_matrix[np.ix_(problem.rows, problem.rows)] = _build_matrix(problem, x) * np.outer(
+        scale, scale
+    )
+    values = {**convert_pseudo_inertia(completed_matrix), **stated}
     return Completion(values if is_physical(values, _EDGE) else None)
 
 
-def _problem(stated: Mapping[str, float], near: np.ndarray) -> _BodyProblem | None:
+def _build_problem(stated: Mapping[str, float], near: np.ndarray) -> _BodyProblem | None:
     """The stated values as constraints; None if two of them exclude each other."""
-    known = _known_diagonal(stated)
-    if _contradicted(stated, known):
+    known = _compute_known_diagonal(stated)
+    if _is_contradictory(stated, known):
         return None
     rows = np.array([i for i in range(4) if known.get(i) != 0.0], dtype=int)
-    scale = _scale(stated, known, near)
+    scale = _compute_scale(stated, known, near)
     pairs = [(i, j) for a, i in enumerate(rows) for j in rows[a:]]
     basis = np.zeros((len(pairs), 4, 4))
     for element, (i, j) in zip(basis, pairs, strict=True):
         element[i, j] = element[j, i] = 1.0 if i == j else np.sqrt(0.5)
-    parameters = [standard_from_pseudo_inertia(e * np.outer(scale, scale)) for e in basis]
+    parameters = [convert_pseudo_inertia(e * np.outer(scale, scale)) for e in basis]
     equations, targets = [], []
     for prefix, value in stated.items():
         row = np.array([p[prefix] for p in parameters])
@@ -121,7 +123,7 @@ def _problem(stated: Mapping[str, float], near: np.ndarray) -> _BodyProblem | No
     )
 
 
-def _known_diagonal(stated: Mapping[str, float]) -> dict[int, float]:
+def _compute_known_diagonal(stated: Mapping[str, float]) -> dict[int, float]:
     """Diagonal elements of the pseudo-inertia that the stated values fix; exactly 0 if so."""
     known = {3: float(stated["M"])} if "M" in stated else {}
     sums = {pair: stated[p] for p, pair in _SUMS.items() if p in stated}
@@ -140,7 +142,7 @@ def _known_diagonal(stated: Mapping[str, float]) -> dict[int, float]:
     return {i: 0.0 if i < 3 and abs(v) <= _ROUNDING * size else v for i, v in known.items()}
 
 
-def _contradicted(stated: Mapping[str, float], known: Mapping[int, float]) -> bool:
+def _is_contradictory(stated: Mapping[str, float], known: Mapping[int, float]) -> bool:
     """True if a diagonal element is negative, or P_ii P_jj >= P_ij^2 cannot hold for a stated one.
 
     Says at once what is wrong by far; the multiplier of the search proves the rest.
@@ -160,23 +162,25 @@ def _contradicted(stated: Mapping[str, float], known: Mapping[int, float]) -> bo
     return False
 
 
-def _scale(stated: Mapping[str, float], known: Mapping[int, float], near: np.ndarray) -> np.ndarray:
+def _compute_scale(
+    stated: Mapping[str, float], known: Mapping[int, float], near: np.ndarray
+) -> np.ndarray:
     """(4,) roots of what the diagonal elements are about, so that S is of order 1."""
-    size, loose = np.diag(near).copy(), []
+    size, unbounded = np.diag(near).copy(), []
     for i in range(4):
         sums = [abs(stated[p]) for p, pair in _SUMS.items() if p in stated and i in pair]
         bound = abs(known.get(i, 0.0)) or min(sums, default=0.0)
         size[i] = bound or size[i]
-        loose += [] if bound else [i]
+        unbounded += [] if bound else [i]
     for _ in range(3):  # P_ii P_jj > P_ij^2
         for prefix, (i, j) in _OUTSIDE.items():
             for one, other in ((i, j), (j, i)):
-                if one in loose:
+                if one in unbounded:
                     size[one] = max(size[one], 2 * stated.get(prefix, 0.0) ** 2 / size[other])
     return np.sqrt(size)
 
 
-def _feasible(problem: _BodyProblem) -> np.ndarray | None:
+def _find_feasible(problem: _BodyProblem) -> np.ndarray | None:
     """The x of the largest t up to 1 with S(x) - t 1 >= 0; None if the solver finds none.
 
     Least S(x) below 0 then means that none is above.
@@ -189,31 +193,34 @@ def _feasible(problem: _BodyProblem) -> np.ndarray | None:
     S = problem.origin + sum(x[k] * E for k, E in enumerate(problem.directions))
     # The trace keeps free elements from running away.
     goal = cp.Maximize(t - _PULL * cp.trace(S))
-    asked = cp.Problem(goal, [S - t * np.eye(len(problem.rows)) >> 0, t <= 1.0])
+    semidefinite_problem = cp.Problem(goal, [S - t * np.eye(len(problem.rows)) >> 0, t <= 1.0])
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")  # the caller looks at the answer itself
         try:
-            asked.solve(solver=cp.CLARABEL, **_TOLERANCES)
+            semidefinite_problem.solve(solver=cp.CLARABEL, **_TOLERANCES)
         except cp.SolverError:
             return None
     return None if x.value is None else np.asarray(x.value)
 
 
-def _flattened(problem: _BodyProblem, x: np.ndarray) -> np.ndarray:
+def _flatten_solution(problem: _BodyProblem, x: np.ndarray) -> np.ndarray:
     """The same plate, rod or point with exact zeros: S(x) times what it nearly vanishes on."""
     for _ in range(_STEPS):
-        values, vectors = np.linalg.eigh(_matrix(problem, x))
+        values, vectors = np.linalg.eigh(_build_matrix(problem, x))
         thin = vectors[:, values < _THIN]
         slope = (problem.directions @ thin).reshape(len(x), -1).T
-        rest = (_matrix(problem, x) @ thin).ravel()
+        rest = (_build_matrix(problem, x) @ thin).ravel()
         flat = x - np.linalg.lstsq(slope, rest, rcond=1e-9)[0]
-        x = max((x, flat), key=lambda choice: _least(_matrix(problem, choice)))
-        if _least(_matrix(problem, x)) > -_EXACT:
+        x = max(
+            (x, flat),
+            key=lambda choice: _compute_smallest_eigenvalue(_build_matrix(problem, choice)),
+        )
+        if _compute_smallest_eigenvalue(_build_matrix(problem, x)) > -_EXACT:
             break
     return x
 
 
-def _nearest(problem: _BodyProblem, near: np.ndarray, x: np.ndarray) -> np.ndarray:
+def _find_nearest(problem: _BodyProblem, near: np.ndarray, x: np.ndarray) -> np.ndarray:
     """The x with S(x) > 0 of least divergence from the reference, to all digits.
 
     Damped Newton: tr(W S) - log det S is self-concordant, so that it gets there from any x inside
@@ -224,7 +231,7 @@ def _nearest(problem: _BodyProblem, near: np.ndarray, x: np.ndarray) -> np.ndarr
     pull = np.tensordot(problem.directions, weight, 2)
     left = _STEPS
     for _ in range(_DAMPED):
-        turned = np.linalg.inv(_matrix(problem, x)) @ problem.directions
+        turned = np.linalg.inv(_build_matrix(problem, x)) @ problem.directions
         slope = pull - np.trace(turned, axis1=1, axis2=2)
         curvature = np.einsum("kij,lji->kl", turned, turned)
         step = np.linalg.lstsq(curvature, slope, rcond=None)[0]
@@ -232,7 +239,7 @@ def _nearest(problem: _BodyProblem, near: np.ndarray, x: np.ndarray) -> np.ndarr
         at_the_end = decrement < 0.25
         step /= 1.0 if at_the_end else 1.0 + decrement
         left -= at_the_end
-        if not _least(_matrix(problem, x - step)) > 0.0:
+        if not _compute_smallest_eigenvalue(_build_matrix(problem, x - step)) > 0.0:
             break
         x = x - step
         if not left:
@@ -240,9 +247,9 @@ def _nearest(problem: _BodyProblem, near: np.ndarray, x: np.ndarray) -> np.ndarr
     return x
 
 
-def _matrix(problem: _BodyProblem, x: np.ndarray) -> np.ndarray:
+def _build_matrix(problem: _BodyProblem, x: np.ndarray) -> np.ndarray:
     return np.asarray(problem.origin + np.tensordot(x, problem.directions, 1))
 
 
-def _least(matrix: np.ndarray) -> float:
+def _compute_smallest_eigenvalue(matrix: np.ndarray) -> float:
     return float(np.linalg.eigvalsh(matrix)[0])

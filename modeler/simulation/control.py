@@ -6,29 +6,29 @@ from dataclasses import dataclass
 import numpy as np
 
 from modeler.robot import Joint
-from modeler.simulation.portable_math import exponential, sine_and_cosine
+from modeler.simulation.portable_math import compute_exponential, compute_sine_and_cosine
 from modeler.simulation.settings import HiddenEffect, SimulationSettings
 
 _PASSES = 30  # of the fixed point that inverts an eccentric encoder; contracts to a hundredth
 
 
-def encoder_resolution(joints: Sequence[Joint], settings: SimulationSettings) -> np.ndarray:
+def compute_encoder_resolution(joints: Sequence[Joint], settings: SimulationSettings) -> np.ndarray:
     """(joints,) rad or m per count; 0 for an ideal encoder."""
     return np.array([
-        2 * np.pi / settings.encoder_counts if joint.angular and settings.encoder_counts
-        else 0.0 if joint.angular else settings.linear_resolution
+        2 * np.pi / settings.encoder_counts if joint.is_revolute and settings.encoder_counts
+        else 0.0 if joint.is_revolute else settings.linear_resolution
         for joint in joints
     ])  # fmt: skip
 
 
-def quantised(position: np.ndarray, resolution: np.ndarray) -> np.ndarray:
+def quantise_position(position: np.ndarray, resolution: np.ndarray) -> np.ndarray:
     """What an encoder of that resolution reads; a resolution of 0 reads the position itself."""
     step = np.where(resolution > 0, resolution, 1.0)
     return np.where(resolution > 0, np.round(position / step) * step, position)
 
 
 @dataclass(frozen=True, eq=False)
-class Faults:
+class SensorFaults:
     """What the sensors of a machine do wrong, beside resolution and noise.
 
     Attributes:
@@ -46,7 +46,7 @@ class Faults:
     drift: np.ndarray
 
 
-def faults_of(joints: Sequence[str], hidden: Sequence[HiddenEffect]) -> Faults:
+def collect_sensor_faults(joints: Sequence[str], hidden: Sequence[HiddenEffect]) -> SensorFaults:
     """The faults among hidden effects."""
     offset, ratio, drift = np.zeros(len(joints)), np.ones(len(joints)), np.zeros(len(joints))
     waves, delay = [], 0.0
@@ -63,26 +63,26 @@ def faults_of(joints: Sequence[str], hidden: Sequence[HiddenEffect]) -> Faults:
             ratio[i] *= values["ratio"]
         elif effect.effect == "drift":
             drift[i] += values["per_minute"] / 60
-    return Faults(offset, tuple(waves), delay, ratio, drift)
+    return SensorFaults(offset, tuple(waves), delay, ratio, drift)
 
 
-def sensed(faults: Faults, position: np.ndarray) -> np.ndarray:
+def read_encoders(faults: SensorFaults, position: np.ndarray) -> np.ndarray:
     """(joints,) what encoders of endless resolution read at these positions."""
     read = position + faults.offset
     for i, amplitude, order, phase in faults.waves:
-        read[i] += amplitude * sine_and_cosine(order * position[i] + phase)[0]
+        read[i] += amplitude * compute_sine_and_cosine(order * position[i] + phase)[0]
     return read
 
 
-def where_read(faults: Faults, reading: np.ndarray) -> np.ndarray:
+def invert_encoders(faults: SensorFaults, reading: np.ndarray) -> np.ndarray:
     """(joints,) positions at which such encoders read that."""
     position = np.array(reading, dtype=float)
     for _ in range(_PASSES if faults.waves or np.any(faults.offset) else 0):
-        position = position - (sensed(faults, position) - reading)
+        position = position - (read_encoders(faults, position) - reading)
     return position
 
 
-def logged_torques(faults: Faults, time: np.ndarray, held: np.ndarray) -> np.ndarray:
+def compute_logged_torques(faults: SensorFaults, time: np.ndarray, held: np.ndarray) -> np.ndarray:
     """(n, joints) torques before noise: means over sampling intervals centred at the samples.
 
     Args:
@@ -91,13 +91,13 @@ def logged_torques(faults: Faults, time: np.ndarray, held: np.ndarray) -> np.nda
         held: (n, joints) torques, each held from its sample to the next.
     """
     if not faults.delay:
-        return sampled_torques(faults, time, (np.vstack([held[:1], held[:-1]]) + held) / 2)
+        return compute_sampled_torques(faults, time, (np.vstack([held[:1], held[:-1]]) + held) / 2)
     # The mean over one interval runs straight between the middles of the ticks.
-    return sampled_torques(faults, time, held, known=time + (time[1] - time[0]) / 2)
+    return compute_sampled_torques(faults, time, held, known=time + (time[1] - time[0]) / 2)
 
 
-def sampled_torques(
-    faults: Faults, time: np.ndarray, tau: np.ndarray, known: np.ndarray | None = None
+def compute_sampled_torques(
+    faults: SensorFaults, time: np.ndarray, tau: np.ndarray, known: np.ndarray | None = None
 ) -> np.ndarray:
     """(n, joints) torques before noise, from (n, joints) torques at the samples, or times known."""
     if faults.delay:
@@ -118,7 +118,7 @@ _LOWER_LOOPS = 0.25  # position loop and integral action, relative to the veloci
 
 
 @dataclass(frozen=True, eq=False)
-class Gains:
+class ControllerGains:
     """Of the P-PI cascade, for unit inertia.
 
     Attributes:
@@ -155,23 +155,25 @@ class ControllerState:
     effort: np.ndarray
 
 
-def tuned_gains(rate: float, bandwidth: float, feedforward: bool, highest: np.ndarray) -> Gains:
+def tune_gains(
+    rate: float, bandwidth: float, feedforward: bool, highest: np.ndarray
+) -> ControllerGains:
     """Gains of a velocity loop of `bandwidth` [Hz], lowered where the delay asks for it."""
     delay = _DELAY_TICKS / rate + 1 / (2 * np.pi * _SPEED_FILTER)
     omega = min(2 * np.pi * bandwidth, _PHASE / delay)
-    return Gains(
+    return ControllerGains(
         position=_LOWER_LOOPS * omega,
         speed=omega,
         integral=_LOWER_LOOPS * omega**2,
         forward=float(feedforward),
         highest=highest,
-        filter_share=1 - float(exponential(-2 * np.pi * _SPEED_FILTER / rate)),
+        filter_share=1 - float(compute_exponential(-2 * np.pi * _SPEED_FILTER / rate)),
         tick=1 / rate,
     )
 
 
-def control(
-    gains: Gains,
+def update_controller(
+    gains: ControllerGains,
     state: ControllerState,
     inertia: np.ndarray,
     measured: np.ndarray,
@@ -195,15 +197,17 @@ def control(
     difference = (measured - state.measured) / gains.tick
     speed = state.speed + gains.filter_share * (difference - state.speed)
     error = gains.position * (q - measured) + gains.forward * qd - speed
-    rise = _product(inertia, gains.integral * gains.tick * error)
+    rise = _multiply_in_order(inertia, gains.integral * gains.tick * error)
     effort = state.effort + rise
-    wanted = _product(inertia, gains.speed * error + gains.forward * qdd) + effort
-    torque = np.minimum(np.maximum(wanted, -gains.highest), gains.highest)
-    winding = (wanted != torque) & (wanted * rise > 0)
+    unlimited_torque = (
+        _multiply_in_order(inertia, gains.speed * error + gains.forward * qdd) + effort
+    )
+    torque = np.minimum(np.maximum(unlimited_torque, -gains.highest), gains.highest)
+    winding = (unlimited_torque != torque) & (unlimited_torque * rise > 0)
     return ControllerState(measured, speed, np.where(winding, state.effort, effort)), torque
 
 
-def _product(matrix: np.ndarray, vector: np.ndarray) -> np.ndarray:
+def _multiply_in_order(matrix: np.ndarray, vector: np.ndarray) -> np.ndarray:
     """matrix vector, by sums in a fixed order: libraries of linear algebra round as they like."""
     return np.asarray(np.sum(matrix * vector, axis=1))
 
@@ -214,7 +218,7 @@ def _product(matrix: np.ndarray, vector: np.ndarray) -> np.ndarray:
 _CORRELATION = 0.03  # s
 
 
-def process_torques(settings: SimulationSettings, ticks: int, rms: np.ndarray) -> np.ndarray:
+def draw_process_torques(settings: SimulationSettings, ticks: int, rms: np.ndarray) -> np.ndarray:
     """(ticks, joints) an Ornstein-Uhlenbeck process on each joint, stationary, held over ticks.
 
     Args:
@@ -228,7 +232,7 @@ def process_torques(settings: SimulationSettings, ticks: int, rms: np.ndarray) -
     from scipy.signal import lfilter  # it takes long to load
 
     white = np.random.default_rng([settings.seed, 5]).normal(size=shape)
-    kept = float(exponential(-1 / (settings.rate * _CORRELATION)))
-    white[1:] *= np.sqrt(1 - kept**2)  # the first sample has the variance of all
-    noise = lfilter([1.0], [1.0, -kept], white, axis=0)
+    decay = float(compute_exponential(-1 / (settings.rate * _CORRELATION)))
+    white[1:] *= np.sqrt(1 - decay**2)  # the first sample has the variance of all
+    noise = lfilter([1.0], [1.0, -decay], white, axis=0)
     return settings.process_noise * rms * np.round(noise, 10)  # the same on every machine

@@ -18,28 +18,28 @@ from modeler.simulation.physics import (
     ShaftScale,
     Site,
     Values,
-    dry_friction,
-    either_sign,
-    moving_with,
-    plausible,
-    rubbing,
-    share,
+    build_friction_act,
+    build_inertia_act,
+    build_share_draw,
+    combine_draws,
+    compute_dry_friction,
+    draw_sign,
 )
 
 # Friction without memory: torques that follow speed, position and load at once.
 
 
-def _stribeck(shaft: Shaft, value: Values) -> Contribution:
+def _compute_stribeck(shaft: Shaft, value: Values) -> Contribution:
     part = ca.exp(-((shaft.speed / value["speed"]) ** 2))
-    return Contribution(dry_friction(shaft, value["extra"] * part))
+    return Contribution(compute_dry_friction(shaft, value["extra"] * part))
 
 
-def _asymmetric_viscous(shaft: Shaft, value: Values) -> Contribution:
+def _compute_asymmetric_viscous(shaft: Shaft, value: Values) -> Contribution:
     rounded = ca.sqrt(shaft.speed**2 + shaft.settling**2) - shaft.settling
     return Contribution(value["coefficient"] * rounded)
 
 
-def _nonlinear_viscous(shaft: Shaft, value: Values) -> Contribution:
+def _compute_nonlinear_viscous(shaft: Shaft, value: Values) -> Contribution:
     size = ca.sqrt(shaft.speed**2 + shaft.settling**2)
     return Contribution(value["coefficient"] * size ** (value["power"] - 1) * shaft.speed)
 
@@ -49,12 +49,12 @@ def _draw_nonlinear_viscous(rng: np.random.Generator, site: Site) -> dict[str, f
     return {"coefficient": rng.uniform(0.15, 0.3) * site.torque / site.speed**power, "power": power}
 
 
-def _position_friction(shaft: Shaft, value: Values) -> Contribution:
+def _compute_position_friction(shaft: Shaft, value: Values) -> Contribution:
     turn = value["order"] * shaft.position - value["phase"]
-    return Contribution(dry_friction(shaft, value["level"] * (1 + ca.cos(turn))))
+    return Contribution(compute_dry_friction(shaft, value["level"] * (1 + ca.cos(turn))))
 
 
-def _once(rng: np.random.Generator, site: Site) -> float:
+def _compute_single_order(rng: np.random.Generator, site: Site) -> float:
     """Something turns once with a joint that turns, once per range with one that slides."""
     return 1.0 if site.angular else 2 * np.pi / site.span
 
@@ -69,7 +69,7 @@ _SHAPE = 0.7  # Bouc and Wen's beta of beta + gamma = 1
 _HALVED = 30.0  # K, by which friction falls to a half
 
 
-def _presliding(shaft: Shaft, value: Values) -> Contribution:
+def _compute_presliding(shaft: Shaft, value: Values) -> Contribution:
     """Bristles (Canudas de Wit et al. 1995): F = s0 z + s1 z', z' = v - |v| z / distance."""
     z = ca.SX.sym(f"bristle_{shaft.name}")
     rate = shaft.speed - ca.fabs(shaft.speed) * z / value["distance"]
@@ -79,14 +79,14 @@ def _presliding(shaft: Shaft, value: Values) -> Contribution:
 
 
 def _draw_presliding(rng: np.random.Generator, site: Site) -> dict[str, float]:
-    level = site.own.get("Fs") or rng.uniform(0.1, 0.2) * site.torque
+    level = site.joint_parameters.get("Fs") or rng.uniform(0.1, 0.2) * site.torque
     distance = rng.uniform(5e-4, 3e-3) * site.span
-    inertia = site.inertia + site.own.get("Ia", 0.0)
+    inertia = site.inertia + site.joint_parameters.get("Ia", 0.0)
     damping = 2 * _BRISTLE_DAMPING * np.sqrt(level / distance * inertia)
     return {"level": level, "distance": distance, "damping": float(damping)}
 
 
-def _cable(shaft: Shaft, value: Values) -> Contribution:
+def _compute_cable_hysteresis(shaft: Shaft, value: Values) -> Contribution:
     """Bouc and Wen's loop: F = level z, z' = (v - (b |v| z + (1 - b) v |z|) ) / width."""
     z, v = ca.SX.sym(f"cable_{shaft.name}"), shaft.speed
     back = _SHAPE * ca.fabs(v) * z + (1 - _SHAPE) * v * ca.fabs(z)
@@ -94,19 +94,19 @@ def _cable(shaft: Shaft, value: Values) -> Contribution:
     return Contribution(value["level"] * z, state=z, rate=rate, fastest=fastest)
 
 
-def _warming(shaft: Shaft, value: Values) -> Contribution:
+def _compute_warming(shaft: Shaft, value: Values) -> Contribution:
     """Friction that heats its joint and falls by half per 30 K: time T' = R P - (T - ambient)."""
     warmer = ca.SX.sym(f"heat_{shaft.name}")  # than at the start, K
     above = warmer + value["start"]
     fallen = 2 ** (-above / _HALVED)
-    torque = fallen * (value["Fv"] * shaft.speed + dry_friction(shaft, value["Fs"]))
+    torque = fallen * (value["Fv"] * shaft.speed + compute_dry_friction(shaft, value["Fs"]))
     rate = (value["heating"] * torque * shaft.speed - above) / value["time"]
     return Contribution(torque, state=warmer, rate=rate, temperature=_AMBIENT + above)
 
 
 def _draw_warming(rng: np.random.Generator, site: Site) -> dict[str, float]:
-    viscous = site.own.get("Fv") or rng.uniform(0.1, 0.2) * site.torque / site.speed
-    dry = site.own.get("Fs") or rng.uniform(0.1, 0.2) * site.torque
+    viscous = site.joint_parameters.get("Fv") or rng.uniform(0.1, 0.2) * site.torque / site.speed
+    dry = site.joint_parameters.get("Fs") or rng.uniform(0.1, 0.2) * site.torque
     usual = 0.35 * site.speed  # mean speed of lively motion
     return {
         "Fv": viscous,
@@ -125,7 +125,7 @@ _SHARPNESS = 0.005  # of the gap: width of the edge where gear teeth come to bea
 _SEEN = 0.2  # of the sampling rate: faster ripples are not hidden, no log would show them
 
 
-def _lever(shaft: Shaft, value: Values) -> tuple[ca.SX, ca.SX]:
+def _compute_lever(shaft: Shaft, value: Values) -> tuple[ca.SX, ca.SX]:
     """Length of a spring between a point on the link and one on the base, and its slope in q."""
     b, h = value["lever"], value["base"]
     turn = shaft.position - value["angle"]
@@ -133,8 +133,8 @@ def _lever(shaft: Shaft, value: Values) -> tuple[ca.SX, ca.SX]:
     return length, b * h * ca.sin(turn) / length
 
 
-def _counterbalance(shaft: Shaft, value: Values) -> Contribution:
-    length, slope = _lever(shaft, value)
+def _compute_counterbalance(shaft: Shaft, value: Values) -> Contribution:
+    length, slope = _compute_lever(shaft, value)
     return Contribution(value["stiffness"] * (length - value["length"]) * slope)
 
 
@@ -156,7 +156,7 @@ def _draw_gas_spring(rng: np.random.Generator, site: Site) -> dict[str, float]:
     return place | {"force": rng.uniform(0.4, 0.8) * site.torque / place["lever"]}
 
 
-def _ripple(shaft: Shaft, value: Values) -> Contribution:
+def _compute_ripple(shaft: Shaft, value: Values) -> Contribution:
     """Of the joint, or of a motor behind a gear."""
     turn = value["order"] * value.get("gear", 1.0) * shaft.position + value["phase"]
     return Contribution(value["amplitude"] * ca.sin(turn))
@@ -174,11 +174,11 @@ def _draw_motor_ripple(rng: np.random.Generator, site: Site) -> dict[str, float]
     }
 
 
-def _elastic(ahead: ca.SX, rate: ca.SX, value: Values) -> ca.SX:
+def _compute_elastic(ahead: ca.SX, rate: ca.SX, value: Values) -> ca.SX:
     return value["stiffness"] * ahead + value["damping"] * rate
 
 
-def _backlash(ahead: ca.SX, rate: ca.SX, value: Values) -> ca.SX:
+def _compute_backlash(ahead: ca.SX, rate: ca.SX, value: Values) -> ca.SX:
     """Teeth that bear half a gap from the middle, on either side; none push when they part."""
     width = _SHARPNESS * value["gap"]
     sides = []
@@ -225,85 +225,104 @@ def _draw_force(rng: np.random.Generator, site: Site) -> dict[str, float]:
     }
 
 
-def _more_of(effect: str) -> HiddenKind:
+def _build_enlarged_kind(effect: str) -> HiddenKind:
     """More of what robot files have, half again as large as what is drawn for these."""
     physics = PHYSICS[effect]
 
-    def draw(rng: np.random.Generator, scale: ShaftScale) -> dict[str, float]:
+    def draw_values(rng: np.random.Generator, scale: ShaftScale) -> dict[str, float]:
         return {name: 1.5 * value for name, value in physics.draw(rng, scale).items()}
 
-    return HiddenKind(effect, "joint", draw, physics.act, signed=physics.signed)
+    return HiddenKind(effect, "joint", draw_values, physics.act, signed=physics.signed)
 
 
 _KINDS = (
-    *map(_more_of, ("rotor_inertia", "viscous", "coulomb", "offset")),
+    *map(_build_enlarged_kind, ("rotor_inertia", "viscous", "coulomb", "offset")),
     HiddenKind(
         "asymmetric_viscous",
         "joint",
-        plausible(coefficient=share(0.04, 0.09, "torque/speed", either=True)),
-        _asymmetric_viscous,
+        combine_draws(coefficient=build_share_draw(0.04, 0.09, "torque/speed", either=True)),
+        _compute_asymmetric_viscous,
         signed=("coefficient",),
     ),
     HiddenKind(
         "stribeck",
         "joint",
-        plausible(extra=share(0.06, 0.14, "torque"), speed=share(0.02, 0.06, "speed")),
-        _stribeck,
+        combine_draws(
+            extra=build_share_draw(0.06, 0.14, "torque"),
+            speed=build_share_draw(0.02, 0.06, "speed"),
+        ),
+        _compute_stribeck,
     ),
-    HiddenKind("nonlinear_viscous", "joint", _draw_nonlinear_viscous, _nonlinear_viscous),
+    HiddenKind("nonlinear_viscous", "joint", _draw_nonlinear_viscous, _compute_nonlinear_viscous),
     HiddenKind(
         "load_friction",
         "joint",
-        plausible(coefficient=share(0.06, 0.14)),
+        combine_draws(coefficient=build_share_draw(0.06, 0.14)),
         lambda shaft, value: Contribution(
-            dry_friction(shaft, value["coefficient"] * ca.fabs(shaft.load))
+            compute_dry_friction(shaft, value["coefficient"] * ca.fabs(shaft.load))
         ),
         loops=False,
     ),
     HiddenKind(
         "position_friction",
         "joint",
-        plausible(level=share(0.05, 0.12, "torque"), order=_once, phase=share(-3.1, 3.1)),
-        _position_friction,
+        combine_draws(
+            level=build_share_draw(0.05, 0.12, "torque"),
+            order=_compute_single_order,
+            phase=build_share_draw(-3.1, 3.1),
+        ),
+        _compute_position_friction,
         signed=("phase",),
     ),
     HiddenKind(
         "coupled_friction",
         "pair",
-        plausible(
-            ratio=either_sign, Fv=share(0.05, 0.12, "torque/speed"), Fs=share(0.06, 0.14, "torque")
+        combine_draws(
+            ratio=draw_sign,
+            Fv=build_share_draw(0.05, 0.12, "torque/speed"),
+            Fs=build_share_draw(0.06, 0.14, "torque"),
         ),
-        rubbing("Fv", "Fs"),
+        build_friction_act("Fv", "Fs"),
         signed=("ratio",),
     ),
     HiddenKind(
         "coupled_inertia",
         "pair",
-        plausible(ratio=either_sign, Ia=share(0.15, 0.4, "inertia")),
-        moving_with("Ia"),
+        combine_draws(ratio=draw_sign, Ia=build_share_draw(0.15, 0.4, "inertia")),
+        build_inertia_act("Ia"),
         signed=("ratio",),
     ),
     HiddenKind(
         "passive_friction",
         "passive",
-        plausible(Fv=share(0.05, 0.15, "torque/speed"), Fs=share(0.06, 0.2, "torque")),
-        rubbing("Fv", "Fs"),
+        combine_draws(
+            Fv=build_share_draw(0.05, 0.15, "torque/speed"),
+            Fs=build_share_draw(0.06, 0.2, "torque"),
+        ),
+        build_friction_act("Fv", "Fs"),
     ),
     HiddenKind(
-        "presliding", "joint", _draw_presliding, _presliding, replaces=("coulomb",), loops=False
+        "presliding",
+        "joint",
+        _draw_presliding,
+        _compute_presliding,
+        replaces=("coulomb",),
+        loops=False,
     ),
     HiddenKind(
         "cable_hysteresis",
         "joint",
-        plausible(level=share(0.06, 0.14, "torque"), width=share(0.01, 0.06, "span")),
-        _cable,
+        combine_draws(
+            level=build_share_draw(0.06, 0.14, "torque"), width=build_share_draw(0.01, 0.06, "span")
+        ),
+        _compute_cable_hysteresis,
         loops=False,
     ),
     HiddenKind(
         "temperature_friction",
         "joint",
         _draw_warming,
-        _warming,
+        _compute_warming,
         replaces=("viscous", "coulomb"),
         signed=("start", "Fv", "Fs"),
         loops=False,
@@ -311,32 +330,42 @@ _KINDS = (
     HiddenKind(
         "spring",
         "joint",
-        plausible(stiffness=share(0.3, 0.6, "torque/span"), rest=share(-0.2, 0.2, "span")),
+        combine_draws(
+            stiffness=build_share_draw(0.3, 0.6, "torque/span"),
+            rest=build_share_draw(-0.2, 0.2, "span"),
+        ),
         lambda shaft, value: Contribution(value["stiffness"] * (shaft.position - value["rest"])),
         signed=("rest",),
     ),
-    HiddenKind("counterbalance", "lever", _draw_counterbalance, _counterbalance, signed=("angle",)),
+    HiddenKind(
+        "counterbalance", "lever", _draw_counterbalance, _compute_counterbalance, signed=("angle",)
+    ),
     HiddenKind(
         "constant_force_spring",
         "lever",
         _draw_gas_spring,
-        lambda shaft, value: Contribution(value["force"] * _lever(shaft, value)[1]),
+        lambda shaft, value: Contribution(value["force"] * _compute_lever(shaft, value)[1]),
         signed=("angle",),
     ),
-    HiddenKind("motor_ripple", "joint", _draw_motor_ripple, _ripple, signed=("phase",)),
+    HiddenKind("motor_ripple", "joint", _draw_motor_ripple, _compute_ripple, signed=("phase",)),
     HiddenKind(
         "joint_ripple",
         "joint",
-        plausible(
-            amplitude=share(0.03, 0.08, "torque"),
+        combine_draws(
+            amplitude=build_share_draw(0.03, 0.08, "torque"),
             order=lambda rng, site: float(rng.integers(*((8, 40) if site.angular else (60, 300)))),
-            phase=share(-3.1, 3.1),
+            phase=build_share_draw(-3.1, 3.1),
         ),
-        _ripple,
+        _compute_ripple,
         signed=("phase",),
     ),
     HiddenKind(
-        "elasticity", "geared", _draw_elastic, role="transmission", spring=_elastic, loops=False
+        "elasticity",
+        "geared",
+        _draw_elastic,
+        role="transmission",
+        spring=_compute_elastic,
+        loops=False,
     ),
     HiddenKind(
         "backlash",
@@ -345,7 +374,7 @@ _KINDS = (
             {"gap": rng.uniform(2e-4, 8e-4) * site.span} | _draw_elastic(rng, site, 40.0, 60.0)
         ),
         role="transmission",
-        spring=_backlash,
+        spring=_compute_backlash,
         loops=False,
     ),
     HiddenKind("payload", "system", _draw_body, role="body", signed=("x", "y", "z")),
@@ -353,8 +382,9 @@ _KINDS = (
     HiddenKind(
         "base_tilt",
         "system",
-        plausible(
-            angle=lambda rng, site: np.deg2rad(rng.uniform(2.0, 4.0)), heading=share(-3.1, 3.1)
+        combine_draws(
+            angle=lambda rng, site: np.deg2rad(rng.uniform(2.0, 4.0)),
+            heading=build_share_draw(-3.1, 3.1),
         ),
         role="gravity",
         signed=("heading",),
@@ -370,7 +400,7 @@ _KINDS = (
     HiddenKind(
         "encoder_offset",
         "joint",
-        plausible(angle=share(0.01, 0.03, "span", either=True)),
+        combine_draws(angle=build_share_draw(0.01, 0.03, "span", either=True)),
         role="sensor",
         signed=("angle",),
         loops=False,
@@ -378,24 +408,32 @@ _KINDS = (
     HiddenKind(
         "encoder_eccentricity",
         "joint",
-        plausible(amplitude=share(1.5e-3, 4e-3, "span"), order=_once, phase=share(-3.1, 3.1)),
+        combine_draws(
+            amplitude=build_share_draw(1.5e-3, 4e-3, "span"),
+            order=_compute_single_order,
+            phase=build_share_draw(-3.1, 3.1),
+        ),
         role="sensor",
         signed=("phase",),
         loops=False,
     ),
     HiddenKind(
-        "time_delay", "system", plausible(delay=share(2e-3, 6e-3)), role="sensor", signed=("delay",)
+        "time_delay",
+        "system",
+        combine_draws(delay=build_share_draw(2e-3, 6e-3)),
+        role="sensor",
+        signed=("delay",),
     ),
     HiddenKind(
         "drive_gain",
         "joint",
-        plausible(ratio=lambda rng, site: 1 + either_sign(rng) * rng.uniform(0.06, 0.14)),
+        combine_draws(ratio=lambda rng, site: 1 + draw_sign(rng) * rng.uniform(0.06, 0.14)),
         role="sensor",
     ),
     HiddenKind(
         "drift",
         "joint",
-        plausible(per_minute=share(0.15, 0.4, "torque", either=True)),
+        combine_draws(per_minute=build_share_draw(0.15, 0.4, "torque", either=True)),
         role="sensor",
         signed=("per_minute",),
     ),

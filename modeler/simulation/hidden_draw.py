@@ -7,15 +7,21 @@ import numpy as np
 
 from modeler.core.errors import RobotError
 from modeler.robot import Limits, Robot
-from modeler.simulation.closing import closed_motion, constraints_of, motor_torques, rates, sampled
+from modeler.simulation.closing import (
+    build_constraints,
+    compute_motor_torques,
+    compute_rates,
+    evaluate_samples,
+    find_closed_motion,
+)
 from modeler.simulation.hidden import HIDDEN
-from modeler.simulation.parameters import PlantParameters, joint_scales
+from modeler.simulation.parameters import PlantParameters, estimate_joint_scales
 from modeler.simulation.physics import HiddenKind, ShaftScale, Site
-from modeler.simulation.plant import last_link, torque_function
-from modeler.simulation.portable_math import ten_digits
-from modeler.simulation.rigid import gravity_vector, world_frames
+from modeler.simulation.plant import build_torque_function, find_last_link
+from modeler.simulation.portable_math import round_to_ten_digits
+from modeler.simulation.rigid import compute_gravity_vector, compute_world_frames
 from modeler.simulation.settings import HiddenEffect, SimulationSettings
-from modeler.simulation.trajectory import exciting_reference
+from modeler.simulation.trajectory import build_exciting_reference
 
 # How large a torque on a joint of a robot with loops is for the motors, which carry them.
 
@@ -24,7 +30,7 @@ _DURATION, _RATE = 6.0, 50.0  # s and Hz of the motion that is looked at
 _TOP = 0.98
 
 
-def motor_amplitudes(
+def compute_motor_amplitudes(
     robot: Robot, parameters: PlantParameters, limits: Sequence[Limits], joint: str, seed: int
 ) -> tuple[float, float]:
     """(torque, speed) of a joint that are large for the closed machine around it.
@@ -45,23 +51,26 @@ def motor_amplitudes(
         RobotError: `home` does not close.
         DataError: the loops close on no such motion.
     """
-    constraints = constraints_of(robot)
-    names = [moving.name for moving in robot.moving]
-    own = tuple(limits[names.index(moving.name)] for moving in robot.coordinates)
-    motion = closed_motion(
-        robot, constraints, own, lambda near: exciting_reference(near, _DURATION, _RATE, seed)
+    constraints = build_constraints(robot)
+    names = [moving.name for moving in robot.moving_joints]
+    coordinate_limits = tuple(limits[names.index(moving.name)] for moving in robot.coordinates)
+    motion = find_closed_motion(
+        robot,
+        constraints,
+        coordinate_limits,
+        lambda near: build_exciting_reference(near, _DURATION, _RATE, seed),
     )
     v, qd = motion.v, motion.reference.qd
-    vd, vdd = rates(constraints, v, qd, motion.reference.qdd)
-    torque, states = torque_function(robot, parameters, tuple(limits))
-    load = sampled(torque, v, vd, vdd, np.zeros((len(v), states)))[:, :, 0]
-    needed = np.sqrt(np.mean(motor_torques(constraints, v, load) ** 2, axis=0))
+    vd, vdd = compute_rates(constraints, v, qd, motion.reference.qdd)
+    torque, states = build_torque_function(robot, parameters, tuple(limits))
+    load = evaluate_samples(torque, v, vd, vdd, np.zeros((len(v), states)))[:, :, 0]
+    needed = np.sqrt(np.mean(compute_motor_torques(constraints, v, load) ** 2, axis=0))
     row = names.index(joint)
     shares = []
     for m, torque_m in enumerate(needed):
-        moved = np.zeros_like(qd)
-        moved[:, m] = 1.0
-        slope = rates(constraints, v, moved, np.zeros_like(qd))[0][:, row]
+        motor_speeds = np.zeros_like(qd)
+        motor_speeds[:, m] = 1.0
+        slope = compute_rates(constraints, v, motor_speeds, np.zeros_like(qd))[0][:, row]
         if torque_m > 0.0:
             shares.append(float(np.sqrt(np.mean(slope**2))) / torque_m)
     speed = float(np.quantile(np.abs(vd[:, row]), _TOP))
@@ -102,71 +111,78 @@ def complete_effects(
     if not settings.hidden:
         return ()
     rng = np.random.default_rng([settings.parameter_seed, 6])
-    scales = joint_scales(robot, parameters.bodies, limits, rng)
-    found: list[HiddenEffect] = []
-    for k, asked in enumerate(settings.hidden):
-        before = sum(other.effect == asked.effect for other in settings.hidden[:k])
-        seed = [settings.parameter_seed, 7, before, *asked.effect.encode()]
+    scales = estimate_joint_scales(robot, parameters.bodies, limits, rng)
+    effects: list[HiddenEffect] = []
+    for k, request in enumerate(settings.hidden):
+        before = sum(other.effect == request.effect for other in settings.hidden[:k])
+        seed = [settings.parameter_seed, 7, before, *request.effect.encode()]
         rng = np.random.default_rng(seed)
-        kind, joint = _kind_and_joint(robot, parameters, asked, rng)
-        site = _site(robot, parameters, limits, scales, settings, kind, joint)
-        found.append(HiddenEffect(asked.effect, joint, _values(robot, kind, asked, site, rng)))
-    _check_together(robot, found)
-    return tuple(found)
+        kind, joint = _choose_kind_and_joint(robot, parameters, request, rng)
+        site = _build_site(robot, parameters, limits, scales, settings, kind, joint)
+        effects.append(
+            HiddenEffect(request.effect, joint, _complete_values(robot, kind, request, site, rng))
+        )
+    _check_together(robot, effects)
+    return tuple(effects)
 
 
-def _kind_and_joint(
-    robot: Robot, parameters: PlantParameters, asked: HiddenEffect, rng: np.random.Generator
+def _choose_kind_and_joint(
+    robot: Robot, parameters: PlantParameters, request: HiddenEffect, rng: np.random.Generator
 ) -> tuple[HiddenKind, str | None]:
-    where = f"robot {robot.name}, hidden effect {asked.effect}"
-    kind = HIDDEN.get(asked.effect)
+    where = f"robot {robot.name}, hidden effect {request.effect}"
+    kind = HIDDEN.get(request.effect)
     if kind is None:
         raise RobotError(f"{where}: no such effect; expected one of {', '.join(HIDDEN)}")
     if robot.loops and not kind.loops:
         able = ", ".join(name for name, other in HIDDEN.items() if other.loops)
         raise RobotError(f"{where}: not simulated for robots with loops; expected one of {able}")
-    if kind.role == "gravity" and not np.any(gravity_vector(robot)):
+    if kind.role == "gravity" and not np.any(compute_gravity_vector(robot)):
         raise RobotError(f"{where}: the robot has no gravity; state one, or hide another effect")
     if kind.where == "system":
-        if asked.joint is not None:
+        if request.joint is not None:
             raise RobotError(
-                f"{where}: got joint {asked.joint}; expected none, it belongs to the whole machine"
+                f"{where}: got joint {request.joint}; expected none, it belongs to the whole "
+                "machine"
             )
         return kind, None
-    places = _places(robot, parameters, kind)
+    places = _find_places(robot, parameters, kind)
     if not places:
         needs = _WHY_NONE.get(kind.where, "a joint with a motor")
         raise RobotError(f"{where}: no place for it; expected {needs}")
     # The first link of an arm hardly feels what is on it.
     inner = places[1:] if kind.where == "link" and len(places) > 1 else places
     drawn = str(rng.choice(inner))  # also where one is given: values do not depend on that
-    if asked.joint is not None and asked.joint not in places:
-        raise RobotError(f"{where}: got joint {asked.joint}; expected one of {', '.join(places)}")
-    return kind, asked.joint or drawn
+    if request.joint is not None and request.joint not in places:
+        raise RobotError(f"{where}: got joint {request.joint}; expected one of {', '.join(places)}")
+    return kind, request.joint or drawn
 
 
-def _places(robot: Robot, parameters: PlantParameters, kind: HiddenKind) -> list[str]:
+def _find_places(robot: Robot, parameters: PlantParameters, kind: HiddenKind) -> list[str]:
     """Joints or links that may have the effect."""
     joints = [joint for joint in robot.coordinates if joint.actuated]
     names = [joint.name for joint in joints]
     if kind.where == "lever":
-        return [joint.name for joint in joints if joint.angular]
+        return [joint.name for joint in joints if joint.is_revolute]
     if kind.where == "pair":
         pairs = zip(robot.coordinates, robot.coordinates[1:], strict=False)
-        alike = [one.name for one, other in pairs if one.angular == other.angular]
-        return [name for name in alike if name in names]
+        pair_joints = [one.name for one, other in pairs if one.is_revolute == other.is_revolute]
+        return [name for name in pair_joints if name in names]
     if kind.where == "geared":
         return [name for name in names if parameters.standard.get(f"Ia{name}", 0.0) > 0]
     if kind.where == "link":
-        return [joint.name for joint in robot.moving[:-1] if joint.name not in robot.platform]
+        return [
+            joint.name for joint in robot.moving_joints[:-1] if joint.name not in robot.platform
+        ]
     if kind.where == "passive":
-        rows = robot.moving if robot.loops else ()
-        gone = (*robot.platform, *robot.relations)
-        return [joint.name for joint in rows if not joint.actuated and joint.name not in gone]
+        rows = robot.moving_joints if robot.loops else ()
+        excluded_rows = (*robot.platform, *robot.relations)
+        return [
+            joint.name for joint in rows if not joint.actuated and joint.name not in excluded_rows
+        ]
     return names
 
 
-def _site(
+def _build_site(
     robot: Robot,
     parameters: PlantParameters,
     limits: tuple[Limits, ...],
@@ -175,16 +191,18 @@ def _site(
     kind: HiddenKind,
     joint: str | None,
 ) -> Site:
-    names = [moving.name for moving in robot.moving]
-    row = names.index(last_link(robot) if joint is None else joint)
+    names = [moving.name for moving in robot.moving_joints]
+    row = names.index(find_last_link(robot) if joint is None else joint)
     scale, limit, name = scales[row], limits[row], names[row]
-    own = {p: parameters.standard[p + name] for p in _OWN if p + name in parameters.standard}
+    joint_parameters = {
+        p: parameters.standard[p + name] for p in _OWN if p + name in parameters.standard
+    }
     # With what the robot file knows of friction and rotor, in the same motion.
     parts = (
         scale.torque,
-        own.get("Ia", 0.0) * _LIVELY * limit.acceleration,
-        own.get("Fv", 0.0) * _LIVELY * limit.speed,
-        own.get("Fs", 0.0),
+        joint_parameters.get("Ia", 0.0) * _LIVELY * limit.acceleration,
+        joint_parameters.get("Fv", 0.0) * _LIVELY * limit.speed,
+        joint_parameters.get("Fs", 0.0),
     )
     torque, speed, inertia = float(np.linalg.norm(parts)), scale.speed, scale.inertia
     if kind.where == "pair":  # the next joint feels it too: what is large for the weaker one
@@ -192,12 +210,14 @@ def _site(
         after = scales[motors[motors.index(row) + 1]]
         torque, inertia = min(torque, after.torque), min(inertia, after.inertia)
     elif joint is not None and robot.loops and kind.where in ("joint", "lever", "passive"):
-        torque, felt = motor_amplitudes(robot, parameters, limits, joint, settings.parameter_seed)
+        torque, joint_speed = compute_motor_amplitudes(
+            robot, parameters, limits, joint, settings.parameter_seed
+        )
         # What no motor commands is as fast as the loops make it.
-        speed = felt if kind.where == "passive" else speed
+        speed = joint_speed if kind.where == "passive" else speed
     # Torque of a force of 1 N on the last body, per rms torque of the joint that feels it most.
-    q, last = ca.SX.sym("q", len(limits)), robot.moving[-1].name
-    frame = world_frames(robot, q)[last]
+    q, last = ca.SX.sym("q", len(limits)), robot.moving_joints[-1].name
+    frame = compute_world_frames(robot, q)[last]
     point = frame.position + frame.rotation @ parameters.bodies[last].centre
     slope = ca.Function("slope", [q], [ca.jacobian(point, q)])
     arms = np.linalg.norm(slope([(li.lower + li.upper) / 2 for li in limits]).full(), axis=0)
@@ -206,8 +226,8 @@ def _site(
         speed=speed,
         inertia=inertia,
         span=limit.upper - limit.lower,
-        angular=robot.moving[row].angular,
-        own=own,
+        angular=robot.moving_joints[row].is_revolute,
+        joint_parameters=joint_parameters,
         body=parameters.bodies[name],
         mass=sum(body.mass for body in parameters.bodies.values()),
         lever=float(np.max(arms / [each.torque for each in scales])),
@@ -216,19 +236,19 @@ def _site(
     )
 
 
-def _values(
-    robot: Robot, kind: HiddenKind, asked: HiddenEffect, site: Site, rng: np.random.Generator
+def _complete_values(
+    robot: Robot, kind: HiddenKind, request: HiddenEffect, site: Site, rng: np.random.Generator
 ) -> dict[str, float]:
     where = f"robot {robot.name}, hidden effect {kind.effect}"
-    values = {name: ten_digits(value) for name, value in kind.draw(rng, site).items()}
-    for name, value in asked.values.items():
+    values = {name: round_to_ten_digits(value) for name, value in kind.draw(rng, site).items()}
+    for name, value in request.values.items():
         if name not in values:
             raise RobotError(
                 f"{where}: got a value {name}; expected some of {', '.join(values) or 'none'}"
             )
         if not np.isfinite(value) or (value <= 0 and name not in kind.signed):
             raise RobotError(f"{where}, {name}: got {value:g}; expected a number above 0")
-    return values | {name: float(value) for name, value in asked.values.items()}
+    return values | {name: float(value) for name, value in request.values.items()}
 
 
 def _check_together(robot: Robot, effects: list[HiddenEffect]) -> None:

@@ -10,16 +10,16 @@ import numpy as np
 import pyarrow as pa
 import pyarrow.parquet as pq
 
-from modeler.core.brief import Brief
+from modeler.core.brief import ShortRepr
 from modeler.core.errors import DataError
 from modeler.core.files import write_atomically
-from modeler.core.json import nulled
-from modeler.core.result import Presented
+from modeler.core.json import convert_to_plain
+from modeler.core.result import Result
 from modeler.simulation.settings import HiddenEffect, SimulationSettings
 
 
 @dataclass(frozen=True, eq=False)
-class Truth(Brief):
+class Truth(ShortRepr):
     """What no sensor sees.
 
     Attributes:
@@ -40,7 +40,7 @@ class Truth(Brief):
 
 
 @dataclass(frozen=True, eq=False)
-class SimulatedLog(Presented):
+class SimulatedLog(Result):
     """What a robot's logger would have written.
 
     Attributes:
@@ -72,7 +72,7 @@ class SimulatedLog(Presented):
     range_share: float = 1.0
 
 
-def log_columns(log: SimulatedLog) -> dict[str, np.ndarray]:
+def build_log_columns(log: SimulatedLog) -> dict[str, np.ndarray]:
     """Columns by name: time, q1.., qc1.., tau1.. or current1.., further ones.
 
     A joint without motor has only its q; one whose drive gain is set logs its current.
@@ -98,7 +98,7 @@ def write_log(path: Path, log: SimulatedLog) -> None:
     """
     path = Path(path)
     check_suffix(path)
-    columns = log_columns(log)
+    columns = build_log_columns(log)
     if path.suffix == ".csv":
         rows = [",".join(columns)]
         rows += [",".join(map(repr, row)) for row in np.column_stack([*columns.values()]).tolist()]
@@ -134,13 +134,15 @@ def write_truth(path: Path, log: SimulatedLog) -> None:
         "torque_noise": log.settings.torque_noise,
         "parameters": dict(log.truth.parameters),
         "drawn": list(log.truth.drawn),
-        "hidden": hidden_json(log),
+        "hidden": serialise_hidden_effects(log),
         "drive_gains": dict(log.settings.drive_gains),
     }
-    write_atomically(Path(path), json.dumps(nulled(content), indent=1, allow_nan=False) + "\n")
+    write_atomically(
+        Path(path), json.dumps(convert_to_plain(content), indent=1, allow_nan=False) + "\n"
+    )
 
 
-def hidden_json(log: SimulatedLog) -> list[dict[str, object]]:
+def serialise_hidden_effects(log: SimulatedLog) -> list[dict[str, object]]:
     """The hidden effects for JSON."""
     return [
         {"effect": h.effect, "joint": h.joint, "values": dict(h.values)} for h in log.truth.hidden

@@ -95,7 +95,7 @@ class Site(ShaftScale):
 
     span: float
     angular: bool
-    own: Values
+    joint_parameters: Values
     body: Body
     mass: float
     lever: float
@@ -106,7 +106,7 @@ class Site(ShaftScale):
 Scale = TypeVar("Scale", bound=ShaftScale)
 
 
-def share(
+def build_share_draw(
     low: float, high: float, of: str = "", either: bool = False
 ) -> Callable[[np.random.Generator, ShaftScale], float]:
     """A plausible value: uniform from low to high, as a share of what is large on the shaft.
@@ -119,20 +119,20 @@ def share(
     """
     over, _, under = of.partition("/")
 
-    def draw(rng: np.random.Generator, scale: ShaftScale) -> float:
-        value = (either_sign(rng) if either else 1.0) * rng.uniform(low, high)
+    def draw_value(rng: np.random.Generator, scale: ShaftScale) -> float:
+        value = (draw_sign(rng) if either else 1.0) * rng.uniform(low, high)
         value *= getattr(scale, over) if over else 1.0
         return float(value / getattr(scale, under) if under else value)
 
-    return draw
+    return draw_value
 
 
-def either_sign(rng: np.random.Generator, scale: ShaftScale | None = None) -> float:
+def draw_sign(rng: np.random.Generator, scale: ShaftScale | None = None) -> float:
     """-1 or 1, whatever the scale."""
     return float(rng.choice([-1.0, 1.0]))
 
 
-def plausible(
+def combine_draws(
     **draws: Callable[[np.random.Generator, Scale], float],
 ) -> Callable[[np.random.Generator, Scale], dict[str, float]]:
     """Values by name, each drawn by itself, in this order."""
@@ -191,22 +191,22 @@ class HiddenKind:
     loops: bool = True
 
 
-def dry_friction(shaft: Shaft, level: ca.SX | float) -> ca.SX:
+def compute_dry_friction(shaft: Shaft, level: ca.SX | float) -> ca.SX:
     """Friction of that level against the motion, nearly independent of the speed."""
     # sign(v) with a core 1/1000 of the top speed wide: the joint creeps there instead of sticking,
     # and the equation stays one that Runge-Kutta steps can follow.
     return level * ca.tanh(shaft.speed / shaft.settling)
 
 
-def moving_with(inertia: str) -> Act:
+def build_inertia_act(inertia: str) -> Act:
     """The shaft's own inertia, the value of that name."""
     return lambda shaft, value: Contribution(inertia=value[inertia])
 
 
-def rubbing(viscous: str, dry: str) -> Act:
+def build_friction_act(viscous: str, dry: str) -> Act:
     """Viscous and dry friction, the values of these names."""
     return lambda shaft, value: Contribution(
-        value[viscous] * shaft.speed + dry_friction(shaft, value[dry])
+        value[viscous] * shaft.speed + compute_dry_friction(shaft, value[dry])
     )
 
 
@@ -214,39 +214,45 @@ PHYSICS: Mapping[str, EffectPhysics] = {
     physics.effect: physics
     for physics in (
         EffectPhysics(
-            "rotor_inertia", ("Ia",), plausible(Ia=share(0.2, 0.6, "inertia")), moving_with("Ia")
+            "rotor_inertia",
+            ("Ia",),
+            combine_draws(Ia=build_share_draw(0.2, 0.6, "inertia")),
+            build_inertia_act("Ia"),
         ),
         EffectPhysics(
             "viscous",
             ("Fv",),
-            plausible(Fv=share(0.05, 0.15, "torque/speed")),
+            combine_draws(Fv=build_share_draw(0.05, 0.15, "torque/speed")),
             lambda shaft, value: Contribution(value["Fv"] * shaft.speed),
         ),
         EffectPhysics(
             "coulomb",
             ("Fs",),
-            plausible(Fs=share(0.06, 0.15, "torque")),
-            lambda shaft, value: Contribution(dry_friction(shaft, value["Fs"])),
+            combine_draws(Fs=build_share_draw(0.06, 0.15, "torque")),
+            lambda shaft, value: Contribution(compute_dry_friction(shaft, value["Fs"])),
         ),
         EffectPhysics(
             "offset",
             ("Off",),
-            plausible(Off=share(0.01, 0.04, "torque", either=True)),
+            combine_draws(Off=build_share_draw(0.01, 0.04, "torque", either=True)),
             lambda shaft, value: Contribution(ca.SX(value["Off"])),
             signed=("Off",),
         ),
         EffectPhysics(
             "coupled_inertia",
             ("Iam",),
-            plausible(Iam=share(0.1, 0.3, "inertia")),
-            moving_with("Iam"),
+            combine_draws(Iam=build_share_draw(0.1, 0.3, "inertia")),
+            build_inertia_act("Iam"),
             on_motor=True,
         ),
         EffectPhysics(
             "coupled_friction",
             ("Fvm", "Fsm"),
-            plausible(Fvm=share(0.03, 0.1, "torque/speed"), Fsm=share(0.04, 0.1, "torque")),
-            rubbing("Fvm", "Fsm"),
+            combine_draws(
+                Fvm=build_share_draw(0.03, 0.1, "torque/speed"),
+                Fsm=build_share_draw(0.04, 0.1, "torque"),
+            ),
+            build_friction_act("Fvm", "Fsm"),
             on_motor=True,
         ),
     )

@@ -14,28 +14,33 @@ import numpy as np
 from scipy.spatial.transform import Rotation
 
 from modeler.core.errors import DataError, RobotError
-from modeler.core.expression import parse
+from modeler.core.expression import parse_expression
 from modeler.robot import Joint, Limits, Robot
-from modeler.simulation.closing import Constraints, tree_from_free, untied
+from modeler.simulation.closing import Constraints, build_identity_map, compute_tree_map
 from modeler.simulation.hidden import HIDDEN
 from modeler.simulation.parameters import PlantParameters
-from modeler.simulation.portable_math import portable, ten_digits
+from modeler.simulation.portable_math import make_portable, round_to_ten_digits
 from modeler.simulation.rigid import (
     Body,
     RigidDynamics,
-    body_from_standard,
-    gravity_vector,
-    rigid_dynamics,
-    standard_from_body,
-    tied_dynamics,
+    build_rigid_dynamics,
+    compute_body,
+    compute_gravity_vector,
+    compute_standard_parameters,
+    reduce_dynamics,
 )
 from modeler.simulation.settings import HiddenEffect
-from modeler.simulation.shafts import ShaftEffects, Transmissions, shaft_effects, transmissions_of
+from modeler.simulation.shafts import (
+    ShaftEffects,
+    Transmissions,
+    combine_shaft_effects,
+    find_transmissions,
+)
 
 _LOAD_PASSES = 3  # friction of a share mu of the load is then exact to about mu^4
 
 
-def machine(
+def apply_hidden_loads(
     robot: Robot, parameters: PlantParameters, effects: Sequence[HiddenEffect]
 ) -> tuple[Robot, PlantParameters]:
     """The robot with hidden loads on its links, on a base that stands askew."""
@@ -43,27 +48,30 @@ def machine(
     for effect in effects:
         role, values = HIDDEN[effect.effect].role, effect.values
         if role == "gravity":
-            robot = _tilted(robot, values["angle"], values["heading"])
+            robot = _rotate_gravity(robot, values["angle"], values["heading"])
         elif role == "body":  # a ball of that radius of gyration: all ten parameters change
-            name = effect.joint or last_link(robot)
+            name = effect.joint or find_last_link(robot)
             inertia = values["mass"] * values["radius"] ** 2 * np.eye(3)
             ball = Body(values["mass"], np.array([values[k] for k in "xyz"]), inertia)
-            one, other = standard_from_body(bodies[name]), standard_from_body(ball)
-            bodies[name] = body_from_standard({p: one[p] + other[p] for p in one})
+            one, other = (
+                compute_standard_parameters(bodies[name]),
+                compute_standard_parameters(ball),
+            )
+            bodies[name] = compute_body({p: one[p] + other[p] for p in one})
     return robot, dataclasses.replace(parameters, bodies=bodies)
 
 
-def last_link(robot: Robot) -> str:
+def find_last_link(robot: Robot) -> str:
     """The row that carries a load: the platform, or the last one that moves."""
-    return robot.platform[-1] if robot.platform else robot.moving[-1].name
+    return robot.platform[-1] if robot.platform else robot.moving_joints[-1].name
 
 
-def _tilted(robot: Robot, angle: float, heading: float) -> Robot:
+def _rotate_gravity(robot: Robot, angle: float, heading: float) -> Robot:
     """Gravity turned by `angle` about a horizontal axis, `heading` away from the first one.
 
     The horizontal axes are the world's two that are farther from gravity, made square to it.
     """
-    gravity = gravity_vector(robot)
+    gravity = compute_gravity_vector(robot)
     down = gravity / np.linalg.norm(gravity)
     first, second = (np.eye(3)[i] for i in np.sort(np.argsort(np.abs(down), kind="stable")[:2]))
     first = first - (first @ down) * down
@@ -72,7 +80,7 @@ def _tilted(robot: Robot, angle: float, heading: float) -> Robot:
     second /= np.linalg.norm(second)
     axis = np.cos(heading) * first + np.sin(heading) * second
     turned = Rotation.from_rotvec(angle * axis).apply(gravity)
-    x, y, z = (parse(ten_digits(component)) for component in turned)
+    x, y, z = (parse_expression(round_to_ten_digits(component)) for component in turned)
     return dataclasses.replace(robot, gravity=(x, y, z))
 
 
@@ -96,7 +104,7 @@ class Plant:
         strain: (q, z) -> torques that pull on links behind transmissions at rest; none to the
             others.
         fastest: rate of inner states at top speed, 1/s; 0 if speed does not make them fast.
-        temperatures: (z) -> readings of thermometers, degC, on the joints of `warmed`.
+        temperatures: (z) -> readings of thermometers, degC, on the joints of `thermometer_joints`.
         warmed: names of these joints.
         closer: (q, z) -> z with the loops closed again, by one step of Newton; None without loops.
     """
@@ -111,7 +119,7 @@ class Plant:
     strain: ca.Function
     fastest: float
     temperatures: ca.Function
-    warmed: tuple[str, ...]
+    thermometer_joints: tuple[str, ...]
     closer: ca.Function | None = None
 
 
@@ -134,20 +142,22 @@ def build_plant(
     Raises:
         RobotError: a joint that nothing gives an inertia, or an effect that cannot be simulated.
     """
-    links = rigid_dynamics(robot, parameters.bodies)
+    links = build_rigid_dynamics(robot, parameters.bodies)
     if constraints is not None:
-        effects = shaft_effects(robot, parameters, limits, links, untied(robot), hidden)
-        return _closed_plant(robot, links, effects, constraints)
-    tie = tree_from_free(robot)
+        effects = combine_shaft_effects(
+            robot, parameters, limits, links, build_identity_map(robot), hidden
+        )
+        return _build_closed_plant(robot, links, effects, constraints)
+    tie = compute_tree_map(robot)
     if robot.relations:
-        links = tied_dynamics(links, *tie)
-    giving = transmissions_of(robot, hidden)
+        links = reduce_dynamics(links, *tie)
+    giving = find_transmissions(robot, hidden)
     if giving.rows:
-        links = tied_dynamics(links, giving.turns, np.zeros(len(robot.free)))
+        links = reduce_dynamics(links, giving.turns, np.zeros(len(robot.free_joints)))
         tie = np.hstack([tie[0], np.zeros((len(tie[0]), len(giving.rows)))]), tie[1]
-    effects = shaft_effects(robot, parameters, limits, links, tie, hidden)
-    plant = _open_plant(robot, links, effects, giving)
-    for pose in sample_poses(of_free(robot, limits)):
+    effects = combine_shaft_effects(robot, parameters, limits, links, tie, hidden)
+    plant = _build_open_plant(robot, links, effects, giving)
+    for pose in generate_poses(select_free_limits(robot, limits)):
         values, vectors = np.linalg.eigh(plant.inertia(pose).full())
         if values[0] <= 1e-12 * values[-1]:
             joint = plant.joints[int(np.argmax(np.abs(vectors[:, 0])))]
@@ -159,29 +169,31 @@ def build_plant(
     return plant
 
 
-def _open_plant(
+def _build_open_plant(
     robot: Robot, links: RigidDynamics, effects: ShaftEffects, giving: Transmissions
 ) -> Plant:
     """Without loops, in the coordinates of the free joints."""
-    n, k = len(robot.free), len(giving.rows)
+    n, k = len(robot.free_joints), len(giving.rows)
     q, qd = links.q[:n, :], links.qd[:n, :]
     ahead, ahead_rate = links.q[n:, :], links.qd[n:, :]
     z = ca.vertcat(ahead, ahead_rate, effects.state)
     tau, qdd = ca.SX.sym("tau", n), ca.SX.sym("qdd", n)
     inertia = links.inertia + ca.SX(effects.inertia)
-    spring = ca.vertcat(ca.SX.zeros(n), giving.torque(ahead, ahead_rate))
-    solved = _solved(links, effects, inertia, spring, ca.vertcat(tau, ca.SX.zeros(k)))
+    spring = ca.vertcat(ca.SX.zeros(n), giving.compute_torque(ahead, ahead_rate))
+    solved = _solve_accelerations(links, effects, inertia, spring, ca.vertcat(tau, ca.SX.zeros(k)))
 
     at_rest = ca.substitute(links.bias + spring, links.qd, ca.SX.zeros(n + k))[n:, :]
 
     following = inertia[:n, :n]  # of links that move with their motors
     if k:
         following = ca.substitute(following, ahead, ca.SX.zeros(k))
-    asked = links.inertia[:n, :n] @ qdd + links.bias[:n, :]
-    load = links.bias[:n, :] + _loaded(effects, ca.vertcat(asked, ca.SX.zeros(k)))[:n, :]
+    required_torque = links.inertia[:n, :n] @ qdd + links.bias[:n, :]
+    load = (
+        links.bias[:n, :] + _apply_load(effects, ca.vertcat(required_torque, ca.SX.zeros(k)))[:n, :]
+    )
     z_rate = ca.vertcat(ahead_rate, solved[n:, :], effects.rate)
-    return _plant(
-        robot.free,
+    return _assemble_plant(
+        robot.free_joints,
         effects,
         {"q": q, "qd": qd, "qdd": qdd, "z": z, "tau": tau},
         acceleration=("q qd z tau", solved[:n, :], z_rate),
@@ -192,55 +204,57 @@ def _open_plant(
     )
 
 
-def _plant(
+def _assemble_plant(
     joints: Sequence[Joint],
     effects: ShaftEffects,
     symbols: dict[str, ca.SX],
     **functions: tuple[Any, ...],
 ) -> Plant:
     """The plant with these functions: names of their inputs, and their results."""
-    made = {
-        name: portable(
+    casadi_functions = {
+        name: make_portable(
             ca.Function(
-                name, [symbols[k] for k in given.split()], [ca.cse(result) for result in results]
+                name,
+                [symbols[k] for k in input_names.split()],
+                [ca.cse(result) for result in results],
             )
         )
-        for name, (given, *results) in functions.items()
+        for name, (input_names, *results) in functions.items()
     }
     return Plant(
         joints=tuple(joint.name for joint in joints),
         driven=np.array([joint.actuated for joint in joints]),
         states=symbols["z"].shape[0],
         fastest=effects.fastest,
-        warmed=tuple(effects.temperatures),
-        **made,
+        thermometer_joints=tuple(effects.temperatures),
+        **casadi_functions,
     )
 
 
-def _solved(
+def _solve_accelerations(
     links: RigidDynamics, effects: ShaftEffects, inertia: ca.SX, spring: ca.SX, tau: ca.SX
 ) -> ca.SX:
     """Accelerations of all coordinates."""
     diagonal, lower, order = ca.ldl(inertia, False)  # M = L D L': no pivoting for M > 0
 
-    def moved(load: ca.SX) -> ca.SX:
-        resisting = links.bias + _loaded(effects, load)
+    def solve_with_load(load: ca.SX) -> ca.SX:
+        resisting = links.bias + _apply_load(effects, load)
         return ca.ldl_solve(tau - resisting - spring, diagonal, lower, order)
 
-    solved = moved(links.bias)
+    solved = solve_with_load(links.bias)
     if ca.depends_on(effects.torque, effects.load):
         for _ in range(_LOAD_PASSES):  # friction slows the links, whose load makes the friction
-            solved = moved(links.inertia @ solved + links.bias)
+            solved = solve_with_load(links.inertia @ solved + links.bias)
     return solved
 
 
-def _loaded(effects: ShaftEffects, load: ca.SX) -> ca.SX:
+def _apply_load(effects: ShaftEffects, load: ca.SX) -> ca.SX:
     if not ca.depends_on(effects.torque, effects.load):
         return effects.torque
     return ca.substitute(effects.torque, effects.load, load)
 
 
-def _closed_plant(
+def _build_closed_plant(
     robot: Robot, links: RigidDynamics, effects: ShaftEffects, constraints: Constraints
 ) -> Plant:
     """With loops; the joints that follow the coordinates are the first of the inner states.
@@ -249,22 +263,31 @@ def _closed_plant(
     J_s G_s = -J_q and J_s g_s = -J' vd by least squares. The principle of virtual work gives
     G^T M G qdd + G^T (M g + h) = tau: no constraint force does work.
     """
-    given, others, rows = constraints.given, constraints.others, len(robot.moving)
-    q, qd, qdd, tau = (ca.SX.sym(name, len(given)) for name in ("q", "qd", "qdd", "tau"))
+    coordinate_rows, others, rows = (
+        constraints.coordinate_rows,
+        constraints.passive_rows,
+        len(robot.moving_joints),
+    )
+    q, qd, qdd, tau = (ca.SX.sym(name, len(coordinate_rows)) for name in ("q", "qd", "qdd", "tau"))
     follow = ca.SX.sym("follow", len(others))
-    v, G, g = ca.SX.zeros(rows), ca.SX.zeros(rows, len(given)), ca.SX.zeros(rows)
-    v[given], v[others] = q, follow
-    slope = _expression(constraints.slope, v)
+    v, G, g = ca.SX.zeros(rows), ca.SX.zeros(rows, len(coordinate_rows)), ca.SX.zeros(rows)
+    v[coordinate_rows], v[others] = q, follow
+    slope = _expand_function(constraints.jacobian, v)
     inner = slope[:, others]
     factors = ca.ldl(inner.T @ inner, False)  # L D L' without pivoting: away from singularities
 
-    def least(right: ca.SX) -> ca.SX:
+    def solve_least_squares(right: ca.SX) -> ca.SX:
         return ca.ldl_solve(inner.T @ right, *factors)
 
-    G[given, :], G[others, :] = ca.SX.eye(len(given)), -least(slope[:, given])
+    G[coordinate_rows, :], G[others, :] = (
+        ca.SX.eye(len(coordinate_rows)),
+        -solve_least_squares(slope[:, coordinate_rows]),
+    )
     vd = G @ qd
-    g[others] = -least(_expression(constraints.curvature, v, vd))
-    closer = follow - least(_expression(constraints.value, v))  # after a step of Newton
+    g[others] = -solve_least_squares(_expand_function(constraints.curvature, v, vd))
+    closer = follow - solve_least_squares(
+        _expand_function(constraints.residual, v)
+    )  # after a step of Newton
     z = ca.vertcat(follow, effects.state)
     tree = [links.inertia + ca.SX(effects.inertia), links.bias, effects.torque, effects.rate]
     tree += effects.temperatures.values()
@@ -272,7 +295,7 @@ def _closed_plant(
     inertia, load = G.T @ M @ G, G.T @ (M @ g + bias + friction)
 
     solved = ca.ldl_solve(tau - load, *ca.ldl(inertia, False))
-    return _plant(
+    return _assemble_plant(
         robot.coordinates,
         effects,
         {"q": q, "qd": qd, "qdd": qdd, "z": z, "tau": tau},
@@ -285,34 +308,36 @@ def _closed_plant(
     )
 
 
-def _expression(function: ca.Function, *arguments: ca.SX) -> ca.SX:
+def _expand_function(function: ca.Function, *arguments: ca.SX) -> ca.SX:
     """What the function computes, in place of a call of it."""
     return function.call(list(arguments), True, False)[0]
 
 
-def inner_states(plant: Plant, constraints: Constraints, v: np.ndarray) -> np.ndarray:
+def compute_inner_states(plant: Plant, constraints: Constraints, v: np.ndarray) -> np.ndarray:
     """(n, plant.states) of a plant with loops at rest in postures v (n, moving rows)."""
     z = np.zeros((len(v), plant.states))
-    z[:, : len(constraints.others)] = v[:, constraints.others]
+    z[:, : len(constraints.passive_rows)] = v[:, constraints.passive_rows]
     return z
 
 
-def torque_function(
+def build_torque_function(
     robot: Robot,
     parameters: PlantParameters,
     limits: tuple[Limits, ...],
     hidden: tuple[HiddenEffect, ...] = (),
 ) -> tuple[ca.Function, int]:
     """(q, qd, qdd, z) -> tau of all moving rows, untied, and the number of states z."""
-    links = rigid_dynamics(robot, parameters.bodies)
-    effects = shaft_effects(robot, parameters, limits, links, untied(robot), hidden)
+    links = build_rigid_dynamics(robot, parameters.bodies)
+    effects = combine_shaft_effects(
+        robot, parameters, limits, links, build_identity_map(robot), hidden
+    )
     qdd = ca.SX.sym("qdd", len(limits))
     torque = (links.inertia + ca.SX(effects.inertia)) @ qdd + links.bias + effects.torque
     function = ca.Function("torque", [links.q, links.qd, qdd, effects.state], [ca.cse(torque)])
-    return portable(function), effects.state.shape[0]
+    return make_portable(function), effects.state.shape[0]
 
 
-def felt_inertia(plant: Plant) -> ca.Function:
+def build_motor_inertia(plant: Plant) -> ca.Function:
     """(q, z) -> (joints, joints) inertia that motors feel, joints without motor swinging freely.
 
     The Schur complement of the passive joints in M; rows and columns of passive joints are 0.
@@ -322,22 +347,24 @@ def felt_inertia(plant: Plant) -> ca.Function:
     q, z = ca.SX.sym("q", len(plant.joints)), ca.SX.sym("z", plant.states)
     if np.all(plant.driven):
         return ca.Function("felt", [q, z], [plant.inertia(q)])
-    driven, passive = (list(map(int, np.flatnonzero(plant.driven == own))) for own in (True, False))
+    driven, passive = (
+        list(map(int, np.flatnonzero(plant.driven == is_driven))) for is_driven in (True, False)
+    )
     inertia = plant.inertia(q)
-    felt = ca.SX.zeros(inertia.shape)
-    felt[driven, driven] = inertia[driven, driven] - inertia[driven, passive] @ ca.solve(
+    motor_inertia = ca.SX.zeros(inertia.shape)
+    motor_inertia[driven, driven] = inertia[driven, driven] - inertia[driven, passive] @ ca.solve(
         inertia[passive, passive], inertia[passive, driven]
     )
-    return ca.Function("felt", [q, z], [felt])
+    return ca.Function("felt", [q, z], [motor_inertia])
 
 
-def of_free(robot: Robot, limits: tuple[Limits, ...]) -> tuple[Limits, ...]:
+def select_free_limits(robot: Robot, limits: tuple[Limits, ...]) -> tuple[Limits, ...]:
     """Those of `robot.free` among limits in the order of `robot.moving`."""
-    pairs = zip(robot.moving, limits, strict=True)
+    pairs = zip(robot.moving_joints, limits, strict=True)
     return tuple(limit for joint, limit in pairs if joint.name not in robot.relations)
 
 
-def sample_poses(limits: tuple[Limits, ...], count: int = 16) -> np.ndarray:
+def generate_poses(limits: tuple[Limits, ...], count: int = 16) -> np.ndarray:
     """(count, joints) poses spread over the range of motion, the middle first; always the same."""
     lower, upper = (np.array([getattr(li, k) for li in limits]) for k in ("lower", "upper"))
     share = np.random.default_rng(0).uniform(size=(count, len(limits)))
@@ -353,7 +380,7 @@ _STABLE = 1.5  # of a step times the fastest mode; Runge-Kutta 4 is stable up to
 _MOST_STEPS = 400  # per tick
 
 
-def steps_per_tick(
+def choose_steps_per_tick(
     plant: Plant,
     limits: tuple[Limits, ...],
     tick: float,
@@ -370,10 +397,10 @@ def steps_per_tick(
     """
     fastest, joint = 0.0, 0
     if postures is None:
-        poses = sample_poses(limits, 8)
+        poses = generate_poses(limits, 8)
         postures = poses, np.zeros((len(poses), plant.states))
     for pose, z in zip(*postures, strict=True):
-        values, vectors = np.linalg.eig(_jacobian(plant, pose, z, limits))
+        values, vectors = np.linalg.eig(_compute_jacobian(plant, pose, z, limits))
         worst = int(np.argmax(np.abs(values)))
         if abs(values[worst]) > fastest:
             n = pose.size
@@ -395,7 +422,7 @@ def steps_per_tick(
     return steps
 
 
-def tick_function(plant: Plant, tick: float, steps: int) -> ca.Function:
+def build_tick_function(plant: Plant, tick: float, steps: int) -> ca.Function:
     """x, tau -> x one tick later under constant torque; x = (q, qd, z), Runge-Kutta of order 4.
 
     What is left open in loops, 1e-10 of the robot's size, is closed at the end of every tick.
@@ -403,15 +430,15 @@ def tick_function(plant: Plant, tick: float, steps: int) -> ca.Function:
     n = len(plant.joints)
     x, tau = ca.MX.sym("x", 2 * n + plant.states), ca.MX.sym("tau", n)
 
-    def rate(state: ca.MX) -> ca.MX:
+    def compute_rate(state: ca.MX) -> ca.MX:
         qdd, z_rate = plant.acceleration(state[:n], state[n : 2 * n], state[2 * n :], tau)
         return ca.vertcat(state[n : 2 * n], qdd, z_rate)
 
     h = tick / steps
-    k1 = rate(x)
-    k2 = rate(x + h / 2 * k1)
-    k3 = rate(x + h / 2 * k2)
-    k4 = rate(x + h * k3)
+    k1 = compute_rate(x)
+    k2 = compute_rate(x + h / 2 * k1)
+    k3 = compute_rate(x + h / 2 * k2)
+    k4 = compute_rate(x + h * k3)
     step = ca.Function("step", [x, tau], [x + h / 6 * (k1 + 2 * k2 + 2 * k3 + k4)])
     later = x
     for _ in range(steps):
@@ -421,7 +448,7 @@ def tick_function(plant: Plant, tick: float, steps: int) -> ca.Function:
     return ca.Function("tick", [x, tau], [later])
 
 
-def _jacobian(
+def _compute_jacobian(
     plant: Plant, pose: np.ndarray, z: np.ndarray, limits: tuple[Limits, ...]
 ) -> np.ndarray:
     """d(qd, qdd, z')/d(q, qd, z) at rest, torque that holds the robot there; by differences."""
@@ -429,7 +456,7 @@ def _jacobian(
     rest = np.zeros(n)
     tau = plant.torque(pose, rest, rest, z).full().ravel()
 
-    def rate(x: np.ndarray) -> np.ndarray:
+    def compute_rate(x: np.ndarray) -> np.ndarray:
         qdd, z_rate = plant.acceleration(x[:n], x[n : 2 * n], x[2 * n :], tau)
         return np.concatenate([x[n : 2 * n], qdd.full().ravel(), z_rate.full().ravel()])
 
@@ -439,7 +466,7 @@ def _jacobian(
         [np.full(n, 1e-6), [1e-6 * limit.speed for limit in limits], np.full(z.size, 1e-6)]
     )
     columns = [
-        (rate(x + h * unit) - rate(x - h * unit)) / (2 * h)
+        (compute_rate(x + h * unit) - compute_rate(x - h * unit)) / (2 * h)
         for h, unit in zip(size, np.eye(x.size), strict=True)
     ]
     return np.column_stack(columns)
@@ -460,7 +487,7 @@ class FastFunction:
     """
 
     def __init__(self, function: ca.Function) -> None:
-        native: Any = compiled_where_possible(function)
+        native: Any = compile_if_possible(function)
         assert native.n_out() == 1 and native.sparsity_out(0).is_dense()
         self._inputs = [np.zeros(native.nnz_in(i)) for i in range(native.n_in())]
         self._output = np.zeros(native.nnz_out(0))
@@ -478,7 +505,7 @@ class FastFunction:
         return self._output.copy()
 
 
-def compiled_where_possible(function: ca.Function) -> ca.Function:
+def compile_if_possible(function: ca.Function) -> ca.Function:
     """The same function, about ten times faster if a C compiler is found; else as it is."""
     compiler = shutil.which("cc") or shutil.which("gcc") or shutil.which("clang")
     if compiler is None:

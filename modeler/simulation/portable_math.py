@@ -47,13 +47,13 @@ _EXPRESSIONS = _PortableAlgebra(
 )
 
 
-def sine_and_cosine(x: Any) -> tuple[Any, Any]:
+def compute_sine_and_cosine(x: Any) -> tuple[Any, Any]:
     """sin(x), cos(x) to 1e-16; x number, array or CasADi expression, rad, |x| below 1e6."""
-    to = _algebra(x)
+    to = _choose_algebra(x)
     turns = to.floor(x * (2 / math.pi) + 0.5)
     r = x - turns * _QUARTER[0] - turns * _QUARTER[1] - turns * _QUARTER[2]
     square = r * r
-    s, c = r * _series(_SINE, square), _series(_COSINE, square)
+    s, c = r * _evaluate_series(_SINE, square), _evaluate_series(_COSINE, square)
     quadrant = turns - 4 * to.floor(turns / 4)
     half = to.floor(quadrant / 2)
     odd = quadrant - 2 * half
@@ -63,30 +63,32 @@ def sine_and_cosine(x: Any) -> tuple[Any, Any]:
     return sine, cosine
 
 
-def exponential(x: Any) -> Any:
+def compute_exponential(x: Any) -> Any:
     """exp(x) to 1e-16 of itself; beyond |x| = 700 that of 700."""
-    to = _algebra(x)
-    kept = to.clip(x, -_HIGHEST, _HIGHEST)
-    halvings = to.floor(kept / math.log(2.0) + 0.5)
-    r = kept - halvings * _LN2[0] - halvings * _LN2[1]
-    return _series(_EXP, r) * to.two_to(halvings)
+    to = _choose_algebra(x)
+    exponent = to.clip(x, -_HIGHEST, _HIGHEST)
+    halvings = to.floor(exponent / math.log(2.0) + 0.5)
+    r = exponent - halvings * _LN2[0] - halvings * _LN2[1]
+    return _evaluate_series(_EXP, r) * to.two_to(halvings)
 
 
-def hyperbolic_tangent(x: Any) -> Any:
+def compute_hyperbolic_tangent(x: Any) -> Any:
     """tanh(x) to 1e-16."""
-    return 1 - 2 / (exponential(2 * x) + 1)
+    return 1 - 2 / (compute_exponential(2 * x) + 1)
 
 
-def power(x: Any, exponent: Any) -> Any:
+def compute_power(x: Any, exponent: Any) -> Any:
     """x**exponent = exp(exponent log x) to 1e-14 of itself, x between 1e-12 and 1e12."""
     root = x
     for _ in range(_ROOTS):
-        root = _algebra(root).sqrt(root)
+        root = _choose_algebra(root).sqrt(root)
     t = (root - 1) / (root + 1)
-    return exponential(exponent * (2.0 ** (_ROOTS + 1) * t * _series(_ATANH, t * t)))
+    return compute_exponential(
+        exponent * (2.0 ** (_ROOTS + 1) * t * _evaluate_series(_ATANH, t * t))
+    )
 
 
-def ten_digits(value: float) -> float:
+def round_to_ten_digits(value: float) -> float:
     """A number that linear algebra or a generator drew, without the digits that machines differ in.
 
     What is left differs where a digit is on the edge, for one number in a million.
@@ -94,7 +96,7 @@ def ten_digits(value: float) -> float:
     return float(f"{value:.10g}")
 
 
-def portable(function: ca.Function) -> ca.Function:
+def make_portable(function: ca.Function) -> ca.Function:
     """The same function of CasADi scalars, with the functions above in place of the library's."""
     arguments = [ca.SX.sym(name, *function.size_in(name)) for name in function.name_in()]
     elements = [argument.nz for argument in arguments]
@@ -111,7 +113,7 @@ def portable(function: ca.Function) -> ca.Function:
         elif operation == ca.OP_CONST:
             values[written[0]] = ca.SX(function.instruction_constant(k))
         else:
-            values[written[0]] = rounded.apply(operation, [values[i] for i in read])
+            values[written[0]] = rounded.apply_operation(operation, [values[i] for i in read])
     outputs = [
         ca.SX(function.sparsity_out(k), ca.vertcat(ca.SX(0, 1), *result))
         for k, result in enumerate(results)
@@ -125,31 +127,31 @@ class _Functions:
     def __init__(self) -> None:
         self._turned: dict[int, tuple[ca.SX, tuple[ca.SX, ca.SX]]] = {}
 
-    def apply(self, operation: int, x: list[ca.SX]) -> ca.SX:
+    def apply_operation(self, operation: int, x: list[ca.SX]) -> ca.SX:
         if operation in (ca.OP_SIN, ca.OP_COS, ca.OP_TAN):
-            sine, cosine = self._angle(x[0])
+            sine, cosine = self._compute_sine_and_cosine(x[0])
             ratio = sine / cosine if operation == ca.OP_TAN else sine
             return cosine if operation == ca.OP_COS else ratio
         if operation == ca.OP_EXP:
-            return exponential(x[0])
+            return compute_exponential(x[0])
         if operation == ca.OP_TANH:
-            return hyperbolic_tangent(x[0])
+            return compute_hyperbolic_tangent(x[0])
         if operation in (ca.OP_POW, ca.OP_CONSTPOW):
-            return power(*x)
+            return compute_power(*x)
         return ca.SX.unary(operation, *x) if len(x) == 1 else ca.SX.binary(operation, *x)
 
-    def _angle(self, x: ca.SX) -> tuple[ca.SX, ca.SX]:
+    def _compute_sine_and_cosine(self, x: ca.SX) -> tuple[ca.SX, ca.SX]:
         key = x.element_hash()
         if key not in self._turned:  # the expression is kept too, or its number could be reused
-            self._turned[key] = x, sine_and_cosine(x)
+            self._turned[key] = x, compute_sine_and_cosine(x)
         return self._turned[key][1]
 
 
-def _algebra(x: Any) -> _PortableAlgebra:
+def _choose_algebra(x: Any) -> _PortableAlgebra:
     return _EXPRESSIONS if isinstance(x, ca.SX) else _ARRAYS
 
 
-def _series(coefficients: tuple[float, ...], x: Any) -> Any:
+def _evaluate_series(coefficients: tuple[float, ...], x: Any) -> Any:
     """sum of coefficients[k] x**k, by Horner."""
     value = coefficients[-1]
     for coefficient in reversed(coefficients[:-1]):

@@ -11,7 +11,7 @@ import casadi as ca
 import numpy as np
 
 from modeler.robot import INERTIAL, Robot
-from modeler.simulation.portable_math import sine_and_cosine
+from modeler.simulation.portable_math import compute_sine_and_cosine
 
 # Where the links are: frames of a modified Denavit-Hartenberg table in the world frame.
 
@@ -42,7 +42,7 @@ BASE = "0"
 """Name of the frame that stands still."""
 
 
-def world_frames(robot: Robot, q: ca.SX) -> dict[str, Frame]:
+def compute_world_frames(robot: Robot, q: ca.SX) -> dict[str, Frame]:
     """Every frame of the table by row name, and frame "0", in table order.
 
     0_T_j = 0_T_a Rz(gamma) Tz(b) Rx(alpha) Tx(d) Rz(theta) Tz(r) (Khalil and Kleinfinger 1986).
@@ -51,38 +51,40 @@ def world_frames(robot: Robot, q: ca.SX) -> dict[str, Frame]:
         robot: its table.
         q: (joints, 1) joint variables in the order of `robot.moving`.
     """
-    symbols = robot.symbol_values()
-    variables = {joint.name: q[i] for i, joint in enumerate(robot.moving)}
+    symbols = robot.evaluate_symbols()
+    variables = {joint.name: q[i] for i, joint in enumerate(robot.moving_joints)}
     frames = {BASE: Frame(ca.SX(np.eye(3)), ca.SX(np.zeros((3, 1))), ca.SX.zeros(3))}
     for joint in robot.joints:
         before, variable = frames[joint.antecedent], variables.get(joint.name)
-        own = {**symbols, joint.variable: variable}
+        row_values = {**symbols, joint.variable: variable}
         gamma, b, alpha, d, theta, r = (
-            cell.fold(own, FUNCTIONS, float(np.pi), float)
+            cell.fold(row_values, FUNCTIONS, float(np.pi), float)
             if joint.variable in cell.names
-            else cell.number(symbols)
+            else cell.evaluate(symbols)
             for cell in (joint.gamma, joint.b, joint.alpha, joint.d, joint.theta, joint.r)
         )
-        swing = before.rotation @ _rotation(gamma, about="z")
-        tilt = swing @ _rotation(alpha, about="x")
-        rotation = tilt @ _rotation(theta, about="z")
+        swing = before.rotation @ _compute_rotation(gamma, about="z")
+        tilt = swing @ _compute_rotation(alpha, about="x")
+        rotation = tilt @ _compute_rotation(theta, about="z")
         position = before.position + swing[:, 2] * b + tilt[:, 0] * d + rotation[:, 2] * r
         rate = ca.SX(0) if variable is None else ca.jacobian(ca.SX(theta + r), variable)
         frames[joint.name] = Frame(rotation, position, rotation[:, 2] * rate)
     return frames
 
 
-def gravity_vector(robot: Robot) -> np.ndarray:
+def compute_gravity_vector(robot: Robot) -> np.ndarray:
     """(3,) acceleration of gravity in the world frame, m/s2."""
-    symbols = robot.symbol_values()
-    return np.array([component.number(symbols) for component in robot.gravity])
+    symbols = robot.evaluate_symbols()
+    return np.array([component.evaluate(symbols) for component in robot.gravity])
 
 
-def _rotation(angle: ca.SX | float, about: str) -> ca.SX:
+def _compute_rotation(angle: ca.SX | float, about: str) -> ca.SX:
     if isinstance(angle, ca.SX):
         c, s = ca.cos(angle), ca.sin(angle)
     else:  # cos(pi/2) is 6e-17 in floating point; an exact 0 keeps the expressions small
-        s, c = (ca.SX(x if abs(x) > 1e-15 else 0.0) for x in map(float, sine_and_cosine(angle)))
+        s, c = (
+            ca.SX(x if abs(x) > 1e-15 else 0.0) for x in map(float, compute_sine_and_cosine(angle))
+        )
     if about == "z":
         return ca.vertcat(ca.horzcat(c, -s, 0), ca.horzcat(s, c, 0), ca.horzcat(0, 0, 1))
     return ca.vertcat(ca.horzcat(1, 0, 0), ca.horzcat(0, c, -s), ca.horzcat(0, s, c))
@@ -111,7 +113,7 @@ _ROUNDING = 1e-11  # of the moments of inertia
 _PLACE = {"XX": (0, 0), "XY": (0, 1), "XZ": (0, 2), "YY": (1, 1), "YZ": (1, 2), "ZZ": (2, 2)}
 
 
-def body_from_standard(values: Mapping[str, float]) -> Body:
+def compute_body(values: Mapping[str, float]) -> Body:
     """The body whose ten standard parameters (keys of `INERTIAL`) are `values`.
 
     J_centre = J_origin - M (c.c 1 - c c'), c = (MX, MY, MZ) / M (Huygens and Steiner).
@@ -119,22 +121,24 @@ def body_from_standard(values: Mapping[str, float]) -> Body:
     mass = values["M"]
     moment = np.array([values["MX"], values["MY"], values["MZ"]])
     centre = moment / mass if mass else np.zeros(3)
-    return Body(mass, centre, _inertia_at_origin(values) - mass * _spread(centre))
+    return Body(
+        mass, centre, _build_origin_inertia(values) - mass * _compute_parallel_axis_term(centre)
+    )
 
 
-def standard_from_body(body: Body) -> dict[str, float]:
+def compute_standard_parameters(body: Body) -> dict[str, float]:
     """The ten standard parameters at the origin of frame j, in the order of `INERTIAL`."""
-    origin = body.inertia + body.mass * _spread(body.centre)
-    return _standard(origin, body.mass * body.centre, body.mass)
+    origin = body.inertia + body.mass * _compute_parallel_axis_term(body.centre)
+    return _build_standard_parameters(origin, body.mass * body.centre, body.mass)
 
 
-def pseudo_inertia(values: Mapping[str, float]) -> np.ndarray:
+def compute_pseudo_inertia(values: Mapping[str, float]) -> np.ndarray:
     """(4, 4) second moments of the mass, [[int x x' dm, int x dm], [., M]], at the frame's origin.
 
     A set of ten parameters is that of some distribution of mass if and only if this matrix is
     positive semi-definite (Wensing, Kim and Slotine 2018, IEEE RA-L 3(1)).
     """
-    origin = _inertia_at_origin(values)
+    origin = _build_origin_inertia(values)
     matrix = np.empty((4, 4))
     matrix[:3, :3] = np.trace(origin) / 2 * np.eye(3) - origin
     matrix[:3, 3] = matrix[3, :3] = [values["MX"], values["MY"], values["MZ"]]
@@ -142,15 +146,17 @@ def pseudo_inertia(values: Mapping[str, float]) -> np.ndarray:
     return matrix
 
 
-def standard_from_pseudo_inertia(matrix: np.ndarray) -> dict[str, float]:
-    """Inverse of `pseudo_inertia`."""
+def convert_pseudo_inertia(matrix: np.ndarray) -> dict[str, float]:
+    """Inverse of `compute_pseudo_inertia`."""
     second = matrix[:3, :3]
-    return _standard(np.trace(second) * np.eye(3) - second, matrix[:3, 3], matrix[3, 3])
+    return _build_standard_parameters(
+        np.trace(second) * np.eye(3) - second, matrix[:3, 3], matrix[3, 3]
+    )
 
 
 def is_physical(values: Mapping[str, float], tolerance: float = 1e-9) -> bool:
     """True if some distribution of mass has these parameters; rods, plates and no mass included."""
-    matrix = pseudo_inertia(values)
+    matrix = compute_pseudo_inertia(values)
     # A plate of which XX = YY + ZZ holds but for rounding is one.
     matrix[:3, :3] += _ROUNDING * abs(np.trace(matrix[:3, :3])) * np.eye(3)
     # Rows scaled to ones on the diagonal: kilograms and kilogram square metres become comparable.
@@ -161,20 +167,22 @@ def is_physical(values: Mapping[str, float], tolerance: float = 1e-9) -> bool:
     return bool(np.linalg.eigvalsh(matrix / np.outer(scale, scale))[0] >= -tolerance)
 
 
-def _inertia_at_origin(values: Mapping[str, float]) -> np.ndarray:
+def _build_origin_inertia(values: Mapping[str, float]) -> np.ndarray:
     origin = np.zeros((3, 3))
     for name, (row, column) in _PLACE.items():
         origin[row, column] = origin[column, row] = values[name]
     return origin
 
 
-def _standard(origin: np.ndarray, moment: np.ndarray, mass: float) -> dict[str, float]:
+def _build_standard_parameters(
+    origin: np.ndarray, moment: np.ndarray, mass: float
+) -> dict[str, float]:
     values = {name: float(origin[place]) for name, place in _PLACE.items()}
     values |= dict(zip(("MX", "MY", "MZ"), map(float, moment), strict=True)) | {"M": float(mass)}
     return {name: values[name] for name in INERTIAL}
 
 
-def _spread(centre: np.ndarray) -> np.ndarray:
+def _compute_parallel_axis_term(centre: np.ndarray) -> np.ndarray:
     return float(np.sum(centre * centre)) * np.eye(3) - np.outer(centre, centre)
 
 
@@ -204,23 +212,23 @@ class _Motion:
     acceleration: ca.SX
 
 
-def rigid_dynamics(robot: Robot, bodies: Mapping[str, Body]) -> RigidDynamics:
+def build_rigid_dynamics(robot: Robot, bodies: Mapping[str, Body]) -> RigidDynamics:
     """Equations of motion of a serial or tree robot.
 
     Args:
         robot: geometry, gravity.
         bodies: mass, mass centre and inertia of each moving link, by joint name.
     """
-    n = len(robot.moving)
+    n = len(robot.moving_joints)
     q, qd, qdd = (ca.SX.sym(name, n) for name in ("q", "qd", "qdd"))
-    frames = world_frames(robot, q)
-    motions = _motions(robot, frames, qd, qdd)
-    torque = _joint_torques(robot, frames, motions, bodies)
+    frames = compute_world_frames(robot, q)
+    motions = _compute_motions(robot, frames, qd, qdd)
+    torque = _compute_joint_torques(robot, frames, motions, bodies)
     bias = ca.substitute(torque, qdd, ca.SX.zeros(n))
     return RigidDynamics(q, qd, ca.jacobian(torque, qdd), bias)
 
 
-def tied_dynamics(links: RigidDynamics, turns: np.ndarray, offset: np.ndarray) -> RigidDynamics:
+def reduce_dynamics(links: RigidDynamics, turns: np.ndarray, offset: np.ndarray) -> RigidDynamics:
     """The same in fewer coordinates u of which all joints follow: q = turns u + offset.
 
     M_u = turns^T M turns, h_u = turns^T h (the principle of virtual work).
@@ -232,13 +240,13 @@ def tied_dynamics(links: RigidDynamics, turns: np.ndarray, offset: np.ndarray) -
     return RigidDynamics(u, ud, F.T @ inertia @ F, F.T @ bias)
 
 
-def _motions(
+def _compute_motions(
     robot: Robot, frames: Mapping[str, Frame], qd: ca.SX, qdd: ca.SX
 ) -> dict[str, _Motion]:
     """From the base outwards; a sliding joint sees the Coriolis acceleration of its antecedent."""
     zero = ca.SX.zeros(3)
     motions = {BASE: _Motion(zero, zero, zero)}
-    index = {joint.name: i for i, joint in enumerate(robot.moving)}
+    index = {joint.name: i for i, joint in enumerate(robot.moving_joints)}
     for joint in robot.joints:
         before, frame = motions[joint.antecedent], frames[joint.name]
         arm = frame.position - frames[joint.antecedent].position
@@ -246,9 +254,9 @@ def _motions(
         acceleration = (
             before.acceleration + ca.cross(spin_rate, arm) + ca.cross(spin, ca.cross(spin, arm))
         )
-        if joint.moves:
+        if joint.is_moving:
             axis, i = frame.axis, index[joint.name]
-            if joint.angular:
+            if joint.is_revolute:
                 spin_rate = spin_rate + axis * qdd[i] + ca.cross(spin, axis * qd[i])
                 spin = spin + axis * qd[i]
             else:
@@ -257,20 +265,20 @@ def _motions(
     return motions
 
 
-def _joint_torques(
+def _compute_joint_torques(
     robot: Robot,
     frames: Mapping[str, Frame],
     motions: Mapping[str, _Motion],
     bodies: Mapping[str, Body],
 ) -> ca.SX:
     """From the tips inwards: what each joint must carry, projected on its axis."""
-    gravity = ca.SX(gravity_vector(robot))
+    gravity = ca.SX(compute_gravity_vector(robot))
     force = {name: ca.SX.zeros(3) for name in frames}
     moment = {name: ca.SX.zeros(3) for name in frames}  # about the frame's own origin
     torques = {}
     for joint in reversed(robot.joints):
         name, frame, motion = joint.name, frames[joint.name], motions[joint.name]
-        if joint.moves:
+        if joint.is_moving:
             body, spin = bodies[name], motion.spin
             arm = frame.rotation @ body.centre
             centre_acceleration = (
@@ -283,9 +291,9 @@ def _joint_torques(
             turn = inertia @ motion.spin_rate + ca.cross(spin, inertia @ spin)
             force[name] += push
             moment[name] += turn + ca.cross(arm, push)
-            carried = moment[name] if joint.angular else force[name]
+            carried = moment[name] if joint.is_revolute else force[name]
             torques[name] = ca.dot(frame.axis, carried)
         lever = frame.position - frames[joint.antecedent].position
         force[joint.antecedent] += force[name]
         moment[joint.antecedent] += moment[name] + ca.cross(lever, force[name])
-    return ca.vertcat(*(torques[joint.name] for joint in robot.moving))
+    return ca.vertcat(*(torques[joint.name] for joint in robot.moving_joints))

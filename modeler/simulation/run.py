@@ -7,56 +7,56 @@ from functools import partial
 import numpy as np
 
 from modeler.core.errors import DataError
-from modeler.robot import Limits, Robot, joint_directions
+from modeler.robot import Limits, Robot, compute_joint_directions
 from modeler.simulation.closing import (
     ClosedMotion,
     Constraints,
-    closed_motion,
-    constraints_of,
-    followed,
-    motor_torques,
-    rates,
-    sampled,
+    build_constraints,
+    compute_closed_postures,
+    compute_motor_torques,
+    compute_rates,
+    evaluate_samples,
+    find_closed_motion,
 )
 from modeler.simulation.control import (
+    ControllerGains,
     ControllerState,
-    Faults,
-    Gains,
-    control,
-    encoder_resolution,
-    faults_of,
-    logged_torques,
-    process_torques,
-    quantised,
-    sampled_torques,
-    sensed,
-    tuned_gains,
-    where_read,
+    SensorFaults,
+    collect_sensor_faults,
+    compute_encoder_resolution,
+    compute_logged_torques,
+    compute_sampled_torques,
+    draw_process_torques,
+    invert_encoders,
+    quantise_position,
+    read_encoders,
+    tune_gains,
+    update_controller,
 )
 from modeler.simulation.hidden_draw import complete_effects
 from modeler.simulation.log import SimulatedLog, Truth
-from modeler.simulation.parameters import PlantParameters, by_shared_names, plant_parameters
+from modeler.simulation.parameters import PlantParameters, draw_plant_parameters, merge_shared_names
 from modeler.simulation.plant import (
     FastFunction,
     Plant,
+    apply_hidden_loads,
+    build_motor_inertia,
     build_plant,
-    felt_inertia,
-    inner_states,
-    machine,
-    of_free,
-    steps_per_tick,
-    tick_function,
-    torque_function,
+    build_tick_function,
+    build_torque_function,
+    choose_steps_per_tick,
+    compute_inner_states,
+    select_free_limits,
 )
 from modeler.simulation.settings import HiddenEffect, SimulationSettings, check_settings
-from modeler.simulation.shafts import settled
+from modeler.simulation.shafts import compute_rest_states
 from modeler.simulation.trajectory import (
     Reference,
-    exciting_reference,
-    motion_limits,
-    one_joint_reference,
-    point_to_point_reference,
-    widened,
+    build_exciting_reference,
+    build_one_joint_reference,
+    build_point_to_point_reference,
+    collect_motion_limits,
+    widen_limits,
 )
 
 _REPORT_EVERY = 500  # ticks between looks at the tracking error, and calls of the callback
@@ -80,8 +80,8 @@ class PlantTask:
     plant: Plant
     limits: tuple[Limits, ...]
     reference: Reference
-    along: np.ndarray
-    share: float
+    states_along: np.ndarray
+    range_share: float
 
 
 def simulate(
@@ -110,34 +110,36 @@ def simulate(
     """
     settings = settings or SimulationSettings()
     check_settings(settings, tuple(joint.name for joint in robot.coordinates))
-    every = motion_limits(robot, settings.limits)
+    all_limits = collect_motion_limits(robot, settings.limits)
     if robot.loops and not settings.controller:
-        return _on_command(robot, every, settings, progress)
-    parameters = plant_parameters(robot, every, settings.parameter_seed)
-    hidden = complete_effects(robot, parameters, every, settings)
-    task = task_of(robot, parameters, every, settings, hidden)
+        return _simulate_exact_command(robot, all_limits, settings, progress)
+    parameters = draw_plant_parameters(robot, all_limits, settings.parameter_seed)
+    hidden = complete_effects(robot, parameters, all_limits, settings)
+    task = build_task(robot, parameters, all_limits, settings, hidden)
     plant, reference, n = task.plant, task.reference, len(task.plant.joints)
-    needed = needed_torques(task)
+    needed = compute_needed_torques(task)
     # Saturation: as set, else twice the torque that the commanded motion needs.
     most = zip(plant.joints, 2 * np.max(np.abs(needed), axis=0), strict=True)
-    limits = [settings.torque_limits.get(name, twice) for name, twice in most]
+    limits = [settings.torque_limits.get(name, default_limit) for name, default_limit in most]
     highest = np.where(plant.driven, limits, 0.0)
-    gains = tuned_gains(settings.rate, settings.bandwidth, settings.feedforward, highest)
-    faults = faults_of(plant.joints, hidden)
-    resolution = encoder_resolution(robot.coordinates, settings)
-    random = process_torques(settings, len(reference.time), np.sqrt(np.mean(needed**2, axis=0)))
-    states, tau, measured = _closed_loop(task, gains, faults, resolution, random, progress)
+    gains = tune_gains(settings.rate, settings.bandwidth, settings.feedforward, highest)
+    faults = collect_sensor_faults(plant.joints, hidden)
+    resolution = compute_encoder_resolution(robot.coordinates, settings)
+    random = draw_process_torques(
+        settings, len(reference.time), np.sqrt(np.mean(needed**2, axis=0))
+    )
+    states, tau, measured = _run_closed_loop(task, gains, faults, resolution, random, progress)
     q, qd, z = states[:, :n], states[:, n : 2 * n], states[:, 2 * n :]
     samples = [each.T for each in (q, qd, z, tau + random)]
     qdd = plant.acceleration.map(len(q))(*samples)[0].full().T.copy()
-    logged = logged_torques(faults, reference.time, tau)
-    truth = Truth(q, qd, qdd, tau, *by_shared_names(robot, parameters), hidden)
-    return _log(robot, settings, task, truth, measured, logged, _thermometers(plant, z))
+    logged = compute_logged_torques(faults, reference.time, tau)
+    truth = Truth(q, qd, qdd, tau, *merge_shared_names(robot, parameters), hidden)
+    return _build_log(robot, settings, task, truth, measured, logged, _read_thermometers(plant, z))
 
 
-def _on_command(
+def _simulate_exact_command(
     robot: Robot,
-    every: tuple[Limits, ...],
+    all_limits: tuple[Limits, ...],
     settings: SimulationSettings,
     progress: Callable[[float], None] | None,
 ) -> SimulatedLog:
@@ -148,96 +150,104 @@ def _on_command(
     the instant, by the equations of motion of the open tree and Lagrange multipliers for what ties
     it.
     """
-    constraints = constraints_of(robot)
-    _, motion = _closed_command(robot, constraints, every, settings, progress)
-    parameters = plant_parameters(robot, every, settings.parameter_seed)
-    hidden = complete_effects(robot, parameters, every, settings)
+    constraints = build_constraints(robot)
+    _, motion = _build_closed_command(robot, constraints, all_limits, settings, progress)
+    parameters = draw_plant_parameters(robot, all_limits, settings.parameter_seed)
+    hidden = complete_effects(robot, parameters, all_limits, settings)
     v, reference = motion.v, motion.reference
-    vd, vdd = rates(constraints, v, reference.qd, reference.qdd)
-    torque, states = torque_function(*machine(robot, parameters, hidden), every, hidden)
-    load = sampled(torque, v, vd, vdd, np.zeros((len(v), states)))[:, :, 0]
-    needed = motor_torques(constraints, v, load)
+    vd, vdd = compute_rates(constraints, v, reference.qd, reference.qdd)
+    torque, states = build_torque_function(
+        *apply_hidden_loads(robot, parameters, hidden), all_limits, hidden
+    )
+    load = evaluate_samples(torque, v, vd, vdd, np.zeros((len(v), states)))[:, :, 0]
+    needed = compute_motor_torques(constraints, v, load)
     # What pushes on a machine that moves as commanded is pushed back by its motors.
     rms = np.sqrt(np.mean(needed**2, axis=0))
-    tau = needed - process_torques(settings, len(needed), rms)
-    faults = faults_of([joint.name for joint in robot.coordinates], hidden)
-    measured = quantised(reference.q, encoder_resolution(robot.coordinates, settings))
-    logged = sampled_torques(faults, reference.time, tau)
-    moved = (reference.q, reference.qd, reference.qdd, tau)
-    truth = Truth(*moved, *by_shared_names(robot, parameters), hidden)
-    return _log(robot, settings, motion, truth, measured, logged, {})
+    tau = needed - draw_process_torques(settings, len(needed), rms)
+    faults = collect_sensor_faults([joint.name for joint in robot.coordinates], hidden)
+    measured = quantise_position(
+        reference.q, compute_encoder_resolution(robot.coordinates, settings)
+    )
+    logged = compute_sampled_torques(faults, reference.time, tau)
+    exact_motion = (reference.q, reference.qd, reference.qdd, tau)
+    truth = Truth(*exact_motion, *merge_shared_names(robot, parameters), hidden)
+    return _build_log(robot, settings, motion, truth, measured, logged, {})
 
 
-def _closed_command(
+def _build_closed_command(
     robot: Robot,
     constraints: Constraints,
-    every: tuple[Limits, ...],
+    all_limits: tuple[Limits, ...],
     settings: SimulationSettings,
     progress: Callable[[float], None] | None = None,
 ) -> tuple[tuple[Limits, ...], ClosedMotion]:
     """Limits of the coordinates, from those of `robot.moving`, and the motion of the settings."""
-    names = [joint.name for joint in robot.moving]
-    limits = tuple(every[names.index(joint.name)] for joint in robot.coordinates)
-    if (asked := settings.commanded) is not None:
-        closed = followed(robot, constraints, asked.q, progress)
-        return widened(limits, asked), ClosedMotion(asked, closed, 1.0)
+    names = [joint.name for joint in robot.moving_joints]
+    limits = tuple(all_limits[names.index(joint.name)] for joint in robot.coordinates)
+    if (reference := settings.commanded) is not None:
+        closed = compute_closed_postures(robot, constraints, reference.q, progress)
+        return widen_limits(limits, reference), ClosedMotion(reference, closed, 1.0)
 
-    commanded = partial(_commanded, settings)
-    return limits, closed_motion(robot, constraints, limits, commanded, progress)
+    commanded = partial(_build_reference, settings)
+    return limits, find_closed_motion(robot, constraints, limits, commanded, progress)
 
 
-def _commanded(
+def _build_reference(
     settings: SimulationSettings, limits: tuple[Limits, ...], directions: np.ndarray | None = None
 ) -> Reference:
     """The motion of that name within limits."""
     timed = limits, settings.duration, settings.rate, settings.seed
     if settings.motion == "one-joint":
-        return one_joint_reference(*timed, directions)
-    alike = settings.motion == "point-to-point"
-    return point_to_point_reference(*timed) if alike else exciting_reference(*timed)
+        return build_one_joint_reference(*timed, directions)
+    is_point_to_point = settings.motion == "point-to-point"
+    return (
+        build_point_to_point_reference(*timed)
+        if is_point_to_point
+        else build_exciting_reference(*timed)
+    )
 
 
-def task_of(
+def build_task(
     robot: Robot,
     parameters: PlantParameters,
-    every: tuple[Limits, ...],
+    all_limits: tuple[Limits, ...],
     settings: SimulationSettings,
     hidden: tuple[HiddenEffect, ...],
 ) -> PlantTask:
     """The machine under a controller, with these parameters and limits of `robot.moving`."""
-    real = machine(robot, parameters, hidden)
+    real = apply_hidden_loads(robot, parameters, hidden)
     if robot.loops:
-        constraints = constraints_of(robot)
-        limits, motion = _closed_command(robot, constraints, every, settings)
-        plant = build_plant(*real, every, hidden, constraints)
-        along = inner_states(plant, constraints, motion.v)
-        return PlantTask(plant, limits, motion.reference, along, motion.share)
-    limits = of_free(robot, every)
+        constraints = build_constraints(robot)
+        limits, motion = _build_closed_command(robot, constraints, all_limits, settings)
+        plant = build_plant(*real, all_limits, hidden, constraints)
+        along = compute_inner_states(plant, constraints, motion.v)
+        return PlantTask(plant, limits, motion.reference, along, motion.range_share)
+    limits = select_free_limits(robot, all_limits)
     if (reference := settings.commanded) is not None:
-        limits = widened(limits, reference)
+        limits = widen_limits(limits, reference)
     else:
         # How the coordinates move with each joint that has a motor.
-        ways = np.array([*joint_directions(robot).values()])
+        directions = np.array([*compute_joint_directions(robot).values()])
         passive = [k for k, joint in enumerate(robot.coordinates) if not joint.actuated]
-        driven = ways[~np.any(ways[:, passive] != 0, axis=1)]
-        reference = _commanded(settings, limits, driven)
-    plant = build_plant(*real, every, hidden)
+        driven = directions[~np.any(directions[:, passive] != 0, axis=1)]
+        reference = _build_reference(settings, limits, driven)
+    plant = build_plant(*real, all_limits, hidden)
     return PlantTask(plant, limits, reference, np.zeros((len(reference.time), plant.states)), 1.0)
 
 
-def needed_torques(task: PlantTask) -> np.ndarray:
+def compute_needed_torques(task: PlantTask) -> np.ndarray:
     """(about 500, joints) torques of the commanded motion."""
     reference = task.reference
     thinned = slice(None, None, max(1, reference.time.size // 500))
-    motion = (reference.q, reference.qd, reference.qdd, task.along)
+    motion = (reference.q, reference.qd, reference.qdd, task.states_along)
     samples = [values[thinned].T for values in motion]
     return np.asarray(task.plant.torque.map(samples[0].shape[1])(*samples).full().T)
 
 
-def _closed_loop(
+def _run_closed_loop(
     task: PlantTask,
-    gains: Gains,
-    faults: Faults,
+    gains: ControllerGains,
+    faults: SensorFaults,
     resolution: np.ndarray,
     random: np.ndarray,
     progress: Callable[[float], None] | None,
@@ -258,15 +268,19 @@ def _closed_loop(
     """
     plant, reference = task.plant, task.reference
     n, ticks = len(plant.joints), reference.time.size
-    start, rest = where_read(faults, reference.q[0]), np.zeros(n)
-    x = np.concatenate([start, rest, settled(plant.strain, start, task.along[0])])
+    start, rest = invert_encoders(faults, reference.q[0]), np.zeros(n)
+    x = np.concatenate(
+        [start, rest, compute_rest_states(plant.strain, start, task.states_along[0])]
+    )
     # The brakes open with the torque that carries the robot, as drives remember it.
     torque = plant.torque(x[:n], rest, rest, x[2 * n :]).full().ravel()
     torque = np.clip(torque, -gains.highest, gains.highest)
-    state = ControllerState(quantised(sensed(faults, x[:n]), resolution), rest, torque)
-    steps = steps_per_tick(plant, task.limits, gains.tick, postures_of(task))
-    advance = FastFunction(tick_function(plant, gains.tick, steps))
-    mass = FastFunction(felt_inertia(plant))
+    state = ControllerState(
+        quantise_position(read_encoders(faults, x[:n]), resolution), rest, torque
+    )
+    steps = choose_steps_per_tick(plant, task.limits, gains.tick, select_postures(task))
+    advance = FastFunction(build_tick_function(plant, gains.tick, steps))
+    mass = FastFunction(build_motor_inertia(plant))
     states, torques, measured = (
         np.empty((ticks, x.size)),
         np.empty((ticks, n)),
@@ -276,33 +290,33 @@ def _closed_loop(
         with np.errstate(over="ignore", invalid="ignore"):  # a lost robot is reported below
             for k in range(begin, min(begin + _REPORT_EVERY, ticks)):
                 states[k], torques[k] = x, torque
-                measured[k] = quantised(sensed(faults, x[:n]), resolution)
+                measured[k] = quantise_position(read_encoders(faults, x[:n]), resolution)
                 inertia = mass(measured[k], x[2 * n :]).reshape(n, n)
                 x = advance(x, torque + random[k])
                 command = reference.q[k], reference.qd[k], reference.qdd[k]
-                state, torque = control(gains, state, inertia, measured[k], command)
-        _check_kept(task, begin, states[begin : k + 1, :n])
+                state, torque = update_controller(gains, state, inertia, measured[k], command)
+        _check_tracking(task, begin, states[begin : k + 1, :n])
         if progress is not None:
             progress((k + 1) / ticks)
     return states, torques, measured
 
 
-def postures_of(task: PlantTask) -> tuple[np.ndarray, np.ndarray] | None:
+def select_postures(task: PlantTask) -> tuple[np.ndarray, np.ndarray] | None:
     """Some of the commanded ones, where not all that the limits hold can be reached."""
     if task.plant.closer is None:
         return None
-    some = np.linspace(0, len(task.along) - 1, _LOOKED_AT).astype(int)
-    return task.reference.q[some], task.along[some]
+    some = np.linspace(0, len(task.states_along) - 1, _LOOKED_AT).astype(int)
+    return task.reference.q[some], task.states_along[some]
 
 
-def _check_kept(task: PlantTask, begin: int, q: np.ndarray) -> None:
+def _check_tracking(task: PlantTask, begin: int, q: np.ndarray) -> None:
     """Nothing, if the driven joints are near their commands in the samples from `begin` on."""
     plant, reference = task.plant, task.reference
     widths = np.array([limit.upper - limit.lower for limit in task.limits])
     error = np.abs(q - reference.q[begin : begin + len(q)]) / widths
-    lost = ~(error <= _LOST) & plant.driven | ~np.isfinite(q)
-    if np.any(lost):
-        sample, joint = np.argwhere(lost)[0]
+    is_lost = ~(error <= _LOST) & plant.driven | ~np.isfinite(q)
+    if np.any(is_lost):
+        sample, joint = np.argwhere(is_lost)[0]
         raise DataError(
             f"simulation: the controller lost joint {plant.joints[joint]} at "
             f"{reference.time[begin + sample]:.3f} s; expected it to stay within half its range "
@@ -310,10 +324,10 @@ def _check_kept(task: PlantTask, begin: int, q: np.ndarray) -> None:
         )
 
 
-def _log(
+def _build_log(
     robot: Robot,
     settings: SimulationSettings,
-    made: PlantTask | ClosedMotion,
+    motion: PlantTask | ClosedMotion,
     truth: Truth,
     measured: np.ndarray,
     logged: np.ndarray,
@@ -327,23 +341,23 @@ def _log(
         robot=robot.name,
         joints=tuple(joint.name for joint in robot.coordinates),
         driven=np.array([joint.actuated for joint in robot.coordinates]),
-        time=made.reference.time,
+        time=motion.reference.time,
         q=measured,
-        qc=made.reference.q,
+        qc=motion.reference.q,
         tau=logged + settings.torque_noise * rms * noise,
         settings=settings,
         truth=truth,
         further=further,
-        range_share=made.share,
+        range_share=motion.range_share,
     )
 
 
-def _thermometers(plant: Plant, z: np.ndarray) -> dict[str, np.ndarray]:
+def _read_thermometers(plant: Plant, z: np.ndarray) -> dict[str, np.ndarray]:
     """Readings by column name, degC."""
-    if not plant.warmed:
+    if not plant.thermometer_joints:
         return {}
     readings = plant.temperatures.map(len(z))(z.T).full()
     return {
         f"temperature{joint}": np.round(values / _THERMOMETER) * _THERMOMETER
-        for joint, values in zip(plant.warmed, readings, strict=True)
+        for joint, values in zip(plant.thermometer_joints, readings, strict=True)
     }

@@ -5,7 +5,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
-from modeler.core.brief import Brief
+from modeler.core.brief import ShortRepr
 from modeler.core.builtin import MOST_SAMPLES, MOTIONS
 from modeler.core.errors import DataError
 from modeler.robot import Limits, Robot
@@ -39,7 +39,7 @@ class HiddenEffect:
 
 
 @dataclass(frozen=True)
-class SimulationSettings(Brief):
+class SimulationSettings(ShortRepr):
     """Motion, controller and sensors of a simulated measurement.
 
     Attributes:
@@ -126,7 +126,7 @@ def check_settings(settings: SimulationSettings, joints: tuple[str, ...]) -> Non
             )
 
 
-def hidden_from_text(text: str) -> HiddenEffect:
+def parse_hidden_effect(text: str) -> HiddenEffect:
     """The effect that a user writes as "stribeck", "stribeck@2" or "stribeck@2:extra=3,speed=0.1".
 
     Raises:
@@ -143,13 +143,13 @@ def hidden_from_text(text: str) -> HiddenEffect:
             raise DataError(
                 f"hidden effect {text!r}: got {entry!r}; expected each value once as name=value"
             )
-        values[name] = _number(number)
+        values[name] = _parse_number(number)
         if not math.isfinite(values[name]):
             raise DataError(f"hidden effect {text!r}, {name}: got {number!r}; expected a number")
     return HiddenEffect(effect.strip(), joint.strip() or None, values)
 
 
-def drive_gains(texts: Sequence[str], robot: Robot) -> dict[str, float]:
+def parse_drive_gains(texts: Sequence[str], robot: Robot) -> dict[str, float]:
     """Torque per drive unit by joint, N m or N, from texts such as "11=2110".
 
     Raises:
@@ -157,10 +157,10 @@ def drive_gains(texts: Sequence[str], robot: Robot) -> dict[str, float]:
             is no number or 0.
     """
     motors = [joint.name for joint in robot.coordinates if joint.actuated]
-    found: dict[str, float] = {}
+    gains: dict[str, float] = {}
     for text in texts:
         joint, equals, number = (part.strip() for part in text.partition("="))
-        if not equals or joint in found:
+        if not equals or joint in gains:
             raise DataError(
                 f"--drive-gain {text}: expected each joint once as JOINT=VALUE, as in "
                 f"{motors[0] if motors else 1}=12.5"
@@ -170,16 +170,16 @@ def drive_gains(texts: Sequence[str], robot: Robot) -> dict[str, float]:
                 f"--drive-gain {text}: {robot.name} has no joint {joint} with a motor; expected "
                 f"one of {', '.join(motors)}"
             )
-        found[joint] = _number(number)
-        if not math.isfinite(found[joint]) or found[joint] == 0.0:
+        gains[joint] = _parse_number(number)
+        if not math.isfinite(gains[joint]) or gains[joint] == 0.0:
             raise DataError(
                 f"--drive-gain {text}: got {number or 'nothing'}; expected torque per drive unit, "
                 "a number other than 0"
             )
-    return found
+    return gains
 
 
-def _number(text: str) -> float:
+def _parse_number(text: str) -> float:
     """NaN of what is none."""
     try:
         return float(text)

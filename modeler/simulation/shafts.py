@@ -9,9 +9,9 @@ import numpy as np
 from modeler.core.errors import RobotError
 from modeler.robot import Limits, Robot
 from modeler.simulation.hidden import HIDDEN
-from modeler.simulation.parameters import PlantParameters, effects_of
+from modeler.simulation.parameters import PlantParameters, find_joint_physics
 from modeler.simulation.physics import Act, Contribution, Shaft, Values
-from modeler.simulation.rigid import RigidDynamics, world_frames
+from modeler.simulation.rigid import RigidDynamics, compute_world_frames
 from modeler.simulation.settings import HiddenEffect
 
 _CORE = 1e-3  # width of the smooth core of dry friction, relative to the top speed
@@ -40,7 +40,7 @@ class ShaftEffects:
     temperatures: dict[str, ca.SX]
 
 
-def shaft_effects(
+def combine_shaft_effects(
     robot: Robot,
     parameters: PlantParameters,
     limits: tuple[Limits, ...],
@@ -61,10 +61,10 @@ def shaft_effects(
     turns, offset = tie
     n = turns.shape[1]
     load, torque, inertia = ca.SX.sym("load", n), ca.SX.zeros(n), np.zeros((n, n))
-    speeds = {j.name: limit.speed for j, limit in zip(robot.moving, limits, strict=True)}
-    found: list[Contribution] = []
+    speeds = {j.name: limit.speed for j, limit in zip(robot.moving_joints, limits, strict=True)}
+    contributions: list[Contribution] = []
     temperatures: dict[str, ca.SX] = {}
-    for name, joint, row, act, values in _acting(robot, parameters, hidden):
+    for name, joint, row, act, values in _iterate_shaft_effects(robot, parameters, hidden):
         turn = row @ turns  # speed of the shaft = turn . ud
         shaft = Shaft(
             position=ca.dot(ca.SX(turn), links.q) + float(row @ offset),
@@ -74,30 +74,36 @@ def shaft_effects(
             load=ca.dot(ca.SX(turn), load),
             top=speeds[joint],
         )
-        found.append(act(shaft, values))
-        torque += ca.SX(turn) * found[-1].torque
-        inertia += found[-1].inertia * np.outer(turn, turn)
-        if found[-1].temperature is not None:
-            temperatures[joint] = found[-1].temperature
+        contributions.append(act(shaft, values))
+        torque += ca.SX(turn) * contributions[-1].torque
+        inertia += contributions[-1].inertia * np.outer(turn, turn)
+        if contributions[-1].temperature is not None:
+            temperatures[joint] = contributions[-1].temperature
     for effect in hidden:
         if HIDDEN[effect.effect].role == "push":
-            found.append(_push(robot, effect, links, tie))
-            torque += found[-1].torque
-    state = ca.vertcat(ca.SX(0, 1), *(c.state for c in found))
-    rate = ca.vertcat(ca.SX(0, 1), *(c.rate for c in found))
-    fastest = max((c.fastest for c in found), default=0.0)
+            contributions.append(_compute_push(robot, effect, links, tie))
+            torque += contributions[-1].torque
+    state = ca.vertcat(ca.SX(0, 1), *(c.state for c in contributions))
+    rate = ca.vertcat(ca.SX(0, 1), *(c.rate for c in contributions))
+    fastest = max((c.fastest for c in contributions), default=0.0)
     return ShaftEffects(torque, inertia, state, rate, load, fastest, temperatures)
 
 
-def _acting(
+def _iterate_shaft_effects(
     robot: Robot, parameters: PlantParameters, hidden: tuple[HiddenEffect, ...]
 ) -> Iterator[tuple[str, str, np.ndarray, Act, Values]]:
     """Name, joint, (moving rows,) r of the speed r . qd of its shaft, physics and its values."""
-    unit = dict(zip((joint.name for joint in robot.moving), np.eye(len(robot.moving)), strict=True))
-    gone = {(old, h.joint) for h in hidden for old in HIDDEN[h.effect].replaces}
+    unit = dict(
+        zip(
+            (joint.name for joint in robot.moving_joints),
+            np.eye(len(robot.moving_joints)),
+            strict=True,
+        )
+    )
+    replaced_effects = {(old, h.joint) for h in hidden for old in HIDDEN[h.effect].replaces}
     for joint in unit:
-        for physics in effects_of(robot, joint):
-            if (physics.effect, joint) in gone:
+        for physics in find_joint_physics(robot, joint):
+            if (physics.effect, joint) in replaced_effects:
                 continue
             if physics.on_motor and joint not in robot.coupling:
                 raise RobotError(
@@ -110,16 +116,16 @@ def _acting(
             yield f"{physics.effect}_{joint}", joint, np.asarray(row), physics.act, values
     names = [joint.name for joint in robot.coordinates]
     for effect in hidden:
-        kind, own = HIDDEN[effect.effect], effect.joint
-        if kind.act is None or own is None:
+        kind, joint_name = HIDDEN[effect.effect], effect.joint
+        if kind.act is None or joint_name is None:
             continue
-        row = unit[own]
+        row = unit[joint_name]
         if kind.where == "pair":
-            row = row + effect.values["ratio"] * unit[names[names.index(own) + 1]]
-        yield f"hidden_{effect.effect}_{own}", own, row, kind.act, effect.values
+            row = row + effect.values["ratio"] * unit[names[names.index(joint_name) + 1]]
+        yield f"hidden_{effect.effect}_{joint_name}", joint_name, row, kind.act, effect.values
 
 
-def _push(
+def _compute_push(
     robot: Robot, effect: HiddenEffect, links: RigidDynamics, tie: tuple[np.ndarray, np.ndarray]
 ) -> Contribution:
     """-J^T F while it lasts, by the slope of the work F.p in the coordinates; a clock is a state.
@@ -128,7 +134,9 @@ def _push(
     """
     values = effect.values
     turns, offset = tie
-    frame = world_frames(robot, ca.SX(turns) @ links.q + offset)[robot.moving[-1].name]
+    frame = compute_world_frames(robot, ca.SX(turns) @ links.q + offset)[
+        robot.moving_joints[-1].name
+    ]
     point = frame.position + frame.rotation @ ca.SX([values[k] for k in "xyz"])
     work = ca.dot(ca.SX([values[k] for k in ("fx", "fy", "fz")]), point)
     clock = ca.SX.sym("clock")
@@ -161,7 +169,7 @@ class Transmissions:
     turns: np.ndarray
     effects: tuple[HiddenEffect, ...]
 
-    def torque(self, ahead: ca.SX, rate: ca.SX) -> ca.SX:
+    def compute_torque(self, ahead: ca.SX, rate: ca.SX) -> ca.SX:
         """(transmissions, 1) torques that pull the links back to their motors, N m or N."""
         torques = [ca.SX(0, 1)]
         for i, effect in enumerate(self.effects):
@@ -171,16 +179,16 @@ class Transmissions:
         return ca.vertcat(*torques)
 
 
-def transmissions_of(robot: Robot, hidden: tuple[HiddenEffect, ...]) -> Transmissions:
+def find_transmissions(robot: Robot, hidden: tuple[HiddenEffect, ...]) -> Transmissions:
     """The hidden effects that lie between motors and links."""
-    names = [joint.name for joint in robot.free]
+    names = [joint.name for joint in robot.free_joints]
     effects = tuple(h for h in hidden if HIDDEN[h.effect].role == "transmission")
     rows = tuple(names.index(effect.joint) for effect in effects if effect.joint)
     unit = np.eye(len(names))
     return Transmissions(rows, np.hstack([unit, unit[:, rows]]), effects)
 
 
-def settled(strain: ca.Function, q: np.ndarray, z: np.ndarray) -> np.ndarray:
+def compute_rest_states(strain: ca.Function, q: np.ndarray, z: np.ndarray) -> np.ndarray:
     """(states,) inner states of a robot at rest: links sag until their springs carry them.
 
     Args:

@@ -14,9 +14,9 @@ from scipy.interpolate import BPoly, make_interp_spline
 
 from modeler.core.builtin import MOST_SAMPLES
 from modeler.core.errors import DataError, RobotError
-from modeler.core.files import check_unpacked, read_file
+from modeler.core.files import check_unpacked_size, read_file
 from modeler.robot import Limits, Robot
-from modeler.simulation.portable_math import sine_and_cosine, ten_digits
+from modeler.simulation.portable_math import compute_sine_and_cosine, round_to_ten_digits
 
 _MARGIN = 0.92  # of the limits: the joints overshoot the command a little
 _SPEEDS = (1.0, 0.6, 0.25, 1.0, 0.4, 0.1)  # of the top speed, taken in turn
@@ -50,7 +50,7 @@ class Reference:
     is_measured: bool = False
 
 
-def widened(limits: tuple[Limits, ...], motion: Reference) -> tuple[Limits, ...]:
+def widen_limits(limits: tuple[Limits, ...], motion: Reference) -> tuple[Limits, ...]:
     """Limits that hold the motion."""
     peaks = (motion.q.min(0), motion.q.max(0), np.abs(motion.qd).max(0), np.abs(motion.qdd).max(0))
     return tuple(
@@ -59,28 +59,28 @@ def widened(limits: tuple[Limits, ...], motion: Reference) -> tuple[Limits, ...]
     )
 
 
-def point_to_point_reference(
+def build_point_to_point_reference(
     limits: tuple[Limits, ...], duration: float, rate: float, seed: int
 ) -> Reference:
     """Quintic moves of all joints between random points, as fast as the limits allow.
 
     The motion of Guegan, Khalil and Lemoine 2003 (ICRA, section 5). Arguments as those of
-    `exciting_reference`.
+    `build_exciting_reference`.
 
     Raises:
-        DataError: no time for a move there and back, or what `exciting_reference` refuses.
+        DataError: no time for a move there and back, or what `build_exciting_reference` refuses.
     """
-    path = _Path(limits, duration, rate)
+    path = _ReferenceBuilder(limits, duration, rate)
     until = float(path.time[-1])
     if path.add_moves(until, np.random.default_rng([seed, 4]), exciting=False) == 0.0:
         raise DataError(
             f"reference motion: got duration {duration} s, too short for a move and back; expected "
             "more, or faster [limits]"
         )
-    return path.reference()
+    return path.build_reference()
 
 
-def one_joint_reference(
+def build_one_joint_reference(
     limits: tuple[Limits, ...],
     duration: float,
     rate: float,
@@ -100,41 +100,41 @@ def one_joint_reference(
         directions: (joints, coordinates), the coordinates per joint; None: they are the joints.
 
     Raises:
-        DataError: no time for one joint, or what `exciting_reference` refuses.
+        DataError: no time for one joint, or what `build_exciting_reference` refuses.
     """
     directions = np.eye(len(limits)) if directions is None else directions
-    path, rng = _Path(limits, duration, rate), np.random.default_rng([seed, 6])
+    path, rng = _ReferenceBuilder(limits, duration, rate), np.random.default_rng([seed, 6])
     lower, upper = path.middle - path.reach, path.middle + path.reach
     now, here, turn = _PAUSE, path.middle, 0
     while True:
-        way = directions[turn % len(directions)]
-        place = path.random_place(rng)
-        # How far one can go along `way` from there, back and forth, within the range.
-        on = way != 0
-        sides = np.stack([(edge - place)[on] / way[on] for edge in (lower, upper)])
+        direction = directions[turn % len(directions)]
+        place = path.draw_position(rng)
+        # How far one can go along `direction` from there, back and forth, within the range.
+        on = direction != 0
+        sides = np.stack([(edge - place)[on] / direction[on] for edge in (lower, upper)])
         first = float(np.max(np.min(sides, axis=0)))
         last = float(np.min(np.max(sides, axis=0)))
-        there, along = place + first * way, (last - first) * way
-        steps = [(there - here, 1.0)]
+        start_point, along = place + first * direction, (last - first) * direction
+        steps = [(start_point - here, 1.0)]
         steps += [(sign * along, level) for level in _ALONE for sign in (1, -1)]
-        moves = [(step, path.move_time(step, level)) for step, level in steps]
-        home = path.move_time(path.middle - there)
+        moves = [(step, path.compute_move_time(step, level)) for step, level in steps]
+        home = path.compute_move_time(path.middle - start_point)
         if now + sum(lasts + _REST for _, lasts in moves) + home + _PAUSE > path.time[-1]:
             break
         for step, lasts in moves:
             path.add_move(now, lasts, step)
             now += lasts + _REST
-        here, turn = there, turn + 1
+        here, turn = start_point, turn + 1
     if not turn:
         raise DataError(
             f"reference motion: got duration {duration} s, too short for one joint to move there "
             "and back; expected more, or faster [limits]"
         )
-    path.add_move(now, path.move_time(path.middle - here), path.middle - here)
-    return path.reference()
+    path.add_move(now, path.compute_move_time(path.middle - here), path.middle - here)
+    return path.build_reference()
 
 
-def exciting_reference(
+def build_exciting_reference(
     limits: tuple[Limits, ...], duration: float, rate: float, seed: int
 ) -> Reference:
     """Point-to-point moves for the first half, a Fourier series for the rest, within the limits.
@@ -153,12 +153,12 @@ def exciting_reference(
     Raises:
         DataError: duration too short for two samples.
     """
-    path, rng = _Path(limits, duration, rate), np.random.default_rng([seed, 2])
+    path, rng = _ReferenceBuilder(limits, duration, rate), np.random.default_rng([seed, 2])
     path.add_series(path.add_moves(duration / 2, rng), rng)
-    return path.reference()
+    return path.build_reference()
 
 
-class _Path:
+class _ReferenceBuilder:
     """A motion in the making: at rest in the middle of the range, until moves are added.
 
     Attributes:
@@ -183,14 +183,14 @@ class _Path:
         self.values = np.zeros((3, count, len(limits)))
         self.values[0] = self.middle
 
-    def reference(self) -> Reference:
+    def build_reference(self) -> Reference:
         return Reference(self.time, *self.values)
 
-    def random_place(self, rng: np.random.Generator) -> np.ndarray:
+    def draw_position(self, rng: np.random.Generator) -> np.ndarray:
         """(joints,) positions within reach."""
         return self.middle + self.reach * np.round(rng.uniform(-1, 1, len(self.limits)), 10)
 
-    def move_time(self, distance: np.ndarray, level: float = 1.0) -> float:
+    def compute_move_time(self, distance: np.ndarray, level: float = 1.0) -> float:
         """Duration of a quintic move of all joints together, none above level * top speed, s."""
         speed = _MARGIN * level * np.array([limit.speed for limit in self.limits])
         lift = _MARGIN * np.array([limit.acceleration for limit in self.limits])
@@ -200,7 +200,7 @@ class _Path:
 
     def add_move(self, begin: float, lasts: float, distance: np.ndarray) -> None:
         if lasts > 0:
-            step = _quintic_step((self.time - begin) / lasts)
+            step = _evaluate_quintic_step((self.time - begin) / lasts)
             for order in range(3):
                 self.values[order] += step[order][:, None] / lasts**order * distance
 
@@ -215,16 +215,16 @@ class _Path:
             level = speeds[turn % len(speeds)]
             joins = rng.random(len(here)) < (0.5 if exciting and turn % 3 == 2 else 1.1)
             joins[rng.integers(len(here))] = True
-            target = np.where(joins, self.random_place(rng), here)
-            needed = self.move_time(target - here, level)
+            target = np.where(joins, self.draw_position(rng), here)
+            needed = self.compute_move_time(target - here, level)
             target = here + (target - here) * min(1.0, longest / max(needed, 1e-9))
-            lasts = self.move_time(target - here, level)
-            home = self.move_time(self.middle - target)
+            lasts = self.compute_move_time(target - here, level)
+            home = self.compute_move_time(self.middle - target)
             if now + lasts + home + 2 * _PAUSE > until:
                 break
             self.add_move(now, lasts, target - here)
             now, here, turn = now + lasts + _PAUSE, target, turn + 1
-        back = self.move_time(self.middle - here)
+        back = self.compute_move_time(self.middle - here)
         self.add_move(now, back, self.middle - here)
         return now + back + _PAUSE if turn else 0.0
 
@@ -234,16 +234,16 @@ class _Path:
         lasts = end - begin
         fade = min(1.0, lasts / 3)
         lowest = max(_LOWEST, 1.0 / lasts)
-        rise = _quintic_step((time - begin) / fade)
-        fall = _quintic_step((time - (end - fade)) / fade)
+        rise = _evaluate_quintic_step((time - begin) / fade)
+        fall = _evaluate_quintic_step((time - (end - fade)) / fade)
         window = [(rise[k] - fall[k]) / fade**k for k in range(3)]
         for i, limit in enumerate(self.limits):
             series = np.zeros((3, time.size))
             for harmonic in range(1, _HARMONICS + 1):
-                omega = 2 * np.pi * lowest * harmonic * ten_digits(rng.uniform(0.9, 1.1))
-                phase = omega * (time - begin) + ten_digits(rng.uniform(0, 2 * np.pi))
-                size = ten_digits(rng.uniform(0.5, 1.0)) / harmonic
-                sine, cosine = sine_and_cosine(phase)
+                omega = 2 * np.pi * lowest * harmonic * round_to_ten_digits(rng.uniform(0.9, 1.1))
+                phase = omega * (time - begin) + round_to_ten_digits(rng.uniform(0, 2 * np.pi))
+                size = round_to_ten_digits(rng.uniform(0.5, 1.0)) / harmonic
+                sine, cosine = compute_sine_and_cosine(phase)
                 series += size * np.array([sine, omega * cosine, -(omega**2) * sine])
             shaped = np.array([
                 window[0] * series[0],
@@ -256,13 +256,13 @@ class _Path:
             self.values[:, :, i] += shaped * _MARGIN * min(shares, default=0.0)
 
 
-def _quintic_step(s: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+def _evaluate_quintic_step(s: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """0 before s = 0, 1 after s = 1, with two continuous derivatives between; and these."""
     x = np.clip(s, 0.0, 1.0)
     value = x * x * x * (10 - 15 * x + 6 * x**2)
     slope = 30 * x**2 * (1 - x) ** 2
-    bend = 60 * x * (1 - x) * (1 - 2 * x)
-    return value, slope, bend
+    curvature = 60 * x * (1 - x) * (1 - 2 * x)
+    return value, slope, curvature
 
 
 # A commanded motion from a file: what `modeler excite` writes, or a log's commands.
@@ -289,8 +289,8 @@ def read_motion(path: str | Path, joints: Sequence[str]) -> Reference:
             not increase, too few samples.
     """
     path = Path(path)
-    table = _table(path)
-    time = _column(table, path, "time")
+    table = _read_table(path)
+    time = _read_column(table, path, "time")
     if len(time) < _FEWEST:
         raise DataError(f"{path}: got {len(time)} samples; expected {_FEWEST} or more")
     if not np.all(np.diff(time) > 0.0):
@@ -298,7 +298,7 @@ def read_motion(path: str | Path, joints: Sequence[str]) -> Reference:
         raise DataError(f"{path}, row {row}: time does not increase; expected seconds in order")
     prefix = "qc" if all(f"qc{joint}" in table.column_names for joint in joints) else "q"
     path_of = {
-        p: np.column_stack([_column(table, path, f"{p}{joint}") for joint in joints])
+        p: np.column_stack([_read_column(table, path, f"{p}{joint}") for joint in joints])
         for p in (prefix, "qd", "qdd")
         if p == prefix or (prefix == "q" and f"{p}{joints[0]}" in table.column_names)
     }
@@ -307,19 +307,19 @@ def read_motion(path: str | Path, joints: Sequence[str]) -> Reference:
     if {"qd", "qdd"} <= path_of.keys():
         return Reference(time - time[0], q, path_of["qd"], path_of["qdd"], True, measured)
     spline = make_interp_spline(time, q, k=_DEGREE)
-    derivatives = spline.derivative()(time), spline.derivative(2)(time)
+    derivatives = spline.differentiate_polynomial()(time), spline.differentiate_polynomial(2)(time)
     return Reference(time - time[0], q, *derivatives, is_measured=measured)
 
 
-def curve_of(motion: Reference) -> BPoly:
+def build_curve(motion: Reference) -> BPoly:
     """Polynomials of degree five that meet all that is given: q of times from 0 to the last."""
     ends = np.stack([motion.q, motion.qd, motion.qdd], axis=1)
     return BPoly.from_derivatives(motion.time, ends)
 
 
-def at_rate(motion: Reference, rate: float) -> Reference:
+def resample_motion(motion: Reference, rate: float) -> Reference:
     """The motion at other samples: polynomials of degree five that meet all that is given."""
-    curve = curve_of(motion)
+    curve = build_curve(motion)
     if motion.time[-1] * rate > MOST_SAMPLES:
         raise DataError(
             f"--motion: lasts {motion.time[-1]:.4g} s, {motion.time[-1] * rate:.3g} samples; "
@@ -328,10 +328,12 @@ def at_rate(motion: Reference, rate: float) -> Reference:
     count = int(np.floor(motion.time[-1] * rate + 1e-9)) + 1
     time = np.arange(count) / rate
     at = np.minimum(time, motion.time[-1])
-    return Reference(time, curve(at), curve.derivative()(at), curve.derivative(2)(at))
+    return Reference(
+        time, curve(at), curve.differentiate_polynomial()(at), curve.differentiate_polynomial(2)(at)
+    )
 
 
-def _table(path: Path) -> pa.Table:
+def _read_table(path: Path) -> pa.Table:
     try:
         content = read_file(path, _LARGEST)
     except OSError as error:
@@ -344,7 +346,7 @@ def _table(path: Path) -> pa.Table:
     try:
         if path.suffix == ".parquet":
             file = pq.ParquetFile(io.BytesIO(content))
-            check_unpacked(path, 8 * file.metadata.num_rows * file.metadata.num_columns)
+            check_unpacked_size(path, 8 * file.metadata.num_rows * file.metadata.num_columns)
             return file.read()
         one_by_one = pacsv.ReadOptions(use_threads=False)  # which knows the row of an error
         return pacsv.read_csv(io.BytesIO(content), one_by_one)
@@ -367,7 +369,7 @@ def _is_number(text: str) -> bool:
     return True
 
 
-def _column(table: pa.Table, path: Path, name: str) -> np.ndarray:
+def _read_column(table: pa.Table, path: Path, name: str) -> np.ndarray:
     if name not in table.column_names:
         raise DataError(
             f"{path}: no column {name}; got {', '.join(table.column_names[:12])}; expected time "
@@ -405,7 +407,9 @@ PRISMATIC = Limits(lower=-0.3, upper=0.3, speed=0.5, acceleration=3.0)
 _AROUND_HOME = 0.2  # of the defaults' range, for robots with loops
 
 
-def motion_limits(robot: Robot, changes: Mapping[str, Limits] | None = None) -> tuple[Limits, ...]:
+def collect_motion_limits(
+    robot: Robot, changes: Mapping[str, Limits] | None = None
+) -> tuple[Limits, ...]:
     """Limits in the order of `robot.moving`: `changes`, else the robot file, else the defaults.
 
     A robot with loops moves around its home by default, and less: it could not close far away.
@@ -414,7 +418,7 @@ def motion_limits(robot: Robot, changes: Mapping[str, Limits] | None = None) -> 
         RobotError: limits of a joint that is not there, or an empty range.
     """
     stated = {**robot.limits, **(changes or {})}
-    names = [joint.name for joint in robot.moving]
+    names = [joint.name for joint in robot.moving_joints]
     for name, limits in stated.items():
         where = f"robot {robot.name}, limits of joint {name}"
         if name not in names:
@@ -431,11 +435,11 @@ def motion_limits(robot: Robot, changes: Mapping[str, Limits] | None = None) -> 
                 f"{where}: got speed {limits.speed}, acceleration {limits.acceleration}; "
                 "expected both above 0"
             )
-    found = []
-    for joint in robot.moving:
-        usual = REVOLUTE if joint.angular else PRISMATIC
+    joint_limits = []
+    for joint in robot.moving_joints:
+        usual = REVOLUTE if joint.is_revolute else PRISMATIC
         if robot.loops:
             home, reach = robot.home.get(joint.name, 0.0), _AROUND_HOME * usual.upper
             usual = Limits(home - reach, home + reach, usual.speed, usual.acceleration)
-        found.append(stated.get(joint.name, usual))
-    return tuple(found)
+        joint_limits.append(stated.get(joint.name, usual))
+    return tuple(joint_limits)

@@ -58,11 +58,13 @@ class Guard:
     def __init__(self, app: ASGIApp, port: int) -> None:
         self.app = app
         self._token, self._tokens_once = secrets.token_urlsafe(32), [secrets.token_urlsafe(32)]
-        self.address, self.once = (
+        self.address, self.one_time_address = (
             f"http://127.0.0.1:{port}/?{TOKEN}={token}"
             for token in (self._token, *self._tokens_once)
         )
-        self._kept = secrets.token_urlsafe(32)  # value of the cookie; it tells nothing of the token
+        self._cookie_value = secrets.token_urlsafe(
+            32
+        )  # value of the cookie; it tells nothing of the token
 
     async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
         """As a server calls it."""
@@ -70,18 +72,18 @@ class Guard:
             await self.app(scope, receive, send)
             return
         headers = Headers(scope=scope)
-        answer = self._refusal(scope, headers)
-        if answer is None and not self._known(headers):
-            answer = self._greeting(scope, headers)
+        answer = self._refuse_request(scope, headers)
+        if answer is None and not self._has_cookie(headers):
+            answer = self._exchange_token(scope, headers)
         if answer is None:
-            await self.app(scope, receive, _protected(send, scope, headers["host"]))
+            await self.app(scope, receive, _add_security_headers(send, scope, headers["host"]))
         elif scope["type"] == "websocket":
             await receive()
             await send({"type": "websocket.close", "code": 1008})  # before it is accepted: 403
         else:
-            await answer(scope, receive, _protected(send, scope, "127.0.0.1"))
+            await answer(scope, receive, _add_security_headers(send, scope, "127.0.0.1"))
 
-    def _refusal(self, scope: Scope, headers: Headers) -> Response | None:
+    def _refuse_request(self, scope: Scope, headers: Headers) -> Response | None:
         """Of what no cookie makes right."""
         hosts = headers.getlist("host")
         if len(hosts) != 1 or not _HOST.fullmatch(hosts[0]):
@@ -101,49 +103,56 @@ class Guard:
             return PlainTextResponse(_NO_PATH, 403)
         return None
 
-    def _known(self, headers: Headers) -> bool:
+    def _has_cookie(self, headers: Headers) -> bool:
         """Whether the cookie is there."""
-        name = _cookie(headers["host"])
-        return any(_same(value, self._kept) for value in _cookies(headers, name))
+        name = _build_cookie_name(headers["host"])
+        return any(
+            _compare_secrets(value, self._cookie_value) for value in _read_cookies(headers, name)
+        )
 
-    def _greeting(self, scope: Scope, headers: Headers) -> Response:
+    def _exchange_token(self, scope: Scope, headers: Headers) -> Response:
         """The cookie, for the token; then the address without it."""
-        given = parse_qs(scope["query_string"].decode("latin-1")).get(TOKEN, [""])[0]
-        once = [each for each in self._tokens_once if _same(given, each)]
-        right = _same(given, self._token) or bool(once)
+        token = parse_qs(scope["query_string"].decode("latin-1")).get(TOKEN, [""])[0]
+        once = [each for each in self._tokens_once if _compare_secrets(token, each)]
+        right = _compare_secrets(token, self._token) or bool(once)
         if not right or scope["type"] != "http" or scope["method"] != "GET":
             return PlainTextResponse(_REFUSED, 403)
         self._tokens_once = [each for each in self._tokens_once if each not in once]
         answer: Response = RedirectResponse("/", 303)
         if headers.get("sec-fetch-site", "none") not in ("none", "same-origin"):
             answer = HTMLResponse(_GO_ON)
-        answer.set_cookie(_cookie(headers["host"]), self._kept, httponly=True, samesite="strict")
+        answer.set_cookie(
+            _build_cookie_name(headers["host"]),
+            self._cookie_value,
+            httponly=True,
+            samesite="strict",
+        )
         return answer
 
 
-def _cookie(host: str) -> str:
+def _build_cookie_name(host: str) -> str:
     """Its name: browsers share cookies among all ports, and two studios may be open."""
     port = _HOST.fullmatch(host)
     return f"modeler-studio-{(port and port[1]) or 80}"
 
 
-def _cookies(headers: Headers, name: str) -> Iterable[str]:
+def _read_cookies(headers: Headers, name: str) -> Iterable[str]:
     for line in headers.getlist("cookie"):
         for part in line.split(";"):  # one that is malformed must not hide ours
             try:
-                found = SimpleCookie(part.strip()).get(name)
+                morsel = SimpleCookie(part.strip()).get(name)
             except CookieError:
                 continue
-            if found is not None:
-                yield found.value
+            if morsel is not None:
+                yield morsel.value
 
 
-def _same(one: str, other: str) -> bool:
+def _compare_secrets(one: str, other: str) -> bool:
     """Compared in a time that tells nothing."""
     return secrets.compare_digest(one.encode(), other.encode())
 
 
-def _protected(send: Send, scope: Scope, host: str) -> Send:
+def _add_security_headers(send: Send, scope: Scope, host: str) -> Send:
     """With headers that tell the browser what the pages may do.
 
     Pages load from here alone, and talk to nobody else: what a name in a log might smuggle into a
@@ -161,7 +170,7 @@ def _protected(send: Send, scope: Scope, host: str) -> Send:
     if report:
         policy += "; sandbox allow-scripts allow-popups allow-downloads allow-modals"
 
-    async def sending(message: Message) -> None:
+    async def send_with_headers(message: Message) -> None:
         if message["type"] == "http.response.start":
             headers = MutableHeaders(scope=message)
             headers["content-security-policy"] = policy
@@ -174,4 +183,4 @@ def _protected(send: Send, scope: Scope, host: str) -> Send:
                 headers["cache-control"] = "no-store"
         await send(message)
 
-    return sending
+    return send_with_headers

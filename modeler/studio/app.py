@@ -14,7 +14,7 @@ from fastapi.responses import FileResponse, HTMLResponse
 from nicegui import Client, app as nicegui_app, background_tasks, ui
 
 from modeler.core.errors import ModelerError
-from modeler.core.files import read_text, resource_dir
+from modeler.core.files import locate_resources, read_text
 from modeler.studio import (
     data_screen,
     days_screen,
@@ -29,11 +29,11 @@ from modeler.studio import (
     take_screen,
 )
 from modeler.studio.access import REPORTS, Guard
-from modeler.studio.commands import words_of
-from modeler.studio.places import folder_lock
+from modeler.studio.commands import build_command_words
+from modeler.studio.places import lock_folder
 from modeler.studio.project import FOREIGN, Project, Workspace
 from modeler.studio.studio import Hub, Studio
-from modeler.studio.tasks import typed
+from modeler.studio.tasks import format_command
 
 JOBS = {
     "robot": ("Robot", robot_screen.draw),
@@ -61,7 +61,7 @@ def serve(
     allow: Sequence[Path] = (),
     port: int = 0,
     demo: bool = False,
-    told: Callable[[str, str, str], None] = lambda address, once, warning: None,
+    on_ready: Callable[[str, str, str], None] = lambda address, once, warning: None,
 ) -> None:
     """Serves the studio of a project folder on this machine, until it is interrupted.
 
@@ -70,150 +70,154 @@ def serve(
         allow: folders whose files may be chosen where they lie, besides it.
         port: 0: one that is free.
         demo: True: begin with the built-in arm that has a hidden effect.
-        told: is called when it answers, with the address, its token in it, one that can be
+        on_ready: is called when it answers, with the address, its token in it, one that can be
             opened once, and the line that says that the project is somebody else's, or "".
 
     Raises:
         ModelerError: the folder cannot be used, or the port is taken.
     """
-    with ExitStack() as held, socket.socket() as door:
-        workspace = Workspace(folder, writable=held.enter_context(folder_lock(folder)))
+    with ExitStack() as resources, socket.socket() as server_socket:
+        workspace = Workspace(folder, writable=resources.enter_context(lock_folder(folder)))
         try:
-            door.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)  # one that ended may linger
-            door.bind(("127.0.0.1", port))
-            door.listen()  # who comes before all is ready waits
+            server_socket.setsockopt(
+                socket.SOL_SOCKET, socket.SO_REUSEADDR, 1
+            )  # one that ended may linger
+            server_socket.bind(("127.0.0.1", port))
+            server_socket.listen()  # who comes before all is ready waits
         except OSError as error:
             raise ModelerError(
                 f"--port {port}: cannot be opened ({error.strerror}); choose another one, or 0"
             ) from None
         screens = {name: draw for name, (_, draw) in JOBS.items()}
         hub = Hub(workspace, (folder, *allow), {"start": start_screen.draw, **screens})
-        hub.own = lambda: held.enter_context(folder_lock(folder))
+        hub.acquire_folder = lambda: resources.enter_context(lock_folder(folder))
         inner = FastAPI(openapi_url=None)
-        _routes(inner, hub)
-        _pages(hub, demo)
+        _add_routes(inner, hub)
+        _add_pages(hub, demo)
         ui.run_with(
             inner, title="modeler studio", dark=None, show_welcome_message=False,
             reconnect_timeout=_BUSY,
         )  # fmt: skip
-        guard = Guard(inner, door.getsockname()[1])
+        guard = Guard(inner, server_socket.getsockname()[1])
         config = uvicorn.Config(guard, log_level="warning", lifespan="on")
         nicegui_app.on_startup(
             lambda: hub.viewer.ask("forget")
         )  # it is there when the first page asks
         warning = FOREIGN.format(folder) if workspace.foreign else ""
-        told(guard.address, guard.once, warning)
+        on_ready(guard.address, guard.one_time_address, warning)
         try:
-            uvicorn.Server(config).run(sockets=[door])
+            uvicorn.Server(config).run(sockets=[server_socket])
         finally:
             hub.close()
 
 
-def _routes(app: FastAPI, hub: Hub) -> None:
+def _add_routes(app: FastAPI, hub: Hub) -> None:
     """What is no page of the studio itself."""
-    dropped.add_route(app, hub.workspace.folder, lambda: hub.workspace.may_change)
-    own = resource_dir("templates") / "studio"
+    dropped.add_route(app, hub.workspace.folder, lambda: hub.workspace.can_change)
+    templates_folder = locate_resources("templates") / "studio"
 
     @app.get("/studio.{kind}")
-    def file(kind: str) -> Response:
+    def serve_asset(kind: str) -> Response:
         types = {"js": "text/javascript", "css": "text/css"}
         if kind not in types:
             return Response(status_code=404)
-        parts = [read_text(own / f"{name}.{kind}") for name in ("studio", "robot")]
+        parts = [read_text(templates_folder / f"{name}.{kind}") for name in ("studio", "robot")]
         return Response("\n".join(parts), media_type=types[kind])
 
     @app.get("/download/{key}")
-    def download(key: str) -> Response:
+    def serve_download(key: str) -> Response:
         content, name = hub.downloads.get(key, (b"", ""))
         if not name:
             return Response(status_code=404)
         if isinstance(content, bytes):
-            return _attached(content, name)
+            return _send_attachment(content, name)
         if content.is_dir():
-            return _attached(_zipped(content, name), f"{name}.zip")
+            return _send_attachment(_pack_folder(content, name), f"{name}.zip")
         if not content.is_file():
             return Response("the file is gone; make it again\n", 404)
         return FileResponse(content, filename=name)
 
     @app.get("/sheet/{digest}.html")
     @app.get(f"{REPORTS}{{digest}}.html")
-    def sheet(digest: str) -> Response:
+    def serve_sheet(digest: str) -> Response:
         html = hub.sheets.get(digest)
         return Response(status_code=404) if html is None else HTMLResponse(html)
 
 
-def _zipped(folder: Path, name: str) -> bytes:
+def _pack_folder(folder: Path, name: str) -> bytes:
     """A folder as ZIP, in a folder of that name."""
-    held = io.BytesIO()
-    with zipfile.ZipFile(held, "w", zipfile.ZIP_DEFLATED) as archive:
+    buffer = io.BytesIO()
+    with zipfile.ZipFile(buffer, "w", zipfile.ZIP_DEFLATED) as archive:
         for file in sorted(file for file in folder.rglob("*") if file.is_file()):
             archive.write(file, f"{name}/{file.relative_to(folder).as_posix()}")
-    return held.getvalue()
+    return buffer.getvalue()
 
 
-def _attached(content: bytes, name: str) -> Response:
+def _send_attachment(content: bytes, name: str) -> Response:
     """Bytes that the browser saves."""
     headers = {"content-disposition": f"attachment; filename*=UTF-8''{quote(name)}"}
     return Response(content, media_type="application/octet-stream", headers=headers)
 
 
-def _pages(hub: Hub, demo: bool) -> None:
+def _add_pages(hub: Hub, demo: bool) -> None:
     @ui.page("/", reconnect_timeout=_GONE)
-    async def start(client: Client) -> None:
-        studio = await _page(client, hub, "robot" if hub.project.robot else "start")
-        if demo and not hub.project.robot and hub.running is None and not studio.read_only:
-            await start_screen.begin(studio)
+    async def show_first_screen(client: Client) -> None:
+        studio = await _build_page(client, hub, "robot" if hub.project.robot else "start")
+        if demo and not hub.project.robot and hub.running is None and not studio.is_read_only:
+            await start_screen.open_demo(studio)
 
     @ui.page("/{screen}", reconnect_timeout=_GONE)
-    async def job(client: Client, screen: str) -> None:
-        await _page(client, hub, screen if screen in hub.screens else "start")
+    async def show_screen(client: Client, screen: str) -> None:
+        await _build_page(client, hub, screen if screen in hub.screens else "start")
 
 
-async def _page(client: Client, hub: Hub, screen: str) -> Studio:
+async def _build_page(client: Client, hub: Hub, screen: str) -> Studio:
     ui.add_head_html('<link rel="stylesheet" href="/studio.css"><script src="/studio.js"></script>')
     studio = Studio(hub, screen)
     hub.studios.append(studio)
-    client.on_disconnect(lambda: _away(hub, studio))
-    client.on_delete(lambda: _left(hub, studio))
+    client.on_disconnect(lambda: _move_window_last(hub, studio))
+    client.on_delete(lambda: _remove_window(hub, studio))
     ui.colors(primary="#0072b2", negative="#b3261e", positive="#00694a", warning="#b45f06")
     ui.page_title(f"{hub.workspace.folder.name} - modeler studio")
-    _navigation(studio)
-    _status(studio)
+    _draw_navigation(studio)
+    _draw_status(studio)
     studio.room = ui.element("main").classes("studio-room")
     if not hub.workspace.writable:
-        ui.timer(2.0, hub.follow)
+        ui.timer(2.0, hub.follow_changes)
     await client.connected()
     studio.redraw()
-    background_tasks.create(hub.viewer.warm())
+    background_tasks.create(hub.viewer.launch())
     return studio
 
 
-def _away(hub: Hub, studio: Studio) -> None:
+def _move_window_last(hub: Hub, studio: Studio) -> None:
     """A window is loaded anew, or its line is cut: another that is open may change things."""
     if studio in hub.studios:
         hub.studios.remove(studio)
         hub.studios.append(studio)
-    hub.tell()
+    hub.notify_windows()
 
 
-def _left(hub: Hub, studio: Studio) -> None:
+def _remove_window(hub: Hub, studio: Studio) -> None:
     """A window was closed; the next one may change things."""
     if studio in hub.studios:
         hub.studios.remove(studio)
-    hub.tell()
+    hub.notify_windows()
 
 
-def _navigation(studio: Studio) -> None:
+def _draw_navigation(studio: Studio) -> None:
     """The nine jobs, with what is done of them."""
     with ui.left_drawer(value=True, bordered=True).props("width=200").classes("studio-jobs"):
         ui.label(studio.folder.name).classes("studio-title")
         buttons = {}
         for number, (name, (title, _)) in enumerate(JOBS.items(), start=1):
-            button = ui.button(f"{number}  {title}", on_click=lambda _, to=name: studio.go(to))
+            button = ui.button(
+                f"{number}  {title}", on_click=lambda _, to=name: studio.open_screen(to)
+            )
             buttons[name] = button.props(f"flat no-caps align=left accesskey={number}")
 
-        def marked() -> None:
-            done = _done(studio.project)
+        def update_marks() -> None:
+            done = _find_done_jobs(studio.project)
             for name, button in buttons.items():
                 here = "studio-here", "aria-current=page"
                 if name == studio.screen:
@@ -225,21 +229,21 @@ def _navigation(studio: Studio) -> None:
                 else:
                     button.props(remove="icon-right=check")
 
-        studio.listeners.append(marked)
-        marked()
+        studio.listeners.append(update_marks)
+        update_marks()
 
 
-def _done(project: Project) -> set[str]:
+def _find_done_jobs(project: Project) -> set[str]:
     """The jobs of which something is there."""
     kinds = {"fails": "compare", "missing": "diagnose"}
-    found = {name for name, kind in kinds.items() if project.about(kind) is not None}
-    found |= {"robot"} if project.robot else set()
-    found |= {"data"} if project.words("train") else set()
-    found |= {"fit"} if project.current else set()
-    return found | ({"fall"} if len(project.path()) > 1 else set())
+    done_jobs = {name for name, kind in kinds.items() if project.find_step_about(kind) is not None}
+    done_jobs |= {"robot"} if project.robot else set()
+    done_jobs |= {"data"} if project.collect_words("train") else set()
+    done_jobs |= {"fit"} if project.current else set()
+    return done_jobs | ({"fall"} if len(project.collect_path()) > 1 else set())
 
 
-def _status(studio: Studio) -> None:
+def _draw_status(studio: Studio) -> None:
     """What runs, what went wrong, and the command lines."""
     with ui.footer(bordered=True).classes("studio-status"):
         error = ui.label().classes("studio-error").props("role=alert")
@@ -261,9 +265,9 @@ def _status(studio: Studio) -> None:
             why = ui.label().classes("studio-doubtful")
             over = ui.button(on_click=lambda: _take_over(studio)).props("dense no-caps")
 
-        def told() -> None:
+        def update_status() -> None:
             hub = studio.hub
-            error.text = studio.kept.get("error", "")
+            error.text = studio.state.get("error", "")
             error.visible = bool(error.text)
             running.visible = hub.running is not None
             if hub.running is not None:
@@ -274,29 +278,32 @@ def _status(studio: Studio) -> None:
                 else:
                     bar.value = hub.running.share
             steps = studio.project.steps
-            words = hub.last or (words_of(studio.project, steps[-1]) if steps else ())
+            words = hub.last or (build_command_words(studio.project, steps[-1]) if steps else ())
             last.visible = bool(words) and hub.running is None
-            line.text = typed(words)
-            reading.visible = studio.read_only
-            why.text = studio.why_read_only
+            line.text = format_command(words)
+            reading.visible = studio.is_read_only
+            why.text = studio.read_only_reason
             space = hub.workspace
             over.text = "Accept the project" if space.writable and space.foreign else "Take over"
 
-        studio.listeners.append(told)
-        told()
+        studio.listeners.append(update_status)
+        update_status()
 
 
 def _show_commands(studio: Studio) -> None:
     """What was done, as it would be typed in the folder of the project."""
     project = studio.project
-    lines = [f"{typed(words_of(project, s))}  # {s.seconds:.1f} s" for s in project.steps]
+    lines = [
+        f"{format_command(build_command_words(project, s))}  # {s.seconds:.1f} s"
+        for s in project.steps
+    ]
     with ui.dialog(value=True), ui.card().classes("studio-card studio-commands"):
         ui.label(f"Commands, in {studio.folder}").classes("studio-part")
         ui.code("\n".join(lines), language="bash")
 
 
 def _cancel(studio: Studio) -> None:
-    if studio.hub.running is not None and not studio.read_only:
+    if studio.hub.running is not None and not studio.is_read_only:
         studio.hub.running.cancel()
 
 
@@ -305,6 +312,6 @@ def _take_over(studio: Studio) -> None:
     try:
         if studio.hub.workspace.foreign and studio.hub.workspace.writable:
             studio.hub.workspace.accept()
-        studio.hub.give_to(studio)
+        studio.hub.give_control(studio)
     except ModelerError as error:
         studio.show_error(str(error))

@@ -5,17 +5,17 @@ from collections.abc import Sequence
 from typing import Any
 
 from modeler.studio.project import Project
-from modeler.studio.tasks import LogPart, Step, Task, command_line
+from modeler.studio.tasks import LogPart, Step, Task, build_command_line
 
 
-def words_of(project: Project, work: Task | Step) -> tuple[str, ...]:
+def build_command_words(project: Project, work: Task | Step) -> tuple[str, ...]:
     """The words after `modeler` of a step, or of a task as the next step.
 
     Raises:
         DataError: a value that cannot stand in a command line.
     """
-    step = work if isinstance(work, Step) else project.next_step(work)
-    return command_line(step, project.steps)
+    step = work if isinstance(work, Step) else project.make_next_step(work)
+    return build_command_line(step, project.steps)
 
 
 def fit(project: Project, options: Sequence[tuple[str, Any]] = ()) -> Task:
@@ -25,37 +25,41 @@ def fit(project: Project, options: Sequence[tuple[str, Any]] = ()) -> Task:
         project: with a robot and logs.
         options: fields of the task, as ("method", "robust").
     """
-    task = Task("fit", logs=project.parts("train"), mapping=project.mapping)
+    task = Task("fit", logs=project.collect_parts("train"), mapping=project.mapping)
     return dataclasses.replace(task, **dict(options))
 
 
 def compare(project: Project, parts: Sequence[LogPart] = ()) -> Task:
     """Measured against predicted: on the held-out stretches, or where there are none on all."""
-    logs = tuple(parts) or project.parts("test") or project.parts("train")
-    return Task("compare", logs=logs, mapping=guessing(project))
+    logs = tuple(parts) or project.collect_parts("test") or project.collect_parts("train")
+    return Task("compare", logs=logs, mapping=select_guess_mapping(project))
 
 
-def contest(project: Project, models: tuple[int, int]) -> Task:
+def compare_models(project: Project, models: tuple[int, int]) -> Task:
     """Two models on the same logs, by the numbers of the steps that made them."""
     return dataclasses.replace(compare(project), verb="contest", models=models)
 
 
 def diagnose(project: Project) -> Task:
     """What the current model lacks."""
-    return dataclasses.replace(_explained(project), without=project.without)
+    return dataclasses.replace(_build_diagnosis_task(project), without=project.without)
 
 
 def add(project: Project, effect: str, joint: str | None) -> Task:
     """The current model with an effect more."""
-    return dataclasses.replace(_explained(project), verb="add", effect=effect, joint=joint or "")
+    return dataclasses.replace(
+        _build_diagnosis_task(project), verb="add", effect=effect, joint=joint or ""
+    )
 
 
-def _explained(project: Project) -> Task:
-    held = project.parts("test")
-    return Task("diagnose", project.parts("train"), held, guessing(project))
+def _build_diagnosis_task(project: Project) -> Task:
+    held_out_parts = project.collect_parts("test")
+    return Task(
+        "diagnose", project.collect_parts("train"), held_out_parts, select_guess_mapping(project)
+    )
 
 
-def look(project: Project, file: str) -> Task:
+def inspect_log(project: Project, file: str) -> Task:
     """What is in a log, and with a robot what contradicts it."""
     return Task("log", file=file, robot=bool(project.robot), mapping=project.mapping)
 
@@ -71,12 +75,12 @@ def fleet(project: Project, parts: Sequence[LogPart], names: str) -> Task:
     return Task("fleet", tuple(parts), mapping=project.mapping, name=names)
 
 
-def guessing(project: Project) -> tuple[str, ...]:
+def select_guess_mapping(project: Project) -> tuple[str, ...]:
     """The mapping where logs are called differently: a model keeps that of the first one."""
     return project.mapping if "auto" in project.mapping else ()
 
 
-def judged_on(project: Project, parts: Sequence[LogPart]) -> list[str]:
+def build_viewer_words(project: Project, parts: Sequence[LogPart]) -> list[str]:
     """Logs as the viewer is asked about them: their words, and those of the mapping."""
-    maps = [word for own in guessing(project) for word in ("--map", own)]
-    return [*(part.word for part in parts), *maps]
+    maps = [word for map_word in select_guess_mapping(project) for word in ("--map", map_word)]
+    return [*(part.command_word for part in parts), *maps]

@@ -10,16 +10,16 @@ from nicegui.element import Element
 from modeler.core.builtin import LOG_ENDINGS
 from modeler.core.errors import ModelerError
 from modeler.studio import commands
-from modeler.studio.chooser import choose
-from modeler.studio.dropped import drop_zone
-from modeler.studio.elements import head, part
+from modeler.studio.chooser import choose_files
+from modeler.studio.dropped import add_drop_zone
+from modeler.studio.elements import add_card, draw_head
 from modeler.studio.log_view import LogView
-from modeler.studio.places import size_text
+from modeler.studio.places import format_size
 from modeler.studio.project import ProjectLog
 from modeler.studio.project_logs import AUTO, ProjectLogs
 from modeler.studio.studio import Studio
 from modeler.studio.tasks import Task
-from modeler.studio.timeline import ALL, Timeline, by_default, legend, told
+from modeler.studio.timeline import ALL, Timeline, assign_default_roles, describe_roles, draw_legend
 
 _QUIET = 0.5  # s without another file that comes, until the screen is drawn anew
 _FORMATS = (
@@ -48,189 +48,196 @@ class DataScreen(ProjectLogs):
         super().__init__(studio)
         self._rows: dict[str, Element] = {}
         self.view: LogView | None = None
-        studio.kept["data"] = self
+        studio.state["data"] = self
 
     @property
-    def live(self) -> bool:
+    def is_live(self) -> bool:
         """False as soon as the screen is drawn anew, or another one is shown."""
         studio = self.studio
         here = studio in studio.hub.studios and studio.screen == "data"
-        return here and studio.kept["data"] is self
+        return here and studio.state["data"] is self
 
     async def draw(self) -> None:
         """Logs first, then the one that is looked at."""
         studio = self.studio
-        head("Data", "Drop logs, say which column is which, and what is fitted and what held out.")
+        draw_head(
+            "Data", "Drop logs, say which column is which, and what is fitted and what held out."
+        )
         with ui.row().classes("items-center w-full data-in"):
             label = "Drop logs here, several at once, or press +"
-            drop_zone("logs", label, self._came, studio.show_error).classes("data-drop")
+            add_drop_zone("logs", label, self._add_files, studio.show_error).classes("data-drop")
             pick = ui.button("Choose where it lies", icon="folder_open").props("no-caps outline")
-            pick.on_click(lambda: choose(studio, LOG_ENDINGS, self._came))
+            pick.on_click(lambda: choose_files(studio, LOG_ENDINGS, self._add_files))
         if not studio.project.logs:
-            background_tasks.create(studio.view("forget"), name="start the viewer")
+            background_tasks.create(studio.ask_viewer("forget"), name="start the viewer")
             ui.label(_FORMATS).classes("studio-soft")
             return
-        with part("Logs"):
+        with add_card("Logs"):
             for log in studio.project.logs:
                 with ui.element("div").classes("data-log") as self._rows[log.file]:
                     ui.label(log.file)
                     ui.label("is read").classes("studio-soft")
             with ui.row().classes("items-center gap-4"):
-                legend()
+                draw_legend()
                 ui.label(_FIRST).classes("studio-soft")
         self._detail = ui.column().classes("w-full gap-4")
         if studio.project.robot:
-            robot = self.path(studio.project.robot)
-            self.joints, self.stated = await studio.view("robot_logging", robot)
-        for step in (self.learn, self.read):
+            robot = self.resolve_path(studio.project.robot)
+            self.joints, self.stated = await studio.ask_viewer("robot_logging", robot)
+        for step in (self.learn_columns, self.read_time):
             for log in studio.project.logs:
                 await step(log.file)
-                if not self.live:
+                if not self.is_live:
                     return
-            self._settle()
+            self._settle_mapping()
         for log in studio.project.logs:
-            self.row(log.file)
+            self.draw_row(log.file)
         readable = [file for file, known in self.logs.items() if not known.error]
         if readable:
-            await self.open(
-                studio.kept["log"] if studio.kept.get("log") in readable else readable[0]
+            await self.open_log(
+                studio.state["log"] if studio.state.get("log") in readable else readable[0]
             )
-            self.look()
+            self.begin_inspection()
 
-    def _settle(self) -> None:
+    def _settle_mapping(self) -> None:
         """The mapping, while it is only a guess; roles of logs that came and can be read.
 
         What was set for the logs that were there stays.
         """
         project, ends = self.studio.project, {}
-        if self.studio.read_only:
+        if self.studio.is_read_only:
             return
         guesses = [known.guess for known in self.logs.values() if known.guess is not None]
         try:
-            every = list(dict.fromkeys(map(self.guessed, guesses)))
+            every = list(dict.fromkeys(map(self.build_guess_words, guesses)))
         except ModelerError as error:  # a name that no word can say
             self.studio.show_error(str(error))
             every = []
         mapping = every[0] if len(every) == 1 else (AUTO,)
         guessed = not project.mapped and project.mapping in ((), (AUTO,), *every)
         if every and guessed and mapping != project.mapping:
-            self.studio.change(mapping=mapping)
+            self.studio.change_project(mapping=mapping)
         ends = {file: known.ends for file, known in self.logs.items() if known.rows}
         new = [log for log in project.logs if not (log.train or log.test) and log.file in ends]
         if new:
-            usual = by_default(project.logs, ends)
+            log_roles = assign_default_roles(project.logs, ends)
             if len(new) < len(project.logs):
-                usual = tuple(
+                log_roles = tuple(
                     replace(log, train=ALL) if log in new else log for log in project.logs
                 )
-            self.studio.change(logs=usual)
+            self.studio.change_project(logs=log_roles)
 
     # Logs come and go.
 
-    def _came(self, files: list[str]) -> None:
+    def _add_files(self, files: list[str]) -> None:
         """Files that were dropped or chosen; many come one after the other, in any order."""
-        kept = self.studio.kept
-        coming = kept.get("coming", ())
+        state = self.studio.state
+        coming = state.get("coming", ())
         before = [log for log in self.studio.project.logs if log.file not in coming]
         coming = tuple(sorted({*coming, *files} - {log.file for log in before}))
-        if not self.studio.change(logs=(*before, *map(ProjectLog, coming))):
+        if not self.studio.change_project(logs=(*before, *map(ProjectLog, coming))):
             return
-        kept["coming"] = coming
+        state["coming"] = coming
 
-        async def drawn() -> None:
+        async def redraw_later() -> None:
             await asyncio.sleep(_QUIET)
-            if kept["coming"] == coming:
-                kept["coming"] = ()
+            if state["coming"] == coming:
+                state["coming"] = ()
                 self.studio.redraw()
 
-        background_tasks.create(drawn(), name="logs came")
+        background_tasks.create(redraw_later(), name="logs came")
 
-    def _remove(self, file: str) -> None:
+    def _remove_log(self, file: str) -> None:
         logs = tuple(log for log in self.studio.project.logs if log.file != file)
-        self.studio.change(redraw=True, logs=logs)
+        self.studio.change_project(redraw=True, logs=logs)
 
-    def row(self, file: str) -> None:
+    def draw_row(self, file: str) -> None:
         """One log in the list."""
-        known, place, result = self.logs[file], self._rows[file], self.result(file)
+        known, place, result = self.logs[file], self._rows[file], self.read_result(file)
         place.clear()
         with place:
             short = Path(file).name if Path(file).is_absolute() else file
-            name = ui.button(short, on_click=lambda: self.open(file)).tooltip(self.path(file))
+            name = ui.button(short, on_click=lambda: self.open_log(file)).tooltip(
+                self.resolve_path(file)
+            )
             name.props("flat dense no-caps align=left").classes("data-name")
             if known.error:
                 ui.label(known.error).classes("studio-error").props("role=alert")
             else:
                 span = known.ends[1] - known.ends[0]
                 rate = f"{(known.rows - 1) / span:.4g} Hz" if span else "no time"
-                facts = f"{known.rows} rows, {rate}, {span:.4g} s, {size_text(known.size)}"
+                facts = f"{known.rows} rows, {rate}, {span:.4g} s, {format_size(known.size)}"
                 ui.label(facts).classes("studio-soft")
                 line = Timeline(file, known.ends, active=False)
-                line.renew(self.log(file), result.get("marks", ()))
-                ui.label(told(self.log(file)))
+                line.update_log(self.get_log(file), result.get("marks", ()))
+                ui.label(describe_roles(self.get_log(file)))
                 count = len(result.get("doubts", ()))
                 doubts = f"{count or 'no'} doubt{'s' * (count != 1)}" if result else ""
                 ui.label(doubts).classes("studio-soft")
-            off = ui.button(icon="close", on_click=lambda: self._remove(file))
+            off = ui.button(icon="close", on_click=lambda: self._remove_log(file))
             off.props("flat dense round").tooltip("takes it off the list; the file stays")
             off._props["aria-label"] = f"take {file} off the list"
 
-    def renew(self, log: ProjectLog) -> None:
+    def replace_log(self, log: ProjectLog) -> None:
         """Another log in place of the one of that file."""
-        logs = tuple(log if own.file == log.file else own for own in self.studio.project.logs)
-        if self.studio.change(logs=logs):
-            self.row(log.file)
+        logs = tuple(
+            log if project_log.file == log.file else project_log
+            for project_log in self.studio.project.logs
+        )
+        if self.studio.change_project(logs=logs):
+            self.draw_row(log.file)
 
-    async def open(self, file: str) -> None:
+    async def open_log(self, file: str) -> None:
         """Looks at a log."""
         if not self.logs[file].error:
-            self.studio.kept["log"] = file
+            self.studio.state["log"] = file
             self._detail.clear()
             with self._detail:
-                self.view = view = LogView(self, file, self.renew, self.look)
+                self.view = view = LogView(self, file, self.replace_log, self.begin_inspection)
                 await view.draw()
 
     # What `modeler log` says.
 
-    def look(self) -> None:
+    def begin_inspection(self) -> None:
         """Runs `modeler log` for logs that were never looked at, and for the one that is open."""
-        background_tasks.create(self._look(), name="look at logs")
+        background_tasks.create(self._inspect_logs(), name="look at logs")
 
-    async def _look(self) -> None:
+    async def _inspect_logs(self) -> None:
         studio, hub = self.studio, self.studio.hub
-        failed = studio.kept.setdefault("failed", set())
+        failed = studio.state.setdefault("failed", set())
 
-        def leave() -> None:  # nobody waits for this
-            if not self.live and hub.running is not None and hub.gives_way:
+        def cancel_if_left() -> None:  # nobody waits for this
+            if not self.is_live and hub.running is not None and hub.gives_way:
                 hub.running.cancel()
 
-        while self.live and not studio.read_only:
+        while self.is_live and not studio.is_read_only:
             if hub.running is not None:  # maybe what the screen before this one asked for
                 await asyncio.sleep(0.1)
                 continue
-            every = (commands.look(studio.project, file) for file in self.logs)
-            left = [task for task in every if task not in failed and self._unseen(task)]
+            every = (commands.inspect_log(studio.project, file) for file in self.logs)
+            left = [task for task in every if task not in failed and self._needs_inspection(task)]
             if not left:
                 return
-            studio.listeners.append(leave)
+            studio.listeners.append(cancel_if_left)
             try:
                 step = await hub.run(left[0], keep=False, aside=True)
-                old = self.checked(step.task.file)
-                steps = [own for own in studio.project.steps if own is not old]
-                studio.change(steps=(*steps, step))
+                old = self.find_last_inspection(step.task.file)
+                steps = [other_step for other_step in studio.project.steps if other_step is not old]
+                studio.change_project(steps=(*steps, step))
             except ModelerError as error:
-                if str(error).endswith(": cancelled") or not self.live:
+                if str(error).endswith(": cancelled") or not self.is_live:
                     return
                 failed.add(left[0])
                 studio.show_error(str(error))
             finally:
-                studio.listeners.remove(leave)
-            if self.live:
-                self.row(left[0].file)
+                studio.listeners.remove(cancel_if_left)
+            if self.is_live:
+                self.draw_row(left[0].file)
                 if self.view is not None and self.view.file == left[0].file:
-                    self.view.judged()
+                    self.view.draw_findings()
 
-    def _unseen(self, task: Task) -> bool:
-        file, step = task.file, self.checked(task.file)
-        if self.logs[file].error or step is None or self.studio.newer(file, step):
+    def _needs_inspection(self, task: Task) -> bool:
+        file, step = task.file, self.find_last_inspection(task.file)
+        if self.logs[file].error or step is None or self.studio.is_newer(file, step):
             return not self.logs[file].error
-        return step.task != task and file == self.studio.kept["log"]
+        return step.task != task and file == self.studio.state["log"]

@@ -24,7 +24,7 @@ from starlette.requests import ClientDisconnect
 
 from modeler.core.builtin import LOG_ENDINGS
 from modeler.core.errors import DataError, ModelerError
-from modeler.studio.places import BEGUN, ROBOT_ENDINGS, size_text
+from modeler.studio.places import BEGUN, ROBOT_ENDINGS, format_size
 
 KINDS = {"logs": LOG_ENDINGS, "originals": ROBOT_ENDINGS}
 """Folders of the project that files may be dropped into, and how their names end."""
@@ -53,7 +53,7 @@ def safe_name(name: str) -> str:
     return (stem.strip() or "log") + ending
 
 
-class _Drop:
+class _Upload:
     """One file that is being received.
 
     Attributes:
@@ -71,7 +71,7 @@ class _Drop:
         while view:
             view = view[self._file.write(view) :]
 
-    def keep(self) -> str:
+    def finish(self) -> str:
         """Its name at last."""
         self._file.close()
         stem, ending = os.path.splitext(self.name)  # noqa: PTH122  of a name, not a path
@@ -82,7 +82,7 @@ class _Drop:
         self._beside.rename(self._folder / self.name)
         return self.name
 
-    def drop(self) -> None:
+    def discard(self) -> None:
         """As if it had never come."""
         with contextlib.suppress(OSError):
             self._file.close()
@@ -90,7 +90,7 @@ class _Drop:
             self._beside.unlink()
 
 
-async def receive(
+async def receive_file(
     folder: Path, kind: str, name: str, size: int | None, stream: AsyncIterator[bytes]
 ) -> str:
     """Takes a file that a browser sends; where it is, relative to the folder of the project.
@@ -108,19 +108,19 @@ async def receive(
     """
     if not name.lower().endswith(KINDS[kind]):
         raise DataError(f"{safe_name(name)}: cannot be taken; expected {', '.join(KINDS[kind])}")
-    place, begun = folder / kind, None
+    place, upload = folder / kind, None
     try:
         place.mkdir(exist_ok=True)
         free = shutil.disk_usage(place).free
         if size is not None and size + _SPARE > free:
-            raise OSError(errno.ENOSPC, f"{size_text(size)} to come, {size_text(free)} free")
-        begun = _Drop(place, safe_name(name))
-        async for piece in _pieces(stream):
-            await asyncio.to_thread(begun.write, piece)
-        return f"{kind}/{begun.keep()}"
+            raise OSError(errno.ENOSPC, f"{format_size(size)} to come, {format_size(free)} free")
+        upload = _Upload(place, safe_name(name))
+        async for piece in _merge_pieces(stream):
+            await asyncio.to_thread(upload.write, piece)
+        return f"{kind}/{upload.finish()}"
     except BaseException as error:
-        if begun is not None:
-            begun.drop()
+        if upload is not None:
+            upload.discard()
         if isinstance(error, ClientDisconnect):
             raise DataError(f"{name}: the connection ended; drop the file again") from None
         if isinstance(error, OSError):
@@ -132,16 +132,16 @@ async def receive(
         raise
 
 
-async def _pieces(stream: AsyncIterator[bytes]) -> AsyncIterator[bytes]:
+async def _merge_pieces(stream: AsyncIterator[bytes]) -> AsyncIterator[bytes]:
     """The same in larger pieces, so that few threads are asked."""
-    held = bytearray()
+    buffer = bytearray()
     async for data in stream:
-        held += data
-        if len(held) >= _AT_ONCE:
-            yield bytes(held)
-            held.clear()
-    if held:
-        yield bytes(held)
+        buffer += data
+        if len(buffer) >= _AT_ONCE:
+            yield bytes(buffer)
+            buffer.clear()
+    if buffer:
+        yield bytes(buffer)
 
 
 def add_route(app: FastAPI, folder: Path, writable: Callable[[], bool]) -> None:
@@ -154,31 +154,31 @@ def add_route(app: FastAPI, folder: Path, writable: Callable[[], bool]) -> None:
     """
 
     @app.post("/drop/{kind}")
-    async def drop(kind: str, request: Request) -> JSONResponse:
+    async def receive_upload(kind: str, request: Request) -> JSONResponse:
         try:
             if kind not in KINDS:
                 raise DataError(f"upload: got {kind}; expected one of {', '.join(KINDS)}")
             if not writable():
                 raise DataError("upload: this studio only reads; the project is open elsewhere")
-            said = request.headers.get("content-length", "")
-            size = int(said) if said.isdecimal() else None
+            stated_size = request.headers.get("content-length", "")
+            size = int(stated_size) if stated_size.isdecimal() else None
             name = unquote(request.headers.get(NAME, ""))
-            file = await receive(folder, kind, name, size, request.stream())
+            file = await receive_file(folder, kind, name, size, request.stream())
         except ModelerError as error:
             return JSONResponse({"error": str(error)}, 400)
         return JSONResponse({"file": file})
 
 
-def drop_zone(
-    kind: str, label: str, taken: Callable[[list[str]], Any], told: Callable[[str], Any]
+def add_drop_zone(
+    kind: str, label: str, on_received: Callable[[list[str]], Any], on_error: Callable[[str], Any]
 ) -> ui.upload:
     """Where files are dropped or chosen.
 
     Args:
         kind: of `KINDS`.
         label: on it.
-        taken: is called with files that came, relative to the folder of the project.
-        told: is called with the line that says why one did not.
+        on_received: is called with files that came, relative to the folder of the project.
+        on_error: is called with the line that says why one did not.
     """
     zone = ui.upload(multiple=True, auto_upload=True, label=label)
     endings = ",".join(KINDS[kind])
@@ -186,16 +186,16 @@ def drop_zone(
     named = f"[{{name: '{NAME}', value: encodeURIComponent(files[0].name)}}]"
     zone.props(f':headers="files => {named}"')
 
-    def answered(event: Any) -> None:
+    def handle_answer(event: Any) -> None:
         answer = event.args if isinstance(event.args, dict) else {}
         if file := answer.get("file"):
-            taken([str(file)])
+            on_received([str(file)])
         elif "error" in answer:
-            told(str(answer["error"]))
+            on_error(str(answer["error"]))
 
     read = "({xhr}) => { try { emit(JSON.parse(xhr.responseText)) } catch { emit({error: "
     read += "'upload: the connection ended; drop the file again'}) } }"
-    zone.on("uploaded", answered, js_handler=read)
-    zone.on("failed", answered, js_handler=read)
-    zone.on("rejected", lambda: told(f"upload: cannot be taken; expected {endings}"), args=[])
+    zone.on("uploaded", handle_answer, js_handler=read)
+    zone.on("failed", handle_answer, js_handler=read)
+    zone.on("rejected", lambda: on_error(f"upload: cannot be taken; expected {endings}"), args=[])
     return zone

@@ -8,11 +8,11 @@ from nicegui.element import Element
 from nicegui.elements.mixins.text_element import TextElement
 
 from modeler.core.errors import ModelerError
-from modeler.core.table import percent
+from modeler.core.table import format_percent
 from modeler.studio.access import REPORTS
-from modeler.studio.commands import words_of
+from modeler.studio.commands import build_command_words
 from modeler.studio.studio import Studio
-from modeler.studio.tasks import ROBOT, Step, Task, typed
+from modeler.studio.tasks import ROBOT, Step, Task, format_command
 
 Light = Literal["good", "doubtful", "bad"]
 
@@ -23,26 +23,26 @@ _SHAPES: dict[Light, str] = {"good": "\u25cf", "doubtful": "\u25b2", "bad": "\u2
 """A disc, a triangle, a square: told apart without colour."""
 
 
-def head(title: str, text: str = "") -> None:
+def draw_head(title: str, text: str = "") -> None:
     """What a screen is, and what one does there."""
     ui.label(title).classes("studio-head")
     if text:
         ui.label(text).classes("studio-soft")
 
 
-def part(title: str) -> Element:
+def add_card(title: str) -> Element:
     """A card with a title; what is drawn inside `with` belongs to it."""
     with ui.card().classes("studio-card w-full") as card:
         ui.label(title).classes("studio-part")
     return card
 
 
-def step_line(studio: Studio, step: Step) -> None:
+def draw_step_line(studio: Studio, step: Step) -> None:
     """The command line of a step, beside a button that copies it."""
-    command_line(typed(words_of(studio.project, step)))
+    draw_command_line(format_command(build_command_words(studio.project, step)))
 
 
-def command_line(text: str) -> ui.label:
+def draw_command_line(text: str) -> ui.label:
     """A command line beside a button that copies it; `text` of the label makes it another one."""
     with ui.row().classes("items-center no-wrap studio-line"):
         line = ui.label(text).classes("studio-command").props("tabindex=0")
@@ -51,11 +51,11 @@ def command_line(text: str) -> ui.label:
     return line
 
 
-def run_button(
+def add_run_button(
     studio: Studio,
     title: str,
-    asked: Callable[[], Task],
-    then: Callable[[Step], object] = lambda step: None,
+    build_task: Callable[[], Task],
+    on_done: Callable[[Step], object] = lambda step: None,
     current: bool = True,
     small: bool = False,
 ) -> Callable[[], None]:
@@ -66,8 +66,8 @@ def run_button(
     Args:
         studio: the window.
         title: of the button.
-        asked: the command, asked for when it is shown and when it is run.
-        then: is called with the step when it is done; not if it failed.
+        build_task: the command, asked for when it is shown and when it is run.
+        on_done: is called with the step when it is done; not if it failed.
         current: as of `Studio.run`.
         small: True for one among others.
 
@@ -75,45 +75,45 @@ def run_button(
         What writes the command line anew, after what it depends on was changed.
     """
 
-    async def pressed() -> None:
+    async def run_task() -> None:
         room = studio.room
         try:
-            wanted = asked()
+            task = build_task()
         except ModelerError as error:
             studio.show_error(str(error))
             return
-        step = await studio.run(wanted, current)
+        step = await studio.run(task, current)
         if step is not None and room is not None:
             with room:  # the screen with this button was drawn anew
-                then(step)
+                on_done(step)
 
     with ui.row().classes("items-center no-wrap w-full"):
-        button = ui.button(title, on_click=pressed).props("no-caps unelevated")
+        button = ui.button(title, on_click=run_task).props("no-caps unelevated")
         button.props("outline dense" if small else "size=lg")
-        busy_with(studio, button)
-        line = command_line("")
+        disable_while_busy(studio, button)
+        line = draw_command_line("")
 
-    def renew() -> None:
+    def update_line() -> None:
         try:
-            line.text = typed(words_of(studio.project, asked()))
+            line.text = format_command(build_command_words(studio.project, build_task()))
         except ModelerError as error:
             line.text = str(error)
 
-    renew()
-    return renew
+    update_line()
+    return update_line
 
 
-def busy_with(studio: Studio, button: ui.button) -> ui.button:
+def disable_while_busy(studio: Studio, button: ui.button) -> ui.button:
     """A button that changes the project: while a command runs, or another window may, it rests."""
     hub = studio.hub
 
-    def free(running: object) -> bool:
-        return (running is None or hub.gives_way) and not studio.read_only
+    def is_free(running: object) -> bool:
+        return (running is None or hub.gives_way) and not studio.is_read_only
 
-    return button.bind_enabled_from(hub, "running", free)
+    return button.bind_enabled_from(hub, "running", is_free)
 
 
-def light(which: Light, text: str = "") -> None:
+def draw_light(which: Light, text: str = "") -> None:
     """A light by shape, word and colour."""
     with ui.row().classes("items-center no-wrap gap-2"):
         ui.label(_SHAPES[which]).classes(f"studio-light studio-{which}").props("aria-hidden=true")
@@ -128,17 +128,17 @@ _LEFT: Mapping[str, tuple[Light | None, str]] = {
 }
 
 
-def what_is_left(joint: str, error: float, kind: str) -> None:
+def draw_residual_state(joint: str, error: float, kind: str) -> None:
     """Of a joint: its error, and a light for what `modeler compare` says of the residual."""
-    which, said = _LEFT[kind]
-    text = f"joint {joint}: error {percent(error)}, {said}"
+    which, description = _LEFT[kind]
+    text = f"joint {joint}: error {format_percent(error)}, {description}"
     if which is None:
         ui.label(text)
     else:
-        light(which, text)
+        draw_light(which, text)
 
 
-def doubt_lines(lines: Iterable[str], which: Light = "doubtful") -> None:
+def draw_warnings(lines: Iterable[str], which: Light = "doubtful") -> None:
     """Sentences that warn, each with its mark."""
     for line in lines:
         with ui.row().classes("items-start no-wrap gap-2"):
@@ -146,38 +146,38 @@ def doubt_lines(lines: Iterable[str], which: Light = "doubtful") -> None:
             ui.label(line)
 
 
-def stale(studio: Studio) -> None:
+def draw_stale_warnings(studio: Studio) -> None:
     """Says where the current model is not that of the project as it is now."""
-    project, way = studio.project, studio.project.path()
-    first, last = way[0], way[-1]
+    project, model_path = studio.project, studio.project.collect_path()
+    first, last = model_path[0], model_path[-1]
     changed = {
-        "the robot was": studio.hub.robot_of(last) != studio.text(ROBOT),
+        "the robot was": studio.hub.read_step_robot(last) != studio.read_text(ROBOT),
         "the mapping of columns was": first.task.mapping != project.mapping,
-        "the training stretches were": last.task.logs != project.parts("train"),
+        "the training stretches were": last.task.logs != project.collect_parts("train"),
     }
     lines = [f"{what} changed since this model was fitted" for what, so in changed.items() if so]
-    newer = [log.file for log in project.logs if studio.newer(log.file, last)]
+    newer = [log.file for log in project.logs if studio.is_newer(log.file, last)]
     lines += [f"the file {file} is newer than this model" for file in newer]
-    doubt_lines(f"{line}; fit again" for line in lines)
+    draw_warnings(f"{line}; fit again" for line in lines)
 
 
-def told(lines: Iterable[str]) -> None:
+def draw_lines(lines: Iterable[str]) -> None:
     """Sentences, one below the other."""
     for line in lines:
         ui.label(line)
 
 
-def folded(title: str, lines: Sequence[str] | Sequence[Sequence[str]], *heads: str) -> None:
+def draw_folded(title: str, lines: Sequence[str] | Sequence[Sequence[str]], *heads: str) -> None:
     """Sentences, or with heads a table, under a title that opens them; nothing of none."""
     if lines:
         with ui.expansion(f"{title} ({len(lines)})").classes("w-full studio-folded"):
             if heads:
-                table(heads, lines)
+                draw_table(heads, lines)
             else:
-                told(map(str, lines))
+                draw_lines(map(str, lines))
 
 
-def number(value: float | None) -> str:
+def format_number(value: float | None) -> str:
     """Three digits; a dash for none."""
     return "-" if value is None else f"{value:.3g}"
 
@@ -186,7 +186,9 @@ class Markup(str):
     """A text that is HTML already."""
 
 
-def table(heads: Sequence[str], rows: Iterable[Sequence[str]], faint: Sequence[bool] = ()) -> None:
+def draw_table(
+    heads: Sequence[str], rows: Iterable[Sequence[str]], faint: Sequence[bool] = ()
+) -> None:
     """Plain texts in rows; what stands in a text after a tab is shown when the mouse is over it.
 
     Args:
@@ -204,38 +206,40 @@ def table(heads: Sequence[str], rows: Iterable[Sequence[str]], faint: Sequence[b
                 line.classes("studio-faint" if k < len(faint) and faint[k] else "")
                 for text in row:
                     with ui.element("td"):
-                        _cell(text)
+                        _draw_cell(text)
 
 
-def _cell(text: str) -> None:
+def _draw_cell(text: str) -> None:
     if isinstance(text, Markup):
         ui.html(text, sanitize=False)
         return
-    shown, _, hint = text.partition("\t")
-    own = TextElement(tag="span", text=shown)
+    visible, _, hint = text.partition("\t")
+    span = TextElement(tag="span", text=visible)
     if hint:
-        own.classes("studio-hint").props("tabindex=0").props["title"] = hint
+        span.classes("studio-hint").props("tabindex=0").props["title"] = hint
 
 
-def page_button(studio: Studio, step: Step) -> None:
+def add_page_button(studio: Studio, step: Step) -> None:
     """The page of a step, self-contained: written when it is asked for, shown in a tab."""
-    written = studio.project.about("page", step.number)
+    written = studio.project.find_step_about("page", step.number)
     if written is None or not (studio.folder / written.output).is_file():
         page = Task("page", step=step.number)
-        run_button(studio, "Report page", lambda: page, small=True)
+        add_run_button(studio, "Report page", lambda: page, small=True)
         return
     with ui.row().classes("items-center no-wrap w-full"):
-        address = studio.hub.sheet(studio.text(written.output), REPORTS)
+        address = studio.hub.register_sheet(studio.read_text(written.output), REPORTS)
         ui.link("Open the report page", address, new_tab=True)
-        step_line(studio, written)
+        draw_step_line(studio, written)
 
 
-def lacks_model(studio: Studio) -> None:
+def explain_missing_model(studio: Studio) -> None:
     """What a screen says before there is a model, and the way to one."""
     ui.label("There is no model yet: fit one first.")
-    go_button(studio, "To the fit", "fit")
+    add_go_button(studio, "To the fit", "fit")
 
 
-def go_button(studio: Studio, title: str, screen: str) -> None:
+def add_go_button(studio: Studio, title: str, screen: str) -> None:
     """To another screen."""
-    ui.button(title, on_click=lambda: studio.go(screen)).props("no-caps flat icon-right=east")
+    ui.button(title, on_click=lambda: studio.open_screen(screen)).props(
+        "no-caps flat icon-right=east"
+    )

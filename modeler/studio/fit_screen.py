@@ -8,13 +8,13 @@ from nicegui import ui
 from modeler.core.builtin import EFFECTS
 from modeler.core.errors import TWO_STEPS
 from modeler.core.estimators import ABOUT, APART
-from modeler.core.json import built
+from modeler.core.json import build_instance
 from modeler.core.manifest import BaseSpec
-from modeler.core.table import percent
-from modeler.report import relation
-from modeler.robot import robot_from_text
+from modeler.core.table import format_percent
+from modeler.report import format_relation
+from modeler.robot import parse_robot_text
 from modeler.studio import commands, elements
-from modeler.studio.elements import LIGHTS, Light, Markup, number
+from modeler.studio.elements import LIGHTS, Light, Markup, format_number
 from modeler.studio.studio import Studio
 from modeler.studio.tasks import ROBOT, Step, Task
 
@@ -31,76 +31,77 @@ _WIDTH = 160  # pixels of a drawn value
 async def draw(studio: Studio) -> None:
     """Draws it."""
     project = studio.project
-    elements.head("Fit", "Base parameters from the training stretches, each with its sigma.")
-    if not project.robot or not project.words("train"):
+    elements.draw_head("Fit", "Base parameters from the training stretches, each with its sigma.")
+    if not project.robot or not project.collect_words("train"):
         ui.label("A fit needs a robot, and a stretch of a log that is marked for training.")
         where = "data" if project.robot else "robot"
-        elements.go_button(studio, f"To the {where}", where)
+        elements.add_go_button(studio, f"To the {where}", where)
         return
-    step = project.step(project.current)
-    with elements.part("What is fitted"):
-        chosen: dict[str, Any] = studio.kept.setdefault("fit", {})
+    step = project.find_step(project.current)
+    with elements.add_card("What is fitted"):
+        chosen: dict[str, Any] = studio.state.setdefault("fit", {})
 
-        def task() -> Task:
-            own = {name: value for name, value in chosen.items() if value not in ("", None)}
-            return commands.fit(studio.project, tuple(own.items()))
+        def build_task() -> Task:
+            options = {name: value for name, value in chosen.items() if value not in ("", None)}
+            return commands.fit(studio.project, tuple(options.items()))
 
-        def changed() -> None:
+        def update_choice() -> None:
             renew()
-            lost.refresh()
+            draw_lost_effects.refresh()
 
         @ui.refreshable  # type: ignore[untyped-decorator, unused-ignore]
-        def lost() -> None:
-            elements.doubt_lines(lost_effects(studio, task()))
+        def draw_lost_effects() -> None:
+            elements.draw_warnings(find_lost_effects(studio, build_task()))
 
-        renew = elements.run_button(studio, "Fit", task)
-        lost()
-        _advanced(chosen, changed)
+        renew = elements.add_run_button(studio, "Fit", build_task)
+        draw_lost_effects()
+        _draw_advanced(chosen, update_choice)
     if step is None:
         return
-    fit = studio.result(step)
-    _stale(studio, step)
-    _verdict(fit)
-    _values(fit, studio.model(step))
-    _choices(fit)
-    elements.page_button(studio, step)
-    elements.go_button(studio, "Look for what is missing", "missing")
+    fit = studio.read_result(step)
+    _draw_stale(studio, step)
+    _draw_verdict(fit)
+    _draw_values(fit, studio.read_model(step))
+    _draw_choices(fit)
+    elements.add_page_button(studio, step)
+    elements.add_go_button(studio, "Look for what is missing", "missing")
 
 
-def lost_effects(studio: Studio, task: Task) -> Iterator[str]:
+def find_lost_effects(studio: Studio, task: Task) -> Iterator[str]:
     """Effects that the current model has, and a fit would not have."""
-    if not studio.project.model:
+    if not studio.project.model_file:
         return
-    known = robot_from_text(str(studio.model(studio.made)["robot_text"]), "model")
-    robot = robot_from_text(studio.text(ROBOT), ROBOT)
+    known = parse_robot_text(str(studio.read_model(studio.model_step)["robot_text"]), "model")
+    robot = parse_robot_text(studio.read_text(ROBOT), ROBOT)
     for use in known.effects:
         joints = [one.joint for one in use.instances]
         if use.effect in task.effects:
             continue
-        lost = [j for j in joints if task.effects or not robot.has_effect(use.effect, j)]
-        if lost:
+        lost_joints = [j for j in joints if task.effects or not robot.has_effect(use.effect, j)]
+        if lost_joints:
             yield (
-                f"this fit leaves out {use.effect} of joint {', '.join(lost)}, which the current "
+                f"this fit leaves out {use.effect} of joint {', '.join(lost_joints)}, which the "
+                "current "
                 "model has; add it to the robot to keep it"
             )
 
 
-def _advanced(chosen: dict[str, Any], renew: Callable[[], None]) -> None:
+def _draw_advanced(chosen: dict[str, Any], renew: Callable[[], None]) -> None:
     """Estimator, band, weights: what there is, and what is taken where nothing is said."""
     every = [*ABOUT.values(), *(about for about in APART if about.id == TWO_STEPS)]
 
-    def kept(name: str, value: Any) -> None:
+    def store_choice(name: str, value: Any) -> None:
         chosen[name] = value
         renew()
-        _estimator.refresh()
+        _draw_estimator.refresh()
 
     @ui.refreshable  # type: ignore[untyped-decorator, unused-ignore]
-    def _estimator() -> None:
+    def _draw_estimator() -> None:
         about = next((a for a in every if a.id == chosen.get("method")), every[0])
-        told = {"what it solves": about.law, "source": about.source,
+        facts = {"what it solves": about.law, "source": about.source,
                 "the wrong one": about.avoid, "of the motion": about.motion}  # fmt: skip
         ui.label(about.title).classes("studio-part")
-        elements.table(("", ""), list(told.items()))
+        elements.draw_table(("", ""), list(facts.items()))
 
     with ui.expansion("Advanced: estimator, band, effects").classes("w-full studio-folded"):
         with ui.row().classes("items-end w-full"):
@@ -116,13 +117,15 @@ def _advanced(chosen: dict[str, Any], renew: Callable[[], None]) -> None:
             }  # fmt: skip
             for name, field in fields.items():
                 field.value = chosen.get(name, field.value)
-                field.on_value_change(lambda e, to=name: kept(to, e.value)).classes("min-w-48")
+                field.on_value_change(lambda e, to=name: store_choice(to, e.value)).classes(
+                    "min-w-48"
+                )
             label = "effects, in place of the robot file's"
-            taken = list(chosen.get("effects", ()))
-            effects = ui.select(list(EFFECTS), label=label, multiple=True, value=taken)
-            effects.on_value_change(lambda e: kept("effects", tuple(e.value or ())))
+            chosen_effects = list(chosen.get("effects", ()))
+            effects = ui.select(list(EFFECTS), label=label, multiple=True, value=chosen_effects)
+            effects.on_value_change(lambda e: store_choice("effects", tuple(e.value or ())))
             effects.classes("w-96").props("use-chips clearable")
-        _estimator()
+        _draw_estimator()
 
 
 _NUMBERS = {
@@ -131,61 +134,65 @@ _NUMBERS = {
 }  # fmt: skip
 
 
-def _stale(studio: Studio, step: Step) -> None:
+def _draw_stale(studio: Studio, step: Step) -> None:
     """Says where these values are not those of the project as it is now, and where from."""
-    elements.stale(studio)
+    elements.draw_stale_warnings(studio)
     with ui.row().classes("items-center no-wrap w-full"):
         ui.label("these values come from").classes("studio-soft")
-        elements.step_line(studio, step)
+        elements.draw_step_line(studio, step)
 
 
-def _verdict(fit: Mapping[str, Any]) -> None:
+def _draw_verdict(fit: Mapping[str, Any]) -> None:
     """Lights of the whole and of every joint, with the reasons."""
-    with elements.part("What it is worth"):
+    with elements.add_card("What it is worth"):
         by_joint = {name: one for name, one in fit["joints"].items() if "state" in one}
         lights = {name: _STATE[one["state"]] for name, one in by_joint.items()}
         every = [_LIGHT.get(fit["valid_for"], "bad"), *lights.values()]
-        named = [name for name, light in lights.items() if light != "good"]
+        doubtful_joints = [name for name, light in lights.items() if light != "good"]
         worst = max(every, key=LIGHTS.index)
-        elements.light(worst, worst + (f": joint {', '.join(named)}" if named else ""))
+        elements.draw_light(
+            worst, worst + (f": joint {', '.join(doubtful_joints)}" if doubtful_joints else "")
+        )
         ui.label(fit["verdict"] or "nobody has judged this fit")
         with ui.element("div").classes("studio-joints"):
             for name, joint in fit["joints"].items():
-                judged = by_joint.get(name, {"state": "doubtful", "why": ["not judged"]})
-                light = _STATE[judged["state"]]
+                joint_result = by_joint.get(name, {"state": "doubtful", "why": ["not judged"]})
+                light = _STATE[joint_result["state"]]
                 with ui.card().classes(f"studio-card studio-joint studio-edge-{light}"):
                     ui.label(f"joint {name}").classes("studio-part")
-                    elements.light(light, judged["state"])
-                    left, rms = percent(joint["relative_error"]), number(joint["rms"])
+                    elements.draw_light(light, joint_result["state"])
+                    left, rms = format_percent(joint["relative_error"]), format_number(joint["rms"])
                     text = f"error {left}, residual {rms} {joint['unit']} rms"
                     ui.label(text).classes("studio-soft")
-                    elements.told(judged["why"])
+                    elements.draw_lines(joint_result["why"])
         ui.label("Can such a machine be built?").classes("studio-part")
-        elements.light(*_BUILT[fit.get("possible")])
+        elements.draw_light(*_BUILT[fit.get("possible")])
         reasons = {reason for joint in by_joint.values() for reason in joint["why"]}
-        elements.doubt_lines(line for line in fit["doubts"] if line not in reasons)
-        elements.folded("What else is to be known", [*fit["sentences"], *fit.get("unseen", ())])
+        elements.draw_warnings(line for line in fit["doubts"] if line not in reasons)
+        elements.draw_folded(
+            "What else is to be known", [*fit["sentences"], *fit.get("unseen", ())]
+        )
 
 
-def _values(fit: Mapping[str, Any], model: Mapping[str, Any]) -> None:
+def _draw_values(fit: Mapping[str, Any], model: Mapping[str, Any]) -> None:
     """The parameters with their sigmas, drawn among those of the same unit."""
-    own = [*fit["gains"], *fit["parameters"], *fit["loads"]]
-    every = [built(BaseSpec, raw) for raw in model["manifest"]["base"]]
-    sums = {base.name: relation(base) for base in every}
+    parameters = [*fit["gains"], *fit["parameters"], *fit["loads"]]
+    every = [build_instance(BaseSpec, raw) for raw in model["manifest"]["base"]]
+    sums = {base.name: format_relation(base) for base in every}
     tops: dict[str, float] = {}
-    for p in own:
+    for p in parameters:
         tops[p["unit"]] = max(tops.get(p["unit"], 0.0), abs(p["value"]) + (p["sigma"] or 0.0))
-    with elements.part(f"{len(own)} values"):
+    with elements.add_card(f"{len(parameters)} values"):
         ui.label(
             "The whisker is one sigma to either side, among values of the same unit; a name that "
             "is underlined tells what it is the sum of. Grey: the model does as well without."
         ).classes("studio-soft")
         heads = ("parameter", "value", "sigma", "% sigma", "unit", "")
-        rows = [_row(p, sums.get(p["name"], ""), tops[p["unit"]]) for p in own]
-        elements.table(heads, rows, [not p["essential"] for p in own])
+        rows = [_format_row(p, sums.get(p["name"], ""), tops[p["unit"]]) for p in parameters]
+        elements.draw_table(heads, rows, [not p["essential"] for p in parameters])
 
 
-def _row(p: Mapping[str, Any], relation: str, top: float) -> Sequence[str]:
+def _format_row(p: Mapping[str, Any], relation: str, top: float) -> Sequence[str]:
     name, value, sigma = p["name"], p["value"], p["sigma"]
     shown = f"{name}\t{name} = {relation}" if relation else name
     if sigma is None:
@@ -193,42 +200,62 @@ def _row(p: Mapping[str, Any], relation: str, top: float) -> Sequence[str]:
     share = p["relative_sigma_percent"]
     percent = "-" if share is None else f"{share:.3g}" if share < 1e4 else ">10000"
     mark = "" if p["essential"] else " not essential"
-    drawn = Markup(_drawn(value, sigma, top))
-    return (shown, f"{value:.5g}", f"{sigma:.2g}", percent + mark, p["unit"], drawn)
+    whisker = Markup(_draw_whisker(value, sigma, top))
+    return (shown, f"{value:.5g}", f"{sigma:.2g}", percent + mark, p["unit"], whisker)
 
 
-def _drawn(value: float, sigma: float, top: float) -> str:
+def _draw_whisker(value: float, sigma: float, top: float) -> str:
     """A dot with a whisker of one sigma on an axis from -top to top."""
 
-    def at(x: float) -> float:
+    def compute_pixel(x: float) -> float:
         return (0.5 + 0.48 * x / (top or 1.0)) * _WIDTH
 
-    low, high = at(value - sigma), at(value + sigma)
-    said = f"{value:.3g} plus or minus {sigma:.2g}"
+    low, high = compute_pixel(value - sigma), compute_pixel(value + sigma)
+    description = f"{value:.3g} plus or minus {sigma:.2g}"
     return (
-        f'<svg width={_WIDTH} height=14 role=img aria-label="{said}">'
-        f'<path d="M{at(0.0):.1f} 0V14" class=studio-axis />'
+        f'<svg width={_WIDTH} height=14 role=img aria-label="{description}">'
+        f'<path d="M{compute_pixel(0.0):.1f} 0V14" class=studio-axis />'
         f'<path d="M{low:.1f} 7H{high:.1f}M{low:.1f} 3V11M{high:.1f} 3V11" class=studio-whisker />'
-        f"<circle cx={at(value):.1f} cy=7 r=3 class=studio-dot /></svg>"
+        f"<circle cx={compute_pixel(value):.1f} cy=7 r=3 class=studio-dot /></svg>"
     )
 
 
-def _choices(fit: Mapping[str, Any]) -> None:
+def _draw_choices(fit: Mapping[str, Any]) -> None:
     """What was chosen from the logs, and why."""
-    own, bands = fit["processing"], fit["bands"] or {"chosen_by": [], "noise": []}
+    processing, bands = fit["processing"], fit["bands"] or {"chosen_by": [], "noise": []}
     cutoffs = {"position filter": "position_cutoff", "parallel filter": "parallel_cutoff"}
-    with elements.part("How the logs were processed, and why"):
-        elements.told(bands["chosen_by"])
-        rows = [
-            (title, f"{number(own[name])} Hz",
-             "chosen from the logs" if name in own["chosen"] else "as it was asked for")
-            for title, name in cutoffs.items()
-        ] + [
-            ("samples, rows", f"{fit['samples']}, {fit['rows']}", "what the filters leave to know"),
-            ("condition number", number(fit["condition_scaled"]), "of W, columns of length one"),
-        ] + [
-            (f"noise of position {noise['joint']}", f"{number(noise['deviation'])} {noise['unit']}",
-             f"hides the motion above {number(noise['hides_above_hz'])} Hz")
-            for noise in bands["noise"]
-        ]  # fmt: skip
-        elements.table(("", "", ""), rows)
+    with elements.add_card("How the logs were processed, and why"):
+        elements.draw_lines(bands["chosen_by"])
+        rows = (
+            [
+                (
+                    title,
+                    f"{format_number(processing[name])} Hz",
+                    "chosen from the logs"
+                    if name in processing["chosen"]
+                    else "as it was asked for",
+                )
+                for title, name in cutoffs.items()
+            ]
+            + [
+                (
+                    "samples, rows",
+                    f"{fit['samples']}, {fit['rows']}",
+                    "what the filters leave to know",
+                ),
+                (
+                    "condition format_number",
+                    format_number(fit["condition_scaled"]),
+                    "of W, columns of length one",
+                ),
+            ]
+            + [
+                (
+                    f"noise of position {noise['joint']}",
+                    f"{format_number(noise['deviation'])} {noise['unit']}",
+                    f"hides the motion above {format_number(noise['hides_above_hz'])} Hz",
+                )
+                for noise in bands["noise"]
+            ]
+        )
+        elements.draw_table(("", "", ""), rows)

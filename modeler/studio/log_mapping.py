@@ -11,7 +11,14 @@ import numpy as np
 
 from modeler.core.errors import DataError
 from modeler.core.manifest import JointSpec
-from modeler.logs import LogMap, MappedColumn, find_unit, map_from_table, map_from_words, si_unit
+from modeler.logs import (
+    LogMap,
+    MappedColumn,
+    build_map,
+    find_unit,
+    parse_map_options,
+    resolve_si_unit,
+)
 
 UNTOLD = "rev/COUNTS"
 """What a guess calls the unit of an encoder of which nobody said how many counts a turn are."""
@@ -38,7 +45,7 @@ _RANGED = "# by its range"  # as a suggested [log] says it
 
 
 @dataclass(frozen=True)
-class Choice:
+class ColumnChoice:
     """A column of a file that is one of ours.
 
     Attributes:
@@ -68,35 +75,35 @@ class LogGuess:
     """
 
     columns: Mapping[str, str]
-    choices: Mapping[str, Choice]
+    choices: Mapping[str, ColumnChoice]
     ranged: tuple[str, ...]
     joints: int
     topic: str
     doubts: tuple[str, ...]
 
 
-def anybody(count: int) -> tuple[JointSpec, ...]:
+def build_default_joints(count: int) -> tuple[JointSpec, ...]:
     """Joints of a robot that nobody has described yet."""
     return tuple(JointSpec(str(k + 1), "revolute", "rad", "N m", True, None) for k in range(count))
 
 
-def names_of(joints: Sequence[JointSpec], kinds: Iterable[str]) -> list[str]:
+def collect_names(joints: Sequence[JointSpec], kinds: Iterable[str]) -> list[str]:
     """Our names of those kinds, joint after joint; `time` goes before."""
     return ["time", *(f"{kind}{joint.name}" for joint in joints for kind in kinds)]
 
 
-def kind_of(own: str, joints: Sequence[JointSpec]) -> tuple[str, JointSpec | None]:
+def split_quantity(quantity: str, joints: Sequence[JointSpec]) -> tuple[str, JointSpec | None]:
     """`qd2` -> "qd" and joint 2; what is of no joint is a kind of its own."""
     for joint in joints:
-        kind = own.removesuffix(joint.name)
-        if kind != own and kind in KINDS:
+        kind = quantity.removesuffix(joint.name)
+        if kind != quantity and kind in KINDS:
             return kind, joint
-    return own, None
+    return quantity, None
 
 
-def units_of(own: str, joints: Sequence[JointSpec]) -> tuple[str, ...]:
+def select_units(quantity: str, joints: Sequence[JointSpec]) -> tuple[str, ...]:
     """Units that a menu offers for one of ours; SI first."""
-    kind, joint = kind_of(own, joints)
+    kind, joint = split_quantity(quantity, joints)
     if joint is not None and kind in ("q", "qd", "qdd", "qc"):
         return UNITS[f"{kind.replace('qc', 'q')} {joint.unit}"]
     if joint is not None and kind == "tau":
@@ -104,60 +111,68 @@ def units_of(own: str, joints: Sequence[JointSpec]) -> tuple[str, ...]:
     return UNITS.get(kind, ("",))
 
 
-def said(words: Sequence[str], stated: Mapping[str, Any], where: str) -> LogMap:
+def merge_map(words: Sequence[str], stated: Mapping[str, Any], where: str) -> LogMap:
     """Words of `--map`, and under them the [log] of a robot file."""
-    return map_from_words(words).overriding(map_from_table(stated, f"{where}: [log]"))
+    return parse_map_options(words).merge_over(build_map(stated, f"{where}: [log]"))
 
 
-def choices(
+def build_choices(
     names: LogMap, joints: Sequence[JointSpec], columns: Collection[str]
-) -> dict[str, Choice]:
+) -> dict[str, ColumnChoice]:
     """Our name -> column, of a map, and of columns that are called as ours are."""
-    every = names_of(joints, KINDS)
-    found = {own: Choice(own) for own in every if own in columns}
-    for own, entry in names.entries(joints).items():
-        there = next((name for name in entry.columns if name in columns), None)
-        if there is None and own in found and not entry.strict:
+    every = collect_names(joints, KINDS)
+    choices_by_quantity = {
+        quantity: ColumnChoice(quantity) for quantity in every if quantity in columns
+    }
+    for quantity, entry in names.expand_entries(joints).items():
+        present_column = next((name for name in entry.columns if name in columns), None)
+        if present_column is None and quantity in choices_by_quantity and not entry.strict:
             continue  # what the robot file says is for other logs
         unit = "" if entry.unit is None else entry.unit.text
         if entry.scale != 1.0:
-            unit = f"{entry.scale:.12g} {unit or units_of(own, joints)[0]}".rstrip()
-        column = there or entry.columns[0].removesuffix(f" [{UNTOLD}]")
-        found[own] = Choice(column, unit, int(entry.sign), entry.offset)
-    return found
+            unit = f"{entry.scale:.12g} {unit or select_units(quantity, joints)[0]}".rstrip()
+        column = present_column or entry.columns[0].removesuffix(f" [{UNTOLD}]")
+        choices_by_quantity[quantity] = ColumnChoice(column, unit, int(entry.sign), entry.offset)
+    return choices_by_quantity
 
 
-def words_of(
-    wanted: Mapping[str, Choice], under: Mapping[str, Choice], joints: Sequence[JointSpec]
+def build_map_words(
+    target: Mapping[str, ColumnChoice],
+    under: Mapping[str, ColumnChoice],
+    joints: Sequence[JointSpec],
 ) -> tuple[str, ...]:
     """The words of `--map` that make a mapping of another one; patterns where all joints are alike.
 
     Args:
-        wanted: our name -> column.
+        target: our name -> column.
         under: what is so without any words: own names, [log] of the robot file.
         joints: of the robot.
 
     Raises:
         DataError: a name of a column that `--map` cannot take.
     """
-    left = {own: one for own, one in wanted.items() if under.get(own) != one}
+    left = {quantity: one for quantity, one in target.items() if under.get(quantity) != one}
     words = []
     for kind in KINDS:
-        own = {joint.name: left.get(f"{kind}{joint.name}") for joint in joints}
-        pattern = _pattern(own, joints)
+        quantity = {joint.name: left.get(f"{kind}{joint.name}") for joint in joints}
+        pattern = _find_pattern(quantity, joints)
         if pattern is not None:
-            words.append(_word(f"{kind}<j>", pattern, joints))
-            for joint in own:
+            words.append(_format_word(f"{kind}<j>", pattern, joints))
+            for joint in quantity:
                 del left[f"{kind}{joint}"]
-    order = names_of(joints, KINDS)
-    known = sorted(left, key=lambda own: order.index(own) if own in order else len(order))
-    singles = [_word(own, left[own], joints) for own in known]
+    order = collect_names(joints, KINDS)
+    known = sorted(
+        left, key=lambda quantity: order.index(quantity) if quantity in order else len(order)
+    )
+    singles = [_format_word(quantity, left[quantity], joints) for quantity in known]
     return (*singles[: "time" in left], *words, *singles["time" in left :])
 
 
-def _pattern(own: Mapping[str, Choice | None], joints: Sequence[JointSpec]) -> Choice | None:
+def _find_pattern(
+    joint_choices: Mapping[str, ColumnChoice | None], joints: Sequence[JointSpec]
+) -> ColumnChoice | None:
     """The one choice with a placeholder that all joints are made of; None if there is none."""
-    first = own[joints[0].name] if joints else None
+    first = joint_choices[joints[0].name] if joints else None
     if first is None or len(joints) < 2:
         return None
     number = re.search(r"\d+(?!.*\d)", first.column)
@@ -165,47 +180,57 @@ def _pattern(own: Mapping[str, Choice | None], joints: Sequence[JointSpec]) -> C
     if number is not None:
         marks["{n}" if number[0] == "1" else f"{{n{int(number[0]) - 1:+d}}}"] = number[0]
     for mark, label in marks.items():
-        head, found, tail = first.column.rpartition(label)
+        head, matched, tail = first.column.rpartition(label)
         pattern = dataclasses.replace(first, column=f"{head}{mark}{tail}")
         entry = MappedColumn((pattern.column,))
-        made = [entry.of(joint.name, k, joint.name).columns[0] for k, joint in enumerate(joints)]
+        made = [
+            entry.expand_for_joint(joint.name, k, joint.name).columns[0]
+            for k, joint in enumerate(joints)
+        ]
         every = [dataclasses.replace(first, column=column) for column in made]
-        if found and every == list(own.values()):
+        if matched and every == list(joint_choices.values()):
             return pattern
     return None
 
 
-def _word(own: str, one: Choice, joints: Sequence[JointSpec]) -> str:
+def _format_word(quantity: str, one: ColumnChoice, joints: Sequence[JointSpec]) -> str:
     """`q2=-enc2:deg`; what is read back is what was meant."""
-    word = f"{own}={'-' * (one.sign < 0)}{one.column}"
+    word = f"{quantity}={'-' * (one.sign < 0)}{one.column}"
     word += f":{one.unit}" if one.unit else ""
-    entry = map_from_words([word]).layers[0].get(own)
+    entry = parse_map_options([word]).layers[0].get(quantity)
     unit = "" if entry is None or entry.unit is None else entry.unit.text
-    kept = entry is not None and one.column in entry.columns and entry.sign == one.sign
-    plain = units_of(own.replace("<j>", joints[0].name if joints else ""), joints)[0]
-    if not kept and not one.unit and plain:  # a name that ends as if in a unit
-        return _word(own, dataclasses.replace(one, unit=plain), joints)
-    if not kept or (one.unit and unit != one.unit) or one.offset:
+    is_preserved = entry is not None and one.column in entry.columns and entry.sign == one.sign
+    plain = select_units(quantity.replace("<j>", joints[0].name if joints else ""), joints)[0]
+    if not is_preserved and not one.unit and plain:  # a name that ends as if in a unit
+        return _format_word(quantity, dataclasses.replace(one, unit=plain), joints)
+    if not is_preserved or (one.unit and unit != one.unit) or one.offset:
         raise DataError(
-            f'{own}: a column called "{one.column}" cannot be named with --map; rename it, or say '
+            f'{quantity}: a column called "{one.column}" cannot be named with --map; rename it, or '
+            "say "
             "it in [log] of the robot file"
         )
     return word
 
 
-def guess_from(
+def parse_guess(
     text: str, joints: Sequence[JointSpec], columns: Collection[str]
-) -> tuple[dict[str, Choice], tuple[str, ...]]:
+) -> tuple[dict[str, ColumnChoice], tuple[str, ...]]:
     """The choices of a suggested [log], and our names whose unit rests on a range alone."""
-    names = map_from_table(tomllib.loads(text)["log"], "guess") if text else LogMap()
-    found = choices(names, joints, columns)
-    told = [line.split(" =")[0].strip('"') for line in text.split("\n") if _RANGED in line]
-    ranged = [o for o in found if o in told or f"{kind_of(o, joints)[0]}<j>" in told]
-    return {own: one for own, one in found.items() if one != Choice(own)}, tuple(ranged)
+    names = build_map(tomllib.loads(text)["log"], "guess") if text else LogMap()
+    choices = build_choices(names, joints, columns)
+    ranged_lines = [line.split(" =")[0].strip('"') for line in text.split("\n") if _RANGED in line]
+    ranged = [
+        o
+        for o in choices
+        if o in ranged_lines or f"{split_quantity(o, joints)[0]}<j>" in ranged_lines
+    ]
+    return {
+        quantity: one for quantity, one in choices.items() if one != ColumnChoice(quantity)
+    }, tuple(ranged)
 
 
-def as_mapped(
-    values: np.ndarray, stated: str, one: Choice, own: str, joints: Sequence[JointSpec]
+def apply_choice(
+    values: np.ndarray, stated: str, one: ColumnChoice, quantity: str, joints: Sequence[JointSpec]
 ) -> np.ndarray:
     """Values of a column as one of ours, SI.
 
@@ -213,7 +238,7 @@ def as_mapped(
         values: in SI of the unit that the file states, as they are read without a mapping.
         stated: that unit; "" for none.
         one: what the column is taken as.
-        own: our name.
+        quantity: our name.
         joints: of the robot.
 
     Raises:
@@ -225,9 +250,9 @@ def as_mapped(
     values = one.sign * values + one.offset
     unit = find_unit(one.unit) if one.unit else before
     if unit is None and one.unit:
-        example = units_of(own, joints)[0]
-        raise DataError(f'{own}: got unit "{one.unit}"; expected one such as {example}')
+        example = select_units(quantity, joints)[0]
+        raise DataError(f'{quantity}: got unit "{one.unit}"; expected one such as {example}')
     if unit is None:
         return values
-    known = si_unit(own, own, unit, joints)
+    known = resolve_si_unit(quantity, quantity, unit, joints)
     return (values + known.zero) * known.factor

@@ -10,17 +10,23 @@ from nicegui import ui
 
 from modeler.core.errors import ModelerError
 from modeler.core.figure import Curve, Panel, Picture
-from modeler.core.files import read_text, resource_dir
+from modeler.core.files import locate_resources, read_text
 from modeler.core.json import parse_toml
 from modeler.core.style import BLACK, BLUE, GREEN, ORANGE, PINK, VERMILLION, Style
 from modeler.studio import figures, timeline
-from modeler.studio.elements import command_line, doubt_lines, folded, part, table
-from modeler.studio.log_mapping import Choice, as_mapped, kind_of, words_of
+from modeler.studio.elements import (
+    add_card,
+    draw_command_line,
+    draw_folded,
+    draw_table,
+    draw_warnings,
+)
+from modeler.studio.log_mapping import ColumnChoice, apply_choice, build_map_words, split_quantity
 from modeler.studio.mapping_table import MappingTable
 from modeler.studio.project import ProjectLog
 from modeler.studio.project_logs import ProjectLogs
-from modeler.studio.robot_frame import robot_frame
-from modeler.studio.tasks import ROBOT, Stretch, Task
+from modeler.studio.robot_frame import add_robot_frame
+from modeler.studio.tasks import ROBOT, Task, TimeRange
 from modeler.studio.timeline import Timeline
 
 _POINTS = 1500  # of a curve, at most
@@ -54,92 +60,100 @@ class LogView:
     ) -> None:
         self.project_logs, self.studio, self.file = project_logs, project_logs.studio, file
         self._renew, self._again = renew, look
-        self.known, self.guess = project_logs.logs[file], project_logs.guess(file)
-        self.chosen = project_logs.chosen(self.guess)
+        self.known, self.guess = project_logs.logs[file], project_logs.get_guess(file)
+        self.chosen = project_logs.resolve_columns(self.guess)
         self.window: tuple[float, float] | None = None
-        self.brush: Stretch | None = None
+        self.brush: TimeRange | None = None
         self._turn = 0  # of the picture: another one forgets its zoom
 
     @property
     def log(self) -> ProjectLog:
         """As the project has it."""
-        return self.project_logs.log(self.file)
+        return self.project_logs.get_log(self.file)
 
     async def draw(self) -> None:
         """Pictures first; what takes longer comes after them."""
-        with part(self.file), ui.row().classes("w-full no-wrap items-start data-log-view"):
+        with add_card(self.file), ui.row().classes("w-full no-wrap items-start data-log-view"):
             with ui.column().classes("data-pictures gap-2"):
-                self._plot = ui.plotly(figures.figure(self._picture({}), self.file))
-                self._plot.classes("w-full").on("plotly_relayout", self._zoomed)
+                self._plot = ui.plotly(figures.build_figure(self._build_picture({}), self.file))
+                self._plot.classes("w-full").on("plotly_relayout", self._update_zoom)
                 self._line = Timeline(self.file, self.known.ends)
-                self._line.on_brush(self._hold)
-                self._line.on("mark", lambda event: self._why(self.marks()[int(event.args)]))
-                self._line.on("role", lambda event: self._paint(event.args))
-                self._controls()
+                self._line.connect_brush(self._hold_range)
+                self._line.on(
+                    "mark", lambda event: self._explain_mark(self.get_marks()[int(event.args)])
+                )
+                self._line.on("role", lambda event: self._assign_role(event.args))
+                self._draw_controls()
             self._robot = ui.column().classes("data-robot")
-        with part("Columns"):
+        with add_card("Columns"):
             self._about = ui.column().classes("w-full gap-1")
             joints, columns = self.project_logs.joints, self.guess.columns
-            self._table = MappingTable(joints, columns, self.chosen, self._ranged(), self._mapped)
-            self._said = command_line("")
-        with part("What modeler log says"):
+            self._table = MappingTable(
+                joints, columns, self.chosen, self._find_ranged(), self._apply_mapping
+            )
+            self._said = draw_command_line("")
+        with add_card("What modeler log says"):
             self._words = ui.column().classes("w-full gap-1")
-        self._say()
-        self.judged()
-        await self._curves()
+        self._describe_mapping()
+        self.draw_findings()
+        await self._draw_curves()
         if self._robot.is_deleted:
             return  # another log was opened meanwhile
         with self._robot:
             if self.studio.project.robot:
-                self._line.frame = (await robot_frame(self.studio, alone=True)).id
-                await self._film()
+                self._line.frame = (await add_robot_frame(self.studio, alone=True)).element_id
+                await self._show_film()
             else:
-                self._offer()
+                self._offer_robot()
 
     # Pictures.
 
-    async def _ask(self, question: str, *arguments: Any, kind: str = "") -> Any:
+    async def _ask_viewer(self, question: str, *arguments: Any, kind: str = "") -> Any:
         """What the viewer answers of this log; None where it has no answer, which is told."""
         try:
-            return await self.studio.view(
-                question, self.project_logs.path(self.file), *arguments, kind=kind
+            return await self.studio.ask_viewer(
+                question, self.project_logs.resolve_path(self.file), *arguments, kind=kind
             )
         except ModelerError as error:
             self.studio.show_error(str(error))
 
-    def _columns(self, kinds: Sequence[str]) -> dict[str, Choice]:
+    def _select_columns(self, kinds: Sequence[str]) -> dict[str, ColumnChoice]:
         """Our name -> column, of those kinds, where the log has it."""
-        own = {own: one for own, one in self.chosen.items() if one.column in self.guess.columns}
+        present = {
+            present: one for present, one in self.chosen.items() if one.column in self.guess.columns
+        }
         return {
-            o: one for o, one in own.items() if kind_of(o, self.project_logs.joints)[0] in kinds
+            o: one
+            for o, one in present.items()
+            if split_quantity(o, self.project_logs.joints)[0] in kinds
         }
 
-    def _values(self, own: str, values: np.ndarray) -> np.ndarray:
+    def _convert_values(self, quantity: str, values: np.ndarray) -> np.ndarray:
         """A column as it is mapped."""
-        one = self.chosen[own]
+        one = self.chosen[quantity]
         stated = self.known.units.get(one.column, "")
-        return as_mapped(values, stated, one, own, self.project_logs.joints)
+        return apply_choice(values, stated, one, quantity, self.project_logs.joints)
 
-    async def _curves(self) -> None:
+    async def _draw_curves(self) -> None:
         """Asks for the window that is looked at, and draws it."""
-        names = [one.column for one in self._columns([*_PANELS]).values()]
+        names = [one.column for one in self._select_columns([*_PANELS]).values()]
         window, points = self.window or (-np.inf, np.inf), _ALL_POINTS // max(1, len(names))
         more = (self.known.clock, "", min(points, _POINTS))
-        raw = await self._ask("log_window", names, *window, *more, kind="window")
+        raw = await self._ask_viewer("log_window", names, *window, *more, kind="window")
         if raw is not None:
-            self._plot.update_figure(figures.figure(self._picture(raw), self.file))
+            self._plot.update_figure(figures.build_figure(self._build_picture(raw), self.file))
 
-    def _picture(self, raw: Mapping[str, tuple[np.ndarray, np.ndarray]]) -> Picture:
+    def _build_picture(self, raw: Mapping[str, tuple[np.ndarray, np.ndarray]]) -> Picture:
         """Positions, speeds and torques as they are mapped, one below the other."""
         joints = self.project_logs.joints
         curves: dict[str, list[Curve]] = {kind: [] for kind in _PANELS}
-        for own, one in self._columns([*_PANELS]).items():
-            kind, joint = kind_of(own, joints)
+        for quantity, one in self._select_columns([*_PANELS]).items():
+            kind, joint = split_quantity(quantity, joints)
             if joint is not None and one.column in raw:
                 (time, values), place = raw[one.column], joints.index(joint)
                 dash, color = divmod(place, len(_COLORS))
                 style = Style(_COLORS[color], width=1.2, dash=bool(dash % 2))
-                y = self._values(own, values)
+                y = self._convert_values(quantity, values)
                 curves[kind].append(Curve(f"joint {joint.name}", time, y, style))
         motion, effort = (
             " or ".join(dict.fromkeys(getattr(joint, name) for joint in joints))
@@ -154,105 +168,114 @@ class LogView:
         name, height = f"{self.file} {self._turn}", 130 + 150 * len(panels)
         return Picture(name, "", "", tuple(panels), height, True)
 
-    async def _zoomed(self, event: Any) -> None:
-        found = figures.x_range(event.args)
-        if found is not False:
-            self.window = found if isinstance(found, tuple) else None
-            await self._curves()
+    async def _update_zoom(self, event: Any) -> None:
+        time_range = figures.read_x_range(event.args)
+        if time_range is not False:
+            self.window = time_range if isinstance(time_range, tuple) else None
+            await self._draw_curves()
 
-    async def _look(self, window: tuple[float, float] | None) -> None:
+    async def _show_window(self, window: tuple[float, float] | None) -> None:
         """At a part of the log."""
         self.window, self._turn = window, self._turn + 1
-        await self._curves()
+        await self._draw_curves()
 
-    async def _film(self) -> None:
+    async def _show_film(self) -> None:
         """The robot moves as the log says."""
-        named = self._columns(["q"])
-        columns = [one.column for one in named.values()]
-        film = await self._ask("log_film", columns, self.known.clock)
+        positions = self._select_columns(["q"])
+        columns = [one.column for one in positions.values()]
+        film = await self._ask_viewer("log_film", columns, self.known.clock)
         if film is not None:
-            q = {own: self._values(own, film[one.column]) for own, one in named.items()}
-            self._line.show(film["time"], {own.removeprefix("q"): v for own, v in q.items()})
+            q = {
+                quantity: self._convert_values(quantity, film[one.column])
+                for quantity, one in positions.items()
+            }
+            self._line.show_motion(
+                film["time"], {quantity.removeprefix("q"): v for quantity, v in q.items()}
+            )
 
-    def _offer(self) -> None:
+    def _offer_robot(self) -> None:
         count = len(self.project_logs.joints)
         ui.label("There is no robot yet: no fit, and nothing moves.").classes("studio-soft")
         title = f"A robot with {count} joint{'s' * (count != 1)} to start from"
-        ui.button(title, on_click=self._start).props("no-caps outline")
-        _small("Describe it", lambda: self.studio.go("robot"))
+        ui.button(title, on_click=self._create_robot).props("no-caps outline")
+        _add_small_button("Describe it", lambda: self.studio.open_screen("robot"))
 
-    async def _start(self) -> None:
+    async def _create_robot(self) -> None:
         task = Task("new", joints="R" * max(1, len(self.project_logs.joints)))
         if await self.studio.run(task) is not None:
-            self.studio.change(redraw=True, robot=ROBOT)
+            self.studio.change_project(redraw=True, robot=ROBOT)
 
     # The time.
 
-    def _controls(self) -> None:
+    def _draw_controls(self) -> None:
         """What is done with the cursor, with the stretch that is held, and with the whole log."""
         with ui.row().classes("items-center gap-2"):
             play = ui.button(icon="play_arrow").props('dense round unelevated aria-label="play"')
             speed = ui.select(_SPEEDS, value=1.0).props('dense borderless aria-label="speed"')
-            play.on_click(lambda: self._line.play(speed.value))
+            play.on_click(lambda: self._line.toggle_play(speed.value))
             faces = {True: "icon=pause aria-label=pause", False: "icon=play_arrow aria-label=play"}
             self._line.on("playing", lambda event: play.props(faces[bool(event.args)]))
             self._ends = [
-                ui.number(label, format="%.4f", on_change=self._typed).classes("data-end")
+                ui.number(label, format="%.4f", on_change=self._read_ends).classes("data-end")
                 for label in ("from s", "to s")
             ]
             with ui.row().classes("gap-1") as self._roles:
                 for role, name in timeline.ROLES.items():
-                    _small(name, lambda _, role=role: self._paint(role)).props(
+                    _add_small_button(name, lambda _, role=role: self._assign_role(role)).props(
                         "outline", remove="flat"
                     )
-                _small("let in again", lambda: self._paint("in"))
-                _small("zoom to it", lambda: self._look(_ends(self.brush)))
+                _add_small_button("let in again", lambda: self._assign_role("in"))
+                _add_small_button("zoom to it", lambda: self._show_window(_get_ends(self.brush)))
         with ui.row().classes("items-center gap-2"):
-            for title, change in timeline.whole(self.known.ends).items():
-                _small(title, lambda _, change=change: self._become(change))
-            _small("whole log", lambda: self._look(None))
-            self._told = ui.label().classes("studio-soft")
+            for title, change in timeline.build_log_changes(self.known.ends).items():
+                _add_small_button(title, lambda _, change=change: self._change_log(change))
+            _add_small_button("whole log", lambda: self._show_window(None))
+            self._roles_label = ui.label().classes("studio-soft")
 
-    def _drawn(self) -> None:
-        self._line.renew(self.log, self.marks(), self.brush)
+    def _update_line(self) -> None:
+        self._line.update_log(self.log, self.get_marks(), self.brush)
         self._roles.set_visibility(self.brush is not None)
-        self._told.text = timeline.told(self.log)
+        self._roles_label.text = timeline.describe_roles(self.log)
 
-    def _hold(self, stretch: Stretch | None) -> None:
+    def _hold_range(self, stretch: TimeRange | None) -> None:
         """The stretch that was brushed; None: it was let go."""
         self.brush = stretch
-        for field, side in zip(self._ends, _ends(stretch) or (None, None), strict=True):
+        for field, side in zip(self._ends, _get_ends(stretch) or (None, None), strict=True):
             field.set_value(side)
-        self._drawn()
+        self._update_line()
 
-    def _typed(self) -> None:
+    def _read_ends(self) -> None:
         start, end = (field.value for field in self._ends)
         if start is not None and end is not None and start < end:
-            self.brush = Stretch(float(start), float(end))
-            self._drawn()
+            self.brush = TimeRange(float(start), float(end))
+            self._update_line()
 
-    def _paint(self, role: str) -> None:
+    def _assign_role(self, role: str) -> None:
         if self.brush is not None:
-            held = self.brush
-            self._become(lambda log: timeline.painted(log, held, role))
+            time_range = self.brush
+            self._change_log(lambda log: timeline.assign_role(log, time_range, role))
 
-    def _become(self, change: Callable[[ProjectLog], ProjectLog]) -> None:
+    def _change_log(self, change: Callable[[ProjectLog], ProjectLog]) -> None:
         self._renew(change(self.log))
-        self._drawn()
+        self._update_line()
 
     # The columns.
 
-    def _ranged(self) -> Sequence[str]:
+    def _find_ranged(self) -> Sequence[str]:
         """Our names whose unit is a guess by range alone, while the mapping is one."""
         return self.guess.ranged if self.project_logs.is_guess(self.guess) else ()
 
-    def _say(self) -> None:
+    def _describe_mapping(self) -> None:
         """What the mapping is, in words of people and of commands."""
         words = self.studio.project.mapping
-        said = " ".join(f"--map {word}" for word in words)
-        self._said.text = said or "columns as they are called"
+        map_options = " ".join(f"--map {word}" for word in words)
+        self._said.text = map_options or "columns as they are called"
         self._about.clear()
-        lacking = [own for own, one in self.chosen.items() if one.column not in self.guess.columns]
+        missing = [
+            quantity
+            for quantity, one in self.chosen.items()
+            if one.column not in self.guess.columns
+        ]
         with self._about:
             if "auto" in words:
                 text = "The logs name their columns differently: each is taken by its own guess."
@@ -260,112 +283,120 @@ class LogView:
             elif self.project_logs.is_guess(self.guess):
                 ranged = ", dotted units by range alone" if self.guess.ranged else ""
                 ui.label(f"A guess by names{ranged}: check it.").classes("studio-soft")
-            if lacking and "auto" not in words:
-                doubt_lines([_ABSENT.format(self.chosen[lacking[0]].column, lacking[0])])
-                _small("each by its own guess", self.project_logs.guess_each)
+            if missing and "auto" not in words:
+                draw_warnings([_ABSENT.format(self.chosen[missing[0]].column, missing[0])])
+                _add_small_button("each by its own guess", self.project_logs.apply_each_guess)
 
-    async def _mapped(self, chosen: Mapping[str, Choice]) -> None:
+    async def _apply_mapping(self, chosen: Mapping[str, ColumnChoice]) -> None:
         """Other columns, units or signs: words of `--map`, and the pictures at once."""
         project_logs, joints = self.project_logs, self.project_logs.joints
         try:
-            for own, one in chosen.items():
-                as_mapped(np.empty(0), "", one, own, joints)  # says which units cannot be
-            words = words_of(chosen, project_logs.under(self.guess), joints)
-            words = (*project_logs.kept(self.guess), *words)
-            changed = self.studio.change(mapping=words, mapped=True)
+            for quantity, one in chosen.items():
+                apply_choice(np.empty(0), "", one, quantity, joints)  # says which units cannot be
+            words = build_map_words(
+                chosen, project_logs.resolve_default_columns(self.guess), joints
+            )
+            words = (*project_logs.select_general_words(self.guess), *words)
+            changed = self.studio.change_project(mapping=words, mapped=True)
         except ModelerError as error:
             self.studio.show_error(str(error))
             changed = False
         if not changed:
-            self._table.renew(self.chosen, self._ranged(), anew=True)
+            self._table.update_choices(self.chosen, self._find_ranged(), anew=True)
             return
         self.studio.show_error("")
         timed, self.chosen = chosen.get("time") == self.chosen.get("time"), dict(chosen)
         if not timed:
             self.studio.redraw()
             return
-        self._table.renew(self.chosen, self._ranged())
-        self._say()
-        await self._curves()
+        self._table.update_choices(self.chosen, self._find_ranged())
+        self._describe_mapping()
+        await self._draw_curves()
         if self.studio.project.robot:
-            await self._film()
+            await self._show_film()
         self._again()
 
     # The doubts.
 
-    def marks(self) -> list[Mapping[str, Any]]:
+    def get_marks(self) -> list[Mapping[str, Any]]:
         """Doubts that have a place in time."""
-        return list(self.project_logs.result(self.file).get("marks", ()))
+        return list(self.project_logs.read_result(self.file).get("marks", ()))
 
-    def judged(self) -> None:
+    def draw_findings(self) -> None:
         """What `modeler log` says, anew."""
-        self._drawn()
-        result, marks = self.project_logs.result(self.file), self.marks()
+        self._update_line()
+        result, marks = self.project_logs.read_result(self.file), self.get_marks()
         doubts = result.get("doubts", self.guess.doubts)
         rows = {line: [m for m in marks if line.endswith(m["line"])] for line in doubts}
-        told = [id(mark) for own in rows.values() for mark in own]
+        shown_marks = [id(mark) for line_marks in rows.values() for mark in line_marks]
         alike: dict[str, list[Mapping[str, Any]]] = {}
-        for mark in (mark for mark in marks if id(mark) not in told):
+        for mark in (mark for mark in marks if id(mark) not in shown_marks):
             alike.setdefault(re.sub(r"[\d.]+", "#", mark["line"]), []).append(mark)
-        for own in alike.values():
-            more = f", and {len(own) - 1} like it" if len(own) > 1 else ""
-            rows[f"{own[0]['start']:.4f} s: {own[0]['line']}{more}"] = own
+        for line_marks in alike.values():
+            more = f", and {len(line_marks) - 1} like it" if len(line_marks) > 1 else ""
+            rows[f"{line_marks[0]['start']:.4f} s: {line_marks[0]['line']}{more}"] = line_marks
         self._words.clear()
         with self._words:
-            for line, own in rows.items():
-                self._doubt(line, own)
+            for line, line_marks in rows.items():
+                self._draw_warning(line, line_marks)
             if not rows:
                 text = "no doubts" if result else "It is looked at."
                 ui.label(text).classes("studio-soft")
             heads = ("channel", "unit", "from", "to", "resolution", "missing")
             if result:
-                table(heads, map(_cells, result["channels"]))
-                folded("notes", result["notes"])
+                draw_table(heads, map(_format_channel, result["channels"]))
+                draw_folded("notes", result["notes"])
 
-    def _doubt(self, line: str, marks: Sequence[Mapping[str, Any]]) -> None:
+    def _draw_warning(self, line: str, marks: Sequence[Mapping[str, Any]]) -> None:
         """A doubt, and what can be done where it has a place."""
         with ui.row().classes("items-center no-wrap gap-2 w-full"):
             with ui.element("div").classes("data-doubt"):
-                doubt_lines([line])
+                draw_warnings([line])
             if marks:
-                _small("why", lambda: self._why(marks[0]))
-                _small("leave out", lambda: self._leave(marks)).props("outline", remove="flat")
+                _add_small_button("why", lambda: self._explain_mark(marks[0]))
+                _add_small_button("leave out", lambda: self._leave_out(marks)).props(
+                    "outline", remove="flat"
+                )
 
-    def _leave(self, marks: Sequence[Mapping[str, Any]]) -> None:
+    def _leave_out(self, marks: Sequence[Mapping[str, Any]]) -> None:
         log = self.log
         for start, end in ((mark["start"] - _ROOM, mark["end"] + _ROOM) for mark in marks):
-            log = timeline.painted(log, Stretch(round(start, 4), round(end, 4)), "out")
-        self._become(lambda _: log)
+            log = timeline.assign_role(log, TimeRange(round(start, 4), round(end, 4)), "out")
+        self._change_log(lambda _: log)
 
-    def _why(self, mark: Mapping[str, Any]) -> None:
+    def _explain_mark(self, mark: Mapping[str, Any]) -> None:
         """The whole line, what the documentation says, and what can be done."""
         start, end = mark["start"], mark["end"]
         near = (start - 25 * _ROOM, end + 25 * _ROOM)
         with ui.dialog(value=True) as dialog, ui.card().classes("studio-card"):
             ui.label(f"{mark['channel']}, {start:.4f} to {end:.4f} s").classes("studio-part")
             ui.label(mark["line"])
-            ui.label(_sentences().get(mark["kind"], "")).classes("studio-soft")
+            ui.label(_read_sentences().get(mark["kind"], "")).classes("studio-soft")
             with ui.row():
-                _small("Leave out", lambda: self._leave([mark])).on_click(dialog.close)
-                _small("Look at it", lambda: self._look(near)).on_click(dialog.close)
-                _small("Close", dialog.close)
+                _add_small_button("Leave out", lambda: self._leave_out([mark])).on_click(
+                    dialog.close
+                )
+                _add_small_button("Look at it", lambda: self._show_window(near)).on_click(
+                    dialog.close
+                )
+                _add_small_button("Close", dialog.close)
 
 
 @cache
-def _sentences() -> dict[str, str]:
+def _read_sentences() -> dict[str, str]:
     """What the documentation says of a kind of doubt."""
-    return parse_toml(read_text(resource_dir("templates") / "studio" / "doubts.toml"))
+    return parse_toml(read_text(locate_resources("templates") / "studio" / "doubts.toml"))
 
 
-def _small(title: str, act: Callable[..., Any]) -> ui.button:
+def _add_small_button(title: str, act: Callable[..., Any]) -> ui.button:
     return ui.button(title, on_click=act).props("dense flat no-caps").classes("no-wrap")
 
 
-def _ends(stretch: Stretch | None) -> tuple[float, float] | None:
+def _get_ends(stretch: TimeRange | None) -> tuple[float, float] | None:
     return None if stretch is None else (stretch.start, stretch.end)
 
 
-def _cells(channel: Mapping[str, Any]) -> Sequence[str]:
+def _format_channel(channel: Mapping[str, Any]) -> Sequence[str]:
     """A channel in words."""
     unit = f"{channel['unit'] or ''}{'?' * channel['guessed']}"
     numbers = (channel[name] for name in ("low", "high", "resolution"))

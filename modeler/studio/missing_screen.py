@@ -11,13 +11,13 @@ from nicegui import ui
 
 from modeler.core.errors import ModelerError
 from modeler.core.figure import Picture
-from modeler.core.picture_file import pictures_from_json
-from modeler.core.table import percent, printed
-from modeler.effects import CATALOGUE, effect_named
-from modeler.estimation import spread_text
+from modeler.core.picture_file import read_pictures
+from modeler.core.table import format_error_pair, format_percent
+from modeler.effects import CATALOGUE, find_effect
+from modeler.estimation import format_spread
 from modeler.studio import commands, elements, figures
 from modeler.studio.elements import Light
-from modeler.studio.fails_screen import zooms
+from modeler.studio.fails_screen import connect_zoom
 from modeler.studio.project import Project
 from modeler.studio.studio import Studio
 from modeler.studio.tasks import Step, Task
@@ -36,221 +36,253 @@ _RANKS = ("fact", "named", "perhaps")
 async def draw(studio: Studio) -> None:
     """Draws it."""
     project = studio.project
-    elements.head(
+    elements.draw_head(
         "What is missing", "Which physical effect the model lacks, on which joint, how large."
     )
-    if not project.model:
-        elements.lacks_model(studio)
+    if not project.model_file:
+        elements.explain_missing_model(studio)
         return
-    step = project.about("diagnose")
-    elements.stale(studio)
-    with elements.part("Look"):
-        elements.run_button(studio, "Look", lambda: commands.diagnose(studio.project))
-        _bans(studio)
+    step = project.find_step_about("diagnose")
+    elements.draw_stale_warnings(studio)
+    with elements.add_card("Look"):
+        elements.add_run_button(studio, "Look", lambda: commands.diagnose(studio.project))
+        _draw_bans(studio)
     if step is not None:
         if commands.diagnose(project) != step.task:
-            elements.doubt_lines(
+            elements.draw_warnings(
                 ["stretches or bans were changed since this was found; look again"]
             )
-        await _diagnosis(studio, step)
-    _by_hand(studio)
+        await _draw_diagnosis(studio, step)
+    _draw_catalogue(studio)
 
 
-async def _diagnosis(studio: Studio, step: Step) -> None:
+async def _draw_diagnosis(studio: Studio, step: Step) -> None:
     """What was found, ranked, and what the data cannot tell."""
-    found, project = studio.result(step), studio.project
+    result, project = studio.read_result(step), studio.project
     kind = "held-out error" if step.task.held else "cross-validated error"
-    named = {(one["effect"], one["joint"]) for one in found["effects"]}
-    every = [*found["effects"], *found["refinements"]]
+    effect_keys = {(one["effect"], one["joint"]) for one in result["effects"]}
+    every = [*result["effects"], *result["refinements"]]
     pictures: Mapping[str, Picture] = {}
     with contextlib.suppress(ModelerError):  # a page of words is a page
-        pictures = {p.name: p for p in pictures_from_json(studio.folder / step.pictures)}
-    with elements.part(f"Verdict: {found['verdict']}"):
-        elements.told(found["sentences"] if not every else found["sentences"][:1])
-        elements.doubt_lines(found["data"] if every else ())  # else the sentences say it
+        pictures = {p.name: p for p in read_pictures(studio.folder / step.pictures_file)}
+    with elements.add_card(f"Verdict: {result['verdict']}"):
+        elements.draw_lines(result["sentences"] if not every else result["sentences"][:1])
+        elements.draw_warnings(result["data"] if every else ())  # else the sentences say it
         if every:
-            elements.folded("In the words of the command", found["sentences"])
+            elements.draw_folded("In the words of the command", result["sentences"])
         else:
-            _left(found["joints"], kind)
+            _draw_remainder(result["joints"], kind)
     ranked = sorted(every, key=lambda one: _RANKS.index(one["status"]))
     for one in ranked:
-        refines = (one["effect"], one["joint"]) not in named
-        await _card(studio, one, pictures, refines, kind, first=one is ranked[0])
-    with elements.part("What else"):
+        refines = (one["effect"], one["joint"]) not in effect_keys
+        await _draw_card(studio, one, pictures, refines, kind, first=one is ranked[0])
+    with elements.add_card("What else"):
         if any(one["status"] != "perhaps" for one in every):
             every_one = partial(commands.add, project, "auto", None)
-            then = partial(_taken, studio)
-            elements.run_button(studio, "Add all that is named", every_one, then, small=True)
-        rivals = [(_at(rival), percent(rival["gain"])) for rival in found["rivals"]]
-        blind = [(_at(one), _words(one["effect"], "look_alikes")) for one in found["blind_spots"]]
-        elements.folded("Rivals that explain less", rivals, "effect", "of the residual's variance")
-        elements.folded("What these logs cannot show", blind, "effect", "it is mistaken for")
-        elements.page_button(studio, step)
+            then = partial(_accept_step, studio)
+            elements.add_run_button(studio, "Add all that is named", every_one, then, small=True)
+        rivals = [
+            (_describe_place(rival), format_percent(rival["gain"])) for rival in result["rivals"]
+        ]
+        blind = [
+            (_describe_place(one), _describe_effect(one["effect"], "look_alikes"))
+            for one in result["blind_spots"]
+        ]
+        elements.draw_folded(
+            "Rivals that explain less", rivals, "effect", "of the residual's variance"
+        )
+        elements.draw_folded("What these logs cannot show", blind, "effect", "it is mistaken for")
+        elements.add_page_button(studio, step)
 
 
-async def _card(
+async def _draw_card(
     studio: Studio, one: Found, pictures: Mapping[str, Picture], refines: bool, kind: str,
     first: bool,
 ) -> None:  # fmt: skip
     """One effect: what it is, how large, what it gains, why, and what to do with it."""
     effect, joint = one["effect"], one["joint"]
     which, status = _STATUS[one["status"]]
-    with elements.part(f"{_words(effect)}: {f'joint {joint}' if joint else 'the whole robot'}"):
+    with elements.add_card(
+        f"{_describe_effect(effect)}: {f'joint {joint}' if joint else 'the whole robot'}"
+    ):
         with ui.row().classes("items-center"):
-            elements.light(which, f"{status}: {one['doubt']}" if one["doubt"] else status)
+            elements.draw_light(which, f"{status}: {one['doubt']}" if one["doubt"] else status)
             ui.label(f"id {effect}").classes("studio-soft")
             if refines:
                 ui.label("refines a law of the model").classes("studio-soft")
         with ui.row().classes("items-baseline"):
-            ui.label(_fall(one["error_before"], one["error_after"])).classes("studio-figure")
+            ui.label(_format_errors(one["error_before"], one["error_after"])).classes(
+                "studio-figure"
+            )
             ui.label(f"{kind} of its joints, without and with it")
-        law = effect_named(effect)
-        meant = (
+        law = find_effect(effect)
+        meanings = (
             {}
             if law is None
-            else {shape.name: f": {shape.meaning}" for form in law.forms for shape in form.shapes}
+            else {
+                shape.name: f": {shape.meaning}"
+                for form in law.forms
+                for shape in form.nonlinear_parameters
+            }
         )
         for name, value in one["parameters"].items():
-            ui.label(f"{name} = {_value(one, name, value)}{meant.get(name, '')}")
+            ui.label(f"{name} = {_format_value(one, name, value)}{meanings.get(name, '')}")
         ui.label(one["evidence"])
-        elements.doubt_lines([one["objection"]] if one["objection"] else [])
+        elements.draw_warnings([one["objection"]] if one["objection"] else [])
         if one["ties"]:
-            others = "; ".join(map(_at, one["ties"]))
-            elements.doubt_lines([f"these data do not tell it from: {others}"])
-            elements.go_button(studio, "The motion that tells them apart", "motion")
-        _deeds(studio, effect, joint)
-        await _ghost(studio, effect, joint)
+            others = "; ".join(map(_describe_place, one["ties"]))
+            elements.draw_warnings([f"these data do not tell it from: {others}"])
+            elements.add_go_button(studio, "The motion that tells them apart", "motion")
+        _draw_actions(studio, effect, joint)
+        await _draw_preview(studio, effect, joint)
         names = [f"{kind}_{effect}_{joint or 'robot'}" for kind in ("evidence", "torque")]
-        _evidence([pictures[name] for name in names if name in pictures], unfolded=first)
+        _draw_evidence([pictures[name] for name in names if name in pictures], unfolded=first)
 
 
-def _evidence(pictures: Sequence[Picture], unfolded: bool) -> None:
+def _draw_evidence(pictures: Sequence[Picture], unfolded: bool) -> None:
     """Of the first effect at once, of others when they are asked for: closed they have no size."""
     with ui.expansion("Evidence", value=unfolded).classes("w-full studio-folded") as folded:
         inside = ui.column().classes("w-full")
 
-    def opened() -> None:
+    def draw_pictures() -> None:
         inside.clear()
         with inside:
             for picture in pictures:
-                figures.draw(picture)
+                figures.draw_picture(picture)
 
-    folded.on("show", opened)
+    folded.on("show", draw_pictures)
     if unfolded:
-        opened()
+        draw_pictures()
 
 
-def _value(one: Found, name: str, value: float | None) -> str:
+def _format_value(one: Found, name: str, value: float | None) -> str:
     if value is None:
         return "not known"
     sigma, unit = one["sigmas"].get(name) or 0.0, one["units"].get(name, "")
     interval = one["intervals"].get(name)
-    spread = spread_text(value, sigma, None if interval is None else (interval[0], interval[1]))
+    spread = format_spread(value, sigma, None if interval is None else (interval[0], interval[1]))
     return f"{value:.4g}{spread} {'' if unit == '1' else unit}".replace("+-", "\u00b1")
 
 
-def _fall(before: float | None, after: float | None) -> str:
+def _format_errors(before: float | None, after: float | None) -> str:
     if before is None or after is None:
         return "it is not known from these logs"
-    return " \u2192 ".join(printed(before, after))
+    return " \u2192 ".join(format_error_pair(before, after))
 
 
-def _deeds(studio: Studio, effect: str, joint: str | None) -> None:
+def _draw_actions(studio: Studio, effect: str, joint: str | None) -> None:
     """Preview, add, ban."""
-    asked = partial(commands.add, studio.project, effect, joint)
-    ready = tried(studio.project, effect, joint)
+    build_task = partial(commands.add, studio.project, effect, joint)
+    ready = find_trial(studio.project, effect, joint)
     if ready is None:
-        elements.run_button(studio, "Preview", asked, current=False, small=True)
-        elements.run_button(studio, "Add", asked, partial(_taken, studio), small=True)
+        elements.add_run_button(studio, "Preview", build_task, current=False, small=True)
+        elements.add_run_button(
+            studio, "Add", build_task, partial(_accept_step, studio), small=True
+        )
     else:
         with ui.row().classes("items-center no-wrap w-full"):
-            button = ui.button("Add", on_click=lambda: _taken(studio, ready))
-            elements.busy_with(studio, button.props("no-caps unelevated"))
-            elements.step_line(studio, ready)
+            button = ui.button("Add", on_click=lambda: _accept_step(studio, ready))
+            elements.disable_while_busy(studio, button.props("no-caps unelevated"))
+            elements.draw_step_line(studio, ready)
     with ui.row():
         for ban in dict.fromkeys([f"{effect}@{joint}" if joint else effect, effect]):
             where = "this joint" if "@" in ban else "this robot"
-            button = ui.button(f"Not on {where}", on_click=lambda _, ban=ban: _banned(studio, ban))
-            elements.busy_with(studio, button.props("no-caps flat dense icon=block"))
+            button = ui.button(f"Not on {where}", on_click=lambda _, ban=ban: _add_ban(studio, ban))
+            elements.disable_while_busy(studio, button.props("no-caps flat dense icon=block"))
 
 
-def tried(project: Project, effect: str, joint: str | None) -> Step | None:
+def find_trial(project: Project, effect: str, joint: str | None) -> Step | None:
     """The step that has added an effect to the current model, as it would be added now."""
-    asked = commands.add(project, effect, joint)
-    own = [step for step in project.steps if step.parent == project.current]
-    return next((step for step in reversed(own) if step.task == asked), None)
+    task = commands.add(project, effect, joint)
+    child_steps = [step for step in project.steps if step.parent == project.current]
+    return next((step for step in reversed(child_steps) if step.task == task), None)
 
 
-def _taken(studio: Studio, step: Step) -> None:
+def _accept_step(studio: Studio, step: Step) -> None:
     """The model of a step is the current one, and one sees the error fall."""
-    if studio.project.current == step.number or studio.take(step):
-        studio.go("fall")
+    if studio.project.current == step.number or studio.take_step(step):
+        studio.open_screen("fall")
 
 
-def _banned(studio: Studio, ban: str) -> None:
-    others = [own for own in studio.project.without if own.partition("@")[0] != ban]
-    studio.change(redraw=True, without=tuple(dict.fromkeys([*others, ban])))
+def _add_ban(studio: Studio, ban: str) -> None:
+    others = [
+        other_ban for other_ban in studio.project.without if other_ban.partition("@")[0] != ban
+    ]
+    studio.change_project(redraw=True, without=tuple(dict.fromkeys([*others, ban])))
 
 
-def _bans(studio: Studio) -> None:
+def _draw_bans(studio: Studio) -> None:
     """What this robot does not have, each to be taken back."""
     if not studio.project.without:
         return
     with ui.row().classes("items-center"):
         ui.label("not on this robot:").classes("studio-soft")
         for ban in studio.project.without:
-            left = tuple(own for own in studio.project.without if own != ban)
-            button = ui.button(ban, on_click=lambda _, left=left: studio.change(True, without=left))
+            left = tuple(other_ban for other_ban in studio.project.without if other_ban != ban)
+            button = ui.button(
+                ban, on_click=lambda _, left=left: studio.change_project(True, without=left)
+            )
             button.props("no-caps outline dense icon=close")
             button.props["aria-label"] = f"take back the ban of {ban}"
-            elements.busy_with(studio, button)
+            elements.disable_while_busy(studio, button)
 
 
-async def _ghost(studio: Studio, effect: str, joint: str | None) -> None:
+async def _draw_preview(studio: Studio, effect: str, joint: str | None) -> None:
     """Measured, predicted, and predicted with the effect, once it was tried; both errors."""
     project = studio.project
-    step = tried(project, effect, joint)
+    step = find_trial(project, effect, joint)
     if step is None:
         return
-    logs = commands.judged_on(project, project.parts("test") or project.parts("train"))
-    models = [project.model, step.model]
-    verdicts = [await studio.view("verdict", model, logs) for model in models]
-    before, after = (dict(zip(own.joints, own.errors, strict=True)) for own in verdicts)
+    logs = commands.build_viewer_words(
+        project, project.collect_parts("test") or project.collect_parts("train")
+    )
+    models = [project.model_file, step.model_file]
+    verdicts = [await studio.ask_viewer("verdict", model, logs) for model in models]
+    before, after = (dict(zip(verdict.joints, verdict.errors, strict=True)) for verdict in verdicts)
     falls = {name: (before[name], after[name]) for name in before if name in after}
     most = max(falls, key=lambda name: falls[name][0] - falls[name][1])
-    shown = joint if joint in falls else most
-    where = "held-out" if project.words("test") else "fitted"
+    shown_joint = joint if joint in falls else most
+    where = "held-out" if project.collect_words("test") else "fitted"
     ui.label(f"Error on the {where} logs, without and with it:").classes("studio-soft")
-    elements.told(f"joint {name}: {_fall(*errors)}" for name, errors in falls.items())
+    elements.draw_lines(
+        f"joint {name}: {_format_errors(*errors)}" for name, errors in falls.items()
+    )
 
-    async def window(*ends: float) -> Picture:
-        picture: Picture = await studio.view("torque_picture", models, logs, shown, *ends)
+    async def load_window(*ends: float) -> Picture:
+        picture: Picture = await studio.ask_viewer(
+            "torque_picture", models, logs, shown_joint, *ends
+        )
         return picture
 
-    plot = figures.draw(_named(await window(), models, _words(effect)), "ghost")
-    zooms(studio, plot, window)
+    plot = figures.draw_picture(
+        _add_model_names(await load_window(), models, _describe_effect(effect)), "ghost"
+    )
+    connect_zoom(studio, plot, load_window)
 
 
-def _named(picture: Picture, models: Sequence[str], effect: str) -> Picture:
+def _add_model_names(picture: Picture, models: Sequence[str], effect: str) -> Picture:
     """With what its models are called."""
     before, after = (f"model {Path(model).stem}" for model in models)
     title, caption = f"Preview. {picture.title}", f"{before}: as it is; {after}: with {effect}"
     return dataclasses.replace(picture, title=title, caption=caption)
 
 
-def _left(joints: Mapping[str, Mapping[str, float | None]], kind: str) -> None:
+def _draw_remainder(joints: Mapping[str, Mapping[str, float | None]], kind: str) -> None:
     """Where nothing is missing: what is left of each joint's torque."""
     names = ("error_before", "explained", "systematic", "noise")
-    rows = [(joint, *(percent(own[name]) for name in names)) for joint, own in joints.items()]
-    elements.table(("joint", kind, "explained", "of physics", "noise (of the variance)"), rows)
+    rows = [
+        (joint, *(format_percent(shares[name]) for name in names))
+        for joint, shares in joints.items()
+    ]
+    elements.draw_table(("joint", kind, "explained", "of physics", "noise (of the variance)"), rows)
 
 
-def _by_hand(studio: Studio) -> None:
+def _draw_catalogue(studio: Studio) -> None:
     """Any effect of the catalogue, found by its id or in plain words."""
-    with elements.part("Any effect of the catalogue"):
+    with elements.add_card("Any effect of the catalogue"):
         names = {effect.id: f"{effect.title} ({effect.id})" for effect in CATALOGUE}
-        chosen = studio.kept.setdefault("by hand", {"effect": "viscous", "joint": ""})
-        manifest = studio.model(studio.made)["manifest"]
+        chosen = studio.state.setdefault("by hand", {"effect": "viscous", "joint": ""})
+        manifest = studio.read_model(studio.model_step)["manifest"]
         joints = [joint["name"] for joint in manifest["joints"]]
         passive = (manifest["closure"] or {}).get("variables", ())
         joints += [name for name in passive if name not in joints]
@@ -259,37 +291,39 @@ def _by_hand(studio: Studio) -> None:
             effect = ui.select(names, label="effect", value=chosen["effect"], with_input=True)
             joint = ui.select({"": "where it explains most", **{j: f"joint {j}" for j in joints}},
                               label="joint", value=chosen["joint"])  # fmt: skip
-            ban = ui.button("Not on this robot", on_click=lambda: _banned(studio, word()))
-            elements.busy_with(studio, ban.props("no-caps flat icon=block"))
+            ban = ui.button("Not on this robot", on_click=lambda: _add_ban(studio, build_ban()))
+            elements.disable_while_busy(studio, ban.props("no-caps flat icon=block"))
         effect.classes("w-96")
         joint.classes("w-56")
 
-        def asked() -> Task:
+        def build_task() -> Task:
             return commands.add(studio.project, chosen["effect"], chosen["joint"] or None)
 
-        def word() -> str:
-            own, place = chosen["effect"], chosen["joint"]
-            return f"{own}@{place}" if place else own
+        def build_ban() -> str:
+            effect_id, place = chosen["effect"], chosen["joint"]
+            return f"{effect_id}@{place}" if place else effect_id
 
-        renew = elements.run_button(studio, "Add it", asked, partial(_taken, studio), small=True)
+        renew = elements.add_run_button(
+            studio, "Add it", build_task, partial(_accept_step, studio), small=True
+        )
 
-        def changed() -> None:
+        def update_choice() -> None:
             chosen["effect"], chosen["joint"] = effect.value or "viscous", joint.value or ""
-            parts = [_words(chosen["effect"], what) for what in ("equation", "signature")]
+            parts = [_describe_effect(chosen["effect"], what) for what in ("equation", "signature")]
             about.text = "; ".join(parts)
             renew()
 
-        effect.on_value_change(changed)
-        joint.on_value_change(changed)
-        changed()
+        effect.on_value_change(update_choice)
+        joint.on_value_change(update_choice)
+        update_choice()
 
 
-def _words(name: str, what: str = "title") -> str:
+def _describe_effect(name: str, what: str = "title") -> str:
     """What the catalogue says of an effect; the id of one that only the robot file defines."""
-    effect = effect_named(name)
+    effect = find_effect(name)
     return name if effect is None else str(getattr(effect, what))
 
 
-def _at(one: Mapping[str, str | None]) -> str:
+def _describe_place(one: Mapping[str, str | None]) -> str:
     """An effect in words, and its joint."""
-    return f"{_words(str(one['effect']))}, joint {one['joint'] or 'all'}"
+    return f"{_describe_effect(str(one['effect']))}, joint {one['joint'] or 'all'}"

@@ -25,7 +25,7 @@ _LEFT = re.compile(rf"{re.escape(BEGUN)}[0-9a-f]+|\.modeler-[0-9a-f]{{16}}")  # 
 _OF_STEP = re.compile(r"(\d+)\.(?:json|toml|pictures\.json)")
 
 
-def size_text(count: float) -> str:
+def format_size(count: float) -> str:
     """Bytes, as people say it."""
     for unit in ("B", "kB", "MB", "GB"):
         if count < 1000:
@@ -38,7 +38,7 @@ def size_text(count: float) -> str:
 
 
 @contextlib.contextmanager
-def folder_lock(folder: Path) -> Iterator[bool]:
+def lock_folder(folder: Path) -> Iterator[bool]:
     """True while the folder is ours; False where it is another studio's, or write-protected.
 
     The system gives the lock back when a process ends, however it ends. What a killed one left
@@ -58,13 +58,13 @@ def folder_lock(folder: Path) -> Iterator[bool]:
             f"{folder}: cannot be used as a project folder ({error.strerror}); name another one"
         ) from error
     with file:
-        own = _locked(file.fileno())
-        if own:
-            _sweep(folder)
-        yield own
+        is_locked = _try_lock(file.fileno())
+        if is_locked:
+            _remove_leftovers(folder)
+        yield is_locked
 
 
-def _locked(descriptor: int) -> bool:
+def _try_lock(descriptor: int) -> bool:
     try:
         if os.name == "nt":
             import msvcrt
@@ -79,12 +79,12 @@ def _locked(descriptor: int) -> bool:
     return True
 
 
-def _sweep(folder: Path) -> None:
+def _remove_leftovers(folder: Path) -> None:
     for place in (folder, *(folder / name for name in FOLDERS)):
         with contextlib.suppress(OSError):
-            for found in place.iterdir():
-                if _LEFT.fullmatch(found.name):
-                    found.unlink()
+            for leftover in place.iterdir():
+                if _LEFT.fullmatch(leftover.name):
+                    leftover.unlink()
 
 
 # The picker: folders and files under a few roots.
@@ -120,49 +120,51 @@ class Roots:
 
     folders: tuple[Path, ...]
 
-    def inside(self, place: Path | str) -> Path:
+    def resolve_inside(self, place: Path | str) -> Path:
         """The place, its links followed, if it is in one of the folders.
 
         Raises:
             DataError: it is not, or is not there.
         """
         try:
-            found = Path(place).resolve(strict=True)
+            target = Path(place).resolve(strict=True)
         except (OSError, ValueError, RuntimeError):  # ValueError: a NUL; RuntimeError: a ring
             raise DataError(f"{place}: no such file; choose another one") from None
-        self.check(str(place), found)
-        return found
+        self.check_inside(str(place), target)
+        return target
 
-    def check(self, place: str, found: Path) -> None:
+    def check_inside(self, place: str, target: Path) -> None:
         """Refuses a place that is in none of the folders.
 
         Args:
             place: as it is called.
-            found: the same; its links are followed.
+            target: the same; its links are followed.
 
         Raises:
             DataError: it is not; says how to allow it.
         """
         try:
-            found = found.resolve()
+            target = target.resolve()
         except (OSError, RuntimeError):  # RuntimeError: a ring of links
             raise DataError(f"{place}: its links lead nowhere; remove them") from None
-        if not any(found.is_relative_to(folder.resolve()) for folder in self.folders):
+        if not any(target.is_relative_to(folder.resolve()) for folder in self.folders):
             raise DataError(
                 f"{place}: lies outside the folders that this studio may use; start it with "
-                f"--allow {found if found.is_dir() else found.parent}"
+                f"--allow {target if target.is_dir() else target.parent}"
             )
 
-    def check_tree(self, place: str, found: Path) -> None:
+    def check_tree(self, place: str, target: Path) -> None:
         """The same of a place and of all links below it, or whose names begin as its own does.
 
         A log may be a folder, or several files of which it is the beginning of the names.
         """
-        self.check(place, found)
-        others = found.rglob("*") if found.is_dir() else found.parent.glob(f"{escape(found.name)}*")
+        self.check_inside(place, target)
+        others = (
+            target.rglob("*") if target.is_dir() else target.parent.glob(f"{escape(target.name)}*")
+        )
         for below in others:
             if below.is_symlink():
-                self.check(str(below), below)
+                self.check_inside(str(below), below)
 
     def check_words(self, folder: Path, words: Iterable[str]) -> None:
         """Refuse a command that would read or write elsewhere, whoever wrote its words.
@@ -190,23 +192,25 @@ class Roots:
             if name != "logs" or (folder / name).is_symlink():
                 self.check_tree(str(folder / name), folder / name)
 
-    def listed(self, folder: Path | str, endings: Sequence[str] = LOG_ENDINGS) -> list[Entry]:
+    def read_entries(self, folder: Path | str, endings: Sequence[str] = LOG_ENDINGS) -> list[Entry]:
         """Folders, then files that end so; what is hidden or leads out is left out.
 
         Raises:
             DataError: the folder is none, is outside, or may not be read.
         """
-        top = self.inside(folder)
+        top = self.resolve_inside(folder)
         try:
             names = sorted((p.name for p in top.iterdir()), key=lambda name: (name.lower(), name))
         except OSError as error:
             raise DataError(f"{top}: cannot be listed ({error.strerror}); choose another") from None
-        entries = [self._entry(top, name, endings) for name in names if not name.startswith(".")]
+        entries = [
+            self._read_entry(top, name, endings) for name in names if not name.startswith(".")
+        ]
         return sorted(filter(None, entries), key=lambda entry: not entry.is_folder)
 
-    def _entry(self, top: Path, name: str, endings: Sequence[str]) -> Entry | None:
+    def _read_entry(self, top: Path, name: str, endings: Sequence[str]) -> Entry | None:
         try:
-            place = self.inside(top / name)
+            place = self.resolve_inside(top / name)
             if place.is_dir():
                 return Entry(name, place, None)
             if place.is_file() and place.suffix.lower() in endings:
@@ -223,7 +227,7 @@ READABLE = Roots(())
 # Disk: what a project uses, and what of it nobody needs.
 
 
-def disk_use(folder: Path) -> dict[str, int]:
+def compute_disk_use(folder: Path) -> dict[str, int]:
     """Bytes of a project by the folder that they are in; the rest is "other"."""
     used = dict.fromkeys((*FOLDERS, "other"), 0)
     for top, folders, names in os.walk(folder):
@@ -236,7 +240,7 @@ def disk_use(folder: Path) -> dict[str, int]:
 
 
 @dataclass(frozen=True)
-class Spare:
+class UnusedFiles:
     """What no step on the way to the current one needs.
 
     Attributes:
@@ -256,24 +260,25 @@ class Spare:
                 (folder / file).unlink()
 
 
-def spare(folder: Path, project: Project) -> Spare:
+def find_unused_files(folder: Path, project: Project) -> UnusedFiles:
     """What tidying would take away; logs, pages and files of other names are not touched."""
-    way = {step.number for step in project.path()}
+    path_numbers = {step.number for step in project.collect_path()}
     steps = tuple(
         step
         for step in project.steps
-        if step.number in way or (step.verb not in MAKING and step.parent in {0, *way})
+        if step.number in path_numbers
+        or (step.verb not in MAKING and step.parent in {0, *path_numbers})
     )
     needed = {n for step in steps for n in (step.number, *step.task.models)}
     files = [
-        f"{name}/{found.name}"
+        f"{name}/{candidate.name}"
         for name in ("robots", "models", "results")
-        for found in _files(folder / name)
-        if (match := _OF_STEP.fullmatch(found.name)) and int(match[1]) not in needed
+        for candidate in _iterate_files(folder / name)
+        if (match := _OF_STEP.fullmatch(candidate.name)) and int(match[1]) not in needed
     ]
     size = sum((folder / file).lstat().st_size for file in files)
-    return Spare(replace(project, steps=steps), tuple(files), size)
+    return UnusedFiles(replace(project, steps=steps), tuple(files), size)
 
 
-def _files(folder: Path) -> Iterable[Path]:
+def _iterate_files(folder: Path) -> Iterable[Path]:
     return sorted(folder.iterdir()) if folder.is_dir() else ()

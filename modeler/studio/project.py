@@ -23,17 +23,17 @@ from typing import Any, Literal
 
 from modeler.core.errors import DataError, ModelerError
 from modeler.core.files import read_text, write_atomically
-from modeler.core.json import UndeclaredEntry, built, parse_toml
-from modeler.runtime import cache_folder
+from modeler.core.json import SchemaError, build_instance, parse_toml
+from modeler.runtime import find_cache_folder
 from modeler.studio.tasks import (
     ABOUT_A_MODEL,
     MAKING,
     LogPart,
     Step,
-    Stretch,
     Task,
+    TimeRange,
+    build_command_line,
     check_values,
-    command_line,
 )
 
 FILE = "project.toml"
@@ -52,14 +52,18 @@ class ProjectLog:
     """
 
     file: str
-    train: tuple[Stretch, ...] = ()
-    test: tuple[Stretch, ...] = ()
-    out: tuple[Stretch, ...] = ()
+    train: tuple[TimeRange, ...] = ()
+    test: tuple[TimeRange, ...] = ()
+    out: tuple[TimeRange, ...] = ()
 
-    def parts(self, role: str) -> list[LogPart]:
+    def get_parts(self, role: str) -> list[LogPart]:
         """Its stretches of one role, "train" or "test"."""
-        parts: tuple[Stretch, ...] = getattr(self, role)
-        return [LogPart(self.file, own) for part in parts for own in part.without(self.out)]
+        parts: tuple[TimeRange, ...] = getattr(self, role)
+        return [
+            LogPart(self.file, time_range)
+            for part in parts
+            for time_range in part.subtract_gaps(self.out)
+        ]
 
 
 @dataclass(frozen=True)
@@ -84,101 +88,106 @@ class Project:
     logs: tuple[ProjectLog, ...] = ()
     steps: tuple[Step, ...] = ()
 
-    def step(self, number: int) -> Step | None:
+    def find_step(self, number: int) -> Step | None:
         """The step of that number."""
         return next((step for step in self.steps if step.number == number), None)
 
     @property
-    def model(self) -> str:
+    def model_file(self) -> str:
         """The file of the current model; "" before there is one."""
-        step = self.step(self.current)
-        return "" if step is None else step.model
+        step = self.find_step(self.current)
+        return "" if step is None else step.model_file
 
     @property
     def next_number(self) -> int:
         """Of the next step."""
         return 1 + max((step.number for step in self.steps), default=0)
 
-    def path(self, number: int | None = None) -> list[Step]:
+    def collect_path(self, number: int | None = None) -> list[Step]:
         """The steps that made a model, from the first fit on; None: the current one."""
-        found: list[Step] = []
-        step = self.step(self.current if number is None else number)
+        path: list[Step] = []
+        step = self.find_step(self.current if number is None else number)
         while step is not None:
-            found.insert(0, step)
-            step = self.step(step.parent) if step.parent < step.number else None
-        return found
+            path.insert(0, step)
+            step = self.find_step(step.parent) if step.parent < step.number else None
+        return path
 
-    def about(self, verb: str, number: int | None = None) -> Step | None:
+    def find_step_about(self, verb: str, number: int | None = None) -> Step | None:
         """The last step of that verb about a model; None of `number`: the current one."""
         parent = self.current if number is None else number
-        own = [step for step in self.steps if step.verb == verb and step.parent == parent]
-        return own[-1] if own else None
+        matching_steps = [
+            step for step in self.steps if step.verb == verb and step.parent == parent
+        ]
+        return matching_steps[-1] if matching_steps else None
 
-    def parts(self, role: str) -> tuple[LogPart, ...]:
+    def collect_parts(self, role: str) -> tuple[LogPart, ...]:
         """All stretches of one role, "train" or "test"."""
-        return tuple(part for log in self.logs for part in log.parts(role))
+        return tuple(part for log in self.logs for part in log.get_parts(role))
 
-    def words(self, role: str) -> list[str]:
+    def collect_words(self, role: str) -> list[str]:
         """The same as a command takes them."""
-        return [part.word for part in self.parts(role)]
+        return [part.command_word for part in self.collect_parts(role)]
 
-    def next_step(self, task: Task) -> Step:
+    def make_next_step(self, task: Task) -> Step:
         """What a task would be as the next step."""
         parent = self.current if task.verb in ABOUT_A_MODEL else task.step
         return Step(self.next_number, parent, task)
 
 
-def project_text(project: Project) -> str:
+def format_project(project: Project) -> str:
     """The project as TOML."""
-    return "\n".join(_lines(project)) + "\n"
+    return "\n".join(_format_lines(project)) + "\n"
 
 
-def _lines(project: Project) -> Iterator[str]:
+def _format_lines(project: Project) -> Iterator[str]:
     yield "# A project of `modeler studio`: its commands run in this folder."
     for name, value in vars(project).items():
         if name not in ("logs", "steps"):
-            yield f"{name} = {_toml(value)}"
+            yield f"{name} = {_format_toml(value)}"
     for title, entries in (("logs", project.logs), ("steps", project.steps)):
         for entry in entries:
             yield f"\n[[{title}]]"
-            yield from (f"{name} = {_toml(value)}" for name, value in vars(entry).items())
+            yield from (f"{name} = {_format_toml(value)}" for name, value in vars(entry).items())
 
 
-def _toml(value: Any) -> str:
+def _format_toml(value: Any) -> str:
     if isinstance(value, bool):
         return str(value).lower()
     if isinstance(value, str):
         return json.dumps(value, ensure_ascii=False).replace("\x7f", "\\u007f")
     if dataclasses.is_dataclass(value):  # what is as usual is left out
-        own = {
+        changed_fields = {
             field.name: getattr(value, field.name)
             for field in dataclasses.fields(value)
             if getattr(value, field.name) != field.default
         }
-        return f"{{ {', '.join(f'{name} = {_toml(item)}' for name, item in own.items())} }}"
+        entries = ", ".join(
+            f"{name} = {_format_toml(item)}" for name, item in changed_fields.items()
+        )
+        return f"{{ {entries} }}"
     if isinstance(value, list | tuple):
-        return f"[{', '.join(_toml(item) for item in value)}]"
+        return f"[{', '.join(_format_toml(item) for item in value)}]"
     return repr(value)
 
 
-def project_from_text(text: str, where: str) -> Project:
+def parse_project(text: str, where: str) -> Project:
     """What a `project.toml` says.
 
     Raises:
         DataError: it is no such file; says what is wrong with it.
     """
     try:
-        project: Project = built(Project, parse_toml(text))
-        _check(project)
+        project: Project = build_instance(Project, parse_toml(text))
+        _check_project(project)
         return project
-    except (UndeclaredEntry, ValueError, DataError) as error:
+    except (SchemaError, ValueError, DataError) as error:
         raise DataError(
             f"{where}: {error}; expected a file that `modeler studio` wrote; mend it, or move it "
             "away to begin anew beside the same files"
         ) from None
 
 
-def _check(project: Project) -> None:
+def _check_project(project: Project) -> None:
     """Refuses values that no studio writes: names that are options or lead out, other numbers.
 
     Raises:
@@ -189,7 +198,7 @@ def _check(project: Project) -> None:
     for log in project.logs:
         check_values("file", (log.file,))
     for step in project.steps:
-        command_line(step, project.steps)
+        build_command_line(step, project.steps)
         if not 0 <= step.parent < 1e9 or not 0 < step.number < 1e9:
             raise DataError(f"step {step.number}: got such a number; expected 1 to 999999999")
     if len({step.number for step in project.steps}) < len(project.steps):
@@ -219,11 +228,11 @@ class Workspace:
         self.folder, self.writable = folder, writable
         self.foreign = False
         self.project = Project()
-        self.reread()
-        self.foreign = (folder / FILE).exists() and not self._is_ours()
+        self.reload_project()
+        self.foreign = (folder / FILE).exists() and not self._is_own_project()
 
     @property
-    def may_change(self) -> bool:
+    def can_change(self) -> bool:
         """Whether the project can be changed here."""
         return self.writable and not self.foreign
 
@@ -241,8 +250,8 @@ class Workspace:
             )
         if self.foreign:
             raise DataError(FOREIGN.format(self.folder))
-        text = project_text(project)
-        write_atomically(self.folder / FILE, f"{_SEAL}{_sealed(text)}\n{text}")
+        text = format_project(project)
+        write_atomically(self.folder / FILE, f"{_SEAL}{_compute_seal(text)}\n{text}")
         self.project = project
 
     def accept(self) -> None:
@@ -258,7 +267,7 @@ class Workspace:
             self.foreign = True
             raise
 
-    def reread(self) -> None:
+    def reload_project(self) -> None:
         """What the file says now, where another process writes it.
 
         Raises:
@@ -266,9 +275,9 @@ class Workspace:
         """
         place = self.folder / FILE
         if os.path.lexists(place):
-            self.project = project_from_text(self._text(), str(place))
+            self.project = parse_project(self._read_text(), str(place))
 
-    def _text(self) -> str:
+    def _read_text(self) -> str:
         place = self.folder / FILE
         try:
             return read_text(place)
@@ -278,9 +287,9 @@ class Workspace:
             why = f"cannot be read ({error.strerror})"
         raise DataError(f"{place}: {why}; put the file back, or move it away to begin anew")
 
-    def _is_ours(self) -> bool:
-        head, _, text = self._text().partition("\n")
-        return hmac.compare_digest(head.encode(), (_SEAL + _sealed(text)).encode())
+    def _is_own_project(self) -> bool:
+        head, _, text = self._read_text().partition("\n")
+        return hmac.compare_digest(head.encode(), (_SEAL + _compute_seal(text)).encode())
 
 
 FOREIGN = (
@@ -291,14 +300,14 @@ _KEY = 32  # bytes
 _SEAL = "# seal of the user who wrote this file: "
 
 
-def _sealed(text: str) -> str:
+def _compute_seal(text: str) -> str:
     """What only this user's studio can write above a text, with a key that lies in the cache."""
-    place = cache_folder() / "studio.key"
+    place = find_cache_folder() / "studio.key"
     with contextlib.suppress(OSError):
         place.parent.mkdir(parents=True, exist_ok=True)
-        begun = os.open(place, os.O_CREAT | os.O_EXCL | os.O_WRONLY, 0o600)
-        os.write(begun, secrets.token_bytes(_KEY))
-        os.close(begun)
+        descriptor = os.open(place, os.O_CREAT | os.O_EXCL | os.O_WRONLY, 0o600)
+        os.write(descriptor, secrets.token_bytes(_KEY))
+        os.close(descriptor)
     key = b""
     with contextlib.suppress(OSError):
         key = place.read_bytes()

@@ -8,10 +8,17 @@ from typing import Any
 
 from modeler.core.errors import ModelerError
 from modeler.core.files import read_text
-from modeler.core.json import entries
+from modeler.core.json import select_attributes
 from modeler.core.manifest import JointSpec
-from modeler.logs import map_from_words
-from modeler.studio.log_mapping import Choice, LogGuess, anybody, choices, said, words_of
+from modeler.logs import parse_map_options
+from modeler.studio.log_mapping import (
+    ColumnChoice,
+    LogGuess,
+    build_choices,
+    build_default_joints,
+    build_map_words,
+    merge_map,
+)
 from modeler.studio.project import ProjectLog
 from modeler.studio.studio import Studio
 from modeler.studio.tasks import Step
@@ -61,101 +68,119 @@ class ProjectLogs:
         self.stated: Mapping[str, Any] = {}
         self.logs: dict[str, KnownLog] = {}
 
-    def path(self, file: str) -> str:
+    def resolve_path(self, file: str) -> str:
         """Of a file of the project, wherever it lies."""
         return str(self.studio.folder / file)
 
-    async def learn(self, file: str) -> None:
+    async def learn_columns(self, file: str) -> None:
         """Looks at the columns of a log."""
-        robot, place = self.studio.project.robot, self.path(file)
+        robot, place = self.studio.project.robot, self.resolve_path(file)
         try:
-            guess = await self.studio.view("log_guess", place, robot and self.path(robot))
+            guess = await self.studio.ask_viewer(
+                "log_guess", place, robot and self.resolve_path(robot)
+            )
             self.logs[file] = KnownLog(guess, size=Path(place).stat().st_size)
             if not robot:
-                self.joints = anybody(max(len(self.joints), guess.joints))
+                self.joints = build_default_joints(max(len(self.joints), guess.joints))
         except (ModelerError, OSError) as error:
             self.logs[file] = KnownLog(error=str(error))
 
-    async def read(self, file: str) -> None:
+    async def read_time(self, file: str) -> None:
         """Reads its time, as the mapping says it."""
         known = self.logs[file]
         if known.guess is None:
             return
         try:
-            time = self.chosen(known.guess).get("time", Choice("time"))
-            own = words_of({"time": time}, {"time": Choice("time")}, self.joints)
-            kept = (word for word in self.studio.project.mapping if word.startswith(_SETTINGS))
-            clock = (*kept, *own) if time.column in known.guess.columns else tuple(kept)
-            facts = await self.studio.view("log_facts", self.path(file), clock)
-            found = {"ends": (facts.start, facts.end), **entries(facts, "rows units")}
-            self.logs[file] = replace(known, clock=clock, **found)
+            time = self.resolve_columns(known.guess).get("time", ColumnChoice("time"))
+            time_words = build_map_words(
+                {"time": time}, {"time": ColumnChoice("time")}, self.joints
+            )
+            setting_words = (
+                word for word in self.studio.project.mapping if word.startswith(_SETTINGS)
+            )
+            clock = (
+                (*setting_words, *time_words)
+                if time.column in known.guess.columns
+                else tuple(setting_words)
+            )
+            facts = await self.studio.ask_viewer("log_facts", self.resolve_path(file), clock)
+            changes = {"ends": (facts.start, facts.end), **select_attributes(facts, "rows units")}
+            self.logs[file] = replace(known, clock=clock, **changes)
         except ModelerError as error:
             self.logs[file] = KnownLog(error=str(error))
 
-    def kept(self, guess: LogGuess) -> tuple[str, ...]:
+    def select_general_words(self, guess: LogGuess) -> tuple[str, ...]:
         """Words of the mapping that are about no column, or about one of other logs."""
         words = self.studio.project.mapping
-        said = {word: map_from_words([word]).entries(self.joints).values() for word in words}
+        entries_by_word = {
+            word: parse_map_options([word]).expand_entries(self.joints).values() for word in words
+        }
         far = [
-            w for w, own in said.items() if not any({*e.columns} & {*guess.columns} for e in own)
+            w
+            for w, map_entries in entries_by_word.items()
+            if not any({*e.columns} & {*guess.columns} for e in map_entries)
         ]
         return tuple(w for w in far if AUTO in words or w.startswith(_SETTINGS))
 
-    def guess(self, file: str) -> LogGuess:
+    def get_guess(self, file: str) -> LogGuess:
         """Of a log that can be read."""
         guess = self.logs[file].guess
         assert guess is not None
         return guess
 
-    def chosen(self, guess: LogGuess) -> dict[str, Choice]:
+    def resolve_columns(self, guess: LogGuess) -> dict[str, ColumnChoice]:
         """What the columns of a log are taken as."""
         words = self.studio.project.mapping
-        found = self._choices(words, guess)
+        columns = self._build_choices(words, guess)
         if AUTO not in words:
-            return found
-        there = map_from_words(words).entries(self.joints)  # those of other logs stay out
-        own = {name for name, entry in there.items() if {*entry.columns} & {*guess.columns}}
-        return self.under(guess) | {name: found[name] for name in own}
+            return columns
+        map_entries = parse_map_options(words).expand_entries(
+            self.joints
+        )  # those of other logs stay out
+        named = {name for name, entry in map_entries.items() if {*entry.columns} & {*guess.columns}}
+        return self.resolve_default_columns(guess) | {name: columns[name] for name in named}
 
-    def under(self, guess: LogGuess) -> dict[str, Choice]:
+    def resolve_default_columns(self, guess: LogGuess) -> dict[str, ColumnChoice]:
         """The same without words about columns."""
-        found = self._choices((), guess)
-        return {**found, **(guess.choices if AUTO in self.studio.project.mapping else {})}
+        columns = self._build_choices((), guess)
+        return {**columns, **(guess.choices if AUTO in self.studio.project.mapping else {})}
 
-    def _choices(self, words: tuple[str, ...], guess: LogGuess) -> dict[str, Choice]:
-        names = said(words, self.stated, self.studio.project.robot)
-        return choices(names, self.joints, guess.columns)
+    def _build_choices(self, words: tuple[str, ...], guess: LogGuess) -> dict[str, ColumnChoice]:
+        names = merge_map(words, self.stated, self.studio.project.robot)
+        return build_choices(names, self.joints, guess.columns)
 
-    def guessed(self, guess: LogGuess) -> tuple[str, ...]:
+    def build_guess_words(self, guess: LogGuess) -> tuple[str, ...]:
         """Words of what a log looks like."""
-        under = self._choices((), guess)
+        under = self._build_choices((), guess)
         topic = (f"topic={guess.topic}",) if guess.topic else ()
-        return (*topic, *words_of({**under, **guess.choices}, under, self.joints))
+        return (*topic, *build_map_words({**under, **guess.choices}, under, self.joints))
 
     def is_guess(self, guess: LogGuess) -> bool:
         """Whether a log is taken as what it looks like."""
-        own = self.studio.project.mapping in ((AUTO,), self.guessed(guess))
-        return own and bool(guess.choices)
+        is_same = self.studio.project.mapping in ((AUTO,), self.build_guess_words(guess))
+        return is_same and bool(guess.choices)
 
-    def guess_each(self) -> None:
+    def apply_each_guess(self) -> None:
         """Every log by its own guess, below what was chosen."""
         chosen = self.studio.project.mapping if self.studio.project.mapped else ()
         words = (AUTO, *(word for word in chosen if word != AUTO))
-        self.studio.change(redraw=True, mapping=words)
+        self.studio.change_project(redraw=True, mapping=words)
 
-    def log(self, file: str) -> ProjectLog:
+    def get_log(self, file: str) -> ProjectLog:
         """As the project has it."""
         return next(log for log in self.studio.project.logs if log.file == file)
 
-    def checked(self, file: str) -> Step | None:
+    def find_last_inspection(self, file: str) -> Step | None:
         """The last look at a log."""
         steps = self.studio.project.steps
         return next((s for s in reversed(steps) if s.verb == "log" and s.task.file == file), None)
 
-    def result(self, file: str) -> dict[str, Any]:
+    def read_result(self, file: str) -> dict[str, Any]:
         """What it said; nothing before there is one."""
-        step = self.checked(file)
+        step = self.find_last_inspection(file)
         try:
-            return dict(json.loads(read_text(self.studio.folder / step.result))) if step else {}
+            return (
+                dict(json.loads(read_text(self.studio.folder / step.result_file))) if step else {}
+            )
         except (OSError, ValueError):
             return {}

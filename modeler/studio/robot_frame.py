@@ -17,37 +17,37 @@ class RobotFrame:
     """
 
     def __init__(self, studio: Studio, html: str, height: str, alone: bool = False) -> None:
-        address = studio.hub.sheet(html)
+        address = studio.hub.register_sheet(html)
         self.frame = ui.element("iframe").classes("studio-robot").style(f"height: {height}")
         self.frame.props(f'src="{address}#bare{"-alone" * alone}" title="the robot in 3-D"')
 
     @property
-    def id(self) -> str:
+    def element_id(self) -> str:
         """Of the element, for scripts: `toRobot(id, message)`."""
         return self.frame.html_id
 
-    def posture(self, q: Mapping[str, float]) -> None:
+    def set_posture(self, q: Mapping[str, float]) -> None:
         """Moves joints; the loops follow."""
-        self._tell(modeler="posture", q=dict(q))
+        self._send_message(modeler="posture", q=dict(q))
 
-    def light(self, rows: Sequence[str]) -> None:
+    def show_clearly(self, rows: Sequence[str]) -> None:
         """Shows links and joints clearly, the others faintly; none: all alike."""
-        self._tell(modeler="light", rows=list(rows))
+        self._send_message(modeler="light", rows=list(rows))
 
-    def replace(self, content: Mapping[str, Any]) -> None:
+    def replace_robot(self, content: Mapping[str, Any]) -> None:
         """Another robot, seen from where the last one is."""
-        self._tell(modeler="robot", content=content)
+        self._send_message(modeler="robot", content=content)
 
-    def on_joint(self, handler: Callable[[str], Any]) -> None:
+    def connect_joint(self, handler: Callable[[str], Any]) -> None:
         """Calls it with the name of a joint or link that is clicked."""
         self.frame.on("joint", lambda event: handler(str(event.args["detail"])), args=["detail"])
 
-    def _tell(self, **message: Any) -> None:
+    def _send_message(self, **message: Any) -> None:
         words = json.dumps(message, separators=(",", ":"))
-        self.frame.client.run_javascript(f"toRobot({json.dumps(self.id)}, {words})")
+        self.frame.client.run_javascript(f"toRobot({json.dumps(self.element_id)}, {words})")
 
 
-async def robot_frame(studio: Studio, height: str = "420px", alone: bool = False) -> RobotFrame:
+async def add_robot_frame(studio: Studio, height: str = "420px", alone: bool = False) -> RobotFrame:
     """The robot of the project, here.
 
     Args:
@@ -58,5 +58,5 @@ async def robot_frame(studio: Studio, height: str = "420px", alone: bool = False
     Raises:
         ModelerError: the project has no robot that can be drawn; the line.
     """
-    text = studio.text(studio.project.robot)
-    return RobotFrame(studio, await studio.view("robot_page", text), height, alone)
+    text = studio.read_text(studio.project.robot)
+    return RobotFrame(studio, await studio.ask_viewer("robot_page", text), height, alone)

@@ -11,23 +11,23 @@ from nicegui import ui
 from modeler.core.errors import ModelerError
 from modeler.robot import (
     TableText,
-    convention_of,
-    pasted_cells,
-    pasted_table,
-    table_text,
-    with_cell,
-    with_effect_on,
-    with_limits,
-    with_pasted,
-    with_row,
-    with_symbol,
-    without_row,
+    find_table_text,
+    insert_pasted_table,
+    insert_row,
+    parse_pasted_cells,
+    parse_pasted_table,
+    read_table_convention,
+    remove_row,
+    replace_cell,
+    replace_limits,
+    replace_symbol,
+    set_joint_effect,
 )
 from modeler.studio import robot_start
-from modeler.studio.elements import head, run_button
+from modeler.studio.elements import add_run_button, draw_head
 from modeler.studio.robot_frame import RobotFrame
-from modeler.studio.robot_text import DRAFT, RobotText, keep
-from modeler.studio.robot_views import BASIC_EFFECTS, RobotLook
+from modeler.studio.robot_text import DRAFT, RobotText, save_text
+from modeler.studio.robot_views import BASIC_EFFECTS, RobotPreview
 from modeler.studio.studio import Studio
 from modeler.studio.tasks import ROBOT, Step, Task
 
@@ -37,28 +37,28 @@ _LIMITS = ("joint", "lower", "upper", "speed", "acceleration")
 
 async def draw(studio: Studio) -> None:
     """Draws it."""
-    kept = studio.kept.get("robot")
+    document = studio.state.get("robot")
     names = (DRAFT, studio.project.robot)
     last = next((n for n in names if n and (studio.folder / n).exists()), "")
-    now = studio.text(last) if last else ""
-    if not isinstance(kept, RobotText) or studio.read_only:
-        kept = studio.kept["robot"] = RobotText(now)
-    elif now:
-        kept.change(now)  # where somebody else wrote it
-    editor = _RobotEditor(studio, kept)
-    if kept.text:
+    file_text = studio.read_text(last) if last else ""
+    if not isinstance(document, RobotText) or studio.is_read_only:
+        document = studio.state["robot"] = RobotText(file_text)
+    elif file_text:
+        document.change_text(file_text)  # where somebody else wrote it
+    editor = _RobotEditor(studio, document)
+    if document.text:
         await editor.draw()
         return
-    head("The robot", "Its table, as a paper or a drawing has it. How does it come in?")
-    robot_start.start(studio, "", editor.take)
+    draw_head("The robot", "Its table, as a paper or a drawing has it. How does it come in?")
+    robot_start.draw_choices(studio, "", editor.take_robot)
 
 
 class _RobotEditor:
     """The table, the text and the picture of one robot, in one window."""
 
-    def __init__(self, studio: Studio, kept: RobotText) -> None:
-        self.studio, self.kept = studio, kept
-        self.look: RobotLook | None = None
+    def __init__(self, studio: Studio, document: RobotText) -> None:
+        self.studio, self.document = studio, document
+        self.look: RobotPreview | None = None
         self.frame: RobotFrame | None = None
         self.limits: dict[str, list[str]] = {}  # that are not complete yet
 
@@ -70,11 +70,11 @@ class _RobotEditor:
             ui.space()
             with ui.dialog() as ways, ui.card().classes("studio-card studio-dialog"):
                 ui.label("Another robot, or another table for this one").classes("studio-part")
-                robot_start.start(studio, self.kept.text, self.take)
+                robot_start.draw_choices(studio, self.document.text, self.take_robot)
             self.changing = [
-                ui.button(icon="undo", on_click=lambda: self.step(True))
+                ui.button(icon="undo", on_click=lambda: self.move_in_history(True))
                 .props("flat round dense aria-label='undo the edit'").tooltip("undo (Ctrl+Z)"),
-                ui.button(icon="redo", on_click=lambda: self.step(False))
+                ui.button(icon="redo", on_click=lambda: self.move_in_history(False))
                 .props("flat round dense aria-label='redo the edit'").tooltip("redo (Ctrl+Y)"),
                 ui.button("Another robot or table", on_click=ways.open).props("no-caps outline"),
             ]  # fmt: skip
@@ -82,148 +82,165 @@ class _RobotEditor:
         self.notes = ui.column().classes("studio-soft gap-0")
         with ui.element("div").classes("studio-split"):
             with ui.column().classes("w-full"):
-                self._tabs()
+                self._draw_tabs()
             with ui.column().classes("studio-beside") as self.beside:
                 pass
         with self.base:
-            await self._derived()
+            await self._draw_derivation()
         for button in self.changing:
-            button.set_enabled(not studio.read_only)
-        await self.check()
+            button.set_enabled(not studio.is_read_only)
+        await self.check_text()
         dark = "matchMedia('(prefers-color-scheme: dark)').matches"
         with contextlib.suppress(TimeoutError):  # over a slow line the text stays light
             if await ui.run_javascript(dark, timeout=20.0):
                 self.editor.set_theme("vscodeDark")
 
-    def _tabs(self) -> None:
+    def _draw_tabs(self) -> None:
         names = ("Table", "Effects", "Limits", "Base parameters", "Text")
-        kept = self.studio.kept
+        state = self.studio.state
         with ui.tabs().props("no-caps dense align=left") as self.tabs:
             for name in names:
                 ui.tab(name)
         tabs = self.tabs
-        tabs.value = kept.get("robot tab", names[0])
-        tabs.on_value_change(lambda event: kept.update({"robot tab": event.value}))
+        tabs.value = state.get("robot tab", names[0])
+        tabs.on_value_change(lambda event: state.update({"robot tab": event.value}))
 
-        def panel(name: str) -> ui.column:
+        def add_panel(name: str) -> ui.column:
             """Hidden, not taken away: scripts fill what is in it."""
             return ui.column().classes("w-full").bind_visibility_from(tabs, "value", value=name)
 
-        with panel("Table"):
+        with add_panel("Table"):
             self.cells = ui.element("div").classes("studio-scroll")
-            self._heard(self.cells, cell=self._cell, block=self._block, row=self._row)
-            self.cells.on(
-                "step", lambda event: self.step(event.args["detail"] == "undo"), args=["detail"]
+            self._connect_edits(
+                self.cells, cell=self._edit_cell, block=self._paste_block, row=self._edit_row
             )
-            _told(
+            self.cells.on(
+                "step",
+                lambda event: self.move_in_history(event.args["detail"] == "undo"),
+                args=["detail"],
+            )
+            _draw_hint(
                 "Arrows and Enter move, Ctrl+Enter adds a row; a block from a spreadsheet may "
                 'be pasted. Angles in rad or "90 deg", lengths in m or "40 mm".'
             )
             self.letters = ui.element("div").classes("studio-scroll")
-            self._heard(self.letters, cell=self._letter, block=partial(self._each, self._letter))
-        with panel("Effects"):
+            self._connect_edits(
+                self.letters,
+                cell=self._edit_symbol,
+                block=partial(self._paste_cells, self._edit_symbol),
+            )
+        with add_panel("Effects"):
             self.effects = ui.element("div").classes("studio-scroll")
-        with panel("Limits"):
+        with add_panel("Limits"):
             self.ranges = ui.element("div").classes("studio-scroll")
-            self._heard(self.ranges, cell=self._limit, block=partial(self._each, self._limit))
-            _told(
+            self._connect_edits(
+                self.ranges,
+                cell=self._edit_limit,
+                block=partial(self._paste_cells, self._edit_limit),
+            )
+            _draw_hint(
                 "Of simulated and exciting motions, and of the sliders: rad or m, rad/s or "
                 "m/s, and so on. An empty row has the limits that every joint has."
             )
-        with panel("Base parameters") as self.base:
+        with add_panel("Base parameters") as self.base:
             pass
-        with panel("Text"):
+        with add_panel("Text"):
             self.editor = ui.codemirror(
-                self.kept.text, language="TOML", on_change=self._typed, theme="vscodeLight"
+                self.document.text,
+                language="TOML",
+                on_change=self._apply_typed,
+                theme="vscodeLight",
             ).classes("studio-text w-full")
-            self.editor.set_enabled(not self.studio.read_only)
+            self.editor.set_enabled(not self.studio.is_read_only)
 
-    def _heard(self, element: ui.element, **handlers: Any) -> None:
+    def _connect_edits(self, element: ui.element, **handlers: Any) -> None:
         """Edits that a script tells; one that fails tells its line."""
         for name, handler in handlers.items():
 
-            async def act(event: Any, handler: Any = handler) -> None:
-                if self.studio.read_only:
+            async def apply_edit(event: Any, handler: Any = handler) -> None:
+                if self.studio.is_read_only:
                     return
                 try:
                     await handler(**event.args["detail"])
                 except ModelerError as error:
-                    self._tell(str(error))
+                    self._show_error(str(error))
 
-            element.on(name, act, args=["detail"])
+            element.on(name, apply_edit, args=["detail"])
 
     # Edits: each makes another text of the robot file.
 
-    async def take(self, text: str, notes: tuple[str, ...]) -> None:
+    async def take_robot(self, text: str, notes: tuple[str, ...]) -> None:
         """A robot that came from elsewhere."""
         try:
-            if self.studio.read_only:
-                raise ModelerError(self.studio.why_read_only)
-            self.kept.change(text)
-            self.studio.kept["robot notes"] = notes
-            look: RobotLook = await self.studio.view("robot_look", text)
-            keep(self.studio.folder, text, not look.error)
+            if self.studio.is_read_only:
+                raise ModelerError(self.studio.read_only_reason)
+            self.document.change_text(text)
+            self.studio.state["robot notes"] = notes
+            look: RobotPreview = await self.studio.ask_viewer("robot_look", text)
+            save_text(self.studio.folder, text, not look.error)
         except ModelerError as error:
             self.studio.show_error(str(error))
             return
         if look.error:
             self.studio.redraw()
         else:
-            self.studio.change(redraw=True, robot=ROBOT)
+            self.studio.change_project(redraw=True, robot=ROBOT)
 
-    async def step(self, back: bool) -> None:
+    async def move_in_history(self, back: bool) -> None:
         """Undo and redo."""
-        if not self.studio.read_only and self.kept.step(back):
-            await self.check(all_cells=True)
+        if not self.studio.is_read_only and self.document.move_in_history(back):
+            await self.check_text(all_cells=True)
 
-    async def change(self, text: str, all_cells: bool = False) -> None:
+    async def change_text(self, text: str, all_cells: bool = False) -> None:
         """Another text."""
-        if self.kept.change(text):
-            self.studio.kept.pop("robot notes", None)
-            await self.check(all_cells)
+        if self.document.change_text(text):
+            self.studio.state.pop("robot notes", None)
+            await self.check_text(all_cells)
 
-    async def _typed(self, event: Any) -> None:
+    async def _apply_typed(self, event: Any) -> None:
         text = str(event.value)
-        if self.studio.read_only or not self.kept.change(text, typing=True):
+        if self.studio.is_read_only or not self.document.change_text(text, typing=True):
             return
         await asyncio.sleep(_PAUSE)
-        if self.kept.text == text:
-            await self.check()
+        if self.document.text == text:
+            await self.check_text()
 
-    async def _cell(self, row: int, column: int, text: str) -> None:
-        await self.change(with_cell(self.kept.text, row, column, text))
+    async def _edit_cell(self, row: int, column: int, text: str) -> None:
+        await self.change_text(replace_cell(self.document.text, row, column, text))
 
-    async def _block(self, row: int, column: int, text: str) -> None:
-        changed = self.kept.text
+    async def _paste_block(self, row: int, column: int, text: str) -> None:
+        changed = self.document.text
         try:
-            headed = pasted_table(text)
+            headed = parse_pasted_table(text)
         except ModelerError:
             headed = None
-        if headed is not None and headed.headed:
-            await self.take(with_pasted(changed, headed), headed.notes)
+        if headed is not None and headed.has_headings:
+            await self.take_robot(insert_pasted_table(changed, headed), headed.notes)
             return
-        for k, cells in enumerate(pasted_cells(text)):
-            table = table_text(changed)
+        for k, cells in enumerate(parse_pasted_cells(text)):
+            table = find_table_text(changed)
             if table is not None and row + k >= len(table.rows):
-                changed = with_row(changed, len(table.rows) - 1, _new_row(table, changed))
+                changed = insert_row(changed, len(table.rows) - 1, _build_row(table, changed))
             for i, cell in enumerate(cells):
                 if table is not None and column + i < len(table.columns):
-                    changed = with_cell(changed, row + k, column + i, cell)
-        await self.change(changed, all_cells=True)
+                    changed = replace_cell(changed, row + k, column + i, cell)
+        await self.change_text(changed, all_cells=True)
 
-    async def _row(self, row: int, what: str) -> None:
-        text, table = self.kept.text, table_text(self.kept.text)
+    async def _edit_row(self, row: int, what: str) -> None:
+        text, table = self.document.text, find_table_text(self.document.text)
         if table is not None and what == "add":
-            text = with_row(text, row, _new_row(table, text, row))
+            text = insert_row(text, row, _build_row(table, text, row))
         elif table is not None:
-            text = without_row(text, row)
-        await self.change(text, all_cells=True)
+            text = remove_row(text, row)
+        await self.change_text(text, all_cells=True)
 
-    async def _letter(self, row: int, column: int, text: str) -> None:
+    async def _edit_symbol(self, row: int, column: int, text: str) -> None:
         if self.look is not None and column == 1 and row < len(self.look.symbols):
-            await self.change(with_symbol(self.kept.text, self.look.symbols[row][0], text))
+            await self.change_text(
+                replace_symbol(self.document.text, self.look.symbols[row][0], text)
+            )
 
-    async def _limit(self, row: int, column: int, text: str) -> None:
+    async def _edit_limit(self, row: int, column: int, text: str) -> None:
         if self.look is None or not 0 < column < len(_LIMITS) or row >= len(self.look.joints):
             return
         joint = self.look.joints[row]
@@ -231,89 +248,101 @@ class _RobotEditor:
         cells[column - 1] = text.strip()
         if all(cells) or not any(cells):
             del self.limits[joint.name]
-            await self.change(with_limits(self.kept.text, joint.name, cells))
+            await self.change_text(replace_limits(self.document.text, joint.name, cells))
         else:
-            self._tell(f"[limits], joint {joint.name}: write all four, or none")
+            self._show_error(f"[limits], joint {joint.name}: write all four, or none")
 
-    async def _each(self, edit: Any, row: int, column: int, text: str) -> None:
+    async def _paste_cells(self, edit: Any, row: int, column: int, text: str) -> None:
         """A block from the clipboard, cell by cell."""
-        for k, cells in enumerate(pasted_cells(text), row):
+        for k, cells in enumerate(parse_pasted_cells(text), row):
             for i, cell in enumerate(cells, column):
                 await edit(k, i, cell)
 
-    async def _effect(self, effect: str, joint: str, wanted: bool) -> None:
+    async def _edit_effect(self, effect: str, joint: str, is_wanted: bool) -> None:
         everyone = () if self.look is None else self.look.everyone
         try:
-            await self.change(with_effect_on(self.kept.text, effect, joint, wanted, everyone))
+            await self.change_text(
+                set_joint_effect(self.document.text, effect, joint, is_wanted, everyone)
+            )
         except ModelerError as error:
-            self._tell(str(error))
+            self._show_error(str(error))
 
     # What the edits make.
 
-    async def check(self, all_cells: bool = False) -> None:
+    async def check_text(self, all_cells: bool = False) -> None:
         """Looks at the text: a new picture and a robot file, or what is wrong and where."""
-        text = self.kept.text
+        text = self.document.text
         try:
             kind = f"robot {id(self)}"
-            look: RobotLook | None = await self.studio.view("robot_look", text, kind=kind)
-            if look is None or text != self.kept.text:
+            look: RobotPreview | None = await self.studio.ask_viewer("robot_look", text, kind=kind)
+            if look is None or text != self.document.text:
                 return  # a newer one is looked at
-            if not self.studio.read_only:
-                keep(self.studio.folder, text, not look.error)
+            if not self.studio.is_read_only:
+                save_text(self.studio.folder, text, not look.error)
                 if not look.error and not self.studio.project.robot:
-                    self.studio.change(robot=ROBOT)
-            await self._show(look, all_cells)
+                    self.studio.change_project(robot=ROBOT)
+            await self._show_preview(look, all_cells)
         except ModelerError as error:
-            self._tell(str(error))
+            self._show_error(str(error))
 
-    async def _show(self, look: RobotLook, all_cells: bool) -> None:
-        if self.editor.value != self.kept.text:
-            self.editor.set_value(self.kept.text)
+    async def _show_preview(self, look: RobotPreview, all_cells: bool) -> None:
+        if self.editor.value != self.document.text:
+            self.editor.set_value(self.document.text)
         before = self.look
         if not look.error:
             self.look = look
-        self._tell(look.error)
+        self._show_error(look.error)
         self._show_cells(look, all_cells)
-        self._show_named(self.look or look, look, all_cells)
+        self._show_named_tables(self.look or look, look, all_cells)
         if look.content is None:
             if self.frame is None and (self.studio.folder / ROBOT).exists():
-                await self._picture(self.studio.text(ROBOT))  # the last one that was right
+                await self._draw_picture(
+                    self.studio.read_text(ROBOT)
+                )  # the last one that was right
             return
         self.title.text = look.name
-        notes = (*self.studio.kept.get("robot notes", ()), *look.notes)
+        notes = (*self.studio.state.get("robot notes", ()), *look.notes)
         self.notes.clear()
         with self.notes:
             for note in notes:
                 ui.label(note)
         if self.frame is None:
-            await self._picture(self.kept.text)
+            await self._draw_picture(self.document.text)
         else:
-            self.frame.replace(look.content)
+            self.frame.replace_robot(look.content)
         if all_cells or before is None or before.joints != look.joints:
             self._show_effects(look)
-        self._stale()
+        self._update_stale()
 
-    async def _picture(self, text: str) -> None:
-        html = await self.studio.view("robot_page", text)
+    async def _draw_picture(self, text: str) -> None:
+        html = await self.studio.ask_viewer("robot_page", text)
         with self.beside:
             self.frame = RobotFrame(self.studio, html, "calc(100vh - 190px)")
-        self.frame.on_joint(self._clicked)
+        self.frame.connect_joint(self._select_row)
 
-    def _clicked(self, joint: str) -> None:
+    def _select_row(self, joint: str) -> None:
         """A joint of the picture: its row."""
         self.tabs.value = "Table"
         words = ", ".join(map(json.dumps, (self.cells.html_id, joint)))
         self.cells.client.run_javascript(f"focusRow({words})")
 
-    def _show_cells(self, look: RobotLook, all_cells: bool) -> None:
+    def _show_cells(self, look: RobotPreview, all_cells: bool) -> None:
         if look.table is None:
             return
         names = look.names or (self.look.names if self.look else ())
-        self._script(self.cells, columns=look.table.columns, rows=look.table.rows, all=all_cells,
-                     wrong=look.wrong, line=look.error, reading=self.studio.read_only,
-                     names=names, fixed=0)  # fmt: skip
+        self._run_script(
+            self.cells,
+            columns=look.table.columns,
+            rows=look.table.rows,
+            all=all_cells,
+            wrong=look.wrong_cell,
+            line=look.error,
+            reading=self.studio.is_read_only,
+            names=names,
+            fixed=0,
+        )
 
-    def _show_named(self, good: RobotLook, look: RobotLook, all_cells: bool) -> None:
+    def _show_named_tables(self, good: RobotPreview, look: RobotPreview, all_cells: bool) -> None:
         """The tables of limits and letters; `good` is the last text in which nothing was wrong."""
         joints = [joint.name for joint in good.joints]
         limits = [(f"{j.name} [{j.unit}]", *self.limits.get(j.name, j.limits)) for j in good.joints]
@@ -326,11 +355,11 @@ class _RobotEditor:
             wrong = None
             if look.named[:1] == (table,) and look.named[1] in keys:
                 wrong = (keys.index(look.named[1]), -1)
-            self._script(element, columns=columns, rows=rows, all=all_cells, wrong=wrong,
-                         line=look.error, reading=self.studio.read_only, names=names,
+            self._run_script(element, columns=columns, rows=rows, all=all_cells, wrong=wrong,
+                         line=look.error, reading=self.studio.is_read_only, names=names,
                          fixed=1)  # fmt: skip
 
-    def _show_effects(self, look: RobotLook) -> None:
+    def _show_effects(self, look: RobotPreview) -> None:
         self.effects.clear()
         with self.effects, ui.element("table").classes("studio-grid"):
             with ui.element("thead"), ui.element("tr"):
@@ -345,79 +374,89 @@ class _RobotEditor:
                             ui.label(joint.name if joint.actuated else f"{joint.name} (passive)")
                         for effect in BASIC_EFFECTS:
                             with ui.element("td"):
-                                self._box(effect, joint.name, effect in joint.effects)
+                                self._add_effect_box(effect, joint.name, effect in joint.effects)
 
-    def _box(self, effect: str, joint: str, has: bool) -> None:
+    def _add_effect_box(self, effect: str, joint: str, has: bool) -> None:
         box = ui.checkbox(value=has).props("dense")
         box.props["aria-label"] = f"{effect} of joint {joint}"
-        box.set_enabled(not self.studio.read_only)
-        box.on_value_change(lambda event: self._effect(effect, joint, bool(event.value)))
+        box.set_enabled(not self.studio.is_read_only)
+        box.on_value_change(lambda event: self._edit_effect(effect, joint, bool(event.value)))
 
-    def _script(self, element: ui.element, **content: Any) -> None:
+    def _run_script(self, element: ui.element, **content: Any) -> None:
         words = json.dumps(content, separators=(",", ":"))
         call = f"showCells({json.dumps(element.html_id)}, {words})"
         element.client.run_javascript(call)
 
-    def _tell(self, line: str) -> None:
+    def _show_error(self, line: str) -> None:
         self.error.text = line
 
     # Base parameters.
 
-    async def _derived(self) -> None:
+    async def _draw_derivation(self) -> None:
         """The button, and what the last derivation found."""
         studio = self.studio
         with ui.column().classes("w-full"):
-            run_button(studio, "Derive", lambda: Task("derive"))
+            add_run_button(studio, "Derive", lambda: Task("derive"))
             self.stale = ui.label("of an earlier table: derive again").classes("studio-doubtful")
             self.stale.set_visibility(False)
-            self.step_shown = _last(studio)
+            self.step_shown = _find_last_derivation(studio)
             if self.step_shown is None:
                 return
             step = self.step_shown
             try:
-                html, told = await studio.view("relations_of", step.result, step.robot)
+                html, facts = await studio.ask_viewer(
+                    "relations_of", step.result_file, step.robot_copy
+                )
             except ModelerError as error:
                 ui.label(str(error)).classes("studio-error")
                 return
-            ui.label(_counted(told))
-            _told("Point at one, or go there by Tab: its links light up, and every term is told.")
+            ui.label(_describe_counts(facts))
+            _draw_hint(
+                "Point at one, or go there by Tab: its links light up, and every term is told."
+            )
             ui.html(html, sanitize=False).classes("w-full")
 
-    def _stale(self) -> None:
+    def _update_stale(self) -> None:
         step = self.step_shown
-        there = step is not None and (self.studio.folder / step.robot).exists()
-        old = there and step is not None and self.studio.text(step.robot) != self.kept.text
+        has_copy = step is not None and (self.studio.folder / step.robot_copy).exists()
+        old = (
+            has_copy
+            and step is not None
+            and self.studio.read_text(step.robot_copy) != self.document.text
+        )
         self.stale.set_visibility(old)
 
 
-def _told(text: str) -> None:
+def _draw_hint(text: str) -> None:
     """What one may do here."""
     ui.label(text).classes("studio-soft studio-small")
 
 
-def _last(studio: Studio) -> Step | None:
-    own = [step for step in studio.project.steps if step.verb == "derive"]
-    return own[-1] if own else None
+def _find_last_derivation(studio: Studio) -> Step | None:
+    derivations = [step for step in studio.project.steps if step.verb == "derive"]
+    return derivations[-1] if derivations else None
 
 
-def _counted(told: dict[str, Any]) -> str:
+def _describe_counts(facts: dict[str, Any]) -> str:
     counts = ", ".join(
-        f"{count} {kind.replace('_', ' ')}" for kind, count in told["counts"].items() if count
+        f"{count} {kind.replace('_', ' ')}" for kind, count in facts["counts"].items() if count
     )
-    kept, dropped = told["rank_gap"]
-    gap = f"the smallest singular value kept is {kept:.3g}" if kept else ""
+    smallest_retained, dropped = facts["rank_gap"]
+    gap = (
+        f"the smallest singular value kept is {smallest_retained:.3g}" if smallest_retained else ""
+    )
     gap += f", the largest dropped {dropped:.1e}" if dropped else ""
-    return f"{told['rank']} base parameters ({counts}); proof: {told['proof']}; {gap}"
+    return f"{facts['rank']} base parameters ({counts}); proof: {facts['proof']}; {gap}"
 
 
-def _new_row(table: TableText, text: str, after: int | None = None) -> list[str]:
+def _build_row(table: TableText, text: str, after: int | None = None) -> list[str]:
     """A revolute row on the row that it stands below."""
     columns, rows = table.columns, table.rows
     place = columns.index("j") if "j" in columns else 0
-    taken = [row[place] for row in rows if place < len(row)]
-    name = next(str(k) for k in range(1, len(rows) + 2) if str(k) not in taken)
-    above = taken[len(rows) - 1 if after is None else after] if taken else "0"
+    used_names = [row[place] for row in rows if place < len(row)]
+    name = next(str(k) for k in range(1, len(rows) + 2) if str(k) not in used_names)
+    above = used_names[len(rows) - 1 if after is None else after] if used_names else "0"
     known = {"j": name, "parent": above, "mu": "1", "theta": f"q{name}"}
-    if convention_of(text) == "khalil":
+    if read_table_convention(text) == "khalil":
         known["a"] = above
     return [known.get(column, "0") for column in columns]

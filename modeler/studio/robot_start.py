@@ -6,12 +6,12 @@ from pathlib import Path
 
 from nicegui import background_tasks, ui
 
-from modeler.core.builtin import CONVENTIONS, TEMPLATES, builtin_names, builtin_text
+from modeler.core.builtin import CONVENTIONS, TEMPLATES, list_builtin_robots, read_builtin_robot
 from modeler.core.errors import ModelerError
-from modeler.robot import pasted_robot, pasted_table, with_pasted
-from modeler.studio.chooser import choose
-from modeler.studio.dropped import drop_zone
-from modeler.studio.elements import part
+from modeler.robot import build_pasted_robot, insert_pasted_table, parse_pasted_table
+from modeler.studio.chooser import choose_files
+from modeler.studio.dropped import add_drop_zone
+from modeler.studio.elements import add_card
 from modeler.studio.studio import Studio
 from modeler.studio.tasks import ROBOT, Task
 
@@ -23,26 +23,26 @@ _AS_HEADED = "as its headings say"
 _EXAMPLE = "i\t\u03b1 [deg]\ta [mm]\td [mm]\t\u03b8\n1\t0\t0\t333\tq1\n2\t-90\t0\t0\tq2"
 
 
-def start(studio: Studio, before: str, taken: Taken) -> None:
+def draw_choices(studio: Studio, before: str, on_taken: Taken) -> None:
     """The ways to a robot.
 
     Args:
         studio: the window.
         before: text of the robot that there is; "": none.
-        taken: is called with the new one.
+        on_taken: is called with the new one.
     """
     with ui.element("div").classes("studio-ways"):
-        with part("Paste a table"):
-            _pasted(studio, before, taken)
-        with part("Begin with a template"):
-            _template(studio, taken)
-        with part("Open a file"):
-            _file(studio, taken)
-        with part("Take a built-in robot"):
-            _builtin(taken)
+        with add_card("Paste a table"):
+            _draw_paste(studio, before, on_taken)
+        with add_card("Begin with a template"):
+            _draw_template(studio, on_taken)
+        with add_card("Open a file"):
+            _draw_file(studio, on_taken)
+        with add_card("Take a built-in robot"):
+            _draw_builtin(on_taken)
 
 
-def _pasted(studio: Studio, before: str, taken: Taken) -> None:
+def _draw_paste(studio: Studio, before: str, on_taken: Taken) -> None:
     area = ui.textarea(placeholder=_EXAMPLE).props("outlined dense rows=5 aria-label='table'")
     area.classes("w-full")
     ui.label(
@@ -53,29 +53,33 @@ def _pasted(studio: Studio, before: str, taken: Taken) -> None:
             [_AS_HEADED, *CONVENTIONS], value=_AS_HEADED, label="whose table"
         ).classes("w-48")
 
-        async def take() -> None:
+        async def take_table() -> None:
             try:
-                table = pasted_table(
+                table = parse_pasted_table(
                     str(area.value or ""), "" if whose.value == _AS_HEADED else str(whose.value)
                 )
-                if not table.headed and whose.value == _AS_HEADED:
+                if not table.has_headings and whose.value == _AS_HEADED:
                     raise ModelerError(
                         "the table has no headings, and books order their columns differently: "
                         "choose whose table it is, or paste the headings too"
                     )
-                text = with_pasted(before, table) if before else pasted_robot(table, "robot")
+                text = (
+                    insert_pasted_table(before, table)
+                    if before
+                    else build_pasted_robot(table, "robot")
+                )
             except ModelerError as error:
                 studio.show_error(str(error))
                 return
             notes = (f"taken as a table of convention {table.convention}", *table.notes)
             if table.symbols:
                 notes += (f"written into [symbols]: {', '.join(table.symbols)}: give their values",)
-            await taken(text, notes)
+            await on_taken(text, notes)
 
-        ui.button("Take this table", on_click=take).props("no-caps unelevated")
+        ui.button("Take this table", on_click=take_table).props("no-caps unelevated")
 
 
-def _template(studio: Studio, taken: Taken) -> None:
+def _draw_template(studio: Studio, on_taken: Taken) -> None:
     with ui.row().classes("items-center"):
         kind = ui.select(list(TEMPLATES), value=TEMPLATES[0], label="kind").classes("w-40")
         joints = ui.input("joints", value="RRR").classes("w-32")
@@ -83,53 +87,55 @@ def _template(studio: Studio, taken: Taken) -> None:
         whose = ui.select(list(CONVENTIONS), value=CONVENTIONS[0], label="whose table")
         whose.classes("w-36").bind_visibility_from(kind, "value", value="serial")
 
-    async def begin() -> None:
+    async def create_robot() -> None:
         task = Task("new", template=str(kind.value))
         if kind.value == "serial":
             task = dataclasses.replace(task, joints=str(joints.value), convention=str(whose.value))
-        await _made(studio, task, taken)
+        await _take_command_robot(studio, task, on_taken)
 
-    ui.button("Begin", on_click=begin).props("no-caps unelevated")
+    ui.button("Begin", on_click=create_robot).props("no-caps unelevated")
 
 
-def _file(studio: Studio, taken: Taken) -> None:
-    async def came(files: list[str]) -> None:
+def _draw_file(studio: Studio, on_taken: Taken) -> None:
+    async def open_file(files: list[str]) -> None:
         file = files[0]
         if Path(file).suffix.lower() == ".toml":
             try:
-                await taken(studio.text(file), ())
+                await on_taken(studio.read_text(file), ())
             except ModelerError as error:
                 studio.show_error(str(error))
             return
-        await _made(studio, Task("convert", file=file), taken)
+        await _take_command_robot(studio, Task("convert", file=file), on_taken)
 
     ui.label("URDF, MJCF, SYMORO's .par, or a robot file").classes("studio-soft")
-    zone = drop_zone(
+    zone = add_drop_zone(
         "originals", "drop it here, or choose it",
-        lambda files: background_tasks.create(came(files)), studio.show_error,
+        lambda files: background_tasks.create(open_file(files)), studio.show_error,
     )  # fmt: skip
     zone.props(remove="multiple").classes("w-full")
     ui.button(
         "Choose where it lies", icon="folder_open",
-        on_click=lambda: choose(
-            studio, _FILES, lambda files: background_tasks.create(came(files))
+        on_click=lambda: choose_files(
+            studio, _FILES, lambda files: background_tasks.create(open_file(files))
         ),
     ).props("no-caps outline")  # fmt: skip
 
 
-def _builtin(taken: Taken) -> None:
-    async def take() -> None:
-        await taken(builtin_text(str(name.value)), ())
+def _draw_builtin(on_taken: Taken) -> None:
+    async def take_builtin() -> None:
+        await on_taken(read_builtin_robot(str(name.value)), ())
 
     with ui.row().classes("items-center"):
-        name = ui.select(list(builtin_names()), value="puma560", label="robot", with_input=True)
+        name = ui.select(
+            list(list_builtin_robots()), value="puma560", label="robot", with_input=True
+        )
         name.classes("w-56")
-        ui.button("Take it", on_click=take).props("no-caps unelevated")
+        ui.button("Take it", on_click=take_builtin).props("no-caps unelevated")
 
 
-async def _made(studio: Studio, task: Task, taken: Taken) -> None:
+async def _take_command_robot(studio: Studio, task: Task, on_taken: Taken) -> None:
     """A robot file that a command writes."""
     room = studio.room
     if await studio.run(task, keep=False) is not None and room is not None:
         with room:
-            await taken(studio.text(ROBOT), ())
+            await on_taken(studio.read_text(ROBOT), ())

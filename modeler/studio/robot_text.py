@@ -29,7 +29,7 @@ class RobotText:
         self._future: list[str] = []
         self._typed = 0.0
 
-    def change(self, text: str, typing: bool = False) -> bool:
+    def change_text(self, text: str, typing: bool = False) -> bool:
         """Makes it another text, one step further; of typing a step a second.
 
         Returns:
@@ -45,18 +45,18 @@ class RobotText:
         self.text = text
         return True
 
-    def step(self, back: bool) -> bool:
+    def move_in_history(self, back: bool) -> bool:
         """One step back, or forth again; False where there is none."""
-        way, other = (self._past, self._future) if back else (self._future, self._past)
-        if not way:
+        source, other = (self._past, self._future) if back else (self._future, self._past)
+        if not source:
             return False
         other.append(self.text)
-        self.text = way.pop()
+        self.text = source.pop()
         self._typed = 0.0
         return True
 
 
-def keep(folder: Path, text: str, right: bool) -> None:
+def save_text(folder: Path, text: str, right: bool) -> None:
     """Writes the text where it belongs.
 
     Args:

@@ -17,16 +17,16 @@ from modeler.core.figure import Curve, Panel, Picture
 from modeler.core.files import read_file
 from modeler.core.json import parse_json
 from modeler.core.style import COLORS, GREY, Style
-from modeler.report import page_content, relations_html, robot_html, show
+from modeler.report import build_page_content, render_relations, render_robot_page, show
 from modeler.robot import (
     Robot,
     TableText,
-    cell_of,
+    find_table_text,
+    locate_error_cell,
+    parse_robot_text,
+    read_limit_texts,
     read_robot,
-    robot_from_text,
-    table_text,
-    written_limits,
-    written_symbols,
+    read_symbol_texts,
 )
 
 BASIC_EFFECTS = ("rotor_inertia", "viscous", "coulomb", "offset")
@@ -53,7 +53,7 @@ class JointFacts:
 
 
 @dataclass(frozen=True)
-class RobotLook:
+class RobotPreview:
     """A text, looked at.
 
     Attributes:
@@ -72,7 +72,7 @@ class RobotLook:
     """
 
     error: str
-    wrong: tuple[int, int] | None
+    wrong_cell: tuple[int, int] | None
     table: TableText | None
     named: tuple[str, ...] = ()
     names: tuple[tuple[str, ...], ...] = ()
@@ -84,29 +84,37 @@ class RobotLook:
     content: dict[str, Any] | None = field(default=None, repr=False)
 
 
-def robot_look(text: str, where: str = "robot.toml") -> RobotLook:
+def robot_look(text: str, where: str = "robot.toml") -> RobotPreview:
     """The picture of a robot's text, or what is wrong and in which cell."""
-    table = table_text(text)
+    table = find_table_text(text)
     try:
-        robot = robot_from_text(text, where)
+        robot = parse_robot_text(text, where)
         shown = show(robot)
-        content = page_content(shown.skeleton, shown.posture)
+        content = build_page_content(shown.skeleton, shown.posture)
     except ModelerError as error:
-        named = re.search(r": \[(symbols|limits)\], \"?(\w+)", str(error))
-        found = named.groups() if named else ()
-        return RobotLook(str(error), _wrong(str(error), text, table), table, found)
+        match = re.search(r": \[(symbols|limits)\], \"?(\w+)", str(error))
+        named_entry = match.groups() if match else ()
+        return RobotPreview(str(error), _locate_error(str(error), text, table), table, named_entry)
     rows = [joint.name for joint in robot.joints]
-    return RobotLook(
-        "", None, table, (), _names(table, rows), robot.name, robot.readings, _joints(robot),
-        tuple(joint.name for joint in robot.moving if joint.actuated),
-        tuple(written_symbols(text).items()), content,
-    )  # fmt: skip
+    return RobotPreview(
+        "",
+        None,
+        table,
+        (),
+        _find_row_names(table, rows),
+        robot.name,
+        robot.readings,
+        _describe_joints(robot),
+        tuple(joint.name for joint in robot.moving_joints if joint.actuated),
+        tuple(read_symbol_texts(text).items()),
+        content,
+    )
 
 
 def robot_page(text: str) -> str:
     """The page of `modeler show`."""
-    shown = show(robot_from_text(text, "robot.toml"))
-    return robot_html(shown.skeleton, shown.posture)
+    shown = show(parse_robot_text(text, "robot.toml"))
+    return render_robot_page(shown.skeleton, shown.posture)
 
 
 def relations_of(result: str, place: str) -> tuple[str, dict[str, Any]]:
@@ -116,16 +124,18 @@ def relations_of(result: str, place: str) -> tuple[str, dict[str, Any]]:
         result: file of the result.
         place: of the robot file that was derived.
     """
-    found = parse_json(read_file(Path(result)))
-    told = {key: found[key] for key in ("rank", "counts", "proof", "rank_gap", "unidentifiable")}
-    return relations_html(found, read_robot(place)), told
+    derivation = parse_json(read_file(Path(result)))
+    facts = {
+        key: derivation[key] for key in ("rank", "counts", "proof", "rank_gap", "unidentifiable")
+    }
+    return render_relations(derivation, read_robot(place)), facts
 
 
 # Motions that a robot is to drive.
 
 
 @dataclass(frozen=True)
-class MotionLook:
+class MotionPreview:
     """A motion against its limits.
 
     Attributes:
@@ -139,14 +149,14 @@ class MotionLook:
     picture: Picture
 
 
-def motion_look(place: str, result: str) -> MotionLook:
+def motion_look(place: str, result: str) -> MotionPreview:
     """A motion that `modeler excite` wrote, and its limits.
 
     Args:
         place: file of the motion.
         result: file of the result.
     """
-    joints, motion = _motion(place, result)
+    joints, motion = _read_motion(place, result)
     panels = []
     for title, of, label in (
         ("position", motion.q, "of its range"),
@@ -154,7 +164,12 @@ def motion_look(place: str, result: str) -> MotionLook:
         ("acceleration", motion.qdd, "of the limit"),
     ):
         curves = [
-            Curve(f"joint {name}", motion.time, _share(title, of[:, j], limits), _style(j))
+            Curve(
+                f"joint {name}",
+                motion.time,
+                _normalise_to_limits(title, of[:, j], limits),
+                _choose_style(j),
+            )
             for j, (name, limits) in enumerate(joints.items())
         ]
         ends = motion.time[[0, -1]]
@@ -165,32 +180,32 @@ def motion_look(place: str, result: str) -> MotionLook:
     picture = Picture("motion", "", "Shares of the limits of each joint; the dashed lines are the "
                       "limits.", tuple(panels), 560, shared_time=True)  # fmt: skip
     q = {name: motion.q[:, j] for j, name in enumerate(joints)}
-    return MotionLook(motion.time, q, picture)
+    return MotionPreview(motion.time, q, picture)
 
 
 def motion_parquet(place: str, result: str) -> bytes:
     """A motion as a Parquet file, for what does not take CSV."""
-    joints, motion = _motion(place, result)
+    joints, motion = _read_motion(place, result)
     columns = {"time": motion.time}
     for name, of in (("q", motion.q), ("qd", motion.qd), ("qdd", motion.qdd)):
         columns |= {f"{name}{joint}": of[:, j] for j, joint in enumerate(joints)}
-    return excitation.motion_table(columns)
+    return excitation.encode_parquet(columns)
 
 
 _SIDES = np.array([1.0, 1.0, np.nan, -1.0, -1.0])
 _EDGE = Style(GREY, 1.0, dash=True)
 
 
-def _style(number: int) -> Style:
+def _choose_style(number: int) -> Style:
     return Style(COLORS[number % len(COLORS)], dash=number >= len(COLORS))
 
 
-def _motion(place: str, result: str) -> tuple[dict[str, Any], simulation.Reference]:
+def _read_motion(place: str, result: str) -> tuple[dict[str, Any], simulation.Reference]:
     joints = parse_json(read_file(Path(result)))["joints"]
     return joints, simulation.read_motion(place, list(joints))
 
 
-def _share(what: str, values: np.ndarray, limits: dict[str, Any]) -> np.ndarray:
+def _normalise_to_limits(what: str, values: np.ndarray, limits: dict[str, Any]) -> np.ndarray:
     """-1 to 1 within the limits."""
     if what != "position":
         return values / float(limits[what]["limit"])
@@ -198,28 +213,28 @@ def _share(what: str, values: np.ndarray, limits: dict[str, Any]) -> np.ndarray:
     return (2.0 * values - lower - upper) / (upper - lower)
 
 
-def _wrong(error: str, text: str, table: TableText | None) -> tuple[int, int] | None:
-    found = cell_of(error, text)
-    if found is None or table is None:
+def _locate_error(error: str, text: str, table: TableText | None) -> tuple[int, int] | None:
+    cell = locate_error_cell(error, text)
+    if cell is None or table is None:
         return None
-    row, column = found
+    row, column = cell
     return row, table.columns.index(column) if column in table.columns else -1
 
 
-def _names(table: TableText | None, rows: list[str]) -> tuple[tuple[str, ...], ...]:
+def _find_row_names(table: TableText | None, rows: list[str]) -> tuple[tuple[str, ...], ...]:
     """Of each written row the rows that it stands for: one for each leg of `2{i}`."""
     if table is None or "j" not in table.columns:
         return ()
-    place, found = table.columns.index("j"), []
+    place, row_names = table.columns.index("j"), []
     for cells in table.rows:
         pattern = re.escape(cells[place] if place < len(cells) else "").replace(r"\{i\}", r"\w+")
-        found.append(tuple(name for name in rows if re.fullmatch(pattern, name)))
-    return tuple(found)
+        row_names.append(tuple(name for name in rows if re.fullmatch(pattern, name)))
+    return tuple(row_names)
 
 
-def _joints(robot: Robot) -> tuple[JointFacts, ...]:
-    limits = written_limits(robot.text)
-    shown = [joint for joint in robot.moving if joint.name not in robot.platform]
+def _describe_joints(robot: Robot) -> tuple[JointFacts, ...]:
+    limits = read_limit_texts(robot.text)
+    shown = [joint for joint in robot.moving_joints if joint.name not in robot.platform]
     return tuple(
         JointFacts(
             joint.name, joint.actuated, joint.unit,

@@ -19,7 +19,7 @@ from collections.abc import AsyncIterator, Callable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
-from modeler.core.errors import on_one_line
+from modeler.core.errors import flatten_message
 
 _PROGRESS = re.compile(r"progress (-|[\d.]+) (.*)")  # as `--progress lines` writes it
 _TOLD = re.compile(r"modeler(?: [\w-]+)?: (.*)")  # a note, an error, a wrong usage
@@ -48,12 +48,12 @@ class Outcome:
     seconds: float
 
     @property
-    def cancelled(self) -> bool:
+    def is_cancelled(self) -> bool:
         """Whether the user ended it."""
         return self.status == INTERRUPTED
 
 
-class Running:
+class RunningCommand:
     """A command that runs from now on, in the loop of events that runs here.
 
     Args:
@@ -74,29 +74,29 @@ class Running:
         self.doing = "starting"
         self.lines: deque[str] = deque(maxlen=_MOST_LINES)
         self.started = time.monotonic()
-        self._told: deque[str] = deque(maxlen=_MOST_LINES)
+        self._stderr_lines: deque[str] = deque(maxlen=_MOST_LINES)
         self._cancelled = False
         self._process: asyncio.subprocess.Process | None = None
         self._changed = asyncio.Event()
-        self._end = asyncio.create_task(self._carried_out())
+        self._end = asyncio.create_task(self._execute())
 
     @property
     def seconds(self) -> float:
         """Since it began."""
         return time.monotonic() - self.started
 
-    async def wait(self, told: Callable[[], None] = lambda: None) -> Outcome:
+    async def wait(self, on_progress: Callable[[], None] = lambda: None) -> Outcome:
         """Until it ends; that nobody waits any more does not end it.
 
         Args:
-            told: is called when it is further than before, and once in a second.
+            on_progress: is called when it is further than before, and once in a second.
         """
         while not self._end.done():
             ticking = asyncio.create_task(self._changed.wait())
             await asyncio.wait([self._end, ticking], timeout=1.0, return_when="FIRST_COMPLETED")
             ticking.cancel()
             self._changed.clear()
-            told()
+            on_progress()
         return self._end.result()
 
     def cancel(self) -> None:
@@ -105,19 +105,19 @@ class Running:
             self._cancelled = True
             self.doing = "cancelling"
             self._changed.set()
-            self._signal(signal.SIGINT)
-            self._killing = asyncio.create_task(self._killed_later())
+            self._send_signal(signal.SIGINT)
+            self._killing = asyncio.create_task(self._kill_later())
 
     def kill(self) -> None:
         """At once."""
-        self._signal(getattr(signal, "SIGKILL", signal.SIGTERM))
+        self._send_signal(getattr(signal, "SIGKILL", signal.SIGTERM))
 
-    async def _killed_later(self) -> None:
+    async def _kill_later(self) -> None:
         await asyncio.wait([self._end], timeout=_PATIENCE)
         if not self._end.done():
             self.kill()
 
-    def _signal(self, number: int) -> None:
+    def _send_signal(self, number: int) -> None:
         if self._process is None or self._process.returncode is not None:
             return
         with contextlib.suppress(ProcessLookupError):
@@ -128,23 +128,25 @@ class Running:
             else:
                 self._process.send_signal(number)
 
-    async def _carried_out(self) -> Outcome:
+    async def _execute(self) -> Outcome:
         try:
-            status = await self._followed()
+            status = await self._follow_process()
         except (OSError, ValueError) as error:  # ValueError: a NUL in a word
-            return self._ended(1, f"{self.title}: cannot be started ({error}); check {self.folder}")
+            return self._finish(
+                1, f"{self.title}: cannot be started ({error}); check {self.folder}"
+            )
         except asyncio.CancelledError:  # the studio ends
-            self._signal(signal.SIGINT)
+            self._send_signal(signal.SIGINT)
             if self._process is not None:
                 with contextlib.suppress(TimeoutError):
                     await asyncio.wait_for(self._process.wait(), _PATIENCE)
                 self.kill()
             raise
         if status and self._cancelled:
-            return self._ended(INTERRUPTED, f"{self.title}: cancelled")
-        return self._ended(status, "" if status == 0 else self._error(status))
+            return self._finish(INTERRUPTED, f"{self.title}: cancelled")
+        return self._finish(status, "" if status == 0 else self._describe_error(status))
 
-    async def _followed(self) -> int:
+    async def _follow_process(self) -> int:
         """Its status, when it has ended."""
         command, *rest = self.words
         self._process = process = await asyncio.create_subprocess_exec(
@@ -152,7 +154,7 @@ class Running:
             *(sys.executable, "-P", "-m", "modeler.cli.followed"),
             *(command, "--progress", "lines", *rest),
             cwd=self.folder,
-            env=_environment(),
+            env=_build_environment(),
             stdin=asyncio.subprocess.PIPE,
             stdout=asyncio.subprocess.PIPE,
             stderr=asyncio.subprocess.PIPE,
@@ -161,41 +163,41 @@ class Running:
         assert process.stdin and process.stdout and process.stderr
         if self._cancelled:
             self.kill()
-        await asyncio.gather(self._hear(process.stdout), self._heed(process.stderr))
+        await asyncio.gather(self._read_stdout(process.stdout), self._read_stderr(process.stderr))
         status = await process.wait()
         process.stdin.close()
         return status
 
-    def _ended(self, status: int, error: str) -> Outcome:
+    def _finish(self, status: int, error: str) -> Outcome:
         self.share, self.doing = 1.0, error or "done"
         return Outcome(status, error, tuple(self.lines), self.seconds)
 
-    async def _hear(self, stream: asyncio.StreamReader) -> None:
-        async for line in _lines(stream):
+    async def _read_stdout(self, stream: asyncio.StreamReader) -> None:
+        async for line in _read_lines(stream):
             self.lines.append(line)
 
-    async def _heed(self, stream: asyncio.StreamReader) -> None:
-        async for line in _lines(stream):
-            found = _PROGRESS.fullmatch(line)
-            if found is None:
-                self._told.append(line)
+    async def _read_stderr(self, stream: asyncio.StreamReader) -> None:
+        async for line in _read_lines(stream):
+            progress = _PROGRESS.fullmatch(line)
+            if progress is None:
+                self._stderr_lines.append(line)
             elif not self._cancelled:
-                self.share = None if found[1] == "-" else min(float(found[1]), 1.0)
-                self.doing = found[2]
+                self.share = None if progress[1] == "-" else min(float(progress[1]), 1.0)
+                self.doing = progress[2]
                 self._changed.set()
 
-    def _error(self, status: int) -> str:
+    def _describe_error(self, status: int) -> str:
         """The line that the command printed; where it printed none, what is known of its end."""
-        last = next((line for line in reversed(self._told) if line.strip()), "")
-        if found := _TOLD.fullmatch(last):
-            return found[1]
+        last = next((line for line in reversed(self._stderr_lines) if line.strip()), "")
+        if message := _TOLD.fullmatch(last):
+            return message[1]
         if status == -getattr(signal, "SIGKILL", 9):
             return f"{self.title}: the system ended it, as where memory runs out; take less of it"
         line = shlex.join(["modeler", *self.words, "--verbose"])
-        return on_one_line(f"{self.title}: ended with status {status} ({last}); run `{line}`")
+        return flatten_message(f"{self.title}: ended with status {status} ({last}); run `{line}`")
 
 
-async def _lines(stream: asyncio.StreamReader) -> AsyncIterator[str]:
+async def _read_lines(stream: asyncio.StreamReader) -> AsyncIterator[str]:
     """Of any length, the last one too where nothing ends it."""
     rest = b""
     while piece := await stream.read(_PIECE):
@@ -206,12 +208,12 @@ async def _lines(stream: asyncio.StreamReader) -> AsyncIterator[str]:
         yield rest.decode(errors="replace")
 
 
-def _environment() -> dict[str, str]:
+def _build_environment() -> dict[str, str]:
     """Ours, in which the child finds this very package, wherever it was imported from."""
     root = str(Path(__file__).resolve().parents[2])
-    found = dict(os.environ)
+    environment = dict(os.environ)
     # An empty place in this list would be the folder of the project, in spite of -P.
-    places = [place for place in found.get("PYTHONPATH", "").split(os.pathsep) if place]
+    places = [place for place in environment.get("PYTHONPATH", "").split(os.pathsep) if place]
     if root not in (sysconfig.get_path("purelib"), sysconfig.get_path("platlib")):
         places.insert(0, root)
-    return found | {"PYTHONPATH": os.pathsep.join(places)}
+    return environment | {"PYTHONPATH": os.pathsep.join(places)}

@@ -24,8 +24,8 @@ from modeler.studio import commands
 from modeler.studio.places import Roots
 from modeler.studio.project import FILE, FOLDERS, FOREIGN, Project, Workspace
 from modeler.studio.robot_text import DRAFT
-from modeler.studio.running import Running
-from modeler.studio.tasks import MAKING, ROBOT, Step, Task, bookkeeping
+from modeler.studio.running import RunningCommand
+from modeler.studio.tasks import MAKING, ROBOT, Step, Task, build_bookkeeping_words
 from modeler.studio.viewer import Viewer
 
 Screen = Callable[["Studio"], Awaitable[None]]
@@ -59,8 +59,8 @@ class Hub:
         self._roots = Roots((workspace.folder, *allowed))
         self._roots.check_links(workspace.folder, (FILE, ROBOT, DRAFT, *FOLDERS, "originals"))
         self.viewer = Viewer(workspace.folder, self._roots.folders)
-        self.running: Running | None = None
-        self.own: Callable[[], bool] = lambda: False
+        self.running: RunningCommand | None = None
+        self.acquire_folder: Callable[[], bool] = lambda: False
         self.gives_way = False
         self.last: tuple[str, ...] = ()
         self.studios: list[Studio] = []
@@ -77,37 +77,37 @@ class Hub:
         for studio in self.studios:
             studio.redraw()
 
-    def follow(self) -> None:
+    def follow_changes(self) -> None:
         """What another process has written since, where this one only reads."""
         before = self.project
         if not self.workspace.writable:
             with contextlib.suppress(ModelerError):  # edited by hand, and not done
-                self.workspace.reread()
+                self.workspace.reload_project()
         if self.project != before:
             self.refresh()
 
-    def give_to(self, studio: Studio) -> None:
+    def give_control(self, studio: Studio) -> None:
         """That window may change things, all others only read.
 
         Raises:
             ModelerError: another process has the folder open.
         """
-        if not self.workspace.writable and not self.own():
+        if not self.workspace.writable and not self.acquire_folder():
             raise ModelerError(
                 f"{self.workspace.folder}: another studio has it open; end that with Ctrl-C where "
                 "it was started, then take over"
             )
         if not self.workspace.writable:
             self.workspace.writable = True
-            self.workspace.reread()
+            self.workspace.reload_project()
         self.studios.remove(studio)
         self.studios.insert(0, studio)
         self.refresh()
 
-    def tell(self) -> None:
+    def notify_windows(self) -> None:
         """Every window shows how far the command is."""
         for studio in self.studios:
-            studio.told()
+            studio.notify_listeners()
 
     async def run(
         self, task: Task, current: bool = True, keep: bool = True, aside: bool = False
@@ -123,59 +123,63 @@ class Hub:
         Raises:
             ModelerError: it failed or was cancelled; its line. Nothing is kept then.
         """
-        await self._way()
+        await self._cancel_background()
         if self.running is not None:
             raise ModelerError(
                 f"{task.title}: {self.running.title} runs still; wait for it, or cancel it"
             )
-        if not self.workspace.may_change:
+        if not self.workspace.can_change:
             self.workspace.save(self.project)  # says why not
-        step = self.project.next_step(task)
-        words = commands.words_of(self.project, step)
+        step = self.project.make_next_step(task)
+        words = commands.build_command_words(self.project, step)
         self._roots.check_words(self.workspace.folder, words)
-        self._prepare(step)
+        self._prepare_step(step)
         self.gives_way, self.last = aside, words
-        self.running = Running([*words, *bookkeeping(step)], self.workspace.folder, task.title)
-        self.tell()
-        begun = time.perf_counter()
+        self.running = RunningCommand(
+            [*words, *build_bookkeeping_words(step)], self.workspace.folder, task.title
+        )
+        self.notify_windows()
+        start_time = time.perf_counter()
         try:
-            outcome = await self.running.wait(self.tell)
+            outcome = await self.running.wait(self.notify_windows)
         finally:
             self.running = None
-            self.tell()
+            self.notify_windows()
         if outcome.status != 0 or (aside and not self.gives_way):
             raise ModelerError(outcome.error or f"{task.title}: cancelled")
-        seconds, made = round(time.perf_counter() - begun, 2), datetime.now(UTC)
-        step = dataclasses.replace(step, seconds=seconds, made=made.isoformat(timespec="seconds"))
+        seconds, end_time = round(time.perf_counter() - start_time, 2), datetime.now(UTC)
+        step = dataclasses.replace(
+            step, seconds=seconds, made=end_time.isoformat(timespec="seconds")
+        )
         if keep:
             steps = (*self.project.steps, step)
             self.workspace.save(dataclasses.replace(self.project, steps=steps))
-            if current and step.model:
-                self.take(step)
+            if current and step.model_file:
+                self.take_step(step)
             self.refresh()
         return step
 
-    def take(self, step: Step) -> None:
+    def take_step(self, step: Step) -> None:
         """Makes the model of a step the current one; an unedited robot file goes along.
 
         Raises:
             ModelerError: something cannot be written.
         """
-        before = self.project.step(self.project.current)
+        before = self.project.find_step(self.project.current)
         place = self.workspace.folder / ROBOT
-        now = self.robot_of(step)
-        if before is not None and now and read_text(place) == self.robot_of(before):
+        now = self.read_step_robot(step)
+        if before is not None and now and read_text(place) == self.read_step_robot(before):
             write_atomically(place, now)
         self.workspace.save(dataclasses.replace(self.project, current=step.number))
 
-    def robot_of(self, step: Step) -> str:
+    def read_step_robot(self, step: Step) -> str:
         """The robot of a model, with effects that were added; "" where its file is gone."""
         with contextlib.suppress(OSError, ValueError, TypeError, KeyError):
-            text = read_text(self.workspace.folder / (step.robot or step.model))
-            return text if step.robot else str(parse_json(text)["robot_text"])
+            text = read_text(self.workspace.folder / (step.robot_copy or step.model_file))
+            return text if step.robot_copy else str(parse_json(text)["robot_text"])
         return ""
 
-    async def _way(self) -> None:
+    async def _cancel_background(self) -> None:
         """What gives way ends."""
         before = self.running
         if before is not None and self.gives_way:
@@ -184,15 +188,15 @@ class Hub:
             while self.running is before:
                 await asyncio.sleep(0.02)
 
-    def _prepare(self, step: Step) -> None:
+    def _prepare_step(self, step: Step) -> None:
         """Folders, and the robot as it is now if the command works on a copy of it."""
         for name in FOLDERS:
             (self.workspace.folder / name).mkdir(parents=True, exist_ok=True)
-        if step.robot:
+        if step.robot_copy:
             text = read_text(self.workspace.folder / ROBOT)
-            write_atomically(self.workspace.folder / step.robot, text)
+            write_atomically(self.workspace.folder / step.robot_copy, text)
 
-    def sheet(self, html: str, place: str = "/sheet/") -> str:
+    def register_sheet(self, html: str, place: str = "/sheet/") -> str:
         """The address of a page of its own, for a frame inside the page.
 
         Args:
@@ -206,7 +210,7 @@ class Hub:
             self.sheets.popitem(last=False)
         return f"{place}{digest}.html"
 
-    def download(self, content: Path | bytes, name: str) -> str:
+    def register_download(self, content: Path | bytes, name: str) -> str:
         """The address under which a file, a folder (as ZIP) or bytes are downloaded.
 
         Args:
@@ -217,7 +221,7 @@ class Hub:
             DataError: there is no such file in the project.
         """
         if isinstance(content, Path):
-            content = self._roots.inside(content)
+            content = self._roots.resolve_inside(content)
         key = secrets.token_urlsafe(16)
         self.downloads[key] = content, name
         while len(self.downloads) > _MOST_DOWNLOADS:
@@ -242,7 +246,7 @@ class Studio:
 
     def __init__(self, hub: Hub, screen: str) -> None:
         self.hub, self.screen = hub, screen
-        self.kept: dict[str, Any] = {}
+        self.state: dict[str, Any] = {}
         self.room: Element | None = None
         self._drawing: asyncio.Task[None] | None = None
         self.listeners: list[Callable[[], None]] = []
@@ -258,17 +262,17 @@ class Studio:
         return self.hub.workspace.folder
 
     @property
-    def read_only(self) -> bool:
+    def is_read_only(self) -> bool:
         """True in all windows but the first, where another process writes, in foreign projects."""
-        return not self.hub.workspace.may_change or self.hub.studios[:1] != [self]
+        return not self.hub.workspace.can_change or self.hub.studios[:1] != [self]
 
     @property
-    def why_read_only(self) -> str:
+    def read_only_reason(self) -> str:
         """The line that says it."""
         foreign = self.hub.workspace.foreign
         return FOREIGN.format(self.folder) if foreign else READ_ONLY
 
-    def change(self, redraw: bool = False, **fields: Any) -> bool:
+    def change_project(self, redraw: bool = False, **fields: Any) -> bool:
         """Makes the project another one; other windows show it.
 
         Args:
@@ -279,8 +283,8 @@ class Studio:
             True if it is saved; else the line is shown.
         """
         try:
-            if self.read_only:
-                raise ModelerError(self.why_read_only)
+            if self.is_read_only:
+                raise ModelerError(self.read_only_reason)
             self.hub.workspace.save(dataclasses.replace(self.project, **fields))
         except ModelerError as error:
             self.show_error(str(error))
@@ -288,15 +292,15 @@ class Studio:
         for studio in self.hub.studios:
             if studio is not self or redraw:
                 studio.redraw()
-            studio.told()
+            studio.notify_listeners()
         return True
 
-    def take(self, step: Step) -> bool:
+    def take_step(self, step: Step) -> bool:
         """Makes the model of a step the current one, in all windows; False if it cannot be."""
         try:
-            if self.read_only:
-                raise ModelerError(self.why_read_only)
-            self.hub.take(step)
+            if self.is_read_only:
+                raise ModelerError(self.read_only_reason)
+            self.hub.take_step(step)
         except ModelerError as error:
             self.show_error(str(error))
             return False
@@ -305,8 +309,8 @@ class Studio:
 
     async def run(self, task: Task, current: bool = True, keep: bool = True) -> Step | None:
         """Carries out a task; None if it failed, whose line is shown then. See `Hub.run`."""
-        if self.read_only:
-            self.show_error(self.why_read_only)
+        if self.is_read_only:
+            self.show_error(self.read_only_reason)
             return None
         self.show_error("")
         try:
@@ -315,7 +319,7 @@ class Studio:
             self.show_error(str(error))
             return None
 
-    async def view(self, question: str, *arguments: Any, kind: str = "") -> Any:
+    async def ask_viewer(self, question: str, *arguments: Any, kind: str = "") -> Any:
         """The answer of the viewer to a function of `studio.viewing`; see `Viewer.ask`.
 
         Args:
@@ -326,10 +330,10 @@ class Studio:
         Raises:
             ModelerError: it has none; its line.
         """
-        own = f"{id(self)} {kind}" if kind else ""
-        return await self.hub.viewer.ask(question, *arguments, kind=own)
+        kind_key = f"{id(self)} {kind}" if kind else ""
+        return await self.hub.viewer.ask(question, *arguments, kind=kind_key)
 
-    def text(self, file: str) -> str:
+    def read_text(self, file: str) -> str:
         """Of a file of the project.
 
         Raises:
@@ -343,57 +347,57 @@ class Studio:
                 f"{file}: cannot be read ({why}); put the file back, or take the step again"
             ) from None
 
-    def result(self, step: Step) -> dict[str, Any]:
+    def read_result(self, step: Step) -> dict[str, Any]:
         """What the JSON of a step says.
 
         Raises:
             DataError: the file is gone, or no JSON.
         """
-        return self._parsed(step.result)
+        return self._read_json(step.result_file)
 
     @property
-    def made(self) -> Step:
+    def model_step(self) -> Step:
         """The step that made the current model.
 
         Raises:
             DataError: there is none.
         """
-        step = self.project.step(self.project.current)
+        step = self.project.find_step(self.project.current)
         if step is None or step.verb not in MAKING:
             raise DataError("there is no model yet; fit one first")
         return step
 
-    def model(self, step: Step) -> dict[str, Any]:
+    def read_model(self, step: Step) -> dict[str, Any]:
         """What the model file of a step says.
 
         Raises:
             DataError: the file is gone, or no JSON.
         """
-        return self._parsed(step.model)
+        return self._read_json(step.model_file)
 
-    def newer(self, file: str, step: Step) -> bool:
+    def is_newer(self, file: str, step: Step) -> bool:
         """Whether a file was written after a step was done."""
         with contextlib.suppress(OSError, ValueError):
             done = datetime.fromisoformat(step.made).timestamp() + 1.0  # of whole seconds
             return (self.folder / file).stat().st_mtime > done
         return False
 
-    def _parsed(self, file: str) -> dict[str, Any]:
+    def _read_json(self, file: str) -> dict[str, Any]:
         try:
-            found: dict[str, Any] = parse_json(self.text(file))
+            content: dict[str, Any] = parse_json(self.read_text(file))
         except JsonError as error:
             raise DataError(f"{file}: {error}; take the step again") from None
-        return found
+        return content
 
     def show_error(self, line: str) -> None:
         """One line, in this window; "" takes the last one away."""
-        self.kept["error"] = line
-        self.told()
+        self.state["error"] = line
+        self.notify_listeners()
 
-    def go(self, screen: str) -> None:
+    def open_screen(self, screen: str) -> None:
         """Shows another screen."""
         self.screen = screen
-        self.kept["error"] = ""
+        self.state["error"] = ""
         if self.room is not None:
             with self.room:  # the button that was pressed may be gone
                 ui.navigate.history.push(f"/{screen}")
@@ -405,11 +409,11 @@ class Studio:
         if self._drawing is not None:
             self._drawing.cancel()  # what it would still draw is no longer wanted
         if self.room is not None:
-            drawn = self._drawn(self.room)
-            self._drawing = background_tasks.create(drawn, name=f"draw {self.screen}")
-        self.told()
+            drawing = self._draw_screen(self.room)
+            self._drawing = background_tasks.create(drawing, name=f"draw {self.screen}")
+        self.notify_listeners()
 
-    async def _drawn(self, room: Element) -> None:
+    async def _draw_screen(self, room: Element) -> None:
         with room:
             room.clear()
             waiting = ui.spinner(size="2rem").classes("studio-waiting")
@@ -423,7 +427,7 @@ class Studio:
                 if not waiting.is_deleted:
                     waiting.delete()
 
-    def told(self) -> None:
+    def notify_listeners(self) -> None:
         """What stands around the screen is written anew."""
         for listener in self.listeners:
             listener()

@@ -1,6 +1,7 @@
 """What is done in a project: a verb with typed values, and the one command line that they make.
 
-A project may come from anybody, so no step holds a command line: `command_line` makes it, from the
+A project may come from anybody, so no step holds a command line: `build_command_line` makes it,
+from the
 few options named here. No value can be read as an option, and files that a command writes are named
 by the number of its step.
 """
@@ -44,27 +45,27 @@ FIXED: Mapping[str, tuple[str, ...]] = {
 
 
 @dataclass(frozen=True)
-class Stretch:
+class TimeRange:
     """Seconds of a log, as `FILE@START:END` counts them; without ends all of it."""
 
     start: float = -math.inf
     end: float = math.inf
 
-    def word(self, file: str) -> str:
+    def format_word(self, file: str) -> str:
         """It, as a command takes it."""
         ends = [f"{side:.15g}" if math.isfinite(side) else "" for side in (self.start, self.end)]
         return f"{file}@{':'.join(ends)}" if any(ends) else file
 
-    def without(self, gaps: Sequence["Stretch"]) -> "list[Stretch]":
+    def subtract_gaps(self, gaps: Sequence["TimeRange"]) -> "list[TimeRange]":
         """What is left of it between gaps."""
         left, start = [], self.start
         for gap in sorted(gaps, key=lambda gap: gap.start):
             if gap.end <= max(start, gap.start) or gap.start >= self.end:
                 continue
             if gap.start > start:
-                left.append(Stretch(start, gap.start))
+                left.append(TimeRange(start, gap.start))
             start = max(start, gap.end)
-        return left + ([Stretch(start, self.end)] if start < self.end else [])
+        return left + ([TimeRange(start, self.end)] if start < self.end else [])
 
 
 @dataclass(frozen=True)
@@ -72,12 +73,12 @@ class LogPart:
     """A stretch of a log."""
 
     file: str
-    stretch: Stretch = Stretch()
+    stretch: TimeRange = TimeRange()
 
     @property
-    def word(self) -> str:
+    def command_word(self) -> str:
         """It, as a command takes it."""
-        return self.stretch.word(self.file)
+        return self.stretch.format_word(self.file)
 
 
 @dataclass(frozen=True)
@@ -178,28 +179,28 @@ class Step:
         return places.get(self.verb, "")
 
     @property
-    def model(self) -> str:
+    def model_file(self) -> str:
         """The model that it made; "" for none."""
         return self.output if self.verb in MAKING else ""
 
     @property
-    def robot(self) -> str:
+    def robot_copy(self) -> str:
         """The robot as it was when the step began; "" where it worked on none."""
         copied = self.verb in _COPYING or (self.verb == "excite" and not self.parent)
         return f"robots/{self.number}.toml" if copied else ""
 
     @property
-    def result(self) -> str:
+    def result_file(self) -> str:
         """Its JSON."""
         return f"results/{self.number}.json"
 
     @property
-    def pictures(self) -> str:
+    def pictures_file(self) -> str:
         """They, as plain data; "" if it drew none."""
         return f"results/{self.number}.pictures.json" if self.verb in DRAWING else ""
 
 
-def command_line(step: Step, steps: Sequence[Step] = ()) -> tuple[str, ...]:
+def build_command_line(step: Step, steps: Sequence[Step] = ()) -> tuple[str, ...]:
     """The words after `modeler` that carry out a step, in the folder of the project.
 
     Args:
@@ -212,11 +213,13 @@ def command_line(step: Step, steps: Sequence[Step] = ()) -> tuple[str, ...]:
     task = step.task
     check_task(task)
     if task.verb == "page":
-        of = next((own for own in steps if own.number == task.step), None)
+        of = next(
+            (earlier_step for earlier_step in steps if earlier_step.number == task.step), None
+        )
         if of is None or of.verb not in PAGED:
             raise DataError(f"step {task.step}: has no report page; choose a fit or a comparison")
-        words = command_line(of)
-        if of.model:  # which stays as it is: the same model is written once more
+        words = build_command_line(of)
+        if of.model_file:  # which stays as it is: the same model is written once more
             words = (*words[:-1], f"models/{step.number}.json")
         return (*words, "--report", step.output)
     model = f"models/{step.parent}.json"
@@ -224,27 +227,31 @@ def command_line(step: Step, steps: Sequence[Step] = ()) -> tuple[str, ...]:
         "add": (model, task.effect), "contest": tuple(f"models/{n}.json" for n in task.models),
         "log": (task.file,), "new": (ROBOT,), "convert": (task.file,),
     }  # fmt: skip
-    subject = about.get(task.verb, (step.robot or model,))
+    subject = about.get(task.verb, (step.robot_copy or model,))
     robot = ("--robot", ROBOT) if task.robot else ()
     force = ("--force",) if task.template else ()
     out = ("--out", step.output) if step.output else ()
     return (
-        _COMMANDS.get(task.verb, task.verb), *subject, *(part.word for part in task.logs),
-        *robot, *_options(task), *FIXED.get(task.verb, ()), *force, *out,
+        _COMMANDS.get(task.verb, task.verb), *subject, *(part.command_word for part in task.logs),
+        *robot, *_yield_options(task), *FIXED.get(task.verb, ()), *force, *out,
     )  # fmt: skip
 
 
-def bookkeeping(step: Step) -> tuple[str, ...]:
+def build_bookkeeping_words(step: Step) -> tuple[str, ...]:
     """Words that come to a step when it is run, and are no part of it."""
-    return ("--json", step.result, *(("--picture", step.pictures) if step.pictures else ()))
+    return (
+        "--json",
+        step.result_file,
+        *(("--picture", step.pictures_file) if step.pictures_file else ()),
+    )
 
 
-def typed(words: Sequence[str]) -> str:
+def format_command(words: Sequence[str]) -> str:
     """A command line, as a shell takes it."""
     return shlex.join(["modeler", *words])
 
 
-def _options(task: Task) -> Iterator[str]:
+def _yield_options(task: Task) -> Iterator[str]:
     """Fields that are no places become options of their names; a list is given one by one."""
     names = {"held": "holdout", "mapping": "map"}
     for name in FIELDS[task.verb].split():
@@ -255,8 +262,8 @@ def _options(task: Task) -> Iterator[str]:
             value = tuple(part.word for part in value)
         elif name == "effects":
             value = ",".join(value)
-        for own in value if isinstance(value, tuple) else (value,):
-            yield from (option, f"{own:.12g}" if isinstance(own, float) else str(own))
+        for item in value if isinstance(value, tuple) else (value,):
+            yield from (option, f"{item:.12g}" if isinstance(item, float) else str(item))
 
 
 # What the values of a task may be, whoever wrote them.
@@ -300,18 +307,18 @@ def check_values(name: str, value: Any) -> None:
     Raises:
         DataError: says which, and what is expected.
     """
-    for own in value if isinstance(value, tuple) else (value,):
-        if isinstance(own, LogPart):
-            check_values("file", own.file)
-        elif isinstance(own, str) and own:
-            if not _FORMS.get(name, _NAME).fullmatch(own):
+    for item in value if isinstance(value, tuple) else (value,):
+        if isinstance(item, LogPart):
+            check_values("file", item.file)
+        elif isinstance(item, str) and item:
+            if not _FORMS.get(name, _NAME).fullmatch(item):
                 raise DataError(
-                    f"{name}: got {own[:60]!r}; expected no option, and no file outside"
+                    f"{name}: got {item[:60]!r}; expected no option, and no file outside"
                 )
-        elif own == "" and isinstance(value, tuple):
+        elif item == "" and isinstance(value, tuple):
             raise DataError(f"{name}: got an empty text; expected a value, or nothing")
-        elif isinstance(own, float | int) and not 0 <= own < 1e9:
-            raise DataError(f"{name}: got {own:g}; expected a number from 0 to 1e9")
+        elif isinstance(item, float | int) and not 0 <= item < 1e9:
+            raise DataError(f"{name}: got {item:g}; expected a number from 0 to 1e9")
 
 
 def check_task(task: Task) -> None:

@@ -9,9 +9,9 @@ import numpy as np
 from nicegui import ui
 from nicegui.element import Element
 
-from modeler.core.files import resource_dir
+from modeler.core.files import locate_resources
 from modeler.studio.project import ProjectLog
-from modeler.studio.tasks import Stretch
+from modeler.studio.tasks import TimeRange
 
 ROLES: Mapping[str, str] = {"train": "training", "test": "held out", "out": "left out"}
 """What people call them."""
@@ -19,47 +19,47 @@ ROLES: Mapping[str, str] = {"train": "training", "test": "held out", "out": "lef
 HELD = 0.3
 """Share of the only log of a project that is held out at first."""
 
-ALL = (Stretch(),)
+ALL = (TimeRange(),)
 """Of a log."""
 
 _DIGITS = 4  # of a second: what a stretch begins with
 
 
-def united(parts: Iterable[Stretch]) -> tuple[Stretch, ...]:
+def merge_ranges(parts: Iterable[TimeRange]) -> tuple[TimeRange, ...]:
     """The same without overlaps, in order."""
-    found: list[Stretch] = []
+    merged: list[TimeRange] = []
     for part in sorted(parts, key=lambda one: one.start):
-        if found and part.start <= found[-1].end:
-            found[-1] = Stretch(found[-1].start, max(found[-1].end, part.end))
+        if merged and part.start <= merged[-1].end:
+            merged[-1] = TimeRange(merged[-1].start, max(merged[-1].end, part.end))
         else:
-            found.append(part)
-    return tuple(found)
+            merged.append(part)
+    return tuple(merged)
 
 
-def painted(log: ProjectLog, stretch: Stretch, role: str) -> ProjectLog:
+def assign_role(log: ProjectLog, stretch: TimeRange, role: str) -> ProjectLog:
     """The log with a stretch in a role; "in": no longer left out of what it is."""
     if role == "out":
-        return dataclasses.replace(log, out=united([*log.out, stretch]))
+        return dataclasses.replace(log, out=merge_ranges([*log.out, stretch]))
     roles: dict[str, Any] = {
         name: tuple(left for part in getattr(log, name) for left in part.without([stretch]))
         for name in (ROLES if role in ROLES else ("out",))
     }
     if role in ROLES:
-        roles[role] = united([*roles[role], stretch])
+        roles[role] = merge_ranges([*roles[role], stretch])
     return dataclasses.replace(log, **roles)
 
 
 Change = Callable[[ProjectLog], ProjectLog]
 
 
-def whole(ends: tuple[float, float]) -> dict[str, Change]:
+def build_log_changes(ends: tuple[float, float]) -> dict[str, Change]:
     """What can be made of a log as a whole.
 
     Args:
         ends: of it, s.
     """
     cut = round(ends[1] - HELD * (ends[1] - ends[0]), _DIGITS)
-    last = (Stretch(end=cut),), (Stretch(start=cut),)
+    last = (TimeRange(end=cut),), (TimeRange(start=cut),)
     return {
         "All training": lambda log: dataclasses.replace(log, train=ALL, test=()),
         "Last 30 % held out": lambda log: dataclasses.replace(log, train=last[0], test=last[1]),
@@ -68,7 +68,7 @@ def whole(ends: tuple[float, float]) -> dict[str, Change]:
     }
 
 
-def by_default(
+def assign_default_roles(
     logs: Sequence[ProjectLog], ends: Mapping[str, tuple[float, float]]
 ) -> tuple[ProjectLog, ...]:
     """Of one log the last 30 % is held out, of several the last one.
@@ -77,20 +77,20 @@ def by_default(
         logs: of the project.
         ends: first and last time of those that can be read, s; others are neither.
     """
-    good, found = [log.file for log in logs if log.file in ends], []
+    good, assigned = [log.file for log in logs if log.file in ends], []
     for log in logs:
         if log.file in good:
             last = log.file == good[-1]
             choice = "All training" if not last else _FIRST[len(good) > 1]
-            log = whole(ends[log.file])[choice](log)
-        found.append(log)
-    return tuple(found)
+            log = build_log_changes(ends[log.file])[choice](log)
+        assigned.append(log)
+    return tuple(assigned)
 
 
 _FIRST = {False: "Last 30 % held out", True: "All held out"}
 
 
-def spans_of(log: ProjectLog) -> list[dict[str, Any]]:
+def build_spans(log: ProjectLog) -> list[dict[str, Any]]:
     """The stretches as they are drawn, left-out ones on top; an end that is open is None."""
     return [
         {"role": role}
@@ -100,14 +100,18 @@ def spans_of(log: ProjectLog) -> list[dict[str, Any]]:
     ]
 
 
-def told(log: ProjectLog) -> str:
+def describe_roles(log: ProjectLog) -> str:
     """What its stretches are for, in words."""
     roles = {name: getattr(log, role) for role, name in ROLES.items()}
-    said = [f"{name}: {', '.join(map(_words, parts))}" for name, parts in roles.items() if parts]
-    return "; ".join(said) or "not used"
+    parts_text = [
+        f"{name}: {', '.join(map(_describe_range, parts))}"
+        for name, parts in roles.items()
+        if parts
+    ]
+    return "; ".join(parts_text) or "not used"
 
 
-def _words(part: Stretch) -> str:
+def _describe_range(part: TimeRange) -> str:
     ends = (part.start, part.end)  # of a clock that may count from 1970
     start, end = (f"{round(side, 3):.15g} s" if math.isfinite(side) else "" for side in ends)
     if start and end:
@@ -115,7 +119,9 @@ def _words(part: Stretch) -> str:
     return f"from {start} on" if start else f"up to {end}" if end else "all of it"
 
 
-class Timeline(Element, component=resource_dir("templates") / "studio" / "parts" / "timeline.js"):
+class Timeline(
+    Element, component=locate_resources("templates") / "studio" / "parts" / "timeline.js"
+):
     """The time of a log: stretches by colour and pattern, marks, a brush, a cursor that plays.
 
     Args:
@@ -141,25 +147,30 @@ class Timeline(Element, component=resource_dir("templates") / "studio" / "parts"
         self._props["frame"] = name
         self.update()
 
-    def renew(
-        self, log: ProjectLog, marks: Sequence[Mapping[str, Any]] = (), brush: Stretch | None = None
+    def update_log(
+        self,
+        log: ProjectLog,
+        marks: Sequence[Mapping[str, Any]] = (),
+        brush: TimeRange | None = None,
     ) -> None:
         """Draws what is so now."""
-        self._props["spans"] = spans_of(log)
+        self._props["spans"] = build_spans(log)
         self._props["marks"] = list(marks)
         self._props["brush"] = None if brush is None else [brush.start, brush.end]
         self.update()
 
-    def on_brush(self, heard: Callable[[Stretch | None], Any]) -> None:
+    def connect_brush(self, on_brushed: Callable[[TimeRange | None], Any]) -> None:
         """Calls back with the stretch that was drawn; None: it was let go."""
 
-        def brushed(event: Any) -> None:
+        def handle_brush(event: Any) -> None:
             ends = event.args
-            heard(None if not ends else Stretch(*(round(float(end), _DIGITS) for end in ends)))
+            on_brushed(
+                None if not ends else TimeRange(*(round(float(end), _DIGITS) for end in ends))
+            )
 
-        self.on("brush", brushed)
+        self.on("brush", handle_brush)
 
-    def show(self, time: np.ndarray, q: Mapping[str, np.ndarray]) -> None:
+    def show_motion(self, time: np.ndarray, q: Mapping[str, np.ndarray]) -> None:
         """What a robot does while the cursor moves.
 
         Args:
@@ -167,17 +178,17 @@ class Timeline(Element, component=resource_dir("templates") / "studio" / "parts"
             q: (n,) position of each joint, rad or m.
         """
         postures = {
-            joint: [round(v, 6) if math.isfinite(v) else None for v in own.tolist()]
-            for joint, own in q.items()
+            joint: [round(v, 6) if math.isfinite(v) else None for v in positions.tolist()]
+            for joint, positions in q.items()
         }
         self.run_method("show", {"time": time.tolist(), "q": postures})
 
-    def play(self, speed: float) -> None:
+    def toggle_play(self, speed: float) -> None:
         """Starts the cursor, or stops it."""
         self.run_method("toggle", speed)
 
 
-def legend() -> None:
+def draw_legend() -> None:
     """What the colours of a timeline mean."""
     for role, name in {**ROLES, "sign": "a doubt: click it"}.items():
         with ui.row().classes("items-center no-wrap gap-1"):

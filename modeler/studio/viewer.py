@@ -10,8 +10,8 @@ from concurrent.futures.process import BrokenProcessPool
 from pathlib import Path
 from typing import Any
 
-from modeler.core.errors import DataError, ModelerError, short_of_memory
-from modeler.core.jobs import attend, without_interrupts
+from modeler.core.errors import DataError, ModelerError, is_out_of_memory
+from modeler.core.jobs import block_interrupts, exit_with_parent
 from modeler.studio import places
 
 
@@ -54,7 +54,7 @@ class Viewer:
                 return None
             for _ in range(2):
                 try:
-                    return await self._answered(function, arguments)
+                    return await self._compute_answer(function, arguments)
                 except BrokenProcessPool:
                     self.end()
             raise DataError(
@@ -62,22 +62,22 @@ class Viewer:
                 "memory runs out; close other programs, or look at a shorter stretch"
             )
 
-    async def warm(self) -> None:
+    async def launch(self) -> None:
         """Starts the process, before it is needed."""
         if self._pool is None:
             with contextlib.suppress(ModelerError):
                 await self.ask("robot_joints", "")
 
-    async def _answered(self, function: str, arguments: tuple[Any, ...]) -> Any:
+    async def _compute_answer(self, function: str, arguments: tuple[Any, ...]) -> Any:
         if self._pool is None:
             context = multiprocessing.get_context("spawn")
             self._pool = ProcessPoolExecutor(
-                1, mp_context=context, initializer=_begun, initargs=self._places
+                1, mp_context=context, initializer=_initialise_process, initargs=self._places
             )
         loop = asyncio.get_running_loop()
-        with without_interrupts():  # of the process that this starts
-            found = loop.run_in_executor(self._pool, answer, function, arguments)
-        return await found
+        with block_interrupts():  # of the process that this starts
+            future = loop.run_in_executor(self._pool, compute_answer, function, arguments)
+        return await future
 
     def end(self) -> None:
         """Lets go of the process; the next question starts another."""
@@ -88,14 +88,14 @@ class Viewer:
             pool.shutdown(wait=False, cancel_futures=True)
 
 
-def _begun(folder: Path, allowed: tuple[Path, ...]) -> None:
+def _initialise_process(folder: Path, allowed: tuple[Path, ...]) -> None:
     """At the start of the process."""
-    attend()
+    exit_with_parent()
     os.chdir(folder)
     places.READABLE = places.Roots(allowed)
 
 
-def answer(function: str, arguments: tuple[Any, ...]) -> Any:
+def compute_answer(function: str, arguments: tuple[Any, ...]) -> Any:
     """A function of `viewing` on its arguments, in the process of the viewer.
 
     Raises:
@@ -103,16 +103,16 @@ def answer(function: str, arguments: tuple[Any, ...]) -> Any:
     """
     from modeler.studio import robot_views
 
-    found: Callable[..., Any] | None = getattr(robot_views, function, None)
-    if found is not None:  # a robot needs nothing of what reads logs
-        return found(*arguments)
+    viewer_function: Callable[..., Any] | None = getattr(robot_views, function, None)
+    if viewer_function is not None:  # a robot needs nothing of what reads logs
+        return viewer_function(*arguments)
     from modeler.studio import viewing
 
-    found = getattr(viewing, function)
+    viewer_function = getattr(viewing, function)
     try:
-        return found(*arguments)
+        return viewer_function(*arguments)
     except (MemoryError, OSError, RuntimeError) as error:
-        if not short_of_memory(error):
+        if not is_out_of_memory(error):
             raise DataError(f"{function}: {error}") from error
         viewing.forget()
         raise DataError(

@@ -25,18 +25,18 @@ from modeler.logs import (
     Columns,
     LogMap,
     LogTable,
-    blocks_of,
-    inspect_log,
-    map_from_table,
-    map_from_words,
-    windows_of,
+    build_map,
+    inspect_table,
+    open_blocks,
+    parse_map_options,
+    read_windows,
 )
 from modeler.observation import FINGER, LONG
 from modeler.robot import Robot, read_robot
 from modeler.runtime import CompiledModel
 from modeler.studio import places
-from modeler.studio.log_mapping import LogGuess, anybody, guess_from
-from modeler.validation import Prediction, running_time
+from modeler.studio.log_mapping import LogGuess, build_default_joints, parse_guess
+from modeler.validation import Prediction, concatenate_time
 
 POINTS = 1500
 """Of a curve that is drawn."""
@@ -53,21 +53,21 @@ def forget() -> None:
     _KEPT.clear()
 
 
-def _kept(kind: str, key: Any, make: Callable[[], T], most: int = _HELD) -> T:
+def _cache_result(kind: str, key: Any, make: Callable[[], T], most: int = _HELD) -> T:
     """What was made for that key, or is made now; of each kind the last ones used stay."""
-    own = _KEPT.setdefault(kind, OrderedDict())
-    if key not in own:
-        own[key] = make()
-        while len(own) > most:
-            own.popitem(last=False)
-    own.move_to_end(key)
-    found: T = own[key]
-    return found
+    entries = _KEPT.setdefault(kind, OrderedDict())
+    if key not in entries:
+        entries[key] = make()
+        while len(entries) > most:
+            entries.popitem(last=False)
+    entries.move_to_end(key)
+    result: T = entries[key]
+    return result
 
 
-def _state(place: str) -> tuple[str, int, int]:
+def _read_state(place: str) -> tuple[str, int, int]:
     """A file as it is now; a window after it belongs to its name."""
-    path = str(log_maps.file_and_span(place)[0])
+    path = str(log_maps.parse_time_range(place)[0])
     if places.READABLE.folders:  # the same rule as for commands
         places.READABLE.check_tree(path, Path(path))
     try:
@@ -138,13 +138,13 @@ def log_facts(place: str, words: Sequence[str] = (), robot: str = "") -> LogFact
         robot: robot file, whose [log] lies under them.
     """
 
-    def look() -> LogFacts:
-        log = _log(place, words, robot)
+    def read_facts() -> LogFacts:
+        log = _load_log(place, words, robot)
         names, ends = tuple(log.values), (float(log.time[0]), float(log.time[-1]))
         return LogFacts(log.rows, *ends, names, log.units, log.source is not None)
 
-    key = (_state(place), tuple(words), robot and _state(robot))
-    return _kept("facts", key, look, 200)
+    key = (_read_state(place), tuple(words), robot and _read_state(robot))
+    return _cache_result("facts", key, read_facts, 200)
 
 
 def log_window(
@@ -162,14 +162,14 @@ def log_window(
         robot: robot file.
         points: of each column, at most.
     """
-    log = _log(place, words, robot)
-    time, values = _rows(log, start, end)
-    found = {}
+    log = _load_log(place, words, robot)
+    time, values = _select_rows(log, start, end)
+    curves = {}
     for name in names:
         if name in values:
-            kept = thin_curves((values[name],), points)
-            found[name] = time[kept], values[name][kept]
-    return found
+            indices = thin_curves((values[name],), points)
+            curves[name] = time[indices], values[name][indices]
+    return curves
 
 
 def log_film(
@@ -187,19 +187,19 @@ def log_film(
         end: s.
         rate: pictures a second.
     """
-    time, values = _rows(_log(place, words, robot), start, end)
+    time, values = _select_rows(_load_log(place, words, robot), start, end)
     known = time[np.isfinite(time)]
     if known.size == 0:
         return {"time": known}
     count = min(int((known[-1] - known[0]) * rate) + 2, 20_000)
     at = np.linspace(known[0], known[-1], count)
-    found = {"time": at}
+    film = {"time": at}
     for name in (name for name in names if name in values):
-        there = np.isfinite(values[name]) & np.isfinite(time)
-        found[name] = (
-            np.interp(at, time[there], values[name][there]) if there.any() else at * np.nan
+        is_valid = np.isfinite(values[name]) & np.isfinite(time)
+        film[name] = (
+            np.interp(at, time[is_valid], values[name][is_valid]) if is_valid.any() else at * np.nan
         )
-    return found
+    return film
 
 
 def log_guess(place: str, robot: str = "") -> LogGuess:
@@ -210,54 +210,62 @@ def log_guess(place: str, robot: str = "") -> LogGuess:
         robot: robot file; "" where there is none yet: joints are then counted from 1.
     """
 
-    def look() -> LogGuess:
+    def build_guess() -> LogGuess:
         path, joints = Path(place), robot_joints(robot)
-        stated = _robot(robot).log_words if robot else {}
-        names = LogMap(names=map_from_table(stated, f"{robot}: [log]").names)
-        blocks = blocks_of(path)
-        part = None if blocks is None or blocks.rows <= LONG else windows_of(blocks, 8, 4096)
+        stated = _load_robot(robot).log_mapping if robot else {}
+        names = LogMap(names=build_map(stated, f"{robot}: [log]").names)
+        blocks = open_blocks(path)
+        part = None if blocks is None or blocks.rows <= LONG else read_windows(blocks, 8, 4096)
         table = LogTable(path, names, joints, True, part)
-        seen = inspect_log(table, names, joints, (None, None))
+        inspection = inspect_table(table, names, joints, (None, None))
         columns = {
-            name: table.found.units.get(name, "")
-            for name, column in table.found.columns
-            if column.numeric
+            name: table.file_columns.units.get(name, "")
+            for name, column in table.file_columns.columns
+            if column.is_numeric
         }
-        count = 1 if seen.positions is None else len(seen.positions.names)
-        found, ranged = guess_from(seen.suggested, joints or anybody(count), columns)
-        clock = next((part for part in seen.streams if part.clock), None)
-        alike = [part.kind for part in seen.streams].count(clock.kind) > 1 if clock else False
-        topic = clock.name if clock and alike else ""
-        return LogGuess(columns, found, ranged, count, topic, () if part else seen.doubts)
+        count = 1 if inspection.positions is None else len(inspection.positions.names)
+        choices, ranged = parse_guess(
+            inspection.suggested, joints or build_default_joints(count), columns
+        )
+        clock = next((part for part in inspection.streams if part.clock), None)
+        is_ambiguous = (
+            [part.kind for part in inspection.streams].count(clock.kind) > 1 if clock else False
+        )
+        topic = clock.name if clock and is_ambiguous else ""
+        return LogGuess(columns, choices, ranged, count, topic, () if part else inspection.warnings)
 
-    return _kept("guess", (_state(place), robot and _state(robot)), look, 200)
+    return _cache_result(
+        "guess", (_read_state(place), robot and _read_state(robot)), build_guess, 200
+    )
 
 
-def _rows(log: _Log, start: float, end: float) -> tuple[np.ndarray, dict[str, np.ndarray]]:
+def _select_rows(log: _Log, start: float, end: float) -> tuple[np.ndarray, dict[str, np.ndarray]]:
     """Time and columns between two times; of a long log all rows only of a short window."""
     low, high = np.searchsorted(log.time, [start, end])
-    own = slice(max(0, low - 1), high + 1)
+    selection = slice(max(0, low - 1), high + 1)
     if log.source is None or high - low > POINTS:
-        return log.time[own], {name: v[own] for name, v in log.values.items()}
+        return log.time[selection], {name: v[selection] for name, v in log.values.items()}
     if not log.within[0] <= start <= end <= log.within[1]:
-        _look_closely(log, log.source, float(log.time[own][0]), float(log.time[own][-1]))
+        _read_window(log, log.source, float(log.time[selection][0]), float(log.time[selection][-1]))
     time = log.near["time"]
     low, high = np.searchsorted(time, [start, end])
-    own = slice(max(0, low - 1), high + 1)
-    return time[own], {name: v[own] for name, v in log.near.items() if name in log.values}
+    selection = slice(max(0, low - 1), high + 1)
+    return time[selection], {
+        name: v[selection] for name, v in log.near.items() if name in log.values
+    }
 
 
-def _look_closely(log: _Log, source: _Source, start: float, end: float) -> None:
+def _read_window(log: _Log, source: _Source, start: float, end: float) -> None:
     """Reads all rows of a window of a long log and as much again on either side."""
-    blocks = blocks_of(source.path)
+    blocks = open_blocks(source.path)
     assert blocks is not None
     ends = np.searchsorted(log.time, [start, end]) / log.time.size
     room = max(float(ends[1] - ends[0]), FINGER / blocks.rows)
     first, rows = max(0.0, float(ends[0]) - room), int(3.0 * room * blocks.rows) + 2
     for _ in range(8):  # of CSV the place of a row is known about
-        part = source.table(blocks.window(first, min(rows, blocks.rows)))
-        log.near = {name: part.numbers(name) for name in ("time", *log.values) if name in part}
-        time = log.near["time"] = _seconds(part, log.near.get("time"))
+        part = source.table(blocks.read_window(first, min(rows, blocks.rows)))
+        log.near = {name: part.read_numbers(name) for name in ("time", *log.values) if name in part}
+        time = log.near["time"] = _get_seconds(part, log.near.get("time"))
         log.within = float(time[0]), float(time[-1])
         if log.within[0] <= start and end <= log.within[1]:
             break
@@ -266,58 +274,58 @@ def _look_closely(log: _Log, source: _Source, start: float, end: float) -> None:
         rows = int(1.5 * rows)
 
 
-def _log(place: str, words: Sequence[str], robot: str) -> _Log:
-    key = (_state(place), tuple(words), robot and _state(robot))
-    return _kept("log", key, lambda: _read(place, words, robot), 3)
+def _load_log(place: str, words: Sequence[str], robot: str) -> _Log:
+    key = (_read_state(place), tuple(words), robot and _read_state(robot))
+    return _cache_result("log", key, lambda: _read_log(place, words, robot), 3)
 
 
-def _read(place: str, words: Sequence[str], robot: str) -> _Log:
-    mapping = map_from_words(words)
+def _read_log(place: str, words: Sequence[str], robot: str) -> _Log:
+    mapping = parse_map_options(words)
     if robot:
-        stated = _robot(robot)
-        mapping = mapping.overriding(map_from_table(stated.log_words, f"{robot}: [log]"))
+        stated = _load_robot(robot)
+        mapping = mapping.merge_over(build_map(stated.log_mapping, f"{robot}: [log]"))
     joints = robot_joints(robot)
-    return _read_as(place, mapping, joints)
+    return _read_mapped(place, mapping, joints)
 
 
-def _read_as(place: str, mapping: LogMap, joints: tuple[JointSpec, ...]) -> _Log:
-    path = Path(log_maps.file_and_span(place)[0])
-    source, blocks = _Source(path, mapping, joints), blocks_of(path)
+def _read_mapped(place: str, mapping: LogMap, joints: tuple[JointSpec, ...]) -> _Log:
+    path = Path(log_maps.parse_time_range(place)[0])
+    source, blocks = _Source(path, mapping, joints), open_blocks(path)
     if blocks is not None and blocks.rows > LONG:
-        columns = len(blocks.window(0.0, 1).columns)
+        columns = len(blocks.read_window(0.0, 1).columns)
         if blocks.rows * columns > _MOST:
-            return _coarse(source, blocks)
+            return _read_coarse(source, blocks)
     table = source.table()
-    values = {n: table.numbers(n) for n in table.names if table.is_numeric(n)}
-    time = _seconds(table, values.pop("time", None))
-    return _Log(table.rows, time, values, _units(table, values, joints))
+    values = {n: table.read_numbers(n) for n in table.names if table.is_numeric(n)}
+    time = _get_seconds(table, values.pop("time", None))
+    return _Log(table.rows, time, values, _collect_units(table, values, joints))
 
 
-def _coarse(source: _Source, blocks: Any) -> _Log:
+def _read_coarse(source: _Source, blocks: Any) -> _Log:
     """One pass over a long log: the least and the largest value of every piece of rows."""
-    rows, times, found = 0, list[np.ndarray](), dict[str, list[np.ndarray]]()
+    rows, times, extremes = 0, list[np.ndarray](), dict[str, list[np.ndarray]]()
     units: dict[str, str] = {}
     for part in blocks.blocks(FINGER):
         table = source.table(part, rows)
-        values = {n: table.numbers(n) for n in table.names if table.is_numeric(n)}
-        time = _seconds(table, values.pop("time", None))
+        values = {n: table.read_numbers(n) for n in table.names if table.is_numeric(n)}
+        time = _get_seconds(table, values.pop("time", None))
         starts = np.arange(0, table.rows, _PIECE)
         times.append(np.column_stack([time[starts], time[np.append(starts[1:], table.rows) - 1]]))
-        for name, own in values.items():
-            ends = [np.fmin.reduceat(own, starts), np.fmax.reduceat(own, starts)]
-            found.setdefault(name, []).append(np.column_stack(ends).astype(np.float32))
-        units = units or _units(table, values, source.joints)
+        for name, column in values.items():
+            ends = [np.fmin.reduceat(column, starts), np.fmax.reduceat(column, starts)]
+            extremes.setdefault(name, []).append(np.column_stack(ends).astype(np.float32))
+        units = units or _collect_units(table, values, source.joints)
         rows += table.rows
-    whole = {n: np.concatenate(v).ravel() for n, v in found.items() if len(v) == len(times)}
+    whole = {n: np.concatenate(v).ravel() for n, v in extremes.items() if len(v) == len(times)}
     return _Log(rows, np.concatenate(times).ravel(), whole, units, source)
 
 
-def _seconds(table: LogTable, time: np.ndarray | None) -> np.ndarray:
+def _get_seconds(table: LogTable, time: np.ndarray | None) -> np.ndarray:
     """The clock; row numbers without one."""
     return np.arange(table.before, table.before + table.rows, dtype=float) if time is None else time
 
 
-def _units(
+def _collect_units(
     table: LogTable, values: dict[str, np.ndarray], joints: Sequence[JointSpec]
 ) -> dict[str, str]:
     """SI of what is ours; of other columns what the file says."""
@@ -326,25 +334,25 @@ def _units(
         for joint in joints
         for kind, per in (("q", ""), ("qc", ""), ("qd", "/s"), ("qdd", "/s^2"), ("tau", ""))
     }
-    return {name: of_joint.get(name, table.unit(name)) for name in values}
+    return {name: of_joint.get(name, table.get_unit(name)) for name in values}
 
 
-def _robot(place: str) -> Robot:
-    return _kept("robot", _state(place), lambda: read_robot(place))
+def _load_robot(place: str) -> Robot:
+    return _cache_result("robot", _read_state(place), lambda: read_robot(place))
 
 
 def robot_logging(place: str) -> tuple[tuple[JointSpec, ...], dict[str, Any]]:
     """Joints of a robot file, and its [log]."""
-    return robot_joints(place), dict(_robot(place).log_words)
+    return robot_joints(place), dict(_load_robot(place).log_mapping)
 
 
 def robot_joints(place: str) -> tuple[JointSpec, ...]:
     """Of a robot file, without deriving anything; none without one."""
     if not place:
         return ()
-    robot = _robot(place)
+    robot = _load_robot(place)
     return tuple(
-        JointSpec(j.name, "revolute" if j.angular else "prismatic", j.unit, j.effort_unit,
+        JointSpec(j.name, "revolute" if j.is_revolute else "prismatic", j.unit, j.effort_unit,
                   j.actuated, robot.drive_gains.get(j.name), robot.drives.get(j.name))
         for j in robot.coordinates
     )  # fmt: skip
@@ -354,7 +362,7 @@ def robot_joints(place: str) -> tuple[JointSpec, ...]:
 
 
 @dataclass(frozen=True, eq=False)
-class _Judged:
+class _ModelOnLogs:
     """A model on logs."""
 
     comparison: validation.Comparison
@@ -366,11 +374,11 @@ class _Judged:
     def prediction(self) -> Prediction:
         return self.comparison.prediction
 
-    def log(self, place: str) -> _Log:
+    def load_log(self, place: str) -> _Log:
         """All columns of a log, by the names that the model has for them."""
-        mapping, joints = log_maps.log_map(self.compiled), self.compiled.spec.joints
-        key = (_state(str(log_maps.file_and_span(place)[0])), _state(self.model))
-        return _kept("log", key, lambda: _read_as(place, mapping, joints), 3)
+        mapping, joints = log_maps.build_log_map(self.compiled), self.compiled.spec.joints
+        key = (_read_state(str(log_maps.parse_time_range(place)[0])), _read_state(self.model))
+        return _cache_result("log", key, lambda: _read_mapped(place, mapping, joints), 3)
 
 
 @dataclass(frozen=True)
@@ -399,24 +407,28 @@ class Verdict:
 
 def verdict(model: str, logs: Sequence[str]) -> Verdict:
     """What `modeler compare MODEL LOG...` says of every joint."""
-    judged = _judged(model, logs)
-    time = running_time(judged.prediction)[0]
-    items = judged.comparison.joints
+    model_on_logs = _compare_model(model, logs)
+    time = concatenate_time(model_on_logs.prediction)[0]
+    items = model_on_logs.comparison.joints
     return Verdict(
         tuple(item.joint.name for item in items),
         tuple(float(item.relative_error) for item in items),
-        tuple(validation.joint_verdict(item) for item in items),
-        tuple(_channels(judged)), float(time.min()), float(time.max()),
-        tuple(map(_kind, items)),
-        tuple(f"Joint {name}: not judged: {why}" for name, why in judged.comparison.unjudged),
-    )  # fmt: skip
+        tuple(validation.write_joint_verdict(item) for item in items),
+        tuple(_collect_channels(model_on_logs)),
+        float(time.min()),
+        float(time.max()),
+        tuple(map(_classify_remainder, items)),
+        tuple(
+            f"Joint {name}: not judged: {why}" for name, why in model_on_logs.comparison.unjudged
+        ),
+    )
 
 
-def _kind(item: validation.JointComparison) -> str:
+def _classify_remainder(item: validation.JointComparison) -> str:
     """What is left of a joint, which too few samples may not tell; a large error is no noise."""
-    found = validation.kind_of_residual(item)
-    told = found != "other" or item.structure is not None or validation.too_large(item)
-    return found if told else "untold"
+    kind = validation.classify_residual(item)
+    is_determined = kind != "other" or item.structure is not None or validation.is_too_large(item)
+    return kind if is_determined else "untold"
 
 
 def torque_picture(
@@ -432,26 +444,37 @@ def torque_picture(
         start: on the axis of the picture, s; logs stand one after the other.
         end: the same.
     """
-    first = _judged(models[0], logs).prediction
-    j = _number(first, joint)
-    time, label, marks = running_time(first)
-    rows = _between(time, start, end)
+    first = _compare_model(models[0], logs).prediction
+    j = _find_joint(first, joint)
+    time, label, marks = concatenate_time(first)
+    rows = _select_between(time, start, end)
     unit, alone = first.joints[j].effort_unit, len(models) == 1
-    above: list[Series] = [_curve(first, "measured", time, first.measured[:, j], rows, _MEASURED)]
+    above: list[Series] = [
+        _build_curve(first, "measured", time, first.measured[:, j], rows, _MEASURED)
+    ]
     below: list[Series] = []
     for k, model in enumerate(models):
         style = Style(_OF_MODELS[k % len(_OF_MODELS)], width=1.4, opacity=0.9)
-        p, name = _judged(model, logs).prediction, _short(model)
-        own = running_time(p)[0]  # rows of another model may be others
-        kept, left = _between(own, start, end), validation.residual(p)[:, j]
-        above.append(_curve(p, "predicted" if alone else name, own, p.predicted[:, j], kept, style))
-        below.append(_curve(p, "residual" if alone else name, own, left, kept, style))
-    spans = validation.masked_spans(first, j, time, rows)
+        p, name = _compare_model(model, logs).prediction, _format_model_name(model)
+        model_time = concatenate_time(p)[0]  # rows of another model may be others
+        kept_rows, left = (
+            _select_between(model_time, start, end),
+            validation.compute_residual(p)[:, j],
+        )
+        above.append(
+            _build_curve(
+                p, "predicted" if alone else name, model_time, p.predicted[:, j], kept_rows, style
+            )
+        )
+        below.append(
+            _build_curve(p, "residual" if alone else name, model_time, left, kept_rows, style)
+        )
+    spans = validation.find_masked_spans(first, j, time, rows)
     ends = float(time[rows[0]]), float(time[rows[-1]])
     what = f"{WORDS[unit]} [{unit}]"
     return Picture(
         f"torque_{joint}", f"Joint {joint}: measured and predicted",
-        validation.mask_caption(first, j),
+        validation.describe_masks(first, j),
         ((Panel("", label, what, tuple(above), marks=marks, spans=spans, x_range=ends),),
          (Panel("", label, f"residual [{unit}]", tuple(below), marks=marks, zero=True, spans=spans,
                 x_range=ends),)),
@@ -463,19 +486,21 @@ _MEASURED = Style(BLACK, width=1.1)
 _OF_MODELS = (ORANGE, BLUE, GREEN, PINK, VERMILLION, SKY)
 
 
-def _between(time: np.ndarray, start: float, end: float) -> np.ndarray:
+def _select_between(time: np.ndarray, start: float, end: float) -> np.ndarray:
     """Rows from one time to another; all where there are none."""
     rows = np.flatnonzero((time >= start) & (time <= end))
     return np.arange(time.size) if rows.size < 2 else rows
 
 
-def _curve(
+def _build_curve(
     prediction: Prediction, label: str, time: np.ndarray, values: np.ndarray, rows: np.ndarray,
     style: Style,
 ) -> Curve:  # fmt: skip
-    kept = rows[thin_curves((np.asarray(values[rows], dtype=float),), POINTS)]
+    thinned = rows[thin_curves((np.asarray(values[rows], dtype=float),), POINTS)]
     return Curve(
-        label, *validation.broken(prediction.segment[kept], time[kept], values[kept]), style
+        label,
+        *validation.break_at_gaps(prediction.segment[thinned], time[thinned], values[thinned]),
+        style,
     )
 
 
@@ -494,24 +519,24 @@ def residual_picture(
     parts: list[tuple[str, np.ndarray, np.ndarray]] = []
     unit = label = ""
     for model in models:
-        judged = _judged(model, logs)
-        p, j = judged.prediction, _number(judged.prediction, joint)
-        x, label = _channel(judged, j, channel)
-        e, rows = validation.residual(p)[:, j], p.used[:, j] & np.isfinite(x)
-        name = f"{_short(model)}: " if len(models) > 1 else ""
+        model_on_logs = _compare_model(model, logs)
+        p, j = model_on_logs.prediction, _find_joint(model_on_logs.prediction, joint)
+        x, label = _read_channel(model_on_logs, j, channel)
+        e, rows = validation.compute_residual(p)[:, j], p.used[:, j] & np.isfinite(x)
+        name = f"{_format_model_name(model)}: " if len(models) > 1 else ""
         for run, log in enumerate(p.logs) if by_log else [(-1, "")]:
-            own = rows & (p.run == run) if by_log else rows
-            parts.append((name + log, x[own], e[own]))
+            log_rows = rows & (p.run == run) if by_log else rows
+            parts.append((name + log, x[log_rows], e[log_rows]))
         unit = p.joints[j].effort_unit
     series: list[Series] = []
     for k, (name, x, e) in enumerate(parts):
         style = Style(_OF_MODELS[(k + 1) % len(_OF_MODELS)], width=1.6)
-        kept = thin_points(x, e, POINTS)
+        thinned = thin_points(x, e, POINTS)
         cloud = Style(style.color if len(parts) > 1 else GREY, width=2.6, opacity=0.35)
-        series.append(Points(f"{name} samples".strip(), x[kept], e[kept], cloud))
+        series.append(Points(f"{name} samples".strip(), x[thinned], e[thinned], cloud))
         if x.size:
             means = f"{name} mean, 2 standard errors".strip()
-            series.append(Means(means, *validation.binned_means(x, e), style))
+            series.append(Means(means, *validation.compute_binned_means(x, e), style))
     if not any(x.size for _, x, _ in parts):
         raise DataError(f"joint {joint}: no row that counts has a value of {channel}")
     panel = Panel("", label, f"residual [{unit}]", tuple(series), zero=True)
@@ -522,21 +547,29 @@ def residual_picture(
 def where_picture(model: str, logs: Sequence[str]) -> Picture:
     """Joint by channel: the share of its residual's variance that follows that channel.
 
-    Of coordinates of the motion as `modeler compare` has it, of other columns as `explained`.
+    Of coordinates of the motion as `modeler compare` has it, of other columns as
+    `compute_explained_share`.
     """
-    judged = _judged(model, logs)
-    p, names = judged.prediction, [channel for channel, _ in _channels(judged)]
-    items = judged.comparison.joints
+    model_on_logs = _compare_model(model, logs)
+    p, names = (
+        model_on_logs.prediction,
+        [channel for channel, _ in _collect_channels(model_on_logs)],
+    )
+    items = model_on_logs.comparison.joints
     values = np.full((len(items), len(names)), np.nan)
     for i, item in enumerate(items):
         if item.structure is None:
             continue
-        own = {c.id for c in validation.coordinates_of(p, item.index)}
+        coordinate_ids = {c.id for c in validation.select_coordinates(p, item.index)}
         for k, name in enumerate(names):
-            x, _ = _channel(judged, item.index, name)
+            x, _ = _read_channel(model_on_logs, item.index, name)
             rows = p.used[:, item.index] & np.isfinite(x)
-            e = validation.residual(p)[rows, item.index]
-            share = item.structure.share(name) if name in own else explained(x[rows], e)
+            e = validation.compute_residual(p)[rows, item.index]
+            share = (
+                item.structure.get_share(name)
+                if name in coordinate_ids
+                else compute_explained_share(x[rows], e)
+            )
             values[i, k] = 100.0 * share
     texts = tuple(tuple("" if np.isnan(v) else f"{v:.0f}" for v in row) for row in values)
     joints = tuple(item.joint.name for item in items)
@@ -550,7 +583,7 @@ def where_picture(model: str, logs: Sequence[str]) -> Picture:
     )  # fmt: skip
 
 
-def explained(x: np.ndarray, e: np.ndarray, bins: int = 24, folds: int = 8) -> float:
+def compute_explained_share(x: np.ndarray, e: np.ndarray, bins: int = 24, folds: int = 8) -> float:
     """Share of the variance of e that its mean in bins of x predicts on parts left out in turn.
 
     1 - sum (e - m)^2 / sum (e - mean e)^2, 0 at least; m is the mean of the bin over all other
@@ -581,76 +614,78 @@ def explained(x: np.ndarray, e: np.ndarray, bins: int = 24, folds: int = 8) -> f
 
 def log_errors(model: str, logs: Sequence[str]) -> list[tuple[str, float, dict[str, float]]]:
     """Relative error on each log, and by joint."""
-    found = _judged(model, logs).comparison.logs
-    return [(one.log, float(one.relative_error), dict(one.joints)) for one in found]
+    log_comparisons = _compare_model(model, logs).comparison.logs
+    return [(one.log, float(one.relative_error), dict(one.joints)) for one in log_comparisons]
 
 
 def poses(
     model: str, logs: Sequence[str], points: int = 6000
 ) -> tuple[np.ndarray, dict[str, np.ndarray]]:
     """Time on the axis of the pictures and the position of every joint there, rad or m."""
-    p = _judged(model, logs).prediction
-    time = running_time(p)[0]
+    p = _compare_model(model, logs).prediction
+    time = concatenate_time(p)[0]
     rows = np.arange(0, time.size, -(-time.size // points))
     return time[rows], {info.name: p.q[rows, j] for j, info in enumerate(p.joints)}
 
 
-def _channels(judged: _Judged) -> list[tuple[str, str]]:
+def _collect_channels(model_on_logs: _ModelOnLogs) -> list[tuple[str, str]]:
     """Id and label: coordinates of the motion, then all other columns of the log."""
-    coordinates = {c.id: c for j in range(len(judged.prediction.joints))
-                   for c in validation.coordinates_of(judged.prediction, j)}  # fmt: skip
-    first = judged.log(judged.logs[0])
+    coordinates = {c.id: c for j in range(len(model_on_logs.prediction.joints))
+                   for c in validation.select_coordinates(model_on_logs.prediction, j)}  # fmt: skip
+    first = model_on_logs.load_log(model_on_logs.logs[0])
     if first.source is not None:  # of a long log only windows are held
         return [(name, c.label) for name, c in coordinates.items()]
-    own = {f"{kind}{joint.name}" for joint in judged.prediction.joints
+    motion_names = {f"{kind}{joint.name}" for joint in model_on_logs.prediction.joints
            for kind in ("q", "qd", "qdd", "tau")}  # fmt: skip
-    others = [(name, name) for name in first.values if name not in {*own, "segment"}]
+    others = [(name, name) for name in first.values if name not in {*motion_names, "segment"}]
     return [(name, c.label) for name, c in coordinates.items()] + others
 
 
-def _channel(judged: _Judged, j: int, channel: str) -> tuple[np.ndarray, str]:
+def _read_channel(model_on_logs: _ModelOnLogs, j: int, channel: str) -> tuple[np.ndarray, str]:
     """Values of a channel on all rows, NaN where the log has none, and its label."""
-    p = judged.prediction
-    coordinate = next((c for c in validation.coordinates_of(p, j) if c.id == channel), None)
+    p = model_on_logs.prediction
+    coordinate = next((c for c in validation.select_coordinates(p, j) if c.id == channel), None)
     if coordinate is not None:
-        unit = validation.coordinate_unit(p, j, channel)
-        values = validation.coordinate_values(p, j, channel)
+        unit = validation.format_coordinate_unit(p, j, channel)
+        values = validation.evaluate_coordinate(p, j, channel)
         return np.asarray(values, dtype=float), f"{coordinate.label} [{unit}]"
-    found, label = np.full(p.time.size, np.nan), channel
-    for run, place in enumerate(judged.logs):
+    channel_values, label = np.full(p.time.size, np.nan), channel
+    for run, place in enumerate(model_on_logs.logs):
         rows = p.run == run
-        log = judged.log(place)
+        log = model_on_logs.load_log(place)
         if channel in log.values and rows.any():
-            found[rows] = np.interp(p.time[rows], log.time, log.values[channel])
+            channel_values[rows] = np.interp(p.time[rows], log.time, log.values[channel])
             unit = log.units.get(channel, "")
             label = f"{channel} [{unit}]" if unit else channel
-    return found, label
+    return channel_values, label
 
 
-def _number(prediction: Prediction, joint: str) -> int:
+def _find_joint(prediction: Prediction, joint: str) -> int:
     return next(j for j, info in enumerate(prediction.joints) if info.name == joint)
 
 
-def _judged(model: str, logs: Sequence[str]) -> _Judged:
+def _compare_model(model: str, logs: Sequence[str]) -> _ModelOnLogs:
     """The model on logs; behind them may stand words of `--map`, as in a command."""
     cut = list(logs).index("--map") if "--map" in logs else len(logs)
     files, mapping = tuple(logs[:cut]), tuple(logs[cut + 1 :: 2])
 
-    def compared() -> _Judged:
-        loaded, compiled = _model(model)
-        comparison, _ = checks.compared(loaded, list(files), compiled, mapping)
-        return _Judged(comparison, model, compiled, files)
+    def run_comparison() -> _ModelOnLogs:
+        loaded, compiled = _load_model(model)
+        comparison, _ = checks.compare_logs(loaded, list(files), compiled, mapping)
+        return _ModelOnLogs(comparison, model, compiled, files)
 
-    return _kept("judged", (_state(model), tuple(map(_state, files)), mapping), compared, 4)
+    return _cache_result(
+        "judged", (_read_state(model), tuple(map(_read_state, files)), mapping), run_comparison, 4
+    )
 
 
-def _model(place: str) -> tuple[IdentifiedModel, CompiledModel]:
-    def load() -> tuple[IdentifiedModel, CompiledModel]:
+def _load_model(place: str) -> tuple[IdentifiedModel, CompiledModel]:
+    def load_and_compile() -> tuple[IdentifiedModel, CompiledModel]:
         model = load_model(place)
-        return model, workflow.recompile(model)
+        return model, workflow.compile(model)
 
-    return _kept("model", _state(place), load)
+    return _cache_result("model", _read_state(place), load_and_compile)
 
 
-def _short(model: str) -> str:
+def _format_model_name(model: str) -> str:
     return f"model {Path(model).stem}"

@@ -2,62 +2,70 @@ from .comparison import (
     WINDOW as WINDOW,
     Comparison as Comparison,
     JointComparison as JointComparison,
-    by_log as by_log,
     compare as compare,
-    method_lines as method_lines,
-    or_dash as or_dash,
+    describe_methods as describe_methods,
+    format_or_dash as format_or_dash,
+    tabulate_logs as tabulate_logs,
 )
-from .free_run import FreeRunSettings as FreeRunSettings, Gains as Gains, free_run as free_run
+from .free_run import (
+    FreeRunSettings as FreeRunSettings,
+    Gains as Gains,
+    simulate_free_run as simulate_free_run,
+)
 from .free_run_result import (
     FreeRun as FreeRun,
     JointFreeRun as JointFreeRun,
-    free_run_picture as free_run_picture,
-    free_run_pictures as free_run_pictures,
+    draw_free_run_picture as draw_free_run_picture,
+    draw_free_run_pictures as draw_free_run_pictures,
 )
 from .models import (
     DOUBT as DOUBT,
-    Contest as Contest,
-    JointContest as JointContest,
+    JointModelComparison as JointModelComparison,
+    ModelComparison as ModelComparison,
     check_joints as check_joints,
-    contest as contest,
-    contest_lines as contest_lines,
-    contest_sentences as contest_sentences,
-    headline_of as headline_of,
+    compare_models as compare_models,
+    describe_model_comparison as describe_model_comparison,
+    describe_winner as describe_winner,
+    format_model_comparison as format_model_comparison,
     predict_together as predict_together,
 )
 from .pictures import (
-    binned_means as binned_means,
-    overlay_picture as overlay_picture,
-    overview_picture as overview_picture,
-    residual_picture as residual_picture,
+    compute_binned_means as compute_binned_means,
+    draw_overlay_picture as draw_overlay_picture,
+    draw_overview_picture as draw_overview_picture,
+    draw_residual_picture as draw_residual_picture,
 )
-from .predict import at_every_row as at_every_row, compare_long as compare_long, predict as predict
+from .predict import (
+    compare_long_logs as compare_long_logs,
+    predict as predict,
+    predict_every_row as predict_every_row,
+)
 from .prediction import (
     DEVIATIONS as DEVIATIONS,
     JointInfo as JointInfo,
     Prediction as Prediction,
-    residual as residual,
+    compute_residual as compute_residual,
 )
 from .residual_structure import (
-    coordinate_unit as coordinate_unit,
-    coordinate_values as coordinate_values,
-    coordinates_of as coordinates_of,
+    evaluate_coordinate as evaluate_coordinate,
+    format_coordinate_unit as format_coordinate_unit,
+    select_coordinates as select_coordinates,
 )
 from .time_picture import (
-    broken as broken,
-    mask_caption as mask_caption,
-    masked_spans as masked_spans,
-    running_time as running_time,
-    time_picture as time_picture,
+    break_at_gaps as break_at_gaps,
+    concatenate_time as concatenate_time,
+    describe_masks as describe_masks,
+    draw_time_picture as draw_time_picture,
+    find_masked_spans as find_masked_spans,
 )
 from .verdict import (
-    best_other as best_other,
-    best_pattern as best_pattern,
-    headline as headline,
-    joint_verdict as joint_verdict,
-    kind_of_residual as kind_of_residual,
-    looks_like_noise as looks_like_noise,
-    too_large as too_large,
-    verdict as verdict,
-    wrong_scale as wrong_scale,
+    classify_residual as classify_residual,
+    describe_wrong_scale as describe_wrong_scale,
+    find_best_other as find_best_other,
+    find_best_pattern as find_best_pattern,
+    is_noise_like as is_noise_like,
+    is_too_large as is_too_large,
+    write_headline as write_headline,
+    write_joint_verdict as write_joint_verdict,
+    write_verdict as write_verdict,
 )

@@ -8,20 +8,35 @@ from typing import Any
 
 import numpy as np
 
-from modeler.core.brief import Brief
-from modeler.core.json import entries, nulled
-from modeler.core.result import Presented
-from modeler.core.table import POOLED, WORDS, aligned, percent
-from modeler.numerics.spectra import OrderSpectrum, ResidualSpectrum, residual_spectrum, spans
+from modeler.core.brief import ShortRepr
+from modeler.core.json import convert_to_plain, select_attributes
+from modeler.core.result import Result
+from modeler.core.table import POOLED, WORDS, align_columns, format_percent
+from modeler.numerics.spectra import (
+    OrderSpectrum,
+    ResidualSpectrum,
+    estimate_residual_spectrum,
+    find_segment_slices,
+)
 from modeler.validation.prediction import (
     JointInfo,
     Prediction,
-    relative_error,
-    residual,
-    unit_errors,
+    compute_relative_error,
+    compute_residual,
+    compute_unit_errors,
 )
-from modeler.validation.repeatability import Repetition, Shares, repetitions, shares
-from modeler.validation.residual_structure import Structure, order_lines, ripple, structure
+from modeler.validation.repeatability import (
+    Repetition,
+    VarianceShares,
+    find_repetitions,
+    split_variance,
+)
+from modeler.validation.residual_structure import (
+    ResidualStructure,
+    analyse_structure,
+    compute_ripple_spectrum,
+    find_order_peaks,
+)
 
 # The comparison as a table of plain text.
 
@@ -38,34 +53,34 @@ METHODS = {
 """How the repeatable part of a residual was found."""
 
 
-def method_lines(comparison: "Comparison") -> list[str]:
+def describe_methods(comparison: "Comparison") -> list[str]:
     """What the shares are of, and how they were found, by method."""
     methods = {item.shares.method for item in comparison.joints if item.shares is not None}
     text = "R2, repeatable, noise: shares of the torque's variance; repeatable is "
     return [f"{text}{METHODS[name]}" for name in METHODS if name in methods]
 
 
-def or_dash(value: float, form: str) -> str:
+def format_or_dash(value: float, form: str) -> str:
     """A number, or a dash where it is not defined."""
     return format(value, form) if math.isfinite(value) else "-"
 
 
-def _row(item: "JointComparison") -> tuple[str, ...]:
-    unit, found = item.joint.effort_unit, item.shares
+def _format_row(item: "JointComparison") -> tuple[str, ...]:
+    unit, variance_shares = item.joint.effort_unit, item.shares
     return (
         item.joint.name,
-        percent(item.relative_error),
+        format_percent(item.relative_error),
         f"{item.rms:.3g} {unit:<3}",
         f"{item.largest.value:.3g} {unit:<3}",
         f"{item.largest.time:.2f} s of {item.largest.log}",
-        or_dash(item.r2, ".3f"),
-        percent(None if found is None else found.systematic),
-        percent(None if found is None else found.floor),
+        format_or_dash(item.r2, ".3f"),
+        format_percent(None if variance_shares is None else variance_shares.systematic),
+        format_percent(None if variance_shares is None else variance_shares.floor),
         f"{item.bias:.2g} {unit:<3}",
     )
 
 
-def by_log(comparison: "Comparison", error: str = "error") -> list[list[str]]:
+def tabulate_logs(comparison: "Comparison", error: str = "error") -> list[list[str]]:
     """A head, and a row of each log; `error` is that of all joints together, by unit."""
     units = comparison.by_unit
     errors = [error] if len(units) == 1 else [f"{error} {unit}" for unit in units]
@@ -74,7 +89,7 @@ def by_log(comparison: "Comparison", error: str = "error") -> list[list[str]]:
         [
             item.log,
             str(item.samples),
-            *map(percent, (*item.by_unit.values(), *dict(item.joints).values())),
+            *map(format_percent, (*item.by_unit.values(), *dict(item.joints).values())),
         ]
         for item in comparison.logs
     ]
@@ -92,7 +107,7 @@ REGIONS = ("fast -", "slow -", "around zero", "slow +", "fast +")
 
 
 @dataclass(frozen=True)
-class Region(Brief):
+class Region(ShortRepr):
     """Residual of one joint in one region of its velocity."""
 
     name: str
@@ -118,7 +133,7 @@ class WorstWindow:
     rms: float  # N m or N
 
 
-def velocity_regions(qd: np.ndarray, e: np.ndarray) -> tuple[Region, ...]:
+def compute_velocity_regions(qd: np.ndarray, e: np.ndarray) -> tuple[Region, ...]:
     """The five regions of REGIONS, thresholds as fractions of the largest speed.
 
     Args:
@@ -147,7 +162,7 @@ def velocity_regions(qd: np.ndarray, e: np.ndarray) -> tuple[Region, ...]:
     )
 
 
-def worst_window(prediction: Prediction, e: np.ndarray, width: float = WINDOW) -> WorstWindow:
+def find_worst_window(prediction: Prediction, e: np.ndarray, width: float = WINDOW) -> WorstWindow:
     """The window of `width` seconds, inside one segment, with the largest residual energy.
 
     Args:
@@ -159,7 +174,7 @@ def worst_window(prediction: Prediction, e: np.ndarray, width: float = WINDOW) -
     energy = np.concatenate(([0.0], np.cumsum(square)))
     counted = np.concatenate(([0], np.cumsum(np.isfinite(e))))
     best, first, last = -1.0, 0, 0
-    for span in spans(prediction.segment):
+    for span in find_segment_slices(prediction.segment):
         time = prediction.time[span]
         # half a sample of slack, so that rounding of the time stamps does not cost a row
         slack = 0.5 * float(np.median(np.diff(time))) if time.size > 1 else 0.0
@@ -196,32 +211,33 @@ class Scale:
     mended: float  # share of the squared residual that the factor of other blocks takes away
 
     @property
-    def opposite(self) -> bool:
+    def has_opposite_sign(self) -> bool:
         """True if the prediction has the wrong sign."""
         return self.factor < _OPPOSITE and self.mended > _EXPLAINS
 
     @property
-    def off(self) -> bool:
+    def has_wrong_factor(self) -> bool:
         """True if the prediction is right but for a factor."""
         return abs(self.factor - 1.0) > _OFF and self.mended > _EXPLAINS
 
 
-def scale(measured: np.ndarray, predicted: np.ndarray) -> Scale | None:
+def estimate_scale(measured: np.ndarray, predicted: np.ndarray) -> Scale | None:
     """The factor between two torques, (n,) each in order of time; None for too few samples."""
     blocks = np.arange(measured.size) * _BLOCKS // max(1, measured.size)
-    own, cross = (np.bincount(blocks, predicted * x, _BLOCKS) for x in (predicted, measured))
-    if measured.size < _FEWEST or not np.all(own.sum() - own > 0.0):
+    squares, cross = (np.bincount(blocks, predicted * x, _BLOCKS) for x in (predicted, measured))
+    if measured.size < _FEWEST or not np.all(squares.sum() - squares > 0.0):
         return None
-    elsewhere = (cross.sum() - cross) / (own.sum() - own)
+    elsewhere = (cross.sum() - cross) / (squares.sum() - squares)
     before = float(np.sum((measured - predicted) ** 2))
     after = float(np.sum((measured - elsewhere[blocks] * predicted) ** 2))
     return Scale(
-        factor=float(cross.sum() / own.sum()), mended=1.0 - after / before if before > 0.0 else 0.0
+        factor=float(cross.sum() / squares.sum()),
+        mended=1.0 - after / before if before > 0.0 else 0.0,
     )
 
 
 @dataclass(frozen=True)
-class LogError(Brief):
+class LogError(ShortRepr):
     """||measured - predicted|| / ||measured|| over the rows of one log that count."""
 
     log: str
@@ -231,24 +247,27 @@ class LogError(Brief):
     by_unit: Mapping[str, float]  # all joints of one unit; NaN without torque
 
 
-def errors_by_log(prediction: Prediction) -> tuple[LogError, ...]:
+def compute_errors_by_log(prediction: Prediction) -> tuple[LogError, ...]:
     """In the order of the logs."""
-    e = np.nan_to_num(residual(prediction))
+    e = np.nan_to_num(compute_residual(prediction))
     measured = np.where(prediction.used, prediction.measured, 0.0)
-    found = []
+    log_errors = []
     for run, log in enumerate(prediction.logs):
         rows = prediction.run == run
         joints = tuple(
-            (info.name, _relative(e[rows, j], measured[rows, j]))
+            (info.name, _compute_error_ratio(e[rows, j], measured[rows, j]))
             for j, info in enumerate(prediction.joints)
         )
         samples = int(prediction.used[rows].any(axis=1).sum())
-        whole, by_unit = _relative(e[rows], measured[rows]), unit_errors(prediction, rows)
-        found.append(LogError(log, samples, whole, joints, by_unit))
-    return tuple(found)
+        whole, by_unit = (
+            _compute_error_ratio(e[rows], measured[rows]),
+            compute_unit_errors(prediction, rows),
+        )
+        log_errors.append(LogError(log, samples, whole, joints, by_unit))
+    return tuple(log_errors)
 
 
-def _relative(e: np.ndarray, measured: np.ndarray) -> float:
+def _compute_error_ratio(e: np.ndarray, measured: np.ndarray) -> float:
     size = float(np.linalg.norm(measured))
     return float(np.linalg.norm(e)) / size if size > 0.0 else float("nan")
 
@@ -263,7 +282,7 @@ class Moment:
 
 
 @dataclass(frozen=True, eq=False)
-class JointComparison(Brief):
+class JointComparison(ShortRepr):
     """How one joint is predicted; N m for a revolute joint, N for a prismatic one."""
 
     joint: JointInfo
@@ -277,16 +296,16 @@ class JointComparison(Brief):
     largest: Moment
     regions: tuple[Region, ...]
     worst: WorstWindow
-    structure: Structure | None  # None: too few samples to tell
+    structure: ResidualStructure | None  # None: too few samples to tell
     spectrum: ResidualSpectrum | None  # None: no segment long enough
-    shares: Shares | None  # None: too few samples to tell
+    shares: VarianceShares | None  # None: too few samples to tell
     scale: Scale | None  # None: too few samples, or a constant
     orders: OrderSpectrum | None  # None: too few samples, or the joint rests
     predicted_sigma: float | None  # rms standard deviation of the prediction; None: not known
 
 
 @dataclass(frozen=True, eq=False)
-class Comparison(Presented):
+class Comparison(Result):
     """What `compare` found; carries the prediction so that pictures can be drawn from it."""
 
     prediction: Prediction
@@ -300,45 +319,50 @@ class Comparison(Presented):
 
     def to_json(self) -> dict[str, Any]:
         """What scripts read: plain numbers and text; undefined numbers are None."""
-        return nulled({
-            "robot": self.prediction.robot,
-            "logs": self.prediction.logs,
-            **entries(self, "samples relative_error"),
-            "relative_error_pools": POOLED,
-            "by_unit": self.by_unit,
-            "joints": {joint.joint.name: _joint_dict(joint) for joint in self.joints},
-            "unjudged": dict(self.unjudged),
-            "by_log": [
-                entries(log, "log samples relative_error by_unit") | {"joints": dict(log.joints)}
-                for log in self.logs
-            ],
-            "repeated": [{"method": item.kind, "periods": item.periods} for item in self.repeated],
-        })  # fmt: skip
+        return convert_to_plain(
+            {
+                "robot": self.prediction.robot,
+                "logs": self.prediction.logs,
+                **select_attributes(self, "samples relative_error"),
+                "relative_error_pools": POOLED,
+                "by_unit": self.by_unit,
+                "joints": {joint.joint.name: _serialise_joint(joint) for joint in self.joints},
+                "unjudged": dict(self.unjudged),
+                "by_log": [
+                    select_attributes(log, "log samples relative_error by_unit")
+                    | {"joints": dict(log.joints)}
+                    for log in self.logs
+                ],
+                "repeated": [
+                    {"method": item.kind, "periods": item.periods} for item in self.repeated
+                ],
+            }
+        )
 
     def summary(self) -> str:
         """Plain text: one line per joint, units in the table; what the shares mean; each log."""
-        rows = [_HEAD, *(_row(item) for item in self.joints)]
-        lines = aligned(rows, _LEFT)
+        rows = [_HEAD, *(_format_row(item) for item in self.joints)]
+        lines = align_columns(rows, _LEFT)
         names = max((len(name) for name, _ in self.unjudged), default=0)
         width = max(7, names + 1, *(len(row[0]) + 2 for row in rows))
         lines += [f"{name:<{width}}not judged: {reason}" for name, reason in self.unjudged]
         if len(self.by_unit) == 1:
             lines.append(
-                f"{'all':<{width}}{percent(self.relative_error)}  of {self.samples} samples"
+                f"{'all':<{width}}{format_percent(self.relative_error)}  of {self.samples} samples"
             )
         else:  # N m and N add up to nothing
             lines += [
-                f"{'all':<{width}}{percent(error)}  of the {WORDS[unit]}s ({unit})"
+                f"{'all':<{width}}{format_percent(error)}  of the {WORDS[unit]}s ({unit})"
                 for unit, error in self.by_unit.items()
             ]
             lines.append(f"{self.samples} samples")
-        lines += method_lines(self)
+        lines += describe_methods(self)
         if len(self.logs) > 1:
-            lines += ["", *aligned(by_log(self), (0,))]
+            lines += ["", *align_columns(tabulate_logs(self), (0,))]
         return "\n".join(line.rstrip() for line in lines)
 
 
-def compare(prediction: Prediction, looked: Prediction | None = None) -> Comparison:
+def compare(prediction: Prediction, ripple_windows: Prediction | None = None) -> Comparison:
     """How well the torque is predicted, where it fails, and whether the residual has structure.
 
     A joint none of whose rows count, or whose measured torque is zero in all of them, is listed
@@ -346,10 +370,11 @@ def compare(prediction: Prediction, looked: Prediction | None = None) -> Compari
 
     Args:
         prediction: measured and predicted.
-        looked: windows of long logs with the samples behind their rows, where ripple is looked for.
+        ripple_windows: windows of long logs with the samples behind their rows, where ripple is
+            looked for.
     """
-    e = residual(prediction)
-    repeated = repetitions(prediction)
+    e = compute_residual(prediction)
+    repeated = find_repetitions(prediction)
     judged, unjudged = [], []
     for index, info in enumerate(prediction.joints):
         rows = prediction.used[:, index]
@@ -358,30 +383,30 @@ def compare(prediction: Prediction, looked: Prediction | None = None) -> Compari
         elif not prediction.measured[rows, index].any():
             unjudged.append((info.name, "measured torque is zero in every sample that counts"))
         else:
-            judged.append(_compare_joint(prediction, index, e[:, index], repeated, looked))
+            judged.append(_compare_joint(prediction, index, e[:, index], repeated, ripple_windows))
     used = prediction.used
     return Comparison(
         prediction=prediction,
         samples=int(used.any(axis=1).sum()),
-        relative_error=relative_error(prediction),
+        relative_error=compute_relative_error(prediction),
         joints=tuple(judged),
         unjudged=tuple(unjudged),
-        logs=errors_by_log(prediction),
+        logs=compute_errors_by_log(prediction),
         repeated=repeated,
-        by_unit=unit_errors(prediction),
+        by_unit=compute_unit_errors(prediction),
     )
 
 
 def _compare_joint(
     prediction: Prediction, index: int, e: np.ndarray, repeated: tuple[Repetition, ...],
-    looked: Prediction | None,
+    ripple_windows: Prediction | None,
 ) -> JointComparison:  # fmt: skip
     rows = prediction.used[:, index]
     counted, measured = e[rows], prediction.measured[rows, index]
     top = int(np.nanargmax(np.abs(e)))
     spread = float(np.sum((measured - measured.mean()) ** 2))
     energy = float(counted @ counted)
-    found, sigma = structure(prediction, index), None
+    joint_structure, sigma = analyse_structure(prediction, index), None
     if prediction.sigma is not None:
         sigma = float(np.sqrt(np.mean(prediction.sigma[rows, index] ** 2)))
     return JointComparison(
@@ -396,34 +421,40 @@ def _compare_joint(
         largest=Moment(
             float(abs(e[top])), prediction.logs[prediction.run[top]], float(prediction.time[top])
         ),
-        regions=velocity_regions(prediction.qd[rows, index], counted),
-        worst=worst_window(prediction, e),
-        structure=found,
-        spectrum=residual_spectrum(prediction.time, prediction.segment, e),
-        shares=shares(prediction, index, e, repeated, found),
-        scale=scale(measured, prediction.predicted[rows, index]),
-        orders=ripple(looked or prediction, index),
+        regions=compute_velocity_regions(prediction.qd[rows, index], counted),
+        worst=find_worst_window(prediction, e),
+        structure=joint_structure,
+        spectrum=estimate_residual_spectrum(prediction.time, prediction.segment, e),
+        shares=split_variance(prediction, index, e, repeated, joint_structure),
+        scale=estimate_scale(measured, prediction.predicted[rows, index]),
+        orders=compute_ripple_spectrum(ripple_windows or prediction, index),
         predicted_sigma=sigma,
     )
 
 
-def _joint_dict(item: JointComparison) -> dict[str, Any]:
-    found, colour, parts = item.structure, item.spectrum, item.shares
+def _serialise_joint(item: JointComparison) -> dict[str, Any]:
+    joint_structure, spectrum, parts = item.structure, item.spectrum, item.shares
     return {
-        **entries(item, "relative_error rms"),
+        **select_attributes(item, "relative_error rms"),
         "max": item.largest.value,
         "r2": item.r2,
-        "max_at": entries(item.largest, "log time"),
+        "max_at": select_attributes(item.largest, "log time"),
         "unit": item.joint.effort_unit,
-        **entries(item, "samples bias predicted_sigma regions"),
+        **select_attributes(item, "samples bias predicted_sigma regions"),
         "worst_window": item.worst,
-        "structure": found and {
-            "shares": dict(found.shares), "together": found.together,
-            "across": dict(found.across), "motors": dict(found.motors), "follows": found.follows,
+        "structure": joint_structure
+        and {
+            "shares": dict(joint_structure.shares),
+            "together": joint_structure.together,
+            "across": dict(joint_structure.across),
+            "motors": dict(joint_structure.motors),
+            "follows": joint_structure.follows,
         },
-        "spectrum": colour and {
-            "memory": colour.memory, "lag_one": colour.correlation[1],
-            **entries(colour, "peak peak_share"),
+        "spectrum": spectrum
+        and {
+            "memory": spectrum.correlation_time,
+            "lag_one": spectrum.correlation[1],
+            **select_attributes(spectrum, "peak peak_share"),
         },
         "explained": item.r2,
         "systematic": parts and parts.systematic,
@@ -431,5 +462,5 @@ def _joint_dict(item: JointComparison) -> dict[str, Any]:
         "method": parts and parts.method,
         "systematic_sigma": parts and parts.sigma,
         "scale": item.scale,
-        "orders": item.orders and order_lines(item.orders, item.joint.unit),
-    }  # fmt: skip
+        "orders": item.orders and find_order_peaks(item.orders, item.joint.unit),
+    }

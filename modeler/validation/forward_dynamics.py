@@ -12,9 +12,9 @@ from dataclasses import dataclass
 import numpy as np
 
 from modeler.core.errors import DataError
-from modeler.core.table import percent
-from modeler.estimation import scaled_inertia
-from modeler.observation import shafts
+from modeler.core.table import format_percent
+from modeler.estimation import scale_inertia
+from modeler.observation import find_shafts
 from modeler.runtime import CompiledModel
 
 _CREEP = 1e-9  # rad/s or m/s, to both sides of standstill
@@ -57,17 +57,17 @@ class FittedPlant:
         closure = model.spec.closure
         rubbing = {p.joint for p in model.spec.standard if p.kind == "friction"}
         if closure is None:
-            self._rows = np.array([part.coefficients for part in shafts(model)])
+            self._rows = np.array([part.coefficients for part in find_shafts(model)])
             self._rows = self._rows.reshape(-1, self.joints)
             self._places: list[int] = []
             self.shafts = len(self._rows)
         else:
             self._places = [i for i, name in enumerate(closure.variables) if name in rubbing]
             self.shafts = len(self._places)
-        self.inner = [i for i, signal in enumerate(model.spec.signals) if signal.inner]
+        self.inner = [i for i, signal in enumerate(model.spec.signals) if signal.is_internal_state]
         """Places in s of what is part of the state."""
 
-    def reaches(self, q: np.ndarray) -> np.ndarray:
+    def can_close(self, q: np.ndarray) -> np.ndarray:
         """(b,) True where the loops close; everywhere without loops."""
         if self.model.spec.closure is None:
             return np.ones(len(q), dtype=bool)
@@ -79,17 +79,18 @@ class FittedPlant:
         Raises:
             DataError: says how often, and which joint is lightest.
         """
-        _, least, light = scaled_inertia(self.model.inertia_matrix(q, self.beta))
+        _, least, light = scale_inertia(self.model.inertia_matrix(q, self.beta))
         if (bad := least < _FLOOR).any():
             raise DataError(
                 f"{self.model.spec.robot}: with the fitted values the inertia matrix is not "
-                f"positive definite in {percent(float(np.mean(bad)))} of the postures, most at "
+                f"positive definite in {format_percent(float(np.mean(bad)))} of the postures, most "
+                "at "
                 f"joint {self.model.spec.joints[light].name}, so no motion follows from a torque; "
                 "expected the inertia of a body; fit with `--method consistent`, or record more "
                 "motion of that joint"
             )
 
-    def forces(
+    def compute_forces(
         self,
         q: np.ndarray,
         qd: np.ndarray,
@@ -107,16 +108,16 @@ class FittedPlant:
             dry: (b, k) bounds of dry friction where they are known from a state nearby.
         """
         M = self.model.inertia_matrix(q, self.beta)
-        C = self.directions(q)
+        C = self.compute_shaft_directions(q)
         if not self.shafts:
-            return Forces(M, self._rest(M, q, qd, qdd, s), C, np.zeros((len(q), 0)))
-        away = _turning(C, qd)
+            return Forces(M, self._compute_smooth_part(M, q, qd, qdd, s), C, np.zeros((len(q), 0)))
+        away = _add_creep(C, qd)
         if dry is None:
-            dry = self._dry(M, C, q, away, qdd, s)
-        told = np.einsum("bkn,bk->bn", C, dry * np.sign(_speeds(C, away)))
-        return Forces(M, self._rest(M, q, away, qdd, s) - told, C, dry)
+            dry = self._estimate_dry_bounds(M, C, q, away, qdd, s)
+        dry_friction = np.einsum("bkn,bk->bn", C, dry * np.sign(_compute_shaft_speeds(C, away)))
+        return Forces(M, self._compute_smooth_part(M, q, away, qdd, s) - dry_friction, C, dry)
 
-    def smooth(
+    def compute_smooth_forces(
         self, forces: Forces, q: np.ndarray, qd: np.ndarray, s: np.ndarray | None
     ) -> tuple[np.ndarray, np.ndarray]:
         """M (b, n, n) and h (b, n) beside a state whose forces are known: its dry friction holds.
@@ -124,30 +125,32 @@ class FittedPlant:
         For difference quotients: steps that are small beside the state, or cross standstill.
         """
         M = self.model.inertia_matrix(q, self.beta)
-        rest = self._rest(M, q, qd, np.zeros_like(q), s)
-        C = forces.C if self.model.spec.closure is None else self.directions(q)
-        told = np.einsum("bkn,bk->bn", C, forces.dry * np.sign(_speeds(C, qd)))
-        return M, rest - told
+        rest = self._compute_smooth_part(M, q, qd, np.zeros_like(q), s)
+        C = forces.C if self.model.spec.closure is None else self.compute_shaft_directions(q)
+        dry_friction = np.einsum(
+            "bkn,bk->bn", C, forces.dry * np.sign(_compute_shaft_speeds(C, qd))
+        )
+        return M, rest - dry_friction
 
-    def directions(self, q: np.ndarray) -> np.ndarray:
+    def compute_shaft_directions(self, q: np.ndarray) -> np.ndarray:
         """(b, k, n) rows of C."""
         if self.model.spec.closure is None:
             return np.broadcast_to(self._rows, (len(q), *self._rows.shape))
         return self.model.coupling(q)[:, self._places]
 
-    def stepped(
+    def advance_signals(
         self, s: np.ndarray, step: np.ndarray, dt: float, motion: Sequence[np.ndarray]
     ) -> np.ndarray:
         """(b, m) signals dt s later: joints have moved by `step`, q, qd, qdd are now `motion`."""
         return self.model.advance(step, dt, s, *motion) if self.inner else s
 
-    def _rest(
+    def _compute_smooth_part(
         self, M: np.ndarray, q: np.ndarray, qd: np.ndarray, qdd: np.ndarray, s: np.ndarray | None
     ) -> np.ndarray:
         tau = self.model.inverse_dynamics(q, qd, qdd, self.beta, s)
         return np.asarray(tau - np.einsum("bij,bj->bi", M, qdd))
 
-    def _dry(
+    def _estimate_dry_bounds(
         self,
         M: np.ndarray,
         C: np.ndarray,
@@ -159,17 +162,21 @@ class FittedPlant:
         """(b, k) half the leap of the torque where one shaft after the other turns."""
         b, k, n = C.shape
         way = np.linalg.solve(M, C.transpose(0, 2, 1))  # (b, n, k)
-        own = np.einsum("bkn,bnk->bk", C, way)
-        way = way / np.where(own > 0.0, own, 1.0)[:, None, :]
-        still = qd[:, None, :] - (way * _speeds(C, qd)[:, None, :]).transpose(0, 2, 1)
+        shaft_compliance = np.einsum("bkn,bnk->bk", C, way)
+        way = way / np.where(shaft_compliance > 0.0, shaft_compliance, 1.0)[:, None, :]
+        still = qd[:, None, :] - (way * _compute_shaft_speeds(C, qd)[:, None, :]).transpose(0, 2, 1)
         apart = _CREEP * way.transpose(0, 2, 1)
         states = np.stack([still + apart, still - apart]).reshape(-1, n)  # (2 b k, n)
 
-        def tiled(values: np.ndarray) -> np.ndarray:
+        def repeat_for_shafts(values: np.ndarray) -> np.ndarray:
             return np.tile(np.repeat(values, k, axis=0), (2, 1))
 
         tau = self.model.inverse_dynamics(
-            tiled(q), states, tiled(qdd), self.beta, None if s is None else tiled(s)
+            repeat_for_shafts(q),
+            states,
+            repeat_for_shafts(qdd),
+            self.beta,
+            None if s is None else repeat_for_shafts(s),
         )
         leap = tau.reshape(2, b, k, n)
         half = 0.5 * (leap[0] - leap[1])
@@ -178,13 +185,13 @@ class FittedPlant:
         return np.maximum(along, 0.0)  # below 0: no friction, but a fault of the fit; it stays in h
 
 
-def _speeds(C: np.ndarray, qd: np.ndarray) -> np.ndarray:
+def _compute_shaft_speeds(C: np.ndarray, qd: np.ndarray) -> np.ndarray:
     return np.asarray(np.einsum("bkn,bn->bk", C, qd))
 
 
-def _turning(C: np.ndarray, qd: np.ndarray) -> np.ndarray:
+def _add_creep(C: np.ndarray, qd: np.ndarray) -> np.ndarray:
     """qd with shafts that stand made to creep, so that the C and we see the same sign."""
-    speeds = _speeds(C, qd)
+    speeds = _compute_shaft_speeds(C, qd)
     standing = np.abs(speeds) < _STILL
     if not standing.any():
         return qd

@@ -8,19 +8,19 @@ import numpy as np
 
 from modeler.core.errors import DataError, LoopError
 from modeler.core.manifest import JointSpec
-from modeler.core.table import percent
+from modeler.core.table import format_percent
 from modeler.estimation import ControlLoop, DirectModel, IdentifiedModel
-from modeler.observation import Log, Observation, Segment, observe, signals_of
+from modeler.observation import Log, Observation, Segment, compute_signals, observe
 from modeler.runtime import CompiledModel
 from modeler.validation.forward_dynamics import FittedPlant, Forces
-from modeler.validation.free_run_result import Controlled, FreeRun, JointFreeRun, Path
+from modeler.validation.free_run_result import ControlledRun, FreeRun, JointFreeRun, Path
 from modeler.validation.stability import (
-    Along,
+    LoggedMotion,
     Stability,
-    fit_percentage,
-    horizons,
-    ranges_of,
-    stability,
+    analyse_stability,
+    compute_fit_percentage,
+    compute_horizons,
+    compute_ranges,
 )
 
 # The fitted robot under a controller that follows the logged commands.
@@ -30,9 +30,9 @@ Gains = tuple[float, float, float, float]
 """Speed loop, Hz; ratio of the position loop; integral action; feedforward."""
 
 
-def controlled(
+def simulate_controlled_run(
     model: CompiledModel, beta: np.ndarray, observation: Observation, gains: Gains | None
-) -> tuple[Controlled | None, str]:
+) -> tuple[ControlledRun | None, str]:
     """The robot under the given controller, or under one that comes nearest to the log.
 
     The controller of a log is not known; it is estimated as for `didim`, see `direct_model`.
@@ -57,14 +57,16 @@ def controlled(
         return None, "a joint has no motor, so no controller is looked for"
     try:
         loop = (
-            robot.chosen(beta) if gains is None else ControlLoop(2 * np.pi * gains[0], *gains[1:])
+            robot.choose_loop(beta)
+            if gains is None
+            else ControlLoop(2 * np.pi * gains[0], *gains[1:])
         )
         if np.isinf(loop.speed):
             return None, (
                 "no controller that was tried brings the robot nearer to the log than "
                 "the command is"
             )
-        return _measured(robot, observation, loop, beta, gains is not None), ""
+        return _evaluate_controlled_run(robot, observation, loop, beta, gains is not None), ""
     except (DataError, LoopError):
         if gains is not None:
             raise DataError(
@@ -77,25 +79,33 @@ def controlled(
         )
 
 
-def _measured(
-    robot: DirectModel, observation: Observation, loop: ControlLoop, beta: np.ndarray, given: bool
-) -> Controlled:
-    motions = robot.followed(beta, loop)
-    kept = [segment.whole for segment in robot.segments]
-    q = np.concatenate([s.q[own] for s, own in zip(robot.segments, kept, strict=True)])
-    simulated = np.concatenate([m[0][own] for m, own in zip(motions, kept, strict=True)])
-    wanted = np.concatenate([r[0][own] for r, own in zip(robot.references, kept, strict=True)])
-    rows, torque = observation.row_joint, robot.columns(motions) @ beta
+def _evaluate_controlled_run(
+    robot: DirectModel,
+    observation: Observation,
+    loop: ControlLoop,
+    beta: np.ndarray,
+    has_given_gains: bool,
+) -> ControlledRun:
+    motions = robot.simulate_motions(beta, loop)
+    whole_samples = [segment.whole for segment in robot.segments]
+    q = np.concatenate([s.q[mask] for s, mask in zip(robot.segments, whole_samples, strict=True)])
+    simulated = np.concatenate([m[0][mask] for m, mask in zip(motions, whole_samples, strict=True)])
+    wanted = np.concatenate(
+        [r[0][mask] for r, mask in zip(robot.references, whole_samples, strict=True)]
+    )
+    rows, torque = observation.row_joint, robot.evaluate_columns(motions) @ beta
     fit, tracking, effort = (dict[str, float | None]() for _ in range(3))
     for j, joint in enumerate(observation.joints):
-        fit[joint.name] = fit_percentage(q[:, j], simulated[:, j])
+        fit[joint.name] = compute_fit_percentage(q[:, j], simulated[:, j])
         left = float(np.linalg.norm(q[:, j] - wanted[:, j]))
         error = float(np.linalg.norm(q[:, j] - simulated[:, j]))
         tracking[joint.name] = 100.0 * (1.0 - error / left) if left > 0.0 else None
-        own = rows == j
-        effort[joint.name] = fit_percentage(observation.y[own], torque[own]) if own.any() else None
-    return Controlled(
-        loop.speed / (2 * np.pi), loop.ratio, loop.integral, loop.forward, given,
+        mask = rows == j
+        effort[joint.name] = (
+            compute_fit_percentage(observation.y[mask], torque[mask]) if mask.any() else None
+        )
+    return ControlledRun(
+        loop.speed / (2 * np.pi), loop.ratio, loop.integral, loop.forward, has_given_gains,
         fit, tracking, effort,
     )  # fmt: skip
 
@@ -114,7 +124,7 @@ _SETTLED = 1e-10  # of the speed that dry friction takes in a step
 
 
 @dataclass(frozen=True, eq=False)
-class Lanes:
+class RobotBatch:
     """What b robots are given over the same number of samples.
 
     Attributes:
@@ -122,7 +132,7 @@ class Lanes:
         tau: (samples, b, n) torque at the samples, linear between them, N m or N.
         signals: (samples, b, m) what effects read, or None.
         step: s between samples.
-        far: (n,) rad or m from `around`, at which a robot is lost.
+        far: (n,) rad or m from `logged_positions`, at which a robot is lost.
         around: (samples, b, n) positions that were logged.
     """
 
@@ -131,56 +141,58 @@ class Lanes:
     tau: np.ndarray
     signals: np.ndarray | None
     step: float
-    far: np.ndarray
-    around: np.ndarray
+    lost_distance: np.ndarray
+    logged_positions: np.ndarray
 
 
-def walk(
+def simulate_batch(
     plant: FittedPlant,
-    lanes: Lanes,
+    batch: RobotBatch,
     inner: int,
-    ended: np.ndarray | None = None,
-    tell: Callable[[float], None] | None = None,
+    last_samples: np.ndarray | None = None,
+    report_progress: Callable[[float], None] | None = None,
 ) -> np.ndarray:
     """(samples, b, n) positions; NaN from where a robot is lost or its loops no longer close.
 
     Args:
         plant: the robot.
-        lanes: what it is given.
+        batch: what it is given.
         inner: steps between two samples.
-        ended: (b,) sample after which a robot need not be followed.
-        tell: called with the share done.
+        last_samples: (b,) sample after which a robot need not be followed.
+        report_progress: called with the share done.
     """
-    samples, b, n = lanes.tau.shape
+    samples, b, n = batch.tau.shape
     path = np.full((samples, b, n), np.nan)
-    state = _State(
-        lanes.q.copy(), lanes.qd.copy(), np.zeros((b, n)), np.full((b, n), np.nan),
-        np.zeros((b, plant.shafts)), None if lanes.signals is None else lanes.signals[0].copy(),
+    state = _BatchState(
+        batch.q.copy(), batch.qd.copy(), np.zeros((b, n)), np.full((b, n), np.nan),
+        np.zeros((b, plant.shafts)), None if batch.signals is None else batch.signals[0].copy(),
     )  # fmt: skip
-    ended = np.full(b, samples - 1) if ended is None else ended
+    last_samples = np.full(b, samples - 1) if last_samples is None else last_samples
     live = np.arange(b)
     for k in range(samples):
         path[k, live] = state.q[live]
-        live = live[ended[live] > k]
+        live = live[last_samples[live] > k]
         if k == samples - 1 or not len(live):
             break
-        if tell is not None:
-            tell(k / samples)
-        state.read(plant, lanes.signals, k)
+        if report_progress is not None:
+            report_progress(k / samples)
+        state.update_signals(plant, batch.signals, k)
         dry = None
         for m in range(inner):
-            sound = _sound(plant, state, live, lanes.around[k], lanes.far)
-            live, dry = live[sound], None if dry is None else dry[sound]
+            is_valid = _find_valid_robots(
+                plant, state, live, batch.logged_positions[k], batch.lost_distance
+            )
+            live, dry = live[is_valid], None if dry is None else dry[is_valid]
             if not len(live):
                 return path
             share = m / inner  # the rule looks half a step ahead by itself
-            tau = (1.0 - share) * lanes.tau[k, live] + share * lanes.tau[k + 1, live]
-            dry = state.step(plant, live, tau, lanes.step / inner, dry)
+            tau = (1.0 - share) * batch.tau[k, live] + share * batch.tau[k + 1, live]
+            dry = state.advance(plant, live, tau, batch.step / inner, dry)
     return path
 
 
 @dataclass(eq=False)
-class _State:
+class _BatchState:
     """Of b robots; changed in place, those that are lost stay as they were."""
 
     q: np.ndarray
@@ -190,14 +202,14 @@ class _State:
     pull: np.ndarray  # dry friction as a share of its bounds
     s: np.ndarray | None
 
-    def read(self, plant: FittedPlant, signals: np.ndarray | None, k: int) -> None:
+    def update_signals(self, plant: FittedPlant, signals: np.ndarray | None, k: int) -> None:
         """Signals of sample k; inner states are part of the state and stay."""
         if self.s is not None and signals is not None:
             held = self.s[:, plant.inner].copy()
             self.s = signals[k].copy()
             self.s[:, plant.inner] = held
 
-    def step(
+    def advance(
         self,
         plant: FittedPlant,
         live: np.ndarray,
@@ -207,35 +219,35 @@ class _State:
     ) -> np.ndarray:
         """One step of h s for those that live; the bounds of their dry friction."""
         q, qd = self.q[live], self.qd[live]
-        own = None if self.s is None else self.s[live]
-        forces = plant.forces(q, qd, self.qdd[live], own, dry)
+        signals = None if self.s is None else self.s[live]
+        forces = plant.compute_forces(q, qd, self.qdd[live], signals, dry)
         smooth = np.linalg.solve(forces.M, (tau - forces.smooth)[:, :, None])[:, :, 0]
         before = self.smooth[live]
         before = np.where(np.isnan(before), smooth, before)
         free = qd + h * (1.5 * smooth - 0.5 * before)
-        speed, self.pull[live] = _rubbed(forces, free, self.pull[live], h)
+        speed, self.pull[live] = _apply_dry_friction(forces, free, self.pull[live], h)
         moved = 0.5 * h * (qd + speed)
         self.smooth[live], self.qdd[live] = smooth, (speed - qd) / h
         self.q[live], self.qd[live] = q + moved, speed
         if self.s is not None:
             now = (self.q[live], self.qd[live], self.qdd[live])
-            self.s[live] = plant.stepped(self.s[live], moved, h, now)
+            self.s[live] = plant.advance_signals(self.s[live], moved, h, now)
         return forces.dry
 
 
-def _sound(
-    plant: FittedPlant, state: _State, live: np.ndarray, around: np.ndarray, far: np.ndarray
+def _find_valid_robots(
+    plant: FittedPlant, state: _BatchState, live: np.ndarray, around: np.ndarray, far: np.ndarray
 ) -> np.ndarray:
     """(live,) True where the state is one that can be gone on from."""
     q, qd = state.q[live], state.qd[live]
-    kept = np.isfinite(q).all(axis=1) & np.isfinite(qd).all(axis=1)
-    kept &= (np.abs(np.where(np.isfinite(q), q, np.inf) - around[live]) < far).all(axis=1)
-    if kept.any():
-        kept[kept] = plant.reaches(q[kept])
-    return np.asarray(kept)
+    is_valid = np.isfinite(q).all(axis=1) & np.isfinite(qd).all(axis=1)
+    is_valid &= (np.abs(np.where(np.isfinite(q), q, np.inf) - around[live]) < far).all(axis=1)
+    if is_valid.any():
+        is_valid[is_valid] = plant.can_close(q[is_valid])
+    return np.asarray(is_valid)
 
 
-def _rubbed(
+def _apply_dry_friction(
     forces: Forces, free: np.ndarray, pull: np.ndarray, h: float
 ) -> tuple[np.ndarray, np.ndarray]:
     """Speeds (b, n) after dry friction, and its share of its bound, (b, k) in -1 ... 1.
@@ -255,24 +267,26 @@ def _rubbed(
     sliding = np.sign(speeds) * (dry > 0.0)
     after = speeds - np.einsum("bkl,bl->bk", taken, sliding)
     turns = ((np.sign(after) != sliding) & (dry > 0.0)).any(axis=1)
-    found = sliding
+    friction_shares = sliding
     if turns.any():
-        found[turns] = _relaxed(speeds[turns], taken[turns], dry[turns] > 0.0, pull[turns])
-    return free - np.einsum("bnk,bk->bn", way, found), found
+        friction_shares[turns] = _relax_friction(
+            speeds[turns], taken[turns], dry[turns] > 0.0, pull[turns]
+        )
+    return free - np.einsum("bnk,bk->bn", way, friction_shares), friction_shares
 
 
-def _relaxed(
+def _relax_friction(
     speeds: np.ndarray, taken: np.ndarray, rubs: np.ndarray, pull: np.ndarray
 ) -> np.ndarray:
     """(b, k) p in -1 ... 1: p = sign(u), or u = 0, u = speeds - taken p; one by one, repeated."""
     p = np.where(rubs, pull, 0.0)
-    own = np.einsum("bkk->bk", taken)
-    own = np.where(own > 0.0, own, 1.0)
+    diagonal = np.einsum("bkk->bk", taken)
+    diagonal = np.where(diagonal > 0.0, diagonal, 1.0)
     for _ in range(_SWEEPS):
         change = 0.0
         for k in range(p.shape[1]):
             left = speeds[:, k] - np.einsum("bl,bl->b", taken[:, k], p)
-            new = np.where(rubs[:, k], np.clip(p[:, k] + left / own[:, k], -1.0, 1.0), 0.0)
+            new = np.where(rubs[:, k], np.clip(p[:, k] + left / diagonal[:, k], -1.0, 1.0), 0.0)
             change = max(change, float(np.abs(new - p[:, k]).max(initial=0.0)))
             p[:, k] = new
         if change < _SETTLED:
@@ -308,7 +322,7 @@ class FreeRunSettings:
 
 
 @dataclass(frozen=True)
-class _Start:
+class _RunStart:
     """A robot set off at sample `first` of a segment, until `stop` at most."""
 
     segment: int
@@ -316,11 +330,11 @@ class _Start:
     stop: int
 
 
-def free_run(
+def simulate_free_run(
     model: IdentifiedModel,
     logs: Sequence[Log],
     compiled: CompiledModel,
-    asked: FreeRunSettings | None = None,
+    settings: FreeRunSettings | None = None,
     progress: Callable[[float], None] | None = None,
 ) -> FreeRun:
     """Positions that the fitted robot takes under the logged torques, beside the measured ones.
@@ -329,97 +343,104 @@ def free_run(
         model: fitted.
         logs: read with its manifest; torques in N m or N, positions in rad or m.
         compiled: its robot.
-        asked: window, bound and controller.
+        settings: window, bound and controller.
         progress: called with the share done.
 
     Raises:
         DataError: a number out of its range, logs shorter than a window, or values with which the
             robot has no inertia.
     """
-    asked, tell = asked or FreeRunSettings(), progress or (lambda share: None)
-    for name, value in (("--window", asked.window), ("--bound", asked.bound)):
+    settings, report_progress = settings or FreeRunSettings(), progress or (lambda share: None)
+    for name, value in (("--window", settings.window), ("--bound", settings.bound)):
         if not (math.isfinite(value) and value > 0.0):
             raise DataError(f"{name}: got {value:g}; expected a number above 0")
     observation = observe(compiled, logs, model.processing)
     segments = [part.segment for part in observation.stretches]
-    starts = _starts(segments, asked.window)
+    starts = _choose_starts(segments, settings.window)
     plant = FittedPlant(compiled, model.beta)
     every = np.concatenate([segment.q[segment.whole] for segment in segments])
     plant.check_inertia(every[:: max(1, len(every) // 500)])
-    signals = [signals_of(compiled, segment) for segment in segments]
-    nature = stability(plant, _along(observation, segments, signals))
-    ranges = ranges_of(every, [joint.unit for joint in observation.joints])
-    finest = min(_LONGEST, _STABLE / nature.fastest if nature.fastest > 0.0 else _LONGEST)
-    field = _MotionField(plant, segments, signals, ranges, finest, asked)
-    tell(0.1)
-    runs = _windows(field, starts, tell)
-    whole = _whole(field, lambda share: tell(0.5 + 0.3 * share))
-    tell(0.8)
-    under, doubt = controlled(compiled, model.beta, observation, asked.gains)
-    tell(1.0)
+    signals = [compute_signals(compiled, segment) for segment in segments]
+    motion_stability = analyse_stability(plant, _collect_motions(observation, segments, signals))
+    ranges = compute_ranges(every, [joint.unit for joint in observation.joints])
+    finest = min(
+        _LONGEST, _STABLE / motion_stability.fastest if motion_stability.fastest > 0.0 else _LONGEST
+    )
+    field = _RunSetup(plant, segments, signals, ranges, finest, settings)
+    report_progress(0.1)
+    runs = _simulate_windows(field, starts, report_progress)
+    whole = _simulate_whole_logs(field, lambda share: report_progress(0.5 + 0.3 * share))
+    report_progress(0.8)
+    controlled_run, controller_warning = simulate_controlled_run(
+        compiled, model.beta, observation, settings.gains
+    )
+    report_progress(1.0)
     return FreeRun(
         robot=observation.robot,
         logs=observation.logs,
-        window=asked.window,
-        bound=asked.bound,
+        window=settings.window,
+        bound=settings.bound,
         ranges=ranges,
         windows=len(runs.paths),
-        longest=_FOLLOWED * asked.window,
+        longest=_FOLLOWED * settings.window,
         joints=tuple(
-            _joint(field, j, joint, runs, whole) for j, joint in enumerate(observation.joints)
+            _evaluate_joint(field, j, joint, runs, whole)
+            for j, joint in enumerate(observation.joints)
         ),
-        stability=nature,
+        stability=motion_stability,
         numerical=runs.numerical,
-        controlled=under,
+        controlled=controlled_run,
         paths=runs.paths,
-        doubts=tuple(_doubts(field, runs.numerical, starts, nature, doubt)),
+        doubts=tuple(
+            _collect_warnings(field, runs.numerical, starts, motion_stability, controller_warning)
+        ),
     )
 
 
-def _seconds(segment: Segment) -> float:
+def _compute_duration(segment: Segment) -> float:
     return float(np.count_nonzero(segment.whole) * segment.step)
 
 
-def _inside(segment: Segment) -> tuple[int, int]:
+def _find_whole_range(segment: Segment) -> tuple[int, int]:
     """First sample off the edges of the filter, and the one after the last."""
     whole = np.flatnonzero(segment.whole)
     return (int(whole[0]), int(whole[-1]) + 1) if len(whole) else (0, 0)
 
 
-def _starts(segments: Sequence[Segment], window: float) -> list[_Start]:
+def _choose_starts(segments: Sequence[Segment], window: float) -> list[_RunStart]:
     """One window after the other; of many, some that are evenly spread."""
-    found = []
+    starts = []
     for i, segment in enumerate(segments):
-        first, stop = _inside(segment)
+        first, stop = _find_whole_range(segment)
         length = max(2, round(window / segment.step) + 1)
-        found += [_Start(i, k, stop) for k in range(first, stop - length + 1, length - 1)]
-    if not found:
-        longest = max(_seconds(segment) for segment in segments)
+        starts += [_RunStart(i, k, stop) for k in range(first, stop - length + 1, length - 1)]
+    if not starts:
+        longest = max(_compute_duration(segment) for segment in segments)
         raise DataError(
             f"--window {window:g}: the longest uninterrupted motion of these logs is "
             f"{longest:.3g} s; expected a window that fits into it"
         )
-    kept = np.unique(np.linspace(0, len(found) - 1, min(len(found), _MOST_WINDOWS)).astype(int))
-    return [found[k] for k in kept]
+    places = np.unique(np.linspace(0, len(starts) - 1, min(len(starts), _MOST_WINDOWS)).astype(int))
+    return [starts[k] for k in places]
 
 
-def _along(
+def _collect_motions(
     observation: Observation, segments: Sequence[Segment], signals: Sequence[np.ndarray | None]
-) -> list[Along]:
+) -> list[LoggedMotion]:
     samples = sum(segment.samples for segment in segments)
-    found = []
+    motions = []
     for segment, read in zip(segments, signals, strict=True):
-        first, stop = _inside(segment)
+        first, stop = _find_whole_range(segment)
         thinned = slice(first, stop, max(1, samples // _POINTS))
         q, qd, tau = (values[thinned] for values in (segment.q, segment.qd, segment.tau))
         if len(time := segment.time[thinned]) > 1:
             log, s = observation.logs[segment.run], None if read is None else read[thinned]
-            found.append(Along(log, time, q, qd, tau, s))
-    return found
+            motions.append(LoggedMotion(log, time, q, qd, tau, s))
+    return motions
 
 
 @dataclass(frozen=True, eq=False)
-class _MotionField:
+class _RunSetup:
     """Where robots run: the logged torques, and how finely."""
 
     plant: FittedPlant
@@ -427,45 +448,45 @@ class _MotionField:
     signals: Sequence[np.ndarray | None]  # of each segment
     ranges: np.ndarray
     finest: float  # s, of a step
-    asked: FreeRunSettings
+    settings: FreeRunSettings
 
-    def run(
+    def simulate(
         self,
-        starts: Sequence[_Start],
+        starts: Sequence[_RunStart],
         seconds: float,
         halved: bool = False,
-        tell: Callable[[float], None] | None = None,
+        report_progress: Callable[[float], None] | None = None,
     ) -> tuple[list[np.ndarray], list[np.ndarray]]:
         """Simulated and measured positions (p, n) of each start, p until its end or `seconds`."""
         simulated: list[np.ndarray] = [np.empty(0)] * len(starts)
         measured: list[np.ndarray] = [np.empty(0)] * len(starts)
         steps = [float(f"{self.segments[start.segment].step:.6g}") for start in starts]
         for step in sorted(set(steps)):
-            own = [i for i, other in enumerate(steps) if other == step]
+            group = [i for i, other in enumerate(steps) if other == step]
             length = round(seconds / step) + 1
-            chosen = [starts[i] for i in own]
+            chosen = [starts[i] for i in group]
             counts = np.array([min(length, start.stop - start.first) for start in chosen])
-            lanes = self._lanes(chosen, int(counts.max()), step)
+            batch = self._build_batch(chosen, int(counts.max()), step)
             inner = min(_MOST_INNER, math.ceil(step / self.finest)) * (2 if halved else 1)
-            path = walk(self.plant, lanes, inner, counts - 1, tell)
-            for place, i in enumerate(own):
+            path = simulate_batch(self.plant, batch, inner, counts - 1, report_progress)
+            for place, i in enumerate(group):
                 simulated[i] = path[: counts[place], place]
-                measured[i] = lanes.around[: counts[place], place]
+                measured[i] = batch.logged_positions[: counts[place], place]
         return simulated, measured
 
-    def _lanes(self, starts: Sequence[_Start], length: int, step: float) -> Lanes:
-        def stacked(of: Callable[[int], np.ndarray]) -> np.ndarray:
+    def _build_batch(self, starts: Sequence[_RunStart], length: int, step: float) -> RobotBatch:
+        def gather_samples(of: Callable[[int], np.ndarray]) -> np.ndarray:
             rows = np.arange(length)
             parts = [of(s.segment)[np.minimum(s.first + rows, s.stop - 1)] for s in starts]
             return np.stack(parts, axis=1)
 
         signals = None
         if self.signals and self.signals[0] is not None:
-            signals = stacked(lambda i: np.asarray(self.signals[i]))
-        around = stacked(lambda i: self.segments[i].q)
+            signals = gather_samples(lambda i: np.asarray(self.signals[i]))
+        around = gather_samples(lambda i: self.segments[i].q)
         speeds = np.stack([self.segments[s.segment].qd[s.first] for s in starts])
-        return Lanes(
-            around[0], speeds, stacked(lambda i: self.segments[i].tau), signals, step,
+        return RobotBatch(
+            around[0], speeds, gather_samples(lambda i: self.segments[i].tau), signals, step,
             _LOST * np.where(np.isfinite(self.ranges), self.ranges, np.inf), around,
         )  # fmt: skip
 
@@ -481,53 +502,59 @@ class _RunWindows:
     numerical: float  # largest change by halving the step, in ranges
 
 
-def _windows(
-    field: _MotionField, starts: Sequence[_Start], tell: Callable[[float], None]
+def _simulate_windows(
+    field: _RunSetup, starts: Sequence[_RunStart], report_progress: Callable[[float], None]
 ) -> _RunWindows:
-    window = field.asked.window
-    simulated, measured = field.run(
-        starts, _FOLLOWED * window, tell=lambda share: tell(0.1 + 0.4 * share)
+    window = field.settings.window
+    simulated, measured = field.simulate(
+        starts, _FOLLOWED * window, report_progress=lambda share: report_progress(0.1 + 0.4 * share)
     )
-    tell(0.5)
+    report_progress(0.5)
     few = [starts[i] for i in np.unique(np.linspace(0, len(starts) - 1, _HALVED).astype(int))]
-    coarse, aside = field.run(few, window)
-    fine, _ = field.run(few, window, halved=True)
+    coarse, aside = field.simulate(few, window)
+    fine, _ = field.simulate(few, window, halved=True)
     paths, straight = [], []
     for start, ours, theirs in zip(starts, simulated, measured, strict=True):
         segment = field.segments[start.segment]
         count = min(len(ours), round(window / segment.step) + 1)
-        own = slice(start.first, start.first + count)
-        paths.append(Path(str(segment.run), segment.time[own], theirs[:count], ours[:count]))
-        gone = segment.time[own] - segment.time[start.first]
+        window_rows = slice(start.first, start.first + count)
+        paths.append(
+            Path(str(segment.run), segment.time[window_rows], theirs[:count], ours[:count])
+        )
+        gone = segment.time[window_rows] - segment.time[start.first]
         straight.append(theirs[0] + gone[:, None] * segment.qd[start.first])
     return _RunWindows(
         tuple(paths),
         np.concatenate(straight),
         tuple(a - b for a, b in zip(simulated, measured, strict=True)),
         tuple(field.segments[start.segment].step for start in starts),
-        _changed(field, zip(coarse, fine, aside, strict=True)),
+        _compute_step_error(field, zip(coarse, fine, aside, strict=True)),
     )
 
 
-def _changed(field: _MotionField, runs: Iterable[tuple[np.ndarray, ...]]) -> float:
+def _compute_step_error(field: _RunSetup, runs: Iterable[tuple[np.ndarray, ...]]) -> float:
     """Largest change of a position by halving the step, in ranges, while its error is in bounds."""
     largest, ranges = 0.0, field.ranges
     for ours, halved, theirs in runs:
-        near = np.logical_and.accumulate(np.abs(halved - theirs) <= field.asked.bound * ranges)
+        near = np.logical_and.accumulate(np.abs(halved - theirs) <= field.settings.bound * ranges)
         change = np.abs(ours - halved)[near] / np.broadcast_to(ranges, near.shape)[near]
         largest = max(largest, float(change[np.isfinite(change)].max(initial=0.0)))
     return largest
 
 
-def _whole(field: _MotionField, tell: Callable[[float], None]) -> tuple[np.ndarray, np.ndarray]:
+def _simulate_whole_logs(
+    field: _RunSetup, report_progress: Callable[[float], None]
+) -> tuple[np.ndarray, np.ndarray]:
     """Simulated and measured positions of each segment from its start, one after the other."""
-    starts = [_Start(i, *_inside(segment)) for i, segment in enumerate(field.segments)]
-    simulated, measured = field.run([s for s in starts if s.stop - s.first > 1], _WHOLE, tell=tell)
+    starts = [_RunStart(i, *_find_whole_range(segment)) for i, segment in enumerate(field.segments)]
+    simulated, measured = field.simulate(
+        [s for s in starts if s.stop - s.first > 1], _WHOLE, report_progress=report_progress
+    )
     return np.concatenate(simulated), np.concatenate(measured)
 
 
-def _joint(
-    field: _MotionField, j: int, joint: JointSpec, runs: _RunWindows, whole: tuple[np.ndarray, ...]
+def _evaluate_joint(
+    field: _RunSetup, j: int, joint: JointSpec, runs: _RunWindows, whole: tuple[np.ndarray, ...]
 ) -> JointFreeRun:
     measured = np.concatenate([path.measured[:, j] for path in runs.paths])
     simulated = np.concatenate([path.simulated[:, j] for path in runs.paths])
@@ -535,39 +562,45 @@ def _joint(
     largest = float(error[np.isfinite(error)].max(initial=0.0))
     if not np.isfinite(field.ranges[j]):
         return JointFreeRun(joint.name, joint.unit, None, None, None, None, 0, largest)
-    bound = field.asked.bound * field.ranges[j : j + 1]
+    bound = field.settings.bound * field.ranges[j : j + 1]
     pairs = zip(runs.longer, runs.steps, strict=True)
-    until = np.array([horizons(e[:, None, j : j + 1], bound, step)[0, 0] for e, step in pairs])
+    until = np.array(
+        [compute_horizons(e[:, None, j : j + 1], bound, step)[0, 0] for e, step in pairs]
+    )
     middle = float(np.quantile(until, 0.5, method="higher"))
     return JointFreeRun(
         joint.name,
         joint.unit,
-        fit_percentage(measured, simulated),
-        fit_percentage(measured, runs.straight[:, j]),
-        fit_percentage(whole[1][:, j], whole[0][:, j]),
+        compute_fit_percentage(measured, simulated),
+        compute_fit_percentage(measured, runs.straight[:, j]),
+        compute_fit_percentage(whole[1][:, j], whole[0][:, j]),
         middle if np.isfinite(middle) else None,
         int(np.isfinite(until).sum()),
         largest,
     )
 
 
-def _doubts(
-    field: _MotionField, numerical: float, starts: Sequence[_Start], nature: Stability, doubt: str
+def _collect_warnings(
+    field: _RunSetup,
+    numerical: float,
+    starts: Sequence[_RunStart],
+    motion_stability: Stability,
+    controller_warning: str,
 ) -> list[str]:
-    found, window = [doubt] if doubt else [], field.asked.window
+    warnings, window = [controller_warning] if controller_warning else [], field.settings.window
     if numerical > _DOUBTFUL:
-        found.append(
+        warnings.append(
             "the integration is not exact: halving its step moves a joint by "
-            f"{percent(numerical)} of its range within a window"
+            f"{format_percent(numerical)} of its range within a window"
         )
-    if nature.unstable and nature.rate * window > np.log(10.0):
-        shorter = float(f"{1.0 / nature.rate:.1g}")
-        found.append(
+    if motion_stability.unstable and motion_stability.rate * window > np.log(10.0):
+        shorter = float(f"{1.0 / motion_stability.rate:.1g}")
+        warnings.append(
             f"within a window of {window:g} s an error grows tenfold and more by nature; "
             f"`--window {shorter:g}` judges the model"
         )
-    if any(_seconds(segment) > _WHOLE for segment in field.segments):
-        found.append(f"whole runs: the first {_WHOLE:g} s of each log")
+    if any(_compute_duration(segment) > _WHOLE for segment in field.segments):
+        warnings.append(f"whole runs: the first {_WHOLE:g} s of each log")
     if len(starts) == _MOST_WINDOWS:
-        found.append(f"{_MOST_WINDOWS} windows, evenly spread over the logs")
-    return found
+        warnings.append(f"{_MOST_WINDOWS} windows, evenly spread over the logs")
+    return warnings

@@ -6,18 +6,18 @@ from typing import Any
 
 import numpy as np
 
-from modeler.core.brief import Brief
+from modeler.core.brief import ShortRepr
 from modeler.core.figure import Curve, Panel, Picture
-from modeler.core.json import entries, nulled
-from modeler.core.result import Presented
+from modeler.core.json import convert_to_plain, select_attributes
+from modeler.core.result import Result
 from modeler.core.style import BLACK, GREY, ORANGE, VERMILLION, Style
-from modeler.core.table import DIGITS, percent
+from modeler.core.table import DIGITS, format_percent
 from modeler.core.thinning import thin_curves
 from modeler.validation.stability import Stability
 
 
 @dataclass(frozen=True)
-class JointFreeRun(Brief):
+class JointFreeRun(ShortRepr):
     """One joint.
 
     Attributes:
@@ -44,7 +44,7 @@ class JointFreeRun(Brief):
 
 
 @dataclass(frozen=True)
-class Controlled(Brief):
+class ControlledRun(ShortRepr):
     """The robot under a controller that follows the logged commands.
 
     Attributes:
@@ -65,7 +65,7 @@ class Controlled(Brief):
     tracking: Mapping[str, float | None]
     torque: Mapping[str, float | None]
 
-    def lines(self) -> list[str]:
+    def format_lines(self) -> list[str]:
         """As text."""
         parts = [("integral action", self.integral), ("feedforward", self.forward)]
         fed = " and ".join(f"{'with' if there else 'no'} {name}" for name, there in parts)
@@ -77,14 +77,14 @@ class Controlled(Brief):
         ]
         for name, fit in self.fit.items():
             lines.append(
-                f"{name:<8}{_percent(fit):>10}{_percent(self.tracking[name]):>16}"
-                f"{_percent(self.torque[name]):>10}"
+                f"{name:<8}{_format_percent(fit):>10}{_format_percent(self.tracking[name]):>16}"
+                f"{_format_percent(self.torque[name]):>10}"
             )
         return lines
 
 
 @dataclass(frozen=True, eq=False)
-class Path(Brief):
+class Path(ShortRepr):
     """Measured and simulated positions of one window, for pictures.
 
     Attributes:
@@ -100,7 +100,7 @@ class Path(Brief):
 
 
 @dataclass(frozen=True, eq=False)
-class FreeRun(Presented):
+class FreeRun(Result):
     """The fitted robot left to itself under the logged torques.
 
     Attributes:
@@ -130,12 +130,12 @@ class FreeRun(Presented):
     joints: tuple[JointFreeRun, ...]
     stability: Stability
     numerical: float
-    controlled: Controlled | None
+    controlled: ControlledRun | None
     paths: tuple[Path, ...]
     doubts: tuple[str, ...]
 
     def __repr__(self) -> str:
-        fits = ", ".join(f"{joint.name}: {_percent(joint.fit)}" for joint in self.joints)
+        fits = ", ".join(f"{joint.name}: {_format_percent(joint.fit)}" for joint in self.joints)
         return f"<FreeRun of {self.robot}, {self.windows} windows of {self.window:g} s, {fits}>"
 
     def summary(self) -> str:
@@ -151,37 +151,44 @@ class FreeRun(Presented):
             if joint.horizon is None and joint.fit is not None:
                 horizon = f"over {self.longest:.2g} s"
             lines.append(
-                f"{joint.name:<8}{_percent(joint.fit):>10}{_percent(joint.constant_speed):>16}"
-                f"{f'{joint.largest:.2g} {joint.unit}':>18}{horizon:>22}{_percent(joint.whole):>14}"
+                f"{joint.name:<8}{_format_percent(joint.fit):>10}{_format_percent(joint.constant_speed):>16}"
+                f"{f'{joint.largest:.2g} {joint.unit}':>18}{horizon:>22}"
+                f"{_format_percent(joint.whole):>14}"
             )
-        lines += ["", self.stability.sentence()]
+        lines += ["", self.stability.describe()]
         if self.controlled is not None:
-            lines += ["", *self.controlled.lines()]
+            lines += ["", *self.controlled.format_lines()]
         return "\n".join([*lines, *([""] if self.doubts else []), *self.doubts])
 
     def to_json(self) -> dict[str, Any]:
         """Plain data."""
         s = self.stability
-        return nulled({
-            **entries(self, "robot logs window windows bound"),
-            "joints": {
-                joint.name: {name: value for name, value in vars(joint).items() if name != "name"}
-                for joint in self.joints
-            },
-            "stability": {
-                **entries(s, "unstable rate"), "doubling_time": s.doubling, "seconds": s.seconds,
-                "steepest": {"rate": s.steepest, "log": s.log, "time": s.at},
-            },
-            "numerical_error": self.numerical,
-            "controller": self.controlled,
-            "doubts": self.doubts,
-        })  # fmt: skip
+        return convert_to_plain(
+            {
+                **select_attributes(self, "robot logs window windows bound"),
+                "joints": {
+                    joint.name: {
+                        name: value for name, value in vars(joint).items() if name != "name"
+                    }
+                    for joint in self.joints
+                },
+                "stability": {
+                    **select_attributes(s, "unstable rate"),
+                    "doubling_time": s.doubling_time,
+                    "seconds": s.seconds,
+                    "steepest": {"rate": s.steepest, "log": s.log, "time": s.steepest_time},
+                },
+                "numerical_error": self.numerical,
+                "controller": self.controlled,
+                "doubts": self.doubts,
+            }
+        )
 
 
-def _percent(value: float | None) -> str:
+def _format_percent(value: float | None) -> str:
     if value is None:
         return "still"
-    return percent(0.01 * value, DIGITS) if value > -1000.0 else "below -999 %"
+    return format_percent(0.01 * value, DIGITS) if value > -1000.0 else "below -999 %"
 
 
 # Pictures of a free run: one a joint.
@@ -193,23 +200,24 @@ _ERROR = Style(VERMILLION, width=1.0)
 _BOUND = Style(GREY, width=1.0, dash=True)
 
 
-def free_run_pictures(found: FreeRun) -> tuple[Picture, ...]:
+def draw_free_run_pictures(result: FreeRun) -> tuple[Picture, ...]:
     """Positions above, their error below, window after window."""
-    return tuple(free_run_picture(found, j) for j in range(len(found.joints)))
+    return tuple(draw_free_run_picture(result, j) for j in range(len(result.joints)))
 
 
-def free_run_picture(found: FreeRun, j: int) -> Picture:
+def draw_free_run_picture(result: FreeRun, j: int) -> Picture:
     """Position of joint `j` above, its error below."""
-    joint = found.joints[j]
-    above, below = _panels(found, j)
+    joint = result.joints[j]
+    above, below = _build_panels(result, j)
     return Picture(
         name=f"joint_{joint.name}_free_run",
         title=f"Joint {joint.name}: measured and free-running position",
         caption=(
-            f"Above: measured ({_MEASURED.named}) and simulated ({_SIMULATED.named}) under the "
+            f"Above: measured ({_MEASURED.description}) and simulated ({_SIMULATED.description}) "
+            "under the "
             f"logged torques, from the measured state at the start of each window of "
-            f"{found.window:g} s. Below ({_ERROR.named}): the difference, with the bound "
-            f"({_BOUND.named}) of {100 * found.bound:g} % of the range of motion."
+            f"{result.window:g} s. Below ({_ERROR.description}): the difference, with the bound "
+            f"({_BOUND.description}) of {100 * result.bound:g} % of the range of motion."
         ),
         panels=((above,), (below,)),
         heights=(0.58, 0.42),
@@ -218,39 +226,39 @@ def free_run_picture(found: FreeRun, j: int) -> Picture:
     )
 
 
-def _panels(found: FreeRun, j: int) -> tuple[Panel, Panel]:
-    unit = found.joints[j].unit
-    time, measured, simulated = _running(found, j)
+def _build_panels(result: FreeRun, j: int) -> tuple[Panel, Panel]:
+    unit = result.joints[j].unit
+    time, measured, simulated = _concatenate_windows(result, j)
     error = simulated - measured
-    kept = thin_curves((measured, simulated, error))
-    bound, ends = found.bound * float(found.ranges[j]), time[[0, -2]]
-    one = len(found.logs) == 1
-    label = f"time in {found.logs[0]} [s]" if one else "time, logs one after the other [s]"
+    plot_rows = thin_curves((measured, simulated, error))
+    bound, ends = result.bound * float(result.ranges[j]), time[[0, -2]]
+    one = len(result.logs) == 1
+    label = f"time in {result.logs[0]} [s]" if one else "time, logs one after the other [s]"
     bounds = [
         Curve("bound", ends, np.full(2, sign * bound), _BOUND)
         for sign in (1.0, -1.0)
         if np.isfinite(bound)
     ]
     curves = (
-        Curve("measured", time[kept], measured[kept], _MEASURED),
-        Curve("simulated", time[kept], simulated[kept], _SIMULATED),
+        Curve("measured", time[plot_rows], measured[plot_rows], _MEASURED),
+        Curve("simulated", time[plot_rows], simulated[plot_rows], _SIMULATED),
     )
     return (
         Panel("Position", label, f"position [{unit}]", curves),
         Panel(
             "Error", label, f"error [{unit}]",
-            (Curve("error", time[kept], error[kept], _ERROR), *bounds), zero=True,
+            (Curve("error", time[plot_rows], error[plot_rows], _ERROR), *bounds), zero=True,
         ),
     )  # fmt: skip
 
 
-def _running(found: FreeRun, j: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+def _concatenate_windows(result: FreeRun, j: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Time on one axis, measured and simulated positions, a NaN between windows."""
     times: list[np.ndarray] = []
     measured: list[np.ndarray] = []
     simulated: list[np.ndarray] = []
-    offset, last, log = 0.0, 0.0, found.paths[0].log
-    for path in found.paths:
+    offset, last, log = 0.0, 0.0, result.paths[0].log
+    for path in result.paths:
         if path.log != log:
             offset, log = last - path.time[0], path.log
         times.append(np.append(path.time, path.time[-1]) + offset)

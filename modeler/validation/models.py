@@ -9,16 +9,21 @@ from typing import Any
 import numpy as np
 from scipy.special import stdtr
 
-from modeler.core.brief import Brief
+from modeler.core.brief import ShortRepr
 from modeler.core.errors import DataError
-from modeler.core.json import nulled
-from modeler.core.result import Presented
-from modeler.core.table import aligned, percent
+from modeler.core.json import convert_to_plain
+from modeler.core.result import Result
+from modeler.core.table import align_columns, format_percent
 from modeler.estimation import IdentifiedModel
 from modeler.observation import Log, Observation
 from modeler.runtime import CompiledModel
 from modeler.validation.predict import predict
-from modeler.validation.prediction import JointInfo, Prediction, relative_error, unit_errors
+from modeler.validation.prediction import (
+    JointInfo,
+    Prediction,
+    compute_relative_error,
+    compute_unit_errors,
+)
 
 DOUBT = 0.0027
 """Chance that two models that are equally good are told apart on one joint: three deviations."""
@@ -36,7 +41,7 @@ FELT = 0.01
 
 
 @dataclass(frozen=True)
-class JointContest(Brief):
+class JointModelComparison(ShortRepr):
     """One joint; m models.
 
     Attributes:
@@ -52,11 +57,11 @@ class JointContest(Brief):
     errors: tuple[float, ...]
     rms: tuple[float, ...]
     best: int | None
-    chance: float
+    p_value: float
 
 
 @dataclass(frozen=True, eq=False)
-class Contest(Presented):
+class ModelComparison(Result):
     """Models side by side, m of them.
 
     Attributes:
@@ -73,9 +78,9 @@ class Contest(Presented):
     samples: int
     pooled: tuple[float, ...]
     by_unit: tuple[Mapping[str, float], ...]
-    joints: tuple[JointContest, ...]
+    joints: tuple[JointModelComparison, ...]
 
-    def wins(self, model: int) -> list[str]:
+    def find_best_joints(self, model: int) -> list[str]:
         """Joints that the model predicts best, beyond doubt."""
         return [item.joint.name for item in self.joints if item.best == model]
 
@@ -86,7 +91,7 @@ class Contest(Presented):
     def as_dicts(self) -> list[dict[str, Any]]:
         """The `models` of `compare --json`: errors of each, and where it is the best."""
         return [
-            nulled({
+            convert_to_plain({
                 "model": name,
                 "relative_error": self.pooled[k],
                 "by_unit": self.by_unit[k],
@@ -94,17 +99,17 @@ class Contest(Presented):
                     item.joint.name: {
                         "relative_error": item.errors[k], "rms": item.rms[k],
                         "unit": item.joint.effort_unit, "best": item.best == k,
-                        "chance": item.chance,
+                        "chance": item.p_value,
                     }
                     for item in self.joints
                 },
-                "best_on": self.wins(k),
+                "best_on": self.find_best_joints(k),
             })
             for k, name in enumerate(self.names)
         ]  # fmt: skip
 
 
-def contest(names: Sequence[str], predictions: Sequence[Prediction]) -> Contest:
+def compare_models(names: Sequence[str], predictions: Sequence[Prediction]) -> ModelComparison:
     """Who is better on which joint.
 
     S_b and T_b are the summed squared residuals of two models on one joint over block b of time, S
@@ -122,25 +127,25 @@ def contest(names: Sequence[str], predictions: Sequence[Prediction]) -> Contest:
     """
     if len(names) < 2 or len(names) != len(predictions):
         raise DataError(f"got {len(predictions)} models to set side by side; expected two or more")
-    block = _blocks(predictions[0])
+    block = _assign_blocks(predictions[0])
     first = predictions[0]
-    return Contest(
+    return ModelComparison(
         names=tuple(names),
         predictions=tuple(predictions),
         samples=int(first.used.any(axis=1).sum()),
-        pooled=tuple(relative_error(prediction) for prediction in predictions),
-        by_unit=tuple(unit_errors(prediction) for prediction in predictions),
+        pooled=tuple(compute_relative_error(prediction) for prediction in predictions),
+        by_unit=tuple(compute_unit_errors(prediction) for prediction in predictions),
         joints=tuple(
-            _joint(info, j, predictions, block)
+            _compare_joint(info, j, predictions, block)
             for j, info in enumerate(first.joints)
             if all(p.measured[p.used[:, j], j].any() for p in predictions)
         ),
     )
 
 
-def _joint(
+def _compare_joint(
     info: JointInfo, j: int, predictions: Sequence[Prediction], block: np.ndarray
-) -> JointContest:
+) -> JointModelComparison:
     used = predictions[0].used[:, j]
     left = [(p.measured - p.predicted)[used, j] for p in predictions]
     size = [float(np.linalg.norm(p.measured[used, j])) for p in predictions]
@@ -149,18 +154,18 @@ def _joint(
     top = int(np.argmin(errors))
     sums = [np.bincount(block[used], (e / whole) ** 2) for e, whole in zip(left, size, strict=True)]
     rivals = [k for k in range(len(predictions)) if k != top]
-    chances = [_chance(sums[k], sums[top]) for k in rivals]
+    p_values = [_compute_p_value(sums[k], sums[top]) for k in rivals]
     worth = all(errors[top] < (1.0 - FELT) * errors[k] for k in rivals)
-    return JointContest(
+    return JointModelComparison(
         joint=info,
         errors=errors,
         rms=tuple(norm / math.sqrt(len(left[0])) for norm in norms),
-        best=top if worth and max(chances) < DOUBT / len(rivals) else None,
-        chance=max(chances),
+        best=top if worth and max(p_values) < DOUBT / len(rivals) else None,
+        p_value=max(p_values),
     )
 
 
-def _chance(other: np.ndarray, best: np.ndarray) -> float:
+def _compute_p_value(other: np.ndarray, best: np.ndarray) -> float:
     """Two-sided chance that two models that are equally good differ so much.
 
     Args:
@@ -178,7 +183,7 @@ def _chance(other: np.ndarray, best: np.ndarray) -> float:
     return float(2.0 * stdtr(count - 1, -math.log(sums[0] / sums[1]) / spread))
 
 
-def _blocks(prediction: Prediction) -> np.ndarray:
+def _assign_blocks(prediction: Prediction) -> np.ndarray:
     """(n,) number of the block of time of each row, none in two logs."""
     runs = np.unique(prediction.run)
     spans = {r: prediction.time[prediction.run == r] for r in runs}
@@ -218,13 +223,13 @@ def predict_together(
     check_joints(models, names)
     first = models[0].processing
     made = []
-    for model, own, read in zip(models, compiled, logs, strict=True):
+    for model, robot, read in zip(models, compiled, logs, strict=True):
         processing = dataclasses.replace(first, delay=model.processing.delay)
         fit = dataclasses.replace(model.fit, processing=processing)
-        made.append(predict(dataclasses.replace(model, fit=fit), read, own))
+        made.append(predict(dataclasses.replace(model, fit=fit), read, robot))
     predictions = [prediction for prediction, _ in made]
     for prediction, name in zip(predictions[1:], names[1:], strict=True):
-        if not _same_rows(predictions[0], prediction):
+        if not _has_same_rows(predictions[0], prediction):
             raise DataError(
                 f"{name}: its rows of these logs are not those of {names[0]}, so errors cannot be "
                 "set side by side; expected robots that read the same columns; compare them one "
@@ -237,11 +242,13 @@ def predict_together(
             "one to see why"
         )
     # what counts for one model alone is masked unnamed
-    found = [dataclasses.replace(prediction, used=used, full=None) for prediction in predictions]
-    return found, [observation for _, observation in made]
+    common_predictions = [
+        dataclasses.replace(prediction, used=used, full=None) for prediction in predictions
+    ]
+    return common_predictions, [observation for _, observation in made]
 
 
-def _same_rows(one: Prediction, other: Prediction) -> bool:
+def _has_same_rows(one: Prediction, other: Prediction) -> bool:
     return (
         one.time.shape == other.time.shape
         and np.array_equal(one.run, other.run)
@@ -256,12 +263,14 @@ def check_joints(models: Sequence[IdentifiedModel], names: Sequence[str]) -> Non
         DataError: names the first of them.
     """
 
-    def joints(model: IdentifiedModel) -> list[tuple[str, str]]:
+    def describe_joints(model: IdentifiedModel) -> list[tuple[str, str]]:
         return [(joint.name, joint.effort_unit) for joint in model.spec.joints]
 
     for model, name in zip(models[1:], names[1:], strict=True):
-        if joints(model) != joints(models[0]):
-            said = [", ".join(f"{j} [{u}]" for j, u in joints(m)) for m in (models[0], model)]
+        if describe_joints(model) != describe_joints(models[0]):
+            said = [
+                ", ".join(f"{j} [{u}]" for j, u in describe_joints(m)) for m in (models[0], model)
+            ]
             raise DataError(
                 f"{name}: joints {said[1]}; expected those of {names[0]}, {said[0]}; only models "
                 "of robots with the same joints are set side by side"
@@ -274,55 +283,61 @@ def check_joints(models: Sequence[IdentifiedModel], names: Sequence[str]) -> Non
 MARK = "*"
 
 
-def contest_lines(found: Contest) -> list[str]:
+def format_model_comparison(comparison: ModelComparison) -> list[str]:
     """Errors by joint and model, the best beyond doubt marked; then who is better where."""
-    names = [name.removesuffix(".json").removesuffix(".model") for name in found.names]
+    names = [name.removesuffix(".json").removesuffix(".model") for name in comparison.names]
     rows = [["joint", *names, "unit", "rms", *[""] * (len(names) - 1)]]
-    for item in found.joints:
+    for item in comparison.joints:
         errors = [
-            percent(error) + (MARK if item.best == k else " ")
+            format_percent(error) + (MARK if item.best == k else " ")
             for k, error in enumerate(item.errors)
         ]
         sizes = [f"{rms:.3g}" for rms in item.rms]
         rows.append([item.joint.name, *errors, item.joint.effort_unit, *sizes])
-    for unit in found.by_unit[0]:
-        errors = [percent(own[unit]) + " " for own in found.by_unit]
+    for unit in comparison.by_unit[0]:
+        errors = [format_percent(model_errors[unit]) + " " for model_errors in comparison.by_unit]
         rows.append(["all", *errors, unit, *[""] * len(names)])
-    lines = [line.rstrip() for line in aligned(rows, (0, len(names) + 1))]
-    lines.append(f"{found.samples} samples; {MARK} better than every other beyond doubt")
-    return [*lines, "", *contest_sentences(found)]
+    lines = [line.rstrip() for line in align_columns(rows, (0, len(names) + 1))]
+    lines.append(f"{comparison.samples} samples; {MARK} better than every other beyond doubt")
+    return [*lines, "", *describe_model_comparison(comparison)]
 
 
-def contest_sentences(found: Contest) -> list[str]:
+def describe_model_comparison(comparison: ModelComparison) -> list[str]:
     """Who predicts which joints best; what remains open."""
     said = []
-    for k, name in enumerate(found.names):
-        won = found.wins(k)
+    for k, name in enumerate(comparison.names):
+        won = comparison.find_best_joints(k)
         if won:
             which = " and ".join(filter(None, (", ".join(won[:-1]), won[-1])))
             said.append(f"{name} predicts joint{'s' * (len(won) > 1)} {which} best, beyond doubt.")
-    doubtful = [f"joint {i.joint.name} ({_doubt(i)})" for i in found.joints if i.best is None]
+    doubtful = [
+        f"joint {i.joint.name} ({_describe_uncertainty(i)})"
+        for i in comparison.joints
+        if i.best is None
+    ]
     if doubtful:
         said.append(f"No model is the best beyond doubt on {', '.join(doubtful)}.")
     return said
 
 
-def headline_of(found: Contest) -> tuple[str, str]:
+def describe_winner(comparison: ModelComparison) -> tuple[str, str]:
     """Who wins on how many joints."""
-    wins = [len(found.wins(k)) for k in range(len(found.names))]
+    wins = [len(comparison.find_best_joints(k)) for k in range(len(comparison.names))]
     top = max(range(len(wins)), key=wins.__getitem__)
     if not wins[top]:
         return "no winner", "no model is better than the others beyond doubt on any joint"
-    count = f"{wins[top]} of {len(found.joints)}"
+    count = f"{wins[top]} of {len(comparison.joints)}"
     if wins.count(wins[top]) > 1:
-        tied = " and ".join(n for n, w in zip(found.names, wins, strict=True) if w == wins[top])
+        tied = " and ".join(
+            n for n, w in zip(comparison.names, wins, strict=True) if w == wins[top]
+        )
         return f"{count} each", f"joints that {tied} predict best, beyond doubt"
     lost = sum(wins) - wins[top]
     rest = f"; others on {lost}" if lost else "; no other on any"
-    return count, f"joints that {found.names[top]} predicts best, beyond doubt{rest}"
+    return count, f"joints that {comparison.names[top]} predicts best, beyond doubt{rest}"
 
 
-def _doubt(item: JointContest) -> str:
-    if item.chance >= 1.0 or item.chance < 1e-3:  # too short, or too small a difference
-        return "as good as alike" if item.chance < 1e-3 else "cannot be told"
-    return f"chance alone makes such a difference in {percent(item.chance)} of cases"
+def _describe_uncertainty(item: JointModelComparison) -> str:
+    if item.p_value >= 1.0 or item.p_value < 1e-3:  # too short, or too small a difference
+        return "as good as alike" if item.p_value < 1e-3 else "cannot be told"
+    return f"chance alone makes such a difference in {format_percent(item.p_value)} of cases"

@@ -6,20 +6,25 @@ import numpy as np
 
 from modeler.core.figure import Bars, Curve, Heat, Means, Panel, Picture, Points
 from modeler.core.style import BLUE, COLORS, GREY, ORANGE, SLATE, VERMILLION, Style
-from modeler.core.table import percent
+from modeler.core.table import format_percent
 from modeler.core.thinning import thin_curves, thin_points
 from modeler.validation.comparison import METHODS, REGIONS, Comparison, JointComparison
-from modeler.validation.prediction import Prediction, residual
+from modeler.validation.prediction import Prediction, compute_residual
 from modeler.validation.residual_structure import (
     COORDINATES,
-    Structure,
-    coordinate_unit,
-    coordinate_values,
-    coordinates_of,
-    order_lines,
-    waves,
+    ResidualStructure,
+    convert_orders,
+    evaluate_coordinate,
+    find_order_peaks,
+    format_coordinate_unit,
+    select_coordinates,
 )
-from modeler.validation.time_picture import broken, mask_caption, masked_spans, running_time
+from modeler.validation.time_picture import (
+    break_at_gaps,
+    concatenate_time,
+    describe_masks,
+    find_masked_spans,
+)
 
 _DOTS = 700
 _BINS = 24
@@ -32,14 +37,14 @@ _WAVES = Style(BLUE, width=0.8)
 _ACROSS = 3  # panels side by side
 
 
-def residual_picture(prediction: Prediction, item: JointComparison) -> Picture:
+def draw_residual_picture(prediction: Prediction, item: JointComparison) -> Picture:
     """A panel for each coordinate that the logs hold, then both spectra."""
     drawn = [
-        _against(prediction, item, coordinate.id, coordinate.label)
-        for coordinate in coordinates_of(prediction, item.index)
+        _build_coordinate_panel(prediction, item, coordinate.id, coordinate.label)
+        for coordinate in select_coordinates(prediction, item.index)
         if coordinate.id != "direction"
     ]
-    drawn += [_spectrum_panel(item), _order_panel(item)]
+    drawn += [_build_spectrum_panel(item), _build_order_panel(item)]
     heated = any(panel.title.startswith("Temperature") for panel in drawn)
     drawn += [_EMPTY] * (-len(drawn) % _ACROSS)
     rows = [tuple(drawn[k : k + _ACROSS]) for k in range(0, len(drawn), _ACROSS)]
@@ -57,16 +62,19 @@ _EMPTY = Panel("", "", "", ())
 
 
 _FIRST = (
-    f"{_CLOUD.named.capitalize()}: samples. {_MEAN.named.capitalize()}: mean of the residual in "
+    f"{_CLOUD.description.capitalize()}: samples. {_MEAN.description.capitalize()}: mean of the "
+    "residual in "
     "each bin, whiskers two standard errors (from the spread between separate passes through the "
-    f"bin; none where there was only one). A {_MEAN.named} line that leaves zero by more than its "
+    f"bin; none where there was only one). A {_MEAN.description} line that leaves zero by more "
+    "than its "
     "whiskers is a pattern the model does not have: a step at zero velocity looks like Coulomb "
     "friction, a slope like viscous friction, a wave over position like gravity or ripple, a slope "
     "over acceleration like inertia, a curve that starts anew at every reversal (travel) like "
     "presliding."
 )
 _HEATED = (
-    f" Over temperature, {_MEAN.named} is motion in the positive and {_BACK.named} in the negative "
+    f" Over temperature, {_MEAN.description} is motion in the positive and {_BACK.description} in "
+    "the negative "
     "direction: friction that changes moves them apart or together."
 )
 _LAST = (
@@ -78,7 +86,7 @@ _LAST = (
 )
 
 
-def binned_means(x: np.ndarray, e: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+def compute_binned_means(x: np.ndarray, e: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Mean of x, mean of e and two standard errors in up to 24 bins of x, half of them by count.
 
     Consecutive samples share their noise, so the standard error comes from the spread between
@@ -107,48 +115,52 @@ def binned_means(x: np.ndarray, e: np.ndarray) -> tuple[np.ndarray, np.ndarray, 
     return centre[filled], mean[filled], error[filled]
 
 
-def _against(prediction: Prediction, item: JointComparison, coordinate: str, label: str) -> Panel:
+def _build_coordinate_panel(
+    prediction: Prediction, item: JointComparison, coordinate: str, label: str
+) -> Panel:
     rows = prediction.used[:, item.index]
     e = (prediction.measured - prediction.predicted)[rows, item.index]
     if coordinate == "time":
-        whole, _, marks = running_time(prediction)
+        whole, _, marks = concatenate_time(prediction)
         x, label = whole[rows], "time, all logs"
     else:
-        x, marks = coordinate_values(prediction, item.index, coordinate)[rows], ()
-    kept = thin_points(x, e, _DOTS)
+        x, marks = evaluate_coordinate(prediction, item.index, coordinate)[rows], ()
+    plot_rows = thin_points(x, e, _DOTS)
     title = label[0].upper() + label[1:]
     if item.structure is not None:
-        title = f"{title}: {percent(item.structure.share(coordinate))}"
+        title = f"{title}: {format_percent(item.structure.get_share(coordinate))}"
     if coordinate == "temperature":
-        means = _by_direction(x, e, prediction.qd[rows, item.index])
+        means = _average_by_direction(x, e, prediction.qd[rows, item.index])
     else:
-        means = (Means("mean, 2 standard errors", *binned_means(x, e), _MEAN),)
+        means = (Means("mean, 2 standard errors", *compute_binned_means(x, e), _MEAN),)
     return Panel(
         title=title,
-        x_label=f"{label} [{coordinate_unit(prediction, item.index, coordinate)}]",
+        x_label=f"{label} [{format_coordinate_unit(prediction, item.index, coordinate)}]",
         y_label=f"residual [{item.joint.effort_unit}]",
-        series=(Points("samples", x[kept], e[kept], _CLOUD), *means),
+        series=(Points("samples", x[plot_rows], e[plot_rows], _CLOUD), *means),
         marks=tuple((place, "") for place, _ in marks[1:]),
         zero=True,
     )
 
 
-def _by_direction(x: np.ndarray, e: np.ndarray, qd: np.ndarray) -> tuple[Means, ...]:
+def _average_by_direction(x: np.ndarray, e: np.ndarray, qd: np.ndarray) -> tuple[Means, ...]:
     """A line of means for either direction of motion that occurs."""
     ways = (("moving in the positive direction", qd > 0.0, _MEAN),
             ("moving in the negative direction", qd < 0.0, _BACK))  # fmt: skip
     return tuple(
-        Means(text, *binned_means(x[own], e[own]), style) for text, own, style in ways if own.any()
+        Means(text, *compute_binned_means(x[direction_rows], e[direction_rows]), style)
+        for text, direction_rows, style in ways
+        if direction_rows.any()
     )
 
 
-def _spectrum_panel(item: JointComparison) -> Panel:
+def _build_spectrum_panel(item: JointComparison) -> Panel:
     unit = item.joint.effort_unit
-    colour = item.spectrum
+    spectrum = item.spectrum
     title, shown = "Spectrum", (np.array([np.nan]), np.array([np.nan]))
-    if colour is not None:
-        shown = colour.frequency, colour.density
-        title += f": {percent(colour.peak_share)} of the power near {colour.peak:.3g} Hz"
+    if spectrum is not None:
+        shown = spectrum.frequency, spectrum.density
+        title += f": {format_percent(spectrum.peak_share)} of the power near {spectrum.peak:.3g} Hz"
     return Panel(
         title=title,
         x_label="frequency [Hz]",
@@ -158,19 +170,19 @@ def _spectrum_panel(item: JointComparison) -> Panel:
     )
 
 
-def _order_panel(item: JointComparison) -> Panel:
+def _build_order_panel(item: JointComparison) -> Panel:
     unit, nothing = item.joint.effort_unit, np.array([np.nan])
     title, per = "Order spectrum", "turn" if item.joint.unit == "rad" else "m"
     if item.orders is None:
         x, y, floor = nothing, nothing, nothing
     else:
-        x, _ = waves(item.orders, item.joint.unit)
+        x, _ = convert_orders(item.orders, item.joint.unit)
         y, floor = item.orders.amplitude, item.orders.floor
-        kept = thin_curves((y,))
-        x, y, floor = x[kept], y[kept], floor[kept]
-        found = order_lines(item.orders, item.joint.unit)
-        if found:
-            title += f": {found[0].waves:.4g} waves per {per}"
+        plot_rows = thin_curves((y,))
+        x, y, floor = x[plot_rows], y[plot_rows], floor[plot_rows]
+        order_peaks = find_order_peaks(item.orders, item.joint.unit)
+        if order_peaks:
+            title += f": {order_peaks[0].waves:.4g} waves per {per}"
     return Panel(
         title=title,
         x_label=f"waves per {per} of the joint [1/{per}]",
@@ -186,7 +198,7 @@ def _order_panel(item: JointComparison) -> Panel:
 _READABLE = 8.0  # percent: a shorter stretch of a bar has no room for its number
 
 
-def overview_picture(comparison: Comparison) -> Picture:
+def draw_overview_picture(comparison: Comparison) -> Picture:
     """Relative error, regions of velocity; stacked shares; coordinates, other joints."""
     names = tuple(item.joint.name for item in comparison.joints)
     errors = np.array([100.0 * item.relative_error for item in comparison.joints])
@@ -195,27 +207,38 @@ def overview_picture(comparison: Comparison) -> Picture:
         (
             Panel("Relative error", "joint", "||residual|| / ||torque|| [%]", (bars,)),
             Panel("Where: share of squared residual [%]", "velocity", "joint",
-                  (_regions(comparison),)),
+                  (_build_region_heatmap(comparison),)),
         ),
     ]  # fmt: skip
     if any(item.shares is not None for item in comparison.joints):
-        panels.append(share_panels(comparison))
+        panels.append(build_share_panels(comparison))
     if any(item.structure is not None for item in comparison.joints):
-        panels.append((
-            Panel("Follows its own ... [%]", "coordinate", "joint", (_shares(comparison),)),
-            Panel("Follows the velocity of ... [%]", "joint or motor moving", "joint",
-                  (_across(comparison),)),
-        ))  # fmt: skip
+        panels.append(
+            (
+                Panel(
+                    "Follows its own ... [%]",
+                    "coordinate",
+                    "joint",
+                    (_build_share_heatmap(comparison),),
+                ),
+                Panel(
+                    "Follows the velocity of ... [%]",
+                    "joint or motor moving",
+                    "joint",
+                    (_build_cross_joint_heatmap(comparison),),
+                ),
+            )
+        )
     return Picture(
         name="overview",
         title="All joints",
-        caption=_overview_caption(comparison),
+        caption=_write_overview_caption(comparison),
         panels=tuple(panels),
         height=len(panels) * max(260, 120 + 44 * len(names)),
     )
 
 
-def _overview_caption(comparison: Comparison) -> str:
+def _write_overview_caption(comparison: Comparison) -> str:
     methods = {item.shares.method for item in comparison.joints if item.shares is not None}
     how = "; ".join(METHODS[name] for name in METHODS if name in methods)
     return (
@@ -232,42 +255,51 @@ def _overview_caption(comparison: Comparison) -> str:
     )
 
 
-def _regions(comparison: Comparison) -> Heat:
+def _build_region_heatmap(comparison: Comparison) -> Heat:
     energy = np.array([[r.energy_share for r in item.regions] for item in comparison.joints])
     texts = tuple(
-        tuple(f"{percent(r.energy_share)} ({percent(r.time_share)})" for r in item.regions)
+        tuple(
+            f"{format_percent(r.energy_share)} ({format_percent(r.time_share)})"
+            for r in item.regions
+        )
         for item in comparison.joints
     )
     names = tuple(item.joint.name for item in comparison.joints)
     return Heat("share of squared residual", REGIONS, names, 100.0 * energy, texts, top=100.0)
 
 
-def _shares(comparison: Comparison) -> Heat:
+def _build_share_heatmap(comparison: Comparison) -> Heat:
     held = {
         coordinate.id
         for item in comparison.joints
-        for coordinate in coordinates_of(comparison.prediction, item.index)
+        for coordinate in select_coordinates(comparison.prediction, item.index)
     }
     names = [coordinate.id for coordinate in COORDINATES if coordinate.id in held]
     columns = (*names, "all motion")
-    return _explained(
-        comparison, columns, lambda own: [*(own.share(name) for name in names), own.together]
+    return _build_heatmap(
+        comparison,
+        columns,
+        lambda structure: [*(structure.get_share(name) for name in names), structure.together],
     )
 
 
-def _across(comparison: Comparison) -> Heat:
+def _build_cross_joint_heatmap(comparison: Comparison) -> Heat:
     prediction = comparison.prediction
     columns = (
         *(f"joint {info.name}" for info in prediction.joints),
         *(f"motor {motor.name}" for motor in prediction.motors),
     )
-    return _explained(
-        comparison, columns, lambda own: [share for _, share in (*own.across, *own.motors)]
+    return _build_heatmap(
+        comparison,
+        columns,
+        lambda structure: [share for _, share in (*structure.across, *structure.motors)],
     )
 
 
-def _explained(
-    comparison: Comparison, columns: tuple[str, ...], shares: Callable[[Structure], list[float]]
+def _build_heatmap(
+    comparison: Comparison,
+    columns: tuple[str, ...],
+    shares: Callable[[ResidualStructure], list[float]],
 ) -> Heat:
     """Shares of each joint's residual; nothing where too few samples tell."""
     joints = comparison.joints
@@ -280,32 +312,34 @@ def _explained(
     return Heat("explained share", columns, names, 100.0 * values, texts, top=100.0)
 
 
-def share_panels(comparison: Comparison) -> tuple[Panel, Panel]:
+def build_share_panels(comparison: Comparison) -> tuple[Panel, Panel]:
     """Shares of the torque's variance, and the same of what is not explained."""
     items = [item for item in comparison.joints if item.shares is not None]
     names = tuple(item.joint.name for item in items)
-    found = [item.shares for item in items if item.shares is not None]
-    repeats = np.array([100.0 * each.repeats for each in found])
+    variance_shares = [item.shares for item in items if item.shares is not None]
+    repeats = np.array([100.0 * each.repeatable_share for each in variance_shares])
     # a prediction worse than a constant explains nothing: the rest is then all there is
-    explained = np.array([100.0 * max(0.0, each.explained) for each in found])
+    explained = np.array([100.0 * max(0.0, each.explained) for each in variance_shares])
     left = 100.0 - explained
     systematic = left * repeats / 100.0
     return (
         Panel(
             "Variance of the torque [%]", "joint", "share of the variance [%]",
-            _stacked(names, [("explained", explained, BLUE),
+            _build_stacked_bars(names, [("explained", explained, BLUE),
                              ("repeatable, not explained", systematic, VERMILLION),
                              ("noise", left - systematic, SLATE)]),
         ),
         Panel(
             "Variance that is not explained [%]", "joint", "share of the residual [%]",
-            _stacked(names, [("repeatable, not explained", repeats, VERMILLION),
+            _build_stacked_bars(names, [("repeatable, not explained", repeats, VERMILLION),
                              ("noise", 100.0 - repeats, SLATE)]),
         ),
     )  # fmt: skip
 
 
-def _stacked(names: tuple[str, ...], parts: list[tuple[str, np.ndarray, str]]) -> tuple[Bars, ...]:
+def _build_stacked_bars(
+    names: tuple[str, ...], parts: list[tuple[str, np.ndarray, str]]
+) -> tuple[Bars, ...]:
     series, base = [], np.zeros(len(names))
     for label, values, colour in parts:
         texts = tuple(f"{value:.1f}" if value >= _READABLE else "" for value in values)
@@ -320,7 +354,9 @@ def _stacked(names: tuple[str, ...], parts: list[tuple[str, np.ndarray, str]]) -
 _MOST = 2500  # points of a curve
 
 
-def overlay_picture(names: Sequence[str], predictions: Sequence[Prediction], j: int) -> Picture:
+def draw_overlay_picture(
+    names: Sequence[str], predictions: Sequence[Prediction], j: int
+) -> Picture:
     """One joint: residuals of all models against time, and their sums of squares so far.
 
     Args:
@@ -329,22 +365,24 @@ def overlay_picture(names: Sequence[str], predictions: Sequence[Prediction], j: 
         j: index of the joint.
     """
     first, joint = predictions[0], predictions[0].joints[j]
-    time, label, marks = running_time(first)
-    left = tuple(residual(prediction)[:, j] for prediction in predictions)
+    time, label, marks = concatenate_time(first)
+    left = tuple(compute_residual(prediction)[:, j] for prediction in predictions)
     sums = [np.cumsum(np.nan_to_num(e) ** 2) for e in left]
     whole = max(float(total[-1]) for total in sums) or 1.0
-    kept, segment = thin_curves(left, _MOST), first.segment
+    plot_rows, segment = thin_curves(left, _MOST), first.segment
     even = np.unique(np.linspace(0, time.size - 1, _MOST // 2).astype(int))
     styles = [Style(COLORS[k % len(COLORS)], width=1.1, opacity=0.8) for k in range(len(names))]
     residuals, gains = [], []
     for name, style, e, total in zip(names, styles, left, sums, strict=True):
-        residuals.append(Curve(name, *broken(segment[kept], time[kept], e[kept]), style))
+        residuals.append(
+            Curve(name, *break_at_gaps(segment[plot_rows], time[plot_rows], e[plot_rows]), style)
+        )
         gains.append(Curve(name, time[even], 100.0 * total[even] / whole, style))
-    spans = masked_spans(first, j, time, np.arange(time.size))
+    spans = find_masked_spans(first, j, time, np.arange(time.size))
     return Picture(
         name=f"joint_{joint.name}_models",
         title=f"Joint {joint.name}: what each model leaves",
-        caption=_overlay_caption(names, styles, mask_caption(first, j)),
+        caption=_write_overlay_caption(names, styles, describe_masks(first, j)),
         panels=(
             (Panel("Residual", label, f"residual [{joint.effort_unit}]", tuple(residuals),
                    marks=marks, zero=True, spans=spans),),
@@ -356,9 +394,9 @@ def overlay_picture(names: Sequence[str], predictions: Sequence[Prediction], j: 
     )  # fmt: skip
 
 
-def _overlay_caption(names: Sequence[str], styles: Sequence[Style], masks: str) -> str:
+def _write_overlay_caption(names: Sequence[str], styles: Sequence[Style], masks: str) -> str:
     pairs = zip(names, styles, strict=True)
-    said = ", ".join(f"{style.named.capitalize()}: {name}" for name, style in pairs)
+    said = ", ".join(f"{style.description.capitalize()}: {name}" for name, style in pairs)
     return (
         f"{said}. Below: the squared residual summed up to that time, in percent of the largest "
         f"sum at the end; where one curve is steeper, that model is worse there. {masks}"

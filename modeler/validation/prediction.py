@@ -6,8 +6,8 @@ from typing import Literal
 
 import numpy as np
 
-from modeler.core.brief import Brief
-from modeler.core.table import errors_by_unit
+from modeler.core.brief import ShortRepr
+from modeler.core.table import pool_errors_by_unit
 
 
 @dataclass(frozen=True)
@@ -28,7 +28,7 @@ class Motor:
 
 
 @dataclass(frozen=True, eq=False)
-class FullRate(Brief):
+class FullRate(ShortRepr):
     """The samples from which the rows were made; m samples, stacked log after log."""
 
     run: np.ndarray  # (m,) index into logs
@@ -39,7 +39,7 @@ class FullRate(Brief):
 
 
 @dataclass(frozen=True, eq=False)
-class Prediction(Brief):
+class Prediction(ShortRepr):
     """Measured and predicted torque after the same filtering of both sides.
 
     n samples, stacked log after log. Rows of one segment are evenly sampled and follow each
@@ -66,29 +66,29 @@ class Prediction(Brief):
     masks: np.ndarray | None = None  # (n, joints) why a row does not count, see observation.masks
 
 
-def residual(prediction: Prediction) -> np.ndarray:
+def compute_residual(prediction: Prediction) -> np.ndarray:
     """Measured minus predicted torque, NaN where the row does not count, (n, joints)."""
     difference = np.asarray(prediction.measured - prediction.predicted, dtype=float)
     return np.where(prediction.used, difference, np.nan)
 
 
-def full_rate(prediction: Prediction) -> FullRate:
+def select_full_rate(prediction: Prediction) -> FullRate:
     """The samples behind the rows, or the rows themselves."""
     if prediction.full is not None:
         return prediction.full
-    e = residual(prediction)
+    e = compute_residual(prediction)
     return FullRate(prediction.run, prediction.time, prediction.q, e, e)
 
 
-def relative_error(prediction: Prediction) -> float:
+def compute_relative_error(prediction: Prediction) -> float:
     """||measured - predicted|| / ||measured|| over all rows that count; NaN without a torque."""
     used = prediction.used
     size = float(np.linalg.norm(prediction.measured[used]))
-    error = float(np.linalg.norm(residual(prediction)[used]))
+    error = float(np.linalg.norm(compute_residual(prediction)[used]))
     return error / size if size else math.nan
 
 
-def unit_errors(prediction: Prediction, rows: np.ndarray | None = None) -> dict[str, float]:
+def compute_unit_errors(prediction: Prediction, rows: np.ndarray | None = None) -> dict[str, float]:
     """Relative error over all joints of one unit, by unit.
 
     Args:
@@ -98,7 +98,7 @@ def unit_errors(prediction: Prediction, rows: np.ndarray | None = None) -> dict[
     used = prediction.used if rows is None else prediction.used & rows[:, None]
     left = np.where(used, prediction.measured - prediction.predicted, 0.0)
     measured = np.where(used, prediction.measured, 0.0)
-    return errors_by_unit(
+    return pool_errors_by_unit(
         (info.effort_unit, float(left[:, j] @ left[:, j]), float(measured[:, j] @ measured[:, j]))
         for j, info in enumerate(prediction.joints)
     )
@@ -111,7 +111,7 @@ DEVIATIONS = 2.0
 """Half width of a band in standard deviations: 95 % of normal errors."""
 
 
-def sigma_of(columns: np.ndarray, covariance: np.ndarray) -> np.ndarray:
+def propagate_covariance(columns: np.ndarray, covariance: np.ndarray) -> np.ndarray:
     """(s, n) standard deviation of the predicted torque, N m or N.
 
     For a row phi of the filtered regressor, tau = phi beta, so var(tau) = phi C phi^T with the

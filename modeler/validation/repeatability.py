@@ -6,10 +6,10 @@ from typing import Literal
 
 import numpy as np
 
-from modeler.numerics.noise import at
-from modeler.numerics.spectra import ALIKE, lap, longest_stretch
-from modeler.validation.prediction import Prediction, full_rate
-from modeler.validation.residual_structure import Structure
+from modeler.numerics.noise import interpolate_between_gaps
+from modeler.numerics.spectra import ALIKE, estimate_lap_period, find_longest_stretch
+from modeler.validation.prediction import Prediction, select_full_rate
+from modeler.validation.residual_structure import ResidualStructure
 
 _MOVES = 0.01  # of the largest stroke: joints that move less are held, and wobble as they like
 _SAME = 0.05  # of the largest stroke: logs whose strokes differ by more are of other motion
@@ -43,11 +43,11 @@ class Repetition:
     periods: tuple[float, ...]  # s, of the logs that have laps
 
 
-def repetitions(prediction: Prediction) -> tuple[Repetition, ...]:
+def find_repetitions(prediction: Prediction) -> tuple[Repetition, ...]:
     """Laps, then logs of the same motion; empty if no motion was made twice."""
-    motions = _motions(prediction)
-    found = [_laps(motions), _same_motion(motions)]
-    return tuple(item for item in found if item.partners)
+    motions = _collect_motions(prediction)
+    candidates = [_find_laps(motions), _find_same_motions(motions)]
+    return tuple(item for item in candidates if item.partners)
 
 
 @dataclass(frozen=True, eq=False)
@@ -60,8 +60,8 @@ class _RepeatedMotion:
     ends: np.ndarray  # (2, joints) lowest and highest position
 
 
-def _motions(prediction: Prediction) -> list[_RepeatedMotion]:
-    full, found = full_rate(prediction), []
+def _collect_motions(prediction: Prediction) -> list[_RepeatedMotion]:
+    full, motions = select_full_rate(prediction), []
     strokes = np.nanmax(prediction.q, axis=0) - np.nanmin(prediction.q, axis=0)
     moving = strokes > _MOVES * strokes.max()
     for run in range(len(prediction.logs)):
@@ -73,50 +73,54 @@ def _motions(prediction: Prediction) -> list[_RepeatedMotion]:
             size = np.maximum(q[:, moving].std(axis=0), 1e-12)
             ends = np.array([q.min(axis=0), q.max(axis=0)])
             step = float(np.median(np.diff(times)))
-            found.append(_RepeatedMotion(run, step, time[::every], q[::every, moving], size, ends))
-    return found
+            motions.append(
+                _RepeatedMotion(run, step, time[::every], q[::every, moving], size, ends)
+            )
+    return motions
 
 
-def _laps(motions: list[_RepeatedMotion]) -> Repetition:
+def _find_laps(motions: list[_RepeatedMotion]) -> Repetition:
     partners, periods = [], []
     for whole in motions:
-        rows = longest_stretch(whole.time, whole.step)
-        own = dataclasses.replace(whole, time=whole.time[rows], q=whole.q[rows])
-        length = float(np.ptp(own.time))
-        even = np.arange(0.0, length, own.step)
-        rough = lap(even, _at(own, own.time[0] + even))
+        rows = find_longest_stretch(whole.time, whole.step)
+        motion = dataclasses.replace(whole, time=whole.time[rows], q=whole.q[rows])
+        length = float(np.ptp(motion.time))
+        even = np.arange(0.0, length, motion.step)
+        rough = estimate_lap_period(even, _interpolate_positions(motion, motion.time[0] + even))
         if rough == 0.0:
             continue
-        period = _refined(own, rough)
+        period = _refine_period(motion, rough)
         periods.append(period)
         for k in range(1, min(_MOST_LAPS, int(length / period)) + 1):
-            partners += [Partner(own.run, own.run, k * period), Partner(own.run, own.run,
-                                                                        -k * period)]  # fmt: skip
+            partners += [
+                Partner(motion.run, motion.run, k * period),
+                Partner(motion.run, motion.run, -k * period),
+            ]
     return Repetition("laps", tuple(partners), tuple(periods))
 
 
-def _refined(own: _RepeatedMotion, period: float) -> float:
+def _refine_period(motion: _RepeatedMotion, period: float) -> float:
     """The period from laps farther and farther apart: an error of it grows with their number."""
-    half, laps = own.step, 1
-    most = max(1, int(np.ptp(own.time) / period) - 1)
+    half, laps = motion.step, 1
+    most = max(1, int(np.ptp(motion.time) / period) - 1)
     while True:
-        period = _best_shift(own, own, laps * period, laps * half) / laps
+        period = _refine_shift(motion, motion, laps * period, laps * half) / laps
         if laps == most:
             return period
         laps, half = min(2 * laps, most), half / 10
 
 
-def _same_motion(motions: list[_RepeatedMotion]) -> Repetition:
+def _find_same_motions(motions: list[_RepeatedMotion]) -> Repetition:
     """Each log beside the first one of the same motion, in groups."""
     groups: list[list[tuple[_RepeatedMotion, float]]] = []
-    for own in motions:
+    for motion in motions:
         for group in groups:
-            shift = _shift(group[0][0], own)
+            shift = _estimate_shift(group[0][0], motion)
             if shift is not None:
-                group.append((own, shift))
+                group.append((motion, shift))
                 break
         else:
-            groups.append([(own, 0.0)])
+            groups.append([(motion, 0.0)])
     partners = [
         Partner(a.run, b.run, later - sooner)
         for group in groups
@@ -127,7 +131,7 @@ def _same_motion(motions: list[_RepeatedMotion]) -> Repetition:
     return Repetition("logs", tuple(partners), ())
 
 
-def _shift(first: _RepeatedMotion, other: _RepeatedMotion) -> float | None:
+def _estimate_shift(first: _RepeatedMotion, other: _RepeatedMotion) -> float | None:
     """s by which the clock of `other` is ahead for the same motion; None for another motion."""
     stroke = float(np.ptp(first.ends, axis=0).max())
     if np.abs(first.ends - other.ends).max() > _SAME * stroke:
@@ -138,19 +142,21 @@ def _shift(first: _RepeatedMotion, other: _RepeatedMotion) -> float | None:
     start = other.time[0] - first.time[0]
     reach = min(int(0.25 * min(lengths) / first.step), _SHIFTS)
     candidates = start + first.step * np.arange(-reach, reach + 1)
-    apart = [_distance(first, other, shift, _OVERLAP * min(lengths)) for shift in candidates]
-    best = _best_shift(first, other, float(candidates[int(np.argmin(apart))]), first.step)
+    apart = [
+        _compute_distance(first, other, shift, _OVERLAP * min(lengths)) for shift in candidates
+    ]
+    best = _refine_shift(first, other, float(candidates[int(np.argmin(apart))]), first.step)
     # twice the variance, which is one: the mean squared difference of motions that are not alike
-    alike = 1.0 - _distance(first, other, best, 0.9 * _OVERLAP * min(lengths)) / 2.0
+    alike = 1.0 - _compute_distance(first, other, best, 0.9 * _OVERLAP * min(lengths)) / 2.0
     return best if alike > ALIKE else None
 
 
-def _best_shift(
+def _refine_shift(
     first: _RepeatedMotion, other: _RepeatedMotion, around: float, half: float
 ) -> float:
     """The shift near `around` at which the motions are least apart; a parabola between the grid."""
     grid = around + half * np.linspace(-1.0, 1.0, 2 * _GRID + 1)
-    apart = np.array([_distance(first, other, shift, 0.0) for shift in grid])
+    apart = np.array([_compute_distance(first, other, shift, 0.0) for shift in grid])
     best = int(np.argmin(apart))
     if not 0 < best < grid.size - 1:
         return float(grid[best])
@@ -160,7 +166,7 @@ def _best_shift(
     return float(grid[best] + part * (grid[1] - grid[0]))
 
 
-def _distance(
+def _compute_distance(
     first: _RepeatedMotion, other: _RepeatedMotion, shift: float, overlap: float
 ) -> float:
     """Mean squared difference of the joint that differs most; infinite with less overlap."""
@@ -169,16 +175,18 @@ def _distance(
     if end - begin < max(overlap, 2 * first.step):
         return float("inf")
     times = np.linspace(begin, end, int(min(_POINTS, (end - begin) / first.step + 2)))
-    apart = (_at(first, times) - _at(other, times + shift)) / first.size
+    apart = (
+        _interpolate_positions(first, times) - _interpolate_positions(other, times + shift)
+    ) / first.size
     return float(np.mean(apart**2, axis=0).max())
 
 
-def _at(own: _RepeatedMotion, times: np.ndarray) -> np.ndarray:
-    return np.column_stack([np.interp(times, own.time, column) for column in own.q.T])
+def _interpolate_positions(motion: _RepeatedMotion, times: np.ndarray) -> np.ndarray:
+    return np.column_stack([np.interp(times, motion.time, column) for column in motion.q.T])
 
 
 @dataclass(frozen=True)
-class Shares:
+class VarianceShares:
     """Of sum (measured - mean)^2; the three sum to one.
 
     Explained is R^2, and negative for a prediction that is worse than the best constant.
@@ -191,19 +199,19 @@ class Shares:
     sigma: float | None  # standard error of both; None by the method "smooth"
 
     @property
-    def repeats(self) -> float:
+    def repeatable_share(self) -> float:
         """Repeatable share of what is not explained; 0 if nothing is left."""
         left = self.systematic + self.floor
         return self.systematic / left if left > 0.0 else 0.0
 
 
-def shares(
+def split_variance(
     prediction: Prediction,
     joint: int,
     e: np.ndarray,
     repeated: tuple[Repetition, ...],
-    found: Structure | None,
-) -> Shares | None:
+    structure: ResidualStructure | None,
+) -> VarianceShares | None:
     """Shares of one joint; None for a constant torque, or too few samples to tell.
 
     Where the motion was repeated, the repeatable part is the mean product of the residual and that
@@ -216,7 +224,7 @@ def shares(
         joint: which one.
         e: (n,) its residual, NaN where a row does not count.
         repeated: laps, logs of one motion.
-        found: structure of the residual.
+        structure: structure of the residual.
     """
     rows = np.flatnonzero(prediction.used[:, joint])
     y = prediction.measured[rows, joint]
@@ -225,20 +233,22 @@ def shares(
         return None
     left = energy / spread
     for repetition in repeated:
-        returning = _returning(prediction, joint, e, repetition)
+        returning = _estimate_recurring_share(prediction, joint, e, repetition)
         if returning is not None:
             again, error = returning
             kind = repetition.kind
-            return Shares(1.0 - left, again * left, (1.0 - again) * left, kind, error * left)
-    if found is None or energy == 0.0:
-        return None if energy else Shares(1.0, 0.0, 0.0, "smooth", None)
+            return VarianceShares(
+                1.0 - left, again * left, (1.0 - again) * left, kind, error * left
+            )
+    if structure is None or energy == 0.0:
+        return None if energy else VarianceShares(1.0, 0.0, 0.0, "smooth", None)
     offset = rows.size * float(e[rows].mean()) ** 2 / energy
-    smooth = max(found.together, found.follows.share)
+    smooth = max(structure.together, structure.follows.share)
     again = offset + (1.0 - offset) * smooth
-    return Shares(1.0 - left, again * left, (1.0 - again) * left, "smooth", None)
+    return VarianceShares(1.0 - left, again * left, (1.0 - again) * left, "smooth", None)
 
 
-def _returning(
+def _estimate_recurring_share(
     prediction: Prediction, joint: int, e: np.ndarray, repetition: Repetition
 ) -> tuple[float, float] | None:
     """Share of the squared residual that laps have in common, and its standard error.
@@ -246,24 +256,24 @@ def _returning(
     The error comes from sums over half a dozen neighbouring rows, which may share their noise.
     None with too few rows repeated.
     """
-    full = full_rate(prediction)
+    full = select_full_rate(prediction)
     products, squares, scatter = 0.0, 0.0, 0.0
     repeated = np.zeros(e.size, dtype=bool)
     for partner in repetition.partners:
         rows = np.flatnonzero((prediction.run == partner.run) & np.isfinite(e))
         there = full.run == partner.other
         then = prediction.time[rows] + partner.shift
-        other = at(full.time[there], full.filtered[there, joint], then)
+        other = interpolate_between_gaps(full.time[there], full.filtered[there, joint], then)
         there = np.isfinite(other)
         if not there.any():
             continue
-        own, other = e[rows][there], other[there]
-        if np.median(np.abs(own - other) > 1e-3 * np.abs(own)) < 0.5:
+        residuals, other = e[rows][there], other[there]
+        if np.median(np.abs(residuals - other) > 1e-3 * np.abs(residuals)) < 0.5:
             continue  # the same measurements given twice: their noise is alike, too
-        product = own * other
-        parts = np.add.reduceat(product, np.arange(0, own.size, _NEIGHBOURS))
+        product = residuals * other
+        parts = np.add.reduceat(product, np.arange(0, residuals.size, _NEIGHBOURS))
         products += float(product.sum())
-        squares += float(own @ own)
+        squares += float(residuals @ residuals)
         # every pair of moments stands here twice, once from either side
         scatter += 2.0 * float(parts @ parts)
         repeated[rows[there]] = True

@@ -6,20 +6,20 @@ from itertools import chain
 
 import numpy as np
 
-from modeler.numerics.spectra import OrderSpectrum, order_spectrum
+from modeler.numerics.spectra import OrderSpectrum, compute_order_spectrum
 from modeler.numerics.splines import (
     OWN,
     SLIPS,
-    Flexible,
     Measurements,
-    curve,
-    drift_curve,
-    flexible,
-    friction_curve,
-    functions,
-    stretches,
+    NonparametricBaseline,
+    assign_folds,
+    build_drift_functions,
+    build_friction_functions,
+    build_hat_functions,
+    fit_nonparametric_baseline,
+    generate_function_sets,
 )
-from modeler.validation.prediction import Prediction, full_rate
+from modeler.validation.prediction import Prediction, select_full_rate
 
 # The coordinates against which a residual is looked at.
 
@@ -54,7 +54,7 @@ DRIFTS = ("temperature", "time")
 """Coordinates that are not the joint's motion, and change once in a log, slowly."""
 
 
-def coordinates_of(prediction: Prediction, joint: int) -> tuple[Coordinate, ...]:
+def select_coordinates(prediction: Prediction, joint: int) -> tuple[Coordinate, ...]:
     """Those that the logs hold of one joint; temperature only where every used row has it."""
     used = prediction.used[:, joint]
     missing = set()
@@ -65,7 +65,7 @@ def coordinates_of(prediction: Prediction, joint: int) -> tuple[Coordinate, ...]
     return tuple(coordinate for coordinate in COORDINATES if coordinate.id not in missing)
 
 
-def coordinate_values(prediction: Prediction, joint: int, coordinate: str) -> np.ndarray:
+def evaluate_coordinate(prediction: Prediction, joint: int, coordinate: str) -> np.ndarray:
     """Values of a coordinate of one joint, all rows, (n,); time counts from the log's start."""
     qd = prediction.qd[:, joint]
     plain = {"position": prediction.q, "velocity": prediction.qd, "acceleration": prediction.qdd,
@@ -83,10 +83,10 @@ def coordinate_values(prediction: Prediction, joint: int, coordinate: str) -> np
     return prediction.time - first[prediction.run]
 
 
-def coordinate_unit(prediction: Prediction, joint: int, coordinate: str) -> str:
+def format_coordinate_unit(prediction: Prediction, joint: int, coordinate: str) -> str:
     """Unit of a coordinate as it stands on an axis."""
     info = prediction.joints[joint]
-    unit = next(own.unit for own in COORDINATES if own.id == coordinate)
+    unit = next(entry.unit for entry in COORDINATES if entry.id == coordinate)
     return unit.format(unit=info.unit, effort=info.effort_unit)
 
 
@@ -103,7 +103,7 @@ _ELSEWHERE = ("position", "velocity", "acceleration")  # of other joints
 
 
 @dataclass(frozen=True)
-class Follows:
+class BestPredictor:
     """What all that was measured predicts.
 
     Attributes:
@@ -118,7 +118,7 @@ class Follows:
 
 
 @dataclass(frozen=True)
-class Structure:
+class ResidualStructure:
     """Shares of the residual variance that functions predict on motion not used to fit them.
 
     Coordinates of one trajectory go together, so the shares overlap and do not add up.
@@ -127,63 +127,75 @@ class Structure:
     shares: tuple[tuple[str, float], ...]  # coordinate id -> share, in the order of COORDINATES
     together: float  # by the joint's own motion: its coordinates together, or the best one alone
     across: tuple[tuple[str, float], ...]  # joint name -> share, by a function of its velocity
-    follows: Follows
+    follows: BestPredictor
     motors: tuple[tuple[str, float], ...] = ()  # coupled motor, "5+6" -> share, of its velocity
 
-    def share(self, coordinate: str) -> float:
+    def get_share(self, coordinate: str) -> float:
         """Share of one coordinate; NaN where the logs do not hold it."""
         return dict(self.shares).get(coordinate, float("nan"))
 
 
-def structure(prediction: Prediction, joint: int) -> Structure | None:
+def analyse_structure(prediction: Prediction, joint: int) -> ResidualStructure | None:
     """Structure of one joint's residual; None with fewer than ENOUGH samples."""
     rows = np.flatnonzero(prediction.used[:, joint])
     if rows.size < ENOUGH:
         return None
     rows = rows[:: -(-rows.size // _MOST)]
     e = prediction.measured[rows, joint] - prediction.predicted[rows, joint]
-    names = [coordinate.id for coordinate in coordinates_of(prediction, joint)]
-    m = _measured(prediction, joint, rows)
-    sets = {name: _curve(prediction, joint, name, rows) for name in names if name not in DRIFTS}
+    names = [coordinate.id for coordinate in select_coordinates(prediction, joint)]
+    m = _collect_measurements(prediction, joint, rows)
+    sets = {
+        name: _build_curve(prediction, joint, name, rows) for name in names if name not in DRIFTS
+    }
     by = {joint: (*sets, *OWN)}
     for k in range(m.q.shape[1]):
         if k != joint:
-            curves = curve(m.q[:, k]), friction_curve(m.v[:, k]), curve(m.a[:, k])
+            curves = (
+                build_hat_functions(m.q[:, k]),
+                build_friction_functions(m.v[:, k]),
+                build_hat_functions(m.a[:, k]),
+            )
             sets |= {f"{name} {k}": x for name, x in zip(_ELSEWHERE, curves, strict=True)}
             by[k] = (str(k), *(f"{name} {k}" for name in _ELSEWHERE))
     for motor in prediction.motors:
-        sets[motor.name] = friction_curve(m.v @ np.asarray(motor.coefficients))
-    said = flexible(chain(sets.items(), functions(m)), e, stretches(prediction.run[rows]))
-    alone = {name: said.alone.get(name, 0.0) for name in sets} | said.alone
-    drifts = {name: _drift(prediction, joint, name, rows, e) for name in names if name in DRIFTS}
+        sets[motor.name] = build_friction_functions(m.v @ np.asarray(motor.coefficients))
+    baseline = fit_nonparametric_baseline(
+        chain(sets.items(), generate_function_sets(m)), e, assign_folds(prediction.run[rows])
+    )
+    alone = {name: baseline.share_by_set.get(name, 0.0) for name in sets} | baseline.share_by_set
+    drifts = {
+        name: _estimate_drift_share(prediction, joint, name, rows, e)
+        for name in names
+        if name in DRIFTS
+    }
     joints = tuple(enumerate(info.name for info in prediction.joints))
     best = {k: max(alone.get(name, 0.0) for name in by[k]) for k, _ in joints}
-    return Structure(
+    return ResidualStructure(
         shares=tuple((name, (alone | drifts)[name]) for name in names),
         together=best[joint],
         across=tuple((name, alone[by[k][2] if k != joint else "velocity"]) for k, name in joints),
-        follows=_follows(said, best, by, prediction, joint),
+        follows=_find_best_predictor(baseline, best, by, prediction, joint),
         motors=tuple((motor.name, alone[motor.name]) for motor in prediction.motors),
     )
 
 
-def _follows(
-    said: Flexible, best: Mapping[int, float], by: Mapping[int, Sequence[str]],
+def _find_best_predictor(
+    baseline: NonparametricBaseline, best: Mapping[int, float], by: Mapping[int, Sequence[str]],
     prediction: Prediction, joint: int,
-) -> Follows:  # fmt: skip
+) -> BestPredictor:  # fmt: skip
     """The joint, and its coordinate, that does as well as everything."""
-    enough = NEARLY * said.share
-    if not said.sure:
-        return Follows(0.0)
+    enough = NEARLY * baseline.share
+    if not baseline.is_significant:
+        return BestPredictor(0.0)
     place = max(best, key=lambda k: best[k])
     if best[place] < enough:
-        return Follows(said.share)
+        return BestPredictor(baseline.share)
     single = () if place == joint else zip(_ELSEWHERE, by[place][1:], strict=True)
-    coordinates = [name for name, of in single if said.alone.get(of, 0.0) >= enough]
-    return Follows(said.share, prediction.joints[place].name, next(iter(coordinates), ""))
+    coordinates = [name for name, of in single if baseline.share_by_set.get(of, 0.0) >= enough]
+    return BestPredictor(baseline.share, prediction.joints[place].name, next(iter(coordinates), ""))
 
 
-def _measured(prediction: Prediction, joint: int, rows: np.ndarray) -> Measurements:
+def _collect_measurements(prediction: Prediction, joint: int, rows: np.ndarray) -> Measurements:
     """What was measured on some rows; 0 throughout for joints that may hold anything there."""
     every = [
         np.where(np.isfinite(x[rows]).all(axis=0), x[rows], 0.0)
@@ -198,29 +210,37 @@ def _measured(prediction: Prediction, joint: int, rows: np.ndarray) -> Measureme
     return Measurements(joint, q, v, a, torque, torque, way, slips, {})
 
 
-def _drift(prediction: Prediction, joint: int, name: str, rows: np.ndarray, e: np.ndarray) -> float:
+def _estimate_drift_share(
+    prediction: Prediction, joint: int, name: str, rows: np.ndarray, e: np.ndarray
+) -> float:
     """Share by slow functions; of a temperature, what it adds to the direction of motion alone.
 
     Friction changes with temperature, gravity does not: another function for either direction.
     """
     blocks, folds = _DRIFT
     fold = (np.arange(e.size) * blocks // e.size) % folds
-    values = coordinate_values(prediction, joint, name)[rows]
+    values = evaluate_coordinate(prediction, joint, name)[rows]
     if name == "time":
-        columns = drift_curve(values, prediction.run[rows])
-        return flexible([(name, columns)], e, fold).share
+        columns = build_drift_functions(values, prediction.run[rows])
+        return fit_nonparametric_baseline([(name, columns)], e, fold).share
     way = np.sign(prediction.qd[rows, joint])[:, None]
-    slow = curve(values, 5)
+    slow = build_hat_functions(values, 5)
     both = (name, np.hstack((slow, slow * way))), ("direction", way)
-    said = flexible(both, e, fold).alone
-    return max(0.0, said.get(name, 0.0) - said.get("direction", 0.0))
+    share_by_set = fit_nonparametric_baseline(both, e, fold).share_by_set
+    return max(0.0, share_by_set.get(name, 0.0) - share_by_set.get("direction", 0.0))
 
 
-def _curve(prediction: Prediction, joint: int, coordinate: str, rows: np.ndarray) -> np.ndarray:
-    values = coordinate_values(prediction, joint, coordinate)[rows]
+def _build_curve(
+    prediction: Prediction, joint: int, coordinate: str, rows: np.ndarray
+) -> np.ndarray:
+    values = evaluate_coordinate(prediction, joint, coordinate)[rows]
     if coordinate == "direction":
         return values[:, None]
-    return friction_curve(values) if coordinate in ("velocity", "travel") else curve(values)
+    return (
+        build_friction_functions(values)
+        if coordinate in ("velocity", "travel")
+        else build_hat_functions(values)
+    )
 
 
 # The order spectrum of a joint's residual, seen before any filter takes the ripple away.
@@ -235,20 +255,20 @@ class SpectralLine:
     share: float  # of the squared residual before filtering
 
 
-def ripple(prediction: Prediction, joint: int) -> OrderSpectrum | None:
+def compute_ripple_spectrum(prediction: Prediction, joint: int) -> OrderSpectrum | None:
     """Of the samples that count, at full rate; None if they are few, or the joint rests."""
-    full = full_rate(prediction)
+    full = select_full_rate(prediction)
     r, q = full.residual[:, joint], full.q[:, joint]
     counts = np.isfinite(r) & np.isfinite(q)
     if not counts.any():
         return None
     left = r[counts]
-    return order_spectrum(
+    return compute_order_spectrum(
         q[counts], left - left.mean(), prediction.joints[joint].unit, float("inf")
     )
 
 
-def waves(orders: OrderSpectrum, unit: str) -> tuple[np.ndarray, str]:
+def convert_orders(orders: OrderSpectrum, unit: str) -> tuple[np.ndarray, str]:
     """Orders of a spectrum as a user counts them, and per what.
 
     Args:
@@ -260,17 +280,17 @@ def waves(orders: OrderSpectrum, unit: str) -> tuple[np.ndarray, str]:
     return orders.order / (2.0 * np.pi), "m"
 
 
-def order_lines(orders: OrderSpectrum | None, unit: str) -> tuple[SpectralLine, ...]:
-    """What stands out in an order spectrum, the strongest first; see `waves`."""
+def find_order_peaks(orders: OrderSpectrum | None, unit: str) -> tuple[SpectralLine, ...]:
+    """What stands out in an order spectrum, the strongest first; see `convert_orders`."""
     if orders is None:
         return ()
-    found, (counted, _) = orders, waves(orders, unit)
-    places = [int(np.argmin(np.abs(found.order - order))) for order in found.peaks]
+    spectrum, (counted, _) = orders, convert_orders(orders, unit)
+    places = [int(np.argmin(np.abs(spectrum.order - order))) for order in spectrum.peaks]
     return tuple(
         SpectralLine(
             waves=float(counted[k]),
-            amplitude=float(found.amplitude[k]),
-            share=0.5 * float(found.amplitude[k]) ** 2 / found.power,
+            amplitude=float(spectrum.amplitude[k]),
+            share=0.5 * float(spectrum.amplitude[k]) ** 2 / spectrum.power,
         )
         for k in places
     )

@@ -17,7 +17,7 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.linalg import expm
 
-from modeler.core.brief import Brief
+from modeler.core.brief import ShortRepr
 from modeler.validation.forward_dynamics import FittedPlant
 
 _STEP = 1e-5  # of a difference quotient, rad or m, and rad/s or m/s
@@ -26,7 +26,7 @@ _FADED = np.log(2.0)  # and one that becomes half
 
 
 @dataclass(frozen=True, eq=False)
-class Along:
+class LoggedMotion:
     """States of one uninterrupted motion, p of them at equal times.
 
     Attributes:
@@ -45,7 +45,7 @@ class Along:
 
 
 @dataclass(frozen=True)
-class Stability(Brief):
+class Stability(ShortRepr):
     """What becomes of small errors along the motion.
 
     Attributes:
@@ -61,11 +61,11 @@ class Stability(Brief):
     seconds: float
     steepest: float
     log: str
-    at: float
+    steepest_time: float
     fastest: float
 
     @property
-    def doubling(self) -> float | None:
+    def doubling_time(self) -> float | None:
         """S in which an error doubles; None if none does."""
         return float(np.log(2.0) / self.rate) if self.rate > 0.0 else None
 
@@ -74,7 +74,7 @@ class Stability(Brief):
         """True if an error becomes tenfold and more in that run."""
         return bool(self.rate * self.seconds > _GROWN)
 
-    def sentence(self) -> str:
+    def describe(self) -> str:
         """In words."""
         growth = self.rate * self.seconds
         if self.unstable:
@@ -82,8 +82,9 @@ class Stability(Brief):
             times = f"{np.exp(growth):.2g}" if growth < 25.0 else tens
             return (
                 "unstable by nature: along this motion any error doubles every "
-                f"{self.doubling:.2g} s, {times} times in "
-                f"{self.seconds:.3g} s, whatever the model; steepest at {self.at:.4g} s of "
+                f"{self.doubling_time:.2g} s, {times} times in "
+                f"{self.seconds:.3g} s, whatever the model; steepest at {self.steepest_time:.4g} s "
+                "of "
                 f"{self.log}. A long free run says nothing here: judge by the windows"
             )
         if growth < -_FADED:
@@ -97,39 +98,39 @@ class Stability(Brief):
         )
 
 
-def stability(plant: FittedPlant, runs: Sequence[Along]) -> Stability:
+def analyse_stability(plant: FittedPlant, runs: Sequence[LoggedMotion]) -> Stability:
     """Of the linearised robot along logged motions."""
-    found: list[Stability] = []
+    results: list[Stability] = []
     for run in runs:
-        A = jacobians(plant, run)
+        A = compute_jacobians(plant, run)
         values = np.linalg.eigvals(A)
         steep = values.real.max(axis=1)
         worst = int(np.argmax(steep))
-        growth = _growth(A, float(run.time[1] - run.time[0]))
+        growth = _compute_growth(A, float(run.time[1] - run.time[0]))
         seconds = float(run.time[-1] - run.time[0])
-        found.append(
+        results.append(
             Stability(
                 growth / seconds, seconds, float(steep[worst]), run.name, float(run.time[worst]),
                 float(np.abs(values).max()),
             )
         )  # fmt: skip
-    grown = max(found, key=lambda own: own.rate * own.seconds)
-    steepest = max(found, key=lambda own: own.steepest)
+    grown = max(results, key=lambda result: result.rate * result.seconds)
+    steepest = max(results, key=lambda result: result.steepest)
     return Stability(
-        grown.rate, grown.seconds, steepest.steepest, steepest.log, steepest.at,
-        max(own.fastest for own in found),
+        grown.rate, grown.seconds, steepest.steepest, steepest.log, steepest.steepest_time,
+        max(result.fastest for result in results),
     )  # fmt: skip
 
 
-def jacobians(plant: FittedPlant, run: Along) -> np.ndarray:
+def compute_jacobians(plant: FittedPlant, run: LoggedMotion) -> np.ndarray:
     """(p, 2n, 2n) A, by central differences."""
     p, n = run.q.shape
-    forces = plant.forces(run.q, run.qd, np.zeros_like(run.q), run.signals)
+    forces = plant.compute_forces(run.q, run.qd, np.zeros_like(run.q), run.signals)
     speeds = np.einsum("bkn,bn->bk", forces.C, run.qd)
     held = np.einsum("bkn,bk->bn", forces.C, forces.dry * np.sign(speeds))
 
-    def acceleration(q: np.ndarray, qd: np.ndarray) -> np.ndarray:
-        M, h = plant.smooth(forces, q, qd, run.signals)
+    def compute_acceleration(q: np.ndarray, qd: np.ndarray) -> np.ndarray:
+        M, h = plant.compute_smooth_forces(forces, q, qd, run.signals)
         return np.asarray(np.linalg.solve(M, (run.tau - h - held)[:, :, None])[:, :, 0])
 
     A = np.zeros((p, 2 * n, 2 * n))
@@ -137,13 +138,13 @@ def jacobians(plant: FittedPlant, run: Along) -> np.ndarray:
     for j in range(n):
         e = np.zeros(n)
         e[j] = _STEP
-        by_q = acceleration(run.q + e, run.qd) - acceleration(run.q - e, run.qd)
-        by_qd = acceleration(run.q, run.qd + e) - acceleration(run.q, run.qd - e)
+        by_q = compute_acceleration(run.q + e, run.qd) - compute_acceleration(run.q - e, run.qd)
+        by_qd = compute_acceleration(run.q, run.qd + e) - compute_acceleration(run.q, run.qd - e)
         A[:, n:, j], A[:, n:, n + j] = by_q / (2 * _STEP), by_qd / (2 * _STEP)
     return A
 
 
-def _growth(A: np.ndarray, step: float) -> float:
+def _compute_growth(A: np.ndarray, step: float) -> float:
     """ln of the spectral radius of the product of exp(A step), first to last but one."""
     product, log = np.eye(A.shape[1]), 0.0
     for each in expm(step * 0.5 * (A[1:] + A[:-1])):
@@ -160,7 +161,7 @@ def _growth(A: np.ndarray, step: float) -> float:
 _IDLE = {"rad": 1e-3, "m": 1e-4}  # a joint that moves less stands still
 
 
-def fit_percentage(measured: np.ndarray, simulated: np.ndarray) -> float | None:
+def compute_fit_percentage(measured: np.ndarray, simulated: np.ndarray) -> float | None:
     """100 (1 - |q - q_s| / |q - mean q|), %, of samples (p,), as MATLAB's `compare` has it.
 
     None if nothing moves. A simulated value that is not finite, of a robot that was lost, counts as
@@ -176,7 +177,7 @@ def fit_percentage(measured: np.ndarray, simulated: np.ndarray) -> float | None:
     return 100.0 * (1.0 - float(np.linalg.norm(error)) / spread)
 
 
-def horizons(error: np.ndarray, bound: np.ndarray, step: float) -> np.ndarray:
+def compute_horizons(error: np.ndarray, bound: np.ndarray, step: float) -> np.ndarray:
     """(b, n) s until |error| (samples, b, n) first passes `bound` (n,); infinite: it never does.
 
     What is not finite has passed it; samples after the end of a start are 0.
@@ -186,8 +187,8 @@ def horizons(error: np.ndarray, bound: np.ndarray, step: float) -> np.ndarray:
     return np.where(passed.any(axis=0), first, np.inf)
 
 
-def ranges_of(q: np.ndarray, units: list[str]) -> np.ndarray:
+def compute_ranges(q: np.ndarray, units: list[str]) -> np.ndarray:
     """(n,) ranges of positions (p, n); NaN for a joint that hardly moves."""
-    found = np.ptp(q, axis=0)
+    ranges = np.ptp(q, axis=0)
     least = np.array([_IDLE[unit] for unit in units])
-    return np.where(found > least, found, np.nan)
+    return np.where(ranges > least, ranges, np.nan)

@@ -8,9 +8,9 @@ from modeler.core.figure import Band, Curve, Panel, Picture, Series, Span
 from modeler.core.style import BLACK, COLOR_NAMES, ORANGE, PALE, SHADE, SKY, VERMILLION, Style
 from modeler.core.table import WORDS
 from modeler.core.thinning import thin_curves
-from modeler.observation import MASKS, WHY, runs
+from modeler.observation import MASKS, WHY, find_runs
 from modeler.validation.comparison import WINDOW, JointComparison
-from modeler.validation.prediction import DEVIATIONS, Prediction, residual
+from modeler.validation.prediction import DEVIATIONS, Prediction, compute_residual
 
 # Rows that do not count, and gaps between rows, as shaded stretches of time.
 
@@ -34,7 +34,7 @@ _WHY = WHY | {
 _CLOSE = 1.0 / 1500.0  # of the axis: stretches that no screen shows apart are drawn as one
 
 
-def masked_spans(
+def find_masked_spans(
     prediction: Prediction, j: int, time: np.ndarray, rows: np.ndarray
 ) -> tuple[Span, ...]:
     """The stretches of time of joint j that do not count, by reason.
@@ -50,34 +50,34 @@ def masked_spans(
     steps = np.diff(time)[np.diff(prediction.segment) == 0]
     half = 0.5 * float(np.median(steps)) if steps.size else 0.0
     close = _CLOSE * float(np.ptp(time[rows]))
-    reasons = _reasons(prediction, j)[rows]
+    reasons = _find_mask_reasons(prediction, j)[rows]
     whole = prediction.segment[rows]
-    found = []
+    spans = []
     for name in _COLORS:
-        ends = _gaps(prediction, time, rows, half) if name == GAP else [
+        ends = _find_gaps(prediction, time, rows, half) if name == GAP else [
             (time[rows[first]] - half, time[rows[last]] + half)
-            for first, last in _runs(reasons == name, whole)
+            for first, last in _find_runs(reasons == name, whole)
         ]  # fmt: skip
         if ends:
-            found.append(Span(name, _joined(np.array(ends), close), _COLORS[name]))
-    return tuple(found)
+            spans.append(Span(name, _join_intervals(np.array(ends), close), _COLORS[name]))
+    return tuple(spans)
 
 
-def mask_caption(prediction: Prediction, j: int) -> str:
+def describe_masks(prediction: Prediction, j: int) -> str:
     """Which colour means what, and how many rows it takes; "" where every row counts."""
-    reasons, rows = _reasons(prediction, j), prediction.time.size
-    told = [
+    reasons, rows = _find_mask_reasons(prediction, j), prediction.time.size
+    sentences = [
         f"{COLOR_NAMES[color]}, {name}: {_WHY[name]} ({int(np.sum(reasons == name))} of {rows} "
         "rows)"
         for name, color in _COLORS.items()
         if np.any(reasons == name)
     ]
-    if _gaps(prediction, prediction.time, np.arange(rows), 0.0):
-        told.append(f"{COLOR_NAMES[_COLORS[GAP]]}, {GAP}: {_WHY[GAP]}")
-    return f"Shaded rows do not count: {'; '.join(told)}." if told else ""
+    if _find_gaps(prediction, prediction.time, np.arange(rows), 0.0):
+        sentences.append(f"{COLOR_NAMES[_COLORS[GAP]]}, {GAP}: {_WHY[GAP]}")
+    return f"Shaded rows do not count: {'; '.join(sentences)}." if sentences else ""
 
 
-def _reasons(prediction: Prediction, j: int) -> np.ndarray:
+def _find_mask_reasons(prediction: Prediction, j: int) -> np.ndarray:
     """(n,) names; "" where a row counts."""
     used, masks = prediction.used[:, j], prediction.masks
     if masks is None:
@@ -86,13 +86,15 @@ def _reasons(prediction: Prediction, j: int) -> np.ndarray:
     return np.where(used, "", names[masks[:, j]])
 
 
-def _runs(flags: np.ndarray, whole: np.ndarray) -> list[tuple[int, int]]:
+def _find_runs(flags: np.ndarray, whole: np.ndarray) -> list[tuple[int, int]]:
     """First and last of each run of True within one segment."""
     pieces = np.split(np.arange(len(flags)), np.flatnonzero(np.diff(whole)) + 1)
-    return [(int(own[a]), int(own[b - 1])) for own in pieces for a, b in runs(flags[own])]
+    return [
+        (int(piece[a]), int(piece[b - 1])) for piece in pieces for a, b in find_runs(flags[piece])
+    ]
 
 
-def _gaps(
+def _find_gaps(
     prediction: Prediction, time: np.ndarray, rows: np.ndarray, half: float
 ) -> list[tuple[float, float]]:
     """Between segments of one log."""
@@ -102,7 +104,7 @@ def _gaps(
     return [(start, end) for start, end in ends if end > start]
 
 
-def _joined(ends: np.ndarray, close: float) -> np.ndarray:
+def _join_intervals(ends: np.ndarray, close: float) -> np.ndarray:
     """(k, 2) intervals, those nearer than `close` made one."""
     apart = np.flatnonzero(ends[1:, 0] - ends[:-1, 1] > close) + 1
     first = np.concatenate([[0], apart])
@@ -116,17 +118,17 @@ _RESIDUAL = Style(VERMILLION, width=1.0)
 _BAND = Style(SKY, opacity=0.45)
 
 
-def time_picture(prediction: Prediction, item: JointComparison) -> Picture:
+def draw_time_picture(prediction: Prediction, item: JointComparison) -> Picture:
     """Two rows sharing time: torques above, residual below; all logs left, worst window right."""
     window, time = item.worst, prediction.time
-    own = prediction.segment == window.segment
+    is_in_segment = prediction.segment == window.segment
     margin = 0.5 * WINDOW
-    near = own & (time >= window.start - margin) & (time <= window.end + margin)
-    running, label, marks = running_time(prediction)
-    start = float(running[own & (time == window.start)][0])
+    near = is_in_segment & (time >= window.start - margin) & (time <= window.end + margin)
+    running, label, marks = concatenate_time(prediction)
+    start = float(running[is_in_segment & (time == window.start)][0])
     title = "All logs" if len(np.unique(prediction.run)) > 1 else "Whole log"
-    left = _column(prediction, item, np.arange(time.size), running, title, label)
-    right = _column(
+    left = _build_column(prediction, item, np.arange(time.size), running, title, label)
+    right = _build_column(
         prediction, item, np.flatnonzero(near), time, f"Worst {WINDOW} s",
         f"time in {window.log} [s]", banded=True,
     )  # fmt: skip
@@ -135,7 +137,7 @@ def time_picture(prediction: Prediction, item: JointComparison) -> Picture:
     return Picture(
         name=f"joint_{name}_time",
         title=f"Joint {name}: measured and predicted torque",
-        caption=" ".join(_caption(prediction, item)),
+        caption=" ".join(_write_caption(prediction, item)),
         panels=tuple(
             (replace(all_logs, marks=marks, shade=here), replace(worst, shade=close))
             for all_logs, worst in zip(left, right, strict=True)
@@ -147,25 +149,30 @@ def time_picture(prediction: Prediction, item: JointComparison) -> Picture:
     )
 
 
-def _caption(prediction: Prediction, item: JointComparison) -> list[str]:
+def _write_caption(prediction: Prediction, item: JointComparison) -> list[str]:
     what = WORDS[item.joint.effort_unit]
     lines = [
-        f"Above: measured ({_MEASURED.named}) and predicted ({_PREDICTED.named}) {what}; where you "
-        f"see no {_MEASURED.named}, they agree. Below ({_RESIDUAL.named}): the difference, on its "
+        f"Above: measured ({_MEASURED.description}) and predicted ({_PREDICTED.description}) "
+        f"{what}; where you "
+        f"see no {_MEASURED.description}, they agree. Below ({_RESIDUAL.description}): the "
+        "difference, on its "
         f"own, finer scale. Shaded {COLOR_NAMES[SHADE]} from top to bottom: the {WINDOW} s "
         "with the largest squared residual, enlarged on the right."
     ]
     if prediction.sigma is not None:
         lines.append(
-            f"Broad {_BAND.named} there: two standard deviations of the predicted {what} on either "
+            f"Broad {_BAND.description} there: two standard deviations of the predicted {what} on "
+            "either "
             "side, from the covariance of the fitted parameters alone: 95 % where the model is "
             "right; it knows nothing of effects that the model lacks."
         )
-    masks = mask_caption(prediction, item.index)
+    masks = describe_masks(prediction, item.index)
     return [*lines, masks] if masks else lines
 
 
-def running_time(prediction: Prediction) -> tuple[np.ndarray, str, tuple[tuple[float, str], ...]]:
+def concatenate_time(
+    prediction: Prediction,
+) -> tuple[np.ndarray, str, tuple[tuple[float, str], ...]]:
     """Time of all rows on one axis, (n,) s, its label, and where each log begins.
 
     One log keeps its own time; several are put one after the other, each starting where the
@@ -177,20 +184,22 @@ def running_time(prediction: Prediction) -> tuple[np.ndarray, str, tuple[tuple[f
     marks, offset = [], 0.0
     for run in np.unique(prediction.run):
         rows = prediction.run == run
-        own = prediction.time[rows]
-        whole[rows] = own - own.min() + offset
+        log_time = prediction.time[rows]
+        whole[rows] = log_time - log_time.min() + offset
         marks.append((offset, prediction.logs[run]))
-        offset += float(own.max() - own.min())
+        offset += float(log_time.max() - log_time.min())
     return whole, "time, logs one after the other [s]", tuple(marks)
 
 
-def broken(segment: np.ndarray, x: np.ndarray, y: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+def break_at_gaps(
+    segment: np.ndarray, x: np.ndarray, y: np.ndarray
+) -> tuple[np.ndarray, np.ndarray]:
     """The curve with a NaN between segments, so that no line is drawn across a gap."""
     places = np.flatnonzero(np.diff(segment)) + 1
     return np.insert(x, places, x[places]), np.insert(y, places, np.nan)
 
 
-def _column(
+def _build_column(
     prediction: Prediction,
     item: JointComparison,
     rows: np.ndarray,
@@ -203,17 +212,19 @@ def _column(
     curves = (
         prediction.measured[rows, joint].astype(float),
         prediction.predicted[rows, joint].astype(float),
-        residual(prediction)[rows, joint],
+        compute_residual(prediction)[rows, joint],
     )
-    kept = thin_curves(curves)
+    plot_rows = thin_curves(curves)
     labels = ("measured", "predicted", "residual")
     styles = (_MEASURED, _PREDICTED, _RESIDUAL)
     series: list[Series] = []
     for text, values, style in zip(labels, curves, styles, strict=True):
-        x, y = broken(prediction.segment[rows][kept], time[rows][kept], values[kept])
+        x, y = break_at_gaps(
+            prediction.segment[rows][plot_rows], time[rows][plot_rows], values[plot_rows]
+        )
         series.append(Curve(text, x, y, style))
-    spans = masked_spans(prediction, joint, time, rows)
-    bands = _bands(prediction, joint, rows[kept], time) if banded else ()
+    spans = find_masked_spans(prediction, joint, time, rows)
+    bands = _build_bands(prediction, joint, rows[plot_rows], time) if banded else ()
     return (
         Panel(title, label, f"{WORDS[unit]} [{unit}]", (*bands[:1], *series[:2]), spans=spans),
         Panel(f"{title}: residual", label, f"residual [{unit}]", (*bands[1:], series[2]), zero=True,
@@ -221,16 +232,16 @@ def _column(
     )  # fmt: skip
 
 
-def _bands(
+def _build_bands(
     prediction: Prediction, joint: int, rows: np.ndarray, time: np.ndarray
 ) -> tuple[Band, ...]:
     """About the prediction, and about zero."""
     if prediction.sigma is None:
         return ()
     half = DEVIATIONS * prediction.sigma[rows, joint]
-    found = []
+    bands = []
     for middle in (prediction.predicted[rows, joint], np.zeros(rows.size)):
-        x, low = broken(prediction.segment[rows], time[rows], middle - half)
-        _, high = broken(prediction.segment[rows], time[rows], middle + half)
-        found.append(Band("95 % band of the prediction", x, low, high, _BAND))
-    return tuple(found)
+        x, low = break_at_gaps(prediction.segment[rows], time[rows], middle - half)
+        _, high = break_at_gaps(prediction.segment[rows], time[rows], middle + half)
+        bands.append(Band("95 % band of the prediction", x, low, high, _BAND))
+    return tuple(bands)

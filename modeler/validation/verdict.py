@@ -1,13 +1,13 @@
 """The comparison in plain sentences."""
 
-from modeler.core.table import WORDS, percent
+from modeler.core.table import WORDS, format_percent
 from modeler.validation.comparison import Comparison, JointComparison, Region
 from modeler.validation.residual_structure import (
     COORDINATES,
     NEARLY,
     Coordinate,
-    order_lines,
-    waves,
+    convert_orders,
+    find_order_peaks,
 )
 
 NOTICEABLE = 0.05  # share of the residual variance below which a pattern is not mentioned
@@ -19,81 +19,84 @@ _BURST = 0.5  # share of the squared residual in one short window: an event, not
 _LINE = 0.3  # share of the power in one narrow line
 
 
-def headline(comparison: Comparison) -> str:
+def write_headline(comparison: Comparison) -> str:
     """One sentence on the whole robot."""
     if not comparison.joints:
         return f"{comparison.prediction.robot}: no joint could be judged."
     ranked = sorted(comparison.joints, key=lambda item: item.relative_error)
-    parts = [f"{percent(error)} of the {WORDS[unit]}" for unit, error in judged_units(comparison)]
+    parts = [
+        f"{format_percent(error)} of the {WORDS[unit]}"
+        for unit, error in collect_unit_errors(comparison)
+    ]
     text = f"{' and '.join(parts)} is unexplained"
     if len(ranked) == 1:
         return f"{text}."
     best, worst = ranked[0], ranked[-1]
     return (
-        f"{text}; joint by joint from {percent(best.relative_error)} (joint "
-        f"{best.joint.name}) to {percent(worst.relative_error)} (joint {worst.joint.name})."
+        f"{text}; joint by joint from {format_percent(best.relative_error)} (joint "
+        f"{best.joint.name}) to {format_percent(worst.relative_error)} (joint {worst.joint.name})."
     )
 
 
-def judged_units(comparison: Comparison) -> list[tuple[str, float]]:
+def collect_unit_errors(comparison: Comparison) -> list[tuple[str, float]]:
     """Units of the judged joints, and the error over the joints of each."""
     judged = {item.joint.effort_unit for item in comparison.joints}
     return [(unit, error) for unit, error in comparison.by_unit.items() if unit in judged]
 
 
-def verdict(comparison: Comparison) -> tuple[str, ...]:
+def write_verdict(comparison: Comparison) -> tuple[str, ...]:
     """One line per joint: how good, what is left, when it is worst."""
-    lines = [joint_verdict(item) for item in comparison.joints]
+    lines = [write_joint_verdict(item) for item in comparison.joints]
     lines += [f"Joint {name} is not judged: {reason}." for name, reason in comparison.unjudged]
     return tuple(lines)
 
 
-def joint_verdict(item: JointComparison) -> str:
+def write_joint_verdict(item: JointComparison) -> str:
     """The line of one joint."""
     return (
-        f"Joint {item.joint.name}: {percent(item.relative_error)} of the "
+        f"Joint {item.joint.name}: {format_percent(item.relative_error)} of the "
         f"{WORDS[item.joint.effort_unit]} is unexplained "
-        f"({item.rms:.2g} {item.joint.effort_unit} rms); {'; '.join(findings(item))}."
+        f"({item.rms:.2g} {item.joint.effort_unit} rms); {'; '.join(describe_findings(item))}."
     )
 
 
-def findings(item: JointComparison) -> list[str]:
+def describe_findings(item: JointComparison) -> list[str]:
     """What is left in the residual of a joint, most useful first; never empty."""
     if item.rms <= 1e-12 * item.measured_rms:
         return ["prediction and measurement agree to rounding"]
-    wrong = wrong_scale(item)
+    wrong = describe_wrong_scale(item)
     if wrong:  # everything else would follow from it
-        return [wrong, _worst(item)]
-    found = _patterns(item)
-    if not found:  # a pattern that follows the motion has the frequencies of the motion
-        found.append(_oscillation(item) or _nothing(item))
-    return [*found, _worst(item)]
+        return [wrong, _describe_worst(item)]
+    patterns = _describe_patterns(item)
+    if not patterns:  # a pattern that follows the motion has the frequencies of the motion
+        patterns.append(_describe_oscillation(item) or _describe_no_pattern(item))
+    return [*patterns, _describe_worst(item)]
 
 
-def _patterns(item: JointComparison) -> list[str]:
+def _describe_patterns(item: JointComparison) -> list[str]:
     """What the residual is a function of."""
     every = (
-        _pattern(item),
-        _follows(item) or _other_joint(item),
-        _ripple(item),
-        _bias(item),
-        _returns(item),
+        _describe_pattern(item),
+        _describe_predictor(item) or _describe_other_joint(item),
+        _describe_ripple(item),
+        _describe_bias(item),
+        _describe_repeatable(item),
     )
     return [text for text in every if text]
 
 
-def wrong_scale(item: JointComparison) -> str | None:
+def describe_wrong_scale(item: JointComparison) -> str | None:
     """What to check where the prediction is right but for its sign or a factor."""
-    found, name = item.scale, item.joint.name
-    if found is None:
+    scale, name = item.scale, item.joint.name
+    if scale is None:
         return None
-    times = f"measured is {found.factor:.3g} times predicted"
-    if found.opposite:
+    times = f"measured is {scale.factor:.3g} times predicted"
+    if scale.has_opposite_sign:
         return (
             f"the prediction of joint {name} has the opposite sign: {times}; check the sign of "
             f"tau{name} (or of its drive gain) and of q{name} in this log"
         )
-    if found.off:
+    if scale.has_wrong_factor:
         return (
             f"the prediction of joint {name} is off by a factor: {times}; check the unit and the "
             "drive gain of this log, and what the robot carries"
@@ -101,15 +104,15 @@ def wrong_scale(item: JointComparison) -> str | None:
     return None
 
 
-def returns(item: JointComparison) -> float:
+def compute_repeatable_share(item: JointComparison) -> float:
     """Repeatable share of what is not explained; 0 if it is within three standard errors of 0."""
-    found = item.shares
-    if found is None or (found.sigma is not None and found.systematic < 3.0 * found.sigma):
+    shares = item.shares
+    if shares is None or (shares.sigma is not None and shares.systematic < 3.0 * shares.sigma):
         return 0.0
-    return found.repeats
+    return shares.repeatable_share
 
 
-def best_pattern(item: JointComparison) -> tuple[Coordinate, float] | None:
+def find_best_pattern(item: JointComparison) -> tuple[Coordinate, float] | None:
     """The coordinate that explains most, or a simpler one nearly as good, and its share."""
     if item.structure is None:
         return None
@@ -117,13 +120,13 @@ def best_pattern(item: JointComparison) -> tuple[Coordinate, float] | None:
     if top < NOTICEABLE:
         return None
     for coordinate in COORDINATES:
-        share = item.structure.share(coordinate.id)
+        share = item.structure.get_share(coordinate.id)
         if share >= NEARLY * top:
             return coordinate, share
     raise AssertionError("the best share is at least 0.9 of itself")
 
 
-def best_other(item: JointComparison) -> tuple[str, float] | None:
+def find_best_other(item: JointComparison) -> tuple[str, float] | None:
     """What explains clearly more by its velocity than the joint itself, and its share.
 
     "joint 3", or "the motor that turns with joints 5 and 6" where the model has friction there.
@@ -137,56 +140,63 @@ def best_other(item: JointComparison) -> tuple[str, float] | None:
     if not others:
         return None
     name, share = max(others, key=lambda entry: entry[1])
-    own = max(item.structure.share("velocity"), item.structure.share("direction"))
-    return (name, share) if share >= own + NOTICEABLE else None
+    joint_share = max(item.structure.get_share("velocity"), item.structure.get_share("direction"))
+    return (name, share) if share >= joint_share + NOTICEABLE else None
 
 
-def kind_of_residual(item: JointComparison) -> str:
+def classify_residual(item: JointComparison) -> str:
     """`pattern`, `noise` or `other`: what a reader should see first."""
-    patterns = (wrong_scale, _ripple, _returns, _follows, best_pattern, best_other)
+    patterns = (
+        describe_wrong_scale,
+        _describe_ripple,
+        _describe_repeatable,
+        _describe_predictor,
+        find_best_pattern,
+        find_best_other,
+    )
     if any(pattern(item) for pattern in patterns):
         return "pattern"
-    return "noise" if looks_like_noise(item) else "other"
+    return "noise" if is_noise_like(item) else "other"
 
 
-def too_large(item: JointComparison) -> bool:
+def is_too_large(item: JointComparison) -> bool:
     """Whether so much is left that noise is no excuse."""
     return item.relative_error >= _TOO_LARGE
 
 
-def looks_like_noise(item: JointComparison) -> bool:
+def is_noise_like(item: JointComparison) -> bool:
     """No pattern, no memory, no line: as far as this page can see, noise."""
     return (
         item.structure is not None
-        and not _patterns(item)
-        and not _remembers(item)
-        and _oscillation(item) is None
-        and not too_large(item)
+        and not _describe_patterns(item)
+        and not _is_autocorrelated(item)
+        and _describe_oscillation(item) is None
+        and not is_too_large(item)
         and item.worst.energy_share < _BURST
     )
 
 
-def _pattern(item: JointComparison) -> str | None:
-    found, structure = best_pattern(item), item.structure
+def _describe_pattern(item: JointComparison) -> str | None:
+    best, structure = find_best_pattern(item), item.structure
     if structure is None:
         return None
-    if found is None:
+    if best is None:
         if structure.together < NOTICEABLE:
             return None
         return (
-            f"{percent(structure.together)} of that is a repeatable function of the "
+            f"{format_percent(structure.together)} of that is a repeatable function of the "
             "joint's own motion, spread over several coordinates"
         )
-    coordinate, share = found
-    text = f"{percent(share)} of that is a repeatable function of {coordinate.phrase}"
+    coordinate, share = best
+    text = f"{format_percent(share)} of that is a repeatable function of {coordinate.phrase}"
     if coordinate.id in ("velocity", "direction"):
-        text += _mostly_where(item.regions)
+        text += _describe_region(item.regions)
     if coordinate.id != "time" and structure.together > share + 0.1:
-        text += f" ({percent(structure.together)} with its other coordinates)"
+        text += f" ({format_percent(structure.together)} with its other coordinates)"
     return text
 
 
-def _mostly_where(regions: tuple[Region, ...]) -> str:
+def _describe_region(regions: tuple[Region, ...]) -> str:
     groups = {
         "around zero speed": (2,),
         "at low speed": (1, 2, 3),
@@ -202,22 +212,22 @@ def _mostly_where(regions: tuple[Region, ...]) -> str:
     return ""
 
 
-def _other_joint(item: JointComparison) -> str | None:
-    found = best_other(item)
-    if found is None:
+def _describe_other_joint(item: JointComparison) -> str | None:
+    best = find_best_other(item)
+    if best is None:
         return None
-    text = f"{percent(found[1])} of that follows the velocity of {found[0]} more than its own"
-    if found[0].startswith("joint"):
+    text = f"{format_percent(best[1])} of that follows the velocity of {best[0]} more than its own"
+    if best[0].startswith("joint"):
         text += ", as where one motor turns with both ([coupling] in the robot file)"
     return text
 
 
-def _ripple(item: JointComparison) -> str | None:
+def _describe_ripple(item: JointComparison) -> str | None:
     if item.orders is None:
         return None
-    orders, per = waves(item.orders, item.joint.unit)
+    orders, per = convert_orders(item.orders, item.joint.unit)
     # the slowest waves of the spectrum are patterns over position, named elsewhere
-    drawn = order_lines(item.orders, item.joint.unit)
+    drawn = find_order_peaks(item.orders, item.joint.unit)
     fast = [line for line in drawn if line.waves > 2.0 * orders[0]]
     strong = [line for line in fast if line.share >= NOTICEABLE]
     if not strong:
@@ -229,74 +239,77 @@ def _ripple(item: JointComparison) -> str | None:
     )
 
 
-def _follows(item: JointComparison) -> str | None:
+def _describe_predictor(item: JointComparison) -> str | None:
     """What all that was measured predicts, where it is clearly more than single coordinates do."""
-    found = item.structure
-    if found is None or found.follows.share < NOTICEABLE:
+    structure = item.structure
+    if structure is None or structure.follows.share < NOTICEABLE:
         return None
-    single = (*found.shares, *found.across, *found.motors)
-    told = max(found.together, *(share for _, share in single))
-    if told > NOTICEABLE and found.follows.share < told + _MORE:
+    single = (*structure.shares, *structure.across, *structure.motors)
+    explained_share = max(structure.together, *(share for _, share in single))
+    if explained_share > NOTICEABLE and structure.follows.share < explained_share + _MORE:
         return None
-    name, coordinate = found.follows.joint, found.follows.coordinate or "motion"
+    name, coordinate = structure.follows.joint, structure.follows.coordinate or "motion"
     whose = f"joint {name}" if name else "the joints together"
-    return f"{percent(found.follows.share)} of that follows the {coordinate} of {whose}"
+    return f"{format_percent(structure.follows.share)} of that follows the {coordinate} of {whose}"
 
 
-def _returns(item: JointComparison) -> str | None:
+def _describe_repeatable(item: JointComparison) -> str | None:
     """The repeatable share, where it is more than the coordinates and the mean account for."""
-    share, found = returns(item), item.structure
-    told = item.bias**2 / item.rms**2 + (found.together if found is not None else 0.0)
+    share, structure = compute_repeatable_share(item), item.structure
+    explained_share = item.bias**2 / item.rms**2 + (
+        structure.together if structure is not None else 0.0
+    )
     if (
         item.shares is None
         or item.shares.method == "smooth"
-        or share < max(NOTICEABLE, told + 0.1 if told > NOTICEABLE else 0.0)
+        or share < max(NOTICEABLE, explained_share + 0.1 if explained_share > NOTICEABLE else 0.0)
     ):
         return None
     return {
-        "laps": f"{percent(share)} of it returns in every lap",
-        "logs": f"{percent(share)} of it returns in every log of this motion",
+        "laps": f"{format_percent(share)} of it returns in every lap",
+        "logs": f"{format_percent(share)} of it returns in every log of this motion",
     }[item.shares.method]
 
 
-def _bias(item: JointComparison) -> str | None:
+def _describe_bias(item: JointComparison) -> str | None:
     if item.bias**2 < 2 * NOTICEABLE * item.rms**2:
         return None
     return f"the prediction is off by {item.bias:+.2g} {item.joint.effort_unit} on average"
 
 
-def _oscillation(item: JointComparison) -> str | None:
-    colour = item.spectrum
-    if colour is None or colour.peak_share < _LINE:
+def _describe_oscillation(item: JointComparison) -> str | None:
+    spectrum = item.spectrum
+    if spectrum is None or spectrum.peak_share < _LINE:
         return None
     # the lowest frequencies are slow patterns, named elsewhere, not oscillations
-    if colour.peak <= 4 * colour.frequency[0] or 5 / colour.frequency.size > 0.1:
+    if spectrum.peak <= 4 * spectrum.frequency[0] or 5 / spectrum.frequency.size > 0.1:
         return None
-    return f"{percent(colour.peak_share)} of it oscillates near {colour.peak:.3g} Hz"
+    return f"{format_percent(spectrum.peak_share)} of it oscillates near {spectrum.peak:.3g} Hz"
 
 
-def _remembers(item: JointComparison) -> bool:
-    colour = item.spectrum
-    return colour is not None and colour.memory > _MEMORY * colour.period
+def _is_autocorrelated(item: JointComparison) -> bool:
+    spectrum = item.spectrum
+    return spectrum is not None and spectrum.correlation_time > _MEMORY * spectrum.period
 
 
-def _nothing(item: JointComparison) -> str:
+def _describe_no_pattern(item: JointComparison) -> str:
     if item.structure is None:
         return f"too few samples ({item.samples}) to tell whether the residual has structure"
-    if _remembers(item) and item.spectrum is not None:
+    if _is_autocorrelated(item) and item.spectrum is not None:
         return (
             f"no function of its own motion or of time explains it, yet it is not noise: it stays "
-            f"alike for {item.spectrum.memory:.2g} s (look at other joints, flexibility, contact)"
+            f"alike for {item.spectrum.correlation_time:.2g} s (look at other joints, flexibility, "
+            "contact)"
         )
     return "the residual looks like noise"
 
 
-def _worst(item: JointComparison) -> str:
+def _describe_worst(item: JointComparison) -> str:
     window = item.worst
     text = f"the worst moment is {window.start:.2f}-{window.end:.2f} s of {window.log}"
     if window.energy_share > _STANDS_OUT * window.time_share and window.energy_share > 0.1:
         text += (
-            f", {percent(window.energy_share)} of the squared residual in "
-            f"{percent(window.time_share)} of the time"
+            f", {format_percent(window.energy_share)} of the squared residual in "
+            f"{format_percent(window.time_share)} of the time"
         )
     return text

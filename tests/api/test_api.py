@@ -12,7 +12,7 @@ import pytest
 import modeler.api as api
 from modeler.cli import main
 from modeler.core.errors import DataError, ModelerError
-from modeler.core.files import checksum
+from modeler.core.files import compute_checksum
 from modeler.estimation.payload import Payload
 
 
@@ -60,12 +60,12 @@ def test_every_way_to_fit_is_that_of_the_command(tmp_path, chain, logs, options:
 
 
 def test_a_look_at_a_log(folder: Path, chain, logs) -> None:
-    seen = api.look_at(logs[0])
+    seen = api.inspect_log(logs[0])
     assert {"q1", "q2", "tau1", "tau2"} <= set(seen.table().column("channel"))
     assert "no doubts" in seen.summary() and len(repr(seen)) < 200
     assert seen.plot()._repr_png_().startswith(b"\x89PNG")
     assert api.write_report(seen, folder / "log.html").exists()
-    piece = api.look_at(f"{logs[0]}@1:3", api.compile_model(chain[1]))
+    piece = api.inspect_log(f"{logs[0]}@1:3", api.compile_model(chain[1]))
     assert piece.clock.duration == pytest.approx(2.0, abs=0.01)
 
 
@@ -73,7 +73,7 @@ def test_a_model_is_saved_opened_and_reduced(tmp_path: Path, model) -> None:
     again = api.open_model(api.save(model, tmp_path / "m.json"))
     np.testing.assert_array_equal(again.beta, model.beta)
     assert again.fit.to_json() == model.fit.to_json()
-    small = api.reduced(model)
+    small = api.reduced_model(model)
     assert np.count_nonzero(small.beta) == len(model.fit.essential.parameters)
     robot = api.load("two-link")
     assert api.load(api.save(robot, tmp_path / "r.toml")).text == robot.text
@@ -101,12 +101,12 @@ def test_a_folder_has_the_checksum_of_what_lies_in_it(tmp_path: Path) -> None:
         (tmp_path / name / "deep").mkdir(parents=True)
         (tmp_path / name / "x.csv").write_text("1")
         (tmp_path / name / "deep" / "y.csv").write_text("2")
-    assert checksum(tmp_path / "a") == checksum(tmp_path / "b")
+    assert compute_checksum(tmp_path / "a") == compute_checksum(tmp_path / "b")
     (tmp_path / "b" / "deep" / "y.csv").rename(tmp_path / "b" / "y.csv")
-    moved = checksum(tmp_path / "b")
-    assert moved != checksum(tmp_path / "a")
+    moved = compute_checksum(tmp_path / "b")
+    assert moved != compute_checksum(tmp_path / "a")
     (tmp_path / "b" / "y.csv").write_text("changed")
-    assert checksum(tmp_path / "b") != moved
+    assert compute_checksum(tmp_path / "b") != moved
 
 
 def test_add_and_undo(model, logs) -> None:
@@ -114,7 +114,7 @@ def test_add_and_undo(model, logs) -> None:
     waterfall = better.table("waterfall")
     assert waterfall.column("effect") == ["as fitted", "spring"]
     assert waterfall.column("error")[1] < 0.8 * waterfall.column("error")[0]
-    back = api.undo(better, [logs[0]])
+    back = api.remove_last(better, [logs[0]])
     np.testing.assert_allclose(back.beta, model.beta, rtol=1e-9)
 
 
@@ -124,26 +124,26 @@ def test_home_is_that_of_the_command(tmp_path: Path) -> None:
     assert main(["home", "five-bar", "--json", str(tmp_path / "h.json")]) == 0
     result = json.loads((tmp_path / "h.json").read_text())["modes"]
     assert found.table().column("mode") == [mode["letter"] for mode in result]
-    other = next(mode.letter for k, mode in enumerate(found.modes) if k != found.own)
-    turned = api.at_home(robot, found, other)
+    other = next(mode.letter for k, mode in enumerate(found.modes) if k != found.stated_index)
+    turned = api.home_posture(robot, found, other)
     again = api.home(turned)
-    assert again.own is not None
+    assert again.stated_index is not None
     place = [mode.letter for mode in found.modes].index(other)
     np.testing.assert_allclose(
-        again.modes[again.own].posture, found.modes[place].posture, atol=1e-6
+        again.modes[again.stated_index].posture, found.modes[place].posture, atol=1e-6
     )
     one = api.home(robot, near={robot.coordinates[0].name: 1.2})
-    given = found.linkage.loops.given[0]
+    given = found.linkage.loops.actuated[0]
     assert one.modes[0].posture[given] == pytest.approx(1.2)
 
 
 def test_physical_values_are_those_of_the_command(tmp_path: Path, model) -> None:
     found = api.physical(model)
-    known = ",".join(f"{letter}=0.1" for letter in found.sets().easiest[0])
-    values = found.values(known)
-    assert found.formulas(",".join(found.sets().easiest[0])).steps
+    known = ",".join(f"{letter}=0.1" for letter in found.find_known_sets().easiest[0])
+    values = found.compute_values(known)
+    assert found.derive_formulas(",".join(found.find_known_sets().easiest[0])).steps
     with pytest.raises(DataError, match="expected a model"):
-        api.physical(api.load("two-link")).values(known)
+        api.physical(api.load("two-link")).compute_values(known)
     api.save(model, tmp_path / "m.json")
     words = ["--known", known, "--json", str(tmp_path / "p.json")]
     assert main(["physical", str(tmp_path / "m.json"), *words]) == 0
@@ -172,20 +172,32 @@ REFUSED: dict[str, tuple[Callable[[Any, Any], object], str]] = {
     "limits": (excite(limits={"1": (1.0, 2.0)}), "limits of 1: got .*expected lower, upper, speed"),
     "joint": (excite(boxes={"9": (0,) * 6}), "boxes: no moving joint 9"),
     "wish": (excite(speed=3), "excite: got speed; expected some of duration"),
-    "setting": (lambda chain, logs: api.simulate(api.load("emps"), colour="red"),
-                "got colour; expected some of .*duration"),
-    "suffix": (lambda chain, logs: api.simulate(api.load("emps"), "run.txt", duration=1e6),
-               "got suffix .txt"),
-    "apart": (lambda chain, logs: api.tell_apart(api.fit(*chain), "spring@1", "ghost@1"),
-              "tell_apart: ghost@1: no such effect"),
-    "estimators": (lambda chain, logs: api.side_by_side(api.load("two-link"), logs, methods=["x"]),
-                   "methods: got x"),
-    "rows twice": (lambda chain, logs: api.side_by_side(api.load("two-link"), logs, logs[:1]),
-                   "shares rows"),
-    "one model": (lambda chain, logs: api.contest({}, logs), "got 0 models"),
-    "home": (lambda chain, logs: api.home(api.load("five-bar"), near={"nine": 1.0}),
-             "near names joint nine"),
-}  # fmt: skip
+    "setting": (
+        lambda chain, logs: api.simulate(api.load("emps"), colour="red"),
+        "got colour; expected some of .*duration",
+    ),
+    "suffix": (
+        lambda chain, logs: api.simulate(api.load("emps"), "run.txt", duration=1e6),
+        "got suffix .txt",
+    ),
+    "apart": (
+        lambda chain, logs: api.discriminating_motion(api.fit(*chain), "spring@1", "ghost@1"),
+        "tell_apart: ghost@1: no such effect",
+    ),
+    "estimators": (
+        lambda chain, logs: api.compare_methods(api.load("two-link"), logs, methods=["x"]),
+        "methods: got x",
+    ),
+    "rows twice": (
+        lambda chain, logs: api.compare_methods(api.load("two-link"), logs, logs[:1]),
+        "shares rows",
+    ),
+    "one model": (lambda chain, logs: api.compare_models({}, logs), "got 0 models"),
+    "home": (
+        lambda chain, logs: api.home(api.load("five-bar"), near={"nine": 1.0}),
+        "near names joint nine",
+    ),
+}
 
 
 @pytest.mark.parametrize("case", REFUSED)

@@ -50,7 +50,7 @@ def test_every_relative_error_is_a_fraction(run, model) -> None:
     expected = 100.0 * own["sigma"] / own["value"].abs()
     assert np.allclose(own["relative_sigma_percent"], expected)
     names = {"a": model, "b": model}
-    errors = modeler.contest(names, [run]).to_frame("errors")
+    errors = modeler.compare_models(names, [run]).to_frame("errors")
     assert np.allclose(errors[["a", "b"]].to_numpy().T, list(by_joint.values()))
 
 

@@ -9,7 +9,7 @@ import pyarrow as pa
 import pytest
 
 import modeler as md
-from modeler.api.workflow import listed
+from modeler.api.workflow import convert_to_list
 from modeler.core.errors import DataError
 from tests.modules import compiled
 from tests.rotation import rotating
@@ -79,7 +79,9 @@ def test_every_kind_is_the_same_log_and_predicted_in_its_own_kind(
     kind: str, model: md.Model, run: Path, frame: Any
 ) -> None:
     given = KINDS[kind](frame)
-    (file,), (log,) = (md.read_logs(compiled("two-link"), listed(one)) for one in (run, given))
+    (file,), (log,) = (
+        md.read_logs(compiled("two-link"), convert_to_list(one)) for one in (run, given)
+    )
     for name in ("time", "q", "tau"):
         np.testing.assert_array_equal(getattr(log, name), getattr(file, name))
     assert log.content == file.content and log.path == ""
@@ -104,7 +106,7 @@ def test_the_prediction_is_the_models_torque_of_the_motion(model: md.Model, fram
     q, qd, qdd = (amplitude * pulse**k * f for k, f in enumerate(
         (np.sin(angle), np.cos(angle), -np.sin(angle))))  # fmt: skip
     predicted = model.predict({"time": time, "q": q, "qd": qd, "qdd": qdd})
-    expected = md.recompile(model).inverse_dynamics(q, qd, qdd, model.beta)
+    expected = md.compile(model).inverse_dynamics(q, qd, qdd, model.beta)
     sure = np.isfinite(predicted["tau"])
     assert sure.mean() > 0.95
     bound = 2e-3 * np.abs(expected).max(axis=0)

@@ -27,7 +27,7 @@ def test_one_log_alone_is_a_list_of_it(tmp_path: Path) -> None:
     assert api.Load(str(place), 2.0).logs == [str(place)]
     model = api.identify(robot, place)
     assert api.compare(model, place).prediction.logs == ("run.parquet",)
-    assert api.contest([model, model], str(place)).names == ("A", "B")
+    assert api.compare_models([model, model], str(place)).names == ("A", "B")
     assert api.observe(compiled, place).names == tuple(p.name for p in model.fit.parameters)
     assert not api.diagnose(model, place).effects
 

@@ -131,8 +131,8 @@ def test_errors_and_what_is_missing(model: md.Model, place: Path, logs: list[str
     assert better.history[-1].held_out == ("wed.parquet",)
     auto = model.add("auto", held_out=held)
     assert [s.effect for s in auto.history] == [s.effect for s in better.history]
-    assert md.undo(better, logs).beta == pytest.approx(model.beta)
-    assert isinstance(md.reduced(better), md.Model)
+    assert md.remove_last(better, logs).beta == pytest.approx(model.beta)
+    assert isinstance(md.reduced_model(better), md.Model)
 
 
 def test_it_is_saved_opened_and_finds_its_logs_beside_it(
@@ -186,7 +186,7 @@ def test_it_remembers_frames_while_it_lives(logs: list[str]) -> None:
     assert made.resid.equals(pickle.loads(pickle.dumps(made)).resid)
     better = made.add("load_friction", 2)
     assert better.resid.shape == made.resid.shape
-    gone = dataclasses.replace(made, given=())
+    gone = dataclasses.replace(made, in_memory_logs=())
     with pytest.raises(DataError, match=r"resid: frame \w+ was no file, .* `compare.logs.` takes"):
         _ = gone.resid
     assert gone.error(frame) == made.error(frame)

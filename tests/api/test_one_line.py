@@ -28,7 +28,7 @@ def test_the_story_on_measured_logs(measured_folder: Path, tmp_path: Path) -> No
         assert found.value == pytest.approx(printed, rel=0.02) and found.unit == unit
         assert low < printed < high
     assert 0.02 < model.error(log) < 0.0408  # behind a narrower filter than theirs
-    predicted, measured = model.predict(log), md.look_at(log)
+    predicted, measured = model.predict(log), md.inspect_log(log)
     assert list(predicted.columns) == ["tau1"] and len(predicted) == measured.rows
     assert np.isfinite(predicted["tau1"]).mean() > 0.99
     found = model.missing(held_out)

@@ -24,7 +24,7 @@ def runs() -> list[Any]:
 
 @pytest.fixture(scope="module")
 def rows(runs: list[Any]) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    return regressor.log_rows("two-link", runs)
+    return regressor.read_log_rows("two-link", runs)
 
 
 def test_rows_are_those_of_the_logs(runs: list[Any], rows: Any) -> None:
@@ -36,16 +36,16 @@ def test_rows_are_those_of_the_logs(runs: list[Any], rows: Any) -> None:
         np.testing.assert_array_equal(y[groups == k], run.tau)
     missing = {"time": runs[0].time, "q": runs[0].q.copy(), "tau": runs[0].tau}
     missing["q"][100:103, 1] = np.nan
-    assert len(regressor.log_rows("two-link", missing)[0]) == 997
+    assert len(regressor.read_log_rows("two-link", missing)[0]) == 997
 
 
 def test_with_speeds_and_accelerations_where_every_log_has_them(runs: list[Any]) -> None:
     truth = [r.truth for r in runs[:2]]
     logs = [{"time": r.time, "q": r.q, "qd": t.qd, "qdd": t.qdd, "tau": r.tau}
             for r, t in zip(runs, truth, strict=False)]  # fmt: skip
-    assert regressor.log_rows("two-link", logs)[0].shape[1] == 8
+    assert regressor.read_log_rows("two-link", logs)[0].shape[1] == 8
     del logs[1]["qdd"]
-    X, y, _ = regressor.log_rows("two-link", logs)
+    X, y, _ = regressor.read_log_rows("two-link", logs)
     assert X.shape[1] == 6
     assert regressor.TorqueRegressor("two-link").fit(X, y).score(X, y) > 0.98
 

@@ -14,7 +14,7 @@ import numpy as np
 import pyarrow as pa
 import pyarrow.parquet as pq
 
-from modeler.core.builtin import builtin_names, builtin_text
+from modeler.core.builtin import list_builtin_robots, read_builtin_robot
 from tests.bad_input.judge import clear, inside, run_here, within
 from tests.bad_input.mutants import NUMBERS, VALUES_DRAWN, edited_bytes, edited_structure, toml_text
 from tests.bad_input.workdir import Inputs, Workdir, csv_text
@@ -23,7 +23,7 @@ from tests.robot_texts import CRANK
 
 SAMPLES = 400
 LOG = "fit two-link bad{} --out f.json"
-ROBOTS = (*([ARM, OWN_EFFECTS, CRANK] * 6), *map(builtin_text, builtin_names()))
+ROBOTS = (*([ARM, OWN_EFFECTS, CRANK] * 6), *map(read_builtin_robot, list_builtin_robots()))
 KINDS = (
     pa.float32(), pa.int64(), pa.int8(), pa.string(), pa.bool_(), pa.binary(), pa.null(),
     pa.timestamp("ns"), pa.list_(pa.float64()), pa.dictionary(pa.int32(), pa.string()),

@@ -5,7 +5,7 @@ from collections.abc import Callable, Iterable
 from functools import partial
 
 from modeler.api import derive
-from modeler.robot.read import robot_from_text
+from modeler.robot.read import parse_robot_text
 from tests.bad_input.row import Make, Row, row
 from tests.bad_input.workdir import Workdir
 from tests.robot.texts import ARM, OWN_EFFECTS, PLANAR
@@ -52,7 +52,7 @@ def lists(*tables: str) -> list[Edit]:
 
 
 def _read(name: str, content: str, workdir: Workdir) -> object:
-    return derive(robot_from_text(content, name))
+    return derive(parse_robot_text(content, name))
 
 
 def _file(content: str) -> str:

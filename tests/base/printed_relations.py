@@ -7,8 +7,8 @@ from collections.abc import Callable, Iterator, Sequence
 import numpy as np
 import sympy
 
-from modeler.core.manifest import Emitted
-from modeler.derivation.relations import as_json, as_latex, as_markdown, as_text
+from modeler.core.manifest import EmittedModule
+from modeler.derivation.relations import as_latex, as_markdown, as_text, serialise_base_parameters
 from modeler.derivation.result import BaseParameter, BaseParameters
 from tests.base.formulas import Values, latex_value, name_of_latex, text_value
 
@@ -63,11 +63,11 @@ def _sides(line: str) -> tuple[str, str]:
 
 
 def printed_forms(
-    robot: str, base: BaseParameters, emitted: Emitted
+    robot: str, base: BaseParameters, emitted: EmittedModule
 ) -> Iterator[tuple[str, Relations, Read]]:
     """(form, relations as printed, reader) of every form in which they are printed."""
     files = emitted.files
-    raw = json.loads(json.dumps(as_json(robot, base)))
+    raw = json.loads(json.dumps(serialise_base_parameters(robot, base)))
     yield "text", of_text(as_text(base)), text_value
     yield "Markdown", of_markdown(as_markdown(base)), text_value
     yield "LaTeX", of_latex(as_latex(base)), latex_value

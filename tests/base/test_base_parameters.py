@@ -6,11 +6,11 @@ import numpy as np
 import pytest
 
 from modeler.core.errors import DerivationError
-from modeler.core.expression import parse
-from modeler.derivation.base_parameters import base_parameters
+from modeler.core.expression import parse_expression
+from modeler.derivation.base_parameters import derive_base_parameters
 from modeler.derivation.derive import derive_model
-from modeler.derivation.relations import relation_text
-from modeler.robot.read import read_robot, robot_from_text
+from modeler.derivation.relations import format_relation
+from modeler.robot.read import parse_robot_text, read_robot
 from modeler.robot.robot import EffectUse
 from tests.base.ranks import seen
 from tests.base.test_hard_tables import model_of
@@ -18,11 +18,11 @@ from tests.modules import module
 
 
 def derive(robot):
-    return base_parameters(derive_model(robot))
+    return derive_base_parameters(derive_model(robot))
 
 
 def relations(robot):
-    return [relation_text(parameter) for parameter in derive(robot).parameters]
+    return [format_relation(parameter) for parameter in derive(robot).parameters]
 
 
 def with_effects(robot, *effects):
@@ -31,14 +31,14 @@ def with_effects(robot, *effects):
 
 
 def with_gravity(robot, *entries):
-    return dataclasses.replace(robot, gravity=tuple(parse(e) for e in entries))
+    return dataclasses.replace(robot, gravity=tuple(parse_expression(e) for e in entries))
 
 
 COLUMNS = '["j", "alpha", "d", "theta", "r"]'
 
 
 def table(rows, gravity='[0, 0, "-g"]', symbols="", columns=COLUMNS):
-    return robot_from_text(
+    return parse_robot_text(
         f'name = "t"\ngravity = {gravity}\n[symbols]\ng = 9.81\n{symbols}\n'
         f"[mdh]\ncolumns = {columns}\nrows = {rows}\n",
         "t.toml",
@@ -69,7 +69,7 @@ MY3 = MY3
 def test_wrist_groups_as_the_rule_of_khalil_says():
     """Khalil and Dombre 2002, section 9.4.2, applied by hand to the wrist."""
     base = module("wrist").base
-    assert [relation_text(p) for p in base.parameters] == WRIST.split("\n")[1:-1]
+    assert [format_relation(p) for p in base.parameters] == WRIST.split("\n")[1:-1]
     assert base.unidentifiable == ("XX1", "XY1", "XZ1", "YY1", "YZ1", "MZ1", "M1", "M2")
 
 
@@ -182,7 +182,7 @@ def test_random_trees(seed):
     """The exact relations against the rank in floating point, on tables nobody thought of."""
     tree = random_tree(np.random.default_rng(seed))
     model = model_of(**tree)
-    base = base_parameters(model)
+    base = derive_base_parameters(model)
     assert base.rank == seen(model), tree
     assert base.proof.kind.startswith("exact"), tree
     assert base.proof.agreement < 1e-12, tree

@@ -5,23 +5,29 @@ import dataclasses
 import numpy as np
 import pytest
 
-from modeler.derivation.base_parameters import NotProved, certificate
-from modeler.derivation.certificate import PRIME, inverse, modular_rank, power, row_echelon
+from modeler.derivation.base_parameters import ProofError, certify_relations
+from modeler.derivation.certificate import (
+    PRIME,
+    compute_modular_rank,
+    compute_power,
+    invert_residues,
+    reduce_to_echelon,
+)
 from modeler.derivation.derive import derive_model
-from modeler.derivation.field import geometry_field
-from modeler.derivation.grouping import column_relations
+from modeler.derivation.field import build_geometry_field
+from modeler.derivation.grouping import derive_column_relations
 from modeler.robot.read import read_robot
 
 
 @pytest.fixture(scope="module")
 def wrist():
     model = derive_model(read_robot("wrist"))
-    K = geometry_field(model.geometry)
-    return model, K, column_relations(model, model.geometry, K, seed=1)
+    K = build_geometry_field(model.geometry)
+    return model, K, derive_column_relations(model, model.geometry, K, seed=1)
 
 
 def prove(model, K, relations, seed):
-    return certificate(model.geometry, model.columns, K, relations, seed)
+    return certify_relations(model.geometry, model.columns, K, relations, seed)
 
 
 def test_right_relations_pass(wrist):
@@ -36,7 +42,7 @@ def test_a_wrong_coefficient_is_found(wrist):
     row[other] = row[other] + K.one
     rows = (*relations.rows[:index], row, *relations.rows[index + 1 :])
     wrong = dataclasses.replace(relations, rows=rows)
-    with pytest.raises(NotProved, match=r"the relation of \w+ does not hold"):
+    with pytest.raises(ProofError, match=r"the relation of \w+ does not hold"):
         prove(model, K, wrong, seed=1)
 
 
@@ -48,17 +54,19 @@ def test_a_missing_relation_is_found(wrist):
         dropped=relations.dropped[1:],
         kept=tuple(sorted((*relations.kept, relations.dropped[0]))),
     )
-    with pytest.raises(NotProved, match="of 18 columns kept only 17 are independent"):
+    with pytest.raises(ProofError, match="of 18 columns kept only 17 are independent"):
         prove(model, K, fewer, seed=1)
 
 
 def test_modular_arithmetic():
     values = np.array([2, 3, PRIME - 1], dtype=np.int64)
-    np.testing.assert_array_equal(values * inverse(values, PRIME) % PRIME, 1)
-    assert power(values, 5, PRIME)[0] == 32
+    np.testing.assert_array_equal(values * invert_residues(values, PRIME) % PRIME, 1)
+    assert compute_power(values, 5, PRIME)[0] == 32
     rng = np.random.default_rng()
     for rows, inner, columns in ((3, 2, 3), (40, 7, 12), (41, 12, 20), (25, 12, 12), (5, 5, 9)):
         left, right = (rng.integers(0, PRIME, s) for s in ((rows, inner), (inner, columns)))
         matrix = np.array([[sum(map(int, a * b % PRIME)) % PRIME for b in right.T] for a in left])
         matrix[:, rng.random(columns) < 0.2] = 0
-        assert modular_rank(matrix) == len(row_echelon(matrix.copy(), range(columns), PRIME))
+        assert compute_modular_rank(matrix) == len(
+            reduce_to_echelon(matrix.copy(), range(columns), PRIME)
+        )

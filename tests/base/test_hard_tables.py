@@ -2,10 +2,10 @@
 
 import pytest
 
-from modeler.derivation.base_parameters import base_parameters
+from modeler.derivation.base_parameters import derive_base_parameters
 from modeler.derivation.derive import derive_model
-from modeler.derivation.relations import relation_text
-from modeler.robot.read import robot_from_text
+from modeler.derivation.relations import format_relation
+from modeler.robot.read import parse_robot_text
 from tests.base.ranks import seen
 
 SYMBOLS = "g = 9.81\nL = 0.4\nal = 0.3\nL1 = 0.1\nL2 = 0.2\nL3 = 0.3\n"
@@ -21,7 +21,7 @@ def model_of(
         quoted = (f'"{cells[c]}"' if isinstance(cells[c], str) else repr(cells[c]) for c in columns)
         lines.append(f"[{', '.join(quoted)}]")
     return derive_model(
-        robot_from_text(
+        parse_robot_text(
             f'name = "t"\ngravity = {gravity}\n[symbols]\n{symbols}[mdh]\n'
             f"columns = {list(columns)}\nrows = [{', '.join(lines)}]\n{more}".replace("'", '"'),
             "t.toml",
@@ -99,7 +99,7 @@ CASES = {
 def test_rank_is_what_the_torques_show(name):
     rows, gravity, more, rank, kind = CASES[name]
     model = model_of(rows, gravity, more)
-    base = base_parameters(model)
+    base = derive_base_parameters(model)
     assert base.rank == seen(model)
     assert rank is None or base.rank == rank
     assert kind is None or base.proof.kind == kind
@@ -108,9 +108,9 @@ def test_rank_is_what_the_torques_show(name):
 
 def test_numbers_stand_for_what_symbols_cannot_say():
     rows, gravity, more, *_ = CASES["rotor that links hide"]
-    base = base_parameters(model_of(rows, gravity, more))
+    base = derive_base_parameters(model_of(rows, gravity, more))
     (first,) = [p for p in base.parameters if p.name == "ZZ1R"]
-    assert relation_text(first).startswith("ZZ1R = ZZ1 + 0.16")
+    assert format_relation(first).startswith("ZZ1R = ZZ1 + 0.16")
     assert "No exact proof" in base.proof.statement and "error" not in base.proof.kind
 
 
@@ -119,7 +119,7 @@ def test_general_twists_of_many_joints_end():
     symbols = SYMBOLS + "".join(f"a{i} = {0.3 + 0.1 * i}\n" for i in range(1, 7))
     rows = [R(j, j - 1, alpha=f"a{j}", d="L", r="L1") for j in range(1, 7)]
     model = model_of(rows, symbols=symbols)
-    base = base_parameters(model)
+    base = derive_base_parameters(model)
     assert base.proof.kind == "numeric" and "more than" in base.proof.statement
     assert base.rank == seen(model)
     assert base.proof.agreement < 1e-9

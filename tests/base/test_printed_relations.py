@@ -6,9 +6,9 @@ import pytest
 import sympy
 from hypothesis import given, settings, strategies as st
 
-from modeler.core.formula import latex_name
-from modeler.core.manifest import Emitted
-from modeler.derivation.relations import relation_latex, relation_text
+from modeler.core.formula import format_latex_name
+from modeler.core.manifest import EmittedModule
+from modeler.derivation.relations import format_relation, format_relation_latex
 from modeler.derivation.result import BaseParameter, BaseParameters, Term
 from tests.base.formulas import UnreadableError, latex_value, name_of_latex, text_value
 from tests.base.printed_relations import Exact, printed_forms
@@ -20,7 +20,7 @@ FORMS = 7
 LETTERS = {"D4": 0.3, "rP": 0.4, "L_a": 0.55, "gam13": 0.7, "b": 0.85, "B2_x": 1.1}
 
 
-def wrong(robot: str, base: BaseParameters, emitted: Emitted, seed: int) -> list[str]:
+def wrong(robot: str, base: BaseParameters, emitted: EmittedModule, seed: int) -> list[str]:
     """What is printed of a robot and is not its relation."""
     exact, found, forms = Exact(base.parameters, seed), [], 0
     for form, relations, read in printed_forms(robot, base, emitted):
@@ -80,7 +80,9 @@ def _at_letters(value: sympy.Expr) -> sympy.Expr:
 def test_any_coefficient_is_printed_as_it_is(found, halves):
     terms = (Term(sympy.Integer(1), "ZZ2"), *(Term(c, f"M{i}") for i, c in enumerate(found)))
     parameter = BaseParameter("ZZ2R", 0, terms, halves)
-    text, latex = (write(parameter).split(" = ")[1] for write in (relation_text, relation_latex))
+    text, latex = (
+        write(parameter).split(" = ")[1] for write in (format_relation, format_relation_latex)
+    )
     for i, coefficient in enumerate(found):
         values = LETTERS | {term.parameter: 0.0 for term in terms} | {f"M{i}": 0.7}
         wanted = 0.7 * float(_at_letters(coefficient))
@@ -100,12 +102,12 @@ def test_any_coefficient_is_printed_as_it_is(found, halves):
 )
 def test_what_is_divided_by_stays_together(coefficient, text):
     parameter = BaseParameter("MY7R", 0, (Term(sympy.sympify(coefficient), "MY7"),))
-    assert relation_text(parameter) == f"MY7R = {text}"
+    assert format_relation(parameter) == f"MY7R = {text}"
 
 
 @pytest.mark.parametrize("name", ["ZZ2R", "L_1", "L1", "a_b_c", "phi1", "alpha"])
 def test_names_differ_in_latex_and_are_read_back(name):
-    assert name_of_latex(latex_name(name)) == name
+    assert name_of_latex(format_latex_name(name)) == name
 
 
 @pytest.mark.parametrize("text", ["M5 + ", "M5*", "(M5", "M5)", "M5 $ M6", "M5 M6", "sin*M5"])
@@ -118,6 +120,6 @@ def test_a_lost_bracket_would_be_seen():
     terms = (Term(sympy.Integer(1), "MX7"), Term(sympy.sympify("rP/(2*L2)"), "MY7"))
     parameter = BaseParameter("MX7R", 0, terms)
     exact = Exact([parameter], seed=1)
-    right = relation_text(parameter).split(" = ")[1]
+    right = format_relation(parameter).split(" = ")[1]
     assert exact.differences(parameter, right, text_value) <= NEAR
     assert exact.differences(parameter, right.replace("/(2*L2)", "/2*L2"), text_value) > 0.01

@@ -7,13 +7,13 @@ import numpy as np
 import pytest
 import sympy
 
-from modeler.core.builtin import builtin_text
+from modeler.core.builtin import read_builtin_robot
 from modeler.derivation.derive import derive_model
-from modeler.derivation.field import TooLarge, geometry_field, sparse_row_reduce
-from modeler.derivation.grouping import column_relations
-from modeler.derivation.numeric_rank import random_states, regressor_values
-from modeler.derivation.tied import tied_relations
-from modeler.robot.read import robot_from_text
+from modeler.derivation.field import CoefficientTooLarge, build_geometry_field, reduce_sparse_rows
+from modeler.derivation.grouping import derive_column_relations
+from modeler.derivation.numeric_rank import draw_random_states, evaluate_regressor
+from modeler.derivation.tied import derive_tied_relations
+from modeler.robot.read import parse_robot_text
 from tests.base.ranks import seen
 from tests.modules import module
 
@@ -22,12 +22,12 @@ TIES = '[relations]\nq4 = "-q3"\nq5 = "-q2 - pi/2"\nq7 = "q3"\n'
 
 def leg(gravity: str = "[0, 'g', 0]", effects: str = "", changes: tuple = (), links: str = ""):
     """The open leg with its relations."""
-    text = re.sub(r"\[effects\](.*\n)*?(?=\[|\Z)", "", builtin_text("orthoglide-leg-tree"))
+    text = re.sub(r"\[effects\](.*\n)*?(?=\[|\Z)", "", read_builtin_robot("orthoglide-leg-tree"))
     text = re.sub(r"^gravity = .*$", f"gravity = {gravity}", text, flags=re.M)
     for old, new in changes:
         assert old in text
         text = text.replace(old, new)
-    return derive_model(robot_from_text(f"{text}\n{TIES}\n{links}\n{effects}", "leg"))
+    return derive_model(parse_robot_text(f"{text}\n{TIES}\n{links}\n{effects}", "leg"))
 
 
 def energetic(model) -> list[int]:
@@ -35,9 +35,9 @@ def energetic(model) -> list[int]:
 
 
 def relations_of(model, seed: int = 3):
-    K = geometry_field(model.geometry)
+    K = build_geometry_field(model.geometry)
     order = range(len(model.columns))
-    return K, tied_relations(model.geometry, model.columns, K, order, seed)
+    return K, derive_tied_relations(model.geometry, model.columns, K, order, seed)
 
 
 def grouping(model, text: str) -> sympy.Matrix:
@@ -130,13 +130,13 @@ TURN = ("scara", "sr400-tree", "tx40")
 
 
 def numeric_columns(model) -> np.ndarray:
-    states = random_states(model, 200, np.random.default_rng(5))
-    return regressor_values(model, states).reshape(-1, len(model.columns))
+    states = draw_random_states(model, 200, np.random.default_rng(5))
+    return evaluate_regressor(model, states).reshape(-1, len(model.columns))
 
 
 def test_gears_and_screws():
     """Against the torques at random states, which know nothing of energies and primes."""
-    model = derive_model(robot_from_text(GEARED, "geared"))
+    model = derive_model(parse_robot_text(GEARED, "geared"))
     K, relations = relations_of(model)
     W = numeric_columns(model)
     assert seen(model) == len(model.columns) - len(relations)
@@ -159,24 +159,24 @@ def test_gears_and_screws():
 def test_plain_trees_give_what_link_by_link_elimination_gives(name):
     """Two methods, sharing neither equations nor arithmetic: the same relations, to the letter."""
     model = module(name).model
-    K = geometry_field(model.geometry)
+    K = build_geometry_field(model.geometry)
     order = list(range(len(model.columns)))
-    rows = column_relations(model, model.geometry, K, 1).rows
+    rows = derive_column_relations(model, model.geometry, K, 1).rows
     wanted = [row for row in rows if {*row} <= {*energetic(model)}]
-    found = tied_relations(model.geometry, model.columns, K, order, 8)
+    found = derive_tied_relations(model.geometry, model.columns, K, order, 8)
     assert _reduced(found, order) == _reduced(wanted, order)
 
 
 def _reduced(rows, order):
-    reduced, pivots = sparse_row_reduce(rows, order)
+    reduced, pivots = reduce_sparse_rows(rows, order)
     return dict(zip(pivots, reduced, strict=True))
 
 
 def test_the_order_says_what_is_kept():
     model = leg(**NO_LINK_5)
-    K = geometry_field(model.geometry)
+    K = build_geometry_field(model.geometry)
     forward = list(range(len(model.columns)))
-    last = tied_relations(model.geometry, model.columns, K, forward[::-1], 3)
+    last = derive_tied_relations(model.geometry, model.columns, K, forward[::-1], 3)
     dropped = {min(relation) for relation in last}
     assert len(dropped) == len(last)
     assert all(relation[min(relation)] == K.one for relation in last)
@@ -190,5 +190,5 @@ def test_the_order_says_what_is_kept():
 def test_multiples_of_the_primes(length, message):
     """A length that is zero, or infinite, modulo a prime must not pass for one that is."""
     model = leg(changes=(('"D4"', f'"{length}"'),), **NO_LINK_5)
-    with pytest.raises(TooLarge, match=message):
+    with pytest.raises(CoefficientTooLarge, match=message):
         relations_of(model)

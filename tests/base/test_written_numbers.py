@@ -9,9 +9,9 @@ import sympy
 
 from modeler import formulas
 from modeler.codegen.workflow import derive
-from modeler.core.expression import decimal_text
-from modeler.derivation.relations import as_json, as_latex, as_text
-from modeler.robot.read import robot_from_text
+from modeler.core.expression import format_decimal
+from modeler.derivation.relations import as_latex, as_text, serialise_base_parameters
+from modeler.robot.read import parse_robot_text
 
 BIG = re.compile(r"\d{3,}/\d{3,}|frac\{\d{3,}\}")
 
@@ -19,7 +19,7 @@ BIG = re.compile(r"\d{3,}/\d{3,}|frac\{\d{3,}\}")
 def arm(lengths, symbols=""):
     """Four joints, twists of 90, 60 and 0 degrees, these lengths in their cells."""
     a, b, c, d = lengths
-    return robot_from_text(
+    return parse_robot_text(
         f"""name = "arm"
 gravity = [0, 0, -9.81]
 [symbols]
@@ -34,7 +34,7 @@ rows = [["1", 0, 0, "q1", 0], ["2", "-pi/2", {a}, "q2", 0], ["3", "pi/3", {b}, "
 
 
 def coefficients(robot):
-    told = as_json("arm", derive(robot).base)
+    told = serialise_base_parameters("arm", derive(robot).base)
     return {
         (base["name"], term["parameter"]): term["coefficient"]
         for base in told["base"]
@@ -76,20 +76,29 @@ def test_halves_are_decimals_where_the_file_writes_them_so():
 
 
 def test_closed_forms_show_what_was_written():
-    robot = robot_from_text(
+    robot = parse_robot_text(
         'name = "flat"\ngravity = [0, -9.81, 0]\n[mdh]\ncolumns = ["j", "alpha", "d", "theta"]\n'
         'rows = [["1", 0, 0, "q1"], ["2", 0.35, 0.4318, "q2"]]',
         "flat.toml",
     )
     derivation = derive(robot)
-    closed = formulas.closed_form(derivation.model, derivation.base)
-    sheet = formulas.equation_of(derivation.model, derivation.base, motion=True, columns=True).sheet
-    table = formulas.coefficients.coefficient_table(derivation.model, derivation.base)
+    closed = formulas.derive_closed_form(derivation.model, derivation.base)
+    sheet = formulas.derive_equation(
+        derivation.model, derivation.base, motion=True, columns=True
+    ).sheet
+    table = formulas.coefficients.build_coefficient_table(derivation.model, derivation.base)
     text, latex = (
         getattr(formulas.render, f"closed_form_{way}")(closed) for way in ("text", "latex")
     )
-    rows = [" ".join(row[3:]) for row in formulas.render.table_lines(table) if "PS" in row[0]]
-    for page in (text, latex, formulas.function_sheet.sheet_markdown(sheet), "\n".join(rows)):
+    rows = [
+        " ".join(row[3:]) for row in formulas.render.format_table_lines(table) if "PS" in row[0]
+    ]
+    for page in (
+        text,
+        latex,
+        formulas.function_sheet.format_sheet_markdown(sheet),
+        "\n".join(rows),
+    ):
         assert not BIG.search(page)
         assert "0.4318" in page and "7/20" not in page
     assert "9.81" in text and r"\cos{(0.35)}" in latex
@@ -102,7 +111,7 @@ def test_closed_forms_show_what_was_written():
      ("1e-9", False, "0.000000001")],
 )  # fmt: skip
 def test_decimals_are_exact_or_none(value, halves, text):
-    assert decimal_text(Fraction(value), halves) == text
+    assert format_decimal(Fraction(value), halves) == text
 
 
 def test_every_decimal_comes_back():
@@ -110,6 +119,6 @@ def test_every_decimal_comes_back():
     for _ in range(100):
         above, twos, fives = map(int, rng.integers((-(10**9), 0, 0), (10**9, 9, 9)))
         value = Fraction(above, 2**twos * 5**fives)
-        text = decimal_text(value, True)
+        text = format_decimal(value, True)
         assert (text is None) == (value.denominator == 1)
         assert text is None or Fraction(text) == value

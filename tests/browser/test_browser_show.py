@@ -9,11 +9,17 @@ from typing import Any
 import numpy as np
 import pytest
 
-from modeler.core.builtin import builtin_text
-from modeler.report.robot_closing import Posture, gaps_of, home_posture, jacobian, residuals
-from modeler.report.robot_page import page_content, robot_html, show
-from modeler.report.robot_skeleton import Skeleton, poses, skeleton_of
-from modeler.robot.read import read_robot, robot_from_text
+from modeler.core.builtin import read_builtin_robot
+from modeler.report.robot_closing import (
+    Posture,
+    compute_gaps,
+    compute_jacobian,
+    compute_residuals,
+    find_home_posture,
+)
+from modeler.report.robot_page import build_page_content, render_robot_page, show
+from modeler.report.robot_skeleton import Skeleton, build_skeleton, compute_poses
+from modeler.robot.read import parse_robot_text, read_robot
 from tests.browser.chromium import Chromium
 from tests.robots import ROBOTS
 from tests.rotation import rotating
@@ -26,9 +32,9 @@ STATE = "document.getElementById('state').textContent"
 
 def shown(browser: Chromium, place: Path, text: str, size: tuple[int, int] = WIDE) -> Skeleton:
     """The page of a robot in the browser, drawn."""
-    skeleton = skeleton_of(robot_from_text(text, "robot"))
+    skeleton = build_skeleton(parse_robot_text(text, "robot"))
     page = place / "page.html"
-    page.write_text(robot_html(skeleton, home_posture(skeleton)), encoding="utf-8")
+    page.write_text(render_robot_page(skeleton, find_home_posture(skeleton)), encoding="utf-8")
     browser.open(page, *size)
     browser.until("window.modelerShow && modelerShow.view.items.length > 0")
     return skeleton
@@ -47,25 +53,25 @@ def moved(browser: Chromium, joint: str, value: float) -> np.ndarray:
 
 def largest_gap(skeleton: Skeleton, u: np.ndarray) -> float:
     """Of all loops at u, by Python: m and rad."""
-    return max(max(gap.distance, gap.angle) for gap in gaps_of(skeleton, u))
+    return max(max(gap.distance, gap.angle) for gap in compute_gaps(skeleton, u))
 
 
 @pytest.fixture(scope="module")
 def calculator(browser: Chromium, tmp_path_factory: pytest.TempPathFactory) -> Chromium:
     """A page whose functions are asked about any robot."""
-    shown(browser, tmp_path_factory.mktemp("calculator"), builtin_text("five-bar"))
+    shown(browser, tmp_path_factory.mktemp("calculator"), read_builtin_robot("five-bar"))
     return browser
 
 
 @pytest.mark.parametrize("name", ROBOTS)
 def test_poses_and_loops_are_those_of_python(calculator: Chromium, name: str) -> None:
-    skeleton = skeleton_of(read_robot(name))
-    home = home_posture(skeleton)
-    content = json.dumps(page_content(skeleton, home))
+    skeleton = build_skeleton(read_robot(name))
+    home = find_home_posture(skeleton)
+    content = json.dumps(build_page_content(skeleton, home))
     u = home.u + np.random.default_rng(5).uniform(-1.0, 1.0, len(home.u))
     calculator.value(f"window.asked = {content}, window.at = {u.tolist()}, 0")
     found = calculator.value("posesAt(asked, at)")
-    for pose, expected in zip(found, poses(skeleton, u), strict=True):
+    for pose, expected in zip(found, compute_poses(skeleton, u), strict=True):
         np.testing.assert_allclose(np.array(pose["R"]).T, expected[:3, :3], atol=1e-12)
         np.testing.assert_allclose(pose["p"], expected[:3, 3], atol=1e-12)
     if skeleton.robot.loops:
@@ -75,9 +81,11 @@ def test_poses_and_loops_are_those_of_python(calculator: Chromium, name: str) ->
 def check_loops(calculator: Chromium, skeleton: Skeleton, u: np.ndarray, size: float) -> None:
     """Residuals, slopes and gaps of what was asked about are those of Python."""
     f, J = calculator.value("equations(asked, at)")
-    np.testing.assert_allclose(f, residuals(skeleton, u, size), atol=1e-12)
-    np.testing.assert_allclose(J, jacobian(skeleton, u, size, range(len(u))), atol=1e-11)
-    for gap, ours in zip(calculator.value("gapsAt(asked, at)"), gaps_of(skeleton, u), strict=True):
+    np.testing.assert_allclose(f, compute_residuals(skeleton, u, size), atol=1e-12)
+    np.testing.assert_allclose(J, compute_jacobian(skeleton, u, size, range(len(u))), atol=1e-11)
+    for gap, ours in zip(
+        calculator.value("gapsAt(asked, at)"), compute_gaps(skeleton, u), strict=True
+    ):
         assert gap["distance"] == pytest.approx(ours.distance, abs=1e-12)
         assert gap["angle"] == pytest.approx(ours.angle, abs=1e-7)
 
@@ -85,11 +93,11 @@ def check_loops(calculator: Chromium, skeleton: Skeleton, u: np.ndarray, size: f
 @pytest.mark.parametrize("meets", ["4{i}", "0"])
 @pytest.mark.parametrize("kind", ["cylindrical", "prismatic", "planar", "universal", "rigid"])
 def test_every_kind_of_loop_has_its_slopes(calculator: Chromium, kind: str, meets: str) -> None:
-    text = builtin_text("stewart").replace('"4{i}",  "spherical"', f'"{meets}", "{kind}"')
+    text = read_builtin_robot("stewart").replace('"4{i}",  "spherical"', f'"{meets}", "{kind}"')
     assert f'"{kind}"' in text
-    skeleton = skeleton_of(robot_from_text(text, "stewart"))
+    skeleton = build_skeleton(parse_robot_text(text, "stewart"))
     u = skeleton.stated + np.random.default_rng(6).uniform(-0.3, 0.3, len(skeleton.free))
-    content = json.dumps(page_content(skeleton, Posture(u, 1.6, False, True)))
+    content = json.dumps(build_page_content(skeleton, Posture(u, 1.6, False, True)))
     calculator.value(f"window.asked = {content}, window.at = {u.tolist()}, 0")
     check_loops(calculator, skeleton, u, 1.6)
 
@@ -107,14 +115,14 @@ MOVES = {
 
 @pytest.mark.parametrize("name", ["five-bar", *rotating(*(n for n in MOVES if n != "five-bar"))])
 def test_sliders_move_the_robot_with_its_loops_closed(browser, tmp_path, name: str) -> None:
-    skeleton = shown(browser, tmp_path, builtin_text(name))
+    skeleton = shown(browser, tmp_path, read_builtin_robot(name))
     home = np.array(browser.value("modelerShow.u"))
-    k = skeleton.given[0]
+    k = skeleton.independent_places[0]
     joint, value = MOVES[name] or (skeleton.free[k], home[k] + 0.3)
     k = skeleton.free.index(joint)
     u = moved(browser, joint, value)
     assert u[k] == pytest.approx(value) and largest_gap(skeleton, u) < 1e-7
-    others = [i for i in skeleton.given if i != k]
+    others = [i for i in skeleton.independent_places if i != k]
     np.testing.assert_array_equal(u[others], home[others])
     assert np.max(np.abs(np.delete(u - home, k))) > 1e-3  # the others follow
     assert browser.value(MESSAGE) == ""
@@ -130,7 +138,7 @@ def test_sliders_move_the_robot_with_its_loops_closed(browser, tmp_path, name: s
     ("name", "joint"), [("3rrr", "11"), *rotating(("stewart", "31"), ("delta", "11"))]
 )
 def test_a_slider_stops_where_the_loops_stop(browser, tmp_path, name: str, joint: str) -> None:
-    skeleton = shown(browser, tmp_path, builtin_text(name))
+    skeleton = shown(browser, tmp_path, read_builtin_robot(name))
     k = skeleton.free.index(joint)
     home = browser.value(f"modelerShow.u[{k}]")
     u = moved(browser, joint, home + 6.0)
@@ -140,10 +148,12 @@ def test_a_slider_stops_where_the_loops_stop(browser, tmp_path, name: str, joint
     thumb = browser.value(f"modelerShow.sliders.find((s) => s.k === {k}).range.valueAsNumber")
     assert thumb == pytest.approx(u[k])
     # It is the edge: one of the joints that follow is all but undetermined there.
-    posture = home_posture(skeleton)
-    follow = list(skeleton.solved)
-    sizes = [np.linalg.svd(jacobian(skeleton, v, posture.size, follow), compute_uv=False)[-1]
-             for v in (posture.u, u)]  # fmt: skip
+    posture = find_home_posture(skeleton)
+    follow = list(skeleton.dependent_places)
+    sizes = [
+        np.linalg.svd(compute_jacobian(skeleton, v, posture.size, follow), compute_uv=False)[-1]
+        for v in (posture.u, u)
+    ]
     assert sizes[1] < 0.1 * sizes[0]
     back = moved(browser, joint, home)
     np.testing.assert_allclose(back, posture.u, atol=1e-6)  # never another assembly mode
@@ -151,31 +161,31 @@ def test_a_slider_stops_where_the_loops_stop(browser, tmp_path, name: str, joint
 
 def test_open_loops_are_closed_by_hand(browser, tmp_path) -> None:
     joints = "document.querySelectorAll('.joint').length"
-    far = builtin_text("five-bar").replace("L0 = 0.20", "L0 = 5.0")
+    far = read_builtin_robot("five-bar").replace("L0 = 0.20", "L0 = 5.0")
     skeleton = shown(browser, tmp_path, far)
     assert "do not close near [home]" in browser.value(MESSAGE)
     assert browser.value(STATE) == " · 1 of 1 loops open"
     assert browser.value(joints) == len(skeleton.free)
     browser.value("document.getElementById('close').click()")
     assert browser.value(MESSAGE) == "the loops do not close near here"
-    skeleton = shown(browser, tmp_path, builtin_text("five-bar"))
+    skeleton = shown(browser, tmp_path, read_builtin_robot("five-bar"))
     browser.value("document.getElementById('open').click()")
     u = moved(browser, "21", -1.0)
     assert u[1] == -1.0 and u[3] == browser.value("modelerShow.robot.home[3]")  # nothing follows
     assert browser.value("document.querySelector('#loops .bad') !== null")
     browser.value("document.getElementById('close').click()")
     assert largest_gap(skeleton, np.array(browser.value("modelerShow.u"))) < 1e-7
-    assert browser.value(joints) == len(skeleton.given)
+    assert browser.value(joints) == len(skeleton.independent_places)
 
 
 def test_home_is_copied_as_lines_of_the_file(browser, tmp_path) -> None:
-    shown(browser, tmp_path, builtin_text("orthoglide-2003"))
+    shown(browser, tmp_path, read_builtin_robot("orthoglide-2003"))
     moved(browser, "11", 0.25)
     u, lines = browser.value("[modelerShow.u, modelerShow.homeLines()]")
-    before, _, after = builtin_text("orthoglide-2003").partition("[home]")
+    before, _, after = read_builtin_robot("orthoglide-2003").partition("[home]")
     text = f"{before}{lines}\n{after[after.index('[effects]') :]}"
-    skeleton = skeleton_of(robot_from_text(text, "copied"))
-    home = home_posture(skeleton)
+    skeleton = build_skeleton(parse_robot_text(text, "copied"))
+    home = find_home_posture(skeleton)
     assert home.closed and home.held
     np.testing.assert_allclose(home.u, u, atol=1e-9)
 
@@ -189,7 +199,7 @@ LOOKED_AT = ("wrist", "stewart", "orthoglide-2003", "five-bar", "sr400")
 )
 def test_the_page_works_alone_at_any_width(browser, tmp_path, name: str, size) -> None:
     """No part is drawn under the buttons and the key, none outside."""
-    skeleton = shown(browser, tmp_path, builtin_text(name), size)
+    skeleton = shown(browser, tmp_path, read_builtin_robot(name), size)
     assert browser.complaints == []
     assert browser.requests == [(tmp_path / "page.html").resolve().as_uri()]
     wide, room = browser.value(
@@ -218,8 +228,8 @@ def test_the_page_works_alone_at_any_width(browser, tmp_path, name: str, size) -
 
 def test_a_home_that_was_found_is_said_on_the_page(browser, tmp_path) -> None:
     page = tmp_path / "bare.html"
-    text = re.sub(r"\[home\][^\[]*", "", builtin_text("five-bar"))
-    drawn = show(robot_from_text(text, "five-bar"), page=page)
+    text = re.sub(r"\[home\][^\[]*", "", read_builtin_robot("five-bar"))
+    drawn = show(parse_robot_text(text, "five-bar"), page=page)
     browser.open(page, *WIDE)
     browser.until("window.modelerShow && modelerShow.view.items.length > 0")
     assert browser.value("document.getElementById('note').innerText") == drawn.posture.note
@@ -241,7 +251,7 @@ def inked(browser: Chromium) -> float:
 
 def test_what_the_file_says_is_text(browser, tmp_path) -> None:
     mark = "</script><img src=x onerror=window.ran=1>"
-    text = builtin_text("five-bar").replace('"tip"', f'"{mark}"')
+    text = read_builtin_robot("five-bar").replace('"tip"', f'"{mark}"')
     text = text.replace('title = "', f'title = "{mark}').replace('notes = "', f'notes = "{mark}')
     shown(browser, tmp_path, text)
     assert browser.value("document.querySelectorAll('img').length + (window.ran || 0)") == 0
@@ -251,7 +261,7 @@ def test_what_the_file_says_is_text(browser, tmp_path) -> None:
 
 
 def test_pointing_at_a_joint_tells_its_row(browser, tmp_path) -> None:
-    shown(browser, tmp_path, builtin_text("puma560"))
+    shown(browser, tmp_path, read_builtin_robot("puma560"))
     told: dict[str, Any] = browser.value(
         "(() => { const v = modelerShow.view, p = v.flat(v.point([2, 0, 0, -0.07505]));"
         "const c = document.getElementById('picture'), box = c.getBoundingClientRect();"

@@ -5,7 +5,7 @@ import shutil
 
 import pytest
 
-from modeler.estimation.model_file import checksums
+from modeler.estimation.model_file import compute_checksums
 from tests.cli.running import answer, complaint, refusal
 
 
@@ -162,7 +162,7 @@ def test_a_model_file_that_was_sealed_again_is_not_believed(capsys, two_link, tm
 
     def seal(**changes) -> None:
         content = raw | changes
-        place.write_text(json.dumps({**content, "checksums": checksums(content)}))
+        place.write_text(json.dumps({**content, "checksums": compute_checksums(content)}))
 
     seal(sources={n: "#error\n" if n.endswith(".c") else t for n, t in raw["sources"].items()})
     answer(capsys, *words)

@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from modeler import compare, contest, identify, open_robot
+from modeler import compare, compare_models, identify, open_robot
 from modeler.cli import main
 
 INERTIAL = """<inertial><origin xyz="{centre} 0 0.01"/><mass value="{mass}"/>
@@ -118,4 +118,7 @@ def test_every_method_takes_a_converted_robot(folder, capsys, method: str) -> No
 def test_python_takes_a_robot_as_well(folder) -> None:
     robot, model = open_robot("arm.urdf"), identify("arm.urdf", "run.csv")
     assert compare(robot, "run.csv").relative_error > 10.0 * model.fit.relative_error
-    assert contest({"before": robot, "after": model}, ["run.csv"]).names == ("before", "after")
+    assert compare_models({"before": robot, "after": model}, ["run.csv"]).names == (
+        "before",
+        "after",
+    )

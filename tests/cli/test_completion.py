@@ -12,9 +12,9 @@ from pathlib import Path
 
 import pytest
 
-from modeler.cli import parser
-from modeler.cli.completion import candidates
-from modeler.core.builtin import builtin_names
+from modeler.cli import build_parser
+from modeler.cli.completion import complete_words
+from modeler.core.builtin import list_builtin_robots
 from modeler.core.estimators import ABOUT
 from modeler.effects.catalogue import CATALOGUE
 
@@ -43,7 +43,7 @@ CASES = [
     (["di"], ["diagnose"]),
     (["--qu"], ["--quiet"]),
     (["-q", "der"], ["derive"]),
-    (["derive", "o"], [n for n in builtin_names() if n[0] == "o"] + ["old.par"]),
+    (["derive", "o"], [n for n in list_builtin_robots() if n[0] == "o"] + ["old.par"]),
     (["derive", "wrist", "--format", ""], ["latex", "markdown", "text"]),
     (["derive", "wrist", "--format=l"], ["--format=latex"]),
     (["derive", "wrist", "--format", "=", "l"], ["latex"]),  # as bash cuts it
@@ -73,15 +73,15 @@ CASES = [
 
 @pytest.mark.parametrize(("words", "expected"), CASES, ids=lambda x: " ".join(x)[:40])
 def test_what_may_come_next(folder: Path, words: list[str], expected: list[str]) -> None:
-    assert sorted(candidates(words, parser())) == sorted(expected)
+    assert sorted(complete_words(words, build_parser())) == sorted(expected)
 
 
 def test_options_are_those_of_the_command(folder: Path) -> None:
-    assert {"derive", "fit", "completion"} <= set(candidates([], parser()))
-    options = candidates(["diagnose", "arm.model.json", "--"], parser())
+    assert {"derive", "fit", "completion"} <= set(complete_words([], build_parser()))
+    options = complete_words(["diagnose", "arm.model.json", "--"], build_parser())
     assert {"--holdout", "--without", "--json", "--quiet"} <= set(options)
     assert "--method" not in options
-    assert candidates(["completion", "--wo"], parser()) == []  # what only the scripts use
+    assert complete_words(["completion", "--wo"], build_parser()) == []  # what only the scripts use
 
 
 def shell_of(name: str) -> str:

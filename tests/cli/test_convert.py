@@ -4,7 +4,7 @@ import json
 
 import pytest
 
-from modeler.core.builtin import builtin_text
+from modeler.core.builtin import read_builtin_robot
 from modeler.robot.read import read_robot
 from tests.cli.running import answer, refusal, run
 from tests.robot.par_files import par_text
@@ -70,7 +70,7 @@ def test_what_is_refused(capsys, par, monkeypatch, words, out, message):
         "macro.xacro": "<robot><xacro:include/></robot>", "page.xml": "<html/>",
         "world.sdf": f"<!-- {'all rights ' * 9000} --><sdf/>", "arm.toml": "name = 'arm'",
         "turn.urdf": TURN, "bad.par": TWO.replace("0,L", "0,L,0"),
-        "ours.urdf": builtin_text("rx90"),
+        "ours.urdf": read_builtin_robot("rx90"),
     }.items():  # fmt: skip
         (folder / name).write_text(text)
     before = {path.name: path.read_bytes() for path in folder.iterdir()}
@@ -122,5 +122,5 @@ def test_a_urdf_is_cut_and_its_decimals_kept(capsys, tmp_path):
     assert len(converted("--base", "mid").moving) == 1
     assert converted("--lock", "k=90deg").frames["tip"].row == "1"
     exact = converted("--exact-decimals")
-    angle = exact.joints[1].alpha.number(exact.symbol_values())
+    angle = exact.joints[1].alpha.number(exact.evaluate_symbols())
     assert angle == pytest.approx(1.5708, abs=1e-15) and converted().joints[1].alpha.text == "pi/2"

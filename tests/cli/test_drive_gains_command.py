@@ -8,7 +8,7 @@ import pyarrow as pa
 import pyarrow.parquet as pq
 import pytest
 
-from modeler.core.builtin import builtin_text
+from modeler.core.builtin import read_builtin_robot
 from modeler.estimation.model_file import load_model
 from tests.cli.inputs import folder_after
 from tests.cli.running import answer, complaint, run
@@ -20,7 +20,7 @@ ARM_MAKER = "\n[drive_gains]\n" + "".join(f"{joint} = 1.9\n" for joint in "123")
 def arm(tmp_path_factory):
     """Short logs of an arm: currents bare and loaded, and torques; the model of a fit of gains."""
     folder = tmp_path_factory.mktemp("arm")
-    (folder / "maker.toml").write_text(builtin_text("demo-arm") + ARM_MAKER)
+    (folder / "maker.toml").write_text(read_builtin_robot("demo-arm") + ARM_MAKER)
     torque = "simulate demo-arm --duration 8 --rate 200"
     current = f"{torque} --drive-gain 1=2 --drive-gain 2=2 --drive-gain 3=2"
     folder_after(

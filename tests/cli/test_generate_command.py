@@ -9,8 +9,8 @@ import shlex
 import numpy as np
 import pytest
 
-from modeler.api import generate, load, recompile
-from modeler.estimation.model_file import Addition, fitted_spec, load_model, save_model
+from modeler.api import compile, generate, load
+from modeler.estimation.model_file import Addition, build_fitted_spec, load_model, save_model
 from modeler.estimation.parameter import ParameterEstimate
 from modeler.estimation.result import Verdict
 from tests.cli.running import answer, complaint, run
@@ -81,10 +81,10 @@ def test_the_c_predicts_what_the_model_does(place, fitted, capsys, tmp_path):
     assert "two_link_fitted_gravity: g(q) = tau(q, 0, 0) without effects (5 additions" in out
     assert "TWO_LINK_COULOMB_WIDTH_1, TWO_LINK_COULOMB_WIDTH_2" in out
     q, qd, qdd = np.random.default_rng(1).normal(0.0, 2.0, (3, 20, 2))
-    expected = recompile(fitted).inverse_dynamics(q, qd, qdd, fitted.beta)
+    expected = compile(fitted).inverse_dynamics(q, qd, qdd, fitted.beta)
     got = made("fitted_inverse_dynamics", {"q": q, "qd": qd, "qdd": qdd})
     np.testing.assert_allclose(got, expected, rtol=0, atol=1e-12 * np.abs(expected).max())
-    assert made.spec.signature() == fitted.spec.signature()
+    assert made.spec.compute_signature() == fitted.spec.signature()
 
 
 def test_a_model_that_is_not_usable_is_written_and_told(fitted, capsys, tmp_path):
@@ -126,6 +126,6 @@ def test_drive_gains_of_the_robot_file_go_along(fitted):
     joints = tuple(dataclasses.replace(j, drive_gain=k) for j, k in
                    zip(fitted.spec.joints, (35.0, 12.0), strict=True))  # fmt: skip
     spec = dataclasses.replace(fitted.spec, joints=joints)
-    assert fitted_spec(dataclasses.replace(fitted, spec=spec)).gains == (35.0, 12.0)
+    assert build_fitted_spec(dataclasses.replace(fitted, spec=spec)).gains == (35.0, 12.0)
     spec = dataclasses.replace(fitted.spec, joints=(joints[0], fitted.spec.joints[1]))
-    assert fitted_spec(dataclasses.replace(fitted, spec=spec)).gains == ()
+    assert build_fitted_spec(dataclasses.replace(fitted, spec=spec)).gains == ()

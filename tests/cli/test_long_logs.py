@@ -14,8 +14,8 @@ import pytest
 from modeler import observation
 from modeler.api import log_maps
 from modeler.cli import main
-from modeler.estimation import stream
-from modeler.validation import compare_long
+from modeler.estimation import stream_logs
+from modeler.validation import compare_long_logs
 from tests.cli.running import complaint, run
 from tests.modules import compiled
 from tests.rotation import slow_rotating
@@ -54,8 +54,8 @@ def chunked(monkeypatch):
     for where in (observation.log, log_maps, survey):
         monkeypatch.setattr(where, "FINGER", 1024)
     monkeypatch.setattr(log_maps, "WINDOW", 900)
-    monkeypatch.setattr(compare_long, "__defaults__", (lambda share: None, 1024))
-    monkeypatch.setattr(stream, "__defaults__", (None, lambda share: None, 1024, None))
+    monkeypatch.setattr(compare_long_logs, "__defaults__", (lambda share: None, 1024))
+    monkeypatch.setattr(stream_logs, "__defaults__", (None, lambda share: None, 1024, None))
 
 
 def fitted(place, name, *options):
@@ -274,11 +274,15 @@ def test_a_log_of_any_length_is_diagnosed_by_stretches_of_it(
         every["joints"]["1"]["error_before"], rel=0.2
     )
     spec = compiled("two-link").spec
-    source = observation.source_of(place / "run.parquet", spec)
+    source = observation.open_source(place / "run.parquet", spec)
     log = observation.read_spread(source, spec)
-    whole = next(source.blocks(ROWS))
-    blocks = [observation.log.finger(*(x[k : k + 1024] for x in (whole.time, whole.q, whole.tau)))
-              for k in range(0, ROWS, 1024)]  # fmt: skip
-    assert log.content == observation.log.fingerprint_of(blocks)
+    whole = next(source.read_blocks(ROWS))
+    blocks = [
+        observation.log.compute_block_hash(
+            *(x[k : k + 1024] for x in (whole.time, whole.q, whole.tau))
+        )
+        for k in range(0, ROWS, 1024)
+    ]
+    assert log.content == observation.log.combine_hashes(blocks)
     assert len(np.unique(log.piece_number)) == 8 and log.rows == 4096
     assert log.span == pytest.approx((0.0, 5e-3 * (ROWS - 1)), abs=2.6)

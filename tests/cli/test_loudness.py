@@ -12,7 +12,7 @@ import numpy as np
 import pytest
 
 from modeler.cli import console, main
-from modeler.cli.console import Loudness, clock, progress, using_loudness, working
+from modeler.cli.console import Verbosity, apply_verbosity, show_activity, show_clock, show_progress
 from modeler.robot import read_robot
 from tests.cli.running import run
 
@@ -91,20 +91,24 @@ class Terminal:
         return b"".join(self.parts).decode()
 
 
-@pytest.mark.parametrize("loudness", Loudness)
-def test_work_shows_its_seconds_on_a_terminal(monkeypatch, loudness: Loudness) -> None:
+@pytest.mark.parametrize("loudness", Verbosity)
+def test_work_shows_its_seconds_on_a_terminal(monkeypatch, loudness: Verbosity) -> None:
     terminal = Terminal(monkeypatch)
-    with using_loudness(loudness), working("closing [/b]"), working("inside"):  # one bar, not two
+    with (
+        apply_verbosity(loudness),
+        show_activity("closing [/b]"),
+        show_activity("inside"),
+    ):  # one bar, not two
         threading.Event().wait(0.3)
     text = terminal.written()
-    assert ("closing [/b]" in text) == (loudness is not Loudness.QUIET)  # which is no markup
-    assert ("0:00:00" in text) == (loudness is not Loudness.QUIET)
-    assert ("inside" in text) == (loudness is Loudness.VERBOSE)
+    assert ("closing [/b]" in text) == (loudness is not Verbosity.QUIET)  # which is no markup
+    assert ("0:00:00" in text) == (loudness is not Verbosity.QUIET)
+    assert ("inside" in text) == (loudness is Verbosity.VERBOSE)
 
 
 def test_loading_shows_its_seconds_on_a_terminal(monkeypatch) -> None:
     terminal = Terminal(monkeypatch)
-    with clock("loading"):
+    with show_clock("loading"):
         threading.Event().wait(0.7)
     assert re.search(r"\rloading 0\.\d s\r +\r$", terminal.written())
 
@@ -120,17 +124,17 @@ def lines_of(err: str) -> list[tuple[str, str]]:
 
 
 def test_shares_and_titles_in_order(capsys, monkeypatch) -> None:
-    with using_loudness(Loudness.USUAL), progress("not asked for") as tell:
+    with apply_verbosity(Verbosity.NORMAL), show_progress("not asked for") as tell:
         tell(0.5)
     assert capsys.readouterr().err == ""
     monkeypatch.setattr(console, "_PAUSE", 0.0)
-    with using_loudness(Loudness.USUAL, for_programs=True):
-        with clock("loading"):
+    with apply_verbosity(Verbosity.NORMAL, for_programs=True):
+        with show_clock("loading"):
             pass
-        with progress("first\nstep") as tell:
+        with show_progress("first\nstep") as tell:
             for share in (0.0, 0.25, 0.251, 0.5, 1.2):
                 tell(share)
-        with working("second"), progress("inside") as tell:  # one voice, not two
+        with show_activity("second"), show_progress("inside") as tell:  # one voice, not two
             tell(0.5)
     assert lines_of(capsys.readouterr().err) == [
         ("-", "loading"), ("0.00", "first step"), ("0.25", "first step"), ("0.50", "first step"),
@@ -139,7 +143,7 @@ def test_shares_and_titles_in_order(capsys, monkeypatch) -> None:
 
 
 def test_a_thousand_shares_in_a_moment_are_few_lines(capsys) -> None:
-    with using_loudness(Loudness.USUAL, for_programs=True), progress("counting") as tell:
+    with apply_verbosity(Verbosity.NORMAL, for_programs=True), show_progress("counting") as tell:
         for i in range(100_000):
             tell(i / 100_000)
     assert 1 <= len(lines_of(capsys.readouterr().err)) < 50

@@ -57,7 +57,7 @@ def test_serial_robots_of_any_joints_are_the_same_in_every_convention(convention
         path = tmp_path / f"a{k}.toml"
         robot = new_robot(path, joints=joints, convention=convention)
         khalil = new_robot(path, joints=joints, force=True)
-        assert "".join("P" if j.kind else "R" for j in robot.moving) == joints
+        assert "".join("P" if j.kind else "R" for j in robot.moving_joints) == joints
         assert robot.joints[: len(joints)] == khalil.joints
         assert robot.convention == convention and set(robot.symbols) >= {"g"}
     assert tuple(LETTERS) == CONVENTIONS
@@ -102,10 +102,10 @@ def test_questions_are_asked_on_a_terminal_only(capsys, tmp_path, monkeypatch):
     assert "every command reads it" in err and "got delta" in err and "got 'RPX'" in err
     robot = read_robot(path)
     assert robot.convention == "classical"
-    assert [joint.kind for joint in robot.moving] == [0, 1, 0]
+    assert [joint.kind for joint in robot.moving_joints] == [0, 1, 0]
     monkeypatch.setattr("sys.stdin", io.StringIO(typed))  # a pipe: nothing is asked
     assert run(capsys, "new", path, "--force")[2] == ""
-    assert len(read_robot(path).moving) == 3
+    assert len(read_robot(path).moving_joints) == 3
     monkeypatch.setattr("sys.stdin", Terminal("parallel\n"))
     assert run(capsys, "new", path, "--force")[0] == 0
     assert read_robot(path).platform

@@ -8,13 +8,13 @@ from pathlib import Path
 
 import pytest
 
-from modeler.cli import main, parser, places
+from modeler.cli import build_parser, main, places
 from modeler.cli.command_table import COMMANDS, FAMILIES, Methods
-from modeler.cli.commands import commands_of, parsed
-from modeler.cli.options import arguments_of
+from modeler.cli.commands import collect_command_parsers, parse_words
+from modeler.cli.options import collect_arguments
 from tests.cli.running import refusal
 
-PARSERS = commands_of(parser())
+PARSERS = collect_command_parsers(build_parser())
 
 
 def options() -> Iterator[tuple[str, argparse.Action]]:
@@ -52,10 +52,10 @@ def test_every_page_can_be_opened() -> None:
 
 def test_robot_or_model_first_logs_last() -> None:
     for command, subparser in PARSERS.items():
-        kinds = [action.type for action in arguments_of(subparser)]
+        kinds = [action.type for action in collect_arguments(subparser)]
         first = [i for i, kind in enumerate(kinds)
                  if kind in (places.RobotFile, places.ModelFile, places.RobotOrModel)]  # fmt: skip
-        logs = [i for i, k in enumerate(kinds) if k in (places.LogFile, places.model_or_log)]
+        logs = [i for i, k in enumerate(kinds) if k in (places.LogFile, places.parse_model_or_log)]
         assert first in ([], [0]) and logs in ([], [len(kinds) - 1]), command
 
 
@@ -68,11 +68,11 @@ def test_each_command_has_a_family_and_an_example_that_can_be_typed() -> None:
         lines = re.findall(r"modeler ([^;>]+)", (subparser.epilog or "").replace(')"', ""))
         assert lines and any(line.startswith(f"{name} ") for line in lines), name
         for line in lines:
-            assert parsed(shlex.split(line.strip()))[0].command, line
+            assert parse_words(shlex.split(line.strip()))[0].command, line
 
 
 def test_the_help_lists_commands_by_family() -> None:
-    text = parser().format_help()
+    text = build_parser().format_help()
     places_of = [text.index(f"\n{family}:\n") for family in FAMILIES]
     assert places_of == sorted(places_of)
     for family, below in zip(FAMILIES, [*list(FAMILIES)[1:], "options"], strict=True):
@@ -117,11 +117,15 @@ def test_what_is_misspelt_is_one_line(capsys, line: str) -> None:
 
 
 def test_an_option_may_be_cut_short() -> None:
-    assert parsed(["--verbos", "derive", "wrist"])[0].robot == "wrist"
+    assert parse_words(["--verbos", "derive", "wrist"])[0].robot == "wrist"
 
 
 def test_methods_are_one_or_several() -> None:
-    assert Methods("all").several and Methods("iv,ridge").several and not Methods("tls").several
+    assert (
+        Methods("all").is_several
+        and Methods("iv,ridge").is_several
+        and not Methods("tls").is_several
+    )
 
 
 @pytest.mark.parametrize(

@@ -9,8 +9,8 @@ from pathlib import Path
 
 import pytest
 
-from modeler.cli import main, parser
-from modeler.cli.commands import commands_of
+from modeler.cli import build_parser, main
+from modeler.cli.commands import collect_command_parsers
 from modeler.cli.demo import _STORIES
 from modeler.cli.places import (
     DemoFolder,
@@ -21,10 +21,10 @@ from modeler.cli.places import (
     Output,
     OutputFolder,
     Word,
-    model_or_log,
+    parse_model_or_log,
 )
 from modeler.codegen.package import write_emitted
-from modeler.core.builtin import builtin_file
+from modeler.core.builtin import locate_builtin_robot
 from tests.cli.running import refusal
 from tests.modules import module
 
@@ -76,7 +76,7 @@ def workdir(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Path]:
 
 def actions() -> Iterator[tuple[str, argparse.Action]]:
     """Every argument of every command."""
-    for command, of_command in commands_of(parser()).items():
+    for command, of_command in collect_command_parsers(build_parser()).items():
         yield from ((command, action) for action in of_command._actions)
 
 
@@ -87,7 +87,9 @@ def is_a(action: argparse.Action, *kinds: type) -> bool:
 def test_every_argument_says_what_it_is() -> None:
     """A new one cannot be forgotten: a bare text might be the name of a file."""
     for command, action in actions():
-        plain = action.nargs == 0 or action.choices or action.type in (int, float, model_or_log)
+        plain = (
+            action.nargs == 0 or action.choices or action.type in (int, float, parse_model_or_log)
+        )
         assert plain or is_a(action, Word, Input, Output, OutputFolder), (command, action.dest)
     assert not [c for c, a in actions() if a.dest == "json" and a.type is not JsonFile]
     assert {command for command, _ in actions()} == set(READING)
@@ -145,13 +147,13 @@ def test_stdout_may_go_to_that_file(workdir, capsys, monkeypatch) -> None:
     with Path("folder").open("w") as out:
         monkeypatch.setattr(sys, "stdout", out)
         status = main(["robots", "--json", "folder"])
-        monkeypatch.undo()
+        monkeypatch.remove_last()
     assert status == 1
     assert "--json folder: stdout writes this file too" in capsys.readouterr().err
 
 
 def test_a_built_in_robot_is_an_input_too(workdir, capsys) -> None:
-    place = builtin_file("wrist")
+    place = locate_builtin_robot("wrist")
     before = place.read_bytes()
     err = refusal(capsys, "derive", "wrist", "--report", str(place))
     assert "this is the robot file that is read" in err and place.read_bytes() == before

@@ -9,12 +9,12 @@ import pytest
 
 from modeler.api import load, show
 from modeler.cli import main
-from modeler.core.builtin import builtin_text
+from modeler.core.builtin import read_builtin_robot
 from modeler.core.errors import DataError
-from modeler.derivation.derive import with_home
-from modeler.report.robot_closing import home_posture
-from modeler.report.robot_drawing import picture_bytes
-from modeler.report.robot_skeleton import skeleton_of
+from modeler.derivation.derive import complete_home
+from modeler.report.robot_closing import find_home_posture
+from modeler.report.robot_drawing import render_picture
+from modeler.report.robot_skeleton import build_skeleton
 from modeler.robot.read import read_robot
 from tests.cli.running import answer, refusal
 from tests.robots import ROBOTS
@@ -46,7 +46,7 @@ def test_a_page_needs_nothing_else(workdir: Path, name: str) -> None:
         assert f">{joint.name}</td>" in page
     assert result["closed"] and result["as_stated"] and result["page"] == "p.html"
     assert [frame["name"] for frame in result["frames"]] == [joint.name for joint in robot.joints]
-    assert set(result["home"]) == {joint.variable for joint in robot.moving}
+    assert set(result["home"]) == {joint.variable for joint in robot.moving_joints}
     assert len(result["loops"]) == len(robot.loops)
     for loop in result["loops"]:
         assert loop["closed"] and loop["gap"] < 1e-9 and loop["angle"] < 1e-7
@@ -82,14 +82,14 @@ def test_a_picture_is_drawn(workdir: Path, name: str) -> None:
 
 
 def test_the_same_robot_gives_the_same_picture() -> None:
-    skeleton = skeleton_of(read_robot("emps"))
-    posture = home_posture(skeleton)
+    skeleton = build_skeleton(read_robot("emps"))
+    posture = find_home_posture(skeleton)
     for kind in (".svg", ".pdf"):
-        first, again = (picture_bytes(skeleton, posture, kind) for _ in range(2))
+        first, again = (render_picture(skeleton, posture, kind) for _ in range(2))
         assert first == again
 
 
-BARE = re.sub(r"\[home\][^\[]*", "", builtin_text("five-bar"))
+BARE = re.sub(r"\[home\][^\[]*", "", read_builtin_robot("five-bar"))
 
 
 def test_a_home_that_is_found_is_shown_and_said(workdir, capsys) -> None:
@@ -100,7 +100,7 @@ def test_a_home_that_is_found_is_shown_and_said(workdir, capsys) -> None:
     note = "five-bar: [home] found: mode A at q11 = 2.2, q12 = 0.9; 2 assembly modes"
     assert note in out and result["note"].startswith(note)
     assert note in (workdir / "b.html").read_text()
-    found = with_home(read_robot("bare.toml")).robot.home
+    found = complete_home(read_robot("bare.toml")).robot.home
     assert {name: result["home"][f"q{name}"] for name in found} == pytest.approx(found, abs=1e-5)
     assert result["closed"] and result["loose"] == []
     out = answer(capsys, "show", "five-bar", "--out", "b.html", "--json", "b.json")
@@ -126,7 +126,9 @@ def test_a_robot_is_drawn_from_python(workdir) -> None:
 
 
 def test_loops_that_do_not_close_are_shown_and_told(workdir, capsys) -> None:
-    (workdir / "bad.toml").write_text(builtin_text("five-bar").replace("L0 = 0.20", "L0 = 5.0"))
+    (workdir / "bad.toml").write_text(
+        read_builtin_robot("five-bar").replace("L0 = 0.20", "L0 = 5.0")
+    )
     words = "show bad.toml --out b.html --picture b.svg --json b.json"
     out = answer(capsys, *words.split())
     assert 'loop "tip": 31 meets 32 (revolute): OPEN by ' in out

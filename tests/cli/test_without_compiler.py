@@ -8,7 +8,7 @@ import pytest
 import modeler.runtime.model as compiled_model
 from modeler.cli import main
 from modeler.cli.command_table import COMMANDS
-from modeler.core.builtin import builtin_text
+from modeler.core.builtin import read_builtin_robot
 from tests.rotation import rotating
 
 WORKS = {
@@ -103,7 +103,7 @@ def test_a_log_tells_that_no_fit_was_tried(workdir, capsys) -> None:
     doubts = json.loads((workdir / "log.json").read_text())["doubts"]
     (line,) = [doubt for doubt in doubts if "C compiler" in doubt]
     assert line.startswith("not tried by a fit of two-link: C compiler: none of cc")
-    text = builtin_text("two-link")
+    text = read_builtin_robot("two-link")
     (workdir / "own.toml").write_text(text, encoding="utf-8")
     assert main(["log", "a.parquet", "--robot", "own.toml", "--write"]) == 1
     assert "C compiler: none of cc" in capsys.readouterr().err

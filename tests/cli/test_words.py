@@ -6,9 +6,9 @@ import shlex
 
 import pytest
 
-from modeler.cli import main, parser
-from modeler.cli.commands import commands_of, parsed
-from modeler.cli.options import arguments_of, options_of
+from modeler.cli import build_parser, main
+from modeler.cli.commands import collect_command_parsers, parse_words
+from modeler.cli.options import collect_arguments, collect_options
 
 # What each argument of a command takes here; no file has to be there.
 WORDS = {
@@ -17,7 +17,7 @@ WORDS = {
     "log": ["run.csv"], "folder": ["arm"],
 }  # fmt: skip
 VALUES = {"sets": ["3"], "cad": ["cad.toml"]}
-PARSERS = commands_of(parser())
+PARSERS = collect_command_parsers(build_parser())
 
 
 def required(subparser: argparse.ArgumentParser) -> list[str]:
@@ -32,13 +32,13 @@ def required(subparser: argparse.ArgumentParser) -> list[str]:
 WITH_VALUE = [
     (name, option)
     for name, subparser in PARSERS.items()
-    for option, action in options_of(subparser).items()
+    for option, action in collect_options(subparser).items()
     if isinstance(action, argparse._AppendAction) or action.nargs == "?"
 ]
 
 
 def read(words: list[str]) -> dict[str, object]:
-    found = vars(parsed(words)[0])
+    found = vars(parse_words(words)[0])
     return {name: value for name, value in found.items() if name != "load"}
 
 
@@ -46,9 +46,9 @@ def read(words: list[str]) -> dict[str, object]:
 def test_the_order_does_not_matter(name: str, option: str) -> None:
     """After the arguments, before them, in their midst, repeated: the same is read."""
     subparser = PARSERS[name]
-    action = options_of(subparser)[option]
+    action = collect_options(subparser)[option]
     values = VALUES.get(action.dest, ["c.parquet", "d.parquet"])
-    arguments = [WORDS[argument.dest][0] for argument in arguments_of(subparser)]
+    arguments = [WORDS[argument.dest][0] for argument in collect_arguments(subparser)]
     rest = required(subparser)
     typed = [word for value in values for word in (option, value)]
     after = read([name, *arguments, *rest, *typed])
@@ -65,10 +65,10 @@ def test_the_order_does_not_matter(name: str, option: str) -> None:
 
 
 def test_a_list_is_given_by_repeating_the_option(capsys) -> None:
-    found, _ = parsed(shlex.split("diagnose --holdout b m.json a --holdout=c e"))
+    found, _ = parse_words(shlex.split("diagnose --holdout b m.json a --holdout=c e"))
     assert (found.model, found.logs, found.holdout) == ("m.json", ["a", "e"], ["b", "c"])
     assert "holdout" in found.given and "logs" not in found.given
-    cut = parsed(shlex.split("fit emps a --meth robust --out m"))[0]
+    cut = parse_words(shlex.split("fit emps a --meth robust --out m"))[0]
     assert cut.method == "robust" and cut.given == {"method", "out"}
 
 
@@ -93,9 +93,9 @@ def test_the_usage_tells_an_order_that_works(name: str) -> None:
     assert all(len(line) <= 100 or line.count(" [") == 1 for line in usage.splitlines())
     flat = " ".join(usage.split())
     first = next(re.finditer(r"[ \[]-", flat)).start()
-    for action in arguments_of(subparser):
+    for action in collect_arguments(subparser):
         assert 0 < flat.find(str(action.metavar)) < first
-    for option, action in options_of(subparser).items():
+    for option, action in collect_options(subparser).items():
         if option.startswith("--") and action.help != argparse.SUPPRESS:
             named = any(name in flat for name in action.option_strings)  # by one of its names
             assert named or option in ("--help", "--quiet", "--verbose"), option

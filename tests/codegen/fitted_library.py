@@ -8,12 +8,18 @@ from pathlib import Path
 import numpy as np
 
 from modeler.codegen.emit import emit
-from modeler.core.builtin import builtin_text
-from modeler.core.manifest import ArgumentSpec, Emitted, FittedParameter, FittedSpec, ModuleSpec
-from modeler.derivation.base_parameters import base_parameters
+from modeler.core.builtin import read_builtin_robot
+from modeler.core.manifest import (
+    ArgumentSpec,
+    EmittedModule,
+    FittedParameter,
+    FittedSpec,
+    ModuleSpec,
+)
+from modeler.derivation.base_parameters import derive_base_parameters
 from modeler.derivation.derive import derive_model
-from modeler.robot.edit import with_effects
-from modeler.robot.read import robot_from_text
+from modeler.robot.edit import replace_effects
+from modeler.robot.read import parse_robot_text
 from modeler.runtime.build import build_library
 from tests.modules import Module, module, unoptimised
 
@@ -36,9 +42,9 @@ def robot_module(name: str) -> Module:
     if name not in ("slow-arm", "rubbing"):
         return module(name)
     rubbing = dict.fromkeys(("viscous", "coulomb", "passive_friction"), "all")
-    text = SLOW if name == "slow-arm" else with_effects(builtin_text("five-bar"), rubbing)
-    model = derive_model(robot_from_text(text, name))
-    base = base_parameters(model)
+    text = SLOW if name == "slow-arm" else replace_effects(read_builtin_robot("five-bar"), rubbing)
+    model = derive_model(parse_robot_text(text, name))
+    base = derive_base_parameters(model)
     return Module(model, base, emit(model, base))
 
 
@@ -55,7 +61,7 @@ def fitted_of(spec: ModuleSpec, seed: int = 4) -> FittedSpec:
     )
 
 
-def with_values(name: str, fitted: FittedSpec | None = None) -> Emitted:
+def with_values(name: str, fitted: FittedSpec | None = None) -> EmittedModule:
     """The module of a robot with these values, or with any."""
     made = robot_module(name)
     return emit(made.model, made.base, fitted or fitted_of(made.emitted.spec))
@@ -64,7 +70,7 @@ def with_values(name: str, fitted: FittedSpec | None = None) -> Emitted:
 class Functions:
     """The compiled functions of an emitted module, one sample a call."""
 
-    def __init__(self, emitted: Emitted, **widths: float) -> None:
+    def __init__(self, emitted: EmittedModule, **widths: float) -> None:
         """Compile; widths by the end of their macro's name, `COULOMB_WIDTH_1=0.1`.
 
         With widths, and where no loops close, the unit that reads them is all that is compiled.
@@ -132,7 +138,7 @@ def motion(name: str, samples: int = 12, seed: int = 6) -> dict[str, np.ndarray]
     x = q
     if made.model.closure is not None:
         home = np.array(made.model.closure.home)
-        q = home[list(made.model.closure.given)] + random.uniform(-0.1, 0.1, (samples, n))
+        q = home[list(made.model.closure.actuated)] + random.uniform(-0.1, 0.1, (samples, n))
         x = home[list(made.model.closure.platform or ())]
         x = x + random.uniform(-0.1, 0.1, (samples, len(x)))
     v, a = random.normal(0.0, 1.0, (2, samples, n))

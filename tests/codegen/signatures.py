@@ -4,7 +4,7 @@ import json
 import sys
 
 from modeler.codegen.emit import emit
-from modeler.derivation.base_parameters import base_parameters
+from modeler.derivation.base_parameters import derive_base_parameters
 from modeler.derivation.derive import derive_model
 from modeler.robot.read import read_robot
 
@@ -12,5 +12,5 @@ if __name__ == "__main__":
     found = {}
     for name in sys.argv[1:]:
         model = derive_model(read_robot(name))
-        found[name] = emit(model, base_parameters(model)).spec.signature()
+        found[name] = emit(model, derive_base_parameters(model)).spec.compute_signature()
     print(json.dumps(found))

@@ -10,18 +10,18 @@ from pathlib import Path
 import pytest
 
 from modeler.cli import main
-from modeler.codegen.package import RECORD, checksum, leftovers, write_emitted
+from modeler.codegen.package import RECORD, hash_content, list_leftovers, write_emitted
 from modeler.core.errors import ModelerError
-from modeler.core.manifest import Emitted
+from modeler.core.manifest import EmittedModule
 from tests.modules import compiler, module
 
 
 @pytest.fixture
-def emitted() -> Emitted:
+def emitted() -> EmittedModule:
     return module("emps").emitted
 
 
-def changed(emitted: Emitted, *names: str) -> Emitted:
+def changed(emitted: EmittedModule, *names: str) -> EmittedModule:
     """The module as the next version of the robot gives it."""
     files = {n: text + "\n" if n in names else text for n, text in emitted.files.items()}
     return dataclasses.replace(emitted, files=files)
@@ -99,12 +99,12 @@ def test_what_is_no_longer_emitted_goes_unless_it_was_edited(emitted, tmp_path):
     (tmp_path / EXAMPLE).write_text("edited")
     assert write_emitted(emitted, tmp_path) == ()
     assert set(contents(tmp_path)) == {*emitted.files, RECORD, "controller.c", EXAMPLE}
-    assert leftovers(emitted, tmp_path) == [EXAMPLE]
+    assert list_leftovers(emitted, tmp_path) == [EXAMPLE]
     with pytest.raises(ModelerError, match=f"over {EXAMPLE}, edited since"):
         write_emitted(with_values, tmp_path)
     (tmp_path / EXAMPLE).write_text("old")  # as it was: ours again
     write_emitted(emitted, tmp_path)
-    assert leftovers(emitted, tmp_path) == [] and not (tmp_path / EXAMPLE).exists()
+    assert list_leftovers(emitted, tmp_path) == [] and not (tmp_path / EXAMPLE).exists()
 
 
 def test_what_cannot_be_removed_stays_and_is_told(emitted, tmp_path, monkeypatch):
@@ -119,8 +119,10 @@ def test_what_cannot_be_removed_stays_and_is_told(emitted, tmp_path, monkeypatch
 
     monkeypatch.setattr(Path, "unlink", refused)
     assert write_emitted(emitted, tmp_path) == ()
-    monkeypatch.undo()
-    assert (tmp_path / EXAMPLE).read_text() == "old" and leftovers(emitted, tmp_path) == [EXAMPLE]
+    monkeypatch.remove_last()
+    assert (tmp_path / EXAMPLE).read_text() == "old" and list_leftovers(emitted, tmp_path) == [
+        EXAMPLE
+    ]
 
 
 def test_a_record_removes_nothing_outside_of_its_folder(emitted, tmp_path):
@@ -128,7 +130,7 @@ def test_a_record_removes_nothing_outside_of_its_folder(emitted, tmp_path):
     write_emitted(emitted, folder)
     other.write_text("mine")
     with (folder / RECORD).open("a") as record:
-        record.write(f"{checksum(b'mine')}  ../other.c\n{checksum(b'mine')}  {other}\n")
+        record.write(f"{hash_content(b'mine')}  ../other.c\n{hash_content(b'mine')}  {other}\n")
     write_emitted(emitted, folder)
     assert other.read_text() == "mine"
 

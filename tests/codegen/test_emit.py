@@ -12,14 +12,14 @@ import sympy
 
 import modeler
 from modeler.codegen.emit import emit
-from modeler.codegen.functions import comment_text, module_prefix, symbol_macros
+from modeler.codegen.functions import format_comment, make_prefix, name_macros
 from modeler.codegen.workflow import derive, generate
 from modeler.core.errors import EmitError
-from modeler.core.manifest import module_from_json
-from modeler.derivation.base_parameters import base_parameters
+from modeler.core.manifest import parse_manifest
+from modeler.derivation.base_parameters import derive_base_parameters
 from modeler.derivation.derive import derive_model
-from modeler.derivation.numeric_rank import grouping_matrix
-from modeler.robot import read_robot, robot_from_text, with_effects
+from modeler.derivation.numeric_rank import build_grouping_matrix
+from modeler.robot import parse_robot_text, read_robot, replace_effects
 from tests.modules import compiled, module, plain, states
 from tests.repository import ROOT
 from tests.robots import TREES
@@ -33,10 +33,12 @@ def evaluated(name: str, entries, shape) -> np.ndarray:
     """Graph expressions in numpy, (samples, *shape), for `states`; {index: expression}."""
     model = module(name).model
     values: dict = dict(model.geometry.values) | {"pi": np.pi}
-    for kind, array in zip(("q", "qd", "qdd"), states(model.geometry.joints, SAMPLES), strict=True):
+    for kind, array in zip(
+        ("q", "qd", "qdd"), states(model.geometry.joint_count, SAMPLES), strict=True
+    ):
         values |= {f"{kind}[{i}]": array[:, i] for i in range(array.shape[1])}
     result = np.zeros((SAMPLES, *shape))
-    columns = model.graph.evaluate(list(entries.values()), values)
+    columns = model.graph.evaluate_outputs(list(entries.values()), values)
     for index, value in zip(entries, columns, strict=True):
         result[(slice(None), *np.atleast_1d(index))] = value
     return result
@@ -50,7 +52,7 @@ def relative(got: np.ndarray, expected: np.ndarray) -> None:
 @pytest.mark.parametrize("name", TREES)
 def test_regressors_are_those_of_the_model(name):
     made, library = module(name), plain(name)
-    q, qd, qdd = states(made.model.geometry.joints, SAMPLES)
+    q, qd, qdd = states(made.model.geometry.joint_count, SAMPLES)
     shape = (q.shape[1], len(made.model.columns))
     standard = evaluated(name, made.model.regressor, shape)
     relative(library.regressor(q, qd, qdd), standard)
@@ -67,8 +69,8 @@ def test_torques_and_their_parts_are_the_regressor_of_standard_parameters_times_
     """Recursion with base parameters = product with standard ones: two ways to the same torque."""
     made, library = module(name), plain(name)
     chi = np.random.default_rng(8).normal(size=len(made.model.columns))
-    beta = grouping_matrix(made.model, made.base.parameters) @ chi  # by the exact relations
-    q, qd, qdd = states(made.model.geometry.joints, SAMPLES)
+    beta = build_grouping_matrix(made.model, made.base.parameters) @ chi  # by the exact relations
+    q, qd, qdd = states(made.model.geometry.joint_count, SAMPLES)
     still = np.zeros_like(q)
 
     def torque(qd, qdd):
@@ -99,7 +101,7 @@ def test_an_optimising_compiler_changes_roundings_only(name):
     model = module(name).model
     q, qd, qdd = states(len(model.robot.coordinates), SAMPLES)
     if model.closure is not None:
-        q = 0.02 * q + np.array(model.closure.home)[list(model.closure.given)]
+        q = 0.02 * q + np.array(model.closure.home)[list(model.closure.actuated)]
     beta = np.random.default_rng(9).normal(size=module(name).base.rank)
     for call in (
         lambda c: c.base_regressor(q, qd, qdd),
@@ -115,9 +117,9 @@ def test_an_optimising_compiler_changes_roundings_only(name):
 def test_the_manifest_survives_its_file_and_describes_the_module(name):
     made = module(name)
     spec = made.emitted.spec
-    read = module_from_json(made.emitted.files["manifest.json"], "here")
-    assert read == spec and read.signature() == spec.signature()
-    assert spec.signature() in made.emitted.files[f"{spec.prefix}.c"]
+    read = parse_manifest(made.emitted.files["manifest.json"], "here")
+    assert read == spec and read.compute_signature() == spec.compute_signature()
+    assert spec.compute_signature() in made.emitted.files[f"{spec.prefix}.c"]
     model = made.model
     columns = {p.column: i for i, p in enumerate(made.base.parameters)}
     assert set(spec.nonzeros) == {(j, columns[k]) for j, k in model.regressor if k in columns}
@@ -142,7 +144,7 @@ def test_the_text_is_the_same_each_time_and_names_no_place_of_this_machine(name)
                 assert max(len(line) for line in text.splitlines()) <= 100, file
     if name == "emps":
         model = derive_model(read_robot(name))
-        assert emit(model, base_parameters(model)).files == emitted.files
+        assert emit(model, derive_base_parameters(model)).files == emitted.files
 
 
 def test_operation_counts_are_those_that_were_measured_as_reachable():
@@ -165,15 +167,15 @@ def test_a_title_cannot_break_out_of_its_comment():
 
 
 def test_robot_names_become_c_names_and_those_that_would_clash_are_refused():
-    assert [*map(module_prefix, ("sr400-tree", "3rrr", "UR10e", "ö"))] == [
+    assert [*map(make_prefix, ("sr400-tree", "3rrr", "UR10e", "ö"))] == [
         "sr400_tree", "robot_3rrr", "ur10e", "robot",
     ]  # fmt: skip
     with pytest.raises(EmitError, match="start with modeler_ are taken"):
-        module_prefix("modeler-batch")
+        make_prefix("modeler-batch")
     with pytest.raises(EmitError, match="symbol é has letters"):
-        symbol_macros("arm", ["é"])
+        name_macros("arm", ["é"])
     with pytest.raises(EmitError, match=r"math\.h is a header of C; choose another"):
-        module_prefix("Math")
+        make_prefix("Math")
 
 
 def test_a_robot_without_base_parameters_is_refused():
@@ -185,7 +187,7 @@ def test_a_robot_without_base_parameters_is_refused():
 def test_the_header_says_which_effects_friction_holds_that_act_at_rest():
     text = read_robot("two-link").text
     springs = {"viscous": "all", "spring": [{"joint": "2", "q0": 0.5, "h": 0.0}]}
-    emitted = generate(derive(robot_from_text(with_effects(text, springs), "springs")))
+    emitted = generate(derive(parse_robot_text(replace_effects(text, springs), "springs")))
     header = " ".join(emitted.files["two_link.h"].replace("\n *", " ").split())
     apart = "offsets and the spring of joint 2, which the friction function holds."
     assert f"hold the robot still, without friction, {apart}" in header
@@ -195,4 +197,6 @@ def test_the_header_says_which_effects_friction_holds_that_act_at_rest():
 
 
 def test_letters_of_comments_are_written_in_ascii():
-    assert comment_text("Prüfstand é Größe u\u0308 – 5° 工") == "Pruefstand e Groesse ue - 5 deg ?"
+    assert (
+        format_comment("Prüfstand é Größe u\u0308 – 5° 工") == "Pruefstand e Groesse ue - 5 deg ?"
+    )

@@ -5,12 +5,12 @@ import json
 import subprocess
 
 from modeler.codegen.emit import emit
-from modeler.codegen.functions import enumerators
+from modeler.codegen.functions import name_enumerators
 from modeler.codegen.package import write_emitted
-from modeler.core.manifest import module_from_json
-from modeler.derivation.base_parameters import base_parameters
+from modeler.core.manifest import parse_manifest
+from modeler.derivation.base_parameters import derive_base_parameters
 from modeler.derivation.derive import derive_model
-from modeler.robot.read import robot_from_text
+from modeler.robot.read import parse_robot_text
 from modeler.runtime.model import load_folder
 from tests.codegen.fitted_library import Functions, fitted_of, robot_module, robot_text, with_values
 from tests.modules import STRICT, compiler
@@ -22,13 +22,13 @@ CLASHING = robot_text("clashing")
 
 
 def test_places_of_parameters_have_names_of_their_own(tmp_path):
-    model = derive_model(robot_from_text(CLASHING, "arm"))
-    base = base_parameters(model)
+    model = derive_model(parse_robot_text(CLASHING, "arm"))
+    base = derive_base_parameters(model)
     emitted = emit(model, base, fitted_of(emit(model, base).spec))
     write_emitted(emitted, tmp_path)
     spec = emitted.spec
-    beta = enumerators("arm", "beta", [each.name for each in spec.base])
-    chi = enumerators("arm", "chi", [each.name for each in spec.standard])
+    beta = name_enumerators("arm", "beta", [each.name for each in spec.base])
+    chi = name_enumerators("arm", "chi", [each.name for each in spec.standard])
     assert {"ARM_BETA_ZZ1R", "ARM_BETA_Rjc1_2"} <= {*beta} and "ARM_CHI_ZZ1" in chi
     checks = [
         f"typedef char check_{name}[{name} == {place} ? 1 : -1];"
@@ -57,8 +57,8 @@ def test_the_manifest_has_the_values_and_the_robots_signature(tmp_path):
     write_emitted(emitted, tmp_path)
     assert load_folder(tmp_path).spec == emitted.spec
     text = emitted.files["manifest.json"]
-    assert module_from_json(text, "here") == emitted.spec
-    assert emitted.spec.signature() == plain.spec.signature()
+    assert parse_manifest(text, "here") == emitted.spec
+    assert emitted.spec.compute_signature() == plain.spec.compute_signature()
     assert all(emitted.files[name] == plain.files[name] for name in plain.spec.sources)
     raw, before = json.loads(text), json.loads(plain.files["manifest.json"])
     fitted = raw.pop("fitted")
@@ -86,6 +86,6 @@ def test_the_c_has_the_signature_of_its_values_and_the_gains_of_drives():
     assert made[0].files == made[3].files
     functions = Functions(made[0])
     assert functions.text("fitted_signature") == signatures[0]
-    assert functions.text("signature") == made[0].spec.signature()
+    assert functions.text("signature") == made[0].spec.compute_signature()
     assert functions.numbers("drive_gain", 2).tolist() == [12.5, 0.75]
     assert "drive_gain" not in with_values("two-link", plain).files["two_link_fitted.h"]

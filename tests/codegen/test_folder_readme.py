@@ -2,7 +2,7 @@
 
 import pytest
 
-from modeler.codegen.package import package_version
+from modeler.codegen.package import format_package_version
 from tests.codegen.fitted_library import with_values
 from tests.modules import module
 
@@ -22,8 +22,8 @@ def test_it_says_what_every_file_is_what_functions_cost_and_what_they_need(name)
     for function in (*spec.functions, *(spec.fitted.functions if spec.fitted else ())):
         row = f"| `{function.name}` | {function.additions} | {function.multiplications} |"
         assert row in text, function.name
-    signature = spec.fitted.signature if spec.fitted else spec.signature()
-    assert signature in text and package_version(signature) in text
+    signature = spec.fitted.signature if spec.fitted else spec.compute_signature()
+    assert signature in text and format_package_version(signature) in text
     assert ("## Status" in text) == ("turn of Newton" in text) == (spec.closure is not None)
     assert ("## s\n" in text) == bool(spec.signals)
     assert all(f"of joint {signal.joint}" in text for signal in spec.signals)

@@ -11,11 +11,11 @@ import modeler.runtime.fused as tiling
 from modeler.codegen.control import Control
 from modeler.codegen.emit import emit
 from modeler.core.law import Law
-from modeler.core.manifest import Emitted
-from modeler.derivation.base_parameters import base_parameters
+from modeler.core.manifest import EmittedModule
+from modeler.derivation.base_parameters import derive_base_parameters
 from modeler.derivation.derive import derive_model
-from modeler.robot.read import robot_from_text
-from modeler.runtime.bind import tile_library
+from modeler.robot.read import parse_robot_text
+from modeler.runtime.bind import load_tile_library
 from modeler.runtime.gpu import load_gpu
 from modeler.runtime.model import CompiledModel
 from tests.codegen.fitted_library import fitted_of
@@ -40,13 +40,13 @@ ARGUMENTS = {
 
 @cache
 def made() -> Module:
-    model = derive_model(robot_from_text(text_with("demo-arm", LAWS), "demo-arm"))
-    base = base_parameters(model)
+    model = derive_model(parse_robot_text(text_with("demo-arm", LAWS), "demo-arm"))
+    base = derive_base_parameters(model)
     return Module(model, base, emit(model, base))
 
 
 @cache
-def with_control() -> Emitted:
+def with_control() -> EmittedModule:
     model, base, emitted = made()
     return emit(model, base, fitted_of(emitted.spec), control=Control())
 
@@ -114,8 +114,8 @@ def test_what_is_not_finite_gives_no_number_in_any_lane(precision):
     v = states[1][:, 1]
     v[:4] = np.nan, np.inf, -np.inf, 1e38
     out = np.empty((40 * 3, len(model.spec.base)))
-    tiles = tile_library(model.spec, model._tile_files, model._library)
-    tiles.fill(list(states), out, True)
+    tiles = load_tile_library(model.spec, model._tile_files, model._library)
+    tiles.fill_samples(list(states), out, True)
     got = column(model, "2", out.reshape(40, 3, -1))
     wanted = LAWS["2"][1](-v)
     assert np.isnan(got[:3]).all() and np.isfinite(got[3:]).all()
@@ -143,8 +143,8 @@ def test_robots_with_loops_have_laws_of_their_motors(name, monkeypatch):
     """Columns by scipy, one by one and in tiles; parts of the torque; casadi's G is the C's."""
     rng = np.random.default_rng(12)
     laws = {"11": ("sign(v)*law(q, abs(v))", drawn(rng, 2)), "12": ("law(v)", drawn(rng, 1))}
-    model = derive_model(robot_from_text(text_with(name, laws), name))
-    c = loaded(emit(model, base_parameters(model)))
+    model = derive_model(parse_robot_text(text_with(name, laws), name))
+    c = loaded(emit(model, derive_base_parameters(model)))
     home = np.array(c.spec.closure.home)[list(c.spec.closure.given)]
     q = home + np.cumsum(rng.uniform(-2e-3, 2e-3, (40, len(home))), axis=0)
     qd, qdd = rng.normal(size=(2, *q.shape))

@@ -7,7 +7,7 @@ import pytest
 
 from modeler.codegen.control import Control
 from modeler.codegen.emit import emit
-from modeler.codegen.fmu import fmu_files
+from modeler.codegen.fmu import build_fmu_files
 from tests.codegen.fitted_library import fitted_of, robot_module
 from tests.codegen.misra import violations
 from tests.repository import ROOT
@@ -51,7 +51,7 @@ def test_no_emitted_or_runtime_file_breaks_the_three_rules(name, precision, tmp_
 def test_the_wrapper_of_the_fmu_and_the_runtime_of_fits_keep_them_too(tmp_path) -> None:
     made = robot_module("two-link")
     emitted = emit(made.model, made.base, control=Control())
-    files = fmu_files(emitted, made.model, made.base, np.zeros(len(emitted.spec.base)))
+    files = build_fmu_files(emitted, made.model, made.base, np.zeros(len(emitted.spec.base)))
     written(tmp_path, {Path(name).name: text for name, text in files.items()})
     assert not violations(tmp_path, "modeler_fmu.c")
     runtime = [p for p in (ROOT / "csrc").rglob("*.[ch]") if "single" not in p.parts]

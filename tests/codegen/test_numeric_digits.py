@@ -5,7 +5,7 @@ import pytest
 
 from modeler.codegen import Control, generate
 from modeler.codegen.workflow import derive
-from modeler.robot import robot_from_text
+from modeler.robot import parse_robot_text
 from tests.codegen.fitted_library import robot_text
 from tests.loops.drawn_robots import drawn
 from tests.modules import loaded
@@ -26,7 +26,7 @@ def text_of(name: str) -> str:
     ],
 )
 def test_relations_in_numbers_keep_the_digits_of_a_double(name: str) -> None:
-    derivation = derive(robot_from_text(text_of(name), name))
+    derivation = derive(parse_robot_text(text_of(name), name))
     assert derivation.base.proof.kind == "numeric"
     c = loaded(generate(derivation, control=Control()))
     spec, rng = c.spec, np.random.default_rng(6)

@@ -7,10 +7,10 @@ from fractions import Fraction
 import numpy as np
 import pytest
 
-from modeler.codegen.block import make_block, number_text
+from modeler.codegen.block import format_number, make_block
 from modeler.codegen.targets import DOUBLE, FUNCTIONS, SINGLE, TILES
 from modeler.core.errors import EmitError
-from modeler.core.files import resource_dir
+from modeler.core.files import locate_resources
 from modeler.derivation.graph import Expr, Graph
 from tests.modules import compiler
 
@@ -28,7 +28,7 @@ def run_in_c(outputs: list[Expr], values: dict[str, float], tmp_path, target=DOU
         f"void f(const {number} *in, {number} *out);\n"
         f"void f(const {number} *in, {number} *out)\n{{\n(void)in;\n{lines}\n}}\n"
     )
-    csrc = resource_dir("csrc")
+    csrc = locate_resources("csrc")
     floats = ["-Wdouble-promotion", "-Wfloat-conversion", "-I", csrc / "single"]
     # No contraction: what is printed must be what Python computes.
     command = [compiler("gcc"), "-std=c99", "-Wall", "-Wextra", "-Werror", "-Wno-unused-variable",
@@ -88,24 +88,24 @@ def test_every_operation_keeps_its_signs_and_parentheses(target, rtol, tmp_path)
 )
 def test_a_number_is_printed_as_the_double_nearest_to_it(value):
     exact = Fraction(value)
-    text = number_text(exact).text
+    text = format_number(exact).text
     assert eval(text) == float(exact)
     assert "." in text or "e" in text, "an integer literal would divide as integers do"
 
 
 def test_numbers_of_single_precision_and_those_beyond_a_precision():
-    assert number_text(Fraction("0.1"), SINGLE).text == "0.1f"
-    assert number_text(Fraction(1, 3), SINGLE).text == "(1.0f/3.0f)"
-    assert number_text(Fraction(1, 2**24 + 1), SINGLE).text == f"{1 / (2**24 + 1)!r}f"
+    assert format_number(Fraction("0.1"), SINGLE).text == "0.1f"
+    assert format_number(Fraction(1, 3), SINGLE).text == "(1.0f/3.0f)"
+    assert format_number(Fraction(1, 2**24 + 1), SINGLE).text == f"{1 / (2**24 + 1)!r}f"
     for size, target in ((400, DOUBLE), (39, SINGLE)):
         says = f"too large for {target.precision} precision, which has .* rescale"
         with pytest.raises(EmitError, match=says):
-            number_text(Fraction(10**size), target)
+            format_number(Fraction(10**size), target)
     for number, what in ((1e60, "large"), (-4e-50, "small")):
         says = rf"too {what} for single precision.* or generate in double"
         with pytest.raises(EmitError, match=says):
-            SINGLE.literal(number)
-        assert DOUBLE.literal(number) == repr(number)
+            SINGLE.format_literal(number)
+        assert DOUBLE.format_literal(number) == repr(number)
 
 
 def test_what_has_no_form_in_c_is_refused():

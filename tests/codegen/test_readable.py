@@ -9,7 +9,7 @@ from modeler.codegen.emit import emit
 from modeler.codegen.naming import Naming
 from modeler.codegen.workflow import derive, load
 from modeler.derivation.derive import derive_model
-from modeler.robot import robot_from_text
+from modeler.robot import parse_robot_text
 from tests.codegen.fitted_library import SLOW, fitted_of
 from tests.modules import module
 from tests.rotation import rotating
@@ -20,7 +20,7 @@ def test_the_text_does_not_depend_on_what_was_asked_of_the_model_before() -> Non
     before = dict(emit(first.model, first.base).files)
     assert dict(emit(first.model, first.base, fitted_of(module("scara").emitted.spec)).files)
     first.closed_form()
-    first.model.forward_kinematics()
+    first.model.derive_forward_kinematics()
     assert dict(emit(first.model, first.base).files) == before
     second = derive(load("scara"))
     second.closed_form()
@@ -51,14 +51,14 @@ def values_at(model, refs, q, qd, qdd) -> np.ndarray:
 @pytest.mark.parametrize("robot", [*rotating("ur10e"), "scara", "slow-arm"])
 def test_labels_tell_the_truth(robot: str) -> None:
     """w, wd, vd, e and m against differences of the forward kinematics along a motion."""
-    model = derive_model(robot_from_text(SLOW, robot)) if robot == "slow-arm" else None
+    model = derive_model(parse_robot_text(SLOW, robot)) if robot == "slow-arm" else None
     model = model or derive_model(load(robot))
-    with model.labelled():
+    with model.restore_labels():
         labels = model.graph.labels.copy()
     random = np.random.default_rng()
-    n = model.geometry.coordinates
+    n = model.geometry.coordinate_count
     q, qd, qdd = random.uniform(-1, 1, (3, n))
-    poses = np.array(model.forward_kinematics(), dtype=object)
+    poses = np.array(model.derive_forward_kinematics(), dtype=object)
     names = [row.joint.name for row in model.geometry.rows if row.index is not None]
 
     def pose(at, way) -> np.ndarray:
@@ -83,7 +83,7 @@ def test_labels_tell_the_truth(robot: str) -> None:
             continue
         link, now = label.link, along(label.link, 0)
         if label.quantity in ("e", "m"):
-            j = [joint.name for joint in model.robot.free].index(label.of)
+            j = [joint.name for joint in model.robot.free_joints].index(label.of)
             unit = np.eye(n)[j]
             path = lambda link, t, unit=unit: pose(q + t * unit, link)  # noqa: E731
             moved = (path(link, h) - path(link, -h))[:, 3] / (2 * h)
@@ -106,10 +106,10 @@ def test_names_are_c_names_and_differ_where_letters_fall_together() -> None:
     label = naming.Label("w", "leg a", "x", "", "", True)
     graph = module("wrist").model.graph
     graph.links["leg a"] = next(iter(graph.links.values()))
-    with module("wrist").model.labelled():
+    with module("wrist").model.restore_labels():
         graph.labels |= {2: label, 3: label, 4: label._replace(link="3", component="")}
         made = Naming(graph, {"t1": 2, "t2": 3, "t3": 4}, ["W3 = 1;"])
-    lines = made.written([f"const double t{k} = {k}.0;" for k in (1, 2, 3)], "/* {} */")
+    lines = made.write_names([f"const double t{k} = {k}.0;" for k in (1, 2, 3)], "/* {} */")
     names = [line.split()[-3] for line in lines]
     assert names == ["minus_w_lega_x", "minus_w_lega_x_2", "minus_w3"]
     del graph.links["leg a"]

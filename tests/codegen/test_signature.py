@@ -16,14 +16,14 @@ import sympy
 
 from modeler.codegen.emit import emit
 from modeler.core.errors import LoopError
-from modeler.core.expression import parse
-from modeler.core.manifest import Emitted, code_digest
-from modeler.core.rounded import FUNCTIONS, power
-from modeler.derivation.base_parameters import base_parameters
-from modeler.derivation.closure import LoopEquations, polished
+from modeler.core.expression import parse_expression
+from modeler.core.manifest import EmittedModule, digest_code
+from modeler.core.rounded import FUNCTIONS, compute_power
+from modeler.derivation.base_parameters import derive_base_parameters
+from modeler.derivation.closure import LoopEquations, polish_home
 from modeler.derivation.derive import derive_model
 from modeler.derivation.graph import Graph
-from modeler.robot.read import read_robot, robot_from_text
+from modeler.robot.read import parse_robot_text, read_robot
 from tests.codegen.fitted_library import robot_text
 from tests.modules import module
 from tests.repository import ROOT
@@ -42,14 +42,14 @@ TRIGONOMETRY = robot_text("bent")
 
 
 @cache
-def emitted(text: str) -> Emitted:
-    model = derive_model(robot_from_text(text, "arm"))
-    return emit(model, base_parameters(model))
+def emitted(text: str) -> EmittedModule:
+    model = derive_model(parse_robot_text(text, "arm"))
+    return emit(model, derive_base_parameters(model))
 
 
-def sources(made: Emitted) -> dict[str, str]:
+def sources(made: EmittedModule) -> dict[str, str]:
     """The C files, without the signature."""
-    signature = made.spec.signature()
+    signature = made.spec.compute_signature()
     texts = {name: made.files[name] for name in (*made.spec.sources, *made.spec.tile_sources)}
     for old, new in (
         (f'"{signature}"', '""'), *((f"0x{signature[i : i + 8]}u", "0xu") for i in (0, 8)),
@@ -65,7 +65,7 @@ def test_a_number_of_the_table_is_in_the_signature(old, new):
     """The manifests were the same: only the C has the number."""
     one, other = emitted(ARM), emitted(ARM.replace(old, new))
     assert sources(one) != sources(other)
-    assert one.spec.signature() != other.spec.signature()
+    assert one.spec.compute_signature() != other.spec.compute_signature()
 
 
 @pytest.mark.parametrize(
@@ -74,12 +74,14 @@ def test_a_number_of_the_table_is_in_the_signature(old, new):
 def test_the_signature_covers_every_letter_of_the_c(name):
     made = module(name).emitted
     texts = sources(made)
-    assert made.spec.code == code_digest(texts)
-    assert sum(made.spec.signature() in made.files[n] for n in made.spec.sources) == 2  # and header
+    assert made.spec.code == digest_code(texts)
+    assert (
+        sum(made.spec.compute_signature() in made.files[n] for n in made.spec.sources) == 2
+    )  # and header
     for file, text in texts.items():
-        changed = code_digest({**texts, file: text.replace("0", "1", 1) + " "})
+        changed = digest_code({**texts, file: text.replace("0", "1", 1) + " "})
         other = dataclasses.replace(made.spec, code=changed)
-        assert other.signature() != made.spec.signature()
+        assert other.compute_signature() != made.spec.compute_signature()
 
 
 def other_machine(core: str, seed: str) -> dict[str, str]:
@@ -114,8 +116,8 @@ def test_signatures_are_the_same_on_every_machine(core, seed, names, tmp_path):
         [sys.executable, Path(__file__).with_name("signatures.py"), *names, bent],
         env=environment, capture_output=True, text=True, check=True,
     )  # fmt: skip
-    expected = {name: module(name).emitted.spec.signature() for name in names}
-    expected[str(bent)] = emitted(TRIGONOMETRY).spec.signature()
+    expected = {name: module(name).emitted.spec.compute_signature() for name in names}
+    expected[str(bent)] = emitted(TRIGONOMETRY).spec.compute_signature()
     assert json.loads(ran.stdout) == expected
 
 
@@ -148,7 +150,7 @@ def test_a_home_without_certain_digits_is_refused(start):
     q = graph.symbol("q[0]")
     loops = LoopEquations(graph, {}, [q * q], [[q * 2]], (), (0,), (False,), 1.0)
     with pytest.raises(LoopError, match=r"two-link: \[home\]: .* all but singular there; state"):
-        polished(loops, np.array([start]), [0], read_robot("two-link"))
+        polish_home(loops, np.array([start]), [0], read_robot("two-link"))
 
 
 @pytest.mark.parametrize("name", CLOSED)
@@ -178,7 +180,7 @@ def test_functions_give_the_nearest_double(name):
     for x in rng.uniform(-3.0, 3.0, 300):
         wide = np.longdouble(x)
         if name == "power":
-            got, exact = power(abs(x), 2.7), np.abs(wide) ** np.longdouble(2.7)
+            got, exact = compute_power(abs(x), 2.7), np.abs(wide) ** np.longdouble(2.7)
         else:
             got, exact = FUNCTIONS[name](x), getattr(np, name)(wide)
         assert abs(got - exact) <= 0.501 * np.spacing(abs(got))
@@ -190,8 +192,8 @@ def test_functions_refuse_what_has_no_value():
         ("sqrt(-1)", ValueError), ("(-8)**0.5", TypeError),
     ):  # fmt: skip
         with pytest.raises(error):
-            parse(text).number()
-    assert parse("2**10 + (-2)**3 + 0**0").number() == 1017.0
-    assert parse("sign(-3)*abs(-2) + cos(0) + sin(1e22)").number() == pytest.approx(
+            parse_expression(text).evaluate()
+    assert parse_expression("2**10 + (-2)**3 + 0**0").evaluate() == 1017.0
+    assert parse_expression("sign(-3)*abs(-2) + cos(0) + sin(1e22)").evaluate() == pytest.approx(
         -1 + math.sin(1e22)
     )

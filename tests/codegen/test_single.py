@@ -12,7 +12,7 @@ from modeler.cli import main
 from modeler.codegen.emit import emit
 from modeler.codegen.package import write_emitted
 from modeler.core.errors import ManifestError
-from modeler.core.manifest import Emitted, module_from_json
+from modeler.core.manifest import EmittedModule, parse_manifest
 from modeler.runtime.model import CompiledModel, load_folder
 from tests.codegen.fitted_library import fitted_of, robot_module
 from tests.csrc.emitted_folders import built, run
@@ -23,7 +23,7 @@ FLOATS = ["-Wdouble-promotion", "-Wfloat-conversion"]
 
 
 @cache
-def emitted(name: str) -> Emitted:
+def emitted(name: str) -> EmittedModule:
     made = robot_module(name)
     return emit(made.model, made.base, fitted_of(made.emitted.spec), precision="single")
 
@@ -124,7 +124,7 @@ def walked(model: CompiledModel, home: np.ndarray, way: np.ndarray, steps: int =
     u = np.tile(model.spec.closure.home, (len(way), 1))
     for k in range(1, steps + 1):
         status, out = np.zeros(len(way), dtype=np.intc), np.empty_like(u)
-        library.batch(function, [home + way * k / steps, u], out, status)
+        library.run_batch(function, [home + way * k / steps, u], out, status)
         assert not status.any(), f"closed in single precision, but a way ends at {k / steps}"
         u = out
     return u
@@ -159,4 +159,4 @@ def test_the_command_writes_it_and_the_manifest_says_so(capsys, tmp_path):
     assert '"precision"' not in module("two-link").emitted.spec.to_json()
     wrong = dataclasses.replace(model.spec, precision="half").to_json()
     with pytest.raises(ManifestError, match="precision is 'half', expected double or single"):
-        module_from_json(wrong, "m")
+        parse_manifest(wrong, "m")

@@ -7,7 +7,7 @@ import pytest
 
 from modeler.codegen.control import Control
 from modeler.codegen.emit import emit
-from modeler.codegen.structured_text import identifier
+from modeler.codegen.structured_text import make_identifier
 from modeler.core.errors import EmitError
 from tests.codegen.fitted_library import Functions, fitted_of, motion, robot_module
 from tests.codegen.structured_text import Program, TextError
@@ -27,7 +27,7 @@ def made_of(name: str, fitted: bool):
 
 def distance(program: Program, functions: Functions, role: str, state, **widths: float) -> float:
     """How far what the function block of that role writes is from the C, over its size."""
-    expected, block = functions(role, state), identifier(f"{functions.spec.prefix}_{role}")
+    expected, block = functions(role, state), make_identifier(f"{functions.spec.prefix}_{role}")
     expected = expected.reshape(len(expected), -1)
     written = np.full_like(expected, np.nan)
     for i, row in enumerate(written):
@@ -59,7 +59,7 @@ def test_values_and_widths_are_those_of_the_fitted_c(name: str) -> None:
     for width in (0.0, 0.3):
         functions = Functions(emitted, **({"COULOMB_WIDTH": width} if width else {}))
         for role in (f"fitted_{role}" for role in ROLES):
-            unit = program.units[identifier(f"{emitted.spec.prefix}_{role}")]
+            unit = program.units[make_identifier(f"{emitted.spec.prefix}_{role}")]
             widths = {n: width for n, kind in unit.kinds.items() if kind == "var_input"}
             assert bool(widths) == (role in ("fitted_friction", "fitted_inverse_dynamics"))
             assert distance(program, functions, role, given, **widths) <= 1e-12, role
@@ -106,4 +106,4 @@ def test_loops_and_single_precision_have_none() -> None:
 
 
 def test_names_are_of_the_standard() -> None:
-    assert identifier("a__b_") == "a_b" and identifier("geo_L1") == "geo_L1"
+    assert make_identifier("a__b_") == "a_b" and make_identifier("geo_L1") == "geo_L1"

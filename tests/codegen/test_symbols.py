@@ -10,13 +10,13 @@ import pytest
 
 from modeler.codegen.emit import emit
 from modeler.codegen.package import write_emitted
-from modeler.codegen.symbols import deciding_symbols
-from modeler.core.builtin import builtin_text
-from modeler.core.manifest import Emitted
-from modeler.derivation.base_parameters import base_parameters
+from modeler.codegen.symbols import find_deciding_symbols
+from modeler.core.builtin import read_builtin_robot
+from modeler.core.manifest import EmittedModule
+from modeler.derivation.base_parameters import derive_base_parameters
 from modeler.derivation.derive import derive_model
 from modeler.derivation.model import SymbolicModel
-from modeler.robot.read import robot_from_text
+from modeler.robot.read import parse_robot_text
 from tests.modules import STRICT, compiler, loaded, module, states
 
 PLANAR = """
@@ -39,11 +39,11 @@ rows = [
 
 def arm(symbols, name="arm", gravity='[0, "-g", 0]', alpha="0", d="L", r="0") -> SymbolicModel:
     text = PLANAR.format(name=name, gravity=gravity, symbols=symbols, alpha=alpha, d=d, r=r)
-    return derive_model(robot_from_text(text, name))
+    return derive_model(parse_robot_text(text, name))
 
 
-def emitted_of(model: SymbolicModel) -> Emitted:
-    return emit(model, base_parameters(model))
+def emitted_of(model: SymbolicModel) -> EmittedModule:
+    return emit(model, derive_base_parameters(model))
 
 
 def compile_with(emitted, macro, folder) -> subprocess.CompletedProcess:
@@ -55,7 +55,7 @@ def compile_with(emitted, macro, folder) -> subprocess.CompletedProcess:
     return subprocess.run(command, input=text, capture_output=True, text=True, check=False)
 
 
-def with_macro(emitted, macro, value) -> Emitted:
+def with_macro(emitted, macro, value) -> EmittedModule:
     """The module, as if compiled with -Dmacro=value."""
     files = {
         name: f"#define {macro} {value}\n{text}" if name.endswith(".c") else text
@@ -67,8 +67,8 @@ def with_macro(emitted, macro, value) -> Emitted:
 def test_a_length_can_be_replaced():
     """-DWRIST_GEO_bl1=... gives the model of a robot file with that length."""
     emitted = module("wrist").emitted
-    text = re.sub(r"(?m)^bl1\s*=\s*[0-9.]+", "bl1 = 0.37", builtin_text("wrist"))
-    other = emitted_of(derive_model(robot_from_text(text, "wrist with a longer link")))
+    text = re.sub(r"(?m)^bl1\s*=\s*[0-9.]+", "bl1 = 0.37", read_builtin_robot("wrist"))
+    other = emitted_of(derive_model(parse_robot_text(text, "wrist with a longer link")))
     q, qd, qdd = states(3, 5)
     changed = loaded(with_macro(emitted, "WRIST_GEO_bl1", 0.37))
     derived, given = (loaded(m) for m in (other, emitted))
@@ -117,7 +117,7 @@ def test_what_is_no_number_does_not_compile(cc, define, tmp_path):
     "symbols", ["L = 0.5\nL1 = 0.2", 'L1 = 0.2\nL = "2*L1 + 0.1"', 'a = 0.5\nL = "sqrt(1 + a**2)"']
 )
 def test_symbols_in_plain_cells_are_free(symbols):
-    assert deciding_symbols(arm(symbols).geometry) == set()
+    assert find_deciding_symbols(arm(symbols).geometry) == set()
 
 
 @pytest.mark.parametrize(
@@ -140,7 +140,7 @@ def test_symbols_in_plain_cells_are_free(symbols):
 )
 def test_symbols_on_which_the_structure_rests_must_stay(symbols, cells, stay, tmp_path):
     model = arm(symbols, **cells)
-    assert deciding_symbols(model.geometry) == stay
+    assert find_deciding_symbols(model.geometry) == stay
     emitted = emitted_of(model)
     for name in model.robot.symbols:
         done = compile_with(emitted, f"ARM_GEO_{name}", tmp_path)
@@ -164,7 +164,7 @@ def test_relations_that_rest_on_given_values_let_no_symbol_be_replaced(tmp_path)
     """d = L1 + L2 - L3 is 0 at the given values only, and then fewer parameters act."""
     lengths = "L1 = 0.3\nL2 = 0.2\nL3 = 0.5"
     model = arm(lengths, "zero", gravity='[0, 0, "-g"]', d="L1 + L2 - L3")
-    base = base_parameters(model)
+    base = derive_base_parameters(model)
     assert base.proof.kind == "exact at the given values"
     emitted = emit(model, base)
     for name in ("L1", "L2", "L3", "g"):

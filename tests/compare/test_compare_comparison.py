@@ -10,9 +10,9 @@ from scipy.signal import lfilter
 
 from modeler.core.errors import DataError
 from modeler.validation.comparison import REGIONS, WINDOW, compare
-from modeler.validation.models import Contest, contest
+from modeler.validation.models import ModelComparison, compare_models
 from modeler.validation.prediction import JointInfo, Prediction
-from modeler.validation.verdict import headline, joint_verdict, verdict
+from modeler.validation.verdict import write_headline, write_joint_verdict, write_verdict
 
 
 def by_hand() -> Prediction:
@@ -95,10 +95,10 @@ def test_joints_that_cannot_be_judged_are_named() -> None:
     found = compare(dataclasses.replace(p, used=used, measured=measured))
     assert [item.joint.name for item in found.joints] == ["2"]
     assert dict(found.unjudged)["1"] == "no sample counts (all masked)"
-    assert headline(compare(dataclasses.replace(p, used=used))).endswith("(joint 2).")
-    assert "Joint 1 is not judged: no sample counts (all masked)." in verdict(found)
+    assert write_headline(compare(dataclasses.replace(p, used=used))).endswith("(joint 2).")
+    assert "Joint 1 is not judged: no sample counts (all masked)." in write_verdict(found)
     nothing = compare(dataclasses.replace(p, measured=np.zeros_like(measured)))
-    assert headline(nothing) == "three: no joint could be judged."
+    assert write_headline(nothing) == "three: no joint could be judged."
     assert "measured torque is zero" in found.summary()
 
 
@@ -117,7 +117,7 @@ def test_a_burst_is_found_where_it_is() -> None:
     found = compare(prediction(lambda q, qd, qdd, tau, t: 20.0 * (np.abs(t - 41.0) < 0.1)))
     worst = found.joints[1].worst
     assert worst.log == "two.parquet"
-    assert "of the squared residual in 0.833 % of the time" in joint_verdict(found.joints[1])
+    assert "of the squared residual in 0.833 % of the time" in write_joint_verdict(found.joints[1])
     assert worst.start <= 40.91 and worst.end >= 41.09
     assert worst.end - worst.start <= WINDOW
     burst = 19 * 400.0
@@ -161,8 +161,8 @@ def model(seed: int, size: float) -> Prediction:
     return dataclasses.replace(truth(), predicted=truth().predicted + coloured(seed, size))
 
 
-def judged(*models: Prediction) -> Contest:
-    return contest([f"{k}.json" for k in range(len(models))], models)
+def judged(*models: Prediction) -> ModelComparison:
+    return compare_models([f"{k}.json" for k in range(len(models))], models)
 
 
 @pytest.mark.parametrize(("models", "seeds", "most"), [(2, range(50), 3), (3, range(334, 354), 1)])
@@ -179,7 +179,7 @@ def test_equally_good_models_are_hardly_ever_told_apart(models, seeds, most) -> 
 def test_a_better_model_is_found_on_every_joint() -> None:
     found = judged(model(1, 1.0), model(2, 0.7), model(3, 1.2))
     assert [item.best for item in found.joints] == [1, 1, 1]
-    assert found.wins(1) == ["1", "2", "3"] and found.wins(0) == []
+    assert found.find_best_joints(1) == ["1", "2", "3"] and found.find_best_joints(0) == []
     for j, item in enumerate(found.joints):
         left = [p.measured[:, j] - p.predicted[:, j] for p in found.predictions]
         for k, e in enumerate(left):

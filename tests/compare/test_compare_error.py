@@ -54,8 +54,8 @@ def test_the_log_of_a_fit_is_known_by_its_path(folder, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path / "in")
     run(["fit", "two-link", "../1.parquet", "--out", "m.json"])
     (log,) = open_model("m.json").logs
-    assert log.place(".") == "../1.parquet"
+    assert log.find_place(".") == "../1.parquet"
     monkeypatch.chdir(tmp_path)
-    assert log.place("in") == "in/../1.parquet"
+    assert log.find_place("in") == "in/../1.parquet"
     (tmp_path / "1.parquet").unlink()
-    assert log.place("in") == ""
+    assert log.find_place("in") == ""

@@ -7,11 +7,11 @@ import pytest
 
 from modeler.api import compile_model, derive, fit, generate, load, observe
 from modeler.observation.log import Log
-from modeler.observation.motion import travel_since_reversal
+from modeler.observation.motion import compute_travel_since_reversal
 from modeler.observation.settings import Processing
 from modeler.validation.comparison import Comparison, compare
 from modeler.validation.predict import predict
-from modeler.validation.verdict import joint_verdict, kind_of_residual
+from modeler.validation.verdict import classify_residual, write_joint_verdict
 
 RATE, CUTOFF, NOISE = 400.0, 8.0, 0.8  # Hz, Hz, N m
 
@@ -135,11 +135,11 @@ def test_temperature_and_travel_come_from_the_log(machine: Machine) -> None:
     assert p.temperature is not None and p.travel is not None
     np.testing.assert_allclose(p.temperature[:, 1], 25.0 + 0.25 * p.time, atol=1e-6)
     assert np.isnan(p.temperature[:, 0]).all()
-    exact = np.interp(p.time, motion[0], travel_since_reversal(motion[1][:, 1]))
+    exact = np.interp(p.time, motion[0], compute_travel_since_reversal(motion[1][:, 1]))
     assert np.quantile(np.abs(p.travel[:, 1] - exact), 0.95) < 0.01
     shares = [item.structure for item in found.joints]
-    assert shares[0] is not None and np.isnan(shares[0].share("temperature"))
-    assert shares[1] is not None and shares[1].share("temperature") > 0.6
+    assert shares[0] is not None and np.isnan(shares[0].get_share("temperature"))
+    assert shares[1] is not None and shares[1].get_share("temperature") > 0.6
 
 
 def test_the_full_rate_is_that_of_the_rows(machine: Machine) -> None:
@@ -179,11 +179,11 @@ def test_what_follows_another_joint_is_no_noise(
     added[:, 0] = 0.3 * torque(motion[1][:, 1], motion[2][:, 1])
     compared = machine.compared(machine.log("x.csv", motion, 3, added=added))
     first, second = compared.joints
-    text = joint_verdict(first)
+    text = write_joint_verdict(first)
     assert words in text and "noise" not in text
-    assert kind_of_residual(first) == "pattern"
+    assert classify_residual(first) == "pattern"
     known = float(np.var(added[:, 0]))
     share = known / (known + filtered_noise())
     assert first.structure is not None
     assert first.structure.follows.share == pytest.approx(share, abs=0.25)
-    assert "the residual looks like noise" in joint_verdict(second)
+    assert "the residual looks like noise" in write_joint_verdict(second)

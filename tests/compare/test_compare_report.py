@@ -21,13 +21,19 @@ from modeler.cli.places import PictureFolder
 from modeler.core.figure import Band, Bars, Heat, Panel, Picture
 from modeler.core.thinning import LIMIT, thin_curves, thin_points
 from modeler.observation.observation import MASKS
-from modeler.report.comparison import all_pictures, comparison_page
-from modeler.report.figure_page import Numbers, drawn, keys, picture_csv, write_files
-from modeler.report.page import page_text, write_page
+from modeler.report.comparison import build_comparison_page, draw_all_pictures
+from modeler.report.figure_page import (
+    ArrayStore,
+    collect_legend,
+    describe_picture,
+    format_csv,
+    write_files,
+)
+from modeler.report.page import render_page, write_page
 from modeler.validation.comparison import Comparison, compare
-from modeler.validation.pictures import binned_means, overlay_picture
+from modeler.validation.pictures import compute_binned_means, draw_overlay_picture
 from modeler.validation.prediction import Prediction
-from modeler.validation.time_picture import masked_spans, time_picture
+from modeler.validation.time_picture import draw_time_picture, find_masked_spans
 from tests.captions import assert_named, colours_drawn, colours_said
 from tests.when_used import WhenUsed
 
@@ -46,7 +52,7 @@ def small() -> Comparison:
 
 @pytest.fixture(scope="module")
 def page(comparison: Comparison) -> str:
-    return page_text(comparison_page(comparison, ["Filter: 20 Hz <both sides>."]))
+    return render_page(build_comparison_page(comparison, ["Filter: 20 Hz <both sides>."]))
 
 
 def outside_scripts(page: str) -> str:
@@ -115,7 +121,7 @@ def test_page_is_one_file_that_loads_nothing_and_says_the_verdict_first(page: st
 
 def test_page_has_every_picture_and_its_numbers(page: str, comparison: Comparison) -> None:
     """All that is drawn is in the page, each array once; maps of cells are tables."""
-    pictures, arrays = all_pictures(comparison), unpacked(page)
+    pictures, arrays = draw_all_pictures(comparison), unpacked(page)
     assert len(pictures) == 1 + 2 * 3 == len(figures(page)) == page.count("<a download=")
     for picture, figure in zip(pictures, figures(page), strict=True):
         panels = [panel for row in picture.panels for panel in row]
@@ -138,15 +144,15 @@ def test_page_has_every_picture_and_its_numbers(page: str, comparison: Compariso
 
 
 def test_numbers_of_any_size_come_through() -> None:
-    numbers = Numbers()
+    numbers = ArrayStore()
     clock = 1.7e9 + 0.002 * np.arange(7)  # that single precision would stop
     odd = np.array([np.nan, np.inf, 0.0, -1e-3, 1e30])
     decades = np.geomspace(1e-12, 1e3, 9)
     still = np.full(4, 2.5)
-    places = [numbers.exact(clock), numbers.coarse(odd), numbers.exact(decades),
-              numbers.coarse(still), numbers.coarse(np.array([])),
-              numbers.exact(clock.copy())]  # fmt: skip
-    block = json.dumps(numbers.block())
+    places = [numbers.add_exact(clock), numbers.add_coarse(odd), numbers.add_exact(decades),
+              numbers.add_coarse(still), numbers.add_coarse(np.array([])),
+              numbers.add_exact(clock.copy())]  # fmt: skip
+    block = json.dumps(numbers.encode_block())
     arrays = unpacked(f'<script type="application/json" id="numbers">{block}</script>')
     assert places == [0, 1, 2, 3, 4, 0] and arrays[4].size == 0
     np.testing.assert_array_equal(arrays[0], clock)
@@ -157,7 +163,7 @@ def test_numbers_of_any_size_come_through() -> None:
 
 def test_stacked_bars_fill_the_whole(comparison: Comparison, page: str) -> None:
     """Both stacks of every joint end at 100 %, in the picture and on the page."""
-    torque, left = all_pictures(comparison)[0].panels[1]
+    torque, left = draw_all_pictures(comparison)[0].panels[1]
     for panel in (torque, left):
         for k in range(3):
             assert sum(bars.values[k] for bars in panel.series) == pytest.approx(100.0)
@@ -173,7 +179,7 @@ def test_stacked_bars_fill_the_whole(comparison: Comparison, page: str) -> None:
 def test_page_without_a_judged_joint() -> None:
     p = prediction()
     empty = compare(dataclasses.replace(p, measured=np.zeros_like(p.measured)))
-    page = page_text(comparison_page(empty))
+    page = render_page(build_comparison_page(empty))
     assert "no joint could be judged" in page and "not judged" in page
     assert still_open(page) == []
 
@@ -183,15 +189,15 @@ def test_a_page_may_go_into_a_pipe(small: Comparison, tmp_path: Path) -> None:
     read: list[str] = []
     reader = threading.Thread(target=lambda: read.append((tmp_path / "pipe").read_text("utf-8")))
     reader.start()
-    assert write_page(tmp_path / "pipe", comparison_page(small)) == tmp_path / "pipe"
+    assert write_page(tmp_path / "pipe", build_comparison_page(small)) == tmp_path / "pipe"
     reader.join(20)
-    assert read == [page_text(comparison_page(small))] and (tmp_path / "pipe").is_fifo()
+    assert read == [render_page(build_comparison_page(small))] and (tmp_path / "pipe").is_fifo()
 
 
 @pytest.mark.slow
 def test_pictures_as_files(small: Comparison, tmp_path: Path) -> None:
     done: list[float] = []
-    written = write_files(tmp_path, all_pictures(small), done.append)
+    written = write_files(tmp_path, draw_all_pictures(small), done.append)
     assert done == pytest.approx([1 / 3, 2 / 3, 1.0])
     assert {path.suffix for path in written} == {".png", ".svg", ".csv"}
     for path in written:  # the command line keeps these names free of its other files
@@ -211,8 +217,8 @@ def test_svg_is_the_same_twice() -> None:
         "t", "x [s]", "y [m]", (Heat("h", ("a",), ("b",), np.ones((1, 1)), (("1",),), 2),)
     )
     picture = Picture("p", "p", "c", ((panel,),), 200)
-    assert figure_matplotlib.images(picture) == figure_matplotlib.images(picture)
-    assert picture_csv(picture).splitlines()[1:] == ["t,h,a / b,1,"]
+    assert figure_matplotlib.render_images(picture) == figure_matplotlib.render_images(picture)
+    assert format_csv(picture).splitlines()[1:] == ["t,h,a / b,1,"]
 
 
 def test_thinning_keeps_the_extremes_and_the_ends() -> None:
@@ -248,7 +254,7 @@ def test_binned_means_cover_the_truth() -> None:
     for _ in range(20):
         x = np.sin(np.arange(6000) * 0.02 + rng.uniform(0, 6))
         slow = np.repeat(rng.normal(size=600), 10)  # alike for ten samples
-        centre, mean, error = binned_means(x, slow)
+        centre, mean, error = compute_binned_means(x, slow)
         inside += int(np.sum(np.abs(mean) <= error))
         bins += centre.size
     assert 0.9 < inside / bins < 0.985
@@ -283,20 +289,20 @@ def test_every_picture_names_colours_that_are_there(compared: Comparison) -> Non
     heated = first_joint(prediction(rows=900))
     heat = 20.0 + heated.time[:, None]
     for whole in (compared, plain, compare(dataclasses.replace(heated, temperature=heat))):
-        for picture in all_pictures(whole):
+        for picture in draw_all_pictures(whole):
             assert_named(picture)
 
 
 def test_several_models_are_named_by_their_colours(made: Prediction) -> None:
     others = [dataclasses.replace(made, predicted=made.predicted + k) for k in range(3)]
-    picture = overlay_picture(["a", "b", "c"], others, 0)
+    picture = draw_overlay_picture(["a", "b", "c"], others, 0)
     assert colours_said(picture) == colours_drawn(picture)
     assert all(name in picture.caption for name in ("a", "b", "c"))
 
 
 def test_what_is_shaded_is_what_does_not_count(made: Prediction) -> None:
     rows = np.arange(made.time.size)
-    spans = {span.label: span.ends for span in masked_spans(made, 0, made.time, rows)}
+    spans = {span.label: span.ends for span in find_masked_spans(made, 0, made.time, rows)}
     assert set(spans) == {*MASKS, "no rows", "left out"}
     shaded = np.zeros(made.time.size, dtype=bool)
     for label, ends in spans.items():
@@ -309,33 +315,35 @@ def test_what_is_shaded_is_what_does_not_count(made: Prediction) -> None:
         assert end - made.time[400 * k + 159] == pytest.approx(0.005)
     gap = spans["no rows"]
     assert gap.shape == (1, 2) and np.ptp(gap) == pytest.approx(0.7)
-    assert masked_spans(made, 1, made.time, rows)[0].label == "no rows"  # all rows of joint 2 count
+    assert (
+        find_masked_spans(made, 1, made.time, rows)[0].label == "no rows"
+    )  # all rows of joint 2 count
 
 
 def test_both_drawers_draw_what_is_shaded_and_the_band(
     made: Prediction, compared: Comparison
 ) -> None:
-    picture = time_picture(made, compared.joints[0])
+    picture = draw_time_picture(made, compared.joints[0])
     whole, worst = picture.panels[0]
     band = next(s for s in worst.series if isinstance(s, Band))
     assert not any(isinstance(s, Band) for s in whole.series)
-    labels = {label: (color, mark) for label, color, mark in keys(picture)}
+    labels = {label: (color, mark) for label, color, mark in collect_legend(picture)}
     for span in whole.spans:
         assert labels[span.label] == (span.color, "span")
-    plain = drawn(picture, Numbers())
+    plain = describe_picture(picture, ArrayStore())
     assert {color for color, _ in plain["rows"][0][0]["spans"]} == {s.color for s in whole.spans}
     assert any(series["kind"] == "band" for series in plain["rows"][0][1]["series"])
-    svg = figure_matplotlib.images(picture)["svg"].decode()
+    svg = figure_matplotlib.render_images(picture)["svg"].decode()
     for span in whole.spans:
         assert span.color.lower() in svg.lower() and span.label in svg
-    assert band.label in svg and f"{band.label}," in picture_csv(picture)
+    assert band.label in svg and f"{band.label}," in format_csv(picture)
 
 
 def test_the_band_is_two_deviations_of_the_prediction(
     made: Prediction, compared: Comparison
 ) -> None:
     item = compared.joints[0]
-    worst = time_picture(made, item).panels[0][1]
+    worst = draw_time_picture(made, item).panels[0][1]
     band = next(s for s in worst.series if isinstance(s, Band))
     at = np.searchsorted(made.time, band.x)
     np.testing.assert_allclose(band.high - band.low, 4.0 * made.sigma[at, 0], rtol=1e-9)

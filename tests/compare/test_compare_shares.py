@@ -6,11 +6,11 @@ import numpy as np
 import pytest
 from known_defects import Defect, judged_alone, prediction
 
-from modeler.numerics.spectra import lap
-from modeler.validation.comparison import compare, scale
+from modeler.numerics.spectra import estimate_lap_period
+from modeler.validation.comparison import compare, estimate_scale
 from modeler.validation.prediction import JointInfo, Prediction
-from modeler.validation.repeatability import repetitions
-from modeler.validation.verdict import joint_verdict
+from modeler.validation.repeatability import find_repetitions
+from modeler.validation.verdict import write_joint_verdict
 from tests.rotation import rotating
 
 STEP, NOISE, KNOWN = 0.01, 0.5, 0.9  # s; N m, standard deviation of the noise; amplitude
@@ -85,7 +85,7 @@ def test_laps_in_one_log(laps: int, period: float, start: float, known: float, s
     """
     time = np.arange(0.0, laps * period, STEP)
     p = measured([(time + start, motion(time, period))], known, seed)
-    (found,) = repetitions(p)
+    (found,) = find_repetitions(p)
     assert found.kind == "laps"
     assert found.periods[0] == pytest.approx(period, abs=2e-3 if laps == 5 else 2e-4)
     check(p, "laps", known, 0.03)
@@ -98,7 +98,7 @@ def test_several_logs_of_one_motion(known: float) -> None:
     q = wandering(time)
     parts = [(time, q), (time[90:], q[90:]), (time + 100.37, q)]
     p = measured(parts, known, 3)
-    (found,) = repetitions(p)
+    (found,) = find_repetitions(p)
     assert found.kind == "logs"
     shifts = {(each.run, each.other): each.shift for each in found.partners}
     assert shifts[0, 1] == pytest.approx(0.0, abs=1e-3)
@@ -109,7 +109,7 @@ def test_several_logs_of_one_motion(known: float) -> None:
 def test_logs_of_other_motion_do_not_repeat() -> None:
     time = np.arange(0.0, 24.0, STEP)
     p = measured([(time, wandering(time)), (time, wandering(time + 9.0))], 0.0, 4)
-    assert repetitions(p) == ()
+    assert find_repetitions(p) == ()
     check(p, "smooth", 0.0, 0.01)
 
 
@@ -133,14 +133,14 @@ def test_what_returns_is_told_and_noise_is_not() -> None:
     time = np.arange(0.0, 5 * PERIOD, STEP)
     telling = compare(measured([(time, motion(time, PERIOD))], KNOWN, 1)).joints[0]
     # 0.5 * 0.9^2 over that and 0.5^2: 62 %
-    text = joint_verdict(telling)
+    text = write_joint_verdict(telling)
     assert "% of it returns in every lap" in text
     share = float(text.split(" % of it returns")[0].rsplit(" ", 1)[1])
     assert share == pytest.approx(62.0, abs=5.0)
     for seed in range(2):
         short = time[: time.size // 2]
         quiet = measured([(short, motion(short, PERIOD))], 0.0, seed)
-        assert all("returns" not in joint_verdict(item) for item in compare(quiet).joints)
+        assert all("returns" not in write_joint_verdict(item) for item in compare(quiet).joints)
 
 
 def test_standard_error_of_the_repeatable_share() -> None:
@@ -174,15 +174,15 @@ def test_a_held_joint_may_wobble() -> None:
     time = np.arange(0.0, 5 * PERIOD, STEP)
     q = motion(time, PERIOD)
     q[:, 1] = 1e-4 * np.random.default_rng(0).normal(size=time.size)
-    (found,) = repetitions(measured([(time, q)], 0.0, 1))
+    (found,) = find_repetitions(measured([(time, q)], 0.0, 1))
     assert found.periods[0] == pytest.approx(PERIOD, abs=0.002)
 
 
 def test_no_lap_in_a_motion_that_wanders() -> None:
     time = np.arange(0.0, 40.0, STEP)
-    assert lap(time, wandering(time)) == 0.0
-    assert lap(time, np.zeros((time.size, 2))) == 0.0
-    assert lap(time[:5], wandering(time[:5])) == 0.0
+    assert estimate_lap_period(time, wandering(time)) == 0.0
+    assert estimate_lap_period(time, np.zeros((time.size, 2))) == 0.0
+    assert estimate_lap_period(time[:5], wandering(time[:5])) == 0.0
 
 
 @pytest.mark.parametrize(("factor", "words"), [
@@ -195,25 +195,29 @@ def test_a_wrong_sign_or_scale_is_one_sentence(factor: float, words: str) -> Non
     measured = p.measured.copy()
     measured[:, 1] *= factor
     first, second, _ = compare(dataclasses.replace(p, measured=measured)).joints
-    assert words in joint_verdict(second)
-    assert "repeatable function" not in joint_verdict(second)  # all of that follows from it
-    assert "times predicted" not in joint_verdict(first)
+    assert words in write_joint_verdict(second)
+    assert "repeatable function" not in write_joint_verdict(second)  # all of that follows from it
+    assert "times predicted" not in write_joint_verdict(first)
 
 
 def test_a_missing_effect_is_no_wrong_scale() -> None:
     for defect in (lambda q, qd, qdd, tau, t: 3.0 * np.sign(qd),
                    lambda q, qd, qdd, tau, t: 2.0 * qd):  # fmt: skip
         item = compare(prediction(defect, rows=1500)).joints[1]
-        assert item.scale is not None and not item.scale.off and not item.scale.opposite
+        assert (
+            item.scale is not None
+            and not item.scale.has_wrong_factor
+            and not item.scale.has_opposite_sign
+        )
 
 
 def test_scale_by_hand() -> None:
     """m = -2 p exactly, and each block from the other four; nothing comes of nothing."""
     p = np.random.default_rng(1).normal(size=200)
-    found = scale(-2.0 * p, p)
-    assert found is not None and found.opposite and found.off
+    found = estimate_scale(-2.0 * p, p)
+    assert found is not None and found.has_opposite_sign and found.has_wrong_factor
     assert (found.factor, found.mended) == pytest.approx((-2.0, 1.0))
-    assert scale(p, np.zeros(200)) is None and scale(p[:5], p[:5]) is None
+    assert estimate_scale(p, np.zeros(200)) is None and estimate_scale(p[:5], p[:5]) is None
 
 
 @pytest.mark.parametrize("seed", [0, *rotating(1, 2, 3)])
@@ -226,7 +230,7 @@ def test_a_factor_is_stated_only_where_applying_it_lowers_the_residual(seed: int
     measured = p.measured.copy()
     measured[:, 1] = slope * own + shift
     item = compare(dataclasses.replace(p, measured=measured)).joints[1]
-    _, stated, tail = joint_verdict(item).partition("measured is ")
+    _, stated, tail = write_joint_verdict(item).partition("measured is ")
     if stated:
         factor = float(tail.split()[0])
         left = np.linalg.norm(measured[:, 1] - factor * own)

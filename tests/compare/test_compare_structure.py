@@ -9,19 +9,19 @@ from known_defects import NOISE, PERIOD, Defect, judged_alone, prediction
 from scipy.signal import lfilter
 
 from modeler.core.style import BLACK, BLUE, GREY, ORANGE, SLATE, VERMILLION
-from modeler.core.table import percent
-from modeler.numerics.spectra import order_spectrum
-from modeler.numerics.splines import curve, flexible
-from modeler.observation.motion import travel_since_reversal
-from modeler.report.comparison import all_pictures, comparison_page
-from modeler.report.page import page_text
+from modeler.core.table import format_percent
+from modeler.numerics.spectra import compute_order_spectrum
+from modeler.numerics.splines import build_hat_functions, fit_nonparametric_baseline
+from modeler.observation.motion import compute_travel_since_reversal
+from modeler.report.comparison import build_comparison_page, draw_all_pictures
+from modeler.report.page import render_page
 from modeler.validation.comparison import JointComparison, compare
 from modeler.validation.prediction import FullRate, JointInfo, Motor, Prediction
 from modeler.validation.verdict import (
-    best_pattern,
-    joint_verdict,
-    kind_of_residual,
-    looks_like_noise,
+    classify_residual,
+    find_best_pattern,
+    is_noise_like,
+    write_joint_verdict,
 )
 from tests.rotation import rotating
 
@@ -50,12 +50,12 @@ def test_a_missing_effect_is_named_and_measured(coordinate: str, defect: Defect)
     (item,) = compare(judged_alone(p)).joints
     missing = defect(p.q[:, 1], p.qd[:, 1], p.qdd[:, 1], p.predicted[:, 1], p.time)
     share = np.var(missing) / (np.var(missing) + NOISE**2)  # noise is independent of motion
-    found = best_pattern(item)
+    found = find_best_pattern(item)
     assert found is not None
     assert found[0].id == coordinate
     assert found[1] == pytest.approx(share, abs=0.08)
-    assert kind_of_residual(item) == "pattern"
-    assert "repeatable function of " + found[0].phrase in joint_verdict(item)
+    assert classify_residual(item) == "pattern"
+    assert "repeatable function of " + found[0].phrase in write_joint_verdict(item)
 
 
 def test_white_noise_has_no_structure() -> None:
@@ -64,9 +64,9 @@ def test_white_noise_has_no_structure() -> None:
         assert item.structure is not None and item.structure.together < 0.01
         assert max(share for _, share in item.structure.shares) < 0.01
         assert max(share for _, share in item.structure.across) < 0.01
-        assert looks_like_noise(item)
-        assert "the residual looks like noise" in joint_verdict(item)
-        assert "ripples" not in joint_verdict(item)
+        assert is_noise_like(item)
+        assert "the residual looks like noise" in write_joint_verdict(item)
+        assert "ripples" not in write_joint_verdict(item)
 
 
 def coloured(memory: float, seed: int) -> np.ndarray:
@@ -82,10 +82,10 @@ def test_coloured_noise_is_neither_structure_nor_white(memory: float) -> None:
         item = second_joint(lambda q, qd, qdd, tau, t, s=seed: 3.0 * coloured(memory, s))
         assert item.structure is not None and item.spectrum is not None
         assert item.structure.together < 0.05
-        assert not looks_like_noise(item)
-        assert "yet it is not noise" in joint_verdict(item)
+        assert not is_noise_like(item)
+        assert "yet it is not noise" in write_joint_verdict(item)
         # exp(-t / memory) falls to 0.2 at 1.6 memories
-        assert item.spectrum.memory == pytest.approx(1.6 * memory, rel=0.35)
+        assert item.spectrum.correlation_time == pytest.approx(1.6 * memory, rel=0.35)
 
 
 @pytest.mark.parametrize(("share", "tolerance"), [(1.0, 0.08), (0.5, 0.12)])
@@ -105,8 +105,8 @@ def test_an_oscillation_is_found_at_its_frequency() -> None:
     assert item.spectrum.peak == pytest.approx(11.0, abs=0.2)
     # sine of unit amplitude: power 1/2, beside the noise
     assert item.spectrum.peak_share == pytest.approx(0.5 / (0.5 + NOISE**2), abs=0.08)
-    assert "oscillates near 11 Hz" in joint_verdict(item)
-    assert kind_of_residual(item) == "other"
+    assert "oscillates near 11 Hz" in write_joint_verdict(item)
+    assert classify_residual(item) == "other"
 
 
 @pytest.mark.parametrize("share", [1.0, 0.6])
@@ -132,12 +132,12 @@ def test_nothing_is_correlated_across_segments() -> None:
     (item,) = compare(judged_alone(dataclasses.replace(p, segment=np.arange(rows) // 16))).joints
     assert item.spectrum is not None
     assert abs(item.spectrum.correlation[1]) < 0.02
-    assert item.spectrum.memory == pytest.approx(PERIOD)
+    assert item.spectrum.correlation_time == pytest.approx(PERIOD)
 
 
 def test_long_logs_are_looked_at_sparsely_and_alike() -> None:
     item = second_joint(lambda q, qd, qdd, tau, t: 0.5 * qd, rows=60_000)
-    found = best_pattern(item)
+    found = find_best_pattern(item)
     assert found is not None and found[0].id == "velocity"
 
 
@@ -151,10 +151,10 @@ def test_long_logs_are_looked_at_sparsely_and_alike() -> None:
 )  # fmt: skip
 def test_what_else_is_said_of_a_residual(defect, noise: float, rows: int, words: str) -> None:
     item = second_joint(defect, noise, rows)
-    assert words in joint_verdict(item)
+    assert words in write_joint_verdict(item)
     assert (item.structure is None) == (rows == 150)
     if noise:
-        assert not looks_like_noise(item)
+        assert not is_noise_like(item)
 
 
 def test_share_is_that_of_unseen_blocks() -> None:
@@ -163,8 +163,10 @@ def test_share_is_that_of_unseen_blocks() -> None:
     everywhere = np.sin(3.0 * x)
     reversing = everywhere * np.where(np.arange(x.size) < 2000, 1.0, -1.0)
     fold = np.arange(x.size) * 8 // x.size
-    assert flexible([("x", curve(x))], everywhere, fold).share > 0.98
-    assert flexible([("x", curve(x))], reversing, fold).share == 0.0
+    assert (
+        fit_nonparametric_baseline([("x", build_hat_functions(x))], everywhere, fold).share > 0.98
+    )
+    assert fit_nonparametric_baseline([("x", build_hat_functions(x))], reversing, fold).share == 0.0
 
 
 def test_a_joint_that_never_moves() -> None:
@@ -174,7 +176,7 @@ def test_a_joint_that_never_moves() -> None:
         values[:, 1] = 0.0
     (item,) = compare(judged_alone(dataclasses.replace(p, **still))).joints
     assert item.structure is not None
-    assert item.structure.share("velocity") < 0.01
+    assert item.structure.get_share("velocity") < 0.01
     assert item.regions[2].samples == 6000
 
 
@@ -182,37 +184,39 @@ def test_a_joint_that_never_moves() -> None:
     ("share", "text"), [(0.033, "3.3 %"), (1e-9, "0 %"), (15.26, "1526 %"), (math.nan, "-")]
 )
 def test_percent(share: float, text: str) -> None:
-    assert percent(share) == text
+    assert format_percent(share) == text
 
 
 def test_travel_ignores_the_noise_of_the_encoder() -> None:
     t = np.linspace(0.0, 4 * np.pi, 200_001)
     noise = 1e-4 * np.random.default_rng(0).uniform(-1.0, 1.0, t.size)
-    clean = travel_since_reversal(np.sin(t))
-    found = travel_since_reversal(np.sin(t) + noise, 1e-3)
+    clean = compute_travel_since_reversal(np.sin(t))
+    found = compute_travel_since_reversal(np.sin(t) + noise, 1e-3)
     assert np.quantile(np.abs(found - clean), 0.95) < 1e-3
-    assert travel_since_reversal(np.sin(t) + noise).mean() < 0.01  # every wiggle would be a turn
+    assert (
+        compute_travel_since_reversal(np.sin(t) + noise).mean() < 0.01
+    )  # every wiggle would be a turn
 
 
 def test_travel_by_hand() -> None:
-    found = travel_since_reversal(np.array([0.0, 2.0, 3.0, 3.0, 1.0, 0.0, 0.0, 4.0]))
+    found = compute_travel_since_reversal(np.array([0.0, 2.0, 3.0, 3.0, 1.0, 0.0, 0.0, 4.0]))
     np.testing.assert_array_equal(found, [0.0, 2.0, 3.0, 0.0, 2.0, 3.0, 0.0, 4.0])
-    np.testing.assert_array_equal(travel_since_reversal(np.ones(3)), np.zeros(3))
+    np.testing.assert_array_equal(compute_travel_since_reversal(np.ones(3)), np.zeros(3))
 
 
 def test_what_follows_the_travel_is_named() -> None:
     p = prediction(seed=5)
-    travel = [travel_since_reversal(p.q[p.run == run, 1]) for run in (0, 1)]
+    travel = [compute_travel_since_reversal(p.q[p.run == run, 1]) for run in (0, 1)]
     p = dataclasses.replace(p, travel=np.repeat(np.concatenate(travel)[:, None], 3, axis=1))
     extra = 2.0 * np.exp(-p.travel[:, 1] / 0.3) * np.sign(p.qd[:, 1])
     measured = p.measured.copy()
     measured[:, 1] += extra
     (item,) = compare(judged_alone(dataclasses.replace(p, measured=measured))).joints
-    found = best_pattern(item)
+    found = find_best_pattern(item)
     assert found is not None and found[0].id == "travel"
     known = float(np.var(extra))
     assert found[1] == pytest.approx(known / (known + NOISE**2), abs=0.08)
-    assert "repeatable function of travel since the last reversal" in joint_verdict(item)
+    assert "repeatable function of travel since the last reversal" in write_joint_verdict(item)
 
 
 def with_temperature(p: Prediction, slope: float) -> Prediction:
@@ -230,19 +234,19 @@ def test_friction_that_changes_with_temperature() -> None:
     share = found.joints[1].structure
     assert share is not None
     known = float(np.var(0.15 * (p.temperature[:, 1] - 30.0)))
-    assert share.share("temperature") == pytest.approx(known / (known + NOISE**2), abs=0.08)
-    assert "repeatable function of temperature" in joint_verdict(found.joints[1])
-    titles = [panel.title for picture in all_pictures(found) for row in picture.panels
+    assert share.get_share("temperature") == pytest.approx(known / (known + NOISE**2), abs=0.08)
+    assert "repeatable function of temperature" in write_joint_verdict(found.joints[1])
+    titles = [panel.title for picture in draw_all_pictures(found) for row in picture.panels
               for panel in row]  # fmt: skip
     assert sum(title.startswith("Temperature") for title in titles) == 3
-    heat = all_pictures(found)[0].panels[2][0].series[0]
+    heat = draw_all_pictures(found)[0].panels[2][0].series[0]
     assert "temperature" in heat.columns
     part = np.where(p.run[:, None] == 1, np.nan, p.temperature)  # one log lacks it
     found = compare(dataclasses.replace(p, temperature=part))
     share = found.joints[1].structure
-    assert share is not None and np.isnan(share.share("temperature"))
+    assert share is not None and np.isnan(share.get_share("temperature"))
     assert "temperature" not in found.to_json()["joints"]["1"]["structure"]["shares"]
-    assert "temperature [" not in page_text(comparison_page(found))
+    assert "temperature [" not in render_page(build_comparison_page(found))
 
 
 def test_friction_of_one_temperature_is_no_function_of_it() -> None:
@@ -250,7 +254,7 @@ def test_friction_of_one_temperature_is_no_function_of_it() -> None:
     p = with_temperature(prediction(lambda q, qd, qdd, tau, t: np.sign(qd), seed=5), 0.0)
     share = compare(judged_alone(p)).joints[0].structure
     assert share is not None
-    assert share.share("direction") > 0.7 and share.share("temperature") < 0.02
+    assert share.get_share("direction") > 0.7 and share.get_share("temperature") < 0.02
 
 
 def at_full_rate(p: Prediction, joint: int, waves: float, amplitude: float) -> Prediction:
@@ -276,21 +280,21 @@ def test_a_known_order_is_found(unit: str, per: str, shown: float) -> None:
     assert line["amplitude"] == pytest.approx(0.6, rel=0.25)  # the sine dwells at its ends
     # 0.6^2 / 2 over that and the noise
     assert line["share"] == pytest.approx(0.18 / (0.18 + 0.25), abs=0.15)
-    assert f"waves per {per}, 0." in joint_verdict(found.joints[1])
-    assert kind_of_residual(found.joints[1]) == "pattern"
-    assert "ripples" not in joint_verdict(found.joints[0])
-    orders = all_pictures(found)[4].panels[-1]
+    assert f"waves per {per}, 0." in write_joint_verdict(found.joints[1])
+    assert classify_residual(found.joints[1]) == "pattern"
+    assert "ripples" not in write_joint_verdict(found.joints[0])
+    orders = draw_all_pictures(found)[4].panels[-1]
     panel = next(panel for panel in orders if panel.title.startswith("Order spectrum"))
     assert f"waves per {per}" in panel.title
 
 
 def test_amplitude_of_a_wave_passed_evenly() -> None:
     q = np.linspace(0.0, 6.0, 50_000)
-    found = order_spectrum(q, 0.3 * np.sin(33.0 * q), "rad", np.inf)
+    found = compute_order_spectrum(q, 0.3 * np.sin(33.0 * q), "rad", np.inf)
     assert found is not None
     assert found.peaks[0] == pytest.approx(33.0, abs=0.3)
     assert found.amplitude.max() == pytest.approx(0.3, rel=0.02)
-    assert order_spectrum(np.ones(500), np.zeros(500), "rad", np.inf) is None
+    assert compute_order_spectrum(np.ones(500), np.zeros(500), "rad", np.inf) is None
 
 
 def coupled(motors: tuple[Motor, ...]) -> Prediction:
@@ -303,13 +307,16 @@ def coupled(motors: tuple[Motor, ...]) -> Prediction:
 
 def test_the_speed_of_a_motor_is_told_from_that_of_a_joint() -> None:
     (item,) = compare(judged_alone(coupled((Motor("2+3", (0.0, 1.0, 2.0)),)))).joints
-    assert "follows the velocity of the motor that turns with joints 2 and 3" in joint_verdict(item)
+    assert (
+        "follows the velocity of the motor that turns with joints 2 and 3"
+        in write_joint_verdict(item)
+    )
     assert item.structure is not None
     assert dict(item.structure.motors)["2+3"] == pytest.approx(4.0 / 4.25, abs=0.06)
 
 
 def test_without_a_coupling_the_other_joint_is_named_and_where_to_write_one() -> None:
-    text = joint_verdict(compare(judged_alone(coupled(()))).joints[0])
+    text = write_joint_verdict(compare(judged_alone(coupled(()))).joints[0])
     assert "follows the velocity of joint 3 more than its own, as where one motor turns" in text
     assert "[coupling] in the robot file" in text
 
@@ -330,8 +337,8 @@ def test_errors_of_each_log() -> None:
             assert log["joints"][name] == pytest.approx(
                 np.linalg.norm(e[rows, j]) / np.linalg.norm(p.measured[rows, j])
             )
-    assert percent(told[1]["relative_error"]) in found.summary().splitlines()[-1]
-    assert "Relative error by log" in page_text(comparison_page(found))
+    assert format_percent(told[1]["relative_error"]) in found.summary().splitlines()[-1]
+    assert "Relative error by log" in render_page(build_comparison_page(found))
 
 
 # Machado, Oliveira and Fernandes 2009, severity 1.0, for linear RGB.

@@ -15,7 +15,7 @@ import modeler.runtime.model as compiled_model
 from modeler.codegen.package import write_emitted
 from modeler.core.errors import BuildError, ManifestError
 from modeler.runtime.build import find_toolchain
-from modeler.runtime.model import load, load_folder
+from modeler.runtime.model import load_folder, load_module
 from tests.modules import compiler, module, states
 
 
@@ -44,26 +44,26 @@ def works(model) -> None:
 
 
 def test_a_second_load_does_not_compile_and_other_text_is_another_library(cache, emps, monkeypatch):
-    works(load(emps.spec, emps.files))
+    works(load_module(emps.spec, emps.files))
     with monkeypatch.context() as patch:
         patch.setattr(build, "compile_library", lambda *_: pytest.fail("compiled again"))
-        works(load(emps.spec, emps.files))
+        works(load_module(emps.spec, emps.files))
     assert len(libraries(cache)) == 1
     assert not list(cache.glob("*/.build-*")), "the scratch folder is left"
-    load(emps.spec, {**emps.files, "emps.c": emps.files["emps.c"] + "\n"})
+    load_module(emps.spec, {**emps.files, "emps.c": emps.files["emps.c"] + "\n"})
     monkeypatch.setenv("CC", compiler("clang"))
-    works(load(emps.spec, emps.files))
+    works(load_module(emps.spec, emps.files))
     assert len(libraries(cache)) == 3
 
 
 @pytest.mark.parametrize("damage", [b"\x7fELF nonsense", None])
 def test_a_damaged_library_is_built_again(cache, emps, damage):
-    load(emps.spec, emps.files)
+    load_module(emps.spec, emps.files)
     (library,) = libraries(cache)
     whole = library.read_bytes()
     library.unlink()  # not in place: this process has it mapped
     library.write_bytes(whole[: len(whole) // 2] if damage is None else damage)
-    works(load(emps.spec, emps.files))
+    works(load_module(emps.spec, emps.files))
     (again,) = libraries(cache)
     assert again.read_bytes() != damage
 
@@ -73,7 +73,7 @@ def test_threads_and_processes_may_build_at_once(cache, emps, tmp_path):
     script = f"from modeler.runtime import load_folder; load_folder({str(tmp_path)!r})"
     processes = [subprocess.Popen([sys.executable, "-c", script]) for _ in range(2)]
     with ThreadPoolExecutor(2) as pool:
-        loads = [pool.submit(load, emps.spec, emps.files) for _ in range(2)]
+        loads = [pool.submit(load_module, emps.spec, emps.files) for _ in range(2)]
     assert [process.wait() for process in processes] == [0, 0]
     for each in loads:
         works(each.result())
@@ -82,7 +82,7 @@ def test_threads_and_processes_may_build_at_once(cache, emps, tmp_path):
 def test_own_flags_take_the_place_of_ours(cache, emps, monkeypatch):
     monkeypatch.setenv("CFLAGS", "-O1 -ffp-contract=off")
     assert find_toolchain().flags == ("-std=c99", "-fPIC", "-O1", "-ffp-contract=off")
-    works(load(emps.spec, emps.files))
+    works(load_module(emps.spec, emps.files))
     monkeypatch.setenv("CFLAGS", "")
     assert "-O3" in find_toolchain().flags
 
@@ -108,7 +108,7 @@ def test_flags_of_the_command_win(cache, emps, monkeypatch, words, stays, goes, 
     flags = find_toolchain().flags
     assert stays in flags and goes not in flags
     if words == "-mcpu=native":
-        works(load(emps.spec, emps.files))
+        works(load_module(emps.spec, emps.files))
 
 
 @pytest.mark.parametrize(
@@ -131,14 +131,14 @@ def test_what_does_not_compile_is_named(cache, emps, monkeypatch, tmp_path, vari
     for name, value in variables.items():
         monkeypatch.setenv(name, value.format(tmp=tmp_path))
     with pytest.raises(BuildError, match=re.escape(says)):
-        load(emps.spec, emps.files)
+        load_module(emps.spec, emps.files)
     assert not libraries(cache)
 
 
 def test_the_compilers_own_words_are_quoted(cache, emps):
     files = {**emps.files, "emps.c": emps.files["emps.c"] + "\nthis is not C;\n"}
     with pytest.raises(BuildError, match=r"refused the emitted code:\n(.|\n)*error"):
-        load(emps.spec, files)
+        load_module(emps.spec, files)
     assert not libraries(cache)
 
 
@@ -149,7 +149,7 @@ def test_the_cache_is_where_the_environment_says(monkeypatch, tmp_path):
         if name == "HOME":
             monkeypatch.delenv("XDG_CACHE_HOME", raising=False)
         monkeypatch.setenv(name, str(tmp_path / name))
-        assert build.cache_folder() == tmp_path / name / below
+        assert build.find_cache_folder() == tmp_path / name / below
 
 
 def test_code_and_manifest_that_do_not_fit_are_refused(cache, emps):
@@ -165,7 +165,7 @@ def test_code_and_manifest_that_do_not_fit_are_refused(cache, emps):
         (dataclasses.replace(spec, functions=(no_name, *functions)), files, "expected a C name"),
     ):  # fmt: skip
         with pytest.raises(ManifestError, match=says):
-            load(manifest, code)
+            load_module(manifest, code)
 
 
 @pytest.mark.parametrize("prefix", ["../emps", "emps/../../emps", ""])
@@ -176,7 +176,7 @@ def test_a_prefix_that_leads_elsewhere_is_refused_before_anything_is_touched(
     files = {name.replace("emps", prefix): text for name, text in emps.files.items()}
     monkeypatch.setattr(compiled_model, "build_library", lambda _: pytest.fail("built"))
     with pytest.raises(ManifestError, match="expected a C name"):
-        load(spec, files)
+        load_module(spec, files)
     folder = tmp_path / "module"
     folder.mkdir()
     (folder / "manifest.json").write_text(spec.to_json())

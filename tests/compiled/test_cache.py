@@ -5,7 +5,7 @@ from pathlib import Path
 
 import pytest
 
-from modeler.runtime.model import load
+from modeler.runtime.model import load_module
 from tests.modules import module
 
 
@@ -17,6 +17,6 @@ def cache(tmp_path, monkeypatch) -> Path:
 
 
 def test_a_loaded_library_may_go(cache) -> None:
-    model = load(module("emps").emitted.spec, module("emps").emitted.files)
+    model = load_module(module("emps").emitted.spec, module("emps").emitted.files)
     shutil.rmtree(cache)
     assert model.gravity([[0.1]], [1.0] * len(model.spec.base)).shape == (1, 1)

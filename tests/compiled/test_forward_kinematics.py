@@ -4,9 +4,9 @@ import numpy as np
 import pytest
 
 from modeler.codegen.emit import emit
-from modeler.derivation.base_parameters import base_parameters
+from modeler.derivation.base_parameters import derive_base_parameters
 from modeler.derivation.derive import derive_model
-from modeler.robot.read import read_robot, robot_from_text
+from modeler.robot.read import parse_robot_text, read_robot
 from tests.codegen.fitted_library import robot_text
 from tests.elementary_motions import frames
 from tests.modules import loaded, plain, states
@@ -27,7 +27,7 @@ def expected(robot, q):
 @pytest.mark.parametrize("name", TREES)
 def test_poses_are_the_product_of_elementary_motions(name):
     robot = read_robot(name)
-    q = states(len(robot.moving), 8)[0]
+    q = states(len(robot.moving_joints), 8)[0]
     np.testing.assert_allclose(
         plain(name).forward_kinematics(q), expected(robot, q), rtol=0, atol=1e-13
     )
@@ -35,9 +35,9 @@ def test_poses_are_the_product_of_elementary_motions(name):
 
 @pytest.mark.digits
 def test_a_row_may_hold_anything():
-    robot = robot_from_text(TREE, "odd-tree")
+    robot = parse_robot_text(TREE, "odd-tree")
     model = derive_model(robot)
-    emitted = emit(model, base_parameters(model))
+    emitted = emit(model, derive_base_parameters(model))
     q = states(4, 25)[0]
     T = loaded(emitted).forward_kinematics(q)
     np.testing.assert_allclose(T, expected(robot, q), rtol=0, atol=1e-13)

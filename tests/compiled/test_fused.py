@@ -5,7 +5,7 @@ import pytest
 
 from modeler.core.errors import ShapeError
 from modeler.runtime import fused, threads
-from modeler.runtime.bind import fused_library
+from modeler.runtime.bind import load_fused_library
 from tests.modules import plain, states
 
 EPS = np.finfo(float).eps
@@ -13,7 +13,7 @@ EPS = np.finfo(float).eps
 
 def levels() -> list[int]:
     """Every set of instructions that this processor has."""
-    return list(range(1, fused_library().level() + 1))
+    return list(range(1, load_fused_library().resolve_level() + 1))
 
 
 def stacked(model, q, qd, qdd, tau) -> np.ndarray:
@@ -84,9 +84,9 @@ def test_small_singular_values_survive():
     """Those of R are within roundings of the largest; W^T W would end at its square root."""
     A = ill_conditioned(1e-14)
     exact = np.linalg.svd(A, compute_uv=False)
-    pattern = fused.pattern_of([(0, c) for c in range(10)], 1, 10)
+    pattern = fused.build_pattern([(0, c) for c in range(10)], 1, 10)
     for level in levels():
-        found = fused.of_rows(pattern, A[:, None, :10].copy(), A[:, 10:], None, level=level)
+        found = fused.reduce_rows(pattern, A[:, None, :10].copy(), A[:, 10:], None, level=level)
         values = np.linalg.svd(found.triangles[0], compute_uv=False)
         assert np.abs(values - exact).max() < 30 * EPS
     lost = np.sqrt(np.abs(np.linalg.eigvalsh(A.T @ A)[::-1]))

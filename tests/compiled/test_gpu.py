@@ -11,10 +11,10 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from modeler.api import derive, load, on_gpu
+from modeler.api import derive, load, load_on_gpu
 from modeler.codegen.emit import emit
 from modeler.core.errors import BuildError, EmitError, ManifestError, ShapeError
-from modeler.core.manifest import Emitted
+from modeler.core.manifest import EmittedModule
 from modeler.runtime.gpu import GpuModel, load_gpu
 from tests.codegen.fitted_library import robot_module
 from tests.compiled.cupy_on_cpu import cupy
@@ -23,7 +23,7 @@ from tests.rotation import rotating
 
 
 @cache
-def emitted(name: str) -> Emitted:
+def emitted(name: str) -> EmittedModule:
     made = robot_module(name)
     return emit(made.model, made.base, cuda=True)
 
@@ -120,7 +120,7 @@ def test_without_cupy_or_a_processor_one_line(monkeypatch, tmp_path):
     ):
         monkeypatch.setitem(sys.modules, "cupy", module_of_cupy)
         with pytest.raises(BuildError, match=says):
-            on_gpu(derive(load("wrist")))
+            load_on_gpu(derive(load("wrist")))
 
 
 @pytest.mark.rotating("laws and kernels")

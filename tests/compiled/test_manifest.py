@@ -7,7 +7,7 @@ import pytest
 
 from modeler.codegen.package import write_emitted
 from modeler.core.errors import ManifestError
-from modeler.core.manifest import FORMAT, module_from_json
+from modeler.core.manifest import FORMAT, parse_manifest
 from modeler.runtime.model import load_folder
 from tests.modules import module
 from tests.rotation import rotating
@@ -28,7 +28,7 @@ from tests.rotation import rotating
 )
 def test_what_is_no_manifest_is_refused(text, says):
     with pytest.raises(ManifestError, match=re.escape(says)):
-        module_from_json(text, "x.json")
+        parse_manifest(text, "x.json")
 
 
 WRONG = {
@@ -46,11 +46,11 @@ def test_an_entry_of_another_type_is_named(entry):
     raw = json.loads(module("wrist").emitted.spec.to_json())
     raw[entry], says = WRONG[entry]
     with pytest.raises(ManifestError, match=re.escape(f"x.json: damaged manifest ({says})")):
-        module_from_json(json.dumps(raw), "x.json")
+        parse_manifest(json.dumps(raw), "x.json")
     del raw[entry]
     if entry not in ("closure", "extra"):
         with pytest.raises(ManifestError, match=re.escape(f"({entry} is missing)")):
-            module_from_json(json.dumps(raw), "x.json")
+            parse_manifest(json.dumps(raw), "x.json")
 
 
 @pytest.mark.parametrize("value", ["3", *rotating(True, None, 10**400)])
@@ -64,13 +64,13 @@ def test_every_entry_of_a_manifest_is_checked(value):
             inner = inner[key]
         inner[path[-1]] = value
         try:
-            spec = module_from_json(json.dumps(raw), "x.json")
+            spec = parse_manifest(json.dumps(raw), "x.json")
         except ManifestError as error:
             assert str(error).startswith("x.json: ") and "\n" not in str(error)
             assert len(str(error)) < 300
         else:
             assert (spec.to_json() == text) == (raw == json.loads(text))
-            assert module_from_json(spec.to_json(), "y.json") == spec
+            assert parse_manifest(spec.to_json(), "y.json") == spec
 
 
 @pytest.mark.parametrize(
@@ -106,4 +106,4 @@ def test_any_change_of_the_manifest_changes_its_signature():
     spec = module("wrist").emitted.spec
     raw = json.loads(spec.to_json())
     raw["joints"][1]["unit"] = "m"
-    assert module_from_json(json.dumps(raw), "x.json").signature() != spec.signature()
+    assert parse_manifest(json.dumps(raw), "x.json").compute_signature() != spec.compute_signature()

@@ -14,11 +14,11 @@ import numpy as np
 import pytest
 
 import modeler.runtime.build as build
-from modeler.api.log_maps import file_and_span
+from modeler.api.log_maps import parse_time_range
 from modeler.core.errors import BuildError, DataError
-from modeler.logs import map_from_words
+from modeler.logs import parse_map_options
 from modeler.runtime.build import find_toolchain
-from modeler.runtime.model import load
+from modeler.runtime.model import load_module
 from tests.modules import compiler, module, states
 
 COMPILERS = Path(__file__).with_name("compilers")
@@ -65,7 +65,7 @@ def test_a_library_of_it_has_all_that_is_called(cl, robot) -> None:
     """Whole: batches, tables that closing loops reads, tiles; an old cl without /fp:contract."""
     told = cl()
     made = module(robot).emitted
-    model = load(made.spec, made.files)
+    model = load_module(made.spec, made.files)
     q, qd, qdd = states(len(made.spec.joints), 2000)
     if (loops := made.spec.closure) is not None:
         q = 0.05 * q + np.array([loops.home[i] for i in loops.given])
@@ -79,12 +79,12 @@ def test_a_library_of_it_has_all_that_is_called(cl, robot) -> None:
 
 def test_what_it_says_is_quoted_and_a_portable_library_of_it(cl, monkeypatch) -> None:
     told = cl("/fp:contract")
-    assert build.portable_library({"one.c": "int one(void)\n{\n    return 1;\n}\n"})
+    assert build.build_portable_library({"one.c": "int one(void)\n{\n    return 1;\n}\n"})
     assert "/nologo /std:c11 /utf-8 /O2 /fp:precise /c" in told.read_text().splitlines()
     monkeypatch.setenv("CFLAGS", "/fp:wrong")
     made = module("emps").emitted
     with pytest.raises(BuildError, match="D8021 : invalid numeric argument '/fp:wrong'"):
-        load(made.spec, made.files)
+        load_module(made.spec, made.files)
 
 
 def test_clang_for_the_linker_of_microsoft_is_given_the_list(tmp_path) -> None:
@@ -131,7 +131,7 @@ def test_names_and_places_of_each_system(system, says) -> None:
 
 def test_backslashes_in_cc_are_of_paths_on_windows(monkeypatch) -> None:
     monkeypatch.setattr(build, "_WINDOWS", True)
-    words = build._words("CC", r'"C:\Program Files\LLVM\bin\clang.exe" -m64')
+    words = build._split_words("CC", r'"C:\Program Files\LLVM\bin\clang.exe" -m64')
     assert words == ("C:/Program Files/LLVM/bin/clang.exe", "-m64")
 
 
@@ -144,10 +144,10 @@ def test_a_library_that_another_process_has_loaded_stays(tmp_path, monkeypatch) 
     monkeypatch.setattr(Path, "replace", refused)
     made, final = tmp_path / "made", tmp_path / "entry" / "final.dll"
     monkeypatch.setattr(build, "whole", lambda _: True)
-    build.placed(made, final)
+    build.move_into_cache(made, final)
     monkeypatch.setattr(build, "whole", lambda _: False)
     with pytest.raises(PermissionError):
-        build.placed(made, final)
+        build.move_into_cache(made, final)
 
 
 @pytest.mark.parametrize(
@@ -156,10 +156,10 @@ def test_a_library_that_another_process_has_loaded_stays(tmp_path, monkeypatch) 
      (r"\\host\share\me@home\run.csv@5:", r"\\host\share\me@home\run.csv", (5.0, None))],
 )  # fmt: skip
 def test_the_letter_of_a_drive_is_no_window_of_a_log_and_no_unit_of_a_map(place, file, span):
-    assert file_and_span(place) == (file, span)
-    assert file_and_span(r"C:\logs\run.csv") == (r"C:\logs\run.csv", None)
+    assert parse_time_range(place) == (file, span)
+    assert parse_time_range(r"C:\logs\run.csv") == (r"C:\logs\run.csv", None)
     with pytest.raises(DataError, match=re.escape(r"--map C:\maps\arm.toml: cannot be read")):
-        map_from_words([r"C:\maps\arm.toml"])
+        parse_map_options([r"C:\maps\arm.toml"])
 
 
 @pytest.mark.parametrize("letters", ["cp1252", "cp437"])

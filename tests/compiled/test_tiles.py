@@ -13,9 +13,9 @@ import modeler.runtime.threads as threads
 from modeler.codegen.emit import emit
 from modeler.codegen.package import write_emitted
 from modeler.core.errors import LoopError, ManifestError, ShapeError
-from modeler.core.manifest import Emitted
-from modeler.runtime.bind import tile_library
-from modeler.runtime.model import CompiledModel, load, load_folder
+from modeler.core.manifest import EmittedModule
+from modeler.runtime.bind import load_tile_library
+from modeler.runtime.model import CompiledModel, load_folder, load_module
 from tests.codegen.fitted_library import robot_module
 from tests.modules import STRICT, compiled, compiler, loaded, module, states, unoptimised
 from tests.rotation import ROTATING
@@ -77,7 +77,7 @@ def test_rows_and_columns_may_begin_anywhere_and_nothing_else_is_written(samples
         out = rows[begin : begin + W.size].reshape(W.shape)
         assert model.observation(*motion, out=out) is out
         columns = np.full((len(W) + 9, W.shape[1]), 7.5, order="F")
-        model._tiles.fill([*motion], columns[begin : begin + len(W)], True)
+        model._tiles.fill_samples([*motion], columns[begin : begin + len(W)], True)
         for whole, end in ((rows, begin + W.size), (columns, begin + len(W))):
             np.testing.assert_array_equal(whole[begin:end].reshape(W.shape), W)
             assert (whole[:begin] == 7.5).all() and (whole[end:] == 7.5).all()
@@ -107,14 +107,14 @@ def test_far_angles_and_values_that_are_no_numbers_stay_in_their_lane(monkeypatc
     q, qd, qdd = states(3, 16)
     shape = (16, len(model.spec.nonzeros))
     clean, got, expected = np.empty(shape), np.empty(shape), np.empty(shape)
-    tiles.fill((q, qd, qdd), clean, dense=False)
+    tiles.fill_samples((q, qd, qdd), clean, dense=False)
     for k, odd in enumerate([99_999.9, 1e5, -1e5, 3e7, -1e15, 1e300, np.nan, np.inf, -np.inf]):
         for array in (q, qd, qdd):
             lane, changed = (3 * k) % 16, array.copy()
             changed[lane, k % 3] = odd
             given = [changed if each is array else each for each in (q, qd, qdd)]
-            tiles.fill(given, got, dense=False)
-            model._library.batch(function, given, expected)
+            tiles.fill_samples(given, got, dense=False)
+            model._library.run_batch(function, given, expected)
             others = np.arange(16) != lane
             np.testing.assert_array_equal(got[others], clean[others])
             size = np.nanmax(np.where(np.isfinite(expected[lane]), np.abs(expected[lane]), 1.0))
@@ -123,7 +123,9 @@ def test_far_angles_and_values_that_are_no_numbers_stay_in_their_lane(monkeypatc
             )
 
 
-def compiled_check(emitted: Emitted, folder: Path, *words: str, units: Sequence[str] = ()) -> bool:
+def compiled_check(
+    emitted: EmittedModule, folder: Path, *words: str, units: Sequence[str] = ()
+) -> bool:
     """Whether tiles of every instruction set have the values of the scalar function."""
     prefix = emitted.spec.prefix
     text = Path(__file__).with_name("check_tiles.c").read_text()
@@ -173,7 +175,7 @@ def test_loops_closed_side_by_side_are_those_closed_one_by_one(name, plain):
     """Fast and slow, at rest, with leaps, out of reach and back, with values that are none."""
     model = compiled(name)
     with unoptimised(*["-O1", "-DMODELER_PLAIN"] * plain):
-        tiles = tile_library(model.spec, model._tile_files, model._library)
+        tiles = load_tile_library(model.spec, model._tile_files, model._library)
     home = home_of(model)
     rng = np.random.default_rng()
     for far in (1e-3, 0.3, 3.0)[: 3 if name == "five-bar" else 2]:
@@ -186,9 +188,9 @@ def test_loops_closed_side_by_side_are_those_closed_one_by_one(name, plain):
         q[140, 0] = qd[150, 1] = np.nan
         shape, own, told = (samples * len(home), len(model.spec.base)), *np.zeros((2, samples), "i")
         W, order = np.empty(shape), np.empty(shape, order="F")
-        model._library.observation([q, qd, qdd], W, own)
+        model._library.fill_observation([q, qd, qdd], W, own)
         for out in (np.empty(shape), order):
-            tiles.fill([q, qd, qdd], out, True, told)
+            tiles.fill_samples([q, qd, qdd], out, True, told)
             np.testing.assert_array_equal(told, own)
             largest = np.abs(W).reshape(samples, -1).max(axis=1).repeat(len(home))[:, None]
             apart = np.abs(out - W) / largest
@@ -230,7 +232,7 @@ def test_a_module_without_the_unit_is_evaluated_sample_by_sample(tiled, tmp_path
     emitted = module("wrist").emitted
     files = {name: emitted.files[name] for name in emitted.spec.sources}
     with unoptimised():
-        older, motion = load(emitted.spec, files), states(3, SAMPLES)
+        older, motion = load_module(emitted.spec, files), states(3, SAMPLES)
         write_emitted(emitted, tmp_path)
         assert load_folder(tmp_path)._tiles is not None and older._tiles is None
     assert_close(older.nonzeros(*motion), compiled("wrist").nonzeros(*motion))
@@ -239,9 +241,11 @@ def test_a_module_without_the_unit_is_evaluated_sample_by_sample(tiled, tmp_path
 
 def test_tiles_of_another_robot_are_refused(tiled):
     emitted = module("wrist").emitted
-    text = emitted.files["wrist_tile.c"].replace(emitted.spec.signature(), "0123456789abcdef")
+    text = emitted.files["wrist_tile.c"].replace(
+        emitted.spec.compute_signature(), "0123456789abcdef"
+    )
     with unoptimised():
-        model = load(emitted.spec, {**emitted.files, "wrist_tile.c": text})
+        model = load_module(emitted.spec, {**emitted.files, "wrist_tile.c": text})
     with (
         unoptimised(),
         pytest.raises(ManifestError, match="tiles answers 0123456789abcdef, the manifest expects"),

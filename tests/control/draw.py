@@ -5,8 +5,8 @@ from functools import cache
 import numpy as np
 
 from modeler.codegen import Control, derive, generate, load
-from modeler.core.manifest import Emitted
-from modeler.robot import Robot, robot_from_text
+from modeler.core.manifest import EmittedModule
+from modeler.robot import Robot, parse_robot_text
 
 
 def drawn(seed: int, tree: bool = False) -> Robot:
@@ -27,7 +27,7 @@ def drawn(seed: int, tree: bool = False) -> Robot:
                                     for cell in cells) + "]")  # fmt: skip
         carriers.append(str(j))
     relation = f'[relations]\nq{n} = "q1/2 - q2"\n' if tied else ""
-    return robot_from_text(
+    return parse_robot_text(
         f"""name = "drawn-{seed}"
 gravity = [1.2, -3.1, -9.0]
 [mdh]
@@ -51,7 +51,9 @@ yaw = 1.1
 
 
 @cache
-def emitted(robot: str | int, tree: bool = False, single: bool = False) -> tuple[Robot, Emitted]:
+def emitted(
+    robot: str | int, tree: bool = False, single: bool = False
+) -> tuple[Robot, EmittedModule]:
     """A built-in robot by its name, a drawn one by its seed, with the unit for controllers."""
     found = load(robot) if isinstance(robot, str) else drawn(robot, tree)
     names = (found.joints[0].name,)

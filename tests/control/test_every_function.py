@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from modeler.codegen import Control, derive, load
-from modeler.robot.read import robot_from_text
+from modeler.robot.read import parse_robot_text
 from tests.control import draw
 from tests.control.emitted_folder import Folder
 from tests.oracles.complex_step import Oracle
@@ -42,7 +42,7 @@ def derivation(name: str):
     """Of a built-in robot, or of one drawn: "chain 1", "tree 2"."""
     kind, _, seed = name.partition(" ")
     if name == "dry":
-        return derive(robot_from_text(COULOMB, "dry.toml"))
+        return derive(parse_robot_text(COULOMB, "dry.toml"))
     return derive(draw.drawn(int(seed), tree=kind == "tree") if seed else load(name))
 
 
@@ -51,7 +51,7 @@ def states(folder: Folder, samples: int, seed: int, wide: float = 1.0) -> Iterat
     o, random, number = folder.oracle, np.random.default_rng(seed), folder.number
     home = home_of(folder)
     reach = wide * (0.25 if folder.robot.loops else 2.0)
-    units = np.array([1.0 if j.angular else 0.3 * o.size for j in folder.robot.coordinates])
+    units = np.array([1.0 if j.is_revolute else 0.3 * o.size for j in folder.robot.coordinates])
     found = 0
     for _ in range(20 * samples):
         q = home[o.given] + random.uniform(-reach, reach, o.n) * units
@@ -73,7 +73,7 @@ def home_of(folder: Folder) -> np.ndarray:
     """The free variables at home, closed."""
     o, closure = folder.oracle, folder.spec.closure
     given = folder.robot.home
-    home = np.array([given.get(j.name, 0.0) for j in folder.robot.free])
+    home = np.array([given.get(j.name, 0.0) for j in folder.robot.free_joints])
     if closure is not None:
         assert len(closure.home) == len(home)
         home = np.array(closure.home)

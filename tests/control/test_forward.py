@@ -8,7 +8,7 @@ import pytest
 from modeler.codegen import derive, generate
 from modeler.codegen.control import Control
 from modeler.core.errors import ModelerError
-from modeler.robot.read import robot_from_text
+from modeler.robot.read import parse_robot_text
 from tests.bodies import buildable
 from tests.control.draw import emitted
 from tests.modules import loaded
@@ -28,7 +28,7 @@ def test_a_massless_last_link():
     beta = model.base_parameters([0.0 if name in without else v for name, v in chi.items()])
     q, qd, tau = random.normal(size=(3, 20, n))
     given = {"q": q, "qd": qd, "tau": 5 * tau, "beta": beta}
-    assert set(model.statuses("forward_dynamics", **given)) == {2}
+    assert set(model.evaluate_status("forward_dynamics", **given)) == {2}
     with pytest.raises(ModelerError, match=r"forward_dynamics.*not positive"):
         model.evaluate("forward_dynamics", **given)
 
@@ -38,7 +38,7 @@ LOADED = Path(__file__).with_name("loaded.toml").read_text(encoding="utf-8")
 
 def test_friction_that_reads_accelerations():
     """A bounded iteration, which gives what inverse dynamics takes; and its derivatives."""
-    emitted = generate(derive(robot_from_text(LOADED, "loaded")), control=Control())
+    emitted = generate(derive(parse_robot_text(LOADED, "loaded")), control=Control())
     model, random = loaded(emitted), np.random.default_rng(9)
     chi = drawn_parameters(model.spec, random) | {"mu2": 0.3, "mu3": 0.2, "Fz1": 0.5}
     assert len(chi) == len(model.spec.standard)
@@ -74,7 +74,7 @@ unit = "1"
 
 [reference]"""
     text = LOADED[: LOADED.index("load_friction")] + own + LOADED.split("[reference]")[1]
-    model = loaded(generate(derive(robot_from_text(text, "drag")), control=Control()))
+    model = loaded(generate(derive(parse_robot_text(text, "drag")), control=Control()))
     random = np.random.default_rng(10)
     chi = drawn_parameters(model.spec, random)
     beta = model.base_parameters([*chi.values()])

@@ -7,7 +7,7 @@ from modeler.api import generate as generate_robot
 from modeler.cli import main
 from modeler.codegen import Control, derive, generate, load
 from modeler.core.errors import DerivationError, EmitError
-from modeler.robot import robot_from_text, with_effects
+from modeler.robot import parse_robot_text, replace_effects
 from tests.control.draw import emitted
 from tests.elementary_motions import frames, shift, turn
 from tests.modules import loaded
@@ -22,7 +22,7 @@ def test_derivatives_go_through_friction_that_reads_loads_and_powers():
     }  # fmt: skip
     text = load("two-link").text + "\n[reference]\n"
     text += "".join(f"{p} = {x}\n" for p, x in (("M1", 3), ("M2", 2), ("MX2", 0.4), ("ZZ2", 0.2)))
-    robot = robot_from_text(with_effects(text, effects), "lossy")
+    robot = parse_robot_text(replace_effects(text, effects), "lossy")
     made = generate(derive(robot), control=Control())
     model, rng = loaded(made), np.random.default_rng(41)
     roles = {f.name.removeprefix("two_link_") for f in made.spec.control.functions}
@@ -46,7 +46,7 @@ rows = [["hand-1", "2", 0.1, "0.2", 0.3, -0.4, 0.5], ["hand_1", "1", 0, 0, 0, 0,
 
 
 def test_links_of_frames_have_their_jacobians():
-    robot = robot_from_text(load("two-link").text + FRAMES, "hands")
+    robot = parse_robot_text(load("two-link").text + FRAMES, "hands")
     model = loaded(generate_robot(derive(robot), frames=["hand-1", "1"]))
     q = np.array([0.4, -1.1])
     on = shift(0, 0.1) @ shift(2, 0.2) @ turn(2, 0.5) @ turn(1, -0.4) @ turn(0, 0.3)
@@ -71,7 +71,7 @@ def test_links_of_frames_have_their_jacobians():
     ],
 )
 def test_frames_that_cannot_be_are_told(names, told):
-    found = derive(robot_from_text(load("two-link").text + FRAMES, "hands"))
+    found = derive(parse_robot_text(load("two-link").text + FRAMES, "hands"))
     with pytest.raises((DerivationError, EmitError)) as error:
         generate_robot(found, frames=names)
     assert told in str(error.value) and "\n" not in str(error.value)

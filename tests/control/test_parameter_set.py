@@ -43,7 +43,7 @@ def test_sets_are_checked_and_never_torn(folder, cc, flags):
     checksum, widths = map(int, done.stdout.split())
     spec = emitted(NAME)[1].spec
     numbers = [0.5 + i for i in range(len(spec.base))] + [0.01] * widths
-    words = [int(spec.signature()[i : i + 8], 16) for i in (0, 8)]
+    words = [int(spec.compute_signature()[i : i + 8], 16) for i in (0, 8)]
     stated = np.array(words, np.uint32).tobytes() + np.array(numbers).tobytes()
     assert checksum == zlib.crc32(stated)
 

@@ -11,7 +11,12 @@ from pathlib import Path
 import pytest
 
 from modeler.core.errors import ModelerError
-from modeler.core.files import check_folder_writable, check_writable, destination, write_atomically
+from modeler.core.files import (
+    check_folder_writable,
+    check_writable,
+    resolve_destination,
+    write_atomically,
+)
 
 
 def mode(path: Path) -> int:
@@ -114,7 +119,7 @@ def test_a_device_is_written_to(tmp_path: Path) -> None:
     write_atomically(tmp_path / "tty", "words\n")
     assert os.read(ours, 100).split() == [b"words"]
     assert stat.S_ISCHR(device.stat().st_mode) and (tmp_path / "tty").is_symlink()
-    assert destination(device).identity is None
+    assert resolve_destination(device).identity is None
     os.close(ours)
     os.close(theirs)
 

@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 
-from modeler.core.formula import latex_name, latex_text
-from modeler.core.latex_display import DisplayedEquation, broken, display, width
+from modeler.core.formula import escape_latex, format_latex_name
+from modeler.core.latex_display import DisplayedEquation, break_lines, format_display, measure_width
 from tests.base.formulas import written_value
 
 LETTERS = {"a": 0.7, r"\mathit{MX}_{31c}": -1.3, r"\theta_{2}": 0.4, "D_{4}": 2.1, "s_{1-2}": 0.6}
@@ -37,9 +37,9 @@ def test_lines_fit_and_mean_the_same(room: float) -> None:
     rng, opened = np.random.default_rng(7), 0
     for _ in range(150):
         text, value = formula(rng, 3)
-        lines = broken(text, room)
+        lines = break_lines(text, room)
         joined = " ".join(lines)
-        assert all(width(line) <= room for line in lines), text
+        assert all(measure_width(line) <= room for line in lines), text
         assert written_value(text, LETTERS) == pytest.approx(value, rel=1e-9, abs=1e-9)
         assert written_value(joined, LETTERS) == pytest.approx(value, rel=1e-9, abs=1e-9), joined
         opened += r"\bigl(" in joined
@@ -49,18 +49,22 @@ def test_lines_fit_and_mean_the_same(room: float) -> None:
 def test_what_fits_and_what_cannot_be_opened_stay_whole() -> None:
     """A higher root, and the bars of a size; broken before and behind them."""
     text = r"\left( a + b \right) \text{ as in } \tfrac{1}{2}"
-    assert broken(text) == [text]
+    assert break_lines(text) == [text]
     wide = " + ".join(["a"] * 12)
     text = rf"b + \sqrt[3]{{{wide}}} + \left|{wide}\right| - \frac{{1}}{{{wide}}}"
-    assert broken(text, 100.0)[:3] == ["b", rf"+ \sqrt[3]{{{wide}}}", rf"+ \left|{wide}\right|"]
-    assert broken(text, 100.0)[3].startswith(r"- 1\,\bigl(a + a")
+    assert break_lines(text, 100.0)[:3] == [
+        "b",
+        rf"+ \sqrt[3]{{{wide}}}",
+        rf"+ \left|{wide}\right|",
+    ]
+    assert break_lines(text, 100.0)[3].startswith(r"- 1\,\bigl(a + a")
 
 
 def test_numbers_stand_at_the_last_line() -> None:
     equation = DisplayedEquation("x", (" + ".join([r"\mathit{MX}_{31}"] * 20),))
-    page = display([equation, DisplayedEquation("y", ("1",))], numbered=True)
+    page = format_display([equation, DisplayedEquation("y", ("1",))], numbered=True)
     assert page.count(r"\notag") == page.count(r"&\quad {}+") == page.count("\\\\\n") - 1 > 0
-    assert r"\notag" not in display([equation])
+    assert r"\notag" not in format_display([equation])
 
 
 def test_names_and_texts() -> None:
@@ -69,8 +73,8 @@ def test_names_and_texts() -> None:
         ("omega_1", r"\mathit{omega\_1}"), ("omega1", r"\omega_{1}"), ("Omega", r"\Omega"),
         ("Alpha", r"\mathit{Alpha}"), ("PHI2", r"\mathit{PHI}_{2}"), ("mu2_3", r"\mu_{2\_3}"),
     ):  # fmt: skip
-        assert latex_name(name) == expected
-    assert latex_text("R&D_1 100 % {a} ~ \\ é") == (
+        assert format_latex_name(name) == expected
+    assert escape_latex("R&D_1 100 % {a} ~ \\ é") == (
         r"R\&D\_1 100 \% \{a\} \textasciitilde{} \textbackslash{} é"
     )
-    assert latex_text("ń \u03b1 \u2013") == "n [U+03B1] --"
+    assert escape_latex("ń \u03b1 \u2013") == "n [U+03B1] --"

@@ -10,7 +10,7 @@ import pytest
 
 from modeler.cli import main
 from modeler.core.errors import DataError
-from modeler.core.picture_file import pictures_from_json, pictures_text
+from modeler.core.picture_file import format_pictures, read_pictures
 from tests.json_schemas import check_schema
 from tests.studio.drawn import EVERY_KIND
 
@@ -30,9 +30,9 @@ def same(one: Any, other: Any) -> bool:
 
 def test_pictures_come_back_as_they_were(tmp_path) -> None:
     place = tmp_path / "p.json"
-    place.write_text(pictures_text([EVERY_KIND, EVERY_KIND]))
+    place.write_text(format_pictures([EVERY_KIND, EVERY_KIND]))
     check_schema("pictures", json.loads(place.read_text()))
-    found = pictures_from_json(place)
+    found = read_pictures(place)
     assert len(found) == 2 and same(found[0], EVERY_KIND)
 
 
@@ -52,11 +52,11 @@ SPOILT = {
 
 @pytest.mark.parametrize("told", SPOILT)
 def test_what_is_no_such_file_is_refused_in_one_line(tmp_path, told: str) -> None:
-    place, raw = tmp_path / "p.json", json.loads(pictures_text([EVERY_KIND]))
+    place, raw = tmp_path / "p.json", json.loads(format_pictures([EVERY_KIND]))
     SPOILT[told](raw)
     place.write_text(json.dumps(raw))
     with pytest.raises(DataError) as error:
-        pictures_from_json(place)
+        read_pictures(place)
     assert told in str(error.value) and str(place) in str(error.value)
     assert "\n" not in str(error.value)
 
@@ -65,7 +65,7 @@ def test_a_file_that_is_not_there_or_no_json_is_refused(tmp_path) -> None:
     (tmp_path / "half.json").write_text('{"schema": ')
     for name in ("none.json", "half.json"):
         with pytest.raises(DataError, match=r"run .* again"):
-            pictures_from_json(tmp_path / name)
+            read_pictures(tmp_path / name)
 
 
 LINES = {  # in this order: some read what others write
@@ -92,7 +92,7 @@ def test_every_command_that_draws_writes_its_pictures(axis, tmp_path, monkeypatc
         place = Path(f"{what}.json")
         assert main([*line.split(), "--picture", str(place)]) == 0, what
         check_schema("pictures", json.loads(place.read_text()))
-        names[what] = [picture.name for picture in pictures_from_json(place)]
+        names[what] = [picture.name for picture in read_pictures(place)]
         assert len({*names[what]}) == len(names[what])
     assert {"overview", "joint_1_time", "joint_1_residual"} <= {*names["compare"]}
     assert "evidence_spring_1" in names["diagnose"] and "waterfall" in names["add"]

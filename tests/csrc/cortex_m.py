@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from modeler.core.manifest import Emitted, FunctionSpec
+from modeler.core.manifest import EmittedModule, FunctionSpec
 
 HERE = Path(__file__).resolve().parent
 
@@ -37,7 +37,7 @@ def command(cpu: str) -> list[str]:
     return [tool("arm-none-eabi-gcc"), *flags, "-Os", "-ffp-contract=fast"]
 
 
-def library(emitted: Emitted, folder: Path, cpu: str, *more: str) -> list[Path]:
+def library(emitted: EmittedModule, folder: Path, cpu: str, *more: str) -> list[Path]:
     """Objects of the library, compiled without a warning."""
     for name in emitted.spec.sources:
         (folder / name).write_text(emitted.files[name])
@@ -65,7 +65,7 @@ def section_bytes(path: Path, *parts: str) -> int:
 
 
 def run(
-    emitted: Emitted,
+    emitted: EmittedModule,
     folder: Path,
     cpu: str,
     calls: Sequence[tuple[FunctionSpec, Mapping[str, np.ndarray]]],

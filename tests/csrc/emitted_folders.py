@@ -11,7 +11,7 @@ from functools import cache
 from pathlib import Path
 
 from modeler.codegen.package import write_emitted
-from modeler.core.manifest import Emitted
+from modeler.core.manifest import EmittedModule
 from tests.modules import STRICT, compiler
 from tests.repository import ROOT
 
@@ -38,7 +38,7 @@ def make(folder: Path, *targets: str, flags: str = FLAGS, fails: bool = False) -
     return run(compiler("make"), "-s", *targets, f"CFLAGS={flags}", where=folder, fails=fails)
 
 
-def built(emitted: Emitted, folder: Path, *targets: str, flags: str = FLAGS) -> Path:
+def built(emitted: EmittedModule, folder: Path, *targets: str, flags: str = FLAGS) -> Path:
     """The folder with the emitted files, and with what `make` makes of them."""
     key = _key(emitted.files, *targets, flags, _version())
     kept = KEPT / key

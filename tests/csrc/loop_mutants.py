@@ -7,7 +7,7 @@ loops, solves, carries motion over and fills tiles. The programs of the folder a
 import re
 from collections.abc import Iterator
 
-from modeler.core.manifest import Emitted
+from modeler.core.manifest import EmittedModule
 from tests.csrc.test_mutants import Mutant, code_lines, constants, signs
 
 RUNTIME = (
@@ -21,7 +21,7 @@ TERM = re.compile(rf" [+-] {FACTOR}(?:\([^()]*\))?(?: \* {FACTOR})*(?=[;,) ])")
 SUM = re.compile(r"[+-]=")
 
 
-def mutants_of(emitted: Emitted) -> dict[str, list[Mutant]]:
+def mutants_of(emitted: EmittedModule) -> dict[str, list[Mutant]]:
     """By kind: sign, constant, term, bound."""
     found: dict[str, list[Mutant]] = {"sign": [], "constant": [], "term": [], "bound": []}
     for file, at, line, head in code_lines(emitted, *RUNTIME):

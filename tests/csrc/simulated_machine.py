@@ -14,12 +14,12 @@ from modeler.codegen.package import write_emitted
 from modeler.core.manifest import FittedParameter, FittedSpec
 from modeler.robot.robot import Robot
 from modeler.simulation import SimulationSettings, simulate, write_log
-from modeler.simulation.control import encoder_resolution, quantised
+from modeler.simulation.control import compute_encoder_resolution, quantise_position
 from modeler.simulation.hidden_draw import complete_effects
-from modeler.simulation.parameters import plant_parameters
-from modeler.simulation.plant import FastFunction, steps_per_tick, tick_function
-from modeler.simulation.run import needed_torques, postures_of, task_of
-from modeler.simulation.trajectory import motion_limits
+from modeler.simulation.parameters import draw_plant_parameters
+from modeler.simulation.plant import FastFunction, build_tick_function, choose_steps_per_tick
+from modeler.simulation.run import build_task, compute_needed_torques, select_postures
+from modeler.simulation.trajectory import collect_motion_limits
 from tests.modules import loaded
 
 
@@ -45,19 +45,19 @@ class Machine:
     """
 
     def __init__(self, robot: Robot, settings: SimulationSettings) -> None:
-        every = motion_limits(robot, settings.limits)
-        parameters = plant_parameters(robot, every, settings.parameter_seed)
+        every = collect_motion_limits(robot, settings.limits)
+        parameters = draw_plant_parameters(robot, every, settings.parameter_seed)
         self.hidden = complete_effects(robot, parameters, every, settings)
         self.standard = parameters.standard
-        self.task = task_of(robot, parameters, every, settings, self.hidden)
+        self.task = build_task(robot, parameters, every, settings, self.hidden)
         self.reference = self.task.reference
-        self.resolution = encoder_resolution(robot.coordinates, settings)
+        self.resolution = compute_encoder_resolution(robot.coordinates, settings)
         plant, tick = self.task.plant, 1 / settings.rate
-        steps = steps_per_tick(plant, self.task.limits, tick, postures_of(self.task))
-        self._advance = FastFunction(tick_function(plant, tick, steps))
+        steps = choose_steps_per_tick(plant, self.task.limits, tick, select_postures(self.task))
+        self._advance = FastFunction(build_tick_function(plant, tick, steps))
         self.joints = len(plant.joints)
         self.moved = self.reference.q - self.reference.q.mean(axis=0)
-        needed = needed_torques(self.task)
+        needed = compute_needed_torques(self.task)
         self.torque = float(np.min(rms(needed)))
 
     def tracking(self, k: int, q: np.ndarray, qd: np.ndarray, tau: np.ndarray) -> np.ndarray:
@@ -81,7 +81,7 @@ class Machine:
         """
         n, ticks = self.joints, self.reference.time.size
         plant, start = self.task.plant, self.reference.q[0]
-        x = np.concatenate([start, np.zeros(n), self.task.along[0]])
+        x = np.concatenate([start, np.zeros(n), self.task.states_along[0]])
         tau = np.zeros(n)
         rows = []
         words = [str(word) for word in program]
@@ -90,7 +90,7 @@ class Machine:
         ) as own:
             assert own.stdin is not None and own.stdout is not None
             for k in range(ticks):
-                q = quantised(x[:n], self.resolution)
+                q = quantise_position(x[:n], self.resolution)
                 told = line(k, q, x[n : 2 * n], tau)
                 own.stdin.write(" ".join(repr(float(value)) for value in told) + "\n")
                 own.stdin.flush()

@@ -7,7 +7,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from modeler.core.files import resource_dir
+from modeler.core.files import locate_resources
 from tests.modules import STRICT, compiler
 
 HERE = Path(__file__).resolve().parent
@@ -15,7 +15,7 @@ HERE = Path(__file__).resolve().parent
 
 @pytest.mark.parametrize("cc", ["gcc", pytest.param("clang", marks=pytest.mark.rotating)])
 def test_runtime_under_sanitizers(cc, tmp_path):
-    csrc = resource_dir("csrc")
+    csrc = locate_resources("csrc")
     command = [compiler(cc), *STRICT, "-g", "-fsanitize=address,undefined"]
     command += ["-fno-sanitize-recover=all", "-I", csrc / "include", "-I", csrc]
     command += ["-o", tmp_path / "test"]
@@ -41,14 +41,14 @@ void many(int n, const {number} *x, {number} *s, {number} *c);
 void many(int n, const {number} *x, {number} *s, {number} *c)
 {{ for (int i = 0; i < n; i++) modeler_sincos(x[i], s + i, c + i); }}
 """)
-        csrc = resource_dir("csrc")
+        csrc = locate_resources("csrc")
         more = ["-Wdouble-promotion", "-Wfloat-conversion", "-I", csrc / "single"] * single
         command = [compiler("gcc"), *STRICT, *flags, *more, "-I", csrc / "include", "-shared",
                    "-fPIC", "-o", library, folder / "many.c"]  # fmt: skip
         subprocess.run([*command, *["-lm"] * (not single)], check=True)  # floats need none
     out = np.zeros((2, len(x)), x.dtype)
     arrays = (array.ctypes.data_as(ctypes.c_void_p) for array in (x, *out))
-    ctypes.CDLL(str(library)).many(len(x), *arrays)
+    ctypes.CDLL(str(library)).build_batch(len(x), *arrays)
     return out
 
 

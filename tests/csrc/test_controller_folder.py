@@ -11,11 +11,11 @@ import numpy as np
 import pytest
 
 from modeler.codegen.control import Control
-from modeler.codegen.cost import with_cost
+from modeler.codegen.cost import add_cost
 from modeler.codegen.package import write_emitted
 from modeler.codegen.workflow import Derivation, derive, generate, load
 from modeler.core.errors import BuildError, EmitError, ManifestError
-from modeler.core.manifest import Emitted, module_from_json
+from modeler.core.manifest import EmittedModule, parse_manifest
 from tests.csrc.emitted_folders import CPP, built, make, run
 from tests.modules import STRICT, compiler, loaded
 
@@ -30,7 +30,9 @@ def derivation(name: str) -> Derivation:
 
 
 @cache
-def emitted(name: str, only: str = "", precision: str = "double", vectors: bool = False) -> Emitted:
+def emitted(
+    name: str, only: str = "", precision: str = "double", vectors: bool = False
+) -> EmittedModule:
     control = Control(only=tuple(only.split(",")) if only else (), vectors=vectors)
     return generate(derivation(name), control=control, precision=precision)
 
@@ -133,8 +135,8 @@ def test_joints_limits_and_versions_are_constants(words, tmp_path):
         wanted = [np.nan] * 4 if stated is None else dataclasses.astuple(stated)
         assert (name, unit, effort, actuated) == (joint.name, joint.unit, joint.effort_unit, "1")
         assert np.array_equal(np.array(limits, float), wanted, equal_nan=True)
-    origin = module_from_json((tmp_path / "manifest.json").read_text(), "").origin
-    signature = spec.signature()
+    origin = parse_manifest((tmp_path / "manifest.json").read_text(), "").origin
+    signature = spec.compute_signature()
     words = [origin.interface, origin.license, origin.generator, signature, signature]
     assert last == "|".join(map(str, words))
     assert origin.license == "MIT" and origin.generator.startswith("modeler ")
@@ -146,8 +148,8 @@ def test_the_version_of_modeler_is_in_no_signature(monkeypatch):
     differ = {name for name in now.files if later.files[name] != now.files[name]}
     assert differ == {"manifest.json", "demo_arm_generator.h"}
     assert "99.1" in later.files["demo_arm_generator.h"]
-    spec = module_from_json(later.files["manifest.json"], "")
-    assert spec.signature() == now.spec.signature()
+    spec = parse_manifest(later.files["manifest.json"], "")
+    assert spec.compute_signature() == now.spec.compute_signature()
 
 
 @pytest.mark.parametrize(
@@ -212,7 +214,7 @@ def test_the_header_for_cpp_has_the_state_of_loops(tmp_path):
 @cache
 def costs(name: str, only: str) -> dict[str, dict[str, object]]:
     compiler("gcc"), compiler("objdump")
-    text = with_cost(emitted(name, only), "host").files["cost.json"]
+    text = add_cost(emitted(name, only), "host").files["cost.json"]
     return {row["name"]: row for row in json.loads(text)["functions"]}
 
 
@@ -255,13 +257,13 @@ def test_the_stack_of_a_function_in_several_versions_is_that_of_the_largest(tmp_
 def test_a_machine_whose_compiler_is_missing_is_refused_in_one_line(monkeypatch, tmp_path):
     monkeypatch.setenv("PATH", str(tmp_path))
     with pytest.raises(BuildError, match="--measure: arm-none-eabi-gcc is not installed; install"):
-        with_cost(emitted("demo-arm", "inverse_dynamics,gravity"), "cortex-m7")
+        add_cost(emitted("demo-arm", "inverse_dynamics,gravity"), "cortex-m7")
 
 
 def test_the_cost_on_a_microcontroller_is_in_the_readme(tmp_path):
     for tool in ("arm-none-eabi-gcc", "qemu-system-arm"):
         compiler(tool)
-    module = with_cost(emitted("two-link", "gravity,forward_dynamics", "single"), "cortex-m4")
+    module = add_cost(emitted("two-link", "gravity,forward_dynamics", "single"), "cortex-m4")
     told = json.loads(module.files["cost.json"])
     gravity = next(row for row in told["functions"] if row["name"] == "two_link_gravity")
     assert 10 < gravity["instructions"] < 400 and 50 < gravity["flash"] < 2000

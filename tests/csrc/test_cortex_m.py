@@ -10,8 +10,8 @@ import pytest
 
 from modeler.codegen.emit import emit
 from modeler.codegen.package import write_emitted
-from modeler.core.manifest import Emitted
-from modeler.derivation.base_parameters import base_parameters
+from modeler.core.manifest import EmittedModule
+from modeler.derivation.base_parameters import derive_base_parameters
 from modeler.derivation.derive import derive_model
 from modeler.robot.read import read_robot
 from modeler.robot.robot import EffectUse
@@ -27,18 +27,18 @@ FLOAT_FUNCTIONS = {"memset", "memcpy", "memmove", "sqrtf", "fminf", "tanf", "tan
 
 
 @cache
-def emitted(name: str, precision: str = "single") -> Emitted:
+def emitted(name: str, precision: str = "single") -> EmittedModule:
     module = robot_module(name)
     return emit(module.model, module.base, precision=precision)
 
 
-def with_losses(name: str) -> Emitted:
+def with_losses(name: str) -> EmittedModule:
     """With rotor inertia, viscous and Coulomb friction at every joint."""
     robot = read_robot(name)
-    names = tuple(joint.name for joint in robot.moving)
+    names = tuple(joint.name for joint in robot.moving_joints)
     effects = tuple(EffectUse(e, names) for e in ("rotor_inertia", "viscous", "coulomb"))
     model = derive_model(dataclasses.replace(robot, effects=effects))
-    return emit(model, base_parameters(model), precision="single")
+    return emit(model, derive_base_parameters(model), precision="single")
 
 
 @pytest.mark.slow

@@ -9,11 +9,11 @@ import pytest
 
 from modeler.codegen.control import Control
 from modeler.codegen.emit import emit
-from modeler.core.builtin import builtin_text
+from modeler.core.builtin import read_builtin_robot
 from modeler.core.figure import Curve, Panel, Picture
 from modeler.core.style import BLUE, GREEN, VERMILLION, Style
-from modeler.robot.edit import with_effects
-from modeler.robot.read import read_robot, robot_from_text
+from modeler.robot.edit import replace_effects
+from modeler.robot.read import parse_robot_text, read_robot
 from modeler.runtime import load_folder
 from modeler.simulation import HiddenEffect, SimulationSettings
 from tests.codegen.fitted_library import fitted_of, robot_module
@@ -105,9 +105,9 @@ def test_the_controller_carries_what_friction_remembers(tmp_path):
     bristles = {"presliding": [{"joint": "2", "d": distance}]}
     errors = []
     for name, effects in (("forgets", usual), ("remembers", {**usual, **bristles})):
-        text = with_effects(builtin_text("demo-arm"), effects)
+        text = replace_effects(read_builtin_robot("demo-arm"), effects)
         true = {**plant.standard, "Fs2": level, "Fz2": level}
-        true_folder(robot_from_text(text, "demo-arm"), true, tmp_path / name)
+        true_folder(parse_robot_text(text, "demo-arm"), true, tmp_path / name)
         make(tmp_path / name, "examples")
         errors.append([rms(values)[1] for values in driven(tmp_path / name, plant, 0.0)])
     forgetting, remembering = np.array(errors)
@@ -142,14 +142,14 @@ def values_of(name: str):
 
 
 def test_a_robot_with_a_joint_that_nothing_drives_has_no_example_loop():
-    from modeler.codegen.package import EXAMPLES, examples_of
+    from modeler.codegen.package import EXAMPLES, select_examples
 
     spec = values_of("demo-arm").spec
     passive = dataclasses.replace(spec.joints[1], actuated=False)
-    assert examples_of(spec) == EXAMPLES
+    assert select_examples(spec) == EXAMPLES
     joints = (spec.joints[0], passive, *spec.joints[2:])
-    assert examples_of(dataclasses.replace(spec, joints=joints)) == ()
-    assert examples_of(module("demo-arm").emitted.spec) == ()
+    assert select_examples(dataclasses.replace(spec, joints=joints)) == ()
+    assert select_examples(module("demo-arm").emitted.spec) == ()
 
 
 def draw_learning(time: np.ndarray, off: np.ndarray, error: np.ndarray) -> None:
@@ -165,7 +165,7 @@ def draw_learning(time: np.ndarray, off: np.ndarray, error: np.ndarray) -> None:
           Panel("", "time [s]", "tracking error [mrad]", tuple(joints))),), 320,
     )  # fmt: skip
     place = Path(__file__).parents[2] / "docs" / "how-to" / "adaptive.svg"
-    place.write_bytes(figure_matplotlib.images(picture)["svg"])
+    place.write_bytes(figure_matplotlib.render_images(picture)["svg"])
 
 
 @pytest.mark.rotating("long tests of csrc")
@@ -217,7 +217,7 @@ def circle(time: np.ndarray, radius: float) -> list[np.ndarray]:
 @pytest.mark.rotating("long tests of csrc")
 def test_the_tool_follows_a_path_in_space_and_feels_a_push_of_5_newton(tmp_path):
     """A circle of 5 cm in 2.5 s, the wrist held still; then a push."""
-    robot = robot_from_text(builtin_text("puma560") + TOOL, "puma560")
+    robot = parse_robot_text(read_builtin_robot("puma560") + TOOL, "puma560")
     plant = Machine(robot, SimulationSettings(duration=2.5, rate=500.0, seed=5))
     true_folder(robot, plant.standard, tmp_path)
     make(tmp_path, "example_cartesian", "example_residual_observer")

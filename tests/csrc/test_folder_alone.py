@@ -8,7 +8,7 @@ import pytest
 
 from modeler.codegen.emit import emit
 from modeler.codegen.package import write_emitted
-from modeler.core.files import resource_dir
+from modeler.core.files import locate_resources
 from tests.codegen.fitted_library import with_values
 from tests.modules import compiler, module
 from tests.rotation import rotating
@@ -54,7 +54,7 @@ def test_every_c_file_of_the_folder_links_with_a_main_of_the_user(kind, tmp_path
 def test_no_unit_compiles_where_nan_would_not_stay_nan(cc, flag, tmp_path):
     """Tiles too, and what reduces samples in modeler itself."""
     write_emitted(with_values("five-bar"), tmp_path)
-    csrc = resource_dir("csrc")
+    csrc = locate_resources("csrc")
     for unit in (*sorted(tmp_path.glob("*.c")), *sorted(csrc.glob("*.c"))):
         include = ["-I", csrc / "include", "-I", csrc] if unit.parent == csrc else []
         command = [compiler(cc), "-std=c99", flag, *include, "-E", "-o", tmp_path / "text", unit]

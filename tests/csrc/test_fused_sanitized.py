@@ -5,7 +5,7 @@ from pathlib import Path
 
 import pytest
 
-from modeler.core.files import resource_dir
+from modeler.core.files import locate_resources
 from tests.modules import STRICT, compiler
 
 HERE = Path(__file__).resolve().parent
@@ -24,7 +24,7 @@ def test_fused_least_squares_in_c(cc, tmp_path):
 
 
 def run(cc: str, flags: list[str], folder: Path) -> None:
-    csrc = resource_dir("csrc")
+    csrc = locate_resources("csrc")
     strict = [flag for flag in STRICT if flag != "-Wconversion"]
     command = [cc, *strict, "-D_POSIX_C_SOURCE=200112L", *flags, "-I", csrc / "include"]
     command += [HERE / "test_fused.c", csrc / "modeler_fused.c", "-o", folder / "test"]

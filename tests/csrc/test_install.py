@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from modeler.codegen.package import package_version
+from modeler.codegen.package import format_package_version
 from tests.csrc import emitted_folders
 from tests.csrc.emitted_folders import built
 from tests.modules import compiler, module
@@ -25,13 +25,13 @@ run = partial(emitted_folders.run, CFLAGS="-O0")
 
 
 def signature() -> str:
-    return module("emps").emitted.spec.signature()
+    return module("emps").emitted.spec.compute_signature()
 
 
 def write_other(folder: Path) -> None:
     """The folder of a robot of the same name, with another signature."""
     new = signature()[::-1]
-    versions = package_version(signature()), package_version(new)
+    versions = format_package_version(signature()), format_package_version(new)
     for name, text in module("emps").emitted.files.items():
         (folder / name).parent.mkdir(parents=True, exist_ok=True)
         (folder / name).write_text(text.replace(signature(), new).replace(*versions))
@@ -113,7 +113,7 @@ def check_pkg_config(place: Path, prefix: Path) -> None:
         words = ["-Wall", "-Werror", f"{program}.cpp", *flags, rpath, "-o", program]
         run("g++", *words, where=place)
         assert run(f"./{program}", where=place) == says
-    version = package_version(signature())
+    version = format_package_version(signature())
     assert ask("--modversion", "emps") == version
     assert ask("--variable=signature", "emps") == signature()
     ask("--exists", f"emps = {version}")
@@ -126,7 +126,7 @@ def test_cmake_installs_either_kind(folder, tmp_path, shared):
     compiler("cmake"), compiler("pkg-config")
     prefix, place = tmp_path / "prefix", tmp_path / "consumer"
     install_by_cmake(folder, prefix, shared)
-    consume(place, prefix, shared, f"{package_version(signature())} EXACT REQUIRED")
+    consume(place, prefix, shared, f"{format_package_version(signature())} EXACT REQUIRED")
     kinds = ("static", "shared")
     told = configure(place, prefix, f"REQUIRED COMPONENTS {kinds[not shared]}", fails=True)
     assert f"no library of signature {signature()} here that is {kinds[not shared]}" in told
@@ -144,12 +144,12 @@ def test_the_library_beside_is_found_where_the_first_has_another_signature(folde
     write_other(another)
     install_by_make(another, tmp_path / "first")
     install_by_make(folder, prefix)
-    version = package_version(signature())
+    version = format_package_version(signature())
     both = f"{tmp_path / 'first'};{prefix}"
     consume(place, both, False, f"{version} REQUIRED")
     for wanted in (version, "1"):
         told = configure(place, tmp_path / "first", f"{wanted} REQUIRED", fails=True)
-        assert package_version(signature()[::-1]) in told  # "considered but not accepted"
+        assert format_package_version(signature()[::-1]) in told  # "considered but not accepted"
 
 
 @pytest.mark.rotating("another signature")
@@ -204,4 +204,4 @@ def test_the_check_of_the_folder_notices_a_library_that_is_not_its_own(folder):
 
 
 def test_a_version_is_made_of_the_signature():
-    assert package_version("12345678abcd0000") == "2.4660.22136.43981"
+    assert format_package_version("12345678abcd0000") == "2.4660.22136.43981"

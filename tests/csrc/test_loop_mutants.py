@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from modeler.core.errors import ModelerError
-from modeler.core.manifest import Emitted
+from modeler.core.manifest import EmittedModule
 from tests.csrc.loop_mutants import mutants_of
 from tests.csrc.test_mutants import Folder, Mutant, changed, same_results, told
 from tests.modules import loaded, module
@@ -39,7 +39,7 @@ ESCAPED = (
 """Wrong signs, terms and bounds that a check of stored states alone did not notice."""
 
 
-def same_ways(emitted: Emitted, other: Emitted) -> bool:
+def same_ways(emitted: EmittedModule, other: EmittedModule) -> bool:
     """Whether a mutant is the same function: long paths in tiles, and targets near and far.
 
     It may take other steps, or take samples one by one that could go together: how many evaluations
@@ -66,7 +66,7 @@ def same_ways(emitted: Emitted, other: Emitted) -> bool:
     )
 
 
-def equivalent(emitted: Emitted, mutant: Mutant, name: str) -> bool:
+def equivalent(emitted: EmittedModule, mutant: Mutant, name: str) -> bool:
     """Whether no number that a user sees can tell the mutant."""
     other = changed(emitted, mutant)
     return same_results(emitted, other, name) and same_ways(emitted, other)

@@ -14,7 +14,7 @@ import pytest
 
 from modeler.codegen.emit import emit
 from modeler.codegen.package import write_emitted
-from modeler.core.manifest import Emitted
+from modeler.core.manifest import EmittedModule
 from tests.codegen.fitted_library import Functions, motion, robot_module, with_values
 from tests.modules import compiler, module
 from tests.rotation import ROTATING
@@ -38,7 +38,7 @@ STEERING = r"_tree_(platform_)?(turned|spread|residual)\("
 where. Their mutants are left out; of all others that pass, `same_results` has to say why."""
 
 
-def single(name: str) -> Emitted:
+def single(name: str) -> EmittedModule:
     made = robot_module(name)
     return emit(made.model, made.base, precision="single")
 
@@ -53,20 +53,20 @@ class Mutant:
     text: str
 
 
-def changed(emitted: Emitted, mutant: Mutant) -> Emitted:
+def changed(emitted: EmittedModule, mutant: Mutant) -> EmittedModule:
     """The folder with the mutant."""
     text = emitted.files[mutant.file]
     text = text[: mutant.start] + mutant.text + text[mutant.end :]
     return dataclasses.replace(emitted, files={**emitted.files, mutant.file: text})
 
 
-def told(emitted: Emitted, mutant: Mutant) -> str:
+def told(emitted: EmittedModule, mutant: Mutant) -> str:
     text = emitted.files[mutant.file]
     line = text[: mutant.start].rpartition("\n")[2] + ">"
     return f"{mutant.file}: {line}{text[mutant.start :].partition(chr(10))[0]} -> {mutant.text}"
 
 
-def code_lines(emitted: Emitted, *runtime: str) -> Iterator[tuple[str, int, str, str]]:
+def code_lines(emitted: EmittedModule, *runtime: str) -> Iterator[tuple[str, int, str, str]]:
     """Of the robot's own C and of these files: file, place, line, head of its function or table.
 
     Comments are blank.
@@ -85,7 +85,7 @@ def code_lines(emitted: Emitted, *runtime: str) -> Iterator[tuple[str, int, str,
             at += len(line)
 
 
-def mutants_of(emitted: Emitted) -> list[Mutant]:
+def mutants_of(emitted: EmittedModule) -> list[Mutant]:
     """All of the robot's own files, and of sine and cosine."""
     lines = code_lines(emitted, "modeler_sincos.h")
     return [m for file, at, line, head in lines if not re.search(STEERING, head)
@@ -112,7 +112,7 @@ def constants(file: str, line: str, at: int) -> list[Mutant]:
     ]
 
 
-def same_results(emitted: Emitted, changed: Emitted, name: str) -> bool:
+def same_results(emitted: EmittedModule, changed: EmittedModule, name: str) -> bool:
     """Whether the mutant is the same function: so it is at twelve further states, to rounding.
 
     There are terms that cancel (w x of a vector along w), vanish wherever the loops are closed, or
@@ -143,7 +143,7 @@ def same_results(emitted: Emitted, changed: Emitted, name: str) -> bool:
 class Folder:
     """An emitted folder with its objects; a mutant compiles what it has changed."""
 
-    def __init__(self, emitted: Emitted, place: Path) -> None:
+    def __init__(self, emitted: EmittedModule, place: Path) -> None:
         self.emitted, self.place = emitted, place
         write_emitted(emitted, place)
         self.units = [n for n in emitted.files if n.endswith(".c") and "/" not in n]
@@ -186,7 +186,7 @@ class Folder:
 
 
 @cache
-def all_mutants(name: str) -> tuple[Emitted, list[Mutant]]:
+def all_mutants(name: str) -> tuple[EmittedModule, list[Mutant]]:
     emitted = FOLDERS[name]()
     return emitted, mutants_of(emitted)
 

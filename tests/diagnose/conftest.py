@@ -12,7 +12,7 @@ import pytest
 
 from modeler.cli import main
 from modeler.codegen.workflow import Derivation
-from modeler.core.table import printed
+from modeler.core.table import format_error_pair
 from modeler.diagnosis.diagnosis import diagnose
 from modeler.diagnosis.result import Diagnosis
 from modeler.estimation.model_file import IdentifiedModel
@@ -86,7 +86,7 @@ def check_gains(found: Diagnosis) -> None:
             assert plain["gain"] is None
             continue
         assert abs(plain["gain"] - (1.0 - (after / before) ** 2)) < 1e-12
-        numbers = printed(before, after)
+        numbers = format_error_pair(before, after)
         assert numbers[0] != numbers[1] and after < before
         assert " -> ".join(numbers) in finding.evidence
 

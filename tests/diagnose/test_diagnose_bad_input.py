@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from modeler.api import recompile
+from modeler.api import compile
 from modeler.estimation.model_file import load_model
 from tests.diagnose.conftest import RATE, Run, Table, columns_of, written
 
@@ -124,7 +124,7 @@ def planned(arm: Path, q: np.ndarray, place: Path) -> Path:
     """A log of the motion q (n, 3) with the torques of the model and white noise."""
     model = load_model(arm / "m.json")
     v = np.gradient(q, 1.0 / RATE, axis=0)
-    tau = recompile(model).inverse_dynamics(q, v, np.gradient(v, 1.0 / RATE, axis=0), model.beta)
+    tau = compile(model).inverse_dynamics(q, v, np.gradient(v, 1.0 / RATE, axis=0), model.beta)
     rng = np.random.default_rng(1)
     columns = {"time": np.arange(len(q)) / RATE}
     for j in range(3):

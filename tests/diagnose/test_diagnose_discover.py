@@ -9,19 +9,19 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from modeler.api.improve import discovered_added
+from modeler.api.improve import add_proposals
 from modeler.diagnosis import proposals
-from modeler.diagnosis.added_model import Logs
+from modeler.diagnosis.added_model import LogSplit
 from modeler.diagnosis.diagnosis import diagnose
 from modeler.diagnosis.discover import JointSearch
-from modeler.diagnosis.expressions import Formula, Part, parameter_unit, parts
-from modeler.diagnosis.proposals import discover
-from modeler.diagnosis.result import Diagnosis, Proposal
+from modeler.diagnosis.expressions import Factor, Formula, derive_parameter_unit, list_factors
+from modeler.diagnosis.proposals import discover_equations
+from modeler.diagnosis.result import Diagnosis, EquationProposal
 from modeler.diagnosis.signals import SignalReference
-from modeler.diagnosis.state import SearchData, State, analysed, state_of
+from modeler.diagnosis.state import SearchData, State, analyse_logs, build_state
 from modeler.observation.log import Log
-from modeler.report.diagnosis import diagnosis_page
-from modeler.robot.read import robot_from_text
+from modeler.report.diagnosis import build_diagnosis_page
+from modeler.robot.read import parse_robot_text
 from tests.diagnose.conftest import Case, Run, demonstration, motion, nothing, on_joint
 from tests.json_schemas import check_schema
 
@@ -48,7 +48,7 @@ def churning(log: Log) -> np.ndarray:
     """Drag of joint 2 that grows with its load, with its sign: no effect of the catalogue."""
     q, v = motion(log)
     load = two_links().compiled.inverse_dynamics(
-        q, v, np.gradient(v, log.time, axis=0), _links().links
+        q, v, np.gradient(v, log.time, axis=0), _links().link_parameters
     )
     return on_joint(log, 1, CHURN * load[:, 1] * v[:, 1])
 
@@ -66,7 +66,7 @@ def found(case: Case) -> Diagnosis:
     return diagnose(model, case.compiled, [train], [holdout], equations=True)
 
 
-def first_of(found: Diagnosis) -> Proposal:
+def first_of(found: Diagnosis) -> EquationProposal:
     """The best proposal for joint 2."""
     every = {own.joint: own for own in found.discoveries or ()}
     assert not every["1"].proposals
@@ -77,8 +77,8 @@ def first_of(found: Diagnosis) -> Proposal:
 def state(case: Case, torque: object) -> State:
     """What the model leaves of the training run with a hidden torque."""
     model, train, _ = case.hidden(torque)  # type: ignore[arg-type]
-    seen = analysed(case.compiled, [train], model.processing)
-    return state_of(SearchData(case.compiled, seen), (), model.beta)
+    seen = analyse_logs(case.compiled, [train], model.processing)
+    return build_state(SearchData(case.compiled, seen), (), model.beta)
 
 
 UNITS = {
@@ -91,14 +91,17 @@ UNITS = {
 
 def test_units_follow_from_what_is_read(case: Case) -> None:
     spec = case.compiled.spec
-    every: dict[str, Part] = {}
-    for some in parts(spec, state(case, nothing).scales, 1, False, [5.0]):
-        every.setdefault(some[0].factor.id, some[0])
+    every: dict[str, Factor] = {}
+    for some in list_factors(spec, state(case, nothing).joint_scales, 1, False, [5.0]):
+        every.setdefault(some[0].effect.id, some[0])
     for names, unit in UNITS.items():
         formula = Formula((tuple(every[name] for name in names),))
-        candidate = formula.candidate([joint.name for joint in spec.joints], 1)
-        assert parameter_unit(spec, 1, candidate, 0, formula.shape_units(False)) == unit, names
-        assert all(math.isfinite(value) for value in formula.shapes.values())
+        candidate = formula.build_candidate([joint.name for joint in spec.joints], 1)
+        assert (
+            derive_parameter_unit(spec, 1, candidate, 0, formula.find_nonlinear_units(False))
+            == unit
+        ), names
+        assert all(math.isfinite(value) for value in formula.nonlinear_parameters.values())
 
 
 def test_the_hidden_equation_is_the_first_with_its_value(found: Diagnosis) -> None:
@@ -119,9 +122,9 @@ def test_the_hidden_equation_is_the_first_with_its_value(found: Diagnosis) -> No
 def test_every_symbol_has_its_price(found: Diagnosis) -> None:
     """A term more leaves less of these logs, by chance, and stands behind it all the same."""
     search = JointSearch(found.search.start, 1)
-    stem = (*search.named["load"].term, *search.named["v"].term)
-    longer = [Formula((stem, own.term)) for own in search.atoms]
-    every = search.scored([Formula((stem,)), *longer])
+    stem = (*search.plain_factors["load"].term, *search.plain_factors["v"].term)
+    longer = [Formula((stem, own.term)) for own in search.wave_free_columns]
+    every = search.score_formulas([Formula((stem,)), *longer])
     assert every[0].formula.text == "load*v"
     assert min(own.left for own in every[1:]) < every[0].left
 
@@ -129,14 +132,14 @@ def test_every_symbol_has_its_price(found: Diagnosis) -> None:
 def test_what_is_proposed_can_be_pasted_and_added(case: Case, found: Diagnosis) -> None:
     model, train, holdout = case.hidden(churning)
     first = first_of(found)
-    pasted = robot_from_text(f"{model.robot_text}\n{first.text}\n", "pasted")
+    pasted = parse_robot_text(f"{model.robot_text}\n{first.text}\n", "pasted")
     assert [e.id for e in pasted.own_effects] == [first.finding.effect]
     assert first.effects_line == f'{first.finding.effect} = ["2"]'
-    better, left_out = discovered_added(model, case.compiled, Logs([train], [holdout]), found)
+    better, left_out = add_proposals(model, case.compiled, LogSplit([train], [holdout]), found)
     assert (better.history[-1].effect, better.history[-1].joint) == (first.finding.effect, "2")
     assert better.history[-1].error < 0.5 * better.history[0].error and not left_out
     unproven = dataclasses.replace(found, discoveries=())
-    same, why = discovered_added(model, case.compiled, Logs([train], [holdout]), unproven)
+    same, why = add_proposals(model, case.compiled, LogSplit([train], [holdout]), unproven)
     assert same is model and why == ("left out: nothing was found",)
 
 
@@ -149,16 +152,16 @@ def test_what_is_found_is_told_to_machines_and_on_the_page(found: Diagnosis) -> 
     assert offered[0]["text"].startswith("[own_effects.found_2a]")
     if len(offered) > 1:
         assert "--between found_2a@2,found_2b@2" in offered[0]["apart"]
-    page = diagnosis_page(found)
+    page = build_diagnosis_page(found)
     assert any(section.title.startswith("Xbaa2") for section in page.sections)
 
 
 @pytest.mark.rotating("diagnoses of simulated runs")
 def test_a_place_of_another_joint_is_found(case: Case) -> None:
-    best = JointSearch(state(case, reaching), 0).found()[0]
-    assert best.formula.columns == ["v*exp(-((q2 - c)/b)**2)"]
-    assert best.formula.shapes["c"] == pytest.approx(0.5, abs=0.1)
-    assert best.formula.shapes["b"] == pytest.approx(0.7, rel=0.1)
+    best = JointSearch(state(case, reaching), 0).find_formulas()[0]
+    assert best.formula.equations == ["v*exp(-((q2 - c)/b)**2)"]
+    assert best.formula.nonlinear_parameters["c"] == pytest.approx(0.5, abs=0.1)
+    assert best.formula.nonlinear_parameters["b"] == pytest.approx(0.7, rel=0.1)
 
 
 @pytest.mark.rotating("diagnoses of simulated runs")
@@ -166,7 +169,7 @@ def test_the_least_held_out_error_stands_first(monkeypatch: pytest.MonkeyPatch) 
     """In runs that are long enough to be sure of it."""
     monkeypatch.setattr(proposals, "_whole_cost", lambda search, item: -item.cost)  # the worst
     search = demonstration(robot="two-link").found(churning).search
-    every = discover(search, (), None)[1].proposals
+    every = discover_equations(search, (), None)[1].proposals
     assert len(every) > 1, "several are offered"
     errors = [own.finding.error_after for own in every]
     least = min(errors)
@@ -176,7 +179,7 @@ def test_the_least_held_out_error_stands_first(monkeypatch: pytest.MonkeyPatch) 
 
 @pytest.mark.rotating("diagnoses of simulated runs")
 def test_nothing_is_proposed_where_nothing_is_hidden(case: Case) -> None:
-    every = discover(case.found(nothing).search, (), None)
+    every = discover_equations(case.found(nothing).search, (), None)
     assert [own.joint for own in every] == ["1", "2"]
     assert all(not own.proposals and "nothing to find" in own.why for own in every)
 

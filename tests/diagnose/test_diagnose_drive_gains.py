@@ -7,9 +7,9 @@ import numpy as np
 import pytest
 
 from modeler.diagnosis.add import add_effect, add_findings
-from modeler.diagnosis.added_model import Logs
-from modeler.diagnosis.drive_gains import gain_visible
-from modeler.runtime.model import load
+from modeler.diagnosis.added_model import LogSplit
+from modeler.diagnosis.drive_gains import compute_gain_visibility
+from modeler.runtime.model import load_module
 from tests.diagnose.conftest import Case, Torque
 from tests.rotation import rotating
 
@@ -46,7 +46,7 @@ def test_wrong_gains_are_named_with_their_values_and_added(case: Case, factors) 
         assert sigma < 0.01 * wrong[name] and finding.objection == ""
     assert not any("torque is" in line for line in diagnosis.data)
     model, train, holdout = case.hidden(logged(*factors))
-    logs = Logs([train], [holdout])
+    logs = LogSplit([train], [holdout])
     better, left = add_findings(model, case.compiled, diagnosis.effects, logs)
     assert left == () and all(step.falls for step in better.history[1:])
     for f in diagnosis.effects:
@@ -55,8 +55,8 @@ def test_wrong_gains_are_named_with_their_values_and_added(case: Case, factors) 
         assert added == pytest.approx(f.parameters[name], abs=3e-3 * (1.0 + wrong[name]))
     if factors == (1, 1, 0.4):
         # A bent fit describes joint 3 so well that its gain seems hidden.
-        assert diagnosis.search.steps[0].judged.visible < 0.01
-        assert gain_visible(diagnosis.search.end, 0) > 0.05
+        assert diagnosis.search.steps[0].score.visible_share < 0.01
+        assert compute_gain_visibility(diagnosis.search.end, 0) > 0.05
 
 
 @pytest.mark.rotating("diagnoses of simulated runs")
@@ -65,7 +65,7 @@ def test_a_second_gain_mends_the_first_that_was_added(case: Case) -> None:
     model, train, holdout = case.hidden(logged(*BOTH))
     compiled = case.compiled
     for joint in ("2", "3"):
-        model = add_effect(model, compiled, "drive_gain", joint, Logs([train], [holdout]))
-        compiled = load(model.spec, model.sources)
+        model = add_effect(model, compiled, "drive_gain", joint, LogSplit([train], [holdout]))
+        compiled = load_module(model.spec, model.sources)
     added = eps_of(model, ["eps2", "eps3"])
     assert added == pytest.approx({"eps2": 0.3, "eps3": -0.5}, abs=0.01)

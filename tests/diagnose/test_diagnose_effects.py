@@ -9,9 +9,9 @@ import pytest
 
 from modeler.api import load
 from modeler.diagnosis.diagnosis import diagnose
-from modeler.diagnosis.sentences import lines
+from modeler.diagnosis.sentences import format_lines
 from modeler.observation.log import Log
-from modeler.report import after_diagnosis
+from modeler.report import suggest_after_diagnosis
 from tests.chain import chain_of
 from tests.diagnose import conftest
 from tests.diagnose.conftest import RATE, Case, Torque, motion, nothing, on_joint, spring
@@ -66,10 +66,10 @@ def test_one_effect_alone_has_the_errors_of_its_joint_and_what_other_looks_say(c
     joint = found.joints["3"]
     assert first.error_before == pytest.approx(joint.error_before)
     assert first.error_after == pytest.approx(joint.error_after)
-    held_out, band = first.looks
+    held_out, band = first.cross_checks
     assert held_out.what == "in the held-out logs" and band.what.startswith("up to")
     assert band.gain > 0.5 and first.doubt == "" and first.status != "perhaps"
-    assert all(look.agrees and look.leads == ("spring", "3") for look in first.looks)
+    assert all(look.agrees and look.leads == ("spring", "3") for look in first.cross_checks)
     told = found.to_json()
     leads = told["effects"][0]["looks"][0]["leads"]
     assert leads == {"effect": "spring", "joint": "3"} and told["joints"].keys() == {"1", "2", "3"}
@@ -89,7 +89,9 @@ def test_effects_that_fail_on_held_out_motion_are_not_named(case: Case) -> None:
     model, train, _ = case.hidden(spring)
     diagnosis = diagnose(model, case.compiled, [train], [case.holdout])
     assert ("spring", "3") not in {(f.effect, f.joint) for f in diagnosis.effects}
-    assert ("spring", "3") in {judged.candidate.key for judged in diagnosis.search.vetoed}
+    assert ("spring", "3") in {
+        judged.candidate.key for judged in diagnosis.search.vetoed_candidates
+    }
     (told,) = [line for line in diagnosis.sentences if line.startswith("not named: spring at")]
     assert "that of motion left out does not surely fall" in told
 
@@ -194,7 +196,7 @@ def test_what_has_changed_is_told(case: Case, name: str) -> None:
     assert {p.name for p in found.machine_changed} == moved, found.sentences
     assert found.verdict == "cannot tell" and "machine differs" in found.sentences[0]
     first = found.machine_changed[0]
-    assert f"{first.name}: {first.before:.4g} +- " in "\n".join(lines(found))
+    assert f"{first.name}: {first.before:.4g} +- " in "\n".join(format_lines(found))
     said = found.to_json()["machine_changed"][0]
     assert {"name", "before", "after", "sigma_before", "sigma_after", "unit"} <= set(said)
-    assert not any("generate" in line for line in after_diagnosis("m", ["a"], ["b"], found))
+    assert not any("generate" in line for line in suggest_after_diagnosis("m", ["a"], ["b"], found))

@@ -7,33 +7,43 @@ import numpy as np
 import pytest
 
 from modeler.diagnosis import data_checks, judge as errors, search
-from modeler.diagnosis.assemble import _doubted, verdict
-from modeler.diagnosis.candidates import Candidate, StatedEffects, candidates, scales_of
+from modeler.diagnosis.assemble import _add_event_caveat, decide_verdict
+from modeler.diagnosis.candidates import Candidate, StatedEffects, compute_scales, list_candidates
 from modeler.diagnosis.cross_checks import CrossCheck
-from modeler.diagnosis.judge import Judged, Judgement, alternatives, decide, possible
+from modeler.diagnosis.judge import (
+    RankedCandidates,
+    ScoredCandidate,
+    is_possible,
+    select_alternatives,
+    select_best,
+)
 from modeler.diagnosis.plausible import DRIVES
-from modeler.diagnosis.result import Finding, doubt
-from modeler.diagnosis.score import Change, Score
-from modeler.diagnosis.search import HypothesisScan
-from modeler.diagnosis.sentences import refused_lines
-from modeler.effects.catalogue import effect_named
-from modeler.observation.channels import Doubt
+from modeler.diagnosis.result import Finding, explain_weak_evidence
+from modeler.diagnosis.score import ErrorChange, Score
+from modeler.diagnosis.search import CandidateScan
+from modeler.diagnosis.sentences import describe_rejected
+from modeler.effects.catalogue import find_effect
+from modeler.observation.channels import DataWarning
 from tests.diagnose.conftest import Case
 
 
 def candidate(name: str, joint: str | None = "1") -> Candidate:
     """An effect on a joint, with shapes that are in no grid."""
-    effect = effect_named(name)
+    effect = find_effect(name)
     assert effect is not None
-    shapes = {shape.name: 0.123 for shape in effect.forms[0].shapes}
+    shapes = {shape.name: 0.123 for shape in effect.forms[0].nonlinear_parameters}
     return Candidate(effect, effect.forms[0], joint, 0, shapes)
 
 
-def at_its_best(name: str, share: float, value: float = 1.0, drop: object = None) -> Judged:
+def at_its_best(
+    name: str, share: float, value: float = 1.0, drop: object = None
+) -> ScoredCandidate:
     """An effect that explains so much, by these values."""
     one = candidate(name)
     values, drop = np.full(len(one.effect.columns), value), np.ones(40) if drop is None else drop
-    return Judged(one, share, share, drop, values, 0.1 * values, 20.0, 0.1, 0.5, possible=True)
+    return ScoredCandidate(
+        one, share, share, drop, values, 0.1 * values, 20.0, 0.1, 0.5, is_possible=True
+    )
 
 
 def joint_left(error: float, unexplained: bool = False) -> dict[str, SimpleNamespace]:
@@ -51,8 +61,8 @@ def test_a_joint_that_slides_has_no_lever_and_no_disc(case: Case) -> None:
     slides = [dataclasses.replace(j, unit="m") if j.name == "2" else j for j in spec.joints]
     spec = dataclasses.replace(spec, joints=tuple(slides))
     motion = [np.random.default_rng(1).normal(size=(50, len(spec.joints)))]
-    scales = scales_of(spec, motion, motion, motion)
-    found = {c.key for c in candidates(spec, scales, {}, set(), StatedEffects())}
+    scales = compute_scales(spec, motion, motion, motion)
+    found = {c.key for c in list_candidates(spec, scales, {}, set(), StatedEffects())}
     turning = ("counterbalance", "constant_force_spring", "encoder_eccentricity")
     assert not {(name, "2") for name in turning} & found
     assert {("counterbalance", "1"), ("encoder_eccentricity", "3"), ("spring", "2")} <= found
@@ -65,8 +75,10 @@ def test_signs_and_sizes_that_physics_forbids() -> None:
         ("offset", (-30.0,), ()),
         ("load_friction", (0.45,), (0.97,)),
     ):
-        assert all(possible(candidate(effect), np.array([value])) for value in can_be), effect
-        assert not any(possible(candidate(effect), np.array([value])) for value in cannot), effect
+        assert all(is_possible(candidate(effect), np.array([value])) for value in can_be), effect
+        assert not any(is_possible(candidate(effect), np.array([value])) for value in cannot), (
+            effect
+        )
 
 
 @pytest.mark.parametrize(("error", "said"), [(1.4, "cannot tell"), (0.9, "nothing significant")])
@@ -77,7 +89,7 @@ def test_of_motion_that_is_not_explained_at_all_nothing_can_be_told(
     observation = SimpleNamespace(time=time, run=np.zeros(3000), logs=("a",))
     start = SimpleNamespace(y=[np.zeros(3000)], data=SimpleNamespace(observation=observation))
     found = SimpleNamespace(start=start)
-    assert verdict((), joint_left(error), found) == said  # type: ignore[arg-type]
+    assert decide_verdict((), joint_left(error), found) == said  # type: ignore[arg-type]
 
 
 @pytest.mark.parametrize(("stiffness", "named"), [(2.0, "spring"), (-2.0, "counterbalance")])
@@ -86,7 +98,7 @@ def test_of_two_that_explain_the_same_a_rare_sign_loses(stiffness: float, named:
     drop = np.random.default_rng(2).uniform(0.5, 1.5, 40)
     rivals = (("spring", stiffness), ("counterbalance", 1.0))
     both = [at_its_best(name, 0.9, value, drop) for name, value in rivals]
-    best = decide(None, both).best  # type: ignore[arg-type]
+    best = select_best(None, both).best  # type: ignore[arg-type]
     assert best is not None and best.candidate.effect.id == named
 
 
@@ -103,8 +115,8 @@ def test_a_push_is_no_fact_while_something_acts_all_the_time(
 ) -> None:
     joints = joint_left(0.1, left)
     event = finding(effect, None, event=effect == "external_force")
-    first = _doubted(event, joints)  # type: ignore[arg-type]
-    assert verdict((first,), joints, None) == said  # type: ignore[arg-type]
+    first = _add_event_caveat(event, joints)  # type: ignore[arg-type]
+    assert decide_verdict((first,), joints, None) == said  # type: ignore[arg-type]
     assert first.status == ("fact" if said == "missing" else "named")
 
 
@@ -135,11 +147,11 @@ DROWNED = CrossCheck("up to 9 Hz", None, True, -0.01, 0.015)
 def test_one_rule_says_in_words_why_an_effect_is_perhaps_and_no_more(
     name: str, after: float, others: dict[str, object], why: str
 ) -> None:
-    said = doubt(candidate(name), (0.2 if after < 0.2 else 0.9, after), **others)  # type: ignore[arg-type]
+    said = explain_weak_evidence(candidate(name), (0.2 if after < 0.2 else 0.9, after), **others)  # type: ignore[arg-type]
     assert why in said and bool(said) is bool(why)
     first = finding(name, "2", doubt=said)
     assert first.status == ("perhaps" if why else "fact")
-    assert verdict((first,), joint_left(0.1), None) == (  # type: ignore[arg-type]
+    assert decide_verdict((first,), joint_left(0.1), None) == (  # type: ignore[arg-type]
         "closest description" if why else "missing"
     )
 
@@ -149,7 +161,7 @@ def test_plain_friction_goes_before_what_refines_it(share: float, goes_first: bo
     drop = np.random.default_rng(2).uniform(0.5, 1.5, 40)
     finer = at_its_best("position_friction", 0.9, drop=drop)
     plain = at_its_best("coulomb", 0.9 * share, drop=share * drop)
-    best = decide(None, [finer, plain]).best  # type: ignore[arg-type]
+    best = select_best(None, [finer, plain]).best  # type: ignore[arg-type]
     assert best is (plain if goes_first else finer)
 
 
@@ -167,8 +179,8 @@ def test_plain_friction_goes_before_what_refines_it(share: float, goes_first: bo
 def test_laws_that_every_joint_has_have_no_finer_rivals(named: str, other: str, tie: bool) -> None:
     drop = np.random.default_rng(3).uniform(0.5, 1.5, 40)
     best, rival = (at_its_best(name, 0.9, drop=drop) for name in (named, other))
-    nothing = Judgement((), None)
-    assert alternatives(best, [rival], nothing) == ([rival] if tie else [])
+    nothing = RankedCandidates((), None)
+    assert select_alternatives(best, [rival], nothing) == ([rival] if tie else [])
 
 
 @pytest.mark.parametrize(
@@ -177,17 +189,17 @@ def test_laws_that_every_joint_has_have_no_finer_rivals(named: str, other: str, 
 def test_what_is_doubted_gives_way_to_a_rival_that_explains_as_much(
     gain: float, share: float, taken: bool
 ) -> None:
-    doubted = dataclasses.replace(at_its_best("elasticity", gain), why="too heavy")
-    rival = search.Judgement((), at_its_best("spring", share))
+    doubted = dataclasses.replace(at_its_best("elasticity", gain), reason="too heavy")
+    rival = search.RankedCandidates((), at_its_best("spring", share))
     survey = SimpleNamespace(judged=lambda vetoed, tick: rival)
-    for judged, gives_way in ((doubted, taken), (dataclasses.replace(doubted, why=""), False)):
-        instead = search._instead(survey, [], judged, SimpleNamespace(), print)  # type: ignore[arg-type]
+    for judged, gives_way in ((doubted, taken), (dataclasses.replace(doubted, reason=""), False)):
+        instead = search._choose_alternative(survey, [], judged, SimpleNamespace(), print)  # type: ignore[arg-type]
         assert instead is (rival if gives_way else None)
 
 
 def test_what_was_refused_is_told_once_the_best_first_with_its_reason() -> None:
     def at(effect_id: str, joint: str, gain: float, confirmed: bool = True) -> SimpleNamespace:
-        one = SimpleNamespace(key=(effect_id, joint), effect=effect_named(effect_id))
+        one = SimpleNamespace(key=(effect_id, joint), effect=find_effect(effect_id))
         why = DRIVES if effect_id == "drift" else ""
         return SimpleNamespace(candidate=one, gain=gain, confirmed=confirmed, why=why)
 
@@ -197,7 +209,7 @@ def test_what_was_refused_is_told_once_the_best_first_with_its_reason() -> None:
     last, named = SimpleNamespace(ranked=ranked), SimpleNamespace(effect="offset", joint="1")
     steps = [SimpleNamespace(pick=SimpleNamespace(key=("offset", "1")))]
     whole = SimpleNamespace(vetoed=vetoed, steps=steps, last=last)
-    lines = refused_lines(SimpleNamespace(search=whole, effects=(named,), refinements=()))  # type: ignore[arg-type]
+    lines = describe_rejected(SimpleNamespace(search=whole, effects=(named,), refinements=()))  # type: ignore[arg-type]
     for line, (what, why) in zip(lines, (
         ("(elasticity), joint 2, explains 60 %", "errors of timing"),
         ("(spring), joint 1, explains 50 %", "motion left out"),
@@ -214,14 +226,14 @@ def test_an_effect_keeps_on_other_motion_what_it_promises(
     monkeypatch: pytest.MonkeyPatch, after: float, expected: float, refused: bool
 ) -> None:
     """Errors there without it are 1; a little falls by chance, or by what the effect is not."""
-    change = Change("", 1.0, after, 5.0)
+    change = ErrorChange("", 1.0, after, 5.0)
     monkeypatch.setattr(errors, "touched_joints", lambda judged, before, after: [0])
     monkeypatch.setattr(errors, "holdout_residuals", lambda state, other: state)
     monkeypatch.setattr(errors, "compared", lambda *a: Score((change,), change))
-    veto = errors.vetoing("held out")  # type: ignore[arg-type]
+    veto = errors.make_veto("held out")  # type: ignore[arg-type]
     judged_at = SimpleNamespace(gain=expected, alone=True)
     assert veto("before", "after", judged_at) is refused  # type: ignore[arg-type]
-    chance = Change("", 1.0, after, 1.9)
+    chance = ErrorChange("", 1.0, after, 1.9)
     monkeypatch.setattr(errors, "compared", lambda *a: Score((chance,), chance))
     assert veto("before", "after", judged_at), "no more than chance"  # type: ignore[arg-type]
 
@@ -237,20 +249,20 @@ def test_what_an_effect_explains_is_no_matter_of_the_channel(
     data = SimpleNamespace(observation=SimpleNamespace(report=SimpleNamespace(notes=list)))
     start, end = (SimpleNamespace(residual=[np.full(10, size)], data=data, picks=())
                   for size in (1.0, left))  # fmt: skip
-    faults = [Doubt("torque 1 is 0.7 times the predicted", certain, joint=0)]
+    faults = [DataWarning("torque 1 is 0.7 times the predicted", certain, joint=0)]
     search = SimpleNamespace(start=start, end=end)
-    assert len(data_checks.doubts(None, search, None, faults)) == told  # type: ignore[arg-type]
+    assert len(data_checks.collect_warnings(None, search, None, faults)) == told  # type: ignore[arg-type]
 
 
 def test_what_gave_way_is_a_tie_of_what_explains_as_much() -> None:
     refused = [
-        dataclasses.replace(at_its_best(name, share), why=why)
+        dataclasses.replace(at_its_best(name, share), reason=why)
         for name, share, why in (
             ("counterbalance", 0.51, "no gravity"), ("elasticity", 0.9, "too heavy"),
             ("drift", 0.5, DRIVES), ("payload", 0.5, ""),
         )
     ]  # fmt: skip
-    found = search._doubted(refused, at_its_best("spring", 0.5))
+    found = search._find_displaced_candidates(refused, at_its_best("spring", 0.5))
     assert [judged.candidate.effect.id for judged in found] == ["counterbalance"]
 
 
@@ -259,9 +271,9 @@ def test_a_veto_is_asked_again_where_an_effect_leaves_half_as_much(
     before: float, now: float, again: bool
 ) -> None:
     better = dataclasses.replace(at_its_best("spring", now))
-    survey = HypothesisScan(None, (), (better,))  # type: ignore[arg-type]
+    survey = CandidateScan(None, (), (better,))  # type: ignore[arg-type]
     mending = dataclasses.replace(at_its_best("stribeck", 0.2), values=-np.ones(1))
     refused = [at_its_best("spring", before), mending]
-    kept = survey.still_refused(refused)
+    kept = survey.list_still_refused(refused)
     assert (refused[0] not in kept) is again
     assert mending in kept, "what only mends a law stays refused"

@@ -8,7 +8,7 @@ from scipy.signal import lfilter
 
 from modeler.diagnosis.diagnosis import diagnose
 from modeler.diagnosis.result import Diagnosis
-from modeler.diagnosis.signals import filtered
+from modeler.diagnosis.signals import apply_lag
 from modeler.diagnosis.timing import CONVENTION
 from modeler.observation import Log
 from tests.diagnose.conftest import Case, Torque, on_joint
@@ -63,7 +63,7 @@ def test_a_filtered_torque_is_named_with_its_time(
     assert first.parameters["tau"] == pytest.approx(tau, rel=0.1)
     assert first.parameters[f"lag{joint or ''}"] == pytest.approx(1.0, abs=0.1)
     assert first.error_after < 0.3 * first.error_before
-    assert not stated_friction(found) and not found.addable
+    assert not stated_friction(found) and not found.addable_findings
 
 
 @pytest.mark.rotating("diagnoses of simulated runs")
@@ -89,8 +89,8 @@ def test_what_is_a_delay_or_a_filter_takes_no_place(case: Case) -> None:
     """Too short for these data to tell: it is told, and is in no model that judges others."""
     for how in (low_passed, late):
         found = case.found(changed(how, 1, 0.004))
-        assert not stated_friction(found) and not found.addable
-        assert all(step.pick.effect.id != "torque_lag" for step in found.search.steps)
+        assert not stated_friction(found) and not found.addable_findings
+        assert all(step.candidate.effect.id != "torque_lag" for step in found.search.steps)
         assert any("(torque_lag), joint 2" in line and "describes it as well" in line
                    for line in found.sentences)  # fmt: skip
 
@@ -105,6 +105,6 @@ def test_less_than_half_a_sample_is_no_effect(case: Case) -> None:
 def test_the_filter_is_exact_for_straight_lines() -> None:
     time = np.arange(200) * 0.01
     for tau in (0.002, 0.03):
-        told = filtered(time, 0.01, tau)
+        told = apply_lag(time, 0.01, tau)
         assert told == pytest.approx(time - tau * (1.0 - np.exp(-time / tau)), abs=1e-12)
-    assert math.isclose(filtered(np.ones(5), 0.01, 0.02)[-1], 1.0)
+    assert math.isclose(apply_lag(np.ones(5), 0.01, 0.02)[-1], 1.0)

@@ -8,12 +8,12 @@ from pathlib import Path
 import pytest
 
 from modeler.api import compare, diagnose, read_logs
-from modeler.core.builtin import builtin_text
+from modeler.core.builtin import read_builtin_robot
 from modeler.diagnosis.add import add_effect
-from modeler.diagnosis.added_model import Logs
+from modeler.diagnosis.added_model import LogSplit
 from modeler.diagnosis.result import Diagnosis
 from modeler.estimation.model_file import IdentifiedModel
-from modeler.runtime.model import load as load_compiled
+from modeler.runtime.model import load_module as load_compiled
 from tests.chain import chain_of
 from tests.measured_sets.sets import DATA, SETS
 from tests.rotation import slow_rotating
@@ -54,7 +54,7 @@ def test_emps_has_friction_that_differs_between_the_directions() -> None:
 def test_ur10e_the_errors_fall_as_effects_are_added(ur10e_model: IdentifiedModel) -> None:
     model, (training, held_out) = ur10e_model, logs("ur10e")
     compiled = load_compiled(model.spec, model.sources)
-    data = Logs(read_logs(compiled, training), read_logs(compiled, held_out))
+    data = LogSplit(read_logs(compiled, training), read_logs(compiled, held_out))
     for effect, joint in (("load_friction", "2"), ("load_friction", "3"),
                           ("nonlinear_viscous", "1")):  # fmt: skip
         model = add_effect(model, load_compiled(model.spec, model.sources), effect, joint, data)
@@ -72,7 +72,7 @@ def test_ur10e_a_load_is_found_first_with_its_mass(ur10e_model: IdentifiedModel)
 @slow_rotating("measured logs are diagnosed")
 def test_tx40_the_motor_of_joint_6_turns_joint_5_too() -> None:
     """From a robot file that couples nothing; errors below those of the published model."""
-    text = builtin_text("tx40").partition("[coupling]")[0]
+    text = read_builtin_robot("tx40").partition("[coupling]")[0]
     coupled = 'coupled_inertia = ["6"]\ncoupled_friction = ["6"]'
     assert coupled in text
     found = diagnosed("tx40", text.replace(coupled, ""))

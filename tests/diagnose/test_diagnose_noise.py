@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from modeler.diagnosis.diagnosis import diagnose
-from modeler.diagnosis.state import analysed, bands_line
+from modeler.diagnosis.state import analyse_logs, describe_bands
 from modeler.observation.log import Log
 from modeler.observation.settings import Processing
 from tests.diagnose.conftest import Case, motion, nothing
@@ -41,13 +41,13 @@ def test_noise_of_the_positions_is_nothing_systematic(case: Case) -> None:
 
 def test_positions_that_are_exact_are_looked_at_far_above_the_motion(case: Case) -> None:
     model = case.fitted(case.train)
-    seen = analysed(case.compiled, [case.train], model.processing)
-    narrow = analysed(case.compiled, [case.train], model.processing, 0.0)
+    seen = analyse_logs(case.compiled, [case.train], model.processing)
+    narrow = analyse_logs(case.compiled, [case.train], model.processing, 0.0)
     wide, low = (own.report.processing for own in (seen, narrow))
     assert wide.parallel_cutoff > 1.5 * low.parallel_cutoff
     assert wide.position_cutoff >= 2.0 * wide.parallel_cutoff
-    assert len(bands_line(model.processing, wide)) == 1
-    assert bands_line(wide, wide) == []
+    assert len(describe_bands(model.processing, wide)) == 1
+    assert describe_bands(wide, wide) == []
 
 
 def test_torques_without_any_friction_are_doubted(case: Case) -> None:

@@ -7,9 +7,9 @@ import pytest
 
 from modeler.diagnosis import plausible
 from modeler.diagnosis.candidates import Candidate, JointScale
-from modeler.diagnosis.plausible import objection
-from modeler.diagnosis.signals import SignalReference, tilt_axes
-from modeler.effects.catalogue import effect_named
+from modeler.diagnosis.plausible import find_caveat
+from modeler.diagnosis.signals import SignalReference, compute_tilt_axes
+from modeler.effects.catalogue import find_effect
 from tests.chain import chain_of
 
 INERTIA = 2.0  # kg m^2
@@ -32,7 +32,7 @@ def state(unit="rad", weight=0.0):
 
 
 def pick(name):
-    effect = effect_named(name)
+    effect = find_effect(name)
     return Candidate(effect, effect.forms[0], "1", 0, {"f": 10.0})
 
 
@@ -44,10 +44,10 @@ def rung(inertia):
 @pytest.mark.parametrize(("unit", "named"), [("rad", "20 kg m2"), ("m", "20 kg on this")])
 def test_what_rings_with_ten_times_the_inertia_is_not_this_joint(unit, named):
     for ratio in (0.3, 1.0, 3.0):
-        assert objection(state(unit), pick("elasticity"), rung(ratio * INERTIA)) == ""
-    text = objection(state(unit), pick("elasticity"), rung(10.0 * INERTIA))
+        assert find_caveat(state(unit), pick("elasticity"), rung(ratio * INERTIA)) == ""
+    text = find_caveat(state(unit), pick("elasticity"), rung(10.0 * INERTIA))
     assert named in text and "the links have 2 kg" in text and "something else rings" in text
-    assert objection(state(unit), pick("elasticity"), rung(0.1 * INERTIA))
+    assert find_caveat(state(unit), pick("elasticity"), rung(0.1 * INERTIA))
 
 
 @pytest.mark.parametrize(("level", "said"), [(2.0, False), (5.0, True)])
@@ -60,7 +60,7 @@ def test_a_part_of_the_friction_is_no_larger_than_all_of_it(level, said):
     made.spec.base = friction
     made.rows.W = [np.column_stack([np.sign(np.sin(np.arange(100.0))), np.full(100, 50.0)])]
     made.beta, made.picks = np.array([3.0, 1.0]), (pick("presliding"),)
-    text = objection(made, pick("presliding"), {"Fz1": level, "d": 0.01})
+    text = find_caveat(made, pick("presliding"), {"Fz1": level, "d": 0.01})
     assert ("all friction of its joint is 3 N m" in text) is said, text
 
 
@@ -90,7 +90,7 @@ def test_a_lever_balances_gravity_and_is_no_straight_line(bent, weight, links, d
     """With link data a bend is seen that free inertias could make."""
     made = levered(lambda q: 3.0 + q + bent * q**2, weight)
     made.data.prior = SimpleNamespace(has_bodies=links)
-    said = objection(made, pick("constant_force_spring"), {"Kgl1": 1.0})
+    said = find_caveat(made, pick("constant_force_spring"), {"Kgl1": 1.0})
     assert doubt in said and bool(said) is bool(doubt)
 
 
@@ -101,9 +101,9 @@ def test_a_spring_that_is_never_near_its_rest_is_a_constant_torque(rest, having,
     made = state()
     made.data.compiled.spec.standard = [SimpleNamespace(effect=e, joint="1") for e in having]
     made.scales = [JointScale(speed=1.0, range=1.5, load=1.0, angular=True, middle=0.0)]
-    effect = effect_named("spring")
+    effect = find_effect("spring")
     spring = Candidate(effect, effect.forms[0], "1", 0, {"q0": rest, "h": 0.0})
-    assert ("a constant torque" in objection(made, spring, {"Ks1": 1.0})) is doubted
+    assert ("a constant torque" in find_caveat(made, spring, {"Ks1": 1.0})) is doubted
 
 
 @pytest.mark.parametrize(
@@ -120,7 +120,7 @@ def test_a_body_has_the_inertia_of_a_body(monkeypatch, inertia, built):
     made.picks, made.values, made.sigma, made.data.free = (payload,), [np.array(values)], [1.0], []
     made.rows.signals, made.rows.W = [None], [np.zeros((100, 0))]
     said = dict(zip(["XX", "YY", "ZZ", "MX", "mass"], values, strict=True))
-    assert (objection(made, payload, said) == "") is built
+    assert (find_caveat(made, payload, said) == "") is built
 
 
 @pytest.mark.parametrize(
@@ -135,7 +135,7 @@ def test_a_body_has_the_inertia_of_a_body(monkeypatch, inertia, built):
 )
 def test_masses_gains_and_others(effect, values, said):
     """A gain that is far off is a matter of sign or unit; of most effects nothing is asked."""
-    text = objection(state(), pick(effect), values)
+    text = find_caveat(state(), pick(effect), values)
     assert said in text and bool(said) is bool(text)
 
 
@@ -144,6 +144,6 @@ def test_an_arm_that_moves_in_a_plane_feels_a_tilt_in_it_alone(robot: str, axes:
     compiled = chain_of(robot).compiled
     links = np.random.default_rng(2).uniform(1.0, 2.0, len(compiled.spec.base))
     reference = SignalReference(compiled, links, 0.0, {})
-    found = tilt_axes(reference)
+    found = compute_tilt_axes(reference)
     assert len(found) == axes
     np.testing.assert_allclose(np.linalg.norm(found, axis=1), 1.0)

@@ -6,11 +6,11 @@ import numpy as np
 import pytest
 
 from modeler.diagnosis import detected as module
-from modeler.diagnosis.detected import detected
+from modeler.diagnosis.detected import detect_events
 from modeler.diagnosis.diagnosis import diagnose
-from modeler.diagnosis.score import Change, Score
-from modeler.effects.catalogue import CATALOGUE, effect_named
-from modeler.report.torque_picture import play_picture
+from modeler.diagnosis.score import ErrorChange, Score
+from modeler.effects.catalogue import CATALOGUE, find_effect
+from modeler.report.torque_picture import draw_play_picture
 from tests.diagnose.conftest import Case, motion, on_joint
 
 ERRORS = {"1": 0.05, "2": 0.05, "3": 0.05}
@@ -18,7 +18,7 @@ ERRORS = {"1": 0.05, "2": 0.05, "3": 0.05}
 
 def falls(after):
     """What the column of play makes of an error of 5 %."""
-    change = Change("", 0.05, after, 5.0)
+    change = ErrorChange("", 0.05, after, 5.0)
     return lambda candidate: Score((change,), change)
 
 
@@ -32,7 +32,7 @@ def searched(monkeypatch, start, end, knocks=(0.0, 0.0, 0.0), columns=None):
     states = [SimpleNamespace(names=names, ratios=ratios) for ratios in (start, end)]
     monkeypatch.setattr(module, "burst_ratio", lambda state, j: state.ratios[j])
     monkeypatch.setattr(module, "knocking", lambda state, j: knocks[j])
-    effect = effect_named("backlash")
+    effect = find_effect("backlash")
     ranked = [
         SimpleNamespace(candidate=SimpleNamespace(effect=effect, index=j), gain=g, share=s, sure=r)
         for j, (g, s, r) in (columns or {}).items()
@@ -43,13 +43,13 @@ def searched(monkeypatch, start, end, knocks=(0.0, 0.0, 0.0), columns=None):
 
 def column(effect, joint, gain, refines=False):
     left = 0.1 * (1.0 - gain) ** 0.5
-    pick = SimpleNamespace(candidate=SimpleNamespace(effect=effect_named(effect)))
+    pick = SimpleNamespace(candidate=SimpleNamespace(effect=find_effect(effect)))
     return module.Finding(effect, joint, 0.1, left, {}, {}, {}, (), "", 1.0, refines, pick=pick)
 
 
 def said(found, findings=()):
-    every = detected(found, None, ERRORS, falls(0.04), list(findings))
-    return [(f.effect, f.joint) for f in every if not f.refines]
+    every = detect_events(found, None, ERRORS, falls(0.04), list(findings))
+    return [(f.effect, f.joint) for f in every if not f.is_refinement]
 
 
 QUIET = (1.0, 1.0, 1.0)
@@ -85,7 +85,7 @@ def test_faint_bursts_count_where_the_column_of_play_explains_something(
 def test_knocks_without_rule_are_a_description_at_most(monkeypatch):
     knocks, columns = (0.0, 0.9, 0.0), {1: (0.1, 0.1, 5.0)}
     found = searched(monkeypatch, QUIET, QUIET, knocks, columns)
-    (play,) = detected(found, None, ERRORS, falls(0.04), [])
+    (play,) = detect_events(found, None, ERRORS, falls(0.04), [])
     assert (play.effect, play.joint) == ("backlash", "2")
     assert "do not follow the sign of the load" in play.objection
     assert "90 % of the residual's energy" in play.evidence
@@ -97,9 +97,9 @@ def test_the_joint_bursts_most_and_its_column_describes_most(monkeypatch):
     loud = (14.0, 52.0, 30.0)
     columns = {0: (0.5, 0.25, 9.0), 1: (0.4, 0.22, 9.0), 2: (0.1, 0.0, 9.0)}
     found = searched(monkeypatch, loud, loud, columns=columns)
-    (play,) = detected(found, None, ERRORS, falls(0.04), [])
+    (play,) = detect_events(found, None, ERRORS, falls(0.04), [])
     assert play.joint == "2"
-    assert play.ties == (("backlash", "1"), ("backlash", "3"))
+    assert play.equivalents == (("backlash", "1"), ("backlash", "3"))
 
 
 def test_play_whose_column_does_not_lower_the_error_is_no_fact(monkeypatch):
@@ -107,10 +107,10 @@ def test_play_whose_column_does_not_lower_the_error_is_no_fact(monkeypatch):
     loud = (1.0, 52.0, 1.0)
     for columns, after in (({}, 0.04), ({1: (0.4, 0.2, 9.0)}, 0.05)):
         found = searched(monkeypatch, loud, loud, columns=columns)
-        (play,) = detected(found, None, ERRORS, falls(after), [])
-        assert not play.stated and "no column of play" in play.objection
+        (play,) = detect_events(found, None, ERRORS, falls(after), [])
+        assert not play.is_confirmed and "no column of play" in play.objection
         assert play.error_before == 0.05 and np.isnan([play.error_after, play.gain]).all()
-    (play,) = detected(found, None, ERRORS, falls(0.04), [])
+    (play,) = detect_events(found, None, ERRORS, falls(0.04), [])
     assert play.status == "fact" and (play.error_before, play.error_after) == (0.05, 0.04)
     assert "error 5 % -> 4 %" in play.evidence
 
@@ -146,7 +146,7 @@ def test_play_is_found_beside_a_spring_in_simulated_runs(case: Case) -> None:
     model, train, holdout = case.hidden(torque)
     found = diagnose(model, case.compiled, [train], [holdout])
     assert {(f.effect, f.joint) for f in found.effects} == {("backlash", "1"), ("spring", "3")}
-    picture = play_picture(found.search.end, 0)
+    picture = draw_play_picture(found.search.end, 0)
     ((panel,),) = picture.panels
     means = panel.series[1]
     near, far = (means.y[(np.abs(means.x) < 0.05) == inside].mean() for inside in (True, False))

@@ -5,9 +5,9 @@ import pytest
 
 from modeler.api import add, diagnose, read_logs
 from modeler.diagnosis.add import add_findings
-from modeler.diagnosis.added_model import Logs
-from modeler.robot import robot_from_text
-from modeler.runtime.model import load
+from modeler.diagnosis.added_model import LogSplit
+from modeler.robot import parse_robot_text
+from modeler.runtime.model import load_module
 from modeler.simulation import HiddenEffect, SimulationSettings, simulate
 from tests.chain import chain_of
 from tests.link_data import buildable, links, text
@@ -21,7 +21,7 @@ LINE = "a counterbalance on joint 2 cannot be told from gravity: give link data"
 def fitted(values, seed, hidden=(), uncertainty=None):
     """A machine whose links are about the stated ones, its model, logs to fit and to judge on."""
     machine = buildable(0.1, np.random.default_rng(seed), NOMINAL)
-    true = robot_from_text(text(machine), "true")
+    true = parse_robot_text(text(machine), "true")
     runs = [
         simulate(true, SimulationSettings(duration=seconds, rate=400.0, seed=seed + k,
                                           torque_noise=0.02, hidden=hidden))
@@ -39,8 +39,8 @@ def test_with_link_data_a_counterbalance_is_named(seed):
     assert found.effects[0].error_after < 0.2 * found.effects[0].error_before
     assert not any(LINE in line for line in found.sentences)
     assert any("link 2: the data contradict" in line for line in model.fit.verdict.doubts)
-    compiled = load(model.spec, model.sources)
-    read = Logs(*(read_logs(compiled, some) for some in logs))
+    compiled = load_module(model.spec, model.sources)
+    read = LogSplit(*(read_logs(compiled, some) for some in logs))
     named, _ = add_findings(model, compiled, found.effects, read)
     for better in (add(model, "counterbalance", *logs, "2"), named):
         assert [step.effect for step in better.history] == ["", "counterbalance"]

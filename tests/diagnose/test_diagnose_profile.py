@@ -6,24 +6,24 @@ import numpy as np
 import pytest
 
 from modeler.api import observe
-from modeler.diagnosis.add import add_effect, undone
-from modeler.diagnosis.added_model import Logs, added
+from modeler.diagnosis.add import add_effect, remove_last_effect
+from modeler.diagnosis.added_model import LogSplit, describe_last_addition
 from modeler.diagnosis.candidates import StatedEffects
-from modeler.diagnosis.profile import profile_of
-from modeler.diagnosis.search import extended, scan_catalogue
-from modeler.diagnosis.state import SearchData, analysed, state_of
+from modeler.diagnosis.profile import compute_effect_profile
+from modeler.diagnosis.search import extend_state, scan_catalogue
+from modeler.diagnosis.state import SearchData, analyse_logs, build_state
 from modeler.estimation.identify import identify
 from modeler.estimation.model_file import load_model, save_model
-from modeler.estimation.parameter import spread_text
-from modeler.runtime.model import load
-from modeler.simulation import SimulationSettings, hidden_from_text, simulate
+from modeler.estimation.parameter import format_spread
+from modeler.runtime.model import load_module
+from modeler.simulation import SimulationSettings, parse_hidden_effect, simulate
 from tests.chain import chain_of
 
 
 @cache
 def simulated(hide, seed):
     """A log of a machine with a hidden effect, its model, and the effect's true values."""
-    arm, hidden = chain_of("demo-arm"), (hidden_from_text(hide),)
+    arm, hidden = chain_of("demo-arm"), (parse_hidden_effect(hide),)
     settings = {
         "duration": 15.0, "rate": 500.0, "seed": seed, "parameter_seed": seed,
         "torque_noise": 0.02, "hidden": hidden,
@@ -37,12 +37,12 @@ def found(hide, seed):
     """The profile of an effect put in at its best shapes, and its true values."""
     log, model, truth = simulated(hide, seed)
     arm, robot = chain_of("demo-arm"), chain_of("demo-arm").derivation.robot
-    seen = analysed(arm.compiled, [log], model.processing)
+    seen = analyse_logs(arm.compiled, [log], model.processing)
     data = SearchData(arm.compiled, seen, None, StatedEffects(robot.catalogue, robot.coupling))
-    state = state_of(data, (), model.beta)
+    state = build_state(data, (), model.beta)
     effect, _, joint = hide.partition(":")[0].partition("@")
-    best = scan_catalogue(state, only=effect, joint=joint).judged().ranked[0].candidate
-    return profile_of(extended(state, best), 0), truth
+    best = scan_catalogue(state, only=effect, joint=joint).judge_candidates().ranked[0].candidate
+    return compute_effect_profile(extend_state(state, best), 0), truth
 
 
 @cache
@@ -50,7 +50,7 @@ def added_to(hide, seed):
     """The log, and its model with the effect added."""
     log, model, _ = simulated(hide, seed)
     arm, (effect, _, joint) = chain_of("demo-arm"), hide.partition("@")
-    return log, add_effect(model, arm.compiled, effect, joint, Logs([log]))
+    return log, add_effect(model, arm.compiled, effect, joint, LogSplit([log]))
 
 
 CASES = {
@@ -117,14 +117,14 @@ def test_what_is_added_is_stored_and_told_with_it(tmp_path):
     assert list(step.shape_intervals["d"]) == [1.0, 2.0]
     low, high = step.shape_intervals["vs"]
     assert low < truth["speed"] < high
-    told = added(better)
+    told = describe_last_addition(better)
     assert told[0].startswith("Fst2 = ") and (" to " in told[0] or "+-" in told[0])
     assert "d = " in told[-1] and "(1 to 2)" in told[-1]
     save_model(tmp_path / "m.json", better)
     again = load_model(tmp_path / "m.json")
     assert again.fit.parameters == better.fit.parameters
     assert again.history[-1].to_json() == step.to_json()
-    before = undone(better, Logs([log]))
+    before = remove_last_effect(better, LogSplit([log]))
     assert all(p.interval is None for p in before.fit.parameters)
 
 
@@ -133,7 +133,7 @@ def test_shapes_widen_what_stands_beside_them():
     """Coulomb friction trades with a dip of unknown width: its sigma knows."""
     log, better = added_to("stribeck@2", 901)
     sigma = {p.name: p.sigma for p in better.fit.parameters}
-    observation = observe(load(better.spec, better.sources), [log], better.processing)
+    observation = observe(load_module(better.spec, better.sources), [log], better.processing)
     fixed = {p.name: p.sigma for p in identify(observation).parameters}
     assert sigma["Fst2"] > 2.0 * fixed["Fst2"]
     assert all(sigma[name] >= 0.999 * fixed[name] for name in fixed)
@@ -150,4 +150,4 @@ def test_shapes_widen_what_stands_beside_them():
     ],
 )
 def test_an_interval_is_told_where_one_sigma_says_little(value, sigma, interval, text):
-    assert spread_text(value, sigma, interval) == text
+    assert format_spread(value, sigma, interval) == text

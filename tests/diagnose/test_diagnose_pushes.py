@@ -7,13 +7,13 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from modeler.diagnosis.candidates import StatedEffects, candidates, scales_of
+from modeler.diagnosis.candidates import StatedEffects, compute_scales, list_candidates
 from modeler.diagnosis.diagnosis import diagnose
-from modeler.effects.catalogue import effect_named
+from modeler.effects.catalogue import find_effect
 from modeler.observation.log import Log
-from modeler.report.diagnosis import diagnosis_page
+from modeler.report.diagnosis import build_diagnosis_page
 from modeler.report.page import write_page
-from modeler.report.torque_picture import push_picture
+from modeler.report.torque_picture import draw_push_picture
 from tests.diagnose.conftest import Case, Torque, check_gains, motion, on_joint
 from tests.rotation import rotating
 
@@ -57,7 +57,7 @@ def test_a_push_whose_torque_changes_its_sign_is_one_push(case: Case, tmp_path: 
     assert first.parameters["t1"] == pytest.approx(13.6, abs=0.3)
     # It stands out in its picture, on the page.
     assert diagnosis.window is not None
-    ((panel,),) = push_picture(diagnosis.search.end, diagnosis.window).panels
+    ((panel,),) = draw_push_picture(diagnosis.search.end, diagnosis.window).panels
     assert panel.shade is not None
     start, end = panel.shade
     for curve in panel.series:
@@ -65,7 +65,7 @@ def test_a_push_whose_torque_changes_its_sign_is_one_push(case: Case, tmp_path: 
         outside = (curve.x < start - 0.2) | (curve.x > end + 0.2)
         loud, quiet = (np.nanmedian(np.abs(curve.y[x])) for x in (inside, outside))
         assert loud > 20.0 * quiet
-    page = write_page(tmp_path / "page.html", diagnosis_page(diagnosis)).read_text()
+    page = write_page(tmp_path / "page.html", build_diagnosis_page(diagnosis)).read_text()
     assert "Something pushed" in page
 
 
@@ -107,7 +107,7 @@ def test_a_helical_spring_and_a_constant_pull_are_told_apart(
     case: Case, torque: Torque, named: str, ties: tuple[tuple[str, str], ...], status: str
 ) -> None:
     first = case.found(torque).effects[0]
-    assert (first.effect, first.joint, first.ties) == (named, "2", ties)
+    assert (first.effect, first.joint, first.equivalents) == (named, "2", ties)
     assert (first.status == "fact") is (status == "fact")
 
 
@@ -115,7 +115,7 @@ def test_a_helical_spring_and_a_constant_pull_are_told_apart(
 def test_what_is_ruled_out_on_a_joint_is_neither_named_nor_tied(case: Case) -> None:
     first = case.found(constant, without=("balancer@2",)).effects[0]
     assert (first.effect, first.joint) == ("constant_force_spring", "2")
-    assert ("counterbalance", "2") not in first.ties
+    assert ("counterbalance", "2") not in first.equivalents
 
 
 def slower(log: Log, every: int, late: float) -> Log:
@@ -163,8 +163,8 @@ def test_a_held_out_log_without_temperature_is_told_and_used(case: Case) -> None
 def test_a_declared_coupling_is_the_one_that_is_tried(case: Case) -> None:
     spec = case.compiled.spec
     motors = [np.random.default_rng(1).normal(size=(50, len(spec.joints)))]
-    effect = effect_named("coupled_friction")
+    effect = find_effect("coupled_friction")
     known = StatedEffects([effect], {"3": {"2": 0.5, "3": 1.0}})
-    found = candidates(spec, scales_of(spec, motors, motors, motors), {}, set(), known)
-    assert [(c.joint, c.turn) for c in found if c.joint == "3"] == [("3", {1: 0.5, 2: 1.0})]
-    assert {c.shapes["c"] for c in found if c.joint == "2"} == {1.0, -1.0}
+    found = list_candidates(spec, compute_scales(spec, motors, motors, motors), {}, set(), known)
+    assert [(c.joint, c.coupling) for c in found if c.joint == "3"] == [("3", {1: 0.5, 2: 1.0})]
+    assert {c.nonlinear_parameters["c"] for c in found if c.joint == "2"} == {1.0, -1.0}

@@ -14,10 +14,10 @@ from docsite.effects import SCENES, Portrait, Scene, effects_index, portrait
 from docsite.gallery import exhibit, gallery_front
 from docsite.hooks import on_config
 from modeler.cli import main
-from modeler.cli.commands import parser
-from modeler.core.builtin import builtin_text
+from modeler.cli.commands import build_parser
+from modeler.core.builtin import read_builtin_robot
 from modeler.effects import CATALOGUE, Effect
-from modeler.robot import robot_from_text, with_effects
+from modeler.robot import parse_robot_text, replace_effects
 from modeler.simulation import HIDDEN
 from tests.rotation import ROTATING, rotating
 
@@ -44,7 +44,7 @@ def size(png: bytes) -> tuple[int, int]:
 def test_the_commands_of_every_effect_parse(effect: Effect) -> None:
     assert {*SCENES} <= {effect.id for effect in CATALOGUE}
     commands = SCENES.get(effect.id, Scene()).commands(effect.id)
-    parsed = [parser().parse_args(shlex.split(line)[1:]) for line in commands]
+    parsed = [build_parser().parse_args(shlex.split(line)[1:]) for line in commands]
     hidden = next(words for words in parsed if getattr(words, "hide", None))
     assert [text.partition("@")[0] for text in hidden.hide] == [effect.id]
     assert parsed[-1].logs == [hidden.out] and parsed[-1].model == parsed[-2].out
@@ -75,15 +75,15 @@ def test_an_effect_has_its_page(name: str) -> None:
     verdict = code_blocks(page, "text")[1]
     assert name in verdict, "the diagnosis names something else"
     for line in "".join(code_blocks(page, "sh")).splitlines():
-        parser().parse_args(shlex.split(line)[1:])
+        build_parser().parse_args(shlex.split(line)[1:])
 
 
 @pytest.mark.rotating("long tests of docsite")
 @pytest.mark.parametrize("name", ["stribeck", *rotating("position_friction")])
 def test_the_lines_of_a_robot_file_are_those_of_a_robot(name: str) -> None:
     (lines,) = code_blocks(made(name).page, "toml")
-    text = with_effects(builtin_text("two-link"), tomllib.loads(lines)["effects"])
-    assert {use.effect for use in robot_from_text(text, "two-link").effects} == {name}
+    text = replace_effects(read_builtin_robot("two-link"), tomllib.loads(lines)["effects"])
+    assert {use.effect for use in parse_robot_text(text, "two-link").effects} == {name}
 
 
 @pytest.mark.rotating("pages of effects")

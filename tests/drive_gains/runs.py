@@ -7,9 +7,9 @@ import numpy as np
 from modeler.api import load
 from modeler.estimation.payload import Payload
 from modeler.observation import Log, Observation, observe
-from modeler.robot import with_drive_gains
+from modeler.robot import replace_drive_gains
 from modeler.runtime.model import CompiledModel
-from modeler.simulation import SimulatedLog, SimulationSettings, hidden_from_text, simulate
+from modeler.simulation import SimulatedLog, SimulationSettings, parse_hidden_effect, simulate
 from tests.chain import chain_of
 
 BARE, LOADED = "bare", "loaded"
@@ -62,9 +62,9 @@ def runs_of(robot: str, mass: float, duration: float, rate: float) -> Runs:
     """A bare and a loaded run of a built-in robot with drive gains of 1; the rest is drawn."""
     source = load(robot)
     ones = {joint.name: 1.0 for joint in source.coordinates}
-    chain = chain_of(with_drive_gains(source.text, ones))
+    chain = chain_of(replace_drive_gains(source.text, ones))
     compiled = chain.compiled
-    load_of = hidden_from_text(f"payload:mass={mass}")
+    load_of = parse_hidden_effect(f"payload:mass={mass}")
     bare, loaded = (
         simulate(chain.derivation.robot, SimulationSettings(
             duration=duration, rate=rate, seed=seed, torque_noise=0.0, hidden=hidden

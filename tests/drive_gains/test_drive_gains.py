@@ -8,14 +8,14 @@ import pytest
 from scipy.optimize import least_squares as nonlinear
 
 from modeler.api import compile_model, derive, generate, load, read_currents
-from modeler.core.builtin import builtin_text
+from modeler.core.builtin import read_builtin_robot
 from modeler.core.errors import DataError, RobotError
-from modeler.estimation import Payload, deviations, known_doubts
-from modeler.estimation.doubts import mounted_differently, remounted
-from modeler.estimation.drive_gains import identify_gains, mixed_tls
-from modeler.numerics.least_squares import compress
+from modeler.estimation import Payload, check_known_quantities, describe_deviations
+from modeler.estimation.doubts import find_moved_payloads, separate_payload
+from modeler.estimation.drive_gains import identify_gains, solve_mixed_tls
+from modeler.numerics.least_squares import compress_rows
 from modeler.observation.observe import observe
-from modeler.robot.edit import with_drive_gains
+from modeler.robot.edit import replace_drive_gains
 from tests.drive_gains.runs import Runs, runs_of
 from tests.rotation import slow_rotating
 
@@ -29,7 +29,8 @@ def arm() -> Runs:
 
 
 def drawn(seed, noise, units=1.0):
-    """Rows of three drives with four parameters and a load of 1: W and V, as `mixed_tls` has it."""
+    """Rows of three drives with four parameters and a load of 1: W and V, as `solve_mixed_tls` "
+    "has it."""
     rng = np.random.default_rng(seed)
     W = rng.normal(size=(3 * ROWS, 5)) * [1.0, 3.0, 0.2, 1.0, 2.0]
     W[: 2 * ROWS, 4] *= rng.integers(0, 2, 2 * ROWS)  # the load is carried in some rows
@@ -40,7 +41,7 @@ def drawn(seed, noise, units=1.0):
 
 
 def estimated(W, V, joint):
-    return mixed_tls(compress(W, V, joint, 3, [*"abcd", "load"]), known=4)
+    return solve_mixed_tls(compress_rows(W, V, joint, 3, [*"abcd", "load"]), known=4)
 
 
 def test_without_noise_gains_and_parameters_are_exact():
@@ -121,19 +122,25 @@ def test_gains_and_parameters_of_an_arm(arm):
 def test_a_weight_that_contradicts_is_told_with_its_factor(arm, factor):
     """Gains are right, and the load is said to weigh so many times what it does."""
     seen = arm.seen(np.ones(3))
-    (doubt,) = known_doubts(arm.compiled, seen, [arm.payload(factor * arm.mass)], currents=False)
+    (doubt,) = check_known_quantities(
+        arm.compiled, seen, [arm.payload(factor * arm.mass)], currents=False
+    )
     weighs, share, way = re.search(
         r"it weighs ([\d.]+) \+- [\d.]+ kg, ([\d.]+) % (more|less)", doubt.line
     ).groups()
     assert float(weighs) == pytest.approx(arm.mass, rel=0.01)
     assert float(share) == pytest.approx(abs(100.0 / factor - 100.0), abs=0.6)
-    assert way == ("more" if factor < 1.0 else "less") and doubt.values and not doubt.certain
+    assert (
+        way == ("more" if factor < 1.0 else "less")
+        and doubt.affects_values
+        and not doubt.is_certain
+    )
     assert f"the {factor * arm.mass:g} kg given" in doubt.line
 
 
 def test_gains_of_the_file_that_contradict_are_told(arm):
     """All gains are taken for 1.05 times what they are."""
-    weight, gains = known_doubts(
+    weight, gains = check_known_quantities(
         arm.compiled, arm.seen(np.full(3, 1 / 1.05)), [arm.payload()], currents=True
     )
     assert " % more than the 2 kg given" in weight.line
@@ -142,7 +149,7 @@ def test_gains_of_the_file_that_contradict_are_told(arm):
     assert "the drive gains are not those of the robot file" in gains.line
     # one that is wrong is told although the weight may agree
     one = arm.seen(np.array([1.0, 1.0, 1.05]))
-    doubts = known_doubts(arm.compiled, one, [arm.payload()], currents=True)
+    doubts = check_known_quantities(arm.compiled, one, [arm.payload()], currents=True)
     line = next(d.line for d in doubts if "not those of the robot file" in d.line)
     assert re.search(r"joint 3 1\.0(4[5-9]|5[0-4]?)", line)
     assert "joint 1" not in line and "joint 2" not in line
@@ -151,7 +158,7 @@ def test_gains_of_the_file_that_contradict_are_told(arm):
 @pytest.mark.parametrize("noise", [0.005, pytest.param(0.05, marks=pytest.mark.rotating)])
 def test_right_weights_and_gains_are_not_doubted(arm, noise):
     seen = arm.seen(np.ones(3), noise, 1)
-    assert known_doubts(arm.compiled, seen, [arm.payload()], currents=True) == []
+    assert check_known_quantities(arm.compiled, seen, [arm.payload()], currents=True) == []
 
 
 def test_logs_that_do_not_tell_the_gains_are_refused_with_the_figure(arm):
@@ -174,7 +181,7 @@ def test_logs_of_two_robots_are_named(arm):
     rows = seen.run == 1
     seen.torque[rows] += seen.predicted(other - arm.beta)[rows]
     words = "do not fit one robot: joint . has .* % of its torque left if each is described alone"
-    (doubt,) = known_doubts(arm.compiled, seen, [arm.payload()], currents=True)
+    (doubt,) = check_known_quantities(arm.compiled, seen, [arm.payload()], currents=True)
     assert re.search(words, doubt.line)
     with pytest.raises(DataError, match=f"no gap.*{words}"):
         identify_gains(arm.compiled, seen, [arm.payload()])
@@ -212,7 +219,7 @@ def test_a_real_arm_has_one_set_of_gains_and_a_load_that_was_turned(measured_fol
     seen = observe(compiled, logs)
     with pytest.raises(DataError, match=r"no gap.*disagree about where it sits: MY6"):
         identify_gains(compiled, seen, [both])
-    found = identify_gains(compiled, seen, remounted(both)).result
+    found = identify_gains(compiled, seen, separate_payload(both)).result
     moments = {p.name: p.value for p in found.loads}
     assert moments["MY6_load1"] == pytest.approx(-moments["MY6_load2"], rel=0.1)
     assert moments["MZ6_load1"] == pytest.approx(moments["MZ6_load2"], rel=0.2)
@@ -227,21 +234,23 @@ def test_a_load_that_sat_alike_is_not_said_to_have_moved(arm):
         rows = {key: getattr(second, key)[own] for key in ("time", "q", "tau")}
         parts.append(replace(second, name=name, **rows))
     seen = observe(arm.compiled, [first, *parts])
-    assert mounted_differently(arm.compiled, seen, [Payload(("one", "two"))]) == []
+    assert find_moved_payloads(arm.compiled, seen, [Payload(("one", "two"))]) == []
 
 
 @pytest.mark.rotating("long tests of drive_gains")
 def test_a_robot_with_loops_carries_its_load_on_its_last_moving_row():
     """Not on that of the last coordinate, which the logs would call another robot."""
     runs = runs_of("five-bar", 2.0, duration=15.0, rate=250.0)
-    assert known_doubts(runs.compiled, runs.seen(np.ones(2)), [runs.payload()], True) == []
+    assert (
+        check_known_quantities(runs.compiled, runs.seen(np.ones(2)), [runs.payload()], True) == []
+    )
     found = identify_gains(runs.compiled, runs.seen(np.array([3.0, 0.2])), [runs.payload()])
     np.testing.assert_allclose([*found.gains.values()], [3.0, 0.2], rtol=0.01)
 
 
 def test_gains_in_one_line_are_not_replaced():
     with pytest.raises(RobotError, match="write it as a table of its own"):
-        with_drive_gains("drive_gains = {1 = 3}\n" + builtin_text("two-link"), {"1": 2.5})
+        replace_drive_gains("drive_gains = {1 = 3}\n" + read_builtin_robot("two-link"), {"1": 2.5})
 
 
 @pytest.mark.parametrize("stated", [True, pytest.param(False, marks=pytest.mark.rotating)])
@@ -251,7 +260,7 @@ def test_a_negative_gain_is_called_negative(arm, stated):
     spec = arm.compiled.spec
     if not stated:
         spec = replace(spec, joints=tuple(replace(j, drive_gain=None) for j in spec.joints))
-    (line,) = (line for line in deviations(spec, found) if line.startswith("joint 2 "))
+    (line,) = (line for line in describe_deviations(spec, found) if line.startswith("joint 2 "))
     assert ("of the other sign than 1" if stated else "negative") in line
     assert "current2 or q2 is counted the other way round" in line and "sign = -1" in line
     assert "below" not in line and "%" not in line

@@ -5,26 +5,30 @@ from typing import get_args
 
 import pytest
 
-from modeler.core.toml_cells import Place
-from modeler.effects.catalogue import CATALOGUE, effect_named
+from modeler.core.toml_cells import TomlCell
+from modeler.effects.catalogue import CATALOGUE, find_effect
 from modeler.effects.definition import check_finite
-from modeler.effects.effect import SCALES, Effect, Shows
+from modeler.effects.effect import SCALES, Effect, SignatureAxis
 from modeler.robot.robot import INERTIAL
 
 
 @pytest.mark.parametrize("effect", CATALOGUE, ids=lambda effect: effect.id)
 def test_an_effect_of_the_catalogue_is_whole(effect: Effect) -> None:
-    assert effect.shows in get_args(Shows)
+    assert effect.shows in get_args(SignatureAxis)
     assert effect.source != "the robot file"
-    assert all(effect_named(other) for other in effect.same_as)
+    assert all(find_effect(other) for other in effect.same_as)
     assert effect.sign in (-1, 0, 1)
     for form in effect.forms:
-        assert {shape.scale for shape in form.shapes} <= SCALES.keys() - {"own"}
-        assert all(low <= high for low, high in (shape.limits for shape in form.shapes))
-        if all(shape.grid for shape in form.shapes):
-            check_finite(form, Place(effect.id))
+        assert {shape.scale for shape in form.nonlinear_parameters} <= SCALES.keys() - {"own"}
+        assert all(
+            low <= high for low, high in (shape.limits for shape in form.nonlinear_parameters)
+        )
+        if all(shape.grid for shape in form.nonlinear_parameters):
+            check_finite(form, TomlCell(effect.id))
         else:  # its waves are found in the spectrum
-            check_finite(form, Place(effect.id), {shape.name: 7.0 for shape in form.shapes})
+            check_finite(
+                form, TomlCell(effect.id), {shape.name: 7.0 for shape in form.nonlinear_parameters}
+            )
 
 
 def test_no_two_effects_share_a_name() -> None:

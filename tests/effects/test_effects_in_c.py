@@ -5,9 +5,9 @@ import pytest
 
 from modeler.api import derive, generate, load
 from modeler.effects.catalogue import CATALOGUE
-from modeler.effects.effect import Acts, Effect
-from modeler.robot.edit import with_effects
-from modeler.robot.read import robot_from_text
+from modeler.effects.effect import Effect, EffectTarget
+from modeler.robot.edit import replace_effects
+from modeler.robot.read import parse_robot_text
 from modeler.runtime.model import CompiledModel
 from tests.modules import loaded
 
@@ -34,7 +34,9 @@ Fs2 = 2.0
 
 def written() -> list[tuple[Effect, int]]:
     """Every form of every effect on a joint that a robot file may name."""
-    named = [effect for effect in CATALOGUE if effect.written and effect.acts is Acts.JOINT]
+    named = [
+        effect for effect in CATALOGUE if effect.can_be_stated and effect.acts is EffectTarget.JOINT
+    ]
     return [(effect, k) for effect in named for k in range(len(effect.forms))]
 
 
@@ -43,9 +45,9 @@ def text_with(effect: Effect, form: int) -> str:
     text = load("demo-arm").text
     text = text[: text.index("[parameters]")]
     if effect.id not in ("rotor_inertia", "viscous", "coulomb", "offset"):
-        shapes = {shape.name: SHAPES[shape.name] for shape in effect.forms[form].free}
+        shapes = {shape.name: SHAPES[shape.name] for shape in effect.forms[form].free_parameters}
         effects = dict.fromkeys(("viscous", "coulomb"), "all")
-        text = with_effects(text, effects | {effect.id: [{"joint": "2", **shapes}]})
+        text = replace_effects(text, effects | {effect.id: [{"joint": "2", **shapes}]})
     return text + REFERENCE
 
 
@@ -61,7 +63,7 @@ CASES = [
 
 @pytest.mark.parametrize(("effect", "form"), CASES, ids=lambda x: getattr(x, "id", str(x)))
 def test_c_computes_the_catalogues_equation(effect: Effect, form: int) -> None:
-    robot = robot_from_text(text_with(effect, form), effect.id)
+    robot = parse_robot_text(text_with(effect, form), effect.id)
     derivation = derive(robot)
     assert derivation.base.proof.kind == "exact"
     assert derivation.base.proof.agreement < 1e-12
@@ -95,7 +97,7 @@ def test_an_encoders_error_moves_links_and_rotor() -> None:
     text = text[: text.index("[parameters]")].replace(
         'viscous = "all"', 'viscous = "all"\nencoder_offset = ["2"]\nencoder_eccentricity = ["2"]'
     )
-    robot = robot_from_text(text + REFERENCE + "Ia2 = 0.7\n", "offset")
+    robot = parse_robot_text(text + REFERENCE + "Ia2 = 0.7\n", "offset")
     compiled = loaded(generate(derive(robot)))
     names = [p.name for p in compiled.spec.standard]
     chi = np.array([robot.reference.get(n, 0.0) for n in names])

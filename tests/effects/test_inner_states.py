@@ -8,7 +8,11 @@ import pytest
 
 from modeler.api import derive, generate
 from modeler.core.errors import ShapeError
-from modeler.observation.low_speed import lag, signals_along, since_reversal
+from modeler.observation.low_speed import (
+    apply_lag,
+    compute_signals_along,
+    compute_time_since_reversal,
+)
 from tests.effects.test_own_effects_in_c import REFERENCE, arm_with
 from tests.modules import loaded
 
@@ -38,7 +42,7 @@ def moves(seed: int) -> tuple[np.ndarray, list[float]]:
 @pytest.mark.parametrize("seed", range(3))
 def test_since_counts_from_the_last_reversal_and_from_nothing_else(seed: int) -> None:
     q, turned = moves(seed)
-    _, since = since_reversal(q, STEP, 3e-4)
+    _, since = compute_time_since_reversal(q, STEP, 3e-4)
     past = [max([0.0, *(at for at in turned if at <= t)]) for t in TIME]
     expected = TIME - past
     # it shows once the joint has come back by 0.2 mrad; the noise of its speed is then told from
@@ -54,14 +58,14 @@ def test_since_is_right_at_constant_acceleration() -> None:
     t = np.arange(-500, 500) * 0.001 + 0.0004
     for acceleration, distance in ((1.0, 3e-4), (4.0, 1e-3), (0.3, 1e-4)):
         q = -0.5 * acceleration * t**2
-        _, since = since_reversal(q, 0.001, distance)
+        _, since = compute_time_since_reversal(q, 0.001, distance)
         shown = t > math.sqrt(2.0 * distance / acceleration) + 0.002
         np.testing.assert_allclose(since[shown], t[shown], atol=0.002)
 
 
 def test_a_joint_that_never_moves_has_not_turned() -> None:
     q = NOISE * np.random.default_rng(5).normal(size=len(TIME))
-    np.testing.assert_allclose(since_reversal(q, STEP, 3e-4)[1], TIME)
+    np.testing.assert_allclose(compute_time_since_reversal(q, STEP, 3e-4)[1], TIME)
 
 
 def test_a_lag_is_the_solution_of_its_equation() -> None:
@@ -70,8 +74,8 @@ def test_a_lag_is_the_solution_of_its_equation() -> None:
     x = np.sin(w * TIME)
     left = w * tau * (np.exp(-TIME / tau) - np.cos(w * TIME))
     expected = (x + left) / (1.0 + (w * tau) ** 2)
-    np.testing.assert_allclose(lag(x, STEP, tau), expected, atol=2e-6)
-    np.testing.assert_allclose(lag(np.full(9, 2.5), STEP, tau), 2.5, rtol=1e-14)
+    np.testing.assert_allclose(apply_lag(x, STEP, tau), expected, atol=2e-6)
+    np.testing.assert_allclose(apply_lag(np.full(9, 2.5), STEP, tau), 2.5, rtol=1e-14)
 
 
 FOLLOWED = "abs(v)**p + load*q3 - since + t*a1"
@@ -109,7 +113,7 @@ def test_the_c_steps_lags_as_the_equations_say(precision: Literal["double", "sin
     # Along a motion: the log as it is read, and the C one sample after the other.
     time = 0.02 * np.arange(200)
     motion = np.stack([np.sin(time[:, None] * [1.0, 2.0, 3.0] + 0.1 * k) for k in range(3)])
-    read = signals_along(compiled, motion, time, lambda joint: time)
+    read = compute_signals_along(compiled, motion, time, lambda joint: time)
     assert read is not None
     state = read[0]
     assert state[3] == state[4]  # steady at the start

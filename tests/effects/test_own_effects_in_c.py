@@ -6,10 +6,10 @@ from typing import Literal
 import numpy as np
 import pytest
 
-from modeler.api import derive, generate, load, own_effect
+from modeler.api import define_effect, derive, generate, load
 from modeler.core.errors import EmitError
-from modeler.robot.edit import with_effect, with_reference
-from modeler.robot.read import robot_from_text
+from modeler.robot.edit import insert_effect, replace_reference
+from modeler.robot.read import parse_robot_text
 from modeler.robot.robot import Robot
 from modeler.runtime.model import CompiledModel
 from tests.effects.test_effects_in_c import moved_torque
@@ -55,8 +55,10 @@ def arm_with(
     name: str, definition: dict, shapes: dict[str, float], reference: bool = False
 ) -> Robot:
     """The demonstration arm with the effect on joint 2."""
-    text = with_effect(own_effect(load("demo-arm"), name, **definition).text, name, "2", shapes)
-    return robot_from_text(with_reference(text, REFERENCE) if reference else text, name)
+    text = insert_effect(
+        define_effect(load("demo-arm"), name, **definition).text, name, "2", shapes
+    )
+    return parse_robot_text(replace_reference(text, REFERENCE) if reference else text, name)
 
 
 def columns_of(robot: Robot, name: str, compiled: CompiledModel, phi: np.ndarray) -> np.ndarray:
@@ -161,9 +163,9 @@ def test_robots_with_loops_take_effects_of_motion_only() -> None:
     """They say which effects have no C there."""
 
     def with_column(equation: str) -> Robot:
-        own = own_effect(load("five-bar"), "own", columns={"Kv": equation}).text
-        text = with_reference(with_effect(own, "own", "11", {}), {"ZZ11": 0.2})
-        return robot_from_text(text, "five-bar")
+        own = define_effect(load("five-bar"), "own", columns={"Kv": equation}).text
+        text = replace_reference(insert_effect(own, "own", "11", {}), {"ZZ11": 0.2})
+        return parse_robot_text(text, "five-bar")
 
     for equation in ("v*static", "t"):
         with pytest.raises(EmitError, match=r"five-bar has loops, and effects that read more than"):

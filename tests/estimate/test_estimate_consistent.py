@@ -4,11 +4,11 @@ import numpy as np
 import pytest
 
 from modeler.core.errors import DataError
-from modeler.estimation.consistent import KNOWN_WEIGHT, consistent
-from modeler.estimation.nearest_body import machine_of, parameters_of
+from modeler.estimation.consistent import KNOWN_WEIGHT, solve_consistent
+from modeler.estimation.nearest_body import define_physical_parameters, extract_parameters
 from modeler.robot.read import read_robot
-from modeler.simulation.parameters import by_shared_names, plant_parameters
-from modeler.simulation.trajectory import motion_limits
+from modeler.simulation.parameters import draw_plant_parameters, merge_shared_names
+from modeler.simulation.trajectory import collect_motion_limits
 from tests.bodies import buildable
 from tests.modules import plain
 
@@ -46,10 +46,10 @@ def test_pinocchio_gives_the_same_torques(name):
 
     rng = np.random.default_rng(2)
     model, whole, _ = rows_of(name, rng, 60, 0.2)
-    found = consistent(machine_of(model.spec), whole, {})
+    found = solve_consistent(define_physical_parameters(model.spec), whole, {})
     robot = read_robot(name)
     theirs, ids = pinocchio_model(robot)
-    for joint, index in zip(robot.moving, ids, strict=True):
+    for joint, index in zip(robot.moving_joints, ids, strict=True):
         theirs.inertias[index] = pin.Inertia(*about_centre(found.bodies[joint.name]))
         assert np.linalg.eigvalsh(theirs.inertias[index].inertia)[0] > 0.0
     data = theirs.createData()
@@ -65,11 +65,11 @@ def test_pinocchio_gives_the_same_torques(name):
 def test_mujoco_takes_the_bodies_and_gives_the_same_torques():
     mujoco = pytest.importorskip("mujoco", reason="NOT CHECKED: MuJoCo is not installed")
     from modeler.api import compile_model, derive, generate
-    from modeler.robot.read import robot_from_text
+    from modeler.robot.read import parse_robot_text
     from tests.diagnose.mujoco_arm import Arm, Body, mjcf, random_arm, robot_text
 
     arm = random_arm(3)
-    model = compile_model(generate(derive(robot_from_text(robot_text(arm, {}), "outside"))))
+    model = compile_model(generate(derive(parse_robot_text(robot_text(arm, {}), "outside"))))
     rng = np.random.default_rng(4)
     q, qd, qdd = (rng.uniform(-1.0, 1.0, (50, 3)) for _ in range(3))
     W = model.base_regressor(q, qd, qdd).reshape(150, -1)
@@ -77,7 +77,7 @@ def test_mujoco_takes_the_bodies_and_gives_the_same_torques():
     sigma = 0.2 * np.sqrt(np.mean(y**2))
     y = y + sigma * rng.normal(size=150)
     whole = np.linalg.qr(np.column_stack([W, y]) / sigma, mode="r")
-    found = consistent(machine_of(model.spec), whole, {})
+    found = solve_consistent(define_physical_parameters(model.spec), whole, {})
     bodies = [Body(*about_centre(body)) for body in found.bodies.values()]
     nothing = np.zeros(3)
     theirs = mujoco.MjModel.from_xml_string(
@@ -98,8 +98,8 @@ def test_values_that_the_data_tell_keep_their_least_squares_and_sigma():
     errors = []
     for seed in range(6):
         model, whole, beta = rows_of("two-link", np.random.default_rng(seed), 200, 0.02)
-        found = consistent(machine_of(model.spec), whole, {})
-        assert found.at_bound or found.rise < 0.1
+        found = solve_consistent(define_physical_parameters(model.spec), whole, {})
+        assert found.zero_parameters or found.excess_squares < 0.1
         errors.append((found.beta - beta) / np.sqrt(np.diag(found.covariance)))
     assert np.sqrt(np.mean(np.square(errors))) == pytest.approx(1.0, abs=0.2)
 
@@ -109,7 +109,9 @@ def test_sigmas_of_links_at_the_bound_are_what_repetition_shows():
     """Thin links lie near it. There the curvature is endless, and its inverse 4 to 10 sigma off."""
     model, robot, z = plain("wrist"), read_robot("wrist"), []
     for seed in range(4):
-        drawn, _ = by_shared_names(robot, plant_parameters(robot, motion_limits(robot, {}), seed))
+        drawn, _ = merge_shared_names(
+            robot, draw_plant_parameters(robot, collect_motion_limits(robot, {}), seed)
+        )
         beta = model.base_parameters(np.array([drawn[p.name] for p in model.spec.standard]))
         rng = np.random.default_rng([seed, 5])
         q, qd, qdd = (rng.uniform(-1.0, 1.0, (300, 3)) for _ in range(3))
@@ -118,22 +120,22 @@ def test_sigmas_of_links_at_the_bound_are_what_repetition_shows():
         sigma = 0.015 * np.sqrt(np.mean(tau**2, axis=0))
         rows = np.dstack([W, tau + sigma * rng.normal(size=tau.shape)]) / sigma[:, None]
         whole = np.linalg.qr(rows.reshape(900, -1), mode="r")
-        found = consistent(machine_of(model.spec), whole, {})
-        assert found.held
+        found = solve_consistent(define_physical_parameters(model.spec), whole, {})
+        assert found.bounded_links
         z.append((found.beta - beta) / np.sqrt(np.diag(found.covariance)))
     assert np.abs(z).max() < 4.0 and 0.6 < np.sqrt(np.mean(np.square(z))) < 1.1
 
 
 def test_no_machine_nearby_is_better():
     model, whole, _ = rows_of("two-link", np.random.default_rng(5), 30, 0.5, wide=0.3)
-    machine = machine_of(model.spec)
+    machine = define_physical_parameters(model.spec)
     reference = {name: cloud(np.random.default_rng(6)) for name in machine.links}
-    found = consistent(machine, whole, reference)
+    found = solve_consistent(machine, whole, reference)
 
     def cost(bodies, others):
         chi = others.copy()
         for name, own in machine.links.items():
-            chi[own] = parameters_of(bodies[name])
+            chi[own] = extract_parameters(bodies[name])
         error = whole[:, :-1] @ machine.K @ chi - whole[:, -1]
         total = 0.5 * error @ error
         for name, P in bodies.items():
@@ -164,4 +166,4 @@ def test_a_solver_that_fails_is_one_line(monkeypatch):
     monkeypatch.setattr(cvxpy.Problem, "solve", fail)
     model, whole, _ = rows_of("two-link", np.random.default_rng(8), 50, 0.02)
     with pytest.raises(DataError, match="no machine that could be built was found"):
-        consistent(machine_of(model.spec), whole, {})
+        solve_consistent(define_physical_parameters(model.spec), whole, {})

@@ -8,17 +8,17 @@ import pytest
 from scipy.signal import lfilter
 
 from modeler.api import Load, fit_gains
-from modeler.api.fitting import FitRequest, estimated
+from modeler.api.fitting import FitRequest, run_estimator
 from modeler.codegen import derive, generate
 from modeler.core.errors import DataError
-from modeler.estimation import PREFIXES, body_covariance, least_squares, prior_of
-from modeler.estimation.covariance import Halves
-from modeler.estimation.identify import base_equations, fit_equations, identify
+from modeler.estimation import PREFIXES, build_prior, compute_body_covariance, solve_least_squares
+from modeler.estimation.covariance import HalvesComparison
+from modeler.estimation.identify import build_base_equations, fit_equations, identify
 from modeler.estimation.payload import Payload, identify_with_payloads
-from modeler.estimation.result import fit_from_json
-from modeler.numerics.least_squares import compress, merged
+from modeler.estimation.result import read_fit
+from modeler.numerics.least_squares import compress_rows, merge_compressed
 from modeler.observation import Log, observe, read_log
-from modeler.robot import robot_from_text
+from modeler.robot import parse_robot_text
 from modeler.simulation import SimulationSettings, simulate, write_log
 from tests.bodies import ten_of_points
 from tests.link_data import buildable, compiled, drawn, links, text
@@ -53,9 +53,9 @@ def base_names(model):
 def estimated_beside(model, seed, chi, **how):
     """The posterior of white rows, with the least squares and the data it came from."""
     _, W, y, joint = rows(model, seed, chi, **how)
-    data = compress(W, y, joint, 3, base_names(model))
-    white = least_squares(data, "weighted")
-    return prior_of(model.spec).applied(white, data, white.covariance), white, data
+    data = compress_rows(W, y, joint, 3, base_names(model))
+    white = solve_least_squares(data, "weighted")
+    return build_prior(model.spec).combine_with_data(white, data, white.covariance), white, data
 
 
 def true_chi(seed):
@@ -73,7 +73,7 @@ def test_the_posterior_is_bayes_rule_on_all_standard_parameters(model):
     found, white, data = estimated_beside(model, 3, true_chi(3), noise=5.0)
     phi, _, y, joint = rows(model, 3, true_chi(3), noise=5.0)
     assert not found.contradicted
-    prior, names = prior_of(model.spec), [p.name for p in model.spec.standard]
+    prior, names = build_prior(model.spec), [p.name for p in model.spec.standard]
     count = len(names)
     # free parameters: a flat prior; held: an all but certain one
     S = prior.S[:count, :count] + 1e-12 * np.diag(np.diag(prior.S)[:count])
@@ -89,7 +89,7 @@ def test_the_posterior_is_bayes_rule_on_all_standard_parameters(model):
     np.testing.assert_allclose(np.sqrt(np.diag(found.covariance))[told], sigma[told], rtol=1e-3)
     # what halves disagree about stays in the standard deviations and moves no value
     more = 30.0 * np.diag(white.covariance)
-    raised = prior.applied(white, data, white.covariance, more)
+    raised = prior.combine_with_data(white, data, white.covariance, more)
     np.testing.assert_allclose(raised.beta, found.beta, rtol=1e-6)
     assert np.all(np.diag(raised.covariance)[told] >= more[told])
 
@@ -99,7 +99,7 @@ def test_z_scores_are_those_of_the_prior_and_the_noise(model):
     for seed in range(30):
         chi = true_chi(seed)
         found, *_ = estimated_beside(model, seed, chi, noise=5.0)
-        free = np.array([name != "Fv3" for name in prior_of(model.spec).names])
+        free = np.array([name != "Fv3" for name in build_prior(model.spec).names])
         apart = found.beta - base_values(model, chi)
         z.append((apart / np.sqrt(np.diag(found.covariance)))[free])
     assert 0.9 < np.sqrt(np.mean(np.square(z))) < 1.1
@@ -109,7 +109,7 @@ def test_z_scores_are_those_of_the_prior_and_the_noise(model):
 def test_a_body_moves_as_its_mass_centre_and_inertia_do():
     rng, share = np.random.default_rng(5), 1e-4
     ten = np.array([NOMINAL[f"{p}2"] for p in PREFIXES])
-    why, found = body_covariance(ten, share)
+    why, found = compute_body_covariance(ten, share)
     every = [drawn(share, rng, NOMINAL) for _ in range(1000)]
     many = [[one[f"{p}2"] for p in PREFIXES] for one in every]
     seen, size = np.cov(np.array(many).T), np.sqrt(np.diag(found))
@@ -118,7 +118,7 @@ def test_a_body_moves_as_its_mass_centre_and_inertia_do():
 
 
 def spec_of(*stated):
-    return generate(derive(robot_from_text(text(*stated), "stated.toml"))).spec
+    return generate(derive(parse_robot_text(text(*stated), "stated.toml"))).spec
 
 
 def test_placeholders_have_no_prior_and_are_told_by_name():
@@ -126,19 +126,19 @@ def test_placeholders_have_no_prior_and_are_told_by_name():
     zero |= {f"{p}1": 0.0 for p in PREFIXES}
     values = zero | {f"{p}2": float(p in ("XX", "YY", "ZZ", "M")) for p in PREFIXES}
     values |= {"XX3": 5.0 * odd["XX3"], "YY3": 0.1 * odd["YY3"]}
-    prior = prior_of(spec_of(values, {"inertial": 0.1}))
-    assert prior.without == {
+    prior = build_prior(spec_of(values, {"inertial": 0.1}))
+    assert prior.skipped_bodies == {
         "link 1": "mass of 0", "link 2": "identity inertia", "link 3": "not physically possible"
     }  # fmt: skip
-    assert not prior.groups and prior_of(spec_of(NOMINAL)) is None
-    told = " ".join(prior.sentences(np.zeros(3)))
+    assert not prior.groups and build_prior(spec_of(NOMINAL)) is None
+    told = " ".join(prior.format_sentences(np.zeros(3)))
     assert "link 1 (mass of 0), link 2 (identity inertia), link 3 (not phys" in told
-    assert body_covariance(-np.array([identity[f"{p}1"] for p in PREFIXES]), 0.1)[0]
+    assert compute_body_covariance(-np.array([identity[f"{p}1"] for p in PREFIXES]), 0.1)[0]
     del values["YY3"]
-    prior = prior_of(spec_of(values, {"inertial": 0.1}))
-    assert prior.without["link 3"] == "its ten parameters are not all stated"
+    prior = build_prior(spec_of(values, {"inertial": 0.1}))
+    assert prior.skipped_bodies["link 3"] == "its ten parameters are not all stated"
     point = zero | {"M1": 3.0}
-    assert prior_of(spec_of(point, {"inertial": 0.1})).without["link 1"] == "inertia of 0"
+    assert build_prior(spec_of(point, {"inertial": 0.1})).skipped_bodies["link 1"] == "inertia of 0"
 
 
 def test_a_body_that_the_data_contradict_is_told_and_left_out(model):
@@ -189,11 +189,11 @@ def test_held_values_hold_and_the_table_says_what_came_from_the_prior(model, see
     assert all(0.0 <= share <= 1.0 for share in shares) and by_name["Fs1"].prior < 0.2
     pairs = zip(fit.parameters, identify(seen, method).parameters, strict=True)
     assert all(own.sigma <= 1.02 * alone.sigma for own, alone in pairs)
-    told = "\n".join(fit.lines())
+    told = "\n".join(fit.format_lines())
     assert "  prior  unit" in told and "held" in told
     assert "prior of the robot file on link 1, link 2, link 3, Fv1, Fs1" not in told
     assert "prior of the robot file on link 1, link 2, link 3, Fv1, Fv2" in told
-    again = fit_from_json(fit.to_json(), fit.covariance)
+    again = read_fit(fit.to_json(), fit.covariance)
     assert [p.prior for p in again.parameters] == shares
 
 
@@ -206,10 +206,11 @@ def remembering(seed):
 def test_windows_of_long_logs_raise_the_sigmas_as_all_rows_do(model):
     """All rows twice, of which the windows are half: as white noise, sigmas fall by a root of 2."""
     seen = seen_of(model, true_chi(1), 1, 12.0, remembering(1))
-    data = base_equations(seen).compressed(np.ones(len(seen.y), dtype=bool))
-    every = {"data": merged(data, data), "share": 0.5}
+    data = build_base_equations(seen).compress_rows(np.ones(len(seen.y), dtype=bool))
+    every = {"data": merge_compressed(data, data), "share": 0.5}
     once, twice = (
-        fit_equations(seen, base_equations(seen), "weighted", model, **how) for how in ({}, every)
+        fit_equations(seen, build_base_equations(seen), "weighted", model, **how)
+        for how in ({}, every)
     )
     for own, other in zip(twice.parameters, once.parameters, strict=True):
         assert own.name not in ("XZ2R", "MX2R") or 0.68 < own.sigma / other.sigma < 0.78, own
@@ -258,10 +259,10 @@ def test_an_estimator_without_this_prior_says_so_and_cannot_hold_single_values(
     who = "the energy model" if asked.energy else f"method {method}"
     told = f"{who} cannot hold parameters.*; got Fv1, Fv2, Fv3, Fs3"
     with pytest.raises(DataError, match=told):
-        estimated(asked, robot, model, seen)
+        run_estimator(asked, robot, model, seen)
     chi = NOMINAL | FRICTION
     observation = observe(compiled_bodies, [log_of(compiled_bodies, chi, 4)])
-    fit = estimated(asked, robot, compiled_bodies, observation).result
+    fit = run_estimator(asked, robot, compiled_bodies, observation).result
     assert sum("does not use inertial = 0.1 of [param" in line for line in fit.sentences) == 1
     apart = fit.beta - base_values(compiled_bodies, chi)
     assert np.abs(apart / np.sqrt(np.diag(fit.covariance))).max() < 5.0
@@ -271,26 +272,26 @@ def test_an_estimator_without_this_prior_says_so_and_cannot_hold_single_values(
 def bodies():
     """A robot of whose parameters no single one is held or has a deviation."""
     stated = text(NOMINAL, {"inertial": 0.1})
-    return robot_from_text(stated, "stated.toml"), compiled(stated)
+    return parse_robot_text(stated, "stated.toml"), compiled(stated)
 
 
 def test_other_ways_to_fit_cannot_hold_single_values(model, seen, bodies):
     with pytest.raises(DataError, match=r"cannot hold parameters .*; got Fv1, Fv2, Fv3, Fs3"):
-        estimated(FitRequest("two-step"), bodies[0], model, seen)
-    held = robot_from_text(text(NOMINAL | FRICTION, {}, held=("Fv3",)), "stated.toml")
+        run_estimator(FitRequest("two-step"), bodies[0], model, seen)
+    held = parse_robot_text(text(NOMINAL | FRICTION, {}, held=("Fv3",)), "stated.toml")
     with pytest.raises(DataError, match=r"method tls cannot hold parameters .*; got Fv3"):
         fit_gains(derive(held), [], Load(["none.csv"], 3.0))
 
 
 def test_a_prior_that_raises_the_error_of_a_joint_is_named(model, monkeypatch):
     _, W, y, joint = rows(model, 3, true_chi(3), noise=0.05)
-    data = compress(W, y, joint, 3, base_names(model))
-    white = least_squares(data, "weighted")
-    prior = prior_of(model.spec)
-    assert prior.applied(white, data, white.covariance, joints="123").contradicted == ()
+    data = compress_rows(W, y, joint, 3, base_names(model))
+    white = solve_least_squares(data, "weighted")
+    prior = build_prior(model.spec)
+    assert prior.combine_with_data(white, data, white.covariance, joints="123").contradicted == ()
     wrong = dataclasses.replace(prior, mean=2.0 * prior.mean)
     monkeypatch.setattr(type(prior), "contradictions", lambda *_: {})
-    found = wrong.applied(white, data, 100.0 * white.covariance, joints="123")
+    found = wrong.combine_with_data(white, data, 100.0 * white.covariance, joints="123")
     assert "the prior of the robot file raises its fit error from" in " ".join(found.contradicted)
 
 
@@ -300,7 +301,7 @@ def test_values_that_halves_disagree_about_do_not_leave_their_sums(tmp_path, mon
     effects = '[effects]\nrotor_inertia = "all"\noffset = "all"'
     own = text(NOMINAL | FRICTION, {"inertial": 0.3}).replace("[effects]", effects)
     truth = buildable(0.3, np.random.default_rng(1), NOMINAL) | FRICTION
-    machine = robot_from_text(text(truth).replace("[effects]", effects), "arm")
+    machine = parse_robot_text(text(truth).replace("[effects]", effects), "arm")
     run = simulate(machine, SimulationSettings(duration=8.0, rate=200.0))
     write_log(tmp_path / "a.parquet", run)
     model = compiled(own)
@@ -309,7 +310,7 @@ def test_values_that_halves_disagree_about_do_not_leave_their_sums(tmp_path, mon
     for raised in (1.0, 30.0):
         factors = 1.0 + (raised - 1.0) * np.random.default_rng(2).uniform(size=len(seen.names))
         module = sys.modules["modeler.estimation.identify"]
-        monkeypatch.setattr(module, "halves", lambda *_, f=factors: Halves(f))
+        monkeypatch.setattr(module, "halves", lambda *_, f=factors: HalvesComparison(f))
         fit = identify(seen, "weighted", model)
         errors.append([joint.relative_error for joint in fit.joints])
     assert np.all(np.array(errors[1]) < 1.05 * np.array(errors[0])), errors

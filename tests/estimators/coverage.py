@@ -14,11 +14,11 @@ from multiprocessing import get_context
 import numpy as np
 
 from modeler import api
-from modeler.core.builtin import builtin_text
+from modeler.core.builtin import read_builtin_robot
 from modeler.core.errors import DataError
 from modeler.estimation.identify import identify
 from modeler.observation.log import Log
-from modeler.robot.read import robot_from_text
+from modeler.robot.read import parse_robot_text
 from modeler.runtime.model import CompiledModel
 from modeler.simulation import SimulationSettings, simulate
 from tests.chain import chain_of
@@ -99,14 +99,14 @@ def machine(seed: int) -> str:
         factor = scale[f"link{name[-1]}"] if tube else 1.0 + SCATTER * rng.normal()
         return f"{name} = {value * factor!r}"
 
-    head, mark, body = builtin_text(TWO_LINK).partition("[parameters]")
+    head, mark, body = read_builtin_robot(TWO_LINK).partition("[parameters]")
     return head + mark + re.sub(r"(?m)^([A-Z][A-Za-z]*[12]) = ([-\d.]+)", other, body)
 
 
 def measured(seed: int, case: str) -> tuple[Log, np.ndarray]:
     """A log of a machine, and its true base parameters."""
     how = CASES[case]
-    file = robot_from_text(machine(seed), f"machine {seed}")
+    file = parse_robot_text(machine(seed), f"machine {seed}")
     robot = file if how.robot == TWO_LINK else api.load(how.robot)
     settings = SimulationSettings(
         duration=how.duration, rate=how.rate, seed=seed, parameter_seed=seed, controller=True,

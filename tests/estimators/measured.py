@@ -5,19 +5,19 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from modeler import api
-from modeler.estimation.side_by_side import Tried, side_by_side
+from modeler.estimation.side_by_side import MethodResult, compare_methods
 from tests.chain import chain_of
 from tests.measured_sets.sets import SETS
 
 
-def tried(name: str, data: Path, methods: Sequence[str]) -> tuple[Tried, ...]:
+def tried(name: str, data: Path, methods: Sequence[str]) -> tuple[MethodResult, ...]:
     """Every method on the training logs of one set, held-out error on its others."""
     own = SETS[name]
     compiled = chain_of(own.robot()).compiled
     training, held_out = own.logs(data, "forward")
     observation = api.observe(compiled, training)
     other = api.observe(compiled, held_out, observation.report.processing)
-    return side_by_side(observation, compiled, other, methods)
+    return compare_methods(observation, compiled, other, methods)
 
 
 def here(names: Sequence[str], data: Path) -> list[str]:
@@ -31,7 +31,7 @@ def here(names: Sequence[str], data: Path) -> list[str]:
 HEADER = "| set | method | training % | held out % | farthest from weighted | seconds | remarks |"
 
 
-def lines(name: str, found: Sequence[Tried]) -> str:
+def lines(name: str, found: Sequence[MethodResult]) -> str:
     """Rows of Markdown."""
     rows = []
     for own in found:
@@ -40,8 +40,8 @@ def lines(name: str, found: Sequence[Tried]) -> str:
             rows.append([name, own.method, "", "", "", f"{own.seconds:.1f}", said])
             continue
         far = "" if own.farthest is None else f"{own.farthest[0]} {own.farthest[1]:.1f} sigma"
-        remarks = "; ".join(own.fit.own)
-        held_out = "" if own.held_out is None else f"{100 * own.held_out:.2f}"
+        remarks = "; ".join(own.fit.estimator_notes)
+        held_out = "" if own.held_out_error is None else f"{100 * own.held_out_error:.2f}"
         rows.append([
             name, own.method, f"{100 * own.fit.relative_error:.2f}", held_out, far,
             f"{own.seconds:.1f}", remarks,

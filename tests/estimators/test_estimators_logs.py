@@ -11,13 +11,13 @@ from scipy.integrate import solve_ivp
 from modeler import api
 from modeler.cli import main
 from modeler.core.errors import DataError
-from modeler.estimation import DirectModel, machine_of, nearest_possible
-from modeler.estimation.identify import base_equations, identify
+from modeler.estimation import DirectModel, define_physical_parameters, project_parameters
+from modeler.estimation.identify import build_base_equations, identify
 from modeler.estimation.least_squares import Problem
 from modeler.estimation.methods import METHODS
 from modeler.estimation.payload import Payload, identify_with_payloads
 from modeler.observation.log import Log
-from modeler.observation.read import cut
+from modeler.observation.read import cut_rows
 from tests.chain import chain_of
 from tests.estimators.__main__ import main as suite
 from tests.estimators.coverage import compiled, covered, measured, table
@@ -50,7 +50,7 @@ def observation(run):
 @pytest.fixture(scope="module")
 def few_rows(run):
     few = api.Processing(parallel_cutoff=5.0, decimation=100)
-    return api.observe(compiled(), [cut(run[0], slice(0, 400))], few)
+    return api.observe(compiled(), [cut_rows(run[0], slice(0, 400))], few)
 
 
 @pytest.mark.parametrize("method", rotating_but("didim-consistent", METHODS))
@@ -99,12 +99,12 @@ def test_where_the_values_are_those_of_a_machine_the_consistent_ones_are_the_sam
 def badly_known():
     """A wrist in noise: least squares and instruments make no machine of it."""
     observation = api.observe(compiled("wrist"), [measured(7, "bound")[0]])
-    return problem_of(observation, base_equations(observation), compiled("wrist"))
+    return problem_of(observation, build_base_equations(observation), compiled("wrist"))
 
 
 def problem_of(observation, equations, model):
     alive = np.ones(len(equations.y), dtype=bool)
-    data = equations.compressed(alive)
+    data = equations.compress_rows(alive)
     return Problem(observation, equations.W, equations.y, alive, equations.names, data, model)
 
 
@@ -112,8 +112,8 @@ def problem_of(observation, equations, model):
 def test_instruments_end_in_the_machine_nearest_in_their_own_metric(badly_known):
     """By another formulation and another solver: the cone of all bodies, no logarithm in it."""
     free, bound = (METHODS[m].estimate(badly_known) for m in ("iv", "iv-consistent"))
-    R, machine = free.whole[:, :-1], machine_of(compiled("wrist").spec)
-    near = nearest_possible(machine, free.beta, R)
+    R, machine = free.whole[:, :-1], define_physical_parameters(compiled("wrist").spec)
+    near = project_parameters(machine, free.beta, R)
     rise = np.linalg.norm(R @ (bound.beta - free.beta)) ** 2
     assert near.distance > 1.0 and near.distance**2 <= rise < 1.4 * near.distance**2
     (said,) = (said for said in bound.sentences if "at the bound of what can be built" in said)
@@ -125,7 +125,7 @@ def test_a_row_that_moves_pulls_a_consistent_estimate_as_it_says():
     """d beta = pull_i e_i, against the estimate with that row moved."""
     log, _ = measured(3, "torque")
     observation = api.observe(compiled(), [log])
-    equations = base_equations(observation)
+    equations = build_base_equations(observation)
 
     def estimate(y):
         moved = dataclasses.replace(equations, y=y)
@@ -178,11 +178,11 @@ def test_the_loop_of_a_drive_is_found_and_its_motion_is_that_of_another_solver(a
     model, observation = axis
     robot = DirectModel(model, observation)
     beta = np.array([MASS, VISCOUS, OFFSET])
-    loop = robot.chosen(beta)
+    loop = robot.choose_loop(beta)
     assert (loop.integral, loop.forward) == (0.0, 0.0) and loop.distance < 0.03
     assert loop.speed == pytest.approx(SPEED_LOOP, rel=0.05)
     assert loop.ratio == pytest.approx(RATIO, rel=0.05)
-    (motion,) = robot.followed(beta, loop)
+    (motion,) = robot.simulate_motions(beta, loop)
     (segment,) = robot.segments
     inside = segment.whole
     for simulated, logged in zip(motion, (segment.q, segment.qd, segment.qdd), strict=True):
@@ -196,7 +196,7 @@ def test_the_axis_comes_back_from_its_force_alone(axis, method):
     model, observation = axis
     fit = identify(observation, method, model)
     assert fit.status == "ok" and fit.beta == pytest.approx([MASS, VISCOUS, OFFSET], rel=0.02)
-    assert any("no integral action and no feedforward" in said for said in fit.own)
+    assert any("no integral action and no feedforward" in said for said in fit.estimator_notes)
 
 
 @pytest.mark.rotating("estimators on one log")
@@ -209,7 +209,7 @@ def test_methods_that_simulate_say_what_they_lack_without_commands(run):
         with pytest.raises(DataError, match=words):
             identify(observation, method, compiled())
     fit = identify(observation, "iv-direct", compiled())
-    assert any("no commanded positions in these logs" in said for said in fit.own)
+    assert any("no commanded positions in these logs" in said for said in fit.estimator_notes)
     np.testing.assert_allclose(fit.beta, truth, atol=0.03 * np.abs(truth).max())
 
 
@@ -277,9 +277,11 @@ def test_didim_says_where_it_ends_worse_than_it_began(run, observation):
     fit = identify(api.observe(compiled(), [wrong]), "didim", compiled())
     start = identify(observation, "weighted", compiled())
     assert fit.relative_error > 10.0 * start.relative_error
-    assert 'times the error of "weighted", from which method "didim" starts' in fit.own[0]
+    assert (
+        'times the error of "weighted", from which method "didim" starts' in fit.estimator_notes[0]
+    )
     honest = identify(observation, "didim", compiled())
-    assert not any("times the error" in said for said in honest.own)
+    assert not any("times the error" in said for said in honest.estimator_notes)
 
 
 @pytest.fixture(scope="module")
@@ -358,4 +360,4 @@ def test_real_arms_without_commands_are_simulated_as_well_as_fitted(measured_fol
     weighted, simulated = tried(name, measured_folder, ["weighted", "didim"])
     assert simulated.fit is not None, simulated.refusal
     assert simulated.fit.relative_error < 1.05 * weighted.fit.relative_error
-    assert simulated.held_out < 1.05 * weighted.held_out
+    assert simulated.held_out_error < 1.05 * weighted.held_out_error

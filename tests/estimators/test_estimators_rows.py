@@ -9,11 +9,11 @@ import numpy as np
 import pytest
 
 from modeler.core.errors import DataError
-from modeler.estimation.instrumental import with_instruments
-from modeler.estimation.least_squares import Problem, least_squares, ordinary
-from modeler.estimation.ridge import ridge
-from modeler.estimation.robust import robust
-from modeler.numerics.least_squares import compress
+from modeler.estimation.instrumental import estimate_with_instruments
+from modeler.estimation.least_squares import Problem, estimate_ordinary, solve_least_squares
+from modeler.estimation.ridge import estimate_ridge
+from modeler.estimation.robust import estimate_robust
+from modeler.numerics.least_squares import compress_rows
 
 BETA = np.array([1.0, -2.0, 0.3, 5.0])
 NOISE = np.array([0.5, 0.05])
@@ -26,7 +26,7 @@ def problem_of(W, y, joint):
         row_joint=joint, joints=[SimpleNamespace(name=name) for name in "12"],
         names=("A", "B", "C", "D"), logs=("made up",),
     )  # fmt: skip
-    data = compress(W, y, joint, len(ROWS), seen.names)
+    data = compress_rows(W, y, joint, len(ROWS), seen.names)
     return Problem(seen, W, y, np.ones(len(y), dtype=bool), seen.names, data)
 
 
@@ -53,7 +53,9 @@ def assert_standard(z, bias=0.35, low=0.88, high=1.15):
     assert 0.90 < np.mean(np.abs(z) < 2) < 0.99
 
 
-@pytest.mark.parametrize("estimator", [robust, ordinary], ids=["robust", "ordinary"])
+@pytest.mark.parametrize(
+    "estimator", [estimate_robust, estimate_ordinary], ids=["robust", "ordinary"]
+)
 def test_sigmas_are_what_repetition_shows_where_joints_differ(estimator):
     def make(random):
         W, joint, noise = rows(random)
@@ -72,11 +74,14 @@ def test_robust_stands_rows_that_are_wrong_and_weighted_does_not():
 
         return made
 
-    z = repeated(make(robust))
+    z = repeated(make(estimate_robust))
     assert_standard(z, bias=0.5, high=1.25)
     spread = {
         name: np.std([make(e)(np.random.default_rng(k))[0].beta for k in range(30)], axis=0)
-        for name, e in (("robust", robust), ("weighted", lambda p: least_squares(p.data)))
+        for name, e in (
+            ("robust", estimate_robust),
+            ("weighted", lambda p: solve_least_squares(p.data)),
+        )
     }
     assert np.all(spread["robust"] < 0.3 * spread["weighted"])
 
@@ -86,8 +91,8 @@ def test_robust_loses_five_per_cent_of_efficiency_on_gaussian_noise():
     for k in range(100):
         W, joint, noise = rows(np.random.default_rng([7, k]))
         problem = problem_of(W, W @ BETA + noise, joint)
-        found["robust"].append(robust(problem).beta - BETA)
-        found["weighted"].append(least_squares(problem.data).beta - BETA)
+        found["robust"].append(estimate_robust(problem).beta - BETA)
+        found["weighted"].append(solve_least_squares(problem.data).beta - BETA)
     variance = {name: np.var(values, axis=0) for name, values in found.items()}
     assert np.mean(variance["weighted"] / variance["robust"]) == pytest.approx(0.93, abs=0.08)
 
@@ -95,11 +100,11 @@ def test_robust_loses_five_per_cent_of_efficiency_on_gaussian_noise():
 def test_robust_tells_rows_that_lie_far_off_and_nothing_on_clean_ones():
     W, joint, noise = rows(np.random.default_rng(4))
     y = W @ BETA + noise
-    assert robust(problem_of(W, y, joint)).sentences == ()
+    assert estimate_robust(problem_of(W, y, joint)).sentences == ()
     y[:15] += 30.0
-    (said,) = robust(problem_of(W, y, joint)).sentences
+    (said,) = estimate_robust(problem_of(W, y, joint)).sentences
     assert "joint 1: 13.3 % of its rows" in said
-    assert np.all(robust(problem_of(W, W @ BETA, joint)).covariance.diagonal() < 1e-12)
+    assert np.all(estimate_robust(problem_of(W, W @ BETA, joint)).covariance.diagonal() < 1e-12)
 
 
 def test_ridge_holds_its_sigma_where_values_scatter_as_the_prior_says():
@@ -110,7 +115,7 @@ def test_ridge_holds_its_sigma_where_values_scatter_as_the_prior_says():
         W[:, 3] = W[:, 2] * 3.0 + 0.05 * random.normal(size=len(W))  # all but one column
         lengths = np.linalg.norm(W / NOISE[joint][:, None], axis=0)
         truth = 300.0 * random.normal(size=4) / lengths
-        return ridge(problem_of(W, W @ truth + noise, joint)), truth
+        return estimate_ridge(problem_of(W, W @ truth + noise, joint)), truth
 
     assert_standard(repeated(make), bias=0.4, high=1.2)
 
@@ -119,8 +124,8 @@ def test_ridge_shares_out_what_cannot_be_told_and_sets_columns_of_zeros_aside():
     W, joint, noise = rows(np.random.default_rng(8))
     W[:, 3] = 2.0 * W[:, 2]
     W[:, 1] = 0.0
-    found = ridge(problem_of(W, W @ [1.0, 0.0, 1.0, 0.0] + noise, joint))
-    assert found.rank.kept == (0, 2, 3) and found.covariance[1, 1] == 0.0
+    found = estimate_ridge(problem_of(W, W @ [1.0, 0.0, 1.0, 0.0] + noise, joint))
+    assert found.rank.kept_columns == (0, 2, 3) and found.covariance[1, 1] == 0.0
     assert found.beta[2] + 2.0 * found.beta[3] == pytest.approx(1.0, abs=0.02)
     assert found.beta[2] / found.beta[3] == pytest.approx(2.0, abs=0.01)
     assert any("cannot be told from" in said for said in found.sentences)
@@ -135,12 +140,14 @@ def noisy(random, strength=0.5, shift=0.0):
 
 
 def test_instruments_are_right_where_noise_of_the_regressor_bends_least_squares():
-    weighted = [least_squares(noisy(np.random.default_rng(k))[0].data).beta for k in range(80)]
+    weighted = [
+        solve_least_squares(noisy(np.random.default_rng(k))[0].data).beta for k in range(80)
+    ]
     assert np.all(np.mean(weighted, axis=0) / BETA < 0.9)  # 1 / (1 + 0.5^2) = 0.8
 
     def make(random):
         problem, Z = noisy(random)
-        return (with_instruments(problem, Z, "iv"),)
+        return (estimate_with_instruments(problem, Z, "iv"),)
 
     assert_standard(repeated(make), bias=0.3, low=0.85, high=1.2)
 
@@ -148,7 +155,7 @@ def test_instruments_are_right_where_noise_of_the_regressor_bends_least_squares(
 def test_instruments_that_are_the_columns_themselves_give_the_weighted_fit():
     W, joint, noise = rows(np.random.default_rng(3))
     problem = problem_of(W, W @ BETA + noise, joint)
-    found, weighted = with_instruments(problem, W, "iv"), least_squares(problem.data)
+    found, weighted = estimate_with_instruments(problem, W, "iv"), solve_least_squares(problem.data)
     np.testing.assert_allclose(found.beta, weighted.beta, rtol=1e-7)
     np.testing.assert_allclose(found.covariance, weighted.covariance, rtol=1e-6, atol=1e-12)
     np.testing.assert_allclose(found.sigma, weighted.sigma, rtol=1e-6)
@@ -158,9 +165,11 @@ def test_weak_instruments_are_told_and_blind_ones_refused():
     W, joint, noise = rows(np.random.default_rng(3))
     problem = problem_of(W, W @ BETA + noise, joint)
     random = np.random.default_rng(9)
-    weak = with_instruments(problem, W + 12 * W.std(axis=0) * random.normal(size=W.shape), "iv")
+    weak = estimate_with_instruments(
+        problem, W + 12 * W.std(axis=0) * random.normal(size=W.shape), "iv"
+    )
     assert any("instruments are weak" in said for said in weak.sentences)
     blind = W.copy()
     blind[:, 2] = blind[:, 3]
     with pytest.raises(DataError, match=r'method "iv": the instruments tell nothing.*for [CD];'):
-        with_instruments(problem, blind, "iv")
+        estimate_with_instruments(problem, blind, "iv")

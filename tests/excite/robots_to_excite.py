@@ -6,9 +6,9 @@ from functools import cache
 import numpy as np
 
 from modeler.api import compile_model, derive, generate
-from modeler.cli.motion import bounds_of
-from modeler.derivation.derive import with_home
-from modeler.excitation import Bounds, Task, Wish, task_of
+from modeler.cli.motion import parse_bounds
+from modeler.derivation.derive import complete_home
+from modeler.excitation import ExcitationTask, MotionBounds, MotionRequest, build_task
 from modeler.robot import Robot, read_robot
 from modeler.runtime.model import CompiledModel
 
@@ -17,16 +17,16 @@ from modeler.runtime.model import CompiledModel
 def robot(name: str) -> tuple[Robot, CompiledModel]:
     found = read_robot(name)
     if found.loops:
-        found = with_home(found).robot
+        found = complete_home(found).robot
     return found, compile_model(generate(derive(found)))
 
 
 def limits_of(
     name: str, limits: tuple[str, ...] = (), boxes: tuple[str, ...] = ()
-) -> tuple[CompiledModel, Bounds]:
+) -> tuple[CompiledModel, MotionBounds]:
     """The robot compiled, and its limits as the command line takes them."""
     found, compiled = robot(name)
-    return compiled, bounds_of(found, compiled, limits, boxes)
+    return compiled, parse_bounds(found, compiled, limits, boxes)
 
 
 def plausible(compiled: CompiledModel, seed: int = 0) -> np.ndarray:
@@ -41,9 +41,9 @@ def plausible(compiled: CompiledModel, seed: int = 0) -> np.ndarray:
     return compiled.base_parameters(values)
 
 
-def small_task(name: str, limited: float = np.inf, boxes: tuple[str, ...] = ()) -> Task:
+def small_task(name: str, limited: float = np.inf, boxes: tuple[str, ...] = ()) -> ExcitationTask:
     """A search of few harmonics; `limited`: every torque, in N m."""
     compiled, bounds = limits_of(name, boxes=boxes)
     bounds = dataclasses.replace(bounds, torque=np.full(len(bounds.joints), limited))
     beta = plausible(compiled) if np.isfinite(limited) else None
-    return task_of(compiled, bounds, Wish(4.0, 3), None, None, beta)
+    return build_task(compiled, bounds, MotionRequest(4.0, 3), None, None, beta)

@@ -8,13 +8,19 @@ import numpy as np
 import pytest
 
 from modeler.api import check_motion
-from modeler.api.motion import bounds_of
+from modeler.api.motion import build_bounds
 from modeler.cli import main
 from modeler.core.errors import DataError, RobotError
-from modeler.excitation import Solids, Wish, csv_text, excite, nearest
-from modeler.excitation.motion import posture_of
-from modeler.report.robot_skeleton import poses, skeleton_of
-from modeler.robot import read_robot, robot_from_text
+from modeler.excitation import (
+    CollisionGeometry,
+    MotionRequest,
+    design_motion,
+    find_closest_approach,
+    format_csv,
+)
+from modeler.excitation.motion import build_posture_limits
+from modeler.report.robot_skeleton import build_skeleton, compute_poses
+from modeler.robot import parse_robot_text, read_robot
 from tests.chain import chain_of
 from tests.excite.robots_to_excite import robot as built_in
 
@@ -39,9 +45,9 @@ def arm_text() -> str:
 
 @pytest.fixture(scope="module")
 def arm():
-    robot = robot_from_text(arm_text(), "arm.toml")
+    robot = parse_robot_text(arm_text(), "arm.toml")
     compiled = chain_of(robot).compiled
-    return robot, compiled, bounds_of(robot, compiled, {}, {})
+    return robot, compiled, build_bounds(robot, compiled, {}, {})
 
 
 def coal_distance(one, other, a, b) -> float:
@@ -61,7 +67,7 @@ def coal_distance(one, other, a, b) -> float:
 
 def oracle(robot, q) -> dict[tuple[str, str], float]:
     """By pair, at one posture: the table's numbers for the frames, coal for the distances."""
-    frames = poses(skeleton_of(robot), q)
+    frames = compute_poses(build_skeleton(robot), q)
     placed = {}
     for row, (radius, *ends) in CAPSULES.items():
         T = np.eye(4) if row == "0" else frames[int(row) - 1]
@@ -80,9 +86,16 @@ def test_distances_are_coals_for_capsules_that_cross_touch_and_are_parallel():
     ends[:10, 1] = ends[:10, 0] + [0.0, 0.0, 1.3]  # parallel
     ends[10:20, 1, 0] = ends[10:20, 0].mean(axis=1)  # they touch
     radius = np.array([0.05, 0.08])
-    solids = Solids(("1", "2"), np.zeros(2, dtype=int), ends[0], radius, np.zeros((0, 3)),
-                    np.zeros(0), np.array([[0, 1]]))  # fmt: skip
-    found, points = solids.distances(ends)
+    solids = CollisionGeometry(
+        ("1", "2"),
+        np.zeros(2, dtype=int),
+        ends[0],
+        radius,
+        np.zeros((0, 3)),
+        np.zeros(0),
+        np.array([[0, 1]]),
+    )
+    found, points = solids.compute_distances(ends)
     told = [coal_distance(a, b, *radius) for a, b in ends]
     apart = found[:, 0] > 0  # coal tells the depth of a penetration by other rules
     assert apart.sum() > 30 and np.allclose(found[apart, 0], np.array(told)[apart], atol=1e-6)
@@ -93,7 +106,10 @@ def test_distances_are_coals_for_capsules_that_cross_touch_and_are_parallel():
 
 def test_pairs_that_share_a_joint_or_always_touch_are_left_out_and_told(arm):
     _, _, bounds = arm
-    pairs = [set(bounds.clearance.solids.who(k)) for k in range(len(bounds.clearance.solids.pairs))]
+    pairs = [
+        set(bounds.clearance.solids.get_pair_names(k))
+        for k in range(len(bounds.clearance.solids.pairs))
+    ]
     told = [{"base", "3"}, {"1", "3"}, {"1", "floor"}, {"2", "floor"}, {"3", "floor"}]
     assert sorted(map(sorted, pairs)) == sorted(map(sorted, told))
     out = {frozenset(pair[:2]): pair[2] for pair in bounds.clearance.left_out}
@@ -102,13 +118,15 @@ def test_pairs_that_share_a_joint_or_always_touch_are_left_out_and_told(arm):
 
 def test_the_slope_of_distances_is_their_derivative(arm):
     _, compiled, bounds = arm
-    limits, rng = posture_of(compiled, bounds), np.random.default_rng()
+    limits, rng = build_posture_limits(compiled, bounds), np.random.default_rng()
     q = bounds.middle + bounds.half * rng.uniform(-0.8, 0.8, (40, 3))
-    q = q[limits.shares(q).max(axis=1) < 1.0]
-    pull = rng.normal(size=limits.shares(q).shape)
-    found, h = limits.pulled_back(q, pull), 1e-6
+    q = q[limits.compute_shares(q).max(axis=1) < 1.0]
+    pull = rng.normal(size=limits.compute_shares(q).shape)
+    found, h = limits.pull_back_gradient(q, pull), 1e-6
     for j, way in enumerate(h * np.eye(3)):
-        told = ((limits.shares(q + way) - limits.shares(q - way)) * pull).sum(axis=1) / (2 * h)
+        told = ((limits.compute_shares(q + way) - limits.compute_shares(q - way)) * pull).sum(
+            axis=1
+        ) / (2 * h)
         assert np.allclose(found[:, j], told, rtol=1e-3, atol=1e-5)
 
 
@@ -119,22 +137,26 @@ def test_the_slope_of_distances_is_their_derivative(arm):
 )
 def test_a_motion_keeps_links_apart_at_all_times_and_costs_little(arm, family, tmp_path):
     robot, compiled, bounds = arm
-    motion = excite(compiled, bounds, Wish(6.0, 3, "condition", 1, family=family))
-    fine = motion.series.at(np.linspace(0.0, 6.0, 201)).motion(motion.x)[0]
+    motion = design_motion(compiled, bounds, MotionRequest(6.0, 3, "condition", 1, family=family))
+    fine = motion.series.resample_at(np.linspace(0.0, 6.0, 201)).evaluate_motion(motion.x)[0]
     seen = [oracle(robot, q) for q in fine]
-    kept = {bounds.clearance.solids.who(k) for k in range(len(bounds.clearance.solids.pairs))}
+    kept = {
+        bounds.clearance.solids.get_pair_names(k) for k in range(len(bounds.clearance.solids.pairs))
+    }
     least = min(each[pair] for each in seen for pair in kept)
-    assert 0.01 <= motion.nearest.bound <= least + 1e-9
-    assert motion.nearest.bound > motion.nearest.distance - 2e-4
-    assert motion.nearest.distance - 2e-4 < least < motion.nearest.distance + 0.01
-    at = oracle(robot, np.array(list(motion.nearest.posture.values())))
-    assert at[motion.nearest.pair] == pytest.approx(motion.nearest.distance, abs=1e-6)
+    assert 0.01 <= motion.closest_approach.bound <= least + 1e-9
+    assert motion.closest_approach.bound > motion.closest_approach.distance - 2e-4
+    assert motion.closest_approach.distance - 2e-4 < least < motion.closest_approach.distance + 0.01
+    at = oracle(robot, np.array(list(motion.closest_approach.posture.values())))
+    assert at[motion.closest_approach.pair] == pytest.approx(
+        motion.closest_approach.distance, abs=1e-6
+    )
     assert motion.quality.condition < motion.random[0]
     place = tmp_path / "m.csv"
-    place.write_text(csv_text(motion.sampled(200.0)))
+    place.write_text(format_csv(motion.sample_motion(200.0)))
     told = check_motion(robot, place)
-    assert told.pair == motion.nearest.pair
-    assert told.distance == pytest.approx(motion.nearest.distance, abs=2e-5)
+    assert told.pair == motion.closest_approach.pair
+    assert told.distance == pytest.approx(motion.closest_approach.distance, abs=2e-5)
 
 
 def test_what_comes_near_between_samples_is_seen(arm):
@@ -149,7 +171,7 @@ def test_what_comes_near_between_samples_is_seen(arm):
             q[:, 1] -= deep * np.exp(-(((t - at) / 0.03) ** 2)) + 0.1 * np.sin(t)
             return q
 
-        near = nearest(compiled, solids, path, 10.0)
+        near = find_closest_approach(compiled, solids, path, 10.0)
         close = at + np.linspace(-0.1, 0.1, 4001)
         ends = solids.placed(compiled.forward_kinematics(path(close)))
         least = solids.distances(ends)[0].min()
@@ -163,7 +185,7 @@ def test_the_command_checks_a_motion_and_draws_the_nearest_two(arm, tmp_path, ca
     columns["q3"] = 1.5 + 0.9 * np.sin(t) ** 2  # the forearm folds back to the column
     columns["q2"] = 0.2 + 0.2 * np.sin(t) ** 2
     place, page = tmp_path / "fold.csv", tmp_path / "fold.html"
-    place.write_text(csv_text(columns))
+    place.write_text(format_csv(columns))
     words = ["excite", str(tmp_path / "arm.toml"), "--check", str(place)]
     assert main([*words, "--report", str(page), "--clearance", "0.3"]) == 1
     out, err = capsys.readouterr()
@@ -181,9 +203,11 @@ def test_the_command_checks_a_motion_and_draws_the_nearest_two(arm, tmp_path, ca
 @pytest.mark.rotating("long tests of excite")
 def test_loops_are_kept_clear_too():
     found, compiled = built_in("five-bar")
-    bounds = bounds_of(found, compiled, {}, {}, 0.02)
-    motion = excite(compiled, bounds, Wish(6.0, 3, starts=1, time_limit=0.3))
-    assert motion.nearest.bound >= 0.02 and len(motion.nearest.posture) > len(bounds.joints)
+    bounds = build_bounds(found, compiled, {}, {}, 0.02)
+    motion = design_motion(compiled, bounds, MotionRequest(6.0, 3, starts=1, time_limit=0.3))
+    assert motion.closest_approach.bound >= 0.02 and len(motion.closest_approach.posture) > len(
+        bounds.joints
+    )
 
 
 @pytest.mark.parametrize(
@@ -200,7 +224,7 @@ def test_loops_are_kept_clear_too():
 )
 def test_one_line_for_capsules_that_cannot_be(text, told):
     with pytest.raises(RobotError) as caught:
-        robot_from_text(f"{read_robot('demo-arm').text}\n[capsules]\n{text}\n", "a.toml")
+        parse_robot_text(f"{read_robot('demo-arm').text}\n[capsules]\n{text}\n", "a.toml")
     assert told in str(caught.value) and "\n" not in str(caught.value)
 
 
@@ -208,4 +232,4 @@ def test_a_margin_that_leaves_no_room_is_refused(arm):
     _, compiled, bounds = arm
     far = dataclasses.replace(bounds, clearance=dataclasses.replace(bounds.clearance, margin=0.8))
     with pytest.raises(DataError, match="no posture was found"):
-        excite(compiled, far, Wish(4.0, 3, starts=1))
+        design_motion(compiled, far, MotionRequest(4.0, 3, starts=1))

@@ -8,7 +8,7 @@ import pyarrow.parquet as pq
 import pytest
 
 from modeler.cli import main
-from modeler.simulation import at_rate, read_motion
+from modeler.simulation import read_motion, resample_motion
 
 
 def run(capsys, *argv) -> tuple[int, str, str]:
@@ -59,7 +59,7 @@ def test_what_is_written_is_the_motion_and_what_it_uses(folder):
 def test_a_log_is_a_motion_by_its_commands(folder):
     motion = read_motion(folder / "log.parquet", ["1", "2", "3"])
     exact = read_motion(folder / "motion.csv", ["1", "2", "3"])
-    there = at_rate(exact, 500.0)
+    there = resample_motion(exact, 500.0)
     assert np.allclose(motion.q, there.q, atol=1e-7)
     inner = slice(20, -20)
     assert np.allclose(motion.qdd[inner], there.qdd[inner], atol=2e-3)

@@ -3,9 +3,9 @@
 import numpy as np
 import pytest
 
-from modeler.api import excite, forecast
-from modeler.api.motion import Encoders, subject_of
-from modeler.cli.motion import forecast_line
+from modeler.api import excite, expected_sigmas
+from modeler.api.motion import Encoders, build_subject
+from modeler.cli.motion import describe_expected_sigmas
 from modeler.core.errors import DataError
 from modeler.observation.log import Log
 from tests.chain import chain_of
@@ -51,7 +51,7 @@ def sigmas(fitted) -> np.ndarray:
 @pytest.mark.parametrize("counts", [0, 4096])
 def test_forecast_sigmas_are_those_that_fits_find(arm, known, counts) -> None:
     model, motion = known
-    told = forecast(model, motion, rate=RATE, counts=counts)
+    told = expected_sigmas(model, motion, rate=RATE, counts=counts)
     step = 2.0 * np.pi / counts if counts else 0.0
     found = [arm(motion.sampled(RATE), step).fit for _ in range(4)]
     ratio = sigmas(told) / np.median([sigmas(each) for each in found], axis=0)
@@ -63,8 +63,8 @@ def test_forecast_sigmas_are_those_that_fits_find(arm, known, counts) -> None:
 def test_a_coarse_encoder_costs_sigma_and_white_noise_as_much(known) -> None:
     """The noise of 512 counts a turn is uniform within a step, of deviation step / sqrt 12."""
     model, motion = known
-    exact, coarse = (forecast(model, motion, rate=RATE, counts=c) for c in (0, 512))
-    like = forecast(model, motion, rate=RATE, noise=2.0 * np.pi / 512 / 12**0.5)
+    exact, coarse = (expected_sigmas(model, motion, rate=RATE, counts=c) for c in (0, 512))
+    like = expected_sigmas(model, motion, rate=RATE, noise=2.0 * np.pi / 512 / 12**0.5)
     assert coarse.processing.parallel_cutoff < exact.processing.parallel_cutoff
     assert np.all(sigmas(coarse) > sigmas(exact))
     assert np.exp(np.mean(np.log(sigmas(coarse) / sigmas(like)))) < 2.0
@@ -72,16 +72,16 @@ def test_a_coarse_encoder_costs_sigma_and_white_noise_as_much(known) -> None:
 
 def test_positions_of_joints_that_slide_have_no_turns() -> None:
     q = np.array([[0.0101, 0.0101], [0.0139, 0.0139]])
-    seen = Encoders(500).read(q, ["rad", "m"], np.random.default_rng(0))
+    seen = Encoders(500).quantise_positions(q, ["rad", "m"], np.random.default_rng(0))
     assert np.allclose(seen[:, 0], 2.0 * np.pi / 500) and np.array_equal(seen[:, 1], q[:, 1])
     for encoders in (Encoders(-1), Encoders(0, float("nan"))):
         with pytest.raises(DataError, match="expected neither below 0"):
-            encoders.read(q, ["rad", "m"], np.random.default_rng(0))
+            encoders.quantise_positions(q, ["rad", "m"], np.random.default_rng(0))
 
 
 def test_a_log_that_could_not_be_fitted_is_told_in_a_line(known) -> None:
     """Eight seconds at 1 Hz: fewer rows than the filters need."""
     model, motion = known
-    line, raw = forecast_line(subject_of(model), motion, 1.0, Encoders(100, 1e-4))
+    line, raw = describe_expected_sigmas(build_subject(model), motion, 1.0, Encoders(100, 1e-4))
     assert raw is None and "of 100 counts a turn and with noise of 0.0001 rad (m)" in line
     assert "it cannot be fitted: no more than 8 s" in line

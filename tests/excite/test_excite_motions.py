@@ -5,14 +5,19 @@ import dataclasses
 import numpy as np
 import pytest
 
-from modeler.api.motion import bounds_of, subject_of
+from modeler.api.motion import build_bounds, build_subject
 from modeler.core.errors import DataError
-from modeler.excitation import Wish, excite, random_motion, task_of
-from modeler.excitation.criterion import MotionColumns, condition
-from modeler.excitation.families import series
-from modeler.robot.edit import with_gravity
-from modeler.robot.read import builtin_text, robot_from_text
-from modeler.simulation.closing import constraints_of, distances, followed, rates
+from modeler.excitation import MotionRequest, build_task, design_motion, draw_random_motion
+from modeler.excitation.criterion import MotionColumns, compute_condition
+from modeler.excitation.families import build_series
+from modeler.robot.edit import replace_gravity
+from modeler.robot.read import parse_robot_text, read_builtin_robot
+from modeler.simulation.closing import (
+    build_constraints,
+    compute_closed_postures,
+    compute_rates,
+    compute_singularity_distances,
+)
 from tests.excite.robots_to_excite import limits_of, plausible, robot
 from tests.rotation import ROTATING, rotating
 
@@ -21,7 +26,9 @@ def finely(motion):
     """Sampled ten times as densely as limits were looked at in the search, and at other places."""
     count = 320 * motion.series.harmonics + 1
     times = np.linspace(0.0, motion.series.duration, count)
-    return series(motion.series.duration, motion.series.harmonics, times).motion(motion.x)
+    return build_series(motion.series.duration, motion.series.harmonics, times).evaluate_motion(
+        motion.x
+    )
 
 
 def assert_within(motion, bounds):
@@ -35,14 +42,14 @@ def assert_within(motion, bounds):
 @pytest.mark.parametrize("name", ["scara", pytest.param("rx90", marks=pytest.mark.rotating)])
 def test_serial_robots_keep_to_their_limits_and_beat_random_motions(name):
     compiled, bounds = limits_of(name)
-    motion = excite(compiled, bounds, Wish(8.0, 5, starts=1))
+    motion = design_motion(compiled, bounds, MotionRequest(8.0, 5, starts=1))
     assert_within(motion, bounds)
     assert motion.quality.condition < motion.random[0]
     # Sigmas are a tenth larger at most than on the motion that is best for them among 50.
     worse = (motion.random_log_det - motion.quality.log_det) / 2 / len(compiled.spec.base)
     assert worse < np.log(1.1)
-    told = compiled.observation(*motion.series.motion(motion.x))
-    assert motion.quality.condition == pytest.approx(condition(told))
+    told = compiled.observation(*motion.series.evaluate_motion(motion.x))
+    assert motion.quality.condition == pytest.approx(compute_condition(told))
 
 
 def test_torques_and_boxes_hold_between_the_samples():
@@ -51,9 +58,9 @@ def test_torques_and_boxes_hold_between_the_samples():
     )
     beta = plausible(compiled)
     free = dataclasses.replace(bounds, torque=np.full(3, np.inf), boxes=())
-    wish = Wish(6.0, 4, starts=1)
-    loose = excite(compiled, free, wish, beta=beta)
-    tight = excite(compiled, bounds, wish, beta=beta)
+    wish = MotionRequest(6.0, 4, starts=1)
+    loose = design_motion(compiled, free, wish, beta=beta)
+    tight = design_motion(compiled, bounds, wish, beta=beta)
     loads, poses = [], []
     for motion in (loose, tight):
         q, qd, qdd = finely(motion)
@@ -63,7 +70,7 @@ def test_torques_and_boxes_hold_between_the_samples():
     box = bounds.boxes[0]
     assert np.any(poses[0] > box.upper) or np.any(poses[0] < box.lower)
     assert np.all(poses[1] <= box.upper) and np.all(poses[1] >= box.lower)
-    assert np.allclose(tight.used.torque, loads[1], rtol=1e-2)
+    assert np.allclose(tight.usage.torque, loads[1], rtol=1e-2)
 
 
 def assert_not_faster(found, constraints, q, bounds):
@@ -73,12 +80,12 @@ def assert_not_faster(found, constraints, q, bounds):
     units = [angular & follow, ~angular & follow]
     sizes = []
     for places in (bounds.home[None, :], q[::40]):
-        v = followed(found, constraints, places)
+        v = compute_closed_postures(found, constraints, places)
         speeds = []
         for j, half in enumerate(bounds.half):
             qd = np.zeros_like(places)
             qd[:, j] = half
-            speeds.append(rates(constraints, v, qd, np.zeros_like(qd))[0])
+            speeds.append(compute_rates(constraints, v, qd, np.zeros_like(qd))[0])
         squares = np.sum(np.array(speeds) ** 2, axis=0)
         sizes.append([np.sqrt(squares[:, unit].sum(axis=1)).max() for unit in units])
     assert np.all(np.array(sizes[1]) <= 2.0 * np.array(sizes[0]) + 1e-9)
@@ -94,25 +101,31 @@ def test_loops_close_all_along_away_from_singular_postures(name):
             for joint, at in zip(compiled.spec.joints, home, strict=True)
         )
     compiled, bounds = limits_of(name, limits)
-    motion = excite(compiled, bounds, Wish(6.0, 4, starts=1))
+    motion = design_motion(compiled, bounds, MotionRequest(6.0, 4, starts=1))
     q, *_ = finely(motion)
-    constraints = constraints_of(found)
-    away = distances(constraints, followed(found, constraints, q))
-    home = distances(constraints, followed(found, constraints, bounds.home[None, :]))[0]
+    constraints = build_constraints(found)
+    away = compute_singularity_distances(
+        constraints, compute_closed_postures(found, constraints, q)
+    )
+    home = compute_singularity_distances(
+        constraints, compute_closed_postures(found, constraints, bounds.home[None, :])
+    )[0]
     assert away.min() > 0.05 * home
     assert_not_faster(found, constraints, q, bounds)
-    assert motion.used.loops < 1.0 and motion.quality.condition < motion.random[0]
+    assert motion.usage.loops < 1.0 and motion.quality.condition < motion.random[0]
     assert np.all(q <= bounds.upper) and np.all(q >= bounds.lower)
     if name == "five-bar":  # its limits alone would lead it through a singular posture
         rng = np.random.default_rng(0)
-        corners = bounds.middle + bounds.half * rng.uniform(-0.95, 0.95, (200, len(bounds.lower)))
+        corners = bounds.mid_range + bounds.half_range * rng.uniform(
+            -0.95, 0.95, (200, len(bounds.lower))
+        )
         assert np.count_nonzero(compiled.closing_status(corners))
 
 
 def test_the_same_seed_gives_the_same_motion_and_another_one_another():
     compiled, bounds = limits_of("two-link")
-    wishes = [Wish(4.0, 3, starts=1, seed=seed) for seed in (3, 3, 4)]
-    one, again, other = (excite(compiled, bounds, wish) for wish in wishes)
+    wishes = [MotionRequest(4.0, 3, starts=1, seed=seed) for seed in (3, 3, 4)]
+    one, again, other = (design_motion(compiled, bounds, wish) for wish in wishes)
     assert np.array_equal(one.x, again.x) and one.to_json() == again.to_json()
     assert not np.allclose(one.x, other.x, atol=1e-3)
 
@@ -120,7 +133,7 @@ def test_the_same_seed_gives_the_same_motion_and_another_one_another():
 def test_the_objectives_do_what_they_are_called():
     compiled, bounds = limits_of("scara")
     found = {
-        name: excite(compiled, bounds, Wish(6.0, 4, name, 1)).quality
+        name: design_motion(compiled, bounds, MotionRequest(6.0, 4, name, 1)).quality
         for name in ("both", "condition", "information")
     }
     assert found["condition"].condition <= found["both"].condition < found["information"].condition
@@ -131,25 +144,27 @@ def test_a_noisy_joint_counts_less():
     """Weighted rows: of a joint with tenfold noise the information is a hundredth."""
     compiled, bounds = limits_of("two-link")
     sigma = np.array([1.0, 10.0])
-    task = task_of(compiled, bounds, Wish(4.0, 3), sigma, None, None)
-    x = random_motion(task, np.random.default_rng(0))
-    W = compiled.observation(*task.series.motion(x)).reshape(-1, 2, len(compiled.spec.base))
+    task = build_task(compiled, bounds, MotionRequest(4.0, 3), sigma, None, None)
+    x = draw_random_motion(task, np.random.default_rng(0))
+    W = compiled.observation(*task.series.evaluate_motion(x)).reshape(
+        -1, 2, len(compiled.spec.base)
+    )
     weighted = (W / sigma[:, None]).reshape(-1, W.shape[2])
-    assert np.allclose(task.rows(task.series.motion(x)), weighted)
+    assert np.allclose(task.compute_rows(task.series.evaluate_motion(x)), weighted)
 
 
 def heavy_arm(first, second):
     """An arm that hangs, whose weight and friction come near these limits of torque."""
-    hanging = with_gravity(builtin_text("two-link"), [-9.81, 0.0, 0.0])
-    subject = subject_of(robot_from_text(hanging, "arm"))
+    hanging = replace_gravity(read_builtin_robot("two-link"), [-9.81, 0.0, 0.0])
+    subject = build_subject(parse_robot_text(hanging, "arm"))
     limits = {"1": (-2.5, 2.5, 4, 20, first), "2": (-2.5, 2.5, 5, 30, second)}
-    return subject, bounds_of(subject.robot, subject.compiled, limits, {})
+    return subject, build_bounds(subject.robot, subject.compiled, limits, {})
 
 
 @pytest.mark.parametrize(("first", "second"), [(1.67, 0.86), *rotating((16, 4))])
 def test_wider_torques_are_never_refused_and_the_narrowest_hold_at_all_times(first, second):
     subject, bounds = heavy_arm(first, second)
-    wish = Wish(6.0, 4, starts=1, seed=1, time_limit=0.4)
+    wish = MotionRequest(6.0, 4, starts=1, seed=1, time_limit=0.4)
     motion = subject.search(bounds, wish)
     compiled, (q, qd, qdd) = subject.compiled, finely(motion)
     loads = np.abs(compiled.inverse_dynamics(q, qd, qdd, subject.beta)).max(axis=0)
@@ -160,7 +175,7 @@ def test_wider_torques_are_never_refused_and_the_narrowest_hold_at_all_times(fir
 def test_torques_below_dry_friction_are_refused_in_a_line():
     subject, bounds = heavy_arm(5.0, 0.79)
     with pytest.raises(DataError, match=r"no posture was found .*; q1 = .* times what they allow"):
-        subject.search(bounds, Wish(6.0, 4))
+        subject.search(bounds, MotionRequest(6.0, 4))
 
 
 @pytest.mark.parametrize("steps", [900, *rotating(1)])
@@ -178,6 +193,6 @@ def test_every_loop_asks_for_the_time(monkeypatch, steps):
         monkeypatch.setattr(MotionColumns, name, counted)
     monkeypatch.setattr("modeler.excitation.search.time.monotonic", lambda: clock[0])
     before = clock[0]
-    motion = subject.search(bounds, Wish(6.0, 4, seed=1, time_limit=before + steps))
+    motion = subject.search(bounds, MotionRequest(6.0, 4, seed=1, time_limit=before + steps))
     assert motion.ended_early and clock[0] < before + steps + 700
     assert (motion.drawn == 1) == (steps == 1)

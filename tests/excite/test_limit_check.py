@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from modeler.cli import main
-from modeler.excitation import Bounds, exceeded_limits
+from modeler.excitation import MotionBounds, find_exceeded_limits
 
 LIMITS = "[limits]\n1 = [-2.0, 2.0, 3.0, 12.0]\n2 = [-1.5, 1.5, 2.0, 8.0]\n"
 ROBOT = """name = "pair"
@@ -18,7 +18,7 @@ D2 = 0.3
 columns = ["j", "a", "mu", "sigma", "alpha", "d", "theta"]
 rows = [["1", "0", 1, 0, "pi/2", 0, "q1"], ["2", "1", 1, 0, 0, "D2", "q2"]]
 """
-BOUNDS = Bounds(
+BOUNDS = MotionBounds(
     ("1", "2"), np.array([-2.0, -1.5]), np.array([2.0, 1.5]), np.array([3.0, 2.0]),
     np.array([12.0, 8.0]), np.array([np.inf, np.inf]),
 )  # fmt: skip
@@ -39,7 +39,7 @@ def smooth(rng: np.random.Generator, rate: float) -> tuple[np.ndarray, np.ndarra
 
 
 def kinds(time: np.ndarray, q: np.ndarray) -> set[tuple[str, str]]:
-    found = exceeded_limits(BOUNDS, ("rad", "rad"), time, q, None)
+    found = find_exceeded_limits(BOUNDS, ("rad", "rad"), time, q, None)
     return {(each.joint, each.what) for each in found}
 
 
@@ -59,11 +59,11 @@ def test_a_leap_is_found_whatever_its_place() -> None:
         time, q = smooth(rng, 200.0)
         at, way = int(rng.integers(10, len(time) - 10)), rng.choice([-1.0, 1.0])
         q[at:, 1] += way * rng.uniform(0.05, 1.37)
-        found = exceeded_limits(BOUNDS, ("rad", "rad"), time, q, None)
+        found = find_exceeded_limits(BOUNDS, ("rad", "rad"), time, q, None)
         first = next(each for each in found if each.what in ("speed", "acceleration"))
         assert first.joint == "2" and first.time == pytest.approx(time[at], abs=0.05)
         if first.what == "speed":
-            assert abs(first.value) > 2.0 and "in 5 ms), limit 2" in first.line()
+            assert abs(first.value) > 2.0 and "in 5 ms), limit 2" in first.format_line()
 
 
 def test_positions_and_ends_are_looked_at() -> None:

@@ -45,7 +45,7 @@ def without_comment(data: bytes) -> bytes:
 def changed(robot: Robot, rng: np.random.Generator, rows: str = "") -> Robot:
     """Heavier or lighter bodies, that hang elsewhere; other friction."""
     values = dict(robot.parameters)
-    for row in [joint.name for joint in robot.moving]:
+    for row in [joint.name for joint in robot.moving_joints]:
         names = [f"{prefix}{row}" for prefix in PREFIXES]
         if all(name in values for name in names) and (not rows or row in rows):
             more = rng.uniform(0.1, 0.4) * values[f"M{row}"]

@@ -9,7 +9,7 @@ import pytest
 
 from modeler.api import derive, export, generate, identify, load, simulate
 from modeler.codegen import Control, generate as generate_with
-from modeler.robot import robot_from_text
+from modeler.robot import parse_robot_text
 from tests.modules import loaded
 
 SLOW = [
@@ -111,7 +111,7 @@ def test_forward_dynamics_where_torques_read_accelerations(name: str, tmp_path) 
     robot, rng = load(name), np.random.default_rng(4)
     if name == "two-link":
         text = robot.text.replace("\n[effects]", LOADED) + "\n[reference]\nM2 = 1.5\nMX2 = 0.2\n"
-        robot = robot_from_text(text, "loaded")
+        robot = parse_robot_text(text, "loaded")
     functions = functions_of(export(robot, to="casadi").data, tmp_path)
     compiled = loaded(generate_with(derive(robot), control=Control()))
     spec = compiled.spec

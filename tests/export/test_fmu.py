@@ -10,7 +10,7 @@ from scipy.integrate import solve_ivp
 
 from modeler.api import derive, export, generate, load
 from modeler.core.errors import BuildError
-from modeler.core.files import resource_dir
+from modeler.core.files import locate_resources
 from tests.csrc.emitted_folders import run as run_command
 from tests.modules import STRICT, compiler, loaded
 from tests.when_used import WhenUsed
@@ -226,6 +226,6 @@ PUBLISHED = {
 
 
 def test_the_headers_are_those_that_were_published() -> None:
-    folder = resource_dir("templates") / "fmi3"
+    folder = locate_resources("templates") / "fmi3"
     found = {p.name: hashlib.sha256(p.read_bytes()).hexdigest() for p in folder.iterdir()}
     assert found == PUBLISHED

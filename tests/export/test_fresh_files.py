@@ -9,7 +9,7 @@ import pytest
 
 from modeler.api import export, load
 from modeler.core.errors import DataError
-from modeler.robot import Robot, robot_from_text
+from modeler.robot import Robot, parse_robot_text
 from tests.codegen.fitted_library import robot_text
 from tests.export.arms import MJCF, URDF, reread, same_physics, torques
 from tests.rotation import rotating
@@ -39,7 +39,7 @@ def tree() -> Robot:
     lines = [f"{p}{row} = {x!r}" for row in "12345"
              for p, x in zip(prefixes, a_body(rng).tolist(), strict=True)]  # fmt: skip
     lines += [f"{p}{row} = {rng.uniform(0.1, 2.0)!r}" for row in "1234" for p in ("Fv", "Ia")]
-    return robot_from_text(TREE + "\n".join([*lines, "Ks3 = 7.5"]), "tree.toml")
+    return parse_robot_text(TREE + "\n".join([*lines, "Ks3 = 7.5"]), "tree.toml")
 
 
 def whole_tree(robot: Robot) -> Robot:
@@ -49,7 +49,7 @@ def whole_tree(robot: Robot) -> Robot:
 
 def states(robot: Robot):
     rng = np.random.default_rng()
-    return (rng.uniform(-1.2, 1.2, (STATES, len(robot.moving))) for _ in range(3))
+    return (rng.uniform(-1.2, 1.2, (STATES, len(robot.moving_joints))) for _ in range(3))
 
 
 def pinocchio_torques(text: bytes, joints: list[str], q, qd, qdd, g=9.81) -> np.ndarray:
@@ -94,7 +94,7 @@ def close(one: np.ndarray, other: np.ndarray, share: float = 1e-9) -> bool:
 def test_urdf_of_a_table_is_the_model_in_pinocchio_and_mjcf_in_mujoco(tree) -> None:
     """The latter with damping, armature and spring; its bodies could be built."""
     robot, motion = whole_tree(tree), [*states(tree)]
-    names = [f"joint_{joint.name}" for joint in robot.moving]
+    names = [f"joint_{joint.name}" for joint in robot.moving_joints]
     urdf, mjcf = export(tree, to="urdf"), export(tree, to="mjcf")
     assert "URDF cannot hold size of gravity (g = 9.233)" in urdf.summary()
     assert "gravity" not in mjcf.summary()
@@ -128,7 +128,7 @@ def test_built_in_robots_weigh_in_both_what_they_state(name) -> None:
         bodies = dataclasses.replace(bodies, joints=joints)
     q, qd, qdd = states(bodies)
     ours = torques(bodies, q, qd, qdd)
-    names = [f"joint_{joint.name}" for joint in bodies.moving]
+    names = [f"joint_{joint.name}" for joint in bodies.moving_joints]
     assert close(pinocchio_torques(export(robot, to="urdf").data, names, q, qd, qdd), ours)
     assert close(mujoco_torques(export(bodies, to="mjcf").data, names, q, qd, qdd), ours)
 
@@ -151,7 +151,7 @@ def test_no_name_is_that_of_two_things(tmp_path) -> None:
         text = MJCF.replace(b'"shoulder"', f'"{ours}"'.encode())
         robot = reread(tmp_path, "arm.xml", text.replace(b'gravity="0 0', b'gravity="3 1'))
         model = mujoco.MjModel.from_xml_string(export(robot, to="urdf").data.decode())
-        assert model.njnt == len(robot.moving)
+        assert model.njnt == len(robot.moving_joints)
         assert mujoco.MjModel.from_xml_string(export(robot, to="mjcf").data.decode()).njnt == 3
         for to in ("urdf", "sdf"):
             root = ET.fromstring(export(robot, to=to).data)

@@ -11,7 +11,7 @@ from modeler.api import export
 from modeler.cli import main
 from modeler.core.errors import DataError, ModelerError, RobotError
 from modeler.estimation import PREFIXES
-from modeler.robot import Robot, convert, read_robot, robot_from_text, with_gravity
+from modeler.robot import Robot, convert, parse_robot_text, read_robot, replace_gravity
 from tests.export.arms import (
     MJCF,
     SDF,
@@ -170,7 +170,7 @@ def test_another_robot_is_refused(urdf, tmp_path, old, new, word) -> None:
 
 def test_another_gravity_is_told(urdf, mjcf, tmp_path) -> None:
     tilted = written(tmp_path, "tilted.xml", MJCF.replace(b"0 0 -9.81", b"3 1 -9"))
-    wall = robot_from_text(with_gravity(read_robot(urdf).text, [-9.81, 0.0, 0.0]), "wall.toml")
+    wall = parse_robot_text(replace_gravity(read_robot(urdf).text, [-9.81, 0.0, 0.0]), "wall.toml")
     for robot, like, says in (
         (read_robot(mjcf), tilted, "[3, 1, -9] m/s2 in tilted.xml and [0, 0, -9.81] in the robot"),
         (wall, urdf, "in the robot, in frame 0"),

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from modeler.api import derive, export, generate, load
-from modeler.robot import Robot, robot_from_text
+from modeler.robot import Robot, parse_robot_text
 from tests.codegen.fitted_library import robot_text
 from tests.modules import loaded
 from tests.rotation import ROTATING
@@ -25,7 +25,7 @@ def stated(robot: Robot) -> Robot:
     """Without dry friction and offsets, which are no forces of MuJoCo's inverse dynamics."""
     lines = [line for line in robot.text.splitlines()
              if not re.match(r'"?(Fs|Off)\w*(\{i\})?"? *=', line)]  # fmt: skip
-    return robot_from_text("\n".join(lines), robot.name)
+    return parse_robot_text("\n".join(lines), robot.name)
 
 
 def apart(robot: Robot, seed: int, count: int = 6) -> float:
@@ -35,7 +35,7 @@ def apart(robot: Robot, seed: int, count: int = 6) -> float:
     model = mujoco.MjModel.from_xml_string(export(robot, to="mjcf").data.decode())
     model.opt.disableflags |= int(mujoco.mjtDisableBit.mjDSBL_CONSTRAINT)
     data = mujoco.MjData(model)
-    names = [f"joint_{j.name}" for j in robot.free]
+    names = [f"joint_{j.name}" for j in robot.free_joints]
     at = [model.joint(name).dofadr[0] for name in names]
     assert len(at) + len(robot.relations) == model.nv
     given = list(spec.closure.given)
@@ -81,11 +81,14 @@ def set_followers(robot: Robot, model, data) -> None:
 
 def lines_of(robot: Robot):
     """(follower, {leader: slope}, constant) of the relations, leaders first."""
-    known = robot.symbol_values() | {j.variable: 0.0 for j in robot.moving}
+    known = robot.evaluate_symbols() | {j.variable: 0.0 for j in robot.moving_joints}
     for name, cell in robot.relations.items():
-        constant = cell.number(known)
-        slopes = {v.removeprefix("q"): cell.number(known | {v: 1.0}) - constant
-                  for v in cell.names if v in {j.variable for j in robot.moving}}  # fmt: skip
+        constant = cell.evaluate(known)
+        slopes = {
+            v.removeprefix("q"): cell.evaluate(known | {v: 1.0}) - constant
+            for v in cell.names
+            if v in {j.variable for j in robot.moving_joints}
+        }
         yield name, slopes, constant
 
 
@@ -110,7 +113,7 @@ def test_bodies_that_are_half_stated_have_the_torques_of_the_c(seed: int) -> Non
     rng = np.random.default_rng(seed)
     values = {"M1": 2.0, "MX1": 0.3, "ZZ1": 0.1, "M2": 3.0, "MY2": 0.4, "M3": 1.0}
     lines = [f"{name} = {x * rng.uniform(0.7, 1.3)!r}" for name, x in values.items()]
-    robot = robot_from_text(PARTIAL + "\n".join(lines), "half")
+    robot = parse_robot_text(PARTIAL + "\n".join(lines), "half")
     found = export(robot, to="mjcf")
     told = [note for note in found.notes if "C" in note]
     assert told, found.notes

@@ -5,11 +5,16 @@ import dataclasses
 import numpy as np
 import pytest
 
-from modeler.api import export, identify, load, recompile, simulate
-from modeler.estimation import PREFIXES, Machine, parameters_of, pseudo_inertia_of
-from modeler.exports.bodies import Original, physics_of
-from modeler.exports.completion import Beforehand, buildable, conditioned
-from modeler.robot import read_robot, robot_from_text
+from modeler.api import compile, export, identify, load, simulate
+from modeler.estimation import (
+    PREFIXES,
+    PhysicalParameters,
+    compute_pseudo_inertia,
+    extract_parameters,
+)
+from modeler.exports.bodies import Original, build_export_parameters
+from modeler.exports.completion import Prior, compute_completion, find_nearest_physical
+from modeler.robot import parse_robot_text, read_robot
 from tests.export.arms import URDF, changed, written
 from tests.export.test_fresh_files import close, mujoco_torques, pinocchio_torques
 
@@ -38,17 +43,17 @@ def torques_without(model, q, qd, qdd, left_out, values=None) -> np.ndarray:
         if base.name.startswith(left_out):
             assert len(base.terms) == 1
             beta[i] = 0.0
-    return recompile(model).inverse_dynamics(q, qd, qdd, beta)
+    return compile(model).inverse_dynamics(q, qd, qdd, beta)
 
 
 def test_the_exported_file_has_the_torques_of_the_fit(fitted) -> None:
     place, _, model = fitted
     found = export(model, like=place)
-    assert found.moved == 0.0
+    assert found.shift_in_sigmas == 0.0
     rng = np.random.default_rng()
     q, qd, qdd = (rng.uniform(-1.0, 1.0, (50, 3)) for _ in range(3))
     joints = ["shoulder", "elbow", "slide"]
-    lost = {name: x for lost in found.not_held for name, x in lost.values.items()}
+    lost = {name: x for lost in found.lost_effects for name, x in lost.values.items()}
     assert set(lost) == {f"{prefix}{j}" for prefix in ("Ia", "Off") for j in "123"}
     rotors = {name: x for name, x in lost.items() if name.startswith("Ia")}
     ours = torques_without(model, q, qd, qdd, ("Fv", "Fs", "Off"), rotors)
@@ -68,15 +73,19 @@ def test_values_have_the_sigmas_of_the_fit(fitted) -> None:
     friction = values["shoulder", "friction"]
     assert friction.was == 0.7 and friction.now == pytest.approx(model["Fs1"].value)
     assert friction.sigma == pytest.approx(model["Fs1"].sigma)
-    physics = physics_of(model, Original())
-    assert np.allclose(physics.machine.K @ physics.now.chi, model.beta, rtol=1e-12, atol=1e-13)
-    C = physics.machine.K @ physics.now.covariance @ physics.machine.K.T
+    physics = build_export_parameters(model, Original())
+    assert np.allclose(
+        physics.machine.K @ physics.completion.chi, model.beta, rtol=1e-12, atol=1e-13
+    )
+    C = physics.machine.K @ physics.completion.covariance @ physics.machine.K.T
     assert np.allclose(C, model.covariance, rtol=1e-6, atol=1e-9 * np.abs(model.covariance).max())
     # A sigma by random draws of the ten parameters.
-    places = physics.ten_places("1")
+    places = physics.find_link_indices("1")
     rng = np.random.default_rng()
     tens = rng.multivariate_normal(
-        physics.now.chi[places], 1e-4 * physics.now.covariance[np.ix_(places, places)], 4000
+        physics.completion.chi[places],
+        1e-4 * physics.completion.covariance[np.ix_(places, places)],
+        4000,
     )
     centre = tens[:, 6] / tens[:, 9]
     fresh = {(v.part, v.quantity): v for v in export(model, to="urdf").values}
@@ -101,27 +110,27 @@ def test_what_a_format_cannot_hold_is_told_with_its_share(tmp_path) -> None:
     robot = load("demo-arm")
     log = simulate(robot, duration=4.0, rate=200.0, seed=3)
     model = identify(robot, log)
-    exact = {(x.effect, x.joint): x for x in export(model, to="urdf").not_held}
+    exact = {(x.effect, x.joint): x for x in export(model, to="urdf").lost_effects}
     assert {effect for effect, _ in exact} == {"rotor_inertia", "offset"}
-    rows = model._rows
+    rows = model._fit_observation
     part = np.zeros_like(model.beta)
     names = [base.name for base in model.spec.base]
     part[names.index("Ia3")] = exact["rotor_inertia", "3"].values["Ia3"]
-    share = np.linalg.norm(np.where(rows.used, rows.predicted(part), 0.0)[:, 2])
-    share /= np.linalg.norm(np.where(rows.used, rows.predicted(model.beta), 0.0)[:, 2])
+    share = np.linalg.norm(np.where(rows.used, rows.predict(part), 0.0)[:, 2])
+    share /= np.linalg.norm(np.where(rows.used, rows.predict(model.beta), 0.0)[:, 2])
     assert exact["rotor_inertia", "3"].share == pytest.approx(share)
     assert exact["rotor_inertia", "3"].of == "the torque of joint 3"
-    about = export(dataclasses.replace(model, given=()), to="urdf").not_held
+    about = export(dataclasses.replace(model, in_memory_logs=()), to="urdf").lost_effects
     (offset,) = (x for x in about if (x.effect, x.joint) == ("offset", "1"))
     assert offset.of == "all torques" and 0.0 < offset.share < 1.0
     fresh = export(model, to="mjcf")
-    assert {x.effect for x in fresh.not_held} == {"offset"}
+    assert {x.effect for x in fresh.lost_effects} == {"offset"}
     assert "offset of joint" in fresh.summary()
 
 
 def a_link(rng) -> np.ndarray:
     points = np.c_[rng.normal(scale=0.1, size=(9, 3)), np.ones(9)]
-    return parameters_of(np.einsum("ki,k,kj->ij", points, rng.uniform(0.1, 0.4, 9), points))
+    return extract_parameters(np.einsum("ki,k,kj->ij", points, rng.uniform(0.1, 0.4, 9), points))
 
 
 def test_the_nearest_machine_is_the_nearest() -> None:
@@ -130,17 +139,17 @@ def test_the_nearest_machine_is_the_nearest() -> None:
     ten = a_link(rng)
     K = np.zeros((4, 10))
     K[range(4), [0, 5, 6, 9]] = 1.0
-    machine = Machine(tuple("abcdefghij"), K, {"1": np.arange(10)}, {})
+    machine = PhysicalParameters(tuple("abcdefghij"), K, {"1": np.arange(10)}, {})
     S = np.diag((0.3 * np.maximum(np.abs(ten), 0.01)) ** 2)
     beta = K @ ten
     beta[1] = -0.2 * beta[1]  # ZZ below 0
     C = np.diag((0.05 * np.abs(K @ ten)) ** 2)
-    found = conditioned(K, Beforehand(ten, S), beta, C)
+    found = compute_completion(K, Prior(ten, S), beta, C)
     assert np.allclose(K @ found.chi, beta, rtol=1e-12)
-    size = {"1": np.linalg.inv(np.linalg.cholesky(pseudo_inertia_of(ten)))}
-    best = buildable(machine, found, beta, C, size, {})
-    assert best is not None and best.moved > 1.0
-    assert np.linalg.eigvalsh(pseudo_inertia_of(best.chi))[0] > 0.0
+    size = {"1": np.linalg.inv(np.linalg.cholesky(compute_pseudo_inertia(ten)))}
+    best = find_nearest_physical(machine, found, beta, C, size, {})
+    assert best is not None and best.shift_in_sigmas > 1.0
+    assert np.linalg.eigvalsh(compute_pseudo_inertia(best.chi))[0] > 0.0
     L = np.linalg.cholesky(found.covariance)
 
     def far(chi) -> float:
@@ -149,7 +158,7 @@ def test_the_nearest_machine_is_the_nearest() -> None:
     least = far(best.chi)
     for t in np.repeat(np.geomspace(1e-3, 1.0, 20), 100):
         chi = best.chi + t * L @ rng.normal(size=10)
-        if np.linalg.eigvalsh(pseudo_inertia_of(chi))[0] > 1e-9:
+        if np.linalg.eigvalsh(compute_pseudo_inertia(chi))[0] > 1e-9:
             assert far(chi) > least * (1.0 - 1e-4)
 
 
@@ -162,7 +171,7 @@ def test_a_fit_that_could_not_be_built_becomes_one_that_could(fitted) -> None:
         model, fit=dataclasses.replace(model.fit, parameters=tuple(values))
     )
     found = export(broken, like=place)
-    assert found.moved == pytest.approx(3.0, rel=0.2) and "moved by 3" in found.summary()
+    assert found.shift_in_sigmas == pytest.approx(3.0, rel=0.2) and "moved by 3" in found.summary()
     elbow = [v for v in found.values if (v.part, v.quantity) == ("elbow", "friction")]
     assert elbow[0].now >= 0.0
 
@@ -193,7 +202,7 @@ def test_what_hangs_on_a_link_changes_only_where_it_must(tmp_path) -> None:
 @pytest.mark.rotating("long tests of export")
 def test_links_without_values_get_capsules_and_it_is_told() -> None:
     robot = load("scara")
-    bare = robot_from_text(robot.text, "scara.toml")
+    bare = parse_robot_text(robot.text, "scara.toml")
     model = identify(bare, simulate(robot, duration=4.0, rate=200.0, seed=2))
     found = export(model, to="mjcf")
     assert any("that of a capsule" in note for note in found.notes)

@@ -9,7 +9,7 @@ import pytest
 from modeler.api import export, load
 from modeler.cli import main
 from modeler.core.errors import ModelerError
-from modeler.robot import robot_from_text
+from modeler.robot import parse_robot_text
 from tests.csrc import emitted_folders
 
 ROS2 = Path(__file__).with_name("ros2")
@@ -82,7 +82,7 @@ def test_a_package_is_written_again(tmp_path, capsys) -> None:
 
 def test_what_is_refused(tmp_path) -> None:
     text = load("demo-arm").text
-    robot = robot_from_text(text.replace("[effects]", HOT), "hot")
+    robot = parse_robot_text(text.replace("[effects]", HOT), "hot")
     with pytest.raises(ModelerError, match="is for robot files, and --to says casadi"):
         export(robot, to="casadi", like="arm.urdf")
     for to in ("ros2", "fmu"):

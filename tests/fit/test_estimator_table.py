@@ -5,8 +5,8 @@ from typing import get_args
 import pytest
 
 from modeler.core.errors import DataError, Method
-from modeler.core.estimators import ABOUT, titled
-from modeler.estimation.methods import METHODS, capable, method_of
+from modeler.core.estimators import ABOUT, find_estimator_title
+from modeler.estimation.methods import METHODS, find_method, find_methods
 from tests.repository import ROOT
 
 
@@ -27,11 +27,14 @@ def test_choices_words_and_functions_are_the_same_list():
     ],
 )
 def test_what_an_estimator_does_not_work_on_is_refused(method, of, sentence):
-    assert titled("weighted") == "weighted least squares" and titled("magic") == "magic"
-    assert capable(of) == (tuple(METHODS) if of == "rows" else ("weighted", "ordinary"))
-    assert method_of("ordinary", of) is METHODS["ordinary"]
+    assert (
+        find_estimator_title("weighted") == "weighted least squares"
+        and find_estimator_title("magic") == "magic"
+    )
+    assert find_methods(of) == (tuple(METHODS) if of == "rows" else ("weighted", "ordinary"))
+    assert find_method("ordinary", of) is METHODS["ordinary"]
     with pytest.raises(DataError, match=sentence):
-        method_of(method, of)
+        find_method(method, of)
 
 
 def test_the_page_has_a_row_for_each():

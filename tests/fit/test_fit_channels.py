@@ -16,10 +16,10 @@ from scipy.signal import lfilter
 
 from modeler.api import observe
 from modeler.cli import main
-from modeler.estimation import findings, identify, log_findings, with_verdict
+from modeler.estimation import find_log_faults, findings, identify, judge_fit
 from modeler.observation.log import Log
-from modeler.robot.read import robot_from_text
-from modeler.simulation import SimulationSettings, hidden_from_text, simulate
+from modeler.robot.read import parse_robot_text
+from modeler.simulation import SimulationSettings, parse_hidden_effect, simulate
 from tests.link_data import compiled as compiled_text
 from tests.modules import compiled, module
 from tests.rotation import ROTATING, rotating
@@ -73,7 +73,7 @@ def test_a_fit_to_sound_channels_is_not_doubted(name):
     machine, logs = runs(name)
     for log in logs:
         observation = observe(machine, [log])
-        assert all(found.unseen for found in log_findings(machine, observation))
+        assert all(found.is_undetectable for found in find_log_faults(machine, observation))
 
 
 @pytest.mark.rotating
@@ -95,14 +95,14 @@ def test_mistakes_drawn_at_random_are_named_although_the_fit_adapts(mistake):
             q, tau = log.q.copy(), log.tau.copy()
             change(machine, q, tau, j, k)
             observation = observe(machine, [replace(log, q=q, tau=tau)])
-            (first, *_) = log_findings(machine, observation)
+            (first, *_) = find_log_faults(machine, observation)
             named = words in first.line
             if named and mistake in ("unit", "position sign", "torque sign", "zero", "twice"):
                 named = f"joint {log.joints[j]}:" in first.line
             named |= any(
                 UNSEEN.get(mistake, "?") in part
                 and log.joints[j] in part.partition(" of joint ")[2].split(", ")
-                for part in (first.line.split("; ") if first.unseen else ())
+                for part in (first.line.split("; ") if first.is_undetectable else ())
             )
             seen[named] += 1
     assert seen[False] <= 1, seen
@@ -120,12 +120,12 @@ rows = [["1", 0, 0, "q1"], ["2", "pi/2", 0.05, "q2"]]
 
 def test_links_that_reach_beyond_their_frames_are_a_machine():
     """A camera of 3 kg in 0.12 m from the tilting axis; the frames are 0.05 m apart."""
-    robot, machine = robot_from_text(PAN_TILT, "pan"), compiled_text(PAN_TILT)
+    robot, machine = parse_robot_text(PAN_TILT, "pan"), compiled_text(PAN_TILT)
     made = simulate(robot, SimulationSettings(duration=10.0, seed=3))
     for factor, usable in ((1.0, True), (1e3, False)):
         log = Log("pan.csv", made.joints, made.time, made.q, factor * made.tau)
         observation = observe(machine, [log])
-        fit = with_verdict(machine, observation, identify(observation, "weighted", machine))
+        fit = judge_fit(machine, observation, identify(observation, "weighted", machine))
         assert fit.verdict.usable == usable, fit.verdict.doubts
         assert usable or "mN m" in fit.verdict.line
 
@@ -135,11 +135,11 @@ def test_a_clock_that_is_wrong_is_named_without_speeds(name):
     """By the rule, or, where rotors of any inertia would do, by inertias beyond all measure."""
     machine, (log, _) = runs(name)
     observation = observe(machine, [replace(log, time=20.0 * log.time)])
-    findings_of_log = log_findings(machine, observation)
+    findings_of_log = find_log_faults(machine, observation)
     fit = identify(observation, "weighted", machine)
-    fit = with_verdict(machine, observation, fit, findings_of_log)
+    fit = judge_fit(machine, observation, fit, findings_of_log)
     assert fit.verdict.line.startswith("Not valid: the clock seems to be wrong: ")
-    sound = log_findings(machine, observe(machine, [log]))
+    sound = find_log_faults(machine, observe(machine, [log]))
     assert not any("clock" in finding.line for finding in sound)
 
 
@@ -189,9 +189,9 @@ def test_a_log_beside_a_model_of_another_is_judged_by_its_values():
     machine, (train, other) = runs("demo-arm")
     model = SimpleNamespace(beta=identify(observe(machine, [train])).beta, logs=())
     swapped = observe(machine, [replace(other, tau=other.tau[:, [1, 0, 2]])])
-    lines = [found.line for found in log_findings(machine, swapped, model)]
+    lines = [found.line for found in find_log_faults(machine, swapped, model)]
     assert any("joints 1 and 2: their torques look exchanged" in line for line in lines)
-    assert log_findings(machine, observe(machine, [other]), model) == ()
+    assert find_log_faults(machine, observe(machine, [other]), model) == ()
 
 
 def test_the_delay_that_is_not_detectable_raises_the_error_by_a_third(monkeypatch):
@@ -200,18 +200,18 @@ def test_the_delay_that_is_not_detectable_raises_the_error_by_a_third(monkeypatc
     monkeypatch.setattr(findings, "_DELAY", 0.0)
     noisy = np.random.default_rng(3).normal(size=log.tau.shape) * log.tau.std(axis=0)
     observation = observe(machine, [replace(log, tau=log.tau + noisy)])
-    (found, *_) = log_findings(machine, observation)
-    assert found.unseen and found.line.startswith("Not detectable in these logs: ")
+    (found, *_) = find_log_faults(machine, observation)
+    assert found.is_undetectable and found.line.startswith("Not detectable in these logs: ")
     stated = found.line.partition("a delay below ")[2].split(";")[0].split(", ")
     delays = {text.split()[-1]: 1e-3 * float(text.split()[0]) for text in stated}
     assert delays and max(delays.values()) < findings.LONGEST
-    seen = findings._evidence(machine, observation)
-    beta = seen.judge.possible(seen.data, *seen.judge.solved(seen.data))
-    places = {seen.name(k): k for k in range(len(seen.joints))}
+    seen = findings._gather_evidence(machine, observation)
+    beta = seen.judge.project_fit(seen.data, *seen.judge.solve(seen.data))
+    places = {seen.get_joint_name(k): k for k in range(len(seen.joints))}
     for name, delay in delays.items():
         shift = delay * np.eye(len(log.joints))[seen.joints[places[name]]]
-        late = findings._machine_data(seen, seen.rows.shifted(machine, shift), beta)
-        ratio = seen.judge.errors(late, False)[places[name]] / seen.errors[places[name]]
+        late = findings._simulate_data(seen, seen.rows.shift_columns(machine, shift), beta)
+        ratio = seen.judge.compute_errors(late, False)[places[name]] / seen.errors[places[name]]
         assert np.hypot(ratio, 1.0) == pytest.approx(4.0 / 3.0, rel=0.1)
 
 
@@ -223,7 +223,7 @@ def told_late(name, rng, hidden=(), lagged=((), 0.0), **late):
 
     lagged: joints whose torque passes a filter, and its time constant, s.
     """
-    seed, effects = int(rng.integers(1000)), tuple(map(hidden_from_text, hidden))
+    seed, effects = int(rng.integers(1000)), tuple(map(parse_hidden_effect, hidden))
     log = log_of(name, duration=10.0, rate=LATE_RATE, seed=seed, hidden=effects)
     tau = log.tau.copy()
     for j in lagged[0]:
@@ -236,7 +236,7 @@ def told_late(name, rng, hidden=(), lagged=((), 0.0), **late):
         for j in joints:
             values[samples:, j] = values[:-samples, j]
         log = replace(log, **{column: values})
-    found = log_findings(compiled(name), observe(compiled(name), [log]))
+    found = find_log_faults(compiled(name), observe(compiled(name), [log]))
     return [one.line for one in found if "late" in one.line or "filter" in one.line]
 
 

@@ -9,10 +9,14 @@ from pyarrow import parquet
 
 from modeler.cli import main
 from modeler.estimation.model_file import load_model
-from modeler.estimation.nearest_body import carried_by, machine_of, nearest_possible
+from modeler.estimation.nearest_body import (
+    attribute_distance,
+    define_physical_parameters,
+    project_parameters,
+)
 from modeler.robot import INERTIAL, read_robot
-from modeler.robot.edit import with_parameters
-from modeler.simulation.rigid import pseudo_inertia
+from modeler.robot.edit import replace_parameters
+from modeler.simulation.rigid import compute_pseudo_inertia
 from tests.bodies import buildable
 from tests.modules import compiled
 from tests.rotation import rotating
@@ -40,7 +44,7 @@ def test_standard_and_base_are_one_machine(fitted):
     )
     assert told["method"] == "consistent" and told["usable"]
     for joint in {p.joint for p in spec.standard if p.effect == "rigid_body"}:
-        body = pseudo_inertia({p: told["standard"][f"{p}{joint}"] for p in INERTIAL})
+        body = compute_pseudo_inertia({p: told["standard"][f"{p}{joint}"] for p in INERTIAL})
         size = np.sqrt(np.diag(body))
         assert np.linalg.eigvalsh(body / np.outer(size, size))[0] > 0.0
     assert load_model(folder / "m.json").fit.standard == told["standard"]
@@ -66,7 +70,7 @@ def test_a_drawing_counts(fitted, tmp_path):
     drawn = {f"{p}{first}": v for p, v in zip(INERTIAL, values, strict=True)}
 
     path = tmp_path / "drawn.toml"
-    path.write_text(with_parameters(read_robot(name).text, drawn))
+    path.write_text(replace_parameters(read_robot(name).text, drawn))
     fit = f"fit {path} {folder / 'a.parquet'} --method consistent --out {tmp_path / 'm.json'}"
     assert main(fit.split()) == 0
     found = load_model(tmp_path / "m.json").fit.standard
@@ -104,18 +108,18 @@ def test_what_is_put_at_zero_is_not_called_negative(tmp_path, capsys):
 def buildable_two_link(seed):
     """The machine of a two-link arm, the names of its base parameters, and values of a body."""
     spec = compiled("two-link").spec
-    machine, chi = machine_of(spec), buildable(spec, np.random.default_rng(seed))
+    machine, chi = define_physical_parameters(spec), buildable(spec, np.random.default_rng(seed))
     return machine, [base.name for base in spec.base], machine.K[:, : len(chi)] @ chi
 
 
 @pytest.mark.parametrize("name", ["two-link", *rotating("sr400", "dvrk-psm", "orthoglide-2003")])
 def test_a_machine_that_could_be_built_is_at_no_distance(name):
-    machine = machine_of(compiled(name).spec)
+    machine = define_physical_parameters(compiled(name).spec)
     chi = buildable(compiled(name).spec, np.random.default_rng(41))
     beta = machine.K[:, : len(chi)] @ chi
     np.testing.assert_allclose(beta, compiled(name).base_parameters(chi), rtol=1e-9)
     root = np.diag(1.0 / (0.01 * np.abs(beta) + 1e-6))  # one percent
-    found = nearest_possible(machine, beta, root)
+    found = project_parameters(machine, beta, root)
     assert found is not None and found.distance < 1e-2  # standard deviations
 
 
@@ -131,7 +135,7 @@ def test_a_value_below_zero_is_as_far_as_it_is_below_and_has_a_carrier(name, car
     weights = np.full(len(beta), 20.0 if name == "Fv2" else 1e-3)  # free to follow, or not
     weights[place] = 20.0
     root = np.diag(weights)
-    nearest = nearest_possible(machine, beta, root)
+    nearest = project_parameters(machine, beta, root)
     assert nearest is not None and nearest.distance == pytest.approx(0.4 * 20.0, rel=rel)
     assert nearest.beta[place] == pytest.approx(0.0, abs=0.1 * rel)
-    assert carried_by(machine, beta, root, nearest.distance) == [carrier]
+    assert attribute_distance(machine, beta, root, nearest.distance) == [carrier]

@@ -7,17 +7,17 @@ import re
 import numpy as np
 import pytest
 
-from modeler.api import identified, observe
+from modeler.api import assemble_model, observe
 from modeler.cli import main
 from modeler.codegen.workflow import Derivation
 from modeler.core.errors import ManifestError
-from modeler.estimation import identify, load_model, log_findings, save_model, with_verdict
-from modeler.estimation.result import fit_from_json
-from modeler.observation import Doubt, Log
-from modeler.observation.read import cut
-from modeler.robot.edit import with_gravity
-from modeler.robot.read import builtin_text, robot_from_text
-from modeler.simulation import HiddenEffect, SimulationSettings, hidden_from_text, simulate
+from modeler.estimation import find_log_faults, identify, judge_fit, load_model, save_model
+from modeler.estimation.result import read_fit
+from modeler.observation import DataWarning, Log
+from modeler.observation.read import cut_rows
+from modeler.robot.edit import replace_gravity
+from modeler.robot.read import parse_robot_text, read_builtin_robot
+from modeler.simulation import HiddenEffect, SimulationSettings, parse_hidden_effect, simulate
 from tests.link_data import compiled as compiled_text
 from tests.modules import compiled, module
 from tests.robots import ROBOTS
@@ -40,7 +40,7 @@ def observed_fit(log, machine=None, told=None):
     machine = machine or compiled("demo-arm")
     observation = observe(machine, [log])
     fit = identify(observation, "weighted", machine)
-    return observation, with_verdict(machine, observation, fit, told=told or ())
+    return observation, judge_fit(machine, observation, fit, log_warnings=told or ())
 
 
 def verdict_of(log, **more):
@@ -95,7 +95,7 @@ DEFECTS = {
     "torques of another motion": (
         lambda log: dataclasses.replace(log, tau=np.roll(log.tau, 800, axis=0)), "nothing",
         "is not described even on the data of the fit; check units, signs"),
-    "too few rows": (lambda log: cut(log, slice(1000, 1800)), "nothing",
+    "too few rows": (lambda log: cut_rows(log, slice(1000, 1800)), "nothing",
                      "not enough data for 25 parameters", "record a longer motion of all joints"),
     "torque twice as large":
         (lambda log: dataclasses.replace(log, tau=log.tau * [1.0, 1.0, 2.0]), ""),
@@ -133,11 +133,11 @@ def test_a_joint_that_stands_still_leaves_the_prediction(log):
 
 def test_values_that_stand_in_for_what_the_model_lacks(log):
     # without Coulomb friction in the model: torques are foretold, and Fv is not the machine's
-    lines = builtin_text("demo-arm").splitlines()
+    lines = read_builtin_robot("demo-arm").splitlines()
     model = compiled_text("\n".join(x for x in lines if not re.match(r"Fs\d|coulomb", x)))
     assert len(model.spec.base) == len(compiled("demo-arm").spec.base) - 3
     observation = observe(model, [log])
-    verdict = with_verdict(model, observation, identify(observation)).verdict
+    verdict = judge_fit(model, observation, identify(observation)).verdict
     assert verdict.usable and verdict.valid_for == "prediction"
     stands_in = "the values of others stand in for it; `modeler diagnose` names it"
     assert any(stands_in in line for line in verdict.doubts)
@@ -159,15 +159,15 @@ def test_a_joint_whose_halves_differ_is_doubtful_and_no_other():
 
 
 def test_what_other_stages_tell_joins_in(log):
-    swapped = Doubt("joint 1 and 2: exchanged; exchange tau1 and tau2", True)
+    swapped = DataWarning("joint 1 and 2: exchanged; exchange tau1 and tau2", True)
     verdict = verdict_of(log, told=[swapped])
     assert verdict.line == f"Not valid: {swapped.line}" and verdict.doubts == (swapped.line,)
     states = {one.state for one in verdict.by_joint.values()}
     assert states == {"undetermined"}  # it is about all of them
-    own = dataclasses.replace(swapped, about=("1", "2"))
+    own = dataclasses.replace(swapped, joints=("1", "2"))
     by_joint = verdict_of(log, told=[own]).by_joint
     assert [by_joint[name].state for name in "123"] == ["undetermined", "undetermined", "good"]
-    vague = Doubt("joint 3: positions may be late", False)
+    vague = DataWarning("joint 3: positions may be late", False)
     verdict = verdict_of(log, told=[vague])
     assert verdict.usable and vague.line in verdict.line
     assert {one.state for one in verdict.by_joint.values()} == {"good"}
@@ -176,7 +176,7 @@ def test_what_other_stages_tell_joins_in(log):
 def test_the_model_file_keeps_it_and_old_ones_have_none(log, tmp_path):
     own, arm = observed_fit(clock(log, 1e3)), module("demo-arm")
     derivation = Derivation(arm.model.robot, arm.model, arm.base)
-    model = identified(derivation, arm.emitted, *own)
+    model = assemble_model(derivation, arm.emitted, *own)
     save_model(tmp_path / "m.json", model)
     again = load_model(tmp_path / "m.json")
     assert again.fit.verdict == model.fit.verdict
@@ -185,11 +185,11 @@ def test_the_model_file_keeps_it_and_old_ones_have_none(log, tmp_path):
     assert raw["usable"] is False and raw["doubts"] and raw["valid_for"] == "nothing"
     for name in ("usable", "valid_for", "verdict", "doubts"):
         del raw[name]
-    old = fit_from_json(raw, model.fit.covariance)
+    old = read_fit(raw, model.fit.covariance)
     assert old.verdict is None
     assert dataclasses.replace(model, fit=old).warning == []
     with pytest.raises(ManifestError, match=r"verdict.usable is .yes., expected true"):
-        fit_from_json({**model.fit.to_json(), "usable": "yes"}, model.fit.covariance)
+        read_fit({**model.fit.to_json(), "usable": "yes"}, model.fit.covariance)
 
 
 @pytest.mark.rotating("long tests of fit")
@@ -217,7 +217,7 @@ TOLD = "tell different"
 
 def fit_and_errors(name, seed, hide=None, rate=500.0):
     """A fit, and the errors of its values in sigmas, by name."""
-    hidden = () if hide is None else (hidden_from_text(hide),)
+    hidden = () if hide is None else (parse_hidden_effect(hide),)
     settings = SimulationSettings(
         duration=12.0, rate=rate, seed=seed, hidden=hidden, parameter_seed=seed
     )
@@ -270,18 +270,18 @@ DOWN = np.array([0.0, 0.0, -9.81])
 
 
 def arm(gravity, name="demo-arm"):
-    return with_gravity(builtin_text(name), [float(g) for g in gravity])
+    return replace_gravity(read_builtin_robot(name), [float(g) for g in gravity])
 
 
 def log_under(gravity, name="demo-arm"):
     """A log of the arm where gravity is another."""
     settings = SimulationSettings(duration=12.0, rate=250.0, seed=4, torque_noise=0.02)
-    return log_of(settings, robot_from_text(arm(gravity, name), "arm"))
+    return log_of(settings, parse_robot_text(arm(gravity, name), "arm"))
 
 
 def with_findings(log, machine=None):
     machine = machine or compiled("demo-arm")
-    return observed_fit(log, machine, log_findings(machine, observe(machine, [log])))[1]
+    return observed_fit(log, machine, find_log_faults(machine, observe(machine, [log])))[1]
 
 
 @pytest.mark.parametrize(

@@ -7,9 +7,9 @@ import numpy as np
 import pytest
 from test_observation_rows import exact_log, some_beta
 
-from modeler.estimation.energy_fit import identify_energy, unequal_least_squares
-from modeler.estimation.identify import base_equations, crossed, identify
-from modeler.estimation.result import fit_from_json
+from modeler.estimation.energy_fit import identify_energy, solve_heteroscedastic
+from modeler.estimation.identify import build_base_equations, cross_validate, identify
+from modeler.estimation.result import read_fit
 from modeler.observation.observe import observe
 from tests.modules import compiled
 
@@ -60,7 +60,7 @@ def test_windows_at_rest_do_not_weigh_without_bound():
     beta, z = np.array([1.0, -2.0, 0.5]), []
     for _ in range(40):
         y = W @ beta + np.sqrt(shares[:, 0] + 0.01) * random.normal(size=120)
-        found = unequal_least_squares(W, y, shares, ("A", "B", "C"), np.zeros(120, dtype=int))
+        found = solve_heteroscedastic(W, y, shares, ("A", "B", "C"), np.zeros(120, dtype=int))
         z.append((found.beta - beta) / np.sqrt(np.diag(found.covariance)))
     assert np.sqrt(np.mean(np.square(z))) == pytest.approx(1.0, abs=0.25)
 
@@ -73,11 +73,11 @@ def test_neighbours_that_repeat_each_other_raise_the_sigmas():
     for _ in range(30):
         white = random.normal(size=406)
         noise = np.convolve(white, np.ones(7), mode="valid")  # remembers seven windows
-        found = unequal_least_squares(
+        found = solve_heteroscedastic(
             W, W @ [1.0, 2.0] + noise, np.ones((400, 1)), ("A", "B"), np.zeros(400, dtype=int)
         )
         z.append((found.beta - [1.0, 2.0]) / np.sqrt(np.diag(found.covariance)))
-        raised.append(found.memory)
+        raised.append(found.autocorrelation_factor)
     assert np.median(raised) > 1.8 and np.sqrt(np.mean(np.square(z))) < 1.4
 
 
@@ -123,7 +123,7 @@ def test_a_quiet_joint_beside_a_loud_one_is_not_overlooked(arm):
     assert report.ratio == energy.joint_sigma[name] / torque.joint_sigma[name]
     assert report.ratio > 5 * energy.torque_sigma / torque.torque_sigma
     assert 0.2 < report.ratio / (missed[1] / missed[0]) < 5  # the truth says the same
-    assert f"the torques of joint {name} " in report.sentences()[0]
+    assert f"the torques of joint {name} " in report.format_sentences()[0]
 
 
 @pytest.mark.rotating("long tests of fit")
@@ -143,7 +143,9 @@ def test_a_log_too_slow_for_the_rule_is_told(arm):
     log = exact_log(arm, some_beta(arm), seconds=60, rate=12)
     seen = observe(arm, [log])
     report = identify_energy(arm, seen).result.energy
-    assert report.figures[1].bias > 0.5 and report.sentences()[1].endswith("or move more slowly")
+    assert report.figures[1].bias > 0.5 and report.format_sentences()[1].endswith(
+        "or move more slowly"
+    )
 
 
 def test_it_is_saved_and_read_and_judged_by_its_own_errors(arm, fitted):
@@ -151,14 +153,15 @@ def test_it_is_saved_and_read_and_judged_by_its_own_errors(arm, fitted):
     raw = json.loads(json.dumps(fit.result.to_json(), allow_nan=False))
     assert raw["model"] == "energy" and raw["energy"]["window"] == fit.rows.window
     assert set(raw["energy"]["figures"][1]) >= {"torque_error", "torque_sigma", "condition_scaled"}
-    again = fit_from_json(raw, fit.result.covariance)
+    again = read_fit(raw, fit.result.covariance)
     assert again.energy == fit.result.energy and again.essential == fit.result.essential
     assert identify(seen).to_json()["model"] == "torque"
     assert identify(seen).to_json()["energy"] is None
 
     every, sigma = np.ones(len(seen.y), dtype=bool), NOISE
     own, torque = (
-        crossed(base_equations(seen), every, sigma, refit).errors for refit in (fit.without, None)
+        cross_validate(build_base_equations(seen), every, sigma, refit).errors
+        for refit in (fit.without, None)
     )
     assert np.all(own > torque)  # stretches are left out of the energies, not of the torques
 

@@ -6,13 +6,13 @@ from functools import cache
 import numpy as np
 import pytest
 
-from modeler.core.builtin import builtin_text
-from modeler.estimation import identify, least_squares, with_verdict
-from modeler.estimation.essential import essential_parameters
-from modeler.estimation.result import fit_from_json
-from modeler.numerics.least_squares import compress, independent_columns
+from modeler.core.builtin import read_builtin_robot
+from modeler.estimation import identify, judge_fit, solve_least_squares
+from modeler.estimation.essential import select_essential_parameters
+from modeler.estimation.result import read_fit
+from modeler.numerics.least_squares import compress_rows, find_independent_columns
 from modeler.observation import Log, Processing, observe
-from modeler.robot import with_effects
+from modeler.robot import replace_effects
 from tests.chain import chain_of
 
 NAMES = ("A", "B", "C", "D")
@@ -30,7 +30,7 @@ def problem(seed=0, rows=(400, 300), noise=(0.1, 2.0), beta=(1.0, -20.0, 0.3, 5.
 def test_ordinary_is_numpys_and_its_covariance_is_the_textbooks():
     W, _, joint, measured = problem()
     y = measured(np.random.default_rng(1))
-    found = least_squares(compress(W, y, joint, 2, NAMES), "ordinary")
+    found = solve_least_squares(compress_rows(W, y, joint, 2, NAMES), "ordinary")
     beta, squares, _, _ = np.linalg.lstsq(W, y, rcond=None)
     np.testing.assert_allclose(found.beta, beta, rtol=1e-10)
     variance = squares[0] / (len(y) - 4)
@@ -44,8 +44,8 @@ def test_ordinary_is_numpys_and_its_covariance_is_the_textbooks():
 def test_weights_are_a_fixed_point_and_the_weighted_normal_equations_hold():
     W, _, joint, measured = problem()
     y = measured(np.random.default_rng(2))
-    found = least_squares(compress(W, y, joint, 2, NAMES), "weighted")
-    assert found.settled and 1 < found.iterations < 100
+    found = solve_least_squares(compress_rows(W, y, joint, 2, NAMES), "weighted")
+    assert found.is_converged and 1 < found.iterations < 100
     weight = 1.0 / found.sigma[joint]
     X = W * weight[:, None]
     np.testing.assert_allclose(X.T @ (weight * (y - W @ found.beta)), 0.0, atol=1e-6)
@@ -65,39 +65,39 @@ def test_exact_data_joints_without_rows_and_without_torque_are_no_trouble(method
     W, clean, joint, _ = problem()
     silent = (joint == 0)[:, None]
     for data in (
-        compress(W, clean, joint, 2, NAMES), compress(W, clean, joint * 2, 4, NAMES),
-        compress(W * silent, clean * silent[:, 0], joint, 2, NAMES),
+        compress_rows(W, clean, joint, 2, NAMES), compress_rows(W, clean, joint * 2, 4, NAMES),
+        compress_rows(W * silent, clean * silent[:, 0], joint, 2, NAMES),
     ):  # fmt: skip
-        found = least_squares(data, method)
+        found = solve_least_squares(data, method)
         np.testing.assert_allclose(found.beta, (1.0, -20.0, 0.3, 5.0), rtol=1e-9)
-        assert np.isfinite(found.covariance).all() and found.settled
+        assert np.isfinite(found.covariance).all() and found.is_converged
 
 
 def test_what_the_data_cannot_tell_is_set_aside_by_name():
     W, _, joint, measured = problem()
     y = measured(np.random.default_rng(6))
     twin = np.column_stack([W, 3.0 * W[:, 1] - W[:, 0], np.zeros(len(y))])
-    found = least_squares(compress(twin, y, joint, 2, (*NAMES, "E", "F")))
-    assert len(found.rank.kept) == 4 and len(found.rank.aside) == 2
-    idle, tangled = found.rank.aside
-    assert idle.name == "F" and "not excited" in idle.sentence()
+    found = solve_least_squares(compress_rows(twin, y, joint, 2, (*NAMES, "E", "F")))
+    assert len(found.rank.kept_columns) == 4 and len(found.rank.dropped_columns) == 2
+    idle, tangled = found.rank.dropped_columns
+    assert idle.name == "F" and "not excited" in idle.describe()
     assert tangled.name in "ABE" and set(tangled.into) == set("ABE") - {tangled.name}
-    assert f"{tangled.name} cannot be told from" in tangled.sentence()
+    assert f"{tangled.name} cannot be told from" in tangled.describe()
     assert found.rank.last_kept > 1e-3 and found.rank.first_dropped < 1e-12
     place = [*NAMES, "E", "F"].index(tangled.name)
     assert found.beta[place] == 0.0 and found.covariance[place, place] == 0.0
-    plain = least_squares(compress(W, y, joint, 2, NAMES))
+    plain = solve_least_squares(compress_rows(W, y, joint, 2, NAMES))
     np.testing.assert_allclose(twin @ found.beta, W @ plain.beta, atol=1e-8)
-    none = independent_columns(np.zeros((5, 2)), ("A", "B"))
-    assert none.kept == () and [t.name for t in none.aside] == ["A", "B"]
+    none = find_independent_columns(np.zeros((5, 2)), ("A", "B"))
+    assert none.kept_columns == () and [t.name for t in none.dropped_columns] == ["A", "B"]
 
 
 def test_units_do_not_decide_the_rank():
     W, _, joint, measured = problem()
     y = measured(np.random.default_rng(7))
     scale = np.array([1e-6, 1e6, 1.0, 1e-3])
-    plain = least_squares(compress(W, y, joint, 2, NAMES))
-    scaled = least_squares(compress(W * scale, y, joint, 2, NAMES))
+    plain = solve_least_squares(compress_rows(W, y, joint, 2, NAMES))
+    scaled = solve_least_squares(compress_rows(W * scale, y, joint, 2, NAMES))
     np.testing.assert_allclose(scaled.beta * scale, plain.beta, rtol=1e-7)
 
 
@@ -106,12 +106,12 @@ def test_parameters_without_effect_are_not_essential(method):
     dropped, kept_always = [], 0
     for seed in range(30):
         W, _, joint, measured = problem(seed, beta=(1.0, 0.0, 0.3, 0.0), noise=(0.5, 0.6))
-        data = compress(W, measured(np.random.default_rng(100 + seed)), joint, 2, NAMES)
-        full = least_squares(data, method)
-        essential = essential_parameters(data, full, method)
+        data = compress_rows(W, measured(np.random.default_rng(100 + seed)), joint, 2, NAMES)
+        full = solve_least_squares(data, method)
+        essential = select_essential_parameters(data, full, method)
         dropped += essential.dropped
         kept_always += {"A", "C"} <= set(essential.names)
-        before, after = essential.errors(data, full.beta)
+        before, after = essential.compute_errors(data, full.beta)
         assert after >= before - 1e-3
         assert essential.ratio < essential.limit
         np.testing.assert_array_equal(essential.beta != 0.0, np.isin(NAMES, essential.names))
@@ -125,7 +125,7 @@ EVERY = ("viscous", "coulomb", "asymmetric_viscous", "offset")
 
 @cache
 def fitted_friction(effects):
-    text = with_effects(builtin_text("two-link"), dict.fromkeys(effects, "all"))
+    text = replace_effects(read_builtin_robot("two-link"), dict.fromkeys(effects, "all"))
     compiled = chain_of(text).compiled
     t = np.arange(3000) / 150.0
     w = 2 * np.pi * np.array([0.31, 0.53])
@@ -136,7 +136,7 @@ def fitted_friction(effects):
     tau += 0.1 * np.random.default_rng(2).normal(size=tau.shape)
     seen = observe(compiled, [Log("run", ("1", "2"), t, q, tau, qd, qdd)],
                    Processing(parallel_cutoff=0.0))  # fmt: skip
-    return compiled, seen, with_verdict(compiled, seen, identify(seen, "ordinary"))
+    return compiled, seen, judge_fit(compiled, seen, identify(seen, "ordinary"))
 
 
 @pytest.mark.digits
@@ -168,7 +168,7 @@ def test_the_values_are_those_of_columns_for_each_direction():
     raw = json.loads(json.dumps(fit.to_json(), allow_nan=False))
     first = raw["directions"][0]
     assert {"name", "value", "sigma", "relative_sigma_percent", "unit", "relation"} == set(first)
-    assert fit_from_json(raw, fit.covariance).directions == fit.directions
+    assert read_fit(raw, fit.covariance).directions == fit.directions
 
 
 def test_where_friction_has_one_law_there_is_nothing_to_tell():

@@ -12,13 +12,13 @@ import numpy as np
 import pytest
 
 from modeler.api import fit, observe
-from modeler.api.workflow import recompile
+from modeler.api.workflow import compile
 from modeler.cli import main
 from modeler.codegen.workflow import Derivation
 from modeler.core.errors import DataError
-from modeler.estimation import Payload, load_model, save_model, with_load
+from modeler.estimation import Payload, add_known_load, load_model, save_model
 from modeler.observation.log import Log
-from modeler.simulation import SimulationSettings, hidden_from_text, simulate
+from modeler.simulation import SimulationSettings, parse_hidden_effect, simulate
 from modeler.validation import compare, predict
 from tests.modules import compiled, module, plain
 from tests.rotation import rotating
@@ -34,7 +34,7 @@ def arm():
 
 def run(arm, seed, name, payload=False, coulomb=0.0):
     """A log of 10 s; `coulomb` N m more on every joint."""
-    hidden = (hidden_from_text(f"payload:mass={MASS}"),) if payload else ()
+    hidden = (parse_hidden_effect(f"payload:mass={MASS}"),) if payload else ()
     settings = SimulationSettings(duration=10.0, rate=250.0, seed=seed, hidden=hidden)
     made = simulate(arm[0].robot, settings)
     moves = np.tanh(np.gradient(made.q, made.time, axis=0) / 0.01)
@@ -49,7 +49,7 @@ def test_what_is_told_is_the_model_that_is_written(arm, tmp_path, seed, more):
     model = fit(*arm[:2], observe(arm[2], logs), payloads=[Payload(("loaded",), mass=MASS)])
     save_model(tmp_path / "m.json", model)
     read = load_model(tmp_path / "m.json")
-    seen = compare(predict(read, logs[:1], recompile(read))[0])
+    seen = compare(predict(read, logs[:1], compile(read))[0])
     bare = {joint.name: joint.relative_error for joint in read.fit.by_load["bare"]}
     for joint in seen.joints:
         assert bare[joint.joint.name] == pytest.approx(joint.relative_error, rel=0.05)
@@ -94,7 +94,7 @@ def test_the_load_takes_the_force_of_a_point_mass(name, link, g, reach):
     home = 0.0 if closure is None else np.array(closure.home)[list(closure.given)]
     n, joints = 6, len(compiled.spec.joints)
     q, qd, qdd = (home * k + reach * rng.uniform(-1, 1, (n, joints)) for k in (1, 0, 0))
-    row, h = [joint.name for joint in module(name).model.robot.moving].index(link), 1e-4
+    row, h = [joint.name for joint in module(name).model.robot.moving_joints].index(link), 1e-4
     place = [moved(compiled, row, c, q + t * qd + 0.5 * t * t * qdd) for t in (-h, 0.0, h)]
     a = (place[0] - 2 * place[1] + place[2]) / h**2
     J = np.stack([
@@ -102,7 +102,7 @@ def test_the_load_takes_the_force_of_a_point_mass(name, link, g, reach):
         for e in np.eye(joints)
     ], axis=2)  # fmt: skip
     expected = np.einsum("nxj,nx->nj", J, mass * (a - np.array(g)))
-    loaded = with_load(model, mass, c)  # the link that carries is found
+    loaded = add_known_load(model, mass, c)  # the link that carries is found
     change = np.array([p.value for p in loaded.fit.parameters])
     change -= [p.value for p in model.fit.parameters]
     found = compiled.base_regressor(q, qd, qdd) @ change
@@ -119,7 +119,7 @@ def test_the_load_takes_the_force_of_a_point_mass(name, link, g, reach):
 )
 def test_what_can_be_no_load_is_refused(mass, centre, link, told):
     with pytest.raises(DataError, match=told):
-        with_load(bare("puma560", 1)[1], mass, centre, link)
+        add_known_load(bare("puma560", 1)[1], mass, centre, link)
 
 
 B, UNTOLD = 0.3, 1.2

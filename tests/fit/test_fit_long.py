@@ -14,14 +14,14 @@ from scipy.signal import lfilter
 from test_observation_rows import exact_log, some_beta
 
 from modeler.core.errors import DataError
-from modeler.estimation import long_logs as streamed, with_verdict
-from modeler.estimation.doubts import unexplained_joints
+from modeler.estimation import judge_fit, long_logs as streamed
+from modeler.estimation.doubts import find_unexplained_joints
 from modeler.estimation.identify import CrossValidation, identify
-from modeler.estimation.long_logs import identify_long, reduce_chunk, stream
-from modeler.observation import Log, observe, reduce as passing, stretch, thinned
-from modeler.observation.read import MemorySource, cut
+from modeler.estimation.long_logs import identify_long, reduce_chunk, stream_logs
+from modeler.observation import Log, observe, reduce as passing, stretch, thin_rows
+from modeler.observation.read import MemorySource, cut_rows
 from modeler.observation.settings import Processing
-from modeler.observation.survey import FactsSoFar, WholeLogNeeded, survey
+from modeler.observation.survey import KnownFacts, WholeLogNeeded, choose_from_windows
 from modeler.runtime.model import CompiledModel
 from tests.modules import compiled
 from tests.rotation import rotating, slow_rotating
@@ -49,7 +49,7 @@ def in_phase(log, processing=None):
     """The log without some last rows, so that the rows of W lie as from its beginning on."""
     every = observe(arm(), [log], processing).report.logs[0].decimation
     for shorter in range(2 * every):
-        some = cut(log, slice(0, log.rows - shorter))
+        some = cut_rows(log, slice(0, log.rows - shorter))
         centres = observe(arm(), [some], processing).stretches[0].rows.centres
         if centres[0] % every == (every - 1) // 2:
             return some
@@ -66,7 +66,7 @@ def both(log, processing=None):
 def streamed_log(log, processing=None, **columns):
     """What is made of the chunks of a log, some columns of which are others."""
     source = MemorySource(dataclasses.replace(log, **columns))
-    return stream(arm(), [source], processing, rows=ROWS)
+    return stream_logs(arm(), [source], processing, rows=ROWS)
 
 
 def sigmas(fit):
@@ -171,7 +171,7 @@ def verdict_of(log, **columns):
     """Of the fit in chunks, and the fit."""
     long = streamed_log(log, **columns)
     fit = identify_long(long)
-    return with_verdict(arm(), long.observation, fit, data=long.data).verdict, fit
+    return judge_fit(arm(), long.observation, fit, data=long.data).verdict, fit
 
 
 def test_what_the_windows_do_not_show_makes_a_fit_not_usable(small_windows, any_machine):
@@ -197,8 +197,11 @@ def test_noise_is_a_larger_share_of_slower_motion_and_no_doubt(small_windows):
     """Fast in the windows, slow between them: four times the relative error, the same in N m."""
     fit = identify_long(streamed_log(noisy_log()))
     errors = np.array([joint.relative_error for joint in fit.joints]) / 4.0
-    assert not unexplained_joints(fit, CrossValidation(errors, 1.0, 9), np.array([0.25, 0.25]))
-    assert len(unexplained_joints(fit, CrossValidation(errors, 1.0, 9), np.array([1.0, 4.0]))) == 2
+    assert not find_unexplained_joints(fit, CrossValidation(errors, 1.0, 9), np.array([0.25, 0.25]))
+    assert (
+        len(find_unexplained_joints(fit, CrossValidation(errors, 1.0, 9), np.array([1.0, 4.0])))
+        == 2
+    )
 
 
 def test_a_drive_limit_that_the_windows_reach_and_others_exceed_costs_a_second_pass(small_windows):
@@ -256,7 +259,7 @@ def test_a_time_that_changes_its_unit_is_told_by_the_windows(small_windows, monk
     log = noisy_log(seconds=60.0)
     time = log.time.copy()
     time[6000:] = time[6000] + 1e3 * (time[6000:] - time[6000])
-    monkeypatch.setattr(streamed.by_threads, "__defaults__", (None,))  # no row is reduced
+    monkeypatch.setattr(streamed.reduce_by_threads, "__defaults__", (None,))  # no row is reduced
     with pytest.raises(DataError, match=r"column time: a row every 0\.005 s at 7\.5 s and every"):
         streamed_log(log, time=time)
 
@@ -267,7 +270,10 @@ def test_a_logger_that_is_slow_while_the_robot_rests_has_one_unit(small_windows)
     time[9000:] = time[9000] + 200.0 * (time[9000:] - time[9000])
     q[9000:] = q[9000]
     slow = dataclasses.replace(log, time=time, q=q)
-    assert survey(arm(), [MemorySource(slow)], Processing(), FactsSoFar(), ROWS).windows == 4
+    assert (
+        choose_from_windows(arm(), [MemorySource(slow)], Processing(), KnownFacts(), ROWS).windows
+        == 4
+    )
 
 
 def test_threads_change_nothing(monkeypatch):
@@ -287,10 +293,10 @@ def test_an_error_or_an_interrupt_ends_the_threads(monkeypatch):
             raise KeyboardInterrupt
         return reduce_chunk(model, chunk, chosen)
 
-    monkeypatch.setattr(streamed.by_threads, "__defaults__", (broken,))
+    monkeypatch.setattr(streamed.reduce_by_threads, "__defaults__", (broken,))
     monkeypatch.setattr("modeler.estimation.long_logs.cpu_count", lambda: 1)
     with pytest.raises(KeyboardInterrupt):
-        stream(arm(), [MemorySource(log)], rows=512)
+        stream_logs(arm(), [MemorySource(log)], rows=512)
     assert len(begun) < 6 < log.rows / 512
 
 
@@ -314,7 +320,7 @@ def test_rows_that_repeat_are_left_out_of_chunks_as_of_the_whole_log(each):
     log = noisy_log(rate=100)
     rows = (np.arange(int(each * log.rows)) / each).astype(int)
     time = np.arange(len(rows)) / (100.0 * each)
-    whole, chunked, *reports = both(dataclasses.replace(cut(log, rows), time=time))
+    whole, chunked, *reports = both(dataclasses.replace(cut_rows(log, rows), time=time))
     (one,), (other,) = (report.logs for report in reports)
     assert [d.line for d in one.damages] == [d.line for d in other.damages]
     assert len(one.damages) == 1 and "gave about 100 rows a second" in one.damages[0].line
@@ -357,7 +363,7 @@ def test_memory_does_not_grow_with_the_log(tmp_path):
 def test_logs_of_other_columns_are_reported_together():
     """One with logged velocities, one without: their samples add up all the same."""
     logs = [noisy_log(logged=logged, seed=logged) for logged in (True, False)]
-    long = stream(arm(), [MemorySource(log) for log in logs], rows=ROWS)
+    long = stream_logs(arm(), [MemorySource(log) for log in logs], rows=ROWS)
     report = long.observation.report
     assert [one.rows for one in report.logs] == [log.rows for log in logs]
     assert [joint.samples for joint in report.joints] == [sum(log.rows for log in logs)] * 2
@@ -389,7 +395,7 @@ def passed_log(model: CompiledModel, memory: float, size: float = 1.0, seed: int
 def fitted(model, log, processing, method):
     observation = observe(model, [log], processing)
     result = identify(observation, method, model)
-    return observation, with_verdict(model, observation, result)
+    return observation, judge_fit(model, observation, result)
 
 
 def assert_same(kept: Any, passed: Any, where: str = "") -> None:
@@ -433,5 +439,5 @@ def test_a_fit_without_w_is_the_fit_with_it(monkeypatch, name, processing, memor
     assert len(kept.stretches) == 2 and not kept.used.all()
     assert "columns" in vars(kept)
     assert ("columns" in vars(observation)) is (method == "robust")
-    np.testing.assert_array_equal(thinned(model, observation).W, thinned(model, kept).W)
+    np.testing.assert_array_equal(thin_rows(model, observation).W, thin_rows(model, kept).W)
     assert_same(expected.to_json(), found.to_json())

@@ -12,7 +12,7 @@ import pytest
 
 from modeler import api
 from modeler.observation.settings import Processing
-from modeler.robot.read import robot_from_text
+from modeler.robot.read import parse_robot_text
 from tests.chain import chain_of
 from tests.measured_sets.sets import DATA, SETS
 from tests.rotation import ROTATING, slow_rotating
@@ -63,7 +63,7 @@ below 11 %; a parallel filter of 2 Hz brings joint 3 to 14.8 % and joint 4 to 14
 def results(name: str) -> tuple[api.IdentifiedModel, api.Comparison]:
     """Fit and comparison of a set."""
     training, held_out = SETS[name].logs(DATA, "forward")
-    robot = robot_from_text(SETS[name].robot(), name)
+    robot = parse_robot_text(SETS[name].robot(), name)
     model = chain_of(robot).fit(training, PUBLISHED[name].processing)
     return model, api.compare(model, held_out)
 

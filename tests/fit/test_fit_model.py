@@ -13,10 +13,10 @@ import numpy as np
 import pytest
 from test_observation_rows import exact_log, some_beta
 
-from modeler.api import recompile
+from modeler.api import compile
 from modeler.core.errors import DataError, ManifestError, ModelerError
 from modeler.estimation import Payload, identify, identify_with_payloads, load_model, save_model
-from modeler.estimation.model_file import IdentifiedModel, checksums, provenance
+from modeler.estimation.model_file import IdentifiedModel, collect_provenance, compute_checksums
 from modeler.observation.observe import observe
 from tests.bad_input.mutants import NUMBERS, VALUES_DRAWN, edited_bytes
 from tests.chain import chain_of
@@ -47,7 +47,7 @@ def fitted(arm):
 def model(arm, fitted):
     _, seen, fit = fitted
     return IdentifiedModel("name = 'arm'\n", arm.spec, {"arm.c": "/* C */\n"}, fit,
-                           provenance(seen.report))  # fmt: skip
+                           collect_provenance(seen.report))  # fmt: skip
 
 
 def test_a_simulated_arm_comes_back_within_its_sigmas(fitted):
@@ -93,7 +93,7 @@ def test_an_unknown_load_is_weighed_and_a_known_mass_goes_to_the_measurement():
         assert abs(found.value - LOAD[letters]) < 4.0 * found.sigma and found.sigma < 0.05
     assert len(fit.parameters) == len(robot.spec.base) == len(fit.covariance)
     # Only differences of the axial inertias of a link show: at least one letter is grouped.
-    assert 0 < len(fit.loads) < 11 and "M3_load" in "\n".join(fit.lines())
+    assert 0 < len(fit.loads) < 11 and "M3_load" in "\n".join(fit.format_lines())
     seen = observe(robot, [bare, loaded])
     fit = identify_with_payloads(robot, seen, [Payload(("loaded",), "3", 2.8, "tool")])
     values = {parameter.name: parameter.value for parameter in fit.loads}
@@ -214,7 +214,7 @@ def test_wrong_model_files_say_where_and_what_to_do(tmp_path, model, case):
     path, raw = saved(tmp_path, model)
     changes, words = DAMAGE[case]
     raw = damaged(raw, *changes)
-    assert re.search(words, refusal(path, {**raw, "checksums": checksums(raw)}))
+    assert re.search(words, refusal(path, {**raw, "checksums": compute_checksums(raw)}))
 
 
 EDITED = {
@@ -391,14 +391,14 @@ def test_whoever_makes_the_checksums_fit_gets_a_line_or_a_model_that_can_be_used
     for seed in range(20):
         raw = changed_entry(saved_text, random.Random(f"sealed {how} {seed}"), how)
         try:
-            raw["checksums"] = checksums(raw)
+            raw["checksums"] = compute_checksums(raw)
         except (ValueError, TypeError):
             continue  # NaN and the like: no checksum makes them fit
         model = read(tmp_path / "m.json", json.dumps(raw).encode())
         if model is not None:
             again = read(tmp_path / "n.json", resaved(tmp_path / "s.json", model).encode())
             assert again is not None and again.beta.tolist() == model.beta.tolist()
-            assert model.fit.lines() and np.all(np.isfinite(model.covariance))
+            assert model.fit.format_lines() and np.all(np.isfinite(model.covariance))
             assert np.all(np.diag(model.covariance) >= 0.0)
 
 
@@ -410,11 +410,11 @@ def test_a_changed_robot_text_never_gives_another_robot(saved_text, tmp_path):
         text = raw["robot_text"]
         place = draw.choice([i for i, letter in enumerate(text) if letter in "0123456789.-q"])
         raw["robot_text"] = text[:place] + draw.choice("0123456789.-") + text[place + 1 :]
-        raw["checksums"] = checksums(raw)
+        raw["checksums"] = compute_checksums(raw)
         model = read(tmp_path / "m.json", json.dumps(raw).encode())
         assert model is not None
         try:
-            assert recompile(model).spec == model.spec
+            assert compile(model).spec == model.spec
         except ModelerError as error:
             assert "\n" not in str(error)
             told += 1

@@ -7,7 +7,7 @@ import pytest
 from test_observation_rows import exact_log, some_beta
 
 from modeler.core.errors import DataError
-from modeler.derivation.numeric_rank import grouping_matrix
+from modeler.derivation.numeric_rank import build_grouping_matrix
 from modeler.estimation.identify import identify
 from modeler.observation import observe, read_log
 from modeler.simulation import SimulationSettings, simulate, write_log
@@ -24,7 +24,7 @@ def test_a_simulated_robot_with_passive_joints_comes_back(name, tmp_path):
     write_log(tmp_path / "run.csv", run)
     fit = identify(observe(compiled(name), [read_log(tmp_path / "run.csv", emitted.spec)]))
     chi = np.array([run.truth.parameters[parameter] for parameter in symbolic.names])
-    beta = grouping_matrix(symbolic, base.parameters) @ chi
+    beta = build_grouping_matrix(symbolic, base.parameters) @ chi
     assert fit.status == "ok" and fit.relative_error < 0.01
     sigma = np.array([parameter.sigma for parameter in fit.parameters])
     # Sensor errors in W and y: the share of values beyond 2 sigma is small, none is far off.

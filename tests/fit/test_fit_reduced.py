@@ -11,13 +11,19 @@ from scipy.signal import lfilter
 from test_observation_rows import exact_log, some_beta
 
 from modeler.core.errors import DataError
-from modeler.estimation import IdentifiedModel, autocorrelation, identify, least_squares, load_model
-from modeler.estimation.essential import essential_parameters
-from modeler.estimation.model_file import provenance, save_model, with_essential_only
-from modeler.estimation.result import FitResult, fit_from_json
-from modeler.numerics.least_squares import compress
-from modeler.observation import MASKS, WHY, Processing, masks_of, observe
-from modeler.validation.prediction import DEVIATIONS, sigma_of
+from modeler.estimation import (
+    IdentifiedModel,
+    estimate_autocorrelation,
+    identify,
+    load_model,
+    solve_least_squares,
+)
+from modeler.estimation.essential import select_essential_parameters
+from modeler.estimation.model_file import collect_provenance, keep_essential, save_model
+from modeler.estimation.result import FitResult, read_fit
+from modeler.numerics.least_squares import compress_rows
+from modeler.observation import MASKS, WHY, Processing, classify_rows, observe
+from modeler.validation.prediction import DEVIATIONS, propagate_covariance
 from tests.modules import compiled
 from tests.oracles.numpy_model import planar_arm
 from tests.rotation import rotating
@@ -92,22 +98,22 @@ def test_it_is_told_and_saved(fitted):
     values |= dict.fromkeys(fit.essential.dropped, "-")
     assert {name: rows[name][4] for name in values} == values
     raw = json.loads(json.dumps(fit.to_json(), allow_nan=False))
-    assert fit_from_json(raw, fit.covariance).essential == fit.essential
+    assert read_fit(raw, fit.covariance).essential == fit.essential
     raw["essential"] = None
-    assert fit_from_json(raw, fit.covariance).essential is None
+    assert read_fit(raw, fit.covariance).essential is None
 
 
 def test_a_model_predicts_with_it(robot, fitted, tmp_path):
     (arm, _), (seen, fit) = robot, fitted
-    model = IdentifiedModel("name = 'arm'\n", arm.spec, {}, fit, provenance(seen.report))
+    model = IdentifiedModel("name = 'arm'\n", arm.spec, {}, fit, collect_provenance(seen.report))
     save_model(tmp_path / "m.json", model)
-    small = with_essential_only(load_model(tmp_path / "m.json"), "m.json")
+    small = keep_essential(load_model(tmp_path / "m.json"), "m.json")
     values = {p.name: p.value for p in fit.essential.parameters}
     assert list(small.beta) == [values.get(name, 0.0) for name in seen.names]
     assert small.fit.relative_error == fit.essential_error
     old = dataclasses.replace(model, fit=dataclasses.replace(fit, essential=None))
     with pytest.raises(DataError, match=r"m.json: holds no reduced model .*; fit it again"):
-        with_essential_only(old, "m.json")
+        keep_essential(old, "m.json")
 
 
 def test_a_reduced_model_is_offered_only_where_it_describes_every_joint(robot):
@@ -122,10 +128,12 @@ def test_a_reduced_model_is_offered_only_where_it_describes_every_joint(robot):
         joint = np.tile([0, 1], 60)
         small = beta * rng.uniform(0.0, 0.4, len(names))
         y = W @ small + np.where(joint == 0, 3.0, 0.3) * rng.normal(size=120)
-        data = compress(W, y, joint, 2, names)
-        full = least_squares(data, "ordinary")
-        essential = essential_parameters(data, full, "ordinary")
-        raised += list(data.residual_norms(essential.beta) / data.residual_norms(full.beta))
+        data = compress_rows(W, y, joint, 2, names)
+        full = solve_least_squares(data, "ordinary")
+        essential = select_essential_parameters(data, full, "ordinary")
+        raised += list(
+            data.compute_residual_norms(essential.beta) / data.compute_residual_norms(full.beta)
+        )
     assert max(raised) < 1.06
 
 
@@ -137,7 +145,7 @@ def test_a_reduced_model_that_predicts_worse_is_not_offered(fitted, monkeypatch)
     refused = identify(seen, "ordinary")
     assert not refused.essential.dropped and refused.essential.limit is None
     assert all(p.essential for p in refused.parameters)
-    assert not any(line.startswith("reduced model: ") for line in refused.lines())
+    assert not any(line.startswith("reduced model: ") for line in refused.format_lines())
     assert any(
         "no reduced model: one by an F-test; cross-validated error 2 % (full model: 1 %)" in s
         for s in refused.sentences
@@ -168,7 +176,7 @@ def known_set(arm, seed):
     least = np.min(np.abs(beta[kept]) / sigma) / (5, 7, 10)[seed % 3]
     joint = np.tile(np.arange(joints), len(time))
     y = W @ beta + least * rng.normal(size=len(W))
-    return compress(W, y, joint, joints, names), {names[k] for k in none}
+    return compress_rows(W, y, joint, joints, names), {names[k] for k in none}
 
 
 def test_known_sets_are_found_among_columns_that_are_alike():
@@ -176,7 +184,9 @@ def test_known_sets_are_found_among_columns_that_are_alike():
     orthoglide, found, better = compiled("orthoglide-2003-similar-legs"), 0, 0
     for seed in range(24):
         data, none = known_set(orthoglide, seed)
-        essential = essential_parameters(data, least_squares(data, "ordinary"), "ordinary")
+        essential = select_essential_parameters(
+            data, solve_least_squares(data, "ordinary"), "ordinary"
+        )
         found += set(essential.dropped) == none
         kept = [data.names.index(name) for name in essential.names]
         out = [data.names.index(name) for name in essential.dropped]
@@ -236,7 +246,7 @@ def repeated(memory: float) -> tuple[np.ndarray, np.ndarray, FitResult]:
     beta = some_beta(arm)
     other = observe(arm, [exact_log(arm, beta, seed=99, seconds=10.0, rate=100)], cut)
     log = exact_log(arm, beta, seed=1, seconds=30.0, rate=100)
-    truth = other.predicted(beta)
+    truth = other.predict(beta)
     errors, inside = [], []
     for seed in range(RUNS):
         white = np.random.default_rng(500 + seed).normal(size=log.tau.shape)
@@ -244,8 +254,8 @@ def repeated(memory: float) -> tuple[np.ndarray, np.ndarray, FitResult]:
         noise = 0.3 * np.sqrt(1.0 - pole**2) * lfilter([1.0], [1.0, -pole], white, axis=0)
         fit = identify(observe(arm, [dataclasses.replace(log, tau=log.tau + noise)], cut))
         errors.append((fit.beta - beta) / [parameter.sigma for parameter in fit.parameters])
-        band = DEVIATIONS * sigma_of(other.columns, fit.covariance)
-        missed = np.abs(other.predicted(fit.beta) - truth) > band
+        band = DEVIATIONS * propagate_covariance(other.columns, fit.covariance)
+        missed = np.abs(other.predict(fit.beta) - truth) > band
         inside.append(1.0 - np.mean(missed[other.used]))
     return np.array(errors), np.array(inside), fit
 
@@ -271,7 +281,9 @@ def test_the_band_is_the_spread_of_draws() -> None:
     root = random.normal(size=(5, 5)) / np.array([1e-6, 1.0, 1e3, 1.0, 1e5])[:, None]
     root[3] = 0.0  # set aside
     draws = columns @ (root @ random.normal(size=(5, 4000)))
-    np.testing.assert_allclose(sigma_of(columns, root @ root.T), draws.std(axis=2), rtol=0.06)
+    np.testing.assert_allclose(
+        propagate_covariance(columns, root @ root.T), draws.std(axis=2), rtol=0.06
+    )
 
 
 def test_rows_say_why_they_do_not_count() -> None:
@@ -283,7 +295,7 @@ def test_rows_say_why_they_do_not_count() -> None:
     tau[clipped, 0] = 1.05 * np.abs(tau).max()
     tau[(log.time > 12.0) & (log.time < 12.5), 1] = np.nan
     seen = observe(arm, [dataclasses.replace(log, tau=tau)], Processing(parallel_cutoff=10.0))
-    masks = masks_of(seen)
+    masks = classify_rows(seen)
     assert ((masks < 0) == seen.used).all()
     of = {name: masks == k for k, name in enumerate(MASKS)}
     middle = (seen.time > 5.1) & (seen.time < 5.9)
@@ -301,12 +313,12 @@ def test_autocorrelation_ends_at_segments_gaps_and_where_white():
     random = np.random.default_rng(4)
     e = lfilter([1.0], [1.0, -0.8], random.normal(size=4000))
     whole = np.zeros(4000, dtype=int)
-    r = autocorrelation(e, np.arange(4000), whole)
+    r = estimate_autocorrelation(e, np.arange(4000), whole)
     np.testing.assert_allclose(r[:4], 0.8 ** np.arange(4), atol=0.06)
-    white = autocorrelation(random.normal(size=4000), np.arange(4000), whole)
+    white = estimate_autocorrelation(random.normal(size=4000), np.arange(4000), whole)
     assert len(white) <= 2
-    alone = autocorrelation(e, np.arange(4000), np.arange(4000))
+    alone = estimate_autocorrelation(e, np.arange(4000), np.arange(4000))
     np.testing.assert_array_equal(alone, [1.0])
-    every_other = autocorrelation(e[::2], np.arange(0, 4000, 2), whole)
+    every_other = estimate_autocorrelation(e[::2], np.arange(0, 4000, 2), whole)
     np.testing.assert_array_equal(every_other, [1.0])  # no pair is one sample apart
-    np.testing.assert_array_equal(autocorrelation(np.zeros(9), np.arange(9), whole), [1.0])
+    np.testing.assert_array_equal(estimate_autocorrelation(np.zeros(9), np.arange(9), whole), [1.0])

@@ -8,13 +8,13 @@ import pytest
 from modeler.cli import main
 from modeler.core.errors import DataError
 from modeler.estimation.identify import identify
-from modeler.estimation.two_step import Directions, two_steps
-from modeler.estimation.two_step_result import identify_in_two_steps, inertia_rows
-from modeler.estimation.verdict import with_verdict
+from modeler.estimation.two_step import JointDirections, estimate_two_steps
+from modeler.estimation.two_step_result import build_inertia_rows, identify_in_two_steps
+from modeler.estimation.verdict import judge_fit
 from modeler.observation import Log, Processing, observe
-from modeler.robot import Limits, joint_directions, read_robot
+from modeler.robot import Limits, compute_joint_directions, read_robot
 from modeler.simulation import SimulationSettings, simulate
-from modeler.simulation.trajectory import one_joint_reference, point_to_point_reference
+from modeler.simulation.trajectory import build_one_joint_reference, build_point_to_point_reference
 from tests.modules import compiled, module
 from tests.rotation import rotating
 
@@ -27,8 +27,8 @@ _SEEDS = 10
 _ROBOT = "wrist-coupled"
 
 
-def _directions(name: str) -> Directions:
-    return Directions(joint_directions(read_robot(name)))
+def _directions(name: str) -> JointDirections:
+    return JointDirections(compute_joint_directions(read_robot(name)))
 
 
 def _beta(name: str) -> np.ndarray:
@@ -41,7 +41,7 @@ def _beta(name: str) -> np.ndarray:
 def _log(name: str, duration=110.0, noise=0.0, seed=0, only=None, motion=None) -> Log:
     """Exact motion of the wrist, one joint at a time, with white noise on its logged torques."""
     ways = _directions(name).rows[slice(None) if only is None else only]
-    make = motion or one_joint_reference
+    make = motion or build_one_joint_reference
     further = (ways,) if motion is None else ()
     reference = make(_LIMITS, duration, 50.0, 5, *further)
     q, qd, qdd = reference.q, reference.qd, reference.qdd
@@ -101,7 +101,7 @@ def test_the_sigmas_of_both_fits_are_those_of_many_runs():
     z = np.empty((2, _SEEDS, len(truth)))
     for seed in range(_SEEDS):
         observation = _observed(_ROBOT, _log(_ROBOT, 70.0, 0.02, seed))
-        estimate = two_steps(model, observation, ways).estimate
+        estimate = estimate_two_steps(model, observation, ways).estimate
         z[0, seed] = (estimate.beta - truth) / np.sqrt(np.diag(estimate.covariance))
         one = identify(observation)
         z[1, seed] = (one.beta - truth) / np.sqrt(np.diag(one.covariance))
@@ -114,11 +114,11 @@ def test_moves_of_the_first_joint_tell_16_of_17():
     """Joint-1-only moves leave ZZ2R, the constant of J22 (PJ19); moves of joint 2 add it."""
     model, ways = compiled("wrist"), _directions("wrist")
     first = _log("wrist", only=[0])
-    estimate = two_steps(model, _observed("wrist", first), ways).estimate
-    assert [tangle.name for tangle in estimate.rank.aside] == ["ZZ2R"]
+    estimate = estimate_two_steps(model, _observed("wrist", first), ways).estimate
+    assert [tangle.name for tangle in estimate.rank.dropped_columns] == ["ZZ2R"]
     second = dataclasses.replace(_log("wrist", only=[1]), name="second.csv")
-    estimate = two_steps(model, _observed("wrist", first, second), ways).estimate
-    assert not estimate.rank.aside
+    estimate = estimate_two_steps(model, _observed("wrist", first, second), ways).estimate
+    assert not estimate.rank.dropped_columns
     assert np.abs(estimate.beta - _beta("wrist")).max() < 1e-10
 
 
@@ -135,7 +135,7 @@ def test_the_inertias_have_the_rank_of_the_papers_functions(exact):
     ])  # fmt: skip
     model, ways = compiled("wrist"), _directions("wrist")
     for count in range(1, 9):
-        rows = inertia_rows(model, q[:count], ways.rows[0])
+        rows = build_inertia_rows(model, q[:count], ways.rows[0])
         assert np.linalg.matrix_rank(rows, 1e-8) == np.linalg.matrix_rank(paper[:count], 1e-8)
 
 
@@ -144,14 +144,14 @@ def test_the_inertias_have_the_rank_of_the_papers_functions(exact):
 def test_joints_that_feel_nothing_of_each_other(name):
     """A slider beside a turning column, a single joint: fewer functions, honest sigmas."""
     model, spec = compiled(name), module(name).emitted.spec
-    reference = one_joint_reference(_LIMITS[:1] * len(spec.joints), 100.0, 50.0, 1)
+    reference = build_one_joint_reference(_LIMITS[:1] * len(spec.joints), 100.0, 50.0, 1)
     beta = np.random.default_rng(1).uniform(0.5, 2.0, len(spec.base))
     tau = model.inverse_dynamics(reference.q, reference.qd, reference.qdd, beta)
     tau += 0.1 * np.random.default_rng(2).normal(size=tau.shape)
     joints = tuple(joint.name for joint in spec.joints)
     log = Log("one.csv", joints, reference.time, reference.q, tau, reference.qd, reference.qdd)
-    estimate = two_steps(model, _observed(name, log), _directions(name)).estimate
-    assert not estimate.rank.aside
+    estimate = estimate_two_steps(model, _observed(name, log), _directions(name)).estimate
+    assert not estimate.rank.dropped_columns
     z = (estimate.beta - beta) / np.sqrt(np.diag(estimate.covariance))
     assert 0.2 < np.sqrt(np.mean(z**2)) < 2.0
 
@@ -162,13 +162,13 @@ def test_links_that_turn_in_a_parallelogram_of_changing_inertia_are_left_out():
     run = simulate(read_robot("five-bar"), settings)
     log = Log("one.csv", run.joints, run.time, run.q, run.tau)
     with pytest.raises(DataError, match="other functions than those of one body that turns"):
-        two_steps(model, observe(model, [log]), _directions("five-bar"))
+        estimate_two_steps(model, observe(model, [log]), _directions("five-bar"))
 
 
 def test_logs_without_such_a_piece_are_refused(tmp_path, capsys):
-    log = _log("wrist", 20.0, motion=point_to_point_reference)
+    log = _log("wrist", 20.0, motion=build_point_to_point_reference)
     with pytest.raises(DataError, match=r"^one.csv: no piece in which one joint moves") as error:
-        two_steps(compiled("wrist"), _observed("wrist", log), _directions("wrist"))
+        estimate_two_steps(compiled("wrist"), _observed("wrist", log), _directions("wrist"))
     assert "use --method weighted" in str(error.value) and "\n" not in str(error.value)
     path = tmp_path / "joints.csv"  # of joints, not of motors
     names = ["time", *(f"q{j}" for j in log.joints), *(f"tau{j}" for j in log.joints)]
@@ -186,7 +186,7 @@ def test_a_joint_without_a_motor_says_nothing():
     idle = tuple(dataclasses.replace(joint, actuated=False) for joint in observation.joints)
     without = dataclasses.replace(observation, joints=idle)
     with pytest.raises(DataError, match="left out: the joint has no motor"):
-        two_steps(compiled("wrist"), without, _directions("wrist"))
+        estimate_two_steps(compiled("wrist"), without, _directions("wrist"))
 
 
 def test_too_few_configurations_and_joints_that_never_move_alone_are_named():
@@ -196,7 +196,7 @@ def test_too_few_configurations_and_joints_that_never_move_alone_are_named():
     assert few.excitation[0].rank < few.excitation[0].possible_rank
     assert any("not persistently exciting; move it at" in s for s in few.result.sentences)
     steps = identify_in_two_steps(compiled(_ROBOT), second, _directions(_ROBOT))
-    told = steps.doubts()
-    line = with_verdict(compiled(_ROBOT), second, steps.result, told=told).verdict.line
+    told = steps.collect_warnings()
+    line = judge_fit(compiled(_ROBOT), second, steps.result, log_warnings=told).verdict.line
     assert line.startswith("Not valid: joint 1, 3 never moved alone for long enough")
     assert "check units, signs and columns" not in line

@@ -8,9 +8,9 @@ import numpy as np
 from scipy.signal import lfilter
 
 from modeler.codegen.workflow import derive, generate, load
-from modeler.core.manifest import Emitted
-from modeler.fleet.naming import Named
-from modeler.fleet.summary import LogSummary, summary
+from modeler.core.manifest import EmittedModule
+from modeler.fleet.naming import LogName
+from modeler.fleet.summary import LogSummary, summarise_log
 from modeler.observation.log import Log
 from modeler.observation.settings import Processing
 from modeler.runtime.model import CompiledModel
@@ -19,7 +19,7 @@ RATE = 100.0  # Hz
 
 
 @cache
-def emitted(robot: str = "two-link") -> Emitted:
+def emitted(robot: str = "two-link") -> EmittedModule:
     return generate(derive(load(robot)))
 
 
@@ -96,7 +96,7 @@ def coloured_noise(rng: np.random.Generator, count: int) -> np.ndarray:
     return np.sqrt(0.5) * (rng.normal(size=count) + slow)
 
 
-def logs(scene: Scene, seed: int, robot: str = "two-link") -> list[tuple[Named, Log]]:
+def logs(scene: Scene, seed: int, robot: str = "two-link") -> list[tuple[LogName, Log]]:
     """The logs of a fleet."""
     model = compiled(robot)
     rng = np.random.default_rng([11, seed])
@@ -115,7 +115,7 @@ def logs(scene: Scene, seed: int, robot: str = "two-link") -> list[tuple[Named, 
                     beta = beta + plant.by_period[p] * _load(model)
                 elif plant.machine == m:
                     beta[names.index(plant.name)] *= 1.0 + plant.by_period[p]
-            found.append((Named(f"r{m + 1}", f"day{p + 1}", f"r{m + 1}/day{p + 1}.csv"),
+            found.append((LogName(f"r{m + 1}", f"day{p + 1}", f"r{m + 1}/day{p + 1}.csv"),
                           _log(model, beta, gains, scene, rng, p)))  # fmt: skip
     return found
 
@@ -163,6 +163,6 @@ def summaries(scene: Scene, seed: int, robot: str = "two-link") -> tuple[LogSumm
     found: list[LogSummary] = []
     with patch("modeler.fleet.summary.log_findings", return_value=()):
         for named, log in logs(scene, seed, robot):
-            found.append(summary(model, log, named, processing))
+            found.append(summarise_log(model, log, named, processing))
             processing = found[0].processing or processing
     return tuple(found)

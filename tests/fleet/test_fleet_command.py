@@ -9,8 +9,8 @@ import pytest
 
 from modeler.api import fleet, load, simulate, write_report
 from modeler.cli import main
-from modeler.robot.edit import with_parameters
-from modeler.robot.read import robot_from_text
+from modeler.robot.edit import replace_parameters
+from modeler.robot.read import parse_robot_text
 
 MOTION = {"duration": 4.0, "rate": 200.0, "parameter_seed": 4}
 
@@ -30,7 +30,7 @@ def plant(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """Two machines on five days; from the third on, joint 2 of r2 rubs by half as much again."""
     folder, robot = tmp_path_factory.mktemp("plant"), load("two-link")
     rubs = simulate(robot, **MOTION, seed=1).truth.parameters["Fs2"]
-    worn = robot_from_text(with_parameters(robot.text, {"Fs2": 1.5 * rubs}), "worn")
+    worn = parse_robot_text(replace_parameters(robot.text, {"Fs2": 1.5 * rubs}), "worn")
     for m, machine in enumerate(("r1", "r2")):
         (folder / machine).mkdir()
         for day in range(1, 6):

@@ -6,16 +6,16 @@ import numpy as np
 import pytest
 
 from modeler.core.errors import DataError
-from modeler.fleet.fleet import fleet_of
-from modeler.fleet.naming import Named
-from modeler.fleet.result import Fleet, fleet_lines, sentence
+from modeler.fleet.fleet import analyse_fleet
+from modeler.fleet.naming import LogName
+from modeler.fleet.result import Fleet, describe_finding, format_fleet
 from modeler.fleet.summary import SkippedLog
 from tests.fleet.machines import Planted, Scene, compiled, summaries
 from tests.rotation import rotating, slow_rotating
 
 
 def fleet(scene: Scene, seed: int, robot: str = "two-link") -> Fleet:
-    return fleet_of(compiled(robot).spec, summaries(scene, seed, robot))
+    return analyse_fleet(compiled(robot).spec, summaries(scene, seed, robot))
 
 
 def told(found: Fleet) -> list[tuple[str, str, str]]:
@@ -52,8 +52,8 @@ def test_what_is_planted_is_found_and_nothing_else(case: str) -> None:
     parameter = name.replace("gain", "gain ")
     assert told(found) == [("r2", parameter, shape)]
     [one] = found.findings
-    assert one.percent == pytest.approx(percent, rel=0.35)
-    size = one.change if one.quantity.unit == "%" else one.percent / 100.0 * abs(one.before)
+    assert one.change_percent == pytest.approx(percent, rel=0.35)
+    size = one.change if one.quantity.unit == "%" else one.change_percent / 100.0 * abs(one.before)
     assert abs(size - one.change) < 1e-9 and abs(one.score) > 4.0 and one.chance < 0.025
     assert found.verdict == "drift" and found.to_json()["findings"][0]["machine"] == "r2"
 
@@ -62,8 +62,10 @@ def test_an_offset_that_leaps_is_found() -> None:
     plan = (0.0,) * 2 + (4.0,) * 2
     found = fleet(Scene(machines=2, periods=4, planted=(Planted(0, "Off1", plan),)), 7, "demo-arm")
     assert told(found) == [("r1", "Off1", "jump")]
-    assert found.findings[0].percent is None  # an offset has no size of its own
-    assert "joint 1: constant torque offset (Off1) leaps " in sentence(found.findings[0], "days")
+    assert found.findings[0].change_percent is None  # an offset has no size of its own
+    assert "joint 1: constant torque offset (Off1) leaps " in describe_finding(
+        found.findings[0], "days"
+    )
 
 
 @pytest.mark.parametrize("robot", ["two-link", *rotating("demo-arm")])
@@ -74,7 +76,7 @@ def test_a_load_is_no_gain(robot: str) -> None:
     assert told(found) == [("r3", "load", "jump")]
     [one] = found.findings
     assert one.change == pytest.approx(0.8, rel=0.2) and one.quantity.joint is None
-    text = sentence(one, "periods")
+    text = describe_finding(one, "periods")
     assert "machine r3: load on the last link leaps up by 0." in text
     assert "at day3 and stays, from" in text
     assert not any("too few to know how values scatter" in note for note in found.notes)
@@ -103,7 +105,9 @@ def test_an_odd_machine_is_found() -> None:
     found = fleet(Scene(machines=8, periods=2, apart=0.05, planted=plans), 5)
     assert set(told(found)) == {("r4", "Fv2", "odd machine"), ("r6", "gain 1", "odd machine")}
     assert found.verdict == "odd machine"
-    assert any("above that of the other machines" in sentence(f, "days") for f in found.findings)
+    assert any(
+        "above that of the other machines" in describe_finding(f, "days") for f in found.findings
+    )
 
 
 def test_a_temperature_that_moves_along_is_told() -> None:
@@ -111,31 +115,39 @@ def test_a_temperature_that_moves_along_is_told() -> None:
     scene = Scene(machines=4, periods=5, planted=(Planted(0, "Fv2", plan),), warm=True)
     warm = summaries(scene, 3)
     cold = [dataclasses.replace(each, temperatures={}) for each in warm[5:]]
-    [together], [alone] = (fleet_of(spec, logs).findings for logs in (warm, [*warm[:5], *cold]))
-    assert alone.warmth is not None and alone.warmth.along and alone.warmth.shared is None
-    assert "may be the cause: compare periods of one temperature" in sentence(alone, "days")
-    assert together.warmth is not None and together.warmth.shared is False
-    assert "but machines that warm alike do not change so" in sentence(together, "days")
+    [together], [alone] = (
+        analyse_fleet(spec, logs).findings for logs in (warm, [*warm[:5], *cold])
+    )
+    assert (
+        alone.temperature is not None
+        and alone.temperature.is_correlated
+        and alone.temperature.is_shared is None
+    )
+    assert "may be the cause: compare periods of one temperature" in describe_finding(alone, "days")
+    assert together.temperature is not None and together.temperature.is_shared is False
+    assert "but machines that warm alike do not change so" in describe_finding(together, "days")
     leap = dataclasses.replace(scene, machines=1, planted=(Planted(0, "Fv2", (0.0,) * 4 + (0.4,)),))
-    [sudden] = fleet_of(spec, summaries(leap, 3)).findings
-    assert sudden.warmth is not None and not sudden.warmth.along  # a line is no leap
-    assert "at day5, the last period (whether it stays is not known), from" in sentence(
+    [sudden] = analyse_fleet(spec, summaries(leap, 3)).findings
+    assert (
+        sudden.temperature is not None and not sudden.temperature.is_correlated
+    )  # a line is no leap
+    assert "at day5, the last period (whether it stays is not known), from" in describe_finding(
         sudden, "days"
     )
     everywhere = [
-        dataclasses.replace(each, named=Named(m, each.named.period, m), content=f"{m} {k}")
+        dataclasses.replace(each, log_name=LogName(m, each.log_name.period, m), content=f"{m} {k}")
         for m in ("r1", "r2", "r3", "r4")
         for k, each in enumerate(warm[:5])
     ]
-    findings = fleet_of(spec, everywhere).findings
-    assert findings and all(f.warmth is not None and f.warmth.shared for f in findings)
+    findings = analyse_fleet(spec, everywhere).findings
+    assert findings and all(f.temperature is not None and f.temperature.is_shared for f in findings)
 
 
 def test_what_cannot_be_compared_is_refused() -> None:
     scene = Scene(machines=2, periods=3)
     first, second, *_ = summaries(scene, 1)
-    other = dataclasses.replace(first, named=Named("r2", "day1", "r2/day1.csv"), content="x")
-    gone = SkippedLog(Named("r1", "b", "r1/b.csv"), "r1/b.csv: there is no such file; check it")
+    other = dataclasses.replace(first, log_name=LogName("r2", "day1", "r2/day1.csv"), content="x")
+    gone = SkippedLog(LogName("r1", "b", "r1/b.csv"), "r1/b.csv: there is no such file; check it")
     twice = [dataclasses.replace(log, content="x") for log in (first, second)]
     for logs, told in (
         ([first, other], "got one log each of r1, r2; expected two periods of a machine"),
@@ -144,21 +156,24 @@ def test_what_cannot_be_compared_is_refused() -> None:
         (twice, "r1/day2.csv: got rows of r1/day1.csv again; expected each"),
     ):
         with pytest.raises(DataError, match=told):
-            fleet_of(compiled().spec, logs)
+            analyse_fleet(compiled().spec, logs)
 
 
 def test_a_log_that_is_left_out_and_a_short_fleet_are_told() -> None:
     given = summaries(Scene(machines=2, periods=3), 1)
-    late = dataclasses.replace(given[0], named=Named("r9", "day1", "r9/day1.csv"))
-    left = SkippedLog(Named("r1", "day9", "r1/day9.csv"), "r1/day9.csv: damaged")
-    found = fleet_of(compiled().spec, [*given, late, left])
-    lines = "\n".join(fleet_lines(found))
-    assert found.left == (("r1/day9.csv", "r1/day9.csv: damaged"),) and "left out: r1/day9" in lines
+    late = dataclasses.replace(given[0], log_name=LogName("r9", "day1", "r9/day1.csv"))
+    left = SkippedLog(LogName("r1", "day9", "r1/day9.csv"), "r1/day9.csv: damaged")
+    found = analyse_fleet(compiled().spec, [*given, late, left])
+    lines = "\n".join(format_fleet(found))
+    assert (
+        found.skipped_logs == (("r1/day9.csv", "r1/day9.csv: damaged"),)
+        and "left out: r1/day9" in lines
+    )
     assert "r9: one period, so a drift of its own cannot be seen" in lines
     assert "3 machines: an odd one among fewer than 5 is not told" in lines
     assert found.verdict == "nothing drifts" and found.logs == 7
     assert found.to_json()["left_out"] == [{"log": "r1/day9.csv", "why": "r1/day9.csv: damaged"}]
     alike = "filtered alike: positions below 20 Hz, torques and columns below 5 Hz"
-    assert f"all logs are {alike}" in fleet_of(compiled().spec, given).notes
-    few = fleet_of(compiled().spec, summaries(Scene(machines=1, periods=3), 2)).notes
+    assert f"all logs are {alike}" in analyse_fleet(compiled().spec, given).notes
+    few = analyse_fleet(compiled().spec, summaries(Scene(machines=1, periods=3), 2)).notes
     assert any("too few to know how values scatter" in note for note in few)

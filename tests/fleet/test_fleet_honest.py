@@ -7,10 +7,10 @@ import pytest
 
 from modeler.api import fleet, load
 from modeler.core.errors import DataError
-from modeler.fleet.fleet import fleet_of
-from modeler.fleet.naming import Named
-from modeler.fleet.result import Fleet, fleet_lines
-from modeler.fleet.summary import LogSummary, SkippedLog, summary
+from modeler.fleet.fleet import analyse_fleet
+from modeler.fleet.naming import LogName
+from modeler.fleet.result import Fleet, format_fleet
+from modeler.fleet.summary import LogSummary, SkippedLog, summarise_log
 from modeler.observation.log import Log
 from modeler.observation.settings import Processing
 from modeler.runtime.model import CompiledModel
@@ -21,19 +21,19 @@ GIVEN = Processing(position_cutoff=20.0, parallel_cutoff=8.0)
 
 
 def reduced(
-    pairs: list[tuple[Named, Log]], robot: str = "two-link"
+    pairs: list[tuple[LogName, Log]], robot: str = "two-link"
 ) -> list[LogSummary | SkippedLog]:
     found: list[LogSummary | SkippedLog] = []
     for named, log in pairs:
         try:
-            found.append(summary(compiled(robot), log, named, GIVEN))
+            found.append(summarise_log(compiled(robot), log, named, GIVEN))
         except DataError as error:
             found.append(SkippedLog(named, str(error)))
     return found
 
 
-def judged(pairs: list[tuple[Named, Log]], robot: str = "two-link") -> Fleet:
-    return fleet_of(compiled(robot).spec, reduced(pairs, robot))
+def judged(pairs: list[tuple[LogName, Log]], robot: str = "two-link") -> Fleet:
+    return analyse_fleet(compiled(robot).spec, reduced(pairs, robot))
 
 
 def exchanged(log: Log) -> Log:
@@ -51,10 +51,10 @@ def test_logs_with_exchanged_torques_are_left_out_with_the_reason(robot: str) ->
     ]
     found = judged(wrong, robot)
     assert found.findings == ()
-    assert [place for place, _ in found.left] == [
+    assert [place for place, _ in found.skipped_logs] == [
         "r1/day3.csv", "r2/day1.csv", "r2/day2.csv", "r2/day3.csv"
     ]  # fmt: skip
-    text = "\n".join(fleet_lines(found))
+    text = "\n".join(format_fleet(found))
     assert "on 2 machines in 5 logs; 4 logs left out" in text
     told = f"left out: r2/day1.csv: does not fit {robot}: joints 1 and 2: their torques look exch"
     assert told in text and "r2: none of its logs could be used: nothing is known" in text
@@ -64,7 +64,7 @@ def test_logs_with_exchanged_torques_are_left_out_with_the_reason(robot: str) ->
 def test_short_logs_are_still_compared() -> None:
     """Too short for a fit of their own, by far: the fleet's inertia is that of all logs."""
     found = judged(logs(Scene(machines=2, periods=3, duration=2.0), 5))
-    assert found.left == () and found.logs == 6
+    assert found.skipped_logs == () and found.logs == 6
 
 
 @pytest.mark.parametrize(
@@ -76,7 +76,7 @@ def test_great_drifts_are_no_wrong_logs(seed: int, plan: tuple[str, float]) -> N
     name, size = plan
     scene = Scene(machines=2, periods=4, planted=(Planted(0, name, (0.0, 0.0, size, size)),))
     found = judged(logs(scene, seed))
-    assert found.left == ()
+    assert found.skipped_logs == ()
     first = found.findings[0]
     assert (first.machine, first.shape, first.begin) == ("r1", "jump", "day3")
 
@@ -90,10 +90,10 @@ def test_logs_of_more_joints_are_of_another_robot() -> None:
         return dataclasses.replace(log, extra=more)
 
     plain, wide = reduced(pairs), reduced([(named, wider(log)) for named, log in pairs])
-    [(place, why)] = fleet_of(compiled().spec, [plain[0], wide[1], *plain[2:]]).left
+    [(place, why)] = analyse_fleet(compiled().spec, [plain[0], wide[1], *plain[2:]]).skipped_logs
     assert place == "r1/day2.csv" and "has joints 3, 4 besides, which most logs have not" in why
-    every = fleet_of(compiled().spec, wide)
-    assert every.left == ()
+    every = analyse_fleet(compiled().spec, wide)
+    assert every.skipped_logs == ()
     [line] = [note for note in every.notes if "of joints besides those of the robot (3, 4)" in note]
     assert line.startswith("r1/day1.csv and 2 more: ")
 
@@ -104,10 +104,10 @@ def test_a_machine_that_hides_a_parameter_is_told() -> None:
     pairs, rng = logs(Scene(machines=3, periods=4, noise=0.02), 4), np.random.default_rng(4)
     plain = reduced(pairs)
     resting = [(named, still(log, compiled(), rng)) for named, log in pairs[4:8]]
-    found = fleet_of(compiled().spec, [*plain[:4], *reduced(resting), *plain[8:]])
+    found = analyse_fleet(compiled().spec, [*plain[:4], *reduced(resting), *plain[8:]])
     [line] = [note for note in found.notes if note.startswith("machine ")]
     assert line.startswith("machine r2: its logs tell ") and "Fv2 (" in line
-    notes = fleet_of(compiled().spec, plain).notes
+    notes = analyse_fleet(compiled().spec, plain).notes
     assert not [note for note in notes if note.startswith("machine ")]
 
 

@@ -8,13 +8,13 @@ import numpy as np
 import pytest
 
 from modeler.core.errors import DataError
-from modeler.fleet.drift import date_of, in_time
-from modeler.fleet.naming import listed_logs, named_logs, natural
+from modeler.fleet.drift import arrange_by_time, parse_date
+from modeler.fleet.naming import make_natural_key, name_logs, read_log_list
 from tests.fleet.machines import Scene, summaries
 
 
 def named(*places: str, name: str | None = None) -> list[tuple[str, str]]:
-    found = named_logs([(place, "") for place in places], name)
+    found = name_logs([(place, "") for place in places], name)
     return [(log.machine, log.period) for log in found]
 
 
@@ -26,7 +26,7 @@ def test_the_folder_is_the_machine_and_the_file_the_period() -> None:
 
 
 def test_windows_of_one_file_are_periods() -> None:
-    found = named_logs([("r1/a.csv", "0:5"), ("r1/a.csv", "5:10")])
+    found = name_logs([("r1/a.csv", "0:5"), ("r1/a.csv", "5:10")])
     assert [log.period for log in found] == ["a@0:5", "a@5:10"]
     assert [log.place for log in found] == ["r1/a.csv@0:5", "r1/a.csv@5:10"]
 
@@ -69,7 +69,7 @@ def test_lists(tmp_path: Path) -> None:
     rows = "machine, period, log\nr1, b, x/1.csv\nr1, a, 2.csv\n"
     for name, text in (("logs.csv", rows), ("logs.toml", "".join(tables))):
         (tmp_path / name).write_text(text)
-        found = listed_logs(tmp_path / name)
+        found = read_log_list(tmp_path / name)
         assert [(log.machine, log.period) for log in found] == [("r1", "a"), ("r1", "b")]
         assert [log.place for log in found] == [str(tmp_path / p) for p in ("2.csv", "x/1.csv")]
 
@@ -92,11 +92,11 @@ def test_bad_lists(tmp_path: Path, name: str, text: str | bytes | None, told: st
     if text is not None:
         (tmp_path / name).write_bytes(text if isinstance(text, bytes) else text.encode())
     with pytest.raises(DataError, match=re.escape(told)):
-        listed_logs(tmp_path / name)
+        read_log_list(tmp_path / name)
 
 
 def test_natural_order() -> None:
-    assert sorted(["d10", "d9", "d", "c11"], key=natural) == ["c11", "d", "d9", "d10"]
+    assert sorted(["d10", "d9", "d", "c11"], key=make_natural_key) == ["c11", "d", "d9", "d10"]
 
 
 def test_dates_in_names() -> None:
@@ -104,20 +104,20 @@ def test_dates_in_names() -> None:
         "2026-03-01": "2026-03-01 00:00", "run_20260301_0930": "2026-03-01 09:30",
         "2026.03.01 at x": "2026-03-01 00:00", "2026-13-01": None, "day3": None, "120260301": None,
     }.items():  # fmt: skip
-        found = date_of(period)
+        found = parse_date(period)
         assert (None if found is None else f"{found:%Y-%m-%d %H:%M}") == told
 
 
 def test_periods_are_in_time() -> None:
     """Dates, else clocks that do not overlap, else names."""
     plain = summaries(Scene(machines=1, periods=3), 2)
-    logs, at, unit = in_time(plain)  # day1 ..., all clocks from 0
+    logs, at, unit = arrange_by_time(plain)  # day1 ..., all clocks from 0
     assert unit == "periods" and at.tolist() == [0.0, 1.0, 2.0]
-    dated = [replace(log, named=replace(log.named, period=f"2026-03-{day:02d}"))
+    dated = [replace(log, log_name=replace(log.log_name, period=f"2026-03-{day:02d}"))
              for log, day in zip(plain, (9, 2, 1), strict=True)]  # fmt: skip
-    logs, at, unit = in_time(dated)
+    logs, at, unit = arrange_by_time(dated)
     assert unit == "days" and at.tolist() == [0.0, 1.0, 8.0] and [*logs] == dated[::-1]
     clocked = [replace(log, span=(86400.0 * day, 86400.0 * day + 12.0))
                for log, day in zip(plain, (3, 0, 1), strict=True)]  # fmt: skip
-    logs, at, unit = in_time(clocked)
+    logs, at, unit = arrange_by_time(clocked)
     assert unit == "days" and np.allclose(at, [0.0, 1.0, 3.0]) and logs[0] is clocked[1]

@@ -4,10 +4,10 @@ import numpy as np
 import pytest
 from scipy.special import stdtrit
 
-from modeler.estimation.least_squares import least_squares
+from modeler.estimation.least_squares import solve_least_squares
 from modeler.fleet import drift
-from modeler.fleet.drift import PeriodSeries, move_of, outlying_machines, scatters
-from modeler.fleet.joint_fit import GAIN, LOAD, joint_fit, layout_of
+from modeler.fleet.drift import PeriodSeries, estimate_scatters, find_outlying_machines, fit_drift
+from modeler.fleet.joint_fit import GAIN, LOAD, build_layout, fit_fleet
 from modeler.observation.observe import observe
 from tests.fleet.machines import PROCESSING, Scene, compiled, emitted, logs, parameters, summaries
 
@@ -21,14 +21,14 @@ ROSNER = """
 
 def test_critical_values_are_those_of_the_handbook() -> None:
     printed = [3.159, 3.151, 3.144, 3.136, 3.128, 3.120, 3.112, 3.103, 3.094, 3.085]
-    found = [drift.critical_deviate(54, i, 0.05) for i in range(1, 11)]
+    found = [drift.compute_critical_deviate(54, i, 0.05) for i in range(1, 11)]
     assert np.allclose(found, printed, atol=1.1e-3)
 
 
 def test_the_largest_of_rosners_data_are_odd() -> None:
     """His three at 5 %, told here where each step gets all of the 5 %: three steps, 15 %."""
     data = np.array(list(map(float, ROSNER.split())))
-    found = outlying_machines(data, np.full(54, 1e-3), 0.15)
+    found = find_outlying_machines(data, np.full(54, 1e-3), 0.15)
     assert sorted(data[odd.machine] for odd in found) == [5.34, 5.42, 6.01]
 
 
@@ -37,19 +37,20 @@ def test_alike_machines_are_rarely_odd_and_a_far_one_is() -> None:
     for machines in (5, 12, 20):
         sigmas = np.full(machines, 0.01)
         alarms = sum(
-            bool(outlying_machines(rng.normal(size=machines), sigmas, 0.05)) for _ in range(600)
+            bool(find_outlying_machines(rng.normal(size=machines), sigmas, 0.05))
+            for _ in range(600)
         )
         assert alarms / 600 < 0.05 + 3.0 * np.sqrt(0.05 / 600)
     two = rng.normal(size=20) + np.where(np.arange(20) < 2, 15.0, 0.0)
-    assert {odd.machine for odd in outlying_machines(two, np.full(20, 0.01), 0.001)} == {0, 1}
-    assert not outlying_machines(
+    assert {odd.machine for odd in find_outlying_machines(two, np.full(20, 0.01), 0.001)} == {0, 1}
+    assert not find_outlying_machines(
         two, np.full(20, 10.0), 0.001
     )  # explained by what they are known to
-    assert not outlying_machines(np.array([0.0, 0.1, 0.2, 50.0]), np.full(4, 0.01), 0.05)
+    assert not find_outlying_machines(np.array([0.0, 0.1, 0.2, 50.0]), np.full(4, 0.01), 0.05)
 
 
 def test_a_quantile_is_students() -> None:
-    assert drift.quantile(7.0, 0.01) == pytest.approx(stdtrit(7.0, 0.995))
+    assert drift.compute_quantile(7.0, 0.01) == pytest.approx(stdtrit(7.0, 0.995))
 
 
 def series(rng: np.random.Generator, extra: float, plan: np.ndarray) -> PeriodSeries:
@@ -67,12 +68,12 @@ def test_series_that_stay_are_rarely_told(extra: tuple[float, ...]) -> None:
         groups = [
             [series(rng, extra[i % len(extra)], np.zeros(5)) for _ in range(3)] for i in range(12)
         ]
-        found = scatters(groups)
+        found = estimate_scatters(groups)
         chances = [
             move.chance
             for group, scatter in zip(groups, found, strict=True)
             for each in group
-            if (move := move_of(each, scatter)) is not None
+            if (move := fit_drift(each, scatter)) is not None
         ]
         alarms += min(chances) < 0.05 / 36
     assert alarms <= 3 + 4  # 5 % of 60, and two standard deviations and more
@@ -88,42 +89,42 @@ def test_what_a_series_does_is_told() -> None:
     }
     for shape, plan in plans.items():
         own = series(rng, 0.0, plan)
-        [scatter] = scatters([[own, *still]])
-        move = move_of(own, scatter)
+        [scatter] = estimate_scatters([[own, *still]])
+        move = fit_drift(own, scatter)
         assert move is not None and move.shape == shape and move.chance < 1e-6
         assert abs(move.change) == pytest.approx(np.abs(plan).max(), abs=4.0 * move.sigma)
         assert move.begin == {"trend": 0, "jump": 3, "one period": 4}[shape]
-        told = drift.least_detectable(own, scatter, 1e-3)
+        told = drift.compute_smallest_detectable(own, scatter, 1e-3)
         assert 3.0 < told < 30.0
-    assert move_of(PeriodSeries(np.zeros(1), np.zeros(1), np.ones(1)), scatter) is None
+    assert fit_drift(PeriodSeries(np.zeros(1), np.zeros(1), np.ones(1)), scatter) is None
 
 
 def test_common_parameters_are_those_of_one_large_least_squares() -> None:
     """All rows of all logs in one matrix: theta in common, a block of friction for each log."""
     model, scene = compiled(), Scene(machines=2, periods=2, noise=0.01)
     reduced = summaries(scene, 4)
-    layout = layout_of(model.spec)
-    drifting, common = layout.columns, np.flatnonzero(layout.common)
+    layout = build_layout(model.spec)
+    drifting, common = layout.drift_columns, np.flatnonzero(layout.common)
     blocks, sides = [], []
     for k, (_, log) in enumerate(logs(scene, 4)):
         seen = observe(model, [log], reduced[0].processing or PROCESSING)
-        weight = 1.0 / least_squares(reduced[k].data).sigma[seen.row_joint]
+        weight = 1.0 / solve_least_squares(reduced[k].data).sigma[seen.row_joint]
         own = np.zeros((len(seen.y), len(reduced) * len(drifting)))
         own[:, k * len(drifting) : (k + 1) * len(drifting)] = seen.W[:, drifting]
         blocks.append(np.column_stack([own, seen.W[:, common]]) * weight[:, None])
         sides.append(seen.y * weight)
     whole = np.linalg.lstsq(np.vstack(blocks), np.concatenate(sides), rcond=None)[0]
     theta = whole[len(reduced) * len(drifting) :]
-    fit = joint_fit(layout, reduced)
+    fit = fit_fleet(layout, reduced)
     assert np.allclose(fit.theta[common], theta, rtol=1e-8, atol=1e-10)
 
 
 def test_sigmas_are_those_of_coloured_noise() -> None:
     """Friction of 20 logs whose truth is known: their pulls have a standard deviation of 1."""
     scene, pulls = Scene(machines=4, periods=5, apart=0.0), []
-    fit = joint_fit(layout_of(emitted().spec), summaries(scene, 2))
-    layout = layout_of(emitted().spec)
-    truth = parameters(2, compiled())[layout.columns]
+    fit = fit_fleet(build_layout(emitted().spec), summaries(scene, 2))
+    layout = build_layout(emitted().spec)
+    truth = parameters(2, compiled())[layout.drift_columns]
     for log in fit.logs:
         pulls.append((log.values[: len(truth)] - truth) / log.sigmas[: len(truth)])
     spread = np.sqrt(np.mean(np.square(pulls)))
@@ -131,11 +132,11 @@ def test_sigmas_are_those_of_coloured_noise() -> None:
 
 
 def test_what_may_drift_and_what_a_load_changes() -> None:
-    layout = layout_of(emitted().spec)
+    layout = build_layout(emitted().spec)
     assert [q.parameter for q in layout.quantities] == [
         "Fv1", "Fs1", "Fv2", "Fs2", "gain 1", "gain 2", "load",
     ]  # fmt: skip
-    assert layout.gains == [0, 1] and layout.quantities[-1].effect == LOAD
+    assert layout.gain_joints == [0, 1] and layout.quantities[-1].effect == LOAD
     assert {q.effect for q in layout.drifting} == {"viscous", "coulomb", GAIN}
     model, rng = compiled(), np.random.default_rng(1)
     q, qd, qdd = rng.normal(size=(3, 20, 2))

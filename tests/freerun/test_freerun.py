@@ -7,18 +7,23 @@ import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
 
-from modeler.api import load, recompile
+from modeler.api import compile, load
 from modeler.core.errors import DataError
 from modeler.estimation.model_file import IdentifiedModel
 from modeler.observation import Log, Processing
-from modeler.observation.read import cut
-from modeler.robot import Robot, robot_from_text, with_effects
+from modeler.observation.read import cut_rows
+from modeler.robot import Robot, parse_robot_text, replace_effects
 from modeler.runtime.model import CompiledModel
 from modeler.simulation import SimulationSettings, simulate
 from modeler.validation.forward_dynamics import FittedPlant
-from modeler.validation.free_run import FreeRunSettings, Lanes, free_run, walk
-from modeler.validation.free_run_result import free_run_pictures
-from modeler.validation.stability import fit_percentage, horizons
+from modeler.validation.free_run import (
+    FreeRunSettings,
+    RobotBatch,
+    simulate_batch,
+    simulate_free_run,
+)
+from modeler.validation.free_run_result import draw_free_run_pictures
+from modeler.validation.stability import compute_fit_percentage, compute_horizons
 from tests.chain import chain_of
 from tests.rotation import ROTATING, slow_rotating
 
@@ -41,7 +46,7 @@ def pendulum(stands: bool) -> tuple[IdentifiedModel, Log]:
 
     I qdd + b qd -+ m l g sin q = tau, written down by hand.
     """
-    robot = robot_from_text(PENDULUM.format(up=-G if stands else G), "pendulum")
+    robot = parse_robot_text(PENDULUM.format(up=-G if stands else G), "pendulum")
     time = np.arange(0.0, 2.0 * np.pi, STEP)  # whole periods of both sines
     q, qd, qdd = np.sum([
         (a * np.sin(w * time), a * w * np.cos(w * time), -a * w**2 * np.sin(w * time))
@@ -89,7 +94,7 @@ def arm():
 @pytest.fixture(scope="module")
 def arm_run(arm):
     model, compiled, log = arm
-    return free_run(model, [log], compiled)
+    return simulate_free_run(model, [log], compiled)
 
 
 @slow_rotating("long tests of freerun")
@@ -112,7 +117,9 @@ def test_a_wrong_value_is_seen(arm, arm_run, name: str, share: float) -> None:
     model, compiled, log = arm
     beta = model.beta.copy()
     beta[[p.name for p in model.fit.parameters].index(name)] *= share
-    wrong = free_run(with_values(model, beta), [dataclasses.replace(log, commanded=None)], compiled)
+    wrong = simulate_free_run(
+        with_values(model, beta), [dataclasses.replace(log, commanded=None)], compiled
+    )
     ours, theirs = wrong.joints[0], arm_run.joints[0]
     assert 100.0 - ours.fit > 4.0 * (100.0 - theirs.fit)
     assert wrong.stability.unstable == arm_run.stability.unstable
@@ -122,15 +129,15 @@ def test_a_wrong_value_is_seen(arm, arm_run, name: str, share: float) -> None:
 def five_bar():
     """Its passive joints rub: directions of dry friction turn with the posture."""
     rubs = ["11", "21", "12", "22"]
-    text = with_effects(load("five-bar").text, {"viscous": rubs, "coulomb": rubs})
-    return true_model(robot_from_text(text, "five-bar that rubs"), 3.0)
+    text = replace_effects(load("five-bar").text, {"viscous": rubs, "coulomb": rubs})
+    return true_model(parse_robot_text(text, "five-bar that rubs"), 3.0)
 
 
 @slow_rotating("free runs")
 def test_loops_are_run_too(five_bar) -> None:
     model, compiled, log = five_bar
     bare = dataclasses.replace(log, commanded=None)
-    found = free_run(model, [bare], compiled, FreeRunSettings(window=0.5))
+    found = simulate_free_run(model, [bare], compiled, FreeRunSettings(window=0.5))
     assert all(joint.fit > 99.0 for joint in found.joints)
     assert FittedPlant(compiled, model.beta).shafts == 4
 
@@ -141,7 +148,9 @@ def test_a_loop_that_cannot_close_ends_a_run(five_bar) -> None:
     plant = FittedPlant(compiled, model.beta)
     q, far = log.q[:1], np.array([50.0, 50.0])
     tau = np.tile([400.0, -400.0], (1000, 1, 1))  # tears it apart
-    path = walk(plant, Lanes(q, 0.0 * q, tau, None, 0.002, far, np.zeros_like(tau)), 1)
+    path = simulate_batch(
+        plant, RobotBatch(q, 0.0 * q, tau, None, 0.002, far, np.zeros_like(tau)), 1
+    )
     assert np.isfinite(path[0]).all() and np.isnan(path[-1]).all()
 
 
@@ -149,35 +158,38 @@ def test_a_loop_that_cannot_close_ends_a_run(five_bar) -> None:
 def test_the_rate_of_a_pendulum(stands: bool) -> None:
     """Upright, x'' = (m l g x - b x') / I: errors grow by the positive root; hanging they fade."""
     model, log = pendulum(stands)
-    found = free_run(model, [log], recompile(model)).stability
+    found = simulate_free_run(model, [log], compile(model)).stability
     pull = MOMENT * G / INERTIA * (1.0 if stands else -1.0)
     roots = np.roots([1.0, RUBS / INERTIA, -pull])
     assert found.rate == pytest.approx(roots.real.max(), rel=0.01)
     assert found.unstable == stands
     if stands:
-        assert found.doubling == pytest.approx(np.log(2.0) / roots.real.max(), rel=0.01)
-        assert found.sentence().startswith("unstable by nature: along this motion any error doubl")
+        assert found.doubling_time == pytest.approx(np.log(2.0) / roots.real.max(), rel=0.01)
+        assert found.describe().startswith("unstable by nature: along this motion any error doubl")
     else:
-        assert found.doubling is None and found.sentence().startswith("stable by nature")
+        assert found.doubling_time is None and found.describe().startswith("stable by nature")
 
 
 @pytest.mark.rotating("free runs of simulated machines")
 def test_errors_of_an_upright_pendulum_grow_at_that_rate() -> None:
     """Two runs that start 1e-6 rad apart, simulated."""
     model, log = pendulum(True)
-    compiled = recompile(model)
-    plant, rate = FittedPlant(compiled, model.beta), free_run(model, [log], compiled).stability.rate
+    compiled = compile(model)
+    plant, rate = (
+        FittedPlant(compiled, model.beta),
+        simulate_free_run(model, [log], compiled).stability.rate,
+    )
     q = np.array([[0.0], [1e-6]])
     tau, around = (np.repeat(values[:200, None], 2, axis=1) for values in (log.tau, log.q))
-    lanes = Lanes(q, np.full((2, 1), log.qd[0, 0]), tau, None, STEP, np.ones(1), around)
-    apart = np.log(np.diff(walk(plant, lanes, 1)[:, :, 0])[[100, 180], 0])
+    lanes = RobotBatch(q, np.full((2, 1), log.qd[0, 0]), tau, None, STEP, np.ones(1), around)
+    apart = np.log(np.diff(simulate_batch(plant, lanes, 1)[:, :, 0])[[100, 180], 0])
     assert (apart[1] - apart[0]) / 0.8 == pytest.approx(rate, rel=0.01)
 
 
 def test_a_swinging_pendulum_of_order_2() -> None:
     """Against an integrator of order 8 on the equation as it stands in books."""
     model, _ = pendulum(False)
-    plant = FittedPlant(recompile(model), np.array([INERTIA, MOMENT, 0.0, RUBS]))
+    plant = FittedPlant(compile(model), np.array([INERTIA, MOMENT, 0.0, RUBS]))
     assert [p.name for p in model.fit.parameters] == ["ZZ1", "MX1", "MY1", "Fv1"]
     time = np.arange(0.0, 2.0, 0.01)
     wave = np.sin(3.0 * time)
@@ -189,11 +201,11 @@ def test_a_swinging_pendulum_of_order_2() -> None:
     truth = solve_ivp(rate, (0, time[-1]), [1.5, 0.0], "DOP853", time, rtol=1e-10, atol=1e-12).y[0]
     errors = []
     for inner in (2, 4, 8):
-        lanes = Lanes(
+        lanes = RobotBatch(
             np.array([[1.5]]), np.zeros((1, 1)), wave[:, None, None], None, 0.01, np.full(1, 9.0),
             np.zeros((200, 1, 1)),
         )  # fmt: skip
-        errors.append(np.abs(walk(plant, lanes, inner)[:, 0, 0] - truth).max())
+        errors.append(np.abs(simulate_batch(plant, lanes, inner)[:, 0, 0] - truth).max())
     assert errors[0] < 1e-3 and errors[0] > 3.0 * errors[1] > 9.0 * errors[2]
 
 
@@ -210,15 +222,15 @@ rows = [["1", "0", 1, "q1"]]
 
 @pytest.fixture(scope="module")
 def slide():
-    return true_model(robot_from_text(SLIDE, "slide"), 2.4, rate=200.0)
+    return true_model(parse_robot_text(SLIDE, "slide"), 2.4, rate=200.0)
 
 
 def test_a_free_axis_is_neither_stable_nor_unstable_and_what_is_said_of_it(slide) -> None:
     """A mass that only rubs: no eigenvalue but 0."""
     model, compiled, log = slide
-    found = free_run(model, [log], compiled)
+    found = simulate_free_run(model, [log], compiled)
     assert found.stability.rate == pytest.approx(0.0, abs=1e-6) and not found.stability.unstable
-    assert "integrated twice" in found.stability.sentence()
+    assert "integrated twice" in found.stability.describe()
     text, raw = found.summary(), found.to_json()
     assert len(repr(found)) < 150 and "slide" in repr(found)
     assert "free run under the logged torques on run1.parquet: 2 windows of 1 s" in text
@@ -226,7 +238,7 @@ def test_a_free_axis_is_neither_stable_nor_unstable_and_what_is_said_of_it(slide
     row = next(line.split() for line in text.splitlines() if line.startswith("1 "))
     assert row[1:3] == [f"{raw['joints']['1']['fit']:.2f}", "%"]
     assert raw["stability"]["unstable"] is False
-    (picture,) = free_run_pictures(found)
+    (picture,) = draw_free_run_pictures(found)
     measured, simulated = picture.panels[0][0].series
     assert picture.name == "joint_1_free_run"
     assert np.nanmax(np.abs(measured.y - simulated.y)) < 0.05 * np.nanmax(np.abs(measured.y))
@@ -243,7 +255,9 @@ def test_dry_friction_holds_lets_go_and_stops(slide) -> None:
     tau[:, 0] = 2.9
     tau[:1000, 1] = 5.0
     start, around = np.zeros((2, 1)), np.zeros_like(tau)
-    path = walk(plant, Lanes(start, start, tau, None, 0.001, np.full(1, 9.0), around), 1)[:, :, 0]
+    path = simulate_batch(
+        plant, RobotBatch(start, start, tau, None, 0.001, np.full(1, 9.0), around), 1
+    )[:, :, 0]
     assert not path[:, 0].any()
     reached = 0.5 * 1.0 + 1.0 / (2 * 1.5)  # 1 m/s^2 for 1 s, then 1.5 m/s^2 against it
     assert path[-1, 1] == pytest.approx(reached, rel=2e-3)
@@ -252,30 +266,30 @@ def test_dry_friction_holds_lets_go_and_stops(slide) -> None:
 
 def test_bristles_turn_as_in_the_c(slide) -> None:
     bristly = 'presliding = [{joint = "1", d = 0.01}]'
-    robot = robot_from_text(SLIDE.replace('coulomb = "all"', bristly), "slide")
+    robot = parse_robot_text(SLIDE.replace('coulomb = "all"', bristly), "slide")
     model, compiled = fitted(robot, [slide[2]])
     plant, s = FittedPlant(compiled, model.beta), np.array([0.3])
     for moved in (0.002, -0.004, 0.0, 0.03):
         way = np.sign(moved)
         expected = way + (s - way) * np.exp(-abs(moved) / 0.01)
         assert compiled.advance([moved], 0.002, s) == pytest.approx(expected, abs=1e-14)
-        s = plant.stepped(s[None], np.array([[moved]]), 0.002, np.zeros((3, 1, 1)))[0]
+        s = plant.advance_signals(s[None], np.array([[moved]]), 0.002, np.zeros((3, 1, 1)))[0]
         assert s == pytest.approx(expected, abs=1e-14)
 
 
 def test_fit_percentage_is_that_of_matlab() -> None:
     """100 (1 - NRMSE): 100 for the same, 0 for the mean, below 0 for worse."""
     q = np.array([0.0, 1.0, 2.0, 1.0])
-    assert fit_percentage(q, q) == 100.0
-    assert fit_percentage(q, np.full(4, 1.0)) == pytest.approx(0.0)
-    assert fit_percentage(q, 2.0 - q) == pytest.approx(-100.0)
-    assert fit_percentage(np.ones(3), np.zeros(3)) is None
-    assert fit_percentage(q, np.array([0.0, 1.0, np.nan, np.nan])) < 0.0
+    assert compute_fit_percentage(q, q) == 100.0
+    assert compute_fit_percentage(q, np.full(4, 1.0)) == pytest.approx(0.0)
+    assert compute_fit_percentage(q, 2.0 - q) == pytest.approx(-100.0)
+    assert compute_fit_percentage(np.ones(3), np.zeros(3)) is None
+    assert compute_fit_percentage(q, np.array([0.0, 1.0, np.nan, np.nan])) < 0.0
 
     # and how long a run is near
     error = np.array([[0.0, 0.0], [0.1, 0.3], [0.3, np.nan]])[:, None, :]
-    assert horizons(error, np.array([0.2, 0.2]), 0.5).tolist() == [[1.0, 0.5]]
-    assert horizons(error[:2], np.array([0.2, 0.4]), 0.5).tolist() == [[np.inf, np.inf]]
+    assert compute_horizons(error, np.array([0.2, 0.2]), 0.5).tolist() == [[1.0, 0.5]]
+    assert compute_horizons(error[:2], np.array([0.2, 0.4]), 0.5).tolist() == [[np.inf, np.inf]]
 
 
 @slow_rotating("long tests of freerun")
@@ -293,13 +307,13 @@ def test_under_a_controller(arm_run) -> None:
 def test_given_gains_are_used(slide) -> None:
     model, compiled, log = slide
     settings = FreeRunSettings(gains=(8.0, 0.5, 0.0, 0.0))
-    log = cut(log, slice(0, 250))
-    found = free_run(model, [log], compiled, settings)
+    log = cut_rows(log, slice(0, 250))
+    found = simulate_free_run(model, [log], compiled, settings)
     assert found.controlled is not None and found.controlled.given
     assert found.to_json()["controller"]["speed"] == pytest.approx(8.0)
     bare = dataclasses.replace(log, commanded=None)
     with pytest.raises(DataError, match=r"--controller: run1.parquet: no complete columns qc1"):
-        free_run(model, [bare], compiled, settings)
+        simulate_free_run(model, [bare], compiled, settings)
 
 
 @pytest.mark.rotating("free runs of simulated machines")
@@ -308,7 +322,7 @@ def test_a_joint_that_stands_still_is_not_judged(arm) -> None:
     q, tau = log.q.copy(), log.tau.copy()
     q[:, 1] = 0.3
     still = dataclasses.replace(log, q=q, tau=tau, commanded=None)
-    found = free_run(model, [still], compiled)
+    found = simulate_free_run(model, [still], compiled)
     assert found.joints[1].fit is None and "still" in found.summary()
 
 
@@ -317,7 +331,7 @@ def test_what_cannot_be_is_refused(slide, asked) -> None:
     model, compiled, log = slide
     ((name, value),) = asked.items()
     with pytest.raises(DataError, match=f"--{name}: got {value:g}; expected a number above 0"):
-        free_run(model, [log], compiled, FreeRunSettings(**asked))
+        simulate_free_run(model, [log], compiled, FreeRunSettings(**asked))
 
 
 @pytest.mark.rotating("free runs of simulated machines")
@@ -325,16 +339,16 @@ def test_values_without_inertia_and_gains_that_lose_the_robot_are_refused(arm) -
     model, compiled, log = arm
     words = "is not positive definite in 100 % of the postures, most a"
     with pytest.raises(DataError, match=words):
-        free_run(with_values(model, -model.beta), [log], compiled)
+        simulate_free_run(with_values(model, -model.beta), [log], compiled)
     with pytest.raises(DataError, match="--controller: with these gains two-link is lost"):
-        free_run(model, [log], compiled, FreeRunSettings(gains=(60.0, 9.0, 9.0, 0.0)))
+        simulate_free_run(model, [log], compiled, FreeRunSettings(gains=(60.0, 9.0, 9.0, 0.0)))
 
 
 @pytest.mark.rotating("free runs of simulated machines")
 def test_an_error_that_grows_by_nature_is_not_blamed_on_the_model() -> None:
     """True values, an upright pendulum: the run is lost, and the reason is told."""
     model, log = pendulum(True)
-    found = free_run(model, [log], recompile(model), FreeRunSettings(window=2.0))
+    found = simulate_free_run(model, [log], compile(model), FreeRunSettings(window=2.0))
     assert found.joints[0].whole < 90.0 and found.stability.unstable
     assert any(
         "an error grows tenfold and more by nature; `--window 0.3`" in d for d in found.doubts

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from modeler.diagnosis import add
-from modeler.diagnosis.added_model import Logs
+from modeler.diagnosis.added_model import LogSplit
 from modeler.observation.log import Log
 from tests.diagnose import conftest
 from tests.diagnose.conftest import Case, demonstration, made, motion, on_joint, spring
@@ -44,7 +44,7 @@ Mended = namedtuple("Mended", "model logs diagnosis better left_out")
 def sprung(case: Case) -> Mended:
     """Of a spring; nothing is searched for again."""
     model, train, holdout = case.hidden(spring)
-    logs, diagnosis = Logs([train], [holdout]), case.found(spring)
+    logs, diagnosis = LogSplit([train], [holdout]), case.found(spring)
     with pytest.MonkeyPatch.context() as patch:
         patch.delattr(add, "scan_catalogue")
         added = add.add_findings(model, case.compiled, diagnosis.effects, logs)

@@ -9,12 +9,12 @@ import pytest
 from modeler import api
 from modeler.core.errors import DataError
 from modeler.diagnosis.add import add_effect, add_findings
-from modeler.diagnosis.added_model import Logs, notes, rows_of
+from modeler.diagnosis.added_model import LogSplit, build_rows, describe_additions
 from modeler.diagnosis.diagnosis import diagnose
 from modeler.estimation.model_file import load_model
 from modeler.observation.log import Log
-from modeler.observation.observation import model_torque
-from modeler.runtime.model import load as load_compiled
+from modeler.observation.observation import compute_model_torque
+from modeler.runtime.model import load_module as load_compiled
 from tests.diagnose.conftest import Case, motion, on_joint, spring, two
 from tests.improve.conftest import Mended
 
@@ -23,7 +23,7 @@ from tests.improve.conftest import Mended
 def test_what_a_diagnosis_names_is_added(case: Case) -> None:
     model, train, holdout = case.hidden(two)
     found = case.found(two)
-    logs = Logs([train], [holdout])
+    logs = LogSplit([train], [holdout])
     better, _ = add_findings(model, case.compiled, found.effects, logs)
     errors = [step.error for step in better.history]
     assert errors == sorted(errors, reverse=True) and errors[-1] < 0.5 * errors[0]
@@ -39,7 +39,7 @@ def test_what_a_diagnosis_names_is_added(case: Case) -> None:
 
 def test_presliding_has_a_state_that_the_c_advances(case: Case) -> None:
     model, train, holdout = case.hidden(spring)
-    better = add_effect(model, case.compiled, "presliding", "2", Logs([train], [holdout]))
+    better = add_effect(model, case.compiled, "presliding", "2", LogSplit([train], [holdout]))
     compiled = load_compiled(better.spec, better.sources)
     assert [s.kind for s in better.spec.signals] == ["slip"]
     after = compiled.advance([0.0, 1e9, 0.0], 0.001, [-1.0])
@@ -59,7 +59,9 @@ def test_a_temperature_effect_needs_the_column_ever_after(case: Case) -> None:
     train, holdout = (
         dataclasses.replace(log, extra={"temperature2": heat(log)}) for log in (train, holdout)
     )
-    better = add_effect(model, case.compiled, "temperature_friction", "2", Logs([train], [holdout]))
+    better = add_effect(
+        model, case.compiled, "temperature_friction", "2", LogSplit([train], [holdout])
+    )
     assert better.history[-1].error < 0.7 * better.history[0].error
     with pytest.raises(DataError, match="no column temperature2"):
         diagnose(better, load_compiled(better.spec, better.sources), [case.train])
@@ -72,7 +74,7 @@ def test_viscous_and_coulomb_one_after_the_other(loops: Path) -> None:
     logs = [loops / "train.parquet"], [loops / "other.parquet"]
     one = api.add(model, "viscous", *logs, joint="21")
     two = api.add(one, "coulomb", *logs, joint="21")
-    assert "coulomb, joint 21: the held-out error falls: joint 11" in notes(two)[-1]
+    assert "coulomb, joint 21: the held-out error falls: joint 11" in describe_additions(two)[-1]
     assert 'viscous = ["21"]' in two.robot_text and 'coulomb = ["21"]' in two.robot_text
     both = api.add(model, "passive_friction", *logs, joint="21")
     assert both.history[-1].error == pytest.approx(two.history[-1].error, rel=1e-3)
@@ -80,10 +82,10 @@ def test_viscous_and_coulomb_one_after_the_other(loops: Path) -> None:
 
 def test_rows_are_those_that_the_new_robot_would_make_itself(case: Case, sprung: Mended) -> None:
     model, logs, _, better, _ = sprung
-    before = rows_of(case.compiled, logs, model.processing)
+    before = build_rows(case.compiled, logs, model.processing)
     compiled = load_compiled(better.spec, better.sources)
-    alike, fresh = before.of(compiled), rows_of(compiled, logs, model.processing)
-    for ours, own in zip(alike.seen, fresh.seen, strict=True):
+    alike, fresh = before.rebuild_for(compiled), build_rows(compiled, logs, model.processing)
+    for ours, own in zip(alike.observations, fresh.observations, strict=True):
         np.testing.assert_array_equal(ours.W, own.W)
         np.testing.assert_array_equal(ours.y, own.y)
         assert (ours.names, ours.units, ours.joints) == (own.names, own.units, own.joints)
@@ -92,6 +94,6 @@ def test_rows_are_those_that_the_new_robot_would_make_itself(case: Case, sprung:
 
 def test_the_inverse_dynamics_give_the_torque_of_the_columns(case: Case) -> None:
     model, train, _ = case.hidden(spring)
-    seen = rows_of(case.compiled, Logs([train]), model.processing).fitted
-    torque = model_torque(seen, case.compiled, model.beta)
-    np.testing.assert_allclose(torque, seen.predicted(model.beta), atol=1e-9)
+    seen = build_rows(case.compiled, LogSplit([train]), model.processing).fit_observation
+    torque = compute_model_torque(seen, case.compiled, model.beta)
+    np.testing.assert_allclose(torque, seen.predict(model.beta), atol=1e-9)

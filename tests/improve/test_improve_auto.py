@@ -6,7 +6,7 @@ import pytest
 
 from modeler.diagnosis import add as module, added_model
 from modeler.diagnosis.add import add_effect, add_findings
-from modeler.diagnosis.added_model import Logs, notes
+from modeler.diagnosis.added_model import LogSplit, describe_additions
 from modeler.diagnosis.diagnosis import diagnose
 from tests.diagnose.conftest import Case, spring
 from tests.improve.conftest import Mended
@@ -15,7 +15,7 @@ from tests.improve.conftest import Mended
 def test_what_is_missing_is_added_and_lowers_the_error(sprung: Mended) -> None:
     before, step = sprung.better.history
     assert (step.effect, step.joint, sprung.left_out) == ("spring", "3", ())
-    (line,) = notes(sprung.better, 1)
+    (line,) = describe_additions(sprung.better, 1)
     assert "error falls: joint" in line
     assert step.error < before.error and step.falls and step.changed
     assert any(step.joints[joint][1] < step.joints[joint][0] for joint in step.changed)
@@ -29,7 +29,7 @@ def test_what_holds_on_the_fitted_logs_only_is_left_out(case: Case) -> None:
     assert ("spring", "3") in {(f.effect, f.joint) for f in found.effects}
     before = case.fitted(case.train)  # it describes the held-out run, as no spring is in it
     same, left_out = add_findings(
-        before, case.compiled, found.effects, Logs([train], [case.holdout])
+        before, case.compiled, found.effects, LogSplit([train], [case.holdout])
     )
     assert same is before
     assert any("left out: spring, joint 3 (the error rises: joint" in line for line in left_out)
@@ -52,7 +52,10 @@ def test_what_is_perhaps_missing_is_left_out_by_auto_and_told_by_add(
     assert same is sprung.model and line.endswith("(perhaps and no more: it may be another)")
     monkeypatch.setattr(module, "doubt", lambda *found: "the error falls by little")
     step = add_effect(sprung.model, case.compiled, "spring", "3", sprung.logs)
-    assert "it is perhaps missing and no more: the error falls by little" in notes(step)[0]
+    assert (
+        "it is perhaps missing and no more: the error falls by little"
+        in describe_additions(step)[0]
+    )
     assert step.history[-1].to_json()["doubt"] == "the error falls by little"
 
 
@@ -60,7 +63,7 @@ def test_what_is_perhaps_missing_is_left_out_by_auto_and_told_by_add(
 def test_what_is_not_needed_beside_all_the_rest_is_taken_out_again(
     case: Case, sprung: Mended, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    wide = added_model.not_needed
+    wide = added_model.is_unneeded
     monkeypatch.setattr(module, "not_needed", lambda m, s: s.effect == "spring" or wide(m, s))
     better, left_out = add_findings(
         sprung.model, case.compiled, sprung.diagnosis.effects, sprung.logs
@@ -73,18 +76,18 @@ def test_an_effect_is_needed_unless_all_of_its_values_are_below_their_sigmas(
     sprung: Mended,
 ) -> None:
     better, step = sprung.better, sprung.better.history[-1]
-    assert not added_model.not_needed(better, step)
+    assert not added_model.is_unneeded(better, step)
     for sigmas, needed in ((1.5, True), (-1.5, True), (0.9, False)):
         values = [dataclasses.replace(p, value=sigmas * p.sigma) for p in better.fit.parameters]
         fit = dataclasses.replace(better.fit, parameters=tuple(values))
-        assert added_model.not_needed(dataclasses.replace(better, fit=fit), step) != needed
+        assert added_model.is_unneeded(dataclasses.replace(better, fit=fit), step) != needed
 
 
 @pytest.mark.parametrize("refitted", [True, False], ids=["spring", "payload"])
 def test_without_held_out_logs_parts_are_left_out_in_turn(case: Case, refitted: bool) -> None:
     model, train, _ = case.hidden(spring)
     effect, joint = ("spring", "3") if refitted else ("payload", None)
-    better = add_effect(model, case.compiled, effect, joint, Logs([train]))
+    better = add_effect(model, case.compiled, effect, joint, LogSplit([train]))
     step = better.history[-1]
     assert step.falls is refitted and step.held_out == ()
     if refitted:  # parameters that see a row describe it a little too well

@@ -4,8 +4,8 @@ from pathlib import Path
 
 import pytest
 
-from modeler.diagnosis.add import add_effect, undone
-from modeler.diagnosis.added_model import Logs, notes
+from modeler.diagnosis.add import add_effect, remove_last_effect
+from modeler.diagnosis.added_model import LogSplit, describe_additions
 from tests.chain import chain_of
 from tests.diagnose.conftest import Run
 
@@ -86,9 +86,9 @@ def test_a_temperature_that_was_not_logged_is_told() -> None:
     """Time stands in for it; and as the machine has no such effect, the error does not fall."""
     emps = chain_of("emps")
     train, other = (emps.log(str(k), duration=120.0, rate=50.0, seed=k) for k in (1, 2))
-    logs = Logs([train], [other])
+    logs = LogSplit([train], [other])
     hot = add_effect(emps.fit([train]), emps.compiled, "temperature_friction", "1", logs)
-    line, change = notes(hot)
+    line, change = describe_additions(hot)
     assert line.startswith("temperature_friction, joint 1: the logs have no column temperature1 or")
     assert "the error does not fall" in change and "undo" in change
-    assert "temperature_friction" not in undone(hot, logs).robot_text
+    assert "temperature_friction" not in remove_last_effect(hot, logs).robot_text

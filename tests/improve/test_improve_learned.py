@@ -7,12 +7,12 @@ import pytest
 
 from modeler import api
 from modeler.core.errors import DataError
-from modeler.diagnosis import LawAsked
-from modeler.diagnosis.learn import learn
-from modeler.diagnosis.state import SearchData, analysed, state_of
+from modeler.diagnosis import LawRequest
+from modeler.diagnosis.learn import learn_law
+from modeler.diagnosis.state import SearchData, analyse_logs, build_state
 from modeler.estimation.model_file import load_model, save_model
 from modeler.observation.log import Log
-from modeler.robot.read import robot_from_text
+from modeler.robot.read import parse_robot_text
 from tests.diagnose.conftest import Case, demonstration, motion, nothing, on_joint
 
 SIZE, WHERE, WIDTH = 2.0, 0.6, 0.15  # N m, rad/s
@@ -36,14 +36,14 @@ def test_the_error_falls_and_physics_stays(case: Case, tmp_path: Path) -> None:
     assert last.error < 0.25 * first.error and last.falls and last.learned and not last.doubt
     assert (last.effect, last.joint) == ("learned_2", "2")
     assert last.moved and max(last.moved.values()) < 2.0
-    physics, law = better.fall_shares or (0.0, 0.0)
+    physics, law = better.error_reduction_shares or (0.0, 0.0)
     assert physics == 0.0 and law == pytest.approx(first.error - last.error)
-    (own,) = robot_from_text(better.robot_text, "better").own_effects
-    assert own.learned and own.columns[0].equation.law is not None
+    (own,) = parse_robot_text(better.robot_text, "better").own_effects
+    assert own.is_learned and own.columns[0].equation.law is not None
     # The C has the law, and its even rest is viscous and Coulomb friction's.
     place, v = [p.name for p in better.fit.parameters].index("Lw2"), np.linspace(-1.0, 1.0, 41)
     qd = np.outer(v, [0.3, 1.0, -0.2])
-    columns = api.recompile(better).base_regressor(np.sin(qd), qd, np.cos(qd))[:, :, place]
+    columns = api.compile(better).base_regressor(np.sin(qd), qd, np.cos(qd))[:, :, place]
     assert not columns[:, [0, 2]].any()
     left = better.fit.parameters[place].value * columns[:, 1] - dip(v)
     basis = np.column_stack([v, np.sign(v)])
@@ -60,15 +60,15 @@ def test_nothing_is_learned_of_nothing() -> None:
 
 def test_a_law_as_asked(case: Case) -> None:
     fitted, train, _ = case.hidden(hidden)
-    compiled = api.recompile(fitted)
-    observation = analysed(compiled, [train], fitted.processing)
-    state = state_of(SearchData(compiled, observation), (), fitted.beta)
+    compiled = api.compile(fitted)
+    observation = analyse_logs(compiled, [train], fitted.processing)
+    state = build_state(SearchData(compiled, observation), (), fitted.beta)
     for asked, equation in (
-        (LawAsked(("z",)), "law(z)"),
-        (LawAsked(("q", "v")), "law(q, v)"),
-        (LawAsked(("v",), odd=True, rising=1), "sign(v)*law(abs(v))"),
+        (LawRequest(("z",)), "law(z)"),
+        (LawRequest(("q", "v")), "law(q, v)"),
+        (LawRequest(("v",), odd=True, rising=1), "sign(v)*law(abs(v))"),
     ):
-        found = learn(state, 1, asked)
+        found = learn_law(state, 1, asked)
         assert found is not None and found.coordinates.equation == equation
     x = np.linspace(found.law.low[0], found.law.high[0], 500)
     assert np.all(np.diff(found.law(x)) >= -1e-5)  # rounded to six digits
@@ -83,6 +83,6 @@ def test_auto_puts_laws_in_last() -> None:
         return hidden(log) + on_joint(log, 0, 1.5 * np.sin(q[:, 0]) * np.abs(np.sin(q[:, 0])))
 
     fitted, train, holdout = demonstration(robot="two-link").hidden(both)
-    better = api.auto(fitted, [train], [holdout], learned=True)
+    better = api.add_all(fitted, [train], [holdout], learned=True)
     kinds = [step.learned for step in better.history[1:]]
     assert kinds == sorted(kinds) and any(kinds)

@@ -7,46 +7,61 @@ from pathlib import Path
 import pytest
 
 from modeler.core.errors import DataError
-from modeler.diagnosis.add import requested_effect
+from modeler.diagnosis.add import resolve_effect
 from modeler.diagnosis.candidates import Candidate
-from modeler.diagnosis.plausible import objection
-from modeler.effects import CATALOGUE, Acts, Effect, effect_named
-from modeler.report import after_add, after_compare, after_diagnosis, after_fit
+from modeler.diagnosis.plausible import find_caveat
+from modeler.effects import CATALOGUE, Effect, EffectTarget, find_effect
+from modeler.report import (
+    suggest_after_add,
+    suggest_after_compare,
+    suggest_after_diagnosis,
+    suggest_after_fit,
+)
 from tests.diagnose.conftest import Case, Run, spring
 
 
 @pytest.mark.parametrize(
     "effect",
-    [effect for effect in CATALOGUE if effect.acts is not Acts.PASSIVE],
+    [effect for effect in CATALOGUE if effect.acts is not EffectTarget.PASSIVE],
     ids=lambda effect: effect.id,
 )
 def test_what_is_suggested_can_be_added(case: Case, effect: Effect) -> None:
     """After a diagnosis that names one effect, on joint 3 if it is of a joint."""
     model, found = case.hidden(spring)[0], case.found(spring)
     (first,) = found.effects
-    whole = effect.acts in (Acts.TORQUE, Acts.GRAVITY, Acts.WINDOW) or effect.last_link
+    whole = (
+        effect.acts in (EffectTarget.TORQUE, EffectTarget.GRAVITY, EffectTarget.WINDOW)
+        or effect.last_link
+    )
     candidate = Candidate(effect, effect.forms[0], None if whole else "3", 2)
     pick = dataclasses.replace(first.pick, candidate=candidate)
     one = dataclasses.replace(first, effect=effect.id, joint=candidate.joint, pick=pick)
-    commands = after_diagnosis("m", ["a"], ["b"], dataclasses.replace(found, effects=(one,)))
+    commands = suggest_after_diagnosis(
+        "m", ["a"], ["b"], dataclasses.replace(found, effects=(one,))
+    )
     for _, command, _, *rest in map(shlex.split, commands):
         if command == "add":
             joint = rest[rest.index("--joint") + 1] if "--joint" in rest else None
-            assert requested_effect(model, rest[0], joint) is effect
+            assert resolve_effect(model, rest[0], joint) is effect
         else:  # `add` would refuse it
             assert command == "compare"
             with pytest.raises(DataError):
-                requested_effect(model, effect.id, "3" if effect.acts is Acts.JOINT else None)
+                resolve_effect(model, effect.id, "3" if effect.acts is EffectTarget.JOINT else None)
     assert commands
 
 
 def test_no_command_has_a_name_that_is_no_file(case: Case) -> None:
     fit = case.hidden(spring)[0].fit
     every = [
-        *after_fit("m", ["a"], "r", fit), *after_add("m", ["a"], [], fit),
-        *after_add("m", ["a"], ["b"], fit),
-        *(after_compare("m", ["a"], ["b"], held, noise) for held in (0, 1) for noise in (0, 1)),
-    ]  # fmt: skip
+        *suggest_after_fit("m", ["a"], "r", fit),
+        *suggest_after_add("m", ["a"], [], fit),
+        *suggest_after_add("m", ["a"], ["b"], fit),
+        *(
+            suggest_after_compare("m", ["a"], ["b"], held, noise)
+            for held in (0, 1)
+            for noise in (0, 1)
+        ),
+    ]
     files = {"m", "a", "b", "r", "m_c", "compare.html", "diagnosis.html"}
     for line in every:
         words = shlex.split(line)[2:]
@@ -72,9 +87,9 @@ def test_what_is_printed_runs(
 
 
 def test_a_tilt_keeps_gravity(case: Case) -> None:
-    tilt, state = effect_named("base_tilt"), case.found(spring).search.end
+    tilt, state = find_effect("base_tilt"), case.found(spring).search.end
     assert tilt is not None
     pick = Candidate(tilt, tilt.forms[0], None, -1)
-    assert not objection(state, pick, {"gx": 1.0, "gy": -0.9, "gz": 0.0})
-    said = objection(state, pick, {"gx": 7189.0, "gy": 1.0, "gz": 0.0})
+    assert not find_caveat(state, pick, {"gx": 1.0, "gy": -0.9, "gz": 0.0})
+    said = find_caveat(state, pick, {"gx": 7189.0, "gy": 1.0, "gz": 0.0})
     assert said.startswith("gravity would change by 7.19e+03 m/s^2")

@@ -8,12 +8,12 @@ import pytest
 
 from modeler import api
 from modeler.core.errors import DataError
-from modeler.diagnosis.add import add_effect, undone
-from modeler.diagnosis.added_model import Logs
+from modeler.diagnosis.add import add_effect, remove_last_effect
+from modeler.diagnosis.added_model import LogSplit
 from modeler.estimation.model_file import load_model, save_model
 from modeler.observation.log import Log
-from modeler.robot.read import robot_from_text
-from modeler.runtime.model import load as load_compiled
+from modeler.robot.read import parse_robot_text
+from modeler.runtime.model import load_module as load_compiled
 from tests.chain import chain_of
 from tests.diagnose.conftest import Case, Run, motion, on_joint
 from tests.improve.conftest import BRAKE, CENTRE, DRAG, WIDTH, brake, long_runs
@@ -64,16 +64,16 @@ def test_it_is_found_added_judged_and_taken_out(own: Case, tmp_path: Path) -> No
     assert first.units["Keb2"] == "N*m*s/rad"
     assert "drag of a magnet (eddy_brake), joint 2" in diagnosis.sentences[0]
 
-    logs = Logs([train], [holdout])
+    logs = LogSplit([train], [holdout])
     better = add_effect(model, own.compiled, "eddy_brake", None, logs)
     assert better.history[1].error < 0.2 * better.history[0].error
-    (use,) = [u for u in robot_from_text(better.robot_text, "b").effects if u.shaped]
+    (use,) = [u for u in parse_robot_text(better.robot_text, "b").effects if u.stated_instances]
     assert (use.effect, use.joints) == ("eddy_brake", ("2",))
-    assert use.instances[0].shapes["c"] == pytest.approx(CENTRE, abs=0.02)
+    assert use.instances[0].nonlinear_parameters["c"] == pytest.approx(CENTRE, abs=0.02)
     with pytest.raises(DataError, match="joint 2 has it in this model already"):
         compiled = load_compiled(better.spec, better.sources)
         add_effect(better, compiled, "eddy_brake", "2", logs)
-    back = undone(better, logs)
+    back = remove_last_effect(better, logs)
     assert back.robot_text == model.robot_text
     np.testing.assert_allclose(back.beta, model.beta, rtol=1e-9)
 
@@ -111,7 +111,7 @@ def test_one_that_reads_another_joint_or_remembers_is_found_with_its_values(
 ) -> None:
     torque, asked, joint, name, value, shapes, signals = REMEMBERED[effect]
     model, train, holdout = remembering.hidden(torque)
-    logs = Logs([train], [holdout])
+    logs = LogSplit([train], [holdout])
     better = add_effect(model, remembering.compiled, effect, asked, logs)
     last, parameter = better.history[1], {p.name: p for p in better.fit.parameters}[name]
     assert last.joint == joint and last.error < 0.2 * better.history[0].error
@@ -135,13 +135,13 @@ def test_one_that_reads_a_temperature_is_added_where_one_is_logged(own: Case) ->
     mean = float(np.mean(heat(own.train)))  # of the logs that are fitted: there T is 0
     model, *logs = own.hidden(cold)
     with pytest.raises(DataError, match="cold: these logs show nothing of it"):
-        add_effect(model, own.compiled, "cold", "3", Logs(logs[:1], logs[1:]))
+        add_effect(model, own.compiled, "cold", "3", LogSplit(logs[:1], logs[1:]))
     warm = [dataclasses.replace(log, extra={"temperature": heat(log)}) for log in logs]
-    better = add_effect(model, own.compiled, "cold", "3", Logs(warm[:1], warm[1:]))
+    better = add_effect(model, own.compiled, "cold", "3", LogSplit(warm[:1], warm[1:]))
     values = {p.name: p.value for p in better.fit.parameters}
     assert values["Kc3"] == pytest.approx(0.1, rel=0.1)
-    (use,) = [u for u in robot_from_text(better.robot_text, "b").effects if u.shaped]
-    assert use.instances[0].shapes["T0"] == pytest.approx(mean, abs=0.5)
+    (use,) = [u for u in parse_robot_text(better.robot_text, "b").effects if u.stated_instances]
+    assert use.instances[0].nonlinear_parameters["T0"] == pytest.approx(mean, abs=0.5)
 
 
 def test_the_page_of_an_effect(tmp_path: Path, run: Run) -> None:

@@ -9,8 +9,8 @@ from modeler import api
 from modeler.core.errors import DataError, RobotError
 from modeler.estimation.model_file import save_model
 from modeler.observation.log import Log
-from modeler.robot.read import robot_from_text
-from modeler.robot.shared_effects import exported_effect, shared_effects
+from modeler.robot.read import parse_robot_text
+from modeler.robot.shared_effects import collect_shared_effects, export_effect
 from tests.chain import chain_of
 from tests.diagnose.conftest import Case, Run, motion, on_joint
 from tests.diagnose.test_diagnose_discover import two_links
@@ -60,7 +60,7 @@ def test_it_is_found_and_added_on_a_robot_that_does_not_define_it(case: Case, fo
         "left out: learned_2 (a learned law, no physics)",
     ]
     better = api.add(model, "eddy_brake", [train], [holdout], joint="2", effects_from=folder)
-    own = robot_from_text(better.robot_text, "better").own_effects
+    own = parse_robot_text(better.robot_text, "better").own_effects
     assert [effect.id for effect in own] == ["eddy_brake"]
     values = {p.name: p.value for p in better.fit.parameters}
     assert values["Keb2"] == pytest.approx(4.0, rel=0.04)
@@ -72,7 +72,9 @@ def test_it_is_found_and_added_on_a_robot_that_does_not_define_it(case: Case, fo
 
 @pytest.mark.rotating("effects are added to simulated runs")
 def test_a_law_that_was_learned_is_added_by_its_name(case: Case, folder: Path) -> None:
-    (law,) = (e for e in shared_effects(api.load("demo-arm"), folder).effects if e.learned)
+    (law,) = (
+        e for e in collect_shared_effects(api.load("demo-arm"), folder).effects if e.is_learned
+    )
 
     def bent(log: Log) -> np.ndarray:
         speed = np.abs(v := motion(log)[1][:, 1])
@@ -87,14 +89,14 @@ def test_a_law_that_was_learned_is_added_by_its_name(case: Case, folder: Path) -
 
 
 def test_what_two_files_define_alike_counts_once(folder: Path) -> None:
-    robot = robot_from_text(ROBOT + BRAKE.replace("[0.1, 0.3]", "[0.2, 0.5]"), "spinner.toml")
+    robot = parse_robot_text(ROBOT + BRAKE.replace("[0.1, 0.3]", "[0.2, 0.5]"), "spinner.toml")
     (folder / "again.toml").write_text(ROBOT + LAW, encoding="utf-8")
-    more = shared_effects(robot, folder)
+    more = collect_shared_effects(robot, folder)
     assert [effect.id for effect in more.effects] == ["learned_2"]
     assert list(more.left_out) == ["leaning"]
-    assert more.written(robot.text, ["eddy_brake", "spring"]) == robot.text
-    text = more.written(robot.text, ["learned_2"])
-    assert [e.id for e in robot_from_text(text, "x").own_effects] == ["eddy_brake", "learned_2"]
+    assert more.insert_definitions(robot.text, ["eddy_brake", "spring"]) == robot.text
+    text = more.insert_definitions(robot.text, ["learned_2"])
+    assert [e.id for e in parse_robot_text(text, "x").own_effects] == ["eddy_brake", "learned_2"]
 
 
 @pytest.mark.parametrize(
@@ -112,30 +114,30 @@ def test_what_two_files_define_alike_counts_once(folder: Path) -> None:
     ],
 )  # fmt: skip
 def test_mistakes_name_the_file(tmp_path: Path, old: str, new: str, said: str) -> None:
-    robot = robot_from_text(ROBOT + BRAKE, "spinner.toml")
+    robot = parse_robot_text(ROBOT + BRAKE, "spinner.toml")
     (tmp_path / "x.toml").write_text(BRAKE.replace(old, new), encoding="utf-8")
     with pytest.raises(RobotError) as caught:
-        shared_effects(robot, tmp_path)
+        collect_shared_effects(robot, tmp_path)
     assert said in str(caught.value) and str(tmp_path / "x.toml") in str(caught.value)
 
 
 def test_folders_without_effects_and_files_that_are_none(folder: Path, tmp_path: Path) -> None:
-    robot = robot_from_text(ROBOT, "spinner.toml")
+    robot = parse_robot_text(ROBOT, "spinner.toml")
     (folder / "other.toml").write_text(LAW.replace("0, 1, 1", "0, 1, 2"), encoding="utf-8")
     with pytest.raises(RobotError, match=r"other\.toml: .*learned_2\]: defined otherwise in "):
-        shared_effects(robot, folder)
+        collect_shared_effects(robot, folder)
     place, bad = tmp_path / "robot.toml", tmp_path / "x.toml"
     place.write_text(ROBOT, encoding="utf-8")
     for nothing in (tmp_path, place, tmp_path / "nowhere"):
         with pytest.raises(RobotError, match="no effects there; expected a folder with files"):
-            shared_effects(robot, nothing)
+            collect_shared_effects(robot, nothing)
     bad.write_bytes(b"\xff")
     with pytest.raises(RobotError, match=r"x\.toml: byte 0 is not UTF-8 text"):
-        shared_effects(robot, tmp_path)
+        collect_shared_effects(robot, tmp_path)
     bad.unlink()
     bad.mkdir()
     with pytest.raises(RobotError, match=r"x\.toml: is a folder"):
-        shared_effects(robot, tmp_path)
+        collect_shared_effects(robot, tmp_path)
 
 
 USED = """
@@ -145,17 +147,17 @@ eddy_brake = [{joint = "1", c = 0.7, w = 0.25}, {joint = "2", c = -0.4, w = 0.12
 
 
 def test_an_export_tries_the_values_that_were_found_and_their_neighbours() -> None:
-    robot = robot_from_text(ROBOT + BRAKE + USED, "spinner.toml")
-    text = exported_effect(robot, "eddy_brake")
+    robot = parse_robot_text(ROBOT + BRAKE + USED, "spinner.toml")
+    text = export_effect(robot, "eddy_brake")
     assert text.startswith("[own_effects.eddy_brake]\n") and text.count("[own_effects") == 1
-    (effect,) = robot_from_text(ROBOT + text, "other.toml").own_effects
-    assert {s.name: s.grid for s in effect.forms[0].shapes} == {
+    (effect,) = parse_robot_text(ROBOT + text, "other.toml").own_effects
+    assert {s.name: s.grid for s in effect.forms[0].nonlinear_parameters} == {
         "c": (-1.4, -0.4, 0.7, 1.7), "w": (0.0625, 0.125, 0.25, 0.5)
     }  # fmt: skip
     (before,) = robot.own_effects
     assert (effect.title, effect.columns) == (before.title, before.columns)
-    unused = robot_from_text(ROBOT + BRAKE, "spinner.toml")
-    again = robot_from_text(ROBOT + exported_effect(unused, "eddy_brake"), "x")
+    unused = parse_robot_text(ROBOT + BRAKE, "spinner.toml")
+    again = parse_robot_text(ROBOT + export_effect(unused, "eddy_brake"), "x")
     assert again.own_effects == unused.own_effects
 
 
@@ -166,9 +168,9 @@ columns = {Kx = "v*sqrt(4.5 - p)"}
 shapes = {p = [2, 4]}
 """
     text = ROBOT + steep + '[effects]\nsteep = [{joint = "1", p = 3}]\n'
-    found = exported_effect(robot_from_text(text, "x.toml"), "steep")
-    (effect,) = robot_from_text(ROBOT + found, "y.toml").own_effects
-    assert effect.forms[0].shapes[0].grid == (2.0, 4.0)
+    found = export_effect(parse_robot_text(text, "x.toml"), "steep")
+    (effect,) = parse_robot_text(ROBOT + found, "y.toml").own_effects
+    assert effect.forms[0].nonlinear_parameters[0].grid == (2.0, 4.0)
 
 
 def test_export_as_a_command(tmp_path: Path, run: Run) -> None:

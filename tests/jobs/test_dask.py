@@ -14,15 +14,15 @@ import pyarrow.parquet as pq
 import pytest
 
 from modeler import __version__
-from modeler.api.long_logs import by_workers, merged_in_time
+from modeler.api.long_logs import make_worker_reducer, merge_in_time
 from modeler.cli import main
 from modeler.core import jobs as cluster
 from modeler.core.errors import DataError
 from modeler.core.jobs import Workers, open_workers
-from modeler.estimation.long_logs import Partial, by_threads, identify_long, stream
+from modeler.estimation.long_logs import PartialFit, identify_long, reduce_by_threads, stream_logs
 from modeler.observation.log import Log
-from modeler.observation.read import source_of
-from modeler.observation.survey import FactsSoFar, survey
+from modeler.observation.read import open_source
+from modeler.observation.survey import KnownFacts, choose_from_windows
 from tests.fleet.machines import PROCESSING, Scene, compiled, emitted, logs
 from tests.jobs.work import added, ends_always, refused, third
 
@@ -48,20 +48,22 @@ def place(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 
 def sources(folder: Path) -> list:
-    return [source_of(path, compiled().spec) for path in sorted(folder.glob("*/*.parquet"))]
+    return [open_source(path, compiled().spec) for path in sorted(folder.glob("*/*.parquet"))]
 
 
 def chunks_of(source: Any, rows: int = ROWS) -> Any:
     """How that source is read."""
-    return survey(compiled(), [source], PROCESSING, FactsSoFar(), rows).chosen[0]
+    return choose_from_windows(compiled(), [source], PROCESSING, KnownFacts(), rows).chosen[0]
 
 
 def test_chunks_from_the_middle_of_a_file_are_those_of_the_whole(place: Path) -> None:
     """To the bit where they are merged in the same order, by workers of this process."""
     model, [source, *_] = compiled(), sources(place)
     chosen = chunks_of(source, 300)
-    one = reduce(Partial.merged_with, by_threads(model, source, chosen))
-    other = reduce(Partial.merged_with, by_workers(Workers(), emitted())(model, source, chosen))
+    one = reduce(PartialFit.merged_with, reduce_by_threads(model, source, chosen))
+    other = reduce(
+        PartialFit.merged_with, make_worker_reducer(Workers(), emitted())(model, source, chosen)
+    )
     counts = one.facts.tally.sums
     assert counts["chunks"] > 2
     for name, count in counts.items():
@@ -76,19 +78,19 @@ def test_chunks_from_the_middle_of_a_file_are_those_of_the_whole(place: Path) ->
 
 def test_time_increases_from_job_to_job(place: Path) -> None:
     [source, *_] = sources(place)
-    first, later, *_ = by_threads(compiled(), source, chunks_of(source))
-    assert merged_in_time(first, later).facts.span == (first.facts.span[0], later.facts.span[1])
+    first, later, *_ = reduce_by_threads(compiled(), source, chunks_of(source))
+    assert merge_in_time(first, later).facts.span == (first.facts.span[0], later.facts.span[1])
     with pytest.raises(DataError, match="s; expected increasing time; sort and split the file"):
-        merged_in_time(later, first)
+        merge_in_time(later, first)
 
 
 def test_logs_that_cannot_be_read_from_the_middle_are_read_here(place: Path) -> None:
     """CSV: its rows have no places."""
     file = place / "same.csv"
     pyarrow.csv.write_csv(pq.read_table(place / "r1" / "day1.parquet"), file)
-    source = source_of(file, compiled().spec)
-    partials = by_workers(Workers(), emitted())(compiled(), source, chunks_of(source))
-    assert reduce(Partial.merged_with, partials).facts.tally.count("rows") == 4000
+    source = open_source(file, compiled().spec)
+    partials = make_worker_reducer(Workers(), emitted())(compiled(), source, chunks_of(source))
+    assert reduce(PartialFit.merged_with, partials).facts.tally.count("rows") == 4000
 
 
 @pytest.fixture(scope="module")
@@ -120,22 +122,22 @@ def address(distributed: Any) -> Iterator[str]:
 def test_a_cluster_gives_what_this_process_gives(in_threads: str) -> None:
     jobs, shares, here = range(9), list[float](), Workers()
     with open_workers(in_threads) as workers:
-        waiting = workers.begun(third, 0.1, jobs, added)
-        results = workers.each(third, 0.1, jobs, shares.append)
-        assert np.array_equal(results, here.each(third, 0.1, jobs))
-        assert np.array_equal(waiting(), here.begun(third, 0.1, jobs, added)())
+        waiting = workers.start_merge(third, 0.1, jobs, added)
+        results = workers.map_jobs(third, 0.1, jobs, shares.append)
+        assert np.array_equal(results, here.map_jobs(third, 0.1, jobs))
+        assert np.array_equal(waiting(), here.start_merge(third, 0.1, jobs, added)())
         assert shares == [k / 9 for k in range(1, 10)]
         with pytest.raises(DataError, match="log: job 2 cannot be done"):
-            workers.each(refused, "log", range(4))
+            workers.map_jobs(refused, "log", range(4))
         with pytest.raises(DataError, match="log: job 2 cannot be done"):
-            workers.begun(refused, "log", range(4), max)()
+            workers.start_merge(refused, "log", range(4), max)()
 
 
 @pytest.mark.rotating("long tests of jobs")
 def test_a_fit_is_the_local_one(address: str, place: Path) -> None:
     """To 1e-10 of the values, all logs at once, chunk after chunk; a worker is lost on the way."""
     model, given = compiled(), sources(place)
-    here = identify_long(stream(model, given, PROCESSING, rows=ROWS))
+    here = identify_long(stream_logs(model, given, PROCESSING, rows=ROWS))
     with open_workers(address) as workers:
         there, struck = fitted_without_one(workers, given)
     np.testing.assert_allclose(there.beta, here.beta, rtol=1e-10)
@@ -146,7 +148,7 @@ def test_a_fit_is_the_local_one(address: str, place: Path) -> None:
 
 def fitted_without_one(workers: cluster.Cluster, given: list) -> tuple[Any, list[int]]:
     """The fit, and the process that ended while the first log was on its way."""
-    plain, struck = by_workers(workers, emitted()), list[int]()
+    plain, struck = make_worker_reducer(workers, emitted()), list[int]()
 
     def reducer(*each):  # type: ignore[no-untyped-def]
         begun = plain(*each)
@@ -155,20 +157,20 @@ def fitted_without_one(workers: cluster.Cluster, given: list) -> tuple[Any, list
             os.kill(struck[0], signal.SIGKILL)
         return begun
 
-    long = stream(compiled(), given, PROCESSING, rows=ROWS, reducer=reducer)
+    long = stream_logs(compiled(), given, PROCESSING, rows=ROWS, reducer=reducer)
     return identify_long(long), struck
 
 
 def test_workers_must_see_the_same_file(in_threads: str, tmp_path: Path) -> None:
     file = written(tmp_path / "a.parquet", logs(Scene(machines=1, periods=1), 2)[0][1])
-    source = source_of(file, compiled().spec)
+    source = open_source(file, compiled().spec)
     chosen = chunks_of(source)
     file.unlink()
     with (
         open_workers(in_threads) as workers,
         pytest.raises(DataError, match="a worker sees none, expected a file of 1200 rows; work"),
     ):
-        list(by_workers(workers, emitted())(compiled(), source, chosen))
+        list(make_worker_reducer(workers, emitted())(compiled(), source, chosen))
 
 
 @pytest.mark.rotating("long tests of jobs")
@@ -225,4 +227,4 @@ def test_a_job_that_ends_all_its_workers_is_told(address: str) -> None:
     """Last of all: it costs the cluster its workers, which nannies start again."""
     message = "Dask: a job ended 2 workers one after the other, as when"
     with open_workers(address) as workers, pytest.raises(DataError, match=message):
-        workers.each(ends_always, "", [0])
+        workers.map_jobs(ends_always, "", [0])

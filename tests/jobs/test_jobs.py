@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 
 from modeler.core.errors import DataError
-from modeler.core.jobs import Workers, in_pairs, open_workers, pairs
+from modeler.core.jobs import Workers, list_merge_pairs, merge_pairwise, open_workers
 from tests.jobs.work import added, ends_always, refused, third
 
 
@@ -20,30 +20,30 @@ from tests.jobs.work import added, ends_always, refused, third
 def test_pairs_make_one_of_all_in_order(count: int) -> None:
     """Each merge takes neighbours, earlier first; no branch is higher than a binary tree's."""
     spans, heights = [(k, k + 1) for k in range(count)], [0] * count
-    for left, right in pairs(count):
+    for left, right in list_merge_pairs(count):
         assert spans[left][1] == spans[right][0]
         spans[left] = (spans[left][0], spans[right][1])
         heights[left] = 1 + max(heights[left], heights[right])
     assert spans[0] == (0, count) and heights[0] == int(np.ceil(np.log2(count)))
-    assert in_pairs([[k] for k in range(count)], lambda a, b: a + b) == [*range(count)]
+    assert merge_pairwise([[k] for k in range(count)], lambda a, b: a + b) == [*range(count)]
 
 
 def test_processes_give_what_this_one_gives() -> None:
     jobs, shares = range(7), []
     here = Workers()
     with open_workers(processes=2) as others:
-        waiting = others.begun(third, 0.1, jobs, added)
-        found = others.each(third, 0.1, jobs, shares.append)
-        assert np.array_equal(waiting(), here.begun(third, 0.1, jobs, added)())
-        assert np.array_equal(found, here.each(third, 0.1, jobs))
+        waiting = others.start_merge(third, 0.1, jobs, added)
+        found = others.map_jobs(third, 0.1, jobs, shares.append)
+        assert np.array_equal(waiting(), here.start_merge(third, 0.1, jobs, added)())
+        assert np.array_equal(found, here.map_jobs(third, 0.1, jobs))
         with pytest.raises(DataError, match="log: job 2 cannot be done"):
-            others.each(refused, "log", range(4))
+            others.map_jobs(refused, "log", range(4))
     assert shares == [k / 7 for k in range(1, 8)]
 
 
 def test_a_process_that_ends_is_told() -> None:
     with open_workers(processes=2) as others, pytest.raises(DataError, match="a process ended in"):
-        others.each(ends_always, "", range(2))
+        others.map_jobs(ends_always, "", range(2))
 
 
 @pytest.mark.parametrize("killed", [False, True])
@@ -73,12 +73,12 @@ def test_an_interrupt_or_a_kill_while_they_start_leaves_no_word(killed: bool) ->
 def test_this_process_does_what_it_is_given() -> None:
     shares: list[float] = []
     with open_workers() as workers:
-        assert workers.each(refused, "log", [0, 1], shares.append) == [0, 1]
+        assert workers.map_jobs(refused, "log", [0, 1], shares.append) == [0, 1]
         with pytest.raises(DataError, match="log: job 2 cannot be done"):
-            workers.each(refused, "log", range(4))
-        assert workers.each(third, 0.1, []) == []
+            workers.map_jobs(refused, "log", range(4))
+        assert workers.map_jobs(third, 0.1, []) == []
         with pytest.raises(DataError, match="no jobs; expected one at least"):
-            workers.begun(third, 0.1, [], added)()
+            workers.start_merge(third, 0.1, [], added)()
     assert shares == [0.5, 1.0]
 
 

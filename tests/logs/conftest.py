@@ -11,11 +11,11 @@ import scipy.io
 
 from modeler.api import compile_model, derive, generate, load, read_logs
 from modeler.cli import main
-from modeler.core.builtin import builtin_text
+from modeler.core.builtin import read_builtin_robot
 from modeler.observation.log import Log
 from modeler.runtime.model import CompiledModel
 from modeler.simulation import SimulationSettings, simulate
-from modeler.simulation.log import log_columns
+from modeler.simulation.log import build_log_columns
 from tests.logs.programs import text_of, written
 from tests.logs.writers import Run, joined, parquet
 
@@ -42,7 +42,7 @@ class Case:
 def case() -> Case:
     derivation = derive(load("demo-arm"))
     run = simulate(derivation.robot, SimulationSettings(duration=2.5, seed=3, torque_noise=0.01))
-    return Case(compile_model(generate(derivation)), Run(log_columns(run)))
+    return Case(compile_model(generate(derivation)), Run(build_log_columns(run)))
 
 
 @pytest.fixture(scope="package")
@@ -67,7 +67,7 @@ def slide(tmp_path_factory) -> Path:
     And the models of the first as Parquet, p.json, and as MAT file, m.json.
     """
     folder = tmp_path_factory.mktemp("slide")
-    (folder / "emps.toml").write_text(builtin_text("emps") + MAT)
+    (folder / "emps.toml").write_text(read_builtin_robot("emps") + MAT)
     for name, seed in (("a", "1"), ("b", "2")):
         out = folder / f"{name}.parquet"
         assert main(["simulate", "emps", "--duration", "8", "--noise", "0.5", "--seed", seed,

@@ -8,11 +8,11 @@ import numpy as np
 import pytest
 
 from modeler.api import read_logs
-from modeler.core.builtin import builtin_text
+from modeler.core.builtin import read_builtin_robot
 from modeler.core.errors import DataError, RobotError
 from modeler.estimation import load_model
-from modeler.logs.mapping import map_from_table
-from modeler.robot import robot_from_text
+from modeler.logs.mapping import build_map
+from modeler.robot import parse_robot_text
 from tests.logs.programs import german_excel, joined
 from tests.logs.test_log_commands import values
 from tests.logs.writers import parquet
@@ -28,19 +28,22 @@ TABLES = [
 @pytest.mark.parametrize("table", TABLES)
 def test_a_table_of_a_map_reads_alike(table, case):
     joints = case.compiled.spec.joints
-    before = map_from_table(table, "[log]")
-    again = map_from_table(json.loads(json.dumps(before.table(joints))), "model")
-    for own, entry in before.entries(joints).items():
-        other = again.entries(joints)[own]
-        assert entry.like(other) and entry.columns[-1] == other.columns[-1]
+    before = build_map(table, "[log]")
+    again = build_map(json.loads(json.dumps(before.build_table(joints))), "model")
+    for own, entry in before.expand_entries(joints).items():
+        other = again.expand_entries(joints)[own]
+        assert entry.has_same_scale(other) and entry.columns[-1] == other.columns[-1]
     for name in ("names", "topic", "rate", "files"):
         assert getattr(again, name) == getattr(before, name)
 
 
 def test_a_pattern_over_a_joint_replaces_it(case):
-    low = map_from_table({"q2": "enc2", "q<j>": "a{j}", "x": "force"}, "robot")
-    high = map_from_table({"q<j>": "b{j}"}, "--map")
-    assert high.overriding(low).table(case.compiled.spec.joints) == {"q<j>": "b{j}", "x": "force"}
+    low = build_map({"q2": "enc2", "q<j>": "a{j}", "x": "force"}, "robot")
+    high = build_map({"q<j>": "b{j}"}, "--map")
+    assert high.merge_over(low).build_table(case.compiled.spec.joints) == {
+        "q<j>": "b{j}",
+        "x": "force",
+    }
 
 
 def degrees(case) -> dict[str, np.ndarray]:
@@ -72,7 +75,7 @@ def test_every_log_has_its_own_guess(case, tmp_path):
     second = german_excel(tmp_path, case.table)
     one, other = read_logs(case.compiled, [first, second], ["auto"])
     assert one.q == pytest.approx(other.q, abs=1e-9)
-    assert other.told[-1].endswith("(of this log; the model keeps that of the first)")
+    assert other.reading_notes[-1].endswith("(of this log; the model keeps that of the first)")
 
 
 @pytest.mark.rotating("long tests of logs")
@@ -114,7 +117,7 @@ time = "t"
 
 def test_the_guess_is_written_into_the_robot_file(slide, tmp_path, run, monkeypatch):
     monkeypatch.chdir(tmp_path)
-    before = builtin_text("emps").replace("[drive_gains]", "[x]").split("[x]")[0] + LOG
+    before = read_builtin_robot("emps").replace("[drive_gains]", "[x]").split("[x]")[0] + LOG
     (tmp_path / "emps.toml").write_text(before)
     argv = ["log", slide / "a.txt", "--robot", "emps.toml", "--write"]
     status, out, err = run(*argv)
@@ -122,7 +125,7 @@ def test_the_guess_is_written_into_the_robot_file(slide, tmp_path, run, monkeypa
     assert "written: [log] in emps.toml in place of its own" in out
     after = (tmp_path / "emps.toml").read_text()
     assert after.startswith(before.partition("[log]")[0]) and "waist" not in after
-    assert robot_from_text(after, "emps.toml").drive_gains == {"1": 2.0}
+    assert parse_robot_text(after, "emps.toml").drive_gains == {"1": 2.0}
     assert run("fit", "emps.toml", slide / "a.txt", "--out", "m.json")[0] == 0
     assert load_model("m.json").mapping == {}
 
@@ -142,7 +145,7 @@ def test_what_cannot_be_written_into_is_one_line(slide, run, words, line):
 
 def test_options_stand_in_the_robot_file(slide, tmp_path, run, monkeypatch):
     monkeypatch.chdir(tmp_path)
-    text = builtin_text("emps") + '\n[fit]\nmethod = "ordinary"\ncutoff = 40\ndecimate = 7\n'
+    text = read_builtin_robot("emps") + '\n[fit]\nmethod = "ordinary"\ncutoff = 40\ndecimate = 7\n'
     text += '[diagnose]\nwithout = ["asymmetric_viscous", "spring@1"]\n'
     (tmp_path / "emps.toml").write_text(text)
     log = slide / "a.parquet"
@@ -183,10 +186,10 @@ SECTIONS = [
 
 @pytest.mark.parametrize(("text", "line"), SECTIONS)
 def test_a_mistake_in_these_tables_is_one_line(text, line):
-    robot = builtin_text("emps")
+    robot = read_builtin_robot("emps")
     text = text + robot if text.startswith("fit =") else f"{robot}\n{text}"
     with pytest.raises(RobotError, match=line) as told:
-        robot_from_text(text, "emps.toml")
+        parse_robot_text(text, "emps.toml")
     assert "\n" not in str(told.value)
 
 

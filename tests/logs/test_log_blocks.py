@@ -12,10 +12,10 @@ import pyarrow.parquet
 import pytest
 
 from modeler.core.errors import DataError
-from modeler.logs.blocks import _Text, arrow_columns
-from modeler.logs.mapping import map_from_table
-from modeler.observation.chunk import read_part, window
-from modeler.observation.read import joined, read_log, source_of
+from modeler.logs.blocks import _TextFile, build_arrow_columns
+from modeler.logs.mapping import build_map
+from modeler.observation.chunk import cut_window, read_part
+from modeler.observation.read import join_logs, open_source, read_log
 
 SIZE = 150
 
@@ -46,7 +46,7 @@ def test_numbers_are_those_of_the_column(name):
     column = COLUMNS[name]
     true = [float("nan") if value is None else float(value) for value in column.to_pylist()]
     for pieces in ([column], [column[:2], column[2:3], column[3:]], [column[:0], column]):
-        found = values(arrow_columns(pa.table({"x": pa.chunked_array(pieces)})), "x")
+        found = values(build_arrow_columns(pa.table({"x": pa.chunked_array(pieces)})), "x")
         assert found.dtype == float and found.flags.writeable and found.flags.c_contiguous
         np.testing.assert_array_equal(found, true)
 
@@ -79,9 +79,9 @@ def test_a_source_gives_the_log_that_is_read_whole(ending, tmp_path, case):
         columns[f"qd{name}"] = columns[f"qdd{name}"] = columns[f"qc{name}"] = columns[f"q{name}"]
     path = written(tmp_path / f"run{ending}", columns)
     whole = read_log(path, spec)
-    source = source_of(path, spec)
-    parts = list(source.blocks(SIZE))
-    log = joined(parts)
+    source = open_source(path, spec)
+    parts = list(source.read_blocks(SIZE))
+    log = join_logs(parts)
     assert len(parts) > 10 and source.name == whole.name
     for field in dataclasses.fields(whole):
         one, other = getattr(whole, field.name), getattr(log, field.name)
@@ -103,10 +103,10 @@ def test_units_rates_and_names_are_mapped_in_blocks(ending, tmp_path, case):
         {f"pos{k[1:]}" if k[0] == "q" else k: np.degrees(v) if k[0] == "q" else v
          for k, v in columns.items()},
     )  # fmt: skip
-    mapping = map_from_table({"q<j>": "pos{j} [deg]", "rate": 100.0}, "here")
+    mapping = build_map({"q<j>": "pos{j} [deg]", "rate": 100.0}, "here")
     whole, log = (
         read_log(path, spec, mapping),
-        joined(list(source_of(path, spec, mapping).blocks(200))),
+        join_logs(list(open_source(path, spec, mapping).read_blocks(200))),
     )
     np.testing.assert_array_equal(log.time, whole.time)
     np.testing.assert_array_equal(log.q, whole.q)
@@ -157,9 +157,9 @@ def test_what_is_wrong_in_the_middle_is_one_line_that_names_the_row(
     ending, kind, line, tmp_path, case
 ):
     path = broken(kind, tmp_path / f"run{ending}", log_columns(case.compiled))
-    source = source_of(path, case.compiled.spec)
+    source = open_source(path, case.compiled.spec)
     with pytest.raises(DataError, match=line) as told:
-        list(source.blocks(SIZE))
+        list(source.read_blocks(SIZE))
     assert "\n" not in str(told.value)
 
 
@@ -167,7 +167,7 @@ def test_what_is_wrong_in_the_middle_is_one_line_that_names_the_row(
 @pytest.mark.parametrize("what", ["shrinks", "grows", "goes"])
 def test_a_file_that_changes_while_it_is_read_is_refused(ending, what, tmp_path, case):
     path = written(tmp_path / f"run{ending}", log_columns(case.compiled))
-    blocks = source_of(path, case.compiled.spec).blocks(SIZE)
+    blocks = open_source(path, case.compiled.spec).read_blocks(SIZE)
     next(blocks)
     size = path.stat().st_size
     if what == "goes":
@@ -192,16 +192,16 @@ def test_a_piece_of_a_long_log_is_that_of_the_whole(span, tmp_path, case, monkey
         monkeypatch.setattr(sys.modules[f"modeler.observation.{where}"], "FINGER", 256)
     monkeypatch.setattr("modeler.observation.log.LONG", 500)
     spec = case.compiled.spec
-    whole = window(read_log(path, spec), *span)
-    piece = read_part(source_of(path, spec), spec, *span)
+    whole = cut_window(read_log(path, spec), *span)
+    piece = read_part(open_source(path, spec), spec, *span)
     for name in ("name", "content", "notes", "missing", "torque_source"):
         assert getattr(piece, name) == getattr(whole, name), name
     for name in ("time", "q", "tau"):
         np.testing.assert_array_equal(getattr(piece, name), getattr(whole, name))
     with pytest.raises(DataError, match=r"no rows from 50 to 60 s; its times go from 0 to 29\.99"):
-        read_part(source_of(path, spec), spec, 50.0, 60.0)
+        read_part(open_source(path, spec), spec, 50.0, 60.0)
     with pytest.raises(DataError, match="window 5:4, which ends before it starts"):
-        read_part(source_of(path, spec), spec, 5.0, 4.0)
+        read_part(open_source(path, spec), spec, 5.0, 4.0)
 
 
 def test_the_text_may_go_while_arrow_parses_it(tmp_path, monkeypatch):
@@ -215,5 +215,5 @@ def test_the_text_may_go_while_arrow_parses_it(tmp_path, monkeypatch):
         return read(source, *how)
 
     monkeypatch.setattr(pa.csv, "read_csv", gone)
-    found = _Text(place).columns(text)
+    found = _TextFile(place).parse_columns(text)
     np.testing.assert_array_equal(values(found, "q1"), [2.0, 4.0])

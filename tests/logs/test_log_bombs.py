@@ -15,9 +15,9 @@ import pytest
 import scipy.io
 
 from modeler.core.errors import DataError, FitWarning
-from modeler.logs.columns import Wanted
+from modeler.logs.columns import ColumnRequest
 from modeler.logs.readers import read_columns
-from modeler.numerics.spectra import lap, longest_stretch
+from modeler.numerics.spectra import estimate_lap_period, find_longest_stretch
 from tests.logs.test_log_clocks import csv
 
 MAIN = "http://schemas.openxmlformats.org/spreadsheetml/2006/main"
@@ -183,7 +183,7 @@ def test_no_small_file_fills_the_memory(tmp_path):
 def test_a_formatted_cell_far_out_is_no_bomb(tmp_path):
     """Spreadsheets keep the format of empty cells; nothing is read of them."""
     path = workbook(tmp_path / "a.xlsx", '<row r="1048576"><c r="XFD1048576" s="1"/></row>')
-    assert [name for name, _ in read_columns(path, Wanted()).columns] == ["time", "q1"]
+    assert [name for name, _ in read_columns(path, ColumnRequest()).columns] == ["time", "q1"]
 
 
 def test_a_pause_of_days_costs_nothing(case, tmp_path):
@@ -203,21 +203,21 @@ def test_a_pause_of_days_costs_nothing(case, tmp_path):
 def test_a_lap_is_found_beside_a_pause():
     t = np.arange(6000) * 0.005
     q = np.sin(2.0 * np.pi * t / 5.0)[:, None]
-    assert lap(t, q) == pytest.approx(5.0, abs=0.01)
+    assert estimate_lap_period(t, q) == pytest.approx(5.0, abs=0.01)
     late = np.where(np.arange(6000) < 5000, t, t + 1e9)
-    assert lap(late, q) == pytest.approx(5.0, abs=0.01)
-    assert longest_stretch(late, 0.005) == slice(0, 5000)
-    assert longest_stretch(t, 0.005) == slice(0, 6000)
+    assert estimate_lap_period(late, q) == pytest.approx(5.0, abs=0.01)
+    assert find_longest_stretch(late, 0.005) == slice(0, 5000)
+    assert find_longest_stretch(t, 0.005) == slice(0, 6000)
 
 
 def test_a_motion_that_lasts_for_days_or_goes_to_the_stars_is_refused(tmp_path):
-    from modeler.simulation.trajectory import at_rate, read_motion
+    from modeler.simulation.trajectory import read_motion, resample_motion
 
     t = np.arange(50) * 0.01
     late = np.where(t > 0.2, t + 1e6, t)
     path = csv(tmp_path / "a.csv", {"time": late, "q1": np.sin(t)})
     with pytest.raises(DataError, match=r"lasts 1e\+06 s, 1e\+09 samples; .*take out its pauses"):
-        at_rate(read_motion(path, ["1"]), 1000.0)
+        resample_motion(read_motion(path, ["1"]), 1000.0)
     csv(path, {"time": t, "q1": 1e200 * np.sin(t)})
     with pytest.raises(DataError, match=r"row 3: q1 is empty, or not below 1e\+12"):
         read_motion(path, ["1"])

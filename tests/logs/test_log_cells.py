@@ -9,12 +9,12 @@ import pytest
 
 from modeler.api import read_logs
 from modeler.core.errors import DataError
-from modeler.logs.blocks import blocks_of
-from modeler.logs.columns import Wanted
-from modeler.logs.guess import role_of
-from modeler.logs.mapping import map_from_words
+from modeler.logs.blocks import open_blocks
+from modeler.logs.columns import ColumnRequest
+from modeler.logs.guess import guess_role
+from modeler.logs.mapping import parse_map_options
 from modeler.logs.readers import read_columns
-from modeler.observation.read import source_of
+from modeler.observation.read import open_source
 from tests.logs.test_log_clocks import csv
 from tests.logs.writers import JOINTS, ORDERS, joined
 from tests.rotation import rotating
@@ -48,14 +48,14 @@ def test_lists_in_cells_are_columns(how, short, tmp_path):
     path.write_text(listed(short.table, SHOWN[how]))
     mapping = ["time=timestamp", "q<j>=joint_positions[{n}]", "tau<j>=joint_torques[{n}]"]
     short.check(path, mapping, 1e-7)
-    assert blocks_of(path) is None  # a cell may go over several lines
+    assert open_blocks(path) is None  # a cell may go over several lines
     short.check(path, ["auto"], 1e-7)
 
 
 def test_names_and_units_in_brackets_are_no_lists(tmp_path):
     text = "t [s],q[1],q[2]\n[s],[deg],[deg]\n" + "".join(f"{k},{k}.5,2\n" for k in range(20))
     (tmp_path / "a.csv").write_text(text)
-    found = read_columns(tmp_path / "a.csv", Wanted())
+    found = read_columns(tmp_path / "a.csv", ColumnRequest())
     assert [name for name, _ in found.columns] == ["t [s]", "q[1]", "q[2]"]
 
 
@@ -83,8 +83,8 @@ def test_names_in_columns_say_which_joint_is_which(short, tmp_path):
     pq.write_table(pa.table(table), other, row_group_size=81)  # blocks begin with either order
     mapping = ["q<j>=position[{name}]", "tau<j>=effort[{name}]", NAMES]
     short.check(other, mapping)
-    source = source_of(other, short.compiled.spec, map_from_words(mapping))
-    whole = np.concatenate([log.q for log in source.blocks(81)])
+    source = open_source(other, short.compiled.spec, parse_map_options(mapping))
+    whole = np.concatenate([log.q for log in source.read_blocks(81)])
     assert whole == pytest.approx(joined(short.table, "q"))
 
 
@@ -102,10 +102,10 @@ MEASURED = {
 
 
 def test_what_is_commanded_is_not_measured():
-    assert {name: role_of(f"{name}[1]") for name in COMMANDED} == dict.fromkeys(COMMANDED, "")
-    assert {name: role_of(f"{name}[1]") for name in POSITIONS} == dict.fromkeys(POSITIONS, "qc")
-    assert {name: role_of(f"{name}[1]") for name in MEASURED} == MEASURED
-    assert role_of("state.error.positions[1]") == ""
+    assert {name: guess_role(f"{name}[1]") for name in COMMANDED} == dict.fromkeys(COMMANDED, "")
+    assert {name: guess_role(f"{name}[1]") for name in POSITIONS} == dict.fromkeys(POSITIONS, "qc")
+    assert {name: guess_role(f"{name}[1]") for name in MEASURED} == MEASURED
+    assert guess_role("state.error.positions[1]") == ""
 
 
 def test_commanded_columns_beside_measured_ones(short, tmp_path):
@@ -153,7 +153,9 @@ def test_episodes_are_segments(times, short, tmp_path):
         with pytest.raises(DataError, match=r"no column time; .*--map rate=HZ"):
             read_logs(short.compiled, [path], ["auto"])
         path = episodes(tmp_path / "a.hdf5", short.table, (200, 200), "joint_{}/")
-        names = [name for name, _ in read_columns(path, Wanted()).columns]  # which are no episodes
+        names = [
+            name for name, _ in read_columns(path, ColumnRequest()).columns
+        ]  # which are no episodes
         assert "joint_8/joint_pos[1]" in names and "joint_9/joint_pos[1]" in names
 
 
@@ -174,7 +176,7 @@ def test_files_of_other_rates_join_by_time(case, tmp_path):
     assert log.time == pytest.approx(time[inside])
     assert log.q == pytest.approx(joined(case.table, "q")[inside])
     assert log.tau == pytest.approx(joined(case.table, "tau")[inside], abs=1e-9)
-    assert any("joined by time" in line and "torques.csv" in line for line in log.told)
+    assert any("joined by time" in line and "torques.csv" in line for line in log.reading_notes)
 
 
 def test_a_gap_of_one_file_is_not_filled(tmp_path):
@@ -182,6 +184,6 @@ def test_a_gap_of_one_file_is_not_filled(tmp_path):
     csv(tmp_path / "q.csv", {"time": rows, "a": rows})
     there = (rows < 0.3) | (rows > 0.6)
     csv(tmp_path / "tau.csv", {"time": rows[there] + 0.002, "b": rows[there]})
-    tau = dict(read_columns(tmp_path, Wanted()).columns)["tau"].numbers()
+    tau = dict(read_columns(tmp_path, ColumnRequest()).columns)["tau"].read_numbers()
     assert np.isnan(tau[35:58]).all()
     assert np.isfinite(np.r_[tau[1:28], tau[65:98]]).all()

@@ -7,8 +7,8 @@ import numpy as np
 import pytest
 from scipy.signal import butter, sosfilt
 
-from modeler.api import add, compare, undo
-from modeler.core.builtin import builtin_text
+from modeler.api import add, compare, remove_last
+from modeler.core.builtin import read_builtin_robot
 from modeler.estimation.model_file import load_model
 from tests.logs.conftest import MAT
 from tests.rotation import rotating
@@ -57,7 +57,9 @@ def test_from_python_too(slide):
     twin = compare(model, [slide / "b.parquet"]).to_dict()
     assert found["relative_error"] == pytest.approx(twin["relative_error"], rel=1e-9)
     better = add(model, "asymmetric_viscous", [slide / "a.mat"], mapping=mapping)
-    assert undo(better, [slide / "a.mat"], mapping).beta == pytest.approx(model.beta, rel=1e-9)
+    assert remove_last(better, [slide / "a.mat"], mapping).beta == pytest.approx(
+        model.beta, rel=1e-9
+    )
 
 
 MAP = ["--map", "time=run.t:ms", "--map", "q1=-run.x:mm", "--map", "tau<j>=run.F:kN"]
@@ -74,7 +76,7 @@ def test_map_does_what_log_does(slide, tmp_path, run):
 
 def test_a_mistake_in_log_is_one_line(slide, tmp_path, run):
     bad = tmp_path / "bad.toml"
-    bad.write_text(builtin_text("emps") + MAT.replace("mm", "deg"))
+    bad.write_text(read_builtin_robot("emps") + MAT.replace("mm", "deg"))
     status, out, err = run("fit", bad, slide / "a.mat", "--out", tmp_path / "f.json")
     assert (status, out) == (1, "")
     assert (

@@ -8,7 +8,7 @@ import pytest
 from modeler.api import read_logs
 from modeler.core.errors import DataError
 from modeler.logs.log_table import LogTable
-from modeler.logs.mapping import map_from_table
+from modeler.logs.mapping import build_map
 from tests.logs import writers
 from tests.logs.writers import MAPPING, ROS, under
 
@@ -52,8 +52,8 @@ def test_units_that_a_file_states_are_used_and_told(short, tmp_path):
 def test_other_topics_hold_their_last_message(short, tmp_path):
     path = writers.mcap(tmp_path / "run.mcap", short.table)
     mapping = ROS | {"temperature1": "motor/heat.temperature"}
-    table = LogTable(path, map_from_table(mapping, "mapping"), short.compiled.spec.joints)
-    heat = table.measured("temperature1")
+    table = LogTable(path, build_map(mapping, "mapping"), short.compiled.spec.joints)
+    heat = table.read_measured("temperature1")
     assert np.isnan(heat[:50]).all()
     assert heat[50:150] == pytest.approx(np.full(100, 70.0))  # row 50 has its stamp
     log = short.check(path, mapping)
@@ -109,8 +109,10 @@ def test_structure_with_time_of_simulink(short, tmp_path):
         tmp_path / "run.mat", {"out": {"time": short.table["time"], "signals": signals}}
     )
     table = LogTable(tmp_path / "run.mat")
-    assert table.numbers("out.signals.values[2]") == pytest.approx(short.table.other["pos"][:, 1])
-    assert table.numbers("out.time") == pytest.approx(short.table["time"])
+    assert table.read_numbers("out.signals.values[2]") == pytest.approx(
+        short.table.other["pos"][:, 1]
+    )
+    assert table.read_numbers("out.time") == pytest.approx(short.table["time"])
 
 
 def test_units_that_are_not_understood_are_told(tmp_path):
@@ -121,6 +123,6 @@ def test_units_that_are_not_understood_are_told(tmp_path):
         file["p"] = np.ones(20)
         file["p"].attrs["units"] = "furlong"
     table = LogTable(tmp_path / "run.h5")
-    assert table.numbers("q1") == pytest.approx(np.full(20, np.pi / 180))
+    assert table.read_numbers("q1") == pytest.approx(np.full(20, np.pi / 180))
     told = 'the file states units that are not understood, taken as SI: p "furlong"'
     assert told in table.notes

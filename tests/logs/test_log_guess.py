@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from modeler.logs.guess import guesses, log_text
+from modeler.logs.guess import format_log_table, guess_columns
 from modeler.logs.mapping import find_unit
 
 
@@ -11,7 +11,7 @@ def _found(names: list[str]) -> dict[str, tuple[str, tuple[str, ...]]]:
     draw = np.random.default_rng(3)
     columns = {name: draw.normal(size=50) for name in names}
     columns = {"t": np.arange(50.0)} | columns
-    return {one.own: (one.template, one.labels) for one in guesses(columns, {})}
+    return {one.quantity: (one.template, one.labels) for one in guess_columns(columns, {})}
 
 
 @pytest.mark.parametrize(
@@ -50,9 +50,9 @@ def test_joints_with_units_of_their_own_are_one_quantity() -> None:
     columns = {"t": np.arange(50.0)}
     names = ("axis1 [deg]", "axis2 [deg]", "axis3 [mm]", "axis1 [A]", "axis2 [A]", "axis3 [A]")
     columns |= {name: np.sin(k + np.arange(50.0)) for k, name in enumerate(names)}
-    found = guesses(columns, {})
-    by = {one.own: one for one in found}
+    found = guess_columns(columns, {})
+    by = {one.quantity: one for one in found}
     assert by["q"].columns == names[:3] and by["q"].units == ("deg", "deg", "mm")
     assert by["current"].columns == names[3:]
-    lines = log_text(found).splitlines()
+    lines = format_log_table(found).splitlines()
     assert lines[2:4] == ['"q<j>" = "axis{j} [deg]"', 'q3 = "axis3 [mm]"']

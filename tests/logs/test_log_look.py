@@ -7,10 +7,10 @@ import numpy as np
 import pytest
 
 from modeler.core.errors import DataError
-from modeler.logs.inspect import inspect_log
+from modeler.logs.inspect import inspect_table
 from modeler.logs.log_table import LogTable
-from modeler.logs.mapping import LogMap, map_from_table
-from modeler.report.log import log_pictures
+from modeler.logs.mapping import LogMap, build_map
+from modeler.report.log import draw_log_pictures
 from modeler.simulation import SimulationSettings
 from tests.logs.writers import parquet
 
@@ -40,7 +40,7 @@ def table(plain):
 @pytest.fixture
 def inspected(tmp_path):
     """What is found in a table."""
-    return lambda table: inspect_log(LogTable(parquet(tmp_path / "run.parquet", table)), LogMap())
+    return lambda table: inspect_table(LogTable(parquet(tmp_path / "run.parquet", table)), LogMap())
 
 
 @pytest.fixture
@@ -196,7 +196,7 @@ def test_what_is_not_recognised_is_a_doubt(inspected, plain):
     found = inspected({"time": plain["time"], "foo": plain["q1"], 'b"ar': plain["tau1"]})
     assert "no columns look like positions or torques" in found.doubts[0]
     assert '"foo"' in found.suggested and '# "q<j>"' in found.suggested
-    map_from_table(tomllib.loads(found.suggested)["log"], "suggested")
+    build_map(tomllib.loads(found.suggested)["log"], "suggested")
 
 
 @pytest.mark.rotating("long tests of logs")
@@ -236,11 +236,11 @@ def test_whatever_is_in_it_is_told(tmp_path):
         n = int(rng.choice([10, 60]))
         path = parquet(tmp_path / "run.parquet", {str(name): odd(rng, n) for name in names})
         try:
-            seen = inspect_log(LogTable(path), LogMap())
+            seen = inspect_table(LogTable(path), LogMap())
         except DataError as error:
             assert "\n" not in str(error)
             continue
         json.dumps(seen.to_json(), allow_nan=False)
-        assert log_pictures(seen) or len(names) == 1
+        assert draw_log_pictures(seen) or len(names) == 1
         if seen.suggested:
-            map_from_table(tomllib.loads(seen.suggested)["log"], "suggested")
+            build_map(tomllib.loads(seen.suggested)["log"], "suggested")

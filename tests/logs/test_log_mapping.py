@@ -8,7 +8,7 @@ from modeler.api import read_currents, read_logs
 from modeler.core.errors import DataError
 from modeler.core.manifest import JointSpec
 from modeler.logs.log_table import LogTable
-from modeler.logs.mapping import find_unit, map_from_table, map_from_words, unit_named
+from modeler.logs.mapping import build_map, find_unit, parse_map_options, parse_unit
 from modeler.observation.read import read_log
 from tests.logs import writers
 
@@ -17,20 +17,47 @@ SLIDE = JointSpec("2", "prismatic", "m", "N", True, None)
 JOINTS = (TURN, SLIDE)
 
 FACTORS = {
-    "deg": known.degree, "°": known.degree, "rev": 2 * known.pi, "rpm": 2 * known.pi / known.minute,
-    "deg/s": known.degree, "deg/s^2": known.degree, "deg/s²": known.degree, "mrad": 1e-3,
-    "m": 1.0, "mm": 1e-3, "um": known.micro, "in": known.inch, "ft/min": known.foot / 60,
-    "s": 1.0, "ms": 1e-3, "us": 1e-6, "µs": 1e-6, "ns": 1e-9, "min": 60.0, "A": 1.0, "mA": 1e-3,
-    "N m": 1.0, "Nm": 1.0, "N*m": 1.0, "N·m": 1.0, "N.m": 1.0, "mN m": 1e-3, "kN": 1e3,
-    "kgf cm": known.kgf * 0.01, "lbf in": known.lbf * known.inch,
+    "deg": known.degree,
+    "°": known.degree,
+    "rev": 2 * known.pi,
+    "rpm": 2 * known.pi / known.minute,
+    "deg/s": known.degree,
+    "deg/s^2": known.degree,
+    "deg/s²": known.degree,
+    "mrad": 1e-3,
+    "m": 1.0,
+    "mm": 1e-3,
+    "um": known.micro,
+    "in": known.inch,
+    "ft/min": known.compute_foot_pose / 60,
+    "s": 1.0,
+    "ms": 1e-3,
+    "us": 1e-6,
+    "µs": 1e-6,
+    "ns": 1e-9,
+    "min": 60.0,
+    "A": 1.0,
+    "mA": 1e-3,
+    "N m": 1.0,
+    "Nm": 1.0,
+    "N*m": 1.0,
+    "N·m": 1.0,
+    "N.m": 1.0,
+    "mN m": 1e-3,
+    "kN": 1e3,
+    "kgf cm": known.kgf * 0.01,
+    "lbf in": known.lbf * known.inch,
     "ozf in": known.lbf / 16 * known.inch,
-    "rev/8192": 2 * known.pi / 8192, "0.1 deg": known.degree / 10, "rad/s": 1.0, "%": 0.01,
-}  # fmt: skip
+    "rev/8192": 2 * known.pi / 8192,
+    "0.1 deg": known.degree / 10,
+    "rad/s": 1.0,
+    "%": 0.01,
+}
 
 
 @pytest.mark.parametrize("text", FACTORS)
 def test_factors_are_those_of_another_table(text):
-    assert unit_named(text).factor == pytest.approx(FACTORS[text], rel=1e-14)
+    assert parse_unit(text).factor == pytest.approx(FACTORS[text], rel=1e-14)
 
 
 @pytest.mark.parametrize(
@@ -39,7 +66,7 @@ def test_factors_are_those_of_another_table(text):
 def test_what_is_no_unit(text):
     assert find_unit(text) is None
     with pytest.raises(DataError, match="expected a unit such as deg"):
-        unit_named(text)
+        parse_unit(text)
 
 
 def table_of(tmp_path, mapping, names=("t", "a", "b", "c", "d"), **columns):
@@ -47,7 +74,7 @@ def table_of(tmp_path, mapping, names=("t", "a", "b", "c", "d"), **columns):
     values = {"t": np.arange(n) * 2.0}
     values |= {name: np.linspace(k, k + 3.0, n) for k, name in enumerate(names[1:], start=1)}
     path = writers.parquet(tmp_path / "a.parquet", values | columns)
-    read = map_from_words(mapping) if isinstance(mapping, list) else map_from_table(mapping, "R")
+    read = parse_map_options(mapping) if isinstance(mapping, list) else build_map(mapping, "R")
     return LogTable(path, read, JOINTS), values
 
 
@@ -181,7 +208,7 @@ def test_log_of_the_robot_file_is_not_strict_but_says_whose_column_it_is(case, t
     path = broken(case, tmp_path, tau1=None)
     words = r"no column load_1 \(tau1\) or current1: joint 1 of demo-arm is actuated"
     with pytest.raises(DataError, match=words):
-        read_log(path, case.compiled.spec, map_from_table(MAPPED, "[log]"))
+        read_log(path, case.compiled.spec, build_map(MAPPED, "[log]"))
 
 
 def test_currents_may_be_mapped(case, tmp_path):

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from modeler.core.errors import DataError
-from modeler.logs.columns import Wanted
+from modeler.logs.columns import ColumnRequest
 from modeler.logs.readers import read_columns
 from tests.logs import writers
 from tests.logs.writers import JOINTS, joined, json_states, mcap_of, serialized, stamps, states
@@ -37,7 +37,7 @@ def test_messages_of_every_profile(profile, encoding, packing, short, tmp_path):
     }[encoding]
     path = mcap_of(tmp_path / "run.mcap", profile, messages, encoding, form, kind,
                    (writers.FIELDS + header).encode(), packing)  # fmt: skip
-    assert "by their headers" in read_columns(path, Wanted()).notes[0]
+    assert "by their headers" in read_columns(path, ColumnRequest()).notes[0]
     short.check(path, MAPPING)
 
 
@@ -54,8 +54,8 @@ def test_messages_as_objects_of_json(short, tmp_path):
         path = mcap_of(tmp_path / "run.mcap", "", messages)
         short.check(path, MAPPING)
     nulls = [("/js", 10**9 + k, b'{"name":["a","b"],"position":[1,null]}') for k in range(12)]
-    columns = dict(read_columns(mcap_of(tmp_path / "n.mcap", "", nulls), Wanted()).columns)
-    assert math.isnan(columns["js.position[b]"].numbers()[0])
+    columns = dict(read_columns(mcap_of(tmp_path / "n.mcap", "", nulls), ColumnRequest()).columns)
+    assert math.isnan(columns["js.position[b]"].read_numbers()[0])
 
 
 def test_an_encoding_that_is_not_read_is_named(tmp_path):
@@ -64,7 +64,7 @@ def test_an_encoding_that_is_not_read_is_named(tmp_path):
     with pytest.raises(
         DataError, match=r"its messages are protobuf JointStates; expected ROS 1, ROS 2 \(cdr\)"
     ):
-        read_columns(path, Wanted())
+        read_columns(path, ColumnRequest())
 
 
 @pytest.mark.parametrize("stated", [10**8, 2**40])
@@ -79,7 +79,7 @@ def test_a_chunk_that_states_another_size_is_not_unpacked(stated, tmp_path):
     path.write_bytes(b"\x89MCAP0\r\n" + struct.pack("<BQ", 6, len(chunk)) + chunk)
     words = r"another size than it states|unpacks to [\d,]+ MiB"
     with pytest.raises(DataError, match=words):
-        read_columns(path, Wanted())
+        read_columns(path, ColumnRequest())
 
 
 CONTROL = {
@@ -167,8 +167,8 @@ def test_points_of_a_trajectory_are_planned_rows(short, tmp_path):
     q, start = joined(short.table, "q")[:200], stamps(short.table)[0]
     points = [ros.point(row, since=0.01 * k) for k, row in enumerate(q)]
     message = ros.of(kind, header=ros.header(start), joint_names=[*JOINTS], points=points)
-    found = read_columns(ros.bag(tmp_path / "bag", kind, [(start + 7, message)]), Wanted())
-    columns = {name: column.numbers() for name, column in found.columns}
+    found = read_columns(ros.bag(tmp_path / "bag", kind, [(start + 7, message)]), ColumnRequest())
+    columns = {name: column.read_numbers() for name, column in found.columns}
     assert columns["time"] == pytest.approx(0.01 * np.arange(200))
     assert columns["arm_controller/state.points.positions[elbow]"] == pytest.approx(q[:, 2])
     with pytest.raises(DataError, match="no column q1"):  # planned is not measured
@@ -181,5 +181,5 @@ def test_headers_that_stand_still_are_no_clock(tmp_path):
         ("/js", 10**9 + k * 10**6, json.dumps({"header": header, "q": k}).encode())
         for k in range(30)
     ]
-    found = read_columns(mcap_of(tmp_path / "run.mcap", "", messages), Wanted())
-    assert dict(found.columns)["time"].numbers()[-1] == pytest.approx(0.029)
+    found = read_columns(mcap_of(tmp_path / "run.mcap", "", messages), ColumnRequest())
+    assert dict(found.columns)["time"].read_numbers()[-1] == pytest.approx(0.029)

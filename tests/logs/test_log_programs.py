@@ -9,10 +9,10 @@ import scipy.io
 from hypothesis import given, settings, strategies as st
 
 from modeler.core.errors import DataError
-from modeler.logs.blocks import blocks_of
-from modeler.logs.columns import Wanted
+from modeler.logs.blocks import open_blocks
+from modeler.logs.columns import ColumnRequest
 from modeler.logs.log_table import LogTable
-from modeler.logs.mapping import map_from_table
+from modeler.logs.mapping import build_map
 from modeler.logs.readers import read_columns
 from tests.logs.programs import KINDS, lerobot, rows_of, sheet, text_of, written
 from tests.logs.writers import START
@@ -45,45 +45,51 @@ def test_every_kind_gives_the_run_and_its_blocks_the_same_rows(name, case, short
     kind, run = KINDS[name], case if name in BY_RANGE else short
     (tmp_path / "run").mkdir()
     place = kind.write(tmp_path / "run", run.table)
-    whole, blocks = read_columns(place, Wanted()), blocks_of(place)
-    assert TOLD.get(name) in (None, *whole.told)
+    whole, blocks = read_columns(place, ColumnRequest()), open_blocks(place)
+    assert TOLD.get(name) in (None, *whole.reading_notes)
     run.check(place, kind.words, kind.digits)
     assert (blocks is None) == (place.is_dir() or place.suffix in (".xlsx", ".mcap"))
     if blocks is None:
         return
-    parts = list(blocks.blocks(60))
+    parts = list(blocks.read_blocks(60))
     assert len(parts) > 5 and sum(part.rows for part in parts) == whole.rows
     assert abs(blocks.rows - whole.rows) < 0.1 * whole.rows
     for column, values in whole.columns:
         found = [dict(part.columns)[column] for part in parts]
-        if values.numeric:
-            assert np.array_equal(np.concatenate([f.numbers() for f in found]), values.numbers())
-    window = blocks.window(0.5, 60)
-    assert (window.units, window.told, window.rate) == (whole.units, whole.told, whole.rate)
-    name, seen = window.columns[0][0], window.columns[0][1].numbers()
-    within = np.isin(dict(whole.columns)[name].numbers(), seen)
+        if values.is_numeric:
+            assert np.array_equal(
+                np.concatenate([f.read_numbers() for f in found]), values.read_numbers()
+            )
+    window = blocks.read_window(0.5, 60)
+    assert (window.units, window.reading_notes, window.rate) == (
+        whole.units,
+        whole.reading_notes,
+        whole.rate,
+    )
+    name, seen = window.columns[0][0], window.columns[0][1].read_numbers()
+    within = np.isin(dict(whole.columns)[name].read_numbers(), seen)
     assert within.sum() >= len(seen) > 40
     assert 0.3 * whole.rows < np.flatnonzero(within).mean() < 0.7 * whole.rows
-    assert blocks.window(0.99, 60).rows == pytest.approx(60, abs=12)
-    assert [n for n, _ in next(blocks.blocks(60, [name])).columns] == [name]
+    assert blocks.read_window(0.99, 60).rows == pytest.approx(60, abs=12)
+    assert [n for n, _ in next(blocks.read_blocks(60, [name])).columns] == [name]
 
 
 def test_a_whole_number_among_floats_stays_one(tmp_path):
     stamps = [f"{START + k * 1000}" for k in range(20)] + [f"{float(START + 20000):.1f}"]
     path = written(tmp_path / "a.csv", "stamp,q1\n" + "".join(f"{s},1\n" for s in stamps))
-    found = dict(read_columns(path, Wanted()).columns)["stamp"].numbers()
+    found = dict(read_columns(path, ColumnRequest()).columns)["stamp"].read_numbers()
     assert found == pytest.approx(np.arange(21) * 1000.0, abs=300)  # what a float keeps
     with pytest.raises(DataError, match='row 21: got "never"'):
-        LogTable(written(path, path.read_text().replace(stamps[-1], "never"))).numbers("stamp")
+        LogTable(written(path, path.read_text().replace(stamps[-1], "never"))).read_numbers("stamp")
 
 
 def test_a_dataset_is_all_its_files(short, tmp_path):
     lerobot(tmp_path, short.table)
-    found = read_columns(tmp_path, Wanted())
+    found = read_columns(tmp_path, ColumnRequest())
     columns = dict(found.columns)
     assert found.rows == len(short.table["time"]) and found.rate == 1000
-    assert columns["timestamp"].numbers() == pytest.approx(short.table["time"], abs=1e-9)
-    assert set(columns["segment"].numbers()) == {0.0, 1.0}
+    assert columns["timestamp"].read_numbers() == pytest.approx(short.table["time"], abs=1e-9)
+    assert set(columns["segment"].read_numbers()) == {0.0, 1.0}
     assert "action[elbow_flex]" in columns
 
 
@@ -102,17 +108,17 @@ def test_files_of_log_are_read_by_what_they_hold(ending, short, tmp_path):
     written(Path(f"{head}tau.csv"), text_of(rows[:, 4:], ";", ","))
     files = {"q": f"{ending}q.csv", "tau": f"{ending}tau.csv"}
     short.check(place, {"files": files})
-    found = LogTable(place, map_from_table({"files": files}, "[log]"))
+    found = LogTable(place, build_map({"files": files}, "[log]"))
     assert found.names == ("time", "q1", "q2", "q3", "tau1", "tau2", "tau3")
     with pytest.raises(DataError, match=r"there is no file .*other_q\.csv; expected a log, or"):
-        LogTable(tmp_path / "other", map_from_table({"files": {"q": "_q.csv"}}, "[log]"))
+        LogTable(tmp_path / "other", build_map({"files": {"q": "_q.csv"}}, "[log]"))
 
 
 @pytest.mark.parametrize("files", [*({"q": end} for end in ("/etc/q", "../q", "_/../../q", 3)), 3])
 def test_files_of_log_lie_beside_it(files):
     """A robot file of somebody else names no file elsewhere."""
     with pytest.raises(DataError, match=r"files: got .*expected how the names of the files"):
-        map_from_table({"files": files}, "[log]")
+        build_map({"files": files}, "[log]")
 
 
 def files(folder, **texts):
@@ -131,8 +137,8 @@ def numbers(rows):
 
 
 def test_clocks_a_little_apart_are_one(tmp_path):
-    found = read_columns(files(tmp_path, q=clock(), tau=clock(2e-4)), Wanted())
-    assert "up to 0.0002 apart: that of q.csv" in found.told[0]
+    found = read_columns(files(tmp_path, q=clock(), tau=clock(2e-4)), ColumnRequest())
+    assert "up to 0.0002 apart: that of q.csv" in found.reading_notes[0]
     assert [name for name, _ in found.columns] == ["time", "q", "tau"]
 
 
@@ -141,7 +147,7 @@ def test_dates_of_files_are_compared(tmp_path):
         lines = [f"2024-05-01 12:00:{second + k / 100:06.3f};{k}" for k in range(50)]
         written(tmp_path / f"{name}.csv", "stamp;a\n" + "\n".join(lines) + "\n")
     with pytest.raises(DataError, match=r"rows in common: q\.csv 0 to 0\.49, tau\.csv 1 to 1\.49"):
-        read_columns(tmp_path, Wanted())
+        read_columns(tmp_path, ColumnRequest())
 
 
 NOON = "time,a\n" + "12:00:00,1\n" * 20 + "noon,1\n"
@@ -161,7 +167,7 @@ BROKEN = [
 def test_what_cannot_be_read_is_one_line(tmp_path, texts, line):
     place = files(tmp_path, **texts)
     with pytest.raises(DataError, match=re.escape(line)) as told:
-        LogTable(place).numbers("time")
+        LogTable(place).read_numbers("time")
     assert "\n" not in str(told.value)
 
 
@@ -169,18 +175,18 @@ def test_a_damaged_dataset_is_one_line(short, tmp_path):
     path = lerobot(tmp_path, short.table)
     (tmp_path / "meta" / "info.json").write_text("{")
     with pytest.raises(DataError, match=r"info\.json: cannot be read .*; copy the dataset again"):
-        read_columns(path, Wanted())
+        read_columns(path, ColumnRequest())
 
 
 def test_sheets_are_chosen_by_name(short, tmp_path):
     path = sheet(tmp_path, short.table)
-    found = read_columns(path, Wanted())
+    found = read_columns(path, ColumnRequest())
     assert [(s.name, s.clock) for s in found.streams] == [("Sheet", False), ("data", True)]
-    assert read_columns(path, Wanted("data")).rows == found.rows
+    assert read_columns(path, ColumnRequest("data")).rows == found.rows
     with pytest.raises(DataError, match=r"topic x: no sheet of that name; the sheets are Sheet, d"):
-        read_columns(path, Wanted("x"))
+        read_columns(path, ColumnRequest("x"))
     with pytest.raises(DataError, match="no sheet with rows of numbers"):
-        read_columns(path, Wanted("Sheet"))
+        read_columns(path, ColumnRequest("Sheet"))
 
 
 # A rate that the file states.
@@ -196,7 +202,7 @@ RATES = [
 @pytest.mark.parametrize(("line", "rate"), RATES)
 def test_a_line_above_tells_the_rate(line, rate, tmp_path):
     path = written(tmp_path / "a.txt", f"{line}\nq1;tau1;x\n" + "0.1;2.5;3\n" * 20)
-    found = read_columns(path, Wanted())
+    found = read_columns(path, ColumnRequest())
     assert found.rate == (None if rate is None else pytest.approx(rate))
 
 
@@ -207,10 +213,10 @@ def test_a_value_beside_arrays_tells_the_rate(ending, name, value, tmp_path):
     content = {"q1": np.arange(50.0), "tau1": np.ones(50), name: np.asarray(value)}
     scipy.io.savemat(path, content) if ending == "mat" else np.savez(path, **content)
     table = LogTable(path)
-    assert table.numbers("time") == pytest.approx(np.arange(50) / 500)
-    assert "no time column: rows counted at 500 Hz, as the file says" in table.told
-    stated = LogTable(path, map_from_table({"rate": 100}, "--map"))
-    assert stated.numbers("time")[1] == pytest.approx(0.01)
+    assert table.read_numbers("time") == pytest.approx(np.arange(50) / 500)
+    assert "no time column: rows counted at 500 Hz, as the file says" in table.reading_notes
+    stated = LogTable(path, build_map({"rate": 100}, "--map"))
+    assert stated.read_numbers("time")[1] == pytest.approx(0.01)
 
 
 HEADS = [
@@ -228,9 +234,9 @@ HEADS = [
 def test_heads_of_other_programs(head, delimiter, end, names, tmp_path):
     values = np.arange(100.0).reshape(20, 5) / 8.0
     body = text_of(values, delimiter).replace("\n", f"{end}\n")
-    found = read_columns(written(tmp_path / "a.csv", head + body), Wanted())
+    found = read_columns(written(tmp_path / "a.csv", head + body), ColumnRequest())
     assert [name for name, _ in found.columns] == names
-    read = np.column_stack([column.numbers() for _, column in found.columns[:5]])
+    read = np.column_stack([column.read_numbers() for _, column in found.columns[:5]])
     assert (read == values).all()
 
 
@@ -258,10 +264,10 @@ def test_any_habit_is_read_back(
     body = text_of(values, delimiter, "," if comma else ".", 17)
     path = tmp_path_factory.mktemp("habit") / "a.txt"
     written(path, "\n".join([*lines, body]), encoding, ends)
-    found = read_columns(path, Wanted())
+    found = read_columns(path, ColumnRequest())
     first = "c1" if names == "none" else "ch0"
     assert found.columns[0][0] == first and found.rows == 40
-    assert np.column_stack([c.numbers() for _, c in found.columns]) == pytest.approx(
+    assert np.column_stack([c.read_numbers() for _, c in found.columns]) == pytest.approx(
         values, rel=1e-12
     )
     assert dict(found.units) == (

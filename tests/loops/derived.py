@@ -6,7 +6,7 @@ from pathlib import Path
 import pytest
 
 from modeler.codegen.workflow import Derivation, derive, generate
-from modeler.robot.read import read_robot, robot_from_text
+from modeler.robot.read import parse_robot_text, read_robot
 from modeler.runtime.model import CompiledModel
 from tests.loops.drawn_robots import DRAWN, drawn
 from tests.modules import loaded
@@ -30,7 +30,7 @@ def of_file(path: Path) -> Derivation:
 
 @cache
 def of_drawing(kind: str) -> Derivation:
-    return derive(robot_from_text(drawn(kind, 1), kind))
+    return derive(parse_robot_text(drawn(kind, 1), kind))
 
 
 def compiled_plainly(derivation: Derivation) -> CompiledModel:

@@ -6,7 +6,7 @@ the frame that it meets, moved as far as the joint between them allows.
 
 import numpy as np
 
-from modeler.robot.read import robot_from_text
+from modeler.robot.read import parse_robot_text
 from tests.oracles.closed_ways import regularity
 from tests.oracles.complex_step import Oracle, rotation
 
@@ -80,8 +80,10 @@ class _Drawing:
 
     def close(self, name: str, on: str, frame: str, kind: str) -> None:
         """The fixed row `name` where `frame` is, in the drawn posture, and the loop there."""
-        tree = Oracle(robot_from_text(self.text(), "drawn"))
-        frames = tree.frames(np.array([self.home[joint.variable] for joint in tree.robot.free]))
+        tree = Oracle(parse_robot_text(self.text(), "drawn"))
+        frames = tree.frames(
+            np.array([self.home[joint.variable] for joint in tree.robot.free_joints])
+        )
         (R, p), (S, o) = ((x[0][0], x[1][0]) for x in (frames[frame], frames[on]))
         R, p = self._freed(R, p, kind)
         cells = placed(S.T @ R, S.T @ (p - o))
@@ -206,8 +208,8 @@ def drawn(kind: str, seed: int) -> str:
     for attempt in range(ATTEMPTS):
         draw = _Drawing([seed, attempt])
         DRAWN[kind](draw)
-        oracle = Oracle(robot_from_text(draw.text(), "drawn"))
-        home = np.array([draw.home[joint.variable] for joint in oracle.robot.free])
+        oracle = Oracle(parse_robot_text(draw.text(), "drawn"))
+        home = np.array([draw.home[joint.variable] for joint in oracle.robot.free_joints])
         if regularity(oracle, home) > REGULAR:
             return draw.text()
     raise AssertionError(f"no {kind} with a regular home among {ATTEMPTS}")

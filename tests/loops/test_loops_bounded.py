@@ -11,7 +11,7 @@ import pytest
 
 from modeler.codegen.package import write_emitted
 from modeler.codegen.workflow import generate
-from modeler.core.manifest import Emitted
+from modeler.core.manifest import EmittedModule
 from tests.codegen.fitted_library import Functions, motion, with_values
 from tests.loops.derived import of_file
 from tests.modules import compiler, module
@@ -22,7 +22,7 @@ ROBOTS = ["five-bar", *(pytest.param(name, marks=ROTATING) for name in ("evra", 
 DONE, OPEN, SINGULAR, NOT_FINITE, UNFINISHED = range(5)
 
 
-def counted(emitted: Emitted, folder: Path, rows: np.ndarray) -> tuple[np.ndarray, int]:
+def counted(emitted: EmittedModule, folder: Path, rows: np.ndarray) -> tuple[np.ndarray, int]:
     """(rows, 2): status and evaluations of closing at each q; and how many are allowed."""
     write_emitted(emitted, folder)
     prefix = emitted.spec.prefix
@@ -50,7 +50,7 @@ def far_and_near(home: np.ndarray) -> np.ndarray:
     return np.array([home + sign * x * way for x, way, sign in product(sizes, ways, (1, -1))])
 
 
-def check_bound(emitted: Emitted, folder: Path) -> None:
+def check_bound(emitted: EmittedModule, folder: Path) -> None:
     closure = emitted.spec.closure
     rows = far_and_near(np.array([closure.home[k] for k in closure.given]))
     found, allowed = counted(emitted, folder, rows)

@@ -11,9 +11,9 @@ import numpy as np
 import pytest
 
 from modeler.codegen.workflow import derive
-from modeler.robot.mjcf import mjcf_tree
-from modeler.robot.read import robot_from_text
-from modeler.robot.tree_text import tree_to_toml
+from modeler.robot.mjcf import read_mjcf_tree
+from modeler.robot.read import parse_robot_text
+from modeler.robot.tree_text import convert_tree
 from tests.loops.derived import compiled_plainly
 
 mujoco = pytest.importorskip("mujoco", reason="NOT CHECKED: mujoco-core is not installed")
@@ -192,7 +192,7 @@ class Loop:
 def derivation_of(name, folder):
     path = folder / f"{name}.xml"
     path.write_text(mjcf(name))
-    return derive(robot_from_text(tree_to_toml(mjcf_tree(path), str(path)).text, "loop.toml"))
+    return derive(parse_robot_text(convert_tree(read_mjcf_tree(path), str(path)).text, "loop.toml"))
 
 
 @pytest.fixture(autouse=True)

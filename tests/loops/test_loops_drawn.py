@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from modeler.derivation.numeric_rank import grouping_matrix
+from modeler.derivation.numeric_rank import build_grouping_matrix
 from tests.loops.derived import WEIGHED, of_drawing
 from tests.oracles.closed_ways import reached
 from tests.oracles.complex_step import Oracle
@@ -29,7 +29,7 @@ def test_base_parameters_of_drawn_robots(kind: str) -> None:
     found = of_drawing(kind)
     assert found.base.proof.kind == "exact" or kind == NUMERIC
     oracle = Oracle(found.robot)
-    home = np.array([found.robot.home[joint.name] for joint in found.robot.free])
+    home = np.array([found.robot.home[joint.name] for joint in found.robot.free_joints])
     u = reached(oracle, home, POSTURES, 1, REACH)
     qd, qdd = np.random.default_rng(2).normal(size=(2, len(u), oracle.n))
     torques = oracle.regressor(u, qd, qdd)
@@ -40,5 +40,5 @@ def test_base_parameters_of_drawn_robots(kind: str) -> None:
     assert kept > 1e3 * dropped
     base = W[:, [parameter.column for parameter in found.base.parameters]]
     size = np.linalg.norm(W, axis=0) / np.sqrt(len(W)) + 1e-4 * np.abs(W).max()
-    K = grouping_matrix(found.model, found.base.parameters)
+    K = build_grouping_matrix(found.model, found.base.parameters)
     assert np.all(np.abs(W - base @ K) < 1e-7 * size)

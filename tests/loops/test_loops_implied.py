@@ -10,15 +10,15 @@ import numpy as np
 import pytest
 
 from modeler.codegen.emit import emit
-from modeler.core.builtin import builtin_text
+from modeler.core.builtin import read_builtin_robot
 from modeler.core.errors import LoopError
-from modeler.derivation.base_parameters import base_parameters
+from modeler.derivation.base_parameters import derive_base_parameters
 from modeler.derivation.derive import derive_model
-from modeler.derivation.numeric_rank import regressor_values
-from modeler.derivation.relations import as_json, proof_text
+from modeler.derivation.numeric_rank import evaluate_regressor
+from modeler.derivation.relations import format_proof, serialise_base_parameters
 from modeler.derivation.result import SampledRank
-from modeler.derivation.walks import closed_motion
-from modeler.robot.read import read_robot, robot_from_text
+from modeler.derivation.walks import compute_closed_motion
+from modeler.robot.read import parse_robot_text, read_robot
 from tests.base.test_printed_relations import wrong
 from tests.loops.derived import of_file
 from tests.modules import module
@@ -71,10 +71,10 @@ def spectrum(model, u, seed=4):
     else:
         u = model.closure.closed(u)
         qd, qdd = rng.normal(size=(2, len(u), len(model.closure.given)))
-        motion = closed_motion(model, u, qd)
+        motion = compute_closed_motion(model, u, qd)
         ud = np.einsum("nij,nj->ni", motion.coupling, qd)
         udd = np.einsum("nij,nj->ni", motion.coupling, qdd) + motion.drift
-    W = regressor_values(model, (u, ud, udd)).reshape(-1, len(model.columns))
+    W = evaluate_regressor(model, (u, ud, udd)).reshape(-1, len(model.columns))
     lengths = np.linalg.norm(W, axis=0)
     W = W[:, lengths > 1e-12 * lengths.max()]
     return np.linalg.svd(W / np.linalg.norm(W, axis=0), compute_uv=False)
@@ -97,15 +97,15 @@ def test_further_robots(name, loop_robots_folder):
     path = loop_robots_folder / f"{name}.toml"
     robot, model, base = read_robot(path), of_file(path).model, of_file(path).base
     inertial, count, kind = FILES[name]
-    assert (base.counts()["inertial"], base.rank, base.proof.kind) == (inertial, count, kind)
+    assert (base.count_by_kind()["inertial"], base.rank, base.proof.kind) == (inertial, count, kind)
     certificate = base.proof.certificate
     assert certificate.rank == base.rank and not isinstance(certificate, SampledRank)
     assert wrong(name, base, emit(model, base), seed=15) == []
     if name == "rccc_wide":  # the proof says how far the postures went
         low, high = base.proof.sampling.ranges["1"]
         assert -3.0 <= low < -2.5 and 2.5 < high <= 3.0
-        assert "on walks from [home]" in " ".join(proof_text(base.proof).split())
-        told = as_json(robot.name, base)["certificate"]["sampling"]
+        assert "on walks from [home]" in " ".join(format_proof(base.proof).split())
+        told = serialise_base_parameters(robot.name, base)["certificate"]["sampling"]
         assert told["ranges"]["1"] == [low, high] and told["distance_to_singularity"] > 0.01
     if name == "twoloops_poorhome":  # from there Newton of the tests goes to another mode
         robot = read_robot(loop_robots_folder / "twoloops.toml")
@@ -135,18 +135,18 @@ def test_relations_are_true_at_any_lengths(name):
     moments of a pantograph on sliders. Values changed at random: what still closes has the same
     relations and base parameters, and obeys the laws.
     """
-    text, rank = WRITTEN.get(name) or (builtin_text(name), module(name).base.rank)
-    before = derive_model(robot_from_text(text, name))
-    base = base_parameters(before)
+    text, rank = WRITTEN.get(name) or (read_builtin_robot(name), module(name).base.rank)
+    before = derive_model(parse_robot_text(text, name))
+    base = derive_base_parameters(before)
     assert (base.rank, base.proof.kind) == (rank, "exact") and not before.special
     rng = np.random.default_rng(8)
     for _ in range(6):
-        robot = robot_from_text(changed(text, rng), name)
+        robot = parse_robot_text(changed(text, rng), name)
         try:
             model = derive_model(robot)
         except LoopError:
             continue
-        other = base_parameters(model)
+        other = derive_base_parameters(model)
         assert written(model, other) == written(before, base)
         check_laws(robot, model, other)
         return
@@ -174,10 +174,10 @@ def written(model, base):
 def test_constants_of_relations(change, relation, special):
     """Sums of symbols and pi, symbols that are no such sums, numbers; equal values by chance."""
     text = OFFSET.replace(*change).replace("D = 0.2", "D = 0.2\nK = 0.5")
-    model = derive_model(robot_from_text(text, "offset"))
+    model = derive_model(parse_robot_text(text, "offset"))
     assert {n: e.text for n, e in model.robot.relations.items()} == {"3": "-q1", "2": relation}
     assert bool(model.special) == special and not model.unproven
-    assert base_parameters(model).proof.kind == (
+    assert derive_base_parameters(model).proof.kind == (
         "exact at the given values" if special else "exact"
     )
 
@@ -185,8 +185,8 @@ def test_constants_of_relations(change, relation, special):
 def test_what_is_not_proven_is_not_used():
     """A table with a number of 16 digits: the relation has no short constant."""
     text = OFFSET.replace('"w"', "0.41234567891234567")
-    model = derive_model(robot_from_text(text, "offset"))
+    model = derive_model(parse_robot_text(text, "offset"))
     assert not model.robot.relations and set(model.unproven) == {"2", "3"}
-    base = base_parameters(model)
+    base = derive_base_parameters(model)
     assert base.rank == 3
     assert "not provably, are solved for: 3, 2" in base.proof.statement

@@ -15,13 +15,13 @@ import pytest
 
 from modeler.codegen.emit import emit
 from modeler.codegen.workflow import Derivation
-from modeler.derivation.base_parameters import base_parameters
-from modeler.derivation.columns import standard_columns
-from modeler.derivation.derive import modes_near
-from modeler.derivation.geometry import exact_geometry
+from modeler.derivation.base_parameters import derive_base_parameters
+from modeler.derivation.columns import build_standard_columns
+from modeler.derivation.derive import find_modes_near
+from modeler.derivation.geometry import build_exact_geometry
 from modeler.derivation.graph import Graph
 from modeler.derivation.model import SymbolicModel
-from modeler.robot.read import read_robot, robot_from_text
+from modeler.robot.read import parse_robot_text, read_robot
 from tests.loops.derived import WEIGHED, compiled_plainly, of_drawing, of_file
 from tests.modules import loaded, module, plain
 from tests.oracles.closed_ways import followed, open_at
@@ -62,7 +62,7 @@ class Closed:
     def whole(self, u: np.ndarray) -> np.ndarray:
         """Free variables of the robot as written, from those that the relations found leave."""
         values = self.model.variables(u)
-        return np.stack([values[joint.name] for joint in self.oracle.robot.free], axis=1)
+        return np.stack([values[joint.name] for joint in self.oracle.robot.free_joints], axis=1)
 
     def from_home(self, q: np.ndarray) -> np.ndarray:
         """Postures (n, len(u)), NaN where the status is not 0."""
@@ -73,8 +73,8 @@ class Closed:
 
     def related(self, rng: np.random.Generator, count: int) -> np.ndarray:
         """Random postures of a robot whose relations say all."""
-        free = self.model.robot.free
-        reach = [1.0 if joint.angular else 0.3 * self.oracle.size for joint in free]
+        free = self.model.robot.free_joints
+        reach = [1.0 if joint.is_revolute else 0.3 * self.oracle.size for joint in free]
         return self.whole(rng.uniform(-np.pi, np.pi, (count, len(free))) * reach)
 
     def follow(self, q: np.ndarray) -> np.ndarray:
@@ -84,7 +84,7 @@ class Closed:
         library = self.compiled._library
         function = next(f for f in library.spec.functions if f.name.endswith("close_from"))
         for row in q:
-            library.batch(function, [row[None].copy(), u[None].copy()], out, status)
+            library.run_batch(function, [row[None].copy(), u[None].copy()], out, status)
             u = out[0].copy() if status[0] == 0 else np.full(len(u), np.nan)
             found.append(u)
             if status[0]:
@@ -95,7 +95,7 @@ class Closed:
         """Of the coordinates: half a turn or half a size around home."""
         middle = self.home[self.oracle.given]
         joints = self.oracle.robot.coordinates
-        reach = np.array([1.5 if j.angular else 0.5 * self.oracle.size for j in joints])
+        reach = np.array([1.5 if j.is_revolute else 0.5 * self.oracle.size for j in joints])
         return middle - reach, middle + reach
 
 
@@ -226,9 +226,9 @@ def test_status_0_is_closed_on_the_branch_of_home_on_drawn_robots(kind):
 def test_postures_of_another_branch_are_seen():
     """Of a start in the other assembly mode: the ways from there end elsewhere than the C does."""
     closed = copy(closed_robot("five-bar"))
-    names = [joint.name for joint in closed.oracle.robot.free]
+    names = [joint.name for joint in closed.oracle.robot.free_joints]
     q = {names[k]: closed.home[k] for k in closed.oracle.given}
-    modes = modes_near(closed.oracle.robot, q)
+    modes = find_modes_near(closed.oracle.robot, q)
     mode = dict(zip([j.name for j in modes.linkage.free], modes.modes[1].posture, strict=True))
     closed.home = np.array([mode[name] for name in names])
     found = postures(closed, 1)
@@ -237,14 +237,14 @@ def test_postures_of_another_branch_are_seen():
 
 def test_a_way_through_a_bifurcation_ends_there():
     """Four equal bars folded flat can go on as a parallelogram or crossed: neither is chosen."""
-    robot = robot_from_text(RHOMBUS, "rhombus")
+    robot = parse_robot_text(RHOMBUS, "rhombus")
     model = _without_relations(robot)
-    closed = loaded(emit(model, base_parameters(model)))
+    closed = loaded(emit(model, derive_base_parameters(model)))
     q = np.linspace(1.0, -1.0, 41)[:, None]
     status = closed.closing_status(q)
     assert np.all(status[q[:, 0] > 0.01] == 0) and np.all(status[q[:, 0] < -0.01] != 0)
 
 
 def _without_relations(robot) -> SymbolicModel:
-    geometry = exact_geometry(robot)
-    return SymbolicModel(robot, geometry, Graph(), standard_columns(geometry))
+    geometry = build_exact_geometry(robot)
+    return SymbolicModel(robot, geometry, Graph(), build_standard_columns(geometry))

@@ -3,13 +3,13 @@
 import pytest
 
 from modeler.cli import main
-from modeler.core.builtin import builtin_text
+from modeler.core.builtin import read_builtin_robot
 from modeler.core.errors import LoopError
 from modeler.derivation.derive import derive_model
-from modeler.derivation.geometry import exact_geometry
+from modeler.derivation.geometry import build_exact_geometry
 from modeler.derivation.graph import Graph
 from modeler.derivation.model import SymbolicModel
-from modeler.robot.read import robot_from_text
+from modeler.robot.read import parse_robot_text
 from tests.robot_texts import CRANK, PARALLELOGRAM
 
 MISTAKES = [
@@ -28,14 +28,14 @@ MISTAKES = [
 def test_what_is_wrong_with_a_loop_is_told(old, new, told):
     assert CRANK.count(old) == 1
     with pytest.raises(LoopError, match=told) as caught:
-        derive_model(robot_from_text(CRANK.replace(old, new), "crank.toml"))
+        derive_model(parse_robot_text(CRANK.replace(old, new), "crank.toml"))
     assert str(caught.value).startswith("crank: ") and "\n" not in str(caught.value)
 
 
 def test_opposite_axes_are_not_a_closed_loop():
     """The parallelogram's frames 9 and 10 must coincide, not stand back to back."""
-    text = builtin_text("sr400").replace('q9 = "1.3 + pi"', "q9 = 1.3")
-    relations = derive_model(robot_from_text(text, "sr400.toml")).robot.relations
+    text = read_builtin_robot("sr400").replace('q9 = "1.3 + pi"', "q9 = 1.3")
+    relations = derive_model(parse_robot_text(text, "sr400.toml")).robot.relations
     assert relations["9"].text in ("-q2 + q7 + pi", "-q2 + q7 - pi")
 
 
@@ -50,17 +50,17 @@ def test_coefficients_of_robots_with_loops_are_refused(capsys):
 def test_a_flat_parallelogram_is_singular(lean):
     """All bars on one line: the closing equation along it changes in second order only."""
     home = f"[home]\nq1 = {lean}\nq2 = {-lean}\nq4 = {lean}\n"
-    flat = robot_from_text(PARALLELOGRAM + home, "parallelogram.toml")
-    upright = robot_from_text(PARALLELOGRAM + "[home]\nq1 = 1\nq2 = -1\nq4 = 1\n", "p.toml")
-    assert SymbolicModel(upright, exact_geometry(upright), Graph(), ()).closure is not None
+    flat = parse_robot_text(PARALLELOGRAM + home, "parallelogram.toml")
+    upright = parse_robot_text(PARALLELOGRAM + "[home]\nq1 = 1\nq2 = -1\nq4 = 1\n", "p.toml")
+    assert SymbolicModel(upright, build_exact_geometry(upright), Graph(), ()).closure is not None
     with pytest.raises(LoopError, match=r"the loops are singular at \[home\]: joints 2, 4 could"):
-        _ = SymbolicModel(flat, exact_geometry(flat), Graph(), ()).closure
+        _ = SymbolicModel(flat, build_exact_geometry(flat), Graph(), ()).closure
     with pytest.raises(LoopError, match=r"the loops are singular at \[home\]: joints 2, 4 could"):
         derive_model(flat)
 
 
 def test_angles_do_not_count_as_lengths():
     turned = PARALLELOGRAM.replace('"q1"', '"q1 + turn"').replace("B = 0.7", "B = 0.7\nturn = 3")
-    robot = robot_from_text(turned + "[home]\nq1 = 1\nq2 = -1\nq4 = 4\n", "parallelogram.toml")
-    closure = SymbolicModel(robot, exact_geometry(robot), Graph(), ()).closure
+    robot = parse_robot_text(turned + "[home]\nq1 = 1\nq2 = -1\nq4 = 4\n", "parallelogram.toml")
+    closure = SymbolicModel(robot, build_exact_geometry(robot), Graph(), ()).closure
     assert closure is not None and closure.size == 0.7

@@ -8,8 +8,8 @@ import pytest
 
 from modeler.robot.read import read_robot
 from modeler.robot.robot import INERTIAL
-from modeler.simulation import motion_limits, plant_parameters
-from modeler.simulation.closing import constraints_of, followed
+from modeler.simulation import collect_motion_limits, draw_plant_parameters
+from modeler.simulation.closing import build_constraints, compute_closed_postures
 from tests.modules import module, plain
 from tests.oracles.mujoco_machine import STEP, mujoco, mujoco_model
 from tests.rotation import ROTATING, rotating
@@ -54,7 +54,7 @@ def replayed(robot, standard, tau, start):
 @pytest.mark.parametrize("name", ROBOTS)
 def test_our_torques_carry_out_our_motion(name):
     robot, c = read_robot(name), plain(name)
-    standard = plant_parameters(robot, motion_limits(robot)).standard
+    standard = draw_plant_parameters(robot, collect_motion_limits(robot)).standard
     columns = module(name).model.names
     felt = (*INERTIAL, "Ia")
     chi = np.array([standard[n] if n.startswith(felt) else 0.0 for n in columns])
@@ -62,8 +62,8 @@ def test_our_torques_carry_out_our_motion(name):
     q, _, _ = smooth_motion(robot, time)
     middle = smooth_motion(robot, time[:-1] + STEP / 2)
     tau = c.inverse_dynamics(*middle, c.base_parameters(chi))
-    start = followed(robot, constraints_of(robot), q[:1])[0]
-    names = [joint.name for joint in robot.moving]
+    start = compute_closed_postures(robot, build_constraints(robot), q[:1])[0]
+    names = [joint.name for joint in robot.moving_joints]
     given = [names.index(joint.name) for joint in robot.coordinates]
     right = replayed(robot, standard, tau, start)[:, given]
     moved = np.ptp(q, axis=0)

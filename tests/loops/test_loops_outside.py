@@ -21,7 +21,7 @@ def test_torques_are_those_of_the_oracle(name):
     oracle = Oracle(written, dict(zip(names, chi, strict=True)))
     (q, qd, qdd), (u, _, _), _ = closed(name, 6, seed=8)
     known = found.variables(u)
-    u = np.stack([known[joint.name] for joint in written.free], axis=1)
+    u = np.stack([known[joint.name] for joint in written.free_joints], axis=1)
     assert np.abs(oracle.errors(u)[0]).max() < 1e-9
     tau = oracle.torques(u, qd, qdd)
     ours = c.inverse_dynamics(q, qd, qdd, c.base_parameters(chi))

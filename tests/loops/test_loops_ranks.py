@@ -6,10 +6,10 @@ from pathlib import Path
 import pytest
 import sympy
 
-from modeler.core.builtin import builtin_text
-from modeler.derivation.base_parameters import base_parameters
+from modeler.core.builtin import read_builtin_robot
+from modeler.derivation.base_parameters import derive_base_parameters
 from modeler.derivation.derive import derive_model
-from modeler.robot.read import robot_from_text
+from modeler.robot.read import parse_robot_text
 from tests.base.ranks import seen
 from tests.modules import module
 from tests.robots import TIED, one_always
@@ -39,11 +39,11 @@ def test_the_rank_is_that_of_the_torques_and_of_the_papers(name):
 
 
 def variant(name, *changes):
-    text = builtin_text(name)
+    text = read_builtin_robot(name)
     for old, new in changes:
         assert re.search(old, text, re.M), old
         text = re.sub(old, new, text, flags=re.M)
-    return base_parameters(derive_model(robot_from_text(text, name)))
+    return derive_base_parameters(derive_model(parse_robot_text(text, name)))
 
 
 NO_PASSIVE = (r"^(viscous|coulomb) = .*$", r'\1 = ["1{i}"]')
@@ -103,20 +103,20 @@ def test_evra_locked():
 
 def test_the_anti_parallelogram_is_another_robot():
     """Home says which assembly mode is meant: crossed bars turn differently, and group less."""
-    crossed = re.sub(r"q3 = .*", "q3 = 0.6", builtin_text("sr400"))
+    crossed = re.sub(r"q3 = .*", "q3 = 0.6", read_builtin_robot("sr400"))
     crossed = re.sub(r"q8 = .*", "q8 = 2.4", crossed)
     crossed = re.sub(r"q9 = .*", "q9 = 0.3", crossed)
-    model = derive_model(robot_from_text(crossed, "sr400"))
+    model = derive_model(parse_robot_text(crossed, "sr400"))
     assert model.closure is not None and "3" not in model.robot.relations
-    assert base_parameters(model).rank == 47
+    assert derive_base_parameters(model).rank == 47
 
 
 def test_coefficients_may_be_sums_and_quotients():
     """Link 4 turned and shifted on a leg: sin, cos and a sum of squares in the coefficients."""
-    text = builtin_text("orthoglide-leg")
+    text = read_builtin_robot("orthoglide-leg")
     text = text.replace('"b3", "-pi/2",   0,   "q3",     0]', '"b3", "al",   0,   "q3",     "r3"]')
     text = text.replace("b3 = -0.04 ", "al = -1.2\nr3 = 0.05\nb3 = -0.04 ")
-    base = base_parameters(derive_model(robot_from_text(text, "leg")))
+    base = derive_base_parameters(derive_model(parse_robot_text(text, "leg")))
     assert base.proof.kind == "exact"
     terms = {
         t.parameter: t.coefficient for p in base.parameters for t in p.terms if p.name == "ZZ2R"
@@ -129,7 +129,7 @@ def test_coefficients_may_be_sums_and_quotients():
 def test_what_cancels_over_the_legs_is_not_written():
     """Three equal legs of a planar platform: their first moments add up to nothing."""
     text = (Path(__file__).parent / "star.toml").read_text(encoding="utf-8")
-    base = base_parameters(derive_model(robot_from_text(text, "star.toml")))
+    base = derive_base_parameters(derive_model(parse_robot_text(text, "star.toml")))
     terms = {p.name: {t.parameter: t.coefficient for t in p.terms} for p in base.parameters}
     assert terms["MPR"]["M2"] == 3
     assert "MXP" in terms and "MYP" in terms

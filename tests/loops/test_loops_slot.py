@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from modeler.codegen.workflow import derive
-from modeler.robot.read import robot_from_text
+from modeler.robot.read import parse_robot_text
 from tests.loops.derived import compiled_plainly
 from tests.oracles.complex_step import Oracle
 
@@ -18,7 +18,7 @@ def shaper():
     """The derivation from the page, and its compiled C."""
     text = PAGE.read_text(encoding="utf-8")
     text = text[text.index("# shaper.toml") :]
-    derivation = derive(robot_from_text(text[: text.index("```")], "shaper.toml"))
+    derivation = derive(parse_robot_text(text[: text.index("```")], "shaper.toml"))
     return derivation, compiled_plainly(derivation)
 
 

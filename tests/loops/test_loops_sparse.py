@@ -66,7 +66,7 @@ def test_from_the_last_is_as_from_home_and_a_hole_does_not_matter():
     away = q.copy()
     away[300] += 5.0
     out, status = np.empty((4500, W.shape[2])), np.zeros(1500, dtype=np.intc)
-    model._library.observation([away, qd, qdd], out, status)
+    model._library.fill_observation([away, qd, qdd], out, status)
     assert np.flatnonzero(status).tolist() == [300]
     out = out.reshape(1500, 3, -1)
     assert np.isnan(out[300]).all()

@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 
 from modeler.codegen.package import write_emitted
-from modeler.core.manifest import Emitted, ModuleSpec
+from modeler.core.manifest import EmittedModule, ModuleSpec
 from tests.modules import STRICT, compiler, module
 from tests.rotation import ROTATING
 
@@ -50,7 +50,7 @@ class Robot(NamedTuple):
         return int(call(*inputs, most, self.memory))
 
 
-def compiled(emitted: Emitted, folder: Path, *flags: str) -> ctypes.CDLL:
+def compiled(emitted: EmittedModule, folder: Path, *flags: str) -> ctypes.CDLL:
     """A robot's C with counting.c."""
     prefix = emitted.spec.prefix
     write_emitted(emitted, folder)

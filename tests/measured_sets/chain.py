@@ -10,16 +10,16 @@ from typing import Any
 
 from modeler import api
 from modeler.diagnosis.add import add_findings
-from modeler.diagnosis.added_model import Logs, left_of, rows_of
+from modeler.diagnosis.added_model import LogSplit, build_rows, compute_residuals
 from modeler.diagnosis.candidates import StatedEffects
 from modeler.diagnosis.diagnosis import diagnose
 from modeler.diagnosis.result import Diagnosis
-from modeler.diagnosis.score import Residuals, Score, scored
+from modeler.diagnosis.score import Residuals, Score, score_change
 from modeler.estimation.model_file import IdentifiedModel
 from modeler.observation.log import Log
 from modeler.observation.motion import HIGHEST
 from modeler.observation.settings import Processing
-from modeler.runtime.model import CompiledModel, load as load_compiled
+from modeler.runtime.model import CompiledModel, load_module as load_compiled
 from tests.chain import Chain, chain_of
 from tests.measured_sets.answer import Answer
 from tests.measured_sets.sanity import faults
@@ -38,7 +38,7 @@ class Fitted:
 
     chain: Chain
     model: IdentifiedModel
-    logs: Logs
+    logs: LogSplit
 
 
 def diagnosed(case: Case, data: Path) -> Answer:
@@ -65,7 +65,7 @@ def improved(case: Case, data: Path) -> Answer:
     with _clock(seconds, "add"):
         findings = [*found.effects, *found.refinements]
         better, left_out = add_findings(fitted.model, fitted.chain.compiled, findings, fitted.logs)
-    score = scored(_unseen(fitted, fitted.model, fitted.chain.compiled),
+    score = score_change(_unseen(fitted, fitted.model, fitted.chain.compiled),
                    _unseen(fitted, better, load_compiled(better.spec, better.sources)))  # fmt: skip
     return Answer(case, _told(better, left_out, score), seconds)
 
@@ -75,9 +75,9 @@ def _told(better: IdentifiedModel, left_out: tuple[str, ...], score: Score) -> d
     return {
         "joints": {name: list(pair) for name, pair in score.errors.items()},
         "whole": score.whole.after,
-        "scatter": score.whole.scatter,
-        "rises": [change.joint for change in score.joints if change.rises],
-        "spoilt": score.spoilt,
+        "scatter": score.whole.t_ratio,
+        "rises": [change.joint for change in score.joints if change.is_increased],
+        "spoilt": score.has_spoilt_joint,
         "kept": [step.to_json() for step in better.history[1:]],
         "left_out": [line.removeprefix("left out: ") for line in left_out],
     }
@@ -94,14 +94,16 @@ def _clock(seconds: dict[str, float], name: str) -> Iterator[None]:
 def _fitted(name: str, direction: str, data: Path) -> Fitted:
     """With the default processing; the cases of one direction come one after the other."""
     chain = chain_of(SETS[name].robot())
-    logs = Logs(*(api.read_logs(chain.compiled, some) for some in SETS[name].logs(data, direction)))
-    return Fitted(chain, chain.fit(logs.fitted), logs)
+    logs = LogSplit(
+        *(api.read_logs(chain.compiled, some) for some in SETS[name].logs(data, direction))
+    )
+    return Fitted(chain, chain.fit(logs.training), logs)
 
 
 def _at(fitted: Fitted, factor: float) -> Fitted:
     """Fitted anew with both cut-offs given: those that were chosen, times a factor."""
-    processing = scaled(fitted.model.processing, factor, fitted.logs.fitted)
-    return dataclasses.replace(fitted, model=fitted.chain.fit(fitted.logs.fitted, processing))
+    processing = scaled(fitted.model.processing, factor, fitted.logs.training)
+    return dataclasses.replace(fitted, model=fitted.chain.fit(fitted.logs.training, processing))
 
 
 def scaled(chosen: Processing, factor: float, logs: Sequence[Log]) -> Processing:
@@ -116,9 +118,9 @@ def scaled(chosen: Processing, factor: float, logs: Sequence[Log]) -> Processing
 def _found(fitted: Fitted) -> Diagnosis:
     robot, logs = fitted.chain.derivation.robot, fitted.logs
     known = StatedEffects(robot.catalogue, robot.coupling)
-    return diagnose(fitted.model, fitted.chain.compiled, logs.fitted, logs.held_out, known=known)
+    return diagnose(fitted.model, fitted.chain.compiled, logs.training, logs.held_out, known=known)
 
 
 def _unseen(fitted: Fitted, model: IdentifiedModel, compiled: CompiledModel) -> Residuals:
-    rows = rows_of(compiled, fitted.logs, model.processing)
-    return left_of(model, compiled, rows.seen[-1])
+    rows = build_rows(compiled, fitted.logs, model.processing)
+    return compute_residuals(model, compiled, rows.observations[-1])

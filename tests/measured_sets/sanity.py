@@ -10,7 +10,7 @@ import numpy as np
 
 from modeler.diagnosis.result import Diagnosis, Finding
 from modeler.diagnosis.state import State
-from modeler.effects.effect import Needs
+from modeler.effects.effect import Requirement
 
 SLACK = 0.05
 """Of the whole friction of a joint: less is rounding."""
@@ -95,14 +95,14 @@ def _friction_faults(found: Diagnosis, finding: Finding) -> Iterator[str]:
     if finding.pick is None:
         return
     pick, state = finding.pick.candidate, found.search.end
-    if pick.effect.family != "friction" or not pick.local:
+    if pick.effect.family != "friction" or not pick.is_local:
         return
     columns, torque, speed = _friction(state, pick.index)
     if not columns:
         return  # a model without friction says nothing of the whole
     levels = {c.prefix: finding.parameters[name] for c, name in
-              zip(pick.form.columns, pick.parameter_names(), strict=True)
-              if Needs.FRICTION in pick.effect.needs}  # fmt: skip
+              zip(pick.form.columns, pick.list_parameter_names(), strict=True)
+              if Requirement.FRICTION in pick.effect.needs}  # fmt: skip
     for name, level in (levels | _coulomb(state, columns)).items():
         yield from level_fault(name, level, torque)
     yield from driving_fault(torque, speed)
@@ -125,8 +125,8 @@ def _friction(state: State, j: int) -> tuple[list[int], np.ndarray, np.ndarray]:
     own = [i for i, b in enumerate(base) if b.kind == "friction" and b.rows == (j,)]
     torque = state.rows.W[j][:, own] @ state.beta[own]
     for pick, columns, values in zip(state.picks, state.extra, state.values, strict=True):
-        local = pick.effect.family == "friction" and pick.local and pick.index == j
+        local = pick.effect.family == "friction" and pick.is_local and pick.index == j
         column = columns[j]
-        if local and pick.form.memory is None and column is not None:
+        if local and pick.form.internal_state is None and column is not None:
             torque = torque + column @ values
-    return own, torque, state.rows.filtered(j, [s.v[:, j] for s in state.rows.signals])
+    return own, torque, state.rows.filter_samples(j, [s.v[:, j] for s in state.rows.signals])

@@ -5,7 +5,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
 
-from modeler.core.builtin import builtin_text
+from modeler.core.builtin import read_builtin_robot
 from tests.repository import ROOT
 
 DATA = ROOT.parent / "shared" / "data"
@@ -66,12 +66,12 @@ def _place(folder: Path, log: str) -> str:
 
 
 def _builtin(name: str) -> Callable[[], str]:
-    return lambda: builtin_text(name)
+    return lambda: read_builtin_robot(name)
 
 
 def _panda() -> str:
     """The built-in arm with friction; its sensors stand behind the gears and feel no rotor."""
-    return builtin_text("panda") + (
+    return read_builtin_robot("panda") + (
         '\n[effects]\nviscous = "all"\ncoulomb = "all"\noffset = "all"\n'
     )
 

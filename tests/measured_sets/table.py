@@ -3,7 +3,7 @@
 from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
-from modeler.diagnosis.sentences import percent
+from modeler.diagnosis.sentences import format_percent
 from tests.hidden_effects.table import markdown
 from tests.measured_sets.answer import Answer, Key, key, named
 
@@ -92,7 +92,7 @@ def _diagnosis(answer: Answer) -> list[str]:
 
 def _effect(finding: Mapping[str, Any]) -> str:
     doubt = finding["objection"] or not all(look["agrees"] for look in finding["looks"])
-    change = " -> ".join(percent(finding[name]) for name in ("error_before", "error_after"))
+    change = " -> ".join(format_percent(finding[name]) for name in ("error_before", "error_after"))
     return f"{_label(finding)}{'?' if doubt else ''} {change}"
 
 

@@ -5,7 +5,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from modeler.robot.read import robot_from_text
+from modeler.robot.read import parse_robot_text
 from tests.measured_sets.__main__ import cases_of, main, parser
 from tests.measured_sets.answer import Answer
 from tests.measured_sets.sanity import driving_fault, gain_faults, level_fault, value_faults
@@ -111,7 +111,7 @@ def test_cases_of_options():
 
 def test_every_set_has_a_robot_and_its_logs_may_change_places():
     for name, own in SETS.items():
-        robot = robot_from_text(own.robot(), name)
+        robot = parse_robot_text(own.robot(), name)
         assert {use.effect for use in robot.effects} >= {"viscous", "coulomb"}, name
         training, held_out = own.logs(Path("d"), "forward")
         assert own.logs(Path("d"), "exchanged") == (held_out, training)

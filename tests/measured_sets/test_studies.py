@@ -8,7 +8,7 @@ from pathlib import Path
 
 import pytest
 
-from modeler.cli.commands import parser
+from modeler.cli.commands import build_parser
 from tests.measured_sets.sets import DATA, PAGE
 from tests.rotation import ROTATING
 from tests.test_docs import Block, Reader, blocks
@@ -33,7 +33,7 @@ def test_a_study_names_its_source_and_its_commands_parse(title: str) -> None:
     text = STUDIES[title]
     assert "https://github.com/" in text or "From the same authors" in text
     (shell,) = (block for block in blocks(text) if block.kind == "sh")
-    fit, diagnose = (parser().parse_args(shlex.split(line)[1:]) for line in shell.lines)
+    fit, diagnose = (build_parser().parse_args(shlex.split(line)[1:]) for line in shell.lines)
     assert (diagnose.model, diagnose.logs) == (fit.out, fit.logs)
     assert not set(diagnose.holdout) & set(fit.logs)
 

@@ -6,7 +6,12 @@ import numpy as np
 import pytest
 from scipy.optimize import brentq
 
-from modeler.papers.guegan_motion import RUNS, _condition, _exchanged, cube_range
+from modeler.papers.guegan_motion import (
+    RUNS,
+    _compute_condition_number,
+    _exchange_motions,
+    compute_cube_range,
+)
 
 D, STRAIGHT = 0.31, 0.19
 
@@ -25,7 +30,7 @@ def speeds(p, h=1e-6):
 
 
 def test_the_platform_is_half_to_twice_as_fast_over_the_cube():
-    lower, upper = cube_range(D, STRAIGHT)
+    lower, upper = compute_cube_range(D, STRAIGHT)
     low = lower - STRAIGHT
     high = brentq(lambda t: motors(np.full(3, t))[0] - upper, 0.0, 0.2)
     assert high - low == pytest.approx(0.2, abs=1e-3)  # the Orthoglide's cube
@@ -45,7 +50,9 @@ def test_the_choice_finds_motions_that_excite_what_others_leave():
     W = rng.normal(size=(22, 50, 3)) * [1.0, 1.0, 1e-4]
     W[[4, 17], :, 2] = rng.normal(size=(2, 50))
     every = np.einsum("nri,nrj->nij", W, W)
-    wanted = _condition(every[[4, 17]].sum(axis=0) + every[:8].sum(axis=0) - every[4])
+    wanted = _compute_condition_number(
+        every[[4, 17]].sum(axis=0) + every[:8].sum(axis=0) - every[4]
+    )
     start = np.array([k for k in range(22) if k not in (4, 17)][:RUNS])
-    found = _exchanged(every, start)
-    assert found < 1.5 * wanted < 0.01 * _condition(every[start].sum(axis=0))
+    found = _exchange_motions(every, start)
+    assert found < 1.5 * wanted < 0.01 * _compute_condition_number(every[start].sum(axis=0))

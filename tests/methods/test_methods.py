@@ -8,9 +8,16 @@ import pytest
 
 from modeler.cli import main
 from modeler.cli.reproduce import METHODS
-from modeler.core.builtin import paper_names
+from modeler.core.builtin import list_papers
 from modeler.core.errors import RobotError
-from modeler.papers.methods import MethodTable, Outcome, Row, figures, quoted, recovered
+from modeler.papers.methods import (
+    MethodRow,
+    MethodTable,
+    Outcome,
+    judge_recovery,
+    read_quotation,
+    read_table,
+)
 from modeler.papers.paper import read_paper
 from tests.json_schemas import check_schema
 from tests.rotation import slow_rotating
@@ -24,11 +31,11 @@ TITLES = {
 
 
 def test_every_paper_has_its_method():
-    assert set(METHODS) == set(paper_names())
+    assert set(METHODS) == set(list_papers())
 
 
 @slow_rotating("identifications of papers")
-@pytest.mark.parametrize("name", paper_names())
+@pytest.mark.parametrize("name", list_papers())
 def test_every_identification_is_reproduced(name, capsys, tmp_path):
     place = tmp_path / "methods.json"
     drawn = ["--picture", str(tmp_path / "drawn.json")] if name == "hanssen-2000" else []
@@ -79,7 +86,7 @@ def test_a_picture_that_is_not_there_is_refused(capsys, monkeypatch, tmp_path, w
 
 
 def test_a_method_that_fails_ends_with_status_1(capsys, monkeypatch):
-    row = Row("MPR", "1.5", "2.5", Outcome.FAILED)
+    row = MethodRow("MPR", "1.5", "2.5", Outcome.FAILED)
     table = MethodTable("Table 3", (), (row,))
     monkeypatch.setitem(METHODS, "guegan-2003", lambda paper, report: [table])
     assert main(["reproduce", "guegan-2003", "--section", "methods"]) == 1
@@ -89,22 +96,22 @@ def test_a_method_that_fails_ends_with_status_1(capsys, monkeypatch):
 
 
 def test_a_value_far_from_the_truth_is_not_recovered():
-    assert recovered("M", "1", 1.0, 1.3, 0.1).outcome is Outcome.RECOVERED
-    assert recovered("M", "1", 1.0, 1.5, 0.1).outcome is Outcome.FAILED
-    assert recovered("M", "1", 1.0, 1.0, 0.0).outcome is Outcome.FAILED
-    assert recovered("M", "1", 9.0, 1.0, 0.63).outcome is Outcome.FAILED
+    assert judge_recovery("M", "1", 1.0, 1.3, 0.1).outcome is Outcome.RECOVERED
+    assert judge_recovery("M", "1", 1.0, 1.5, 0.1).outcome is Outcome.FAILED
+    assert judge_recovery("M", "1", 1.0, 1.0, 0.0).outcome is Outcome.FAILED
+    assert judge_recovery("M", "1", 9.0, 1.0, 0.63).outcome is Outcome.FAILED
     # nor one whose sigma is more than half of it: one rule for all papers, for a truth of 0 too
-    assert recovered("M", "1", 1.0, 1.0, 0.49).outcome is Outcome.RECOVERED
-    assert recovered("M", "1", 1.0, 1.0, 0.63).why.startswith("sigma 63 %")
+    assert judge_recovery("M", "1", 1.0, 1.0, 0.49).outcome is Outcome.RECOVERED
+    assert judge_recovery("M", "1", 1.0, 1.0, 0.63).why.startswith("sigma 63 %")
     for truth, value, sigma in ((1.0, 1.0, 0.63), (0.0, 0.0, 0.1), (0.0, 0.01, 0.01)):
-        assert recovered("M", "1", truth, value, sigma).outcome is Outcome.UNDETERMINED
+        assert judge_recovery("M", "1", truth, value, sigma).outcome is Outcome.UNDETERMINED
 
 
 def test_the_truth_of_a_simulation_is_read_from_the_quotations():
     paper = read_paper("guegan-2003")
-    assert figures(paper, "Table 3")["MRP"] == (1.5993, 1.2601)
-    assert quoted(paper, "65814 x 13") == (65814.0, 13.0)
+    assert read_table(paper, "Table 3")["MRP"] == (1.5993, 1.2601)
+    assert read_quotation(paper, "65814 x 13") == (65814.0, 13.0)
     with pytest.raises(RobotError, match="quotes no Table 9"):
-        figures(paper, "Table 9")
+        read_table(paper, "Table 9")
     with pytest.raises(RobotError, match='quotes nothing that starts with "66"'):
-        quoted(paper, "66")
+        read_quotation(paper, "66")

@@ -27,7 +27,7 @@ MADE: dict[str, Callable[["Session"], Any]] = {
     "report": lambda s: s["observation"].report,
     "model": lambda s: api.fit(s["derivation"], s["emitted"], s["observation"]),
     "fit": lambda s: s["model"].fit,
-    "better": lambda s: api.auto(s["model"], s["logs"][:1], s["logs"][1:]),
+    "better": lambda s: api.add_all(s["model"], s["logs"][:1], s["logs"][1:]),
     "addition": lambda s: s["better"].history[-1],
     "comparison": lambda s: api.compare(s["model"], s["logs"][1:]),
     "better comparison": lambda s: api.compare(s["better"], s["logs"][1:]),
@@ -36,8 +36,10 @@ MADE: dict[str, Callable[["Session"], Any]] = {
     "free run": lambda s: api.free_run(
         s["better"], [api.simulate(s["robot"], hide=[HIDDEN], duration=2.0, rate=250.0, seed=3)]
     ),
-    "contest": lambda s: api.contest({"first": s["model"], "better": s["better"]}, s["logs"][1:]),
-    "estimators": lambda s: api.side_by_side(
+    "contest": lambda s: api.compare_models(
+        {"first": s["model"], "better": s["better"]}, s["logs"][1:]
+    ),
+    "estimators": lambda s: api.compare_methods(
         s["compiled"], s["logs"][:1], s["logs"][1:], ["weighted", "ridge"]
     ),
     "modes": lambda s: api.home(api.load("five-bar")),

@@ -16,8 +16,8 @@ import modeler.core.result as presented_module
 import modeler.report.notebook as notebook
 from modeler.api import derive, load, read_logs, write_report
 from modeler.core.errors import DataError
-from modeler.core.result import Presented, presented
-from modeler.robot.read import robot_from_text
+from modeler.core.result import Result, find_presentation
+from modeler.robot.read import parse_robot_text
 from tests.notebook.session import HIDDEN, reached, session
 from tests.rotation import rotating
 
@@ -42,15 +42,15 @@ def test_every_object_that_is_reached_prints_one_short_line() -> None:
 @pytest.mark.parametrize("name", EACH)
 def test_a_result_has_a_summary_tables_figures_data_and_files(name: str, tmp_path: Path) -> None:
     thing = session()[name]
-    shown = presented(type(thing))
-    assert isinstance(thing, Presented) and shown is not None
+    shown = find_presentation(type(thing))
+    assert isinstance(thing, Result) and shown is not None
     first, *_ = thing.summary().splitlines()
     assert 10 < len(first) < 250 and "object at 0x" not in thing.summary()
     for table_name in shown.tables(thing):
         table = thing.table(table_name)
-        assert len(table.text().splitlines()) >= len(table) + 2
-        assert table.markdown().count("\n") == len(table) + 1
-        assert table.latex().count(r"\\") >= len(table) + 1
+        assert len(table.to_text().splitlines()) >= len(table) + 2
+        assert table.to_markdown().count("\n") == len(table) + 1
+        assert table.to_latex().count(r"\\") >= len(table) + 1
         assert rows_of(table.to_html()) <= 64
     for figure_name in list(shown.figures(thing))[1:2]:
         assert thing.plot(figure_name).axes
@@ -71,8 +71,8 @@ def test_a_result_has_a_summary_tables_figures_data_and_files(name: str, tmp_pat
         table = thing.table()
         written = list(csv.reader(io.StringIO(thing.save(tmp_path / "a.csv").read_text())))
         assert len(written) == len(table) + 1 and len(written[0]) == len(table.columns)
-        assert thing.save(tmp_path / "a.md").read_text() == f"{table.markdown()}\n"
-        assert thing.save(tmp_path / "a.tex").read_text() == f"{table.latex()}\n"
+        assert thing.save(tmp_path / "a.md").read_text() == f"{table.to_markdown()}\n"
+        assert thing.save(tmp_path / "a.tex").read_text() == f"{table.to_latex()}\n"
     if not shown.tables(thing):
         with pytest.raises(DataError, match="has none"):
             thing.save(tmp_path / "a.csv")
@@ -103,7 +103,7 @@ def test_endings_of_their_own_and_figures(tmp_path: Path) -> None:
 @pytest.mark.rotating("results of the session")
 def test_what_a_result_does_not_have_is_refused_with_what_it_has() -> None:
     made = session()
-    assert "waterfall" in presented(type(made["better"])).figures(made["better"])
+    assert "waterfall" in find_presentation(type(made["better"])).figures(made["better"])
     with pytest.raises(DataError, match="a model has no waterfall; expected one of parameters"):
         made["model"].plot("waterfall")
     with pytest.raises(DataError, match="an addition has none"):
@@ -131,7 +131,7 @@ EVIL = '<script>alert("x")</script> & "more"'
 def test_what_a_user_wrote_is_escaped() -> None:
     text = load("two-link").text
     title = next(line for line in text.splitlines() if line.startswith("title"))
-    robot = robot_from_text(text.replace(title, f"title = '{EVIL}'"), "evil")
+    robot = parse_robot_text(text.replace(title, f"title = '{EVIL}'"), "evil")
     assert robot.title == EVIL
     for thing in (robot, derive(robot)):
         html = thing._repr_html_()
@@ -174,7 +174,7 @@ def test_relations_and_closed_forms_are_latex() -> None:
 
 
 def test_without_the_room_a_result_says_what_to_import() -> None:
-    class Stray(Presented):
+    class Stray(Result):
         """Nobody has said how it is shown."""
 
     assert Stray()._repr_html_() is None and repr(Stray()) == "Stray()"
@@ -184,7 +184,7 @@ def test_without_the_room_a_result_says_what_to_import() -> None:
 
 def test_every_class_of_a_presentation_prints_short_by_itself() -> None:
     @dataclasses.dataclass(frozen=True)
-    class Long(Presented):
+    class Long(Result):
         values: np.ndarray
         words: tuple[str, ...]
         text: str
@@ -206,7 +206,7 @@ def test_what_is_shown_later_is_loaded_under_its_name(monkeypatch: pytest.Monkey
     later: dict[str, Callable[[], None]] = {}
     monkeypatch.setattr(presented_module, "_LATER", later)
     monkeypatch.setattr(presented_module, "_PRESENTATIONS", found := {})
-    notebook.register()
+    notebook.register_report_modules()
     assert later and not found
     for say in {*later.values()}:
         say()

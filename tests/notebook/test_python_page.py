@@ -6,7 +6,7 @@ from pathlib import Path
 import pytest
 
 import modeler.api as api
-from modeler.core.result import presented
+from modeler.core.result import find_presentation
 from tests.notebook.session import session
 
 PAGE = (Path(__file__).resolve().parents[2] / "docs" / "reference" / "python.md").read_text(
@@ -38,12 +38,12 @@ def test_every_table_and_figure_stands_there() -> None:
     told = {name: [set(c.split(", ")) - {""} for c in further] for name, further in cells.items()}
     assert told.pop("look")[0] == {"channels"}
     for name, (tables, figures) in told.items():
-        shown = presented(type(made[name]))
+        shown = find_presentation(type(made[name]))
         assert shown is not None
         there = set(shown.tables(made[name]))
         assert there <= tables and tables - there <= {"loads", "gains", "waterfall"}, name
         drawn = {re.sub(r"\w+@\w+", "EFFECT@J", re.sub(r" \d+$", " J", f))
                  for f in shown.figures(made[name])}  # fmt: skip
         assert drawn <= figures and figures - drawn <= {"waterfall"}, name
-    with_tables = {n for n in made if (p := presented(type(made[n]))) and p.tables(made[n])}
+    with_tables = {n for n in made if (p := find_presentation(type(made[n]))) and p.tables(made[n])}
     assert with_tables <= {*told, "better", "better comparison", "report"}

@@ -31,8 +31,8 @@ def test_a_table_is_text_html_markdown_and_latex() -> None:
     for text in ("&lt;two&gt;", "<td>&lt;b&gt;</td>", "50 % &amp; more", "<td>$x &lt; y$</td>",
                  "<td>$M_{1} + M_{2}$</td>"):  # fmt: skip
         assert text in TABLE.to_html()
-    assert r"| a\|b_1 | 1.25 | yes | $M_{1} + M_{2}$ |" in TABLE.markdown()
-    assert r"a\textbar{}b\_1 & 1.25 & yes & $M_{1} + M_{2}$ \\" in TABLE.latex()
+    assert r"| a\|b_1 | 1.25 | yes | $M_{1} + M_{2}$ |" in TABLE.to_markdown()
+    assert r"a\textbar{}b\_1 & 1.25 & yes & $M_{1} + M_{2}$ \\" in TABLE.to_latex()
 
 
 def test_a_long_table_shows_its_ends() -> None:
@@ -40,7 +40,7 @@ def test_a_long_table_shows_its_ends() -> None:
     text = long.to_html()
     assert text.count("<tr>") < 70 and "... 940 rows more ..." in text
     assert "<td>0</td>" in text and "<td>999</td>" in text and "<td>500</td>" not in text
-    assert "500" in long.text().split()
+    assert "500" in long.to_text().split()
 
 
 def test_a_frame_has_names_numbers_and_units() -> None:

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from modeler.core.errors import DataError
-from modeler.estimation.energy_fit import energy_rows, kinetic_columns, weights
+from modeler.estimation.energy_fit import build_energy_rows, compute_weights, find_kinetic_columns
 from modeler.observation.log import Log
 from modeler.observation.observe import observe
 from modeler.observation.settings import Processing
@@ -37,7 +37,7 @@ def log_of(name: str, rate: float, seconds: float = 1.0) -> Log:
 
 def rows_of(name, rate, rule="simpson", window=0.1):
     model = compiled(name)
-    return energy_rows(model, observe(model, [log_of(name, rate)], BROAD), window, rule)
+    return build_energy_rows(model, observe(model, [log_of(name, rate)], BROAD), window, rule)
 
 
 @pytest.mark.parametrize("name", ["five-bar", *rotating("sr400-tree", "wrist")])
@@ -47,7 +47,7 @@ def test_work_of_inertia_is_a_difference_of_energies(name):
     for rule in ("simpson", "trapezoid"):
         for rate in (200.0, 400.0):
             rows = rows_of(name, rate, rule)
-            inertial = kinetic_columns(compiled(name))
+            inertial = find_kinetic_columns(compiled(name))
             missed = np.linalg.norm((rows.W - rows.balance)[:, inertial])
             error[rule, rate] = missed / np.linalg.norm(rows.W[:, inertial])
             np.testing.assert_array_equal(rows.W[:, ~inertial], rows.balance[:, ~inertial])
@@ -60,7 +60,7 @@ def test_the_energies_are_those_of_a_textbook():
     """Planar arm with two links: kinetic and potential energy written out by hand."""
     spec = compiled("two-link").spec
     log = log_of("two-link", 200.0, 2.0)
-    rows = energy_rows(compiled("two-link"), observe(compiled("two-link"), [log], BROAD), 0.2)
+    rows = build_energy_rows(compiled("two-link"), observe(compiled("two-link"), [log], BROAD), 0.2)
     at = np.searchsorted(log.time, rows.time - 1e-9)
     for name in ("ZZ2", "MX2", "MY2"):
         column = [base.name for base in spec.base].index(name)
@@ -85,7 +85,7 @@ def textbook(name, q, qd, spec):
 @pytest.mark.parametrize("rule", ["simpson", "trapezoid"])
 def test_weights_integrate_cubics_or_lines(rule):
     t = np.linspace(0.0, 1.0, 7)
-    w = weights(6, t[1], rule)
+    w = compute_weights(6, t[1], rule)
     assert w @ np.ones(7) == pytest.approx(1.0) and w @ t == pytest.approx(0.5)
     assert (w @ t**3 == pytest.approx(0.25)) == (rule == "simpson")
 
@@ -101,7 +101,7 @@ def test_friction_and_offset_are_works_and_slow_rows_stay(arm):
     """Kinks at rest cancel: exact torques meet W beta to the quadrature of the inertia alone."""
     model, beta, log = arm
     seen = observe(model, [log])
-    rows = energy_rows(model, seen)
+    rows = build_energy_rows(model, seen)
     np.testing.assert_allclose(rows.W @ beta, rows.y, atol=2e-4 * np.abs(rows.y).max())
     np.testing.assert_allclose(rows.balance @ beta, rows.y, atol=1e-12 * np.abs(rows.y).max())
     assert seen.used.all(axis=1).sum() < len(rows.y)  # where a sign is doubtful, no torque row
@@ -113,8 +113,8 @@ def test_a_missing_torque_costs_its_windows_only(arm):
     model, beta, log = arm
     tau = log.tau.copy()
     tau[700:703, 1] = np.nan
-    whole = energy_rows(model, observe(model, [log]), 0.05)
-    rows = energy_rows(model, observe(model, [dataclasses.replace(log, tau=tau)]), 0.05)
+    whole = build_energy_rows(model, observe(model, [log]), 0.05)
+    rows = build_energy_rows(model, observe(model, [dataclasses.replace(log, tau=tau)]), 0.05)
     assert 1 <= len(whole.y) - len(rows.y) <= 3
     lost = log.time[700], log.time[702]
     assert not np.any((rows.time[:, 0] <= lost[1]) & (rows.time[:, 1] >= lost[0]))
@@ -127,11 +127,11 @@ def test_an_empty_channel_or_a_robot_that_stands_leaves_no_window(arm):
     tau = np.column_stack([log.tau[:, 0], np.full(log.rows, np.nan)])
     seen = observe(model, [dataclasses.replace(log, tau=tau)])
     with pytest.raises(DataError, match=r"run: no window .* joint 2 has 0 % .*--model torque"):
-        energy_rows(model, seen)
+        build_energy_rows(model, seen)
     still = dataclasses.replace(log, q=0.0 * log.q + 0.3, qd=0.0 * log.qd, qdd=0.0 * log.qdd)
     smooth = planar_arm(friction=False)
     with pytest.raises(DataError, match=r"run: the motors do no work in any window: no joint"):
-        energy_rows(smooth, observe(smooth, [still]))
+        build_energy_rows(smooth, observe(smooth, [still]))
 
 
 @pytest.mark.parametrize(
@@ -146,4 +146,4 @@ def test_an_empty_channel_or_a_robot_that_stands_leaves_no_window(arm):
 def test_windows_that_cannot_be(arm, window, told):
     model, _, log = arm
     with pytest.raises(DataError, match=told):
-        energy_rows(model, observe(model, [log]), window)
+        build_energy_rows(model, observe(model, [log]), window)

@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 from modeler.cli import main
-from modeler.numerics.held import clips_of, repeated_rows, rows_held
-from modeler.numerics.noise import lattice_step
+from modeler.numerics.held import estimate_hold_length, find_clips, find_repeated_rows
+from modeler.numerics.noise import estimate_lattice_step
 from modeler.observation.log import Log
 from modeler.observation.observe import observe
 from modeler.observation.settings import Processing
@@ -73,9 +73,9 @@ def test_channels_with_holds_of_their_own_are_no_slow_robot():
     log, _ = recorded(1)
     q = np.column_stack([held(log.q[:, 0], 7), held(log.q[:, 1], 5)])
     tau = np.column_stack([held(log.tau[:, 0], 11), held(log.tau[:, 1], 6)])
-    assert not repeated_rows(q, tau).any()
-    assert [rows_held(x) for x in (*q.T, *tau.T)] == [7, 5, 11, 6]
-    together = repeated_rows(held(log.q, 3), held(log.tau, 3))
+    assert not find_repeated_rows(q, tau).any()
+    assert [estimate_hold_length(x) for x in (*q.T, *tau.T)] == [7, 5, 11, 6]
+    together = find_repeated_rows(held(log.q, 3), held(log.tau, 3))
     assert together.mean() == pytest.approx(2 / 3, abs=0.01)
 
 
@@ -83,9 +83,14 @@ def test_clean_channels_coarse_encoders_and_switched_torques_are_not_held():
     random, (t, q, _, _) = np.random.default_rng(0), motion(step=1e-3)
     for counts in (1e-2, 1e-3, 1e-5):
         for slow in (1.0, 0.02):
-            assert rows_held(np.round(slow * q[:, 0] / counts) * counts) == 1
+            assert estimate_hold_length(np.round(slow * q[:, 0] / counts) * counts) == 1
     noisy = np.round(random.normal(size=t.size) * 3.0) / 10.0
-    assert rows_held(noisy) == rows_held(np.sign(np.sin(9.0 * t))) == rows_held(0.0 * t) == 1
+    assert (
+        estimate_hold_length(noisy)
+        == estimate_hold_length(np.sign(np.sin(9.0 * t)))
+        == estimate_hold_length(0.0 * t)
+        == 1
+    )
 
 
 @pytest.mark.parametrize("seed", [0, *rotating(1, 2)])
@@ -112,9 +117,9 @@ def test_a_joint_that_sticks_before_it_turns_back_is_not_clipped():
         way = np.cos(1.3 * t)
         stopped = np.where(np.abs(way) < stick, 0.4 * np.sign(swing) * np.sqrt(1 - stick**2), swing)
         q = np.round(stopped / 3.8e-4) * 3.8e-4
-        assert clips_of(q) == ()
+        assert find_clips(q) == ()
     cut = np.clip(0.4 * np.sin(1.3 * t), -0.3, 0.25)
-    assert [(clip.value, clip.upper) for clip in clips_of(cut)] == [(0.25, True), (-0.3, False)]
+    assert [(clip.value, clip.upper) for clip in find_clips(cut)] == [(0.25, True), (-0.3, False)]
 
 
 def test_a_claim_that_the_fit_does_not_confirm_changes_nothing():
@@ -129,8 +134,8 @@ def test_a_claim_that_the_fit_does_not_confirm_changes_nothing():
     assert (
         "qd1: jumps by 8.99 rad/s and back, at 2 s; used as logged, held-out error x 1.00" in text
     )
-    assert not any("qd1" in doubt for doubt in seen.report.doubts())
-    assert any("q2: jumps by 0.9 rad" in doubt for doubt in seen.report.doubts())
+    assert not any("qd1" in doubt for doubt in seen.report.collect_warnings())
+    assert any("q2: jumps by 0.9 rad" in doubt for doubt in seen.report.collect_warnings())
     scores = seen.report.processing.repairs
     assert scores["run: q2 zero"] < 0.95 < scores["run: qd1 spike"]
     again = observe(planar_arm(), [log], seen.report.processing)
@@ -145,7 +150,7 @@ def test_speeds_in_coarse_steps_have_their_own_unit_and_mask():
     speeds = np.round(motion(seed=2)[2] / step) * step
     log = dataclasses.replace(log, qd=speeds)
     seen = observe(planar_arm(), [log], Processing(derivatives="log"))
-    (line,) = (x for x in seen.report.noise.channel_lines() if "joint 1" in x)
+    (line,) = (x for x in seen.report.noise.format_channels() if "joint 1" in x)
     assert "in steps of 50 mrad/s" in line
     floors = seen.report.processing.speed_floors
     assert all(floor >= 0.99 * step for floor in floors.values())
@@ -165,9 +170,13 @@ def test_a_lattice_is_found_below_single_precision_and_no_rounding_is_one():
         exact = np.round(q[:, 0] / step) * step
         degrees = np.float32(np.rad2deg(exact)).astype(float) * np.pi / 180.0
         for values in (exact, np.float32(exact).astype(float), degrees):
-            assert lattice_step(values) == pytest.approx(step, rel=1e-4)
-    assert lattice_step(q[:, 0]) == lattice_step(np.float32(q[:, 0]).astype(float)) == 0.0
-    assert lattice_step(0.3 * t) == 0.0
+            assert estimate_lattice_step(values) == pytest.approx(step, rel=1e-4)
+    assert (
+        estimate_lattice_step(q[:, 0])
+        == estimate_lattice_step(np.float32(q[:, 0]).astype(float))
+        == 0.0
+    )
+    assert estimate_lattice_step(0.3 * t) == 0.0
 
 
 def test_one_line_lists_what_never_changes_and_stands_last(tmp_path, capsys):

@@ -6,12 +6,12 @@ import numpy as np
 import pytest
 
 from modeler.core.errors import DataError
-from modeler.observation.consistency import consistency
+from modeler.observation.consistency import check_derivatives
 from modeler.observation.log import Log
 from modeler.observation.observe import observe
 from modeler.observation.read import read_log
-from modeler.observation.segments import split
-from modeler.observation.settings import Processing, processing_from_json
+from modeler.observation.segments import split_log
+from modeler.observation.settings import Processing, read_processing
 from tests.measured_sets.sets import DATA
 from tests.oracles.numpy_model import NumpyModel, Row, planar_arm
 from tests.rotation import rotating
@@ -33,8 +33,8 @@ def log_of(t, q, qd, qdd=None, **more):
 
 
 def checked(log, cutoff=5.0, refuse=True):
-    pieces, _ = split(log, 0, True)
-    found = consistency(log, pieces, cutoff, refuse)
+    pieces, _ = split_log(log, 0, True)
+    found = check_derivatives(log, pieces, cutoff, refuse)
     return found, np.concatenate(found.bad)
 
 
@@ -138,7 +138,7 @@ def test_contradicted_samples_reach_no_row_of_any_joint():
     np.testing.assert_allclose(seen.W @ beta, seen.y, atol=1e-9)
     part = seen.stretches[0]
     assert not part.usable[800:840].any()  # joint 1 as well
-    text = "\n".join(seen.report.lines())
+    text = "\n".join(seen.report.format_lines())
     report = seen.report.logs[0]
     assert 40 <= report.contradicted < 100
     for words in (f"{report.contradicted} samples with impossible derivatives", "qdd2: ",
@@ -146,8 +146,8 @@ def test_contradicted_samples_reach_no_row_of_any_joint():
         assert words in text
     kept = observe(model, [log], Processing(keep_contradicted=True))
     assert np.max(np.abs(kept.W @ beta - kept.y)) > 1.0
-    assert "impossible derivatives are used" in "\n".join(kept.report.lines())
-    again = processing_from_json(kept.report.processing.to_json())
+    assert "impossible derivatives are used" in "\n".join(kept.report.format_lines())
+    again = read_processing(kept.report.processing.to_json())
     assert again.keep_contradicted
 
 
@@ -238,8 +238,8 @@ def kinova(name):
 def test_the_transients_at_both_ends_of_measured_runs(number):
     """The source's accelerations start and end with a transient, its joint 4 most of all."""
     log = kinova(f"traj_{number}")
-    pieces, _ = split(log, 0, True)
-    found = consistency(log, pieces, 20.0)
+    pieces, _ = split_log(log, 0, True)
+    found = check_derivatives(log, pieces, 20.0)
     counts = [int(bad.sum()) for bad in found.bad]
     assert not any(counts[2:-1])
     start = np.concatenate([p.time[b] for p, b in zip(pieces[:2], found.bad[:2], strict=True)])

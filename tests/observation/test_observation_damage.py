@@ -12,7 +12,7 @@ from rough_joint import KINDS, rough_log
 
 from modeler.observation.log import Log
 from modeler.observation.observe import observe
-from modeler.observation.outliers import damages, defects
+from modeler.observation.outliers import describe_damages, repair_log
 from modeler.observation.read import read_log
 from modeler.observation.settings import Processing
 from tests.observation.motions import fourier, manifest_of, noisy_torque, root_mean_square
@@ -29,8 +29,8 @@ ARMS = {
 
 def repaired(log, spec):
     """The log mended of all that looks like a defect, and that in words."""
-    mended, found, _ = defects(log, spec)
-    return mended, damages(log, log.rows, spec, found, {})
+    mended, found, _ = repair_log(log, spec)
+    return mended, describe_damages(log, log.rows, spec, found, {})
 
 
 def drawn(random, name, rate=None, noise=None):
@@ -171,7 +171,7 @@ def test_rows_that_a_recorder_repeats_are_left_out(each):
         assert "gave about 125 rows a second" in found[0].line
         assert mended.rows == len(set(rows)) == len(rows) - found[0].samples
         seen = observe(ARMS[name], [again])
-        assert not any("rings" in line for line in seen.report.doubts())
+        assert not any("rings" in line for line in seen.report.collect_warnings())
 
 
 def sample(defect, name="planar", joint=1, row=3000, size=0.5):
@@ -215,14 +215,14 @@ def test_the_report_names_the_defect_and_the_rest_stays_usable(defect):
     model = planar_arm()
     log, beta = sample(defect)
     seen = observe(model, [log])
-    text = "\n".join(seen.report.lines())
+    text = "\n".join(seen.report.format_lines())
     lines = [line for line in text.splitlines() if line.startswith("  ")]
     assert any(re.search(LINES[defect], line) for line in lines), text
     assert "--keep-damaged uses all as logged" in text and "resampled" not in text
-    (doubt, *_) = seen.report.doubts()
+    (doubt, *_) = seen.report.collect_warnings()
     assert doubt.startswith("run: ")
     raw = observe(model, [log], Processing(keep_damaged=True))
-    assert "all values are used as logged" in "\n".join(raw.report.lines())
+    assert "all values are used as logged" in "\n".join(raw.report.format_lines())
     clean = clean_observation()
     honest = root_mean_square(clean, beta)
     assert root_mean_square(seen, beta) < 2.0 * honest

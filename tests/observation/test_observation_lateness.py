@@ -5,12 +5,12 @@ import dataclasses
 import numpy as np
 import pytest
 
-from modeler.observation.consistency import consistency, quieter
+from modeler.observation.consistency import check_derivatives, is_position_quieter
 from modeler.observation.log import Log
 from modeler.observation.observe import observe
-from modeler.observation.prepare import without_speeds
+from modeler.observation.prepare import drop_speeds
 from modeler.observation.read import read_log
-from modeler.observation.segments import split
+from modeler.observation.segments import split_log
 from modeler.observation.settings import Processing
 from tests.observation.motions import fourier, manifest_of, root_mean_square
 from tests.oracles.numpy_model import planar_arm
@@ -33,8 +33,8 @@ def drawn(random, rate, lags, joints=2):
 
 
 def consistency_of(log, cutoff=5.0):
-    pieces, _ = split(log, 0, True)
-    return consistency(log, pieces, cutoff)
+    pieces, _ = split_log(log, 0, True)
+    return check_derivatives(log, pieces, cutoff)
 
 
 @pytest.mark.parametrize(("rate", "joints"), [(100, 7), *rotating((1000, 2), (1000, 7))])
@@ -70,8 +70,8 @@ def test_two_joints_late_by_different_times_are_told_apart():
 def test_a_joint_that_reads_the_speed_backwards_is_not_called_late():
     log, _ = drawn(np.random.default_rng(3), 500, [0.0, 0.0])
     wrong = dataclasses.replace(log, qd=log.qd * [1.0, -1.0])
-    pieces, _ = split(wrong, 0, True)
-    assert consistency(wrong, pieces, 5.0, refuse=False).late == ()
+    pieces, _ = split_log(wrong, 0, True)
+    assert check_derivatives(wrong, pieces, 5.0, refuse=False).delays == ()
 
 
 @pytest.mark.parametrize("lags", [(0.0, 0.04), *rotating(((0.03, 0.03),))])
@@ -118,7 +118,9 @@ def piece(position_noise, velocity_noise):
     t, draw = np.arange(2000) * 0.002, np.random.default_rng(1).normal
     q = np.sin(2.0 * t) + position_noise * draw(size=len(t))
     qd = 2.0 * np.cos(2.0 * t) + velocity_noise * draw(size=len(t))
-    return split(Log("run", ("1",), t, q[:, None], 1.0 + q[:, None], qd[:, None]), 0, True)[0][0]
+    return split_log(Log("run", ("1",), t, q[:, None], 1.0 + q[:, None], qd[:, None]), 0, True)[0][
+        0
+    ]
 
 
 @pytest.mark.parametrize(
@@ -128,5 +130,5 @@ def piece(position_noise, velocity_noise):
 def test_the_position_is_differentiated_where_that_is_clearly_quieter(position, velocity, taken):
     """Noise s_q of the position is 2 pi f s_q / sqrt 3 = 181 s_q on the velocity."""
     one = piece(position, velocity)
-    assert quieter([one], 50.0) is taken
-    assert not quieter([without_speeds(one)], 50.0) and not quieter([], 50.0)
+    assert is_position_quieter([one], 50.0) is taken
+    assert not is_position_quieter([drop_speeds(one)], 50.0) and not is_position_quieter([], 50.0)

@@ -8,9 +8,9 @@ import pytest
 
 from modeler.cli import main
 from modeler.observation.log import Log
-from modeler.observation.observation import MASKS, masks_of
+from modeler.observation.observation import MASKS, classify_rows
 from modeler.observation.observe import observe
-from modeler.observation.prepare import nearest_closed
+from modeler.observation.prepare import find_nearest_closed
 from modeler.observation.settings import Processing
 from tests.modules import compiled
 from tests.observation.motions import some_beta, write
@@ -60,11 +60,11 @@ def test_the_fit_does_without_the_samples_that_cannot_close():
     seen = observe(model, [log], as_logged)
     assert not seen.used[open_].any()
     assert seen.used[~open_].all()
-    assert (masks_of(seen)[open_] == MASKS.index("loops open")).all()
+    assert (classify_rows(seen)[open_] == MASKS.index("loops open")).all()
     assert np.isfinite(seen.columns).all()
     found = np.linalg.lstsq(seen.W, seen.y, rcond=None)[0]
     np.testing.assert_allclose(found, some_beta(model), rtol=1e-7)
-    (line,) = (line for line in seen.report.doubts() if "closed" in line)
+    (line,) = (line for line in seen.report.collect_warnings() if "closed" in line)
     assert f"at {open_.sum()} of {len(log.time)} samples" in line
     assert f"first at {log.time[open_][0]:.6g} s" in line
 
@@ -72,12 +72,12 @@ def test_the_fit_does_without_the_samples_that_cannot_close():
 def test_the_nearest_posture_that_closes_stands_in():
     model = compiled("five-bar")
     log, open_ = log_of(0.95)
-    places = nearest_closed(model, log.q)
+    places = find_nearest_closed(model, log.q)
     all_places, good = np.arange(len(open_)), np.flatnonzero(~open_)
     assert (places[good] == good).all() and not open_[places].any()
     gaps = np.abs(all_places[:, None] - good).min(axis=1)
     np.testing.assert_array_equal(np.abs(places - all_places), gaps)
-    assert nearest_closed(model, log.q[open_]) is None
+    assert find_nearest_closed(model, log.q[open_]) is None
 
 
 @pytest.mark.rotating("long tests of observation")

@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 from modeler.core.errors import DataError
-from modeler.observation.chunk import window
-from modeler.observation.log import shared_rows
+from modeler.observation.chunk import cut_window
+from modeler.observation.log import has_shared_rows
 from modeler.observation.read import read_log
 from tests.logs.writers import parquet
 from tests.oracles.numpy_model import planar_arm, slider
@@ -88,7 +88,7 @@ def test_missing_values_stay_in_their_rows_and_are_counted(tmp_path, spec):
     for suffix in (".csv", ".parquet"):
         log = read_log(write(tmp_path / f"gappy{suffix}", table), spec)
         assert log.missing == {"q1": 3, "tau2": 1}
-        assert window(log, float(log.time[5]), None).missing == {"q1": 1, "tau2": 1}
+        assert cut_window(log, float(log.time[5]), None).missing == {"q1": 1, "tau2": 1}
         assert log.rows == 50 and np.isnan(log.q[3:6, 0]).all() and np.isnan(log.tau[10, 1])
 
 
@@ -97,7 +97,7 @@ def test_temperatures_between_logged_values_lie_on_a_line(tmp_path, spec):
     table["temperature1"][np.arange(50) % 10 != 0] = np.nan
     log = read_log(write(tmp_path / "run.csv", table), spec)
     assert np.allclose(log.extra["temperature1"][:41], np.linspace(20.0, 30.0, 50)[:41])
-    assert any("temperature1 has no value in 45 of 50 rows" in line for line in log.told)
+    assert any("temperature1 has no value in 45 of 50 rows" in line for line in log.reading_notes)
     table["temperature1"][:] = np.nan
     with pytest.raises(DataError, match="temperature1 has no values; record it, or drop"):
         read_log(write(tmp_path / "none.parquet", table), spec)
@@ -107,7 +107,7 @@ def test_partly_logged_velocities_are_not_used_and_it_is_said(tmp_path, spec):
     table = columns() | {"qd1": np.ones(50), "qc1": np.ones(50), "qc2": np.ones(50)}
     log = read_log(write(tmp_path / "a.csv", table), spec)
     assert log.qd is None and log.commanded is not None
-    assert any("qd2 missing" in line for line in log.told)
+    assert any("qd2 missing" in line for line in log.reading_notes)
 
 
 def test_doubts_are_noted(tmp_path, spec):
@@ -120,7 +120,7 @@ def test_doubts_are_noted(tmp_path, spec):
     notes = " | ".join(log.notes)
     for words in ("in seconds", "q1 spans 180", "joint 2 never changes"):
         assert words in notes
-    assert any("comment not numeric" in line for line in log.told)
+    assert any("comment not numeric" in line for line in log.reading_notes)
 
 
 def changed(**new):
@@ -216,7 +216,9 @@ def test_a_text_column_in_another_encoding_is_left_out(tmp_path, spec):
     head, *rows = csv_lines(columns())
     text = "\n".join([f"{head},note", *(f"{row},gr\u00fcn" for row in rows)])
     (tmp_path / "a.csv").write_bytes(text.encode("latin-1"))
-    assert any("note not numeric" in line for line in read_log(tmp_path / "a.csv", spec).told)
+    assert any(
+        "note not numeric" in line for line in read_log(tmp_path / "a.csv", spec).reading_notes
+    )
 
 
 def test_the_fingerprint_tells_measurements_and_not_files(tmp_path, spec):
@@ -225,7 +227,7 @@ def test_the_fingerprint_tells_measurements_and_not_files(tmp_path, spec):
     first = read_log(write(tmp_path / "a.csv", table), spec)
     copy = read_log(write(tmp_path / "b.parquet", table), spec)
     assert copy.content == first.content and len(first.content) == 64
-    piece = window(copy, 0.1, 0.2)
+    piece = cut_window(copy, 0.1, 0.2)
     assert piece.content == first.content
     seen = {first.content}
     for name in ("time", "q1", "q2", "tau1", "tau2"):
@@ -233,11 +235,11 @@ def test_the_fingerprint_tells_measurements_and_not_files(tmp_path, spec):
         other[name][-1] += 1e-9
         seen.add(read_log(write(tmp_path / "c.parquet", other), spec).content)
     assert len(seen) == 6
-    assert shared_rows(piece, first.content, 0.15, 0.16)
-    assert not shared_rows(piece, first.content, 0.2, 0.3)
-    assert not shared_rows(piece, "another", 0.15, 0.16)
+    assert has_shared_rows(piece, first.content, 0.15, 0.16)
+    assert not has_shared_rows(piece, first.content, 0.2, 0.3)
+    assert not has_shared_rows(piece, "another", 0.15, 0.16)
     nameless = dataclasses.replace(piece, content="")
-    assert not shared_rows(nameless, "", 0.15, 0.16)
+    assert not has_shared_rows(nameless, "", 0.15, 0.16)
 
 
 def test_a_speck_is_nothing(tmp_path, spec):

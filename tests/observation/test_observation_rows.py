@@ -7,10 +7,10 @@ import pytest
 from scipy.signal import butter, sosfiltfilt
 
 from modeler.core.errors import DataError
-from modeler.numerics.filters import filter_at, forwards_and_backwards
+from modeler.numerics.filters import apply_zero_phase_lowpass, build_row_filter
 from modeler.observation.log import Log
-from modeler.observation.low_speed import shafts
-from modeler.observation.motion import low_pass
+from modeler.observation.low_speed import find_shafts
+from modeler.observation.motion import apply_low_pass
 from modeler.observation.observe import observe
 from modeler.observation.settings import Processing
 from tests.observation.motions import exact_log, motion, some_beta
@@ -22,7 +22,7 @@ def row_filter(whole, step, cutoff, every):
     """A filter whose rows are so many samples apart, in the middle of what is whole."""
     inside = np.flatnonzero(whole)
     centres = inside[(len(inside) - 1) % every // 2 :: every]
-    return filter_at(centres, len(whole), step, cutoff)
+    return build_row_filter(centres, len(whole), step, cutoff)
 
 
 @pytest.mark.parametrize("cutoff", [0.0, 3.0])
@@ -60,7 +60,7 @@ def test_exact_motion_gives_exact_equations_whatever_the_filter(cutoff):
     seen = observe(model, [exact_log(model, beta)], Processing(parallel_cutoff=cutoff))
     assert len(seen.y) > 150
     np.testing.assert_allclose(seen.W @ beta, seen.y, atol=1e-11)
-    np.testing.assert_allclose(seen.predicted(beta), seen.torque, atol=1e-11)
+    np.testing.assert_allclose(seen.predict(beta), seen.torque, atol=1e-11)
     assert seen.report.logs[0].derivatives == "qd and qdd as logged"
 
 
@@ -102,7 +102,7 @@ def test_a_burst_on_masked_samples_does_not_reach_any_row():
     np.testing.assert_allclose(seen.W @ beta, seen.y, atol=1e-10)
     report = seen.report
     assert report.logs[0].saturated == {"1": 30}
-    text = "\n".join(report.lines())
+    text = "\n".join(report.format_lines())
     assert "torque stuck at its limit in 30 rows" in text and "not used" in text
     kept = observe(model, [dataclasses.replace(log, tau=tau)], Processing(keep_saturated=True))
     assert np.max(np.abs(kept.W @ beta - kept.y)) > 1.0
@@ -110,12 +110,12 @@ def test_a_burst_on_masked_samples_does_not_reach_any_row():
 
 def test_shafts_are_found_from_the_columns_alone():
     wrist = NumpyModel([Row(), Row(-np.pi / 2), Row(np.pi / 2)], coupling={2: (0.0, 1.0, 0.5)})
-    found = {shaft.name: shaft for shaft in shafts(wrist)}
+    found = {shaft.name: shaft for shaft in find_shafts(wrist)}
     assert set(found) == {"1", "2", "3", "2+3"}
     assert found["2"].joints == (1,) and found["2+3"].joints == (1, 2)
     ratio = found["2+3"].coefficients[2] / found["2+3"].coefficients[1]
     assert ratio == pytest.approx(0.5) and found["2+3"].coefficients[0] == 0.0
-    assert shafts(planar_arm(friction=False)) == ()
+    assert find_shafts(planar_arm(friction=False)) == ()
 
 
 def test_rows_are_masked_where_a_coupled_shaft_stands_still():
@@ -134,7 +134,9 @@ def test_a_joint_that_never_moves_keeps_its_rows_and_has_no_friction():
     log = Log("a", ("1", "2"), t, q, np.ones_like(q), qd, qdd)
     seen = observe(planar_arm(), [log])
     assert seen.used[:, 0].any() and seen.used[:, 1].all()
-    assert any("rows; it never moves: its friction is" in line for line in seen.report.lines())
+    assert any(
+        "rows; it never moves: its friction is" in line for line in seen.report.format_lines()
+    )
     friction = [k for k, name in enumerate(seen.names) if name.startswith("F") and name[-1] == "2"]
     assert friction and not seen.columns[..., friction].any()
     assert observe(planar_arm(friction=False), [log]).used.all()
@@ -264,11 +266,11 @@ def test_it_is_that_of_scipy(case: str) -> None:
     samples, cutoff, rate, padding, bound = CASES[case]
     walk = np.random.default_rng(len(case)).normal(size=(samples, 3)).cumsum(axis=0) + 50.0
     theirs = sosfiltfilt(butter(4, cutoff, fs=rate, output="sos"), walk, axis=0, padlen=padding)
-    ours = forwards_and_backwards(walk, 1.0 / rate, cutoff, padding)
+    ours = apply_zero_phase_lowpass(walk, 1.0 / rate, cutoff, padding)
     assert np.abs(ours - theirs).max() < bound * np.abs(walk).max()
 
 
 def test_what_stands_still_stays() -> None:
     still = np.full((100, 2, 2), 3.25)
-    assert (low_pass(still, 1e-3, 20.0) == still).all()
-    assert low_pass(still, 1e-3, 0.0) is still
+    assert (apply_low_pass(still, 1e-3, 20.0) == still).all()
+    assert apply_low_pass(still, 1e-3, 0.0) is still

@@ -8,14 +8,19 @@ import pytest
 from modeler.core.errors import DataError
 from modeler.core.manifest import JointSpec
 from modeler.estimation.identify import identify
-from modeler.numerics.filters import forwards_and_backwards
+from modeler.numerics.filters import apply_zero_phase_lowpass
 from modeler.observation.log import Log
-from modeler.observation.motion import segment_of
-from modeler.observation.motion_noise import motion_noise
+from modeler.observation.motion import build_segment
+from modeler.observation.motion_noise import estimate_motion_noise
 from modeler.observation.observe import observe
-from modeler.observation.prepare import choose_cutoffs, joint_bands, spectra_of, what_rings
-from modeler.observation.segments import saturated, split
-from modeler.observation.settings import ChosenProcessing, Processing, processing_from_json
+from modeler.observation.prepare import (
+    choose_cutoffs,
+    compute_spectra,
+    estimate_joint_bands,
+    find_ringing_joints,
+)
+from modeler.observation.segments import find_saturated, split_log
+from modeler.observation.settings import ChosenProcessing, Processing, read_processing
 from tests.fleet.machines import compiled, motion, parameters
 from tests.rotation import rotating
 
@@ -33,43 +38,43 @@ def test_clipping_is_caught_and_clean_signals_are_not():
     noise = np.random.default_rng(0).normal(0, 0.01, t.shape)
     sine = np.sin(2 * np.pi * t)
     clipped = np.clip(1.5 * sine + noise, -1.0, 1.0)
-    caught = saturated(clipped, t)
+    caught = find_saturated(clipped, t)
     assert caught.sum() > 0.9 * np.sum(np.abs(1.5 * sine) > 1.05)
     assert np.all(np.abs(clipped[caught]) == 1.0)
-    one_sided = saturated(np.minimum(1.5 * sine, 1.0), t)
+    one_sided = find_saturated(np.minimum(1.5 * sine, 1.0), t)
     assert one_sided.any() and not one_sided[sine < 0].any()
     switched = 10.0 * np.sign(np.round(sine))  # full torque, none, full torque back
-    assert np.array_equal(saturated(switched, t), switched != 0.0)
+    assert np.array_equal(find_saturated(switched, t), switched != 0.0)
     for resolution in (1e-4, 1e-3, 1e-2, 0.1):  # crests of 3 to 200 equal samples
         for scale in (1.0, 1.0 / 3.0):
             rounded = np.round(sine / resolution) * resolution * scale
-            assert not saturated(rounded, t).any()
-            assert not saturated(np.round((sine + noise) / resolution) * resolution, t).any()
-    assert not saturated(np.full(100, 3.0), t[:100]).any()
-    assert not saturated(np.array([np.nan] * 50), t[:50]).any()
+            assert not find_saturated(rounded, t).any()
+            assert not find_saturated(np.round((sine + noise) / resolution) * resolution, t).any()
+    assert not find_saturated(np.full(100, 3.0), t[:100]).any()
+    assert not find_saturated(np.array([np.nan] * 50), t[:50]).any()
 
 
 def test_a_held_torque_and_that_of_a_joint_at_rest_are_not_at_a_limit():
     t = np.arange(4000) / 1000.0
     held = np.repeat(np.sin(2 * np.pi * t)[::20], 20)
-    assert not saturated(held, t).any()
+    assert not find_saturated(held, t).any()
     fresh = np.random.default_rng(2).integers(-9, 10, 200)
     fresh[60:62] = 12  # twice the largest, which is a limit only where the log holds no value
     held, mended = np.repeat(fresh, 20), np.interp(t, t[::20], fresh)
-    assert saturated(mended, t).any() and not saturated(mended, t, logged=held).any()
+    assert find_saturated(mended, t).any() and not find_saturated(mended, t, logged=held).any()
     random = np.random.default_rng(1)
     torque = np.where(t < 2.0, np.sin(9.0 * t) + 0.01 * random.normal(size=4000), 3.0)
-    assert not saturated(torque, np.minimum(t, 2.0)).any()
+    assert not find_saturated(torque, np.minimum(t, 2.0)).any()
 
 
 def test_pieces_end_at_gaps_and_segment_changes():
     time = np.concatenate([np.arange(100), 200 + np.arange(50)]) * 0.01
-    pieces, report = split(log_of(time), 0, False)
+    pieces, report = split_log(log_of(time), 0, False)
     assert [len(p.time) for p in pieces] == [100, 50]
     assert report.gaps == pytest.approx([2.0]) and report.widths == pytest.approx([1.01])
     assert not any(p.resampled for p in pieces) and report.jitter < 1e-9
     marked = log_of(np.arange(100) * 0.01, segment=np.repeat([0, 1, 2], [40, 57, 3]))
-    pieces, report = split(marked, 0, False)
+    pieces, report = split_log(marked, 0, False)
     assert [len(p.time) for p in pieces] == [40, 57] and report.short == pytest.approx(
         [0.97, 0.98, 0.99]
     )
@@ -81,7 +86,7 @@ def test_short_losses_are_bridged_and_marked_long_ones_cut():
     q[50:53] = np.nan  # 3 rows: bridged
     q[200:220] = np.nan  # 20 rows: a gap
     tau[300] = np.nan
-    pieces, _ = split(log_of(time, q, tau), 0, False)
+    pieces, _ = split_log(log_of(time, q, tau), 0, False)
     assert len(pieces) == 2
     first, second = pieces
     np.testing.assert_allclose(first.time, time[:200], atol=1e-12)
@@ -89,7 +94,7 @@ def test_short_losses_are_bridged_and_marked_long_ones_cut():
     np.testing.assert_allclose(first.q[:, 0], np.sin(W0 * first.time), atol=1e-3)
     # 40 ms are longer than 0.4 periods of the filter: samples beside the bridge do not count. A
     # monotone cubic would bend there by 0.3 rad/s2.
-    segment = segment_of(first, Processing(position_cutoff=30.0))
+    segment = build_segment(first, Processing(position_cutoff=30.0))
     counted = segment.valid[:, 0]
     wrong = np.abs(segment.qdd[:, 0] + W0**2 * np.sin(W0 * first.time))
     assert not counted[45:58].any() and wrong[49:54].max() < 0.05 and wrong[counted].max() < 0.15
@@ -101,7 +106,7 @@ def test_short_losses_are_bridged_and_marked_long_ones_cut():
 def test_jittered_stamps_come_out_on_a_uniform_grid():
     random = np.random.default_rng(1)
     time = np.cumsum(random.choice([0.008, 0.01, 0.012], 500))
-    pieces, report = split(log_of(time), 0, False)
+    pieces, report = split_log(log_of(time), 0, False)
     piece = pieces[0]
     assert piece.resampled and report.jitter == pytest.approx(0.2)
     np.testing.assert_allclose(np.diff(piece.time), piece.step, rtol=1e-9)
@@ -112,8 +117,8 @@ def test_jittered_stamps_come_out_on_a_uniform_grid():
 
 def test_derivatives_of_a_sine():
     time = np.arange(3000) * 1e-3
-    piece = split(log_of(time), 0, False)[0][0]
-    segment = segment_of(piece, Processing(position_cutoff=50.0))
+    piece = split_log(log_of(time), 0, False)[0][0]
+    segment = build_segment(piece, Processing(position_cutoff=50.0))
     whole = segment.whole
     assert 0.95 < whole.mean() < 1.0
     expected = (np.sin(W0 * time), W0 * np.cos(W0 * time), -(W0**2) * np.sin(W0 * time))
@@ -126,7 +131,7 @@ def test_derivatives_of_a_sine():
     ):
         np.testing.assert_allclose(got[whole, 0], want[whole], atol=tolerance * scale)
     # No filter: central differences alone, one sample lost at each end.
-    bare = segment_of(piece, Processing(position_cutoff=0.0))
+    bare = build_segment(piece, Processing(position_cutoff=0.0))
     assert bare.whole.sum() == 2998
     np.testing.assert_allclose(bare.qdd[1:-1, 0], expected[2][1:-1], atol=1e-4 * W0**2)
 
@@ -135,18 +140,23 @@ def test_logged_derivatives_are_taken_as_asked():
     time = np.arange(1000) * 1e-3
     log = log_of(time, qd=np.full((1000, 1), 7.0), qdd=np.full((1000, 1), 9.0))
     processing = Processing(position_cutoff=50.0)
-    both = segment_of(split(log, 0, True)[0][0], processing)
+    both = build_segment(split_log(log, 0, True)[0][0], processing)
     assert np.all(both.qd == 7.0) and np.all(both.qdd == 9.0) and both.whole.all()
-    velocity = segment_of(split(dataclasses.replace(log, qdd=None), 0, True)[0][0], processing)
+    velocity = build_segment(
+        split_log(dataclasses.replace(log, qdd=None), 0, True)[0][0], processing
+    )
     np.testing.assert_allclose(velocity.qd, 7.0)
     np.testing.assert_allclose(velocity.qdd, 0.0, atol=1e-6)
-    differentiated = segment_of(split(log, 0, False)[0][0], processing)
+    differentiated = build_segment(split_log(log, 0, False)[0][0], processing)
     assert np.max(np.abs(differentiated.qd)) < 5.0
 
 
 def test_a_piece_that_is_all_edge_is_left_out():
     time = np.arange(20) * 1e-3
-    assert segment_of(split(log_of(time), 0, False)[0][0], Processing(position_cutoff=30.0)) is None
+    assert (
+        build_segment(split_log(log_of(time), 0, False)[0][0], Processing(position_cutoff=30.0))
+        is None
+    )
 
 
 def noise_in(*pieces):
@@ -154,7 +164,9 @@ def noise_in(*pieces):
         JointSpec(name, "revolute", "rad", "N m", True, None)
         for name in "1234567"[: pieces[0].q.shape[1]]
     ]
-    return motion_noise(joints, pieces, joint_bands(pieces, spectra_of(pieces)))
+    return estimate_motion_noise(
+        joints, pieces, estimate_joint_bands(pieces, compute_spectra(pieces))
+    )
 
 
 def band_of(piece):
@@ -167,8 +179,8 @@ def cutoffs_of(processing, *pieces):
 
 def rings_of(log):
     """Joints of a log that ring."""
-    pieces, _ = split(log, 0, False)
-    return what_rings(spectra_of(pieces), [0.0] * len(log.joints), pieces)
+    pieces, _ = split_log(log, 0, False)
+    return find_ringing_joints(compute_spectra(pieces), [0.0] * len(log.joints), pieces)
 
 
 def ringing_log(share, hertz, of=0.3):
@@ -182,7 +194,7 @@ def ringing_log(share, hertz, of=0.3):
 
 @pytest.mark.parametrize("share", [0.02, 0.17, 0.97])
 def test_what_rings_far_above_the_motion_is_no_motion(share):
-    piece = split(ringing_log(share, 93.0), 0, False)[0][0]
+    piece = split_log(ringing_log(share, 93.0), 0, False)[0][0]
     (found,) = rings_of(ringing_log(share, 93.0))
     assert found.joint == 1
     assert found.frequency == pytest.approx(93.0, abs=0.1)
@@ -197,11 +209,11 @@ def test_what_is_no_ringing():
         assert rings_of(ringing_log(share, hertz)) == []
     time = np.arange(20000) * 1e-3
     log = log_of(time, np.sin(2 * np.pi * 60.0 * time)[:, None])
-    piece = split(log, 0, False)[0][0]
+    piece = split_log(log, 0, False)[0][0]
     assert rings_of(log) == []
     assert band_of(piece) == pytest.approx(60.0, abs=0.5)
     still = log_of(time, np.full((len(time), 1), 0.4))
-    assert band_of(split(still, 0, False)[0][0]) == 0.0
+    assert band_of(split_log(still, 0, False)[0][0]) == 0.0
 
 
 @pytest.mark.parametrize(
@@ -210,7 +222,7 @@ def test_what_is_no_ringing():
 )
 def test_automatic_cutoffs_follow_the_motion(hertz, rate, position, parallel):
     time = np.arange(20 * rate) / rate
-    piece = split(log_of(time, np.sin(2 * np.pi * hertz * time)[:, None]), 0, False)[0][0]
+    piece = split_log(log_of(time, np.sin(2 * np.pi * hertz * time)[:, None]), 0, False)[0][0]
     chosen = cutoffs_of(Processing(), piece)[0]
     assert chosen.position_cutoff == pytest.approx(position, rel=0.05)
     assert chosen.parallel_cutoff == pytest.approx(parallel, rel=0.05)
@@ -223,7 +235,7 @@ def test_automatic_cutoffs_follow_the_motion(hertz, rate, position, parallel):
 
 def test_a_rate_too_low_for_the_motion_is_said():
     time = np.arange(400) / 20.0
-    piece = split(log_of(time, np.sin(2 * np.pi * 3.0 * time)[:, None]), 0, False)[0][0]
+    piece = split_log(log_of(time, np.sin(2 * np.pi * 3.0 * time)[:, None]), 0, False)[0][0]
     said = cutoffs_of(Processing(), piece)[1]
     assert any("less than 5 x the motion band of joint 1" in s for s in said)
     assert any("sample faster or move slower" in s for s in said)
@@ -259,7 +271,7 @@ def noise_of(colour, size, seed=6):
 
 
 def first_piece(log):
-    return split(log, 0, False)[0][0]
+    return split_log(log, 0, False)[0][0]
 
 
 @pytest.mark.parametrize("colour", ["white", "of a slow sensor", "shaking", "pink"])
@@ -310,8 +322,8 @@ def test_processing_survives_json_and_refuses_nonsense():
         30.0, 5.0, 4, "log", 0.01, {"1": 0.2, "5+6": float("inf")}, True, 0.1,
         chosen=("parallel_cutoff",),
     )  # fmt: skip
-    assert processing_from_json(full.to_json()) == full
-    assert processing_from_json(Processing().to_json()) == Processing()
+    assert read_processing(full.to_json()) == full
+    assert read_processing(Processing().to_json()) == Processing()
     for bad, words in (
         ({"derivatives": "best"}, 'derivatives is "best"; expected auto, log, position'),
         ({"cutoff": 1.0}, "processing has no setting cutoff"),
@@ -320,7 +332,7 @@ def test_processing_survives_json_and_refuses_nonsense():
         ({"delay": float("nan")}, "delay is nan; expected less than 1 s"),
     ):
         with pytest.raises(DataError, match=words):
-            processing_from_json(bad)
+            read_processing(bad)
     with pytest.raises(DataError, match=r"speed_floors is .*expected a speed by joint"):
         Processing(speed_floors=(0.1,))
 
@@ -340,7 +352,7 @@ def smooth(time, seed=0):
 def noise_found(q, rate, band=2.0):
     time = np.arange(len(q)) / rate
     log = Log("a", ("1",), time, q[:, None], q[:, None])
-    return motion_noise([JOINT], split(log, 0, False)[0], np.array([band])).joints[0]
+    return estimate_motion_noise([JOINT], split_log(log, 0, False)[0], np.array([band])).joints[0]
 
 
 @pytest.mark.parametrize(
@@ -354,8 +366,10 @@ def test_the_floor_is_the_density_of_white_noise(rate, size):
     assert found.deviation == pytest.approx(size, rel=0.15)
     assert 2.0 < found.hides_above_hz < 30.0 and found.colour == 0.0
     # what is differentiated below a cut-off has the noise that is told
-    speed = np.gradient(forwards_and_backwards(white[:, None], 1 / rate, 20.0, 100)[:, 0], 1 / rate)
-    assert found.speed_deviation(20.0) == pytest.approx(np.std(speed), rel=0.3)
+    speed = np.gradient(
+        apply_zero_phase_lowpass(white[:, None], 1 / rate, 20.0, 100)[:, 0], 1 / rate
+    )
+    assert found.compute_speed_deviation(20.0) == pytest.approx(np.std(speed), rel=0.3)
 
 
 def test_a_finer_encoder_hides_the_motion_later():
@@ -404,6 +418,6 @@ def test_noise_of_logged_accelerations_lowers_the_parallel_filter_and_is_in_sigm
             cutoffs.append(found.report.processing.parallel_cutoff)
         fit = identify(found, "weighted", model)
         z.append((fit.beta - beta) / np.sqrt(np.diag(fit.covariance)))
-        assert "noise of the logged accelerations" in "\n".join(found.report.lines())
+        assert "noise of the logged accelerations" in "\n".join(found.report.format_lines())
     assert max(cutoffs[1::2]) < 0.8 * min(cutoffs[::2])
     assert np.sqrt(np.mean(np.square(z))) < 1.6

@@ -111,7 +111,7 @@ def reached(
         steps: of a way.
     """
     rng = np.random.default_rng(seed)
-    wide = [reach if j.angular else 0.3 * reach * oracle.size for j in oracle.robot.coordinates]
+    wide = [reach if j.is_revolute else 0.3 * reach * oracle.size for j in oracle.robot.coordinates]
     home = closed_near(oracle, home[None])[0]
     share = rng.uniform(0.02, 1.0, (count, 1)) ** 2
     targets = home[oracle.given] + share * rng.uniform(-1, 1, (count, len(wide))) * wide

@@ -32,8 +32,8 @@ class Oracle:
     """
 
     def __init__(self, robot: Robot, chi: Mapping[str, float] = MappingProxyType({})) -> None:
-        self.robot, self.symbols = robot, robot.symbol_values()
-        names = [joint.name for joint in robot.free]
+        self.robot, self.symbols = robot, robot.evaluate_symbols()
+        names = [joint.name for joint in robot.free_joints]
         self.given = [names.index(joint.name) for joint in robot.coordinates]
         self.solved = [k for k in range(len(names)) if k not in self.given]
         self.n = len(self.given)
@@ -41,10 +41,12 @@ class Oracle:
         self._chi, self._shared = dict(chi), shared
         self.follow = self._following(names)
         self.rows = {joint.name: self._row(joint) for joint in robot.joints}
-        self.gravity = np.array([e.number(self.symbols) for e in robot.gravity])
+        self.gravity = np.array([e.evaluate(self.symbols) for e in robot.gravity])
         lengths = [abs(x) for A, *_ in self.rows.values() for x in A[:3, 3]]
         self.size = max(lengths, default=1.0) or 1.0
-        self.scale = np.array([1.0 if joint.angular else self.size for joint in robot.free])
+        self.scale = np.array(
+            [1.0 if joint.is_revolute else self.size for joint in robot.free_joints]
+        )
         self.width = 0.0  # of friction that turns around gradually, rad/s or m/s
         self.constant: dict[str, float] = {}  # weights by row that count as offsets, not as gravity
 
@@ -64,7 +66,7 @@ class Oracle:
             while waiting:
                 known = self.symbols | values
                 ready = [k for k, e in waiting.items() if e.names <= known.keys()]
-                values |= {f"q{k}": waiting.pop(k).number(known) for k in ready}
+                values |= {f"q{k}": waiting.pop(k).evaluate(known) for k in ready}
             return values
 
         origin = variables(np.zeros(len(names)))
@@ -74,7 +76,7 @@ class Oracle:
                 origin[row.variable],
                 np.array([one[row.variable] - origin[row.variable] for one in slopes]),
             )
-            for row in robot.moving
+            for row in robot.moving_joints
         }
 
     def _row(self, row) -> tuple:
@@ -128,7 +130,7 @@ class Oracle:
         for row in self.robot.joints:
             w, v, dw, a = found[row.antecedent]
             _, theta, r = self.rows[row.name]
-            slopes = self.follow[row.name][1] if row.moves else np.zeros(u.shape[-1])
+            slopes = self.follow[row.name][1] if row.is_moving else np.zeros(u.shape[-1])
             z = frames[row.name][0][:, :, 2]
             way = frames[row.name][1] - frames[row.antecedent][1]
             rate, gain = (z * np.atleast_1d(x @ slopes)[:, None] for x in (ud, udd))
@@ -268,11 +270,16 @@ class Oracle:
     def _motors(self) -> list[tuple[np.ndarray, dict[str, float]]]:
         """(slopes by u, parameters) of everything that turns with friction or a rotor."""
         found = []
-        for row in self.robot.moving:
+        for row in self.robot.moving_joints:
             own = {x: self.value(f"{x}{row.name}") for x in ("Ia", "Fv", "Fs", "Off", "Fva")}
             own |= {"Fst": self.value(f"Fst{row.name}")}
             own["shape"] = next(
-                (i.shapes for e, _, i in self.robot.effects_on(row.name) if e.id == "stribeck"), {}
+                (
+                    i.nonlinear_parameters
+                    for e, _, i in self.robot.find_joint_effects(row.name)
+                    if e.id == "stribeck"
+                ),
+                {},
             )
             found.append((self.follow[row.name][1], own))
         for row, sum_ in self.robot.coupling.items():
@@ -284,7 +291,7 @@ class Oracle:
     def _inertia_u(self, u: np.ndarray) -> np.ndarray:
         frames = self.frames(u)
         total = 0.0
-        for row in self.robot.moving:
+        for row in self.robot.moving_joints:
             R, _, Jv, Jw = frames[row.name]
             I, s, m = self._body(row.name)
             s = R @ s
@@ -305,7 +312,7 @@ class Oracle:
         """(m,): of gravity."""
         frames = self.frames(u)
         total = 0.0
-        for row in self.robot.moving:
+        for row in self.robot.moving_joints:
             R, p, *_ = frames[row.name]
             _, s, m = self._body(row.name)
             total = total - (m * p + R @ s) @ self.gravity
@@ -314,7 +321,9 @@ class Oracle:
     def _constant(self) -> np.ndarray:
         """(f,): torques of the free variables."""
         rows = self.constant.items()
-        return sum((x * self.follow[row][1] for row, x in rows), np.zeros(len(self.robot.free)))
+        return sum(
+            (x * self.follow[row][1] for row, x in rows), np.zeros(len(self.robot.free_joints))
+        )
 
     def energies(self, u: np.ndarray, ud: np.ndarray) -> np.ndarray:
         """(m,): kinetic and potential, of the free variables."""
@@ -343,7 +352,7 @@ class Oracle:
         ud = _apply(G, qd)
         frames, motion = self.frames(u), self.motion(u, ud, udd)
         total = 0.0 * (ud + udd) - self._constant()
-        for row in self.robot.moving:
+        for row in self.robot.moving_joints:
             ten = np.array([self.value(f"{x}{row.name}") for x in INERTIAL])
             total = total + _powers(frames[row.name], motion[row.name], self.gravity) @ ten
         for slopes, own in self._motors():
@@ -357,7 +366,7 @@ class Oracle:
         frames = self.frames(u)
         motion = self.motion(u, _apply(G, qd), self.accelerations(u, qd, qdd))
         found = {}
-        for row in self.robot.moving:
+        for row in self.robot.moving_joints:
             powers = _powers(frames[row.name], motion[row.name], self.gravity)
             torques = np.einsum("mfn,mfk->kmn", G, powers)
             found |= {f"{x}{row.name}": t for x, t in zip(INERTIAL, torques, strict=True)}
@@ -436,8 +445,8 @@ class Oracle:
         if frame is None:
             last = self.robot.platform or [joint.name for joint in self.robot.joints]
             return row or last[-1], np.eye(4)
-        x = [e.number(self.symbols) for e in frame.position]
-        roll, pitch, yaw = (e.number(self.symbols) for e in frame.angles)
+        x = [e.evaluate(self.symbols) for e in frame.position]
+        roll, pitch, yaw = (e.evaluate(self.symbols) for e in frame.angles)
         T = _moved(rotation(2, yaw) @ rotation(1, pitch) @ rotation(0, roll), x)
         return frame.row, (self._placed(frame.on, None)[1] if frame.on else np.eye(4)) @ T
 
@@ -474,7 +483,7 @@ class Oracle:
         return np.array(
             [
                 np.concatenate([frames[r.name][0][0], frames[r.name][1][0][:, None]], axis=1)
-                for r in self.robot.moving
+                for r in self.robot.moving_joints
             ]
         )
 

@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 
 from modeler.robot.robot import INERTIAL, Robot
-from modeler.simulation.rigid import body_from_standard
+from modeler.simulation.rigid import compute_body
 from tests.elementary_motions import placed
 
 mujoco = pytest.importorskip("mujoco", reason="NOT CHECKED: MuJoCo (PyPI: mujoco) is not installed")
@@ -27,7 +27,7 @@ def numbers(values) -> str:
 
 def body_text(robot: Robot, standard: Mapping[str, float], on: str, light: float) -> str:
     """The rows on that row, as nested bodies and sites."""
-    text, values = "", robot.symbol_values()
+    text, values = "", robot.evaluate_symbols()
     for row in robot.joints:
         if row.antecedent != on:
             continue
@@ -35,12 +35,12 @@ def body_text(robot: Robot, standard: Mapping[str, float], on: str, light: float
         axes = numbers([rotation[:, 0], rotation[:, 1]])
         text += f'<body name="{row.name}" pos="{numbers(origin)}" xyaxes="{axes}">'
         text += f'<site name="{row.name}"/>'
-        if row.moves:
-            kind = "hinge" if row.angular else "slide"
+        if row.is_moving:
+            kind = "hinge" if row.is_revolute else "slide"
             rotor = standard.get(f"Ia{row.name}", 0.0)
             text += f'<joint name="{row.name}" type="{kind}" axis="0 0 {sign:g}" '
             text += f'armature="{rotor:.17g}"/>'
-            body = body_from_standard({p: standard.get(p + row.name, 0.0) for p in INERTIAL})
+            body = compute_body({p: standard.get(p + row.name, 0.0) for p in INERTIAL})
             mass, inertia = max(body.mass, light), body.inertia + light * np.eye(3)
             full = inertia[[0, 1, 2, 0, 0, 1], [0, 1, 2, 1, 2, 2]]
             text += f'<inertial pos="{numbers(body.centre)}" mass="{mass:.17g}" '
@@ -52,13 +52,13 @@ def body_text(robot: Robot, standard: Mapping[str, float], on: str, light: float
 def tie_text(robot: Robot) -> str:
     """Relations as tendons of fixed length, loops of points as connected sites."""
     tendons = equalities = ""
-    values = robot.symbol_values()
-    variables = {joint.variable: 0.0 for joint in robot.moving}
+    values = robot.evaluate_symbols()
+    variables = {joint.variable: 0.0 for joint in robot.moving_joints}
     for name, relation in robot.relations.items():
-        constant = relation.number(values | variables)
+        constant = relation.evaluate(values | variables)
         tendons += f'<fixed name="{name}"><joint joint="{name}" coef="1"/>'
         for variable in sorted(relation.names & variables.keys()):
-            slope = relation.number(values | variables | {variable: 1.0}) - constant
+            slope = relation.evaluate(values | variables | {variable: 1.0}) - constant
             tendons += f'<joint joint="{variable[1:]}" coef="{-slope:.17g}"/>'
         tendons += "</fixed>"
         equalities += f'<tendon tendon1="{name}" polycoef="{constant:.17g} 0 0 0 0" {STIFF}/>'
@@ -75,8 +75,8 @@ def mujoco_model(robot: Robot, standard: Mapping[str, float], light: float = LIG
         standard: of bodies and rotors; those of friction have no effect.
         light: kg and kg m2 that every body has besides, so that none has nothing.
     """
-    values = robot.symbol_values()
-    gravity = numbers([component.number(values) for component in robot.gravity])
+    values = robot.evaluate_symbols()
+    gravity = numbers([component.evaluate(values) for component in robot.gravity])
     return mujoco.MjModel.from_xml_string(
         f'<mujoco><compiler angle="radian" boundmass="0" inertiafromgeom="false"/>'
         f'<option timestep="{STEP}" gravity="{gravity}" integrator="RK4" solver="Newton" '

@@ -5,10 +5,10 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from modeler.core.manifest import FORMAT, BaseSpec, JointSpec, ModuleSpec, ParameterSpec
-from modeler.robot.read import robot_from_text
+from modeler.robot.read import parse_robot_text
 from modeler.robot.robot import INERTIAL
-from modeler.runtime.bind import Samples
-from modeler.runtime.fused import NonzeroPattern, of_dense
+from modeler.runtime.bind import SampleArrays
+from modeler.runtime.fused import NonzeroPattern, reduce_dense_samples
 from tests.oracles.complex_step import Oracle
 
 
@@ -57,11 +57,13 @@ class NumpyModel:
         def evaluate(w):
             return self.base_regressor(q[w], qd[w], qdd[w]), np.zeros(len(q[w]), dtype=bool)
 
-        return of_dense(self.pattern, evaluate, Samples(q, qd, qdd, tau, s, use, weight), state)
+        return reduce_dense_samples(
+            self.pattern, evaluate, SampleArrays(q, qd, qdd, tau, s, use, weight), state
+        )
 
     def __post_init__(self):
         n = len(self.rows)
-        self._oracle = Oracle(robot_from_text(self._text(), "numpy_model"))
+        self._oracle = Oracle(parse_robot_text(self._text(), "numpy_model"))
         names, kinds = [], []
         for j in range(n):
             names += [f"{p}{j + 1}" for p in INERTIAL]

@@ -21,21 +21,23 @@ _OURS = [4, 5, 7, 6, 8, 9, 1, 2, 3, 0]
 
 def pinocchio_model(robot: Robot, chi: Mapping[str, float] = NOTHING):
     """Model and the joint ids in the order of `robot.moving`; bodies and rotors of chi."""
-    values = robot.symbol_values()
+    values = robot.evaluate_symbols()
     model = pin.Model()
-    model.gravity.linear = np.array([e.number(values) for e in robot.gravity])
+    model.gravity.linear = np.array([e.evaluate(values) for e in robot.gravity])
     places = {"0": (0, pin.SE3.Identity())}
     ids = {}
     for joint in depth_first(robot):
         parent, before = places[joint.antecedent]
         rotation, origin, sign = placed(joint, values)
         placement = before * pin.SE3(rotation, origin)
-        if not joint.moves:
+        if not joint.is_moving:
             places[joint.name] = (parent, placement)
             continue
         axis = np.array([0.0, 0.0, sign])
         kind = (
-            pin.JointModelRevoluteUnaligned if joint.angular else pin.JointModelPrismaticUnaligned
+            pin.JointModelRevoluteUnaligned
+            if joint.is_revolute
+            else pin.JointModelPrismaticUnaligned
         )
         index = model.addJoint(parent, kind(axis), placement, f"joint {joint.name}")
         ten = np.array([chi.get(f"{prefix}{joint.name}", 0.0) for prefix in _ORDER])
@@ -44,7 +46,7 @@ def pinocchio_model(robot: Robot, chi: Mapping[str, float] = NOTHING):
         model.armature[model.idx_vs[index]] = chi.get(f"Ia{joint.name}", 0.0)
         places[joint.name] = (index, pin.SE3.Identity())
         ids[joint.name] = index
-    return model, [ids[joint.name] for joint in robot.moving]
+    return model, [ids[joint.name] for joint in robot.moving_joints]
 
 
 def depth_first(robot: Robot) -> list[Joint]:
@@ -96,12 +98,12 @@ class PinocchioDynamics:
         self.rows = [self.model.idx_vs[i] for i in ids]
         self.frames = {}
         if self.robot.tool is not None:
-            values = self.robot.symbol_values()
-            x = [cell.number(values) for cell in self.robot.tool.position]
-            turn = pin.rpy.rpyToMatrix(*[c.number(values) for c in self.robot.tool.angles])
-            row = [joint.name for joint in self.robot.moving].index(self.robot.tool.row)
+            values = self.robot.evaluate_symbols()
+            x = [cell.evaluate(values) for cell in self.robot.tool.position]
+            turn = pin.rpy.rpyToMatrix(*[c.evaluate(values) for c in self.robot.tool.angles])
+            row = [joint.name for joint in self.robot.moving_joints].index(self.robot.tool.row)
             self.frames["tool"] = self.add_frame(ids[row], pin.SE3(turn, np.array(x)))
-        for joint, index in zip(self.robot.moving, ids, strict=True):
+        for joint, index in zip(self.robot.moving_joints, ids, strict=True):
             self.frames[joint.name] = self.add_frame(index, pin.SE3.Identity())
         self.data = self.model.createData()
         self.F, self.shift = self.relations()
@@ -112,16 +114,16 @@ class PinocchioDynamics:
 
     def relations(self):
         """q_rows = F q + shift."""
-        free = [joint.name for joint in self.robot.free]
+        free = [joint.name for joint in self.robot.free_joints]
 
         def rows(q):
-            values = self.robot.symbol_values() | {
+            values = self.robot.evaluate_symbols() | {
                 f"q{name}": x for name, x in zip(free, q, strict=True)
             }
             relations = self.robot.relations
             return np.array([
-                relations[j.name].number(values) if j.name in relations else values[f"q{j.name}"]
-                for j in self.robot.moving
+                relations[j.name].evaluate(values) if j.name in relations else values[f"q{j.name}"]
+                for j in self.robot.moving_joints
             ])  # fmt: skip
 
         shift = rows(np.zeros(len(free)))
@@ -138,7 +140,9 @@ class PinocchioDynamics:
 
     def effects(self, prefix):
         """{row: value} of an effect's parameter."""
-        return np.array([self.chi.get(prefix + joint.name, 0.0) for joint in self.robot.moving])
+        return np.array(
+            [self.chi.get(prefix + joint.name, 0.0) for joint in self.robot.moving_joints]
+        )
 
     def friction(self, v):
         """Torques, and their slopes by v."""

@@ -10,9 +10,9 @@ import sympy
 
 from modeler.cli import main
 from modeler.core.formula import Formula
-from modeler.derivation.relations import expression_formula
+from modeler.derivation.relations import build_expression_formula
 from modeler.report.blocks import FormulaBlock
-from modeler.report.page import Page, Section, render
+from modeler.report.page import Page, Section, render_template
 from tests.rotation import rotating
 
 _ENDS = {"\u03b1": "alpha", "\u03b2": "beta", "\u03b3": "gamma", "\u03b8": "theta", "\u03c0": "pi"}
@@ -47,7 +47,7 @@ def read(node: ET.Element) -> str:
 def shown(formula: Formula) -> str:
     """As the template sets it."""
     sheet = Page("t", ("1", "x"), [Section("s", [FormulaBlock([((formula,), "m")])])])
-    return str(re.findall(r"<math[^>]*>.*?</math>", render("sheet", sheet=sheet), re.S)[0])
+    return str(re.findall(r"<math[^>]*>.*?</math>", render_template("sheet", sheet=sheet), re.S)[0])
 
 
 def value(text: str) -> sympy.Expr:
@@ -68,7 +68,7 @@ a, b, d = sympy.symbols("a b D41")
     ids=str,
 )  # fmt: skip
 def test_an_expression_is_set_as_it_is(expression: sympy.Expr) -> None:
-    back = value(read(ET.fromstring(shown(expression_formula(expression)))))
+    back = value(read(ET.fromstring(shown(build_expression_formula(expression)))))
     assert sympy.simplify(back - expression) == 0
 
 

@@ -11,16 +11,25 @@ import pytest
 
 from modeler.core.figure import Band, Curve, Means, Panel, Picture
 from modeler.diagnosis.diagnosis import diagnose
-from modeler.diagnosis.ranking import base_of
+from modeler.diagnosis.ranking import build_gram_blocks
 from modeler.diagnosis.result import Diagnosis
 from modeler.observation.log import Log
-from modeler.report.diagnosis import diagnosis_page
-from modeler.report.effect_evidence import Evidence, covariance_of, evidence_of, figures
-from modeler.report.evidence import evidence_picture, rivals_of, rivals_table
-from modeler.report.evidence_axes import bins_of, calm_rows
+from modeler.report.diagnosis import build_diagnosis_page
+from modeler.report.effect_evidence import (
+    Evidence,
+    collect_evidence,
+    compute_covariance,
+    describe_residuals,
+)
+from modeler.report.evidence import (
+    draw_evidence_picture,
+    select_alternatives,
+    tabulate_alternatives,
+)
+from modeler.report.evidence_axes import build_bins, find_inliers
 from modeler.report.page import write_page
-from modeler.report.torque_picture import play_picture, torque_picture, worst_stretch
-from modeler.robot.read import robot_from_text
+from modeler.report.torque_picture import draw_play_picture, draw_torque_picture, find_worst_window
+from modeler.robot.read import parse_robot_text
 from tests.captions import assert_all_named
 from tests.diagnose.conftest import Case, demonstration, motion, on_joint
 from tests.diagnose.test_diagnose_effects import motor_ripple, spring, stribeck
@@ -71,8 +80,8 @@ def test_the_picture_convinces(case: Case, effect: str) -> None:
     torque, label = HIDDEN[effect]
     search = diagnosis_of(case, load_friction(case) if effect == "load_friction" else torque).search
     step = search.steps[0]
-    assert step.pick.effect.id == effect
-    picture = evidence_picture(evidence_of(search, step))
+    assert step.candidate.effect.id == effect
+    picture = draw_evidence_picture(collect_evidence(search, step))
     drawn = panels(picture)
     without, full = drawn["without the effect"], drawn["with it"]
     assert without.x_label == full.x_label == label
@@ -91,7 +100,7 @@ def test_the_picture_convinces(case: Case, effect: str) -> None:
     assert np.all((curve.y[at][inside] > low) & (curve.y[at][inside] < high))
     assert np.ptp(curve.y[at][inside]) > 0.3 * (high - low)  # and fills the picture
     assert_all_named(picture)
-    assert_all_named(play_picture(search.end, 0))
+    assert_all_named(draw_play_picture(search.end, 0))
     if effect == "spring":  # the model imitates it, so that residuals do not show all of it
         means = series(drawn["its law"], Means, "mean")
         slope, rest = np.polyfit(means.x, means.y, 1)
@@ -108,25 +117,25 @@ def test_the_picture_convinces(case: Case, effect: str) -> None:
 def test_a_spring_is_as_sure_as_its_coefficient() -> None:
     """Its law is k (q - q0): far out its band grows as the deviation of k does."""
     diagnosis = diagnosis_of(demonstration(1000.0, seconds=(30.0, 20.0)), spring)
-    own = evidence_of(diagnosis.search, diagnosis.search.steps[0])
+    own = collect_evidence(diagnosis.search, diagnosis.search.steps[0])
     finding = next(f for f in diagnosis.effects if f.effect == "spring")
     widest = int(np.argmax(np.abs(own.bins.centre)))
-    ratio = own.own_sigma[widest] / abs(own.bins.centre[widest])
+    ratio = own.effect_torque_sigma[widest] / abs(own.bins.centre[widest])
     assert 0.3 < ratio / next(iter(finding.sigmas.values())) < 3.0
 
 
 @pytest.fixture(scope="module")
 def item(case: Case) -> Evidence:
     search = diagnosis_of(case, stribeck).search
-    return evidence_of(search, search.steps[0])
+    return collect_evidence(search, search.steps[0])
 
 
 def test_figures_stand_by_the_picture(case: Case, item: Evidence, tmp_path: Path) -> None:
-    text = figures(item)
+    text = describe_residuals(item)
     before, after, rival = (float(size) for size in re.findall(r"([\d.]+) N m \(", text))
     assert after < 0.3 * before and after < 1.2 * rival < before
     assert after == pytest.approx(float(np.sqrt(np.mean(item.after**2))), rel=0.2)
-    page = write_page(tmp_path / "page.html", diagnosis_page(diagnosis_of(case, stribeck)))
+    page = write_page(tmp_path / "page.html", build_diagnosis_page(diagnosis_of(case, stribeck)))
     assert text in html.unescape(page.read_text())
 
 
@@ -142,7 +151,9 @@ def test_a_spike_flattens_nothing_and_is_told(case: Case) -> None:
     quiet, loud = (diagnosis_of(case, torque) for torque in (stribeck, torn))
     assert [f.effect for f in loud.effects] == ["stribeck"]  # a spike is no push
     assert any("8.9 to 9.2 s: torques that come only once" in line for line in loud.data)
-    pictures = [evidence_picture(evidence_of(s, s.steps[0])) for s in (quiet.search, loud.search)]
+    pictures = [
+        draw_evidence_picture(collect_evidence(s, s.steps[0])) for s in (quiet.search, loud.search)
+    ]
     spans = [np.ptp(panels(p)["without the effect"].y_range) for p in pictures]
     assert spans[1] < 1.5 * spans[0]
 
@@ -156,8 +167,8 @@ def test_errors_count_what_neighbouring_rows_share() -> None:
         for _ in range(20):
             x = generator.uniform(-1.0, 1.0, 2400)
             y = np.repeat(generator.normal(size=2400 // hold), hold)
-            bins = bins_of(x, x, block, np.ones(2400, dtype=bool))
-            hits.append(np.mean(np.abs(bins.means(y)) < bins.errors(y, block)))
+            bins = build_bins(x, x, block, np.ones(2400, dtype=bool))
+            hits.append(np.mean(np.abs(bins.compute_means(y)) < bins.compute_errors(y, block)))
     assert np.mean(hits[:20]) == pytest.approx(0.95, abs=0.03)
     assert np.mean(hits[20:]) == pytest.approx(0.95, abs=0.03)
 
@@ -165,7 +176,7 @@ def test_errors_count_what_neighbouring_rows_share() -> None:
 def test_bins_hold_several_blocks_and_one_sign() -> None:
     time = np.linspace(-10.0, 30.0, 4000)
     block = (time / 0.5).astype(int)
-    bins = bins_of(time, np.ones(4000), block, np.ones(4000, dtype=bool))
+    bins = build_bins(time, np.ones(4000), block, np.ones(4000, dtype=bool))
     for k in range(bins.count):
         own = bins.place == k
         assert np.unique(block[own]).size >= 4
@@ -178,8 +189,8 @@ def test_what_returns_everywhere_is_not_wild() -> None:
     once, often = noise.copy(), noise.copy()
     once[200:204] = 60.0
     often[::50] = 60.0
-    assert not calm_rows(once, block)[200:204].any() and calm_rows(once, block).sum() == 1996
-    assert calm_rows(often, block).all()
+    assert not find_inliers(once, block)[200:204].any() and find_inliers(once, block).sum() == 1996
+    assert find_inliers(often, block).all()
 
 
 @pytest.mark.parametrize(
@@ -191,12 +202,12 @@ def test_an_effect_of_a_robot_file_shows_itself_on_its_variable(
     case: Case, equation: str, axis: str
 ) -> None:
     text = case.derivation.robot.text + f'\n[own_effects.brake]\ncolumns = {{Keb = "{equation}"}}\n'
-    robot = robot_from_text(text, "own")
+    robot = parse_robot_text(text, "own")
     assert robot.own_effects[0].shows == axis
 
 
 def test_the_model_after_is_nearer_where_the_model_before_was_worst(item: Evidence) -> None:
-    picture = torque_picture(item)
+    picture = draw_torque_picture(item)
     above, below = (row[0] for row in picture.panels)
     assert all(isinstance(series, Curve) for series in (*above.series, *below.series))
     measured, before, after = (series.y for series in above.series)
@@ -211,9 +222,9 @@ def test_the_model_after_is_nearer_where_the_model_before_was_worst(item: Eviden
 
 
 def test_no_other_half_second_is_worse(item: Evidence) -> None:
-    log, start, end = worst_stretch(item)
+    log, start, end = find_worst_window(item)
     assert 0.3 < end - start <= 0.5
-    time, square = item.without.rows.time[item.j], np.where(item.calm, item.before, 0.0) ** 2
+    time, square = item.without.rows.time[item.j], np.where(item.is_inlier, item.before, 0.0) ** 2
     worst = square[(time >= start) & (time <= end)].sum()
     sums = [square[(time >= t) & (time <= t + 0.5)].sum() for t in time]
     assert worst == pytest.approx(max(sums))
@@ -222,13 +233,16 @@ def test_no_other_half_second_is_worse(item: Evidence) -> None:
 
 def test_rivals_are_of_the_same_joint(item: Evidence) -> None:
     step = item.step
-    assert {rival.candidate.joint for rival in rivals_of(step)} == {step.pick.joint}
+    assert {rival.candidate.joint for rival in select_alternatives(step)} == {step.candidate.joint}
     other = next(
-        (r for r in step.rivals if r.candidate.joint != step.pick.joint), None
+        (r for r in step.alternatives if r.candidate.joint != step.candidate.joint), None
     )  # the search has some, the page does not
     assert other is not None
-    rows = rivals_table(step).rows
-    own = [step.pick.effect.id, *(r.candidate.effect.id for r in rivals_of(step)[:7])]
+    rows = tabulate_alternatives(step).rows
+    own = [
+        step.candidate.effect.id,
+        *(r.candidate.effect.id for r in select_alternatives(step)[:7]),
+    ]
     assert [row[0] for row in rows] == own
 
 
@@ -243,16 +257,16 @@ def test_a_law_is_as_sure_as_repetition_shows(hold: int) -> None:
     for _ in range(80):
         noise = [np.repeat(random.normal(size=600 // hold), hold) for _ in W]
         y = [w @ truth + e for w, e in zip(W, noise, strict=True)]
-        base = base_of(W, y, np.ones(2), [block, block], np.arange(30) % 8)
+        base = build_gram_blocks(W, y, np.ones(2), [block, block], np.arange(30) % 8)
         theta = np.linalg.lstsq(np.vstack(W), np.concatenate(y), rcond=None)[0]
         found.append(theta)
-        said.append(np.diag(covariance_of(base)))
+        said.append(np.diag(compute_covariance(base)))
     spread = np.std(found, axis=0)
     np.testing.assert_allclose(np.sqrt(np.mean(said, axis=0)), spread, rtol=0.25)
 
 
 def test_the_band_is_drawn_and_named(item: Evidence) -> None:
-    picture = evidence_picture(item)
+    picture = draw_evidence_picture(item)
     law = picture.panels[0][-1]
     bands = [series for series in law.series if isinstance(series, Band)]
     assert len(bands) == 1 and np.all((bands[0].high >= bands[0].low)[np.isfinite(bands[0].low)])
@@ -264,7 +278,7 @@ def test_no_line_is_drawn_over_rows_that_do_not_count(item: Evidence) -> None:
     """Filtered rows of joint 2 leave out its reversals: the curves break there."""
     time = item.without.rows.time[item.j]
     step = np.median(np.diff(time))
-    for row in torque_picture(item).panels:
+    for row in draw_torque_picture(item).panels:
         for series in row[0].series:
             whole = np.isfinite(series.y[:-1]) & np.isfinite(series.y[1:])
             assert np.all(np.diff(series.x)[whole] <= 1.5 * step)

@@ -10,17 +10,17 @@ import numpy as np
 import pytest
 
 from modeler.estimation.model_file import IdentifiedModel, load_model
-from modeler.report.fit import correlated_pairs
+from modeler.report.fit import find_correlated_pairs
 from modeler.report.history import (
     BETTER,
     SAME,
     WORSE,
-    additions_page,
-    joints_picture,
-    waterfall_picture,
+    build_history_page,
+    draw_joints_picture,
+    draw_waterfall_picture,
 )
 from modeler.report.page import write_page
-from modeler.report.values import relation
+from modeler.report.values import format_relation
 from tests.captions import assert_all_named
 from tests.cli.inputs import folder_after
 from tests.cli.running import answer, complaint
@@ -126,7 +126,7 @@ def test_the_page_of_a_fit_has_values_sums_and_doubts(folder: Path, before) -> N
     for parameter in before.fit.parameters:
         assert f"{parameter.name} {parameter.value:.5g} {parameter.sigma:.2g}" in text
     for base in before.spec.base:
-        assert relation(base) in text
+        assert format_relation(base) in text
     verdict = before.fit.verdict
     assert verdict is not None and verdict.line in text
     assert f"{before.fit.condition_number:.4g}" in text
@@ -145,15 +145,15 @@ def test_a_sum_is_the_base_parameter(before) -> None:
     values |= {symbol.name: symbol.value for symbol in spec.symbols}
     summed = 0
     for base in spec.base:
-        if relation(base):
+        if format_relation(base):
             by_terms = sum(term.value * values[term.parameter] for term in base.terms)
-            assert eval(relation(base), {}, values) == pytest.approx(by_terms)
+            assert eval(format_relation(base), {}, values) == pytest.approx(by_terms)
             summed += 1
     assert summed > 5
 
 
 def test_tangled_parameters_are_those_of_the_covariance(after) -> None:
-    for one, other, value in correlated_pairs(after):
+    for one, other, value in find_correlated_pairs(after):
         names = [p.name for p in after.fit.parameters]
         i, j = names.index(one), names.index(other)
         covariance = after.covariance
@@ -171,14 +171,14 @@ def test_the_page_of_additions_has_every_joint_and_value(folder, after, tmp_path
         assert end <= 1.05 * start
     assert "as fitted + spring @3" in text
     refused = ["left out: backlash, joint 2 (the error does not fall (no joint changes))"]
-    page = write_page(tmp_path / "page.html", additions_page(after, refused))
+    page = write_page(tmp_path / "page.html", build_history_page(after, refused))
     assert "backlash, joint 2: the error does not fall (no joint changes)" in words_of(page)
 
 
 def test_captions_of_waterfalls_name_their_colours(after) -> None:
     units = {joint.name: joint.effort_unit for joint in after.spec.joints}
-    assert_all_named(waterfall_picture(after.history))
-    picture = joints_picture(after.history, units)
+    assert_all_named(draw_waterfall_picture(after.history))
+    picture = draw_joints_picture(after.history, units)
     assert_all_named(picture)
     drawn = {p.title: p for row in picture.panels for p in row}["Joint 3"]
     values = np.concatenate([s.values for s in drawn.series])
@@ -191,7 +191,7 @@ def test_a_joint_that_got_worse_has_another_colour(after) -> None:
     first, *_, last = after.history
     joints = {"1": (0.02, 0.03), "2": (0.03, 0.02), "3": (0.02, 0.0201)}
     step = dataclasses.replace(last, joints=joints, changed=("1", "2"))
-    picture = joints_picture((first, step), dict.fromkeys("123", "N m"))
+    picture = draw_joints_picture((first, step), dict.fromkeys("123", "N m"))
     found = {
         panel.title: {own.label: own.style for own in panel.series if np.isfinite(own.values[-1])}
         for row in picture.panels

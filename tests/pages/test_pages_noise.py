@@ -10,13 +10,13 @@ import pytest
 from modeler.cli import main
 from modeler.core.figure import Curve
 from modeler.estimation.model_file import load_model
-from modeler.estimation.result import fit_from_json
-from modeler.logs.inspect import inspect_log
+from modeler.estimation.result import read_fit
+from modeler.logs.inspect import inspect_table
 from modeler.logs.log_table import LogTable
-from modeler.logs.mapping import LogMap, map_from_words
-from modeler.observation.prepare import noise_of_positions
-from modeler.report.log import log_page, log_pictures
-from modeler.report.noise import noise_picture
+from modeler.logs.mapping import LogMap, parse_map_options
+from modeler.observation.prepare import estimate_position_noise
+from modeler.report.log import build_log_page, draw_log_pictures
+from modeler.report.noise import draw_noise_picture
 from tests.logs.writers import parquet
 
 SIZE = 1e-3  # rad, of white noise
@@ -79,13 +79,13 @@ def test_a_model_file_keeps_them_and_old_ones_load(noisy):
     model = load_model(noisy / "model.json")
     raw = json.loads((noisy / "model.json").read_text())["fit"]
     assert json.loads(json.dumps(model.fit.to_json()["bands"])) == bands(noisy, "fit")
-    old = fit_from_json({k: v for k, v in raw.items() if k != "bands"}, model.fit.covariance)
-    assert old.bands is None and noise_picture(old.bands) is None
+    old = read_fit({k: v for k, v in raw.items() if k != "bands"}, model.fit.covariance)
+    assert old.bands is None and draw_noise_picture(old.bands) is None
 
 
 def test_the_picture_crosses_where_the_numbers_say(noisy):
     model = load_model(noisy / "model.json")
-    picture = noise_picture(model.fit.bands)
+    picture = draw_noise_picture(model.fit.bands)
     assert [len(row) for row in picture.panels] == [2, 2]
     for row, own in zip(picture.panels, model.fit.bands.noise, strict=True):
         curves = {s.label: s for s in row[1].series if isinstance(s, Curve)}
@@ -104,15 +104,15 @@ WHITE = np.random.default_rng(2).normal(0.0, 1e-3, len(TIME))
 
 def looked_at(tmp_path, columns, words=()):
     path = parquet(tmp_path / "a.parquet", columns)
-    mapping = map_from_words(words) if words else LogMap()
-    return inspect_log(LogTable(path, mapping), mapping)
+    mapping = parse_map_options(words) if words else LogMap()
+    return inspect_table(LogTable(path, mapping), mapping)
 
 
 @pytest.mark.parametrize(("factor", "unit"), [("deg", np.pi / 180.0), ("mm", 1e-3), ("", 1.0)])
 def test_units_that_are_stated_are_taken(tmp_path, factor, unit):
     columns = {"t": TIME, "x": (SWING + WHITE) / unit}
     seen = looked_at(tmp_path, columns, ["time=t", f"q1=x{':' * bool(factor)}{factor}"])
-    found = noise_of_positions(seen.positions).joints[0]
+    found = estimate_position_noise(seen.positions).joints[0]
     assert found.unit == ("m" if factor == "mm" else "rad")
     assert found.deviation == pytest.approx(1e-3, rel=0.25)
 
@@ -120,7 +120,7 @@ def test_units_that_are_stated_are_taken(tmp_path, factor, unit):
 def test_counts_of_an_encoder_stay_counts(tmp_path):
     counts = np.round(1e5 * (SWING + WHITE))
     seen = looked_at(tmp_path, {"time": TIME, "enc1": counts})
-    (line,) = noise_of_positions(seen.positions).channel_lines()
+    (line,) = estimate_position_noise(seen.positions).format_channels()
     assert "1e+02 counts above" in line and "in steps of 1 counts" in line
 
 
@@ -138,7 +138,7 @@ def test_counts_of_an_encoder_stay_counts(tmp_path):
 )
 def test_where_nothing_can_be_told_nothing_is_drawn(tmp_path, columns):
     seen = looked_at(tmp_path, columns)
-    noise = noise_of_positions(seen.positions)
-    assert noise is None or [line.endswith("rests") for line in noise.channel_lines()] == [True]
-    assert not any(picture.name == "noise_of_the_motion" for picture in log_pictures(seen))
-    assert "Noise of the motion" not in [own.title for own in log_page(seen, [], []).sections]
+    noise = estimate_position_noise(seen.positions)
+    assert noise is None or [line.endswith("rests") for line in noise.format_channels()] == [True]
+    assert not any(picture.name == "noise_of_the_motion" for picture in draw_log_pictures(seen))
+    assert "Noise of the motion" not in [own.title for own in build_log_page(seen, [], []).sections]

@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 
 from modeler.report.blocks import Paragraph
-from modeler.report.page import Origin, Page, Section, entries, write_index, write_page
+from modeler.report.page import Origin, Page, Section, find_pages, write_index, write_page
 from tests.repository import ROOT
 
 # plotly.js-basic-dist-min of the npm registry
@@ -61,7 +61,7 @@ def test_it_says_what_each_page_says(tmp_path: Path) -> None:
         write_page(tmp_path / "sub" / f"{command}.html", sheet(command))
     place = write_index(tmp_path, "all <of> it")
     assert place == tmp_path / "index.html"
-    found = entries(tmp_path)
+    found = find_pages(tmp_path)
     assert [entry.place for entry in found] == [
         *(f"{name}.html" for name in ("derive", "compare", "diagnose")),
         *(f"sub/{name}.html" for name in ("derive", "compare", "diagnose")),
@@ -87,12 +87,12 @@ def test_somebody_elses_index_stays(tmp_path: Path, content: str) -> None:
     write_page(tmp_path, sheet("compare"))
     assert write_index(tmp_path) is None
     assert (tmp_path / "index.html").read_text() == content
-    assert [entry.place for entry in entries(tmp_path)] == ["compare.html"]
+    assert [entry.place for entry in find_pages(tmp_path)] == ["compare.html"]
 
 
 def test_what_a_page_says_wrongly_does_no_harm(tmp_path: Path) -> None:
     said = '{"logs": "abc", "held_out": "yes", "title": 5, "command": null}'
     block = f'<script type="application/json" id="about">{said}</script>'
     (tmp_path / "odd.html").write_text(block)
-    (entry,) = entries(tmp_path)
+    (entry,) = find_pages(tmp_path)
     assert (entry.title, entry.logs, entry.held_out, entry.command) == ("5", (), None, "")

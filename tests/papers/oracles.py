@@ -10,9 +10,9 @@ from math import prod
 
 import numpy as np
 
-from modeler.papers.compared import renamer
+from modeler.papers.compared import build_renamer
 from modeler.papers.paper import read_paper
-from modeler.papers.quotation import numbers_of, read_sum
+from modeler.papers.quotation import read_numbers, read_sum
 from tests.papers import mechanisms as m
 from tests.papers.derived_papers import robots_of
 
@@ -61,7 +61,7 @@ def relation(paper, line):
     if line.robot not in m.ROBOTS or line.of or line.through or line.given:
         return None
     left, _, right = line.text.partition("=")
-    rename = renamer(paper, line, line.legs[0])
+    rename = build_renamer(paper, line, line.legs[0])
     printed, own = {}, rename(left.strip()).removesuffix("R")
     symbols = {"d4", "D4", "D41", "D42", "D43", "g"}
     known = dict.fromkeys(symbols, m.D4) | {"g": 9.81}
@@ -489,7 +489,9 @@ def friction(paper, line):
 
 def numbers(paper, line):
     wanted = COUNTS.get(line.quote)
-    return None if wanted is None else [float(n.value) for n in numbers_of(line.quote)] == wanted()
+    return (
+        None if wanted is None else [float(n.value) for n in read_numbers(line.quote)] == wanted()
+    )
 
 
 def names(paper, line):
@@ -508,7 +510,7 @@ def without_effect(pattern):
 def grouped_within(own, before):
     """Prefixes of a link that are combinations of those before, or of no effect at all."""
     found = m.columns("evra")
-    kept = robots_of("houda")["evra"].kept
+    kept = robots_of("houda")["evra"].independent_parameters
     others = [found[f"{p}{before}"] for p in m.INERTIA]
     others += [found[f"{p}{own}"] for p in m.INERTIA if f"{p}{own}" in kept]
     return {
@@ -590,7 +592,7 @@ NAMES = {
 
 def arithmetic(paper, line):
     """Table 3 of 2003: a relative sigma has the sign of the value, eq. (37)."""
-    found = [float(n.value) for n in numbers_of(line.quote)]
+    found = [float(n.value) for n in read_numbers(line.quote)]
     if line.gives != ("b = abs(b)*a/abs(a)",):
         return None
     return found[-2] * found[-1] > 0

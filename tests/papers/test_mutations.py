@@ -5,9 +5,9 @@ from collections.abc import Iterator
 from dataclasses import replace
 from itertools import islice
 
-from modeler.papers.check import LineVerdict, check_line, written_out
+from modeler.papers.check import LineVerdict, check_line, expand_legs
 from modeler.papers.paper import read_paper
-from modeler.papers.wrist import coefficient_quotations
+from modeler.papers.wrist import collect_coefficient_quotations
 from tests.papers.derived_papers import each_paper, robots_of
 
 EVERY = 9
@@ -37,8 +37,8 @@ def altered(text: str, kind: str) -> Iterator[str]:
 
 def all_lines(name):
     paper = read_paper(name)
-    lines = [*paper.lines, *coefficient_quotations(paper, robots_of(name))]
-    return paper, [one for line in lines for one in written_out(line)]
+    lines = [*paper.lines, *collect_coefficient_quotations(paper, robots_of(name))]
+    return paper, [one for line in lines for one in expand_legs(line)]
 
 
 @each_paper("hanssen-2000")

@@ -5,10 +5,10 @@ from itertools import islice
 
 import pytest
 
-from modeler.core.builtin import paper_names
-from modeler.papers.check import LineVerdict, check_line, written_out
+from modeler.core.builtin import list_papers
+from modeler.papers.check import LineVerdict, check_line, expand_legs
 from modeler.papers.paper import read_paper
-from modeler.papers.wrist import coefficient_quotations
+from modeler.papers.wrist import collect_coefficient_quotations
 from tests.papers.derived_papers import each_paper, robots_of
 from tests.papers.oracles import holds
 from tests.papers.test_mutations import altered
@@ -22,9 +22,9 @@ LEAST = {"guegan-2003": 75, "briot-2012": 16, "houda": 45, "hanssen-2000": 87}
 def test_every_charge_and_every_equality_is_found_by_other_means(name):
     """About 20 s for all papers."""
     paper, robots = read_paper(name), robots_of(name)
-    lines = [*paper.lines, *coefficient_quotations(paper, robots)]
+    lines = [*paper.lines, *collect_coefficient_quotations(paper, robots)]
     unproved, refuted, judged = [], [], 0
-    for line in (one for quoted in lines for one in written_out(quoted)):
+    for line in (one for quoted in lines for one in expand_legs(quoted)):
         verdict, found = check_line(paper, line, robots).verdict, holds(name, line)
         judged += found is not None
         if verdict is LineVerdict.MISPRINT and found is not False:
@@ -44,7 +44,7 @@ FORMULAS = ("closure", "platform", "energy", "rotation", "element", "column", "r
             "body", "velocity", "applied", "friction")  # fmt: skip
 
 
-@pytest.mark.parametrize("name", paper_names())
+@pytest.mark.parametrize("name", list_papers())
 def test_the_oracles_notice_what_is_altered(name):
     """An oracle that says yes to everything proves nothing; about 5 s."""
     survivors = []

@@ -8,10 +8,10 @@ from functools import cache
 import pytest
 
 from modeler.cli import main
-from modeler.core.builtin import paper_names
+from modeler.core.builtin import list_papers
 from modeler.papers.check import LineVerdict, check_line, check_paper
 from modeler.papers.paper import PrintedLine, read_paper
-from modeler.papers.quotation import QuotationError, numbers_of, read_sum, sum_text
+from modeler.papers.quotation import QuotationError, format_sum, read_numbers, read_sum
 from tests.papers.derived_papers import robots_of
 
 CLOSED = "orthoglide-2012"
@@ -31,7 +31,7 @@ def one(name, **changes):
 
 
 @pytest.mark.rotating("long tests of papers")
-@pytest.mark.parametrize("name", paper_names())
+@pytest.mark.parametrize("name", list_papers())
 def test_nothing_differs_but_what_is_known_to(name):
     lines = lines_of(name)
     assert [line for line in lines if line.verdict is LineVerdict.DIFFERENT] == []
@@ -95,7 +95,7 @@ NUMBERED = {"guegan-2003": (44, 3), "briot-2012": (4, 3), "houda": (19, 2), "han
 """Equations and tables with a number."""
 
 
-@pytest.mark.parametrize("name", paper_names())
+@pytest.mark.parametrize("name", list_papers())
 def test_nothing_of_the_paper_is_passed_over(name):
     """Every equation and table stands in a line, or among what is not checked with its reason."""
     paper = read_paper(name)
@@ -155,9 +155,9 @@ def test_what_cannot_be_read_is_different_and_says_why(check, quote, gives, told
 
 
 def test_sums_are_read_as_they_are_printed():
-    assert sum_text(read_sum("ZZ2 + D4^2 M4 - MX3/D4", str)) == "ZZ2 + D4^2*M4 - MX3/D4"
-    assert sum_text(read_sum("- sin theta2 qd1", str)) == "-qd1*sin(theta2)"
-    legs = sum_text(read_sum("sum_i [ M4i + 1/2 M3i ]", str, "12"))
+    assert format_sum(read_sum("ZZ2 + D4^2 M4 - MX3/D4", str)) == "ZZ2 + D4^2*M4 - MX3/D4"
+    assert format_sum(read_sum("- sin theta2 qd1", str)) == "-qd1*sin(theta2)"
+    legs = format_sum(read_sum("sum_i [ M4i + 1/2 M3i ]", str, "12"))
     assert legs == "M41 + 1/2*M31 + M42 + 1/2*M32"
     with pytest.raises(QuotationError, match="expected a name or a number"):
         read_sum("+", str)
@@ -165,4 +165,4 @@ def test_sums_are_read_as_they_are_printed():
 
 def test_numbers_are_those_between_the_words():
     text = "50 000 of M7, qp in R^12, 33,7 and (160x1), -3.5 in r2 = 10"
-    assert [float(n.value) for n in numbers_of(text)] == [50000, 12, 33.7, 160, -3.5, 10]
+    assert [float(n.value) for n in read_numbers(text)] == [50000, 12, 33.7, 160, -3.5, 10]

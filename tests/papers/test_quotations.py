@@ -8,9 +8,9 @@ from pathlib import Path
 
 import pytest
 
-from modeler.core.builtin import paper_names
+from modeler.core.builtin import list_papers
 from modeler.papers.paper import read_paper
-from modeler.papers.wrist import coefficient_quotations
+from modeler.papers.wrist import collect_coefficient_quotations
 from tests.papers.derived_papers import robots_of
 
 PAPERS = Path(__file__).resolve().parents[3] / "shared" / "papers"
@@ -40,7 +40,7 @@ def squeezed(text: str) -> str:
     return re.sub(r"\^(?=[abc][A-Za-z])", "", text)  # raised in front: the body of a letter
 
 
-@pytest.mark.parametrize("name", paper_names())
+@pytest.mark.parametrize("name", list_papers())
 def test_every_quotation_stands_in_the_paper(name):
     if not PAPERS.is_dir():
         pytest.skip(f"NOT CHECKED: the papers are not here: {PAPERS.parent.name}/{PAPERS.name}")
@@ -56,7 +56,7 @@ def test_coefficient_functions_stand_in_the_paper():
         pytest.skip(f"NOT CHECKED: the papers are not here: {PAPERS.parent.name}/{PAPERS.name}")
     name = "hanssen-2000"
     text = unbracketed((PAPERS / FILES[name]).read_text(encoding="utf-8"))
-    lines = coefficient_quotations(read_paper(name), robots_of(name))
+    lines = collect_coefficient_quotations(read_paper(name), robots_of(name))
     quotes = [line.quote for line in lines if line.check in ("definition", "function", "solution")]
     lost = [q for q in quotes if unbracketed(q) not in text and " over " not in q and "/2" not in q]
     assert lost == ["S223 = 0"]
@@ -67,6 +67,6 @@ def unbracketed(text):
 
 
 def test_every_quotation_is_short():
-    lines = [line for name in paper_names() for line in read_paper(name).lines]
-    lines += coefficient_quotations(read_paper("hanssen-2000"), robots_of("hanssen-2000"))
+    lines = [line for name in list_papers() for line in read_paper(name).lines]
+    lines += collect_coefficient_quotations(read_paper("hanssen-2000"), robots_of("hanssen-2000"))
     assert [line.quote for line in lines if len(line.quote) > LARGEST] == []

@@ -4,7 +4,12 @@ import numpy as np
 import pytest
 from scipy.signal import lfilter
 
-from modeler.numerics.splines import Measurements, flexible, functions, stretches
+from modeler.numerics.splines import (
+    Measurements,
+    assign_folds,
+    fit_nonparametric_baseline,
+    generate_function_sets,
+)
 
 STEP, ROWS, JOINTS = 1.0 / 80.0, 1600, 7
 
@@ -34,16 +39,19 @@ def noise(seed: int, memory: float = 0.0, rows: int = ROWS) -> np.ndarray:
 
 
 def fold(rows: int = ROWS) -> np.ndarray:
-    return stretches(np.zeros(rows, dtype=int))
+    return assign_folds(np.zeros(rows, dtype=int))
 
 
 @pytest.mark.parametrize(
     "memory", [0.1, *(pytest.param(x, marks=pytest.mark.rotating) for x in (0.0, 0.03, 0.2))]
 )
 def test_noise_of_any_colour_is_not_predicted(memory: float) -> None:
-    found = [flexible(functions(measured(s)), noise(s, memory), fold()) for s in range(4)]
+    found = [
+        fit_nonparametric_baseline(generate_function_sets(measured(s)), noise(s, memory), fold())
+        for s in range(4)
+    ]
     assert np.mean([each.share for each in found]) < 0.03
-    assert np.mean([each.sure and each.share > 0.05 for each in found]) < 0.1
+    assert np.mean([each.is_significant and each.share > 0.05 for each in found]) < 0.1
     if memory < 0.1:
         assert max(each.share for each in found) < 0.05
 
@@ -60,8 +68,10 @@ def test_functions_of_what_was_measured_are_predicted(function) -> None:
     m = measured(1)
     known = function(m)
     known = (known - known.mean()) / known.std()
-    found = flexible(functions(m), 3.0 * (known + noise(1)) + 7.0, fold())
-    assert found.share > 0.35 and found.sure
+    found = fit_nonparametric_baseline(
+        generate_function_sets(m), 3.0 * (known + noise(1)) + 7.0, fold()
+    )
+    assert found.share > 0.35 and found.is_significant
     assert found.prediction.mean() == pytest.approx(7.0, abs=0.3)
     assert np.corrcoef(found.prediction, known)[0, 1] > 0.85
 
@@ -72,24 +82,32 @@ def test_a_row_is_predicted_from_others() -> None:
     y = np.sin(3.0 * m.q[:, 1]) + noise(1)
     other = y.copy()
     other[where] = other[where][::-1]
-    sets = [*functions(m)]
-    first, second = (flexible(sets, r, fold()).prediction[where] for r in (y, other))
+    sets = [*generate_function_sets(m)]
+    first, second = (
+        fit_nonparametric_baseline(sets, r, fold()).prediction[where] for r in (y, other)
+    )
     np.testing.assert_allclose(first, second, atol=1e-5)
 
 
 def test_the_set_that_suffices_is_told_and_the_answer_is_the_same_twice() -> None:
     m = measured(2)
     y = np.sin(4.0 * m.q[:, 4]) + 0.3 * noise(2)
-    found = flexible(functions(m), y, fold())
-    assert max(found.alone, key=lambda name: found.alone[name]) == "4"
-    np.testing.assert_array_equal(found.prediction, flexible(functions(m), y, fold()).prediction)
+    found = fit_nonparametric_baseline(generate_function_sets(m), y, fold())
+    assert max(found.share_by_set, key=lambda name: found.share_by_set[name]) == "4"
+    np.testing.assert_array_equal(
+        found.prediction,
+        fit_nonparametric_baseline(generate_function_sets(m), y, fold()).prediction,
+    )
 
 
 def test_nothing_is_said_of_few_rows_or_a_constant() -> None:
     m = measured(4, rows=90)
-    assert flexible(functions(m), noise(4, rows=90), fold(90)).share == 0.0
+    assert (
+        fit_nonparametric_baseline(generate_function_sets(m), noise(4, rows=90), fold(90)).share
+        == 0.0
+    )
     m = measured(4, rows=300)
-    found = flexible(functions(m), np.full(300, 2.0), fold(300))
-    assert found.share == 0.0 and not found.sure
+    found = fit_nonparametric_baseline(generate_function_sets(m), np.full(300, 2.0), fold(300))
+    assert found.share == 0.0 and not found.is_significant
     np.testing.assert_array_equal(found.prediction, np.full(300, 2.0))
-    assert flexible({}, noise(4), fold()).share == 0.0
+    assert fit_nonparametric_baseline({}, noise(4), fold()).share == 0.0

@@ -45,7 +45,7 @@ def par_of(robot: Robot, letters: bool) -> str:
     """
     links = len(robot.joints) - 2 * len(robot.loops)
     joints = len(robot.joints) - len(robot.loops)
-    values = {name: value.number() for name, value in robot.symbols.items() if not value.names}
+    values = {name: value.evaluate() for name, value in robot.symbols.items() if not value.names}
 
     def cell(expression, variable: str | None, ours: str) -> str:
         if variable in expression.names:
@@ -60,12 +60,12 @@ def par_of(robot: Robot, letters: bool) -> str:
         for key, column in (("B", "b"), ("d", "d"), ("R", "r"), ("gamma", "gamma"),
                             ("Alpha", "alpha"), ("Theta", "theta")):  # fmt: skip
             text = cell(
-                getattr(joint, column), joint.variable if joint.moves else None, f"t{number}"
+                getattr(joint, column), joint.variable if joint.is_moving else None, f"t{number}"
             )
             columns.setdefault(key, []).append(text)
         columns.setdefault("Ant", []).append(joint.antecedent)
         columns.setdefault("Sigma", []).append(str(int(joint.kind)))
         columns.setdefault("Mu", []).append(str(int(joint.actuated)))
-    gravity = [e.text if letters else f"{e.number(values):.5g}" for e in robot.gravity]
+    gravity = [e.text if letters else f"{e.evaluate(values):.5g}" for e in robot.gravity]
     lists = {key: ",".join(cells) for key, cells in columns.items()} | {"G": ",".join(gravity)}
     return par_text(lists, robot.name, links, joints)

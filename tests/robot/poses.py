@@ -18,13 +18,13 @@ def origin_pose(position, angles) -> np.ndarray:
 def place_on_row(robot: Robot, link: str, values: Mapping[str, float]) -> np.ndarray:
     """Of the frame of a link on the row that carries it; values of symbols."""
     frame = robot.frames[link]
-    cells = ([x.number(values) for x in part] for part in (frame.position, frame.angles))
+    cells = ([x.evaluate(values) for x in part] for part in (frame.position, frame.angles))
     return origin_pose(*cells)
 
 
 def link_poses(robot: Robot, q) -> dict[str, np.ndarray]:
     """Of the frame of every link in frame 0."""
-    rows, values = frames(robot, q), robot.symbol_values()
+    rows, values = frames(robot, q), robot.evaluate_symbols()
     return {
         link: rows[frame.row] @ place_on_row(robot, link, values)
         for link, frame in robot.frames.items()

@@ -19,7 +19,7 @@ def check_spoilt(data: bytes, path: Path, draws: int = 20) -> None:
         path.write_bytes(spoilt(data, draw))
         before, begun = most_memory(), time.process_time()
         try:
-            assert read_robot(path).moving
+            assert read_robot(path).moving_joints
         except ModelerError as error:
             told += 1
             line = str(error)

@@ -8,8 +8,8 @@ import pytest
 
 from modeler.core.errors import DataError, RobotError
 from modeler.derivation.derive import derive_model
-from modeler.derivation.numeric_rank import regressor_values
-from modeler.robot.read import read_robot, robot_from_text
+from modeler.derivation.numeric_rank import evaluate_regressor
+from modeler.robot.read import parse_robot_text, read_robot
 from tests.elementary_motions import frames, shift, turn
 from tests.robot.texts import check_mistake
 
@@ -104,7 +104,7 @@ def ten_at(pose, body):
 
 
 def torques(model, chi, q, qd, qdd):
-    return (regressor_values(model, (q, qd, qdd)) @ chi).reshape(q.shape)
+    return (evaluate_regressor(model, (q, qd, qdd)) @ chi).reshape(q.shape)
 
 
 def parts(count):
@@ -122,7 +122,7 @@ def test_classical_tables_move_and_weigh_as_their_book_says(part):
         table = random_table(rng, int(rng.integers(1, 5)))
         n = len(table)
         columns = ["j", "sigma", "theta", "d", "a", "alpha"]
-        robot = robot_from_text(
+        robot = parse_robot_text(
             file("classical", columns, [[f"{j}", *row] for j, row in enumerate(table, 1)]), "arm"
         )
         bodies = [random_body(rng) for _ in table]
@@ -159,20 +159,20 @@ def test_tables_of_khalil_come_back_from_craig_and_classical(part):
         table = random_table(rng, int(rng.integers(1, 6)))
         rows = [[f"{j}", s, al, a, th, d] for j, (s, th, d, a, al) in enumerate(table, 1)]
         names = ["j", "sigma", "alpha", "d", "theta", "r"]
-        khalil = robot_from_text(file("khalil", names, rows), "khalil")
+        khalil = parse_robot_text(file("khalil", names, rows), "khalil")
         names, order = ["j", "sigma", "alpha", "a", "theta", "d"], rng.permutation(6)
         columns, rows = [names[i] for i in order], [[row[i] for i in order] for row in rows]
-        assert robot_from_text(file("craig", columns, rows), "craig").joints == khalil.joints
+        assert parse_robot_text(file("craig", columns, rows), "craig").joints == khalil.joints
         # Classical: what stands before the first joint is a fixed row of its own.
         steps = [["base", 2, 0, 0, *table[0][3:]]]
         for j, (sigma, theta, d, *_) in enumerate(table, 1):
             after = table[j][3:] if j < len(table) else [0, 0]
             steps.append([f"{j}", sigma, theta, d, *after])
         names = ["j", "sigma", "theta", "d", "a", "alpha"]
-        classical = robot_from_text(file("classical", names, steps), "classical")
+        classical = parse_robot_text(file("classical", names, steps), "classical")
         q = rng.normal(size=len(table))
         ours, theirs = frames(classical, q), frames(khalil, q)
-        for joint, other in zip(classical.moving, khalil.moving, strict=True):
+        for joint, other in zip(classical.moving_joints, khalil.moving_joints, strict=True):
             assert (joint.name, joint.kind) == (other.name, other.kind)
             np.testing.assert_allclose(ours[joint.name], theirs[joint.name], atol=1e-12)
 
@@ -208,7 +208,7 @@ def robot_of(book):
     if convention == "khalil":
         robot = read_robot("puma560")
         values = {"g": 9.81, "D3": A2, "R3": D3, "D4": -A3, "R4": D4}
-        assert robot.symbol_values() | {"D4": -A3} == pytest.approx(values)
+        assert robot.evaluate_symbols() | {"D4": -A3} == pytest.approx(values)
         return robot
     names, ways = (
         ["j", "alpha", "a", "d", "theta"],
@@ -217,7 +217,7 @@ def robot_of(book):
     if convention == "classical":
         names, ways = ["j", "theta", "d", "a", "alpha"], [[x, *row] for *row, x in ways]
     table = [[f"{k}", *way] for k, way in enumerate(ways, 1)]
-    return robot_from_text(file(convention, names, table, gravity="[0, 0, -9.81]"), book)
+    return parse_robot_text(file(convention, names, table, gravity="[0, 0, -9.81]"), book)
 
 
 def link_frames(book, q):
@@ -261,7 +261,7 @@ FLAT = 'columns = ["j", "theta", "d"]\nrows = [["1", "q1", 0.1], ["2", "q2", 0]]
 
 
 def read(mdh, more="", head=""):
-    return robot_from_text(f"{head}{HEAD}[mdh]\n{mdh}\n{more}", "arm.toml")
+    return parse_robot_text(f"{head}{HEAD}[mdh]\n{mdh}\n{more}", "arm.toml")
 
 
 @pytest.mark.parametrize(
@@ -348,24 +348,26 @@ def test_branches_of_craig_name_their_parents():
 @pytest.mark.parametrize("convention", ["khalil", "craig", "classical"])
 def test_the_table_is_shown_and_kept_in_its_letters(convention, tmp_path):
     """What is printed, typed in again, is the same robot; edited files stay in their convention."""
-    from modeler.report.derivation import _mdh
-    from modeler.report.robot_page import table_head, table_rows
-    from modeler.robot.edit import with_effects, with_parameters
+    from modeler.report.derivation import _tabulate_dh_rows
+    from modeler.report.robot_page import build_table_head, build_table_rows
+    from modeler.robot.edit import replace_effects, replace_parameters
 
     lengths = ("d", "r") if convention == "khalil" else ("a", "d")
     columns = ["j", "sigma", "alpha", lengths[0], "theta", lengths[1]]
     rows = [["1", 0, "pi/2", 0, "q1", 0.5], ["2", 1, 0.4, 0.31, 0, "q2 - 0.1"],
             ["3", 0, 0, 0.25, "-q3 + pi/4", 0]]  # fmt: skip
-    robot = robot_from_text(file(convention, columns, rows), "arm")
-    told = _mdh(robot)
+    robot = parse_robot_text(file(convention, columns, rows), "arm")
+    told = _tabulate_dh_rows(robot)
     head = [name for name, _ in told.columns]
     again = file(convention, head, [list(row) for row in told.rows])
-    assert robot_from_text(again, "again").joints[:3] == robot.joints[:3]
+    assert parse_robot_text(again, "again").joints[:3] == robot.joints[:3]
     assert ("parent" in head) == (convention == "craig")
-    assert table_head(robot)[-1] == "q"
-    assert len(table_rows(robot)[0].entries) == len(head) - (3 if convention == "classical" else 4)
-    text = with_parameters(with_effects(robot.text, {"viscous": "all"}), {"Fv1": 2.0})
-    edited = robot_from_text(text, "edited")
+    assert build_table_head(robot)[-1] == "q"
+    assert len(build_table_rows(robot)[0].entries) == len(head) - (
+        3 if convention == "classical" else 4
+    )
+    text = replace_parameters(replace_effects(robot.text, {"viscous": "all"}), {"Fv1": 2.0})
+    edited = parse_robot_text(text, "edited")
     assert edited.joints == robot.joints
     assert edited.convention == convention
 
@@ -389,7 +391,7 @@ def test_degrees_stand_wherever_angles_do(written, radians):
         f'[home]\nq1 = "{written}"\n'
     )
     robot = read(f'columns = ["j", "alpha", "theta"]\n{rows}', more)
-    values = robot.symbol_values()
+    values = robot.evaluate_symbols()
     assert robot.joints[0].alpha.number(values) == pytest.approx(radians, abs=1e-15)
     assert robot.joints[0].theta.number({**values, "q1": 0.0}) == pytest.approx(-radians)
     assert robot.limits["1"].upper == pytest.approx(radians + math.pi)
@@ -435,12 +437,12 @@ def test_a_rounded_angle_of_a_relation_is_exact_too():
 
 
 def test_degrees_of_effects_and_of_words_on_the_command_line():
-    from modeler.cli.motion import _assigned
+    from modeler.cli.motion import _parse_assignment
 
     robot = read('columns = ["j", "theta"]\nrows = [["1", "q1"]]',
                  '[effects]\nspring = [{joint = "1", q0 = "30 deg", h = 0}]')  # fmt: skip
-    assert robot.effects[0].shaped[0].shapes["q0"] == pytest.approx(math.pi / 6)
-    name, values = _assigned("--limit", "1=-90 deg,pi/2,2,8", ["1"], (4, 5), "LOWER,...")
+    assert robot.effects[0].stated_instances[0].shapes["q0"] == pytest.approx(math.pi / 6)
+    name, values = _parse_assignment("--limit", "1=-90 deg,pi/2,2,8", ["1"], (4, 5), "LOWER,...")
     assert (name, values) == ("1", [-math.pi / 2, math.pi / 2, 2.0, 8.0])
     with pytest.raises(DataError, match="numbers in SI units"):
-        _assigned("--limit", "1=-90 degrees,q1,2,8", ["1"], (4, 5), "LOWER,...")
+        _parse_assignment("--limit", "1=-90 degrees,q1,2,8", ["1"], (4, 5), "LOWER,...")

@@ -8,11 +8,11 @@ import numpy as np
 import pytest
 
 from modeler.core.errors import RobotError
-from modeler.robot.body_tree import BodyTree, poses_at
-from modeler.robot.conversion import converted
-from modeler.robot.elements import element_table
+from modeler.robot.body_tree import BodyTree, compute_body_poses
+from modeler.robot.conversion import convert_robot_file
+from modeler.robot.elements import load_element_table
 from modeler.robot.robot import JointKind
-from modeler.robot.urdf import urdf_tree
+from modeler.robot.urdf import read_urdf_tree
 from tests.robot.public_robots import public_urdfs
 
 MECHANICS = ("read", "told", "refused")
@@ -20,18 +20,18 @@ MECHANICS = ("read", "told", "refused")
 
 def test_the_schema_of_urdf_is_known() -> None:
     """Of each path of `files/urdf_schema.txt` the attributes, behind "mechanics:" what weighs."""
-    table = element_table("urdf")
+    table = load_element_table("urdf")
     schema = Path(__file__).with_name("files").joinpath("urdf_schema.txt").read_text("utf-8")
     for line in schema.splitlines()[2:]:
         path, _, names = line.partition(" ")
         plain, matters, heavy = names.partition("mechanics:")
-        assert table.verdict(path), path
+        assert table.classify_path(path), path
         if matters:
-            assert table.verdict(path) in MECHANICS, path
+            assert table.classify_path(path) in MECHANICS, path
         for name in plain.split():
-            assert table.verdict(path, name), (path, name)
+            assert table.classify_path(path, name), (path, name)
         for name in heavy.split():
-            assert table.verdict(path, name) in MECHANICS, (path, name)
+            assert table.classify_path(path, name) in MECHANICS, (path, name)
 
 
 SAME = {"(world)body": "body", "worldbody": "body", "frame": "body", "replicate": "body"}
@@ -71,14 +71,14 @@ def mjcf_schema(text: str) -> dict[str, set[str]]:
 
 def test_the_schema_of_mjcf_is_known() -> None:
     mujoco = pytest.importorskip("mujoco", reason="NOT CHECKED: mujoco-core is not installed")
-    table, heavy = element_table("mjcf"), 0
+    table, heavy = load_element_table("mjcf"), 0
     for path, names in mjcf_schema(mujoco.mj_printSchema(False, False)).items():
         ways = [path.rsplit("/", k)[0] for k in range(path.count("/") + 1)]
-        if any(table.verdict(way) in ("idle", "refused") for way in ways):
+        if any(table.classify_path(way) in ("idle", "refused") for way in ways):
             continue
-        assert table.verdict(path) or mujoco.mj_version() > 4_000_000, path
+        assert table.classify_path(path) or mujoco.mj_version() > 4_000_000, path
         for name in names:
-            verdict = table.verdict(path, name)
+            verdict = table.classify_path(path, name)
             assert verdict or mujoco.mj_version() > 4_000_000, (path, name)
             if name in HEAVY.get(path.rsplit("/", 1)[-1], "").split():
                 assert verdict in MECHANICS, (path, name)
@@ -159,7 +159,7 @@ def mutants(text: str, rng: np.random.Generator) -> list[str]:
     child = re.search(r'<child\s+link\s*=\s*"([^"]*)"', one)
     assert name and leader and child
     names = {"joint": name[1], "first": leader[1], "child": child[1],
-             "root": urdf_tree(text.encode(), "x.urdf").root}  # fmt: skip
+             "root": read_urdf_tree(text.encode(), "x.urdf").root}  # fmt: skip
     changed = [text.replace("</robot>", tie.format(**names) + "</robot>") for tie in TIES]
     for more in INSIDE:
         tag = re.match(r"<([\w:]+)", more)
@@ -182,7 +182,7 @@ def mutants(text: str, rng: np.random.Generator) -> list[str]:
 def file_and_notes(path: Path) -> tuple[str, tuple[str, ...]] | None:
     """The robot file and notes of a file; None if it is refused, in one line."""
     try:
-        made = converted(path)
+        made = convert_robot_file(path)
     except RobotError as error:
         assert len(str(error).splitlines()) == 1
         return None
@@ -224,10 +224,10 @@ def test_no_mutant_of_a_public_urdf_is_read_as_the_file_itself(
 
 def centre(tree: BodyTree, q: dict[str, float]) -> np.ndarray:
     """(4,) first moments and mass of what moves."""
-    poses, total = poses_at(tree, q), np.zeros(4)
+    poses, total = compute_body_poses(tree, q), np.zeros(4)
     for name, inertial in tree.bodies.items():
         if inertial is not None:
-            total += inertial.mass * np.array([*poses[name].place(inertial.centre), 1.0])
+            total += inertial.mass * np.array([*poses[name].transform_point(inertial.centre), 1.0])
     return total
 
 
@@ -247,13 +247,17 @@ def test_what_pinocchio_reads_of_a_mutant_is_what_is_read(tmp_path: Path) -> Non
                 continue
             path.write_text(re.sub(r"<robot\b", '<robot version="1.1"', mutant, count=1))
             try:
-                tree = urdf_tree(path.read_bytes(), path.name, exact_decimals=True)
+                tree = read_urdf_tree(path.read_bytes(), path.name, exact_decimals=True)
                 model = pin.buildModelFromUrdf(str(path))
             except (RobotError, ValueError, RuntimeError):
                 continue
             data, q = model.createData(), pin.neutral(model)
             moving = [j for j in tree.joints if j.kind is not JointKind.FIXED]
-            if len(moving) != model.njoints - 1 or tree.meetings or any(j.leader for j in moving):
+            if (
+                len(moving) != model.njoints - 1
+                or tree.loop_closures
+                or any(j.leader for j in moving)
+            ):
                 continue
             at = {}
             for joint in moving:

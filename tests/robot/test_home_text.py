@@ -5,8 +5,8 @@ import tomllib
 import pytest
 
 from modeler.core.errors import RobotError
-from modeler.robot.edit import with_home_text
-from modeler.robot.read import robot_from_text
+from modeler.robot.edit import replace_home
+from modeler.robot.read import parse_robot_text
 
 BEFORE = """\
 name = "pair"                         # two sliders
@@ -44,11 +44,11 @@ NEW = {"11": 0.25, "12": 0.25, "21": -1.5707963, "22": 0.7}
 
 
 def stated(text: str) -> dict[str, float]:
-    return dict(robot_from_text(text, "pair.toml").home)
+    return dict(parse_robot_text(text, "pair.toml").home)
 
 
 def changed(text: str, home: dict[str, float]) -> str:
-    return with_home_text(text, stated(text), home)
+    return replace_home(text, stated(text), home)
 
 
 def test_values_change_in_their_lines_and_comments_stay() -> None:

@@ -8,11 +8,11 @@ import pytest
 
 from modeler.core.errors import RobotError
 from modeler.robot import mdh_rows
-from modeler.robot.body_tree import BodyTree, Inertial, Pose, TreeJoint, moving_links
-from modeler.robot.mdh_rows import exact_length, exact_turn, mdh_table, roll_pitch_yaw
-from modeler.robot.read import robot_from_text
+from modeler.robot.body_tree import BodyTree, Inertial, Pose, TreeJoint, collect_moving_links
+from modeler.robot.mdh_rows import build_mdh_table, compute_roll_pitch_yaw, snap_angle, snap_length
+from modeler.robot.read import parse_robot_text
 from modeler.robot.robot import JointKind as Kind, Robot
-from modeler.robot.tree_text import tree_to_toml
+from modeler.robot.tree_text import convert_tree
 from tests.oracles.pinocchio_dynamics import pin, places_of
 from tests.robot.poses import link_poses
 
@@ -123,10 +123,10 @@ def torques_of_table(robot: Robot):
 
 def errors(tree: BodyTree, rng) -> tuple[float, float]:
     """Largest error of a pose, and of a torque over the largest torque."""
-    robot = robot_from_text(tree_to_toml(tree, "drawn.xml").text, "drawn.toml")
+    robot = parse_robot_text(convert_tree(tree, "drawn.xml").text, "drawn.toml")
     one, other, pose, torque = PinocchioModel(tree), torques_of_table(robot), 0.0, 0.0
     for _ in range(3):
-        q, qd, qdd = rng.uniform(-2, 2, (3, len(robot.moving)))
+        q, qd, qdd = rng.uniform(-2, 2, (3, len(robot.moving_joints)))
         theirs = one.poses(q)
         for body, ours in link_poses(robot, q).items():
             pose = max(pose, np.abs(ours - theirs[body]).max())
@@ -153,7 +153,7 @@ def test_serial_chains_need_neither_gamma_nor_b():
     for tree in trees(72, 40, serial=True):
         if any(joint.kind is SLIDES for joint in tree.joints):
             continue
-        for row in mdh_table(moving_links(tree)).rows[1:]:
+        for row in build_mdh_table(collect_moving_links(tree)).rows[1:]:
             assert row.cells["gamma"] == row.cells["b"] == 0.0
 
 
@@ -165,22 +165,25 @@ def test_nearly_parallel_axes_keep_their_accuracy(tilt):
         pose, torque = errors(tree, rng)
         assert pose < 2e-9  # an angle within 1e-9 of a right one is one
         assert torque < 2e-9
-        table, ways = mdh_table(moving_links(tree)), [np.abs(j.pose.position) for j in tree.joints]
+        table, ways = (
+            build_mdh_table(collect_moving_links(tree)),
+            [np.abs(j.pose.position) for j in tree.joints],
+        )
         most = mdh_rows.FAR * 3 * (max(map(np.max, ways)) or 1.0)
         for row in table.rows:
             assert max(abs(row.cells.get(c, 0.0)) for c in "bdr") < most
 
 
 def test_numbers_are_exact_where_they_are():
-    assert exact_length(0.1 + 0.2) == 0.3 and str(exact_length(-1e-17)) == "0.0"
-    assert exact_length(1 / 3) == 1 / 3
-    assert exact_turn(3 * math.pi / 2) == -math.pi / 2
-    assert exact_turn(-math.pi) == exact_turn(math.pi) == math.pi
-    assert exact_turn(0.7) == 0.7 and exact_turn(math.pi / 12 + 1e-8) != math.pi / 12
+    assert snap_length(0.1 + 0.2) == 0.3 and str(snap_length(-1e-17)) == "0.0"
+    assert snap_length(1 / 3) == 1 / 3
+    assert snap_angle(3 * math.pi / 2) == -math.pi / 2
+    assert snap_angle(-math.pi) == snap_angle(math.pi) == math.pi
+    assert snap_angle(0.7) == 0.7 and snap_angle(math.pi / 12 + 1e-8) != math.pi / 12
     rng = np.random.default_rng(5)
     for angles in [*rng.uniform(-3, 3, (20, 3)), (0.3, math.pi / 2, 0.4), (1.0, -math.pi / 2, 2)]:
         R = pin.rpy.rpyToMatrix(*map(float, angles))
-        again = pin.rpy.rpyToMatrix(*roll_pitch_yaw(R))
+        again = pin.rpy.rpyToMatrix(*compute_roll_pitch_yaw(R))
         np.testing.assert_allclose(again, R, rtol=0, atol=1e-14)
 
 
@@ -199,7 +202,7 @@ def turning(name: str, parent: str, at=(0.0, 0.0, 0.0), **further) -> TreeJoint:
 
 
 def read(tree: BodyTree) -> Robot:
-    robot = robot_from_text(tree_to_toml(tree, "drawn.xml").text, "drawn.toml")
+    robot = parse_robot_text(convert_tree(tree, "drawn.xml").text, "drawn.toml")
     assert not robot.readings
     return robot
 
@@ -218,7 +221,7 @@ def test_text_of_a_tree():
         "rotor_inertia": ("1", "2"), "viscous": ("1", "2"), "coulomb": ("1", "2"), "spring": ("2",),
         "offset": ("1", "2"),
     }  # fmt: skip
-    assert uses["spring"].shaped[0].shapes == {"q0": 0.1, "h": 0.0}
+    assert uses["spring"].stated_instances[0].nonlinear_parameters == {"q0": 0.1, "h": 0.0}
     assert robot.uncertainty == {"inertial": 0.3}
     assert robot.limits.keys() == {"2"} and robot.limits["2"].upper == 2.0
     assert {f.joint for f in robot.frames.values()} == {"", "a", "b", "c"}
@@ -235,8 +238,8 @@ def test_text_of_a_tree():
 )
 def test_gravity_is_a_symbol_along_an_axis(pull, cells):
     robot = read(tree_of(turning("a", "base"), gravity=np.array(pull)))
-    values = robot.symbol_values()
-    assert [e.number(values) for e in robot.gravity] == pytest.approx(pull, abs=1e-15)
+    values = robot.evaluate_symbols()
+    assert [e.evaluate(values) for e in robot.gravity] == pytest.approx(pull, abs=1e-15)
     assert [cell.text for cell in robot.gravity] == cells
 
 
@@ -263,8 +266,8 @@ def test_bodies_without_values_have_no_prior():
         doubted={name: "the identity as inertia" for name in ("c_link", "marker")}
         | {"flange": "mass 0"},
     )  # fmt: skip
-    made = tree_to_toml(tree, "drawn.xml")
-    robot = robot_from_text(made.text, "drawn.toml")
+    made = convert_tree(tree, "drawn.xml")
+    robot = parse_robot_text(made.text, "drawn.toml")
     assert {n[1:] for n in robot.parameters if n.startswith("M") and n[1:].isdigit()} == {"3", "5"}
     assert robot.links == {"2": ()}
     assert 'no inertia is stated of "a_link"; they weigh nothing' in made.notes
@@ -285,7 +288,7 @@ def test_sums_of_decimals_are_decimals():
         centre = np.array([float(x) for x in way])
         body = Inertial(float(m), centre, float(moment) * np.eye(3))
         lever = TreeJoint("t", FIXED, "a_link", "tool", Pose(np.array(TOOL, float)))
-        text = tree_to_toml(
+        text = convert_tree(
             tree_of(turning("a", "base"), lever, bodies={"a_link": None, "tool": body}), "drawn.xml"
         ).text
         c = [x + step for x, step in zip(way, TOOL, strict=True)]
@@ -300,7 +303,7 @@ def test_sums_of_decimals_are_decimals():
 def test_a_robot_that_does_not_move_is_refused():
     still = TreeJoint("t", FIXED, "base", "tool")
     with pytest.raises(RobotError, match=r"drawn\.xml: no joint of the robot moves"):
-        tree_to_toml(tree_of(still), "drawn.xml")
+        convert_tree(tree_of(still), "drawn.xml")
 
 
 def test_odd_names_stay_in_one_line():

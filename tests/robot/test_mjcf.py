@@ -10,11 +10,11 @@ import pytest
 
 from modeler.core.errors import RobotError
 from modeler.robot.body_tree import BodyTree, Pose, TreeJoint
-from modeler.robot.mjcf import mjcf_tree
-from modeler.robot.read import robot_from_text
+from modeler.robot.mjcf import read_mjcf_tree
+from modeler.robot.read import parse_robot_text
 from modeler.robot.robot import JointKind
-from modeler.robot.tree_cuts import cut
-from modeler.robot.tree_text import tree_to_toml
+from modeler.robot.tree_cuts import cut_tree
+from modeler.robot.tree_text import convert_tree
 from tests.elementary_motions import turn
 from tests.robot.spoilt_files import check_spoilt, most_memory
 from tests.robot.texts import ARM_XML as ARM, edited
@@ -25,7 +25,7 @@ mujoco = pytest.importorskip("mujoco", reason="NOT CHECKED: mujoco-core is not i
 def read(folder: Path, text: str = ARM, exact_decimals: bool = False) -> BodyTree:
     path = folder / "arm.xml"
     path.write_text(text, encoding="utf-8")
-    return mjcf_tree(path, exact_decimals)
+    return read_mjcf_tree(path, exact_decimals)
 
 
 def with_section(section: str, *pairs: tuple[str, str]) -> str:
@@ -122,7 +122,7 @@ def test_degrees_frames_includes_and_names(tmp_path: Path) -> None:
     assert np.allclose(tree.joints[0].pose.rotation @ [1, 0, 0], [0, 1, 0], rtol=0, atol=4e-16)
     assert tree.joints[1].lower == pytest.approx(-math.pi / 2)
     assert not any(joint.actuated for joint in tree.joints)  # for the file has no actuator
-    text = tree_to_toml(tree, "arm.xml")
+    text = convert_tree(tree, "arm.xml")
     assert "the file states no motor: all joints are taken as actuated" in text.notes
 
 
@@ -133,7 +133,7 @@ def test_meshes_that_are_not_there_matter_where_they_weigh(tmp_path: Path) -> No
     assert 'no values of "upper (cover.stl)"' in notes_of(tree)
     weightless = edited(text, ('mesh="cover"', 'mesh="cover" mass="0"'))
     assert "cover" not in notes_of(read(tmp_path, weightless))
-    robot = robot_from_text(tree_to_toml(tree, "arm.xml").text, "arm.toml")
+    robot = parse_robot_text(convert_tree(tree, "arm.xml").text, "arm.toml")
     assert "M1" not in robot.parameters and "M4" in robot.parameters
 
 
@@ -192,13 +192,13 @@ LOOP = edited(
 def test_connect_is_a_meeting(tmp_path: Path) -> None:
     section = '<equality><connect name="pin" body1="tip" body2="rod" anchor="0 0 0.1"/></equality>'
     tree = read(tmp_path, edited(LOOP, ("</mujoco>", section + "</mujoco>")))
-    (meeting,) = tree.meetings
+    (meeting,) = tree.loop_closures
     assert (meeting.name, meeting.body, meeting.other) == ("pin", "tip", "rod")
     poses = {"world": Pose()}  # where the file draws the robot, both points are one
     for joint in tree.joints:
         poses[joint.child] = poses[joint.parent] @ joint.pose
     one, other = meeting.pose.position, meeting.other_pose.position
-    ends = poses["tip"].place(one), poses["rod"].place(other)
+    ends = poses["tip"].transform_point(one), poses["rod"].transform_point(other)
     assert np.allclose(*ends, rtol=0, atol=1e-15)
     assert tree.home == {"pan": 0, "lift": 0.1, "roll": 0, "bend": 0, "free": 0}
 
@@ -207,13 +207,13 @@ def test_connect_of_sites_and_the_posture_of_a_keyframe(tmp_path: Path) -> None:
     section = '<keyframe><key name="home" qpos="0.2 0.15 0 -0.3 0.4"/></keyframe><equality>'
     section += '<connect site1="a" site2="b"/></equality>'
     tree = read(tmp_path, edited(LOOP, ("</mujoco>", section + "</mujoco>")))
-    (meeting,) = tree.meetings
+    (meeting,) = tree.loop_closures
     assert (meeting.body, meeting.other) == ("fore", "rod")
     assert meeting.pose.position.tolist() == [0, 0, 0.1]
     assert meeting.other_pose.position.tolist() == [0, 0, 0]
     assert tree.home == {"pan": 0.2, "lift": 0.15, "roll": 0, "bend": -0.3, "free": 0.4}
-    text = tree_to_toml(tree, "arm.xml")
-    home = robot_from_text(text.text, "arm.toml").home
+    text = convert_tree(tree, "arm.xml")
+    home = parse_robot_text(text.text, "arm.toml").home
     assert [home[f"{k}"] for k in range(1, 6)] == list(tree.home.values())
     assert any("springs are left out" in note for note in text.notes)
     assert "spring =" not in text.text
@@ -237,7 +237,7 @@ def test_what_floats_stands_still_or_is_left_out(tmp_path: Path) -> None:
     assert set(tree.bodies) == {"world", "table", "base", "leg", "foot"}
     assert joints(tree)["root"].kind is JointKind.FIXED
     assert joints(tree)["root"].pose.position.tolist() == [0, 0, 1]
-    assert not tree.meetings
+    assert not tree.loop_closures
     for words in (
         "base floats; here it stands still", "cube floats; it is left out", "hand is dragged",
         "left out with what ties it", "move as one", 'gravcomp of "foot"',
@@ -247,11 +247,11 @@ def test_what_floats_stands_still_or_is_left_out(tmp_path: Path) -> None:
 
 def test_ball_joints_wait_until_they_are_cut_off(tmp_path: Path) -> None:
     tree = read(tmp_path, FLOATING)
-    assert list(tree.unread) == ["ankle"]
+    assert list(tree.unsupported_joints) == ["ankle"]
     with pytest.raises(RobotError, match=r"joint ankle: ball joints are not read; cut it off"):
-        cut(tree)
-    assert "foot" not in cut(tree, tip="leg").bodies
-    assert "foot" in cut(tree, locks={"ankle": 0}).bodies
+        cut_tree(tree)
+    assert "foot" not in cut_tree(tree, tip="leg").bodies
+    assert "foot" in cut_tree(tree, locks={"ankle": 0}).bodies
 
 
 def test_what_is_left_out_is_told(tmp_path: Path) -> None:
@@ -466,7 +466,7 @@ MUTANTS = (
 def file_and_notes(folder: Path, text: str) -> tuple[str, tuple[str, ...]] | None:
     """The robot file and what is told of it; None where it is refused."""
     try:
-        made = tree_to_toml(cut(read(folder, text)), "arm.xml")
+        made = convert_tree(cut_tree(read(folder, text)), "arm.xml")
     except RobotError as error:
         assert "schema" not in str(error).lower(), error
         return None

@@ -14,15 +14,15 @@ import numpy as np
 import pytest
 
 from modeler.codegen.emit import emit
-from modeler.derivation.base_parameters import base_parameters
+from modeler.derivation.base_parameters import derive_base_parameters
 from modeler.derivation.derive import derive_model
-from modeler.derivation.numeric_rank import regressor_values
-from modeler.robot.body_tree import poses_at
-from modeler.robot.mjcf import mjcf_tree
-from modeler.robot.read import robot_from_text
+from modeler.derivation.numeric_rank import evaluate_regressor
+from modeler.robot.body_tree import compute_body_poses
+from modeler.robot.mjcf import read_mjcf_tree
+from modeler.robot.read import parse_robot_text
 from modeler.robot.robot import INERTIAL, JointKind
-from modeler.robot.tree_cuts import cut
-from modeler.robot.tree_text import tree_to_toml
+from modeler.robot.tree_cuts import cut_tree
+from modeler.robot.tree_text import convert_tree
 from tests.elementary_motions import frames
 from tests.modules import loaded
 from tests.robot.poses import place_on_row
@@ -101,8 +101,8 @@ class Both:
     """A file as MuJoCo and as we have it."""
 
     def __init__(self, path, exact=False):
-        self.tree = cut(mjcf_tree(path, exact_decimals=exact))
-        self.robot = robot_from_text(tree_to_toml(self.tree, str(path)).text, "robot.toml")
+        self.tree = cut_tree(read_mjcf_tree(path, exact_decimals=exact))
+        self.robot = parse_robot_text(convert_tree(self.tree, str(path)).text, "robot.toml")
         self.model = m = rigid_model(path)
         self.data = mujoco.MjData(m)
         self.names = [m.joint(i).name or f"joint{i}" for i in range(m.njnt)]
@@ -124,10 +124,10 @@ class Both:
         below = {joint.parent: joint.child for joint in self.tree.joints}
         for joint in self.tree.joints:
             child = joint.child
-            while child in self.tree.hidden:
+            while child in self.tree.auxiliary_bodies:
                 child = below[child]
             body = self.bodies.index(child)
-            if joint.parent not in self.tree.hidden:
+            if joint.parent not in self.tree.auxiliary_bodies:
                 self.model.body_pos[body] = joint.pose.position
                 mujoco.mju_mat2Quat(self.model.body_quat[body], joint.pose.rotation.ravel())
             if joint.kind is not JointKind.FIXED:
@@ -153,16 +153,16 @@ class Both:
 
     def links(self):
         """MuJoCo's number of every body on a row, with its row and its place there."""
-        values = self.robot.symbol_values()
+        values = self.robot.evaluate_symbols()
         for link, frame in self.robot.frames.items():
             if link in self.bodies:
                 yield self.bodies.index(link), frame.row, place_on_row(self.robot, link, values)
             else:
-                assert link in self.tree.hidden
+                assert link in self.tree.auxiliary_bodies
 
     def standard(self):
         """Standard parameters of MuJoCo's bodies, and the rotors of the file."""
-        rows = [joint.name for joint in self.robot.moving]
+        rows = [joint.name for joint in self.robot.moving_joints]
         chi = {f"{prefix}{row}": 0.0 for row in rows for prefix in INERTIAL}
         for i, row, pose in self.links():
             if row == "0":
@@ -197,17 +197,17 @@ def test_every_body_is_where_mujoco_has_it(path, exact):
     At ten postures.
     """
     both = Both(path, exact)
-    names = [joint.name for joint in (both.moving if exact else both.robot.moving)]
+    names = [joint.name for joint in (both.moving if exact else both.robot.moving_joints)]
     states = both.states(10)
     for k in range(10):
         both.torques([part[k : k + 1] for part in states])
         q = dict(zip(names, both.G @ states[0][k] + both.offset, strict=True))
         if exact:
-            ways = poses_at(both.tree, q).items()
+            ways = compute_body_poses(both.tree, q).items()
             places = {
                 both.bodies.index(body): (pose.position, pose.rotation)
                 for body, pose in ways
-                if body not in both.tree.hidden
+                if body not in both.tree.auxiliary_bodies
             }
         else:
             rows = frames(both.robot, q)
@@ -226,7 +226,7 @@ def test_torques_are_mujocos(path):
     model, chi = derive_model(both.robot), both.standard()
     states = both.states(50)
     values = np.array([chi.get(name, 0.0) for name in model.names])
-    assert alike(regressor_values(model, states) @ values, both.torques(states), 1e-9)
+    assert alike(evaluate_regressor(model, states) @ values, both.torques(states), 1e-9)
     for name, worth in both.robot.parameters.items():  # as the robot file states them
         if name in chi:
             assert abs(worth - chi[name]) < 1e-12 * max(abs(x) for x in chi.values()), name
@@ -237,7 +237,7 @@ def test_torques_are_mujocos(path):
 def test_torques_of_the_c_are_mujocos(path):
     both = Both(path)
     model, chi = derive_model(both.robot), both.standard()
-    c = loaded(emit(model, base_parameters(model)))
+    c = loaded(emit(model, derive_base_parameters(model)))
     beta = c.base_parameters(np.array([chi.get(name, 0.0) for name in model.names]))
     states = both.states(50)
     assert alike(c.inverse_dynamics(*states, beta), both.torques(states), 1e-9)
@@ -247,7 +247,7 @@ def test_torques_of_the_c_are_mujocos(path):
 def test_there_are_as_many_base_parameters_as_mujoco_feels(path):
     """Rank of MuJoCo's torques with one body at a time, of ten different sets of values."""
     both = Both(path)
-    base = base_parameters(derive_model(both.robot)).counts()
+    base = derive_base_parameters(derive_model(both.robot)).count_by_kind()
     m, states = both.model, both.states(30)
     m.body_mass[:], m.body_inertia[:] = 0.0, 0.0
     m.dof_armature[:] = 0.0
@@ -266,7 +266,7 @@ def test_there_are_as_many_base_parameters_as_mujoco_feels(path):
             for m.body_mass[i], m.body_ipos[i], m.body_inertia[i], m.body_iquat[i] in sets:
                 columns.append(both.torques(states).ravel())
             m.body_mass[i], m.body_inertia[i] = 0.0, 0.0
-        for dof, joint in zip(both.dofs, both.robot.moving, strict=True):
+        for dof, joint in zip(both.dofs, both.robot.moving_joints, strict=True):
             if not both.robot.has_effect("rotor_inertia", joint.name):
                 continue
             m.dof_armature[dof] = 1.0

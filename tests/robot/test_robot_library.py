@@ -28,7 +28,7 @@ def test_every_built_in_robot_is_complete(name):
     robot = read_robot(name)
     assert robot.title != robot.name == name
     assert len(robot.notes) > 40  # its source
-    assert robot.moving
+    assert robot.moving_joints
     assert (name in LOOPED) == bool(robot.loops)
     assert (name in TIED) == bool(robot.loops or robot.relations)
     columns = ("gamma", "b", "alpha", "d", "theta", "r")
@@ -45,7 +45,7 @@ def test_rigid_robots_have_no_effects():
 def test_measured_robots_carry_friction():
     for name in ("emps", "odrive", "tx40", "ur10e", "kinova_gen3"):
         robot = read_robot(name)
-        every = tuple(joint.name for joint in robot.moving)
+        every = tuple(joint.name for joint in robot.moving_joints)
         uses = {use.effect: use.joints for use in robot.effects}
         assert all(uses[effect] == every for effect in ("viscous", "coulomb"))
         # The offset of joint 1 does not carry over between the Kinova's runs, that of 7 does.
@@ -130,7 +130,7 @@ def test_wrist_frames_are_those_of_the_paper():
     near(poses["3"][:3, :3], np.stack([n3, -n2, n1], axis=1))
     near(poses["2"][:3, 3], 0.2 * n1)
     near(poses["3"][:3, 3], 0.3 * n1)
-    gravity = [entry.number({"g": 9.81}) for entry in read_robot("wrist").gravity]
+    gravity = [entry.evaluate({"g": 9.81}) for entry in read_robot("wrist").gravity]
     near(gravity, -9.81 * n3)
 
 
@@ -139,7 +139,7 @@ def test_sr400_parallelogram_closes():
     q = [q1, q2, PI / 2 - q2 + q7, 0, 0, 0, q7, q2 - q7]
     poses = frames("sr400-tree", q)
     # Both sides of the cut joint: frame 9 on link 8, frame 10 on link 3.
-    values = read_robot("sr400-tree").symbol_values()
+    values = read_robot("sr400-tree").evaluate_symbols()
     side9 = poses["8"] @ row_pose(d=values["D3"])
     side10 = poses["3"] @ row_pose(gamma=PI / 2, d=-values["D8"])
     near(side9[:3, 3], side10[:3, 3])
@@ -149,7 +149,9 @@ def test_orthoglide_parallelogram_closes():
     q1, q2, q3 = np.random.default_rng(3).uniform(-1, 1, 3)
     q = {"1": q1, "2": q2, "3": q3, "4": -q3, "5": -q2 - PI / 2, "7": q3}
     poses = frames("orthoglide-leg-tree", q)
-    d4, b3, b7 = (read_robot("orthoglide-leg-tree").symbol_values()[s] for s in ("D4", "b3", "b7"))
+    d4, b3, b7 = (
+        read_robot("orthoglide-leg-tree").evaluate_symbols()[s] for s in ("D4", "b3", "b7")
+    )
     x, z = (d4 * turned * np.cos(q3) for turned in (np.cos(q2), np.sin(q2)))
     near(poses["4"][:3, 3], [x, b3 - d4 * np.sin(q3), q1 - z])
     # The platform translates: x5 = z1, y5 = x1, z5 = y1 at every posture.

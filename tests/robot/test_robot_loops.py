@@ -2,7 +2,7 @@
 
 import pytest
 
-from modeler.robot.read import read_robot, robot_from_text
+from modeler.robot.read import parse_robot_text, read_robot
 from tests.robot.texts import PLANAR, check_mistake
 
 
@@ -17,7 +17,7 @@ def test_a_shared_name_must_be_free():
 
 
 def test_what_is_written_once_stands_for_every_leg():
-    robot = robot_from_text(PLANAR, "planar.toml")
+    robot = parse_robot_text(PLANAR, "planar.toml")
     names = [joint.name for joint in robot.joints]
     assert names == ["Px", "Py", "P", "11", "12", "21", "31", "22", "32", "7"]
     assert [loop.frame for loop in robot.loops] == ["31", "32"]
@@ -32,9 +32,9 @@ def test_what_is_written_once_stands_for_every_leg():
 
 
 def test_coordinates_are_the_actuated_joints():
-    robot = robot_from_text(PLANAR, "planar.toml")
+    robot = parse_robot_text(PLANAR, "planar.toml")
     assert [j.name for j in robot.coordinates] == ["11", "12"]
-    assert [j.name for j in robot.free] == ["Px", "Py", "P", "11", "12", "21", "22"]
+    assert [j.name for j in robot.free_joints] == ["Px", "Py", "P", "11", "12", "21", "22"]
     assert robot.links["Px"] == () and robot.links["P"] == ("MX", "M")
     assert {s.name for s in robot.shared} >= {"XX2", "M2", "Fs2"}
 
@@ -43,9 +43,9 @@ def test_a_cell_of_other_variables_is_a_relation():
     table = PLANAR.replace('[relations]\nq7 = "-q21 + pi/2"\n', "").replace(
         '["7", "21", 0, 0, 0, "q7"]', '["7", "21", 0, 0, 0, "-q21 + pi/2"]'
     )
-    one, other = (robot_from_text(text, "planar.toml") for text in (PLANAR, table))
+    one, other = (parse_robot_text(text, "planar.toml") for text in (PLANAR, table))
     assert one.relations == other.relations
-    assert one.joint("7").theta == other.joint("7").theta
+    assert one.get_joint("7").theta == other.get_joint("7").theta
 
 
 @pytest.mark.parametrize("name", ["stewart", "evra"])

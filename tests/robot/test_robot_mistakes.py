@@ -4,10 +4,10 @@ import random
 
 import pytest
 
-from modeler.core.builtin import builtin_names, builtin_text
+from modeler.core.builtin import list_builtin_robots, read_builtin_robot
 from modeler.core.errors import RobotError
-from modeler.robot.par_convert import par_to_toml
-from modeler.robot.read import read_robot, robot_from_text
+from modeler.robot.par_convert import convert_par_file
+from modeler.robot.read import parse_robot_text, read_robot
 from tests.robot.par_files import BOOM, par_text
 from tests.robot.texts import (
     ARM,
@@ -323,8 +323,8 @@ def test_a_mistake_is_told(text, old, new, told):
 
 
 def test_the_good_files_are_read():
-    robots = {table: robot_from_text(text, "x") for table, (text, _) in TABLES.items()}
-    assert [joint.name for joint in robots["arm"].moving] == ["1", "2", "3", "4"]
+    robots = {table: parse_robot_text(text, "x") for table, (text, _) in TABLES.items()}
+    assert [joint.name for joint in robots["arm"].moving_joints] == ["1", "2", "3", "4"]
 
 
 def test_a_row_before_its_antecedent_is_told_where_to_go():
@@ -351,7 +351,7 @@ def test_a_table_that_is_no_robot_is_refused(rows, told):
 
 def test_unknown_names_suggest_built_in_robots():
     with pytest.raises(KeyError):
-        builtin_text("pumma560")
+        read_builtin_robot("pumma560")
     with pytest.raises(RobotError, match=r'"pumma560" is neither.*did you mean "puma560".*wrist'):
         read_robot("pumma560")
     with pytest.raises(RobotError, match=r"wirst\.toml: there is no such file.*\"wrist\""):
@@ -380,7 +380,7 @@ SHARDS = [
 def test_damaged_files_raise_nothing_but_robot_errors(seed):
     """Ours, one with effects of its own, one of SYMORO."""
     rng = random.Random(seed)
-    of_ours = rng.choice([ARM, *map(builtin_text, builtin_names())])
+    of_ours = rng.choice([ARM, *map(read_builtin_robot, list_builtin_robots())])
     for name, text in (("x.toml", of_ours), ("x.toml", OWN_EFFECTS), ("x.par", PAR)):
         for _ in range(rng.randint(1, 4)):
             at, other = rng.randrange(len(text)), rng.randrange(len(text))
@@ -388,7 +388,7 @@ def test_damaged_files_raise_nothing_but_robot_errors(seed):
             piece = rng.choice([*SHARDS, text[other : other + length]])
             text = text[:at] + piece + text[at + length :]
         try:
-            text = par_to_toml(text.encode(), name).text if name == "x.par" else text
-            assert robot_from_text(text, name).moving
+            text = convert_par_file(text.encode(), name).text if name == "x.par" else text
+            assert parse_robot_text(text, name).moving_joints
         except RobotError as error:
             assert str(error).startswith(name) and "\n" not in str(error)

@@ -3,26 +3,26 @@
 import numpy as np
 import pytest
 
-from modeler.core.builtin import builtin_text
-from modeler.derivation.base_parameters import base_parameters
+from modeler.core.builtin import read_builtin_robot
+from modeler.derivation.base_parameters import derive_base_parameters
 from modeler.derivation.derive import derive_model
-from modeler.derivation.numeric_rank import regressor_values
-from modeler.robot.edit import with_effect
-from modeler.robot.motors import joint_directions
-from modeler.robot.read import read_robot, robot_from_text
+from modeler.derivation.numeric_rank import evaluate_regressor
+from modeler.robot.edit import insert_effect
+from modeler.robot.motors import compute_joint_directions
+from modeler.robot.read import parse_robot_text, read_robot
 from tests.modules import module
 from tests.robot.texts import COUPLED, MOTORS
 
 _G = np.array([[1.0, 0.0, 0.0], [-0.4, 1.0, 0.0], [0.2, -0.5, 1.0]])
 _JM, _FV, _FS = np.array([0.5, 0.3, 0.15]), np.array([4.0, 2.5, 1.2]), np.array([3.0, 2.0, 1.2])
-_TEXT = builtin_text("wrist-coupled")
+_TEXT = read_builtin_robot("wrist-coupled")
 _ROTORS = 'rotor_inertia = "all"\nviscous = "all"\ncoulomb = "all"\n'
 
 
 def _coupled(motors: str, effects: str = _ROTORS):
     assert MOTORS in COUPLED and _ROTORS in COUPLED
     text = COUPLED.replace(MOTORS, motors).replace(_ROTORS, effects)
-    return robot_from_text(text, "coupled.toml")
+    return parse_robot_text(text, "coupled.toml")
 
 
 def _sums(G: np.ndarray) -> str:
@@ -37,7 +37,7 @@ def test_motor_torques_are_those_of_the_joints_by_virtual_work():
 
     def torques(name, *states):
         model = module(name).model
-        return regressor_values(model, states) @ [nominal.get(p, 0.0) for p in model.names]
+        return evaluate_regressor(model, states) @ [nominal.get(p, 0.0) for p in model.names]
 
     tau_a = torques("wrist", *(x @ back.T for x in (qm, qmd, qmdd)))
     expected = tau_a @ back + _JM * qmdd + _FV * qmd + _FS * np.sign(qmd)
@@ -48,7 +48,7 @@ def test_motor_torques_are_those_of_the_joints_by_virtual_work():
 @pytest.mark.parametrize("seed", range(3))
 def test_17_base_parameters_and_3_of_friction_for_any_coupling(seed):
     G = np.random.default_rng(seed).integers(-9, 10, (3, 3)) / 4 + 3 * np.eye(3)
-    base = base_parameters(derive_model(_coupled(_sums(G), 'coulomb = "all"\n')))
+    base = derive_base_parameters(derive_model(_coupled(_sums(G), 'coulomb = "all"\n')))
     assert len(base.parameters) == 17 + 3
 
 
@@ -59,7 +59,7 @@ def test_17_base_parameters_and_3_of_friction_for_any_coupling(seed):
 def test_rotor_inertias_add_one_or_two(G, count):
     """18 with a diagonal G, where Jm3 tells PJ22 from PJ16; 19 with a lower triangular one."""
     effects = 'rotor_inertia = "all"\ncoulomb = "all"\n'
-    base = base_parameters(derive_model(_coupled(_sums(G), effects)))
+    base = derive_base_parameters(derive_model(_coupled(_sums(G), effects)))
     assert len(base.parameters) == count
 
 
@@ -68,7 +68,7 @@ def test_the_first_rotor_groups_with_the_square_of_its_ratio(ratio):
     """ZZ1R' = ZZ1R + G11^2 Jm1."""
     G = _G.copy()
     G[0, 0] = ratio
-    base = base_parameters(derive_model(_coupled(_sums(G), 'rotor_inertia = "all"\n')))
+    base = derive_base_parameters(derive_model(_coupled(_sums(G), 'rotor_inertia = "all"\n')))
     zz1 = next(p for p in base.parameters if p.name == "ZZ1R")
     terms = {term.parameter: float(term.coefficient) for term in zz1.terms}
     assert terms == {"ZZ1": 1.0, "YY2": 1.0, "Iam1": ratio**2}
@@ -80,9 +80,9 @@ def test_thirds_are_thirds():
 
 
 def test_directions_are_the_columns_of_the_coupling():
-    ways = joint_directions(read_robot("wrist-coupled"))
+    ways = compute_joint_directions(read_robot("wrist-coupled"))
     np.testing.assert_allclose([*ways.values()], _G.T)
-    assert joint_directions(read_robot("five-bar")) == {"11": (1.0, 0.0), "12": (0.0, 1.0)}
+    assert compute_joint_directions(read_robot("five-bar")) == {"11": (1.0, 0.0), "12": (0.0, 1.0)}
 
 
 def test_motors_of_sliding_joints_slide():
@@ -98,11 +98,11 @@ rows = [["1", 1, 0, 0, "q1"], ["2", 0, 0, "q2", 0]]
 a = "2*q1"
 b = "q2 + 5*q1"
 """
-    kinds = [joint.angular for joint in robot_from_text(text, "slide.toml").coordinates]
+    kinds = [joint.is_revolute for joint in parse_robot_text(text, "slide.toml").coordinates]
     assert kinds == [False, True]
 
 
 def test_an_effect_that_is_added_leaves_the_values_of_the_motors():
     """Fvm1 is viscous friction of the motor m1, not friction of a motor on joint 1."""
-    changed = with_effect(_TEXT, "stribeck", "m2", {"vs": 0.1, "d": 2.0})
-    assert robot_from_text(changed, "x.toml").parameters == read_robot("wrist-coupled").parameters
+    changed = insert_effect(_TEXT, "stribeck", "m2", {"vs": 0.1, "d": 2.0})
+    assert parse_robot_text(changed, "x.toml").parameters == read_robot("wrist-coupled").parameters

@@ -7,14 +7,14 @@ import pytest
 
 from modeler.core.errors import RobotError
 from modeler.robot.loops import OTHER_JOINTS
-from modeler.robot.read import robot_from_text
+from modeler.robot.read import parse_robot_text
 from modeler.robot.robot import LOOP_KINDS
 from tests.robot_texts import CRANK
 
 
 def message_of(kind: str) -> str:
     with pytest.raises(RobotError) as error:
-        robot_from_text(CRANK.replace('"position"', f'"{kind}"'), "crank.toml")
+        parse_robot_text(CRANK.replace('"position"', f'"{kind}"'), "crank.toml")
     message, place = str(error.value), 'crank.toml: [loops], row 1, "pin", column joint: got '
     assert message.startswith(f'{place}"{kind}"') and "\n" not in message
     return message
@@ -50,5 +50,5 @@ def test_advice_that_is_a_relation_can_be_read():
             other = {"4": "3", "2": "1"}[relation[0]]
             joint = '  ["4", "0", 0, 0, 0, 0, 0, "q4", 0],\n]\n' if relation[0] == "4" else "]\n"
             text = text.rstrip().removesuffix("]") + joint
-            robot = robot_from_text(f'{text}\n[relations]\nq{relation[0]} = "{relation[1]}"', "x")
+            robot = parse_robot_text(f'{text}\n[relations]\nq{relation[0]} = "{relation[1]}"', "x")
             assert robot.relations[relation[0]].names == {f"q{other}"}

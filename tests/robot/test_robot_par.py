@@ -10,19 +10,19 @@ import pytest
 
 from modeler.codegen.workflow import derive
 from modeler.core.errors import RobotError
-from modeler.derivation.relations import as_json
-from modeler.robot.angles import exact_angle
-from modeler.robot.par_convert import par_to_toml
+from modeler.derivation.relations import serialise_base_parameters
+from modeler.robot.angles import recognise_angle
+from modeler.robot.par_convert import convert_par_file
 from modeler.robot.par_text import KEYS
-from modeler.robot.read import read_robot, robot_from_text
+from modeler.robot.read import parse_robot_text, read_robot
 from tests.elementary_motions import frames
 from tests.robot.par_files import BOOM, INERTIA, par_of, par_text
 
 
 def convert(text: str, where: str = "arm.par"):
     data = text if isinstance(text, bytes) else text.encode()
-    converted = par_to_toml(data, where)
-    return robot_from_text(converted.text, where), converted
+    converted = convert_par_file(data, where)
+    return parse_robot_text(converted.text, where), converted
 
 
 TWINS = ("rx90", "puma560", "scara", "sr400-tree", "tx40")
@@ -40,19 +40,21 @@ def test_the_frames_of_a_twin_are_the_same(name, letters):
     robot = read_robot(name)
     twin, converted = convert(par_of(robot, letters=letters))
     if letters:  # the stand-ins are not the values
-        values = {n: f"{n} = {v.number()!r}" for n, v in robot.symbols.items()}
+        values = {n: f"{n} = {v.evaluate()!r}" for n, v in robot.symbols.items()}
         none = re.compile(r"^(\w+) = .*# .*no value in the file$", re.M)
         text = none.sub(lambda stated: values[stated[1]], converted.text)
-        twin = robot_from_text(text, "twin")
+        twin = parse_robot_text(text, "twin")
     rng = np.random.default_rng(4)
     for _ in range(5):
-        positions = {joint.name: rng.uniform(-3, 3) for joint in robot.moving}
+        positions = {joint.name: rng.uniform(-3, 3) for joint in robot.moving_joints}
         ours, theirs = frames(robot, positions), frames(twin, positions)
         assert ours.keys() == theirs.keys()
         for frame, pose in ours.items():
             assert np.allclose(theirs[frame], pose, atol=1e-9), frame
     assert [j.actuated for j in twin.joints] == [j.actuated for j in robot.joints]
-    assert np.allclose(*([e.number(r.symbol_values()) for e in r.gravity] for r in (robot, twin)))
+    assert np.allclose(
+        *([e.evaluate(r.evaluate_symbols()) for e in r.gravity] for r in (robot, twin))
+    )
 
 
 def test_numbers_keep_the_structure_of_a_loop():
@@ -77,20 +79,20 @@ def test_numbers_keep_the_structure_of_a_loop():
     ],
 )  # fmt: skip
 def test_rounded_angles(digits, angle):
-    assert exact_angle(digits) == angle
+    assert recognise_angle(digits) == angle
 
 
 @pytest.mark.parametrize("decimals", [3, 6, 12])
 def test_every_multiple_is_found_in_its_rounding_and_hardly_ever_elsewhere(decimals):
     for k in range(-24, 25):
         if k:
-            text = exact_angle(f"{k * math.pi / 12:.{decimals}f}")
+            text = recognise_angle(f"{k * math.pi / 12:.{decimals}f}")
             assert text is not None
             assert eval(text, {"pi": math.pi}) == pytest.approx(k * math.pi / 12, abs=1e-12)
             assert Fraction(k, 12) == Fraction(eval(text, {"pi": 1})).limit_denominator(12)
     rng = np.random.default_rng(1)
     wrong = sum(
-        exact_angle(f"{angle:.{decimals}f}") is not None for angle in rng.uniform(0.1, 6, 2000)
+        recognise_angle(f"{angle:.{decimals}f}") is not None for angle in rng.uniform(0.1, 6, 2000)
     )
     # Two units of the last digit around a multiple, of the pi/12 between two.
     assert wrong <= 3 + 2000 * 3 * 10.0**-decimals / (math.pi / 12)
@@ -303,11 +305,11 @@ def test_cut_joints_are_loops():
     ends = frames(robot, home)
     assert np.allclose(ends["4"], ends["5"])
     lines = "\n".join(f"q{row} = {value!r}" for row, value in home.items())
-    base = derive(robot_from_text(f"{converted.text}\n[home]\n{lines}\n", "boom")).base
+    base = derive(parse_robot_text(f"{converted.text}\n[home]\n{lines}\n", "boom")).base
     # The same with the cut joint as a pin between two fixed frames.
     by_hand = HAND_BOOM.format(**values) + "\n".join(lines.splitlines()[:3])
-    expected = as_json("boom", derive(robot_from_text(by_hand, "by hand")).base)
-    assert as_json("boom", base)["base"] == expected["base"]
+    expected = serialise_base_parameters("boom", derive(parse_robot_text(by_hand, "by hand")).base)
+    assert serialise_base_parameters("boom", base)["base"] == expected["base"]
     assert base.proof.certificate.rank == base.rank
     assert any("[home]" in note for note in converted.notes)
 

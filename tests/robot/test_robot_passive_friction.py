@@ -4,8 +4,8 @@ import pytest
 
 from modeler.core.errors import RobotError
 from modeler.effects.catalogue import PASSIVE_FRICTION_IS
-from modeler.robot.edit import with_effect, with_effects
-from modeler.robot.read import read_robot, robot_from_text
+from modeler.robot.edit import insert_effect, replace_effects
+from modeler.robot.read import parse_robot_text, read_robot
 from tests.robot.texts import FIVE_BAR
 
 
@@ -14,7 +14,7 @@ def with_lines(*lines: str) -> str:
 
 
 def joints_of(text: str) -> dict[str, tuple[str, ...]]:
-    return {use.effect: use.joints for use in robot_from_text(text, "five-bar").effects}
+    return {use.effect: use.joints for use in parse_robot_text(text, "five-bar").effects}
 
 
 @pytest.mark.parametrize(("cell", "joints"), [('["21"]', ("21",)), ('"all"', ("21", "22"))])
@@ -33,30 +33,32 @@ def test_it_stands_beside_the_friction_of_the_motors() -> None:
 
 def test_all_of_them_leaves_the_platform_out() -> None:
     """What moves a platform is no joint."""
-    text = with_effects(read_robot("delta").text, {"passive_friction": "all"})
-    robot = robot_from_text(text, "delta")
+    text = replace_effects(read_robot("delta").text, {"passive_friction": "all"})
+    robot = parse_robot_text(text, "delta")
     rubbing = joints_of(text)["viscous"]
-    expected = [j.name for j in robot.moving if not j.actuated and j.name not in robot.platform]
+    expected = [
+        j.name for j in robot.moving_joints if not j.actuated and j.name not in robot.platform
+    ]
     assert list(rubbing) == expected and robot.platform
 
 
 def test_a_robot_whose_joints_all_have_motors_has_none() -> None:
-    text = with_effects(read_robot("two-link").text, {"passive_friction": "all"})
+    text = replace_effects(read_robot("two-link").text, {"passive_friction": "all"})
     with pytest.raises(RobotError, match=r"passive_friction: acts on joints without motor"):
-        robot_from_text(text, "two-link")
+        parse_robot_text(text, "two-link")
 
 
 def test_its_values_stay_with_it_and_leave_with_it() -> None:
     values = {"Fv21": 0.3, "Fs21": 0.4}
     lines = "\n".join(["[parameters]", *(f"{name} = {value}" for name, value in values.items())])
     text = with_lines('passive_friction = ["21"]').replace("[parameters]", lines)
-    kept = with_effects(text, {"passive_friction": ["21"], "viscous": ["11"]})
-    assert values.items() <= robot_from_text(kept, "five-bar").parameters.items()
-    gone = robot_from_text(with_effects(text, {}), "five-bar").parameters
+    kept = replace_effects(text, {"passive_friction": ["21"], "viscous": ["11"]})
+    assert values.items() <= parse_robot_text(kept, "five-bar").parameters.items()
+    gone = parse_robot_text(replace_effects(text, {}), "five-bar").parameters
     assert gone and not values.keys() & gone.keys()
 
 
 def test_friction_of_one_more_joint_is_written_beside_it() -> None:
     text = with_lines('passive_friction = ["21"]', 'viscous = "all"')
-    more = with_effect(text, "viscous", "22", {}, ["11", "12"])
+    more = insert_effect(text, "viscous", "22", {}, ["11", "12"])
     assert joints_of(more)["viscous"] == ("11", "21", "12", "22")

@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 
 from modeler.effects.catalogue import CATALOGUE
-from modeler.robot.read import read_robot, robot_from_text
+from modeler.robot.read import parse_robot_text, read_robot
 from modeler.robot.robot import EffectUse, JointKind, Limits
 from tests.robot.texts import ARM
 
@@ -16,7 +16,7 @@ TWO = '[mdh]\ncolumns = ["j", "theta", "d"]\nrows = [[1, "q1", 0], [2, "q2", 0.3
 
 
 def arm(text):
-    return robot_from_text(HEAD + text, "arm.toml")
+    return parse_robot_text(HEAD + text, "arm.toml")
 
 
 def test_columns_left_out_have_their_defaults():
@@ -32,7 +32,9 @@ def test_columns_left_out_have_their_defaults():
 
 def test_symbols_may_be_declared_in_any_order():
     robot = arm('[symbols]\nR = "2*D"\nE = "R + D"\nD = 0.1\nal = "pi/2"\n' + TWO)
-    assert robot.symbol_values() == pytest.approx({"D": 0.1, "R": 0.2, "E": 0.3, "al": math.pi / 2})
+    assert robot.evaluate_symbols() == pytest.approx(
+        {"D": 0.1, "R": 0.2, "E": 0.3, "al": math.pi / 2}
+    )
 
 
 def test_effects_come_in_catalogue_order_and_by_their_id():
@@ -54,15 +56,15 @@ def test_coupling_is_a_sum_of_speeds():
 
 
 def test_tables_of_a_file():
-    robot = robot_from_text(ARM, "arm.toml")
+    robot = parse_robot_text(ARM, "arm.toml")
     assert robot.parameters == {"ZZ1": 0.5, "Fv1": 2.0}
     assert robot.drive_gains == {"1": 12.5}
     assert robot.limits == {"1": Limits(-math.pi, 2.5, 3.0, 10.0)}
-    link, hand, values = robot.physical["1"], robot.frames["hand"], robot.symbol_values()
+    link, hand, values = robot.physical["1"], robot.frames["hand"], robot.evaluate_symbols()
     assert link.mass.names == {"m1"} and link.centre[2].names == {"z1", "D3"}  # without a value
     assert [entry.text for entry in link.inertia] == ["J1", "0", "0", "J2", "0", "J3"]
     assert (hand.row, hand.joint, robot.frames["base"].row) == ("4", "wrist", "0")
-    numbers = [x.number(values) for x in (*hand.position, *hand.angles)]
+    numbers = [x.evaluate(values) for x in (*hand.position, *hand.angles)]
     assert numbers == [0.1125, 0.0, 0.0, 0.0, 0.0, math.pi / 2]
 
 

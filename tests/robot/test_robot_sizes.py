@@ -3,7 +3,7 @@
 import pytest
 
 from modeler.core.errors import RobotError
-from modeler.robot.read import robot_from_text
+from modeler.robot.read import parse_robot_text
 
 
 def arm(d: str) -> str:
@@ -21,8 +21,8 @@ def arm(d: str) -> str:
     ],
 )  # fmt: skip
 def test_what_is_large_and_allowed_is_read(d):
-    value = robot_from_text(arm(d), "arm.toml").joints[1].d
-    assert abs(value.number({"L": 0.4})) <= 1e4
+    value = parse_robot_text(arm(d), "arm.toml").joints[1].d
+    assert abs(value.evaluate({"L": 0.4})) <= 1e4
 
 
 def chain(rows: int) -> str:
@@ -34,15 +34,15 @@ def chain(rows: int) -> str:
 
 
 def test_the_longest_table_is_read_and_a_longer_one_is_not():
-    assert len(robot_from_text(chain(150), "c").joints) == 150
+    assert len(parse_robot_text(chain(150), "c").joints) == 150
     with pytest.raises(RobotError, match=r"\[mdh\], rows: got 151 rows.*expected at most 150"):
-        robot_from_text(chain(151), "c")
+        parse_robot_text(chain(151), "c")
 
 
 def test_too_many_legs_and_loops_are_refused_before_they_are_written_out():
     legs = ", ".join(f'"L{i}"' for i in range(3000))
     with pytest.raises(RobotError, match="legs: got 3000 legs; expected at most 50"):
-        robot_from_text(f"legs = [{legs}]\n" + chain(2), "c")
+        parse_robot_text(f"legs = [{legs}]\n" + chain(2), "c")
     loops = ", ".join('["A", "1", "3", "rigid"]' for _ in range(51))
     with pytest.raises(RobotError, match=r"\[loops\], rows: got 51 loops.*expected at most 50"):
-        robot_from_text(chain(3) + f"[loops]\nrows = [{loops}]", "c")
+        parse_robot_text(chain(3) + f"[loops]\nrows = [{loops}]", "c")

@@ -2,9 +2,9 @@
 
 import pytest
 
-from modeler.core.builtin import builtin_text
+from modeler.core.builtin import read_builtin_robot
 from modeler.core.errors import RobotError
-from modeler.robot import robot_from_text, with_effect
+from modeler.robot import insert_effect, parse_robot_text
 from tests.robot.texts import ARM
 
 BRANCH = '  ["5", "1", 0, 0, 0, 0, "q5", 0],\n'
@@ -16,7 +16,7 @@ def text_of(lines, more=""):
 
 
 def tool(lines, more=""):
-    return robot_from_text(text_of(lines, more), "arm.toml").tool
+    return parse_robot_text(text_of(lines, more), "arm.toml").tool
 
 
 def test_tool_stands_on_the_last_moving_row_or_where_it_says():
@@ -27,14 +27,14 @@ def test_tool_stands_on_the_last_moving_row_or_where_it_says():
     assert tool('row = "5"', BRANCH).row == "5"
     held = tool('link = "hand"\nz = 0.2', BRANCH)
     assert held.row == "4" and held.on.position[0].number({"R4": 0.2}) == 0.1
-    platform = robot_from_text(builtin_text("orthoglide-2003") + "\n[tool]\nz = 0.1\n", "o")
+    platform = parse_robot_text(read_builtin_robot("orthoglide-2003") + "\n[tool]\nz = 0.1\n", "o")
     assert platform.tool.row == platform.platform[-1]
-    assert robot_from_text(builtin_text("puma560"), "p").tool is None
+    assert parse_robot_text(read_builtin_robot("puma560"), "p").tool is None
 
 
 def test_edits_keep_the_tool():
-    edited = with_effect(text_of('x = "2*D3"  # of the gripper'), "coulomb", "1", {})
-    assert robot_from_text(edited, "arm.toml").tool == tool('x = "2*D3"')
+    edited = insert_effect(text_of('x = "2*D3"  # of the gripper'), "coulomb", "1", {})
+    assert parse_robot_text(edited, "arm.toml").tool == tool('x = "2*D3"')
     assert "# of the gripper" in edited
 
 

@@ -6,19 +6,19 @@ from fractions import Fraction
 import pytest
 
 from modeler.cli import main
-from modeler.core.expression import parse
-from modeler.robot.read import robot_from_text
+from modeler.core.expression import parse_expression
+from modeler.robot.read import parse_robot_text
 
 METRES = {"mm": Fraction(1, 1000), "cm": Fraction(1, 100), "m": 1, "in": Fraction(254, 10000)}
 
 
 def arm(rows, columns='"j", "theta", "alpha", "d"', further=""):
     head = 'name = "arm"\ngravity = [0, 0, -9.81]\n'
-    return robot_from_text(f"{head}{further}\n[mdh]\ncolumns = [{columns}]\nrows = [{rows}]", "a")
+    return parse_robot_text(f"{head}{further}\n[mdh]\ncolumns = [{columns}]\nrows = [{rows}]", "a")
 
 
 def exact(text):
-    return parse(text).fold({}, {}, None, lambda value: value)
+    return parse_expression(text).fold({}, {}, None, lambda value: value)
 
 
 @pytest.mark.parametrize("unit", METRES)
@@ -28,7 +28,7 @@ def test_lengths_with_units_are_exact(unit, digits, gap):
     worth = Fraction(digits) * METRES[unit]
     assert exact(f"{digits}{gap}{unit}") == worth
     assert exact(f"-{digits} {unit} + 3/8 in") == -worth + Fraction(3, 8) * METRES["in"]
-    assert parse(f"{digits} {unit}").number() == float(worth)
+    assert parse_expression(f"{digits} {unit}").evaluate() == float(worth)
 
 
 def test_units_stand_wherever_degrees_do():
@@ -36,7 +36,7 @@ def test_units_stand_wherever_degrees_do():
     text += '[home]\nq2 = "12 mm"'
     rows = '["1", 0, "q1", 0, "D2"], ["2", 1, 0, 0, "q2 + 400 mm"]'
     robot = arm(rows, '"j", "sigma", "theta", "d", "r"', text)
-    assert robot.symbol_values() == {"D2": 0.06, "L": 0.1}
+    assert robot.evaluate_symbols() == {"D2": 0.06, "L": 0.1}
     assert (robot.limits["2"].lower, robot.home["2"]) == (-0.1, 0.012)
     assert robot.joint("2").r.number({"q2": 0.0}) == 0.4
     assert robot.readings == ()

@@ -9,18 +9,23 @@ import numpy as np
 import pytest
 
 from modeler.core.errors import RobotError
-from modeler.robot.body_tree import BodyTree, about_origin, moving_links, poses_at
-from modeler.robot.read import robot_from_text
+from modeler.robot.body_tree import (
+    BodyTree,
+    collect_moving_links,
+    compute_body_poses,
+    compute_standard_parameters,
+)
+from modeler.robot.read import parse_robot_text
 from modeler.robot.robot import JointKind
-from modeler.robot.tree_cuts import cut, lock_values
-from modeler.robot.tree_text import tree_to_toml
-from modeler.robot.urdf import urdf_tree
+from modeler.robot.tree_cuts import cut_tree, parse_lock_values
+from modeler.robot.tree_text import convert_tree
+from modeler.robot.urdf import read_urdf_tree
 from tests.robot.public_robots import each_public_urdf
 from tests.robot.texts import ARM_URDF as ARM, edited
 
 
 def read(text: str = ARM, exact_decimals: bool = False) -> BodyTree:
-    return urdf_tree(text.encode(), "arm.urdf", exact_decimals)
+    return read_urdf_tree(text.encode(), "arm.urdf", exact_decimals)
 
 
 def positions(tree: BodyTree, seed: int) -> dict[str, float]:
@@ -52,9 +57,9 @@ def test_public_robots_are_those_of_pinocchio(path: Path):
     data = path.read_bytes()
     if b"<link" not in data:
         with pytest.raises(RobotError, match="has no link"):
-            urdf_tree(data, path.name)
+            read_urdf_tree(data, path.name)
         return
-    tree = cut(urdf_tree(data, path.name, exact_decimals=True))
+    tree = cut_tree(read_urdf_tree(data, path.name, exact_decimals=True))
     model = pin.buildModelFromUrdf(str(path))
     state, q = pin.neutral(model), positions(tree, seed=zlib.crc32(path.stem.encode()))
     moving = [joint for joint in tree.joints if joint.kind is not JointKind.FIXED]
@@ -76,14 +81,14 @@ def test_public_robots_are_those_of_pinocchio(path: Path):
             assert model.effortLimit[theirs.idx_v] == joint.effort
     known = model.createData()
     pin.framesForwardKinematics(model, known, state)
-    for name, pose in poses_at(tree, q).items():
+    for name, pose in compute_body_poses(tree, q).items():
         theirs = known.oMf[model.getFrameId(name, pin.FrameType.BODY)]
         assert np.allclose(pose.position, theirs.translation, rtol=0, atol=1e-12), name
         assert np.allclose(pose.rotation, theirs.rotation, rtol=0, atol=1e-12), name
-    for link in moving_links(tree):
+    for link in collect_moving_links(tree):
         number = 0 if link.joint is None else model.getJointId(link.joint.name)
         theirs = model.inertias[number].toDynamicParameters()  # m, mc, xx xy yy xz yz zz
-        ours = np.zeros(10) if link.inertial is None else about_origin(link.inertial)
+        ours = np.zeros(10) if link.inertial is None else compute_standard_parameters(link.inertial)
         order = [9, 6, 7, 8, 0, 1, 3, 2, 4, 5]
         assert np.allclose(ours[order], theirs, rtol=1e-11, atol=1e-13), link.bodies
 
@@ -117,7 +122,7 @@ def test_elements_of_the_schema():
     assert (other.leader, other.ratio, other.offset) == ("finger", -2, 0.01)
     assert (other.actuated, finger.actuated) == (False, True)
     assert tree.bodies["base"] is None
-    assert not any("weigh nothing" in note for note in cut(tree, tip="flange").notes)
+    assert not any("weigh nothing" in note for note in cut_tree(tree, tip="flange").notes)
 
 
 def test_joints_are_sorted_only_as_far_as_must_be():
@@ -145,31 +150,31 @@ FREE = ('type="continuous"', 'type="floating"')
 
 
 def test_a_floating_base_stands_still():
-    tree = cut(read(edited(ARM, ('type="revolute"', 'type="floating"'))))
+    tree = cut_tree(read(edited(ARM, ('type="revolute"', 'type="floating"'))))
     assert joint_of(tree, "shoulder").kind is JointKind.FIXED
     assert any("shoulder" in note and "floating" in note for note in tree.notes)
-    assert not tree.unread
+    assert not tree.unsupported_joints
 
 
 def test_other_joints_are_refused_cut_off_or_held():
     text = edited(ARM, FREE)
     told = 'arm.urdf: line 22: joint "elbow": floating joints are.*--lock elbow=0'
     with pytest.raises(RobotError, match=told):
-        cut(read(text))
-    held = cut(read(text), locks={"elbow": 0})
-    assert len(moving_links(held)) == 4
-    assert len(cut(read(text), tip="upper").joints) == 1
-    base = cut(read(text), base="fore")
+        cut_tree(read(text))
+    held = cut_tree(read(text), locks={"elbow": 0})
+    assert len(collect_moving_links(held)) == 4
+    assert len(cut_tree(read(text), tip="upper").joints) == 1
+    base = cut_tree(read(text), base="fore")
     assert {joint.name for joint in base.joints} == {"wrist", "finger", "other"}
     with pytest.raises(RobotError, match="expected 0: a floating joint"):
-        cut(read(text), locks={"elbow": 0.1})
+        cut_tree(read(text), locks={"elbow": 0.1})
 
 
 def test_gravity_is_seen_from_the_new_base():
     """It points where it pointed, and frames stand to each other as before."""
-    tree, base = read(), cut(read(), base="upper")
+    tree, base = read(), cut_tree(read(), base="upper")
     q = positions(tree, 3) | {"shoulder": 0.0}
-    before, after = poses_at(tree, q), poses_at(base, q)
+    before, after = compute_body_poses(tree, q), compute_body_poses(base, q)
     assert np.allclose(before["upper"].rotation @ base.gravity, tree.gravity, atol=1e-15)
     for name, pose in after.items():
         expected = before["upper"].inverse() @ before[name]
@@ -178,39 +183,41 @@ def test_gravity_is_seen_from_the_new_base():
 
 
 def test_a_tip_keeps_what_is_fixed_on_the_way():
-    tree = cut(read(), tip="left")
+    tree = cut_tree(read(), tip="left")
     assert set(tree.bodies) == set(read().bodies) - {"right"}
-    short = cut(read(), tip="fore")
+    short = cut_tree(read(), tip="fore")
     assert set(short.bodies) == {"base", "upper", "fore", "flange"}
-    assert sum(link.inertial.mass for link in moving_links(short) if link.inertial) == 4.0
-    gone = cut(read(), tip="upper")
+    assert sum(link.inertial.mass for link in collect_moving_links(short) if link.inertial) == 4.0
+    gone = cut_tree(read(), tip="upper")
     assert any("1.5 kg" in note and "--lock" in note for note in gone.notes)
-    led = cut(read(), tip="right")
+    led = cut_tree(read(), tip="right")
     assert joint_of(led, "other").kind is JointKind.FIXED
 
 
 def test_locked_joints_lump_their_bodies():
     """Placements are those of the tree at that position; the mass stays."""
     tree = read()
-    locked = cut(tree, locks={"elbow": "30 deg", "finger": "20 mm"})
+    locked = cut_tree(tree, locks={"elbow": "30 deg", "finger": "20 mm"})
     q = positions(tree, 5) | {"elbow": math.pi / 6, "finger": 0.02, "other": -0.03}
-    ours, theirs = poses_at(locked, q), poses_at(tree, q)
+    ours, theirs = compute_body_poses(locked, q), compute_body_poses(tree, q)
     for name, pose in ours.items():
         assert np.allclose(pose.position, theirs[name].position, atol=1e-14), name
         assert np.allclose(pose.rotation, theirs[name].rotation, atol=1e-14), name
-    _, link = moving_links(locked)
+    _, link = collect_moving_links(locked)
     assert link.inertial is not None and link.inertial.mass == 4.0
-    assert any("outside" in note for note in cut(tree, locks={"shoulder": 3}).notes)
+    assert any("outside" in note for note in cut_tree(tree, locks={"shoulder": 3}).notes)
 
 
 def test_followers_with_an_offset_stop_with_their_leader():
     """By a relation in the text, which is gone where the leader is locked."""
     ratio, offset, at = np.random.default_rng().uniform(-1, 1, 3).round(3).tolist()
     text = edited(ARM, ('multiplier="-2" offset="0.01"', f'multiplier="{ratio}" offset="{offset}"'))
-    robot = robot_from_text(tree_to_toml(cut(read(text)), "arm.urdf").text, "arm.toml")
-    assert robot.relations["4"].number({"q3": at}) == pytest.approx(ratio * at + offset, abs=1e-15)
-    made = tree_to_toml(cut(read(text), locks={"finger": at}), "arm.urdf")
-    assert not robot_from_text(made.text, "arm.toml").relations
+    robot = parse_robot_text(convert_tree(cut_tree(read(text)), "arm.urdf").text, "arm.toml")
+    assert robot.relations["4"].evaluate({"q3": at}) == pytest.approx(
+        ratio * at + offset, abs=1e-15
+    )
+    made = convert_tree(cut_tree(read(text), locks={"finger": at}), "arm.urdf")
+    assert not parse_robot_text(made.text, "arm.toml").relations
 
 
 def test_cuts_name_what_they_do_not_find():
@@ -225,15 +232,15 @@ def test_cuts_name_what_they_do_not_find():
         ({"locks": {"elbow": "1/0"}}, "expected a position in rad or m"),
     ):
         with pytest.raises(RobotError, match=told):
-            cut(read(), **cuts)
-    assert lock_values(["a=b=30 deg", "c = 1"]) == {"a=b": "30 deg", "c": "1"}
+            cut_tree(read(), **cuts)
+    assert parse_lock_values(["a=b=30 deg", "c = 1"]) == {"a=b": "30 deg", "c": "1"}
     for texts in (["elbow"], ["=1"], ["a=1", "a=2"]):
         with pytest.raises(RobotError, match="--lock"):
-            lock_values(texts)
+            parse_lock_values(texts)
 
 
 def notes_of(text: str, **cuts: str) -> tuple[str, ...]:
-    return tree_to_toml(cut(read(text), **cuts), "arm.urdf").notes
+    return convert_tree(cut_tree(read(text), **cuts), "arm.urdf").notes
 
 
 def test_only_moving_bodies_without_mass_are_told():
@@ -272,8 +279,10 @@ INERTIA = 'ixx="0.001" ixy="0" ixz="0" iyy="0.001" iyz="0" izz="0.001"'
 )
 def test_doubted_bodies_are_told(mass: str, inertia: str, told: str):
     text = edited(ARM, (INERTIA, inertia), ('mass value="0.5"', f'mass value="{mass}"'))
-    tree = cut(read(text))
-    assert told in tree.doubted.get("flange", "") and bool(told) == bool(tree.doubted)
+    tree = cut_tree(read(text))
+    assert told in tree.unreliable_bodies.get("flange", "") and bool(told) == bool(
+        tree.unreliable_bodies
+    )
     notes = [note for note in notes_of(text) if '"flange"' in note and "move as one" not in note]
     if told and told != "mass 0":
         assert len(notes) == 1 and told in notes[0]

@@ -12,11 +12,11 @@ import pytest
 
 from modeler.codegen.emit import emit
 from modeler.core.errors import RobotError
-from modeler.derivation.base_parameters import base_parameters
+from modeler.derivation.base_parameters import derive_base_parameters
 from modeler.derivation.derive import derive_model
-from modeler.derivation.numeric_rank import regressor_values
-from modeler.robot.conversion import converted
-from modeler.robot.read import robot_from_text
+from modeler.derivation.numeric_rank import evaluate_regressor
+from modeler.robot.conversion import convert_robot_file
+from modeler.robot.read import parse_robot_text
 from modeler.robot.robot import Robot
 from tests.modules import loaded
 from tests.robot.poses import link_poses
@@ -87,7 +87,7 @@ class PinocchioModel:
             held = [model.getJointId(name) for name in locked]
             model = pin.buildReducedModel(model, held, pin.neutral(model))
         self.joints = {f.row: f.joint for f in robot.frames.values() if f.joint}
-        self.rows = [joint.name for joint in robot.moving]
+        self.rows = [joint.name for joint in robot.moving_joints]
         assert {self.joints[row] for row in self.rows} == set(model.names) - {"universe"}
         self.ids = [model.getJointId(self.joints[row]) for row in self.rows]
         self.at = [model.joints[i].idx_v for i in self.ids]
@@ -126,13 +126,17 @@ def motion(robot: Robot, samples: int, name: str) -> np.ndarray:
 
 
 def chi_of(robot: Robot) -> np.ndarray:
-    names = [f"{p}{row.name}" for row in robot.moving for p in robot.inertial(row.name)]
+    names = [
+        f"{p}{row.name}"
+        for row in robot.moving_joints
+        for p in robot.get_inertial_prefixes(row.name)
+    ]
     return np.array([robot.parameters.get(name, 0.0) for name in names])
 
 
 def read(path: Path, locked: tuple[str, ...] = ()) -> Robot:
-    text = converted(path, locks=dict.fromkeys(locked, 0.0)).text
-    return dataclasses.replace(robot_from_text(text, path.name), effects=())
+    text = convert_robot_file(path, locks=dict.fromkeys(locked, 0.0)).text
+    return dataclasses.replace(parse_robot_text(text, path.name), effects=())
 
 
 @each_public_urdf()
@@ -146,10 +150,10 @@ def test_torques_and_frames_of_every_public_robot(path: Path, tmp_path: Path):
         assert NOT_MOVING in str(error)
         return
     peer = PinocchioModel(robot, snapped(path, tmp_path))
-    samples = 50 if len(robot.moving) < 40 else 5
+    samples = 50 if len(robot.moving_joints) < 40 else 5
     q, qd, qdd = motion(robot, samples, path.stem)
     theirs = np.array([peer.torque(*one) for one in zip(q, qd, qdd, strict=True)])
-    ours = regressor_values(derive_model(robot), (q, qd, qdd)) @ chi_of(robot)
+    ours = evaluate_regressor(derive_model(robot), (q, qd, qdd)) @ chi_of(robot)
     np.testing.assert_allclose(ours, theirs, rtol=0, atol=1e-9 * (abs(theirs).max() or 1.0))
     pin.framesForwardKinematics(peer.model, peer.data, peer.state(q[0])[0])
     for link, pose in link_poses(robot, peer.A @ q[0] + peer.o).items():
@@ -179,7 +183,7 @@ def test_base_parameters_are_as_many_as_the_rank(name: str, tmp_path: Path):
     sizes = np.linalg.svd(R, compute_uv=False)
     rank = int(np.sum(sizes > 1e-9 * sizes[0]))
     assert sizes[rank - 1] > 1e3 * (sizes[rank] if rank < len(sizes) else 0.0)
-    base = base_parameters(derive_model(robot))
+    base = derive_base_parameters(derive_model(robot))
     assert base.rank == rank
     assert base.proof.kind == "exact"
 
@@ -189,7 +193,7 @@ def test_emitted_c_of_a_urdf(tmp_path: Path):
     path = public_urdf("so101.urdf")
     robot = read(path)
     model = derive_model(robot)
-    c = loaded(emit(model, base_parameters(model)))
+    c = loaded(emit(model, derive_base_parameters(model)))
     peer = PinocchioModel(robot, snapped(path, tmp_path))
     q, qd, qdd = motion(robot, 50, path.stem)
     theirs = np.array([peer.torque(*one) for one in zip(q, qd, qdd, strict=True)])

@@ -6,10 +6,10 @@ import pytest
 
 import modeler.api as md
 from modeler.core.errors import RobotError
-from modeler.robot.read import robot_from_text
-from modeler.robot.tree_cuts import cut
-from modeler.robot.tree_text import tree_to_toml
-from modeler.robot.urdf import urdf_tree
+from modeler.robot.read import parse_robot_text
+from modeler.robot.tree_cuts import cut_tree
+from modeler.robot.tree_text import convert_tree
+from modeler.robot.urdf import read_urdf_tree
 
 ARM = """<robot name="arm"><link name="base"/><link name="a"><inertial><origin xyz="0.1 0 0.02"/>
 <mass value="1"/><inertia ixx="0.02" ixy="0" ixz="0" iyy="0.03" iyz="0" izz="0.02"/></inertial>
@@ -19,8 +19,10 @@ ARM = """<robot name="arm"><link name="base"/><link name="a"><inertial><origin x
 
 def convert(limit: str, kind: str = "revolute", more: str = ""):
     attributes = f'<limit effort="10" {limit}/>{more}' if limit else more
-    made = tree_to_toml(cut(urdf_tree((ARM % (kind, attributes)).encode(), "arm.urdf")), "arm.urdf")
-    return robot_from_text(made.text, "arm.toml"), made
+    made = convert_tree(
+        cut_tree(read_urdf_tree((ARM % (kind, attributes)).encode(), "arm.urdf")), "arm.urdf"
+    )
+    return parse_robot_text(made.text, "arm.toml"), made
 
 
 RANGE = 'lower="-1" upper="1" velocity="2"'
@@ -46,7 +48,9 @@ def test_excite_says_of_which_joints_no_limits_are_stated(tmp_path) -> None:
     path = tmp_path / "arm.urdf"
     path.write_text(ARM % ("continuous", ""))
     motion = md.excite(md.load(path), duration=5.0, harmonics=2, starts=1)
-    assert any("no limits are stated for 1: those above are" in line for line in motion.lines())
+    assert any(
+        "no limits are stated for 1: those above are" in line for line in motion.format_lines()
+    )
 
 
 @pytest.mark.parametrize("velocity", ['velocity="0"', "", 'velocity="1e400"'])

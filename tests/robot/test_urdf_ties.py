@@ -6,11 +6,11 @@ import numpy as np
 import pytest
 
 from modeler.core.errors import RobotError
-from modeler.robot.body_tree import BodyTree, Pose, poses_at
-from modeler.robot.read import robot_from_text
-from modeler.robot.tree_cuts import cut
-from modeler.robot.tree_text import tree_to_toml
-from modeler.robot.urdf import urdf_tree
+from modeler.robot.body_tree import BodyTree, Pose, compute_body_poses
+from modeler.robot.read import parse_robot_text
+from modeler.robot.tree_cuts import cut_tree
+from modeler.robot.tree_text import convert_tree
+from modeler.robot.urdf import read_urdf_tree
 from tests.elementary_motions import frames
 from tests.robot.poses import origin_pose
 
@@ -35,17 +35,17 @@ def urdf(*parts: str) -> str:
 
 
 def read(text: str) -> BodyTree:
-    return cut(urdf_tree(text.encode(), "arm.urdf"))
+    return cut_tree(read_urdf_tree(text.encode(), "arm.urdf"))
 
 
 def toml(text: str) -> str:
     """The robot file without its notes."""
-    made = tree_to_toml(read(text), "arm.urdf").text
+    made = convert_tree(read(text), "arm.urdf").text
     return made[made.index("gravity =") :]
 
 
 def notes_of(text: str) -> str:
-    return "\n".join(tree_to_toml(read(text), "arm.urdf").notes)
+    return "\n".join(convert_tree(read(text), "arm.urdf").notes)
 
 
 # Quaternions.
@@ -83,7 +83,7 @@ def test_a_quaternion_says_what_angles_say(angles) -> None:
         text = text.replace('<origin xyz="0.1 0.02 -0.03"/>', f'<origin xyz="0.1 0 0" {way}/>', 2)
         values = tomllib.loads(toml(text))["parameters"]
         tree, q = read(text), {"j1": 0.4, "j2": -0.7, "j3": 1.1}
-        both.append((values, poses_at(tree, q), tree.bodies))
+        both.append((values, compute_body_poses(tree, q), tree.bodies))
     (one, here, bodies), (two, there, others) = both
     one, two = ({k: v for k, v in values.items() if k != "uncertainty"} for values in (one, two))
     assert one == pytest.approx(two, rel=1e-12, abs=1e-13)
@@ -183,7 +183,7 @@ def test_loops_of_all_tools_are_one_loop(tmp_path) -> None:
     path = tmp_path / "arm.xml"
     inner = body("b", "0 0 0.2")
     path.write_text(CONNECT % (body("a", "0 0 0", inner) + body("c", "0.4 0 0")))
-    expected = parts(tree_to_toml(mjcf.mjcf_tree(path), "arm.xml").text)
+    expected = parts(convert_tree(mjcf.read_mjcf_tree(path), "arm.xml").text)
     assert '"spherical"' in expected
     assert parts(toml(urdf(*FOUR, BALL)).replace("ball_constraint", "pin")) == expected
     for name, loop in CLOSED.items():
@@ -214,8 +214,8 @@ def test_motors_of_a_loop_are_those_that_the_file_names(more: str, driven: str) 
     text = urdf(*FOUR, CLOSED["plus"] % "revolute", at, more * (more != "independent"))
     if more == "independent":
         text = text.replace('name="jc"', 'name="jc" independent="true"')
-    robot = robot_from_text(tree_to_toml(read(text), "arm.urdf").text, "arm.toml")
-    assert [j.name for j in robot.moving if j.actuated] == [driven]
+    robot = parse_robot_text(convert_tree(read(text), "arm.urdf").text, "arm.toml")
+    assert [j.name for j in robot.moving_joints if j.actuated] == [driven]
     assert robot.home == {"1": 0.0, "2": 0.4, "3": 0.0}
 
 
@@ -235,9 +235,12 @@ def test_frames_that_meet_stand_where_the_file_has_them(kind: str, seed: int) ->
     chain = (TREE[0], joint("j2", "a", "b", '<origin xyz="0 0.1 0.3" rpy="1 0 0"/>'), TREE[2]
              .replace('<parent link="b"/>', '<parent link="base"/>'))  # fmt: skip
     tree = read(urdf(*chain, loop, *map(DRIVES, ("j1", "j2", "j3"))))
-    robot = robot_from_text(tree_to_toml(tree, "arm.urdf").text, "arm.toml")
+    robot = parse_robot_text(convert_tree(tree, "arm.urdf").text, "arm.toml")
     q = dict(zip(("j1", "j2", "j3"), rng.uniform(-2, 2, 3), strict=True))
-    rows, bodies = frames(robot, dict(zip("123", q.values(), strict=True))), poses_at(tree, q)
+    rows, bodies = (
+        frames(robot, dict(zip("123", q.values(), strict=True))),
+        compute_body_poses(tree, q),
+    )
     axis = axis / np.linalg.norm(axis)
     for k, link in enumerate("bc"):
         own = origin_pose(places[k], turns[k])

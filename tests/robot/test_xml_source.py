@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from modeler.core.errors import RobotError
-from modeler.robot.xml_source import parse_xml, replaced
+from modeler.robot.xml_source import parse_xml, replace_spans
 from tests.robot.public_robots import each_public_urdf
 
 ODD = (
@@ -25,7 +25,7 @@ P_SPANS = {"v": b"&quot;1&gt;2&quot; >", "w": b""}
 def test_spans_are_those_of_the_bytes():
     root = parse_xml(ODD, "odd.urdf")
     elements = {}
-    for one in root.walk():
+    for one in root.iterate_elements():
         spans = {name: ODD[start:end] for name, (start, end) in one.spans.items()}
         text = one.text_span and ODD[slice(*one.text_span)]
         elements[one.tag] = (dict(one.attributes), spans, one.text, text, one.line)
@@ -37,7 +37,7 @@ def test_spans_are_those_of_the_bytes():
         "d": ({}, {}, "4", None, 6),
         "e": ({"value": "é 1"}, {"value": b"\xc3\xa9 1"}, "", None, 6),
     }
-    tags = {element.tag: element for element in root.walk()}
+    tags = {element.tag: element for element in root.iterate_elements()}
     assert ODD[slice(*tags["xacro:p"].opening)].endswith(b'w=""/>')
     assert tags["xacro:p"].closing == (tags["xacro:p"].opening[1],) * 2
     assert ODD[slice(*tags["e"].closing)] == b"</e >"
@@ -45,22 +45,22 @@ def test_spans_are_those_of_the_bytes():
 
 def test_only_what_is_changed_changes():
     root = parse_xml(ODD, "odd.urdf")
-    tags = {element.tag: element for element in root.walk()}
+    tags = {element.tag: element for element in root.iterate_elements()}
     end = tags["b"].closing[0]
     text_span = tags["b"].text_span
     assert text_span is not None
     changes = {tags["e"].spans["value"]: "2", text_span: "7.25", (end, end): "<!-- new -->"}
-    made = replaced(ODD, changes)
+    made = replace_spans(ODD, changes)
     expected = ODD.replace(b"\xc3\xa9 1", b"2").replace(b" 3.5 </b>", b" 7.25 <!-- new --></b>")
     assert made == expected
-    assert replaced(ODD, {}) == ODD
+    assert replace_spans(ODD, {}) == ODD
 
 
 @each_public_urdf()
 def test_public_files_are_read_as_the_standard_library_reads_them(path: Path):
     """The same elements; and every value replaced by another is read back as that, nothing else."""
     data = path.read_bytes()
-    ours = list(parse_xml(data, path.name).walk())
+    ours = list(parse_xml(data, path.name).iterate_elements())
     theirs = list(Standard.fromstring(data).iter())
     assert len(ours) == len(theirs)
     for one, other in zip(ours, theirs, strict=True):
@@ -73,11 +73,11 @@ def test_public_files_are_read_as_the_standard_library_reads_them(path: Path):
     spans = [(e, name) for e in ours for name in e.spans if not name.startswith("xmlns")]
     chosen = [spans[i] for i in rng.choice(len(spans), min(40, len(spans)), replace=False)] \
         if spans else []  # fmt: skip
-    made = replaced(data, {element.spans[name]: "0.125" for element, name in chosen})
+    made = replace_spans(data, {element.spans[name]: "0.125" for element, name in chosen})
     changed = {id(element): {} for element, _ in chosen}
     for element, name in chosen:
         changed[id(element)][name] = "0.125"
-    for before, after in zip(ours, parse_xml(made, path.name).walk(), strict=True):
+    for before, after in zip(ours, parse_xml(made, path.name).iterate_elements(), strict=True):
         assert after.attributes == {**before.attributes, **changed.get(id(before), {})}
         assert after.text == before.text
 
@@ -95,7 +95,7 @@ def test_what_ros_reads_is_read_with_its_lines_and_bytes():
             (a,) = root.children
             assert (a.line, a.attributes) == (5 + lines, {"\xe9": "1", "v": "2"})
             assert [data[slice(*a.spans[n])] for n in ("\xe9", "v")] == [b"1", b"2"]
-            assert replaced(data, {a.spans["v"]: "7"}) == data.replace(b'v="2"', b'v="7"')
+            assert replace_spans(data, {a.spans["v"]: "7"}) == data.replace(b'v="2"', b'v="7"')
     comment = b"<!-- caf\xe9 --><a>\xc3\xa9</a>"  # a comment of another encoding than the rest
     assert parse_xml(comment, "arm.urdf").text == "\xe9"
 

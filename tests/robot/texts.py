@@ -5,10 +5,10 @@ from pathlib import Path
 
 import pytest
 
-from modeler.core.builtin import builtin_text
+from modeler.core.builtin import read_builtin_robot
 from modeler.core.errors import RobotError
-from modeler.robot.edit import with_effects
-from modeler.robot.read import robot_from_text
+from modeler.robot.edit import replace_effects
+from modeler.robot.read import parse_robot_text
 from tests.learned import text_with
 
 ARM, PLANAR, OWN_EFFECTS, ARM_URDF, ARM_XML = (
@@ -24,9 +24,9 @@ LAW = text_with("two-link", {}, 'brake = ["2"]\n').replace(
 )
 
 MOTORS = 'm1 = "q1"\nm2 = "q2 - 0.4*q1"\nm3 = "q3 - 0.5*q2 + 0.2*q1"\n'
-COUPLED = builtin_text("wrist-coupled").split("[parameters]")[0]
+COUPLED = read_builtin_robot("wrist-coupled").split("[parameters]")[0]
 
-FIVE_BAR = with_effects(builtin_text("five-bar"), {})
+FIVE_BAR = replace_effects(read_builtin_robot("five-bar"), {})
 """Without effects."""
 
 
@@ -50,6 +50,6 @@ def check_mistake(text: str, old: str, new: str, told: str) -> None:
     assert old in text
     pattern = ".*".join(map(re.escape, told.split(" .. ")))
     with pytest.raises(RobotError, match=pattern) as caught:
-        robot_from_text(text.replace(old, new, 1), "arm.toml")
+        parse_robot_text(text.replace(old, new, 1), "arm.toml")
     message = str(caught.value)
     assert message.startswith("arm.toml: ") and "\n" not in message and len(message) < 500

@@ -4,18 +4,20 @@ import numpy as np
 import pytest
 
 from modeler.api import compile_model, derive, generate, read_logs
-from modeler.core.builtin import builtin_text
+from modeler.core.builtin import read_builtin_robot
 from modeler.core.errors import DataError, RobotError
 from modeler.estimation import check_currents
 from modeler.observation import Processing, observe
-from modeler.robot import robot_from_text, with_drive_gains
+from modeler.robot import parse_robot_text, replace_drive_gains
 
 VOLTAGE, RESISTANCE, K_E, GAIN = 11.1, 3.7, 0.9, 0.8
 DRIVE = f"{{voltage = {VOLTAGE}, resistance = {RESISTANCE}, k_e = {K_E}, gain = {GAIN}}}"
 
 
 def robot(drives, more=""):
-    return robot_from_text(f"{builtin_text('two-link')}\n[drives]\n{drives}\n{more}", "arm.toml")
+    return parse_robot_text(
+        f"{read_builtin_robot('two-link')}\n[drives]\n{drives}\n{more}", "arm.toml"
+    )
 
 
 def compiled(drives, more=""):
@@ -96,7 +98,9 @@ def test_what_is_not_told_apart_is_told():
     t, q, qd, tau = motion()
     (log,) = read_logs(arm, [{"time": t, "q": q, "duty": duty_of(tau, qd)}])
     assert log.induced == (0.0, pytest.approx(GAIN * K_E / RESISTANCE))
-    assert log.told[-1].startswith("joint 1: without k_e in [drives], what the motor induces is")
+    assert log.reading_notes[-1].startswith(
+        "joint 1: without k_e in [drives], what the motor induces is"
+    )
 
 
 def test_a_duty_without_a_voltage_model_is_refused():
@@ -112,10 +116,10 @@ def test_gains_are_put_where_they_stand():
     alone = robot("1 = {gain = 2.5}\n2 = {gain = -3}")  # is what [drive_gains] says
     assert alone.drive_gains == {"1": 2.5, "2": -3.0} and not alone.drives
     text = robot(f"1 = {DRIVE}", "[drive_gains]\n2 = 3.0").text
-    read = robot_from_text(with_drive_gains(text, {"1": 0.7, "2": 2.9}), "arm.toml")
+    read = parse_robot_text(replace_drive_gains(text, {"1": 0.7, "2": 2.9}), "arm.toml")
     assert read.drive_gains == {"1": 0.7, "2": 2.9}
     assert read.drives == robot(f"1 = {DRIVE}").drives
-    only = robot_from_text(with_drive_gains(robot(BOTH).text, {"1": 0.7, "2": 2.9}), "arm.toml")
+    only = parse_robot_text(replace_drive_gains(robot(BOTH).text, {"1": 0.7, "2": 2.9}), "arm.toml")
     assert only.drive_gains == {"1": 0.7, "2": 2.9}
     assert "[drive_gains]" not in only.text
 

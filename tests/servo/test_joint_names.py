@@ -3,9 +3,9 @@
 import numpy as np
 import pytest
 
-from modeler.api import compile_model, derive, generate, load, look_at, read_logs
-from modeler.logs.guess import template_of
-from modeler.robot import robot_from_text
+from modeler.api import compile_model, derive, generate, inspect_log, load, read_logs
+from modeler.logs.guess import split_label
+from modeler.robot import parse_robot_text
 
 from .arms import ARM7, urdf
 
@@ -57,23 +57,23 @@ def test_further_joints_of_the_log_are_left_out(arm):
 
 def test_the_guess_says_the_names(arm):
     given, _ = columns("position/{}", "effort/{}")
-    suggested = look_at(given, arm).suggested
+    suggested = inspect_log(given, arm).suggested
     assert f'names = {{1 = "{NAMES[0]}", 2 = "{NAMES[1]}", 3 = "{NAMES[2]}"}}\n' in suggested
     assert '"q<j>" = "position/{name}"' in suggested
     doubt = "in the order of the log: which joint is which?"
-    assert doubt not in suggested and doubt in look_at(given).suggested
+    assert doubt not in suggested and doubt in inspect_log(given).suggested
 
 
 def test_names_of_log_go_before_those_of_the_file():
-    own = robot_from_text(load("so101").text + '\n[log]\nnames = {1 = "waist"}\n', "arm.toml")
-    assert own.log_words == {"names": {"1": "waist"}}
-    assert load("so101").log_words["names"]["5"] == "wrist_roll"
-    assert load("two-link").log_words == {}
+    own = parse_robot_text(load("so101").text + '\n[log]\nnames = {1 = "waist"}\n', "arm.toml")
+    assert own.log_mapping == {"names": {"1": "waist"}}
+    assert load("so101").log_mapping["names"]["5"] == "wrist_roll"
+    assert load("two-link").log_mapping == {}
 
 
 def test_a_joint_is_found_in_the_name_of_a_column():
     known = ("elbow", "elbow_roll", "joint_1", "joint_10")
-    assert template_of("elbow_roll_pos", known) == ("{}_pos", "elbow_roll")
-    assert template_of("joint_10.effort", known) == ("{}.effort", "joint_10")
-    assert template_of("elbows", known) == ("elbows", "")
-    assert template_of("joint3_pos", known) == ("joint{}_pos", "3")
+    assert split_label("elbow_roll_pos", known) == ("{}_pos", "elbow_roll")
+    assert split_label("joint_10.effort", known) == ("{}.effort", "joint_10")
+    assert split_label("elbows", known) == ("elbows", "")
+    assert split_label("joint3_pos", known) == ("joint{}_pos", "3")

@@ -5,8 +5,8 @@ import dataclasses
 import numpy as np
 import pytest
 
-from modeler.api import compile_model, derive, generate, load, look_at, read_logs
-from modeler.api.log_maps import log_maps, read_mapped
+from modeler.api import compile_model, derive, generate, inspect_log, load, read_logs
+from modeler.api.log_maps import build_log_maps, read_mapped_log
 from modeler.core.errors import DataError
 from modeler.estimation import identify
 from modeler.logs import EITHER
@@ -79,7 +79,7 @@ def test_without_k_e_what_the_motor_induces_is_damping(arm, tmp_path):
     joints = (dataclasses.replace(j, drive=dataclasses.replace(j.drive, k_e=0.0))
               for j in arm.spec.joints)  # fmt: skip
     spec = dataclasses.replace(arm.spec, joints=tuple(joints))
-    log = read_mapped(str(folder), spec, log_maps(arm, [folder], MAPPING)[0])
+    log = read_mapped_log(str(folder), spec, build_log_maps(arm, [folder], MAPPING)[0])
     result = identify(observe(arm, [log]), "weighted", arm)
     induced = TRUTH.gain * TRUTH.k_e / TRUTH.resistance
     values = [p.value for p in result.parameters if p.name.startswith("Fv")]
@@ -95,7 +95,7 @@ def test_a_data_set_without_loads_is_refused(arm, tmp_path):
 
 def test_the_table_places_links_as_the_file_does():
     """Lengths and zero angles of the arms, by plain trigonometry."""
-    so101, vx300s = (load(name).symbol_values() for name in ("so101", "vx300s"))
+    so101, vx300s = (load(name).evaluate_symbols() for name in ("so101", "vx300s"))
     stated = [so101["D3"], so101["phi"], so101["psi"], vx300s["psi"]]
     sides = [(0.028, 0.11257), (0.0052, 0.1349), (0.05955, 0.3)]
     angles = [np.arctan2(*each) for each in sides]
@@ -113,9 +113,11 @@ def test_degrees_that_may_be_parts_of_a_range_are_told(arm, reach, doubted):
     names = [f"observation.state[{motor}.pos]" for motor in MOTORS]
     columns = {"timestamp": t} | {name: reach * np.sin(t + k) for k, name in enumerate(names)}
     columns |= {f"observation.load[{motor}.load]": 300 * np.cos(t) for motor in MOTORS}
-    lines = look_at(columns, arm).doubts
+    lines = inspect_log(columns, arm).warnings
     assert any(EITHER in line for line in lines) == doubted
-    (found,) = log_maps(arm, [columns], ["auto"])
-    assert any(EITHER in line for line in found.told) == (doubted and "[deg]" in found.told[0])
+    (found,) = build_log_maps(arm, [columns], ["auto"])
+    assert any(EITHER in line for line in found.guess_notes) == (
+        doubted and "[deg]" in found.guess_notes[0]
+    )
     given = {"time": t} | {f"q{j}": columns[name] for j, name in enumerate(names, 1)}
-    assert not any(EITHER in line for line in look_at(given, arm).doubts)
+    assert not any(EITHER in line for line in inspect_log(given, arm).warnings)

@@ -6,20 +6,20 @@ import casadi as ca
 import numpy as np
 import pytest
 
-from modeler.core.builtin import builtin_text
+from modeler.core.builtin import read_builtin_robot
 from modeler.report.robot_closing import (
     Posture,
-    closed_from,
-    gaps_of,
-    home_posture,
-    jacobian,
-    residuals,
+    compute_gaps,
+    compute_jacobian,
+    compute_residuals,
+    find_home_posture,
+    solve_closure,
 )
-from modeler.report.robot_labels import good_view, joint_points
-from modeler.report.robot_skeleton import Skeleton, poses, skeleton_of
-from modeler.robot.read import read_robot, robot_from_text
-from modeler.simulation.closing import constraints_of, followed
-from modeler.simulation.rigid import world_frames
+from modeler.report.robot_labels import choose_view, collect_joint_points
+from modeler.report.robot_skeleton import Skeleton, build_skeleton, compute_poses
+from modeler.robot.read import parse_robot_text, read_robot
+from modeler.simulation.closing import build_constraints, compute_closed_postures
+from modeler.simulation.rigid import compute_world_frames
 from tests.further_robots import FurtherRobots
 from tests.robot.texts import edited
 from tests.robots import LOOPED, ROBOTS, TIED
@@ -29,7 +29,7 @@ def variables(skeleton, u):
     """(moving rows,) by the relations' own expressions."""
     robot = skeleton.robot
     values = {
-        **robot.symbol_values(),
+        **robot.evaluate_symbols(),
         **{f"q{n}": x for n, x in zip(skeleton.free, u, strict=True)},
     }
     left = dict(robot.relations)
@@ -43,17 +43,17 @@ def variables(skeleton, u):
 @functools.cache
 def standing(name: str) -> tuple[Skeleton, Posture]:
     """A built-in robot and its posture at home."""
-    skeleton = skeleton_of(read_robot(name))
-    return skeleton, home_posture(skeleton)
+    skeleton = build_skeleton(read_robot(name))
+    return skeleton, find_home_posture(skeleton)
 
 
 @pytest.mark.parametrize("name", ROBOTS)
 def test_frames_are_where_the_simulator_has_them(name: str) -> None:
     skeleton, _ = standing(name)
     u = np.random.default_rng(1).uniform(-2.0, 2.0, len(skeleton.free))
-    q = ca.SX.sym("q", len(skeleton.robot.moving))
-    frames = world_frames(skeleton.robot, q)
-    for row, pose in zip(skeleton.robot.joints, poses(skeleton, u), strict=True):
+    q = ca.SX.sym("q", len(skeleton.robot.moving_joints))
+    frames = compute_world_frames(skeleton.robot, q)
+    for row, pose in zip(skeleton.robot.joints, compute_poses(skeleton, u), strict=True):
         frame = frames[row.name]
         both = ca.Function("pose", [q], [ca.horzcat(frame.rotation, frame.position)])
         np.testing.assert_allclose(pose[:3], both(variables(skeleton, u)).full(), atol=1e-12)
@@ -64,11 +64,13 @@ def test_frames_are_where_the_simulator_has_them(name: str) -> None:
 def test_home_is_the_posture_that_the_simulator_closes(name: str) -> None:
     skeleton, home = standing(name)
     assert home.closed and home.held and home.loose == ()
-    start = home.u[list(skeleton.given)]
-    theirs = followed(skeleton.robot, constraints_of(skeleton.robot), start[None])[0]
+    start = home.u[list(skeleton.independent_places)]
+    theirs = compute_closed_postures(
+        skeleton.robot, build_constraints(skeleton.robot), start[None]
+    )[0]
     np.testing.assert_allclose(variables(skeleton, home.u), theirs, atol=1e-8)
-    assert all(gap.distance < 1e-9 and gap.angle < 1e-7 for gap in gaps_of(skeleton, home.u))
-    again = closed_from(skeleton, home.u, skeleton.solved, home.size)
+    assert all(gap.distance < 1e-9 and gap.angle < 1e-7 for gap in compute_gaps(skeleton, home.u))
+    again = solve_closure(skeleton, home.u, skeleton.dependent_places, home.size)
     np.testing.assert_allclose(again, home.u, atol=1e-9)
 
 
@@ -76,9 +78,9 @@ def test_home_is_the_posture_that_the_simulator_closes(name: str) -> None:
 def test_slopes_are_those_of_the_residuals(name: str) -> None:
     skeleton, home = standing(name)
     u = home.u + np.random.default_rng(2).uniform(-0.2, 0.2, len(home.u))
-    J = jacobian(skeleton, u, home.size, range(len(u)))
+    J = compute_jacobian(skeleton, u, home.size, range(len(u)))
     way = np.random.default_rng(3).uniform(-1.0, 1.0, len(u))
-    ahead, behind = (residuals(skeleton, u + s * 1e-6 * way, home.size) for s in (1, -1))
+    ahead, behind = (compute_residuals(skeleton, u + s * 1e-6 * way, home.size) for s in (1, -1))
     np.testing.assert_allclose(J @ way, (ahead - behind) / 2e-6, atol=1e-8)
 
 
@@ -97,15 +99,15 @@ motion = "free"
 [loops]
 rows = [["L", "P", "0e", "{kind}"]]
 """
-    robot = robot_from_text(text, "free")
-    skeleton = skeleton_of(robot)
+    robot = parse_robot_text(text, "free")
+    skeleton = build_skeleton(robot)
     u = dict.fromkeys(skeleton.free, 0.0)
     if kind == "universal":  # the axes of the cross are perpendicular
         u["Pa"] = np.pi / 2
 
     def gap(**moved: float) -> tuple[float, float]:
         values = np.array([{**u, **moved}[name] for name in skeleton.free])
-        loop = gaps_of(skeleton, values)[0]
+        loop = compute_gaps(skeleton, values)[0]
         return loop.distance, loop.angle
 
     allowed = {"universal": [], "cylindrical": ["Pz", "P"], "prismatic": ["Pz"],
@@ -122,15 +124,17 @@ rows = [["L", "P", "0e", "{kind}"]]
 
 def five_bar(*changes: tuple[str, str]) -> tuple[Skeleton, Posture]:
     """The five-bar with other values, and its posture at home."""
-    skeleton = skeleton_of(robot_from_text(edited(builtin_text("five-bar"), *changes), "five-bar"))
-    return skeleton, home_posture(skeleton)
+    skeleton = build_skeleton(
+        parse_robot_text(edited(read_builtin_robot("five-bar"), *changes), "five-bar")
+    )
+    return skeleton, find_home_posture(skeleton)
 
 
 def test_loops_that_cannot_close_are_seen_open() -> None:
     skeleton, posture = five_bar(("L0 = 0.20", "L0 = 5.0"))
     assert not posture.closed
     np.testing.assert_array_equal(posture.u, skeleton.stated)
-    assert gaps_of(skeleton, posture.u)[0].distance > 3.0
+    assert compute_gaps(skeleton, posture.u)[0].distance > 3.0
 
 
 def test_actuated_joints_that_are_stated_wrongly_are_told() -> None:
@@ -140,10 +144,10 @@ def test_actuated_joints_that_are_stated_wrongly_are_told() -> None:
 
 
 def test_what_could_move_with_the_motors_locked_is_told(loop_robots_folder: FurtherRobots) -> None:
-    singular = skeleton_of(read_robot(loop_robots_folder / "3rpr_singular.toml"))
-    assert {"P"} <= set(home_posture(singular).loose)  # cylinders through one point: it turns
-    other = skeleton_of(read_robot(loop_robots_folder / "3rpr_sim.toml"))
-    assert home_posture(other).loose == ()
+    singular = build_skeleton(read_robot(loop_robots_folder / "3rpr_singular.toml"))
+    assert {"P"} <= set(find_home_posture(singular).loose)  # cylinders through one point: it turns
+    other = build_skeleton(read_robot(loop_robots_folder / "3rpr_sim.toml"))
+    assert find_home_posture(other).loose == ()
 
 
 def test_a_stretched_linkage_is_singular() -> None:
@@ -154,19 +158,19 @@ def test_a_stretched_linkage_is_singular() -> None:
 
 def test_opposite_axes_are_not_closed() -> None:
     row = '["9",  "8",  0,    0,       0,       '
-    text = edited(builtin_text("sr400"), (row + "0, ", row + '"pi", '))
-    skeleton = skeleton_of(robot_from_text(text, "sr400"))
-    posture = home_posture(skeleton)
-    assert not posture.closed and gaps_of(skeleton, posture.u)[0].angle == pytest.approx(np.pi)
+    text = edited(read_builtin_robot("sr400"), (row + "0, ", row + '"pi", '))
+    skeleton = build_skeleton(parse_robot_text(text, "sr400"))
+    posture = find_home_posture(skeleton)
+    assert not posture.closed and compute_gaps(skeleton, posture.u)[0].angle == pytest.approx(np.pi)
 
 
 @pytest.mark.parametrize("name", ROBOTS)
 def test_a_view_is_a_rotation_that_shows_the_robot(name: str) -> None:
     skeleton, posture = standing(name)
-    view = good_view(skeleton, posture)
+    view = choose_view(skeleton, posture)
     np.testing.assert_allclose(view.rotation @ view.rotation.T, np.eye(3), atol=1e-12)
     assert np.linalg.det(view.rotation) == pytest.approx(1.0)
-    points = joint_points(skeleton, posture.u)
+    points = collect_joint_points(skeleton, posture.u)
     seen = points @ view.rotation[:2].T
     assert np.ptp(seen, axis=0).max() >= 0.5 * np.ptp(points, axis=0).max()
     if name in ("five-bar", "3rrr"):  # planar: straight on

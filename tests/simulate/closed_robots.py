@@ -23,6 +23,6 @@ def energies(
     source: Robot, parameters: PlantParameters, v: np.ndarray, vd: np.ndarray
 ) -> np.ndarray:
     """(n,) T + U, of positions and speeds (n, moving) of all joints of the tree."""
-    names = [joint.name for joint in source.moving]
-    free = [names.index(joint.name) for joint in source.free]
+    names = [joint.name for joint in source.moving_joints]
+    free = [names.index(joint.name) for joint in source.free_joints]
     return Oracle(source, parameters.standard).energies(v[:, free], vd[:, free])

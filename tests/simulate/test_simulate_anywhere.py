@@ -11,11 +11,11 @@ import numpy as np
 import pytest
 
 from modeler.simulation.portable_math import (
-    exponential,
-    hyperbolic_tangent,
-    portable,
-    power,
-    sine_and_cosine,
+    compute_exponential,
+    compute_hyperbolic_tangent,
+    compute_power,
+    compute_sine_and_cosine,
+    make_portable,
 )
 
 _WRITE = """
@@ -69,14 +69,14 @@ def test_elementary_functions_against_many_digits():
     rng = np.random.default_rng(5)
     with mpmath.workdps(40):
         for x in [*rng.uniform(-1000, 1000, 300), *(np.arange(-40, 40) * np.pi / 4)]:
-            s, c = sine_and_cosine(float(x))
+            s, c = compute_sine_and_cosine(float(x))
             assert abs(s - mpmath.sin(float(x))) < 3e-16
             assert abs(c - mpmath.cos(float(x))) < 3e-16
-            e = exponential(float(x) / 2)
+            e = compute_exponential(float(x) / 2)
             assert abs(e / mpmath.exp(float(x) / 2) - 1) < 5e-16
-            assert abs(hyperbolic_tangent(float(x) / 9) - mpmath.tanh(float(x) / 9)) < 4e-16
+            assert abs(compute_hyperbolic_tangent(float(x) / 9) - mpmath.tanh(float(x) / 9)) < 4e-16
         for x, y in zip(10 ** rng.uniform(-10, 10, 300), rng.uniform(-2, 2, 300), strict=True):
-            assert abs(power(float(x), y) / mpmath.mpf(float(x)) ** y - 1) < 2e-14
+            assert abs(compute_power(float(x), y) / mpmath.mpf(float(x)) ** y - 1) < 2e-14
 
 
 def test_functions_of_expressions_are_those_of_numbers():
@@ -84,10 +84,17 @@ def test_functions_of_expressions_are_those_of_numbers():
     column = ca.vertcat(
         ca.sin(x[0]), ca.cos(x[0]), ca.tan(x[0]), ca.tanh(x[1]), ca.exp(x[1]), ca.fabs(x[0]) ** 1.7
     )
-    made = portable(ca.Function("f", [x], [column, ca.jacobian(column, x)]))
+    made = make_portable(ca.Function("f", [x], [column, ca.jacobian(column, x)]))
     rng = np.random.default_rng(6)
     for a, b in rng.uniform(-20, 20, (50, 2)):
-        s, c = sine_and_cosine(a)
-        wanted = [s, c, s / c, hyperbolic_tangent(b), exponential(b), power(abs(a), 1.7)]
+        s, c = compute_sine_and_cosine(a)
+        wanted = [
+            s,
+            c,
+            s / c,
+            compute_hyperbolic_tangent(b),
+            compute_exponential(b),
+            compute_power(abs(a), 1.7),
+        ]
         assert np.array_equal(made([a, b])[0].full().ravel(), wanted)
     assert made.sparsity_out(1).nnz() == 6

@@ -7,17 +7,22 @@ import numpy as np
 import pytest
 from closed_robots import LOOPS, RELATIONS
 
-from modeler.core.builtin import builtin_text
+from modeler.core.builtin import read_builtin_robot
 from modeler.core.errors import DataError, RobotError
-from modeler.robot.read import read_robot, robot_from_text
-from modeler.simulation import SimulationSettings, motion_limits, plant_parameters, simulate
+from modeler.robot.read import parse_robot_text, read_robot
+from modeler.simulation import (
+    SimulationSettings,
+    collect_motion_limits,
+    draw_plant_parameters,
+    simulate,
+)
 from modeler.simulation.closing import (
-    _same_mode,
-    constraints_of,
-    followed,
-    rates,
-    sampled,
-    tree_from_free,
+    _is_same_mode,
+    build_constraints,
+    compute_closed_postures,
+    compute_rates,
+    compute_tree_map,
+    evaluate_samples,
 )
 from tests.modules import compiled, module
 from tests.robot_texts import CRANK, robot
@@ -31,11 +36,11 @@ IDEAL = SimulationSettings(
 def test_loops_stay_closed_and_rates_are_those_of_the_positions(name):
     source, rate = read_robot(name), 2000.0
     truth = simulate(source, dataclasses.replace(IDEAL, rate=rate, duration=1.0)).truth
-    constraints = constraints_of(source)
-    v = followed(source, constraints, truth.q)
-    assert np.array_equal(v[:, constraints.given], truth.q)
-    assert np.abs(sampled(constraints.value, v)).max() < 1e-10
-    vd, vdd = rates(constraints, v, truth.qd, truth.qdd)
+    constraints = build_constraints(source)
+    v = compute_closed_postures(source, constraints, truth.q)
+    assert np.array_equal(v[:, constraints.coordinate_rows], truth.q)
+    assert np.abs(evaluate_samples(constraints.residual, v)).max() < 1e-10
+    vd, vdd = compute_rates(constraints, v, truth.qd, truth.qdd)
     for low, high in ((v, vd), (vd, vdd)):
         difference = (low[2:] - low[:-2]) * rate / 2
         # The jerk jumps where a move begins or ends.
@@ -47,7 +52,9 @@ def test_loops_stay_closed_and_rates_are_those_of_the_positions(name):
 def test_the_limits_are_kept(name, motion):
     source = read_robot(name)
     log = simulate(source, dataclasses.replace(IDEAL, motion=motion, duration=6.0, rate=50))
-    limits = dict(zip((j.name for j in source.moving), motion_limits(source), strict=True))
+    limits = dict(
+        zip((j.name for j in source.moving_joints), collect_motion_limits(source), strict=True)
+    )
     assert log.joints == tuple(joint.name for joint in source.coordinates)
     assert np.all(log.driven)
     for i, joint in enumerate(log.joints):
@@ -64,14 +71,16 @@ def test_relations_are_kept_by_the_controlled_robot(name):
     source = read_robot(name)
     log = simulate(source, dataclasses.replace(IDEAL, duration=3.0, rate=1000))
     truth, c = log.truth, compiled(name)
-    assert log.joints == tuple(joint.name for joint in source.free)
-    assert list(log.driven) == [joint.actuated for joint in source.free]
+    assert log.joints == tuple(joint.name for joint in source.free_joints)
+    assert list(log.driven) == [joint.actuated for joint in source.free_joints]
     assert np.all(truth.tau[:, ~log.driven] == 0)
     assert np.all(np.sqrt(np.mean(truth.tau[:, log.driven] ** 2, axis=0)) > 0)
     chi = np.array([truth.parameters[column.name] for column in module(name).base.columns])
     tau = c.inverse_dynamics(truth.q, truth.qd, truth.qdd, c.base_parameters(chi))
-    turns, _ = tree_from_free(source)
-    couplings = [[row.get(j.name, 0.0) for j in source.free] for row in source.coupling.values()]
+    turns, _ = compute_tree_map(source)
+    couplings = [
+        [row.get(j.name, 0.0) for j in source.free_joints] for row in source.coupling.values()
+    ]
     shafts = truth.qd @ np.vstack([turns, *([couplings] if couplings else [])]).T
     core = 1e-3 * 2.0 * 20
     moving = np.all(np.abs(shafts) > core, axis=1)
@@ -92,8 +101,8 @@ def test_relations_of_relations():
     q3 = "q5/2 + 0.4"
     q5 = "-q4 + q1 + pi"
     """
-    source = robot_from_text(re.sub(r"^ {4}", "", text, flags=re.M), "chain")
-    turns, offset = tree_from_free(source)
+    source = parse_robot_text(re.sub(r"^ {4}", "", text, flags=re.M), "chain")
+    turns, offset = compute_tree_map(source)
     q1, q4 = 0.3, -0.7
     q5 = -q4 + q1 + np.pi
     q3 = q5 / 2 + 0.4
@@ -127,7 +136,7 @@ def test_sensors_seeds_and_progress():
 @pytest.mark.rotating("long tests of simulate")
 def test_legs_that_share_parameters_are_alike_and_told_once():
     source = read_robot("orthoglide-2003-similar-legs")
-    parameters = plant_parameters(source, motion_limits(source))
+    parameters = draw_plant_parameters(source, collect_motion_limits(source))
     for shared in source.shared:
         assert len({parameters.standard[member] for member in shared.members}) == 1
     for row in ("21", "22", "23"):
@@ -137,22 +146,22 @@ def test_legs_that_share_parameters_are_alike_and_told_once():
     assert "M2" in names and not {"M21", "M22", "M23"} & set(names)
     assert len(names) == len(set(names)) and set(truth.drawn) <= set(names)
     stated = dataclasses.replace(source, parameters={"M2": 0.7, "M3": 0.2})
-    values = plant_parameters(stated, motion_limits(stated)).standard
+    values = draw_plant_parameters(stated, collect_motion_limits(stated)).standard
     assert [values[f"M2{leg}"] for leg in "123"] == [0.7] * 3
 
 
 def test_a_motor_that_turns_joints_by_gears_has_friction_and_inertia():
     source = read_robot("dvrk-psm")
-    standard = plant_parameters(source, motion_limits(source)).standard
+    standard = draw_plant_parameters(source, collect_motion_limits(source)).standard
     assert all(standard[f"{p}{row}"] > 0 for p in ("Ia", "Fv", "Fs") for row in "567")
     assert standard["Ia5"] < 1.0
 
 
 def test_without_limits_a_closed_robot_moves_around_home():
     source = robot(CRANK)
-    limit = motion_limits(source)[0]
+    limit = collect_motion_limits(source)[0]
     assert (limit.lower, limit.upper) == pytest.approx((np.pi / 2 - 0.3, np.pi / 2 + 0.3))
-    assert motion_limits(dataclasses.replace(source, loops=()))[0].lower == -1.5
+    assert collect_motion_limits(dataclasses.replace(source, loops=()))[0].lower == -1.5
 
 
 LOOSE = CRANK.replace('["3", "0"', '["4", "1", 0, 0, 0, 0, 0.2, "q4", 0],\n  ["3", "0"')
@@ -177,26 +186,28 @@ def test_mistakes(source, error, message):
 def test_the_assembly_mode_is_kept_where_modes_meet():
     """Rod shorter than crank: the slider's two places meet where R sin(q1) = L, and end there."""
     source = robot(SHORT_ROD, limits="1 = [0.5, 1.1, 2, 8]")
-    constraints = constraints_of(source)
+    constraints = build_constraints(source)
     q = np.linspace(0.5, np.arcsin(0.9) - 1e-3, 50)
-    right = followed(source, constraints, q[:, None])
+    right = compute_closed_postures(source, constraints, q[:, None])
     rod = -np.arcsin(0.1 * np.sin(q) / 0.09)
     np.testing.assert_allclose(right[:, 1], rod - q, atol=1e-9)
     np.testing.assert_allclose(right[:, 2], 0.1 * np.cos(q) + 0.09 * np.cos(rod), atol=1e-9)
     left = right[-1].copy()
     left[1:] = -np.pi - rod[-1] - q[-1], 0.1 * np.cos(q[-1]) - 0.09 * np.cos(rod[-1])
-    assert np.abs(constraints.value(left).full()).max() < 1e-9
+    assert np.abs(constraints.residual(left).full()).max() < 1e-9
     assert np.abs(left - right[-1]).max() < 0.2  # near, and another mode all the same
-    assert not _same_mode(constraints, right[-1], left)
-    assert _same_mode(constraints, right[-2], right[-1])
+    assert not _is_same_mode(constraints, right[-1], left)
+    assert _is_same_mode(constraints, right[-2], right[-1])
     with pytest.raises(DataError, match=r"do not close at sample \d+, joints 1 at 1\.\d+; shrink"):
-        followed(source, constraints, np.linspace(0.5, 1.5, 50)[:, None])
+        compute_closed_postures(source, constraints, np.linspace(0.5, 1.5, 50)[:, None])
 
 
 def test_moments_without_mass_are_refused():
-    text = builtin_text("five-bar").replace("[limits]", '[links]\n21 = ["ZZ", "MX"]\n\n[limits]')
+    text = read_builtin_robot("five-bar").replace(
+        "[limits]", '[links]\n21 = ["ZZ", "MX"]\n\n[limits]'
+    )
     text = text.replace("M21 = 0.6\n", "")
-    source = robot_from_text(text, "five-bar")
+    source = parse_robot_text(text, "five-bar")
     with pytest.raises(RobotError, match=r"link 21: MX21 without a mass, .*; add M21 under"):
         simulate(source, IDEAL)
 

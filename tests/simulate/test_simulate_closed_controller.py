@@ -8,9 +8,14 @@ from closed_robots import LOOPS, without_effects
 
 from modeler.robot.read import read_robot
 from modeler.robot.robot import Robot
-from modeler.simulation import SimulationSettings, motion_limits, plant_parameters, simulate
-from modeler.simulation.closing import constraints_of, followed, sampled
-from modeler.simulation.plant import build_plant, inner_states, tick_function
+from modeler.simulation import (
+    SimulationSettings,
+    collect_motion_limits,
+    draw_plant_parameters,
+    simulate,
+)
+from modeler.simulation.closing import build_constraints, compute_closed_postures, evaluate_samples
+from modeler.simulation.plant import build_plant, build_tick_function, compute_inner_states
 
 DRIVEN = SimulationSettings(
     duration=1.5, rate=1000, encoder_counts=0, linear_resolution=0, torque_noise=0, controller=True
@@ -18,8 +23,8 @@ DRIVEN = SimulationSettings(
 
 
 def plant_of(source: Robot):
-    limits, constraints = motion_limits(source), constraints_of(source)
-    parameters = plant_parameters(source, limits)
+    limits, constraints = collect_motion_limits(source), build_constraints(source)
+    parameters = draw_plant_parameters(source, limits)
     return build_plant(source, parameters, limits, constraints=constraints), constraints
 
 
@@ -29,7 +34,9 @@ def test_the_plant_is_the_tree_with_multipliers(name: str) -> None:
     source = read_robot(name)
     truth = simulate(source, dataclasses.replace(DRIVEN, rate=50, controller=False)).truth
     plant, constraints = plant_of(source)
-    z = inner_states(plant, constraints, followed(source, constraints, truth.q))
+    z = compute_inner_states(
+        plant, constraints, compute_closed_postures(source, constraints, truth.q)
+    )
     count = len(z)
     tau = plant.torque.map(count)(truth.q.T, truth.qd.T, truth.qdd.T, z.T).full().T
     np.testing.assert_allclose(tau, truth.tau, rtol=0, atol=1e-9 * np.abs(tau).max())
@@ -43,17 +50,17 @@ def test_loops_stay_closed(name: str) -> None:
     source = without_effects(read_robot(name))
     plant, constraints = plant_of(source)
     home = np.array([[source.home.get(joint.name, 0.0) for joint in source.coordinates]])
-    v = followed(source, constraints, home)
+    v = compute_closed_postures(source, constraints, home)
     n = home.size
-    x = np.concatenate([home[0], np.zeros(n), inner_states(plant, constraints, v)[0]])
+    x = np.concatenate([home[0], np.zeros(n), compute_inner_states(plant, constraints, v)[0]])
     x[2 * n :] += 1e-7
-    advance = tick_function(plant, 2e-3, 1)
+    advance = build_tick_function(plant, 2e-3, 1)
     hold = plant.torque(home[0], np.zeros(n), np.zeros(n), x[2 * n :]).full().ravel()
     push = 0.3 * np.abs(hold).max() * np.cos(np.arange(n))
     for k in range(60):
         x = advance(x, hold + push).full().ravel()
         v[0, constraints.given], v[0, constraints.others] = x[:n], x[2 * n :]
-        assert k == 0 or np.abs(sampled(constraints.value, v)).max() < 1e-10
+        assert k == 0 or np.abs(evaluate_samples(constraints.value, v)).max() < 1e-10
     assert np.abs(x[:n] - home[0]).max() > 1e-3
-    again = followed(source, constraints, x[None, :n])
+    again = compute_closed_postures(source, constraints, x[None, :n])
     np.testing.assert_allclose(again, v, atol=1e-8)

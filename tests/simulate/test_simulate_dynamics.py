@@ -8,7 +8,7 @@ import pytest
 
 from modeler.core.errors import RobotError
 from modeler.robot.robot import INERTIAL, EffectUse, Robot
-from modeler.simulation import PlantParameters, motion_limits, plant_parameters
+from modeler.simulation import PlantParameters, collect_motion_limits, draw_plant_parameters
 from modeler.simulation.plant import Plant, build_plant
 from tests.oracles.pinocchio_dynamics import pin, places_of
 from tests.robot_texts import ARM, BACKWARDS, PENDULUM, SIX, TREE, TWO_LINK, robot
@@ -22,15 +22,15 @@ FRICTION = "Fv1 = 0.5\nFs1 = 0.7\nOff1 = -0.2\n"
 
 
 def plant_of(source: Robot, seed: int = 0) -> tuple[Plant, PlantParameters]:
-    limits = motion_limits(source)
-    parameters = plant_parameters(source, limits, seed)
+    limits = collect_motion_limits(source)
+    parameters = draw_plant_parameters(source, limits, seed)
     return build_plant(source, parameters, limits), parameters
 
 
 def friction_of(source: Robot, seed: int = 0) -> Callable[..., np.ndarray]:
     """(q, qd) -> what the effects take from the motors of links that do not accelerate."""
-    limits = motion_limits(source)
-    parameters = plant_parameters(source, limits, seed)
+    limits = collect_motion_limits(source)
+    parameters = draw_plant_parameters(source, limits, seed)
     bare = build_plant(dataclasses.replace(source, effects=()), parameters, limits)
     rubbing = build_plant(source, parameters, limits)
 

@@ -15,16 +15,16 @@ from modeler.simulation import (
     HIDDEN,
     HiddenEffect,
     SimulationSettings,
-    hidden_from_text,
-    motion_limits,
-    plant_parameters,
+    collect_motion_limits,
+    draw_plant_parameters,
+    parse_hidden_effect,
     simulate,
 )
-from modeler.simulation.closing import constraints_of, followed, rates
+from modeler.simulation.closing import build_constraints, compute_closed_postures, compute_rates
 from modeler.simulation.hidden_draw import complete_effects
-from modeler.simulation.plant import build_plant, machine, steps_per_tick
-from modeler.simulation.rigid import gravity_vector, world_frames
-from modeler.simulation.shafts import settled
+from modeler.simulation.plant import apply_hidden_loads, build_plant, choose_steps_per_tick
+from modeler.simulation.rigid import compute_gravity_vector, compute_world_frames
+from modeler.simulation.shafts import compute_rest_states
 from tests.oracles.complex_step import Oracle
 from tests.robot_texts import TWO_LINK, robot
 
@@ -32,8 +32,8 @@ SHORT = SimulationSettings(
     duration=3.0, encoder_counts=0, linear_resolution=0.0, torque_noise=0.0, rate=500.0
 )
 ARM = read_robot("demo-arm")
-NAMES = [joint.name for joint in ARM.moving]
-TOP = np.array([limit.speed for limit in motion_limits(ARM)])
+NAMES = [joint.name for joint in ARM.moving_joints]
+TOP = np.array([limit.speed for limit in collect_motion_limits(ARM)])
 SERIAL = [name for name, kind in HIDDEN.items() if kind.where != "passive"]
 
 # A motor of 0.5 kg m2 and a link of 2 kg m2 on one axis, without gravity or friction.
@@ -52,21 +52,21 @@ ZZ1 = 2.0
 
 
 def settings_of(text, settings=SHORT):
-    return dataclasses.replace(settings, hidden=(hidden_from_text(text),))
+    return dataclasses.replace(settings, hidden=(parse_hidden_effect(text),))
 
 
 def made(text, source=ARM):
     """The hidden effect with all its values, and the machine's plant."""
-    limits = motion_limits(source)
-    parameters = plant_parameters(source, limits)
+    limits = collect_motion_limits(source)
+    parameters = draw_plant_parameters(source, limits)
     hidden = complete_effects(source, parameters, limits, settings_of(text))
-    plant = build_plant(*machine(source, parameters, hidden), limits, hidden)
+    plant = build_plant(*apply_hidden_loads(source, parameters, hidden), limits, hidden)
     return hidden[0], plant
 
 
 def plain_of(source):
-    limits = motion_limits(source)
-    return build_plant(source, plant_parameters(source, limits), limits)
+    limits = collect_motion_limits(source)
+    return build_plant(source, draw_plant_parameters(source, limits), limits)
 
 
 @cache
@@ -83,7 +83,7 @@ def without(source, *effects):
 def states(count=200, seed=0):
     """Random motion; no joint slower than a tenth of its top speed."""
     rng = np.random.default_rng(seed)
-    limits = motion_limits(ARM)
+    limits = collect_motion_limits(ARM)
     low, high, lift = (
         np.array([getattr(limit, k) for limit in limits])
         for k in ("lower", "upper", "acceleration")
@@ -221,7 +221,7 @@ def test_friction_falls_as_its_joint_warms():
     log, p, force = friction_along(
         "temperature_friction@2:time=4,start=5", ["coulomb", "viscous"], settings
     )
-    standard = plant_parameters(ARM, motion_limits(ARM)).standard
+    standard = draw_plant_parameters(ARM, collect_motion_limits(ARM)).standard
     assert (p["Fv"], p["Fs"]) == (standard["Fv2"], standard["Fs2"])
     warm, v = log.further["temperature2"], log.truth.qd[:, 1]
     assert warm[0] == 30.0 and np.ptp(warm) > 2
@@ -262,17 +262,17 @@ def test_a_body_on_a_link_is_not_felt_beyond_it():
 @pytest.mark.parametrize("gravity", ["[0, 0, -9.81]", "[0.3, -9.7, 0.1]"])
 def test_a_tilted_base_turns_gravity(gravity):
     source = robot(SPINNER.replace("[0, 0, 0]", gravity))
-    parameters = plant_parameters(source, motion_limits(source))
-    before, after = gravity_vector(source), []
+    parameters = draw_plant_parameters(source, collect_motion_limits(source))
+    before, after = compute_gravity_vector(source), []
     for heading in (0.0, np.pi / 2):
         tilt = HiddenEffect("base_tilt", None, {"angle": 0.05, "heading": heading})
-        after.append(gravity_vector(machine(source, parameters, [tilt])[0]))
+        after.append(compute_gravity_vector(apply_hidden_loads(source, parameters, [tilt])[0]))
         assert np.linalg.norm(after[-1]) == pytest.approx(np.linalg.norm(before))
         cosine = after[-1] @ before / (before @ before)
         assert np.arccos(cosine) == pytest.approx(0.05, rel=1e-6)
     shifts = [x - before * np.cos(0.05) for x in after]
     assert abs(shifts[0] @ shifts[1]) < 1e-10
-    if source.gravity[2].number({}) == -9.81:  # turned about x, weight falls towards -y or +y
+    if source.gravity[2].evaluate({}) == -9.81:  # turned about x, weight falls towards -y or +y
         np.testing.assert_allclose(after[0], [0, 9.81 * np.sin(0.05), -9.81 * np.cos(0.05)])
 
 
@@ -319,7 +319,7 @@ def test_backlash_lets_the_motor_turn_alone_until_teeth_meet():
 def test_links_sag_on_their_transmissions_at_rest(name):
     effect, plant = made(f"{name}@2")
     q = np.array([0.2, 0.1, 0.3])
-    z = settled(plant.strain, q, np.zeros(plant.states))
+    z = compute_rest_states(plant.strain, q, np.zeros(plant.states))
     rest = np.zeros(3)
     tau = plant.torque(q, rest, rest, z).full().ravel()
     qdd, z_rate = plant.acceleration(q, rest, z, tau)
@@ -389,8 +389,8 @@ def test_every_effect_is_drawn_seen_and_kept_under_control(name):
 def test_what_is_drawn_belongs_to_the_parameter_seed_alone():
     def values(**changes):
         settings = dataclasses.replace(SHORT, **changes)
-        limits = motion_limits(ARM)
-        parameters = plant_parameters(ARM, limits, settings.parameter_seed)
+        limits = collect_motion_limits(ARM)
+        parameters = draw_plant_parameters(ARM, limits, settings.parameter_seed)
         return complete_effects(ARM, parameters, limits, settings)
 
     stribeck, spring = HiddenEffect("stribeck"), HiddenEffect("spring")
@@ -419,8 +419,10 @@ def five_bar():
 def test_friction_in_passive_joints_costs_the_motors_its_power(five_bar):
     source, before = five_bar
     log = simulate(source, settings_of("passive_friction@22:Fv=0.2,Fs=0.1", LOOPED))
-    truth, constraints = log.truth, constraints_of(source)
-    v, _ = rates(constraints, followed(source, constraints, truth.q), truth.qd, truth.qdd)
+    truth, constraints = log.truth, build_constraints(source)
+    v, _ = compute_rates(
+        constraints, compute_closed_postures(source, constraints, truth.q), truth.qd, truth.qdd
+    )
     w = v[:, [joint.name for joint in source.moving].index("22")]
     power = np.sum((truth.tau - before.truth.tau) * truth.qd, axis=1)
     clear = np.abs(w) > 0.05
@@ -441,7 +443,7 @@ LAWS_IN_LOOPS = {
 def test_effects_on_motors_of_robots_with_loops(five_bar):
     """All at once, of which each is larger than the bound by far."""
     source, before = five_bar
-    hidden = tuple(map(hidden_from_text, LAWS_IN_LOOPS))
+    hidden = tuple(map(parse_hidden_effect, LAWS_IN_LOOPS))
     log = simulate(source, dataclasses.replace(LOOPED, hidden=hidden))
     more = log.truth.tau - before.truth.tau
     q, v = log.truth.q[:, 1], log.truth.qd[:, 1]
@@ -463,11 +465,11 @@ def test_sensors_and_loads_of_robots_with_loops(five_bar):
         - simulate(platform, settings).truth.tau
     )
     # In the isotropic posture the platform moves along the axes of the motors, one to one.
-    x = ca.SX.sym("x", len(platform.moving))
-    frames = world_frames(platform, x)
+    x = ca.SX.sym("x", len(platform.moving_joints))
+    frames = compute_world_frames(platform, x)
     axes = ca.Function("axes", [x], [ca.horzcat(*(frames[f"1{i}"].axis for i in (1, 2, 3)))])
-    axes = axes(np.zeros(len(platform.moving))).full().T
-    np.testing.assert_allclose(more[0], -2 * axes @ gravity_vector(platform), atol=1e-6)
+    axes = axes(np.zeros(len(platform.moving_joints))).full().T
+    np.testing.assert_allclose(more[0], -2 * axes @ compute_gravity_vector(platform), atol=1e-6)
     assert np.abs(more[0]).max() == pytest.approx(2 * 9.81)
 
 
@@ -502,15 +504,15 @@ def test_sensors_and_loads_of_robots_with_loops(five_bar):
 def test_effects_that_a_robot_cannot_have(source, texts, message):
     arm = robot(source) if "\n" in source else read_robot(source)
     with pytest.raises(ModelerError, match=message):
-        hidden = tuple(hidden_from_text(text) for text in texts.split(" "))
+        hidden = tuple(parse_hidden_effect(text) for text in texts.split(" "))
         simulate(arm, dataclasses.replace(SHORT, hidden=hidden))
 
 
 def test_bristles_too_short_for_any_step():
-    limits = motion_limits(ARM)
+    limits = collect_motion_limits(ARM)
     _, plant = made("presliding@1:distance=1e-6")
     with pytest.raises(DataError, match=r"follows at .* 1/s at top speed; .* larger distance"):
-        steps_per_tick(plant, limits, 1e-3)
+        choose_steps_per_tick(plant, limits, 1e-3)
 
 
 def test_the_command_and_its_files(tmp_path, capsys):

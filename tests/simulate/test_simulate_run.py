@@ -20,17 +20,22 @@ from modeler.simulation import (
     HIDDEN,
     SimulatedLog,
     SimulationSettings,
+    collect_motion_limits,
     control as controlling,
-    motion_limits,
+    draw_plant_parameters,
     plant as native,
-    plant_parameters,
     simulate,
     write_log,
     write_truth,
 )
-from modeler.simulation.closing import constraints_of, followed, rates, tree_from_free
+from modeler.simulation.closing import (
+    build_constraints,
+    compute_closed_postures,
+    compute_rates,
+    compute_tree_map,
+)
 from modeler.simulation.plant import build_plant
-from modeler.simulation.run import quantised
+from modeler.simulation.run import quantise_position
 from tests.robot_texts import ARM, PENDULUM, SIX, TREE, TWO_LINK, robot
 from tests.rotation import rotating
 
@@ -45,11 +50,13 @@ def arm_log() -> SimulatedLog:
 
 
 def parameters_of(source, settings):
-    return plant_parameters(source, motion_limits(source, settings.limits), settings.parameter_seed)
+    return draw_plant_parameters(
+        source, collect_motion_limits(source, settings.limits), settings.parameter_seed
+    )
 
 
 def plant_of(source, settings):
-    limits = motion_limits(source, settings.limits)
+    limits = collect_motion_limits(source, settings.limits)
     return build_plant(source, parameters_of(source, settings), limits)
 
 
@@ -63,11 +70,11 @@ def test_the_motors_work_is_what_the_energy_gains(name):
     settings = dataclasses.replace(SHORT, duration=seconds, controller=True)
     truth = simulate(source, settings).truth
     if source.loops:
-        constraints = constraints_of(source)
-        v = followed(source, constraints, truth.q)
-        vd, _ = rates(constraints, v, truth.qd, truth.qdd)
+        constraints = build_constraints(source)
+        v = compute_closed_postures(source, constraints, truth.q)
+        vd, _ = compute_rates(constraints, v, truth.qd, truth.qdd)
     else:
-        turns, offset = tree_from_free(source)
+        turns, offset = compute_tree_map(source)
         v, vd = truth.q @ turns.T + offset, truth.qd @ turns.T
     total = energies(source, parameters_of(source, SHORT), v, vd)
     work = np.cumsum(np.sum(truth.tau[:-1] * np.diff(truth.q, axis=0), axis=1))
@@ -136,7 +143,7 @@ def test_ideal_sensors():
     assert np.array_equal(log.q, log.truth.q)
     assert np.array_equal(log.tau[1:], (log.truth.tau[1:] + log.truth.tau[:-1]) / 2)
     np.testing.assert_array_equal(
-        quantised(np.array([0.26, 0.26]), np.array([0.1, 0.0])), [0.1 * 3, 0.26]
+        quantise_position(np.array([0.26, 0.26]), np.array([0.1, 0.0])), [0.1 * 3, 0.26]
     )
 
 
@@ -149,19 +156,23 @@ def test_saturation_is_respected_and_shows(arm_log):
 
 
 def test_the_integral_does_not_wind_up():
-    gains = controlling.tuned_gains(1000.0, 20.0, True, np.array([1.0]))
+    gains = controlling.tune_gains(1000.0, 20.0, True, np.array([1.0]))
     state = controlling.ControllerState(np.zeros(1), np.zeros(1), np.zeros(1))
     far, still = np.array([10.0]), np.zeros(1)
     for _ in range(100):
-        state, torque = controlling.control(gains, state, np.eye(1), still, (far, still, still))
+        state, torque = controlling.update_controller(
+            gains, state, np.eye(1), still, (far, still, still)
+        )
         assert torque == 1.0
     assert state.effort == 0.0
-    state, torque = controlling.control(gains, state, np.eye(1), still, (-far, still, still))
+    state, torque = controlling.update_controller(
+        gains, state, np.eye(1), still, (-far, still, still)
+    )
     assert torque == -1.0
 
 
 def test_slow_ticks_lower_the_bandwidth():
-    fast, slow = (controlling.tuned_gains(r, 20.0, True, np.ones(1)).speed for r in (1000, 100))
+    fast, slow = (controlling.tune_gains(r, 20.0, True, np.ones(1)).speed for r in (1000, 100))
     assert fast == pytest.approx(2 * np.pi * 20)
     assert slow < fast / 3
     log = simulate(robot(ARM), dataclasses.replace(SHORT, rate=200.0))
@@ -175,7 +186,13 @@ def test_a_joint_without_motor_swings_freely():
     assert list(log.driven) == [True, False]
     assert np.all(log.truth.tau[:, 1] == 0) and np.ptp(log.truth.q[:, 1]) > 0.5
     assert np.abs(log.truth.q - log.qc)[:, 0].max() < 0.02
-    assert list(modeler.simulation.log.log_columns(log)) == ["time", "q1", "q2", "qc1", "tau1"]
+    assert list(modeler.simulation.log.build_log_columns(log)) == [
+        "time",
+        "q1",
+        "q2",
+        "qc1",
+        "tau1",
+    ]
 
 
 def test_seeds_reproduce_every_bit(arm_log):
@@ -189,7 +206,7 @@ def test_seeds_reproduce_every_bit(arm_log):
 
 @pytest.mark.skipif(shutil.which("cc") is None, reason="no C compiler")
 def test_the_same_bits_with_a_compiler(arm_log, compiled_plants):
-    made = native.compiled_where_possible(ca.Function("f", [ca.SX.sym("x")], [ca.SX(1)]))
+    made = native.compile_if_possible(ca.Function("f", [ca.SX.sym("x")], [ca.SX(1)]))
     assert made.class_name() == "External"
     assert np.array_equal(simulate(robot(ARM), SHORT).tau, arm_log.tau)
 
@@ -279,8 +296,8 @@ def test_friction_too_stiff_for_any_step_is_named():
 @pytest.mark.rotating("long tests of simulate")
 def test_stiff_friction_is_still_integrated():
     """Ten times the drawn Coulomb friction; the joint still follows, and nothing rings."""
-    limits = motion_limits(robot(ARM))
-    drawn = plant_parameters(robot(ARM), limits).standard["Fs3"]
+    limits = collect_motion_limits(robot(ARM))
+    drawn = draw_plant_parameters(robot(ARM), limits).standard["Fs3"]
     settings = dataclasses.replace(SHORT, duration=1.2)
     log = simulate(robot(ARM, parameters=f"Fs3 = {10 * drawn}"), settings)
     assert np.abs(log.truth.q - log.qc)[:, 2].max() < 0.05

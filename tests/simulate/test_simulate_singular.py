@@ -10,7 +10,7 @@ import pytest
 from closed_robots import LOOPS
 
 from modeler.cli import main
-from modeler.robot.read import read_robot, robot_from_text
+from modeler.robot.read import parse_robot_text, read_robot
 from modeler.robot.robot import Robot
 from modeler.simulation import SimulationSettings, simulate
 from tests.oracles.closed_ways import closed_near, followed, regularity
@@ -33,7 +33,7 @@ for old, new in (('"pi/2"\nq2 = -1.86', "1.25\nq2 = -2.496"), ("q3 = 0.33", "q3 
 def least_share(robot: Robot, q: np.ndarray) -> float:
     """Least distance to a singular posture along positions (n, coordinates), beside home's."""
     oracle = Oracle(robot)
-    home = np.array([[robot.home.get(joint.name, 0.0) for joint in robot.free]])
+    home = np.array([[robot.home.get(joint.name, 0.0) for joint in robot.free_joints]])
     home = closed_near(oracle, home, rounds=30)[0]
     targets = np.vstack([home[oracle.given], q[::EVERY]])
     u, _ = followed(oracle, home, targets, STEPS)
@@ -56,7 +56,7 @@ def test_half_of_homes_distance_is_kept(name: str, request: pytest.FixtureReques
 
 def test_without_limits_and_near_a_singular_posture() -> None:
     """The range of a robot without [limits], 0.3 rad around home, holds a bad posture."""
-    robot = robot_from_text(STEEP, "steep")
+    robot = parse_robot_text(STEEP, "steep")
     log = simulate(robot, SimulationSettings(duration=8.0, rate=50.0))
     assert least_share(robot, log.truth.q) > SHARE
     assert least_share(robot, np.array([[1.45]])) < SHARE

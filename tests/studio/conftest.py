@@ -10,9 +10,9 @@ from pathlib import Path
 import pytest
 
 from modeler.cli import main
-from modeler.core.builtin import builtin_text
+from modeler.core.builtin import read_builtin_robot
 from modeler.studio.project import FOLDERS, Project, ProjectLog, Workspace
-from modeler.studio.tasks import Stretch
+from modeler.studio.tasks import TimeRange
 from tests.coroutines import run_coroutine
 from tests.studio.requests import let_in
 from tests.studio.window import Served, Window, opened, served
@@ -53,10 +53,10 @@ def axis(tmp_path_factory: pytest.TempPathFactory) -> Path:
     folder = tmp_path_factory.mktemp("axis") / "project"
     for name in FOLDERS:
         (folder / name).mkdir(parents=True)
-    (folder / "robot.toml").write_text(builtin_text("emps"))
+    (folder / "robot.toml").write_text(read_builtin_robot("emps"))
     words = "simulate emps --duration 6 --rate 250 --hide spring:stiffness=40,rest=0.1 --out"
     assert main([*words.split(), str(folder / "logs/a.csv")]) == 0
-    Workspace(folder).save(Project("robot.toml", logs=(ProjectLog("logs/a.csv", (Stretch(),)),)))
+    Workspace(folder).save(Project("robot.toml", logs=(ProjectLog("logs/a.csv", (TimeRange(),)),)))
     return folder
 
 

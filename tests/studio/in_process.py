@@ -61,7 +61,7 @@ async def answer(asked: viewer.Viewer, function: str, arguments: tuple[Any, ...]
     before, places.READABLE = places.READABLE, places.Roots(allowed)
     try:
         with chdir(folder):
-            return viewer.answer(function, arguments)
+            return viewer.compute_answer(function, arguments)
     finally:
         places.READABLE = before
 
@@ -204,8 +204,8 @@ async def windows(folder: Path, allow: Sequence[Path] = ()) -> AsyncIterator[Cal
         async with user_simulation(lambda: None) as first:
             screens = {name: draw for name, (_, draw) in app.JOBS.items()}
             hub = Hub(Workspace(folder), (folder, *allow), {"start": start_screen.draw, **screens})
-            app._routes(core.app, hub)
-            app._pages(hub, demo=False)
+            app._add_routes(core.app, hub)
+            app._add_pages(hub, demo=False)
 
             def window() -> Page:
                 user = User(first.http_client)

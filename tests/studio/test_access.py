@@ -160,5 +160,5 @@ def test_the_address_for_the_browser_is_good_once() -> None:
         run_coroutine(guard(scope, lambda: None, send))
         return sent[0]["status"]
 
-    assert [status(guard.once), status(guard.once)] == [303, 403]
+    assert [status(guard.one_time_address), status(guard.one_time_address)] == [303, 403]
     assert [status(guard.address), status(guard.address)] == [303, 303]

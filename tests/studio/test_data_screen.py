@@ -11,7 +11,7 @@ import pytest
 
 from modeler.api import load, simulate
 from modeler.studio.project import Project, Workspace
-from modeler.studio.tasks import Stretch
+from modeler.studio.tasks import TimeRange
 from tests.studio.window import Served, Window, served
 
 JOINTS = (1, 2, 3)
@@ -63,7 +63,7 @@ def drags_and_brushes(w: Window, studio: Served) -> None:
     page.get_by_label("from s").fill("5")
     page.get_by_label("to s").fill("6.5")
     page.locator(".timeline-active").press("o")
-    w.until(lambda: studio.project.logs[0].out == (Stretch(5.0, 6.5),))
+    w.until(lambda: studio.project.logs[0].out == (TimeRange(5.0, 6.5),))
 
 
 def plays(w: Window, run: Any) -> None:

@@ -11,10 +11,16 @@ from modeler.api import load, simulate
 from modeler.cli import main
 from modeler.core.errors import DataError
 from modeler.core.manifest import JointSpec
-from modeler.logs import map_from_table, map_from_words
-from modeler.studio.log_mapping import Choice, as_mapped, choices, units_of, words_of
+from modeler.logs import build_map, parse_map_options
+from modeler.studio.log_mapping import (
+    ColumnChoice,
+    apply_choice,
+    build_choices,
+    build_map_words,
+    select_units,
+)
 from modeler.studio.project import Project, ProjectLog
-from modeler.studio.tasks import Stretch
+from modeler.studio.tasks import TimeRange
 from modeler.studio.viewing import log_film, log_guess, log_window
 
 
@@ -34,19 +40,23 @@ FIVE = joints("1", "2", "3", "4", "5")
 NAMES = joints("waist", "11", "7")
 
 
-def drawn_choices(rng: np.random.Generator, robot: tuple[JointSpec, ...]) -> dict[str, Choice]:
+def drawn_choices(
+    rng: np.random.Generator, robot: tuple[JointSpec, ...]
+) -> dict[str, ColumnChoice]:
     """A mapping as a person might click it together."""
     signs = [1, -1]
     alike = rng.random() < 0.5
     stem = rng.choice(["pos{}", "data.pos[{}]", "arm/q[{}]", "Joint {} [x]", "{}_pos", "w 1 {}"])
-    found = {"time": Choice("zeit: s", str(rng.choice(["", "ms", "us"])))}
+    found = {"time": ColumnChoice("zeit: s", str(rng.choice(["", "ms", "us"])))}
     unit, sign = str(rng.choice(["", "deg", "0.01 rev/8192"])), int(rng.choice(signs))
     for k, joint in enumerate(robot):
         label = str(rng.choice([joint.name, str(k + 1)])) if not alike else str(k + 1)
         own = (unit, sign) if alike else (str(rng.choice(["", "deg"])), int(rng.choice(signs)))
-        found[f"q{joint.name}"] = Choice(f"{stem.format(label)}{'' if alike else f' ({k})'}", *own)
+        found[f"q{joint.name}"] = ColumnChoice(
+            f"{stem.format(label)}{'' if alike else f' ({k})'}", *own
+        )
         if rng.random() < 0.7:
-            found[f"tau{joint.name}"] = Choice(f"t={k}:N", str(rng.choice(["N m", "mN m"])))
+            found[f"tau{joint.name}"] = ColumnChoice(f"t={k}:N", str(rng.choice(["N m", "mN m"])))
     return found
 
 
@@ -54,38 +64,38 @@ def drawn_choices(rng: np.random.Generator, robot: tuple[JointSpec, ...]) -> dic
 @pytest.mark.parametrize("seed", range(12))
 def test_words_say_what_was_chosen(robot: tuple[JointSpec, ...], seed: int) -> None:
     wanted = drawn_choices(np.random.default_rng(seed), robot)
-    words = words_of(wanted, {}, robot)
+    words = build_map_words(wanted, {}, robot)
     columns = {one.column for one in wanted.values()}
-    found = choices(map_from_words(words), robot, columns)
+    found = build_choices(parse_map_options(words), robot, columns)
     if wanted["time"].unit == "":  # "zeit: s" looks like a column with its unit
-        wanted["time"] = Choice("zeit: s", "s")
+        wanted["time"] = ColumnChoice("zeit: s", "s")
     assert found == wanted
 
 
 def test_patterns_are_found_and_what_is_so_is_not_said() -> None:
-    plain = {f"q{j.name}": Choice(f"pos_{k}", "deg", -1) for k, j in enumerate(FIVE)}
-    assert words_of(plain, {}, FIVE) == ("q<j>=-pos_{n-1}:deg",)
-    late = {f"q{j.name}": Choice(f"c{k + 12}") for k, j in enumerate(FIVE)}
-    assert words_of(late, {}, FIVE) == ("q<j>=c{n+11}",)
-    own = {f"q{j.name}": Choice(f"q{j.name}") for j in FIVE}
-    assert words_of(own, own, FIVE) == ()
-    assert words_of(own | {"q2": Choice("q2", "deg")}, own, FIVE) == ("q2=q2:deg",)
+    plain = {f"q{j.name}": ColumnChoice(f"pos_{k}", "deg", -1) for k, j in enumerate(FIVE)}
+    assert build_map_words(plain, {}, FIVE) == ("q<j>=-pos_{n-1}:deg",)
+    late = {f"q{j.name}": ColumnChoice(f"c{k + 12}") for k, j in enumerate(FIVE)}
+    assert build_map_words(late, {}, FIVE) == ("q<j>=c{n+11}",)
+    own = {f"q{j.name}": ColumnChoice(f"q{j.name}") for j in FIVE}
+    assert build_map_words(own, own, FIVE) == ()
+    assert build_map_words(own | {"q2": ColumnChoice("q2", "deg")}, own, FIVE) == ("q2=q2:deg",)
     table = {"q<j>": {"column": "enc{n}", "unit": "deg", "scale": 0.01, "offset": 3.0}}
-    stated = choices(map_from_table(table, "[log]"), FIVE, [f"enc{k}" for k in range(1, 6)])
-    assert stated["q2"] == Choice("enc2", "0.01 deg", 1, 3.0)
-    assert words_of(stated, stated, FIVE) == ()
+    stated = build_choices(build_map(table, "[log]"), FIVE, [f"enc{k}" for k in range(1, 6)])
+    assert stated["q2"] == ColumnChoice("enc2", "0.01 deg", 1, 3.0)
+    assert build_map_words(stated, stated, FIVE) == ()
 
 
 @pytest.mark.parametrize("column", ["-enc", "a -b:deg ", " x"])
 def test_names_that_no_word_can_say_are_refused(column: str) -> None:
     with pytest.raises(DataError, match="cannot be named with --map; rename it"):
-        words_of({"q1": Choice(column)}, {}, FIVE)
+        build_map_words({"q1": ColumnChoice(column)}, {}, FIVE)
 
 
 def test_units_that_cannot_be_are_refused() -> None:
     for unit, expected in (("N m", ""), ("furlong", "; expected one such as rad")):
         with pytest.raises(DataError, match=f'q1: got unit "{unit}"{expected}'):
-            as_mapped(np.ones(2), "", Choice("x", unit), "q1", FIVE)
+            apply_choice(np.ones(2), "", ColumnChoice("x", unit), "q1", FIVE)
 
 
 def test_pictures_have_the_numbers_that_commands_read(tmp_path: Path) -> None:
@@ -97,14 +107,22 @@ def test_pictures_have_the_numbers_that_commands_read(tmp_path: Path) -> None:
     file.write_text(f"t,a,b,c,d\nms,deg,,kg cm,degC\n{lines}\n", encoding="utf-8")
     one = joints("1", "2")
     for wanted in (
-        {"q1": Choice("a"), "q2": Choice("b", "deg", -1), "tau1": Choice("c", "", -1),
-         "temperature1": Choice("d")},
-        {"q1": Choice("a", "0.5 rev"), "q2": Choice("b"), "tau1": Choice("c", "mN m"),
-         "temperature1": Choice("d", "K")},
-    ):  # fmt: skip
+        {
+            "q1": ColumnChoice("a"),
+            "q2": ColumnChoice("b", "deg", -1),
+            "tau1": ColumnChoice("c", "", -1),
+            "temperature1": ColumnChoice("d"),
+        },
+        {
+            "q1": ColumnChoice("a", "0.5 rev"),
+            "q2": ColumnChoice("b"),
+            "tau1": ColumnChoice("c", "mN m"),
+            "temperature1": ColumnChoice("d", "K"),
+        },
+    ):
         clock = ("time=t:ms",)
         raw = log_window(str(file), [c.column for c in wanted.values()], -np.inf, np.inf, clock)
-        words = (*clock, *words_of(wanted, {}, one))
+        words = (*clock, *build_map_words(wanted, {}, one))
         robot = tmp_path / "two.toml"
         robot.write_text(
             'name = "two"\ngravity = [0, 0, 0]\n[mdh]\ncolumns = ["j", "a", "theta", "d"]\n'
@@ -115,7 +133,7 @@ def test_pictures_have_the_numbers_that_commands_read(tmp_path: Path) -> None:
             stated = {"a": "deg", "c": "kg cm", "d": "degC"}.get(choice.column, "")
             time, values = raw[choice.column]
             np.testing.assert_allclose(time, read[own][0], atol=1e-12)
-            shown = as_mapped(values, stated, choice, own, one)
+            shown = apply_choice(values, stated, choice, own, one)
             np.testing.assert_allclose(shown, read[own][1], rtol=1e-12)
 
 
@@ -135,15 +153,15 @@ def test_a_film_passes_through_the_rows(tmp_path: Path) -> None:
 
 
 def drawn_log(timeline: Any, rng: np.random.Generator) -> ProjectLog:
-    log = ProjectLog("a.csv", train=(Stretch(),))
+    log = ProjectLog("a.csv", train=(TimeRange(),))
     for _ in range(int(rng.integers(1, 9))):
         start, end = np.sort(rng.uniform(0.0, 10.0, 2)).round(2)
         role = str(rng.choice(["train", "test", "out", "in"]))
-        log = timeline.painted(log, Stretch(float(start), float(end)), role)
+        log = timeline.assign_role(log, TimeRange(float(start), float(end)), role)
     return log
 
 
-def inside(parts: tuple[Stretch, ...], times: np.ndarray) -> np.ndarray:
+def inside(parts: tuple[TimeRange, ...], times: np.ndarray) -> np.ndarray:
     none = np.zeros(times.size, dtype=bool)
     return np.any([none, *((times >= p.start) & (times < p.end) for p in parts)], axis=0)
 
@@ -155,26 +173,28 @@ def test_every_instant_has_one_role(timeline: Any, seed: int) -> None:
     train, test, out = (inside(getattr(log, role), times) for role in timeline.ROLES)
     assert not (train & test).any() and (train | test).all()
     start, end = np.sort(rng.uniform(0.0, 10.0, 2)).round(2)
-    held = Stretch(float(start), float(end))
+    held = TimeRange(float(start), float(end))
     own = inside((held,), times)
     for role in ("train", "test"):
-        now = timeline.painted(log, held, role)
+        now = timeline.assign_role(log, held, role)
         assert inside(getattr(now, role), times)[own].all()
         assert not inside(now.out, times)[own].any()
         np.testing.assert_array_equal(inside(now.train, times)[~own], train[~own])
         np.testing.assert_array_equal(inside(now.out, times)[~own], out[~own])
-    left = timeline.painted(log, held, "out")
+    left = timeline.assign_role(log, held, "out")
     np.testing.assert_array_equal(inside(left.out, times), out | own)
     assert left.train == log.train
-    np.testing.assert_array_equal(inside(timeline.painted(left, held, "in").out, times), out & ~own)
+    np.testing.assert_array_equal(
+        inside(timeline.assign_role(left, held, "in").out, times), out & ~own
+    )
 
 
 def test_first_roles(timeline: Any) -> None:
     a, b, c = (ProjectLog(name) for name in ("a", "b", "c"))
     ends = {"a": (0.0, 10.0), "b": (5.0, 6.0)}
     for logs, train, test in (((a,), "a@:7", "a@7:"), ((a, b, c), "a", "b")):
-        project = Project(logs=timeline.by_default(logs, ends))
-        assert (project.words("train"), project.words("test")) == ([train], [test])
+        project = Project(logs=timeline.assign_default_roles(logs, ends))
+        assert (project.collect_words("train"), project.collect_words("test")) == ([train], [test])
 
 
 # Where doubts lie.
@@ -210,8 +230,8 @@ def test_marks_of_a_log_lie_where_it_was_spoilt(
 
 def test_units_begin_with_what_is_taken_without_one() -> None:
     for own in ("time", "q1", "qd1", "qdd1", "tau1", "qc1", "temperature1"):
-        first = units_of(own, FIVE)[0]
+        first = select_units(own, FIVE)[0]
         np.testing.assert_allclose(
-            as_mapped(np.array([2.0]), "", Choice("x", first), own, FIVE),
-            as_mapped(np.array([2.0]), "", Choice("x"), own, FIVE),
+            apply_choice(np.array([2.0]), "", ColumnChoice("x", first), own, FIVE),
+            apply_choice(np.array([2.0]), "", ColumnChoice("x"), own, FIVE),
         )

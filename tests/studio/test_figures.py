@@ -7,13 +7,13 @@ import numpy as np
 
 from modeler.core.figure import Curve, Panel, Picture, Points
 from modeler.core.style import BLUE, Style
-from modeler.studio.figures import figure, x_range
+from modeler.studio.figures import build_figure, read_x_range
 from tests.studio.drawn import CLOUD, EVERY_KIND, SHARED, X, Y
 
 
 def traces(picture: Picture) -> dict[str, dict[str, Any]]:
     """By name; of equal names the last."""
-    return {trace["name"]: trace for trace in figure(picture)["data"]}
+    return {trace["name"]: trace for trace in build_figure(picture)["data"]}
 
 
 def test_every_kind_of_series_is_drawn_as_it_is() -> None:
@@ -49,7 +49,7 @@ def test_a_band_is_a_closed_piece_for_each_run() -> None:
 
 
 def test_a_panel_has_its_axes_lines_and_spans() -> None:
-    made = figure(EVERY_KIND)
+    made = build_figure(EVERY_KIND)
     layout = made["layout"]
     assert layout["xaxis"]["range"] == [0.0, 6.0] and layout["yaxis"]["range"] == [-1.0, 1.0]
     assert layout["xaxis"]["title"]["text"] == "time [s]"
@@ -73,11 +73,11 @@ def test_a_panel_has_its_axes_lines_and_spans() -> None:
 
 
 def test_rows_of_one_time_share_their_axis_and_their_legend() -> None:
-    named = [trace["name"] for trace in figure(SHARED)["data"] if trace["showlegend"]]
+    named = [trace["name"] for trace in build_figure(SHARED)["data"] if trace["showlegend"]]
     assert sorted(named) == ["band", "low speed", "measured", "predicted"]
     alone = Picture("one", "", "", ((Panel("", "x", "y", (CLOUD.series[0],)),),), 300)
-    assert not figure(alone)["layout"]["showlegend"]
-    layout = figure(SHARED, time="log")["layout"]
+    assert not build_figure(alone)["layout"]["showlegend"]
+    layout = build_figure(SHARED, time="log")["layout"]
     assert layout["xaxis2"]["matches"] == "x" and "matches" not in layout["xaxis"]
     assert layout["xaxis"]["showticklabels"] is False
     assert layout["meta"] == {"time": "log"} and layout["uirevision"] == "shared"
@@ -85,7 +85,7 @@ def test_rows_of_one_time_share_their_axis_and_their_legend() -> None:
 
 def drawn(series: Curve | Points) -> dict[str, Any]:
     """A series of a picture of it alone, as it is drawn."""
-    return figure(Picture("p", "", "", ((Panel("", "x", "y", (series,)),),), 300))["data"][0]
+    return build_figure(Picture("p", "", "", ((Panel("", "x", "y", (series,)),),), 300))["data"][0]
 
 
 def test_many_dots_are_drawn_by_the_graphics_processor() -> None:
@@ -101,7 +101,7 @@ def test_numbers_keep_what_a_zoom_of_a_thousand_shows() -> None:
 
 
 def test_what_a_relayout_says_of_time() -> None:
-    assert x_range({"xaxis.range[0]": 1.5, "xaxis.range[1]": 2.5}) == (1.5, 2.5)
-    assert x_range({"xaxis2.range": [0, 3]}) == (0.0, 3.0)
-    assert x_range({"xaxis.autorange": True, "yaxis.autorange": True}) is None
-    assert x_range({"yaxis.range[0]": 1.0, "yaxis.range[1]": 2.0}) is False
+    assert read_x_range({"xaxis.range[0]": 1.5, "xaxis.range[1]": 2.5}) == (1.5, 2.5)
+    assert read_x_range({"xaxis2.range": [0, 3]}) == (0.0, 3.0)
+    assert read_x_range({"xaxis.autorange": True, "yaxis.autorange": True}) is None
+    assert read_x_range({"yaxis.range[0]": 1.0, "yaxis.range[1]": 2.0}) is False

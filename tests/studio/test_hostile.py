@@ -15,13 +15,13 @@ import pytest
 
 from modeler import studio
 from modeler.cli import main
-from modeler.cli.commands import parser
+from modeler.cli.commands import build_parser
 from modeler.core.errors import DataError, ModelerError
 from modeler.estimation import load_model, save_model
 from modeler.studio.places import Roots
-from modeler.studio.project import Project, ProjectLog, Workspace, project_from_text, project_text
-from modeler.studio.recipe import notebook, recipe, script
-from modeler.studio.tasks import FIELDS, LogPart, Step, Stretch, Task, Verb, command_line
+from modeler.studio.project import Project, ProjectLog, Workspace, format_project, parse_project
+from modeler.studio.recipe import build_recipe, format_notebook, format_script
+from modeler.studio.tasks import FIELDS, LogPart, Step, Task, TimeRange, Verb, build_command_line
 from tests.coroutines import run_coroutine
 from tests.studio.hubs import hub_of, run_tasks
 
@@ -51,7 +51,7 @@ MAY_BE = {"file", "like", "logs", "held", "mapping", "limit", "between", "name",
 
 def task_of(verb: Verb, **harm: object) -> Task:
     """One with all the values that its verb may have."""
-    logs = (LogPart("logs/a.csv", Stretch(0.0, 2.0)),)
+    logs = (LogPart("logs/a.csv", TimeRange(0.0, 2.0)),)
     known = {"logs": logs, "held": logs, "file": "logs/a.csv", "robot": True, "models": (1, 2)}
     own: dict[str, object] = {}
     for field in dataclasses.fields(Task)[1:]:
@@ -70,7 +70,7 @@ STEPS = tuple(
 )
 
 
-PARSER = parser()
+PARSER = build_parser()
 
 
 def check_harmless(verb: Verb, words: tuple[str, ...]) -> None:
@@ -86,7 +86,7 @@ def test_what_a_project_of_somebody_else_may_do(verb: Verb) -> None:
     assert set(FIELDS) == set(ALLOWED) == set(get_args(Verb))
     for of in STEPS if verb == "page" else STEPS[:1]:
         task = Task("page", step=of.number) if verb == "page" else task_of(verb)
-        words = command_line(Step(9, 1, task), STEPS)
+        words = build_command_line(Step(9, 1, task), STEPS)
         check_harmless(verb, words)
         assert [word for word in words if word.startswith("-")]
 
@@ -104,14 +104,14 @@ def test_no_value_is_an_option_or_leads_out(verb: Verb, tmp_path: Path) -> None:
         many = isinstance(field.default, tuple)
         value = LogPart(harm) if field.name in ("logs", "held") else harm
         step = Step(9, 1, task_of(verb, **{field.name: (value,) if many else value}))
-        text = project_text(Project(steps=(*STEPS, step)))
+        text = format_project(Project(steps=(*STEPS, step)))
         try:
-            words = command_line(step, STEPS)
+            words = build_command_line(step, STEPS)
         except DataError:
             with pytest.raises(DataError):
-                project_from_text(text, "project.toml")
+                parse_project(text, "project.toml")
             continue
-        assert project_from_text(text, "project.toml").steps[-1] == step
+        assert parse_project(text, "project.toml").steps[-1] == step
         assert field.name in MAY_BE
         check_harmless(verb, words)
         if field.name in ("file", "like", "logs", "held") and harm.startswith("/"):
@@ -124,11 +124,11 @@ def test_a_step_that_holds_words_is_no_step() -> None:
     for more in ('words = ["compare", "--run-embedded-c"]', 'model = "--run-embedded-c"'):
         text = f"[[steps]]\nnumber = 1\nparent = 0\ntask = {{ verb = 'compare' }}\n{more}\n"
         with pytest.raises(DataError, match="is unknown"):
-            project_from_text(text, "project.toml")
+            parse_project(text, "project.toml")
     page = Step(2, 1, Task("page", step=1))
     for of in (Task("generate"), Task("page", step=2), Task("simulate", file="logs/a.csv")):
         with pytest.raises(DataError, match="has no report page"):
-            command_line(page, (Step(1, 0, of), page))
+            build_command_line(page, (Step(1, 0, of), page))
 
 
 CONSTRUCTOR = """
@@ -156,7 +156,7 @@ def test_changed_c_of_a_model_is_never_run(axis_project: Path, tmp_path: Path) -
     with hub_of(folder) as hub:
         run_tasks(hub, lambda _: Task("compare", log), lambda _: Task("page", step=2),
                   lambda _: Task("generate"))  # fmt: skip
-        run_coroutine(Studio(hub, "fails").view("verdict", "models/1.json", ["logs/a.csv"]))
+        run_coroutine(Studio(hub, "fails").ask_viewer("verdict", "models/1.json", ["logs/a.csv"]))
         assert [step.verb for step in hub.project.steps] == ["fit", "compare", "page", "generate"]
     assert not mark.exists()
     written = [path.read_text() for path in (folder / "taken").rglob("*.[ch]")]
@@ -168,24 +168,24 @@ def test_changed_c_of_a_model_is_never_run(axis_project: Path, tmp_path: Path) -
 def test_nor_do_the_values_beside_the_steps(place: str, harm: str) -> None:
     if (place, harm) == ("without", "../x.toml"):
         return  # an effect, which there is not
-    value = (ProjectLog(harm, (Stretch(),)),) if place == "logs" else (harm,)
+    value = (ProjectLog(harm, (TimeRange(),)),) if place == "logs" else (harm,)
     project = dataclasses.replace(Project(), **{place: value})
     with pytest.raises(DataError, match=r"expected|empty"):
-        project_from_text(project_text(project), "project.toml")
+        parse_project(format_project(project), "project.toml")
 
 
 def test_numbers_name_files() -> None:
     for number, parent in ((0, 0), (-1, 0), (10**9, 0), (1, -3)):
-        text = project_text(Project(steps=(Step(number, parent, Task("derive")),)))
+        text = format_project(Project(steps=(Step(number, parent, Task("derive")),)))
         with pytest.raises(DataError, match="expected 1 to 999999999"):
-            project_from_text(text, "project.toml")
+            parse_project(text, "project.toml")
 
 
 def test_thousands_of_mutated_projects_end_in_a_line(tmp_path: Path) -> None:
     """Bytes of a sound file changed: it is read, or one line says what is wrong."""
     steps = (*STEPS, *(Step(n + 3, 1, task_of(verb)) for n, verb in enumerate(("add", "excite"))))
-    log = ProjectLog("logs/a.csv", (Stretch(0.0, 2.0),))
-    sound = project_text(Project("robot.toml", 1, ("q1=a",), logs=(log,), steps=steps)).encode()
+    log = ProjectLog("logs/a.csv", (TimeRange(0.0, 2.0),))
+    sound = format_project(Project("robot.toml", 1, ("q1=a",), logs=(log,), steps=steps)).encode()
     draw = random.Random(45)
     place = tmp_path / "project.toml"
     for _ in range(300):
@@ -202,7 +202,7 @@ def test_thousands_of_mutated_projects_end_in_a_line(tmp_path: Path) -> None:
             assert "\n" not in str(error)
         else:
             for step in project.steps:
-                words = command_line(step, project.steps)
+                words = build_command_line(step, project.steps)
                 assert "--run-embedded-c" not in words and "--out" not in words[1:-2]
 
 
@@ -228,7 +228,7 @@ def test_logs_outside_are_neither_run_nor_drawn(tmp_path: Path) -> None:
         return ""
 
     async def ask_all(hub: Any) -> None:
-        view = Studio(hub, "data").view
+        view = Studio(hub, "data").ask_viewer
         for file in ("logs/a.csv", f"{tmp_path}/data/a.csv"):
             assert await error_of(view("log_facts", str(folder / file))) == ""
         for file in (
@@ -280,13 +280,15 @@ def test_a_notebook_and_a_script_hold_values_as_values(tmp_path: Path) -> None:
     tasks = (Task("fit", logs, mapping=(f"q1={evil}",)), Task("diagnose", logs, without=(evil,)),
              Task("add", logs, logs, effect="spring"))  # fmt: skip
     steps = tuple(Step(k, min(k - 1, 1), task) for k, task in enumerate(tasks, start=1))
-    project = Project("robot.toml", 3, steps=steps, logs=(ProjectLog("logs/a.csv", (Stretch(),)),))
-    own = recipe(project, tmp_path / evil, {})
-    for cell in json.loads(notebook(own))["cells"]:
+    project = Project(
+        "robot.toml", 3, steps=steps, logs=(ProjectLog("logs/a.csv", (TimeRange(),)),)
+    )
+    own = build_recipe(project, tmp_path / evil, {})
+    for cell in json.loads(format_notebook(own))["cells"]:
         if cell["cell_type"] == "code":
             for node in ast.walk(ast.parse("".join(cell["source"]))):
                 assert not (isinstance(node, ast.Name) and node.id == "__import__")
-    (tmp_path / "steps.sh").write_text(script(own))
+    (tmp_path / "steps.sh").write_text(format_script(own))
     environment = {"PATH": os.environ["PATH"], "MODELER": "true"}
     (tmp_path / "fresh").mkdir()
     done = subprocess.run(["sh", "../steps.sh"], cwd=tmp_path / "fresh", env=environment)

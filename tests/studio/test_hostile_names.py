@@ -5,10 +5,10 @@ from pathlib import Path
 
 import pytest
 
-from modeler.core.builtin import builtin_text
+from modeler.core.builtin import read_builtin_robot
 from modeler.studio import commands
 from modeler.studio.project import Project, ProjectLog, Workspace
-from modeler.studio.tasks import Stretch
+from modeler.studio.tasks import TimeRange
 from tests.studio.hubs import hub_of, run_tasks
 from tests.studio.window import served
 
@@ -31,7 +31,7 @@ def hostile(axis: Path, tmp_path_factory) -> Path:
     folder = tmp_path_factory.mktemp("names") / FOLDER
     (folder / "logs").mkdir(parents=True)
     told = (HARM + CLOSING).replace("\\", "").replace('"', "'")
-    text = builtin_text("emps").replace("EMPS, one", f"{told} one")
+    text = read_builtin_robot("emps").replace("EMPS, one", f"{told} one")
     (folder / "robot.toml").write_text(text)
     plain = axis / "logs/a.csv"
     with plain.open(newline="") as file:
@@ -41,7 +41,7 @@ def hostile(axis: Path, tmp_path_factory) -> Path:
         own = csv.writer(file)
         own.writerow([*head, HARM, f"q9 {TAG}", f"temp{CLOSING.replace('/', '|')}"])
         own.writerows([*row, row[0], row[1], "20"] for row in rows)
-    log = ProjectLog(name, (Stretch(0.0, 3.0),), (Stretch(3.5, 6.0),), (Stretch(1.0, 1.1),))
+    log = ProjectLog(name, (TimeRange(0.0, 3.0),), (TimeRange(3.5, 6.0),), (TimeRange(1.0, 1.1),))
     project = Project("robot.toml", logs=(log,), without=(TAG, QUOTED, SINGLE), mapping=())
 
     Workspace(folder).save(project)

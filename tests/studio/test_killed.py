@@ -13,7 +13,7 @@ import pytest
 from modeler.core.errors import ModelerError
 from modeler.estimation import load_model
 from modeler.studio import commands
-from modeler.studio.places import folder_lock
+from modeler.studio.places import lock_folder
 from modeler.studio.project import FILE, Workspace
 from tests.rotation import ROTATING
 from tests.studio.hubs import full_disk, hub_of, run_tasks
@@ -46,16 +46,16 @@ with folder_lock(folder) as own:
 
 def check(folder: Path, told: int) -> int:
     """Opens it as the next studio does; the steps that it holds."""
-    with folder_lock(folder) as own:
+    with lock_folder(folder) as own:
         assert own
         project = Workspace(folder).project
         steps = [step.number for step in project.steps]
         assert steps == list(range(1, len(steps) + 1)) and told <= len(steps) <= told + 1
         for step in project.steps:
-            load_model(folder / step.model)
-            json.loads((folder / step.result).read_text())
+            load_model(folder / step.model_file)
+            json.loads((folder / step.result_file).read_text())
         if project.current:
-            assert project.model
+            assert project.model_file
         for path in folder.rglob("*"):
             assert not path.name.startswith((".modeler-", ".dropping-")), path
             if path.suffix == ".json":

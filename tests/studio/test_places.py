@@ -10,7 +10,14 @@ from pathlib import Path
 import pytest
 
 from modeler.core.errors import DataError
-from modeler.studio.places import ROBOT_ENDINGS, Roots, disk_use, folder_lock, size_text, spare
+from modeler.studio.places import (
+    ROBOT_ENDINGS,
+    Roots,
+    compute_disk_use,
+    find_unused_files,
+    format_size,
+    lock_folder,
+)
 from modeler.studio.project import Project
 from modeler.studio.tasks import Step, Task
 
@@ -33,12 +40,12 @@ def tree(tmp_path: Path) -> Path:
 
 def test_the_picker_lists_what_may_be_chosen(tree: Path) -> None:
     roots = Roots((tree / "open",))
-    entries = roots.listed(tree / "open")
+    entries = roots.read_entries(tree / "open")
     assert [entry.name for entry in entries] == ["run", "a.parquet", "b.CSV", "inside.csv"]
     assert [entry.size for entry in entries] == [None, 5, 5, 5] and entries[0].is_folder
-    robots = roots.listed(tree / "open", ROBOT_ENDINGS)
+    robots = roots.read_entries(tree / "open", ROBOT_ENDINGS)
     assert [entry.name for entry in robots] == ["run", "arm.toml"]
-    assert [entry.name for entry in roots.listed(f"{tree}/open/run")] == ["c.mat"]
+    assert [entry.name for entry in roots.read_entries(f"{tree}/open/run")] == ["c.mat"]
 
 
 @pytest.mark.parametrize(
@@ -54,10 +61,10 @@ def test_the_picker_lists_what_may_be_chosen(tree: Path) -> None:
 def test_nothing_outside_is_chosen(tree: Path, place: str, told: str) -> None:
     roots = Roots((tree / "open",))
     with pytest.raises(DataError, match=told):
-        roots.inside(f"{tree}/{place}")
+        roots.resolve_inside(f"{tree}/{place}")
     with pytest.raises(DataError, match=told):
-        roots.listed(f"{tree}/{place}")
-    assert Roots((tree / "shut", tree / "open")).inside(tree / "open/out") == tree / "shut"
+        roots.read_entries(f"{tree}/{place}")
+    assert Roots((tree / "shut", tree / "open")).resolve_inside(tree / "open/out") == tree / "shut"
 
 
 # The lock.
@@ -77,20 +84,20 @@ def test_one_has_the_folder_and_a_killed_one_does_not(tmp_path: Path) -> None:
     words = [sys.executable, "-c", HOLD, str(folder)]
     with subprocess.Popen(words, stdout=subprocess.PIPE, text=True) as holder:
         assert holder.stdout is not None and holder.stdout.readline() == "True\n"
-        with folder_lock(folder) as own:
+        with lock_folder(folder) as own:
             assert not own
         left = [folder / f".dropping-{'ab' * 8}", folder / f".modeler-{'0' * 16}"]
         mine = [folder / ".modeler-notes", folder / "project.toml"]
         for path in left + mine:
             path.write_text("x")
-        with folder_lock(folder) as own:
+        with lock_folder(folder) as own:
             assert not own and left[0].exists()  # it may be in use
         holder.kill()
         holder.wait()
-        with folder_lock(folder) as own:
+        with lock_folder(folder) as own:
             assert own and all(path.exists() for path in mine)
             assert not any(path.exists() for path in left)
-            with folder_lock(folder) as second:
+            with lock_folder(folder) as second:
                 assert not second
 
 
@@ -99,7 +106,7 @@ def test_a_folder_that_may_not_be_written_is_read(tmp_path: Path, monkeypatch) -
         raise PermissionError(errno.EACCES, "Permission denied")  # as anybody but root would get
 
     monkeypatch.setattr(Path, "open", refused)
-    with folder_lock(tmp_path) as own:
+    with lock_folder(tmp_path) as own:
         assert not own
 
 
@@ -111,10 +118,15 @@ def test_disk_is_counted_by_what_it_is_for(tmp_path: Path) -> None:
         (tmp_path / name).parent.mkdir(parents=True, exist_ok=True)
         (tmp_path / name).write_bytes(b"x" * size)
     (tmp_path / "far").symlink_to("/usr")
-    used = disk_use(tmp_path)
+    used = compute_disk_use(tmp_path)
     assert (used["logs"], used["models"], used["results"]) == (12, 3, 0)
     assert used["other"] == 2 and sum(used.values()) == 17
-    assert [size_text(n) for n in (999, 1500, 2.5e9, 3e12)] == ["999 B", "1.5 kB", "2.5 GB", "3 TB"]
+    assert [format_size(n) for n in (999, 1500, 2.5e9, 3e12)] == [
+        "999 B",
+        "1.5 kB",
+        "2.5 GB",
+        "3 TB",
+    ]
 
 
 def test_tidying_takes_what_no_step_on_the_way_needs(tmp_path: Path) -> None:
@@ -132,16 +144,16 @@ def test_tidying_takes_what_no_step_on_the_way_needs(tmp_path: Path) -> None:
     mine = [tmp_path / name for name in ("models/mine.json", "results/3.txt", "logs/3.json")]
     for path in mine:
         path.write_text("mine")
-    found = spare(tmp_path, project)
+    found = find_unused_files(tmp_path, project)
     assert [s.number for s in found.project.steps] == [1, 2, 4, 6, 8]
-    assert found.project.current == 4 and found.project.path() == project.path()
+    assert found.project.current == 4 and found.project.collect_path() == project.collect_path()
     numbers = {int(Path(file).name.split(".")[0]) for file in found.files}
     assert numbers == {3, 5, 7} and found.size == 3 * (2 + 3 + 1)
-    before = sum(disk_use(tmp_path).values())
+    before = sum(compute_disk_use(tmp_path).values())
     found.remove(tmp_path)
-    assert before - sum(disk_use(tmp_path).values()) == found.size
+    assert before - sum(compute_disk_use(tmp_path).values()) == found.size
     assert all(path.exists() for path in mine)
-    again = spare(tmp_path, found.project)
+    again = find_unused_files(tmp_path, found.project)
     assert again.files == () and again.project == found.project
 
 
@@ -152,7 +164,7 @@ def test_what_another_step_names_stays(tmp_path: Path) -> None:
         (tmp_path / f"models/{n}.json").write_text("x")
     fits = tuple(Step(n, 0, Task("fit")) for n in (1, 2, 3))
     steps = (*fits, Step(4, 1, Task("contest", models=(1, 2))))
-    assert spare(tmp_path, Project(current=1, steps=steps)).files == ("models/3.json",)
+    assert find_unused_files(tmp_path, Project(current=1, steps=steps)).files == ("models/3.json",)
 
 
 def test_the_lock_of_windows(tmp_path: Path, monkeypatch) -> None:
@@ -167,6 +179,6 @@ def test_the_lock_of_windows(tmp_path: Path, monkeypatch) -> None:
     fake = types.SimpleNamespace(LK_NBLCK=2, locking=locking)
     monkeypatch.setitem(sys.modules, "msvcrt", fake)
     monkeypatch.setattr("modeler.studio.places.os", types.SimpleNamespace(name="nt"))
-    with folder_lock(tmp_path) as first, folder_lock(tmp_path) as second:
+    with lock_folder(tmp_path) as first, lock_folder(tmp_path) as second:
         assert (first, second) == (True, False)
     assert asked == [(0, 2, 1)] * 2

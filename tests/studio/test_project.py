@@ -13,12 +13,12 @@ from hypothesis import given, settings, strategies as st
 from modeler.core.errors import DataError, ModelerError
 from modeler.studio import project as projects
 from modeler.studio.project import FILE, Project, ProjectLog, Workspace
-from modeler.studio.tasks import LogPart, Step, Stretch, Task
+from modeler.studio.tasks import LogPart, Step, Task, TimeRange
 
 _NAME = st.from_regex(r"[a-z]\w{0,9}", fullmatch=True)
 _FILE = st.from_regex(r"([\w ][\w.+'\" -]{0,9}/){0,2}[a-z\u00e9][\w.+ ]{0,9}", fullmatch=True)
 _SECOND = st.floats(0.0, 1e4, allow_nan=False) | st.sampled_from([-math.inf, math.inf])
-_STRETCH = st.builds(Stretch, _SECOND, _SECOND)
+_STRETCH = st.builds(TimeRange, _SECOND, _SECOND)
 _STRETCHES = st.lists(_STRETCH, max_size=3).map(tuple)
 _LOGS = st.lists(st.builds(ProjectLog, _FILE, _STRETCHES, _STRETCHES, _STRETCHES), max_size=3)
 _PARTS = st.lists(st.builds(LogPart, _FILE, _STRETCH), max_size=3).map(tuple)
@@ -50,9 +50,9 @@ _STEPS = st.lists(
     )
 )  # fmt: skip
 def test_whatever_a_project_holds_is_read_back(project: Project) -> None:
-    text = projects.project_text(project)
+    text = projects.format_project(project)
     assert set(tomllib.loads(text)) >= {"robot", "current", "mapping", "without"}
-    assert projects.project_from_text(text, FILE) == project
+    assert projects.parse_project(text, FILE) == project
 
 
 @pytest.mark.parametrize(
@@ -99,11 +99,11 @@ def test_what_is_left_of_a_stretch_is_all_but_its_gaps() -> None:
     draw = random.Random(5)
     grid = [k / 10.0 + 0.05 for k in range(200)]
     for _ in range(200):
-        own = Stretch(*sorted(draw.choices(range(21), k=2)))
-        gaps = [Stretch(*sorted(draw.choices(range(21), k=2))) for _ in range(draw.randrange(4))]
-        left = own.without(gaps)
+        own = TimeRange(*sorted(draw.choices(range(21), k=2)))
+        gaps = [TimeRange(*sorted(draw.choices(range(21), k=2))) for _ in range(draw.randrange(4))]
+        left = own.subtract_gaps(gaps)
 
-        def holds(parts: list[Stretch], t: float) -> bool:
+        def holds(parts: list[TimeRange], t: float) -> bool:
             return any(part.start < t < part.end for part in parts)
 
         for t in grid:
@@ -112,12 +112,12 @@ def test_what_is_left_of_a_stretch_is_all_but_its_gaps() -> None:
 
 
 def test_stretches_are_written_as_commands_take_them() -> None:
-    whole, middle = Stretch(), Stretch(2.0, 8.5)
-    log = ProjectLog("logs/a.csv", train=(whole,), test=(middle,), out=(Stretch(3.0, 4.0),))
+    whole, middle = TimeRange(), TimeRange(2.0, 8.5)
+    log = ProjectLog("logs/a.csv", train=(whole,), test=(middle,), out=(TimeRange(3.0, 4.0),))
     project = Project(logs=(log, ProjectLog("a.csv", train=(whole,))))
-    assert project.words("train") == ["logs/a.csv@:3", "logs/a.csv@4:", "a.csv"]
-    assert project.words("test") == ["logs/a.csv@2:3", "logs/a.csv@4:8.5"]
-    assert ProjectLog("a.csv", train=(whole,), out=(whole,)).parts("train") == []
+    assert project.collect_words("train") == ["logs/a.csv@:3", "logs/a.csv@4:", "a.csv"]
+    assert project.collect_words("test") == ["logs/a.csv@2:3", "logs/a.csv@4:8.5"]
+    assert ProjectLog("a.csv", train=(whole,), out=(whole,)).get_parts("train") == []
 
 
 def _steps() -> Project:
@@ -130,17 +130,17 @@ def _steps() -> Project:
 
 def test_the_path_is_that_of_the_current_model() -> None:
     project = _steps()
-    assert [step.number for step in project.path()] == [2, 6]
-    assert [step.number for step in project.path(4)] == [2, 4]
-    assert project.path(99) == []
+    assert [step.number for step in project.collect_path()] == [2, 6]
+    assert [step.number for step in project.collect_path(4)] == [2, 4]
+    assert project.collect_path(99) == []
     ring = Project(steps=(Step(3, 3, Task("fit")),), current=3)  # claims to come from itself
-    assert [step.number for step in ring.path()] == [3]
-    assert project.model == "models/6.json" and project.next_number == 8
-    about = project.about("diagnose", 2)
+    assert [step.number for step in ring.collect_path()] == [3]
+    assert project.model_file == "models/6.json" and project.next_number == 8
+    about = project.find_step_about("diagnose", 2)
     assert about is not None and about.number == 5
-    assert project.about("diagnose") is None
+    assert project.find_step_about("diagnose") is None
     back = dataclasses.replace(project, current=2)
-    assert [step.number for step in back.path()] == [2] and len(back.steps) == 7
+    assert [step.number for step in back.collect_path()] == [2] and len(back.steps) == 7
 
 
 def test_a_workspace_saves_in_one_piece_and_reads_only_where_it_must(tmp_path: Path) -> None:
@@ -153,7 +153,7 @@ def test_a_workspace_saves_in_one_piece_and_reads_only_where_it_must(tmp_path: P
         other.save(Project())
     own.save(Project(robot="robot.toml"))
     assert other.project == _steps()
-    other.reread()
+    other.reload_project()
     assert other.project == Project(robot="robot.toml")
     (tmp_path / "arm" / FILE).unlink()
     (tmp_path / "arm" / FILE).mkdir()  # nothing can be written there
@@ -163,18 +163,18 @@ def test_a_workspace_saves_in_one_piece_and_reads_only_where_it_must(tmp_path: P
 
 
 def test_a_stretch_of_a_clock_that_counts_from_1970_keeps_its_ends() -> None:
-    from modeler.studio.timeline import told
+    from modeler.studio.timeline import describe_roles
 
     begun = 1732600000.25
     log = ProjectLog(
-        "a.csv", (Stretch(end=begun + 8.4123),), out=(Stretch(begun + 3.1, begun + 3.35),)
+        "a.csv", (TimeRange(end=begun + 8.4123),), out=(TimeRange(begun + 3.1, begun + 3.35),)
     )
-    words = [part.word for part in log.parts("train")]
+    words = [part.command_word for part in log.get_parts("train")]
     assert words == ["a.csv@:1732600003.35", "a.csv@1732600003.6:1732600008.6623"]
-    assert told(log) == (
+    assert describe_roles(log) == (
         "training: up to 1732600008.662 s; left out: 1732600003.35 s to 1732600003.6 s"
     )
-    assert Stretch(0.1, 14.7).word("b.csv") == "b.csv@0.1:14.7"
+    assert TimeRange(0.1, 14.7).format_word("b.csv") == "b.csv@0.1:14.7"
 
 
 # Whose it is.

@@ -11,18 +11,20 @@ import numpy as np
 import pytest
 
 from modeler.api import load, simulate
-from modeler.cli.commands import parser
-from modeler.core.builtin import builtin_text
+from modeler.cli.commands import build_parser
+from modeler.core.builtin import read_builtin_robot
 from modeler.studio import commands, recipe
 from modeler.studio.project import Project, ProjectLog, Workspace
-from modeler.studio.tasks import LogPart, Step, Stretch, Task, bookkeeping
+from modeler.studio.tasks import LogPart, Step, Task, TimeRange, build_bookkeeping_words
 from tests.coroutines import run_coroutine
 from tests.rotation import slow_rotating
 from tests.studio.hubs import hub_of, run_tasks
 
 LOGS = (
-    ProjectLog("logs/day one.csv", (Stretch(0.0, 4.0), Stretch(4.5)), out=(Stretch(2.0, 2.5),)),
-    ProjectLog("logs/b.csv", test=(Stretch(end=6.0),)),
+    ProjectLog(
+        "logs/day one.csv", (TimeRange(0.0, 4.0), TimeRange(4.5)), out=(TimeRange(2.0, 2.5),)
+    ),
+    ProjectLog("logs/b.csv", test=(TimeRange(end=6.0),)),
 )
 PROJECT = Project(
     robot="robot.toml", current=1, mapping=("q<j>=angle_{j}:deg",), logs=LOGS,
@@ -38,12 +40,12 @@ PROJECT = Project(
         commands.fit(PROJECT, (("method", "robust"), ("cutoff", 30.0), ("low_speed", 0))),
         commands.fit(PROJECT, (("effects", ("viscous", "coulomb")), ("derivatives", "position"))),
         commands.fit(PROJECT, (("joint", ""),)),
-        commands.contest(PROJECT, (1, 1)),
+        commands.compare_models(PROJECT, (1, 1)),
         commands.diagnose(PROJECT),
         commands.add(PROJECT, "spring", "1"),
         commands.add(PROJECT, "auto", None),
-        commands.fleet(PROJECT, PROJECT.parts("train"), "{machine}-{period}.csv"),
-        commands.look(PROJECT, "logs/b.csv"),
+        commands.fleet(PROJECT, PROJECT.collect_parts("train"), "{machine}-{period}.csv"),
+        commands.inspect_log(PROJECT, "logs/b.csv"),
         Task("page", step=1),
         Task("export", to="mjcf"),
         Task("simulate", file="logs/train.parquet", seed=1),
@@ -54,24 +56,26 @@ PROJECT = Project(
     ids=lambda task: task.title,
 )
 def test_what_is_typed_parses(task):
-    step = PROJECT.next_step(task)
-    given = parser().parse_args([*commands.words_of(PROJECT, task), *bookkeeping(step)])
+    step = PROJECT.make_next_step(task)
+    given = build_parser().parse_args(
+        [*commands.build_command_words(PROJECT, task), *build_bookkeeping_words(step)]
+    )
     assert given.json == "results/2.json"
     if step.output:
         assert step.output in (getattr(given, "out", ""), getattr(given, "report", ""))
 
 
 def test_a_step_is_known_again_but_for_its_number():
-    from modeler.studio.missing_screen import tried
+    from modeler.studio.missing_screen import find_trial
 
     one = commands.add(PROJECT, "spring", "1")
     step = Step(2, 1, one)
     later = dataclasses.replace(PROJECT, steps=(*PROJECT.steps, step))
-    assert commands.words_of(later, one) != commands.words_of(later, step)
-    assert tried(later, "spring", "1") == step
-    assert tried(later, "spring", "2") is None
-    assert tried(dataclasses.replace(later, logs=LOGS[:1]), "spring", "1") is None
-    assert tried(dataclasses.replace(later, current=2), "spring", "1") is None
+    assert commands.build_command_words(later, one) != commands.build_command_words(later, step)
+    assert find_trial(later, "spring", "1") == step
+    assert find_trial(later, "spring", "2") is None
+    assert find_trial(dataclasses.replace(later, logs=LOGS[:1]), "spring", "1") is None
+    assert find_trial(dataclasses.replace(later, current=2), "spring", "1") is None
 
 
 def write_log(path: Path, seed: int) -> None:
@@ -92,7 +96,7 @@ def worked(tmp_path_factory) -> Workspace:
     """A project with a mapping, stretches, a gap and bans: fitted, looked at, added, set aside."""
     folder = tmp_path_factory.mktemp("worked") / "it's a project"
     (folder / "logs").mkdir(parents=True)
-    (folder / "robot.toml").write_text(builtin_text("two-link"), encoding="utf-8")
+    (folder / "robot.toml").write_text(read_builtin_robot("two-link"), encoding="utf-8")
     for seed, log in enumerate(LOGS, start=31):
         write_log(folder / log.file, seed)
     workspace = Workspace(folder)
@@ -114,18 +118,18 @@ def worked(tmp_path_factory) -> Workspace:
 def retold(workspace: Workspace) -> recipe.Recipe:
     """As the screen asks for it."""
     folder, project = workspace.folder, workspace.project
-    copies = {step.robot for step in project.steps} - {""}
+    copies = {step.robot_copy for step in project.steps} - {""}
     robots = {name: (folder / name).read_text(encoding="utf-8") for name in copies}
-    return recipe.recipe(project, folder, robots)
+    return recipe.build_recipe(project, folder, robots)
 
 
 def check_same(workspace: Workspace, fresh: Path) -> None:
     """Every model on the way has the same values, sigmas and effects."""
     folder = workspace.folder
-    way = workspace.project.path()
+    way = workspace.project.collect_path()
     assert [step.verb for step in way] == ["fit", "add"]
     for step in way:
-        there, here = (json.loads((p / step.model).read_text()) for p in (folder, fresh))
+        there, here = (json.loads((p / step.model_file).read_text()) for p in (folder, fresh))
         for key in ("value", "sigma"):
             a, b = (np.array([p[key] for p in m["fit"]["parameters"]]) for m in (there, here))
             np.testing.assert_allclose(b, a, rtol=1e-12, atol=1e-12)
@@ -141,7 +145,7 @@ def test_the_script_makes_the_same_in_an_empty_folder(worked, tmp_path):
     from tests.studio.in_process import run_command
 
     before = {p: p.stat().st_mtime_ns for p in worked.folder.rglob("*") if p.is_file()}
-    (tmp_path / "steps.sh").write_text(recipe.script(retold(worked)), encoding="utf-8")
+    (tmp_path / "steps.sh").write_text(recipe.format_script(retold(worked)), encoding="utf-8")
     fresh, recorder = tmp_path / "fresh", tmp_path / "recorder"
     fresh.mkdir()
     recorder.write_text("#!/bin/sh\nprintf '%s\\0' \"$@\" >> ../words\nprintf '\\n' >> ../words\n")
@@ -161,7 +165,7 @@ def test_the_script_makes_the_same_in_an_empty_folder(worked, tmp_path):
 
 @slow_rotating("screens of the studio")
 def test_the_notebook_makes_the_same_in_an_empty_folder(worked, tmp_path):
-    book = json.loads(recipe.notebook(retold(worked)))
+    book = json.loads(recipe.format_notebook(retold(worked)))
     assert (book["nbformat"], book["nbformat_minor"]) == (4, 5)
     assert len({cell["id"] for cell in book["cells"]}) == len(book["cells"])
     code = ["".join(cell["source"]) for cell in book["cells"] if cell["cell_type"] == "code"]
@@ -176,30 +180,35 @@ def test_the_notebook_makes_the_same_in_an_empty_folder(worked, tmp_path):
 
 def test_going_back_and_forth_loses_nothing(axis_project):
     """The robot file goes along with the model that is looked at, unless it was edited."""
-    from modeler.studio.fit_screen import lost_effects
+    from modeler.studio.fit_screen import find_lost_effects
     from modeler.studio.studio import Studio
 
     folder, place = axis_project, axis_project / "robot.toml"
     with hub_of(folder) as hub:
         fit, added = run_tasks(hub, commands.fit, lambda p: commands.add(p, "spring", "1"))
-        plain, text = (folder / fit.robot).read_text(encoding="utf-8"), place.read_text("utf-8")
+        plain, text = (
+            (folder / fit.robot_copy).read_text(encoding="utf-8"),
+            place.read_text("utf-8"),
+        )
         assert "spring" in text and "spring" not in plain
         (refit,) = run_tasks(hub, commands.fit, keep=False)
-        assert json.loads((folder / refit.model).read_text("utf-8"))["robot_text"] == text
+        assert json.loads((folder / refit.model_file).read_text("utf-8"))["robot_text"] == text
         for step in (fit, added):  # back, and forth
             hub.take(step)
             again = Workspace(folder).project
-            assert again.steps == (fit, added) and again.path() == [fit, added][: step.number]
-            assert all((folder / step.model).is_file() for step in again.path())
+            assert (
+                again.steps == (fit, added) and again.collect_path() == [fit, added][: step.number]
+            )
+            assert all((folder / step.model_file).is_file() for step in again.collect_path())
             assert place.read_text("utf-8") == (plain if step == fit else text)
         edited = text.replace("[effects]", "# edited\n[effects]")
         place.write_text(edited, encoding="utf-8")
         hub.take(fit)
         assert place.read_text("utf-8") == edited
-        assert [*lost_effects(Studio(hub, "fit"), commands.fit(hub.project))] == []
+        assert [*find_lost_effects(Studio(hub, "fit"), commands.fit(hub.project))] == []
         hub.take(added)
         place.write_text(plain + "# edited\n", encoding="utf-8")
-        (line,) = lost_effects(Studio(hub, "fit"), commands.fit(hub.project))
+        (line,) = find_lost_effects(Studio(hub, "fit"), commands.fit(hub.project))
     assert line.startswith("this fit leaves out spring of joint 1, which the current model")
 
 
@@ -209,5 +218,5 @@ def test_the_notebook_guesses_where_the_commands_guess():
     tasks = (Task("fit", a, mapping=auto), Task("add", a, b, auto, effect="spring"),
              Task("diagnose", a, mapping=auto), Task("compare", b, mapping=auto))  # fmt: skip
     steps = tuple(Step(k, k - 1, task) for k, task in enumerate(tasks, start=1))
-    told = recipe.notebook(recipe.Recipe(Path("here"), steps, {}, frozenset()))
+    told = recipe.format_notebook(recipe.Recipe(Path("here"), steps, {}, frozenset()))
     assert told.count("mapping=['auto']") == len(tasks)

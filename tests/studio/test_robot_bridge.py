@@ -11,11 +11,11 @@ from typing import Any
 import numpy as np
 import pytest
 
-from modeler.core.builtin import builtin_text
-from modeler.report.robot_closing import gaps_of, home_posture
-from modeler.report.robot_page import page_content, posture_json, robot_html
-from modeler.report.robot_skeleton import Skeleton, skeleton_of
-from modeler.robot.read import robot_from_text
+from modeler.core.builtin import read_builtin_robot
+from modeler.report.robot_closing import compute_gaps, find_home_posture
+from modeler.report.robot_page import build_page_content, render_robot_page, serialise_posture
+from modeler.report.robot_skeleton import Skeleton, build_skeleton
+from modeler.robot.read import parse_robot_text
 from tests.browser.chromium import until
 
 PARENT = """<!DOCTYPE html><title>parent</title><link rel="icon" href="data:,">
@@ -29,7 +29,7 @@ const send = (content) => frame.contentWindow.postMessage(content, "*");
 const last = (kind) => heard.filter((m) => m.modeler === kind).at(-1) ?? null;
 </script>"""
 DRAWN = "new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done)))"
-PUMA = builtin_text("puma560")
+PUMA = read_builtin_robot("puma560")
 
 
 class Quiet(SimpleHTTPRequestHandler):
@@ -38,11 +38,11 @@ class Quiet(SimpleHTTPRequestHandler):
 
 
 def skeleton(text: str) -> Skeleton:
-    return skeleton_of(robot_from_text(text, "robot"))
+    return build_skeleton(parse_robot_text(text, "robot"))
 
 
 def content_of(robot: Skeleton) -> str:
-    return json.dumps(page_content(robot, home_posture(robot)))
+    return json.dumps(build_page_content(robot, find_home_posture(robot)))
 
 
 @pytest.fixture
@@ -54,7 +54,7 @@ def opened(window, tmp_path: Path) -> Iterator[Callable[..., tuple[Any, Any]]]:
 
     def open_robot(text: str, parent: str = "localhost") -> tuple[Any, Any]:
         robot = skeleton(text)
-        page = robot_html(robot, home_posture(robot))
+        page = render_robot_page(robot, find_home_posture(robot))
         (tmp_path / "robot.html").write_text(page, encoding="utf-8")
         source = PARENT.replace('src="', f'src="http://localhost:{port}/')
         (tmp_path / "parent.html").write_text(source, encoding="utf-8")
@@ -71,9 +71,9 @@ def opened(window, tmp_path: Path) -> Iterator[Callable[..., tuple[Any, Any]]]:
 
 @pytest.mark.rotating("screens of the studio")
 def test_postures_are_taken_and_loops_follow(opened) -> None:
-    robot = skeleton(builtin_text("orthoglide-2003"))
-    own, frame = opened(builtin_text("orthoglide-2003"))
-    page, given, home = own.page, list(robot.given), home_posture(robot)
+    robot = skeleton(read_builtin_robot("orthoglide-2003"))
+    own, frame = opened(read_builtin_robot("orthoglide-2003"))
+    page, given, home = own.page, list(robot.independent_places), find_home_posture(robot)
     assert not frame.locator("header").is_visible() and not frame.locator("#mdh").is_visible()
     drives = [robot.free[k] for k in given]
     targets = dict(zip(drives, home.u[given] + [0.03, -0.05, 0.02], strict=True))
@@ -81,12 +81,12 @@ def test_postures_are_taken_and_loops_follow(opened) -> None:
     until(frame, f"Math.abs(modelerShow.u[{given[0]}] - {targets[drives[0]]}) < 1e-9")
     u = np.array(frame.evaluate("modelerShow.u"))
     np.testing.assert_allclose(u[given], list(targets.values()), atol=1e-9)
-    assert max(gap.distance for gap in gaps_of(robot, u)) < 1e-8
+    assert max(gap.distance for gap in compute_gaps(robot, u)) < 1e-8
     # Out of reach: the joints stop, with closed loops, and the way back is open.
     page.evaluate(f"send({{modeler: 'posture', q: {{'{drives[0]}': 9}}}})")
     until(frame, "document.getElementById('message').textContent.startsWith('cannot')")
     u = np.array(frame.evaluate("modelerShow.u"))
-    assert u[given[0]] < 9 and max(gap.distance for gap in gaps_of(robot, u)) < 1e-7
+    assert u[given[0]] < 9 and max(gap.distance for gap in compute_gaps(robot, u)) < 1e-7
     page.evaluate(f"send({{modeler: 'posture', q: {json.dumps(targets)}}})")
     until(frame, "document.getElementById('message').textContent === ''")
     assert own.complaints == []
@@ -115,14 +115,14 @@ def test_rows_are_lit_clicks_are_told_and_another_robot_keeps_the_eye(opened) ->
     page.evaluate(f"send({{modeler: 'robot', content: {content_of(longer)}}})")
     page.wait_for_function("last('drawn') !== null")
     told = page.evaluate("last('drawn').frames")
-    for expected in posture_json(longer, home_posture(longer))["frames"]:
+    for expected in serialise_posture(longer, find_home_posture(longer))["frames"]:
         np.testing.assert_allclose(told[expected["name"]], expected["pose"], atol=1e-12)
     assert frame.evaluate("[modelerShow.view.rotation, modelerShow.view.scale]") == eye
     page.evaluate("send({modeler: 'posture', q: {'2': 0.4}})")
     until(frame, "modelerShow.u[1] === 0.4")
     page.evaluate(f"send({{modeler: 'robot', content: {content_of(skeleton(PUMA))}}})")
     page.wait_for_function("last('drawn')?.q['2'] === 0.4")
-    small = skeleton(builtin_text("five-bar"))
+    small = skeleton(read_builtin_robot("five-bar"))
     page.evaluate(f"heard.length = 0, send({{modeler: 'robot', content: {content_of(small)}}})")
     page.wait_for_function("last('drawn') !== null")
     assert frame.evaluate("modelerShow.view.filled(modelerShow.poses()) > 0.3")

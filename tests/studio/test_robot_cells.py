@@ -5,20 +5,20 @@ import tomllib
 import numpy as np
 import pytest
 
-from modeler.core.builtin import builtin_names, builtin_text
+from modeler.core.builtin import list_builtin_robots, read_builtin_robot
 from modeler.core.errors import RobotError
 from modeler.robot import (
-    cell_of,
-    robot_from_text,
-    table_text,
-    with_cell,
-    with_effect_on,
-    with_limits,
-    with_row,
-    with_symbol,
-    without_row,
-    written_limits,
-    written_symbols,
+    find_table_text,
+    insert_row,
+    locate_error_cell,
+    parse_robot_text,
+    read_limit_texts,
+    read_symbol_texts,
+    remove_row,
+    replace_cell,
+    replace_limits,
+    replace_symbol,
+    set_joint_effect,
 )
 from modeler.studio.robot_views import robot_look
 
@@ -33,28 +33,28 @@ def comments(text: str) -> list[str]:
     return [line.partition("#")[2] for line in text.splitlines() if "#" in line]
 
 
-@pytest.mark.parametrize("name", builtin_names())
+@pytest.mark.parametrize("name", list_builtin_robots())
 def test_a_cell_changes_alone_and_back(name: str) -> None:
-    text, rng = builtin_text(name), np.random.default_rng(len(name))
-    table = table_text(text)
+    text, rng = read_builtin_robot(name), np.random.default_rng(len(name))
+    table = find_table_text(text)
     assert table is not None
     document = tomllib.loads(text)["mdh"]
     assert list(table.columns) == document["columns"]
     assert [list(row) for row in table.rows] == [list(map(str, r)) for r in document["rows"]]
     for _ in range(6):
         row, column = int(rng.integers(len(table.rows))), int(rng.integers(len(table.columns)))
-        changed = with_cell(text, row, column, 'x + "1"')
-        found = table_text(changed)
+        changed = replace_cell(text, row, column, 'x + "1"')
+        found = find_table_text(changed)
         assert found is not None
         expected = [[*cells] for cells in table.rows]
         expected[row][column] = 'x + "1"'
         assert [[*cells] for cells in found.rows] == expected
         assert others(changed) == others(text) and comments(changed) == comments(text)
-        back = with_cell(changed, row, column, table.rows[row][column])
+        back = replace_cell(changed, row, column, table.rows[row][column])
         assert tomllib.loads(back) == tomllib.loads(text)
-        grown = with_row(text, row, table.rows[row])
-        assert table_text(grown).rows[row + 1] == table.rows[row]
-        assert tomllib.loads(without_row(grown, row + 1)) == tomllib.loads(text)
+        grown = insert_row(text, row, table.rows[row])
+        assert find_table_text(grown).rows[row + 1] == table.rows[row]
+        assert tomllib.loads(remove_row(grown, row + 1)) == tomllib.loads(text)
         assert comments(grown) == comments(text)
 
 
@@ -62,25 +62,30 @@ def test_tables_in_one_line_and_with_comments() -> None:
     text = (
         'name = "x"\n[mdh]\ncolumns = ["j", "theta"] # c\nrows = [["1", "q1"], ["2", "q2"]] # d\n'
     )
-    assert with_row(text, 1, ["3", "q3"]).count("# d") == 1
-    assert table_text(with_row(text, 0, ["3", "q3"])).rows[1] == ("3", "q3")
-    assert table_text(without_row(text, 1)).rows == (("1", "q1"),)
+    assert insert_row(text, 1, ["3", "q3"]).count("# d") == 1
+    assert find_table_text(insert_row(text, 0, ["3", "q3"])).rows[1] == ("3", "q3")
+    assert find_table_text(remove_row(text, 1)).rows == (("1", "q1"),)
     rows = '  ["1"], # the first, "not a cell", [nor] this\n  ["2"]\n'
     text = f'[mdh]\ncolumns = ["j"]\nrows = [\n{rows}]\n'
-    assert table_text(text).rows == (("1",), ("2",))
-    assert "the first" in with_row(text, 0, ["9"]) and table_text(with_row(text, 1, ["9"])).rows[2:]
-    assert table_text(without_row(text, 0)).rows == (("2",),)
+    assert find_table_text(text).rows == (("1",), ("2",))
+    assert (
+        "the first" in insert_row(text, 0, ["9"])
+        and find_table_text(insert_row(text, 1, ["9"])).rows[2:]
+    )
+    assert find_table_text(remove_row(text, 0)).rows == (("2",),)
 
 
-@pytest.mark.parametrize("change", [lambda t: with_cell(t, 9, 0, "1"), lambda t: without_row(t, 9)])
+@pytest.mark.parametrize(
+    "change", [lambda t: replace_cell(t, 9, 0, "1"), lambda t: remove_row(t, 9)]
+)
 def test_a_row_that_is_not_there_is_told(change) -> None:
     with pytest.raises(RobotError, match=r"\[mdh\]: there is no row 10; edit the file as text"):
-        change(builtin_text("demo-arm"))
+        change(read_builtin_robot("demo-arm"))
     with pytest.raises(RobotError, match=r"the text has no table \[mdh\]|columns and rows are not"):
         change('name = "x"\n')
 
 
-ARM = builtin_text("demo-arm")  # columns j a sigma alpha d theta r
+ARM = read_builtin_robot("demo-arm")  # columns j a sigma alpha d theta r
 CRAIG = """name = "c"
 gravity = [0, 0, -9.81]
 [mdh]
@@ -126,56 +131,59 @@ def test_an_error_is_at_its_cell(mistake: str) -> None:
     """The cell that was spoilt is the one that is named, and the last text is kept as it is."""
     text, row, column, cell, expected = MISTAKES[mistake]
     assert not robot_look(text).error
-    spoilt = with_cell(text, row, column, cell)
+    spoilt = replace_cell(text, row, column, cell)
     look = robot_look(spoilt)
     assert look.error and look.content is None, look.error
-    assert look.wrong == expected, look.error
+    assert look.wrong_cell == expected, look.error
     assert "\n" not in look.error
     with pytest.raises(RobotError) as told:
-        robot_from_text(spoilt, "robot.toml")
+        parse_robot_text(spoilt, "robot.toml")
     assert str(told.value) == look.error
 
 
 def test_errors_of_legs_are_at_the_row_that_they_are_written_in() -> None:
-    text = builtin_text("orthoglide-2003")
-    look = robot_look(with_cell(text, 4, 5, "b33"))
-    assert look.wrong == (4, 5) and 'row "31"' in look.error
+    text = read_builtin_robot("orthoglide-2003")
+    look = robot_look(replace_cell(text, 4, 5, "b33"))
+    assert look.wrong_cell == (4, 5) and 'row "31"' in look.error
     good = robot_look(text)
     assert good.names[3:5] == (("21", "22", "23"), ("31", "32", "33"))
-    assert cell_of("something else", text) is None and cell_of('[mdh], row "zz": x', text) is None
+    assert (
+        locate_error_cell("something else", text) is None
+        and locate_error_cell('[mdh], row "zz": x', text) is None
+    )
 
 
 def test_what_stands_elsewhere_is_named_too() -> None:
-    assert robot_look(with_symbol(ARM, "D2", "D7")).named == ("symbols", "D2")
-    assert robot_look(with_limits(ARM, "2", ["5", "1", "1", "1"])).named == ("limits", "2")
+    assert robot_look(replace_symbol(ARM, "D2", "D7")).named == ("symbols", "D2")
+    assert robot_look(replace_limits(ARM, "2", ["5", "1", "1", "1"])).named == ("limits", "2")
     look = robot_look(ARM.replace("rows = [", "rows = ["))
-    assert look.named == () and robot_look(ARM.replace("gravity", "gravty")).wrong is None
+    assert look.named == () and robot_look(ARM.replace("gravity", "gravty")).wrong_cell is None
     broken = robot_look(ARM.replace('"q1",     0],', '"q1",     0,'))
     assert "not TOML" in broken.error
 
 
-@pytest.mark.parametrize("name", builtin_names())
+@pytest.mark.parametrize("name", list_builtin_robots())
 def test_letters_limits_and_effects_change_alone(name: str) -> None:
-    text = builtin_text(name)
+    text = read_builtin_robot(name)
     before = tomllib.loads(text)
-    for letter, value in written_symbols(text).items():
-        changed = with_symbol(text, letter, value)
+    for letter, value in read_symbol_texts(text).items():
+        changed = replace_symbol(text, letter, value)
         assert tomllib.loads(changed) == before and comments(changed) == comments(text)
-        assert written_symbols(with_symbol(text, letter, "1.5 mm"))[letter] == "1.5 mm"
+        assert read_symbol_texts(replace_symbol(text, letter, "1.5 mm"))[letter] == "1.5 mm"
     look = robot_look(text)
     joint = look.joints[0].name
-    changed = with_limits(text, joint, ["-0.1", "0.2", "1", "2"])
-    assert written_limits(changed)[joint] == ("-0.1", "0.2", "1", "2")
+    changed = replace_limits(text, joint, ["-0.1", "0.2", "1", "2"])
+    assert read_limit_texts(changed)[joint] == ("-0.1", "0.2", "1", "2")
     assert tomllib.loads(changed) | {"limits": 0} == before | {"limits": 0}
-    assert joint not in written_limits(with_limits(changed, joint, ["", "", "", ""]))
+    assert joint not in read_limit_texts(replace_limits(changed, joint, ["", "", "", ""]))
     viscous = ["viscous" in joint.effects for joint in look.joints]
-    turned = with_effect_on(text, "viscous", joint, not viscous[0], look.everyone)
+    turned = set_joint_effect(text, "viscous", joint, not viscous[0], look.everyone)
     try:
-        robot = robot_from_text(turned, name)
+        robot = parse_robot_text(turned, name)
     except RobotError as error:  # a value or a priority of that effect stands elsewhere
         assert "Fv" in str(error) or "passive" in str(error)
     else:
         assert robot.has_effect("viscous", joint) is not viscous[0]
-        back = with_effect_on(turned, "viscous", joint, viscous[0], look.everyone)
-        robot = robot_from_text(back, name)
+        back = set_joint_effect(turned, "viscous", joint, viscous[0], look.everyone)
+        robot = parse_robot_text(back, name)
         assert [robot.has_effect("viscous", joint.name) for joint in look.joints] == viscous

@@ -6,14 +6,14 @@ import numpy as np
 import pytest
 
 from modeler.core.errors import RobotError
-from modeler.report.robot_skeleton import poses, skeleton_of
+from modeler.report.robot_skeleton import build_skeleton, compute_poses
 from modeler.robot import (
-    pasted_cells,
-    pasted_robot,
-    pasted_table,
-    robot_from_text,
-    with_pasted,
-    written_symbols,
+    build_pasted_robot,
+    insert_pasted_table,
+    parse_pasted_cells,
+    parse_pasted_table,
+    parse_robot_text,
+    read_symbol_texts,
 )
 from tests.elementary_motions import row_pose
 
@@ -30,7 +30,7 @@ def hand(kind: str, rows: np.ndarray, q: np.ndarray) -> np.ndarray:
 
 
 def frame_of(text: str, q: np.ndarray) -> np.ndarray:
-    return np.asarray(poses(skeleton_of(robot_from_text(text, "pasted")), q)[-1])
+    return np.asarray(compute_poses(build_skeleton(parse_robot_text(text, "pasted")), q)[-1])
 
 
 HEADS = {
@@ -56,13 +56,13 @@ def test_degrees_and_mm_by_their_headings(kind: str, comma: str, seed: int) -> N
     for j, row in enumerate(rows, start=1):
         cells = [f"{row[k]:g}".replace(".", comma).replace("-", "\u2212") for k in order]
         lines.append("\t".join([str(j), *cells]))
-    table = pasted_table("\r\n".join(lines) + "\r\n")
-    assert table.convention == kind and table.headed and table.symbols == ()
-    robot = robot_from_text(pasted_robot(table, "pasted"), "pasted")
+    table = parse_pasted_table("\r\n".join(lines) + "\r\n")
+    assert table.convention == kind and table.has_headings and table.symbols == ()
+    robot = parse_robot_text(build_pasted_robot(table, "pasted"), "pasted")
     assert len(robot.coordinates) == count
     si = rows * [math.radians(1), 1e-3, math.radians(1), 1e-3]
     q = rng.uniform(-2, 2, count)
-    found = frame_of(pasted_robot(table, "pasted"), q)
+    found = frame_of(build_pasted_robot(table, "pasted"), q)
     np.testing.assert_allclose(found, hand(kind, si, q), atol=1e-12)
 
 
@@ -74,10 +74,10 @@ PUMA = (  # Craig, Introduction to Robotics, table of the PUMA 560
 
 
 def test_letters_of_a_book_become_symbols() -> None:
-    table = pasted_table(PUMA)
+    table = parse_pasted_table(PUMA)
     assert table.convention == "craig" and table.symbols == ("a2", "d3", "a3", "d4")
-    text = pasted_robot(table, "puma")
-    assert set(written_symbols(text)) == {"g", "a2", "d3", "a3", "d4"}
+    text = build_pasted_robot(table, "puma")
+    assert set(read_symbol_texts(text)) == {"g", "a2", "d3", "a3", "d4"}
     found = frame_of(text, np.zeros(6))
     a = 0.1  # all of them, until somebody writes the value
     alpha = [0, -90, 0, -90, 90, -90]
@@ -100,34 +100,34 @@ def test_letters_of_a_book_become_symbols() -> None:
 )
 def test_one_table_in_many_dresses(text: str) -> None:
     """Of a spreadsheet, with semicolons, of a page in Markdown, of a paper's LaTeX."""
-    table = pasted_table(text)
+    table = parse_pasted_table(text)
     assert table.convention == "khalil" and table.symbols == ()
     q = np.array([0.3, 0.15])
     expected = row_pose(gamma=0.3, b=0.2, alpha=math.pi / 2, r=0.15)
-    np.testing.assert_allclose(frame_of(pasted_robot(table, "x"), q), expected, atol=1e-12)
+    np.testing.assert_allclose(frame_of(build_pasted_robot(table, "x"), q), expected, atol=1e-12)
 
 
 def test_without_headings_the_convention_is_the_users() -> None:
     text = "90\t0.2\t0\t0\n0\t0\t0.3\t0.1"
-    khalil, craig = pasted_table(text), pasted_table(text, "craig")
-    by_gamma = pasted_table("parent\tgamma\talpha\td\ttheta\n0\t0\t0\t0\tq1")
+    khalil, craig = parse_pasted_table(text), parse_pasted_table(text, "craig")
+    by_gamma = parse_pasted_table("parent\tgamma\talpha\td\ttheta\n0\t0\t0\t0\tq1")
     assert by_gamma.columns[1] == "a"  # Khalil's
-    assert khalil.columns == ("j", "alpha", "d", "theta", "r") and not khalil.headed
+    assert khalil.columns == ("j", "alpha", "d", "theta", "r") and not khalil.has_headings
     assert craig.columns == ("j", "alpha", "a", "d", "theta")
     assert khalil.notes[0] == "no headings: taken as alpha d theta r"
     assert khalil.notes[1] == "column alpha: taken in degrees, for 90 rad is more than a turn"
     rows = np.array([[math.pi / 2, 0.2, 0, 0], [0, 0, 0.1, 0.3]])
-    found = frame_of(pasted_robot(craig, "x"), np.array([0.1, 0.2]))
+    found = frame_of(build_pasted_robot(craig, "x"), np.array([0.1, 0.2]))
     np.testing.assert_allclose(found, hand("craig", rows, np.array([0.1, 0.2])), atol=1e-12)
 
 
 def test_a_file_gets_another_table_and_keeps_the_rest() -> None:
-    before = pasted_robot(pasted_table("1\t0\t0\tq1\t0\n2\t0\tL\tq2\t0"), "mine")
+    before = build_pasted_robot(parse_pasted_table("1\t0\t0\tq1\t0\n2\t0\tL\tq2\t0"), "mine")
     before = before.replace("L = 0.1", "L = 0.7").replace('viscous = "all"', 'viscous = ["1"]')
-    after = with_pasted(before, pasted_table(PUMA))
-    robot = robot_from_text(after, "mine")
+    after = insert_pasted_table(before, parse_pasted_table(PUMA))
+    robot = parse_robot_text(after, "mine")
     assert robot.convention == "craig" and robot.name == "mine" and len(robot.coordinates) == 6
-    values = robot.symbol_values()
+    values = robot.evaluate_symbols()
     assert values["L"] == 0.7 and {"a2", "d3", "a3", "d4"} <= values.keys()
     assert robot.has_effect("viscous", "1") and not robot.has_effect("viscous", "2")
 
@@ -146,7 +146,7 @@ def test_a_file_gets_another_table_and_keeps_the_rest() -> None:
 )  # fmt: skip
 def test_what_cannot_be_a_table_is_told(text: str, line: str) -> None:
     with pytest.raises(RobotError) as told:
-        pasted_table(text)
+        parse_pasted_table(text)
     assert str(told.value).startswith(line) and "; expected " in str(told.value)
 
 
@@ -154,11 +154,14 @@ def test_nothing_in_a_table_is_evaluated(tmp_path, monkeypatch) -> None:
     """Words of Python are names without a value, for the reader to refuse."""
     monkeypatch.chdir(tmp_path)
     evil = '__import__("os").system("touch evil")'
-    table = pasted_table(f"alpha\td\ttheta\tr\n0\t{evil}\tq1\t0\n=1+1\t0\tq2\t0")
+    table = parse_pasted_table(f"alpha\td\ttheta\tr\n0\t{evil}\tq1\t0\n=1+1\t0\tq2\t0")
     with pytest.raises(RobotError):
-        robot_from_text(pasted_robot(table, "x"), "x")
+        parse_robot_text(build_pasted_robot(table, "x"), "x")
     assert not [*tmp_path.iterdir()]
 
 
 def test_a_block_for_some_cells_keeps_what_it_says() -> None:
-    assert pasted_cells("1,5\t90\u00b0\r\n\u22122\tL1\r\n") == [["1.5", "90 deg"], ["-2", "L1"]]
+    assert parse_pasted_cells("1,5\t90\u00b0\r\n\u22122\tL1\r\n") == [
+        ["1.5", "90 deg"],
+        ["-2", "L1"],
+    ]

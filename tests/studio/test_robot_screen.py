@@ -9,11 +9,11 @@ from typing import Any
 import numpy as np
 import pytest
 
-from modeler.cli import parser
-from modeler.core.builtin import builtin_text
-from modeler.report import posture_json, show
-from modeler.robot import robot_from_text
-from modeler.studio.commands import words_of
+from modeler.cli import build_parser
+from modeler.core.builtin import read_builtin_robot
+from modeler.report import serialise_posture, show
+from modeler.robot import parse_robot_text
+from modeler.studio.commands import build_command_words
 from modeler.studio.project import Project, Workspace
 from modeler.studio.tasks import Step, Task
 from tests.browser.chromium import until
@@ -43,9 +43,9 @@ def cell(window: Window, row: int, column: str) -> Any:
 
 def poses_are_those_of(window: Window, place: Path) -> None:
     """What the frame told last is what `modeler show --json` says of the file."""
-    shown = show(robot_from_text(place.read_text(encoding="utf-8"), "robot.toml"))
+    shown = show(parse_robot_text(place.read_text(encoding="utf-8"), "robot.toml"))
     told = window.page.evaluate(f"{STANDING}.frames")
-    for frame in posture_json(shown.skeleton, shown.posture)["frames"]:
+    for frame in serialise_posture(shown.skeleton, shown.posture)["frames"]:
         np.testing.assert_allclose(told[frame["name"]], frame["pose"], atol=1e-9)
 
 
@@ -117,7 +117,7 @@ def test_a_pasted_table_is_edited_and_nothing_is_lost(window, tmp_path) -> None:
 
 @slow_rotating("screens of the studio")
 def test_base_parameters_light_their_links_and_loops_stay_closed(window, tmp_path) -> None:
-    folder, text = tmp_path / "orthoglide", builtin_text("orthoglide-2003")
+    folder, text = tmp_path / "orthoglide", read_builtin_robot("orthoglide-2003")
     folder.mkdir()
     (folder / "robot.toml").write_text(text, encoding="utf-8")
     Workspace(folder).save(Project("robot.toml"))
@@ -125,13 +125,13 @@ def test_base_parameters_light_their_links_and_loops_stay_closed(window, tmp_pat
         w = window().open(studio)
         w.go("Robot")
         inside(w)  # the screen stands
-        robot = robot_from_text(text, "robot.toml")
+        robot = parse_robot_text(text, "robot.toml")
         w.page.get_by_role("tab", name="Base parameters").click()
         w.click("Derive")
         w.page.wait_for_selector(".studio-relations > li")
         frame = inside(w)
         step = studio.project.steps[-1]
-        found = json.loads((folder / step.result).read_text())
+        found = json.loads((folder / step.result_file).read_text())
         assert w.page.locator(".studio-relations > li").count() == len(found["base"]) == 43
         w.sees("43 base parameters (")
         rows = [row.joint.name for row in show(robot).skeleton.rows]
@@ -177,7 +177,7 @@ def test_base_parameters_light_their_links_and_loops_stay_closed(window, tmp_pat
 
 def test_a_tie_of_a_diagnosis_becomes_the_words_of_a_motion() -> None:
     """Pairs on joints only, each once; the words are those that the command line takes."""
-    from modeler.studio.motion_screen import questions
+    from modeler.studio.motion_screen import find_questions
 
     ties = (("load_friction", "2", "spring", "2"), ("spring", "2", "load_friction", "2"),
             ("base_tilt", None, "offset", "1"))  # fmt: skip
@@ -185,13 +185,17 @@ def test_a_tie_of_a_diagnosis_becomes_the_words_of_a_motion() -> None:
         {"effect": one, "joint": j, "ties": [{"effect": other, "joint": k}]}
         for one, j, other, k in ties
     ]
-    pairs = dict(questions({"effects": [*effects, {"effect": "drift", "joint": "3", "ties": []}]}))
+    pairs = dict(
+        find_questions({"effects": [*effects, {"effect": "drift", "joint": "3", "ties": []}]})
+    )
     (between,) = pairs
     assert between == "load_friction@2,spring@2"
     assert pairs[between] == "tell load friction on joint 2 from spring on joint 2"
     made = Project("robot.toml", 3, steps=(Step(3, 0, Task("fit")),))
-    parsed = parser().parse_args(words_of(made, Task("excite", between=between, duration=5.0)))
+    parsed = build_parser().parse_args(
+        build_command_words(made, Task("excite", between=between, duration=5.0))
+    )
     assert (parsed.between, parsed.robot) == (between, "models/3.json")
     assert (parsed.duration, parsed.out) == (5.0, "motions/4.csv")
-    first = words_of(Project("robot.toml"), Task("excite", duration=2.0))
+    first = build_command_words(Project("robot.toml"), Task("excite", duration=2.0))
     assert first[:2] == ("excite", "robots/1.toml")

@@ -11,7 +11,7 @@ from pathlib import Path
 
 import pytest
 
-from modeler.studio.running import INTERRUPTED, Outcome, Running
+from modeler.studio.running import INTERRUPTED, Outcome, RunningCommand
 from tests.coroutines import run_coroutine
 from tests.studio.texts import URDF
 
@@ -24,7 +24,7 @@ def run(folder: Path, *words: str) -> tuple[Outcome, list[tuple[float | None, st
     """The end of a command, and all that was told before."""
 
     async def waited() -> tuple[Outcome, list[tuple[float | None, str]]]:
-        running = Running(words, folder, "the work")
+        running = RunningCommand(words, folder, "the work")
         seen: list[tuple[float | None, str]] = []
         outcome = await running.wait(lambda: seen.append((running.share, running.doing)))
         assert await running.wait() == outcome
@@ -137,7 +137,7 @@ def test_cancel_ends_all_and_leaves_nothing(tmp_path: Path, monkeypatch, sabotag
         monkeypatch.delattr(os, "killpg")
 
     async def cancelled() -> Outcome:
-        running = Running((*LONG, str(work / "cancelled.csv")), work, "simulate")
+        running = RunningCommand((*LONG, str(work / "cancelled.csv")), work, "simulate")
         while "simulating" not in running.doing:
             assert running.doing != "done"
             await asyncio.sleep(0.02)
@@ -149,13 +149,13 @@ def test_cancel_ends_all_and_leaves_nothing(tmp_path: Path, monkeypatch, sabotag
     begin = time.monotonic()
     outcome = run_coroutine(cancelled())
     assert outcome.status == INTERRUPTED and outcome.error == "simulate: cancelled"
-    assert outcome.cancelled and time.monotonic() - begin < 20
+    assert outcome.is_cancelled and time.monotonic() - begin < 20
     assert gone(str(work), 1.0) and not list(work.iterdir())
 
 
 def test_cancel_before_it_is_started(tmp_path: Path) -> None:
     async def cancelled() -> Outcome:
-        running = Running((*LONG, str(tmp_path / "early.csv")), tmp_path, "simulate")
+        running = RunningCommand((*LONG, str(tmp_path / "early.csv")), tmp_path, "simulate")
         running.cancel()
         return await running.wait()
 
@@ -176,14 +176,14 @@ def test_what_does_not_heed_an_interrupt_is_killed(tmp_path: Path, monkeypatch, 
     monkeypatch.setattr("modeler.studio.running._PATIENCE", 0.3)
 
     async def cancelled() -> Outcome:
-        running = Running(("robots",), tmp_path, "robots")
+        running = RunningCommand(("robots",), tmp_path, "robots")
         while not running.lines:
             await asyncio.sleep(0.02)
         assert alive(str(tmp_path / "below"))
         running.cancel()
         return await running.wait()
 
-    assert run_coroutine(cancelled()).cancelled and gone(str(tmp_path / "below"))
+    assert run_coroutine(cancelled()).is_cancelled and gone(str(tmp_path / "below"))
 
 
 SERVER = """

@@ -16,11 +16,11 @@ import pyarrow.parquet as pq
 import pytest
 
 from modeler.api import load, simulate
-from modeler.robot import robot_from_text, written_limits
+from modeler.robot import parse_robot_text, read_limit_texts
 from modeler.studio import commands
-from modeler.studio.commands import words_of
+from modeler.studio.commands import build_command_words
 from modeler.studio.project import Project, Workspace
-from modeler.studio.tasks import Stretch
+from modeler.studio.tasks import TimeRange
 from tests.coroutines import run_coroutine
 from tests.rotation import slow_rotating
 from tests.studio.hubs import hub_of, run_tasks
@@ -73,7 +73,7 @@ def test_an_effect_is_banned_previewed_and_added(arm: Path) -> None:
         assert tried.verb == "add" and (arm / tried.model).is_file() and project.current == 5
         found = next(step for step in project.steps if step.verb == "diagnose")
         words = ("diagnose", "models/5.json", "logs/train.parquet")
-        assert words_of(project, found) == (*words, "--holdout", "logs/held_out.parquet")
+        assert build_command_words(project, found) == (*words, "--holdout", "logs/held_out.parquet")
         await page.sees("friction that grows with the load on the gear: joint 2")
         await page.sees("fact: it is stated as missing")
         await page.sees("Preview. Joint 2: measured and predicted")
@@ -124,14 +124,14 @@ def test_what_is_taken_away(arm: Path) -> None:
         page.change("format", "mjcf")
         await page.click("Export")
         assert b"<mujoco" in await page.saves("Download demo-arm.xml")
-        robot = robot_from_text((await page.saves("Robot file")).decode(), "taken")
+        robot = parse_robot_text((await page.saves("Robot file")).decode(), "taken")
         assert robot.name == "demo-arm"
         assert (await page.saves("Shell script")).startswith(b"#!/bin/sh")
         assert json.loads(await page.saves("Notebook"))["nbformat"] == 4
         await page.click("Report page")
         await page.sees("Open the report page")
         step = page.project.steps[-1]
-        assert step.parent == 5 and "models/5.json" not in words_of(page.project, step)
+        assert step.parent == 5 and "models/5.json" not in build_command_words(page.project, step)
         (link,) = page.every("link", "Open the report page")
         shown = await page.user.http_client.get(link.props["href"])
         assert "<title>demo-arm" in shown.text
@@ -212,7 +212,7 @@ def test_days_and_models_are_compared_and_drift_is_looked_for(arm: Path) -> None
         await page.sees("7.json predicts joint 2 best, beyond doubt")
         await page.sees("Joint 2: measured and predicted")
         words = ("compare", "models/5.json", "models/7.json", "logs/held_out.parquet")
-        assert words_of(page.project, page.project.steps[-1]) == words
+        assert build_command_words(page.project, page.project.steps[-1]) == words
         assert page.project.current == 5  # a comparison makes no model
         page.choose("tabs", "drift")
         await page.sees("how paths end")
@@ -279,12 +279,12 @@ def test_a_table_is_pasted_edited_and_nothing_is_lost(tmp_path: Path) -> None:
         assert "9.7" in await edit("letters", "cell", row=0, column=1, text="9.7")
         for column, value in enumerate(("-0.1", "0.2", "1", "2"), start=1):
             text = await edit("limits", "cell", row=0, column=column, text=value)
-        assert written_limits(text)["1"] == ("-0.1", "0.2", "1", "2")
+        assert read_limit_texts(text)["1"] == ("-0.1", "0.2", "1", "2")
         page.choose("tabs", "Effects")
         page.change("viscous of joint 1", False)
         await page.idle()
         await page.until(
-            lambda: not robot_from_text(file.read_text(), "").has_effect("viscous", "1")
+            lambda: not parse_robot_text(file.read_text(), "").has_effect("viscous", "1")
         )
         # A file of another program.
         await page.click("Another robot or table")
@@ -391,11 +391,11 @@ def test_logs_are_dropped_mapped_cut_and_doubted(tmp_path: Path) -> None:
         line = next(one for one in page.every() if one.props.get("active") is True)
         page.trigger(line, "brush", [0.5, 1.5])
         page.trigger(line, "role", "test")
-        assert page.project.logs[0].test == (Stretch(0.5, 1.5),)
+        assert page.project.logs[0].test == (TimeRange(0.5, 1.5),)
         page.change("from s", 4.0)
         page.change("to s", 5.0)
         await page.click("left out")
-        assert page.project.logs[0].out[1] == Stretch(4.0, 5.0)
+        assert page.project.logs[0].out[1] == TimeRange(4.0, 5.0)
         # A file that is broken, and one that goes away while it is looked at.
         await page.drops(tmp_path / "broken.parquet")
         await page.sees("cannot be read as PARQUET")
@@ -426,7 +426,7 @@ def test_a_second_window_reads_until_it_takes_over(tmp_path: Path) -> None:
             await second.click("Try the demo")
             assert second.project.steps == ()
             with second.user:
-                assert not second.hub.studios[1].change(without=("offset",))
+                assert not second.hub.studios[1].change_project(without=("offset",))
             assert second.project.without == ()
             await second.click("Take over")
             await first.sees("this window only reads")

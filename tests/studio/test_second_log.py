@@ -3,10 +3,10 @@
 from pathlib import Path
 from typing import Any
 
-from modeler.logs import map_from_words
-from modeler.studio.log_mapping import LogGuess, anybody, choices
+from modeler.logs import parse_map_options
+from modeler.studio.log_mapping import LogGuess, build_choices, build_default_joints
 from modeler.studio.project import Project, ProjectLog, Workspace
-from modeler.studio.tasks import Stretch
+from modeler.studio.tasks import TimeRange
 from tests.studio.hubs import hub_of
 
 ENDS = (0.0, 10.0)
@@ -17,7 +17,7 @@ def guess(columns: tuple[str, ...]) -> LogGuess:
     """Of a log whose names are not ours."""
     time, first, second = columns
     words = [f"time={time}", f"q1={first}:deg", f"q2={second}:deg"]
-    found = choices(map_from_words(words), anybody(2), columns)
+    found = build_choices(parse_map_options(words), build_default_joints(2), columns)
     return LogGuess(dict.fromkeys(columns, ""), found, (), 2, "", ())
 
 
@@ -30,7 +30,7 @@ def screen(folder: Path, project: Project) -> Any:
     with hub_of(folder) as hub:
         hub.studios.append(Studio(hub, "data"))
     own = DataScreen(hub.studios[0])
-    own.joints = anybody(2)
+    own.joints = build_default_joints(2)
     return own
 
 
@@ -44,7 +44,7 @@ def come(own: Any, **logs: tuple[str, ...]) -> Project:
     there = [log.file for log in studio.project.logs]
     new = (*studio.project.logs, *(ProjectLog(name) for name in logs if name not in there))
     studio.change(logs=new)
-    own._settle()
+    own._settle_mapping()
     return studio.project
 
 
@@ -52,10 +52,10 @@ def test_the_split_of_the_first_log_stays(tmp_path: Path) -> None:
     own = screen(tmp_path, Project())
     first = come(own, a=GERMAN)
     assert first.mapping == ("time=Zeit", "q<j>=Winkel_{j}:deg")
-    assert (first.words("train"), first.words("test")) == (["a@:7"], ["a@7:"])
+    assert (first.collect_words("train"), first.collect_words("test")) == (["a@:7"], ["a@7:"])
     second = come(own, b=GERMAN)
     assert second.logs[0] == first.logs[0]
-    assert second.words("train") == ["a@:7", "b"]
+    assert second.collect_words("train") == ["a@:7", "b"]
     third = come(own, c=ROS)
     assert third.logs[:2] == second.logs
     assert third.mapping == ("auto",)  # a guess for each log
@@ -63,13 +63,13 @@ def test_the_split_of_the_first_log_stays(tmp_path: Path) -> None:
 
 def test_logs_that_come_together_hold_out_the_last_one(tmp_path: Path) -> None:
     project = come(screen(tmp_path, Project()), a=GERMAN, b=GERMAN, c=GERMAN)
-    assert (project.words("train"), project.words("test")) == (["a", "b"], ["c"])
+    assert (project.collect_words("train"), project.collect_words("test")) == (["a", "b"], ["c"])
 
 
 def test_the_mapping_that_was_chosen_stays(tmp_path: Path) -> None:
     """Also where it is what names say already, or is nothing: it is no guess."""
     for chosen in (("q<j>=Winkel_{j}:mrad",), (), ("time=Zeit", "q<j>=Winkel_{j}:deg")):
-        logs = (ProjectLog("a", (Stretch(),)),)
+        logs = (ProjectLog("a", (TimeRange(),)),)
         own = screen(tmp_path, Project(mapping=chosen, mapped=True, logs=logs))
         assert come(own, a=GERMAN, b=ROS).mapping == chosen
 
@@ -78,7 +78,7 @@ def test_each_by_its_own_guess_keeps_what_was_chosen(tmp_path: Path) -> None:
     chosen = ("q<j>=Winkel_{j}:mrad",)
     own = screen(tmp_path, Project(mapping=chosen, mapped=True))
     come(own, a=GERMAN, b=ROS)
-    own.guess_each()
+    own.apply_each_guess()
     project = own.studio.project
     assert project.mapping == ("auto", *chosen)
     assert own.chosen(guess(GERMAN))["q1"].unit == "mrad"

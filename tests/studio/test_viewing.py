@@ -23,7 +23,7 @@ from modeler.core.thinning import thin_curves
 from modeler.estimation import load_model
 from modeler.observation import LONG
 from modeler.studio import viewing
-from modeler.studio.viewer import Viewer, answer
+from modeler.studio.viewer import Viewer, compute_answer
 from tests.coroutines import run_coroutine
 from tests.rotation import rotating
 
@@ -207,15 +207,17 @@ def test_explained_shares_are_those_of_what_was_put_in() -> None:
     rng = np.random.default_rng(time.time_ns() % 2**32)
     n = 20_000
     x, noise = rng.uniform(-1.0, 1.0, n), rng.normal(size=n)
-    assert viewing.explained(x, noise) < 0.01
+    assert viewing.compute_explained_share(x, noise) < 0.01
     signal = np.where(x > 0.0, 1.0, -1.0)  # of variance 1, as the noise
-    assert abs(viewing.explained(x, signal + noise) - 0.5) < 0.03
-    assert abs(viewing.explained(np.sign(x), signal + noise) - 0.5) < 0.03  # two values
-    assert np.isnan(viewing.explained(np.ones(n), noise)) and np.isnan(
-        viewing.explained(x[:9], x[:9])
+    assert abs(viewing.compute_explained_share(x, signal + noise) - 0.5) < 0.03
+    assert (
+        abs(viewing.compute_explained_share(np.sign(x), signal + noise) - 0.5) < 0.03
+    )  # two values
+    assert np.isnan(viewing.compute_explained_share(np.ones(n), noise)) and np.isnan(
+        viewing.compute_explained_share(x[:9], x[:9])
     )
     slow = np.convolve(noise, np.ones(500), "same")  # remembers: no function of a slow channel
-    assert viewing.explained(np.arange(n) * 1e-3, slow) < 0.1
+    assert viewing.compute_explained_share(np.arange(n) * 1e-3, slow) < 0.1
 
 
 def test_the_map_shows_which_joint_follows_what(comparison) -> None:
@@ -285,7 +287,7 @@ def test_memory_that_runs_out_is_one_line(monkeypatch, error: Exception) -> None
 
     monkeypatch.setattr(viewing, "log_facts", hungry)
     with pytest.raises(DataError, match=r"memory ran out .* shorter stretch"):
-        answer("log_facts", ("a",))
+        compute_answer("log_facts", ("a",))
 
 
 @pytest.mark.rotating("long tests of studio")

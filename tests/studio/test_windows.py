@@ -9,12 +9,12 @@ from typing import Any
 import numpy as np
 import pytest
 
-from modeler.core.builtin import builtin_text
+from modeler.core.builtin import read_builtin_robot
 from modeler.studio import commands
-from modeler.studio.commands import words_of
+from modeler.studio.commands import build_command_words
 from modeler.studio.project import Project, ProjectLog, Workspace
 from modeler.studio.running import Outcome
-from modeler.studio.tasks import Step, Stretch, Task
+from modeler.studio.tasks import Step, Task, TimeRange
 from tests.rotation import slow_rotating
 from tests.studio.hubs import hub_of, run_tasks
 from tests.studio.window import served
@@ -44,10 +44,10 @@ def test_a_second_studio_reads_and_follows_and_takes_over_when_the_first_ends(
 
 
 def test_a_motion_keeps_to_the_limits_that_the_robot_file_has_now(tmp_path: Path) -> None:
-    from modeler.studio.motion_screen import changed_limits
+    from modeler.studio.motion_screen import find_changed_limits
     from modeler.studio.studio import Studio
 
-    text, place = builtin_text("demo-arm"), tmp_path / "robot.toml"
+    text, place = read_builtin_robot("demo-arm"), tmp_path / "robot.toml"
     slow = text.replace("1 = [-2.6, 2.6, 2.5, 10.0]", "1 = [-0.3, 0.3, 0.5, 4]")
     place.write_text(slow, encoding="utf-8")
     (tmp_path / "models").mkdir()
@@ -56,13 +56,13 @@ def test_a_motion_keeps_to_the_limits_that_the_robot_file_has_now(tmp_path: Path
     Workspace(tmp_path).save(Project(robot="robot.toml", steps=(fit,), current=1))
     with hub_of(tmp_path) as hub:
         studio = Studio(hub, "motion")
-    assert changed_limits(studio) == ["1=-0.3,0.3,0.5,4"]
-    task = Task("excite", duration=5.0, limit=tuple(changed_limits(studio)))
-    words = words_of(studio.project, task)
+    assert find_changed_limits(studio) == ["1=-0.3,0.3,0.5,4"]
+    task = Task("excite", duration=5.0, limit=tuple(find_changed_limits(studio)))
+    words = build_command_words(studio.project, task)
     assert words[:2] == ("excite", "models/1.json")
     assert words[words.index("--limit") + 1] == "1=-0.3,0.3,0.5,4"
     place.write_text(text, encoding="utf-8")
-    assert changed_limits(studio) == []
+    assert find_changed_limits(studio) == []
 
 
 class Slow:
@@ -96,8 +96,8 @@ def test_a_file_that_was_written_after_a_step(tmp_path: Path, made: str, later: 
     step = Step(1, 0, Task("fit"), made=made)
     with hub_of(tmp_path) as hub:
         studio = Studio(hub, "fit")
-    assert studio.newer("a.csv", step) is later
-    assert not studio.newer("none.csv", step)
+    assert studio.is_newer("a.csv", step) is later
+    assert not studio.is_newer("none.csv", step)
 
 
 TOPIC = "/left_arm_controller/joint_trajectory_state_broadcaster/joint_states."
@@ -110,7 +110,7 @@ def test_no_page_is_wider_than_its_window_with_the_long_names_of_ros(
 ) -> None:
     folder, log = tmp_path / "arm", f"logs/{'recording_of_the_left_arm_' * 4}.csv"
     (folder / "logs").mkdir(parents=True)
-    (folder / "robot.toml").write_text(builtin_text("two-link"), encoding="utf-8")
+    (folder / "robot.toml").write_text(read_builtin_robot("two-link"), encoding="utf-8")
     kinds = {"q": "position", "qd": "velocity", "tau": "effort"}
     names = [f"{TOPIC}{kind}[{LINK}_{j}]" for kind in kinds.values() for j in (1, 2)]
     time = np.arange(400) * 0.01
@@ -118,7 +118,7 @@ def test_no_page_is_wider_than_its_window_with_the_long_names_of_ros(
     head = ",".join(["time", *names])
     np.savetxt(folder / log, rows, delimiter=",", header=head, comments="", fmt="%.6f")
     mapping = tuple(f"{own}<j>={TOPIC}{kind}[{LINK}_{{j}}]" for own, kind in kinds.items())
-    logs = (ProjectLog(log, (Stretch(),)),)
+    logs = (ProjectLog(log, (TimeRange(),)),)
     Workspace(folder).save(Project("robot.toml", mapping=mapping, mapped=True, logs=logs))
     with served(folder) as studio:
         own = window(viewport={"width": 1280, "height": 800}).open(studio)

@@ -11,7 +11,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from modeler.studio.project import FILE, Project, project_from_text
+from modeler.studio.project import FILE, Project, parse_project
 from tests.browser.chromium import PATIENCE, chromium
 
 
@@ -39,7 +39,7 @@ class Served:
         """As its file says."""
         place = self.folder / FILE
         text = place.read_text(encoding="utf-8") if place.exists() else ""
-        return project_from_text(text, str(place))
+        return parse_project(text, str(place))
 
     def end(self, number: int = signal.SIGINT) -> int:
         """Its status, after a signal."""

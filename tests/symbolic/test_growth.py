@@ -4,13 +4,13 @@ import pytest
 import sympy
 
 from modeler.core.errors import DerivationError
-from modeler.core.expression import parse
+from modeler.core.expression import parse_expression
 from modeler.derivation import field as field_module
-from modeler.derivation.base_parameters import base_parameters
+from modeler.derivation.base_parameters import derive_base_parameters
 from modeler.derivation.derive import derive_model
-from modeler.derivation.geometry import folded
+from modeler.derivation.geometry import fold_expression
 from modeler.derivation.graph import Graph
-from modeler.robot.read import robot_from_text
+from modeler.robot.read import parse_robot_text
 
 
 def chain(rows: int) -> str:
@@ -27,16 +27,16 @@ def chain(rows: int) -> str:
 
 def counted(monkeypatch, rows: int) -> tuple[int, int]:
     """(nodes of the regressor's graph, coefficients turned back from tangents)."""
-    calls, told = [], field_module.in_cosines
+    calls, told = [], field_module.express_in_cosines
 
     def counted_call(*args):
         calls.append(args)
         return told(*args)
 
     monkeypatch.setattr(field_module, "in_cosines", counted_call)
-    model = derive_model(robot_from_text(chain(rows), "c"))
-    assert base_parameters(model).proof.kind == "exact"
-    monkeypatch.undo()
+    model = derive_model(parse_robot_text(chain(rows), "c"))
+    assert derive_base_parameters(model).proof.kind == "exact"
+    monkeypatch.remove_last()
     return len(model.graph.nodes), len(calls)
 
 
@@ -64,25 +64,27 @@ LETTERS = {name: sympy.Symbol(name, real=True) for name in "abcde"}
 )
 def test_constants_that_would_not_end_are_refused(text, told):
     with pytest.raises(DerivationError, match=told):
-        folded(parse(text), LETTERS)
+        fold_expression(parse_expression(text), LETTERS)
 
 
 def test_symbols_in_symbols_are_as_deep_as_what_they_stand_for():
     text = "s0 = 0.3\n" + "".join(f's{k} = "sin(s{k - 1})"\n' for k in range(1, 200))
     with pytest.raises(DerivationError, match=r"c: \[symbols\], s\d+: .*inside each other"):
-        derive_model(robot_from_text(chain(2).replace("g = 9.81\n", f"g = 9.81\n{text}"), "c"))
+        derive_model(parse_robot_text(chain(2).replace("g = 9.81\n", f"g = 9.81\n{text}"), "c"))
 
 
 def test_the_refusal_names_row_and_column():
     text = chain(2).replace('"d1"', '"(d0 + d1 + r0 + r1 + 1)**60/1e30"')
     with pytest.raises(DerivationError, match=r'^c: row "2", column d: "'):
-        derive_model(robot_from_text(text, "c"))
+        derive_model(parse_robot_text(text, "c"))
 
 
 def test_a_robot_with_a_long_angle_has_an_exact_answer():
     long = chain(3).replace('"-pi/2"', '"d0 + d1 + d2 + r0 + r1 + r2"')
     named = chain(3).replace('"-pi/2"', '"t"').replace("[mdh]", "t = 0.99\n[mdh]")
-    found, other = (base_parameters(derive_model(robot_from_text(x, "c"))) for x in (long, named))
+    found, other = (
+        derive_base_parameters(derive_model(parse_robot_text(x, "c"))) for x in (long, named)
+    )
     assert found.proof.kind == "exact" and found.rank == other.rank
 
 

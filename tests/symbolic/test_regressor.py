@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 
 from modeler.derivation.columns import LinkColumn
-from modeler.derivation.lagrange import lagrange_torque
-from modeler.derivation.numeric_rank import random_states, regressor_values
+from modeler.derivation.lagrange import compute_lagrange_torque
+from modeler.derivation.numeric_rank import draw_random_states, evaluate_regressor
 from tests.modules import module
 from tests.robots import ROBOTS, TREES
 
@@ -19,11 +19,11 @@ def inertial(model) -> list[int]:
 @pytest.mark.parametrize("name", ROBOTS)
 def test_newton_euler_agrees_with_lagrange(name):
     model = module(name).model
-    states = random_states(model, 12, np.random.default_rng(1))
+    states = draw_random_states(model, 12, np.random.default_rng(1))
     chi = np.zeros(len(model.columns))
     chi[inertial(model)] = np.random.default_rng(2).normal(size=len(inertial(model)))
-    tau = regressor_values(model, states) @ chi
-    other = lagrange_torque(model, *states, chi)
+    tau = evaluate_regressor(model, states) @ chi
+    other = compute_lagrange_torque(model, *states, chi)
     np.testing.assert_allclose(tau, other, rtol=0, atol=1e-12 * np.abs(other).max())
 
 
@@ -32,8 +32,8 @@ def test_regressor_agrees_with_pinocchio(name):
     from tests.oracles.pinocchio_dynamics import pinocchio_regressor
 
     model = module(name).model
-    states = random_states(model, 15, np.random.default_rng(3))
-    ours = regressor_values(model, states)[:, :, inertial(model)]
+    states = draw_random_states(model, 15, np.random.default_rng(3))
+    ours = evaluate_regressor(model, states)[:, :, inertial(model)]
     theirs = pinocchio_regressor(model.robot, *states)
     np.testing.assert_allclose(ours, theirs, rtol=0, atol=1e-10 * np.abs(theirs).max())
 
@@ -43,7 +43,7 @@ def test_rank_agrees_with_pinocchio(name):
     from tests.oracles.pinocchio_dynamics import pinocchio_regressor
 
     model = module(name).model
-    states = random_states(model, 60, np.random.default_rng(4))
+    states = draw_random_states(model, 60, np.random.default_rng(4))
     W = pinocchio_regressor(model.robot, *states).reshape(-1, len(inertial(model)))
     singular = np.linalg.svd(W, compute_uv=False)
     assert np.sum(singular > 1e-9 * singular[0]) == module(name).base.rank
@@ -53,7 +53,7 @@ def test_rank_agrees_with_pinocchio(name):
 def test_recursion_agrees_with_the_regressor(name):
     """tau by the backward recursion = phi chi, and tau = M qdd + c + g + f with M symmetric."""
     model = module(name).model
-    q, qd, qdd = random_states(model, 12, np.random.default_rng(5))
+    q, qd, qdd = draw_random_states(model, 12, np.random.default_rng(5))
     chi = np.random.default_rng(6).normal(size=len(model.columns))
     symbols = {i: model.graph.symbol(f"chi[{i}]") for i in range(len(chi))}
     values = dict(model.geometry.values) | {f"chi[{i}]": x for i, x in enumerate(chi)}
@@ -61,20 +61,24 @@ def test_recursion_agrees_with_the_regressor(name):
         values |= {f"{kind}[{i}]": array[:, i] for i in range(array.shape[1])}
 
     def evaluated(expressions) -> np.ndarray:
-        found = model.graph.evaluate(expressions, values)
+        found = model.graph.evaluate_outputs(expressions, values)
         return np.stack([x + np.zeros(len(q)) for x in found], axis=-1)
 
-    tau = regressor_values(model, (q, qd, qdd)) @ chi
+    tau = evaluate_regressor(model, (q, qd, qdd)) @ chi
     scale = np.abs(tau).max()
-    np.testing.assert_allclose(evaluated(model.torque(symbols)), tau, rtol=0, atol=1e-12 * scale)
+    np.testing.assert_allclose(
+        evaluated(model.derive_torque(symbols)), tau, rtol=0, atol=1e-12 * scale
+    )
     n = q.shape[1]
-    M = evaluated([x for row in model.inertia_matrix(symbols) for x in row]).reshape(-1, n, n)
+    M = evaluated([x for row in model.derive_inertia_matrix(symbols) for x in row]).reshape(
+        -1, n, n
+    )
     np.testing.assert_array_equal(M, M.transpose(0, 2, 1))
     effects = {i: s for i, s in symbols.items() if model.columns[i].kind != "rotor_inertia"}
     parts = (
         np.einsum("sij,sj->si", M, qdd)
-        + evaluated(model.torque(symbols, accelerations=False, gravity=False, effects=False))
-        + evaluated(model.torque(symbols, speeds=False, accelerations=False, effects=False))
-        + evaluated(model.torque(effects, links=False))
+        + evaluated(model.derive_torque(symbols, accelerations=False, gravity=False, effects=False))
+        + evaluated(model.derive_torque(symbols, speeds=False, accelerations=False, effects=False))
+        + evaluated(model.derive_torque(effects, links=False))
     )
     np.testing.assert_allclose(parts, tau, rtol=0, atol=1e-12 * scale)

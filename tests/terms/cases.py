@@ -2,14 +2,14 @@
 
 from functools import cache
 
-from modeler.core.builtin import builtin_text
-from modeler.derivation.base_parameters import base_parameters
+from modeler.core.builtin import read_builtin_robot
+from modeler.derivation.base_parameters import derive_base_parameters
 from modeler.derivation.derive import derive_model
 from modeler.derivation.model import SymbolicModel
 from modeler.derivation.result import BaseParameters
-from modeler.formulas.closed_form import ClosedForm, closed_form
-from modeler.formulas.coefficients import CoefficientTable, coefficient_table
-from modeler.robot.read import robot_from_text
+from modeler.formulas.closed_form import ClosedForm, derive_closed_form
+from modeler.formulas.coefficients import CoefficientTable, build_coefficient_table
+from modeler.robot.read import parse_robot_text
 from tests.modules import module
 
 HEAD = 'name = "{name}"\ntitle = "{name}"\ngravity = {gravity}\n[symbols]\n{symbols}\n[mdh]\n'
@@ -99,28 +99,30 @@ SMALL = (*TEXTS, "two-link", "scara", "wrist", "emps", "demo-arm", "orthoglide-l
 @cache
 def model_of(name: str) -> SymbolicModel:
     text = {**TEXTS, **TIED}.get(name)
-    return derive_model(robot_from_text(text, name)) if text else module(name).model
+    return derive_model(parse_robot_text(text, name)) if text else module(name).model
 
 
 @cache
 def base_of(name: str) -> BaseParameters:
-    return base_parameters(model_of(name)) if name in {**TEXTS, **TIED} else module(name).base
+    return (
+        derive_base_parameters(model_of(name)) if name in {**TEXTS, **TIED} else module(name).base
+    )
 
 
 @cache
 def closed_of(name: str) -> ClosedForm:
-    return closed_form(model_of(name))
+    return derive_closed_form(model_of(name))
 
 
 @cache
 def table_of(name: str) -> CoefficientTable:
-    return coefficient_table(model_of(name), base_of(name))
+    return build_coefficient_table(model_of(name), base_of(name))
 
 
 def edited_wrist(*edits: tuple[str, str]) -> SymbolicModel:
     """The wrist's file with pieces of its text replaced."""
-    text = builtin_text("wrist")
+    text = read_builtin_robot("wrist")
     for old, new in edits:
         assert old in text
         text = text.replace(old, new)
-    return derive_model(robot_from_text(text, "wrist.toml"))
+    return derive_model(parse_robot_text(text, "wrist.toml"))

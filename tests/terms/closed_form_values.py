@@ -6,7 +6,7 @@ from math import cos, sin
 from typing import Any
 
 from modeler.formulas.closed_form import ClosedForm, Form
-from modeler.formulas.ring import TrigRing, number, poly_value
+from modeler.formulas.ring import TrigRing, evaluate_monomial, evaluate_polynomial
 
 
 @dataclass(frozen=True)
@@ -43,13 +43,13 @@ def evaluate(closed: ClosedForm, q: Sequence[float], parameters: Mapping[str, fl
     """
     algebra = closed.algebra
     moving = motion_values(algebra, q)
-    static = algebra.static_values(algebra.geometry.values)
+    static = algebra.evaluate_static(algebra.geometry.values)
     chi = [parameters.get(name, 0.0) for name in closed.parameters]
     inertia, christoffel, gravity = {}, {}, {}
     factor = closed.algebra.geometry.values.get(closed.gravity_factor, 1.0)
     for function in closed.functions:
         value = sum(
-            number(exponents, moving) * form_value(form, chi, static)
+            evaluate_monomial(exponents, moving) * form_value(form, chi, static)
             for exponents, form in function.terms.items()
         )
         if function.kind == "gravity":
@@ -74,4 +74,4 @@ def motion_values(algebra: TrigRing, q: Sequence[float]) -> list[float]:
 
 def form_value(form: Form, chi: Sequence[Any], static: Sequence[Any]) -> Any:
     """The linear form's value."""
-    return sum(poly_value(poly, static) * chi[column] for column, poly in form.items())
+    return sum(evaluate_polynomial(poly, static) * chi[column] for column, poly in form.items())

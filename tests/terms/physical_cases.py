@@ -4,9 +4,9 @@ from functools import cache
 
 import numpy as np
 
-from modeler.formulas.physical_system import PhysicalSystem, physical_system
-from modeler.formulas.printed import read_print
-from modeler.formulas.values import SolvedNumbers
+from modeler.formulas.physical_system import PhysicalSystem, build_physical_system
+from modeler.formulas.printed import read_printed_terms
+from modeler.formulas.values import NumericPolynomial
 from tests.terms.cases import base_of, model_of
 
 SEVEN = ("am", "bm", "bl1", "bt2", "ct1", "bJ33", "cJ33")
@@ -15,12 +15,12 @@ SEVEN = ("am", "bm", "bl1", "bt2", "ct1", "bJ33", "cJ33")
 
 @cache
 def system_of(name: str, source: str | None = None) -> PhysicalSystem:
-    return physical_system(model_of(name), base_of(name), source)
+    return build_physical_system(model_of(name), base_of(name), source)
 
 
 def example() -> dict[str, float]:
     """The wrist of `[terms.example]`."""
-    found = read_print(model_of("wrist").robot).example
+    found = read_printed_terms(model_of("wrist").robot).example
     return {name: float(value) for name, value in found.items()}
 
 
@@ -36,13 +36,17 @@ def point_of(system: PhysicalSystem, letters: dict[str, float]) -> np.ndarray:
 def data_of(system: PhysicalSystem, letters: dict[str, float]) -> np.ndarray:
     """The identified quantities of a robot with these parameters."""
     point = point_of(system, letters)
-    return np.array([SolvedNumbers(system.definitions[name]).value(point) for name in system.data])
+    return np.array(
+        [NumericPolynomial(system.definitions[name]).evaluate(point) for name in system.data]
+    )
 
 
 def slopes_of(system: PhysicalSystem, letters: dict[str, float]) -> np.ndarray:
     """(data, letters) of the identified quantities by the letters."""
     point = point_of(system, letters)
-    J = np.array([SolvedNumbers(system.definitions[d]).slopes(point) for d in system.data])
+    J = np.array(
+        [NumericPolynomial(system.definitions[d]).evaluate_slopes(point) for d in system.data]
+    )
     return J[:, [system.place[x] for x in system.letters]]
 
 

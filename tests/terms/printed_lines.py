@@ -9,7 +9,7 @@ import numpy as np
 
 from modeler.api import derive, generate, load
 from modeler.codegen.workflow import Derivation
-from modeler.formulas.closed_form import function_name
+from modeler.formulas.closed_form import format_function_name
 from modeler.runtime.model import CompiledModel
 from tests import modules
 from tests.robots import ROBOTS
@@ -49,7 +49,7 @@ def known(
 ) -> dict[str, float]:
     """What the lines read: lengths, base parameters, positions and speeds of the free joints."""
     values = dict(derivation.model.geometry.values)
-    names = [joint.name for joint in derivation.model.robot.free]
+    names = [joint.name for joint in derivation.model.robot.free_joints]
     for kind, numbers in (("q", u), ("qd", ud), ("qdd", udd)):
         values |= {f"{kind}{n}": float(x) for n, x in zip(names, numbers, strict=len(numbers) > 0)}
     bases = [parameter.name for parameter in derivation.base.parameters]
@@ -70,7 +70,7 @@ def torque(
     """
 
     def value(letter: str, *at: int) -> float:
-        return found.get(function_name(letter, [names[i] for i in at]), 0.0)
+        return found.get(format_function_name(letter, [names[i] for i in at]), 0.0)
 
     def christoffel(i: int, j: int, k: int) -> float:
         if not chain or i <= k:
@@ -90,9 +90,9 @@ def printed_coupling(
     derivation: Derivation, found: Mapping[str, float]
 ) -> tuple[np.ndarray, np.ndarray]:
     """J_t and b of u' = J_t q', u'' = J_t q'' + b, as the words above the lines say."""
-    closure, names = derivation.model.closure, [j.name for j in derivation.model.robot.free]
+    closure, names = derivation.model.closure, [j.name for j in derivation.model.robot.free_joints]
     assert closure is not None
-    given, solved, count = list(closure.given), list(closure.solved), len(names)
+    given, solved, count = list(closure.actuated), list(closure.solved), len(names)
 
     def matrix(letter: str, rows: Sequence[str], columns: Sequence[int]) -> np.ndarray:
         entries = [found.get(f"{letter}{r}_{names[k]}", 0.0) for r in rows for k in columns]

@@ -7,10 +7,10 @@ import numpy as np
 import pytest
 
 from modeler.cli import main
-from modeler.derivation import random_states
+from modeler.derivation import draw_random_states
 from modeler.formulas import by_link
-from modeler.formulas.function_sheet import sheet_lines
-from modeler.robot import robot_from_text
+from modeler.formulas.function_sheet import format_sheet_lines
+from modeler.robot import parse_robot_text
 from tests.json_schemas import check_schema
 from tests.papers import mechanisms as m
 from tests.papers.oracles import bodies, inertia_of, triads, wrist
@@ -22,7 +22,7 @@ RNG = np.random.default_rng()
 
 
 def states_of(model):
-    return random_states(model, 5, RNG)
+    return draw_random_states(model, 5, RNG)
 
 
 def number(x, values):
@@ -46,19 +46,19 @@ def placed(model, u):
 @pytest.mark.parametrize("name", ["odd", "sr400", *rotating("wrist", "panda", "evra")])
 def test_the_printed_energy_functions_are_those_of_moving_points(name):
     model = derived(name).model
-    free = model.robot.free
+    free = model.robot.free_joints
     states = states_of(model)
     equation, off = by_link.energy_functions(model, states)
     assert off < 1e-12
     u, speed = states[0][0], states[1][0]
-    start = dict(model.robot.symbol_values()) | dict(model.geometry.values)
+    start = dict(model.robot.evaluate_symbols()) | dict(model.geometry.values)
     for joint, q, qd in zip(free, u, speed, strict=True):
         start |= {f"q{joint.name}": q, f"qd{joint.name}": qd}
-    text = run_lines(sheet_lines(equation.sheet), start)
+    text = run_lines(format_sheet_lines(equation.sheet), start)
     frames = m.moving(lambda u: m.Posture(placed(model, u), {}), u, speed).bodies
     gravity = np.array([number(x, start) for x in model.geometry.gravity])
     told = 0
-    for k in by_link._bodies_of(model):
+    for k in by_link._find_body_rows(model):
         w, v = m.rigid(frames[k])[:2]
         h = m.kinetic(w, v) / 2
         h[6:] -= np.array([*(gravity @ frames[k].turn.real), gravity @ frames[k].place.real])
@@ -78,7 +78,7 @@ def test_the_printed_form_of_kane_is_that_of_the_paper():
     start |= {f"qd{k + 1}": x for k, x in enumerate(qd)} | {"tau3": 4}
     axes = triads(q) | {"n": np.eye(3)}
     start |= {f"{b}_{k + 1}": turn[:, k] for b, turn in axes.items() for k in range(3)}
-    text = run_lines(sheet_lines(equation.sheet), start)
+    text = run_lines(format_sheet_lines(equation.sheet), start)
     none = np.zeros(3)
     power = 0.0
     for r, body in enumerate("abc"):
@@ -104,7 +104,7 @@ def test_slides_and_joints_that_follow_have_kanes_form_too():
 
 def test_a_wrong_recursion_is_seen(monkeypatch):
     """Speeds without what the turning of the link before adds."""
-    right, model = by_link._speeds, model_of("wrist")
+    right, model = by_link._propagate_speeds, model_of("wrist")
 
     def without(model, qd):
         return [(w, [0 * x for x in V]) for w, V in right(model, qd)]
@@ -130,11 +130,11 @@ def test_the_command_prints_and_writes_both(capsys, tmp_path):
 
 
 def test_triads_are_three_axes():
-    from modeler.core.builtin import builtin_text
+    from modeler.core.builtin import read_builtin_robot
 
     for wrong in ('["a3", "a2"]', "3", '["a3", "-", "a1"]'):
-        text = builtin_text("wrist").replace('["a3", "-a2", "a1"]', wrong)
+        text = read_builtin_robot("wrist").replace('["a3", "-a2", "a1"]', wrong)
         with pytest.raises(Exception, match=r"\[terms\], triads, 1: got .* expected three axes"):
             model = model_of("wrist")
-            model = replace(model, robot=robot_from_text(text, "wrist"))
+            model = replace(model, robot=parse_robot_text(text, "wrist"))
             by_link.kane_form(model, states_of(model))

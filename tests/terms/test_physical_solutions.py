@@ -9,15 +9,21 @@ import pytest
 import sympy
 
 from modeler.core.errors import RobotError
-from modeler.derivation.base_parameters import base_parameters
+from modeler.derivation.base_parameters import derive_base_parameters
 from modeler.derivation.derive import derive_model
-from modeler.derivation.numeric_rank import random_states, regressor_values
-from modeler.formulas.physical_system import physical_system
-from modeler.formulas.printed import read_print
-from modeler.formulas.solve import determined, formula, missing_lines, solution_lines, solve
-from modeler.formulas.sufficient_sets import smallest_number
-from modeler.formulas.values import derive_values, verify
-from modeler.robot.read import robot_from_text
+from modeler.derivation.numeric_rank import draw_random_states, evaluate_regressor
+from modeler.formulas.physical_system import build_physical_system
+from modeler.formulas.printed import read_printed_terms
+from modeler.formulas.solve import (
+    find_determined,
+    format_formula,
+    format_missing_lines,
+    format_solution_lines,
+    solve,
+)
+from modeler.formulas.sufficient_sets import count_smallest_set
+from modeler.formulas.values import derive_values, verify_solution
+from modeler.robot.read import parse_robot_text
 from tests.robots import ROBOTS, one_always
 from tests.rotation import rotating
 from tests.terms.cases import TEXTS, edited_wrist, model_of
@@ -43,7 +49,7 @@ def in_known(solution, letter: str) -> sympy.Expr:
     """A formula with all earlier ones put in."""
     found: dict[sympy.Symbol, sympy.Expr] = {}
     for step in solution.steps:
-        value = expression(formula(step, solution.system)).subs(found)
+        value = expression(format_formula(step, solution.system)).subs(found)
         found[sympy.Symbol(step.letter)] = value
         if step.letter == letter:
             return value
@@ -58,14 +64,16 @@ def test_cm_follows_as_by_hand(eighth):
     solution = solve(system_of("wrist"), (*SEVEN, eighth))
     assert sympy.cancel(in_known(solution, "cm") - expression(CM[eighth])) == 0
     assert len(solution.steps) == 17 and not solution.missing
-    assert verify(solution) == 20
+    assert verify_solution(solution) == 20
 
 
 def test_formulas_are_those_of_the_paper():
     """With cm known: the paper's other seventeen, but for aJ11, whose sign is a misprint."""
-    printed = read_print(model_of("wrist").robot).solutions
+    printed = read_printed_terms(model_of("wrist").robot).solutions
     solution = solve(system_of("wrist"), (*SEVEN, "cm"))
-    ours = {step.letter: expression(formula(step, solution.system)) for step in solution.steps}
+    ours = {
+        step.letter: expression(format_formula(step, solution.system)) for step in solution.steps
+    }
     assert set(ours) == set(printed) - {"cm"}
     for letter, value in ours.items():
         top, bottom = printed[letter]
@@ -81,7 +89,7 @@ def test_cm_as_the_root_of_a_cubic(eighth):
     (step,) = [step for step in solution.steps if step.equation is not None]
     place = solution.system.place["cm"]
     assert step.letter == "cm" and max(at[place] for at in step.equation) == 3
-    assert verify(solution) == 20 and not solution.undetermined
+    assert verify_solution(solution) == 20 and not solution.undetermined
     assert check("wrist", (*SEVEN, eighth)) >= 1
 
 
@@ -93,11 +101,11 @@ def test_what_does_not_help_is_told(eighth):
     assert set(solution.undetermined) == {
         "cm", "ct2", "ct3", "bt1", "cJ11", "cJ22", "cJ23", "bJ11", "bJ12", "bJ13", "bJ22", "aJ11",
     }  # fmt: skip
-    assert not set(solution.follows) & set(solution.undetermined)
-    first, second = missing_lines(solution)
+    assert not set(solution.solved_letters) & set(solution.undetermined)
+    first, second = format_missing_lines(solution)
     assert first.startswith("undetermined: aJ11") and "1 more must be known: one of cm, " in second
     for more in solution.undetermined:
-        assert len(determined(system_of("wrist"), (*SEVEN, eighth, more))[0]) == 16, more
+        assert len(find_determined(system_of("wrist"), (*SEVEN, eighth, more))[0]) == 16, more
 
 
 def test_a_wrong_formula_is_not_verified():
@@ -105,7 +113,7 @@ def test_a_wrong_formula_is_not_verified():
     for k, step in enumerate(solution.steps):
         wrong = dataclasses.replace(step, numerator=step.numerator * 2)
         steps = (*solution.steps[:k], wrong, *solution.steps[k + 1 :])
-        assert verify(dataclasses.replace(solution, steps=steps)) == 0, step.letter
+        assert verify_solution(dataclasses.replace(solution, steps=steps)) == 0, step.letter
 
 
 def test_a_quotient_of_zeros_is_not_verified():
@@ -113,7 +121,7 @@ def test_a_quotient_of_zeros_is_not_verified():
     solution = solve(system_of("wrist"), (*SEVEN, "cm"))
     ring = solution.system.ring
     steps = (dataclasses.replace(solution.steps[0], numerator=ring.zero, denominator=ring.zero),)
-    assert verify(dataclasses.replace(solution, steps=steps)) == 0
+    assert verify_solution(dataclasses.replace(solution, steps=steps)) == 0
 
 
 @pytest.mark.parametrize("name", ["wrist", pytest.param("odd", marks=pytest.mark.rotating)])
@@ -128,12 +136,12 @@ def test_determined_as_the_null_space_says(name):
         kernel = Vt[int((s > 1e-9 * s[0]).sum()) if len(s) else 0 :]
         size = np.abs(kernel).max(axis=0, initial=0)
         free = {x for k, x in enumerate(unknown) if size[k] > 1e-7}
-        assert set(determined(system, known)[0]) == set(unknown) - free
+        assert set(find_determined(system, known)[0]) == set(unknown) - free
 
 
 def test_two_links_as_in_a_textbook():
     solution = solve(system_of("two-link"), ("m1", "m2"))
-    assert set(solution_lines(solution)) == {
+    assert set(format_solution_lines(solution)) == {
         "cx2 = MX2/m2",
         "cy2 = MY2/m2",
         "cy1 = MY1/m1",
@@ -155,12 +163,14 @@ def test_a_fit_with_a_wrong_length_gives_the_right_coefficients():
     true = edited_wrist(("bl1 = 0.10", "bl1 = 0.15"))
     system, rng = system_of("wrist"), np.random.default_rng(3)
     letters = random_letters(system, rng) | {"bl1": 0.15}
-    base = base_parameters(true)
-    own = physical_system(true, base, "base")
+    base = derive_base_parameters(true)
+    own = build_physical_system(true, base, "base")
     columns = {p.name: p.column for p in base.parameters}
-    states = random_states(true, 60, rng)
-    true_W, W = (regressor_values(m, states)[..., [columns[d] for d in system.base]].reshape(-1, 17)
-                 for m in (true, model_of("wrist")))  # fmt: skip
+    states = draw_random_states(true, 60, rng)
+    true_W, W = (
+        evaluate_regressor(m, states)[..., [columns[d] for d in system.base]].reshape(-1, 17)
+        for m in (true, model_of("wrist"))
+    )
     assert own.data == system.base
     tau = true_W @ data_of(own, letters)
     beta, *_ = np.linalg.lstsq(W, tau, rcond=None)
@@ -173,7 +183,9 @@ def test_quotients_of_lengths_have_names():
     system = system_of("orthoglide-2003")
     assert system.abbreviations["k1"] == "1/D41"
     assert system.constants["k1"] == pytest.approx(1 / 0.31)
-    lines = solution_lines(solve(system, [x for x in system.letters if system.kinds[x] == "mass"]))
+    lines = format_solution_lines(
+        solve(system, [x for x in system.letters if system.kinds[x] == "mass"])
+    )
     assert lines[0] == "k1 = 1/D41"
 
 
@@ -185,9 +197,9 @@ def test_coefficients_of_a_tied_robot_are_refused():
 def test_a_letter_that_is_the_name_of_a_base_parameter_is_refused():
     text = TEXTS["weightless"].replace("11", "1").replace("12", "2")
     link = '[physical.2]\nmass = "ZZ2"\ncentre = [0, 0, 0]\ninertia = [0, 0, 0, 0, 0, "k"]\n'
-    model = derive_model(robot_from_text(text + link, "weightless"))
+    model = derive_model(parse_robot_text(text + link, "weightless"))
     with pytest.raises(RobotError, match="letter ZZ2 is also the name of an identified quantity"):
-        physical_system(model, base_parameters(model), "base")
+        build_physical_system(model, derive_base_parameters(model), "base")
 
 
 EVERY = ("two-link", "emps")
@@ -201,11 +213,11 @@ DONE = {*EVERY, *SAMPLED, "evra", "stewart"}
 def sets_of(name: str) -> list[tuple[str, ...]]:
     """Smallest sets that suffice."""
     system, chance = system_of(name), random.Random(4)
-    size = smallest_number(system)
+    size = count_smallest_set(system)
     tried = (tuple(chance.sample(system.letters, size)) for _ in itertools.count())
     every = itertools.combinations(system.letters, size) if name in EVERY else tried
     wanted = len(system.letters) - size
-    found = (known for known in every if len(determined(system, known)[0]) == wanted)
+    found = (known for known in every if len(find_determined(system, known)[0]) == wanted)
     return list(itertools.islice(found, SAMPLED.get(name)))
 
 
@@ -215,27 +227,27 @@ def check(name: str, known: tuple[str, ...]) -> int:
     solution = solve(system, known)
     truth = random_letters(system, np.random.default_rng(1))
     data, place = data_of(system, truth), dict[str, object]()
-    exec("\n".join(solution_lines(solution, "python")), place)
+    exec("\n".join(format_solution_lines(solution, "python")), place)
     function = place["physical_parameters"]
-    given = model_of(name).robot.symbol_values() | truth
+    given = model_of(name).robot.evaluate_symbols() | truth
     given |= dict(zip(system.data, data, strict=True))
     names = function.__code__.co_varnames[: function.__code__.co_argcount]
     found = function(**{x: given[x] for x in names})
     assert isinstance(found, list) == any(step.equation is not None for step in solution.steps)
     robots = found if isinstance(found, list) else [found]
     best = min(robots, key=lambda robot: max([abs(robot[x] - truth[x]) for x in robot] or [0.0]))
-    assert verify(solution, 5) == 5 and not solution.without_formula
-    assert {*solution.follows, *solution.undetermined} == {*system.letters} - {*known}
+    assert verify_solution(solution, 5) == 5 and not solution.without_formula
+    assert {*solution.solved_letters, *solution.undetermined} == {*system.letters} - {*known}
     if solution.missing:
-        rank = determined(system, known)[1]
-        assert determined(system, [*known, solution.undetermined[0]])[1] == rank
+        rank = find_determined(system, known)[1]
+        assert find_determined(system, [*known, solution.undetermined[0]])[1] == rank
     own = derive_values(
         solution, data, np.zeros((len(data),) * 2), {x: truth[x] for x in known}, near=truth
     )
-    assert set(best) == set(solution.follows) == set(own.letters)
+    assert set(best) == set(solution.solved_letters) == set(own.letters)
     for x, value in best.items():
         assert value == pytest.approx(truth[x], rel=1e-5, abs=1e-5), (x, known)
-        assert value == pytest.approx(own.value(x), rel=1e-5, abs=1e-5), (x, known)
+        assert value == pytest.approx(own.get_value(x), rel=1e-5, abs=1e-5), (x, known)
     for robot in robots if not solution.undetermined else ():  # each of them has the same data
         assert data_of(system, truth | robot) == pytest.approx(data, rel=1e-5, abs=1e-5), known
     return len(robots)
@@ -262,4 +274,4 @@ def test_rotor_inertias_that_group_with_nothing_are_told():
 def test_quotients_of_the_same_lengths_are_told_apart():
     """m21 (L1**2 L1/L4 - L1 L1**2/L4) is 0: with quotients as letters of their own it told m21."""
     for known in (("cx12", "cx11", "Izz11", "m22", "cy11"), ("cx11", "m11", "m22", "m12", "Izz11")):
-        assert len(determined(system_of("five-bar"), known)[0]) < 11
+        assert len(find_determined(system_of("five-bar"), known)[0]) < 11

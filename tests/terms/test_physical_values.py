@@ -6,15 +6,25 @@ import numpy as np
 import pytest
 
 from modeler.core.errors import DataError, ModelerError, RobotError
-from modeler.formulas.cad import check_known, chi_squared_limit, compare_cad, limit
+from modeler.formulas.cad import (
+    check_known,
+    compare_cad,
+    compute_chi_squared_limit,
+    compute_z_limit,
+)
 from modeler.formulas.solve import solve
-from modeler.formulas.sufficient_sets import EASE, easiest_set, known_sets, smallest_number
+from modeler.formulas.sufficient_sets import (
+    EASE,
+    count_smallest_set,
+    find_easiest_set,
+    find_known_sets,
+)
 from modeler.formulas.values import (
-    cad_from_file,
-    cad_from_robot,
     derive_values,
-    known_from_text,
-    rated,
+    parse_known_values,
+    rate_sets,
+    read_cad_example,
+    read_cad_file,
 )
 from tests.rotation import rotating
 from tests.terms.cases import model_of
@@ -90,7 +100,7 @@ def test_several_roots_are_told_and_none_is_chosen():
         told = derive_values(solution, data, C, known, near={"cm": near})
         letters = known | dict(zip(told.letters, map(float, told.values), strict=True))
         assert data_of(system, letters) == pytest.approx(data, abs=1e-9)
-        assert values is None or told.value("cJ11") == pytest.approx(truth["cJ11"])
+        assert values is None or told.get_value("cJ11") == pytest.approx(truth["cJ11"])
 
 
 @pytest.mark.rotating("long tests of terms")
@@ -169,8 +179,8 @@ def test_cad_tolerances_widen_and_missing_values_are_told():
     partial = {x: v for x, v in truth.items() if x != "cJ22"}
     left = compare_cad(system, data, C, partial, {}, {"PG1": "set aside"}).left_out
     assert left == {"PG1": "set aside", "PJ1": "no CAD value of cJ22"}
-    assert limit(1) == pytest.approx(2.576, abs=1e-3)
-    assert [chi_squared_limit(k) for k in (0, 5, 17, 100)] == pytest.approx(
+    assert compute_z_limit(1) == pytest.approx(2.576, abs=1e-3)
+    assert [compute_chi_squared_limit(k) for k in (0, 5, 17, 100)] == pytest.approx(
         [0, 15.09, 33.41, 135.81], rel=3e-3
     )
 
@@ -185,11 +195,11 @@ def test_cad_tolerances_widen_and_missing_values_are_told():
     ],
 )
 def test_known_parameters_as_they_are_typed(text, message):
-    given = known_from_text(" am=12+-0.1, bm = 6e0 ,al1=0.2,cm,", system_of("wrist"))
+    given = parse_known_values(" am=12+-0.1, bm = 6e0 ,al1=0.2,cm,", system_of("wrist"))
     assert given.names == ("am", "bm", "cm")  # al1 has no effect
     assert given.values == {"am": 12.0, "bm": 6.0} and given.sigmas == {"am": 0.1}
     with pytest.raises(RobotError, match=message):
-        known_from_text(text, system_of("wrist"))
+        parse_known_values(text, system_of("wrist"))
 
 
 @pytest.mark.parametrize(
@@ -207,20 +217,20 @@ def test_cad_files_that_are_none(tmp_path, text, message):
     path = tmp_path / "cad.toml"
     path.write_text(text)
     with pytest.raises(RobotError, match=message):
-        cad_from_file(path, system_of("wrist"))
+        read_cad_file(path, system_of("wrist"))
 
 
 def test_cad_files_as_they_are_written(tmp_path):
     path = tmp_path / "cad.toml"
     path.write_text("relative_sigma = 0.1\nam = 12\nbm = [6.0, 0.2]\n")
-    given = cad_from_file(path, system_of("wrist"))
+    given = read_cad_file(path, system_of("wrist"))
     assert given.values == {"am": 12.0, "bm": 6.0}
     assert given.sigmas == pytest.approx({"am": 1.2, "bm": 0.2})
     with pytest.raises(RobotError, match=r"none\.toml: cannot be read"):
-        cad_from_file(tmp_path / "none.toml", system_of("wrist"))
+        read_cad_file(tmp_path / "none.toml", system_of("wrist"))
     with pytest.raises(RobotError, match=r"here: the robot file has no values .*terms.example"):
-        cad_from_robot(model_of("two-link").robot, system_of("two-link"), "here")
-    nominal = cad_from_robot(model_of("wrist").robot, system_of("wrist"), "here")
+        read_cad_example(model_of("two-link").robot, system_of("two-link"), "here")
+    nominal = read_cad_example(model_of("wrist").robot, system_of("wrist"), "here")
     assert nominal.values["bl1"] == 0.1 and set(nominal.values) == set(system_of("wrist").letters)
 
 
@@ -252,7 +262,7 @@ def brute_force(system, size: int) -> list[tuple[str, ...]]:
 
 @pytest.mark.rotating("long tests of terms")
 def test_the_wrist_as_counted_elsewhere():
-    found = known_sets(system_of("wrist"))
+    found = find_known_sets(system_of("wrist"))
     assert (found.size, found.smallest, found.count, found.possible) == (8, 8, 61879, 1081575)
     assert dict(found.classes) == CLASSES
     contains = found.contains
@@ -261,7 +271,7 @@ def test_the_wrist_as_counted_elsewhere():
 
 
 def test_seven_never_suffice():
-    found = known_sets(system_of("wrist"), 7)
+    found = find_known_sets(system_of("wrist"), 7)
     assert (found.count, found.possible, found.smallest) == (0, 480700, 8)
 
 
@@ -278,7 +288,7 @@ def class_of(system, members):
 def test_counts_by_brute_force(name, size):
     system = system_of(name)
     expected = brute_force(system, size)
-    found = known_sets(system, size)
+    found = find_known_sets(system, size)
     assert found.count == len(expected)
     assert found.contains == {} or all(
         found.contains[x] == sum(x in s for s in expected) for x in system.letters
@@ -292,26 +302,26 @@ def test_counts_by_brute_force(name, size):
 
 @pytest.mark.parametrize("name", ["scara", *rotating("puma560", "orthoglide-2003")])
 def test_the_easiest_set_suffices_and_is_smallest(name):
-    system, known = system_of(name), set(easiest_set(system_of(name)))
+    system, known = system_of(name), set(find_easiest_set(system_of(name)))
     J = jacobian(system)
     others = [k for k, x in enumerate(system.letters) if x not in known]
-    assert len(known) == smallest_number(system) == len(system.letters) - len(others)
+    assert len(known) == count_smallest_set(system) == len(system.letters) - len(others)
     assert np.linalg.matrix_rank(J[:, others]) == len(others) == np.linalg.matrix_rank(J)
 
 
 def test_too_many_sets_and_sizes_that_are_none():
     with pytest.raises(ModelerError, match=r"puma560: about .*e\+13 sets to look at, more than 3e"):
-        known_sets(system_of("puma560"))
+        find_known_sets(system_of("puma560"))
     for size in (-1, 9):
         with pytest.raises(ModelerError, match=rf"got sets of {size}; expected 0 to 8"):
-            known_sets(system_of("two-link"), size)
+            find_known_sets(system_of("two-link"), size)
 
 
 def test_rating_against_finite_differences():
     """One set, one input at a time: change it by 1 %, solve the quantities by Newton's method."""
     system, truth = system_of("wrist"), example()
     known = ("am", "bm", "bl1", "bt2", "ct1", "bJ33", "cJ33", "cm")
-    (row,) = rated(system, [known], truth)
+    (row,) = rate_sets(system, [known], truth)
     unknown = [x for x in system.letters if x not in known]
     at = [system.letters.index(x) for x in unknown]
     data = data_of(system, truth)

@@ -6,11 +6,11 @@ import pytest
 from modeler.core.errors import DerivationError, RobotError
 from modeler.derivation.columns import LinkColumn
 from modeler.derivation.derive import derive_model
-from modeler.derivation.geometry import geometric_symbol
+from modeler.derivation.geometry import create_geometric_symbol
 from modeler.derivation.model import SymbolicModel
 from modeler.effects.effect import EnergyBlock
-from modeler.formulas.closed_form import closed_form
-from modeler.robot.read import robot_from_text
+from modeler.formulas.closed_form import derive_closed_form
+from modeler.robot.read import parse_robot_text
 from tests.rotation import rotating
 from tests.terms.cases import SMALL, base_of, closed_of, edited_wrist, general, model_of, robot_text
 from tests.terms.closed_form_values import evaluate
@@ -28,7 +28,7 @@ def graph_torque(model: SymbolicModel, q, qd, qdd, chi) -> np.ndarray:
     for i in range(len(q)):
         values |= {f"q[{i}]": q[i], f"qd[{i}]": qd[i], f"qdd[{i}]": qdd[i]}
     values |= {f"chi[{i}]": chi[name] for i, name in enumerate(model.names)}
-    return np.array(graph.evaluate(model.torque(kept), values), dtype=float)
+    return np.array(graph.evaluate_outputs(model.derive_torque(kept), values), dtype=float)
 
 
 def random_state(joints: int, seed: int) -> tuple[list[float], list[float], list[float]]:
@@ -46,7 +46,7 @@ def test_torque_of_the_closed_form_is_that_of_newton_and_euler(name):
     model = model_of(name)
     chi = random_parameters(model)
     for seed in range(3):
-        q, qd, qdd = random_state(model.geometry.joints, seed)
+        q, qd, qdd = random_state(model.geometry.joint_count, seed)
         found = evaluate(closed_of(name), q, chi).torque(qd, qdd)
         expected = graph_torque(model, q, qd, qdd, chi)
         assert np.allclose(found, expected, rtol=1e-11, atol=1e-11 * np.abs(expected).max())
@@ -58,13 +58,13 @@ MIXED = ["odd", *rotating("general3", "wrist", "scara")]
 @pytest.mark.parametrize("name", MIXED)
 def test_base_parameters_give_the_same_torque(name):
     model, base = model_of(name), base_of(name)
-    closed, chi = closed_form(model, base), random_parameters(model)
-    numbers = {geometric_symbol(k): v for k, v in model.geometry.values.items()}
+    closed, chi = derive_closed_form(model, base), random_parameters(model)
+    numbers = {create_geometric_symbol(k): v for k, v in model.geometry.values.items()}
     grouped = {
         p.name: sum(float(t.coefficient.subs(numbers)) * chi[t.parameter] for t in p.terms)
         for p in base.parameters
     }
-    q, qd, qdd = random_state(model.geometry.joints, 5)
+    q, qd, qdd = random_state(model.geometry.joint_count, 5)
     expected = evaluate(closed_of(name), q, chi).torque(qd, qdd)
     assert np.allclose(evaluate(closed, q, grouped).torque(qd, qdd), expected, rtol=1e-10)
 
@@ -75,8 +75,8 @@ def test_cosine_squares_everywhere_give_the_canonical_count():
         ('keep_sine_squares = ["J11", "J12"]', "keep_sine_squares = []"),
         ('J11 = ["s2**2*s3**2", "c3*s2**2*s3", "s2**2", "c2*s2*s3"', 'J11 = ["c2*s2*s3"'),
     )
-    closed = closed_form(model)
-    assert closed.monomials == 103
+    closed = derive_closed_form(model)
+    assert closed.monomial_count == 103
     assert len(closed.by_name["J11"].terms) == 9
 
 
@@ -98,9 +98,9 @@ def test_long_joint_names_are_kept_apart():
 
 
 def test_too_large_robot_is_refused_with_its_count():
-    model = derive_model(robot_from_text(general(6), "general6"))
+    model = derive_model(parse_robot_text(general(6), "general6"))
     with pytest.raises(DerivationError, match=r"general6.*takes about [0-9,]+ products.*500,000"):
-        closed_form(model)
+        derive_closed_form(model)
 
 
 @pytest.mark.parametrize(
@@ -111,7 +111,7 @@ def test_lengths_must_be_polynomials_of_letters(cell, message):
     row = f'"1", "0", 0, 0, 0, 0, "{cell}", "q1", 0'
     text = robot_text("slope", [row], "L = 0.5\ns1 = 0.5\n")
     with pytest.raises(DerivationError, match=message):
-        closed_form(derive_model(robot_from_text(text, "slope")))
+        derive_closed_form(derive_model(parse_robot_text(text, "slope")))
 
 
 @pytest.mark.parametrize(
@@ -120,4 +120,4 @@ def test_lengths_must_be_polynomials_of_letters(cell, message):
 )
 def test_wrong_choice_of_squares(new, message):
     with pytest.raises(RobotError, match=f"keep_sine_squares: {message}"):
-        closed_form(edited_wrist(('["J11", "J12"]', new)))
+        derive_closed_form(edited_wrist(('["J11", "J12"]', new)))

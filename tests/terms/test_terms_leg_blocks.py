@@ -9,9 +9,9 @@ import numpy as np
 import pytest
 
 from modeler.core.errors import RobotError
-from modeler.formulas import block_form
-from modeler.formulas.function_sheet import sheet_lines
-from modeler.formulas.regressor_form import short_form
+from modeler.formulas import derive_block_form
+from modeler.formulas.function_sheet import format_sheet_lines
+from modeler.formulas.regressor_form import derive_short_form
 from tests.rotation import rotating
 from tests.terms.cases import base_of, model_of
 from tests.terms.printed_lines import compiled, derived, known, run_lines
@@ -20,8 +20,8 @@ from tests.terms.test_terms_whole_torque import check, motions_of
 
 def printed(name):
     """(words, lines, {block: (rows, columns)}) as they are printed."""
-    form = block_form(derived(name).model, derived(name).base)
-    lines = sheet_lines(form.sheet)
+    form = derive_block_form(derived(name).model, derived(name).base)
+    lines = format_sheet_lines(form.sheet)
     head = r"^# (\w+), .*: (\d+) x (\d+), rows (.*); columns (.*)$"
     heads = re.findall(head, "\n".join(lines), re.M)
     sides = {block: (rows.split(), columns.split()) for block, _, _, rows, columns in heads}
@@ -58,11 +58,11 @@ def states(name):
     """((q, qd, qdd) of the motors, what the lines read) at closed states near home."""
     derivation, model = derived(name), compiled(name)
     closure = derivation.model.closure
-    solved, given = list(closure.solved), list(closure.given)
+    solved, given = list(closure.solved), list(closure.actuated)
     for q, qd, qdd in motions_of(derived(name)):
         u, ud = model.close(q[None]), model.coupling(q[None])[0] @ qd
-        F = closure.jacobians(u)[0]
-        drift = closure.evaluate(closure.drift, u, ud[None])[0]
+        F = closure.compute_jacobians(u)[0]
+        drift = closure.evaluate_expressions(closure.drift, u, ud[None])[0]
         udd = np.zeros(len(ud))
         udd[given] = qdd
         udd[solved] = -np.linalg.solve(F[:, solved], F[:, given] @ qdd + drift)
@@ -114,7 +114,7 @@ def test_sizes_and_order_are_the_paper_s():
 )
 def test_robots_without_such_blocks_are_refused(name, what):
     with pytest.raises(RobotError, match=what):
-        block_form(model_of(name), base_of(name))
+        derive_block_form(model_of(name), base_of(name))
 
 
 @pytest.mark.slow
@@ -124,7 +124,7 @@ def test_a_block_of_four_equations(loop_robots_folder):
 
 def test_guegan_relations_stand_beside_the_formulas():
     """Eq. 42: G says q4 = -q3, q5 = -q2 - pi/2, q7 = q3 of every leg."""
-    form = short_form(derived("orthoglide-2003").model, derived("orthoglide-2003").base)
+    form = derive_short_form(derived("orthoglide-2003").model, derived("orthoglide-2003").base)
     assert form.loops is not None
     told = "\n".join(form.loops)
     assert "q41 = -q31; q51 = -q21 - pi/2; q71 = q31" in told
@@ -142,8 +142,8 @@ SPHERES = [
 
 def test_spheres_are_those_of_the_paper():
     derivation = derived("orthoglide-2012")
-    lines = sheet_lines(short_form(derivation.model, derivation.base).sheet)
-    names, rng = [j.name for j in derivation.model.robot.free], np.random.default_rng(2)
+    lines = format_sheet_lines(derive_short_form(derivation.model, derivation.base).sheet)
+    names, rng = [j.name for j in derivation.model.robot.free_joints], np.random.default_rng(2)
     u = rng.uniform(-1, 1, len(names))
     found = run_lines(lines, known(derivation, u, u, beta=[0.0] * derivation.base.rank))
     values = found | {"x": found["q6x"], "y": found["q6y"], "z": found["q6"]}
@@ -155,13 +155,13 @@ def test_six_motors_leave_the_inverse_of_k_to_a_solver():
     """J_t = L K^-1 of a Stewart platform, L and K printed, against the closure's Jacobian."""
     model = model_of("stewart")
     none = replace(derived("five-bar").base, parameters=())
-    form = short_form(model, none)
+    form = derive_short_form(model, none)
     assert any("F J_t = 0" in line for line in form.loops)
-    closure, names = model.closure, [joint.name for joint in model.robot.free]
+    closure, names = model.closure, [joint.name for joint in model.robot.free_joints]
     assert closure is not None and closure.platform is not None
     posture = {f"q{name}": u for name, u in zip(names, closure.home, strict=True)}
     still = {f"qd{name}": 0.0 for name in names}
-    found = run_lines(sheet_lines(form.sheet), {**model.geometry.values, **posture, **still})
+    found = run_lines(format_sheet_lines(form.sheet), {**model.geometry.values, **posture, **still})
     L = np.array(
         [
             [found.get(f"L{x}_{names[p]}", float(x == names[p])) for p in closure.platform]
@@ -170,8 +170,8 @@ def test_six_motors_leave_the_inverse_of_k_to_a_solver():
     )
     entries = [entry for line in closure.jacobian for entry in line]
     inputs = {f"q[{k}]": u for k, u in enumerate(closure.home)}
-    values = model.graph.evaluate(entries, {**model.geometry.values, **inputs})
+    values = model.graph.evaluate_outputs(entries, {**model.geometry.values, **inputs})
     F = np.array(values, dtype=float).reshape(len(closure.equations), len(names))
-    expected = -np.linalg.solve(F[:, list(closure.solved)], F[:, list(closure.given)])
-    J = L @ np.linalg.inv(L[list(closure.given)])
+    expected = -np.linalg.solve(F[:, list(closure.solved)], F[:, list(closure.actuated)])
+    J = L @ np.linalg.inv(L[list(closure.actuated)])
     assert np.max(np.abs(J[list(closure.solved)] - expected)) < 1e-11 * np.max(np.abs(expected))

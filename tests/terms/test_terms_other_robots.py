@@ -10,16 +10,16 @@ from sympy.polys.domains import QQ
 from sympy.polys.orderings import lex
 from sympy.polys.rings import PolyRing
 
-from modeler.core.builtin import builtin_text
+from modeler.core.builtin import read_builtin_robot
 from modeler.core.errors import RobotError
-from modeler.derivation.base_parameters import base_parameters
+from modeler.derivation.base_parameters import derive_base_parameters
 from modeler.derivation.derive import derive_model
-from modeler.derivation.field import value_modulo
-from modeler.formulas.coefficients import coefficient_table, independent_coefficients
-from modeler.formulas.physical import random_point
-from modeler.formulas.render import backward_lines, forward_lines
-from modeler.formulas.ring import base_map
-from modeler.robot.read import robot_from_text
+from modeler.derivation.field import evaluate_modulo
+from modeler.formulas.coefficients import build_coefficient_table, select_independent_coefficients
+from modeler.formulas.physical import draw_random_point
+from modeler.formulas.render import format_backward_map, format_forward_map
+from modeler.formulas.ring import build_base_map
+from modeler.robot.read import parse_robot_text
 from tests.base.formulas import text_value
 from tests.rotation import rotating
 from tests.terms.cases import TEXTS, closed_of, robot_text, table_of
@@ -33,8 +33,8 @@ ROBOTS = ["two-link", "odd", "emps", *rotating("scara", "general3", "weightless"
 def test_combinations_hold_at_a_random_point(name):
     """Exactly, modulo a prime: every coefficient is the combination that the table states."""
     table = table_of(name)
-    prime, point = random_point(table.physical.names, random.Random(4))
-    values = {c.name: value_modulo(c.physical, point, prime) for c in table.coefficients}
+    prime, point = draw_random_point(table.physical.names, random.Random(4))
+    values = {c.name: evaluate_modulo(c.physical, point, prime) for c in table.coefficients}
     for key, combination in table.relations.combinations.items():
         total = sum(
             v.numerator * pow(v.denominator, -1, prime) * values[k] for k, v in combination.items()
@@ -51,12 +51,12 @@ def test_the_printed_map_and_its_printed_inverse_undo_each_other(name):
     assert len(table.known_geometry) == len(table.map.columns) == frictionless
     lengths = {name: random.uniform(0.3, 1.4) for name in table.closed.algebra.geometry.values}
     base = {name: random.uniform(0.3, 1.4) for name in table.base_names}
-    forward = [line.split(" = ") for line in forward_lines(table)]
+    forward = [line.split(" = ") for line in format_forward_map(table)]
     coefficients = {name: text_value(right, lengths | base) for name, right in forward}
     assert list(coefficients) == list(table.map.rows)
     found = {
         name: text_value(right, lengths | coefficients)
-        for name, right in (line.split(" = ") for line in backward_lines(table))
+        for name, right in (line.split(" = ") for line in format_backward_map(table))
     }
     assert found.keys() == set(table.map.columns) and table.map.determinant
     for name, value in found.items():
@@ -93,8 +93,8 @@ def test_which_letters_are_felt():
     odd = table_of("odd").identifiability
     assert {"Ia1", "Ia2", "Ia3"} <= set(odd.appearing) and "al" in odd.letters
     assert not any(letter.startswith(("cos", "sin")) for letter in odd.letters)
-    model = derive_model(robot_from_text(LEVER, "lever"))
-    lever = coefficient_table(model, base_parameters(model))
+    model = derive_model(parse_robot_text(LEVER, "lever"))
+    lever = build_coefficient_table(model, derive_base_parameters(model))
     for table, sums in ((table_of("scara"), {"Izz2": 1, "Izz3": 1}), (lever, {"u": 1, "v": -1})):
         assert [dict(group) for group in table.identifiability.sums] == [sums]
 
@@ -102,18 +102,18 @@ def test_which_letters_are_felt():
 @pytest.mark.parametrize(
     ("text", "message"),
     [
-        (builtin_text("wrist").replace('mass = "bm"', 'mass = "sin(bm)"'),
+        (read_builtin_robot("wrist").replace('mass = "bm"', 'mass = "sin(bm)"'),
          r'\[physical.2\]: got "sin\(bm\)"; expected a polynom'),
-        (builtin_text("wrist").replace('mass = "bm"', 'mass = "1/bm"'),
+        (read_builtin_robot("wrist").replace('mass = "bm"', 'mass = "1/bm"'),
          r'\[physical.2\]: got "1/bm"; expected a polynomial'),
         (TEXTS["weightless"].replace('"L"', '"m12"').replace("L = 0.5", "m12 = 0.5"),
          r"symbol m12 is also the name of a physical parameter"),
     ],
 )  # fmt: skip
 def test_letters_that_cannot_be_are_refused(text, message):
-    model = derive_model(robot_from_text(text, "robot"))
+    model = derive_model(parse_robot_text(text, "robot"))
     with pytest.raises(RobotError, match=message):
-        coefficient_table(model, base_parameters(model))
+        build_coefficient_table(model, derive_base_parameters(model))
 
 
 @pytest.mark.parametrize("name", ["orthoglide-leg", *rotating("geared", "sr400")])
@@ -127,7 +127,7 @@ def test_expanded_form_of_a_tied_robot_gives_the_torque_of_the_c(name):
         if column.kind in ("inertial", "rotor_inertia"):
             chi[column.name] = float(rng.normal())
     for _ in range(3):
-        q, qd, qdd = rng.uniform(-2, 2, (3, derivation.model.geometry.coordinates))
+        q, qd, qdd = rng.uniform(-2, 2, (3, derivation.model.geometry.coordinate_count))
         found = np.array(evaluate(closed, list(q), chi).torque(qd, qdd))
         phi = model.regressor(q[None], qd[None], qdd[None])[0]
         expected = phi @ np.array([chi[name] for name in derivation.model.names])
@@ -145,7 +145,7 @@ def test_a_leg_has_34_coefficients_of_rank_12():
 
 def test_long_tables_are_cut_to_what_the_others_follow_from():
     table = table_of("wrist")
-    short = independent_coefficients(table)
+    short = select_independent_coefficients(table)
     assert len(table.coefficients) == 101
     assert [c.name for c in short.coefficients] == list(table.relations.independent)
 
@@ -159,5 +159,5 @@ def test_a_determinant_that_nobody_would_read_is_not_expanded():
     def entries(size: int) -> list[dict[int, Any]]:
         return [{j: a**j + b**i * (i + j) for j in range(size)} for i in range(size)]
 
-    assert base_map(names[:2], entries(2), names[:2], ring).determinant
-    assert base_map(names, entries(13), names, ring).determinant is None
+    assert build_base_map(names[:2], entries(2), names[:2], ring).determinant
+    assert build_base_map(names, entries(13), names, ring).determinant is None

@@ -12,8 +12,8 @@ import pytest
 from modeler.api import load
 from modeler.cli import main
 from modeler.derivation.relations import as_latex
-from modeler.formulas.function_sheet import SheetPrinter, sheet_latex, sheet_lines
-from modeler.formulas.regressor_form import regressor_form, short_form
+from modeler.formulas.function_sheet import SheetPrinter, format_sheet_latex, format_sheet_lines
+from modeler.formulas.regressor_form import derive_regressor_form, derive_short_form
 from modeler.formulas.render import (
     closed_form_latex,
     closed_form_markdown,
@@ -21,9 +21,9 @@ from modeler.formulas.render import (
     coefficients_latex,
     coefficients_markdown,
     coefficients_text,
-    determinant_text,
+    format_determinant,
 )
-from modeler.formulas.text import LATEX, latex_symbol
+from modeler.formulas.text import LATEX, format_latex_symbol
 from tests.base.formulas import text_value, written_value
 from tests.effects.test_effects_in_c import REFERENCE, SHAPES, written
 from tests.terms.cases import closed_of, model_of, table_of
@@ -34,9 +34,9 @@ from tests.terms.printed_lines import derived, known, run_lines
 def numbers_of(name: str) -> tuple[dict[str, float], list[float], dict[str, float]]:
     """(all names that a printed formula may use, q, parameters)."""
     model = model_of(name)
-    q = [0.4, -0.7, 1.3][: model.geometry.joints]
+    q = [0.4, -0.7, 1.3][: model.geometry.joint_count]
     values = dict(model.geometry.values)
-    for joint, angle in zip(model.robot.moving, q, strict=True):
+    for joint, angle in zip(model.robot.moving_joints, q, strict=True):
         values |= {
             f"s{joint.name}": sin(angle),
             f"c{joint.name}": cos(angle),
@@ -71,7 +71,7 @@ def test_a_closed_form_can_be_read_back_from_text_and_latex():
     printed = printed_functions(closed_form_text(closed))
     for function, text in list(printed.items())[::8]:
         assert text_value(text, names) == pytest.approx(told[function], rel=1e-9)
-    letters = {latex_symbol(key): value for key, value in names.items()}
+    letters = {format_latex_symbol(key): value for key, value in names.items()}
     blocks = closed_form_latex(closed).split("\\begin{align*}\n")[1:]
     assert len(blocks) >= len(closed.functions) == len(told)
     for block, function in list(zip(blocks, told, strict=False))[::4]:
@@ -83,10 +83,10 @@ def test_a_closed_form_can_be_read_back_from_text_and_latex():
 def test_tables_of_the_wrist():
     closed, table = closed_of("wrist"), table_of("wrist")
     page = closed_form_markdown(closed)
-    assert page.count("\n| `") == closed.monomials == 101
+    assert page.count("\n| `") == closed.monomial_count == 101
     assert "| `s2**2*s3**2` | `-XX3 + YY3` |" in page
     assert "+ g*g_i" in closed_form_text(closed) and "+ g_i" in closed_form_text(closed_of("odd"))
-    assert determinant_text(table) == "-16"
+    assert format_determinant(table) == "-16"
     lines = coefficients_text(table).splitlines()
     assert len(lines) == 102 and lines[0].split()[:3] == ["name", "in", "monomial"]
     assert re.search(r"^PS3 +S112 +c2\*s2 +2\*PJ1 \+ 2\*PJ3 ", "\n".join(lines), re.M)
@@ -106,7 +106,9 @@ def text_with_every_effect() -> str:
     entries = []
     for effect, form in written():
         if form == 0:
-            shapes = "".join(f", {s.name} = {SHAPES[s.name]}" for s in effect.forms[0].free)
+            shapes = "".join(
+                f", {s.name} = {SHAPES[s.name]}" for s in effect.forms[0].free_parameters
+            )
             entries.append(f'{effect.id} = [{{joint = "2"{shapes}}}]')
     text = load("demo-arm").text
     text = text[: text.index("[effects]")].replace("D2", "upper_arm_2").replace("D3", "Omega3")
@@ -182,19 +184,19 @@ def equations(page: str) -> list[tuple[str, str]]:
 @pytest.mark.parametrize(
     "name", ["every", pytest.param("orthoglide-2003", marks=pytest.mark.rotating)]
 )
-@pytest.mark.parametrize("form", [short_form, regressor_form])
+@pytest.mark.parametrize("form", [derive_short_form, derive_regressor_form])
 def test_latex_has_the_values_of_the_text(every, name, form) -> None:
     """Both are evaluated line after line; names of LaTeX stay apart."""
     derivation = derived(every if name == "every" else name)
-    free, rng = len(derivation.model.robot.free), np.random.default_rng(5)
+    free, rng = len(derivation.model.robot.free_joints), np.random.default_rng(5)
     numbers = rng.uniform(0.2, 1.4, (3, free))
     start = known(derivation, *numbers, rng.uniform(0.2, 1.4, derivation.base.rank))
     sheet = form(derivation.model, derivation.base).sheet
     start |= {f"{signal}{j}": 0.5 for signal in "tTz" for j in "123"}
-    text = run_lines(sheet_lines(sheet), start | {"exp": np.exp, "tanh": np.tanh})
-    latex = {SheetPrinter(sheet, LATEX).letter(key): value for key, value in start.items()}
+    text = run_lines(format_sheet_lines(sheet), start | {"exp": np.exp, "tanh": np.tanh})
+    latex = {SheetPrinter(sheet, LATEX).format_letter(key): value for key, value in start.items()}
     assert len(latex) == len(start)
-    sides = equations(sheet_latex(sheet))
+    sides = equations(format_sheet_latex(sheet))
     assert len({left for left, _ in sides}) == len(sides)
     for left, right in sides:
         latex[left] = float(written_value(right, latex))

@@ -3,7 +3,7 @@
 import pytest
 
 from modeler.derivation.graph import Graph
-from modeler.formulas.function_sheet import SheetWriter, sheet_lines
+from modeler.formulas.function_sheet import SheetWriter, format_sheet_lines
 
 LETTERS = {"q[0]": "q1", "q[1]": "q2", "qd[0]": "qd1", "a": "a", "b": "b", "k1": "k1"}
 
@@ -18,14 +18,14 @@ def symbols(graph: Graph, *names: str):
 
 
 def formulas(writer: SheetWriter) -> list[str]:
-    return [line for line in sheet_lines(writer.finished()) if line and line[0] != "#"]
+    return [line for line in format_sheet_lines(writer.build_sheet()) if line and line[0] != "#"]
 
 
 def test_what_is_read_once_and_short_is_written_where_it_is_read(graph):
     x, y, a = symbols(graph, "x", "y", "a")
     writer = SheetWriter(graph, LETTERS)
-    writer.propose("once", x + y)
-    writer.result("r", a * (x + y))
+    writer.propose_quantity("once", x + y)
+    writer.add_result("r", a * (x + y))
     assert formulas(writer) == ["r = a*(x + y)"]
 
 
@@ -33,8 +33,8 @@ def test_what_is_read_twice_has_a_line_before_its_readers(graph):
     x, y, a, b = symbols(graph, "x", "y", "a", "b")
     shared = a * x * x + b * y * y + 1
     writer = SheetWriter(graph, LETTERS)
-    writer.result("r", shared * x)
-    writer.result("t", -shared * y)
+    writer.add_result("r", shared * x)
+    writer.add_result("t", -shared * y)
     assert formulas(writer) == ["k2 = a*x**2 + b*y**2 + 1", "r = x*k2", "t = -y*k2"]
 
 
@@ -42,16 +42,16 @@ def test_a_name_of_the_robot_is_not_taken(graph):
     x, y, a = symbols(graph, "x", "y", "a")
     shared = x * y + a + 1
     writer = SheetWriter(graph, LETTERS)
-    writer.propose("b", shared)
-    writer.result("r", shared * x)
-    writer.result("t", shared * y)
+    writer.propose_quantity("b", shared)
+    writer.add_result("r", shared * x)
+    writer.add_result("t", shared * y)
     assert formulas(writer)[0] == "b_ = a + x*y + 1" and formulas(writer)[1] == "r = x*b_"
 
 
 def test_equal_results_refer_to_each_other(graph):
     x, y = symbols(graph, "x", "y")
     writer = SheetWriter(graph, LETTERS)
-    writer.result("r", x * x + y)
-    writer.result("t", -(x * x) - y)
-    writer.result("nothing", x - x)
+    writer.add_result("r", x * x + y)
+    writer.add_result("t", -(x * x) - y)
+    writer.add_result("nothing", x - x)
     assert formulas(writer) == ["r = y + x**2", "t = -r"]

@@ -11,8 +11,17 @@ import numpy as np
 import pytest
 
 from modeler.core.errors import RobotError
-from modeler.formulas.function_sheet import sheet_latex, sheet_lines, sheet_markdown
-from modeler.formulas.regressor_form import equation_of, nonzero_base, regressor_form, short_form
+from modeler.formulas.function_sheet import (
+    format_sheet_latex,
+    format_sheet_lines,
+    format_sheet_markdown,
+)
+from modeler.formulas.regressor_form import (
+    derive_equation,
+    derive_regressor_form,
+    derive_short_form,
+    drop_zero_parameters,
+)
 from tests.robots import ROBOTS, kinds_first
 from tests.rotation import rotating
 from tests.terms.printed_lines import compiled, derived, known, printed_coupling, run_lines, torque
@@ -79,7 +88,7 @@ def check(name) -> None:
     """The torque of the printed lines is that of the C."""
     derivation, model = derived(name), compiled(name)
     text = derivation.closed_form().text
-    names = [joint.name for joint in derivation.model.robot.free]
+    names = [joint.name for joint in derivation.model.robot.free_joints]
     rng, s = np.random.default_rng(5), SIGNALS[: len(derivation.model.signals)]
     for motion in motions_of(derivation):
         beta = rng.normal(size=derivation.base.rank)
@@ -111,13 +120,13 @@ def test_printed_lines_of_further_robots(loop_robots_folder, file):
 def test_a_document_of_both_has_one_thing_under_each_name(name):
     """The torque and the columns on one sheet: names are given once, and before they are read."""
     derivation = derived(name)
-    found = equation_of(derivation.model, derivation.base, motion=True, columns=True)
-    tree = ast.parse("\n".join(sheet_lines(found.sheet)))
+    found = derive_equation(derivation.model, derivation.base, motion=True, columns=True)
+    tree = ast.parse("\n".join(format_sheet_lines(found.sheet)))
     names = [node.targets[0].id for node in tree.body if isinstance(node, ast.Assign)]
     assert max(Counter(names).values()) == 1
-    free = range(len(derivation.model.robot.free))
+    free = range(len(derivation.model.robot.free_joints))
     values = known(derivation, *([0.5 + 0.1 * k for k in free],) * 3, [1.0] * derivation.base.rank)
-    run_lines(sheet_lines(found.sheet), values)  # NameError otherwise
+    run_lines(format_sheet_lines(found.sheet), values)  # NameError otherwise
     read = {n.id for n in ast.walk(tree) if isinstance(n, ast.Name) and isinstance(n.ctx, ast.Load)}
     assert not set(names) & set(values)
     assert {d.name for d in found.sheet.definitions if not d.result} <= read
@@ -130,7 +139,7 @@ LINES = {"puma560": 300, "rx90": 280, "ur10e": 260, "sr400": 340, "orthoglide-le
 def test_short_forms_are_short(name):
     """The expanded form of a PUMA 560 has 7376 lines, that of an SR400 2678."""
     derivation = derived(name)
-    lines = sheet_lines(short_form(derivation.model, derivation.base).sheet)
+    lines = format_sheet_lines(derive_short_form(derivation.model, derivation.base).sheet)
     assert len(lines) <= LINES[name] and max(map(len, lines)) <= 100
 
 
@@ -138,8 +147,8 @@ def test_known_subexpressions_have_their_names():
     """Axes 2, 3 and 4 of a UR10e are parallel, 2 and 3 of a PUMA; those of an SR400 follow q7."""
     text = {}
     for name in ("ur10e", "puma560", "sr400"):
-        found = short_form(derived(name).model, derived(name).base)
-        text[name] = "\n".join(sheet_lines(found.sheet))
+        found = derive_short_form(derived(name).model, derived(name).base)
+        text[name] = "\n".join(format_sheet_lines(found.sheet))
     assert "s234 = sin(q2 + q3 + q4)" in text["ur10e"]
     assert "s23 = sin(q2 + q3)" in text["puma560"] and "gx_4 = g*s23*c4" in text["puma560"]
     assert "J44 = ZZ4c" in text["puma560"] and "S334 = S324" in text["puma560"]
@@ -180,9 +189,9 @@ def test_puma_is_the_published_one():
     """Within what their abbreviation leaves out; 4.71 is the motor of axis 2, which we lack."""
     derivation = derived("puma560")
     beta = nominal_beta(derivation)
-    base = nonzero_base(derivation.model, derivation.base)
+    base = drop_zero_parameters(derivation.model, derivation.base)
     assert base.rank == 20
-    lines = sheet_lines(short_form(derivation.model, base).sheet)
+    lines = format_sheet_lines(derive_short_form(derivation.model, base).sheet)
     assert len(lines) <= 180
     rng = np.random.default_rng(3)
     pairs: dict[str, list[tuple[float, float]]] = {name: [] for name in PUBLISHED}
@@ -205,14 +214,14 @@ def test_puma_is_the_published_one():
 
 def test_effects_are_never_left_out():
     derivation = derived("two-link")
-    kept = nonzero_base(derivation.model, derivation.base).parameters
+    kept = drop_zero_parameters(derivation.model, derivation.base).parameters
     assert [p.name for p in kept] == ["ZZ1R", "MX1R", "Fv1", "Fs1", "ZZ2", "MX2", "Fv2", "Fs2"]
 
 
 def test_nonzero_needs_nominal_values():
     derivation = derived("rx90")
     with pytest.raises(RobotError, match=r"rx90: all inertial base parameters are 0.*\[parameters"):
-        nonzero_base(derivation.model, derivation.base)
+        drop_zero_parameters(derivation.model, derivation.base)
 
 
 def printed_columns(derivation, found) -> np.ndarray:
@@ -226,7 +235,7 @@ def printed_columns(derivation, found) -> np.ndarray:
 def test_printed_columns_are_those_of_the_c(name):
     """Those of a robot with loops are the tree's, projected."""
     derivation, model = derived(name), compiled(name)
-    lines = sheet_lines(regressor_form(derivation.model, derivation.base).sheet)
+    lines = format_sheet_lines(derive_regressor_form(derivation.model, derivation.base).sheet)
     for motion in motions_of(derivation):
         found, _, _, J = ran(derivation, model, lines, motion)
         expected = model.base_regressor(*motion[:, None])[0]
@@ -237,8 +246,8 @@ def test_printed_columns_are_those_of_the_c(name):
 @pytest.mark.parametrize("name", ["odd", "sr400"])
 def test_latex_and_markdown_have_every_column(name):
     derivation = derived(name)
-    sheet = regressor_form(derivation.model, derivation.base).sheet
-    latex, markdown = sheet_latex(sheet), sheet_markdown(sheet)
+    sheet = derive_regressor_form(derivation.model, derivation.base).sheet
+    latex, markdown = format_sheet_latex(sheet), format_sheet_markdown(sheet)
     assert latex.count("\\begin{align*}") == latex.count("\\end{align*}") > 3
     assert latex.count("{") == latex.count("}") and latex.count(r"\left") == latex.count(r"\right")
     formulas = "".join(line for line in latex.splitlines() if line[0] not in "%\\")

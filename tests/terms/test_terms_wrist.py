@@ -8,20 +8,20 @@ import sympy
 
 from modeler.core.errors import RobotError
 from modeler.core.files import write_atomically
-from modeler.derivation.base_parameters import base_parameters
-from modeler.formulas.coefficients import coefficient_table
+from modeler.derivation.base_parameters import derive_base_parameters
+from modeler.formulas.coefficients import build_coefficient_table
 from modeler.formulas.print_checks import (
+    build_exact_state,
     check_independent,
     check_solutions,
     check_twin,
-    exact_state,
-    power_balance,
-    wrong_definitions,
-    wrong_functions,
+    compute_power_balance,
+    find_wrong_definitions,
+    find_wrong_functions,
 )
-from modeler.formulas.print_report import check_friction, terms_report
-from modeler.formulas.ring import classes, inverse_map
-from modeler.formulas.text import form_text, physical_text
+from modeler.formulas.print_report import check_friction, write_terms_report
+from modeler.formulas.ring import invert_base_map, partition_by_ratio
+from modeler.formulas.text import format_linear_form, format_physical
 from tests.terms.cases import base_of, edited_wrist, model_of, table_of
 
 REFERENCE = Path(__file__).resolve().parents[1] / "reference"
@@ -79,9 +79,9 @@ def test_definitions_in_the_papers_letters_and_in_base_parameters(table):
     static = table.closed.algebra.names[table.closed.algebra.moving :]
     for name, physical, base in definition_lines():
         own = table.by_name[name]
-        found = physical_text(own.physical, table.physical.names, table.physical.masses)
+        found = format_physical(own.physical, table.physical.names, table.physical.masses)
         assert sympy.expand(sympy.sympify(found) - sympy.sympify(physical)) == 0, name
-        found = form_text(own.base, table.base_names, static)
+        found = format_linear_form(own.base, table.base_names, static)
         assert sympy.expand(sympy.sympify(found) - sympy.sympify(base)) == 0, name
 
 
@@ -95,7 +95,7 @@ def test_physical_parameters(table):
 
 
 def test_coefficients_fall_into_twenty_one_classes(table):
-    assert len(classes(table.relations)) == 21
+    assert len(partition_by_ratio(table.relations)) == 21
 
 
 def test_map_to_the_base_parameters_and_back(table):
@@ -109,7 +109,7 @@ def test_map_to_the_base_parameters_and_back(table):
         "XX3R": "-PJ1", "XY3": "-PJ2/2", "XZ3": "PJ5/2-bl1*PG3", "YZ3": "bl1*PG2-PJ4/2",
         "ZZ3": "PJ16", "MX3": "-PG3", "MY3": "PG2",
     }  # fmt: skip
-    inverse = inverse_map(found, table.closed.algebra.static_ring)
+    inverse = invert_base_map(found, table.closed.algebra.static_ring)
     assert inverse is not None and inverse.keys() == expected.keys()
     plain = {s: sympy.Symbol(s.name) for s in sympy.symbols("g al1 bl1", real=True)}
     for name, row in inverse.items():
@@ -124,7 +124,7 @@ FIRST, LAST = "## The functions\n", "## All coefficients\n"
 
 def test_page_of_the_wrist_is_current(regenerate):
     model = model_of("wrist")
-    report = terms_report(model, base_parameters(model))
+    report = write_terms_report(model, derive_base_parameters(model))
     now = FIRST + report.split(FIRST)[1].split(LAST)[0].rstrip() + "\n"
     head, kept = PAGE.read_text(encoding="utf-8").split(FIRST)
     kept = FIRST + kept
@@ -140,11 +140,11 @@ def test_page_of_the_wrist_is_current(regenerate):
 
 
 def table_with(*edits: tuple[str, str]):
-    return coefficient_table(edited_wrist(*edits), base_of("wrist"))
+    return build_coefficient_table(edited_wrist(*edits), base_of("wrist"))
 
 
 def test_misprinted_functions(table):
-    found = {check.name: check for check in wrong_functions(table)}
+    found = {check.name: check for check in find_wrong_functions(table)}
     assert found.keys() == {"S112", "S122", "S213", "S223", "S311"}
     assert dict(found["S213"].difference) == {"c2*s3": "-PJ4", "c2*c3": "-PJ5"}
     assert dict(found["S223"].difference) == {"c3*s3": "-2*PJ1", "c3**2": "-2*PJ2", "1": "PJ2"}
@@ -152,13 +152,13 @@ def test_misprinted_functions(table):
 
 
 def test_each_misprint_breaks_the_power_balance_and_the_derived_model_does_not(table):
-    assert power_balance(table, exact_state(table)) == 0
-    for check in wrong_functions(table):
+    assert compute_power_balance(table, build_exact_state(table)) == 0
+    for check in find_wrong_functions(table):
         assert check.power_defect is not None and abs(check.power_defect) > 1e-3
 
 
 def test_misprinted_definition_and_its_contradiction(table):
-    (check,) = wrong_definitions(table)
+    (check,) = find_wrong_definitions(table)
     assert check.name == "PJ5"
     spoilt = {
         c.letter: c.verdict for c in check_solutions(table, as_printed=True) if c.verdict != "right"
@@ -193,7 +193,7 @@ def test_a_twin_that_is_none_is_found_out():
 
 
 def test_report_without_a_print_has_no_section_on_it():
-    page = terms_report(model_of("two-link"), base_of("two-link"))
+    page = write_terms_report(model_of("two-link"), base_of("two-link"))
     assert "print is wrong" not in page
     assert "## All coefficients" in page
 
@@ -229,10 +229,25 @@ def test_mistakes_in_terms(old, new, message):
 @pytest.mark.parametrize(
     ("old", "new", "check", "message"),
     [
-        ('J33 = "PJ22"', 'J33 = "PJ77"', wrong_functions, r"functions, J33.*where PJ77 is unknown"),
-        ('J33 = "PJ22"', 'J33 = "sin(PJ22)"', wrong_functions, r"J33: got .*expected a polynomial"),
-        ('J33 = "PJ22"', 'J77 = "PJ22"', wrong_functions, r"functions: there is no function J77"),
-        ('PG2 = "-cm*ct2"', 'PG2 = "-cm*xx"', wrong_definitions, r"PG2.*where xx is unknown"),
+        (
+            'J33 = "PJ22"',
+            'J33 = "PJ77"',
+            find_wrong_functions,
+            r"functions, J33.*where PJ77 is unknown",
+        ),
+        (
+            'J33 = "PJ22"',
+            'J33 = "sin(PJ22)"',
+            find_wrong_functions,
+            r"J33: got .*expected a polynomial",
+        ),
+        (
+            'J33 = "PJ22"',
+            'J77 = "PJ22"',
+            find_wrong_functions,
+            r"functions: there is no function J77",
+        ),
+        ('PG2 = "-cm*ct2"', 'PG2 = "-cm*xx"', find_wrong_definitions, r"PG2.*where xx is unknown"),
         ('ct3 = ["-PG3", "cm"]', 'cx3 = "PG3"', check_solutions, r"cx3 is no physical parameter"),
         ('"PS3",', '"PS99",', check_independent, r"independent: there is no coefficient PS99"),
     ],

@@ -5,9 +5,9 @@ from collections.abc import Callable, Mapping
 import numpy as np
 
 from modeler import api
-from modeler.core.toml_cells import Place
-from modeler.diagnosis import Candidate, analysed, learn, state_of
-from modeler.diagnosis.effect_columns import Rows, own_columns
+from modeler.core.toml_cells import TomlCell
+from modeler.diagnosis import Candidate, analyse_logs, build_state, learn_law
+from modeler.diagnosis.effect_columns import Rows, evaluate_equations
 from modeler.diagnosis.state import SearchData
 from modeler.effects import read_definition
 from tests.unnamed_laws.judge import least_squares, matrices, rows_of_machine, true_column
@@ -22,15 +22,15 @@ ENOUGH = 2.0  # % of the rms torque that an equation may differ from the true fo
 def what_is_learned(own: Machine) -> str:
     """A line for each joint that has a law, true or learned: errors without, learned, true."""
     model = api.open_model(own.model)
-    compiled = api.recompile(model)
-    observation = analysed(compiled, api.read_logs(compiled, own.train), model.processing)
-    state = state_of(SearchData(compiled, observation), (), model.beta)
+    compiled = api.compile(model)
+    observation = analyse_logs(compiled, api.read_logs(compiled, own.train), model.processing)
+    state = build_state(SearchData(compiled, observation), (), model.beta)
     lines = []
-    for j, name in enumerate(state.names):
+    for j, name in enumerate(state.joint_names):
         if own.joint not in (None, name):
             continue
-        law = learn(state, j)
-        if law is None or not law.significant:
+        law = learn_law(state, j)
+        if law is None or not law.is_significant:
             lines.append(f"{own.name} joint {name}: nothing is learned")
             continue
         keys = ("low", "high", "cells", "values")
@@ -38,7 +38,10 @@ def what_is_learned(own: Machine) -> str:
         columns = {"x": law.coordinates.equation}
         table = {"columns": columns, **law.coordinates.further, "law": values}
         predicted = Predictions(own, j)
-        without, learned = predicted.error(), predicted.error(column_of(table, {}, state.names, j))
+        without, learned = (
+            predicted.error(),
+            predicted.error(column_of(table, {}, state.joint_names, j)),
+        )
         what = f"{own.name} joint {name}: {law.coordinates.equation}"
         line = f"{what}: {without:.2f} % -> {learned:.2f}"
         if own.truth is not None:
@@ -67,10 +70,14 @@ def column_of(
     definition: Mapping[str, object], shapes: Mapping[str, float], names: list[str], j: int
 ) -> Column:
     """The columns of a definition of `[own_effects]` on joint j, at these shapes or its own."""
-    effect = read_definition("found", Place("found").holding(dict(definition)), {}, joints=names)
-    own = {s.name: shapes.get(s.name, s.grid[0]) for s in effect.forms[0].shapes}
+    effect = read_definition(
+        "found", TomlCell("found").with_value(dict(definition)), {}, joints=names
+    )
+    own = {s.name: shapes.get(s.name, s.grid[0]) for s in effect.forms[0].nonlinear_parameters}
     candidate = Candidate(effect, effect.forms[0], names[j], j, own)
-    return lambda rows: rows.filtered(j, [own_columns([candidate], s) for s in rows.signals])
+    return lambda rows: rows.filter_samples(
+        j, [evaluate_equations([candidate], s) for s in rows.signals]
+    )
 
 
 class Predictions:

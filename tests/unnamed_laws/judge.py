@@ -5,9 +5,9 @@ from dataclasses import dataclass
 import numpy as np
 
 from modeler import api
-from modeler.diagnosis import SignalReference, analysed
-from modeler.diagnosis.effect_columns import Rows, rows_of
-from modeler.diagnosis.state import again
+from modeler.diagnosis import SignalReference, analyse_logs
+from modeler.diagnosis.effect_columns import Rows, build_rows
+from modeler.diagnosis.state import observe_in_band
 from tests.unnamed_laws.laws import Motion, TrueForm
 from tests.unnamed_laws.machines import Machine
 
@@ -34,18 +34,18 @@ class Errors:
 def rows_of_machine(own: Machine) -> tuple[Rows, Rows]:
     """Rows of the training and the held-out logs, in the band of a diagnosis."""
     model = api.open_model(own.model)
-    compiled = api.recompile(model)
+    compiled = api.compile(model)
     train, holdout = (api.read_logs(compiled, logs) for logs in (own.train, own.holdout))
-    seen = analysed(compiled, train, model.processing)
-    held = again(compiled, holdout, seen.report.processing)
+    seen = analyse_logs(compiled, train, model.processing)
+    held = observe_in_band(compiled, holdout, seen.report.processing)
     reference = SignalReference(compiled, model.beta, 0.0, {})
-    return rows_of(seen, reference), rows_of(held, reference)
+    return build_rows(seen, reference), build_rows(held, reference)
 
 
 def true_column(rows: Rows, form: TrueForm) -> np.ndarray:
     """(rows of its joint, 1) column of the true form, filtered as the rows are."""
     seen = [Motion(s.q, s.v, s.a, s.load, s.time) for s in rows.signals]
-    return rows.filtered(form.joint, [form.column(motion) for motion in seen])[:, None]
+    return rows.filter_samples(form.joint, [form.column(motion) for motion in seen])[:, None]
 
 
 def errors(own: Machine) -> Errors:

@@ -27,7 +27,7 @@ def main(arguments: Sequence[str] | None = None) -> None:
     parser.add_argument("--learn", action="store_true", help="what a learned law takes")
     parser.add_argument("--discover", action="store_true", help="equations that are proposed")
     options = parser.parse_args(arguments)
-    asked = [what_is_learned] * options.learn + [what_is_proposed] * options.discover
+    asked = [what_is_learned] * options.learn + [what_is_proposed] * options.discover_equations
     laws = list(LAWS) if "all" in options.law else options.law
     for law in laws:
         for seed in range(options.first, options.first + options.seeds):
