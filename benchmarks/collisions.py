@@ -17,8 +17,8 @@ from modeler.api import compile_model, derive, generate
 from modeler.api.motion import build_bounds
 from modeler.excitation import CollisionGeometry, ExcitingMotion, MotionRequest, design_motion
 from modeler.excitation.families import FAMILIES
-from modeler.report.robot_skeleton import Skeleton, build_skeleton, compute_poses
 from modeler.robot import read_robot
+from modeler.views.robot_skeleton import Skeleton, build_skeleton, compute_poses
 
 MARGIN = 0.01  # m
 FREE = 4  # every so manieth is looked for without clearance too

@@ -18,7 +18,7 @@ from typing import Any
 
 from modeler.api import compile_model, derive, fit, generate, load, observe
 from modeler.diagnosis import LogSplit, add_effect, analyse_logs, diagnose
-from modeler.observation import Log, read_log
+from modeler.regression import Log, read_log
 from modeler.robot import parse_robot_text
 from modeler.simulation import SimulationSettings, parse_hidden_effect, simulate, write_log
 

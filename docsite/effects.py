@@ -20,10 +20,10 @@ from modeler.core.errors import DataError
 from modeler.core.figure import Picture
 from modeler.diagnosis import Diagnosis, Finding, format_lines
 from modeler.effects import CATALOGUE, Effect, EffectTarget, NonlinearParameter
-from modeler.report import build_diagnosis_page
-from modeler.report.figures import draw_picture
 from modeler.robot import Robot, insert_effect, replace_robot_effects
 from modeler.simulation import HIDDEN
+from modeler.views import build_diagnosis_page
+from modeler.views.figures import draw_picture
 
 FAMILIES = {
     "friction": "Friction",

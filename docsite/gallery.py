@@ -13,8 +13,8 @@ from modeler import formulas
 from modeler.codegen import Derivation, derive, generate
 from modeler.core.builtin import list_builtin_robots, read_builtin_robot
 from modeler.derivation import as_markdown
-from modeler.report import render_picture, show
 from modeler.robot import read_robot
+from modeler.views import render_picture, show
 
 WRITTEN = Path(__file__).resolve().parents[1] / "docs" / "robots"
 """Pages on single robots."""

@@ -5,7 +5,7 @@ from pathlib import Path
 
 WIDTH, HEIGHT, BOX, ROW = 1080, 70, 150, 44
 NORTH = ("effects", "robot", "derivation", "formulas", "codegen")
-AROUND = ("core", "simulation", "papers", "report", "api", "cli")
+AROUND = ("core", "simulation", "papers", "views", "api", "cli")
 FILL = {"derives": "#fde8c8", "numbers": "#d3e6f8", "around": "#e6e6e6"}
 
 

@@ -5,7 +5,7 @@ import importlib.util
 import inspect
 
 STAGES = (
-    "robot", "derivation", "formulas", "codegen", "runtime", "observation", "estimation",
+    "robot", "derivation", "formulas", "codegen", "runtime", "regression", "estimation",
     "validation", "diagnosis", "fleet", "simulation", "papers",
 )  # fmt: skip
 """Stages with pages of their own, in the order of the data; `modeler.api` comes before them."""

@@ -23,8 +23,8 @@ __version__ = "0.1.0"
 
 _ROOMS = (
     "api", "cli", "codegen", "core", "derivation", "diagnosis", "effects", "estimation",
-    "excitation", "exports", "fleet", "formulas", "logs", "numerics", "observation", "papers",
-    "report", "robot", "runtime", "simulation", "studio", "validation",
+    "excitation", "exports", "fleet", "formulas", "logs", "numerics", "regression", "papers",
+    "views", "robot", "runtime", "simulation", "studio", "validation",
 )  # fmt: skip
 
 

@@ -8,7 +8,7 @@ from pathlib import Path
 
 NORTH = ("effects", "robot", "derivation", "formulas", "codegen")
 SOUTH = (
-    "numerics", "runtime", "logs", "observation", "estimation", "diagnosis", "validation", "fleet",
+    "numerics", "runtime", "logs", "regression", "estimation", "diagnosis", "validation", "fleet",
     "excitation",
 )  # fmt: skip
 
@@ -23,14 +23,14 @@ STAGES: dict[str, set[str]] = {
     "logs": {"core", "numerics"},
     "diagnosis": {"core", "effects", *SOUTH[: SOUTH.index("diagnosis")]},
     "fleet": {"core", "effects", *SOUTH[: SOUTH.index("fleet")]},
-    "excitation": {"core", "effects", "numerics", "runtime", "observation", "diagnosis"},
+    "excitation": {"core", "effects", "numerics", "runtime", "regression", "diagnosis"},
     "simulation": {"core", "robot"},
-    "exports": {"core", "effects", "robot", "numerics", "runtime", "observation", "estimation"},
-    "papers": {"core", *NORTH, *SOUTH[:2], "observation", "estimation", "simulation", "excitation"},
-    "report": {"core", *NORTH, *SOUTH, "simulation"},
-    "api": {"core", *NORTH, *SOUTH, "simulation", "exports", "report"},
-    "studio": {"core", *NORTH, *SOUTH, "simulation", "exports", "report", "api"},
-    "cli": {"core", *NORTH, *SOUTH, "simulation", "papers", "exports", "report", "api", "studio"},
+    "exports": {"core", "effects", "robot", "numerics", "runtime", "regression", "estimation"},
+    "papers": {"core", *NORTH, *SOUTH[:2], "regression", "estimation", "simulation", "excitation"},
+    "views": {"core", *NORTH, *SOUTH, "simulation"},
+    "api": {"core", *NORTH, *SOUTH, "simulation", "exports", "views"},
+    "studio": {"core", *NORTH, *SOUTH, "simulation", "exports", "views", "api"},
+    "cli": {"core", *NORTH, *SOUTH, "simulation", "papers", "exports", "views", "api", "studio"},
 }
 
 # An effect goes round: from the diagnosis into the robot description, and from there all the way.
@@ -47,7 +47,7 @@ PACKAGES: dict[str, set[str]] = {
     "codegen": {"numpy", "sympy", "jinja2", "casadi"},
     "runtime": {"numpy", "cffi", "cupy"},
     "logs": {"numpy", "scipy", "pyarrow", "h5py", "rosbags", "python_calamine"},
-    "observation": {"numpy", "scipy"},
+    "regression": {"numpy", "scipy"},
     "estimation": {"numpy", "scipy", "clarabel", "cvxpy"},
     "diagnosis": {"numpy", "scipy", "threadpoolctl"},
     "validation": {"numpy", "scipy"},
@@ -56,7 +56,7 @@ PACKAGES: dict[str, set[str]] = {
     "simulation": {"numpy", "scipy", "pyarrow", "casadi", "cvxpy"},
     "exports": {"numpy", "scipy", "cvxpy"},
     "papers": {"numpy", "sympy"},
-    "report": {"numpy", "scipy", "matplotlib", "jinja2"},
+    "views": {"numpy", "scipy", "matplotlib", "jinja2"},
     "api": {"numpy", "sklearn"},
     "studio": {"numpy", "nicegui", "fastapi", "starlette", "uvicorn"},
     "cli": {"numpy", "rich"},
@@ -64,7 +64,7 @@ PACKAGES: dict[str, set[str]] = {
 
 # Packages that few files may know: what replaces such a package replaces these files.
 ONLY_IN = {
-    "jinja2": ("codegen/package.py", "report/page.py"),
+    "jinja2": ("codegen/package.py", "views/page.py"),
     "cupy": ("runtime/gpu.py",),
     "cffi": ("runtime/bind.py",),
     "casadi": ("derivation/lagrange.py", "codegen/casadi_functions.py", "simulation/"),
@@ -78,7 +78,7 @@ ONLY_IN = {
     "distributed": ("core/jobs.py",),
     "sklearn": ("api/regressor.py",),
     "mujoco": ("robot/mjcf.py",),
-    "matplotlib": ("report/", "excitation/result.py"),
+    "matplotlib": ("views/", "excitation/result.py"),
 }
 
 # The ratchet: it may only be lowered, or raised by a line that says why.

@@ -17,9 +17,9 @@ from modeler import api
 from modeler.core.manifest import EmittedModule
 from modeler.effects.catalogue import find_effect
 from modeler.estimation.model_file import IdentifiedModel
-from modeler.observation.log import Log
-from modeler.observation.read import read_log
-from modeler.observation.settings import Processing
+from modeler.regression.log import Log
+from modeler.regression.read import read_log
+from modeler.regression.settings import Processing
 from modeler.robot.read import parse_robot_text
 from modeler.robot.robot import Robot
 from modeler.runtime.model import CompiledModel

@@ -54,6 +54,6 @@ def derived_once() -> Iterator[None]:
     """While it lasts, a robot that was derived before is not, nor is its plain C emitted again."""
     with pytest.MonkeyPatch.context() as patched:
         patched.setattr(workflow, "derive_model", model_of)
-        patched.setattr(workflow, "base_parameters", base_of)
+        patched.setattr(workflow, "derive_base_parameters", base_of)
         patched.setattr(emission, "emit", emitted_of)
         yield

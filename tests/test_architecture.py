@@ -105,12 +105,12 @@ PLANTED = [
     ("estimation/a.py", "from modeler.derivation import X", "a.py:1: imports modeler"),
     ("runtime/a.py", "import modeler.robot.read", "runtime may import core"),
     ("validation/a.py", "def f():\n    import sympy", "a.py:2: imports sympy"),
-    ("observation/a.py", "from modeler import derivation", "imports modeler.derivation"),
+    ("regression/a.py", "from modeler import derivation", "imports modeler.derivation"),
     ("estimation/a.py", "from modeler.runtime.bind import X",
      "what others may use is in modeler/runtime/__init__.pyi"),
     ("core/a.py", "import lazy_loader", "only a room's __init__.py"),
     ("derivation/a.py", "from modeler.codegen import X", "imports modeler.codegen"),
-    ("observation/a.py", "from modeler import estimation", "imports modeler.estimation"),
+    ("regression/a.py", "from modeler import estimation", "imports modeler.estimation"),
     ("core/a.py", "import modeler.effects", "core may import nothing"),
     ("estimation/a.py", "from modeler.cli import main", "imports modeler.cli"),
     ("simulation/a.py", "import modeler.derivation", "may import core, robot"),
@@ -207,7 +207,7 @@ def test_the_simulator_shares_no_dynamics_with_the_model() -> None:
     assert ours == {"modeler.core", "modeler.effects", "modeler.robot", "modeler.simulation"}
 
 
-@pytest.mark.parametrize("stage", ["diagnosis", "report"])
+@pytest.mark.parametrize("stage", ["diagnosis", "views"])
 def test_the_engine_knows_no_effect_by_its_name(stage: str) -> None:
     """What is special about an effect stands in its definition: users' own effects are alike."""
     names = {e.id for e in CATALOGUE if e.columns[0].block is EnergyBlock.OWN}

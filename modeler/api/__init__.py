@@ -18,8 +18,8 @@ that a stage has too are that stage's, with the usual choices; use the stages fo
 
 import lazy_loader
 
-from modeler.report import notebook
+from modeler.views import notebook
 
 __getattr__, __dir__, __all__ = lazy_loader.attach_stub(__name__, __file__)
 
-notebook.register()
+notebook.register_report_modules()

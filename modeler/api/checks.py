@@ -14,7 +14,7 @@ from modeler.api.workflow import AnyLog, Logs, are_long, are_too_long, open_sour
 from modeler.core.errors import DataError
 from modeler.derivation import complete_home
 from modeler.estimation import FitResult, IdentifiedModel, ParameterEstimate
-from modeler.observation import Log, Observation, Processing, WholeLogNeeded, check_no_overlap
+from modeler.regression import Log, Observation, Processing, WholeLogNeeded, check_no_overlap
 from modeler.robot import Robot
 from modeler.runtime import CompiledModel
 

@@ -17,7 +17,7 @@ from modeler.core.errors import GAIN_METHOD, TWO_STEPS, DataError, Method
 from modeler.core.estimators import ABOUT
 from modeler.core.manifest import EmittedModule
 from modeler.numerics.least_squares import CompressedRegression
-from modeler.observation import DataWarning, Log, Observation, Processing, check_no_overlap, observe
+from modeler.regression import DataWarning, Log, Observation, Processing, check_no_overlap, observe
 from modeler.robot import (
     Robot,
     compute_joint_directions,

@@ -22,7 +22,7 @@ from modeler.fleet import (
     reduce_log,
     summarise_log,
 )
-from modeler.observation import Processing
+from modeler.regression import Processing
 from modeler.robot import Robot
 from modeler.runtime import CompiledModel
 

@@ -16,7 +16,7 @@ from modeler.codegen import Derivation
 from modeler.core.errors import GAIN_METHOD, DataError, FitWarning, Method
 from modeler.core.manifest import EmittedModule
 from modeler.derivation import complete_home
-from modeler.observation import Log, Observation, Processing, check_no_overlap, observe
+from modeler.regression import Log, Observation, Processing, check_no_overlap, observe
 from modeler.robot import Robot, read_robot, replace_robot_effects
 from modeler.runtime import CompiledModel
 

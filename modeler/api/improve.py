@@ -12,7 +12,7 @@ from modeler.api.steps import Steps, ignore_step
 from modeler.api.workflow import Logs, M, compile, read_logs
 from modeler.core.errors import DataError
 from modeler.estimation import IdentifiedModel
-from modeler.observation import check_no_overlap
+from modeler.regression import check_no_overlap
 from modeler.robot import (
     Robot,
     SharedEffects,

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from modeler import observation
+from modeler import regression
 from modeler.core.errors import DataError, ModelerError, split_time_range
 from modeler.core.manifest import EmittedModule
 from modeler.estimation import find_log_faults, identify, judge_fit
@@ -23,7 +23,7 @@ from modeler.logs import (
     parse_map_options,
     read_windows,
 )
-from modeler.observation import FINGER, LONG, WINDOW, WINDOWS
+from modeler.regression import FINGER, LONG, WINDOW, WINDOWS
 from modeler.runtime import CompiledModel
 from modeler.simulation import SimulatedLog
 
@@ -68,7 +68,7 @@ def build_log_maps(
     known: dict[tuple[str, ...], LogMap] = {}  # of columns, a guess: once for logs that are alike
     maps = []
     for log in logs:
-        if isinstance(log, observation.Log | SimulatedLog):
+        if isinstance(log, regression.Log | SimulatedLog):
             maps.append(dataclasses.replace(names, auto=False))
             continue
         inspection = inspect_log(
@@ -187,7 +187,7 @@ class MappingFit:
     error: float
     lines: tuple[str, ...] = ()
     is_usable: bool = False
-    data_report: observation.DataReport | None = None
+    data_report: regression.DataReport | None = None
 
 
 def choose_mapping(
@@ -224,12 +224,12 @@ def _fit_mapping(
         path, span = parse_time_range(place) if isinstance(place, str | Path) else ("", None)
         blocks = open_blocks(Path(path)) if path and span is None else None
         if blocks is not None and blocks.rows > LONG:
-            source = observation.open_source(Path(path), compiled.spec, names)
+            source = regression.open_source(Path(path), compiled.spec, names)
             assert source is not None  # it has blocks
             log = source.read_window(0.0, LONG)
         else:
             log = read_mapped_log(place, compiled.spec, names)
-        rows = observation.observe(compiled, [log])
+        rows = regression.observe(compiled, [log])
         result = identify(rows, "weighted", compiled)
         result_with_verdict = judge_fit(compiled, rows, result, find_log_faults(compiled, rows))
     except ModelerError:
@@ -241,24 +241,24 @@ def _fit_mapping(
 def read_mapped_log(
     place: str | Path | InMemory, spec: Any, names: LogMap, where: str = "log",
     spread: bool = False,
-) -> observation.Log:  # fmt: skip
+) -> regression.Log:  # fmt: skip
     """A log, or a piece of it, with the columns of a map; `where` is a frame in messages.
 
     With `spread` a log too long to be diagnosed as a whole is read as stretches of it.
     """
     if not isinstance(place, str | Path):
-        return observation.read_log_in_memory(place, spec, names, where)
+        return regression.read_log_in_memory(place, spec, names, where)
     path, span = parse_time_range(place)
     if span is None:
-        source = observation.open_source(Path(path), spec, names) if spread else None
-        if source is None or source.rows <= observation.SPREAD:
-            return observation.read_log(path, spec, names)
-        return dataclasses.replace(observation.read_spread(source, spec), path=str(place))
-    source = observation.open_source(Path(path), spec, names)
+        source = regression.open_source(Path(path), spec, names) if spread else None
+        if source is None or source.rows <= regression.SPREAD:
+            return regression.read_log(path, spec, names)
+        return dataclasses.replace(regression.read_spread(source, spec), path=str(place))
+    source = regression.open_source(Path(path), spec, names)
     if source is not None and source.rows > (LONG if source.exact else 2 * LONG):
-        part = observation.read_part(source, spec, *span)
+        part = regression.read_part(source, spec, *span)
     else:
-        part = observation.cut_window(observation.read_log(path, spec, names), *span)
+        part = regression.cut_window(regression.read_log(path, spec, names), *span)
     return dataclasses.replace(part, path=str(place))
 
 
@@ -310,7 +310,7 @@ def inspect_log(
     names = parse_mapping(mapping) if compiled is None else build_log_map(compiled, mapping)
     joints = () if compiled is None else compiled.spec.joints
     if not isinstance(place, str | Path):
-        table_in_memory = observation.build_table(place, joints, names, "log")
+        table_in_memory = regression.build_table(place, joints, names, "log")
         return inspect_table(table_in_memory, names, joints, (None, None))
     path, span = parse_time_range(str(place))
     blocks, span = open_blocks(Path(path)), span or (None, None)

@@ -7,7 +7,7 @@ from functools import reduce
 from pathlib import Path
 from typing import TypeGuard
 
-from modeler import observation
+from modeler import regression
 from modeler.api.fitting import FitOutcome, FitRequest, add_verdict, assemble_model
 from modeler.api.log_maps import Mapped
 from modeler.api.model import Model
@@ -26,7 +26,6 @@ from modeler.core.manifest import EmittedModule
 from modeler.estimation import OF_TRIANGLES, FitResult, long_logs as chunked
 from modeler.logs import LogMap
 from modeler.runtime import CompiledModel, load_cached_model
-
 
 Progress = Callable[[str], AbstractContextManager[Callable[[float], None]]]
 """Opens a step of this title whose share of done work can be reported."""
@@ -53,9 +52,9 @@ def fit_long(
     derivation: Derivation,
     emitted: EmittedModule,
     compiled: CompiledModel,
-    sources: Sequence[observation.Source],
+    sources: Sequence[regression.Source],
     method: Method = "weighted",
-    processing: observation.Processing | None = None,
+    processing: regression.Processing | None = None,
     progress: Callable[[float], None] = lambda share: None,
     reducer: chunked.Reducer | None = None,
 ) -> tuple[Model, chunked.StreamedLogs]:
@@ -75,7 +74,7 @@ def fit_long(
         DataError: see `stream` and `identify_long`.
     """
     streamed = chunked.stream_logs(compiled, sources, processing, progress, reducer=reducer)
-    observation.check_no_overlap(streamed.observation.report.logs)
+    regression.check_no_overlap(streamed.observation.report.logs)
     result = add_long_verdict(compiled, streamed, method)
     return assemble_model(derivation, emitted, streamed.observation, result), streamed
 
@@ -87,10 +86,10 @@ def fit_if_long(
     compiled: CompiledModel,
     logs: Sequence[AnyLog],
     loaded: Sequence[AnyLog],
-    processing: observation.Processing,
+    processing: regression.Processing,
     mapping: Mapped,
     reporter: Reporter,
-) -> tuple[Model, observation.Observation] | None:
+) -> tuple[Model, regression.Observation] | None:
     """The model of long logs, read in chunks; None where all rows are to be in memory.
 
     Raises:
@@ -119,7 +118,7 @@ def fit_if_long(
             model, streamed = fit_long(
                 derivation, emitted, compiled, sources, request.method, processing, bar, reducer
             )
-    except observation.WholeLogNeeded as error:
+    except regression.WholeLogNeeded as error:
         if are_too_long(every):
             raise
         reporter.print_note(f"{error}; read as a whole instead")
@@ -149,7 +148,7 @@ class ChunkJobContext:
     emitted: EmittedModule
     path: Path
     mapping: LogMap | None
-    chosen: observation.LogChoices
+    chosen: regression.LogChoices
     rows: int
 
 
@@ -166,7 +165,7 @@ def make_worker_reducer(workers: Workers, emitted: EmittedModule) -> chunked.Red
     """
 
     def reduce_with_workers(
-        model: CompiledModel, source: observation.Source, chosen: observation.LogChoices
+        model: CompiledModel, source: regression.Source, chosen: regression.LogChoices
     ) -> Iterator[chunked.PartialFit]:
         if not can_read_from_middle(source):
             return chunked.reduce_by_threads(model, source, chosen)
@@ -184,9 +183,9 @@ def make_worker_reducer(workers: Workers, emitted: EmittedModule) -> chunked.Red
     return reduce_with_workers
 
 
-def can_read_from_middle(source: observation.Source) -> TypeGuard[observation.FileSource]:
+def can_read_from_middle(source: regression.Source) -> TypeGuard[regression.FileSource]:
     """True of a log whose rows a worker can read by itself, from the middle of its file."""
-    return isinstance(source, observation.FileSource) and source.exact
+    return isinstance(source, regression.FileSource) and source.exact
 
 
 def reduce_rows(shared: ChunkJobContext, numbers: range) -> chunked.PartialFit:
@@ -196,14 +195,14 @@ def reduce_rows(shared: ChunkJobContext, numbers: range) -> chunked.PartialFit:
         DataError: the worker does not see the file, or sees another.
     """
     model, chosen = load_cached_model(shared.emitted), shared.chosen
-    source = observation.open_source(shared.path, model.spec, shared.mapping)
+    source = regression.open_source(shared.path, model.spec, shared.mapping)
     if source is None or source.rows != shared.rows:
         got = "none" if source is None else f"one of {source.rows} rows"
         raise DataError(
             f"{shared.path}: a worker sees {got}, expected a file of {shared.rows} rows; workers "
             "must see the logs by the same paths"
         )
-    parts = observation.read_chunks_between(source, numbers, chosen.chunk_rows, chosen.margin_rows)
+    parts = regression.read_chunks_between(source, numbers, chosen.chunk_rows, chosen.margin_rows)
     partials = (chunked.reduce_chunk(model, part, chosen) for part in parts)
     return reduce(chunked.PartialFit.merged_with, partials)
 

@@ -12,7 +12,7 @@ from typing import Any
 
 import numpy as np
 
-from modeler import diagnosis, estimation, report, validation
+from modeler import diagnosis, estimation, validation, views
 from modeler.api import checks, improve
 from modeler.api.exporting import export
 from modeler.api.log_maps import Mapped
@@ -24,7 +24,7 @@ from modeler.core.manifest import EmittedModule
 from modeler.core.table import label_values
 from modeler.estimation import IdentifiedModel, ParameterEstimate, model_file
 from modeler.exports import Exported
-from modeler.observation import Log, Observation
+from modeler.regression import Log, Observation
 from modeler.robot import Robot, read_robot, suggest_name
 
 _SURE = NormalDist().inv_cdf(0.975)  # of a 95 % interval
@@ -134,9 +134,7 @@ class Model(IdentifiedModel):
 
     @cached_property
     def _parameters(self) -> dict[str, Parameter]:
-        sums = {
-            base.name: report.format_relation(base) or base.column_of for base in self.spec.base
-        }
+        sums = {base.name: views.format_relation(base) or base.column_of for base in self.spec.base}
         parameters = {}
         for one in (*self.fit.gains, *self.fit.parameters, *self.fit.loads):
             terms = sums.get(one.name, one.name)

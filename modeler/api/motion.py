@@ -26,7 +26,7 @@ from modeler.core.errors import DataError
 from modeler.effects import find_effect
 from modeler.estimation import FitResult, IdentifiedModel, identify
 from modeler.numerics.filters import BANDWIDTH
-from modeler.observation import Log, Observation, Processing, check_no_overlap, observe
+from modeler.regression import Log, Observation, Processing, check_no_overlap, observe
 from modeler.robot import Limits, Robot, parse_robot_text, suggest_name
 from modeler.runtime import CompiledModel
 from modeler.simulation import HiddenEffect, SimulatedLog, SimulationSettings

@@ -3,7 +3,7 @@
 from collections.abc import Sequence
 from pathlib import Path
 
-from modeler import report
+from modeler import views
 from modeler.core.files import write_atomically
 from modeler.core.result import find_presentation
 from modeler.diagnosis import Diagnosis
@@ -46,7 +46,7 @@ def write_report(thing: Reported, path: str | Path, notes: Sequence[str] = ()) -
     if presentation is None or presentation.document is None:
         raise TypeError(f"write_report: got a {type(thing).__name__}, which has no page")
     sheet = presentation.document(thing, notes)
-    if isinstance(sheet, report.Page):
-        return report.write_page(Path(path), sheet)
+    if isinstance(sheet, views.Page):
+        return views.write_page(Path(path), sheet)
     write_atomically(Path(path), sheet)
     return Path(path)

@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from modeler import observation, validation
+from modeler import regression, validation
 from modeler.api.log_maps import Mapped, build_log_maps, parse_time_range
 from modeler.api.workflow import AnyLog
 from modeler.core.manifest import JointSpec
@@ -26,7 +26,7 @@ def predict_torque(
     spec = compiled.spec
     if isinstance(log, SimulatedLog):
         log = {"time": log.time, "q": log.q, **log.further}
-    if isinstance(log, observation.Log):
+    if isinstance(log, regression.Log):
         read, names = log, {f"tau{joint.name}": joint.name for joint in spec.joints}
         values = _predict_reliable_rows(model, compiled, read)
         columns = {name: values[:, k] for k, name in enumerate(names)}
@@ -34,7 +34,7 @@ def predict_torque(
         read, columns = _predict_table(model, compiled, log, mapping)
     if isinstance(log, Mapping):
         return _gather_arrays(columns, log, spec.joints)
-    if isinstance(log, str | Path | observation.Log):
+    if isinstance(log, str | Path | regression.Log):
         return label_values(
             np.column_stack([*columns.values()]), {"time": read.time}, list(columns)
         )
@@ -46,17 +46,17 @@ def predict_torque(
 
 def _predict_table(
     model: IdentifiedModel, compiled: CompiledModel, log: Any, mapping: Mapped
-) -> tuple[observation.Log, dict[str, np.ndarray]]:
+) -> tuple[regression.Log, dict[str, np.ndarray]]:
     """The motion of a log, and the torque under the names of its columns, in their units."""
     spec, names, span = compiled.spec, build_log_maps(compiled, [log], mapping)[0], None
     if isinstance(log, str | Path):
         path, span = parse_time_range(log)
         table = LogTable(Path(path), names, spec.joints)
     else:
-        table = observation.build_table(log, spec.joints, names, "log")
-    read = observation.build_log(table, spec, measured=False)
+        table = regression.build_table(log, spec.joints, names, "log")
+    read = regression.build_log(table, spec, measured=False)
     if span is not None:
-        read = observation.cut_window(read, *span)
+        read = regression.cut_window(read, *span)
     values, columns = _predict_reliable_rows(model, compiled, read), {}
     for k, joint in enumerate(spec.joints):
         tau, current = f"tau{joint.name}", f"current{joint.name}"
@@ -72,7 +72,7 @@ def _predict_table(
 
 
 def _predict_reliable_rows(
-    model: IdentifiedModel, compiled: CompiledModel, log: observation.Log
+    model: IdentifiedModel, compiled: CompiledModel, log: regression.Log
 ) -> np.ndarray:
     torque, sure = validation.predict_every_row(model, log, compiled)
     return np.where(sure[:, None], torque, np.nan)

@@ -11,11 +11,11 @@ from modeler.estimation import (
 )
 from modeler.exports import Exported as Exported
 from modeler.fleet import Fleet as Fleet
-from modeler.observation import Log as Log, Observation as Observation, Processing as Processing
-from modeler.report import show as show
+from modeler.regression import Log as Log, Observation as Observation, Processing as Processing
 from modeler.robot import Robot as Robot
 from modeler.runtime import CompiledModel as CompiledModel, GpuModel as GpuModel
 from modeler.validation import Comparison as Comparison, FreeRunSettings as FreeRunSettings
+from modeler.views import show as show
 
 Asked = FreeRunSettings
 """As scripts and docs/how-to/free-run.md call it."""

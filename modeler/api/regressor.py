@@ -15,7 +15,7 @@ import numpy as np
 from sklearn.base import BaseEstimator, MultiOutputMixin, RegressorMixin
 from sklearn.utils.validation import check_is_fitted, validate_data
 
-from modeler import observation, validation
+from modeler import regression, validation
 from modeler.api import fitting
 from modeler.api.identifying import prepare_robot
 from modeler.api.log_maps import Mapped
@@ -80,7 +80,7 @@ class TorqueRegressor(MultiOutputMixin, RegressorMixin, BaseEstimator):
         self,
         robot: Robot | str | Path,
         method: str = "weighted",
-        processing: observation.Processing | None = None,
+        processing: regression.Processing | None = None,
     ) -> None:
         """Takes a robot.
 
@@ -100,7 +100,7 @@ class TorqueRegressor(MultiOutputMixin, RegressorMixin, BaseEstimator):
         X, y = validate_data(self, X, y, multi_output=True, y_numeric=True, dtype=float)
         derivation, emitted, compiled = _compile_robot(self.robot)
         logs = [log for _, log in _split_logs(compiled, X, y)]
-        rows = observation.observe(compiled, logs, self.processing)
+        rows = regression.observe(compiled, logs, self.processing)
         request = fitting.FitRequest(self.method)
         self.model_ = fitting.fit_observation(request, derivation, emitted, compiled, rows)[0]
         return self
@@ -127,7 +127,7 @@ class TorqueRegressor(MultiOutputMixin, RegressorMixin, BaseEstimator):
 
 def _split_logs(
     compiled: CompiledModel, X: np.ndarray, y: np.ndarray | None = None
-) -> Iterator[tuple[np.ndarray, observation.Log]]:
+) -> Iterator[tuple[np.ndarray, regression.Log]]:
     """The logs behind rows, and which rows are whose."""
     joints = tuple(joint.name for joint in compiled.spec.joints)
     count = len(joints)
@@ -148,4 +148,4 @@ def _split_logs(
                 f"X: got {len(rows)} rows of log {number:g}; expected at least {LEAST_ROWS}, their "
                 "time increasing; keep the rows of a log together, and in order"
             )
-        yield rows, observation.Log(f"log {number:g}", joints, time, parts[0], tau, *parts[1:])
+        yield rows, regression.Log(f"log {number:g}", joints, time, parts[0], tau, *parts[1:])

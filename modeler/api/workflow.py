@@ -7,7 +7,7 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import Any, TypeVar
 
-from modeler import observation
+from modeler import regression
 from modeler.api.log_maps import Mapped, build_log_maps, parse_time_range, read_mapped_log
 from modeler.codegen import (
     Derivation as Derivation,
@@ -41,7 +41,7 @@ from modeler.robot import (
 from modeler.runtime import CompiledModel, GpuModel, load_gpu, load_module as load_compiled
 from modeler.simulation import SimulatedLog, write_log
 
-AnyLog = str | Path | observation.Log | SimulatedLog | Mapping[str, Any] | Frame
+AnyLog = str | Path | regression.Log | SimulatedLog | Mapping[str, Any] | Frame
 """A log: its file, a piece of it (`run.parquet@0:10`), one that was read, one just simulated.
 
 Or columns in memory: a frame of pandas or Polars, a dict of arrays.
@@ -145,7 +145,7 @@ def compile_model(emitted: EmittedModule) -> CompiledModel:
 
 def read_logs(
     compiled: CompiledModel, logs: Logs, mapping: Mapped = (), spread: bool = False
-) -> list[observation.Log]:
+) -> list[regression.Log]:
     """Logs by path, `path@start:end` for a piece of it in seconds, or as they are.
 
     >>> [log.rows for log in read_logs(compiled, ["mon.parquet", "tue.parquet@1:2"])]
@@ -165,7 +165,7 @@ def read_logs(
 
 def read_currents(
     compiled: CompiledModel, logs: Logs, mapping: Mapped = ()
-) -> list[observation.Log]:
+) -> list[regression.Log]:
     """Logs of currents; where the robot file states no drive gain, torques are in drive units.
 
     >>> run = simulate(robot, duration=2.0, seed=1)
@@ -184,16 +184,16 @@ def read_currents(
 
 def _read_log(
     number: int, log_and_map: tuple[AnyLog, LogMap], spec: ModuleSpec, spread: bool = False
-) -> observation.Log:
+) -> regression.Log:
     log, names = log_and_map
-    if isinstance(log, observation.Log):
+    if isinstance(log, regression.Log):
         return log
     if not isinstance(log, SimulatedLog):
         return read_mapped_log(log, spec, names, f"logs[{number}]", spread)
     with TemporaryDirectory() as folder:  # read as whoever gets the file will read it
         place = Path(folder) / f"{log.robot}-seed{log.settings.seed}.parquet"
         write_log(place, log)
-        read = observation.read_log(place, spec)
+        read = regression.read_log(place, spec)
     return dataclasses.replace(read, path="")
 
 
@@ -208,7 +208,7 @@ def count_rows(places: Sequence[AnyLog]) -> int:
     """
     rows = 0
     for place in places:
-        if isinstance(place, observation.Log):
+        if isinstance(place, regression.Log):
             rows += place.rows
         elif isinstance(place, str | Path):
             path, span = parse_time_range(place)
@@ -219,12 +219,12 @@ def count_rows(places: Sequence[AnyLog]) -> int:
 
 def are_long(places: Sequence[AnyLog]) -> bool:
     """True of logs whose fit reads them in chunks."""
-    return count_rows(places) > observation.LONG
+    return count_rows(places) > regression.LONG
 
 
 def are_too_long(places: Sequence[AnyLog]) -> bool:
     """True of logs that are not read at once, whatever for."""
-    return count_rows(places) > observation.MOST_WHOLE
+    return count_rows(places) > regression.MOST_WHOLE
 
 
 def check_fits_memory(places: Sequence[AnyLog], what: str) -> None:
@@ -236,52 +236,52 @@ def check_fits_memory(places: Sequence[AnyLog], what: str) -> None:
     if are_too_long(places):
         raise DataError(
             f"fit: {what} keeps all rows in memory; got {count_rows(places)} rows, expected "
-            f"at most {observation.MOST_WHOLE}; give a part of the log, FILE@START:END, or take "
+            f"at most {regression.MOST_WHOLE}; give a part of the log, FILE@START:END, or take "
             f"--method {' or '.join(OF_TRIANGLES)}, which read logs of any length"
         )
 
 
-def build_processing(options: Mapping[str, Any]) -> observation.Processing:
+def build_processing(options: Mapping[str, Any]) -> regression.Processing:
     """The processing by options of `modeler fit`, or by `[fit]` of a robot file."""
     names = {"cutoff": "position_cutoff", "decimate": "decimation"}
-    field_names = {field.name for field in dataclasses.fields(observation.Processing)}
+    field_names = {field.name for field in dataclasses.fields(regression.Processing)}
     known = {names.get(name, name): value for name, value in options.items()}
-    return observation.Processing(
+    return regression.Processing(
         **{name: value for name, value in known.items() if name in field_names}
     )
 
 
 def open_sources(
     compiled: CompiledModel, places: Sequence[AnyLog], mapping: Mapped = ()
-) -> list[observation.Source]:
+) -> list[regression.Source]:
     """The rows of logs, in blocks where their format allows it.
 
     Raises:
         DataError: a log cannot be read.
     """
-    sources: list[observation.Source] = []
+    sources: list[regression.Source] = []
     for place, names in zip(places, build_log_maps(compiled, places, mapping), strict=True):
         source = None
         if isinstance(place, str | Path) and parse_time_range(place)[1] is None:
-            source = observation.open_source(Path(place), compiled.spec, names)
-        sources.append(source or observation.MemorySource(read_logs(compiled, [place], names)[0]))
+            source = regression.open_source(Path(place), compiled.spec, names)
+        sources.append(source or regression.MemorySource(read_logs(compiled, [place], names)[0]))
     return sources
 
 
 def observe(
     compiled: CompiledModel,
     logs: Logs,
-    processing: observation.Processing | None = None,
+    processing: regression.Processing | None = None,
     mapping: Mapped = (),
-) -> observation.Observation:
+) -> regression.Observation:
     """The rows y = W beta of logs.
 
     >>> observe(compiled, ["mon.parquet"]).W.shape[1]
     10
     """
     parsed_logs = read_logs(compiled, logs, mapping)
-    observation.check_no_overlap(parsed_logs)
-    return observation.observe(compiled, parsed_logs, processing)
+    regression.check_no_overlap(parsed_logs)
+    return regression.observe(compiled, parsed_logs, processing)
 
 
 def compile(model: IdentifiedModel) -> CompiledModel:

@@ -32,10 +32,10 @@ from modeler.estimation import (
     keep_essential,
     load_model,
 )
-from modeler.observation import DataWarning, Observation, check_no_overlap
-from modeler.report import Origin, comparison as pages, suggest_after_compare, suggest_after_stated
+from modeler.regression import DataWarning, Observation, check_no_overlap
 from modeler.robot import Robot
 from modeler.runtime import CompiledModel
+from modeler.views import Origin, comparison as pages, suggest_after_compare, suggest_after_stated
 
 _TRAINING = "training only: "
 

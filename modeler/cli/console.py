@@ -22,7 +22,7 @@ from modeler.core.files import DestinationKind, resolve_destination, write_atomi
 
 if TYPE_CHECKING:
     from modeler.core.figure import Picture
-    from modeler.report import Page
+    from modeler.views import Page
 
 # How much is told beside the results: `--quiet` and `--verbose`.
 
@@ -181,7 +181,7 @@ def show_next(commands: Sequence[str]) -> None:
 def draw_page(place: str | None, page: "Callable[[], Page]") -> None:
     """Writes the page of a result, if a place for it is given."""
     if place is not None:
-        from modeler.report import write_page  # pages take long to load
+        from modeler.views import write_page  # pages take long to load
 
         with show_activity("drawing the page"):
             written = write_page(Path(place), page())
@@ -201,7 +201,7 @@ def write_pictures(place: str, pictures: "Sequence[Picture]") -> str:
 
         write_atomically(Path(place), format_pictures(pictures))
         return place
-    from modeler.report import write_files
+    from modeler.views import write_files
 
     with show_progress("drawing pictures") as bar:
         written = write_files(Path(place), pictures, bar)

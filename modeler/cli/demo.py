@@ -11,7 +11,10 @@ from modeler.cli.console import Json, print_lines, print_result, show_activity, 
 from modeler.cli.improve import format_waterfall
 from modeler.diagnosis import Diagnosis, LogSplit, add_findings, diagnose, format_lines
 from modeler.estimation import IdentifiedModel, save_model
-from modeler.report import (
+from modeler.runtime import CompiledModel
+from modeler.simulation import HiddenEffect, SimulationSettings, check_settings, simulate, write_log
+from modeler.validation import write_verdict
+from modeler.views import (
     build_comparison_page,
     build_diagnosis_page,
     build_history_page,
@@ -19,9 +22,6 @@ from modeler.report import (
     page as pages,
     write_files,
 )
-from modeler.runtime import CompiledModel
-from modeler.simulation import HiddenEffect, SimulationSettings, check_settings, simulate, write_log
-from modeler.validation import write_verdict
 
 _RUNS = (("train", 1), ("held_out", 2))
 

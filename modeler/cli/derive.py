@@ -208,7 +208,7 @@ def run_derive(args: argparse.Namespace) -> Json:
     printer.print_text(agreement)
     result |= print_closed_forms(args, derivation, printer)
     if args.report is not None:
-        from modeler.report import build_derivation_page, write_page  # pages take long to load
+        from modeler.views import build_derivation_page, write_page  # pages take long to load
 
         page = build_derivation_page(derivation, tied, agreement, args.robot)
         printer.print_text(f"written: {write_page(Path(args.report), page)}")

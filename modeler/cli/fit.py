@@ -30,15 +30,15 @@ from modeler.core.files import write_atomically
 from modeler.core.jobs import Workers, open_workers
 from modeler.core.table import align_columns
 from modeler.estimation import OF_TRIANGLES, IdentifiedModel, compare_methods, save_model
-from modeler.observation import Log, Observation, Processing, check_no_overlap
-from modeler.report import (
+from modeler.regression import Log, Observation, Processing, check_no_overlap
+from modeler.robot import read_robot, replace_fitted_values
+from modeler.views import (
     build_estimators_page,
     collect_remarks,
     suggest_after_fit,
     tabulate_estimates,
     tabulate_estimators,
 )
-from modeler.robot import read_robot, replace_fitted_values
 
 
 def run_fit(args: argparse.Namespace) -> Json:
@@ -175,7 +175,7 @@ def _write_model(
     print_lines([*observation.report.format_lines(), "", *lines, *result_lines])
     print_result(f"written: {args.out}")
     if args.report is not None or args.picture is not None:
-        from modeler.report import build_fit_page  # pages take long to load
+        from modeler.views import build_fit_page  # pages take long to load
 
         following = suggest_after_fit(args.out, args.logs, args.robot, model.fit, args.map)
         page = build_fit_page(model, observation.report.format_lines(), args.out, following)

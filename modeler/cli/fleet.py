@@ -20,8 +20,8 @@ from modeler.cli.places import LOG_ENDINGS
 from modeler.core.errors import DataError
 from modeler.core.jobs import open_workers
 from modeler.fleet import LogName, analyse_fleet, format_fleet, name_logs, read_log_list
-from modeler.observation import Processing
-from modeler.report import build_fleet_page
+from modeler.regression import Processing
+from modeler.views import build_fleet_page
 
 _MANY = 32  # logs from which several processes are worth their start
 

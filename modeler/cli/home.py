@@ -11,14 +11,14 @@ from modeler.cli.lists import check_own_file, read_robot_with_notes
 from modeler.core.errors import DataError
 from modeler.core.files import write_atomically
 from modeler.derivation import HomeModes, Linkage, express_as_home
-from modeler.report import (
+from modeler.robot import Robot, TomlCell, format_home_lines, read_home, replace_home
+from modeler.views import (
     PICTURE_KINDS,
     Posture,
     build_skeleton,
     estimate_robot_size,
     render_modes_page,
 )
-from modeler.robot import Robot, TomlCell, format_home_lines, read_home, replace_home
 
 MODE_PICTURES = (*PICTURE_KINDS, ".html")
 
@@ -80,7 +80,7 @@ def run_home(args: argparse.Namespace) -> Json:
 
 def _draw_modes(modes: HomeModes, kind: str) -> bytes:
     """A small picture of every assembly mode, beside each other: a file that needs no other."""
-    from modeler.report import render_modes
+    from modeler.views import render_modes
 
     robot = modes.linkage.robot
     skeleton = build_skeleton(robot)

@@ -5,7 +5,7 @@ from collections.abc import Sequence
 from pathlib import Path
 
 import modeler.api.improve as improve
-from modeler import report
+from modeler import views
 from modeler.cli.console import (
     Json,
     draw_page,
@@ -63,7 +63,7 @@ def run_diagnose(args: argparse.Namespace) -> Json:
                 model, compiled, logs, diagnosis, shared_effects
             )
         save_model(args.out, better)
-    following = report.suggest_after_diagnosis(
+    following = views.suggest_after_diagnosis(
         args.model, args.logs, args.holdout, diagnosis, args.effects_from
     )
     if args.report is not None or args.picture is not None:
@@ -74,9 +74,9 @@ def run_diagnose(args: argparse.Namespace) -> Json:
             f"logs explained: {', '.join(file_names[: len(args.logs)])}",
             *model.warning,
         ]
-        origin = report.Origin(args.model, file_names, bool(diagnosis.held_out), following)
+        origin = views.Origin(args.model, file_names, bool(diagnosis.held_out), following)
         with show_activity("drawing"):
-            page = report.build_diagnosis_page(diagnosis, provenance, origin)
+            page = views.build_diagnosis_page(diagnosis, provenance, origin)
     print_lines([*format_lines(diagnosis), *model.warning])
     draw_page(args.report, lambda: page)
     draw_pictures(args.picture, lambda: page.collect_pictures())
@@ -145,7 +145,7 @@ def run_add(args: argparse.Namespace) -> Json:
             model = improve.define_shared_effect(model, shared_effects, args.effect)
             better = add_effect(model, compiled, args.effect, args.joint, logs)
     save_model(args.out, better)
-    following = report.suggest_after_add(args.out, args.logs, args.holdout, better.fit)
+    following = views.suggest_after_add(args.out, args.logs, args.holdout, better.fit)
     places = [args.out]
     if args.robot_out is not None:
         write_atomically(Path(args.robot_out), better.robot_text)
@@ -153,10 +153,10 @@ def run_add(args: argparse.Namespace) -> Json:
     pictures = []
     if (args.report is not None or args.picture is not None) and better.history:
         held_out = better.history[-1].held_out
-        origin = report.Origin(args.out, held_out or args.logs, bool(held_out), following)
-        page = report.build_history_page(better, left_out, origin)
+        origin = views.Origin(args.out, held_out or args.logs, bool(held_out), following)
+        page = views.build_history_page(better, left_out, origin)
         if args.report is not None:
-            places.append(str(report.write_page(Path(args.report), page)))
+            places.append(str(views.write_page(Path(args.report), page)))
         pictures = page.collect_pictures()
     if args.picture is not None:
         places.append(write_pictures(args.picture, pictures))
@@ -203,7 +203,7 @@ def format_waterfall(model: IdentifiedModel) -> list[str]:
     lines = [f"{'':<30} {title}"]
     largest = max(step.error for step in model.history) or 1.0
     for step in model.history:
-        name = report.format_step_name(step) if step.effect else "model as fitted"
+        name = views.format_step_name(step) if step.effect else "model as fitted"
         bar = ("~" if step.learned else "#") * round(_WIDTH * step.error / largest)
         fitted = (
             f"(fit error {format_percent(step.training_error, DIGITS)}{', learned' * step.learned})"

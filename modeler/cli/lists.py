@@ -206,7 +206,7 @@ def run_effects(args: argparse.Namespace) -> Json:
 
 def _export_effect(args: argparse.Namespace, robot: Robot, model: "IdentifiedModel | None") -> Json:
     """Writes the definition of one effect, and its page."""
-    from modeler import report  # the catalogue needs no pages
+    from modeler import views  # the catalogue needs no pages
 
     text = export_effect(robot, args.export)
     effect = find_effect(args.export, robot.own_effects)
@@ -219,7 +219,7 @@ def _export_effect(args: argparse.Namespace, robot: Robot, model: "IdentifiedMod
     ]
     axis, x, y = _sample_effect(effect.forms[0], instance_shapes[0] if instance_shapes else {})
     label = {"q": "position [rad or m]", "v": "speed [rad/s or m/s]"}.get(axis, _AXES[axis])
-    page = report.build_effect_page(effect, text, robot, model, (label, x, y))
+    page = views.build_effect_page(effect, text, robot, model, (label, x, y))
     args.out = [Output(Path(args.out or ".", f"{effect.id}{end}")) for end in (".toml", ".html")]
     check_places(args)
     places = [place.file for place in args.out]

@@ -26,22 +26,22 @@ from modeler.core.json import convert_to_plain
 from modeler.core.table import align_columns, format_percent
 from modeler.estimation import FitResult, find_log_faults, identify, stream_logs
 from modeler.logs import LogInspection, LogMap, find_marks, keep_longest, parse_map_options
-from modeler.observation import (
+from modeler.regression import (
     Observation,
     WholeLogNeeded,
     build_bands,
     estimate_position_noise,
     open_source,
 )
-from modeler.report import (
+from modeler.robot import replace_log_table
+from modeler.runtime import CompiledModel
+from modeler.views import (
     build_log_page,
     describe_clock,
     draw_log_pictures,
     tabulate_channels,
     write_page,
 )
-from modeler.robot import replace_log_table
-from modeler.runtime import CompiledModel
 
 _WIDEST = 44  # letters of a cell
 

@@ -144,7 +144,7 @@ def _draw_nearest(
 ) -> None:  # fmt: skip
     """The page of the robot where two come nearest, if it is wanted and there are two."""
     if args.report is not None and near is not None:
-        from modeler.report import render_nearest_page  # which takes long to load
+        from modeler.views import render_nearest_page  # which takes long to load
 
         write_atomically(Path(args.report), render_nearest_page(robot, bounds, near))
         print_result(f"written: {args.report}")

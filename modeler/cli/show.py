@@ -5,7 +5,7 @@ import argparse
 from modeler.cli.console import Json, print_lines, show_activity
 from modeler.cli.lists import read_robot_with_notes
 from modeler.cli.places import Output, check_places
-from modeler.report import describe_posture, serialise_posture, show
+from modeler.views import describe_posture, serialise_posture, show
 
 
 def run_show(args: argparse.Namespace) -> Json:

@@ -1,6 +1,6 @@
 """What every result says of itself: a line, a summary, tables, frames, figures, pages, files.
 
-A result states what it holds; how it is shown stands in one room, `modeler.report.notebook`, which
+A result states what it holds; how it is shown stands in one room, `modeler.views.notebook`, which
 is told by `modeler.api`, and says it by a `Presentation` for each class when one is first shown.
 """
 

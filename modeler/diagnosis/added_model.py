@@ -25,7 +25,7 @@ from modeler.estimation import (
     format_spread,
 )
 from modeler.numerics.least_squares import compute_column_norms
-from modeler.observation import (
+from modeler.regression import (
     Log,
     Observation,
     PreparedLogs,

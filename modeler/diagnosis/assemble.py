@@ -53,7 +53,7 @@ from modeler.diagnosis.state import SearchData, State, build_state, get_cutoff
 from modeler.diagnosis.timing import estimate_instrumental
 from modeler.effects import EffectTarget, find_effect
 from modeler.estimation import IdentifiedModel
-from modeler.observation import DataWarning
+from modeler.regression import DataWarning
 from modeler.runtime import map_parts
 
 LOST = 1.0

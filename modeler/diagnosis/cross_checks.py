@@ -33,7 +33,7 @@ from modeler.diagnosis.search import Search, SearchStep, Tick, linearise_state, 
 from modeler.diagnosis.state import SearchData, State, build_columns, build_state
 from modeler.diagnosis.timing import smooth_rows
 from modeler.estimation import IdentifiedModel, identify
-from modeler.observation import Log, build_observation, prepare_logs
+from modeler.regression import Log, build_observation, prepare_logs
 
 RIVALS = 8
 """Effects that are asked again in the other looks: those that came nearest."""

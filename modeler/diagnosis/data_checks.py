@@ -18,7 +18,7 @@ from modeler.diagnosis.state import SearchData, State, build_state, is_visible
 from modeler.diagnosis.timing import CONVENTION
 from modeler.effects import Effect, EffectTarget
 from modeler.estimation import IdentifiedModel, find_log_faults
-from modeler.observation import TREMBLES, DataWarning, Observation, compute_chatter_ratios
+from modeler.regression import TREMBLES, DataWarning, Observation, compute_chatter_ratios
 
 if TYPE_CHECKING:
     from modeler.runtime import CompiledModel

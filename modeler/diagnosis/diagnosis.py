@@ -46,7 +46,7 @@ from modeler.diagnosis.state import (
 from modeler.diagnosis.timing import estimate_logger_shift
 from modeler.effects import Effect, EffectTarget, Requirement, find_effect
 from modeler.estimation import IdentifiedModel, compute_relative_errors
-from modeler.observation import Log, LogRepair, Observation, build_observation, prepare_logs
+from modeler.regression import Log, LogRepair, Observation, build_observation, prepare_logs
 
 if TYPE_CHECKING:
     from modeler.runtime import CompiledModel

@@ -15,7 +15,7 @@ from modeler.diagnosis.candidates import Candidate, list_links
 from modeler.diagnosis.signals import EVERY, WINDOW, SignalReference, Signals, compute_tilt_columns
 from modeler.effects import NOISE, TURN, EffectTarget
 from modeler.numerics.filters import SPREAD, restrict_weights
-from modeler.observation import FilteredSegment, Observation, compute_signals, rebuild_observation
+from modeler.regression import FilteredSegment, Observation, compute_signals, rebuild_observation
 
 if TYPE_CHECKING:
     from modeler.runtime import CompiledModel

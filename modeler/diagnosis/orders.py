@@ -25,7 +25,7 @@ from modeler.numerics.splines import (
     fit_nonparametric_baseline,
     generate_function_sets,
 )
-from modeler.observation import compute_bristle_state
+from modeler.regression import compute_bristle_state
 
 
 def compute_joint_order_spectrum(state: State, j: int) -> OrderSpectrum | None:

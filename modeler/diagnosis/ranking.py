@@ -17,7 +17,7 @@ from modeler.core.brief import ShortRepr
 from modeler.diagnosis.effect_columns import Columns, count_columns
 from modeler.numerics.least_squares import ReducedRows, compute_joint_whitening, compute_whitening
 from modeler.numerics.spectra import estimate_lap_period
-from modeler.observation import Observation
+from modeler.regression import Observation
 
 RIDGE = 1e-10
 """Of the orthonormal base: rounding in a fold that misses a direction stays harmless."""

@@ -11,7 +11,7 @@ from scipy.linalg import expm
 from modeler.core.brief import ShortRepr
 from modeler.effects import InternalState
 from modeler.numerics.filters import apply_biquad
-from modeler.observation import (
+from modeler.regression import (
     Segment,
     compute_bristle_state,
     compute_signals,

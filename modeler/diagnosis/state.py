@@ -39,7 +39,7 @@ from modeler.numerics.least_squares import (
     compute_joint_whitening,
     reduce_rows,
 )
-from modeler.observation import (
+from modeler.regression import (
     HIGHEST,
     ChosenProcessing,
     CutoffSearch,

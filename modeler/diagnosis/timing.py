@@ -12,7 +12,7 @@ from modeler.diagnosis.ranking import find_block_runs
 from modeler.diagnosis.signals import Signals
 from modeler.diagnosis.state import State, collect_pick_columns
 from modeler.effects import Requirement
-from modeler.observation import apply_low_pass, find_nearest_closed
+from modeler.regression import apply_low_pass, find_nearest_closed
 
 DELAY_T_RATIO = 4.0
 """Least ratio of the instrumental estimate to its standard error."""

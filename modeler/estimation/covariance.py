@@ -8,7 +8,7 @@ import numpy as np
 from modeler.estimation.least_squares import Estimate, Rows, solve_by_qr, sum_streamed_products
 from modeler.numerics.filters import SPREAD
 from modeler.numerics.least_squares import CompressedRegression, compute_triangle
-from modeler.observation import DataWarning, Observation
+from modeler.regression import DataWarning, Observation
 
 _WORTH = 1.2  # a factor above it is said
 _LAGS = 60  # rows; with one row per 1 / (2.5 cut-off), 24 periods of the parallel filter

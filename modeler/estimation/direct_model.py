@@ -21,7 +21,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from modeler.core.errors import DataError
-from modeler.observation import (
+from modeler.regression import (
     HIGHEST,
     Observation,
     Segment,

@@ -16,7 +16,7 @@ from modeler.estimation.identify import (
 from modeler.estimation.least_squares import solve_least_squares
 from modeler.estimation.payload import Payload, build_loaded_equations
 from modeler.estimation.result import FitResult
-from modeler.observation import TREMBLES, DataWarning, Observation
+from modeler.regression import TREMBLES, DataWarning, Observation
 from modeler.runtime import CompiledModel
 
 _FAR = 3.0  # standard deviations below zero

@@ -33,7 +33,7 @@ from modeler.numerics.least_squares import (
     compute_triangle,
     find_independent_columns,
 )
-from modeler.observation import Log, LogReport, Observation
+from modeler.regression import Log, LogReport, Observation
 from modeler.runtime import CompiledModel
 
 MAX_ITERATIONS = 30  # a dozen is enough where the gains are told

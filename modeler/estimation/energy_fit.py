@@ -26,7 +26,7 @@ from modeler.numerics.least_squares import (
     find_independent_columns,
     solve_scaled_least_squares,
 )
-from modeler.observation import Observation, Segment, compute_signals, find_runs
+from modeler.regression import Observation, Segment, compute_signals, find_runs
 from modeler.runtime import CompiledModel
 
 Rule = Literal["simpson", "trapezoid"]

@@ -25,7 +25,7 @@ from modeler.estimation.nearest_body import (
     define_physical_parameters,
     project_parameters,
 )
-from modeler.observation import (
+from modeler.regression import (
     DataWarning,
     MotionTransform,
     Observation,

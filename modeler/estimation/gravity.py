@@ -12,7 +12,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from modeler.estimation.nearest_body import PhysicalParameters, define_physical_parameters
-from modeler.observation import ThinnedRows
+from modeler.regression import ThinnedRows
 from modeler.runtime import CompiledModel
 
 ABSENT = "the torques carry no gravity"

@@ -33,7 +33,7 @@ from modeler.numerics.least_squares import (
     compress_rows,
     solve_scaled_least_squares,
 )
-from modeler.observation import SAMPLES, Observation, compute_triangles, is_streamed
+from modeler.regression import SAMPLES, Observation, compute_triangles, is_streamed
 from modeler.runtime import CompiledModel
 
 

@@ -11,7 +11,7 @@ from modeler.estimation.doubts import find_heterogeneous_logs
 from modeler.estimation.drive_gains import GainFit, identify_gains
 from modeler.estimation.identify import fit_equations
 from modeler.estimation.payload import LoadedEquations, Payload, build_loaded_equations
-from modeler.observation import DataWarning, Observation
+from modeler.regression import DataWarning, Observation
 from modeler.runtime import CompiledModel
 
 FAR = 4.0

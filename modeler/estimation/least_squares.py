@@ -11,7 +11,7 @@ import numpy as np
 
 from modeler.core.errors import DataError, Method
 from modeler.numerics.least_squares import CompressedRegression, Rank, find_independent_columns
-from modeler.observation import Observation, compute_fitted_torque, is_streamed, iterate_blocks
+from modeler.regression import Observation, compute_fitted_torque, is_streamed, iterate_blocks
 from modeler.runtime import CompiledModel
 
 MAX_ITERATIONS = 500

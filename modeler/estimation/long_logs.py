@@ -25,7 +25,7 @@ from modeler.estimation.identify import (
 from modeler.estimation.methods import find_method, find_methods
 from modeler.estimation.result import FitResult
 from modeler.numerics.least_squares import CompressedRegression, merge_compressed
-from modeler.observation import (
+from modeler.regression import (
     FINGER,
     Chunk,
     KnownFacts,

@@ -32,7 +32,7 @@ from modeler.core.manifest import FittedParameter, FittedSpec, ModuleSpec, build
 from modeler.core.result import Result
 from modeler.core.table import format_percent
 from modeler.estimation.result import FitResult, read_fit
-from modeler.observation import DataReport, LogRows, Processing, has_shared_rows
+from modeler.regression import DataReport, LogRows, Processing, has_shared_rows
 from modeler.runtime import CompiledModel, load_module
 
 FORMAT = 4

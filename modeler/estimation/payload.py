@@ -17,7 +17,7 @@ from modeler.numerics.least_squares import (
     compute_triangle,
     solve_scaled_least_squares,
 )
-from modeler.observation import Observation, Segment, compute_signals
+from modeler.regression import Observation, Segment, compute_signals
 from modeler.runtime import CompiledModel
 
 _ORDER = ("M", "MX", "MY", "MZ", "ZZ", "XX", "YY", "XY", "XZ", "YZ")

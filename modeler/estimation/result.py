@@ -15,7 +15,7 @@ from modeler.core.table import POOLED, format_errors_by_unit, format_percent, po
 from modeler.estimation.essential import ReducedModel
 from modeler.estimation.nearest_body import PREFIXES, compute_pseudo_inertia
 from modeler.estimation.parameter import ParameterEstimate, format_parameters, read_all, read_back
-from modeler.observation import Bands, DataWarning, Processing, read_processing
+from modeler.regression import Bands, DataWarning, Processing, read_processing
 
 # The energy model beside the torque model of the same data: figures, and what they come to.
 

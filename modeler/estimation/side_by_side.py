@@ -14,7 +14,7 @@ from modeler.core.json import select_attributes
 from modeler.core.result import Result
 from modeler.estimation.identify import identify
 from modeler.estimation.result import FitResult
-from modeler.observation import Observation
+from modeler.regression import Observation
 from modeler.runtime import CompiledModel
 
 FIRST: Method = "weighted"

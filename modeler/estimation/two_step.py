@@ -21,7 +21,7 @@ from modeler.estimation.covariance import estimate_autocorrelation
 from modeler.estimation.least_squares import Estimate, solve_least_squares
 from modeler.numerics.filters import LEAST_WEIGHT
 from modeler.numerics.least_squares import CompressedRegression, compress_rows
-from modeler.observation import Observation, find_runs
+from modeler.regression import Observation, find_runs
 from modeler.runtime import CompiledModel
 
 # Where one joint moves and the others stand: the pieces of logs that a two-step fit uses.

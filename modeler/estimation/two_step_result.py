@@ -23,7 +23,7 @@ from modeler.estimation.two_step import (
     TwoStepEstimate,
     estimate_two_steps,
 )
-from modeler.observation import DataWarning, Observation
+from modeler.regression import DataWarning, Observation
 from modeler.runtime import CompiledModel
 
 # Persistent excitation of a two-step fit: the singular values of Phi, joint by joint.

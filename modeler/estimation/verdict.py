@@ -39,7 +39,7 @@ from modeler.numerics.least_squares import (
     compute_triangle,
     find_independent_columns,
 )
-from modeler.observation import DataWarning, Observation, find_nearest_closed
+from modeler.regression import DataWarning, Observation, find_nearest_closed
 from modeler.runtime import CompiledModel
 
 # Is the time of the logs in seconds? The clock that a robot carries with it is gravity.

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from modeler.observation import compute_signals_along
+from modeler.regression import compute_signals_along
 from modeler.runtime import CompiledModel
 
 NEAR_REST = 1e-7

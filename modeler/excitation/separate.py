@@ -31,7 +31,7 @@ from modeler.excitation.search import (
 )
 from modeler.excitation.task import ExcitationTask
 from modeler.numerics.optimize import minimise_cma_es
-from modeler.observation import Segment
+from modeler.regression import Segment
 from modeler.runtime import CompiledModel
 
 _GENERATIONS = 150

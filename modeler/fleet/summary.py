@@ -20,7 +20,7 @@ from modeler.estimation import (
 from modeler.fleet.naming import LogName
 from modeler.logs import LogMap
 from modeler.numerics.least_squares import CompressedRegression, compress_rows
-from modeler.observation import Log, Observation, Processing, cut_window, observe, read_log
+from modeler.regression import Log, Observation, Processing, cut_window, observe, read_log
 from modeler.runtime import CompiledModel, load_cached_model
 
 TEMPERATURE = "temperature"

@@ -16,7 +16,6 @@ from modeler.core.figure import Curve, Panel, Picture
 from modeler.core.style import BLACK, ORANGE, SKY, Style
 from modeler.core.table import format_percent
 from modeler.estimation import GainFit, Payload, identify_gains, identify_with_payloads
-from modeler.observation import Log, observe
 from modeler.papers.methods import (
     MethodRow,
     MethodTable,
@@ -28,6 +27,7 @@ from modeler.papers.methods import (
     read_table,
 )
 from modeler.papers.paper import Paper
+from modeler.regression import Log, observe
 from modeler.robot import Limits, Robot, parse_robot_text, replace_drive_gains
 from modeler.runtime import CompiledModel, load_cached_model
 from modeler.simulation import SimulatedLog, SimulationSettings, parse_hidden_effect, simulate

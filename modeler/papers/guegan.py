@@ -13,7 +13,6 @@ import numpy as np
 
 from modeler.codegen import derive, generate, load
 from modeler.estimation import FitResult, identify
-from modeler.observation import Observation, observe, read_log
 from modeler.papers.guegan_blocks import build_block_table
 from modeler.papers.guegan_motion import build_motion_table
 from modeler.papers.methods import (
@@ -26,6 +25,7 @@ from modeler.papers.methods import (
     read_table,
 )
 from modeler.papers.paper import Paper
+from modeler.regression import Observation, observe, read_log
 from modeler.robot import Limits, Robot
 from modeler.runtime import CompiledModel, load_cached_model
 from modeler.simulation import SimulationSettings, simulate, write_log

@@ -23,7 +23,6 @@ from modeler.formulas import (
     find_determined,
     find_known_sets,
 )
-from modeler.observation import observe
 from modeler.papers.methods import (
     MethodRow,
     MethodTable,
@@ -34,6 +33,7 @@ from modeler.papers.methods import (
     read_quotation,
 )
 from modeler.papers.paper import Paper
+from modeler.regression import observe
 from modeler.robot import Limits, Robot, compute_joint_directions, parse_robot_text
 from modeler.runtime import CompiledModel, load_cached_model
 from modeler.simulation import Reference, SimulationSettings, simulate

@@ -12,7 +12,6 @@ import numpy as np
 from modeler.codegen import derive, generate
 from modeler.core.builtin import read_builtin_robot
 from modeler.estimation import FitResult, compute_friction_by_direction, identify, identify_energy
-from modeler.observation import Log, observe
 from modeler.papers.methods import (
     MethodRow,
     MethodTable,
@@ -23,6 +22,7 @@ from modeler.papers.methods import (
     read_quotation,
 )
 from modeler.papers.paper import Paper
+from modeler.regression import Log, observe
 from modeler.robot import Robot, parse_robot_text
 from modeler.runtime import CompiledModel, load_cached_model
 from modeler.simulation import SimulatedLog, SimulationSettings, simulate

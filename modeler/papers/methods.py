@@ -10,9 +10,9 @@ import numpy as np
 from modeler.core.errors import RobotError
 from modeler.core.figure import Picture
 from modeler.core.table import format_percent
-from modeler.observation import Log
 from modeler.papers.paper import Paper
 from modeler.papers.quotation import read_numbers
+from modeler.regression import Log
 from modeler.simulation import SimulatedLog
 
 ZMAX = 4.0

@@ -11,12 +11,12 @@ from modeler.core.estimators import ABOUT, APART
 from modeler.core.json import build_instance
 from modeler.core.manifest import BaseSpec
 from modeler.core.table import format_percent
-from modeler.report import format_relation
 from modeler.robot import parse_robot_text
 from modeler.studio import commands, elements
 from modeler.studio.elements import LIGHTS, Light, Markup, format_number
 from modeler.studio.studio import Studio
 from modeler.studio.tasks import ROBOT, Step, Task
+from modeler.views import format_relation
 
 _LIGHT: Mapping[str | None, Light] = {"parameters": "good", "prediction": "doubtful"}
 _STATE: Mapping[str, Light] = {"good": "good", "doubtful": "doubtful", "undetermined": "bad"}

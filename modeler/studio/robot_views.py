@@ -17,7 +17,6 @@ from modeler.core.figure import Curve, Panel, Picture
 from modeler.core.files import read_file
 from modeler.core.json import parse_json
 from modeler.core.style import COLORS, GREY, Style
-from modeler.report import build_page_content, render_relations, render_robot_page, show
 from modeler.robot import (
     Robot,
     TableText,
@@ -28,6 +27,7 @@ from modeler.robot import (
     read_robot,
     read_symbol_texts,
 )
+from modeler.views import build_page_content, render_relations, render_robot_page, show
 
 BASIC_EFFECTS = ("rotor_inertia", "viscous", "coulomb", "offset")
 """Columns of the grid of effects."""

@@ -31,7 +31,7 @@ from modeler.logs import (
     parse_map_options,
     read_windows,
 )
-from modeler.observation import FINGER, LONG
+from modeler.regression import FINGER, LONG
 from modeler.robot import Robot, read_robot
 from modeler.runtime import CompiledModel
 from modeler.studio import places

@@ -14,7 +14,7 @@ import numpy as np
 from modeler.core.errors import DataError
 from modeler.core.table import format_percent
 from modeler.estimation import scale_inertia
-from modeler.observation import find_shafts
+from modeler.regression import find_shafts
 from modeler.runtime import CompiledModel
 
 _CREEP = 1e-9  # rad/s or m/s, to both sides of standstill

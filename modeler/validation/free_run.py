@@ -10,7 +10,7 @@ from modeler.core.errors import DataError, LoopError
 from modeler.core.manifest import JointSpec
 from modeler.core.table import format_percent
 from modeler.estimation import ControlLoop, DirectModel, IdentifiedModel
-from modeler.observation import Log, Observation, Segment, compute_signals, observe
+from modeler.regression import Log, Observation, Segment, compute_signals, observe
 from modeler.runtime import CompiledModel
 from modeler.validation.forward_dynamics import FittedPlant, Forces
 from modeler.validation.free_run_result import ControlledRun, FreeRun, JointFreeRun, Path

@@ -15,7 +15,7 @@ from modeler.core.json import convert_to_plain
 from modeler.core.result import Result
 from modeler.core.table import align_columns, format_percent
 from modeler.estimation import IdentifiedModel
-from modeler.observation import Log, Observation
+from modeler.regression import Log, Observation
 from modeler.runtime import CompiledModel
 from modeler.validation.predict import predict
 from modeler.validation.prediction import (

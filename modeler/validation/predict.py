@@ -12,7 +12,7 @@ from modeler.core.errors import DataError
 from modeler.core.json import select_attributes
 from modeler.estimation import IdentifiedModel, read_all_rows, reduce_by_threads
 from modeler.numerics.filters import LEAST_WEIGHT, choose_row_spacing, compute_moving_means
-from modeler.observation import (
+from modeler.regression import (
     FINGER,
     Chunk,
     DataReport,

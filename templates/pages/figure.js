@@ -1,4 +1,4 @@
-// A picture (modeler/report/figure_page.py) as data and layout of plotly.js. `numbers` are its arrays,
+// A picture (modeler/views/figure_page.py) as data and layout of plotly.js. `numbers` are its arrays,
 // `width` the pixels that there are. Panels stand on the grid that the picture states; below one
 // another where that leaves them too narrow.
 const NARROW = 280, GRID = "#e4e4e4", TEXT = "#222";

@@ -10,7 +10,7 @@ from typing import Any
 import pytest
 
 from modeler.cli import main
-from modeler.report.page import write_index
+from modeler.views.page import write_index
 from tests.browser.chromium import Chromium
 from tests.rotation import rotating
 

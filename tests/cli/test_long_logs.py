@@ -11,7 +11,7 @@ import pyarrow.csv
 import pyarrow.parquet
 import pytest
 
-from modeler import observation
+from modeler import regression
 from modeler.api import log_maps
 from modeler.cli import main
 from modeler.estimation import stream_logs
@@ -48,10 +48,10 @@ def place(tmp_path_factory):
 @pytest.fixture
 def chunked(monkeypatch):
     """Logs of some thousand rows are long."""
-    survey = sys.modules["modeler.observation.survey"]
-    for where in (observation, observation.log, log_maps, survey):
+    survey = sys.modules["modeler.regression.survey"]
+    for where in (regression, regression.log, log_maps, survey):
         monkeypatch.setattr(where, "LONG", 4000)
-    for where in (observation.log, log_maps, survey):
+    for where in (regression.log, log_maps, survey):
         monkeypatch.setattr(where, "FINGER", 1024)
     monkeypatch.setattr(log_maps, "WINDOW", 900)
     monkeypatch.setattr(compare_long_logs, "__defaults__", (lambda share: None, 1024))
@@ -72,7 +72,7 @@ def test_a_long_log_is_fitted_in_chunks(place, chunked, monkeypatch, capsys):
     assert 2 <= chunks <= 9 and fit["reading"]["passes"] == 1
     assert f"all {ROWS} rows are read once, in {chunks} chunks" in out
     assert "9000 rows at 200 Hz" in out
-    monkeypatch.setattr(observation, "LONG", 10**9)
+    monkeypatch.setattr(regression, "LONG", 10**9)
     whole = fitted(place, "whole")
     assert "reading" not in whole
     for one, other in zip(fit["parameters"], whole["parameters"], strict=True):
@@ -93,7 +93,7 @@ def test_a_method_that_needs_all_rows_reads_them_or_says_that_they_are_too_many(
     place, chunked, monkeypatch, capsys
 ):
     assert "reading" not in fitted(place, "robust", "--method", "robust")
-    monkeypatch.setattr(observation, "MOST_WHOLE", 5000)
+    monkeypatch.setattr(regression, "MOST_WHOLE", 5000)
     words = ("fit", "two-link", place / "run.parquet", "--out", place / "m.json")
     told = complaint(capsys, *words, "--method", "robust")
     assert "method robust keeps all rows in memory; got 9000 rows, expected at most 5000" in told
@@ -112,7 +112,7 @@ def test_where_only_the_whole_log_will_do_it_is_read_whole(place, chunked, tmp_p
     status, out, err = run(capsys, *words)
     assert status == 0 and "counts from another zero from 25 s on" in err
     assert "read as a whole instead" in err and "q1: jumps by 0.4 ra" in out
-    monkeypatch.setattr(observation, "MOST_WHOLE", 5000)
+    monkeypatch.setattr(regression, "MOST_WHOLE", 5000)
     assert "fit its parts, as in moved.parquet@:25" in run(capsys, *words)[2]
 
 
@@ -165,7 +165,7 @@ def test_a_long_log_is_compared_in_chunks(place, model, chunked, tmp_path, monke
     words = ["compare", model, path]
     found, out = told_of([*words, "--report", tmp_path / "long.html"], tmp_path / "l", capsys)
     assert re.search(r"long logs: all 8992 rows are read once, in [2-9] chunks", out)
-    monkeypatch.setattr(observation, "LONG", 10**9)
+    monkeypatch.setattr(regression, "LONG", 10**9)
     whole, out = told_of(words, tmp_path / "whole", capsys)
     assert "long logs" not in out
     agree(counted(found), counted(whole))
@@ -221,7 +221,7 @@ def test_a_long_log_is_looked_at_in_blocks(place, chunked, tmp_path, monkeypatch
     ],
 )
 def test_a_command_that_needs_all_rows_refuses_too_many(words, place, model, capsys, monkeypatch):
-    monkeypatch.setattr("modeler.observation.read.MOST_WHOLE", 5000)
+    monkeypatch.setattr("modeler.regression.read.MOST_WHOLE", 5000)
     told = complaint(capsys, *words.format(model=model, log=place / "run.parquet").split())
     assert "run.parquet: got 9000 rows; expected at most 5000 where all are in memory" in told
 
@@ -262,11 +262,11 @@ def test_a_log_of_any_length_is_diagnosed_by_stretches_of_it(
     """All rows are read: its fingerprint is that of the whole log."""
     words = ["diagnose", model, place / "run.parquet"]
     every, _ = told_of(words, tmp_path / "all", capsys)
-    chunk = sys.modules["modeler.observation.chunk"]
+    chunk = sys.modules["modeler.regression.chunk"]
     for name, value in {"FINGER": 1024, "_ROWS": 4096, "_PARTS": 8}.items():
         monkeypatch.setattr(chunk, name, value)
-    monkeypatch.setattr("modeler.observation.read.MOST_WHOLE", 5000)
-    monkeypatch.setattr(observation, "SPREAD", 5000)
+    monkeypatch.setattr("modeler.regression.read.MOST_WHOLE", 5000)
+    monkeypatch.setattr(regression, "SPREAD", 5000)
     few, out = told_of(words, tmp_path / "few", capsys)
     assert "9000 rows; 4096 of them are looked at, in 8 stretches of 2.56 s" in out
     assert few["verdict"] == every["verdict"] == "nothing significant"
@@ -274,15 +274,15 @@ def test_a_log_of_any_length_is_diagnosed_by_stretches_of_it(
         every["joints"]["1"]["error_before"], rel=0.2
     )
     spec = compiled("two-link").spec
-    source = observation.open_source(place / "run.parquet", spec)
-    log = observation.read_spread(source, spec)
+    source = regression.open_source(place / "run.parquet", spec)
+    log = regression.read_spread(source, spec)
     whole = next(source.read_blocks(ROWS))
     blocks = [
-        observation.log.compute_block_hash(
+        regression.log.compute_block_hash(
             *(x[k : k + 1024] for x in (whole.time, whole.q, whole.tau))
         )
         for k in range(0, ROWS, 1024)
     ]
-    assert log.content == observation.log.combine_hashes(blocks)
+    assert log.content == regression.log.combine_hashes(blocks)
     assert len(np.unique(log.piece_number)) == 8 and log.rows == 4096
     assert log.span == pytest.approx((0.0, 5e-3 * (ROWS - 1)), abs=2.6)

@@ -12,10 +12,10 @@ from modeler.cli import main
 from modeler.core.builtin import read_builtin_robot
 from modeler.core.errors import DataError
 from modeler.derivation.derive import complete_home
-from modeler.report.robot_closing import find_home_posture
-from modeler.report.robot_drawing import render_picture
-from modeler.report.robot_skeleton import build_skeleton
 from modeler.robot.read import read_robot
+from modeler.views.robot_closing import find_home_posture
+from modeler.views.robot_drawing import render_picture
+from modeler.views.robot_skeleton import build_skeleton
 from tests.cli.running import answer, refusal
 from tests.robots import ROBOTS
 

@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 
 from modeler.api import compile_model, derive, fit, generate, load, observe
-from modeler.observation.log import Log
-from modeler.observation.motion import compute_travel_since_reversal
-from modeler.observation.settings import Processing
+from modeler.regression.log import Log
+from modeler.regression.motion import compute_travel_since_reversal
+from modeler.regression.settings import Processing
 from modeler.validation.comparison import Comparison, compare
 from modeler.validation.predict import predict
 from modeler.validation.verdict import classify_residual, write_joint_verdict

@@ -20,24 +20,24 @@ from known_defects import first_joint, prediction
 from modeler.cli.places import PictureFolder
 from modeler.core.figure import Band, Bars, Heat, Panel, Picture
 from modeler.core.thinning import LIMIT, thin_curves, thin_points
-from modeler.observation.observation import MASKS
-from modeler.report.comparison import build_comparison_page, draw_all_pictures
-from modeler.report.figure_page import (
+from modeler.regression.observation import MASKS
+from modeler.validation.comparison import Comparison, compare
+from modeler.validation.pictures import compute_binned_means, draw_overlay_picture
+from modeler.validation.prediction import Prediction
+from modeler.validation.time_picture import draw_time_picture, find_masked_spans
+from modeler.views.comparison import build_comparison_page, draw_all_pictures
+from modeler.views.figure_page import (
     ArrayStore,
     collect_legend,
     describe_picture,
     format_csv,
     write_files,
 )
-from modeler.report.page import render_page, write_page
-from modeler.validation.comparison import Comparison, compare
-from modeler.validation.pictures import compute_binned_means, draw_overlay_picture
-from modeler.validation.prediction import Prediction
-from modeler.validation.time_picture import draw_time_picture, find_masked_spans
+from modeler.views.page import render_page, write_page
 from tests.captions import assert_named, colours_drawn, colours_said
 from tests.when_used import WhenUsed
 
-figure_matplotlib = WhenUsed("modeler.report.figure_matplotlib")
+figure_matplotlib = WhenUsed("modeler.views.figure_matplotlib")
 
 
 @pytest.fixture(scope="module")

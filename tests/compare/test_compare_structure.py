@@ -12,9 +12,7 @@ from modeler.core.style import BLACK, BLUE, GREY, ORANGE, SLATE, VERMILLION
 from modeler.core.table import format_percent
 from modeler.numerics.spectra import compute_order_spectrum
 from modeler.numerics.splines import build_hat_functions, fit_nonparametric_baseline
-from modeler.observation.motion import compute_travel_since_reversal
-from modeler.report.comparison import build_comparison_page, draw_all_pictures
-from modeler.report.page import render_page
+from modeler.regression.motion import compute_travel_since_reversal
 from modeler.validation.comparison import JointComparison, compare
 from modeler.validation.prediction import FullRate, JointInfo, Motor, Prediction
 from modeler.validation.verdict import (
@@ -23,6 +21,8 @@ from modeler.validation.verdict import (
     is_noise_like,
     write_joint_verdict,
 )
+from modeler.views.comparison import build_comparison_page, draw_all_pictures
+from modeler.views.page import render_page
 from tests.rotation import rotating
 
 

@@ -22,7 +22,7 @@ from tests.csrc.simulated_machine import Machine, fitted_folder, observed, repli
 from tests.modules import loaded, module, unoptimised
 from tests.when_used import WhenUsed
 
-figure_matplotlib = WhenUsed("modeler.report.figure_matplotlib")
+figure_matplotlib = WhenUsed("modeler.views.figure_matplotlib")
 
 FROM = 1.5  # s, when the push begins
 TOOL = """

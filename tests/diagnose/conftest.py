@@ -16,7 +16,7 @@ from modeler.core.table import format_error_pair
 from modeler.diagnosis.diagnosis import diagnose
 from modeler.diagnosis.result import Diagnosis
 from modeler.estimation.model_file import IdentifiedModel
-from modeler.observation.log import Log
+from modeler.regression.log import Log
 from modeler.runtime.model import CompiledModel
 from tests.chain import Chain, chain_of
 

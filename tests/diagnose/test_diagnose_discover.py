@@ -19,9 +19,9 @@ from modeler.diagnosis.proposals import discover_equations
 from modeler.diagnosis.result import Diagnosis, EquationProposal
 from modeler.diagnosis.signals import SignalReference
 from modeler.diagnosis.state import SearchData, State, analyse_logs, build_state
-from modeler.observation.log import Log
-from modeler.report.diagnosis import build_diagnosis_page
+from modeler.regression.log import Log
 from modeler.robot.read import parse_robot_text
+from modeler.views.diagnosis import build_diagnosis_page
 from tests.diagnose.conftest import Case, Run, demonstration, motion, nothing, on_joint
 from tests.json_schemas import check_schema
 

@@ -10,8 +10,8 @@ import pytest
 from modeler.api import load
 from modeler.diagnosis.diagnosis import diagnose
 from modeler.diagnosis.sentences import format_lines
-from modeler.observation.log import Log
-from modeler.report import suggest_after_diagnosis
+from modeler.regression.log import Log
+from modeler.views import suggest_after_diagnosis
 from tests.chain import chain_of
 from tests.diagnose import conftest
 from tests.diagnose.conftest import RATE, Case, Torque, motion, nothing, on_joint, spring

@@ -10,7 +10,7 @@ from modeler.diagnosis.diagnosis import diagnose
 from modeler.diagnosis.result import Diagnosis
 from modeler.diagnosis.signals import apply_lag
 from modeler.diagnosis.timing import CONVENTION
-from modeler.observation import Log
+from modeler.regression import Log
 from tests.diagnose.conftest import Case, Torque, on_joint
 from tests.rotation import rotating
 

@@ -7,8 +7,8 @@ import pytest
 
 from modeler.diagnosis.diagnosis import diagnose
 from modeler.diagnosis.state import analyse_logs, describe_bands
-from modeler.observation.log import Log
-from modeler.observation.settings import Processing
+from modeler.regression.log import Log
+from modeler.regression.settings import Processing
 from tests.diagnose.conftest import Case, motion, nothing
 
 

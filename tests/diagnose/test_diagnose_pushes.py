@@ -10,10 +10,10 @@ import pytest
 from modeler.diagnosis.candidates import StatedEffects, compute_scales, list_candidates
 from modeler.diagnosis.diagnosis import diagnose
 from modeler.effects.catalogue import find_effect
-from modeler.observation.log import Log
-from modeler.report.diagnosis import build_diagnosis_page
-from modeler.report.page import write_page
-from modeler.report.torque_picture import draw_push_picture
+from modeler.regression.log import Log
+from modeler.views.diagnosis import build_diagnosis_page
+from modeler.views.page import write_page
+from modeler.views.torque_picture import draw_push_picture
 from tests.diagnose.conftest import Case, Torque, check_gains, motion, on_joint
 from tests.rotation import rotating
 

@@ -6,7 +6,7 @@ import numpy as np
 
 from modeler.api import load
 from modeler.estimation.payload import Payload
-from modeler.observation import Log, Observation, observe
+from modeler.regression import Log, Observation, observe
 from modeler.robot import replace_drive_gains
 from modeler.runtime.model import CompiledModel
 from modeler.simulation import SimulatedLog, SimulationSettings, parse_hidden_effect, simulate

@@ -14,7 +14,7 @@ from modeler.estimation import Payload, check_known_quantities, describe_deviati
 from modeler.estimation.doubts import find_moved_payloads, separate_payload
 from modeler.estimation.drive_gains import identify_gains, solve_mixed_tls
 from modeler.numerics.least_squares import compress_rows
-from modeler.observation.observe import observe
+from modeler.regression.observe import observe
 from modeler.robot.edit import replace_drive_gains
 from tests.drive_gains.runs import Runs, runs_of
 from tests.rotation import slow_rotating

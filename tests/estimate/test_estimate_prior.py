@@ -17,7 +17,7 @@ from modeler.estimation.identify import build_base_equations, fit_equations, ide
 from modeler.estimation.payload import Payload, identify_with_payloads
 from modeler.estimation.result import read_fit
 from modeler.numerics.least_squares import compress_rows, merge_compressed
-from modeler.observation import Log, observe, read_log
+from modeler.regression import Log, observe, read_log
 from modeler.robot import parse_robot_text
 from modeler.simulation import SimulationSettings, simulate, write_log
 from tests.bodies import ten_of_points

@@ -17,7 +17,7 @@ from modeler import api
 from modeler.core.builtin import read_builtin_robot
 from modeler.core.errors import DataError
 from modeler.estimation.identify import identify
-from modeler.observation.log import Log
+from modeler.regression.log import Log
 from modeler.robot.read import parse_robot_text
 from modeler.runtime.model import CompiledModel
 from modeler.simulation import SimulationSettings, simulate

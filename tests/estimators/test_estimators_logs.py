@@ -16,8 +16,8 @@ from modeler.estimation.identify import build_base_equations, identify
 from modeler.estimation.least_squares import Problem
 from modeler.estimation.methods import METHODS
 from modeler.estimation.payload import Payload, identify_with_payloads
-from modeler.observation.log import Log
-from modeler.observation.read import cut_rows
+from modeler.regression.log import Log
+from modeler.regression.read import cut_rows
 from tests.chain import chain_of
 from tests.estimators.__main__ import main as suite
 from tests.estimators.coverage import compiled, covered, measured, table

@@ -19,8 +19,8 @@ from modeler.excitation import (
     format_csv,
 )
 from modeler.excitation.motion import build_posture_limits
-from modeler.report.robot_skeleton import build_skeleton, compute_poses
 from modeler.robot import parse_robot_text, read_robot
+from modeler.views.robot_skeleton import build_skeleton, compute_poses
 from tests.chain import chain_of
 from tests.excite.robots_to_excite import robot as built_in
 

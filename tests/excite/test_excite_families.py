@@ -11,7 +11,7 @@ from modeler.estimation import identify
 from modeler.excitation.criterion import CRITERIA, PriorInformation
 from modeler.excitation.families import FAMILIES, build_series
 from modeler.excitation.search import MotionRequest, build_task, design_motion, draw_random_motion
-from modeler.observation import Log, observe
+from modeler.regression import Log, observe
 from modeler.robot import read_robot
 from modeler.simulation import build_curve, read_motion
 from tests.chain import chain_of

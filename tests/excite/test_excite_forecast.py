@@ -7,7 +7,7 @@ from modeler.api import excite, expected_sigmas
 from modeler.api.motion import Encoders, build_subject
 from modeler.cli.motion import describe_expected_sigmas
 from modeler.core.errors import DataError
-from modeler.observation.log import Log
+from modeler.regression.log import Log
 from tests.chain import chain_of
 
 RATE, NOISE = 500.0, np.array([0.6, 0.2])  # Hz; N m, white

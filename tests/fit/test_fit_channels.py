@@ -17,7 +17,7 @@ from scipy.signal import lfilter
 from modeler.api import observe
 from modeler.cli import main
 from modeler.estimation import find_log_faults, findings, identify, judge_fit
-from modeler.observation.log import Log
+from modeler.regression.log import Log
 from modeler.robot.read import parse_robot_text
 from modeler.simulation import SimulationSettings, parse_hidden_effect, simulate
 from tests.link_data import compiled as compiled_text

@@ -13,8 +13,8 @@ from modeler.codegen.workflow import Derivation
 from modeler.core.errors import ManifestError
 from modeler.estimation import find_log_faults, identify, judge_fit, load_model, save_model
 from modeler.estimation.result import read_fit
-from modeler.observation import DataWarning, Log
-from modeler.observation.read import cut_rows
+from modeler.regression import DataWarning, Log
+from modeler.regression.read import cut_rows
 from modeler.robot.edit import replace_gravity
 from modeler.robot.read import parse_robot_text, read_builtin_robot
 from modeler.simulation import HiddenEffect, SimulationSettings, parse_hidden_effect, simulate

@@ -10,7 +10,7 @@ from test_observation_rows import exact_log, some_beta
 from modeler.estimation.energy_fit import identify_energy, solve_heteroscedastic
 from modeler.estimation.identify import build_base_equations, cross_validate, identify
 from modeler.estimation.result import read_fit
-from modeler.observation.observe import observe
+from modeler.regression.observe import observe
 from tests.modules import compiled
 
 NOISE = np.array([0.2, 0.5])

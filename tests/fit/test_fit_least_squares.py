@@ -11,7 +11,7 @@ from modeler.estimation import identify, judge_fit, solve_least_squares
 from modeler.estimation.essential import select_essential_parameters
 from modeler.estimation.result import read_fit
 from modeler.numerics.least_squares import compress_rows, find_independent_columns
-from modeler.observation import Log, Processing, observe
+from modeler.regression import Log, Processing, observe
 from modeler.robot import replace_effects
 from tests.chain import chain_of
 

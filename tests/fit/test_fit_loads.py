@@ -17,7 +17,7 @@ from modeler.cli import main
 from modeler.codegen.workflow import Derivation
 from modeler.core.errors import DataError
 from modeler.estimation import Payload, add_known_load, load_model, save_model
-from modeler.observation.log import Log
+from modeler.regression.log import Log
 from modeler.simulation import SimulationSettings, parse_hidden_effect, simulate
 from modeler.validation import compare, predict
 from tests.modules import compiled, module, plain

@@ -18,10 +18,10 @@ from modeler.estimation import judge_fit, long_logs as streamed
 from modeler.estimation.doubts import find_unexplained_joints
 from modeler.estimation.identify import CrossValidation, identify
 from modeler.estimation.long_logs import identify_long, reduce_chunk, stream_logs
-from modeler.observation import Log, observe, reduce as passing, stretch, thin_rows
-from modeler.observation.read import MemorySource, cut_rows
-from modeler.observation.settings import Processing
-from modeler.observation.survey import KnownFacts, WholeLogNeeded, choose_from_windows
+from modeler.regression import Log, observe, reduce as passing, stretch, thin_rows
+from modeler.regression.read import MemorySource, cut_rows
+from modeler.regression.settings import Processing
+from modeler.regression.survey import KnownFacts, WholeLogNeeded, choose_from_windows
 from modeler.runtime.model import CompiledModel
 from tests.modules import compiled
 from tests.rotation import rotating, slow_rotating
@@ -129,7 +129,7 @@ def test_gaps_holes_limits_spikes_and_segments_across_borders_are_as_in_the_whol
 def small_windows(monkeypatch):
     """A survey that sees little of a short log."""
     for name, value in (("WINDOW", 512), ("SECONDS", 1.0), ("WINDOWS", 4)):
-        monkeypatch.setattr(sys.modules["modeler.observation.survey"], name, value)
+        monkeypatch.setattr(sys.modules["modeler.regression.survey"], name, value)
 
 
 def test_windows_choose_for_all_rows(small_windows):
@@ -147,7 +147,7 @@ def test_windows_choose_for_all_rows(small_windows):
 def test_the_zero_of_the_clock_changes_nothing(zero, monkeypatch):
     """Stamps differ by their rounding: 1e-13 s, or 2.4e-7 s where they count from 1970."""
     for name, value in (("WINDOW", 512), ("SECONDS", 0.0), ("WINDOWS", 8)):
-        monkeypatch.setattr(sys.modules["modeler.observation.survey"], name, value)
+        monkeypatch.setattr(sys.modules["modeler.regression.survey"], name, value)
     log = noisy_log(seconds=90.0)
     fast = log.time > 45.0  # half of the windows: their median must not hang on a digit
     q = np.where(fast[:, None], np.sin(7.0 * log.time)[:, None] * [0.5, 0.4], log.q)

@@ -17,7 +17,7 @@ from modeler.api import compile
 from modeler.core.errors import DataError, ManifestError, ModelerError
 from modeler.estimation import Payload, identify, identify_with_payloads, load_model, save_model
 from modeler.estimation.model_file import IdentifiedModel, collect_provenance, compute_checksums
-from modeler.observation.observe import observe
+from modeler.regression.observe import observe
 from tests.bad_input.mutants import NUMBERS, VALUES_DRAWN, edited_bytes
 from tests.chain import chain_of
 from tests.modules import compiled

@@ -7,7 +7,7 @@ white noise on the torque.
 import numpy as np
 import pytest
 
-from modeler.observation.log import Log
+from modeler.regression.log import Log
 from tests.chain import chain_of
 from tests.rotation import rotating
 

@@ -9,7 +9,7 @@ from test_observation_rows import exact_log, some_beta
 from modeler.core.errors import DataError
 from modeler.derivation.numeric_rank import build_grouping_matrix
 from modeler.estimation.identify import identify
-from modeler.observation import observe, read_log
+from modeler.regression import observe, read_log
 from modeler.simulation import SimulationSettings, simulate, write_log
 from tests.modules import compiled, module
 

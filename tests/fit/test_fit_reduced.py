@@ -22,7 +22,7 @@ from modeler.estimation.essential import select_essential_parameters
 from modeler.estimation.model_file import collect_provenance, keep_essential, save_model
 from modeler.estimation.result import FitResult, read_fit
 from modeler.numerics.least_squares import compress_rows
-from modeler.observation import MASKS, WHY, Processing, classify_rows, observe
+from modeler.regression import MASKS, WHY, Processing, classify_rows, observe
 from modeler.validation.prediction import DEVIATIONS, propagate_covariance
 from tests.modules import compiled
 from tests.oracles.numpy_model import planar_arm

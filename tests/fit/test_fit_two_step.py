@@ -11,7 +11,7 @@ from modeler.estimation.identify import identify
 from modeler.estimation.two_step import JointDirections, estimate_two_steps
 from modeler.estimation.two_step_result import build_inertia_rows, identify_in_two_steps
 from modeler.estimation.verdict import judge_fit
-from modeler.observation import Log, Processing, observe
+from modeler.regression import Log, Processing, observe
 from modeler.robot import Limits, compute_joint_directions, read_robot
 from modeler.simulation import SimulationSettings, simulate
 from modeler.simulation.trajectory import build_one_joint_reference, build_point_to_point_reference

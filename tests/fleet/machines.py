@@ -11,8 +11,8 @@ from modeler.codegen.workflow import derive, generate, load
 from modeler.core.manifest import EmittedModule
 from modeler.fleet.naming import LogName
 from modeler.fleet.summary import LogSummary, summarise_log
-from modeler.observation.log import Log
-from modeler.observation.settings import Processing
+from modeler.regression.log import Log
+from modeler.regression.settings import Processing
 from modeler.runtime.model import CompiledModel
 
 RATE = 100.0  # Hz

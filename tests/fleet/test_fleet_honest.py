@@ -11,8 +11,8 @@ from modeler.fleet.fleet import analyse_fleet
 from modeler.fleet.naming import LogName
 from modeler.fleet.result import Fleet, format_fleet
 from modeler.fleet.summary import LogSummary, SkippedLog, summarise_log
-from modeler.observation.log import Log
-from modeler.observation.settings import Processing
+from modeler.regression.log import Log
+from modeler.regression.settings import Processing
 from modeler.runtime.model import CompiledModel
 from tests.fleet.machines import Planted, Scene, compiled, logs, motion, parameters
 from tests.rotation import rotating

@@ -8,7 +8,7 @@ from modeler.estimation.least_squares import solve_least_squares
 from modeler.fleet import drift
 from modeler.fleet.drift import PeriodSeries, estimate_scatters, find_outlying_machines, fit_drift
 from modeler.fleet.joint_fit import GAIN, LOAD, build_layout, fit_fleet
-from modeler.observation.observe import observe
+from modeler.regression.observe import observe
 from tests.fleet.machines import PROCESSING, Scene, compiled, emitted, logs, parameters, summaries
 
 ROSNER = """

@@ -10,8 +10,8 @@ from scipy.integrate import solve_ivp
 from modeler.api import compile, load
 from modeler.core.errors import DataError
 from modeler.estimation.model_file import IdentifiedModel
-from modeler.observation import Log, Processing
-from modeler.observation.read import cut_rows
+from modeler.regression import Log, Processing
+from modeler.regression.read import cut_rows
 from modeler.robot import Robot, parse_robot_text, replace_effects
 from modeler.runtime.model import CompiledModel
 from modeler.simulation import SimulationSettings, simulate

@@ -8,7 +8,7 @@ import pytest
 
 from modeler.diagnosis import add
 from modeler.diagnosis.added_model import LogSplit
-from modeler.observation.log import Log
+from modeler.regression.log import Log
 from tests.diagnose import conftest
 from tests.diagnose.conftest import Case, demonstration, made, motion, on_joint, spring
 

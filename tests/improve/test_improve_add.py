@@ -12,8 +12,8 @@ from modeler.diagnosis.add import add_effect, add_findings
 from modeler.diagnosis.added_model import LogSplit, build_rows, describe_additions
 from modeler.diagnosis.diagnosis import diagnose
 from modeler.estimation.model_file import load_model
-from modeler.observation.log import Log
-from modeler.observation.observation import compute_model_torque
+from modeler.regression.log import Log
+from modeler.regression.observation import compute_model_torque
 from modeler.runtime.model import load_module as load_compiled
 from tests.diagnose.conftest import Case, motion, on_joint, spring, two
 from tests.improve.conftest import Mended

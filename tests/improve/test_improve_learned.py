@@ -11,7 +11,7 @@ from modeler.diagnosis import LawRequest
 from modeler.diagnosis.learn import learn_law
 from modeler.diagnosis.state import SearchData, analyse_logs, build_state
 from modeler.estimation.model_file import load_model, save_model
-from modeler.observation.log import Log
+from modeler.regression.log import Log
 from modeler.robot.read import parse_robot_text
 from tests.diagnose.conftest import Case, demonstration, motion, nothing, on_joint
 

@@ -11,7 +11,7 @@ from modeler.diagnosis.add import resolve_effect
 from modeler.diagnosis.candidates import Candidate
 from modeler.diagnosis.plausible import find_caveat
 from modeler.effects import CATALOGUE, Effect, EffectTarget, find_effect
-from modeler.report import (
+from modeler.views import (
     suggest_after_add,
     suggest_after_compare,
     suggest_after_diagnosis,

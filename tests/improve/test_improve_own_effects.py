@@ -11,7 +11,7 @@ from modeler.core.errors import DataError
 from modeler.diagnosis.add import add_effect, remove_last_effect
 from modeler.diagnosis.added_model import LogSplit
 from modeler.estimation.model_file import load_model, save_model
-from modeler.observation.log import Log
+from modeler.regression.log import Log
 from modeler.robot.read import parse_robot_text
 from modeler.runtime.model import load_module as load_compiled
 from tests.chain import chain_of

@@ -8,7 +8,7 @@ import pytest
 from modeler import api
 from modeler.core.errors import DataError, RobotError
 from modeler.estimation.model_file import save_model
-from modeler.observation.log import Log
+from modeler.regression.log import Log
 from modeler.robot.read import parse_robot_text
 from modeler.robot.shared_effects import collect_shared_effects, export_effect
 from tests.chain import chain_of

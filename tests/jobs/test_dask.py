@@ -20,9 +20,9 @@ from modeler.core import jobs as cluster
 from modeler.core.errors import DataError
 from modeler.core.jobs import Workers, open_workers
 from modeler.estimation.long_logs import PartialFit, identify_long, reduce_by_threads, stream_logs
-from modeler.observation.log import Log
-from modeler.observation.read import open_source
-from modeler.observation.survey import KnownFacts, choose_from_windows
+from modeler.regression.log import Log
+from modeler.regression.read import open_source
+from modeler.regression.survey import KnownFacts, choose_from_windows
 from tests.fleet.machines import PROCESSING, Scene, compiled, emitted, logs
 from tests.jobs.work import added, ends_always, refused, third
 

@@ -12,7 +12,7 @@ import scipy.io
 from modeler.api import compile_model, derive, generate, load, read_logs
 from modeler.cli import main
 from modeler.core.builtin import read_builtin_robot
-from modeler.observation.log import Log
+from modeler.regression.log import Log
 from modeler.runtime.model import CompiledModel
 from modeler.simulation import SimulationSettings, simulate
 from modeler.simulation.log import build_log_columns

@@ -14,8 +14,8 @@ import pytest
 from modeler.core.errors import DataError
 from modeler.logs.blocks import _TextFile, build_arrow_columns
 from modeler.logs.mapping import build_map
-from modeler.observation.chunk import cut_window, read_part
-from modeler.observation.read import join_logs, open_source, read_log
+from modeler.regression.chunk import cut_window, read_part
+from modeler.regression.read import join_logs, open_source, read_log
 
 SIZE = 150
 
@@ -189,8 +189,8 @@ def test_a_piece_of_a_long_log_is_that_of_the_whole(span, tmp_path, case, monkey
     del columns["note"], columns["temperature"]
     path = written(tmp_path / "run.parquet", columns)
     for where in ("chunk", "log"):
-        monkeypatch.setattr(sys.modules[f"modeler.observation.{where}"], "FINGER", 256)
-    monkeypatch.setattr("modeler.observation.log.LONG", 500)
+        monkeypatch.setattr(sys.modules[f"modeler.regression.{where}"], "FINGER", 256)
+    monkeypatch.setattr("modeler.regression.log.LONG", 500)
     spec = case.compiled.spec
     whole = cut_window(read_log(path, spec), *span)
     piece = read_part(open_source(path, spec), spec, *span)

@@ -14,7 +14,7 @@ from modeler.logs.columns import ColumnRequest
 from modeler.logs.guess import guess_role
 from modeler.logs.mapping import parse_map_options
 from modeler.logs.readers import read_columns
-from modeler.observation.read import open_source
+from modeler.regression.read import open_source
 from tests.logs.test_log_clocks import csv
 from tests.logs.writers import JOINTS, ORDERS, joined
 from tests.rotation import rotating

@@ -10,8 +10,8 @@ from modeler.core.errors import DataError
 from modeler.logs.inspect import inspect_table
 from modeler.logs.log_table import LogTable
 from modeler.logs.mapping import LogMap, build_map
-from modeler.report.log import draw_log_pictures
 from modeler.simulation import SimulationSettings
+from modeler.views.log import draw_log_pictures
 from tests.logs.writers import parquet
 
 

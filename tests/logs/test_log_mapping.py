@@ -9,7 +9,7 @@ from modeler.core.errors import DataError
 from modeler.core.manifest import JointSpec
 from modeler.logs.log_table import LogTable
 from modeler.logs.mapping import build_map, find_unit, parse_map_options, parse_unit
-from modeler.observation.read import read_log
+from modeler.regression.read import read_log
 from tests.logs import writers
 
 TURN = JointSpec("1", "revolute", "rad", "N m", True, 2.0)

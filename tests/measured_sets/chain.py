@@ -16,9 +16,9 @@ from modeler.diagnosis.diagnosis import diagnose
 from modeler.diagnosis.result import Diagnosis
 from modeler.diagnosis.score import Residuals, Score, score_change
 from modeler.estimation.model_file import IdentifiedModel
-from modeler.observation.log import Log
-from modeler.observation.motion import HIGHEST
-from modeler.observation.settings import Processing
+from modeler.regression.log import Log
+from modeler.regression.motion import HIGHEST
+from modeler.regression.settings import Processing
 from modeler.runtime.model import CompiledModel, load_module as load_compiled
 from tests.chain import Chain, chain_of
 from tests.measured_sets.answer import Answer

@@ -13,7 +13,7 @@ import numpy as np
 import pytest
 
 import modeler.core.result as presented_module
-import modeler.report.notebook as notebook
+import modeler.views.notebook as notebook
 from modeler.api import derive, load, read_logs, write_report
 from modeler.core.errors import DataError
 from modeler.core.result import Result, find_presentation

@@ -13,23 +13,19 @@ from modeler.core.figure import Band, Curve, Means, Panel, Picture
 from modeler.diagnosis.diagnosis import diagnose
 from modeler.diagnosis.ranking import build_gram_blocks
 from modeler.diagnosis.result import Diagnosis
-from modeler.observation.log import Log
-from modeler.report.diagnosis import build_diagnosis_page
-from modeler.report.effect_evidence import (
+from modeler.regression.log import Log
+from modeler.robot.read import parse_robot_text
+from modeler.views.diagnosis import build_diagnosis_page
+from modeler.views.effect_evidence import (
     Evidence,
     collect_evidence,
     compute_covariance,
     describe_residuals,
 )
-from modeler.report.evidence import (
-    draw_evidence_picture,
-    select_alternatives,
-    tabulate_alternatives,
-)
-from modeler.report.evidence_axes import build_bins, find_inliers
-from modeler.report.page import write_page
-from modeler.report.torque_picture import draw_play_picture, draw_torque_picture, find_worst_window
-from modeler.robot.read import parse_robot_text
+from modeler.views.evidence import draw_evidence_picture, select_alternatives, tabulate_alternatives
+from modeler.views.evidence_axes import build_bins, find_inliers
+from modeler.views.page import write_page
+from modeler.views.torque_picture import draw_play_picture, draw_torque_picture, find_worst_window
 from tests.captions import assert_all_named
 from tests.diagnose.conftest import Case, demonstration, motion, on_joint
 from tests.diagnose.test_diagnose_effects import motor_ripple, spring, stribeck

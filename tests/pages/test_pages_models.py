@@ -10,8 +10,8 @@ import numpy as np
 import pytest
 
 from modeler.estimation.model_file import IdentifiedModel, load_model
-from modeler.report.fit import find_correlated_pairs
-from modeler.report.history import (
+from modeler.views.fit import find_correlated_pairs
+from modeler.views.history import (
     BETTER,
     SAME,
     WORSE,
@@ -19,8 +19,8 @@ from modeler.report.history import (
     draw_joints_picture,
     draw_waterfall_picture,
 )
-from modeler.report.page import write_page
-from modeler.report.values import format_relation
+from modeler.views.page import write_page
+from modeler.views.values import format_relation
 from tests.captions import assert_all_named
 from tests.cli.inputs import folder_after
 from tests.cli.running import answer, complaint

@@ -6,8 +6,8 @@ from pathlib import Path
 
 import pytest
 
-from modeler.report.blocks import Paragraph
-from modeler.report.page import Origin, Page, Section, find_pages, write_index, write_page
+from modeler.views.blocks import Paragraph
+from modeler.views.page import Origin, Page, Section, find_pages, write_index, write_page
 from tests.repository import ROOT
 
 # plotly.js-basic-dist-min of the npm registry

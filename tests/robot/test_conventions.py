@@ -348,9 +348,9 @@ def test_branches_of_craig_name_their_parents():
 @pytest.mark.parametrize("convention", ["khalil", "craig", "classical"])
 def test_the_table_is_shown_and_kept_in_its_letters(convention, tmp_path):
     """What is printed, typed in again, is the same robot; edited files stay in their convention."""
-    from modeler.report.derivation import _tabulate_dh_rows
-    from modeler.report.robot_page import build_table_head, build_table_rows
     from modeler.robot.edit import replace_effects, replace_parameters
+    from modeler.views.derivation import _tabulate_dh_rows
+    from modeler.views.robot_page import build_table_head, build_table_rows
 
     lengths = ("d", "r") if convention == "khalil" else ("a", "d")
     columns = ["j", "sigma", "alpha", lengths[0], "theta", lengths[1]]

@@ -7,7 +7,7 @@ from modeler.api import compile_model, derive, generate, read_logs
 from modeler.core.builtin import read_builtin_robot
 from modeler.core.errors import DataError, RobotError
 from modeler.estimation import check_currents
-from modeler.observation import Processing, observe
+from modeler.regression import Processing, observe
 from modeler.robot import parse_robot_text, replace_drive_gains
 
 VOLTAGE, RESISTANCE, K_E, GAIN = 11.1, 3.7, 0.9, 0.8

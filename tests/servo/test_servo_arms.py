@@ -10,7 +10,7 @@ from modeler.api.log_maps import build_log_maps, read_mapped_log
 from modeler.core.errors import DataError
 from modeler.estimation import identify
 from modeler.logs import EITHER
-from modeler.observation import observe
+from modeler.regression import observe
 from tests.rotation import ROTATING
 
 from .servos import Servo, recorded, write_dataset

@@ -7,7 +7,10 @@ import numpy as np
 import pytest
 
 from modeler.core.builtin import read_builtin_robot
-from modeler.report.robot_closing import (
+from modeler.robot.read import parse_robot_text, read_robot
+from modeler.simulation.closing import build_constraints, compute_closed_postures
+from modeler.simulation.rigid import compute_world_frames
+from modeler.views.robot_closing import (
     Posture,
     compute_gaps,
     compute_jacobian,
@@ -15,11 +18,8 @@ from modeler.report.robot_closing import (
     find_home_posture,
     solve_closure,
 )
-from modeler.report.robot_labels import choose_view, collect_joint_points
-from modeler.report.robot_skeleton import Skeleton, build_skeleton, compute_poses
-from modeler.robot.read import parse_robot_text, read_robot
-from modeler.simulation.closing import build_constraints, compute_closed_postures
-from modeler.simulation.rigid import compute_world_frames
+from modeler.views.robot_labels import choose_view, collect_joint_points
+from modeler.views.robot_skeleton import Skeleton, build_skeleton, compute_poses
 from tests.further_robots import FurtherRobots
 from tests.robot.texts import edited
 from tests.robots import LOOPED, ROBOTS, TIED

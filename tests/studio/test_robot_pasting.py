@@ -6,7 +6,6 @@ import numpy as np
 import pytest
 
 from modeler.core.errors import RobotError
-from modeler.report.robot_skeleton import build_skeleton, compute_poses
 from modeler.robot import (
     build_pasted_robot,
     insert_pasted_table,
@@ -15,6 +14,7 @@ from modeler.robot import (
     parse_robot_text,
     read_symbol_texts,
 )
+from modeler.views.robot_skeleton import build_skeleton, compute_poses
 from tests.elementary_motions import row_pose
 
 

@@ -11,11 +11,11 @@ import pytest
 
 from modeler.cli import build_parser
 from modeler.core.builtin import read_builtin_robot
-from modeler.report import serialise_posture, show
 from modeler.robot import parse_robot_text
 from modeler.studio.commands import build_command_words
 from modeler.studio.project import Project, Workspace
 from modeler.studio.tasks import Step, Task
+from modeler.views import serialise_posture, show
 from tests.browser.chromium import until
 from tests.rotation import slow_rotating
 from tests.studio.texts import GERMAN

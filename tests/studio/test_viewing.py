@@ -21,7 +21,7 @@ from modeler.core.errors import DataError, ModelerError
 from modeler.core.figure import Curve, Means
 from modeler.core.thinning import thin_curves
 from modeler.estimation import load_model
-from modeler.observation import LONG
+from modeler.regression import LONG
 from modeler.studio import viewing
 from modeler.studio.viewer import Viewer, compute_answer
 from tests.coroutines import run_coroutine

@@ -1,0 +1,357 @@
+"""Shafts with dry friction that all but stand still; inner states of bristles; signals."""
+
+import dataclasses
+import math
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from modeler.core.errors import DataError, LoopError
+from modeler.numerics.filters import apply_biquad
+from modeler.regression.motion import Segment, dilate_flags
+from modeler.regression.motion_noise import MotionNoise
+from modeler.regression.settings import ChosenProcessing
+from modeler.runtime import CompiledModel
+
+TOP = 0.98
+_CREEP = 1e-9  # rad/s or m/s, to both sides of standstill
+_HALVED = 10  # times, from positions anywhere to 1e-3 of home
+REST_TRAVEL = {"rad": 5e-3, "m": 2e-4}  # a joint that rests in a log, its encoder's steps included
+TINY = 0.02  # of its travel in all logs, that it goes in such a log
+IDLE_TRAVEL = {"rad": 1e-3, "m": 1e-4}  # less than this over all logs counts as standing still
+
+
+@dataclass(frozen=True)
+class FrictionShaft:
+    """A rotating part whose friction leaps when its speed changes sign.
+
+    Attributes:
+        name: "3", or "5+6" for a motor that turns with two joints.
+        coefficients: (joints,) its speed is coefficients . qd.
+        joints: rows whose torque leaps.
+        unit: "rad" or "m".
+    """
+
+    name: str
+    coefficients: tuple[float, ...]
+    joints: tuple[int, ...]
+    unit: str
+
+    def compute_speed(self, qd: np.ndarray) -> np.ndarray:
+        """(n,) from joint velocities (n, joints)."""
+        return qd @ np.asarray(self.coefficients)
+
+
+def find_shafts(model: CompiledModel) -> tuple[FrictionShaft, ...]:
+    """The shafts whose columns leap at standstill, found by creeping both ways past it.
+
+    Each base column's leap is measured while one joint after the other creeps forwards and
+    backwards at 1e-9 rad/s: smooth columns do not leap, whatever effect they belong to. A column
+    leaps for the joints its shaft turns with, by the shaft's coefficient on the rows it acts on.
+    """
+    joints = len(model.spec.joints)
+    state = np.tile(_choose_posture(model), (joints, 1))
+    creep = _CREEP * np.eye(joints)
+    still = np.zeros((joints, joints))
+    signals = np.full((joints, len(model.spec.signals)), 0.5) if model.spec.signals else None
+    forwards = model.base_regressor(state, creep, still, signals)
+    backwards = model.base_regressor(state, -creep, still, signals)
+    leap = 0.5 * (forwards - backwards)  # (moved, row, column)
+    shaft_by_coefficients: dict[tuple[float, ...], FrictionShaft] = {}
+    scale = np.max(np.abs(leap), axis=(0, 1))
+    for column in np.flatnonzero(scale > 1e-3):
+        share = leap[:, :, column] / scale[column]
+        rows = tuple(int(j) for j in np.flatnonzero(np.max(np.abs(share), axis=0) > 1e-6))
+        moved = np.flatnonzero(np.max(np.abs(share), axis=1) > 1e-6)
+        coefficients = np.zeros(joints)
+        if len(moved) == 1:
+            coefficients[moved] = 1.0
+        else:  # E^T sign(E qd): the leap on the rows is the shaft's coefficient
+            coefficients[moved] = share[moved[0], moved]
+        key = tuple(round(float(c), 9) for c in coefficients)
+        acted = (
+            rows
+            if key not in shaft_by_coefficients
+            else tuple(sorted({*rows, *shaft_by_coefficients[key].joints}))
+        )
+        names = "+".join(model.spec.joints[j].name for j in moved)
+        shaft_by_coefficients[key] = FrictionShaft(
+            names, key, acted, model.spec.joints[moved[0]].unit
+        )
+    return tuple(shaft_by_coefficients.values())
+
+
+def _choose_posture(model: CompiledModel) -> np.ndarray:
+    """(joints,) positions, none of them special; of a robot with loops as near home as closes."""
+    joints, closure = len(model.spec.joints), model.spec.closure
+    state = np.random.default_rng(1).uniform(0.2, 1.0, joints)
+    if closure is None:
+        return state
+    home = np.asarray(closure.home)[list(closure.given)]
+    for halved in range(_HALVED):
+        near = home + 0.5**halved * (state - home)
+        try:
+            model.coupling(near[None])
+        except LoopError:
+            continue
+        return near
+    return home
+
+
+def find_all_shafts(model: CompiledModel) -> tuple[FrictionShaft, ...]:
+    """The shafts, and every joint with a motor that is none of them.
+
+    For looking at dry friction that the model lacks.
+    """
+    all_shafts, joints = list(find_shafts(model)), model.spec.joints
+    names = {part.name for part in all_shafts}
+    for j, joint in enumerate(joints):
+        if joint.actuated and joint.name not in names:
+            coefficients = tuple(float(i == j) for i in range(len(joints)))
+            all_shafts.append(FrictionShaft(joint.name, coefficients, (j,), joint.unit))
+    return tuple(all_shafts)
+
+
+def compute_speed_floors(
+    processing: ChosenProcessing, parts: Sequence[FrictionShaft], segments: Sequence[Segment],
+    noise: MotionNoise,
+) -> dict[str, float]:  # fmt: skip
+    """Speed of each shaft below which its rows are masked; infinite for one that stands still.
+
+    `low_speed` times the shaft's top speed over all logs, which is its 98 % quantile: a short
+    transient (an axis that slams into its first position) must not mask the motion after it. And a
+    step of logged speeds, which are 0 or a step at lower ones.
+    """
+    floors, low = {}, processing.low_speed
+    for part, top in zip(parts, compute_top_speeds(parts, segments, noise), strict=True):
+        step = noise.compute_speed_step(part.coefficients) if low else 0.0
+        floor = max(low * top, min(step, WIDEST * top)) if top else float("inf")
+        floors[part.name] = processing.speed_floors.get(part.name, floor)
+    return floors
+
+
+def compute_top_speeds(
+    parts: Sequence[FrictionShaft], segments: Sequence[Segment], noise: MotionNoise | None = None,
+    least: Mapping[str, float] = IDLE_TRAVEL,
+) -> list[float]:  # fmt: skip
+    """98 % quantile of the speed of each shaft; 0 of one that stands still."""
+    tops = []
+    for part in parts:
+        turned = np.flatnonzero(part.coefficients)
+        if noise is not None and not any(noise.joints[j].moves for j in turned):
+            tops.append(0.0)
+            continue
+        speeds = np.concatenate([np.abs(part.compute_speed(s.qd[s.whole])) for s in segments])
+        travel = np.concatenate([part.compute_speed(s.q[s.whole]) for s in segments])
+        idle = not travel.size or np.ptp(travel) < least[part.unit]
+        tops.append(0.0 if idle else float(np.quantile(speeds, TOP)))
+    return tops
+
+
+WIDE = 0.05
+"""Share of its top speed below which a shaft is near a reversal ..."""
+
+WIDE_SIGMAS = 5.0
+"""... or so many deviations of the noise of its speed ..."""
+
+WIDEST = 0.2
+"""... but no more of its top speed."""
+
+PERIODS = 0.7
+"""Periods of the position filter over which a reversal is smeared."""
+
+
+def compute_wide_floors(
+    processing: ChosenProcessing, parts: Sequence[FrictionShaft], segments: Sequence[Segment],
+    noise: MotionNoise,
+) -> dict[str, float]:  # fmt: skip
+    """Speed of each shaft below which it is near a reversal.
+
+    Whoever leaves that out must find the same parameters; a position filter smears the reversal
+    itself over `PERIODS` of its cut-off.
+    """
+    floors, cutoff = {}, processing.position_cutoff
+    for part, top in zip(parts, compute_top_speeds(parts, segments, noise), strict=True):
+        doubtful = WIDE_SIGMAS * noise.compute_speed_noise(part.coefficients, cutoff)
+        floors[part.name] = min(max(WIDE * top, doubtful), WIDEST * top) or float("inf")
+    return floors
+
+
+def find_moving_samples(
+    segment: Segment, parts: Sequence[FrictionShaft], floors: Mapping[str, float],
+    margin: float = 0.0,
+) -> np.ndarray:  # fmt: skip
+    """(n, joints) False where a shaft that acts on the joint is slower than its floor.
+
+    With a margin, s, also so near to such a sample or to a reversal. One that rests has neither.
+    """
+    fast = np.ones(segment.qd.shape, dtype=bool)
+    reach = round(margin / segment.step)
+    for part in parts:
+        if segment.rests and {*np.flatnonzero(part.coefficients)} <= {*segment.rests}:
+            continue  # gravity on it counts
+        speed = part.compute_speed(segment.qd)
+        slow = np.abs(speed) < floors[part.name]
+        if reach:
+            slow[1:] |= np.diff(np.sign(speed)) != 0.0
+            slow = dilate_flags(slow, reach)
+        fast[np.ix_(slow, list(part.joints))] = False
+    return fast
+
+
+def clear_resting_speeds(
+    segments: Sequence[Segment], parts: Sequence[FrictionShaft], still: Sequence[str] = ()
+) -> tuple[Segment, ...]:
+    """The segments without speeds of joints that rest all along a log: noise has no sign.
+
+    Args:
+        segments: of all logs.
+        parts: shafts; those of several joints are left as they are.
+        still: names of those that move in no log.
+    """
+    turned = {part.name: np.flatnonzero(part.coefficients) for part in parts}
+    cleared_segments = []
+    for segment in segments:
+        positions = [s.q for s in segments if s.run == segment.run]
+        travel = np.ptp(np.concatenate(positions), axis=0)
+        whole = np.ptp(np.concatenate([s.q for s in segments]), axis=0)
+        joints = tuple(
+            int(j[0]) for part in parts
+            if len(j := turned[part.name]) == 1 and travel[j[0]] < REST_TRAVEL[part.unit]
+            and (part.name in still or travel[j[0]] < TINY * whole[j[0]])
+        )  # fmt: skip
+        if joints:
+            qd, qdd = segment.qd.copy(), segment.qdd.copy()
+            qd[:, joints] = qdd[:, joints] = 0.0
+            segment = dataclasses.replace(segment, qd=qd, qdd=qdd, rests=joints)
+        cleared_segments.append(segment)
+    return tuple(cleared_segments)
+
+
+# Inner states along measured positions, as `advance` of the C steps them.
+
+
+def compute_bristle_state(q: np.ndarray, distance: float) -> np.ndarray:
+    """(n,) the state z of Dahl's friction along positions q (n,), from z = sign v at the start.
+
+    z' = (v/d)(1 - z sign v): between reversals z = s + (z0 - s) exp(-travel/d), s = sign v.
+    """
+    step = np.diff(q)
+    if not step.any():
+        return np.zeros(len(q))
+    direction = _carry_direction(np.sign(step))
+    begins = np.concatenate([[0], np.flatnonzero(np.diff(direction)) + 1])
+    lengths = np.diff(np.append(begins, len(step)))
+    travel = np.abs(q[1:] - np.repeat(q[begins], lengths))
+    left = np.exp(-travel / distance)
+    way, remaining = direction[begins], left[begins + lengths - 1]
+    apart = np.empty(len(begins))  # z - s at each turn
+    before = float(direction[0])
+    for k, (s, share) in enumerate(zip(way.tolist(), remaining.tolist(), strict=True)):
+        apart[k] = before - s
+        before = s + (before - s) * share
+    return np.concatenate([direction[:1], direction + np.repeat(apart, lengths) * left])
+
+
+def compute_time_since_reversal(
+    q: np.ndarray, step: float, back: float
+) -> tuple[np.ndarray, np.ndarray]:
+    """Direction and s since the joint last turned back, along positions q (n,); each (n,).
+
+    It has turned once it has come back by more than `back`, which takes twice as long at constant
+    acceleration as at the speed that it has then; before the first time, s since the start. The
+    sign of the direction is the way it goes; its size is 1 less the share of `back` come back.
+    """
+    way, since = np.zeros(len(q)), step * np.arange(len(q))
+    far = np.flatnonzero(np.abs(q - q[0]) > back)
+    if not len(far):
+        return way, since
+    way[0] = direction = float(np.sign(q[far[0]] - q[0]))
+    ago = 0.0
+    for k, share in enumerate((np.diff(q) / back).tolist(), start=1):
+        moved, ago = direction + share, ago + step
+        if moved * direction < 0.0:
+            ago = min(ago, 2.0 * (1.0 + abs(moved)) * step / abs(share))
+            direction = math.copysign(1.0, moved)
+        else:
+            direction = min(1.0, max(-1.0, moved))
+        way[k], since[k] = direction, ago
+    return way, since
+
+
+def apply_lag(x: np.ndarray, step: float, tau: float) -> np.ndarray:
+    """(n,) z of z' = (x - z)/tau along x (n,) at even steps, s; at rest under the first x."""
+    decay = math.exp(-step / tau)
+    driven = np.append(0.0, (1.0 - decay) * (0.5 * (x[1:] + x[:-1]) - x[0]))
+    return np.asarray(
+        x[0] + apply_biquad(driven, np.array([1.0, 0, 0]), np.array([1.0, -decay, 0]))
+    )
+
+
+def _carry_direction(direction: np.ndarray) -> np.ndarray:
+    """Zeros replaced by the last direction before them, at the start by the first after."""
+    known = np.flatnonzero(direction)
+    place = np.searchsorted(known, np.arange(len(direction)), side="right") - 1
+    return direction[known[np.maximum(place, 0)]]
+
+
+# What effects of a model read besides the motion, over the samples of a segment.
+
+
+Temperature = Callable[[str], np.ndarray]
+"""(n,) of the joint of that name."""
+
+
+def compute_signals(model: CompiledModel, segment: Segment) -> np.ndarray | None:
+    """(n, m) the input `s` of the model's functions; None if it has none.
+
+    Raises:
+        DataError: a temperature that an effect reads was not logged.
+    """
+    if segment.read is not None:
+        return segment.read
+    motion = segment.q, segment.qd, segment.qdd
+    return compute_signals_along(
+        model, motion, segment.time, lambda joint: _read_temperature(segment, joint)
+    )
+
+
+def compute_signals_along(
+    model: CompiledModel, motion: Sequence[np.ndarray], time: np.ndarray, temperature: Temperature
+) -> np.ndarray | None:
+    """(n, m) the same along q, qd, qdd (n, joints) at even times (n,)."""
+    spec = model.spec
+    if not spec.signals:
+        return None
+    names, read = [joint.name for joint in spec.joints], np.zeros((len(time), len(spec.signals)))
+    step = (time[-1] - time[0]) / max(1, len(time) - 1)
+    for k, signal in enumerate(spec.signals):
+        if signal.kind == "time":
+            read[:, k] = time
+        elif signal.kind == "temperature":
+            read[:, k] = temperature(signal.joint)
+        elif signal.kind == "slip":
+            read[:, k] = compute_bristle_state(
+                motion[0][:, names.index(signal.joint)], signal.value
+            )
+        elif signal.kind == "direction":  # the time since it changed stands after it
+            q = motion[0][:, names.index(signal.joint)]
+            read[:, [k, k + 1]] = np.stack(
+                compute_time_since_reversal(q, step, signal.value), axis=1
+            )
+        elif signal.kind == "followed":  # a step of no length gives it
+            read[:, k] = model.advance(0.0 * motion[0], 0.0, read, *motion)[:, k]
+        elif signal.kind == "lag":
+            read[:, k] = apply_lag(read[:, k - 1], step, signal.value)
+    return read
+
+
+def _read_temperature(segment: Segment, joint: str) -> np.ndarray:
+    for name in (f"temperature{joint}", "temperature"):
+        if name in segment.extra:
+            return segment.extra[name]
+    raise DataError(
+        f"no column temperature{joint} or temperature: an effect of the model on joint {joint} "
+        "depends on it; log it, or take that effect out of the robot file"
+    )

@@ -1,0 +1,373 @@
+"""y = W beta: the rows of all logs through the compiled model and the parallel filter."""
+
+import dataclasses
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from functools import cached_property, partial
+from typing import Any
+
+import numpy as np
+
+from modeler.core.errors import DataError
+from modeler.core.manifest import JointSpec
+from modeler.core.result import Result
+from modeler.numerics.filters import LEAST_WEIGHT
+from modeler.regression.chunk import wrap_log
+from modeler.regression.log import Log
+from modeler.regression.low_speed import (
+    PERIODS,
+    clear_resting_speeds,
+    compute_signals,
+    compute_speed_floors,
+    compute_wide_floors,
+    find_all_shafts,
+    find_moving_samples,
+    find_shafts,
+)
+from modeler.regression.motion import (
+    BRIDGES,
+    CAUSES,
+    CONTRADICTED,
+    EDGE,
+    MISSING,
+    OPEN,
+    SATURATED,
+    Segment,
+)
+from modeler.regression.prepare import PreparedLogs, close_segments
+from modeler.regression.report import DataReport
+from modeler.regression.stretch import FilteredSegment, filter_segment
+from modeler.regression.tally import build_joint_reports, build_log_report, count_rows
+from modeler.runtime import CompiledModel, NonzeroPattern, Triangles
+
+COMPLETE = 0.95
+"""Least share of the weights of a row on usable samples, where it must be whole."""
+
+# The rows of y = W beta, and which is which.
+
+
+@dataclass(frozen=True, eq=False)
+class Observation(Result):
+    """Filtered, decimated data of all logs: s samples, n joints, c base parameters.
+
+    Attributes:
+        robot: name.
+        joints: order of the second axis below.
+        names: (c,) base parameters, the columns.
+        units: (c,) of the base parameters.
+        logs: names of the logs.
+        run: (s,) index into `logs`.
+        segment: (s,) number of the uniform piece, unique over logs; never difference across it.
+        time: (s,) s.
+        q, qd, qdd: (s, n) motion, filtered alike.
+        torque: (s, n) filtered torque, N m or N.
+        used: (s, n) rows that count; the others are for pictures.
+        stretches: full-rate data, for further columns.
+        regressor: (b, n, c) at full rate, for the b samples of a segment in a window.
+        report: what was done.
+        steady: (s, n) rows that count and lie far from reversals; None where nothing rubs.
+    """
+
+    robot: str
+    joints: tuple[JointSpec, ...]
+    names: tuple[str, ...]
+    units: tuple[str, ...]
+    logs: tuple[str, ...]
+    run: np.ndarray
+    segment: np.ndarray
+    time: np.ndarray
+    q: np.ndarray
+    qd: np.ndarray
+    qdd: np.ndarray
+    torque: np.ndarray
+    used: np.ndarray
+    stretches: tuple[FilteredSegment, ...]
+    regressor: Callable[[Segment, slice], np.ndarray]
+    report: DataReport
+    steady: np.ndarray | None = None
+
+    @cached_property
+    def columns(self) -> np.ndarray:
+        """(s, n, c) filtered regressor: torque = columns beta + residual."""
+        return self.filter_columns(self.regressor)
+
+    @cached_property
+    def W(self) -> np.ndarray:
+        """(rows, c) observation matrix, joint after joint within each sample."""
+        return self.columns[self.used]
+
+    @cached_property
+    def y(self) -> np.ndarray:
+        """(rows,) torques, N m or N."""
+        return self.torque[self.used]
+
+    @cached_property
+    def row_sample(self) -> np.ndarray:
+        """(rows,) sample of each row."""
+        return np.nonzero(self.used)[0]
+
+    @cached_property
+    def row_joint(self) -> np.ndarray:
+        """(rows,) index of the joint of each row."""
+        return np.nonzero(self.used)[1]
+
+    @cached_property
+    def row_run(self) -> np.ndarray:
+        """(rows,) index of the log of each row."""
+        return self.run[self.row_sample]
+
+    @cached_property
+    def driven(self) -> list[int]:
+        """Indices of the joints with a motor, rows and a torque."""
+        return [
+            j for j, joint in enumerate(self.joints)
+            if joint.actuated and self.torque[self.used[:, j], j].any()
+        ]  # fmt: skip
+
+    @cached_property
+    def whole(self) -> np.ndarray:
+        """(s, n) rows that count, and whose weights lie on usable samples all but wholly.
+
+        A row at the edge of a masked reversal is the mean of few samples, and what the filter makes
+        of the sign of a speed there looks like physics.
+        """
+        shares = [part.rows.compute_usable_share(part.usable) for part in self.stretches]
+        return self.used & (np.concatenate(shares) >= COMPLETE)
+
+    def select_rows(self, used: np.ndarray) -> "Observation":
+        """The same with other rows (s, n) that count."""
+        ends = np.cumsum([len(part.used) for part in self.stretches])[:-1]
+        pairs = zip(self.stretches, np.split(used, ends), strict=True)
+        parts = tuple(dataclasses.replace(part, used=part_used) for part, part_used in pairs)
+        return dataclasses.replace(self, used=used, stretches=parts)
+
+    def predict(self, beta: np.ndarray) -> np.ndarray:
+        """(s, n) torque of the model, filtered like the measurement: columns beta."""
+        return self.columns @ beta
+
+    def filter_columns(self, evaluate: Callable[[Segment, slice], np.ndarray]) -> np.ndarray:
+        """Further columns (s, n, ...) through the same filter, row for row beside `columns`.
+
+        Args:
+            evaluate: (b, n, ...) for the b samples of a segment in a window.
+        """
+        return np.concatenate(
+            [part.filter_columns(partial(evaluate, part.segment)) for part in self.stretches]
+        )
+
+
+# A compiled model over the segments of an observation: its regressor, and what needs none.
+
+
+class ModelRegressor:
+    """The base regressor over the samples of a segment, with what its effects read."""
+
+    def __init__(self, model: CompiledModel, stretches: Sequence[FilteredSegment]) -> None:
+        self._model = model
+        self._signals = {part.segment: compute_signals(model, part.segment) for part in stretches}
+
+    def __call__(self, s: Segment, w: slice | np.ndarray) -> np.ndarray:
+        """(b, n, c) for the b samples of a window, or of indices."""
+        return self._model.base_regressor(s.q[w], s.qd[w], s.qdd[w], self._read_signals(s, w))
+
+    @property
+    def pattern(self) -> NonzeroPattern:
+        """Which columns can enter the torque of each joint."""
+        return self._model.pattern
+
+    def compute_torque(
+        self, s: Segment, w: slice | np.ndarray, beta: np.ndarray, turn: np.ndarray | None = None
+    ) -> np.ndarray:
+        """(b, n) torque of the model, by the inverse dynamics; w may be indices.
+
+        With a turn (n, n) the motion is q turn instead of q.
+        """
+        motion = s.q[w], s.qd[w], s.qdd[w]
+        q, qd, qdd = motion if turn is None else (x @ turn for x in motion)
+        return self._model.inverse_dynamics(q, qd, qdd, beta, self._read_signals(s, w))
+
+    def compute_triangles(
+        self, part: FilteredSegment, use: np.ndarray, state: Triangles | None
+    ) -> Triangles:
+        """Triangles of the rows of a stretch whose rows are samples; use (rows, n) bool."""
+        some = np.flatnonzero(use.any(axis=1))
+        s, w = part.segment, part.rows.centres[some]
+        part_triangles = self._model.triangles(
+            s.q[w], s.qd[w], s.qdd[w], s.tau[w], use[some], self._read_signals(s, w), state=state
+        )
+        if part_triangles.left_out.any():  # the regressor says of which sample, and why
+            bad = part.rows.centres[some][part_triangles.left_out]
+            self._model.base_regressor(s.q[bad], s.qd[bad], s.qdd[bad], self._read_signals(s, bad))
+        return part_triangles
+
+    def _read_signals(self, s: Segment, w: slice | np.ndarray) -> np.ndarray | None:
+        read = self._signals[s]
+        return None if read is None else read[w]
+
+
+def build_observation(
+    model: CompiledModel, logs: Sequence[Log], prepared: PreparedLogs, every_joint: bool = False
+) -> Observation:
+    """The observation of logs that are prepared already, for this or a like robot.
+
+    Raises:
+        DataError: no usable row.
+        LoopError: hardly a sample closes the loops.
+    """
+    segments, open_times = close_segments(model, logs, prepared.segments)
+    parts = find_all_shafts(model) if every_joint else find_shafts(model)
+    seen = prepared.processing, parts, segments
+    floors = compute_speed_floors(*seen, prepared.noise)
+    chosen = dataclasses.replace(prepared.processing, speed_floors=floors)
+    still = [name for name, floor in floors.items() if floor == float("inf")]
+    segments = clear_resting_speeds(segments, parts, still)
+    stretches = tuple(filter_segment(segment, parts, chosen) for segment in segments)
+    tallies, reports = [], []
+    for run, (log, times, of) in enumerate(zip(logs, open_times, prepared.logs, strict=True)):
+        log_stretches = [part for part in stretches if part.segment.run == run]
+        whole = count_rows(wrap_log(log), of.pieces, of.cuts, log_stretches, of.check)
+        wrong = of.check.contradictions if of.check else ()
+        decimation = max((part.decimation for part in log_stretches), default=1)
+        tallies.append(whole)
+        reports.append(
+            build_log_report(log, model.spec, of, whole, of.defects, wrong, decimation, times)
+        )
+    report = DataReport(
+        processing=chosen,
+        choices=prepared.choices,
+        noise=prepared.noise,
+        band=prepared.band,
+        lowered=prepared.lowered,
+        logs=tuple(reports),
+        joints=build_joint_reports(model.spec.joints, parts, floors, tallies),
+    )
+    if parts and all(floor == float("inf") for floor in floors.values()):
+        names = ", ".join(log.name for log in logs)
+        raise DataError(f"{names}: no joint moves; expected a motion; move every joint")
+    if not any(part.used.any() for part in stretches):
+        raise build_no_row_error(report)
+    rows = assemble_observation(model, [log.name for log in logs], stretches, report)
+    if every_joint or not parts:
+        return rows
+    wide, far = compute_wide_floors(*seen, prepared.noise), []
+    margin = PERIODS / chosen.position_cutoff if chosen.position_cutoff else 0.0
+    for part in stretches:
+        usable = part.segment.valid & find_moving_samples(part.segment, parts, wide, margin)
+        far.append(part.used & (part.rows.compute_usable_share(usable) >= LEAST_WEIGHT))
+    return dataclasses.replace(rows, steady=np.concatenate(far))
+
+
+def build_no_row_error(report: DataReport) -> DataError:
+    """What is told of logs without a usable row."""
+    notes = [f"{log.name}: {note}" for log in report.logs for note in log.notes]
+    return DataError(
+        f"{', '.join(log.name for log in report.logs)}: no usable row is left: "
+        + "; ".join([*(joint.format_line() for joint in report.joints), *notes])
+        + "; check these columns, or record longer and faster motion of every joint"
+    )
+
+
+def rebuild_observation(model: CompiledModel, like: Observation) -> Observation:
+    """What a robot makes of logs that another one has seen, which masks the same samples."""
+    return dataclasses.replace(like, **_describe_columns(model, like.stretches))
+
+
+def _describe_columns(model: CompiledModel, stretches: Sequence[FilteredSegment]) -> dict[str, Any]:
+    """What an observation has of its robot."""
+    return {
+        "robot": model.spec.robot,
+        "joints": model.spec.joints,
+        "names": tuple(base.name for base in model.spec.base),
+        "units": tuple(base.unit for base in model.spec.base),
+        "regressor": ModelRegressor(model, stretches),
+    }
+
+
+def assemble_observation(
+    model: CompiledModel,
+    logs: Sequence[str],
+    stretches: tuple[FilteredSegment, ...],
+    report: DataReport,
+) -> Observation:
+    """The rows of some stretches of logs of these names, with what is told of them."""
+    motion = np.concatenate([_filter_motion(part) for part in stretches])
+    counts = [len(part.rows.centres) for part in stretches]
+    return Observation(
+        **_describe_columns(model, stretches),
+        logs=tuple(logs),
+        run=np.repeat([part.segment.run for part in stretches], counts),
+        segment=np.repeat(np.arange(len(stretches)), counts),
+        time=np.concatenate([part.segment.time[part.rows.centres] for part in stretches]),
+        q=motion[:, 0],
+        qd=motion[:, 1],
+        qdd=motion[:, 2],
+        torque=np.concatenate([part.filter_torque() for part in stretches]),
+        used=np.concatenate([part.used for part in stretches]),
+        stretches=stretches,
+        report=report,
+    )
+
+
+def _filter_motion(part: FilteredSegment) -> np.ndarray:
+    """(rows, 3, joints) q, qd, qdd over all whole samples."""
+    s = part.segment
+    return np.concatenate(
+        [
+            rows.average_samples(np.stack([s.q[w], s.qd[w], s.qdd[w]], axis=1), s.whole[w])
+            for rows, w, _ in part.iterate_parts()
+        ]
+    )
+
+
+# Why a row does not count, for those who draw it.
+
+
+WHY = {
+    "low speed": "the joint moves so slowly that the sign of its friction is doubtful",
+    "torque at its limit": "the drive gave all it could, so the torque is not what was asked",
+    "no good value": "a position or torque is missing or damaged, or lies beside one that is",
+    "impossible derivative": "a logged speed or acceleration is not that of the positions",
+    "filter end": "the position filter still starts up there",
+    "loops open": "the loops cannot be closed with these positions",
+}
+"""In short, for legends, and in a sentence."""
+
+MASKS = tuple(WHY)
+
+_OF = {
+    EDGE: "filter end", MISSING: "no good value", BRIDGES: "no good value",
+    CONTRADICTED: "impossible derivative", SATURATED: "torque at its limit", OPEN: "loops open",
+}  # fmt: skip
+
+
+def classify_rows(observation: Observation) -> np.ndarray:
+    """(s, n) place in MASKS of what most weight of a row falls on; -1 where the row counts.
+
+    Args:
+        observation: of logs.
+    """
+    of = np.array([MASKS.index(_OF[name]) for name in CAUSES] + [0])  # the last: low speed
+    masks = []
+    for part in observation.stretches:
+        flags = np.where(part.usable, -1, of[part.segment.cause])
+        shares = np.stack([part.rows.compute_usable_share(flags == k) for k in range(len(MASKS))])
+        masks.append(np.where(part.used, -1, np.argmax(shares, axis=0)).astype(np.int8))
+    return np.concatenate(masks)
+
+
+# The torque of a model over the samples of an observation, through the filter of its rows.
+
+
+def compute_model_torque(
+    observation: Observation, model: CompiledModel, beta: np.ndarray, turn: np.ndarray | None = None
+) -> np.ndarray:
+    """(s, n) `observation.predicted(beta)` without its columns, by the inverse dynamics.
+
+    Args:
+        observation: of the robot.
+        model: it, or one with other effects on the same joints.
+        beta: (c,) base parameters of the model.
+        turn: (n, n) if given, the motion is q turn instead of q.
+    """
+    torque = ModelRegressor(model, observation.stretches).compute_torque
+    return observation.filter_columns(partial(torque, beta=beta, turn=turn))

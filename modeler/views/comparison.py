@@ -1,0 +1,333 @@
+"""Comparisons: the page of one model, of several, of a free run, and the pictures."""
+
+import math
+import statistics
+from collections.abc import Sequence
+
+from modeler import validation
+from modeler.core.figure import Picture
+from modeler.core.table import format_percent
+from modeler.views.blocks import (
+    Code,
+    Figure,
+    Items,
+    JudgedLine,
+    PageCell,
+    PageTable,
+    Paragraph,
+    Verdict,
+)
+from modeler.views.page import Origin, Page, Section
+
+# The page of a free run.
+
+
+def build_free_run_page(free_run: validation.FreeRun, origin: Origin) -> Page:
+    """The table of a free run, what is said of it, measured and simulated positions by joint."""
+    fits = [joint.fit for joint in free_run.joints if joint.fit is not None]
+    worst = f"{min(fits):.3g} %" if fits and min(fits) > 0.0 else "nothing"
+    return Page(
+        title=f"{free_run.robot}: free run in windows of {free_run.window:g} s",
+        headline=(worst, "of the position is simulated right, on the joint that is worst"),
+        sections=[
+            Section("Positions", [Code(free_run.summary())]),
+            *(
+                Section(p.title, [Figure(p, False)])
+                for p in validation.draw_free_run_pictures(free_run)
+            ),
+        ],
+        origin=origin,
+        command="compare",
+    )
+
+
+# The page of several models side by side.
+
+
+def build_model_comparison_page(
+    comparison: validation.ModelComparison,
+    provenance: Sequence[str] = (),
+    held_out: bool | None = None,
+) -> Page:
+    """The page of models side by side.
+
+    Args:
+        comparison: from `contest`.
+        provenance: lines on how the data came about.
+        held_out: False if a model was fitted on rows of these logs.
+    """
+    first = comparison.predictions[0]
+    return Page(
+        title=f"{first.robot}: {len(comparison.names)} models side by side",
+        headline=validation.describe_winner(comparison),
+        sections=_build_model_sections(comparison),
+        origin=Origin(", ".join(comparison.names), first.logs, held_out),
+        facts=[(name, _describe_model(comparison, k)) for k, name in enumerate(comparison.names)],
+        provenance=provenance,
+        command="compare",
+    )
+
+
+def draw_model_pictures(comparison: validation.ModelComparison) -> list[Picture]:
+    """Measured torque and that of every model, joint by joint."""
+    return [_draw_model_picture(comparison, item) for item in comparison.joints]
+
+
+def _describe_model(comparison: validation.ModelComparison, k: int) -> str:
+    errors = ", ".join(
+        f"{format_percent(error)} of the {unit}"
+        if len(comparison.by_unit[k]) > 1
+        else format_percent(error)
+        for unit, error in comparison.by_unit[k].items()
+    )
+    won = comparison.find_best_joints(k)
+    best = f"joint {', '.join(won)}" if won else "no joint"
+    return f"error {errors}; best beyond doubt on {best}"
+
+
+def _build_model_sections(comparison: validation.ModelComparison) -> list[Section]:
+    said = Items([("", line) for line in validation.describe_model_comparison(comparison)])
+    return [
+        Section("Verdict", [said, _tabulate_errors(comparison), _tabulate_residuals(comparison)])
+    ] + [
+        Section(
+            f"Joint {item.joint.name}",
+            [Figure(_draw_model_picture(comparison, item), titled=False)],
+            f"joint-{item.joint.name}",
+        )
+        for item in comparison.joints
+    ]
+
+
+def _draw_model_picture(
+    comparison: validation.ModelComparison, item: validation.JointModelComparison
+) -> Picture:
+    joints = [info.name for info in comparison.predictions[0].joints]
+    return validation.draw_overlay_picture(
+        comparison.names, comparison.predictions, joints.index(item.joint.name)
+    )
+
+
+def _tabulate_errors(comparison: validation.ModelComparison) -> PageTable:
+    top = max((e for item in comparison.joints for e in item.errors), default=0.0) or 1.0
+    rows: list[list[str | PageCell]] = [
+        [
+            PageCell(item.joint.name, link=f"joint-{item.joint.name}"),
+            *(PageCell(format_percent(e), e / top) for e in item.errors),
+            "-" if item.best is None else comparison.names[item.best],
+            f"{item.p_value:.2g}" if item.p_value >= 1e-6 else "under 1e-6",
+        ]
+        for item in comparison.joints
+    ]
+    return PageTable(
+        ["joint", *comparison.names, "best beyond doubt", "chance"],
+        rows,
+        "Relative error: norm of measured minus predicted torque (force) over the norm of what was "
+        "measured, each joint by itself, on the rows that count for every model. Chance: that the "
+        "best and its nearest rival are equally good, from the spread of the difference between "
+        f"blocks of time; beyond doubt is less than {format_percent(validation.DOUBT)}, shared "
+        "among the "
+        "rivals.",
+        dict.fromkeys(comparison.names, "bar") | {"best beyond doubt": "text"},
+    )
+
+
+def _tabulate_residuals(comparison: validation.ModelComparison) -> PageTable:
+    rows = [
+        [item.joint.name, *(f"{rms:.3g} {item.joint.effort_unit}" for rms in item.rms)]
+        for item in comparison.joints
+    ]
+    return PageTable(
+        ["joint", *comparison.names], rows, "Root mean square of what each model leaves."
+    )
+
+
+# All pictures of a comparison, and as files.
+
+
+def draw_joint_pictures(
+    comparison: validation.Comparison, item: validation.JointComparison
+) -> tuple[Picture, ...]:
+    """The pictures of one joint: against time, then against each coordinate."""
+    prediction = comparison.prediction
+    return validation.draw_time_picture(prediction, item), validation.draw_residual_picture(
+        prediction, item
+    )
+
+
+def draw_all_pictures(comparison: validation.Comparison) -> tuple[Picture, ...]:
+    """The overview, then the pictures of each judged joint."""
+    drawn = [
+        picture for item in comparison.joints for picture in draw_joint_pictures(comparison, item)
+    ]
+    return (validation.draw_overview_picture(comparison), *drawn)
+
+
+_TAGS = {"pattern": "pattern left", "noise": "noise only", "other": "unclear"}
+_REGION_PHRASES = {
+    "fast -": "fast in the negative direction",
+    "slow -": "slow in the negative direction",
+    "around zero": "around zero speed",
+    "slow +": "slow in the positive direction",
+    "fast +": "fast in the positive direction",
+}
+_HEAD = (
+    "joint", "relative error", "rms residual", "sigma", "rms measured", "largest residual", "at",
+    "R\u00b2", "repeatable", "noise", "mean residual", "samples",
+)  # fmt: skip
+
+
+def build_comparison_page(
+    comparison: validation.Comparison, provenance: Sequence[str] = (), origin: Origin | None = None
+) -> Page:
+    """The page of a comparison.
+
+    Args:
+        comparison: from `compare`.
+        provenance: lines on how the data came about (filtering, model, versions), as they are.
+        origin: model, logs, and whether they were held out; robot and logs if it is left out.
+    """
+    prediction = comparison.prediction
+    figure, _, rest = validation.write_headline(comparison).partition(" of ")
+    return Page(
+        title=f"{prediction.robot}: measured against predicted torque",
+        headline=(figure, f"of {rest}" if rest else ""),
+        sections=_build_sections(comparison),
+        origin=origin or Origin(prediction.robot, prediction.logs),
+        facts=_collect_facts(comparison),
+        provenance=(
+            f"Robot: {prediction.robot}.",
+            f"Logs: {', '.join(prediction.logs)}.",
+            f"Samples: {comparison.samples} of {prediction.time.size} count for at least one "
+            "joint; filtered alike on both sides, never differenced across a gap.",
+            *provenance,
+        ),
+        command="compare",
+    )
+
+
+def _build_sections(comparison: validation.Comparison) -> list[Section]:
+    method = " ".join(f"{line}." for line in validation.describe_methods(comparison))
+    table = PageTable(
+        _HEAD,
+        [_build_table_row(item, comparison) for item in comparison.joints],
+        "Relative error is the norm of measured minus predicted torque (force) over the norm of "
+        "what was measured, each joint by itself, over the samples that count. R\u00b2 compares "
+        "with the best constant. Sigma is the rms standard deviation of the prediction by the "
+        "covariance of the fit. " + method,
+        {"relative error": "bar", "at": "text"},
+    )
+    sections = [
+        Section("Verdict", [Verdict(_judge_joints(comparison)), table, *_tabulate_logs(comparison)])
+    ]
+    if comparison.joints:
+        sections.append(
+            Section(
+                "All joints", [Figure(validation.draw_overview_picture(comparison), titled=False)]
+            )
+        )
+    for item in comparison.joints:
+        pictures = [Figure(picture) for picture in draw_joint_pictures(comparison, item)]
+        name, said = item.joint.name, Paragraph(validation.write_joint_verdict(item))
+        sections.append(Section(f"Joint {name}", [said, *pictures], f"joint-{name}"))
+    return sections
+
+
+def _collect_facts(comparison: validation.Comparison) -> list[tuple[str, str]]:
+    """The three answers of the first screen."""
+    if not comparison.joints:
+        return []
+    return [
+        ("How good?", _describe_fit_quality(comparison.joints)),
+        ("Where does it fail?", _describe_worst_region(comparison.joints)),
+        (
+            "Does the residual still have structure?",
+            _describe_remaining_structure(comparison.joints),
+        ),
+    ]
+
+
+def _describe_fit_quality(joints: tuple[validation.JointComparison, ...]) -> str:
+    below = sum(item.relative_error < 0.1 for item in joints)
+    middle = format_percent(statistics.median(item.relative_error for item in joints))
+    text = f"{below} of {len(joints)} joints are within 10 %; the middle one is at {middle}."
+    defined = [item for item in joints if not math.isnan(item.r2)]
+    if defined:
+        worst = min(defined, key=lambda item: item.r2)
+        text += f" Lowest R\u00b2: {worst.r2:.3f} (joint {worst.joint.name})."
+    return text
+
+
+def _describe_worst_region(joints: tuple[validation.JointComparison, ...]) -> str:
+    worst = max(joints, key=lambda item: item.relative_error)
+    window = worst.worst
+    region = max(worst.regions, key=lambda part: part.energy_share - part.time_share)
+    return (
+        f"Most on joint {worst.joint.name} ({format_percent(worst.relative_error)}): "
+        f"{format_percent(region.energy_share)} of its squared residual while "
+        f"{_REGION_PHRASES[region.name]} ({format_percent(region.time_share)} of the samples); "
+        f"worst at {window.start:.2f}-{window.end:.2f} s of {window.log}."
+    )
+
+
+def _describe_remaining_structure(joints: tuple[validation.JointComparison, ...]) -> str:
+    named = []
+    for item in joints:
+        pattern, other = validation.find_best_pattern(item), validation.find_best_other(item)
+        if validation.describe_wrong_scale(item) is not None and item.scale is not None:
+            named.append((item.scale.mended, f"joint {item.joint.name} has a wrong sign or scale"))
+        elif other is not None:
+            named.append((other[1], f"joint {item.joint.name} follows the velocity of {other[0]}"))
+        elif pattern is not None:
+            named.append((pattern[1], f"joint {item.joint.name} follows {pattern[0].phrase}"))
+    if named:
+        named.sort(reverse=True)
+        listed = "; ".join(f"{text} ({format_percent(share)})" for share, text in named[:3])
+        return f"Yes, on {len(named)} of {len(joints)} joints: {listed}."
+    if all(validation.is_noise_like(item) for item in joints):
+        return "No: the residual of every joint looks like noise."
+    return "No pattern in the joints' motion, but not all of it is noise: see below."
+
+
+def _judge_joints(comparison: validation.Comparison) -> list[JudgedLine]:
+    lines = []
+    for item in comparison.joints:
+        kind, text = validation.classify_residual(item), validation.write_joint_verdict(item)
+        first, _, rest = text.partition(": ")
+        lines.append(JudgedLine(kind, _TAGS[kind], first, rest, f"joint-{item.joint.name}"))
+    lines += [
+        JudgedLine("", "not judged", f"Joint {name}", f"{reason}.")
+        for name, reason in comparison.unjudged
+    ]
+    return lines
+
+
+def _build_table_row(
+    item: validation.JointComparison, comparison: validation.Comparison
+) -> list[str | PageCell]:
+    unit = item.joint.effort_unit
+    top = max(other.relative_error for other in comparison.joints)
+    share = item.relative_error / top if top else 0.0
+    return [
+        PageCell(item.joint.name, link=f"joint-{item.joint.name}"),
+        PageCell(format_percent(item.relative_error), share),
+        f"{item.rms:.3g} {unit}",
+        "-" if item.predicted_sigma is None else f"{item.predicted_sigma:.2g} {unit}",
+        f"{item.measured_rms:.3g} {unit}",
+        f"{item.largest.value:.3g} {unit}",
+        f"{item.largest.time:.2f} s of {item.largest.log}",
+        validation.format_or_dash(item.r2, ".4f"),
+        format_percent(None if item.shares is None else item.shares.systematic),
+        format_percent(None if item.shares is None else item.shares.floor),
+        f"{item.bias:+.2g} {unit}",
+        str(item.samples),
+    ]
+
+
+def _tabulate_logs(comparison: validation.Comparison) -> list[PageTable]:
+    """Relative error of each log and joint; nothing for a single log."""
+    if len(comparison.logs) < 2:
+        return []
+    head, *rows = validation.tabulate_logs(comparison, "all")
+    caption = "Relative error by log: of all joints together (rows stacked), and of each by itself."
+    return [PageTable(head, rows, caption)]

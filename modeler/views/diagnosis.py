@@ -1,0 +1,253 @@
+"""The page of a diagnosis: one HTML file, no network."""
+
+from collections.abc import Sequence
+
+from modeler.core.table import format_error_pair, format_percent
+from modeler.diagnosis import (
+    Diagnosis,
+    Finding,
+    SearchStep,
+    describe_equivalents,
+    describe_undetectable,
+    format_equivalents,
+    format_location,
+    format_unit,
+)
+from modeler.effects import find_effect
+from modeler.views.blocks import Block, Code, Figure, Items, PageCell, PageTable, Paragraph
+from modeler.views.effect_evidence import collect_evidence, describe_residuals
+from modeler.views.evidence import draw_evidence_picture, select_alternatives, tabulate_alternatives
+from modeler.views.page import Origin, Page, Section
+from modeler.views.torque_picture import draw_play_picture, draw_push_picture, draw_torque_picture
+
+
+def build_diagnosis_page(
+    diagnosis: Diagnosis, provenance: Sequence[str] = (), origin: Origin | None = None
+) -> Page:
+    """The page of a diagnosis.
+
+    Args:
+        diagnosis: what it shows.
+        provenance: lines on how the data came about.
+        origin: model, logs, and whether some were held out; what the diagnosis knows of them if it
+            is left out.
+    """
+    return Page(
+        title=f"{diagnosis.robot}: which effect is missing",
+        headline=_write_headline(diagnosis),
+        sections=_build_sections(diagnosis),
+        origin=origin or Origin(diagnosis.robot, diagnosis.held_out, bool(diagnosis.held_out)),
+        facts=_collect_facts(diagnosis),
+        provenance=[*diagnosis.sentences, *provenance],
+        command="diagnose",
+    )
+
+
+def _write_headline(diagnosis: Diagnosis) -> tuple[str, str]:
+    """The size of the prize, and what wins it."""
+    if not diagnosis.effects:
+        verdict, _, reason = diagnosis.sentences[0].partition(": ")
+        return verdict, reason
+    first = diagnosis.effects[0]
+    effect = find_effect(first.effect, diagnosis.search.start.data.stated_effects.catalogue)
+    assert effect is not None
+    size = " \u2192 ".join(format_error_pair(first.error_before, first.error_after))
+    return (
+        size,
+        f"{diagnosis.verdict}: {effect.title}, "
+        f"{format_location(first.joint)}{describe_equivalents(first)}",
+    )
+
+
+def _collect_facts(diagnosis: Diagnosis) -> list[tuple[str, str]]:
+    facts = []
+    if diagnosis.effects:
+        first = diagnosis.effects[0]
+        facts.append(
+            (
+                "What the data do not tell apart",
+                format_equivalents(first) or _describe_runner_up(diagnosis),
+            )
+        )
+    left = [
+        f"joint {name}: {format_percent(j.systematic / (j.systematic + j.noise))} systematic"
+        for name, j in diagnosis.joints.items()
+        if j.is_unexplained
+    ]
+    facts.append(("What is still systematic", ", ".join(left) or "nothing worth a word"))
+    if diagnosis.data:
+        facts.append(("Doubts about the logs", "; ".join(diagnosis.data)))
+    held = ", ".join(diagnosis.held_out) or "none: errors are cross-validated within the logs"
+    facts.append(("Held-out motion", held))
+    return facts
+
+
+def _describe_runner_up(diagnosis: Diagnosis) -> str:
+    """Of the same joint: an effect on another one is no rival."""
+    first = diagnosis.effects[0]
+    rivals = [gain_of for gain_of in diagnosis.rivals if gain_of[1] == first.joint]
+    if not rivals:
+        return "nothing"
+    effect, joint, gain = rivals[0]
+    share = format_percent(max(0.0, gain))
+    return (
+        f"nothing; the runner-up is {effect} on {format_location(joint)}, {share} within these logs"
+    )
+
+
+def sort_by_error(diagnosis: Diagnosis) -> list[Finding]:
+    """All that was found, refinements too, the largest error before first."""
+    findings = [*diagnosis.effects, *diagnosis.refinements]
+    return sorted(findings, key=lambda finding: -finding.error_before)
+
+
+def _build_sections(diagnosis: Diagnosis) -> list[Section]:
+    sections = [
+        Section("Effects", _tabulate_findings(diagnosis)),
+        Section("Joints", [_tabulate_joints(diagnosis)]),
+    ]
+    order = [(finding.effect, finding.joint) for finding in sort_by_error(diagnosis)]
+    steps = sorted(
+        diagnosis.search.steps,
+        key=lambda step: (
+            order.index(step.candidate.key) if step.candidate.key in order else len(order)
+        ),
+    )
+    ids: list[str] = []
+    for step in steps:
+        section_id = _build_section_id(*step.candidate.key)
+        ids.append(section_id)  # two ripples of a joint differ by their orders only
+        again = ids.count(section_id)
+        sections.append(
+            _build_effect_section(
+                diagnosis, step, section_id if again == 1 else f"{section_id}-{again}"
+            )
+        )
+    sections += [*_build_event_sections(diagnosis), *_build_proposal_sections(diagnosis)]
+    blind = [(f"{what}:", why) for what, why in describe_undetectable(diagnosis)]
+    nothing = Paragraph("Nothing of the catalogue.")
+    sections.append(Section("What these logs cannot show", [Items(blind) if blind else nothing]))
+    return sections
+
+
+def _build_effect_section(diagnosis: Diagnosis, step: SearchStep, section_id: str) -> Section:
+    """One effect: what it explains, before and after, and what else could stand for it."""
+    item = collect_evidence(diagnosis.search, step)
+    effect, joint = step.candidate.effect.id, step.candidate.joint
+    alone = Paragraph(
+        f"No other effect of the catalogue explains anything of {format_location(joint)}."
+    )
+    return Section(
+        _format_effect_name(effect, joint),
+        [
+            Paragraph(describe_residuals(item)),
+            Figure(draw_torque_picture(item)),
+            Figure(draw_evidence_picture(item)),
+            tabulate_alternatives(step) if select_alternatives(step) else alone,
+        ],
+        section_id,
+    )
+
+
+def _build_section_id(effect: str, joint: str | None) -> str:
+    return f"effect-{effect}-{joint or 'robot'}"
+
+
+def _build_event_sections(diagnosis: Diagnosis) -> list[Section]:
+    """Play and pushes, which are no columns."""
+    end = diagnosis.search.end
+    names = [joint.name for joint in end.data.compiled.spec.joints]
+    sections = []
+    for finding in diagnosis.effects:
+        if finding.pick is None and finding.joint is not None:
+            picture = draw_play_picture(end, names.index(finding.joint))
+            sections.append(
+                Section(_format_effect_name(finding.effect, finding.joint), [Figure(picture)])
+            )
+    if diagnosis.window is not None:
+        picture = draw_push_picture(end, diagnosis.window)
+        sections += [Section(f.effect, [Figure(picture)]) for f in diagnosis.effects if f.is_event]
+    return sections
+
+
+def _build_proposal_sections(diagnosis: Diagnosis) -> list[Section]:
+    """Equations for what has no name."""
+    sections = []
+    for discovery in diagnosis.discoveries or ():
+        name = f"Equations proposed, {format_location(discovery.joint)}"
+        if not discovery.proposals:
+            sections.append(Section(name, [Paragraph(f"{discovery.why}.")]))
+        for proposal in discovery.proposals:
+            item = collect_evidence(proposal.final_search, proposal.final_search.steps[-1])
+            sections.append(Section(f"{proposal.equation}, {format_location(discovery.joint)}", [
+                *(Paragraph(line) for line in proposal.summary_lines), Code(proposal.text),
+                Figure(draw_torque_picture(item)), Figure(draw_evidence_picture(item)),
+            ], _build_section_id(proposal.finding.effect, discovery.joint)))  # fmt: skip
+    return sections
+
+
+def _format_effect_name(effect: str, joint: str | None) -> str:
+    return f"{effect}, {format_location(joint)}"
+
+
+def _tabulate_findings(diagnosis: Diagnosis) -> list[Block]:
+    findings = sort_by_error(diagnosis)
+    if not findings:
+        return [Paragraph(diagnosis.sentences[0])]
+    head = ("effect", "joint", "values", "error before", "error after", "gain", "why")
+    kinds = {"joint": "text", "values": "values", "gain": "bar", "why": "why"}
+    drawn = {step.candidate.key for step in diagnosis.search.steps}
+    rows = [
+        _build_finding_row(finding, (finding.effect, finding.joint) in drawn)
+        for finding in findings
+    ]
+    return [PageTable(head, rows, _ERRORS, kinds)]
+
+
+_ERRORS = (
+    "The largest error first. Errors are those of the joint that is named, in parts of its own rms "
+    "torque or force; of an effect that several joints feel, of all of them, each in units of what "
+    "is left of it, so that N m and N are never added. Before and after: without the effect and "
+    "with it, all others that were named before it in the model. Gain: share of the residual's "
+    "variance that is gone."
+)
+
+
+def _build_finding_row(finding: Finding, drawn: bool) -> list[str | PageCell]:
+    values = "; ".join(
+        f"{name} = {value:.4g}"
+        + (f" \u00b1 {finding.sigmas[name]:.2g}" if name in finding.sigmas else "")
+        + format_unit(finding, name)
+        for name, value in finding.parameters.items()
+    )
+    status = "refinement" if finding.is_refinement else finding.status
+    return [
+        PageCell(
+            f"{finding.effect} ({status})",
+            link=_build_section_id(finding.effect, finding.joint) if drawn else "",
+        ),
+        finding.joint or "all",
+        values,
+        *format_error_pair(finding.error_before, finding.error_after),
+        PageCell(format_percent(finding.gain), max(0.0, finding.gain)),
+        "; ".join(text for text in (finding.evidence, finding.doubt) if text),
+    ]
+
+
+def _tabulate_joints(diagnosis: Diagnosis) -> PageTable:
+    """Share of each joint's torque: explained, systematic, noise."""
+    rows = [
+        [
+            name,
+            *format_error_pair(j.error_before, j.error_after),
+            *(format_percent(share, 5) for share in (j.explained, j.systematic, j.noise)),
+        ]
+        for name, j in diagnosis.joints.items()
+    ]
+    return PageTable(
+        ("joint", "error", "with the effects", "explained", "systematic, unexplained", "noise"),
+        rows,
+        "Errors of each joint in parts of its own rms torque or force. Shares of its variance with "
+        "the effects in. Systematic is what smooth functions "
+        "of the motion predict, what returns in the next lap, what lasts, and outbursts.",
+    )

@@ -1,0 +1,113 @@
+"""Figures: matplotlib's, made without its global state, drawn by a notebook and saved by `savefig`.
+
+A figure of matplotlib stands in a notebook as a picture, works without a network, and goes into a
+paper; the pages that commands write have the ones that can be zoomed.
+"""
+
+from collections.abc import Callable, Mapping, Sequence
+from functools import partial
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from modeler.core.figure import Bars, Curve, Panel, Picture
+from modeler.core.result import Figures
+from modeler.core.style import BLUE, COLORS, ORANGE, Style
+from modeler.core.thinning import LIMIT, thin_curves
+from modeler.estimation import FitResult
+from modeler.robot import Robot
+from modeler.views.robot_page import show
+
+if TYPE_CHECKING:
+    from modeler.diagnosis import Diagnosis
+    from modeler.views.figure_matplotlib import Drawing
+
+
+_MOST_BARS = 40
+
+
+def draw_picture(picture: Picture) -> "Drawing":
+    """The picture as a figure."""
+    from modeler.views.figure_matplotlib import draw_figure  # it takes long to load
+
+    return draw_figure(picture)
+
+
+def collect_figures(drawn: Mapping[str, Callable[[], Picture]]) -> Figures:
+    """Figures by name, each drawn when it is asked for."""
+    return {name: partial(_draw_deferred, draw) for name, draw in drawn.items()}
+
+
+def _draw_deferred(draw: Callable[[], Picture]) -> "Drawing":
+    return draw_picture(draw())
+
+
+def draw_robot(robot: Robot) -> "Drawing":
+    """The robot at its [home], as wide as a column of a paper."""
+    from modeler.views.figure_matplotlib import Drawing
+    from modeler.views.robot_drawing import draw_skeleton as skeleton_figure
+
+    shown_robot = show(robot)
+    return skeleton_figure(shown_robot.skeleton, shown_robot.posture, Drawing)
+
+
+def draw_parameters(fit: FitResult) -> "Drawing":
+    """How sure each parameter is: its sigma in percent of its value."""
+    known = [p for p in fit.parameters if p.relative_sigma_percent is not None][:_MOST_BARS]
+    shares = np.array([min(p.relative_sigma_percent or 0.0, 100.0) for p in known])
+    # two digits, all of those before the point
+    texts = tuple(
+        f"{share:.2g}" if share < 100.0 else f"{share:.0f}" if share < 1e4 else ">10000"
+        for share in (p.relative_sigma_percent or 0.0 for p in known)
+    )
+    names = tuple(p.name for p in known)
+    bars = Bars("relative sigma", names, shares, texts, Style(BLUE))
+    label = "sigma [% of the value], at most 100 drawn"
+    return draw_picture(Picture(
+        name="parameters", title=f"{fit.robot}: how sure the parameters are", caption="",
+        panels=((Panel(f"{len(known)} of {len(fit.parameters)} base parameters", "", label,
+                       (bars,)),),),
+        height=380,
+    ))  # fmt: skip
+
+
+def draw_errors_picture(diagnosis: "Diagnosis") -> Picture:
+    """Relative error of every joint, without and with the effects."""
+    panels, names = [], tuple(diagnosis.joints)
+    for title, entry, color in (
+        ("as fitted", "error_before", BLUE), ("with the effects", "error_after", ORANGE),
+    ):  # fmt: skip
+        values = np.array([100.0 * getattr(joint, entry) for joint in diagnosis.joints.values()])
+        texts = tuple("" if np.isnan(value) else f"{value:.2f}" for value in values)
+        bars = Bars("error", names, values, texts, Style(color))
+        panels.append(Panel(title, "joint", "relative error [%]", (bars,)))
+    title = f"{diagnosis.robot}: {diagnosis.verdict}"
+    return Picture("errors", title, "", (tuple(panels),), 380)
+
+
+def draw_log(
+    title: str, joints: Sequence[str], time: np.ndarray, q: np.ndarray, tau: np.ndarray
+) -> "Drawing":
+    """Positions and torques of all joints against time."""
+    panels = tuple(
+        (Panel(what, "time [s]", label, build_curves(joints, time, list(values.T)), zero=True),)
+        for what, label, values in (
+            ("positions", "q [rad, m]", q),
+            ("torques", "tau [N m, N]", tau),
+        )
+    )
+    return draw_picture(Picture(
+        name="channels", title=title, caption="", panels=panels, height=620, shared_time=True,
+    ))  # fmt: skip
+
+
+def build_curves(
+    names: Sequence[str], time: np.ndarray, columns: Sequence[np.ndarray], limit: int = LIMIT
+) -> tuple[Curve, ...]:
+    """Columns against time, each in a colour of its own and of at most `limit` points."""
+    curves = []
+    for k, (name, values) in enumerate(zip(names, columns, strict=True)):
+        rows = thin_curves((values,), limit)
+        style = Style(COLORS[k % len(COLORS)], dash=k >= len(COLORS))
+        curves.append(Curve(name, time[rows], values[rows], style))
+    return tuple(curves)

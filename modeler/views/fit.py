@@ -1,0 +1,275 @@
+"""Fits and models: the page of a fit, tables and figures of a notebook."""
+
+from collections.abc import Sequence
+from functools import partial
+
+import numpy as np
+
+from modeler import estimation
+from modeler.core.estimators import find_estimator_title
+from modeler.core.result import Figures, Presentation, Tables
+from modeler.core.table import Table, format_percent
+from modeler.estimation import (
+    Addition,
+    FitResult,
+    IdentifiedModel,
+    MethodComparison,
+    ParameterEstimate,
+)
+from modeler.views.blocks import Items, JudgedLine, PageTable, Verdict
+from modeler.views.estimators import (
+    build_estimators_page,
+    collect_remarks,
+    tabulate_estimates,
+    tabulate_estimators,
+)
+from modeler.views.figures import draw_parameters, draw_picture
+from modeler.views.history import build_history_page, draw_waterfall_picture, format_step_name
+from modeler.views.noise import build_noise_blocks, draw_noise_picture
+from modeler.views.page import Origin, Page, Section, suggest_after_fit
+from modeler.views.values import tabulate_joint_errors, tabulate_values
+
+
+def _summarise_fit(fit: FitResult) -> str:
+    first = (f"{fit.robot}: {len(fit.parameters)} base parameters by {fit.method}, relative error "
+             f"{format_percent(fit.relative_error)}{_describe_refusal(fit)}")  # fmt: skip
+    return "\n".join([first, *fit.format_lines()])
+
+
+def _describe_refusal(fit: FitResult) -> str:
+    """That a fit is not usable, and why: for a headline; "" of one that is."""
+    verdict = fit.verdict
+    return "" if verdict is None or verdict.usable else f"; {verdict.line.partition(';')[0]}"
+
+
+def collect_fit_tables(fit: FitResult) -> Tables:
+    """The tables of a fit; those of loads, gains and the reduced model where there are any."""
+    reduced = () if fit.essential is None else fit.essential.parameters
+    named = {"essential": ("reduced model", reduced), "loads": ("loads", fit.loads),
+             "gains": ("drive gains", fit.gains)}  # fmt: skip
+    return {
+        "parameters": lambda: _build_estimates_table(
+            f"{fit.robot}: base parameters", fit.parameters
+        ),
+        "errors": lambda: _tabulate_errors(fit),
+        **{
+            name: partial(_build_estimates_table, f"{fit.robot}: {title}", parameters)
+            for name, (title, parameters) in named.items()
+            if parameters or (name == "essential" and fit.essential is not None)
+        },
+    }
+
+
+def _build_estimates_table(title: str, parameters: Sequence[ParameterEstimate]) -> Table:
+    known = any(p.prior is not None for p in parameters)
+    rows = [
+        (p.name, p.value if p.sigma is not None else None, p.sigma, p.relative_sigma_percent,
+         p.unit, p.essential if p.sigma is not None else p.status, *([p.prior] if known else []))
+        for p in parameters
+    ]  # fmt: skip
+    head = "parameter, value, sigma, relative_sigma_percent, unit, essential"
+    return Table.build(title, f"{head}, prior share" if known else head, rows)
+
+
+def _tabulate_errors(fit: FitResult) -> Table:
+    return Table.build(
+        f"{fit.robot}: what the fit leaves",
+        "joint, relative error, rms, unit, rows",
+        [(j.name, j.relative_error, j.rms, j.unit, j.rows) for j in fit.joints],
+        f"all rows together: {format_percent(fit.relative_error)}, on the logs of the fit",
+    )  # fmt: skip
+
+
+def _collect_fit_figures(fit: FitResult) -> Figures:
+    picture = draw_noise_picture(fit.bands)
+    noise = {} if picture is None else {"noise": partial(draw_picture, picture)}
+    return {"parameters": lambda: draw_parameters(fit), **noise}
+
+
+def _summarise_model(model: IdentifiedModel) -> str:
+    logs = ", ".join(log.name for log in model.logs)
+    lines = [f"model of {model.spec.robot}: {len(model.beta)} base parameters by "
+             f"{model.fit.method}, fitted on {logs}{_describe_refusal(model.fit)}"]  # fmt: skip
+    lines += [_describe_step(step) for step in model.history]
+    return "\n".join([*lines, *model.fit.format_lines()])
+
+
+def _collect_model_tables(model: IdentifiedModel) -> Tables:
+    tables = dict(collect_fit_tables(model.fit))
+    if model.history:
+        tables["waterfall"] = lambda: _tabulate_history(model)
+    tables["logs"] = lambda: Table.build(
+        "logs of the fit", "log, rows, samples, from [s], to [s]",
+        [(log.name, log.rows, log.samples, log.start, log.end) for log in model.logs],
+    )  # fmt: skip
+    return tables
+
+
+def _tabulate_history(model: IdentifiedModel) -> Table:
+    held = ", ".join(model.history[-1].held_out)
+    return Table.build(
+        f"{model.spec.robot}: error after every effect",
+        "effect, joint, error, on the fitted logs",
+        [(step.effect or "as fitted", step.joint, step.error, step.training_error)
+         for step in model.history],
+        f"error: on {held}" if held else "error: on parts of the fitted logs, left out in turn",
+    )  # fmt: skip
+
+
+def _collect_model_figures(model: IdentifiedModel) -> Figures:
+    figures = dict(_collect_fit_figures(model.fit))
+    if model.history:
+        picture = draw_waterfall_picture(model.history)
+        figures["waterfall"] = lambda: draw_picture(picture)
+    return figures
+
+
+def _describe_step(step: Addition) -> str:
+    fitted = format_percent(step.training_error)
+    return (
+        f"{format_step_name(step)}: error {format_percent(step.error)} ({fitted} on the "
+        "fitted logs)"
+    )
+
+
+def _summarise_trials(trials: MethodComparison) -> str:
+    fitted = sum(trial.fit is not None for trial in trials.results)
+    first = f"{trials.robot}: {fitted} of {len(trials.results)} estimators fit these logs"
+    remarks = [f"{method}: {remark}" for method, remark in collect_remarks(trials.results)]
+    return "\n".join([first, *trials.data, *remarks])
+
+
+def _collect_trials_tables(trials: MethodComparison) -> Tables:
+    errors, values = tabulate_estimators(trials.results), tabulate_estimates(trials.results)
+    return {
+        "errors": lambda: Table.build("estimators on the same logs", errors[0], errors[1:]),
+        "values": lambda: Table.build("values and standard deviations", values[0], values[1:]),
+    }
+
+
+PRESENTATIONS = {
+    FitResult: Presentation(
+        "a fit", _summarise_fit, collect_fit_tables, _collect_fit_figures, ("parameters", "errors")
+    ),
+    IdentifiedModel: Presentation(
+        "a model",
+        _summarise_model,
+        _collect_model_tables,
+        _collect_model_figures,
+        ("parameters", "errors", "waterfall"),
+        lambda m, notes: (build_history_page if m.history else build_fit_page)(m, notes),
+        dict.fromkeys(("", ".json"), estimation.save_model),
+    ),
+    Addition: Presentation("an addition", _describe_step),
+    MethodComparison: Presentation(
+        "a comparison of estimators",
+        _summarise_trials,
+        _collect_trials_tables,
+        document=lambda s, notes: build_estimators_page(s.robot, s.tried, [*s.data, *notes]),
+    ),
+}
+
+
+# The page of a fit: values with sigma, what each is the sum of, condition, doubts.
+
+
+_TANGLED = 0.95  # correlation of two estimates from which on they are told
+_MOST = 12  # pairs that are told
+
+
+def build_fit_page(
+    model: IdentifiedModel, provenance: Sequence[str] = (), place: str = "MODEL",
+    following: Sequence[str] = (),
+) -> Page:  # fmt: skip
+    """The page of a fit.
+
+    Args:
+        model: fitted.
+        provenance: lines on how the data came about.
+        place: of the model file.
+        following: commands to go on with; none: those for any logs.
+    """
+    fit = model.fit
+    judged = "nobody has judged it" if fit.verdict is None else fit.verdict.line
+    following = following or suggest_after_fit(place, ["LOG"], fit.robot, fit)
+    return Page(
+        title=f"{fit.robot}: fitted values",
+        headline=(fit.format_error(), f"left on the fitted logs: {judged}"),
+        sections=_build_sections(model),
+        origin=Origin(place, [log.name for log in model.logs], False, following),
+        facts=_collect_facts(fit),
+        provenance=provenance,
+        command="fit",
+    )
+
+
+def _collect_facts(fit: FitResult) -> list[tuple[str, str]]:
+    sure = [p for p in fit.parameters if (p.relative_sigma_percent or np.inf) < 10.0]
+    aside = [p.name for p in fit.parameters if p.sigma is None]
+    facts = [
+        ("How sure?", f"{len(sure)} of {len(fit.parameters)} parameters within 10 % (one sigma); "
+         f"{sum(p.essential for p in fit.parameters)} are essential"),
+        ("Condition number", f"{fit.condition_number:.4g}; {fit.condition_scaled:.4g} with columns "
+         f"of length one; {fit.rows} rows of {fit.samples} samples"),
+        ("Estimator", find_estimator_title(fit.method)),
+    ]  # fmt: skip
+    if aside:
+        facts.append(("Set aside", ", ".join(aside)))
+    return facts
+
+
+def _build_sections(model: IdentifiedModel) -> list[Section]:
+    fit = model.fit
+    sections = [
+        Section("Verdict", _build_verdict_blocks(fit)),
+        Section("Joints", [tabulate_joint_errors(fit)]),
+    ]
+    caption = (
+        "SI units. Sigma is one standard deviation from the scatter of the residuals; the bar is "
+        "full at 30 %. A parameter without a sum is a standard parameter by itself."
+    )
+    sections.append(Section("Values", [tabulate_values(fit.parameters, model.spec.base, caption)]))
+    for title, others in (("Loads", fit.loads), ("Drive gains", fit.gains)):
+        if others:
+            sections.append(Section(title, [tabulate_values(others)]))
+    if noise := build_noise_blocks(fit.bands):
+        sections.append(Section("Noise of the motion", noise))
+    pairs = find_correlated_pairs(model)
+    if pairs:
+        table = PageTable(
+            ("parameter", "and", "correlation"),
+            [(a, b, f"{value:+.3f}") for a, b, value in pairs],
+            "The torques of these logs tell the sum (-1) or the difference (+1) of such a pair "
+            "better than either; more exciting motion parts them.",
+            {"and": "text"},
+        )
+        sections.append(Section("What the data hardly tell apart", [table]))
+    return sections
+
+
+def _build_verdict_blocks(fit: FitResult) -> list[Verdict | Items]:
+    blocks: list[Verdict | Items] = []
+    if fit.verdict is not None:
+        kind, tag = ("noise", "valid") if fit.verdict.usable else ("pattern", "not valid")
+        lines = [JudgedLine(kind, tag, "This fit", fit.verdict.line)]
+        lines += [JudgedLine("other", "doubt", f"Doubt {k}", text)
+                  for k, text in enumerate(fit.verdict.doubts, start=1)]  # fmt: skip
+        blocks.append(Verdict(lines))
+    if fit.sentences:
+        blocks.append(Items([("", line) for line in fit.sentences]))
+    return blocks
+
+
+def find_correlated_pairs(model: IdentifiedModel) -> list[tuple[str, str, float]]:
+    """Pairs of parameters whose estimates correlate by more than 0.95, worst first."""
+    deviation = np.sqrt(np.diag(model.covariance))
+    size = np.where(deviation > 0.0, deviation, np.inf)
+    correlation = model.covariance / np.outer(size, size)
+    names = [p.name for p in model.fit.parameters]
+    rows, columns = np.triu_indices(len(names), 1)
+    strong = [
+        (names[i], names[j], float(correlation[i, j]))
+        for i, j in zip(rows, columns, strict=True)
+        if abs(correlation[i, j]) > _TANGLED
+    ]
+    return sorted(strong, key=lambda pair: -abs(pair[2]))[:_MOST]

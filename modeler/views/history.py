@@ -1,0 +1,342 @@
+"""The page of a model's history: the error after every effect that was added, and the values."""
+
+import math
+from collections.abc import Mapping, Sequence
+
+import numpy as np
+
+from modeler.core.figure import Bars, Curve, Panel, Picture
+from modeler.core.style import BLUE, GREEN, ORANGE, PINK, SKY, VERMILLION, Style
+from modeler.core.table import DIGITS, WORDS, format_error_pair, format_percent
+from modeler.effects import Effect, find_effect
+from modeler.estimation import Addition, IdentifiedModel
+from modeler.robot import Robot, parse_robot_text
+from modeler.views.blocks import Block, Code, Figure, Items, PageCell, PageTable, Paragraph
+from modeler.views.page import Origin, Page, Section
+from modeler.views.values import (
+    find_added_names,
+    tabulate_joint_errors,
+    tabulate_nonlinear_parameters,
+    tabulate_values,
+)
+
+HELD, FITTED, LEARNED = Style(BLUE), Style(ORANGE), Style(PINK)
+SAME, BETTER, WORSE = Style(SKY), Style(GREEN), Style(VERMILLION)
+_ACROSS = 3  # panels side by side
+
+
+def build_history_page(
+    model: IdentifiedModel, left_out: Sequence[str] = (), origin: Origin | None = None
+) -> Page:
+    """The page of a model's history: the error after every effect, joint by joint; values.
+
+    Args:
+        model: with its history.
+        left_out: effects that were not added, and why.
+        origin: model, logs, and whether some were held out.
+    """
+    history, robot = model.history, model.spec.robot
+    held, last = history[-1].held_out, history[-1].error
+    fact = f"judged on {', '.join(held)}" if held else "training only: nothing was held out"
+    several = len(history[-1].joints) > 1
+    return Page(
+        title=f"{robot}: effects added",
+        headline=(
+            format_percent(last, DIGITS),
+            f"error left of {format_percent(history[0].error, DIGITS)}"
+            + (", rms over the joints" if several else ""),
+        ),
+        sections=_build_sections(model, left_out),
+        origin=origin or Origin(robot, held, bool(held)),
+        facts=_collect_facts(model, fact, left_out),
+        provenance=[*model.warning, f"fitted on {', '.join(log.name for log in model.logs)}"],
+        command="add",
+    )
+
+
+def build_effect_page(
+    effect: Effect, definition: str, robot: Robot, model: IdentifiedModel | None,
+    drawn: tuple[str, Sequence[float], Sequence[float]],
+) -> Page:  # fmt: skip
+    """The page of an effect that a robot file defines: its equation, where it was found, values.
+
+    Args:
+        effect: it.
+        definition: the file that defines it.
+        robot: that has it.
+        model: of the robot, with sigmas; None: the values of the robot file.
+        drawn: axis, points of it, and the torque there per unit of its first parameter.
+    """
+    at = [i for use in robot.effects if use.effect == effect.id for i in use.instances]
+    names = [f"{c.prefix}{i.joint}{i.label}" for i in at for c in effect.columns]
+    rows = [(n, f"{robot.parameters[n]:.5g}") for n in names if n in robot.parameters]
+    rows += [
+        (f"{n}, joint {i.joint}", f"{x:.5g}") for i in at for n, x in i.nonlinear_parameters.items()
+    ]
+    values = [PageTable(("of the robot file", "value, SI"), rows)]
+    if model is not None:
+        steps = [
+            (s, _collect_units(s, effect, model)) for s in model.history if s.effect == effect.id
+        ]
+        effect_parameters = [p for p in model.fit.parameters if p.name in names]
+        shapes, caption = (
+            tabulate_nonlinear_parameters(steps),
+            "SI units; sigma is one standard deviation.",
+        )
+        values = [
+            tabulate_values(effect_parameters, (), caption),
+            *([shapes] if shapes else values[:0]),
+        ]
+    joints = ", ".join(dict.fromkeys(i.joint for i in at)) or "none"
+    units = ", ".join(f"{c.prefix}: {c.unit_revolute}" for c in effect.columns)
+    label, x, y = drawn
+    curve = Curve(effect.id, np.array(x), np.array(y), LEARNED if effect.is_learned else HELD)
+    torque = f"torque per unit of {effect.columns[0].prefix}"
+    picture = Picture(
+        name=effect.id, title=effect.title, height=380,
+        caption=f"The torque against {label}; what else it depends on stands at 1.",
+        panels=((Panel(effect.equation, label, torque, (curve,), zero=True),),),
+    )  # fmt: skip
+    return Page(
+        title=f"{robot.name}: {effect.id}",
+        headline=(effect.id, effect.title),
+        sections=[Section("Its torque", [Figure(picture)]),
+                  Section("Its values", values if names else [Paragraph("No joint has it.")]),
+                  Section("To be found on other robots", [Code(definition)])],
+        origin=Origin(robot.name),
+        facts=[("Equation", effect.equation), ("Unit", units), ("Joints", joints)],
+        command="effects",
+    )  # fmt: skip
+
+
+def _collect_facts(
+    model: IdentifiedModel, data: str, left_out: Sequence[str]
+) -> list[tuple[str, str]]:  # fmt: skip
+    history = model.history
+    facts = [("Effects", ", ".join(s.effect for s in history[1:]) or "none"), ("Data", data)]
+    if len(history) > 1:
+        start, end = (_collect_errors(step) for step in (history[0], history[-1]))
+        most = max(end, key=lambda name: start.get(name, 0.0) - end[name], default=None)
+        if most is not None:
+            change = " \u2192 ".join(format_error_pair(start.get(most, math.nan), end[most]))
+            facts.append(("Gains most", f"joint {most}: {change}"))
+    if (parts := model.error_reduction_shares) is not None:
+        physics, learned = (f"{100.0 * part:.2g}" for part in parts)
+        facts.append(("Of the fall", f"physics {physics}, learned laws {learned} points"))
+    if left_out:
+        facts.append(("Refused", f"{len(left_out)}, see below"))
+    if model.fit.verdict is not None:
+        facts.append(("The new fit", model.fit.verdict.line))
+    return facts
+
+
+def _collect_errors(step: Addition) -> dict[str, float]:
+    """By joint, with the effect."""
+    return {name: after for name, (_, after) in step.joints.items()}
+
+
+def _build_sections(model: IdentifiedModel, left_out: Sequence[str]) -> list[Section]:
+    history = model.history
+    sections = [Section("The error falls", [Figure(draw_waterfall_picture(history))])]
+    if history[-1].joints:
+        units = {joint.name: joint.effort_unit for joint in model.spec.joints}
+        sections.append(Section("Joint by joint", [
+            _tabulate_joints(history), Figure(draw_joints_picture(history, units), titled=False),
+        ]))  # fmt: skip
+    sections.append(Section("What was added", _build_added_blocks(model)))
+    if left_out:
+        sections.append(Section("What was refused, and why", [_build_refusal_items(left_out)]))
+    sections.append(Section("All values", [
+        tabulate_joint_errors(model.fit),
+        tabulate_values(model.fit.parameters, model.spec.base,
+                     "SI units; sigma is one standard deviation. The bar is full at 30 %."),
+    ]))  # fmt: skip
+    if len(history) > 1:
+        again = [
+            f"modeler add MODEL {'learned' if step.learned else step.effect}"
+            + (f" --joint {step.joint}" if step.joint else "")
+            + " LOG... --out MODEL"
+            for step in history[1:]
+        ]
+        sections.append(Section("To do this again, in this order", [Code(line) for line in again]))
+    return sections
+
+
+def _tabulate_joints(history: Sequence[Addition]) -> PageTable:
+    """Errors before, and after each addition."""
+    rows: list[list[str | PageCell]] = []
+    for name in history[-1].joints:
+        errors = [_collect_errors(step).get(name) for step in history]
+        top = max((e for e in errors if e is not None), default=0.0) or 1.0
+        changed = [" *" if name in step.changed else "" for step in history]
+        rows.append([name, *(
+            PageCell("-") if e is None else PageCell(format_percent(e) + mark, e / top)
+            for e, mark in zip(errors, changed, strict=True)
+        )])  # fmt: skip
+    steps, held = [format_step_name(step) for step in history], ", ".join(history[-1].held_out)
+    judged = (
+        f"the held-out logs {held}" if held else "parts of the fitted logs, each left out in turn"
+    )
+    return PageTable(
+        ["joint", *steps], rows,
+        "Relative error of each joint, in parts of its own rms torque or force, on "
+        f"{judged}. * a change beyond chance, paired over blocks of time.",
+        dict.fromkeys(steps, "bar"),
+    )  # fmt: skip
+
+
+def _build_added_blocks(model: IdentifiedModel) -> list[Block]:
+    catalogue = parse_robot_text(model.robot_text, "robot").catalogue
+    steps = [step for step in model.history if step.effect]
+    if not steps:
+        return [Paragraph("Nothing: the model is as it was fitted.")]
+    effects = {step.effect: find_effect(step.effect, catalogue) for step in steps}
+    blocks: list[Block] = [
+        Items([(f"{format_step_name(step)[2:]}:", effect.title)
+               for step in steps if (effect := effects[step.effect]) is not None])
+    ]  # fmt: skip
+    added = find_added_names(model)
+    added_parameters = [parameter for parameter in model.fit.parameters if parameter.name in added]
+    if added_parameters:
+        caption = (
+            "SI units; sigma is one standard deviation, and knows that shapes were fitted too."
+        )
+        blocks.append(tabulate_values(added_parameters, model.spec.base, caption))
+    blocks += [
+        Paragraph(f"{format_step_name(step)[2:]} moved, in their sigmas: "
+                  + ", ".join(f"{name} {by:.2g}" for name, by in step.moved.items()) + ".")
+        for step in steps if step.learned
+    ]  # fmt: skip
+    shapes = tabulate_nonlinear_parameters(
+        [(s, _collect_units(s, effects[s.effect], model)) for s in steps]
+    )
+    return blocks if shapes is None else [*blocks, shapes]
+
+
+def _collect_units(step: Addition, effect: Effect | None, model: IdentifiedModel) -> dict[str, str]:
+    """Of the shapes of a step, by name; "" for a plain number."""
+    linear = any(j.name == step.joint and j.unit == "m" for j in model.spec.joints)
+    shapes = (
+        []
+        if effect is None
+        else [shape for form in effect.forms for shape in form.nonlinear_parameters]
+    )
+    units = {shape.name: shape.get_unit(linear) for shape in shapes}
+    return {name: "" if units.get(name, "1") == "1" else units[name] for name in step.shapes}
+
+
+def _build_refusal_items(left_out: Sequence[str]) -> Items:
+    """The effect bold, the reason behind it."""
+    lines = []
+    for line in left_out:
+        what, _, why = line.removeprefix("left out: ").partition(" (")
+        lines.append((f"{what}:", why.removesuffix(")")) if why else ("", line))
+    return Items(lines)
+
+
+def format_step_name(step: Addition) -> str:
+    """What a step is called: "as fitted", "+ spring @2"."""
+    if not step.effect:
+        return "as fitted"
+    return f"+ {step.effect}" + (f" @{step.joint}" if step.joint else "")
+
+
+def _break_step_name(step: Addition) -> str:
+    """Its name on several lines, so that bars may be narrow."""
+    return format_step_name(step).replace("_", "\n").replace(" @", "\n@")
+
+
+def draw_waterfall_picture(history: Sequence[Addition]) -> Picture:
+    """Error over the joints after every effect, on held-out and on fitted logs."""
+    names = tuple(_break_step_name(step) for step in history)
+    held, fitted = 100.0 * np.array([(s.error, s.training_error) for s in history]).T
+    first = (
+        "held-out logs" if history[-1].held_out else "parts of the fitted logs, left out in turn"
+    )
+    learned = np.array([step.learned for step in history])
+
+    def build_bars(label: str, errors: np.ndarray, style: Style) -> tuple[Bars, ...]:
+        physics = _build_bars(label, names, np.where(learned, np.nan, errors), style)
+        law = _build_bars("learned, not physics", names, np.where(learned, errors, np.nan), LEARNED)
+        return (physics, law) if learned.any() else (physics,)
+
+    panels = (
+        Panel(f"On {first}", "", "error [%]", build_bars("judged", held, HELD)),
+        Panel("On the fitted logs", "", "error [%]", build_bars("fitted", fitted, FITTED)),
+    )
+    several = len(history[-1].joints) > 1
+    return Picture(
+        name="waterfall",
+        title="Error after every effect",
+        caption=(
+            f"{HELD.description.capitalize()}: the error that counts, on {first}; "
+            f"{FITTED.description}: on the "
+            "logs that were fitted. Each joint's error is in parts of its own rms torque or force"
+            + (
+                ", and the bar is their root mean square: N m and N are not added. "
+                if several
+                else ". "
+            )
+            + (
+                f"{LEARNED.description.capitalize()}: a learned law, not physics. "
+                * bool(learned.any())
+            )
+            + "`modeler add MODEL undo LOG... --out MODEL` takes the last effect back."
+        ),
+        panels=(panels,),
+        height=380,
+    )
+
+
+def draw_joints_picture(history: Sequence[Addition], units: Mapping[str, str]) -> Picture:
+    """The same for every joint by itself.
+
+    Args:
+        history: of a model.
+        units: of the efforts, by joint.
+    """
+    panels = [_build_joint_panel(history, name, units[name]) for name in history[-1].joints]
+    panels += [Panel("", "", "", ())] * (-len(panels) % min(_ACROSS, len(panels)))
+    across = min(_ACROSS, len(panels))
+    rows = tuple(tuple(panels[k : k + across]) for k in range(0, len(panels), across))
+    caption = (
+        f"{SAME.description.capitalize()}: the error of each joint on motion that was not fitted, "
+        "in "
+        "parts of its own rms torque or force, before any effect and after each"
+    )
+    drawn = {bars.style for panel in panels for bars in panel.series if isinstance(bars, Bars)}
+    for style, what in ((BETTER, "fall"), (WORSE, "rise")):
+        caption += f"; {style.description}: a clear {what}" * (style in drawn)
+    return Picture(
+        name="waterfall_joints",
+        title="Error of every joint after every effect",
+        caption=f"{caption}.",
+        panels=rows,
+        height=270 * len(rows) + 40,
+    )
+
+
+def _build_joint_panel(history: Sequence[Addition], name: str, unit: str) -> Panel:
+    """Bars of one joint: no clear change, lower, higher."""
+    steps = [step for step in history if name in step.joints]
+    names = tuple(_break_step_name(step) for step in steps)
+    errors = np.array([100.0 * step.joints[name][1] for step in steps])
+    surely = np.array([name in step.changed for step in steps])
+    rises = np.array([step.joints[name][1] > step.joints[name][0] for step in steps])
+    kinds = (
+        ("no clear change", SAME, ~surely),
+        ("clearly lower", BETTER, surely & ~rises),
+        ("clearly higher", WORSE, surely & rises),
+    )
+    series = [
+        _build_bars(label, names, np.where(mask, errors, np.nan), style)
+        for label, style, mask in kinds
+        if mask.any()
+    ]
+    return Panel(f"Joint {name}", "", f"error [% of {WORDS[unit]}]", tuple(series))
+
+
+def _build_bars(label: str, names: tuple[str, ...], errors: np.ndarray, style: Style) -> Bars:
+    return Bars(
+        label, names, errors, tuple("" if np.isnan(e) else f"{e:.{DIGITS}g}" for e in errors), style
+    )

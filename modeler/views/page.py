@@ -1,0 +1,420 @@
+"""What a page says, as plain data: first screen, sections, how it was made."""
+
+import dataclasses
+import functools
+import json
+import re
+import shlex
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import jinja2
+
+from modeler.core.figure import Picture
+from modeler.core.files import locate_resources, resolve_page_path, write_atomically
+from modeler.views.blocks import Block, Figure
+from modeler.views.figure_page import (
+    ArrayStore,
+    arrange_panels,
+    collect_legend,
+    compress_base64,
+    describe_picture,
+    find_heat_maps,
+)
+
+if TYPE_CHECKING:
+    from modeler.diagnosis import Diagnosis
+    from modeler.estimation import FitResult
+
+
+# The one module that knows jinja2 for pages: everything that a template prints is escaped.
+
+
+PLOTLY = "plotly/plotly-basic.min.js"
+"""Where plotly.js lies in `templates/`; see docs/reference/pages.md for version and checksum."""
+
+
+class Drawings:
+    """The pictures of one page, as its template asks for them."""
+
+    def __init__(self) -> None:
+        self.numbers = ArrayStore()
+        self.any = False
+
+    def content(self, picture: Picture) -> str:
+        """What the script draws it from."""
+        self.any = True
+        return encode_script_json(describe_picture(picture, self.numbers))
+
+    def block(self) -> str:
+        """The numbers of all pictures so far."""
+        return encode_script_json(self.numbers.encode_block())
+
+
+def render_template(template: str, **values: Any) -> str:
+    """Text of `templates/pages/<template>.html.jinja` with these values."""
+    made = _build_environment().get_template(f"{template}.html.jinja")
+    return made.render(drawings=Drawings(), **values)
+
+
+def encode_script_json(content: Any) -> str:
+    """JSON that may stand inside a script element."""
+    text = json.dumps(content, allow_nan=False, separators=(",", ":"), ensure_ascii=False)
+    return text.replace("<", "\\u003c")
+
+
+@functools.cache
+def _build_environment() -> jinja2.Environment:
+    made = jinja2.Environment(
+        loader=jinja2.FileSystemLoader(locate_resources("templates") / "pages"),
+        undefined=jinja2.StrictUndefined,
+        trim_blocks=True,
+        lstrip_blocks=True,
+        autoescape=True,
+    )
+    made.globals.update(
+        asset=_read_asset,
+        plotly=_read_plotly,
+        plotted=arrange_panels,
+        cells=find_heat_maps,
+        keys=collect_legend,
+        json=encode_script_json,
+        about=None,
+    )
+    made.filters["share"] = _format_share
+    return made
+
+
+@functools.cache
+def _read_asset(name: str) -> str:
+    """A style or a script of our own as it is."""
+    return (locate_resources("templates") / "pages" / name).read_text(encoding="utf-8")
+
+
+@functools.cache
+def _read_plotly() -> str:
+    return compress_base64((locate_resources("templates") / PLOTLY).read_bytes())
+
+
+def _format_share(value: float, top: float) -> str:
+    """0 to 1, as a style may say it."""
+    return f"{min(1.0, max(0.0, value / top)) if value == value and top > 0.0 else 0.0:.3f}"
+
+
+# The index of a folder of pages: what each is about and what it found, read from the pages.
+
+
+NAME = "index.html"
+_ABOUT = re.compile(r'id="about">([^<]*)<')
+_HEAD = 200_000  # characters within which a page says what it is about
+_TEXTS = ("command", "title", "figure", "verdict", "model")
+_ORDER = ("derive", "show", "home", "fit", "estimators", "compare", "diagnose", "add")
+
+
+@dataclass(frozen=True)
+class PageEntry:
+    """A page of the folder.
+
+    Attributes:
+        place: relative to the folder.
+        command: of `modeler`, that made it.
+        title: of the page.
+        figure: of its headline.
+        verdict: the rest of the headline.
+        model: what it is about.
+        logs: names.
+        held_out: True, False, or None where no fit is judged.
+    """
+
+    place: str
+    command: str
+    title: str
+    figure: str
+    verdict: str
+    model: str
+    logs: tuple[str, ...]
+    held_out: bool | None
+
+    @property
+    def folder(self) -> str:
+        """Of the page; "" for the folder itself."""
+        return self.place.rpartition("/")[0]
+
+    @property
+    def rank(self) -> tuple[int, str]:
+        """Where it stands among the pages of its folder."""
+        known = _ORDER.index(self.command) if self.command in _ORDER else len(_ORDER)
+        return known, self.place
+
+
+def write_index(folder: Path, title: str = "") -> Path | None:
+    """Write `index.html` of a folder and its own folders; the path, None if it is not ours.
+
+    An `index.html` that no earlier call wrote is left alone.
+
+    Args:
+        folder: of the pages.
+        title: of the index; the name of the folder if it is left out.
+
+    Raises:
+        ModelerError: the place cannot be written.
+    """
+    place = Path(folder) / NAME
+    if place.exists() and (_read_about(place) or {}).get("command") != "index":
+        return None
+    page_entries = find_pages(Path(folder))
+    name = title or Path(folder).resolve().name
+    write_atomically(
+        place,
+        render_template("index", title=name, entries=page_entries, about={"command": "index"}),
+    )
+    return place
+
+
+def find_pages(folder: Path) -> list[PageEntry]:
+    """Our pages in a folder and in its folders, in the order in which one reads them."""
+    pages = [*folder.glob("*.html"), *folder.glob("*/*.html")]
+    page_entries = []
+    for path in pages:
+        about = _read_about(path)
+        if about is not None and about.get("command") != "index":
+            place = path.relative_to(folder).as_posix()
+            texts = {name: str(about.get(name) or "") for name in _TEXTS}
+            logs, held = about.get("logs"), about.get("held_out")
+            page_entries.append(
+                PageEntry(
+                    place=place,
+                    logs=tuple(map(str, logs)) if isinstance(logs, list) else (),
+                    held_out=held if isinstance(held, bool) else None,
+                    **texts | {"title": texts["title"] or place},
+                )
+            )
+    return sorted(page_entries, key=lambda entry: (entry.folder, entry.rank))
+
+
+def _read_about(path: Path) -> dict[str, object] | None:
+    """What a page says of itself; None for a page of somebody else."""
+    try:
+        with path.open(encoding="utf-8") as file:
+            match = _ABOUT.search(file.read(_HEAD))
+        about = json.loads(match[1]) if match else None
+    except (OSError, ValueError):
+        return None
+    return about if isinstance(about, dict) else None
+
+
+@dataclass(frozen=True)
+class Section:
+    """A title and what stands below it; `id` is what links lead to."""
+
+    title: str
+    blocks: Sequence[Block]
+    id: str = ""
+
+
+@dataclass(frozen=True)
+class Origin:
+    """Where a page comes from, for its first screen, and what to go on with from there.
+
+    Attributes:
+        model: file or robot that it is about.
+        logs: names of logs.
+        held_out: True if what is judged was never fitted, False for training data, None if a page
+            judges no fit.
+        next: commands to go on with.
+    """
+
+    model: str = ""
+    logs: Sequence[str] = ()
+    held_out: bool | None = None
+    next: Sequence[str] = ()
+
+
+@dataclass(frozen=True)
+class Page:
+    """One page.
+
+    Attributes:
+        title: plain text.
+        headline: a figure, and what it is.
+        sections: in order.
+        origin: model, logs, badge.
+        facts: names and what stands below them.
+        provenance: how it was made, in lines.
+        command: of `modeler`, that makes such pages.
+    """
+
+    title: str
+    headline: tuple[str, str]
+    sections: Sequence[Section]
+    origin: Origin = dataclasses.field(default_factory=Origin)
+    facts: Sequence[tuple[str, str]] = ()
+    provenance: Sequence[str] = ()
+    command: str = ""
+
+    def __str__(self) -> str:
+        """The HTML."""
+        return render_page(self)
+
+    def collect_pictures(self) -> list[Picture]:
+        """All that it shows, in order, each under a name of its own."""
+        blocks = (block for section in self.sections for block in section.blocks)
+        pictures: dict[str, Picture] = {}
+        for picture in (block.picture for block in blocks if isinstance(block, Figure)):
+            name = picture.name
+            alike = sum(other == name or other.startswith(f"{name}_again_") for other in pictures)
+            name = f"{name}_again_{alike}" if name in pictures else name
+            pictures[name] = dataclasses.replace(picture, name=name)
+        return list(pictures.values())
+
+
+def render_page(sheet: Page) -> str:
+    """The page as text; its security policy forbids any network access."""
+    return render_template("sheet", sheet=sheet, about=_collect_page_facts(sheet))
+
+
+def _collect_page_facts(sheet: Page) -> dict[str, Any]:
+    """What the index of a folder says of the page."""
+    texts = (sheet.command, sheet.title, *sheet.headline, sheet.origin.model)
+    logs, held = list(sheet.origin.logs), sheet.origin.held_out
+    return dict(zip(_TEXTS, texts, strict=True)) | {"logs": logs, "held_out": held}
+
+
+_FILES = {"diagnose": "diagnosis.html", "add": "improved.html"}
+"""Name of a page in a folder, by command; of others it is the command's."""
+
+
+def write_page(path: Path, sheet: Page) -> Path:
+    """Write the page; returns the path of the file written.
+
+    Args:
+        path: an `.html` file, or a folder, which then gets the page and an index of its pages.
+        sheet: what it says.
+
+    Raises:
+        ModelerError: the place cannot be written.
+    """
+    place = resolve_page_path(Path(path), _FILES.get(sheet.command, f"{sheet.command}.html"))
+    write_atomically(place, render_page(sheet))
+    if place != Path(path):
+        write_index(place.parent)
+    return place
+
+
+# The command to go on with, after each page, with the files of the one that was given.
+
+
+def suggest_after_fit(
+    model: str, logs: Sequence[str], robot: str, fit: "FitResult", mapped: Sequence[str] = ()
+) -> list[str]:
+    """Compare the model with logs, and look for what it lacks; first what the fit asks for.
+
+    Args:
+        model: its file.
+        logs: that were fitted.
+        robot: as it was given.
+        fit: judged.
+        mapped: what `--map` was given; the model keeps it, the robot file does not.
+    """
+    judge = f"modeler compare {_quote_words([model, *logs])} --report compare.html"
+    look = f"modeler diagnose {_quote_words([model, *logs])} --report diagnosis.html"
+    verdict = fit.verdict
+    if verdict is not None and not verdict.usable:
+        words = "".join(f" --map {_quote_words([word])}" for word in mapped)
+        return [
+            f"modeler log {_quote_words(logs[:1])} --robot {_quote_words([robot])}{words}",
+            look,
+        ]
+    return [look, judge] if _is_effect_missing(fit) else [judge, look]
+
+
+def _is_effect_missing(fit: "FitResult") -> bool:
+    """True if an effect seems to be missing."""
+    if fit.verdict is not None and fit.verdict.valid_for != "parameters":
+        return True
+    return any("`modeler diagnose`" in line for line in fit.sentences)
+
+
+def suggest_after_compare(
+    model: str, fitted: Sequence[str], logs: Sequence[str], held_out: bool, noise: bool = False
+) -> str:
+    """Look for what is missing; if nothing is, go to the controller.
+
+    Args:
+        model: file of the model.
+        fitted: logs that it was fitted on.
+        logs: logs that were compared.
+        held_out: False if some of them were fitted.
+        noise: True if nothing else is left on any joint.
+    """
+    if noise:
+        return _suggest_generate(model)
+    if not held_out:
+        return f"modeler diagnose {_quote_words([model, *logs])}"
+    return f"modeler diagnose {_quote_words([model, *fitted])}{_format_holdout(logs)}"
+
+
+def suggest_after_stated(robot: str, logs: Sequence[str], mapped: Sequence[str] = ()) -> str:
+    """Fit what a robot file states otherwise."""
+    words = "".join(f" --map {_quote_words([word])}" for word in mapped)
+    stem = Path(robot).name.partition(".")[0]
+    return (
+        f"modeler fit {_quote_words([robot, *logs])}{words} --out "
+        f"{_quote_words([f'{stem}.model.json'])}"
+    )
+
+
+def suggest_after_diagnosis(
+    model: str, logs: Sequence[str], holdout: Sequence[str], diagnosis: "Diagnosis",
+    effects_from: str | None = None,
+) -> list[str]:  # fmt: skip
+    """Add the effects that have columns; without any, see what is left, or take the model."""
+    named = diagnosis.addable_findings
+    if not named and diagnosis.verdict == "nothing significant":
+        return [_suggest_generate(model)]
+    if not named:
+        return [
+            f"modeler compare {_quote_words([model, *(holdout or logs)])} --report compare.html"
+        ]
+    first = named[0]
+    effect = shlex.quote(first.effect) + (
+        f" --joint {shlex.quote(first.joint)}" if first.joint else ""
+    )
+    effect = "auto" if sum(not f.doubt for f in named) > 1 else effect
+    path = Path(model)
+    better = path.with_name(f"{path.name.partition('.')[0]}-improved{''.join(path.suffixes)}")
+    words = (
+        f"modeler add {_quote_words([model])} {effect} "
+        f"{_quote_words(logs)}{_format_holdout(holdout)}"
+    )
+    words += f" --effects-from {shlex.quote(effects_from)}" if effects_from else ""
+    return [f"{words} --out {_quote_words([str(better)])}"]
+
+
+def suggest_after_add(
+    model: str, logs: Sequence[str], holdout: Sequence[str], fit: "FitResult"
+) -> list[str]:
+    """Compare the new model with what was never fitted, if given; take it to the controller.
+
+    First see what it lacks still, if it does.
+    """
+    model_word = _quote_words([model])
+    look = f"modeler diagnose {model_word} {_quote_words(logs)}{_format_holdout(holdout)}"
+    judge = f"modeler compare {_quote_words([model, *(holdout or logs)])}"
+    return [*([look] if _is_effect_missing(fit) else []), judge, _suggest_generate(model)]
+
+
+def _format_holdout(holdout: Sequence[str]) -> str:
+    return "".join(f" --holdout {_quote_words([log])}" for log in holdout)
+
+
+def _suggest_generate(model: str) -> str:
+    """To the controller."""
+    folder = f"{Path(model).name.partition('.')[0]}_c"
+    return f"modeler generate {_quote_words([model])} --out {_quote_words([folder])}"
+
+
+def _quote_words(words: Sequence[str]) -> str:
+    return " ".join(shlex.quote(word) for word in words)
