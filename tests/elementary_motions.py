@@ -34,9 +34,13 @@ def placed(row, values):
     """Rotation and origin of a row in its antecedent, its variable at 0, and its sign."""
     at_zero = values | {row.variable: 0.0}
     columns = ("gamma", "b", "alpha", "d", "theta", "r")
-    pose = row_pose(**{column: getattr(row, column).number(at_zero) for column in columns})
-    moving = row.theta if row.angular else row.r
-    sign = moving.number(values | {row.variable: 1.0}) - moving.number(at_zero) if row.moves else 0
+    pose = row_pose(**{column: getattr(row, column).evaluate(at_zero) for column in columns})
+    moving = row.theta if row.is_revolute else row.r
+    sign = (
+        moving.evaluate(values | {row.variable: 1.0}) - moving.evaluate(at_zero)
+        if row.is_moving
+        else 0
+    )
     return pose[:3, :3], pose[:3, 3], sign
 
 
@@ -44,12 +48,12 @@ def frames(robot, q):
     """Poses of all frames in frame 0, by row; robot or its name, q by joint or in table order."""
     robot = read_robot(robot) if isinstance(robot, str) else robot
     if not isinstance(q, dict):
-        q = {joint.name: value for joint, value in zip(robot.moving, q, strict=True)}
+        q = {joint.name: value for joint, value in zip(robot.moving_joints, q, strict=True)}
     values = robot.evaluate_symbols() | {f"q{joint}": value for joint, value in q.items()}
     poses = {"0": np.eye(4)}
     for joint in robot.joints:
         cells = {
-            column: getattr(joint, column).number(values)
+            column: getattr(joint, column).evaluate(values)
             for column in ("gamma", "b", "alpha", "d", "theta", "r")
         }
         poses[joint.name] = poses[joint.antecedent] @ row_pose(**cells)

@@ -116,7 +116,7 @@ PLANTED = [
     ("simulation/a.py", "import modeler.derivation", "may import core, robot"),
     ("estimation/a.py", "from modeler.simulation import X", "modeler.simulation"),
     ("diagnosis/search.py", "from modeler.codegen import X", "imports modeler.codegen"),
-    ("codegen/emit.py", "import jinja2", "only codegen/package.py, report/"),
+    ("codegen/emit.py", "import jinja2", "only codegen/package.py, views/"),
     ("runtime/build.py", "from cffi import FFI", "only runtime/bind.py"),
     ("derivation/a.py", "import casadi as ca", "only codegen/casadi_"),
     ("core/a.py", "import requests", "imports requests"),

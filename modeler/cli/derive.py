@@ -126,7 +126,7 @@ def check_request(args: argparse.Namespace) -> None:
         raise ModelerError(
             "--nonzero changes nothing by itself; add --closed-form, --regressor or --blocks"
         )
-    if args.expand_legs and not (args.closed_form or args.terms):
+    if args.expanded and not (args.closed_form or args.terms):
         raise ModelerError("--expanded changes nothing by itself; add --closed-form or --terms")
     if args.document and args.format != "latex":
         raise ModelerError("--document is a whole page of LaTeX; add --format latex")
@@ -139,7 +139,7 @@ def check_loops(args: argparse.Namespace, derivation: Derivation) -> None:
         ModelerError: coefficients or expanded forms are asked for.
     """
     looped = derivation.model.closure is not None
-    if looped and (args.terms or args.coefficients_out is not None or args.expand_legs):
+    if looped and (args.terms or args.coefficients_out is not None or args.expanded):
         raise ModelerError(
             f"{derivation.robot.name}: coefficients and expanded forms are written for robots "
             "whose loops, if any, follow linear relations; leave out --terms, "
@@ -274,13 +274,13 @@ def print_closed_forms(
     if args.nonzero:
         base = formulas.drop_zero_parameters(model, base)
     added: Json = _print_link_forms(args, model, printer)
-    if args.closed_form and args.expand_legs:
+    if args.closed_form and args.expanded:
         printer.print_text()
         closed = formulas.derive_closed_form(model, base)
         if args.format == "latex":
             printer.print_text(formulas.render.format_equation(closed))
         printer.print_formulas(getattr(formulas.render, f"closed_form_{args.format}")(closed))
-    motion = args.closed_form and not args.expand_legs
+    motion = args.closed_form and not args.expanded
     is_requested = {"closed_form": motion, "regressor": args.regressor}
     if any(is_requested.values()):
         equation = formulas.derive_equation(model, base, motion=motion, columns=args.regressor)
@@ -349,7 +349,7 @@ def _print_coefficients(
             )
             return
         shown, lines = table, _describe_coefficients(table)
-        if not args.expand_legs and len(table.coefficients) > MANY:
+        if not args.expanded and len(table.coefficients) > MANY:
             shown = formulas.coefficients.select_independent_coefficients(table)
             lines.insert(
                 0,

@@ -47,7 +47,7 @@ def run_fit(args: argparse.Namespace) -> Json:
     args.method = Methods(args.method)
     _check_options(args)
     processing = build_processing(vars(args))
-    if args.method.several:
+    if args.method.is_several:
         return _compare_methods(args, processing)
     robot = resolve_robot(args)
     with show_activity(f"deriving {robot.name}"):
@@ -110,7 +110,7 @@ _OF_ONE = ("out", "robot_out", "payload_log", "window", "essential_below", "dask
 
 def _check_several(args: argparse.Namespace) -> None:
     """Several methods are compared on the rows of the torque model; one has no use for others."""
-    if not args.method.several:
+    if not args.method.is_several:
         if args.holdout:
             raise DataError(
                 f"--holdout: got it with --method {args.method}; errors on other logs are shown of "

@@ -41,7 +41,7 @@ _WIDTH = 40  # characters of the longest bar
 
 def run_diagnose(args: argparse.Namespace) -> Json:
     """Prints the verdict, the effects and what cannot be told."""
-    if args.add and not args.discover_equations:
+    if args.add and not args.discover:
         raise DataError("--add: adds what --discover finds; give both, or neither")
     if args.add is not (args.out is not None):
         raise DataError("--add, --out MODEL2: got one of them; give both, or neither")
@@ -54,7 +54,7 @@ def run_diagnose(args: argparse.Namespace) -> Json:
         compiled, logs = improve.read_log_sets(model, args.logs, args.holdout, args.map, True)
     with show_progress("looking for missing effects") as bar:
         diagnosis = improve.find_missing(
-            model, compiled, logs, args.without, bar, args.discover_equations, shared_effects
+            model, compiled, logs, args.without, bar, args.discover, shared_effects
         )
     better, left_out = model, tuple[str, ...]()
     if args.add:

@@ -31,7 +31,7 @@ def run_excite(args: argparse.Namespace) -> Json:
     margin = args.clearance
     if margin is None and args.check is not None:
         margin = USUAL
-    bounds = parse_bounds(subject.robot, subject.compiled, args.limit, args.build_box, margin)
+    bounds = parse_bounds(subject.robot, subject.compiled, args.limit, args.box, margin)
     if args.report is not None and not (bounds.clearance and len(bounds.clearance.solids.pairs)):
         raise DataError(
             "--report: no two links are looked at; expected --clearance, or [capsules] of the "

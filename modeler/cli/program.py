@@ -78,7 +78,7 @@ def _run_parsed(words: Sequence[str], phase: Phase) -> None:
         from modeler.core.errors import ModelerError
 
         args, verbosity = parse_words(words)
-    with apply_verbosity(verbosity, args.show_progress == "lines"):
+    with apply_verbosity(verbosity, args.progress == "lines"):
         try:
             show_start(words)
             _execute_command(args, phase, verbosity is Verbosity.VERBOSE)

@@ -28,7 +28,7 @@ METHODS: dict[str, Callable[[papers.Paper, Callable[[float], None]], list[papers
 
 def run_reproduce(args: argparse.Namespace) -> Json:
     """Prints the lines; raises if one is different."""
-    paper = papers.read_paper(args.create_paper)
+    paper = papers.read_paper(args.paper)
     if args.picture is not None and args.section == "print":
         raise ModelerError("--picture: figures are of the methods; leave out --section print")
     print_result(paper.title)
@@ -60,7 +60,7 @@ def check_reproduced(args: argparse.Namespace) -> None:
     if args.different:
         count = len(args.different)
         raise ModelerError(
-            f"{args.create_paper}: {count} line{'s are' if count > 1 else ' is'} different: "
+            f"{args.paper}: {count} line{'s are' if count > 1 else ' is'} different: "
             + "; ".join(args.different)
         )
 

@@ -126,7 +126,7 @@ def fold_expression(expression: Expression, values: Mapping[str, sympy.Expr]) ->
         raise DerivationError(
             f'"{_shorten_text(expression.text)}" is not finite; expected a finite number'
         )
-    turned = value.wave_free_columns(sympy.cos, sympy.sin)
+    turned = value.atoms(sympy.cos, sympy.sin)
     if not turned or not all(is_short(function.args[0]) for function in turned):
         return value
     return sympy.expand_trig(value)

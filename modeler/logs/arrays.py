@@ -409,9 +409,9 @@ def _list_datasets(path: Path, what: str) -> list[_StoredDataset]:
 
 def _check_chunks(path: Path, item: Any) -> None:
     """Refuse chunks that have no room, or are packed by zlib from more than they state."""
-    if item.read_chunks is None:
+    if item.chunks is None:
         return
-    size = math.prod(item.read_chunks) * item.dtype.itemsize
+    size = math.prod(item.chunks) * item.dtype.itemsize
     check_unpacked_size(path, size)
     for at in range(item.id.get_num_chunks()) if item.compression == "gzip" else ():
         chunk = item.id.get_chunk_info(at)

@@ -66,9 +66,9 @@ def _find_reader(store: Any, name: str, form: str, definition: bytes) -> Read | 
         if form.endswith("idl"):
             for part in filter(str.strip, text.split("=" * 80 + "\n")):
                 idl_text = part.partition("\n")[2] if part.startswith("IDL:") else part
-                store.register_report_modules(get_types_from_idl(idl_text))
+                store.register(get_types_from_idl(idl_text))
         elif text:
-            store.register_report_modules(get_types_from_msg(text, kind))
+            store.register(get_types_from_msg(text, kind))
         else:
             store = get_typestore(Stores.LATEST)
     read = store.deserialize_ros1 if form == "ros1msg" else store.deserialize_cdr

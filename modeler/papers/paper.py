@@ -304,7 +304,7 @@ def build_expression(whole: Sum, symbols: Mapping[str, sympy.Expr]) -> sympy.Exp
 def eliminate_squared_sines(expression: sympy.Expr) -> sympy.Expr:
     """The normal form in which an expression that is zero for all angles is 0."""
     reduced = sympy.expand(expression)
-    for sine in reduced.wave_free_columns(sympy.sin):
+    for sine in reduced.atoms(sympy.sin):
         s, square = sympy.Dummy(), 1 - sympy.cos(sine.args[0]) ** 2
         reduced = sympy.rem(reduced.subs(sine, s), s**2 - square, s).subs(s, sine)
     return sympy.expand(reduced)

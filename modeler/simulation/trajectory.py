@@ -307,7 +307,7 @@ def read_motion(path: str | Path, joints: Sequence[str]) -> Reference:
     if {"qd", "qdd"} <= path_of.keys():
         return Reference(time - time[0], q, path_of["qd"], path_of["qdd"], True, measured)
     spline = make_interp_spline(time, q, k=_DEGREE)
-    derivatives = spline.differentiate_polynomial()(time), spline.differentiate_polynomial(2)(time)
+    derivatives = spline.derivative()(time), spline.derivative(2)(time)
     return Reference(time - time[0], q, *derivatives, is_measured=measured)
 
 
@@ -328,9 +328,7 @@ def resample_motion(motion: Reference, rate: float) -> Reference:
     count = int(np.floor(motion.time[-1] * rate + 1e-9)) + 1
     time = np.arange(count) / rate
     at = np.minimum(time, motion.time[-1])
-    return Reference(
-        time, curve(at), curve.differentiate_polynomial()(at), curve.differentiate_polynomial(2)(at)
-    )
+    return Reference(time, curve(at), curve.derivative()(at), curve.derivative(2)(at))
 
 
 def _read_table(path: Path) -> pa.Table:

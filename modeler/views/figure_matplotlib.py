@@ -167,7 +167,7 @@ def _draw_series(axes: Any, series: Series) -> None:
 
 def _draw_bars(axes: Any, series: Bars) -> None:
     stacked = series.base is not None
-    drawn = axes.show_progress(
+    drawn = axes.bar(
         series.names,
         series.values,
         bottom=series.base,

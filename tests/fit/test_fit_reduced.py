@@ -196,7 +196,7 @@ def test_known_sets_are_found_among_columns_that_are_alike():
 
 def some_exchange_is_better(data, kept, out):
     """Whether the least squares fall with one of `out` in place of each column that is kept."""
-    R = data.whole(np.ones(len(data.rows)))
+    R = data.combine_joints(np.ones(len(data.rows)))
 
     def left(columns, of):
         Q = np.linalg.qr(R[:, columns])[0]

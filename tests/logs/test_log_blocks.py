@@ -53,7 +53,7 @@ def test_numbers_are_those_of_the_column(name):
 
 def values(columns, name):
     (found,) = [column for own, column in columns.columns if own == name]
-    return found.numbers()
+    return found.read_numbers()
 
 
 def log_columns(compiled, rows=3000, seed=1):

@@ -145,7 +145,8 @@ def test_episodes_are_segments(times, short, tmp_path):
     log = short.check(path, ["auto", *rate])
     assert np.flatnonzero(np.diff(log.segment)).tolist() == [129, 229]
     assert any(
-        "3 episodes, data/demo_8 to 10, one after the other as segments" in t for t in log.told
+        "3 episodes, data/demo_8 to 10, one after the other as segments" in t
+        for t in log.reading_notes
     )
     (log,) = read_logs(short.compiled, [path], ["auto", *rate, "topic=data/demo_9"])
     assert log.q == pytest.approx(joined(short.table, "q")[130:230])

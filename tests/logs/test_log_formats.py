@@ -40,13 +40,13 @@ def test_an_array_may_be_chosen_by_its_group_and_what_is_no_column_is_told(short
     with pytest.raises(DataError, match="topic other: no group of that name; the groups are data"):
         read_logs(short.compiled, [path], {**MAPPING, "topic": "other"})
     log = short.check(path, under("data.", MAPPING))
-    assert "pose (4 x 4) left out: no columns of" in " ".join(log.told)
+    assert "pose (4 x 4) left out: no columns of" in " ".join(log.reading_notes)
 
 
 def test_units_that_a_file_states_are_used_and_told(short, tmp_path):
     path = writers.hdf5(tmp_path / "run.h5", short.table)
     log = short.check(path, under("arm/", MAPPING) | {"q<j>": "arm/pos[{n}]"}, 1e-14)
-    assert "by the units that the file states: q1 in deg, q3 in deg" in log.told
+    assert "by the units that the file states: q1 in deg, q3 in deg" in log.reading_notes
 
 
 def test_other_topics_hold_their_last_message(short, tmp_path):
@@ -57,9 +57,13 @@ def test_other_topics_hold_their_last_message(short, tmp_path):
     assert np.isnan(heat[:50]).all()
     assert heat[50:150] == pytest.approx(np.full(100, 70.0))  # row 50 has its stamp
     log = short.check(path, mapping)
-    joined = [line for line in log.told if line.startswith("/motor/heat joined to that clock")]
+    joined = [
+        line for line in log.reading_notes if line.startswith("/motor/heat joined to that clock")
+    ]
     assert len(joined) == 1 and "at most 0.099 s old" in joined[0]
-    assert any(line.startswith("rows are the messages of /joint_states") for line in log.told)
+    assert any(
+        line.startswith("rows are the messages of /joint_states") for line in log.reading_notes
+    )
     assert log.notes == ()
 
 

@@ -29,7 +29,7 @@ FACTORS = {
     "mm": 1e-3,
     "um": known.micro,
     "in": known.inch,
-    "ft/min": known.compute_foot_pose / 60,
+    "ft/min": known.foot / 60,
     "s": 1.0,
     "ms": 1e-3,
     "us": 1e-6,

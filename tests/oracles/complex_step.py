@@ -84,7 +84,7 @@ class Oracle:
 
         def cell(expression) -> tuple[float, float]:
             at = [
-                expression.number(self.symbols | ({row.variable: x} if row.moves else {}))
+                expression.evaluate(self.symbols | ({row.variable: x} if row.is_moving else {}))
                 for x in (0.0, 1.0)
             ]
             return at[0], at[1] - at[0]

@@ -38,7 +38,7 @@ def held(values, rows):
 
 
 def report_text(seen):
-    return "\n".join([*seen.report.lines(), *seen.report.doubts()])
+    return "\n".join([*seen.report.format_lines(), *seen.report.collect_warnings()])
 
 
 def relative_error(log, beta, processing=None):

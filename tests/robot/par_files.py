@@ -52,7 +52,7 @@ def par_of(robot: Robot, letters: bool) -> str:
             return expression.text.replace(variable, ours)
         if letters or expression.is_zero:
             return expression.text.replace("pi", "Pi")
-        return f"{expression.number(values):.5g}"
+        return f"{expression.evaluate(values):.5g}"
 
     columns: dict[str, list[str]] = {}
     for joint in robot.joints:

@@ -392,8 +392,8 @@ def test_degrees_stand_wherever_angles_do(written, radians):
     )
     robot = read(f'columns = ["j", "alpha", "theta"]\n{rows}', more)
     values = robot.evaluate_symbols()
-    assert robot.joints[0].alpha.number(values) == pytest.approx(radians, abs=1e-15)
-    assert robot.joints[0].theta.number({**values, "q1": 0.0}) == pytest.approx(-radians)
+    assert robot.joints[0].alpha.evaluate(values) == pytest.approx(radians, abs=1e-15)
+    assert robot.joints[0].theta.evaluate({**values, "q1": 0.0}) == pytest.approx(-radians)
     assert robot.limits["1"].upper == pytest.approx(radians + math.pi)
     assert robot.limits["1"].speed == pytest.approx(math.pi / 2)
     assert robot.home["1"] == pytest.approx(radians)
@@ -441,7 +441,9 @@ def test_degrees_of_effects_and_of_words_on_the_command_line():
 
     robot = read('columns = ["j", "theta"]\nrows = [["1", "q1"]]',
                  '[effects]\nspring = [{joint = "1", q0 = "30 deg", h = 0}]')  # fmt: skip
-    assert robot.effects[0].stated_instances[0].shapes["q0"] == pytest.approx(math.pi / 6)
+    assert robot.effects[0].stated_instances[0].nonlinear_parameters["q0"] == pytest.approx(
+        math.pi / 6
+    )
     name, values = _parse_assignment("--limit", "1=-90 deg,pi/2,2,8", ["1"], (4, 5), "LOWER,...")
     assert (name, values) == ("1", [-math.pi / 2, math.pi / 2, 2.0, 8.0])
     with pytest.raises(DataError, match="numbers in SI units"):

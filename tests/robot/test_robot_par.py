@@ -112,7 +112,7 @@ def test_letters_and_numbers():
         ["3", "2", 1, 1, 0, "-pi/2", "L*2", 0, "q3"],
         ["4", "3", 0, 2, "gam4", 0, "-D4", 0, "R4"],
     ]
-    values = {name: value.number() for name, value in robot.symbols.items()}
+    values = {name: value.evaluate() for name, value in robot.symbols.items()}
     assert values["D2"] == 0.25 and values["D4"] == 0.25  # no loops: letters of their own
     assert values["R4"] == 0.1 and values["gam4"] == 0.3
     assert values["L"] != values["RL1"]
@@ -162,9 +162,9 @@ def test_bodies_with_and_without_parameters():
         "IA": "IA1,0,IA3", "FV": "FV1,FV2,FV3", "FS": "0,1.5,0",
     }  # fmt: skip
     robot, converted = convert(par_text(lists))
-    assert robot.inertial("1") == ("XX", "ZZ", "MX", "M")
-    assert set(robot.inertial("2")) == set(INERTIA)  # numbers: 0 is a value
-    assert robot.inertial("3") == ()
+    assert robot.get_inertial_prefixes("1") == ("XX", "ZZ", "MX", "M")
+    assert set(robot.get_inertial_prefixes("2")) == set(INERTIA)  # numbers: 0 is a value
+    assert robot.get_inertial_prefixes("3") == ()
     assert robot.parameters["ZZ2"] == 0.01 and robot.parameters["XY2"] == 0
     assert robot.parameters["Fs2"] == 1.5
     uses = {use.effect: use.joints for use in robot.effects}
@@ -200,7 +200,9 @@ def test_what_is_not_carried_over_is_told(lists, line, told):
 def test_fixed_frames_carry_nothing():
     lists = {"Ant": "0,1", "Sigma": "0,2", "Theta": "t1,0", "d": "0,0.3", "M": "3,2", "XX": "1,0"}
     robot, converted = convert(par_text(lists))
-    assert [joint.name for joint in robot.moving] == ["1"] and not robot.parameters.keys() & {"M2"}
+    assert [joint.name for joint in robot.moving_joints] == [
+        "1"
+    ] and not robot.parameters.keys() & {"M2"}
     assert any("parameters of frame 2 are left out" in note for note in converted.notes)
 
 
@@ -231,8 +233,8 @@ def test_variables_are_those_of_the_rows(theta):
 def test_gravity(lists, gravity):
     """Letters stay, with stand-ins by which gravity points where the note says."""
     robot, converted = convert(par_text({"Ant": "0", "Theta": "t1"} | lists))
-    values = {name: value.number() for name, value in robot.symbols.items()}
-    assert [entry.number(values) for entry in robot.gravity] == pytest.approx(gravity)
+    values = {name: value.evaluate() for name, value in robot.symbols.items()}
+    assert [entry.evaluate(values) for entry in robot.gravity] == pytest.approx(gravity)
     letters = set("gGka") & set("".join(lists.values()))
     (note,) = [n for n in converted.notes if "gravity is taken" in n] or [""]
     assert bool(note) == bool(letters)
@@ -294,9 +296,9 @@ rows = [["eye", "rod", "eye", "revolute"]]
 def test_cut_joints_are_loops():
     robot, converted = convert(par_text(BOOM, "boom", links=3, joints=4))
     assert [(loop.frame, loop.meets, loop.kind) for loop in robot.loops] == [("4", "5", "rigid")]
-    assert robot.inertial("4") == () and len(robot.inertial("3")) == 10
+    assert robot.get_inertial_prefixes("4") == () and len(robot.get_inertial_prefixes("3")) == 10
     assert [joint.name for joint in robot.coordinates] == ["3"]
-    values = {name: value.number() for name, value in robot.symbols.items()}
+    values = {name: value.evaluate() for name, value in robot.symbols.items()}
     q1 = 0.5  # close by hand: the vector from the base eye to the boom eye
     x = values["c"] * math.cos(q1 + values["gam5"]) - values["a"]
     z = values["c"] * math.sin(q1 + values["gam5"])
@@ -322,7 +324,7 @@ def test_atan2_of_two_letters_is_exact():
     assert (fifth.d.text, fifth.gamma.text) == ("L1", "pi - A1")
     values = {}
     for name, value in robot.symbols.items():
-        values[name] = value.number(values)
+        values[name] = value.evaluate(values)
     assert math.hypot(values["e"], values["f"]) == pytest.approx(values["L1"])
     assert math.atan2(values["e"], values["f"]) == pytest.approx(values["A1"])
     assert any("L1*sin(A1)" in note for note in converted.notes)
@@ -346,9 +348,9 @@ def test_inverse_functions_have_their_value(gamma, value):
     robot, _ = convert(par_text(lists, "boom", links=3, joints=4))
     values = {}
     for name, worth in robot.symbols.items():
-        values[name] = worth.number(values)
+        values[name] = worth.evaluate(values)
     expected = value(values["e"], values["f"])
-    turns = (robot.joints[4].gamma.number(values) - expected) / (2 * math.pi)
+    turns = (robot.joints[4].gamma.evaluate(values) - expected) / (2 * math.pi)
     assert turns == pytest.approx(round(turns), abs=1e-9)
 
 

@@ -22,11 +22,11 @@ def tool(lines, more=""):
 def test_tool_stands_on_the_last_moving_row_or_where_it_says():
     frame = tool('x = "2*D3"\nyaw = "90 deg"')
     assert (frame.row, frame.on) == ("4", None)
-    assert frame.position[0].number({"D3": 0.3}) == 0.6 and frame.angles[2].text == "90 deg"
+    assert frame.position[0].evaluate({"D3": 0.3}) == 0.6 and frame.angles[2].text == "90 deg"
     assert tool("row = 1").row == "1" and tool('row = "E"').row == "E"
     assert tool('row = "5"', BRANCH).row == "5"
     held = tool('link = "hand"\nz = 0.2', BRANCH)
-    assert held.row == "4" and held.on.position[0].number({"R4": 0.2}) == 0.1
+    assert held.row == "4" and held.on.position[0].evaluate({"R4": 0.2}) == 0.1
     platform = parse_robot_text(read_builtin_robot("orthoglide-2003") + "\n[tool]\nz = 0.1\n", "o")
     assert platform.tool.row == platform.platform[-1]
     assert parse_robot_text(read_builtin_robot("puma560"), "p").tool is None

@@ -38,14 +38,14 @@ def test_units_stand_wherever_degrees_do():
     robot = arm(rows, '"j", "sigma", "theta", "d", "r"', text)
     assert robot.evaluate_symbols() == {"D2": 0.06, "L": 0.1}
     assert (robot.limits["2"].lower, robot.home["2"]) == (-0.1, 0.012)
-    assert robot.joint("2").r.number({"q2": 0.0}) == 0.4
+    assert robot.get_joint("2").r.evaluate({"q2": 0.0}) == 0.4
     assert robot.readings == ()
 
 
 @pytest.mark.parametrize("cell", ["R*sin(30 deg)", "R*(30 deg)", "cos((A)) * 3 m"])
 def test_angles_within_lengths_are_fine(cell):
     robot = arm(f'["1", "q1", 0, "{cell}"]', further='[symbols]\nR = 0.2\nA = "30 deg"')
-    assert robot.joint("1").d.names
+    assert robot.get_joint("1").d.names
 
 
 def test_lengths_in_mm_are_told():
