@@ -243,8 +243,8 @@ def fit_equations(
         ),
         reduced=reduced,
         standard=estimate.standard,
-        own=estimate.sentences,
-        of_joints=tuple(warnings),
+        estimator_notes=estimate.sentences,
+        joint_warnings=tuple(warnings),
         by_load={
             name: build_joint_fits(
                 observation, equations.compress_rows(is_counted), estimate.beta, estimate.sigma

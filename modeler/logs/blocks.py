@@ -108,7 +108,7 @@ class _ArrowColumn:
         if column.null_count or not column.num_chunks:
             return np.array(column.to_numpy(), dtype=float) - first
         # Arrow's own `to_numpy` loads pandas, where it is installed.
-        return np.concatenate([np.from_dlpack(chunk) for chunk in column.read_chunks]) - first
+        return np.concatenate([np.from_dlpack(chunk) for chunk in column.chunks]) - first
 
 
 def read_csv(path: Path, wanted: ColumnRequest) -> Columns:
@@ -182,7 +182,7 @@ def decode_texts(path: Path, table: pa.Table) -> pa.Table:
         if not pa.types.is_dictionary(field.type) or not pa.types.is_string(field.type.value_type):
             continue
         column = table.column(at)
-        for chunk in column.read_chunks:
+        for chunk in column.chunks:
             longest = pc.max(pc.binary_length(chunk.dictionary)).as_py() or 0
             check_unpacked_size(path, longest * len(chunk))
         table = table.set_column(at, field.name, pc.cast(column, pa.string()))

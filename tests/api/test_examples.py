@@ -20,8 +20,8 @@ MODULES = sorted(
     }
 )
 WITHOUT = {
-    "on_gpu": "needs a graphics processor",
-    "tell_apart": "takes long; docs/how-to/excitation.md has one",
+    "load_on_gpu": "needs a graphics processor",
+    "discriminating_motion": "takes long; docs/how-to/excitation.md has one",
     "fit_gains": "needs logs of currents with a load; docs/how-to/drive-gains.md has one",
 }
 
