@@ -255,7 +255,7 @@ _LOAD = Group(
 
 def _check_fit_output(args: argparse.Namespace) -> str:
     """A model is written of one method, and of several none."""
-    alone = args.out is None and not args.method.several
+    alone = args.out is None and not args.method.is_several
     return "the following arguments are required: --out" if alone else ""
 
 

@@ -510,7 +510,7 @@ def _build_control_unit(
         "constants": _select_constants(written, values, texts),
         "laws": build_law_tables(written, target),
         "geometry": list(values["symbols"].macros) if fitted else [],
-        "find_widths": tuple(dict.fromkeys(widths.values())),
+        "widths": tuple(dict.fromkeys(widths.values())),
         "smooth": smooth_widths,
         "letters": _format_letters(written),
         "limits": [

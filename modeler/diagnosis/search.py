@@ -273,7 +273,9 @@ class CandidateScan:
             return order[:STARTS]
         best: dict[tuple[float, ...], Candidate] = {}
         for c in order:
-            best.setdefault(tuple(v for n, v in c.shapes.items() if n != refined[0]), c)
+            best.setdefault(
+                tuple(v for n, v in c.nonlinear_parameters.items() if n != refined[0]), c
+            )
         return list(best.values())
 
 

@@ -98,7 +98,7 @@ def _build_findings(tests: QuantityTests, logs: Sequence[LogSummary]) -> list[Fl
     findings = []
     for (m, i), move in tests.drifts.items():
         log_indices, quantity = tests.find_logs(m, i), tests.quantities[i]
-        periods = [logs[k].named.period for k in log_indices]
+        periods = [logs[k].log_name.period for k in log_indices]
         trend = move.shape == "trend"
         both = [
             (
@@ -109,7 +109,7 @@ def _build_findings(tests: QuantityTests, logs: Sequence[LogSummary]) -> list[Fl
         ]
         findings.append(
             FleetFinding(
-                machine=logs[log_indices[0]].named.machine,
+                machine=logs[log_indices[0]].log_name.machine,
                 quantity=quantity,
                 shape=move.shape,
                 begin=periods[move.begin],
@@ -161,9 +161,9 @@ def _summarise_quantities(
         for m in range(tests.machine_count):
             log_indices = tests.find_logs(m, i)
             if len(log_indices):
-                name = logs[log_indices[0]].named.machine
+                name = logs[log_indices[0]].log_name.machine
                 sigmas = tests.scatters[i].compute_sigmas(tests.get_series(m, i))
-                names = tuple(logs[k].named.period for k in log_indices)
+                names = tuple(logs[k].log_name.period for k in log_indices)
                 machines[name] = QuantityValues(
                     tests.at[log_indices], names, tests.values[log_indices, i], sigmas
                 )

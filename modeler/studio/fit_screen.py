@@ -244,7 +244,7 @@ def _draw_choices(fit: Mapping[str, Any]) -> None:
                     "what the filters leave to know",
                 ),
                 (
-                    "condition format_number",
+                    "condition number",
                     format_number(fit["condition_scaled"]),
                     "of W, columns of length one",
                 ),

@@ -259,7 +259,7 @@ def _yield_options(task: Task) -> Iterator[str]:
         if name in _PLACES or value in ("", None, ()):
             continue
         if name == "held":
-            value = tuple(part.word for part in value)
+            value = tuple(part.command_word for part in value)
         elif name == "effects":
             value = ",".join(value)
         for item in value if isinstance(value, tuple) else (value,):

@@ -41,7 +41,7 @@ def assign_role(log: ProjectLog, stretch: TimeRange, role: str) -> ProjectLog:
     if role == "out":
         return dataclasses.replace(log, out=merge_ranges([*log.out, stretch]))
     roles: dict[str, Any] = {
-        name: tuple(left for part in getattr(log, name) for left in part.without([stretch]))
+        name: tuple(left for part in getattr(log, name) for left in part.subtract_gaps([stretch]))
         for name in (ROLES if role in ROLES else ("out",))
     }
     if role in ROLES:

@@ -305,7 +305,7 @@ def _read_coarse(source: _Source, blocks: Any) -> _Log:
     """One pass over a long log: the least and the largest value of every piece of rows."""
     rows, times, extremes = 0, list[np.ndarray](), dict[str, list[np.ndarray]]()
     units: dict[str, str] = {}
-    for part in blocks.blocks(FINGER):
+    for part in blocks.read_blocks(FINGER):
         table = source.table(part, rows)
         values = {n: table.read_numbers(n) for n in table.names if table.is_numeric(n)}
         time = _get_seconds(table, values.pop("time", None))

@@ -310,7 +310,7 @@ PRESENTATIONS = {
         _summarise_inspection,
         _collect_inspection_tables,
         _collect_inspection_figures,
-        document=lambda look, notes: build_log_page(look, look.doubts, notes),
+        document=lambda look, notes: build_log_page(look, look.warnings, notes),
     ),
     Log: Presentation("a log", _summarise_log, _collect_log_tables, _collect_log_figures),
     SimulatedLog: Presentation(

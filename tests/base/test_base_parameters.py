@@ -26,7 +26,7 @@ def relations(robot):
 
 
 def with_effects(robot, *effects):
-    names = tuple(joint.name for joint in robot.moving)
+    names = tuple(joint.name for joint in robot.moving_joints)
     return dataclasses.replace(robot, effects=tuple(EffectUse(e, names) for e in effects))
 
 

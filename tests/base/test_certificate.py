@@ -38,7 +38,7 @@ def test_a_wrong_coefficient_is_found(wrist):
     model, K, relations = wrist
     index = next(i for i, row in enumerate(relations.rows) if len(row) > 1)
     row = dict(relations.rows[index])
-    other = next(place for place in row if place != relations.dropped[index])
+    other = next(place for place in row if place != relations.dropped_columns[index])
     row[other] = row[other] + K.one
     rows = (*relations.rows[:index], row, *relations.rows[index + 1 :])
     wrong = dataclasses.replace(relations, rows=rows)
@@ -51,8 +51,8 @@ def test_a_missing_relation_is_found(wrist):
     fewer = dataclasses.replace(
         relations,
         rows=relations.rows[1:],
-        dropped=relations.dropped[1:],
-        kept=tuple(sorted((*relations.kept, relations.dropped[0]))),
+        dropped=relations.dropped_columns[1:],
+        kept=tuple(sorted((*relations.kept_columns, relations.dropped_columns[0]))),
     )
     with pytest.raises(ProofError, match="of 18 columns kept only 17 are independent"):
         prove(model, K, fewer, seed=1)

@@ -119,8 +119,8 @@ def test_a_urdf_is_cut_and_its_decimals_kept(capsys, tmp_path):
         return read_robot(out)
 
     assert [frame.joint for frame in converted("--tip", "mid").frames.values()] == ["", "j"]
-    assert len(converted("--base", "mid").moving) == 1
+    assert len(converted("--base", "mid").moving_joints) == 1
     assert converted("--lock", "k=90deg").frames["tip"].row == "1"
     exact = converted("--exact-decimals")
-    angle = exact.joints[1].alpha.number(exact.evaluate_symbols())
+    angle = exact.joints[1].alpha.evaluate(exact.evaluate_symbols())
     assert angle == pytest.approx(1.5708, abs=1e-15) and converted().joints[1].alpha.text == "pi/2"

@@ -55,7 +55,7 @@ def test_memory_runs_out_in_any_words(error: Exception, monkeypatch, capsys) -> 
     def fails(*_: object) -> None:
         raise error
 
-    monkeypatch.setattr(program, "_carried_out", fails)
+    monkeypatch.setattr(program, "_execute_command", fails)
     assert main(["robots"]) == 1
     assert re.fullmatch(r"modeler: memory: .*\n", capsys.readouterr().err)
 

@@ -147,7 +147,7 @@ def test_stdout_may_go_to_that_file(workdir, capsys, monkeypatch) -> None:
     with Path("folder").open("w") as out:
         monkeypatch.setattr(sys, "stdout", out)
         status = main(["robots", "--json", "folder"])
-        monkeypatch.remove_last()
+        monkeypatch.undo()
     assert status == 1
     assert "--json folder: stdout writes this file too" in capsys.readouterr().err
 

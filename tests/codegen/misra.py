@@ -39,7 +39,7 @@ def violations(folder: Path, name: str, *words: str) -> list[str]:
     )  # fmt: skip
     text = re.sub(r"^#pragma.*$", "", done.stdout, flags=re.M)
     text = re.sub(r"\b(__asm__|asm)\b[^;]*;", ";", text)
-    tree = c_parser.CParser().parse_expression(text, name)
+    tree = c_parser.CParser().parse(text, name)
     return [f"{rule} {Path(at.file).name}:{at.line}" for rule, at in _broken(tree)
             if "fake" not in at.file]  # fmt: skip
 

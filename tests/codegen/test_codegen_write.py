@@ -119,7 +119,7 @@ def test_what_cannot_be_removed_stays_and_is_told(emitted, tmp_path, monkeypatch
 
     monkeypatch.setattr(Path, "unlink", refused)
     assert write_emitted(emitted, tmp_path) == ()
-    monkeypatch.remove_last()
+    monkeypatch.undo()
     assert (tmp_path / EXAMPLE).read_text() == "old" and list_leftovers(emitted, tmp_path) == [
         EXAMPLE
     ]

@@ -45,7 +45,7 @@ def values_at(model, refs, q, qd, qdd) -> np.ndarray:
     known = dict(model.geometry.values)
     for kind, row in (("q", q), ("qd", qd), ("qdd", qdd)):
         known |= {f"{kind}[{i}]": x for i, x in enumerate(row)}
-    return np.array(model.graph.evaluate(refs, known), dtype=float)
+    return np.array(model.graph.evaluate_outputs(refs, known), dtype=float)
 
 
 @pytest.mark.parametrize("robot", [*rotating("ur10e"), "scara", "slow-arm"])

@@ -143,9 +143,9 @@ def test_a_library_that_another_process_has_loaded_stays(tmp_path, monkeypatch) 
 
     monkeypatch.setattr(Path, "replace", refused)
     made, final = tmp_path / "made", tmp_path / "entry" / "final.dll"
-    monkeypatch.setattr(build, "whole", lambda _: True)
+    monkeypatch.setattr(build, "is_intact", lambda _: True)
     build.move_into_cache(made, final)
-    monkeypatch.setattr(build, "whole", lambda _: False)
+    monkeypatch.setattr(build, "is_intact", lambda _: False)
     with pytest.raises(PermissionError):
         build.move_into_cache(made, final)
 

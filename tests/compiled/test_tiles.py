@@ -95,7 +95,7 @@ def test_results_do_not_depend_on_place_number_or_threads(tiled, monkeypatch):
         part = model.nonzeros(*(array[begin:] for array in motion))
         np.testing.assert_array_equal(part, whole[begin:])
     for count in (1, 2, 5):
-        monkeypatch.setattr(threads, "processors", lambda count=count: count)
+        monkeypatch.setattr(threads, "count_processors", lambda count=count: count)
         np.testing.assert_array_equal(model.nonzeros(*motion), whole)
 
 

@@ -48,7 +48,7 @@ void many(int n, const {number} *x, {number} *s, {number} *c)
         subprocess.run([*command, *["-lm"] * (not single)], check=True)  # floats need none
     out = np.zeros((2, len(x)), x.dtype)
     arrays = (array.ctypes.data_as(ctypes.c_void_p) for array in (x, *out))
-    ctypes.CDLL(str(library)).build_batch(len(x), *arrays)
+    ctypes.CDLL(str(library)).many(len(x), *arrays)
     return out
 
 

@@ -227,9 +227,9 @@ def test_an_effect_keeps_on_other_motion_what_it_promises(
 ) -> None:
     """Errors there without it are 1; a little falls by chance, or by what the effect is not."""
     change = ErrorChange("", 1.0, after, 5.0)
-    monkeypatch.setattr(errors, "touched_joints", lambda judged, before, after: [0])
-    monkeypatch.setattr(errors, "holdout_residuals", lambda state, other: state)
-    monkeypatch.setattr(errors, "compared", lambda *a: Score((change,), change))
+    monkeypatch.setattr(errors, "find_affected_joints", lambda judged, before, after: [0])
+    monkeypatch.setattr(errors, "compute_holdout_residuals", lambda state, other: state)
+    monkeypatch.setattr(errors, "compare_residuals", lambda *a: Score((change,), change))
     veto = errors.make_veto("held out")  # type: ignore[arg-type]
     judged_at = SimpleNamespace(gain=expected, alone=True)
     assert veto("before", "after", judged_at) is refused  # type: ignore[arg-type]

@@ -114,8 +114,8 @@ def test_a_body_has_the_inertia_of_a_body(monkeypatch, inertia, built):
     names, values = ["XX1", "YY1", "ZZ1", "MX1", "M1"], [*inertia, 0.1, 1.0]
     felt = [SimpleNamespace(name=name, joint="1") for name in names]
     columns = np.random.default_rng(1).normal(size=(100, 5))
-    monkeypatch.setattr(plausible, "body_parameters", lambda candidate, signals: felt)
-    monkeypatch.setattr(plausible, "columns_of", lambda rows, candidate: (columns,))
+    monkeypatch.setattr(plausible, "list_body_parameters", lambda candidate, signals: felt)
+    monkeypatch.setattr(plausible, "build_columns", lambda rows, candidate: (columns,))
     made, payload = state(), pick("payload")
     made.picks, made.values, made.sigma, made.data.free = (payload,), [np.array(values)], [1.0], []
     made.rows.signals, made.rows.W = [None], [np.zeros((100, 0))]

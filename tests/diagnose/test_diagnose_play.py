@@ -30,8 +30,8 @@ def searched(monkeypatch, start, end, knocks=(0.0, 0.0, 0.0), columns=None):
     joints = [SimpleNamespace(name=str(j), actuated=True) for j in (1, 2, 3)]
     spec, names = SimpleNamespace(joints=joints), [joint.name for joint in joints]
     states = [SimpleNamespace(names=names, ratios=ratios) for ratios in (start, end)]
-    monkeypatch.setattr(module, "burst_ratio", lambda state, j: state.ratios[j])
-    monkeypatch.setattr(module, "knocking", lambda state, j: knocks[j])
+    monkeypatch.setattr(module, "compute_burst_ratio", lambda state, j: state.ratios[j])
+    monkeypatch.setattr(module, "compute_burst_share", lambda state, j: knocks[j])
     effect = find_effect("backlash")
     ranked = [
         SimpleNamespace(candidate=SimpleNamespace(effect=effect, index=j), gain=g, share=s, sure=r)

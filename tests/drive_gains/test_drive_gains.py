@@ -179,7 +179,7 @@ def test_logs_of_two_robots_are_named(arm):
     other = np.random.default_rng(1).uniform(0.5, 2.0, len(arm.beta)) * arm.beta
     seen = arm.seen(np.ones(3))
     rows = seen.run == 1
-    seen.torque[rows] += seen.predicted(other - arm.beta)[rows]
+    seen.torque[rows] += seen.predict(other - arm.beta)[rows]
     words = "do not fit one robot: joint . has .* % of its torque left if each is described alone"
     (doubt,) = check_known_quantities(arm.compiled, seen, [arm.payload()], currents=True)
     assert re.search(words, doubt.line)

@@ -290,7 +290,7 @@ def test_a_prior_that_raises_the_error_of_a_joint_is_named(model, monkeypatch):
     prior = build_prior(model.spec)
     assert prior.combine_with_data(white, data, white.covariance, joints="123").contradicted == ()
     wrong = dataclasses.replace(prior, mean=2.0 * prior.mean)
-    monkeypatch.setattr(type(prior), "contradictions", lambda *_: {})
+    monkeypatch.setattr(type(prior), "find_contradictions", lambda *_: {})
     found = wrong.combine_with_data(white, data, 100.0 * white.covariance, joints="123")
     assert "the prior of the robot file raises its fit error from" in " ".join(found.contradicted)
 
@@ -310,7 +310,7 @@ def test_values_that_halves_disagree_about_do_not_leave_their_sums(tmp_path, mon
     for raised in (1.0, 30.0):
         factors = 1.0 + (raised - 1.0) * np.random.default_rng(2).uniform(size=len(seen.names))
         module = sys.modules["modeler.estimation.identify"]
-        monkeypatch.setattr(module, "halves", lambda *_, f=factors: HalvesComparison(f))
+        monkeypatch.setattr(module, "compare_halves", lambda *_, f=factors: HalvesComparison(f))
         fit = identify(seen, "weighted", model)
         errors.append([joint.relative_error for joint in fit.joints])
     assert np.all(np.array(errors[1]) < 1.05 * np.array(errors[0])), errors

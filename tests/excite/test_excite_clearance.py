@@ -119,7 +119,7 @@ def test_pairs_that_share_a_joint_or_always_touch_are_left_out_and_told(arm):
 def test_the_slope_of_distances_is_their_derivative(arm):
     _, compiled, bounds = arm
     limits, rng = build_posture_limits(compiled, bounds), np.random.default_rng()
-    q = bounds.middle + bounds.half * rng.uniform(-0.8, 0.8, (40, 3))
+    q = bounds.mid_range + bounds.half_range * rng.uniform(-0.8, 0.8, (40, 3))
     q = q[limits.compute_shares(q).max(axis=1) < 1.0]
     pull = rng.normal(size=limits.compute_shares(q).shape)
     found, h = limits.pull_back_gradient(q, pull), 1e-6
@@ -173,8 +173,8 @@ def test_what_comes_near_between_samples_is_seen(arm):
 
         near = find_closest_approach(compiled, solids, path, 10.0)
         close = at + np.linspace(-0.1, 0.1, 4001)
-        ends = solids.placed(compiled.forward_kinematics(path(close)))
-        least = solids.distances(ends)[0].min()
+        ends = solids.place_capsules(compiled.forward_kinematics(path(close)))
+        least = solids.compute_distances(ends)[0].min()
         assert near.bound <= least + 1e-9 and near.distance <= least + 1e-3
 
 

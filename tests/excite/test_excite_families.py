@@ -85,7 +85,7 @@ def test_the_command_writes_a_family_in_the_same_columns(family, tmp_path, capsy
     curve, t = build_curve(motion), np.linspace(0.0, 4.0, 1001)
     assert np.allclose(curve(t), curve(t + 4.0), atol=1e-6)
     for j, name in enumerate("12"):
-        points = raw["build_series"]["points"][name]
+        points = raw["series"]["points"][name]
         assert motion.q[0, j] == pytest.approx(points[0]) == pytest.approx(points[-1])
         assert raw["joints"][name]["speed"]["slack"] >= 0.0
         assert np.ptp(motion.q[:, j]) <= np.ptp(points) + 1e-9  # inside the hull of its points

@@ -36,7 +36,10 @@ def assert_within(motion, bounds):
     assert np.all(q <= bounds.upper) and np.all(q >= bounds.lower)
     assert np.all(np.abs(qd) <= bounds.speed) and np.all(np.abs(qdd) <= bounds.acceleration)
     # They are used, too: some joint comes near each kind of limit, or the motion is a timid one.
-    assert max((np.abs(qd) / bounds.speed).max(), (np.ptp(q, axis=0) / 2 / bounds.half).max()) > 0.8
+    assert (
+        max((np.abs(qd) / bounds.speed).max(), (np.ptp(q, axis=0) / 2 / bounds.half_range).max())
+        > 0.8
+    )
 
 
 @pytest.mark.parametrize("name", ["scara", pytest.param("rx90", marks=pytest.mark.rotating)])
@@ -75,14 +78,14 @@ def test_torques_and_boxes_hold_between_the_samples():
 
 def assert_not_faster(found, constraints, q, bounds):
     """Joints that follow, by the simulator's closure: at most twice as fast as at home."""
-    angular = np.array([joint.angular for joint in found.moving])
-    follow = np.isin(np.arange(len(angular)), constraints.others)
+    angular = np.array([joint.is_revolute for joint in found.moving_joints])
+    follow = np.isin(np.arange(len(angular)), constraints.passive_rows)
     units = [angular & follow, ~angular & follow]
     sizes = []
     for places in (bounds.home[None, :], q[::40]):
         v = compute_closed_postures(found, constraints, places)
         speeds = []
-        for j, half in enumerate(bounds.half):
+        for j, half in enumerate(bounds.half_range):
             qd = np.zeros_like(places)
             qd[:, j] = half
             speeds.append(compute_rates(constraints, v, qd, np.zeros_like(qd))[0])
@@ -165,7 +168,7 @@ def heavy_arm(first, second):
 def test_wider_torques_are_never_refused_and_the_narrowest_hold_at_all_times(first, second):
     subject, bounds = heavy_arm(first, second)
     wish = MotionRequest(6.0, 4, starts=1, seed=1, time_limit=0.4)
-    motion = subject.search(bounds, wish)
+    motion = subject.search_motion(bounds, wish)
     compiled, (q, qd, qdd) = subject.compiled, finely(motion)
     loads = np.abs(compiled.inverse_dynamics(q, qd, qdd, subject.beta)).max(axis=0)
     assert np.all(loads <= bounds.torque) and np.isfinite(motion.quality.condition)
@@ -175,7 +178,7 @@ def test_wider_torques_are_never_refused_and_the_narrowest_hold_at_all_times(fir
 def test_torques_below_dry_friction_are_refused_in_a_line():
     subject, bounds = heavy_arm(5.0, 0.79)
     with pytest.raises(DataError, match=r"no posture was found .*; q1 = .* times what they allow"):
-        subject.search(bounds, MotionRequest(6.0, 4))
+        subject.search_motion(bounds, MotionRequest(6.0, 4))
 
 
 @pytest.mark.parametrize("steps", [900, *rotating(1)])
@@ -183,7 +186,7 @@ def test_every_loop_asks_for_the_time(monkeypatch, steps):
     """A clock that a look at the columns moves on: what comes after the limit is bounded."""
     subject, bounds = heavy_arm(4.0, 1.0)
     clock = [0.0]
-    for name in ("exact", "smooth"):
+    for name in ("evaluate_exact", "evaluate_smooth"):
         whole = getattr(MotionColumns, name)
 
         def counted(self, *args, whole=whole):

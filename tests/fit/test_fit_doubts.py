@@ -56,7 +56,7 @@ def test_a_good_fit_leaves_no_doubt(log):
     assert (verdict.usable, verdict.valid_for, verdict.doubts) == (True, "parameters", ())
     assert verdict.line.startswith("Valid for torque prediction: cross-validated error at most ")
     assert verdict.line.endswith("Parameters are physically consistent.")
-    assert verdict.warning() == []
+    assert verdict.format_warning() == []
     assert verdict.possible
     assert {one.state for one in verdict.by_joint.values()} == {"good"}
     assert all(", cross-validated error " in one.why[0] for one in verdict.by_joint.values())
@@ -124,7 +124,9 @@ def test_a_joint_that_stands_still_leaves_the_prediction(log):
     assert fit.status == "rank deficient" and aside
     for parameter in aside:
         assert parameter.value == 0.0 and parameter.sigma is None and not parameter.essential
-        assert any(line.startswith(parameter.name) and "set aside" in line for line in fit.lines())
+        assert any(
+            line.startswith(parameter.name) and "set aside" in line for line in fit.format_lines()
+        )
     assert verdict.valid_for != "parameters"
     assert any("and set aside; record a motion that moves" in line for line in verdict.doubts)
     assert verdict.by_joint["1"].state == "undetermined"

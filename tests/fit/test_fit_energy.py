@@ -96,15 +96,15 @@ def test_the_result_says_how_it_compares_with_the_torque_model(arm, fitted):
     ]  # fmt: skip
     assert torque.condition_scaled < energy.condition_scaled
     assert torque.torque_sigma < energy.torque_sigma and torque.rows > energy.rows
-    (first, *_) = report.sentences()
+    (first, *_) = report.format_sentences()
     assert report.ratio > 1.2 and "times less surely than the torque model" in first
     assert "parameters where that knows" in first
     assert energy.imbalance < 0.1 * coarse.imbalance and energy.bias < coarse.bias
     assert fit.result.relative_error == pytest.approx(energy.torque_error)
-    text = "\n".join(fit.result.lines())
+    text = "\n".join(fit.result.format_lines())
     assert "energy, Simpson" in text and "integrals by Simpson's rule" in text
     alike = dataclasses.replace(energy, joint_sigma=torque.joint_sigma)
-    like = dataclasses.replace(report, figures=(torque, alike, coarse)).sentences()[0]
+    like = dataclasses.replace(report, figures=(torque, alike, coarse)).format_sentences()[0]
     assert "about as sure as the torque model (at most " in like
 
 
@@ -161,7 +161,7 @@ def test_it_is_saved_and_read_and_judged_by_its_own_errors(arm, fitted):
     every, sigma = np.ones(len(seen.y), dtype=bool), NOISE
     own, torque = (
         cross_validate(build_base_equations(seen), every, sigma, refit).errors
-        for refit in (fit.without, None)
+        for refit in (fit.fit_without, None)
     )
     assert np.all(own > torque)  # stretches are left out of the energies, not of the torques
 
@@ -172,5 +172,5 @@ def test_left_out_stretches_are_left_out_of_the_energies(arm, fitted):
     spoilt = fit.rows.y.copy()
     spoilt[(fit.rows.time[:, 0] > 5.1) & (fit.rows.time[:, 1] < 8.9)] += 1e3
     other = dataclasses.replace(fit, rows=dataclasses.replace(fit.rows, y=spoilt))
-    np.testing.assert_array_equal(other.without(held), fit.without(held))
-    assert not np.allclose(other.without(held & False), fit.without(held & False))
+    np.testing.assert_array_equal(other.fit_without(held), fit.fit_without(held))
+    assert not np.allclose(other.fit_without(held & False), fit.fit_without(held & False))

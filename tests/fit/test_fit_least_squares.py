@@ -164,7 +164,7 @@ def test_the_values_are_those_of_columns_for_each_direction():
     assert found["Fv1-"].relation == "Fv1- = Fv1 - Fva1" and found["Fv1-"].unit == "N m s/rad"
     assert found["Fs2+"].relation == "Fs2+ = Fs2 + Off2" and found["Fs2+"].unit == "N m"
     # they are printed and saved
-    assert "Fv1+ = Fv1 + Fva1" in "\n".join(fit.lines())
+    assert "Fv1+ = Fv1 + Fva1" in "\n".join(fit.format_lines())
     raw = json.loads(json.dumps(fit.to_json(), allow_nan=False))
     first = raw["directions"][0]
     assert {"name", "value", "sigma", "relative_sigma_percent", "unit", "relation"} == set(first)
@@ -173,7 +173,7 @@ def test_the_values_are_those_of_columns_for_each_direction():
 
 def test_where_friction_has_one_law_there_is_nothing_to_tell():
     _, _, fit = fitted_friction(("viscous", "coulomb", "offset"))
-    assert fit.directions == () and "direction" not in "\n".join(fit.lines())
+    assert fit.directions == () and "direction" not in "\n".join(fit.format_lines())
     _, _, fit = fitted_friction(("viscous", "coulomb", "asymmetric_viscous"))
     found = {item.name: item for item in fit.directions}
     assert found["Fs1+"].value == found["Fs1-"].value and found["Fs1+"].relation == "Fs1+ = Fs1"

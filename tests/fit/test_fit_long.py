@@ -100,9 +100,11 @@ def test_a_log_in_chunks_gives_the_fit_of_the_whole_log(logged, cutoff):
     assert chunked.reading["passes"] == 1
     more = ("samples", "derivatives", "decimation", "contradicted", "span")
     assert_same_counts(report, report_of_chunks, *more)
-    assert [j.line() for j in report.joints] == [j.line() for j in report_of_chunks.joints]
+    assert [j.format_line() for j in report.joints] == [
+        j.format_line() for j in report_of_chunks.joints
+    ]
     assert report.processing == report_of_chunks.processing
-    assert any("chunks" in line for line in report_of_chunks.lines()[:4])
+    assert any("chunks" in line for line in report_of_chunks.format_lines()[:4])
 
 
 def test_gaps_holes_limits_spikes_and_segments_across_borders_are_as_in_the_whole_log():

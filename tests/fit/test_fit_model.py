@@ -62,7 +62,10 @@ def test_a_simulated_arm_comes_back_within_its_sigmas(fitted):
         assert joint.rms == pytest.approx(np.sqrt(np.mean(residual[own] ** 2)))
         expected = np.linalg.norm(residual[own]) / np.linalg.norm(seen.y[own])
         assert joint.relative_error == pytest.approx(expected)
-    raw, text = json.loads(json.dumps(fit.to_json(), allow_nan=False)), "\n".join(fit.lines())
+    raw, text = (
+        json.loads(json.dumps(fit.to_json(), allow_nan=False)),
+        "\n".join(fit.format_lines()),
+    )
     assert set(raw["joints"]) == {"1", "2"} and raw["samples"] == len(seen.time)
     assert "relative error" in text and "joint 2:" in text
 

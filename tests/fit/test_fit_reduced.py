@@ -89,7 +89,7 @@ def test_its_sigmas_cover_the_truth_and_are_smaller(robot):
 
 def test_it_is_told_and_saved(fitted):
     _, fit = fitted
-    lines = fit.lines()
+    lines = fit.format_lines()
     (told,) = (line for line in lines if line.startswith("reduced model: "))
     assert f"{len(fit.essential.parameters)} of 13 parameters; cross-validated error" in told
     rows = {line.split()[0]: line.split() for line in lines[:14]}
@@ -141,7 +141,7 @@ def test_a_reduced_model_that_predicts_worse_is_not_offered(fitted, monkeypatch)
     seen, fit = fitted
     assert fit.essential.dropped and "cross-validated error" in " ".join(fit.sentences)
     module = sys.modules["modeler.estimation.identify"]
-    monkeypatch.setattr(module, "held_out_errors", lambda *_: ((0.01, 0.02), False))
+    monkeypatch.setattr(module, "compute_held_out_errors", lambda *_: ((0.01, 0.02), False))
     refused = identify(seen, "ordinary")
     assert not refused.essential.dropped and refused.essential.limit is None
     assert all(p.essential for p in refused.parameters)

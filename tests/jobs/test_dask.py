@@ -68,7 +68,7 @@ def test_chunks_from_the_middle_of_a_file_are_those_of_the_whole(place: Path) ->
     assert counts["chunks"] > 2
     for name, count in counts.items():
         assert np.array_equal(count, other.facts.tally.sums[name]), name
-    assert one.facts.fingers == other.facts.fingers and one.facts.span == other.facts.span
+    assert one.facts.block_hashes == other.facts.block_hashes and one.facts.span == other.facts.span
     turned = [np.einsum("jki,jkl->jil", p.data.triangles, p.data.triangles) for p in (one, other)]
     scale = np.sqrt(np.einsum("jii->ji", turned[0]))
     outer = np.where(scale > 0.0, scale, 1.0)

@@ -59,7 +59,7 @@ def degrees(case) -> dict[str, np.ndarray]:
 def test_a_unit_by_range_is_believed_where_it_fits(case, tmp_path):
     path = parquet(tmp_path / "a.parquet", degrees(case))
     log = case.check(path, ["auto"])
-    (told,) = [line for line in log.told if "auto" in line]
+    (told,) = [line for line in log.reading_notes if "auto" in line]
     assert "q<j> = winkel_{n-1} [deg]" in told and "time = stamp [ms]" in told
     assert not any("auto" in line for line in log.notes)  # which would be doubts
 

@@ -142,7 +142,7 @@ def test_a_coarse_log_is_told_and_its_rate_works(step, case, tmp_path):
     assert not any("delete" in line for line in doubts)
     for mapping in (["rate=1000"], ["auto", "rate=1000"], ["time=time", "rate=1000"]):
         log = case.check(path, mapping)
-    assert "column time is not used: rows counted at 1000 Hz" in log.told
+    assert "column time is not used: rows counted at 1000 Hz" in log.reading_notes
 
 
 def test_a_log_without_times_says_how_to_give_a_rate(tmp_path):

@@ -87,7 +87,7 @@ def test_gaps_repeats_and_steps_back(inspected, table):
     table["time"] = table["time"].copy()
     table["time"][50] = table["time"][49]
     table["time"][70:] -= 0.5
-    doubts = "\n".join(inspected(table).doubts)
+    doubts = "\n".join(inspected(table).warnings)
     assert "time goes back in 1 rows" in doubts and "time repeats itself in 1 rows" in doubts
 
 
@@ -97,10 +97,10 @@ def test_jitter_and_a_clock_that_ticks(inspected, table, plain):
     table["time"] = table["time"] + 1e-4 * rng.standard_normal(n)
     found = inspected(table)
     assert found.clock.jitter == pytest.approx(0.1 * np.sqrt(2.0), rel=0.1)
-    assert any("is uneven" in doubt for doubt in found.doubts)
+    assert any("is uneven" in doubt for doubt in found.warnings)
     plain["time"] = np.cumsum(np.where(np.arange(n) % 3 == 0, 0.012, 0.010))
     found = inspected({k: v for k, v in plain.items() if not k.startswith("qd")})
-    assert found.doubts == () and found.clock.jitter > 0.05
+    assert found.warnings == () and found.clock.jitter > 0.05
     assert found.clock.tick == pytest.approx(0.002)
 
 
@@ -123,7 +123,7 @@ SPOILT = [
 @pytest.mark.parametrize(("name", "change", "words"), SPOILT)
 def test_doubts_by_what_was_spoilt(inspected, table, name, change, words):
     table[name] = change(table)
-    assert words in "\n".join(inspected(table).doubts)
+    assert words in "\n".join(inspected(table).warnings)
 
 
 def test_resolution_limits_and_missing_values(inspected, table):
@@ -155,7 +155,7 @@ def test_a_guess_that_fits_worse_is_dropped(log_output, inspected, plain):
     """Without speeds a far way looks like degrees; the fit of the log as it stands clears it."""
     table = {name: v for name, v in plain.items() if not name.startswith("qd")}
     table["q1"] = table["q1"] + 4.0 * np.pi  # joint 1 turns about the vertical: gravity is blind
-    assert "q1 looks like deg" in "\n".join(inspected(table).doubts)
+    assert "q1 looks like deg" in "\n".join(inspected(table).warnings)
     raw, _ = log_output(table, "--robot", "demo-arm")
     assert raw["doubts"] == [] and raw["suggested"] == ""
 
@@ -165,7 +165,7 @@ def test_a_joint_that_turns_on_is_in_rad_if_its_speed_agrees(inspected, plain):
     factor = 4.0 / np.ptp(plain["q1"])
     plain["q1"], plain["qd1"] = factor * plain["q1"] + 9.0, factor * plain["qd1"]
     found = inspected(plain)
-    assert found.doubts == () and found.suggested == ""
+    assert found.warnings == () and found.suggested == ""
 
 
 @pytest.mark.parametrize(("own", "unit"), [("q", "deg"), ("tau", "mN m")])
@@ -173,7 +173,7 @@ def test_only_the_joint_of_another_unit_is_named(inspected, plain, own, unit):
     table = {name: v for name, v in plain.items() if not name.startswith("qd")}
     table[f"{own}2"] = table[f"{own}2"] * (np.rad2deg(4.0) if own == "q" else 1e3)
     found = inspected(table)
-    assert [line.split(" looks")[0] for line in found.doubts] == [f"{own}2"]
+    assert [line.split(" looks")[0] for line in found.warnings] == [f"{own}2"]
     assert tomllib.loads(found.suggested)["log"] == {f"{own}2": f"{own}2 [{unit}]"}
 
 
@@ -183,18 +183,18 @@ def test_a_joint_at_rest_is_no_doubt(inspected, plain):
     plain["q2"] = 1.0 + 1e-4 * rng.integers(-1, 2, n)
     plain["qd2"] = 1e-4 * np.round(10.0 * rng.standard_normal(n))
     plain["q3"], plain["qd3"] = 0.5 + 1e-4 * rng.integers(0, 2, n), np.zeros(n)
-    assert inspected(plain).doubts == ()
+    assert inspected(plain).warnings == ()
 
 
 def test_speeds_of_some_joints_are_checked(inspected, plain):
     del plain["qd1"]
     plain["qd3"] = -plain["qd3"]
-    assert inspected(plain).doubts == ("qd3 has the other sign of the derivative of q3",)
+    assert inspected(plain).warnings == ("qd3 has the other sign of the derivative of q3",)
 
 
 def test_what_is_not_recognised_is_a_doubt(inspected, plain):
     found = inspected({"time": plain["time"], "foo": plain["q1"], 'b"ar': plain["tau1"]})
-    assert "no columns look like positions or torques" in found.doubts[0]
+    assert "no columns look like positions or torques" in found.warnings[0]
     assert '"foo"' in found.suggested and '# "q<j>"' in found.suggested
     build_map(tomllib.loads(found.suggested)["log"], "suggested")
 

@@ -106,25 +106,25 @@ CONVERTED = [
 @pytest.mark.parametrize(("mapping", "own", "expected"), CONVERTED)
 def test_columns_are_converted(tmp_path, mapping, own, expected):
     table, values = table_of(tmp_path, mapping)
-    assert table.numbers(own) == pytest.approx(expected(values), rel=1e-13, abs=1e-13)
+    assert table.read_numbers(own) == pytest.approx(expected(values), rel=1e-13, abs=1e-13)
 
 
 def test_a_column_may_be_called_with_its_unit(tmp_path):
     """CSV files say it there; the whole name is the column then."""
     table, _ = table_of(tmp_path, {"time": "t [ms]"}, **{"t [ms]": np.arange(40) * 4.0})
-    assert table.numbers("time")[1] == pytest.approx(0.004)
-    assert table.called("time") == "t [ms] (time)"
+    assert table.read_numbers("time")[1] == pytest.approx(0.004)
+    assert table.format_name("time") == "t [ms] (time)"
 
 
 def test_our_own_names_serve_where_log_names_a_column_that_is_not_there(tmp_path):
     table, _ = table_of(tmp_path, {"q<j>": "pos{j} [deg]"}, q1=np.full(40, 0.5), q2=np.ones(40))
-    assert (table.numbers("q1") == 0.5).all()
+    assert (table.read_numbers("q1") == 0.5).all()
 
 
 def test_places_of_joints_are_counted_from_one_or_zero(tmp_path):
     columns = {"x0": np.zeros(40), "x1": np.ones(40), "y1": np.full(40, 2.0)}
     table, _ = table_of(tmp_path, {"q<j>": "x{n-1}", "tau<j>": "y{n}"}, **columns)
-    assert (table.numbers("q2") == 1.0).all() and (table.numbers("tau1") == 2.0).all()
+    assert (table.read_numbers("q2") == 1.0).all() and (table.read_numbers("tau1") == 2.0).all()
     assert "no column y2 for tau2" in table.notes
 
 
@@ -168,7 +168,7 @@ def test_a_file_of_lines_or_a_robot_file_serves_as_well(tmp_path):
     (tmp_path / "robot.toml").write_text('name = "x"\n[log]\nq1 = "a [deg]"\n')
     for name in ("lines.toml", "robot.toml"):
         table, values = table_of(tmp_path, [str(tmp_path / name)])
-        assert table.numbers("q1") == pytest.approx(np.deg2rad(values["a"]))
+        assert table.read_numbers("q1") == pytest.approx(np.deg2rad(values["a"]))
     (tmp_path / "bad.toml").write_text("q1 = \n")
     with pytest.raises(DataError, match=r"bad\.toml: not TOML"):
         table_of(tmp_path, [str(tmp_path / "bad.toml")])

@@ -48,12 +48,12 @@ FURTHER += [pytest.param(n, marks=ROTATING) for n in FILES if n not in (*TURNS, 
 def check_laws(robot, model, base):
     """Relations and rank at closed postures of a kinematics that shares nothing with the model."""
     oracle = Oracle(robot)
-    home = np.array([[robot.home.get(joint.name, 0.0) for joint in robot.free]])
+    home = np.array([[robot.home.get(joint.name, 0.0) for joint in robot.free_joints]])
     u = reached(oracle, closed_near(oracle, home, 12)[0], 40, seed=3, reach=0.8, steps=20)
     assert len(u) > 12
     assert np.max(np.abs(open_at(oracle, u))) < 1e-10
     known = oracle.variables(u)
-    of_model = np.stack([known[joint.name] for joint in model.robot.free], axis=1)
+    of_model = np.stack([known[joint.name] for joint in model.robot.free_joints], axis=1)
     for name, value in Oracle(model.robot).variables(of_model).items():
         assert np.max(np.abs(known[name] - value)) < 1e-9, name
     singular = spectrum(model, of_model)
@@ -69,8 +69,8 @@ def spectrum(model, u, seed=4):
     if model.closure is None:
         ud, udd = rng.normal(size=(2, *u.shape))
     else:
-        u = model.closure.closed(u)
-        qd, qdd = rng.normal(size=(2, len(u), len(model.closure.given)))
+        u = model.closure.close_loops(u)
+        qd, qdd = rng.normal(size=(2, len(u), len(model.closure.actuated)))
         motion = compute_closed_motion(model, u, qd)
         ud = np.einsum("nij,nj->ni", motion.coupling, qd)
         udd = np.einsum("nij,nj->ni", motion.coupling, qdd) + motion.drift

@@ -24,7 +24,7 @@ ROBOTS = [
 
 def smooth_motion(robot, time):
     """q, qd, qdd that start at rest at home; other joints, other frequencies and ways."""
-    reach = np.array([0.4 if joint.angular else 0.04 for joint in robot.coordinates])
+    reach = np.array([0.4 if joint.is_revolute else 0.04 for joint in robot.coordinates])
     omega = 2 * np.pi * (1.5 + 0.5 * np.arange(len(reach)))
     way = reach * np.resize([1.0, -0.7, 0.5], len(reach))
     home = np.array([robot.home.get(joint.name, 0.0) for joint in robot.coordinates])
@@ -40,7 +40,7 @@ def replayed(robot, standard, tau, start):
     """(STEPS + 1, moving rows) positions under torques held over each step."""
     model = mujoco_model(robot, standard)
     data = mujoco.MjData(model)
-    places = [model.joint(joint.name).qposadr[0] for joint in robot.moving]
+    places = [model.joint(joint.name).qposadr[0] for joint in robot.moving_joints]
     motors = [model.joint(joint.name).dofadr[0] for joint in robot.coordinates]
     data.qpos[places] = start
     found = [start]

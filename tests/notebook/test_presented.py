@@ -170,7 +170,7 @@ def test_relations_and_closed_forms_are_latex() -> None:
         assert latex.count(r"\begin") == latex.count(r"\end") > 0
         assert str(formulas) and formulas.markdown
     base = derivation.table("base")
-    assert "| $\\mathit{ZZ}_{1R}$ |" in base.markdown()
+    assert "| $\\mathit{ZZ}_{1R}$ |" in base.to_markdown()
 
 
 def test_without_the_room_a_result_says_what_to_import() -> None:

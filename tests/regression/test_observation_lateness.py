@@ -45,7 +45,7 @@ def test_the_late_joint_is_named_with_its_delay(rate, joints):
         j, lag = int(random.integers(joints)), random.uniform(0.012, 0.08)
         log, _ = drawn(random, rate, [lag * (k == j) for k in range(joints)], joints)
         found = consistency_of(log)
-        (late,) = found.late
+        (late,) = found.delays
         assert late.column == f"qd{j + 1}" and late.of == f"q{j + 1}"
         assert late.seconds == pytest.approx(lag, abs=max(0.1 * lag, 0.2 / rate))
         assert f"qd{j + 1} lags behind the derivative of q{j + 1} by 0.0" in found.notes[0]
@@ -58,12 +58,12 @@ def test_velocities_in_time_are_believed(joints):
     random = np.random.default_rng(joints)
     for rate in (100, 250, 1000):
         log, _ = drawn(random, rate, [0.0] * joints, joints)
-        assert consistency_of(log).late == ()
+        assert consistency_of(log).delays == ()
 
 
 def test_two_joints_late_by_different_times_are_told_apart():
     log, _ = drawn(np.random.default_rng(2), 500, [0.05, 0.0, 0.02, 0.0], 4)
-    late = {one.column: one.seconds for one in consistency_of(log).late}
+    late = {one.column: one.seconds for one in consistency_of(log).delays}
     assert late == {"qd1": pytest.approx(0.05, abs=2e-3), "qd3": pytest.approx(0.02, abs=2e-3)}
 
 
@@ -106,7 +106,7 @@ def test_only_the_panda_filters_its_velocities(measured_folder, folder, joints):
     """5 ms in all joints, which its controller's filter makes; told, and small enough to use."""
     spec = manifest_of([str(j + 1) for j in range(joints)])
     for path in sorted((measured_folder / folder).glob("*.parquet")):
-        late = consistency_of(read_log(path, spec), 10.0).late
+        late = consistency_of(read_log(path, spec), 10.0).delays
         if folder == "panda":
             (one,) = late
             assert one.column == "qd" and 0.004 < one.seconds < 0.007 and one.share < 0.02

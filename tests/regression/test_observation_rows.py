@@ -29,10 +29,10 @@ def row_filter(whole, step, cutoff, every):
 def test_means_of_a_constant_and_a_line_are_themselves(cutoff):
     rows = row_filter(np.ones(400, dtype=bool), 0.01, cutoff, 4)
     usable = np.ones(400, dtype=bool)
-    np.testing.assert_allclose(rows.means(np.full(400, 3.0), usable), 3.0)
+    np.testing.assert_allclose(rows.average_samples(np.full(400, 3.0), usable), 3.0)
     inner = (rows.centres > 60) & (rows.centres < 340)
     np.testing.assert_allclose(
-        rows.means(np.arange(400.0), usable)[inner], rows.centres[inner], rtol=1e-12
+        rows.average_samples(np.arange(400.0), usable)[inner], rows.centres[inner], rtol=1e-12
     )
     assert np.all(np.diff(rows.centres) == 4)
 
@@ -41,7 +41,7 @@ def test_the_gain_is_minus_3_db_at_the_cutoff():
     t = np.arange(4000) / 1000.0
     for hertz, gain in ((10.0, np.sqrt(0.5)), (1.0, 0.9965), (40.0, 0.004)):
         rows = row_filter(np.ones(4000, dtype=bool), 1e-3, 10.0, 1)
-        out = rows.means(np.sin(2 * np.pi * hertz * t), np.ones(4000, dtype=bool))
+        out = rows.average_samples(np.sin(2 * np.pi * hertz * t), np.ones(4000, dtype=bool))
         assert np.max(np.abs(out[500:3500])) == pytest.approx(gain, abs=0.005)
 
 
@@ -50,7 +50,9 @@ def test_masked_samples_have_no_influence_at_all():
     values, usable = random.normal(size=(300, 2)), random.random(300) > 0.3
     rows = row_filter(np.ones(300, dtype=bool), 0.01, 5.0, 3)
     poisoned = np.where(usable[:, None], values, 1e12)
-    np.testing.assert_allclose(rows.means(values, usable), rows.means(poisoned, usable), rtol=1e-12)
+    np.testing.assert_allclose(
+        rows.average_samples(values, usable), rows.average_samples(poisoned, usable), rtol=1e-12
+    )
 
 
 @pytest.mark.parametrize("cutoff", [0.0, 2.0, *rotating(30.0)])

@@ -199,7 +199,7 @@ def test_what_rings_far_above_the_motion_is_no_motion(share):
     assert found.joint == 1
     assert found.frequency == pytest.approx(93.0, abs=0.1)
     assert found.share == pytest.approx(share, rel=0.02)
-    assert "joint elbow rings at 93 Hz" in found.sentence("elbow")
+    assert "joint elbow rings at 93 Hz" in found.describe("elbow")
     assert band_of(piece) == pytest.approx(3.0, abs=0.15)
 
 
@@ -394,7 +394,7 @@ def test_noise_that_grows_towards_low_frequencies_is_told():
     coloured = np.fft.irfft(np.fft.rfft(draw) * (f / 100.0) ** -0.75)
     found = noise_found(smooth(time) + coloured, 1e3)
     assert found.colour == pytest.approx(1.5, abs=0.2)
-    assert "growing as f^-1." in found.words()
+    assert "growing as f^-1." in found.format_words()
 
 
 def test_a_valley_between_two_lines_of_the_motion_is_no_floor():

@@ -36,8 +36,8 @@ def variables(skeleton, u):
     while left:
         for name in list(left):
             if left[name].names <= values.keys():
-                values[f"q{name}"] = left.pop(name).number(values)
-    return np.array([values[joint.variable] for joint in robot.moving])
+                values[f"q{name}"] = left.pop(name).evaluate(values)
+    return np.array([values[joint.variable] for joint in robot.moving_joints])
 
 
 @functools.cache

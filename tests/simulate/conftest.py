@@ -13,4 +13,4 @@ def compiled_plants() -> None:
 @pytest.fixture(autouse=True)
 def interpreted_plants(request: pytest.FixtureRequest, monkeypatch: pytest.MonkeyPatch) -> None:
     if "compiled_plants" not in request.fixturenames:
-        monkeypatch.setattr(plant, "compiled_where_possible", lambda function: function)
+        monkeypatch.setattr(plant, "compile_if_possible", lambda function: function)

@@ -59,8 +59,8 @@ def test_loops_stay_closed(name: str) -> None:
     push = 0.3 * np.abs(hold).max() * np.cos(np.arange(n))
     for k in range(60):
         x = advance(x, hold + push).full().ravel()
-        v[0, constraints.given], v[0, constraints.others] = x[:n], x[2 * n :]
-        assert k == 0 or np.abs(evaluate_samples(constraints.value, v)).max() < 1e-10
+        v[0, constraints.coordinate_rows], v[0, constraints.passive_rows] = x[:n], x[2 * n :]
+        assert k == 0 or np.abs(evaluate_samples(constraints.residual, v)).max() < 1e-10
     assert np.abs(x[:n] - home[0]).max() > 1e-3
     again = compute_closed_postures(source, constraints, x[None, :n])
     np.testing.assert_allclose(again, v, atol=1e-8)

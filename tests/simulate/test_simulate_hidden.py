@@ -423,7 +423,7 @@ def test_friction_in_passive_joints_costs_the_motors_its_power(five_bar):
     v, _ = compute_rates(
         constraints, compute_closed_postures(source, constraints, truth.q), truth.qd, truth.qdd
     )
-    w = v[:, [joint.name for joint in source.moving].index("22")]
+    w = v[:, [joint.name for joint in source.moving_joints].index("22")]
     power = np.sum((truth.tau - before.truth.tau) * truth.qd, axis=1)
     clear = np.abs(w) > 0.05
     expected = (0.2 * w**2 + 0.1 * np.abs(w))[clear]

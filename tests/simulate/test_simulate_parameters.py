@@ -167,7 +167,7 @@ def test_the_completion_is_the_reference_where_that_fits():
 
 def test_a_search_that_fails_does_not_claim_that_no_body_exists(monkeypatch):
     monkeypatch.setattr(
-        "modeler.simulation.parameters.completed", lambda stated, reference: Completion(None)
+        "modeler.simulation.parameters.complete_body", lambda stated, reference: Completion(None)
     )
     source = robot(ARM, parameters="M1 = 1.0")
     with pytest.raises(RobotError, match=r"link 1: found no rigid body .*M1 = 1, nor a proof"):

@@ -70,8 +70,8 @@ async def answer(asked: viewer.Viewer, function: str, arguments: tuple[Any, ...]
 def without_processes() -> Iterator[None]:
     """Commands and questions of a studio start no process."""
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(studio_module, "Running", InProcess)
-        patch.setattr(viewer.Viewer, "_answered", answer)
+        patch.setattr(studio_module, "RunningCommand", InProcess)
+        patch.setattr(viewer.Viewer, "_compute_answer", answer)
         yield
 
 

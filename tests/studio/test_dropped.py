@@ -182,7 +182,7 @@ def receive(dropped: Any, tmp_path: Path) -> Callable[..., str]:
             yield data[start : start + 65_536]
 
     return lambda data, size=None: run_coroutine(
-        dropped.receive(tmp_path, "logs", "large.csv", size, stream(data))
+        dropped.receive_file(tmp_path, "logs", "large.csv", size, stream(data))
     )
 
 

@@ -267,10 +267,10 @@ def test_no_file_outside_is_downloaded(tmp_path: Path) -> None:
         (tmp_path / name).write_text("x")
     (tmp_path / "p/sub/link").symlink_to(tmp_path / "secret")
     with hub_of(tmp_path / "p") as hub:
-        assert hub.download(tmp_path / "p/own", "own").startswith("/download/")
+        assert hub.register_download(tmp_path / "p/own", "own").startswith("/download/")
         for name in ("../secret", "sub/link", "none"):
             with pytest.raises(DataError, match=r"outside|no such file"):
-                hub.download(tmp_path / "p" / name, "x")
+                hub.register_download(tmp_path / "p" / name, "x")
 
 
 def test_a_notebook_and_a_script_hold_values_as_values(tmp_path: Path) -> None:

@@ -194,7 +194,7 @@ def test_going_back_and_forth_loses_nothing(axis_project):
         (refit,) = run_tasks(hub, commands.fit, keep=False)
         assert json.loads((folder / refit.model_file).read_text("utf-8"))["robot_text"] == text
         for step in (fit, added):  # back, and forth
-            hub.take(step)
+            hub.take_step(step)
             again = Workspace(folder).project
             assert (
                 again.steps == (fit, added) and again.collect_path() == [fit, added][: step.number]
@@ -203,10 +203,10 @@ def test_going_back_and_forth_loses_nothing(axis_project):
             assert place.read_text("utf-8") == (plain if step == fit else text)
         edited = text.replace("[effects]", "# edited\n[effects]")
         place.write_text(edited, encoding="utf-8")
-        hub.take(fit)
+        hub.take_step(fit)
         assert place.read_text("utf-8") == edited
         assert [*find_lost_effects(Studio(hub, "fit"), commands.fit(hub.project))] == []
-        hub.take(added)
+        hub.take_step(added)
         place.write_text(plain + "# edited\n", encoding="utf-8")
         (line,) = find_lost_effects(Studio(hub, "fit"), commands.fit(hub.project))
     assert line.startswith("this fit leaves out spring of joint 1, which the current model")

@@ -102,14 +102,14 @@ def test_the_error_falls_and_undo_loses_nothing(axis_project: Path) -> None:
         await page.sees("Error after every effect")
         await page.click("Undo to step 1")
         await page.sees("Set aside")
-        assert page.project.steps == steps and page.project.path() == [steps[0]]
+        assert page.project.steps == steps and page.project.collect_path() == [steps[0]]
         await page.click("Go to step 2")
         assert (page.project.steps, page.project.current) == (steps, 2)
         await page.sees("joint 1: error")
         (bars,) = page.listeners("plotly_click")
         page.trigger(bars, "plotly_click", {"points": [{"pointNumber": 0}]})  # "as fitted"
         await page.sees("Set aside")
-        assert page.project.path() == [steps[0]]
+        assert page.project.collect_path() == [steps[0]]
 
     story(axis_project, told, "/fall")
 
@@ -304,7 +304,7 @@ def test_base_parameters_are_derived_of_a_built_in_robot(tmp_path: Path) -> None
         page.choose("tabs", "Base parameters")
         await page.click("Derive")
         step = page.project.steps[-1]
-        found = json.loads((tmp_path / step.result).read_text())
+        found = json.loads((tmp_path / step.result_file).read_text())
         page.choose("tabs", "Base parameters")
         await page.sees(f"{len(found['base'])} base parameters (")
         assert page.texts().count("of an earlier table: derive again") == 0

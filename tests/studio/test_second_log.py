@@ -43,7 +43,7 @@ def come(own: Any, **logs: tuple[str, ...]) -> Project:
         own.logs[name] = KnownLog(guess(columns), rows=100, ends=ENDS)
     there = [log.file for log in studio.project.logs]
     new = (*studio.project.logs, *(ProjectLog(name) for name in logs if name not in there))
-    studio.change(logs=new)
+    studio.change_project(logs=new)
     own._settle_mapping()
     return studio.project
 
@@ -81,5 +81,5 @@ def test_each_by_its_own_guess_keeps_what_was_chosen(tmp_path: Path) -> None:
     own.apply_each_guess()
     project = own.studio.project
     assert project.mapping == ("auto", *chosen)
-    assert own.chosen(guess(GERMAN))["q1"].unit == "mrad"
-    assert own.chosen(guess(ROS))["q1"].unit == "deg"
+    assert own.resolve_columns(guess(GERMAN))["q1"].unit == "mrad"
+    assert own.resolve_columns(guess(ROS))["q1"].unit == "deg"

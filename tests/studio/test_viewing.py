@@ -228,7 +228,7 @@ def test_the_map_shows_which_joint_follows_what(comparison) -> None:
         assert item.structure is not None
         for name in ("velocity", "load", "time"):
             share = values[heat.columns.index(name)]
-            np.testing.assert_allclose(share, 100.0 * item.structure.share(name))
+            np.testing.assert_allclose(share, 100.0 * item.structure.get_share(name))
         assert 0.0 <= values[heat.columns.index("qc3")] <= 100.0
     load = heat.values[:, heat.columns.index("load")]
     assert load.argmax() == 1 and load[1] > 20.0  # the hidden effect's

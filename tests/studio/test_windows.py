@@ -80,7 +80,7 @@ def test_a_step_is_about_the_model_that_it_began_with(tmp_path: Path, monkeypatc
     steps = tuple(Step(n, n - 1, Task("fit")) for n in (1, 2))
     Workspace(tmp_path).save(Project("robot.toml", 2, steps=steps))
     with hub_of(tmp_path) as hub:
-        monkeypatch.setattr("modeler.studio.studio.Running", lambda *given: Slow(hub))
+        monkeypatch.setattr("modeler.studio.studio.RunningCommand", lambda *given: Slow(hub))
         (step,) = run_tasks(hub, commands.diagnose)
         assert step.parent == 2 and hub.project.current == 1
 

@@ -33,10 +33,10 @@ def counted(monkeypatch, rows: int) -> tuple[int, int]:
         calls.append(args)
         return told(*args)
 
-    monkeypatch.setattr(field_module, "in_cosines", counted_call)
+    monkeypatch.setattr(field_module, "express_in_cosines", counted_call)
     model = derive_model(parse_robot_text(chain(rows), "c"))
     assert derive_base_parameters(model).proof.kind == "exact"
-    monkeypatch.remove_last()
+    monkeypatch.undo()
     return len(model.graph.nodes), len(calls)
 
 

@@ -37,7 +37,7 @@ def placed(model, u):
         gamma, b, alpha, d, theta, r = (number(x, values) for x in table)
         if row.index is not None:
             q = row.rate * sum(float(c) * u[i] for i, c in geometry.forms[row.index].items())
-            theta, r = (theta + q, r) if row.joint.angular else (theta, r + q)
+            theta, r = (theta + q, r) if row.joint.is_revolute else (theta, r + q)
         before = m.GROUND if row.parent is None else found[row.parent]
         found[k] = before.then(gamma, b, alpha, d, theta, r)
     return found
@@ -109,10 +109,10 @@ def test_a_wrong_recursion_is_seen(monkeypatch):
     def without(model, qd):
         return [(w, [0 * x for x in V]) for w, V in right(model, qd)]
 
-    monkeypatch.setattr(by_link, "_speeds", without)
+    monkeypatch.setattr(by_link, "_propagate_speeds", without)
     assert by_link.energy_functions(model, states_of(model))[1] > 1e-3
     wrong = lambda model, qd: [([2 * x for x in w], V) for w, V in right(model, qd)]  # noqa: E731
-    monkeypatch.setattr(by_link, "_speeds", wrong)
+    monkeypatch.setattr(by_link, "_propagate_speeds", wrong)
     assert by_link.kane_form(model, states_of(model))[1] > 1e-3
 
 

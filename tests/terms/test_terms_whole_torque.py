@@ -37,7 +37,7 @@ def motions_of(derivation):
         if closure is None:
             yield rng.uniform(-2, 2, (3, len(derivation.robot.coordinates)))
         else:
-            home = np.array(closure.home)[list(closure.given)]
+            home = np.array(closure.home)[list(closure.actuated)]
             q = home + rng.uniform(-0.03, 0.03, len(home))
             yield np.array([q, *rng.uniform(-1, 1, (2, len(home)))])
 
@@ -225,7 +225,7 @@ def test_nonzero_needs_nominal_values():
 
 
 def printed_columns(derivation, found) -> np.ndarray:
-    names = [joint.name for joint in derivation.model.robot.free]
+    names = [joint.name for joint in derivation.model.robot.free_joints]
     return np.array(
         [[found.get(f"phi{n}_{p.name}", 0.0) for p in derivation.base.parameters] for n in names]
     )
