@@ -74,10 +74,10 @@ def test_what_messages_tell_to_install_there_is(settings: dict) -> None:
         p.read_text(encoding="utf-8") for p in (*ROOT.glob("*.md"), *ROOT.glob("docs/**/*.[mi]*"))
     ]
     named = {name for text in [*sources, *pages] for name in _EXTRA.findall(text)}
-    named |= {name for text in sources for name in re.findall(r"installing\(['\"](\w+)", text)}
+    named |= {name for text in sources for name in re.findall(r"suggest_install\(['\"](\w+)", text)}
     assert {"gpu", "dask", "notebook"} <= named <= extras
     readers = {
-        n for text in sources for n in re.findall(r'missing_package\([^)]*"([\w-]+)"\)', text)
+        n for text in sources for n in re.findall(r'make_package_error\([^)]*"([\w-]+)"\)', text)
     }
     assert readers == set(READERS) and set(READERS.values()) <= extras
     for package, extra in READERS.items():
@@ -134,7 +134,7 @@ NEVER_INSTALLED = ("cupy-cuda12x",)
 
 
 def test_what_dependencies_need_is_pinned(settings: dict, pins: dict[str, str]) -> None:
-    """Every package that installing brings has its line, and every line brings a package."""
+    """Every package that suggest_install brings has its line, and every line brings a package."""
     waiting = [_wanted(requirement) for requirement in requirements(settings)]
     waiting.append((canonicalize_name("editables"), frozenset()))  # what hatchling asks for
     met: set[tuple[str, frozenset[str]]] = set()

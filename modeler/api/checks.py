@@ -154,7 +154,7 @@ def compare_models(
 ) -> validation.ModelComparison:
     """Models side by side: the error of each by joint, and which is better beyond doubt.
 
-    >>> contest({"all": model, "few": reduced(model)}, ["tue.parquet"]).names
+    >>> compare_models({"all": model, "few": reduced_model(model)}, ["tue.parquet"]).names
     ('all', 'few')
 
     Args:

@@ -254,7 +254,7 @@ def assemble_model(
     """A fit with all that a model file holds.
 
     >>> seen = observe(compiled, ["mon.parquet"])
-    >>> identified(derivation, emitted, seen, model.fit)["ZZ1R"].unit
+    >>> assemble_model(derivation, emitted, seen, model.fit)["ZZ1R"].unit
     'kg m2'
     """
     return Model(
@@ -386,8 +386,8 @@ def compare_methods(
 ) -> estimation.MethodComparison:
     """Every estimator on the same logs: values, errors, seconds, and what each says of itself.
 
-    >>> found = side_by_side(compiled, ["mon.parquet"], methods=["weighted", "ridge"])
-    >>> [own.method for own in found.tried]
+    >>> found = compare_methods(compiled, ["mon.parquet"], methods=["weighted", "ridge"])
+    >>> [result.method for result in found.results]
     ['weighted', 'ridge']
 
     Args:

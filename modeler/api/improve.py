@@ -177,7 +177,7 @@ def add_all(
 ) -> M:
     """The model with all that a diagnosis on these logs names and that lowers the error.
 
-    >>> better = auto(model, ["mon.parquet"], ["tue.parquet"])
+    >>> better = add_all(model, ["mon.parquet"], ["tue.parquet"])
     >>> [step.effect for step in better.history[1:]]
     ['spring']
 
@@ -208,7 +208,7 @@ def remove_last(model: M, logs: Logs, mapping: Mapped = ()) -> M:
     """The model without the effect that was added last, fitted again to the logs.
 
     >>> better = add(model, "spring", ["mon.parquet"], joint="1")
-    >>> [step.effect for step in undo(better, ["mon.parquet"]).history[1:]]
+    >>> [step.effect for step in remove_last(better, ["mon.parquet"]).history[1:]]
     []
 
     Raises:

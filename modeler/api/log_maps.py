@@ -36,7 +36,7 @@ _BETTER = 0.5  # of the error, that a guess must reach to be believed
 def build_log_map(compiled: CompiledModel | EmittedModule, mapping: Mapped = ()) -> LogMap:
     """Which columns of logs are ours: [log] of the robot file, and `mapping` over it.
 
-    >>> log_map(compiled, ["q1=position_a:deg"]).entries(compiled.spec.joints)["q1"].columns
+    >>> build_log_map(compiled, ["q1=position_a:deg"]).expand_entries(compiled.spec.joints)["q1"].columns
     ('position_a',)
     """
     if isinstance(mapping, LogMap):
@@ -99,7 +99,7 @@ def resolve_mapping(
 ) -> tuple[Mapped, dict[str, Any]]:
     """The mapping with its guesses made, and what a model keeps of it, a table like [log].
 
-    >>> settled(compiled, ["mon.parquet"])
+    >>> resolve_mapping(compiled, ["mon.parquet"])
     ((), {})
 
     The model keeps the map of the first log, with what the robot file says; nothing if that says
@@ -267,7 +267,7 @@ def parse_time_range(
 ) -> tuple[str | Path, tuple[float | None, float | None] | None]:
     """The file of a log, and the seconds that `@start:end` after it means; None for all of it.
 
-    >>> file_and_span("run.parquet@0:10")
+    >>> parse_time_range("run.parquet@0:10")
     ('run.parquet', (0.0, 10.0))
 
     Raises:
@@ -296,7 +296,7 @@ def inspect_log(
 ) -> LogInspection:
     """Channels, clock, gaps and doubts of a log.
 
-    >>> look_at("mon.parquet").table().column("channel")[:3]
+    >>> inspect_log("mon.parquet").table().column("channel")[:3]
     ['time', 'q1', 'q2']
 
     Args:

@@ -399,7 +399,7 @@ class Model(IdentifiedModel):
     ) -> Model:
         """The model of the same robot with a load that is known: to predict, to compare, as C.
 
-        >>> contest({"loaded": model.with_load(0.5), "bare": model}, ["tue.parquet"]).names
+        >>> compare_models({"loaded": model.with_load(0.5), "bare": model}, ["tue.parquet"]).names
         ('loaded', 'bare')
 
         Args:

@@ -249,7 +249,7 @@ def excite(
 ) -> excitation.ExcitingMotion:
     """A motion within limits that tells the parameters apart (docs/how-to/excitation.md).
 
-    >>> excite(robot, duration=4.0, harmonics=2, starts=1).sampled(100.0)["q1"].shape
+    >>> excite(robot, duration=4.0, harmonics=2, starts=1).sample_motion(100.0)["q1"].shape
     (401,)
 
     Args:

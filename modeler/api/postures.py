@@ -55,7 +55,7 @@ def select_mode(modes: HomeModes, letter: str | None, best: bool = False) -> int
 def home_posture(robot: Robot, modes: HomeModes, letter: str | None = None) -> Robot:
     """The robot with an assembly mode as its [home], in its file's text too.
 
-    >>> at_home(load("five-bar"), home(load("five-bar")), "B").name
+    >>> home_posture(load("five-bar"), home(load("five-bar")), "B").name
     'five-bar'
 
     Raises:

@@ -66,7 +66,7 @@ M = TypeVar("M", bound=IdentifiedModel)
 def define_effect(robot: Robot, name: str, **definition: Any) -> Robot:
     """The robot with the definition of an effect that the catalogue lacks.
 
-    >>> robot = own_effect(load("emps"), "fan", columns={"Kf": "v*abs(v)"}, nonnegative=True)
+    >>> robot = define_effect(load("emps"), "fan", columns={"Kf": "v*abs(v)"}, nonnegative=True)
     >>> robot.own_effects[0].id
     'fan'
 
@@ -287,7 +287,7 @@ def observe(
 def compile(model: IdentifiedModel) -> CompiledModel:
     """The compiled robot of a model, its C emitted anew from the robot text in the model.
 
-    >>> recompile(model).spec.robot
+    >>> compile(model).spec.robot
     'two-link'
 
     A model file may come from anybody; `model.compile()` would run the C that stands in it.
@@ -329,7 +329,7 @@ def _remove_code(spec: ModuleSpec) -> ModuleSpec:
 def reduced_model(model: M) -> M:
     """The model with its essential parameters only, estimated anew; all others are 0.
 
-    >>> len(reduced(model).beta) == len(model.beta)
+    >>> len(reduced_model(model).beta) == len(model.beta)
     True
 
     Raises:

@@ -81,7 +81,7 @@ def derive(robot: Robot) -> Derivation:
     >>> found = derive(load("two-link"))
     >>> found.base.rank, found.base.proof.kind
     (10, 'exact')
-    >>> print(found.table("base").markdown().splitlines()[2])
+    >>> print(found.table("base").to_markdown().splitlines()[2])
     | $\mathit{ZZ}_{1R}$ | $\mathit{ZZ}_{1} + L_{1}^{2} M_{2}$ | kg m2 | inertial |
     """
     model = derive_model(robot)

@@ -74,7 +74,7 @@ def convert(
     """The robot of a URDF, MJCF or SYMORO file; written as a robot file if `out` says where.
 
     >>> exported = export(model, "arm.urdf", force=True)
-    >>> convert("arm.urdf", "arm-again.toml", force=True).moving[1].name
+    >>> convert("arm.urdf", "arm-again.toml", force=True).moving_joints[1].name
     '2'
 
     Args:

@@ -165,7 +165,7 @@ PRESENTATIONS = {
         "a comparison of estimators",
         _summarise_trials,
         _collect_trials_tables,
-        document=lambda s, notes: build_estimators_page(s.robot, s.tried, [*s.data, *notes]),
+        document=lambda s, notes: build_estimators_page(s.robot, s.results, [*s.data, *notes]),
     ),
 }
 

@@ -10,10 +10,10 @@ from importlib import import_module
 from modeler.core.result import register_lazily, register_presentations
 
 _SHOWN = {
-    "derivation": "Robot Derivation Emitted CompiledModel HomeModes",
-    "log": "LogInspection Log SimulatedLog Observation DataReport Exciting",
-    "fit": "FitResult IdentifiedModel Addition SideBySide",
-    "judgements": "Contest Comparison Diagnosis FreeRun",
+    "derivation": "Robot Derivation EmittedModule CompiledModel HomeModes",
+    "log": "LogInspection Log SimulatedLog Observation DataReport ExcitingMotion",
+    "fit": "FitResult IdentifiedModel Addition MethodComparison",
+    "judgements": "ModelComparison Comparison Diagnosis FreeRun",
     "fleet": "Fleet",
 }
 """Classes of results, by the file of this package whose `PRESENTATIONS` say how they are shown."""
