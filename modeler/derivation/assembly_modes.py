@@ -33,7 +33,7 @@ _SPREADS = (0.05, 0.2, 0.6)  # rad or sizes, of starts around hints
 
 
 def draw_start_postures(linkage: Linkage, hints: np.ndarray, count: int = STARTS) -> np.ndarray:
-    """(count, u) postures over [limits], full turns and travels of some sizes of the robot.
+    """Returns (count, u) postures over [limits], full turns and travels of some sizes of the robot.
 
     Where there are hints, every second one is near them.
 
@@ -57,7 +57,7 @@ def draw_start_postures(linkage: Linkage, hints: np.ndarray, count: int = STARTS
 
 
 def find_closed_postures(linkage: Linkage, u: np.ndarray, places: np.ndarray) -> np.ndarray:
-    """(m, u) closed postures that are found from (n, u) starts, loops as meant, angles in a turn.
+    """Returns (m, u) closed postures that Newton's method reaches from (n, u) starts.
 
     Args:
         linkage: the robot.
@@ -88,7 +88,7 @@ def find_closed_postures(linkage: Linkage, u: np.ndarray, places: np.ndarray) ->
 
 
 def wrap_angles(linkage: Linkage, u: np.ndarray) -> np.ndarray:
-    """Angles within half a turn of 0, or of the middle of their [limits]."""
+    """Returns angles within half a turn of 0, or of the middle of their [limits]."""
     middle = np.nan_to_num(linkage.limit_middles)
     # What should be pi is not to be -pi on another machine.
     turns = np.ceil((u - middle - 1e-9) / (2 * np.pi) - 0.5)
@@ -98,7 +98,7 @@ def wrap_angles(linkage: Linkage, u: np.ndarray) -> np.ndarray:
 def reset_uncoupled_joints(
     linkage: Linkage, u: np.ndarray, hints: np.ndarray, closed: np.ndarray | None = None
 ) -> np.ndarray:
-    """(n, u) with the joints that move no loop where hints or [limits] say, else at 0.
+    """Returns (n, u) with joints that move no loop where hints or [limits] say, else at 0.
 
     Such a joint turns all of its loops, as the swing of an excavator does.
 
@@ -123,7 +123,7 @@ _CLOSED = 1e-9
 
 
 def partition_by_shape(linkage: Linkage, u: np.ndarray) -> list[np.ndarray]:
-    """Numbers of the postures of every shape: each array the symmetric copies of one."""
+    """Returns the numbers of the postures of every shape: each array holds symmetric copies."""
     shape = linkage.compute_shape(u)
     groups: list[list[int]] = []
     firsts = np.empty((0, shape.shape[1]))
@@ -138,7 +138,7 @@ def partition_by_shape(linkage: Linkage, u: np.ndarray) -> list[np.ndarray]:
 
 
 def flip_negative_travels(linkage: Linkage, u: np.ndarray, hints: np.ndarray) -> np.ndarray:
-    """(n, u) the postures, with cylinders of negative length turned to point the other way.
+    """Returns (n, u) the postures with cylinders of negative length turned the other way.
 
     Where a travel is negative, and the opposite travel with one or two angles turned by pi has the
     same shape, it is a matter of how the posture is written. What hints or [limits] say stays.
@@ -189,7 +189,7 @@ Ranks = Callable[[np.ndarray], list[tuple[float, ...]]]
 
 
 def select_best_copy(linkage: Linkage, copies: np.ndarray, ranks: Ranks) -> np.ndarray:
-    """(u,) the best way to write a posture, each leg in the best of the ways that were found.
+    """Returns (u,) the best way to write a posture, each leg in the best of the ways found.
 
     Args:
         linkage: the robot.
@@ -248,7 +248,7 @@ _TOLERANCE = 1e-7
 
 
 def count_constant_ratios(linkage: Linkage, u: np.ndarray) -> np.ndarray:
-    """(n,) numbers of independent combinations of joint speeds that vanish all around a posture.
+    """Returns (n,) numbers of independent combinations of joint speeds that stay 0 around it.
 
     0 where half of the motions around it are out of reach.
 
@@ -314,7 +314,7 @@ _COUNTED = 24
 
 
 def find_assembly_modes(linkage: Linkage, hints: np.ndarray) -> tuple[AssemblyMode, ...]:
-    """All assembly modes that are found where the actuated joints stand together; the best first.
+    """Returns all assembly modes found at one place of the actuated joints, the best first.
 
     The actuated joints stand where hints say, else in the middle of [limits], else where a posture
     is far from singular; where the loops cannot close so, near there. The best mode keeps [limits],

@@ -83,7 +83,7 @@ _NUMERIC = (
 
 
 def derive_base_parameters(model: SymbolicModel, seed: int = SEED) -> BaseParameters:
-    """Base parameters of a serial or tree robot, with their relations and proof.
+    """Returns base parameters of a serial or tree robot, with their relations and proof.
 
     The relations are exact in the symbols of the robot file. Where the given values make more
     parameters group than general ones would, the relations are exact in those values; where
@@ -231,7 +231,7 @@ def certify_relations(
     relations: GroupingRelations,
     seed: int,
 ) -> ModularRank:
-    """The relations hold at random states and geometries, and the kept columns are independent.
+    """Proves that the relations hold and that the kept columns are independent.
 
     Raises:
         NotProved: a relation does not hold, or the kept columns are dependent.

@@ -83,17 +83,17 @@ class LoopEquations(ShortRepr):
 
     @property
     def unknown_count(self) -> int:
-        """Number of free variables u."""
+        """Returns the number of free variables u."""
         return len(self.is_travel)
 
     @property
     def scale(self) -> np.ndarray:
-        """By u, what counts as 1: a rad, or `size`."""
+        """Returns what counts as 1 for each variable: a rad, or `size`."""
         return np.where(self.is_travel, self.size, 1.0)
 
     @cached_property
     def row_scales(self) -> np.ndarray:
-        """(equations,) usual lengths of the rows of the Jacobian.
+        """Returns (equations,) usual lengths of the rows of the Jacobian.
 
         Those at a posture would not do: an equation that changes only in second order there, as
         along a stretched chain, makes it singular, however small the row is.
@@ -105,26 +105,26 @@ class LoopEquations(ShortRepr):
         return np.where(length > _ZERO * np.max(length, initial=0.0), length, np.inf)
 
     def compute_residuals(self, u: np.ndarray) -> np.ndarray:
-        """(n, equations) of (n, unknowns)."""
+        """Returns (n, equations) residuals of (n, unknowns)."""
         return self.evaluate_expressions(self.equations, u)
 
     def compute_openness(self, u: np.ndarray) -> np.ndarray:
-        """(n,) largest residual, that of the other equations included."""
+        """Returns (n,) the largest residual, that of the other equations included."""
         residuals = self.evaluate_expressions([*self.equations, *self.others], u)
         return np.asarray(np.max(np.abs(residuals), axis=1, initial=0.0))
 
     def are_aligned(self, u: np.ndarray) -> np.ndarray:
-        """(n,) True where no loop is closed with axes opposite; NaN postures are not."""
+        """Returns (n,) True where no loop is closed with opposite axes; NaN postures are not."""
         values = self.evaluate_expressions(self.alignments, u)
         return np.all(np.isfinite(u), axis=1) & np.all(values > 0.0, axis=1)
 
     def compute_jacobians(self, u: np.ndarray) -> np.ndarray:
-        """(n, equations, unknowns)."""
+        """Returns (n, equations, unknowns) derivatives of the equations."""
         flat = self.evaluate_expressions([entry for line in self.jacobian for entry in line], u)
         return flat.reshape(len(u), len(self.equations), self.unknown_count)
 
     def linearise_loops(self, u: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-        """`compute_residuals`, `compute_openness` and `compute_jacobians` of (n, unknowns).
+        """Returns residuals, openness and Jacobians of (n, unknowns), which share most steps.
 
         Which " "share most steps.
         """
@@ -139,22 +139,22 @@ class LoopEquations(ShortRepr):
         )
 
     def compute_scaled_jacobian(self, u: np.ndarray) -> np.ndarray:
-        """Jacobians with travels counted in sizes of the robot and rows of usual length 1."""
+        """Returns Jacobians with travels in robot sizes and rows of usual length 1."""
         return np.asarray(self.compute_jacobians(u) * self.scale / self.row_scales[:, None])
 
     def compute_passive_jacobian(self, u: np.ndarray) -> np.ndarray:
-        """(n, equations, solved) columns of `compute_scaled_jacobian` of the joints that follow."""
+        """Returns (n, equations, solved) columns of the scaled Jacobian of the passive joints."""
         return self.compute_scaled_jacobian(u)[:, :, list(self.solved)]
 
     def compute_singularity_distance(self, u: np.ndarray) -> np.ndarray:
-        """(n,) distances to a singularity: smallest singular values of `compute_passive_jacobian`.
+        """Returns (n,) smallest singular values of the passive Jacobian.
 
         0 where joints can move with the actuated ones locked.
         """
         return np.asarray(np.linalg.svd(self.compute_passive_jacobian(u), compute_uv=False)[:, -1])
 
     def solve_passive(self, u: np.ndarray, f: np.ndarray) -> np.ndarray:
-        """(n, solved, ...) J_s^-1 f of (n, equations, ...): what of the joints that follow does f.
+        """Returns (n, solved, ...) J_s^-1 f of (n, equations, ...).
 
         For independent equations, as many as joints follow.
         """
@@ -164,7 +164,7 @@ class LoopEquations(ShortRepr):
     def evaluate_expressions(
         self, expressions: Sequence[Expr], u: np.ndarray, ud: np.ndarray | None = None
     ) -> np.ndarray:
-        """(n, expressions) at postures, and speeds if they read these, (n, unknowns)."""
+        """Evaluates expressions at postures and, if any, speeds (n, unknowns)."""
         inputs = {f"q[{k}]": u[:, k] for k in range(self.unknown_count)}
         if ud is not None:
             inputs |= {f"qd[{k}]": ud[:, k] for k in range(self.unknown_count)}
@@ -180,7 +180,7 @@ class LoopEquations(ShortRepr):
         return out
 
     def close_loops(self, u: np.ndarray, solved: Sequence[int] | None = None) -> np.ndarray:
-        """Newton from u with the others held; rows that do not close come back as NaN."""
+        """Closes the loops by Newton's method from u, the other joints held; NaN where it fails."""
         places = list(self.solved if solved is None else solved)
         u = np.array(u, dtype=float)
         scale = self.scale[places]
@@ -199,14 +199,14 @@ class LoopEquations(ShortRepr):
 
 
 def describe_open_loop(loops: LoopEquations, u: np.ndarray, owners: Sequence[str]) -> str:
-    """Which loop cannot close near a posture: the one that is open furthest there."""
+    """Names the loop that is open furthest at a posture."""
     f = np.abs(loops.compute_residuals(u[None])[0])
     worst = int(np.argmax(f))
     return f'loop "{owners[worst]}" cannot close near that posture (open by {f[worst]:.3g})'
 
 
 def find_nearest_closed(loops: LoopEquations, start: np.ndarray) -> np.ndarray | None:
-    """The closed posture that Newton finds from `start`; where its axes are opposite, another near.
+    """Returns the closed posture that Newton finds from `start`, with axes as meant.
 
     Other starts differ in the solved angles.
     """
@@ -237,14 +237,14 @@ def find_nearest_closed(loops: LoopEquations, start: np.ndarray) -> np.ndarray |
 
 
 def wrap_to_pi(angle: np.ndarray) -> np.ndarray:
-    """Angles in [-pi, pi)."""
+    """Returns angles in [-pi, pi)."""
     return (angle + np.pi) % (2 * np.pi) - np.pi
 
 
 def polish_home(
     loops: LoopEquations, home: np.ndarray, chosen: Sequence[int], robot: Robot
 ) -> tuple[float, ...]:
-    """The doubles next to the closed posture that `home` is up to rounding: the same everywhere.
+    """Returns the doubles next to the closed posture `home`, the same on every machine.
 
     Newton on the independent equations, their residuals with 40 digits, the given variables held.
 
@@ -290,7 +290,7 @@ def draw_nearby_postures(
     samples: int,
     reach: float = 0.3,
 ) -> np.ndarray:
-    """(samples, unknowns) closed postures around home: random actuated motion, in small steps.
+    """Returns (samples, unknowns) closed postures around home after random small steps.
 
     A sample stops where the loops would not close any further.
     """
@@ -327,7 +327,7 @@ Frame = tuple[Sequence[list[Expr]], list[Expr]]
 def compute_loop_frames(
     geometry: Geometry, loop: Loop, frames: Sequence[Pose], algebra: Algebra
 ) -> tuple[Frame, Frame]:
-    """The two frames that meet, in the frame of the body that both their sides come from.
+    """Returns the two frames that meet, in the frame of the body that both sides come from.
 
     There, and not in frame 0, components of a plane loop stay those of its plane however the body
     turns, and which equations are independent does not depend on it.
@@ -468,7 +468,7 @@ class Closure(LoopEquations):
 def derive_closure(
     geometry: Geometry, graph: Graph, frames: Sequence[Pose], algebra: GraphAlgebra
 ) -> Closure | None:
-    """The closure of a robot's loops; None if it has none, or relations say all that they do.
+    """Derives the closure of a robot's loops; None if relations already say all that they do.
 
     Raises:
         LoopError: the loops do not close at home, leave more or less free than is actuated, or
@@ -522,7 +522,7 @@ def derive_closure(
 def derive_loop_equations(
     geometry: Geometry, graph: Graph, frames: Sequence[Pose], algebra: GraphAlgebra
 ) -> tuple[LoopEquations, list[str]]:
-    """The equations of all loops, and the name of the loop that each comes from."""
+    """Returns the equations of all loops, and the name of the loop that each comes from."""
     robot = geometry.robot
     equations: list[Expr] = []
     owners: list[str] = []
@@ -569,7 +569,7 @@ def _derive_drift(graph: Graph, jacobian: Sequence[Sequence[Expr]], n: int) -> l
 def check_mobility(
     loops: LoopEquations, start: np.ndarray, geometry: Geometry, owners: Sequence[str]
 ) -> bool:
-    """The loops leave as much free as is actuated, and the actuated joints drive it.
+    """Checks that the loops leave as much free as is actuated, and that the joints drive it.
 
     Returns:
         False if no closed posture is near the start, all joints being free to move.
@@ -614,7 +614,7 @@ def _select_independent(loops: LoopEquations, home: np.ndarray, geometry: Geomet
 
 
 def select_spanning_rows(matrix: np.ndarray, count: int, alike: float = 0.0) -> list[int]:
-    """Numbers of up to `count` rows, each the longest of what the rows before leave of it.
+    """Selects up to `count` rows, each the longest of what the rows before leave of it.
 
     Gram-Schmidt with pivoting, as LAPACK has it; but of rows whose lengths differ by less than the
     share `alike` the first is taken, where LAPACK would let the last digit choose.

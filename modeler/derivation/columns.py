@@ -51,7 +51,7 @@ class LinkColumn(_Column):
 
     @property
     def nonnegative(self) -> bool:
-        """True if physics allows no negative value."""
+        """Returns True if physics allows no negative value."""
         return self.prefix in ("XX", "YY", "ZZ", "M")
 
 
@@ -87,12 +87,12 @@ StandardColumn: TypeAlias = LinkColumn | ShaftColumn
 
 
 def is_in_block(column: StandardColumn, block: EnergyBlock) -> TypeGuard[ShaftColumn]:
-    """True for an effect's parameter with that energy function."""
+    """Returns True for an effect's parameter with that energy function."""
     return isinstance(column, ShaftColumn) and column.block is block
 
 
 def build_standard_columns(geometry: Geometry) -> tuple[StandardColumn, ...]:
-    """All standard parameters: row after row, the link's, then those of the joint's effects.
+    """Returns all standard parameters: row by row, the link's, then those of its effects.
 
     A shared parameter stands where its first member would.
     """
@@ -121,7 +121,7 @@ def _merge_shared_columns(
 
 
 def build_link_column(prefix: str, row: int, joint: Joint) -> LinkColumn:
-    """An inertial parameter of the link behind a joint, on its own."""
+    """Returns an inertial parameter of the link behind a joint, on its own."""
     unit = _INERTIAL_UNITS.get(prefix, "kg")
     return LinkColumn(name=prefix + joint.name, row=row, prefix=prefix, unit=unit)
 
@@ -162,7 +162,7 @@ def _derive_shaft(geometry: Geometry, joint: Joint, coupled: bool) -> dict[int, 
 
 
 def parse_decimal_fraction(value: float) -> Fraction:
-    """A coefficient of the robot file as the decimal fraction that was written."""
+    """Returns a coefficient of the robot file as the decimal fraction that was written."""
     return Fraction(repr(value))
 
 
@@ -189,7 +189,7 @@ class Signal:
 
     @property
     def prerequisites(self) -> tuple["Signal", ...]:
-        """Those that it is stepped with; they stand before it, the last of them next to it."""
+        """Returns the signals that it is stepped with; they stand before it."""
         if self.kind == "since":
             return (Signal("direction", self.row, self.value),)
         if self.kind == "lag":
@@ -198,7 +198,7 @@ class Signal:
 
     @property
     def input_signals(self) -> dict[str, "Signal"]:
-        """Those that what it follows reads, by the variable."""
+        """Returns the signals that the followed expression reads, by the variable."""
         if self.kind != "followed" or self.follows is None:
             return {}
         return _find_signals(self.follows.names, self.row, dict(self.nonlinear_parameters))
@@ -216,7 +216,7 @@ def _find_signals(
 
 
 def collect_signals(columns: Sequence[StandardColumn]) -> tuple[Signal, ...]:
-    """The signals that any column reads, each once, in the order of the columns."""
+    """Returns the signals that any column reads, each once, in the order of the columns."""
     signals: dict[Signal, None] = {}
 
     def add_signal(signal: Signal) -> None:
@@ -233,7 +233,7 @@ def collect_signals(columns: Sequence[StandardColumn]) -> tuple[Signal, ...]:
 
 
 def map_column_signals(column: ShaftColumn) -> dict[str, Signal]:
-    """Those that one column reads, by the variable of its equation."""
+    """Returns the signals that a column reads, by the variable of its equation."""
     names, memory = column.equation.names, column.memory
     signals = _find_signals(names, column.row, column.nonlinear_parameters)
     if "z" in names:

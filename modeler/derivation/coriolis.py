@@ -24,17 +24,17 @@ from modeler.derivation.kinematics import (
 
 
 def cross_z(v: Vector) -> Vector:
-    """z x v."""
+    """Returns z x v."""
     return [-v[1], v[0], 0 * v[2]]
 
 
 def project_on_axis(row: GeometryRow, force: Vector, moment: Vector) -> Scalar:
-    """Torque of the row's joint under a force and a moment at its frame's origin."""
+    """Returns torque of the row's joint under a force and a moment at its frame's origin."""
     return (moment if row.joint.is_revolute else force)[2] * row.rate
 
 
 def compute_slide_velocity(row: GeometryRow, frame: Pose, speed: Scalar) -> Vector:
-    """Velocity of the frame's origin in its antecedent, where its joint slides."""
+    """Returns velocity of the frame's origin in its antecedent, where its joint slides."""
     none = [0 * speed] * 3
     if row.index is None or row.joint.is_revolute:
         return none
@@ -57,7 +57,7 @@ class MovingComposite(Composite):
         self.h: Vector = [zero] * 3
 
     def compute_turned_rates(self, speed: Scalar) -> tuple[Vector, list[Vector], Vector]:
-        """MS_rate, J_rate and h seen from a frame in which the link turns about its z axis.
+        """Returns MS_rate, J_rate and h seen from a frame in which the link turns about its z axis.
 
         d MS/dt += speed z x MS; d J/dt += speed ([z x] J - J [z x]); h += speed J z.
         """
@@ -80,7 +80,7 @@ class MovingComposite(Composite):
     def add_moving_composite(
         self, other: "MovingComposite", frame: Pose, row: GeometryRow, speed: Scalar
     ) -> None:
-        """Add what hangs on the row's frame, whose joint has this speed."""
+        """Adds what hangs on the row's frame, whose joint has this speed."""
         p, dp = frame.p, compute_slide_velocity(row, frame, speed)
         turning = speed if row.index is not None and row.joint.is_revolute else 0 * speed
         first, rates, h = other.compute_turned_rates(turning)
@@ -105,7 +105,7 @@ class MovingComposite(Composite):
         self.add_composite(other, frame)
 
     def compute_column(self, row: GeometryRow, w: Vector) -> tuple[Vector, Vector]:
-        """Force and moment per unit of v of the row's joint: sum of m dJ/dt and m r x dJ/dt.
+        """Returns force and moment per unit of v of the joint: sum of m dJ/dt and m r x dJ/dt.
 
         With z the axis, f = z x d MS/dt + w x (z x MS) and
         n = (d J/dt z + z x h)/2 + z x (J w) - tr(J)/2 z x w for a joint that turns.
@@ -120,7 +120,7 @@ class MovingComposite(Composite):
         return times(row.rate, f), plus(times(row.rate, n), times(-self._halve_trace(), spun))
 
     def compute_arm_rate(self, row: GeometryRow, w: Vector) -> Vector:
-        """Moment of the changing arms: sum of m dr/dt x J for the unit speed of the row's joint.
+        """Returns the moment of the changing arms: sum of m dr/dt x J for unit speed of the joint.
 
         (d J/dt z - z x h)/2 + tr(J)/2 w x z - J (w x z) for a joint that turns.
         """
@@ -143,7 +143,7 @@ def compute_coriolis_matrix(
     geometry: Geometry, frames: Sequence[Pose], moved: Sequence[Motion], speeds: Sequence[Scalar],
     parameters: Sequence[Mapping[str, Any]], zero: Scalar,
 ) -> list[list[Scalar]]:  # fmt: skip
-    """C(q, qd) of the rigid links, (joints, joints).
+    """Returns C(q, qd) of the rigid links, (joints, joints).
 
     Args:
         geometry: the table.

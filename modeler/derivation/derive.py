@@ -37,7 +37,7 @@ _TAKES_PART = 0.1
 
 
 def describe_free_motions(linkage: Linkage, u: np.ndarray) -> list[str]:
-    """The motions that a singular posture leaves free, each as `q11 : q12 : qP = 1 : -0.5 : 0.3`.
+    """Describes the motions that a singular posture leaves free: `q11 : q12 : qP = 1 : -0.5 : 0.3`.
 
     Travels count in sizes of the robot. Joints that move little are left out.
 
@@ -91,7 +91,7 @@ class ClosedHome:
     message: str = ""
 
     def write_to_text(self, robot: Robot) -> Robot:
-        """The robot whose file's text says it too: that goes into model files."""
+        """Returns the robot whose file's text states the home too, for model files."""
         if not self.message:
             return robot
         try:
@@ -102,7 +102,7 @@ class ClosedHome:
 
 
 def resolve_home(model: SymbolicModel) -> ClosedHome:
-    """The robot with a good [home].
+    """Returns the robot with a [home] from which its loops close and that is not singular.
 
     A home stays as it is if the passive joints close the loops near it: none moves further than
     `NEAR`, rows left out counting as 0, and the posture is not singular. Else the assembly modes
@@ -137,7 +137,7 @@ def resolve_home(model: SymbolicModel) -> ClosedHome:
 
 
 def find_modes_near(robot: Robot, near: Mapping[str, float]) -> HomeModes:
-    """The assembly modes of a robot with loops, the best one near to a posture first.
+    """Returns the assembly modes of a robot with loops, the best one near a posture first.
 
     Args:
         robot: as read.
@@ -180,7 +180,7 @@ def _build_closure_error(linkage: Linkage, start: np.ndarray) -> LoopError:
 
 
 def express_as_home(linkage: Linkage, u: np.ndarray) -> dict[str, float]:
-    """A posture as [home] states it: actuated joints as they are, the others to 1e-6.
+    """Returns a posture as [home] states it: actuated joints exact, the others to 1e-6.
 
     Rows that follow others are stated where they were before.
     """
@@ -251,7 +251,7 @@ def _describe_singularity(linkage: Linkage, u: np.ndarray, modes: tuple[Assembly
 
 
 def derive_model(robot: Robot) -> SymbolicModel:
-    """The symbolic model of a robot.
+    """Returns the symbolic model of a robot.
 
     The robot of the model has a [home] that is found where it is missing or poor, and states the
     relations that its loops imply.
@@ -277,7 +277,7 @@ def derive_model(robot: Robot) -> SymbolicModel:
 
 
 def complete_home(robot: Robot) -> ClosedHome:
-    """The robot with a [home] from which its loops close, found where it is missing or poor.
+    """Returns the robot with a [home] from which its loops close, found where it is missing.
 
     Raises:
         DerivationError: an entry of the table has no exact value.

@@ -13,7 +13,7 @@ _EVERYWHERE = {"add", "mul", "div", "sin", "cos", "sqrt", "exp", "tan", "tanh"}
 def differentiate(
     values: Sequence[Expr], direction: Mapping[str, Expr], kinks: bool = False
 ) -> list[Expr]:
-    """d values / ds where each symbol of `direction` moves with that speed; others stand still.
+    """Returns d values / ds where each symbol of `direction` moves with that speed.
 
     With speeds 1 and 0 these are partial derivatives; with dq/dt they are time derivatives.
 

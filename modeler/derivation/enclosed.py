@@ -90,7 +90,7 @@ class Enclosures:
             )
 
     def enclose_state(self, u: np.ndarray, qd: np.ndarray, qdd: np.ndarray) -> EnclosedState:
-        """The motion of all free variables.
+        """Returns the motion of all free variables.
 
         Args:
             u: (len(u),) a posture closed in floating point; its actuated joints are exact.
@@ -113,7 +113,7 @@ class Enclosures:
         return self._enclose_motion(q, _convert_to_balls(qd), _convert_to_balls(qdd))
 
     def enclose_posture(self, u: np.ndarray) -> list[Ball]:
-        """Balls of the closed posture next to `u` that has the same actuated joints.
+        """Returns balls of the closed posture next to `u` with the same actuated joints.
 
         Raises:
             NotEnclosed: there may be none.
@@ -230,7 +230,7 @@ _EIGHTHS = 16
 def prove_rank(
     model: SymbolicModel, kept_columns: Sequence[int], sample: Sample, seed: int
 ) -> BallRank | SampledRank:
-    """The proof that the columns `kept_columns` are independent, or why there is none.
+    """Proves in ball arithmetic that the columns are independent, or says why it cannot.
 
     Args:
         model: of the robot, at its given lengths and angles.
@@ -273,7 +273,7 @@ def enclose_factors(
     kept_columns: Sequence[int],
     dropped_columns: Sequence[int],
 ) -> list[list[Ball]] | None:
-    """(kept, dropped) factors of the columns that depend on the kept ones, as balls.
+    """Returns (kept, dropped) factors of the dependent columns as balls.
 
     Args:
         model: of the robot, at its given lengths and angles.

@@ -32,7 +32,7 @@ Letters = Mapping[sympy.Expr, str]
 
 
 def express_in_cosines(numerator: Terms, denominator: Terms, letters: Letters) -> sympy.Expr:
-    """numerator / denominator, polynomials in the letters (t for an angle), as an expression.
+    """Returns numerator / denominator, polynomials in the letters, as a sympy expression.
 
     Both are divided by (1 + t**2)**K, after which they are polynomials in cos and sin:
     t**2/(1 + t**2) = (1 - c)/2, 1/(1 + t**2) = (1 + c)/2, t/(1 + t**2) = s/2. Sums are written
@@ -236,20 +236,20 @@ class ExactField:
 
     @property
     def one(self) -> Element:
-        """1."""
+        """Returns 1."""
         return self._one
 
     @property
     def zero(self) -> Element:
-        """0."""
+        """Returns 0."""
         return self._zero
 
     def get_generator(self, place: int) -> Element:
-        """The generator of the letter at that place of `letters`."""
+        """Returns the generator of the letter at that place of `letters`."""
         return self._generator[list(self.letters)[place]]
 
     def cos_sin(self, angle: sympy.Expr) -> tuple[Element, Element]:
-        """Cosine and sine of a constant angle."""
+        """Returns cosine and sine of a constant angle."""
         c, s = cos_sin(angle)
         return self.element(c), self.element(s)
 
@@ -282,7 +282,7 @@ class ExactField:
     def compute_residue(
         self, element: Element, values: Mapping[sympy.Expr, int], prime: int
     ) -> int:
-        """The element modulo a prime, with residues for the letters (tan(a/2) for cos(a))."""
+        """Returns the element modulo a prime, residues put in for the letters."""
         if not self._generator:
             return int(element.numerator) * pow(int(element.denominator), -1, prime) % prime
         point = [values[letter] for letter in self.letters]
@@ -292,7 +292,7 @@ class ExactField:
 
 
 def build_geometry_field(geometry: Geometry) -> ExactField:
-    """The field that the table of a robot needs."""
+    """Returns the field that the table of a robot needs."""
     constants: list[sympy.Expr] = list(geometry.gravity)
     for row in geometry.rows:
         constants += [row.b, row.d]
@@ -322,12 +322,12 @@ def _collect_letters(value: sympy.Expr, letters: dict[sympy.Expr, str]) -> None:
 
 
 def get_cosine_symbol(value: sympy.Expr) -> sympy.Expr:
-    """cos(a) of a cos(a) or sin(a): the key of an angle among the letters."""
+    """Returns cos(a) of a cos(a) or sin(a): the key of an angle among the letters."""
     return sympy.cos(value.args[0], evaluate=False)
 
 
 def evaluate_modulo(poly: Terms, point: Sequence[int], prime: int) -> int:
-    """The polynomial's value modulo the prime."""
+    """Returns the polynomial's value modulo the prime."""
     total = 0
     for monomial, coefficient in poly.items():
         term = int(coefficient.numerator) * pow(int(coefficient.denominator), -1, prime)
@@ -339,7 +339,7 @@ def evaluate_modulo(poly: Terms, point: Sequence[int], prime: int) -> int:
 
 
 def collect_powers(poly: PolyElement, place: int) -> dict[int, PolyElement]:
-    """{degree in a generator: factor}, zeros left out."""
+    """Returns {degree in a generator: factor}, zeros left out."""
     coefficients: dict[int, dict[tuple[int, ...], Any]] = {}
     for at, value in poly.items():
         coefficients.setdefault(at[place], {})[(*at[:place], 0, *at[place + 1 :])] = value
@@ -347,7 +347,7 @@ def collect_powers(poly: PolyElement, place: int) -> dict[int, PolyElement]:
 
 
 def replace_square(poly: PolyElement, place: int, square: PolyElement) -> PolyElement:
-    """The polynomial with `square` for x**2, of the generator x at that place."""
+    """Returns the polynomial with `square` for x**2, of the generator x at that place."""
     if all(monomial[place] < 2 for monomial in poly):
         return poly
     most = max(monomial[place] for monomial in poly) // 2
@@ -381,7 +381,7 @@ class CoefficientTooLarge(ArithmeticError):
 
 
 def reduce_rows(rows: Matrix) -> tuple[Matrix, list[int]]:
-    """Reduced row echelon form without zero rows, and the pivot columns."""
+    """Returns reduced row echelon form without zero rows, and the pivot columns."""
     sparse = [{j: x for j, x in enumerate(line) if x} for line in rows]
     width = len(rows[0]) if rows else 0
     reduced, pivots = reduce_sparse_rows(sparse, range(width))
@@ -394,7 +394,7 @@ def reduce_rows(rows: Matrix) -> tuple[Matrix, list[int]]:
 def reduce_sparse_rows(
     rows: Sequence[Mapping[int, Element]], order: Sequence[int]
 ) -> tuple[list[dict[int, Element]], list[int]]:
-    """Reduced row echelon form of sparse rows, pivots searched in the given order of columns.
+    """Returns the reduced row echelon form of sparse rows, pivots in the given order of columns.
 
     Returns:
         Rows with pivot 1, and their pivot columns, in order.
@@ -434,7 +434,7 @@ def _subtract_row(row: dict[int, Element], pivot: Mapping[int, Element], factor:
 
 
 def compute_null_space(rows: Matrix, width: int, zero: Element, one: Element) -> Matrix:
-    """Basis of {c : rows c = 0}, as rows of length `width`."""
+    """Returns basis of {c : rows c = 0}, as rows of length `width`."""
     reduced, pivots = reduce_rows(rows)
     basis = []
     for free in range(width):
@@ -456,7 +456,7 @@ def _count_terms(value: Element) -> int:
 
 
 def convert_to_fraction(value: Any) -> Fraction:
-    """A rational number of sympy as a `Fraction`."""
+    """Returns a rational number of sympy as a `Fraction`."""
     return Fraction(int(value.numerator), int(value.denominator))
 
 
@@ -478,12 +478,12 @@ class LinearRelations:
 
     @property
     def rank(self) -> int:
-        """Dimension of the span over Q."""
+        """Returns dimension of the span over Q."""
         return len(self.independent)
 
 
 def find_linear_relations(vectors: Mapping[Any, SparseVector]) -> LinearRelations:
-    """The independent vectors, first come first kept, and all the others in terms of them."""
+    """Returns the first independent vectors, and all others in terms of them."""
     names, places = list(vectors), enumerate_places(vectors.values())
     columns: dict[int, dict[int, Any]] = {}
     for k, vector in enumerate(vectors.values()):
@@ -499,5 +499,5 @@ def find_linear_relations(vectors: Mapping[Any, SparseVector]) -> LinearRelation
 
 
 def enumerate_places(vectors: Iterable[SparseVector]) -> dict[Any, int]:
-    """Row by place, in order of appearance."""
+    """Returns the row of each place, in order of appearance."""
     return {place: i for i, place in enumerate(dict.fromkeys(p for v in vectors for p in v))}

@@ -41,13 +41,13 @@ class BodyFrame:
 
 
 def collect_frames(robot: Robot) -> dict[str, LinkFrame | None]:
-    """Names of the frames that move: rows of the table (None), then links of `[frames]`."""
+    """Returns the names of frames that move: rows of the table (None), then `[frames]`."""
     links = {name: frame for name, frame in robot.frames.items() if frame.row != "0"}
     return links | {joint.name: None for joint in robot.joints}
 
 
 def find_body_frame(model: SymbolicModel, name: str = "") -> BodyFrame:
-    """The frame of that name; without one that of the tool.
+    """Returns the frame of that name; without a name that of the tool.
 
     Where the robot states none, that of the platform, or of the last row.
 
@@ -80,7 +80,7 @@ def _place_on_row(model: SymbolicModel, link: LinkFrame | None) -> AxesOrigin:
 
 
 def derive_frame_pose(model: SymbolicModel, frame: BodyFrame) -> list[list[Expr]]:
-    """[R | p], 3 x 4: the axes in the columns of R, and the origin, in frame 0."""
+    """Returns [R | p], 3 x 4: the axes in the columns of R, and the origin, in frame 0."""
     at = compute_relative_poses(model.geometry, model.frames, model.algebra, None, {frame.row})[
         frame.row
     ]
@@ -98,7 +98,7 @@ def _rotate_vector(at: AxesOrigin, v: Vector) -> Vector:
 
 
 def derive_jacobian(model: SymbolicModel, frame: BodyFrame) -> list[list[Expr]]:
-    """J of (v, w) = J qd, 6 x n, in the axes of frame 0."""
+    """Returns J of (v, w) = J qd, 6 x n, in the axes of frame 0."""
     geometry, zero = model.geometry, model.graph.constant(0)
     frame_poses = compute_relative_poses(geometry, model.frames, model.algebra, None, {frame.row})
     arm = _rotate_vector(frame_poses[frame.row], frame.origin)  # from the origin of the row at hand
@@ -115,7 +115,7 @@ def derive_jacobian(model: SymbolicModel, frame: BodyFrame) -> list[list[Expr]]:
 
 
 def derive_jacobian_dot_qd(model: SymbolicModel, frame: BodyFrame) -> list[Expr]:
-    """dJ/dt qd, 6: the accelerations of the frame while qdd = 0, in the axes of frame 0."""
+    """Returns dJ/dt qd, 6: the accelerations of the frame while qdd = 0, in the axes of frame 0."""
     qd, zero = model.get_inputs("qd"), model.graph.constant(0)
     moved = model.derive_link_motions(qd, [zero] * len(qd), gravity=False)[frame.row]
     a, wd = plus(moved.vd, [dot(line, frame.origin) for line in moved.U]), moved.wd
@@ -125,7 +125,7 @@ def derive_jacobian_dot_qd(model: SymbolicModel, frame: BodyFrame) -> list[Expr]
 
 
 def derive_twist(model: SymbolicModel, frame: BodyFrame) -> list[Expr]:
-    """(v, w) of the frame, 6, in its own axes."""
+    """Returns (v, w) of the frame, 6, in its own axes."""
     still = [model.graph.constant(0)] * model.geometry.coordinate_count
     with model.relabel_speeds():
         moved = model.derive_link_motions(still, model.get_inputs("qd"), gravity=False)[frame.row]

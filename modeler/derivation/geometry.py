@@ -33,7 +33,7 @@ Pair = tuple[sympy.Expr, sympy.Expr]
 
 @lru_cache(maxsize=1024)
 def cos_sin(angle: sympy.Expr) -> Pair:
-    """Cosine and sine: exact 0 and +-1 at right angles; other constants are left standing.
+    """Returns cosine and sine: exact 0 and +-1 at right angles; other constants are left standing.
 
     They are not turned into radicals: cos(pi/3) and sin(pi/3) stay a point of the unit circle,
     which is what grouping has to know of them.
@@ -48,14 +48,14 @@ def cos_sin(angle: sympy.Expr) -> Pair:
 
 
 def count_quarter_turns(angle: sympy.Expr) -> tuple[int, sympy.Expr]:
-    """The right angles in a constant, of `phi + 0.3 - pi/2` -1; and what else it is made of."""
+    """Returns the right angles in a constant, of `phi + 0.3 - pi/2` -1, and the rest."""
     terms = sympy.Add.make_args(angle)
     right = [term for term in terms if (term / (sympy.pi / 2)).is_Integer]
     return int(sum(right) / (sympy.pi / 2)), angle - sum(right)
 
 
 def is_short(angle: sympy.Expr) -> bool:
-    """True if sums and whole multiples in the angle are few enough to be written out."""
+    """Returns True if sums and whole multiples in the angle are few enough to be written out."""
     turns = 0
     for term in sympy.Add.make_args(angle):
         factor = term.as_coeff_Mul()[0]
@@ -108,7 +108,7 @@ _FUNCTIONS = {
 
 
 def fold_expression(expression: Expression, values: Mapping[str, sympy.Expr]) -> sympy.Expr:
-    """The expression with `values` for its names, decimals as the fractions that were written.
+    """Returns the expression with `values` for its names, decimals as exact fractions.
 
     Raises:
         DerivationError: it is not finite, or too long to be written out.
@@ -208,7 +208,7 @@ _QUARTER = math.pi / 2
 
 
 def create_geometric_symbol(name: str) -> sympy.Symbol:
-    """The symbol of that name; the only place where geometric symbols are made."""
+    """Returns the symbol of that name; geometric symbols are made only here."""
     return sympy.Symbol(name, real=True)
 
 
@@ -259,21 +259,21 @@ class Geometry(ShortRepr):
 
     @property
     def joint_count(self) -> int:
-        """Number of rows that move."""
+        """Returns number of rows that move."""
         return len(self.forms)
 
     @property
     def coordinate_count(self) -> int:
-        """Number of free variables u."""
+        """Returns number of free variables u."""
         return len(self.robot.free_joints)
 
     @property
     def has_relations(self) -> bool:
-        """True if rows follow others, so that u has fewer entries than rows move."""
+        """Returns True if rows follow others, so that u has fewer entries than rows move."""
         return bool(self.robot.relations)
 
     def find_ancestors(self, k: int) -> list[int]:
-        """Rows from `k` down to the base, `k` first."""
+        """Returns rows from `k` down to the base, `k` first."""
         chain: list[int] = []
         at: int | None = k
         while at is not None:
@@ -283,7 +283,7 @@ class Geometry(ShortRepr):
 
 
 def build_exact_geometry(robot: Robot, at_nominal: bool = False) -> Geometry:
-    """The table of `robot` with exact entries.
+    """Returns the table of `robot` with exact entries.
 
     Args:
         robot: as read.
@@ -316,7 +316,7 @@ def build_exact_geometry(robot: Robot, at_nominal: bool = False) -> Geometry:
 def compute_placement(
     robot: Robot, frame: LinkFrame
 ) -> tuple[tuple[sympy.Expr, ...], tuple[sympy.Expr, ...]]:
-    """Position, m, and angles roll, pitch, yaw of a frame on its row, exact.
+    """Returns position, m, and angles roll, pitch, yaw of a frame on its row, exact.
 
     Raises:
         DerivationError: a cell is not finite.
@@ -448,7 +448,7 @@ class ExpressionTooLong(ArithmeticError):
 
 
 def check_length(value: sympy.Expr) -> None:
-    """Refuse constants that nobody could write out.
+    """Refuses constants that nobody could write out.
 
     Every subexpression is looked at once, arguments first: what is shared costs nothing.
 
@@ -487,7 +487,7 @@ def _count_terms(node: sympy.Basic, parts: list[int]) -> int:
 
 
 def compute_power(base: sympy.Expr, exponent: sympy.Expr | int) -> sympy.Expr:
-    """base**exponent.
+    """Returns base**exponent.
 
     Raises:
         TooLong: an exact number of more than `MOST_BITS`.

@@ -190,23 +190,23 @@ class Graph:
         self.renamed_quantities: Mapping[str, str] = {}
 
     def symbol(self, name: str, static: bool = False) -> "Expr":
-        """The input of that name; `static` for geometric symbols."""
+        """Returns the input of that name; `static` for geometric symbols."""
         return Expr(self, self._intern_node("sym", (name,), static))
 
     def constant(self, value: Number) -> "Expr":
-        """An exact number."""
+        """Returns an exact number."""
         return Expr(self, self._intern_number(Fraction(value)))
 
     def lift(self, value: Operand) -> "Expr":
-        """`value` as an expression of this graph."""
+        """Returns `value` as an expression of this graph."""
         return value if isinstance(value, Expr) else self.constant(value)
 
     def pi(self) -> "Expr":
-        """The constant pi: a node of its own, not a rational number."""
+        """Returns the constant pi: a node of its own, not a rational number."""
         return Expr(self, self._intern_node("pi", (), True))
 
     def call(self, name: str, argument: "Expr") -> "Expr":
-        """A function of one argument; odd and even functions take the sign out."""
+        """Returns a function of one argument; odd and even functions take the sign out."""
         ref = argument.ref
         sign = 1
         if ref < 0 and name in ("sin", "tan", "sign", "tanh"):
@@ -218,7 +218,7 @@ class Graph:
         return Expr(self, sign * self._intern_node(name, (ref,), self.nodes[abs(ref)].static))
 
     def law(self, law: Law, *arguments: "Expr", along: int | None = None) -> "Expr":
-        """A law that was learned, or its derivative along an axis."""
+        """Returns a law that was learned, or its derivative along an axis."""
         table = Table(law, along)
         name = next((name for name, known in self.tables.items() if known == table), "")
         if not name:
@@ -230,7 +230,7 @@ class Graph:
         return Expr(self, self._intern_node(name, args, False))
 
     def power(self, base: "Expr", exponent: "Expr") -> "Expr":
-        """base**exponent for any constant exponent; the base is not negative."""
+        """Returns base**exponent for any constant exponent; the base is not negative."""
         node = self.nodes[abs(exponent.ref)]
         if exponent.ref > 0 and node.op == "num" and node.args[0] in _MULTIPLIED:
             return base ** int(node.args[0])
@@ -336,7 +336,7 @@ class Graph:
         return ref == 0 or self.nodes[abs(ref)].op == "num"
 
     def mul(self, a: int, b: int) -> int:
-        """Reference of a * b."""
+        """Returns reference of a * b."""
         if a == 0 or b == 0:
             return 0
         sign = 1 if (a > 0) == (b > 0) else -1
@@ -364,7 +364,7 @@ class Graph:
         return 1, ref
 
     def add(self, a: int, b: int) -> int:
-        """Reference of a + b."""
+        """Returns reference of a + b."""
         if a == 0 or b == 0:
             return a + b
         if a == -b:
@@ -403,7 +403,7 @@ class Graph:
         return None
 
     def div(self, a: int, b: int) -> int:
-        """Reference of a / b."""
+        """Returns reference of a / b."""
         if b == 0:
             raise ZeroDivisionError("division by an expression that is exactly zero")
         if a == 0:
@@ -420,7 +420,7 @@ class Graph:
         return sign * self._intern_node("div", (a, b), static)
 
     def find_reachable(self, outputs: Iterable["Expr"]) -> list[int]:
-        """Nodes that the outputs need, arguments first; node 0 left out."""
+        """Returns nodes that the outputs need, arguments first; node 0 left out."""
         needed: set[int] = set()
         stack = [abs(output.ref) for output in outputs]
         asked, cached_nodes = self._reached  # Jacobians ask once for each variable
@@ -439,14 +439,14 @@ class Graph:
         return self._reached[1]
 
     def count_operations(self, outputs: Sequence["Expr"]) -> tuple[int, int]:
-        """(additions, multiplications) per call; static parts and functions are not counted."""
+        """Returns (additions, multiplications) per call; static parts are not counted."""
         dynamic = [
             self.nodes[i].op for i in self.find_reachable(outputs) if not self.nodes[i].static
         ]
         return dynamic.count("add"), dynamic.count("mul") + dynamic.count("div")
 
     def evaluate_outputs(self, outputs: Sequence["Expr"], values: Mapping[str, Any]) -> list[Any]:
-        """Values of the outputs; `values` gives a number or an array of samples per symbol."""
+        """Returns values of the outputs for numbers or arrays of the symbols."""
         refs = tuple(output.ref for output in outputs)
         plan = self._plans.pop(refs, None) or Plan(self, outputs)
         self._plans[refs] = plan  # the last that was asked for is the last to go
@@ -475,7 +475,7 @@ class Expr:
 
     @property
     def is_zero(self) -> bool:
-        """True for the structural zero."""
+        """Returns True for the structural zero."""
         return self.ref == 0
 
     def __add__(self, other: Operand) -> "Expr":
@@ -517,7 +517,7 @@ def attach_labels(
     quantity: str, link: str, values: Any, step: str = "", of: str = "",
     components: Sequence[str] = "xyz",
 ) -> Any:  # fmt: skip
-    """The values, which from now on are known as this quantity of a link where text is written.
+    """Labels the values as this quantity of a link, and returns them.
 
     A node keeps its first label, whatever else it turns out to be, unless that is a step; other
     algebras than the graph's have none.
@@ -541,14 +541,14 @@ def attach_labels(
 
 
 def attach_matrix_labels(quantity: str, link: str, matrix: list[Any], step: str = "") -> list[Any]:
-    """The same of the rows of a 3 x 3 matrix."""
+    """Labels the rows of a 3 x 3 matrix as this quantity of a link, and returns them."""
     for line, axis in zip(matrix, "xyz", strict=True):
         attach_labels(quantity, link, line, step, components=[axis + other for other in "xyz"])
     return matrix
 
 
 def combine_linearly(graph: Graph, form: Mapping[int, Fraction], values: Any) -> Expr:
-    """Sum of coefficient * value over {place of the value: coefficient}."""
+    """Returns sum of coefficient * value over {place of the value: coefficient}."""
     total = graph.constant(0)
     for k, coefficient in form.items():
         total = total + values[k] * coefficient
@@ -570,15 +570,15 @@ class Algebra(Protocol):
     """Abstract: holds no data."""
 
     def static(self, value: sympy.Expr) -> Scalar:
-        """A geometric constant."""
+        """Returns a geometric constant."""
         ...
 
     def variable(self, row: GeometryRow) -> Scalar:
-        """rate * q + offset of a prismatic joint."""
+        """Returns rate * q + offset of a prismatic joint."""
         ...
 
     def cos_sin(self, row: GeometryRow) -> tuple[Scalar, Scalar]:
-        """Cosine and sine of theta = rate * q + offset."""
+        """Returns cosine and sine of theta = rate * q + offset."""
         ...
 
 
@@ -594,7 +594,7 @@ class GraphAlgebra:
             graph.links[row.joint.name] = Link(before, "" if row.index is None else moves)
 
     def static(self, value: sympy.Expr) -> Expr:
-        """A geometric constant as a static expression."""
+        """Returns a geometric constant as a static expression."""
         if value.is_Rational:
             return self.graph.constant(Fraction(int(value.p), int(value.q)))
         if value.is_Float:
@@ -626,12 +626,12 @@ class GraphAlgebra:
         return self.graph.call(name, args[0])
 
     def variable(self, row: GeometryRow) -> Expr:
-        """rate * q + offset of a prismatic joint."""
+        """Returns rate * q + offset of a prismatic joint."""
         q = self.combine_variable("q", row)
         return (q if row.rate > 0 else -q) + self.static(row.r)
 
     def combine_variable(self, kind: str, row: GeometryRow) -> Expr:
-        """The variable of a moving row ("q"), or its derivative ("qd", "qdd")."""
+        """Returns the variable of a moving row ("q"), or its derivative ("qd", "qdd")."""
         assert row.index is not None
         form = self.geometry.forms[row.index]
         return combine_linearly(
@@ -639,7 +639,7 @@ class GraphAlgebra:
         )
 
     def cos_sin(self, row: GeometryRow) -> tuple[Expr, Expr]:
-        """Cosine and sine of theta; right angles are taken out exactly."""
+        """Returns cosine and sine of theta; right angles are taken out exactly."""
         if row.index is None or not row.joint.is_revolute:
             c, s = cos_sin(row.theta)
             return self.static(c), self.static(s)

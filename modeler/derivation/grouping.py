@@ -54,7 +54,7 @@ class GroupingUnits:
     def merge_rows(
         self, rows: Sequence[Mapping[int, Element]]
     ) -> tuple[list[dict[int, Element]], list[int]]:
-        """Rows over units as rows over columns, with auxiliary ones that have to vanish.
+        """Returns rows over units as rows over columns, with auxiliary ones that have to vanish.
 
         Returns:
             Rows over the robot's columns and auxiliary columns; the numbers of these, all above
@@ -76,7 +76,7 @@ class GroupingUnits:
         return merged_rows, used
 
     def sort_units(self, columns: Sequence[int]) -> list[int]:
-        """Units in the order of the columns that own them, those without owner last."""
+        """Returns units in the order of the columns that own them, those without owner last."""
         places = {column: i for i, column in enumerate(columns)}
         last = len(places)
         return sorted(
@@ -101,7 +101,7 @@ def _add_entry(row: dict[int, Element], place: int, value: Element) -> None:
 
 
 def build_grouping_units(geometry: Geometry, columns: Sequence[StandardColumn]) -> GroupingUnits:
-    """The units of a robot with these columns."""
+    """Returns the units of a robot with these columns."""
     unit_columns: list[StandardColumn] = []
     owner: list[int | None] = []
     places: dict[tuple[int, int], int] = {}
@@ -140,14 +140,14 @@ Shaft = Mapping[int, Fraction]
 
 
 def find_friction_relations(columns: Sequence[StandardColumn]) -> list[Relation]:
-    """All relations among the viscous and among the Coulomb columns, speeds being independent."""
+    """Returns all relations among the viscous and among the Coulomb columns."""
     return _find_block_relations(
         columns, EnergyBlock.RAYLEIGH, expand_square
     ) + _find_block_relations(columns, EnergyBlock.COULOMB, _normalise_direction)
 
 
 def expand_square(shaft: Shaft) -> dict[Hashable, Fraction]:
-    """v**2 as a polynomial in the speeds: {(i, j): coefficient}, i <= j."""
+    """Returns v**2 as a polynomial in the speeds: {(i, j): coefficient}, i <= j."""
     products: dict[Hashable, Fraction] = {}
     for i, ci in shaft.items():
         for j, cj in shaft.items():
@@ -187,7 +187,7 @@ def _find_block_relations(
 
 
 def sort_by_priority(names: Sequence[str], patterns: Sequence[str]) -> list[int]:
-    """Columns in the order in which they are kept: those of the patterns first, then the others.
+    """Returns the columns in the order of keeping: those of the patterns first.
 
     Raises:
         DerivationError: a pattern matches no parameter.
@@ -222,7 +222,7 @@ class GroupingRelations:
 def derive_column_relations(
     model: SymbolicModel, geometry: Geometry, K: ExactField, seed: int
 ) -> GroupingRelations:
-    """The reduced relations of a robot, first-come by the priority order."""
+    """Returns the reduced relations of a robot, first-come by the priority order."""
     units = build_grouping_units(geometry, model.columns)
     order = sort_by_priority(model.names, model.robot.priority_parameters)
     if geometry.has_relations:
@@ -252,7 +252,7 @@ def derive_column_relations(
 def add_closure_relations(
     model: SymbolicModel, geometry: Geometry, K: ExactField, relations: GroupingRelations, seed: int
 ) -> GroupingRelations:
-    """The relations, and those among the kept columns that go around whole loops."""
+    """Adds the relations among the kept columns that go around whole loops."""
     order = sort_by_priority(model.names, model.robot.priority_parameters)
     kept_columns = [
         i for i in order if i in relations.kept_columns and has_energy(model.columns[i])
@@ -286,7 +286,7 @@ def _derive_link_relations(
 def build_base_parameters(
     columns: Sequence[StandardColumn], relations: GroupingRelations, K: ExactField, halves: bool
 ) -> tuple[tuple[BaseParameter, ...], tuple[str, ...]]:
-    """Base parameters with their terms, and the parameters without effect.
+    """Returns base parameters with their terms, and the parameters without effect.
 
     A relation col_d + sum r_b col_b = 0 gives beta_b = chi_b - r_b chi_d.
     """
@@ -307,7 +307,7 @@ def build_base_parameters(
 def build_named_parameters(
     columns: Sequence[StandardColumn], terms: Mapping[int, Sequence[Term]], halves: bool
 ) -> tuple[BaseParameter, ...]:
-    """{column: terms} as base parameters; the names of those into which others group end in R."""
+    """Builds base parameters of {column: terms}; names of grouped ones end in R."""
     return tuple(
         BaseParameter(
             columns[b].name + ("R" if len(parameter_terms) > 1 else ""),

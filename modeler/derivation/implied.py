@@ -54,7 +54,9 @@ class RelationConstants:
         self.loops, self.home, self.derived = closure, np.array(closure.home), derived
 
     def find_terms(self, coefficients: np.ndarray, angular: bool) -> list[Term] | None:
-        """The constant coefficients . home as a sum of terms; None where none is found.
+        """Returns the constant coefficients .
+
+        home as a sum of terms, or None.
 
         Args:
             coefficients: by variable: 1 for the one that follows, -c_k for the others.
@@ -183,7 +185,7 @@ class Prover:
         self.closure, self.robot = closure, robot
 
     def can_prove(self, relations: Sequence[CandidateRelation], letters: bool) -> bool:
-        """True if the loops imply all these relations together.
+        """Returns True if the loops imply all these relations together.
 
         Args:
             relations: that home fulfils.
@@ -261,7 +263,7 @@ def _compute_rank(rows: Sequence[Sequence[Number]]) -> int:
 def find_largest_proven(
     prover: Prover, relations: Sequence[CandidateRelation], letters: bool
 ) -> tuple[CandidateRelation, ...]:
-    """The largest set of the relations that is proven; sets are tried from the largest down."""
+    """Returns the largest proven set of the relations; sets are tried from the largest down."""
     tries = 0
     for size in range(len(relations), 0, -1):
         for chosen in combinations(relations, size):
@@ -306,7 +308,7 @@ class ImpliedRelations:
 
 
 def find_implied_relations(model: SymbolicModel) -> ImpliedRelations:
-    """The relations that the loops of a robot imply."""
+    """Returns the relations that the loops of a robot imply."""
     closure, robot = model.closure, model.robot
     assert closure is not None
     names = [joint.name for joint in robot.free_joints]

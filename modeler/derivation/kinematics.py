@@ -17,22 +17,22 @@ from modeler.derivation.graph import Algebra, Scalar, Vector, attach_labels, att
 
 
 def cross(a: Vector, b: Vector) -> Vector:
-    """a x b."""
+    """Returns a x b."""
     return [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
 
 
 def dot(a: Vector, b: Vector) -> Scalar:
-    """a . b."""
+    """Returns a . b."""
     return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 
 
 def plus(a: Vector, b: Vector) -> Vector:
-    """a + b."""
+    """Returns a + b."""
     return [x + y for x, y in zip(a, b, strict=True)]
 
 
 def times(scalar: Scalar, a: Vector) -> Vector:
-    """scalar * a."""
+    """Returns scalar * a."""
     return [scalar * x for x in a]
 
 
@@ -49,15 +49,15 @@ class Pose(ShortRepr):
     p: Vector
 
     def rotate_to_link(self, v: Vector) -> Vector:
-        """R^T v: from the antecedent frame to frame j."""
+        """Returns R^T v: from the antecedent frame to frame j."""
         return _rotate_z(self.theta, _rotate_x(self.alpha, _rotate_z(self.gamma, v)))
 
     def rotate_to_antecedent(self, v: Vector) -> Vector:
-        """R v: from frame j to the antecedent frame."""
+        """Returns R v: from frame j to the antecedent frame."""
         return _rotate_back_z(self.gamma, _rotate_back_x(self.alpha, _rotate_back_z(self.theta, v)))
 
     def rotate_inertia(self, J: Sequence[Vector]) -> list[Vector]:
-        """R J R^T, symmetric as J: from frame j to the antecedent frame."""
+        """Returns R J R^T, symmetric as J: from frame j to the antecedent frame."""
         half = [self.rotate_to_antecedent(line) for line in J]
         return [self.rotate_to_antecedent([half[0][i], half[1][i], half[2][i]]) for i in range(3)]
 
@@ -83,7 +83,7 @@ def _rotate_back_x(angle: tuple[Scalar, Scalar], v: Vector) -> Vector:
 
 
 def compute_pose(row: GeometryRow, algebra: Algebra) -> Pose:
-    """Pose of frame j in its antecedent, T = Rz(gamma) Tz(b) Rx(alpha) Tx(d) Rz(theta) Tz(r)."""
+    """Returns frame j in its antecedent: Rz(gamma) Tz(b) Rx(alpha) Tx(d) Rz(theta) Tz(r)."""
     gamma = evaluate_rotation(row.gamma, algebra)
     alpha = evaluate_rotation(row.alpha, algebra)
     d, b = algebra.static(row.d), algebra.static(row.b)
@@ -95,18 +95,18 @@ def compute_pose(row: GeometryRow, algebra: Algebra) -> Pose:
 
 
 def evaluate_rotation(angle: sympy.Expr, algebra: Algebra) -> tuple[Scalar, Scalar]:
-    """Cosine and sine of a constant angle."""
+    """Returns cosine and sine of a constant angle."""
     c, s = cos_sin(angle)
     return algebra.static(c), algebra.static(s)
 
 
 def compute_poses(geometry: Geometry, algebra: Algebra) -> list[Pose]:
-    """Pose of every row in its antecedent."""
+    """Returns pose of every row in its antecedent."""
     return [compute_pose(row, algebra) for row in geometry.rows]
 
 
 def build_unit_z(algebra: Algebra) -> Vector:
-    """The joint axis in its own frame."""
+    """Returns the joint axis in its own frame."""
     zero = algebra.static(sympy.Integer(0))
     return [zero, zero, algebra.static(sympy.Integer(1))]
 
@@ -122,7 +122,7 @@ class Screw(ShortRepr):
 def compute_screws(
     geometry: Geometry, frames: Sequence[Pose], algebra: Algebra
 ) -> list[dict[int, Screw]]:
-    """For every row k, the screw of each joint that moves it, by variable index.
+    """Returns for every row k the screw of each joint that moves it, by variable index.
 
     The screw is both the column of the Jacobian of link k in its own frame and the projector of a
     force f and moment n at O_k on the joint: tau = e.n + m.f.
@@ -153,7 +153,7 @@ def compute_free_screws(
     geometry: Geometry, frames: Sequence[Pose], algebra: Algebra,
     number: Callable[[Fraction], Scalar] = lambda coefficient: coefficient,
 ) -> list[dict[int, Screw]]:  # fmt: skip
-    """For every row, the screw of each free variable that moves it.
+    """Returns for every row the screw of each free variable that moves it.
 
     A row that follows others passes its screw on to them, times its coefficients.
 
@@ -178,7 +178,7 @@ def compute_free_screws(
 def compute_frame_gravity(
     geometry: Geometry, frames: Sequence[Pose], algebra: Algebra
 ) -> list[Vector]:
-    """Acceleration of gravity in every frame."""
+    """Returns acceleration of gravity in every frame."""
     base = [algebra.static(entry) for entry in geometry.gravity]
     frame_gravity: list[Vector] = []
     for row, frame in zip(geometry.rows, frames, strict=True):
@@ -195,7 +195,7 @@ AxesOrigin = tuple[list[Vector], Vector]
 def compute_base_poses(
     geometry: Geometry, frames: Sequence[Pose], algebra: Algebra
 ) -> list[AxesOrigin]:
-    """Axes x, y, z of every frame and its origin, in frame 0: the forward kinematics.
+    """Returns axes x, y, z of every frame and its origin, in frame 0: the forward kinematics.
 
     From the base outwards, R_j = R_a Rz(gamma) Rx(alpha) Rz(theta): each plane rotation turns two
     axes, and what one frame costs serves all that follow.
@@ -211,7 +211,7 @@ def compute_base_poses(
 def compute_relative_poses(
     geometry: Geometry, frames: Sequence[Pose], algebra: Algebra, root: int | None, rows: set[int]
 ) -> dict[int | None, AxesOrigin]:
-    """Axes and origins of some rows, and of all between them and `root`, in the frame of `root`.
+    """Returns axes and origins of some rows, and of all between, in the frame of `root`.
 
     Args:
         geometry: the table.
@@ -229,7 +229,7 @@ def compute_relative_poses(
 
 
 def build_unit_axes(algebra: Algebra) -> AxesOrigin:
-    """Axes and origin of a frame in itself."""
+    """Returns axes and origin of a frame in itself."""
     zero, one = algebra.static(sympy.Integer(0)), algebra.static(sympy.Integer(1))
     return [[one, zero, zero], [zero, one, zero], [zero, zero, one]], [zero] * 3
 
@@ -246,7 +246,7 @@ def _propagate_frame(parent: AxesOrigin, frame: Pose) -> AxesOrigin:
 
 
 def rotate_axes(angle: tuple[Scalar, Scalar], a: Vector, b: Vector) -> tuple[Vector, Vector]:
-    """Two axes turned in their plane, a towards b."""
+    """Returns two axes turned in their plane, a towards b."""
     c, s = angle
     return plus(times(c, a), times(s, b)), plus(times(c, b), times(-s, a))
 
@@ -299,7 +299,7 @@ class MotionState:
 def propagate_motions(
     geometry: Geometry, frames: Sequence[Pose], state: MotionState, algebra: Algebra
 ) -> list[Motion]:
-    """Motion of every row's link."""
+    """Returns the motion of every row's link."""
     zero = algebra.static(sympy.Integer(0))
     none = [zero] * 3
     half = [None] * 3 if state.v is None else none
@@ -359,7 +359,7 @@ def _build_motion(w: Vector, wd: Vector, vd: Vector, half: Vector, link: str) ->
 
 
 def compute_wrench_columns(motion: Motion) -> dict[str, tuple[Vector, Vector]]:
-    """(force, moment at the origin) that one unit of each inertial parameter needs, in its frame.
+    """Returns (force, moment) that one unit of each inertial parameter needs, in its frame.
 
     f = M vd + U MS and n = J wd + w x (J w) + MS x vd, where
     J = [[XX, XY, XZ], [XY, YY, YZ], [XZ, YZ, ZZ]].
@@ -393,7 +393,7 @@ def _build_wrench_columns(motion: Motion) -> dict[str, tuple[Vector, Vector]]:
 
 
 def project_wrench(screw: Screw, force: Vector, moment: Vector) -> Scalar:
-    """Torque of a joint under a force and a moment at O_k: e.n + m.f."""
+    """Returns torque of a joint under a force and a moment at O_k: e.n + m.f."""
     return dot(screw.e, moment) + dot(screw.m, force)
 
 
@@ -404,7 +404,7 @@ def compute_inverse_dynamics(
     parameters: Sequence[Mapping[str, Any]],
     zero: Scalar,
 ) -> list[Scalar]:
-    """Torques of the rigid links by the backward recursion.
+    """Returns torques of the rigid links by the backward recursion.
 
     Args:
         geometry: the table.
@@ -432,7 +432,7 @@ def accumulate_wrenches(
     link_wrench: Callable[[int], tuple[Vector, Vector]],
     quantities: tuple[str, str] = ("fc", "nc"),
 ) -> Iterator[tuple[int, Vector, Vector]]:
-    """(row, force, moment at its origin) of every link with all that it carries, the last first.
+    """Yields (row, force, moment) of every link with all that it carries, the last first.
 
     Args:
         geometry: the table.
@@ -461,7 +461,7 @@ def accumulate_wrenches(
 def compute_link_wrench(
     motion: Motion, parameters: Mapping[str, Any], zero: Scalar
 ) -> tuple[Vector, Vector]:
-    """Force and moment at the origin that a link needs: Newton and Euler."""
+    """Returns force and moment at the origin that a link needs: Newton and Euler."""
     J = [[parameters.get(name, zero) for name in line] for line in _INERTIA]
     MS = [parameters.get(name, zero) for name in ("MX", "MY", "MZ")]
     f = plus(times(parameters.get("M", zero), motion.vd), [dot(line, MS) for line in motion.U])
@@ -487,7 +487,7 @@ class Composite:
         self.J: list[Vector] = [[parameters.get(n, zero) for n in line] for line in _INERTIA]
 
     def add_composite(self, other: "Composite", frame: Pose) -> None:
-        """Add what hangs on `frame`, moved to this link's frame.
+        """Adds what hangs on `frame`, moved to this link's frame.
 
         J += R J R^T + 2 (p.S) 1 - p S^T - S p^T + M (p.p 1 - p p^T) with S = R MS.
         """
@@ -506,7 +506,7 @@ class Composite:
         attach_labels("Mc", self.link, [self.M], components=[""])
 
     def compute_momentum(self, row: GeometryRow) -> tuple[Vector, Vector]:
-        """Linear and angular momentum for unit speed of the joint of the row, in its frame."""
+        """Returns linear and angular momentum for unit speed of the row's joint."""
         zero, (x, y, _) = 0 * self.M, self.MS
         if row.joint.is_revolute:
             return [-y * row.rate, x * row.rate, zero], [line[2] * row.rate for line in self.J]
@@ -514,7 +514,7 @@ class Composite:
 
 
 def compute_steiner_term(p: Vector, S: Vector, M: Scalar, i: int, j: int) -> Scalar:
-    """Entry i, j of 2 (p.S) 1 - p S^T - S p^T + M (p.p 1 - p p^T)."""
+    """Returns entry i, j of 2 (p.S) 1 - p S^T - S p^T + M (p.p 1 - p p^T)."""
     total = -(p[i] * S[j] + S[i] * p[j] + M * (p[i] * p[j]))
     if i == j:
         for k in range(3):
@@ -528,7 +528,7 @@ def compute_inertia_matrix(
     parameters: Sequence[Mapping[str, Any]],
     zero: Scalar,
 ) -> list[list[Scalar]]:
-    """M(q) of the rigid links, (joints, joints), symmetric by construction.
+    """Returns M(q) of the rigid links, (joints, joints), symmetric by construction.
 
     Args:
         geometry: the table.

@@ -109,7 +109,7 @@ def _derive_velocities(
 def compute_lagrange_torque(
     model: SymbolicModel, u: np.ndarray, ud: np.ndarray, udd: np.ndarray, chi: np.ndarray
 ) -> np.ndarray:
-    """(n, coordinates) torques of the links with the standard parameters chi; effects are left out.
+    """Returns (n, coordinates) torques of the links alone at the standard parameters chi.
 
     Equations of Lagrange of the opened tree, whose rows move by q_t = F u; projected by F, and
     where there are loops by the coupling G.

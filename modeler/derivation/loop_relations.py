@@ -57,7 +57,7 @@ def derive_closure_relations(
     order: Sequence[int],
     seed: int,
 ) -> list[dict[int, Element]]:
-    """Relations among the columns of `order` that products of the closure equations make.
+    """Returns relations among the columns of `order` that products of the closure equations make.
 
     Args:
         geometry: the table.
@@ -201,7 +201,7 @@ def _rotate_to_row(state: ModularState, row: int | None, vector: Residues) -> Re
 def derive_loop_relations(
     geometry: Geometry, K: ExactField, places: Mapping[tuple[int, int], int]
 ) -> list[dict[int, Element]]:
-    """Relations among the units (see `modeler.derivation.grouping`) that the loops create.
+    """Returns the relations among the grouping units that the loops create.
 
     Args:
         geometry: the table.
@@ -228,7 +228,7 @@ def derive_loop_relations(
 def move_to_link(
     geometry: Geometry, K: ExactField, row: int | None, parameters: list[Element]
 ) -> tuple[int | None, list[Element]]:
-    """The link that carries a body fixed to frame `row` (None: the base), and its parameters."""
+    """Returns the link that carries a body fixed to frame `row`, and its parameters."""
     rows = geometry.rows
     while row is not None and rows[row].index is None:
         for step in (build_joint_constant(rows[row], K), build_placement(rows[row], K)):

@@ -74,26 +74,26 @@ class SymbolicModel(ShortRepr):
 
     @property
     def names(self) -> tuple[str, ...]:
-        """Names of the standard parameters, in column order."""
+        """Returns names of the standard parameters, in column order."""
         return tuple(column.name for column in self.columns)
 
     @cached_property
     def algebra(self) -> GraphAlgebra:
-        """The graph as numbers for the recursions."""
+        """Returns the graph as numbers for the recursions."""
         return GraphAlgebra(self.graph, self.geometry)
 
     @cached_property
     def frames(self) -> list[Pose]:
-        """Pose of every row in its antecedent."""
+        """Returns pose of every row in its antecedent."""
         return compute_poses(self.geometry, self.algebra)
 
     def get_inputs(self, kind: str) -> list[Expr]:
-        """The symbols of `kind` "q", "qd", "qdd", "v" or "a", of the free variables."""
+        """Returns the symbols of `kind` "q", "qd", "qdd", "v" or "a", of the free variables."""
         return [self.graph.symbol(f"{kind}[{k}]") for k in range(self.geometry.coordinate_count)]
 
     @cached_property
     def closure(self) -> Closure | None:
-        """What ties the free variables to each other; None without loops.
+        """Returns the loop closure that ties the free variables; None without loops.
 
         Raises:
             LoopError: the loops leave more or less free than is actuated, or cannot close.
@@ -101,7 +101,7 @@ class SymbolicModel(ShortRepr):
         return derive_closure(self.geometry, self.graph, self.frames, self.algebra)
 
     def reduce_to_free(self, rows: Sequence[Expr]) -> list[Expr]:
-        """Torques along the free variables from those of the moving rows: F^T tau."""
+        """Returns torques along the free variables from those of the moving rows: F^T tau."""
         free_torques = [self.graph.constant(0)] * self.geometry.coordinate_count
         for form, torque in zip(self.geometry.forms, rows, strict=True):
             for k, coefficient in form.items():
@@ -112,7 +112,7 @@ class SymbolicModel(ShortRepr):
         self, qd: Sequence[Expr], qdd: Sequence[Expr], gravity: bool = True,
         v: Sequence[Expr] | None = None,
     ) -> list[Motion]:  # fmt: skip
-        """Motion of every row's link for these speeds and accelerations of the free variables.
+        """Returns the motion of every link for speeds and accelerations of the free variables.
 
         Args:
             qd: speeds.
@@ -131,12 +131,12 @@ class SymbolicModel(ShortRepr):
         return propagate_motions(self.geometry, self.frames, state, self.algebra)
 
     def expand_to_rows(self, free: Sequence[Expr]) -> list[Expr]:
-        """Speeds of the moving rows from those of the free variables: F u."""
+        """Returns speeds of the moving rows from those of the free variables: F u."""
         return [combine_linearly(self.graph, form, free) for form in self.geometry.forms]
 
     @cached_property
     def regressor(self) -> Entries:
-        """Structural nonzeros of phi in tau = phi chi, over all standard columns.
+        """Returns structural nonzeros of phi in tau = phi chi, over all standard columns.
 
         Inertial columns by Newton-Euler in screw form: the wrench of one unit of a parameter,
         projected on every joint below; effect columns from their definition.
@@ -149,7 +149,7 @@ class SymbolicModel(ShortRepr):
         return entries
 
     def build_projection(self, moved: Sequence[Motion]) -> Callable[[LinkColumn], dict[int, Expr]]:
-        """{free variable: torque along it} per unit of a link's parameter, in this motion."""
+        """Returns what gives {free variable: torque} per unit of a link's parameter."""
         free_screws = self.free_screws
         columns = [compute_wrench_columns(motion) for motion in moved]
 
@@ -166,7 +166,7 @@ class SymbolicModel(ShortRepr):
         self, link: Callable[[LinkColumn], Mapping[int, Expr]],
         shaft: Callable[[ShaftColumn], Mapping[int, Expr]],
     ) -> Entries:  # fmt: skip
-        """Structural nonzeros over all standard columns, by row of what the parts give.
+        """Returns the structural nonzeros over all standard columns from those of their parts.
 
         Args:
             link: {row: value} of a link's parameter.
@@ -183,7 +183,7 @@ class SymbolicModel(ShortRepr):
 
     @contextmanager
     def relabel_speeds(self) -> Iterator[None]:
-        """While recursions are given speeds as accelerations: labels say what comes of it."""
+        """Labels what recursions give while speeds stand in the place of accelerations."""
         self.graph.renamed_quantities = _OF_SPEEDS
         try:
             yield
@@ -197,7 +197,7 @@ class SymbolicModel(ShortRepr):
 
     @contextmanager
     def restore_labels(self) -> Iterator[None]:
-        """While a module is written: labels do not depend on what else was asked of the model."""
+        """Restores the labels of the regressor while a module is written."""
         graph, before = self.graph, self.graph.labels
         assert self.regressor
         graph.labels = self._labels.copy()
@@ -208,16 +208,16 @@ class SymbolicModel(ShortRepr):
 
     @cached_property
     def free_screws(self) -> list[dict[int, Screw]]:
-        """For every row, the screw of each free variable that moves it."""
+        """Returns for every row the screw of each free variable that moves it."""
         return compute_free_screws(self.geometry, self.frames, self.algebra)
 
     @cached_property
     def signals(self) -> tuple[Signal, ...]:
-        """What effects read besides the motion: the input `s`, in order."""
+        """Returns the signals that effects read besides the motion: the input `s`, in order."""
         return collect_signals(self.columns)
 
     def derive_reference_torque(self, kind: str) -> list[Expr]:
-        """Torques along the free variables at the parameters of `[reference]`.
+        """Returns torques along the free variables at the parameters of `[reference]`.
 
         Args:
             kind: "load", of the links; "static", of gravity; "torque", of the textbook effects too;
@@ -238,7 +238,7 @@ class SymbolicModel(ShortRepr):
         self, parameters: Mapping[int, Expr], *, speeds: bool = True,
         accelerations: bool = True, gravity: bool = True, effects: bool = True, links: bool = True,
     ) -> list[Expr]:  # fmt: skip
-        """tau by the Newton-Euler recursion for the parameters given by column; the others are 0.
+        """Returns tau by the Newton-Euler recursion for parameters by column; the others are 0.
 
         Args:
             parameters: {column: value}.
@@ -266,7 +266,7 @@ class SymbolicModel(ShortRepr):
         return tau
 
     def collect_link_parameters(self, parameters: Mapping[int, Expr]) -> list[dict[str, Expr]]:
-        """Per row, the inertial parameters among `parameters`, by prefix."""
+        """Returns for each row the inertial parameters among `parameters`, by prefix."""
         rows: list[dict[str, Expr]] = [{} for _ in self.geometry.rows]
         for place, value in parameters.items():
             for part in self.columns[place].parts:
@@ -275,7 +275,7 @@ class SymbolicModel(ShortRepr):
         return rows
 
     def derive_inertia_matrix(self, parameters: Mapping[int, Expr]) -> list[list[Expr]]:
-        """M(q) of the free variables: composite links, and the rotor inertias of the effects."""
+        """Returns M(q) of the free variables, rotor inertias of the effects included."""
         zero = self.graph.constant(0)
         rows = self.collect_link_parameters(parameters)
         tree = compute_inertia_matrix(self.geometry, self.frames, rows, zero)
@@ -288,7 +288,7 @@ class SymbolicModel(ShortRepr):
     def enumerate_rotor_inertias(
         self, parameters: Mapping[int, Expr]
     ) -> Iterator[tuple[int, int, Expr]]:
-        """(row, column, value) of what rotor inertias add to M."""
+        """Yields (row, column, value) of what rotor inertias add to M."""
         for place, value in parameters.items():
             for part in self.columns[place].parts:
                 if isinstance(part, ShaftColumn) and part.kind == "rotor_inertia":
@@ -297,7 +297,7 @@ class SymbolicModel(ShortRepr):
                             yield i, j, value * (ci * cj)
 
     def derive_forward_kinematics(self) -> list[list[list[Expr]]]:
-        """[R | p], 3 x 4, of every moving row's frame in frame 0, in table order.
+        """Returns [R | p], 3 x 4, of every moving row's frame in frame 0, in table order.
 
         The columns of R are the frame's axes x, y, z in frame 0; p is its origin, m.
         """
@@ -318,7 +318,7 @@ _MEASURED = ("q", "qd", "qdd")
 def derive_effect_entries(
     model: SymbolicModel, column: ShaftColumn, motion: Sequence[str] = _MEASURED
 ) -> dict[int, Expr]:
-    """{free variable: torque along it per unit of the column's parameter}.
+    """Returns {free variable: torque along it per unit of the column's parameter}.
 
     Args:
         model: the robot's.
@@ -345,12 +345,12 @@ def _evaluate_equation(
 
 
 def get_signal_symbol(model: SymbolicModel, signal: Signal) -> Expr:
-    """The entry of `s` that it is."""
+    """Returns the symbol of the signal in the input `s`."""
     return model.graph.symbol(f"s[{model.signals.index(signal)}]")
 
 
 def evaluate_followed(model: SymbolicModel, signal: Signal, now: Mapping[Signal, Expr]) -> Expr:
-    """What a lag follows, with the signals that it reads as they are now."""
+    """Returns what a lag follows, with the present values of the signals that it reads."""
     index = model.geometry.rows[signal.row].index
     assert index is not None and signal.follows is not None
     read = {name: now[other] for name, other in signal.input_signals.items()}
@@ -387,7 +387,7 @@ def _evaluate_on_shaft(
 
 
 def combine_along_shaft(model: SymbolicModel, shaft: Mapping[int, Fraction], kind: str) -> Expr:
-    """Position, speed or acceleration of a shaft."""
+    """Returns position, speed or acceleration of a shaft."""
     return combine_linearly(model.graph, shaft, model.get_inputs(kind))
 
 

@@ -43,7 +43,7 @@ _HALF = Fraction(1, 2)
 def derive_coriolis_matrix(
     model: SymbolicModel, parameters: Mapping[int, Expr]
 ) -> list[list[Expr]]:
-    """C(q, qd) of the free variables, of Christoffel symbols: c = C qd, dM/dt = C + C^T.
+    """Returns C(q, qd) of the free variables by Christoffel symbols: dM/dt = C + C^T.
 
     Args:
         model: as derived.
@@ -67,7 +67,7 @@ def _propagate_twists(model: SymbolicModel) -> list[Motion]:
 
 
 def derive_momentum(model: SymbolicModel, parameters: Mapping[int, Expr]) -> list[Expr]:
-    """M(q) qd along the free variables, rotor inertias included.
+    """Returns M(q) qd along the free variables, rotor inertias included.
 
     Args:
         model: as derived.
@@ -84,7 +84,7 @@ def derive_momentum(model: SymbolicModel, parameters: Mapping[int, Expr]) -> lis
 
 
 def derive_coriolis_transpose(model: SymbolicModel, parameters: Mapping[int, Expr]) -> list[Expr]:
-    """C(q, qd)^T qd along the free variables, which is dT/dq.
+    """Returns C(q, qd)^T qd along the free variables, which is dT/dq.
 
     Args:
         model: as derived.
@@ -133,7 +133,7 @@ def _differentiate_twists(
 
 
 def derive_slotine_li_regressor(model: SymbolicModel) -> Entries:
-    """Y of Y chi = M(q) a + C(q, qd) v + g(q) + f(v), over all standard columns.
+    """Returns Y of Y chi = M(q) a + C(q, qd) v + g(q) + f(v), over all standard columns.
 
     Slotine and Li 1987; by the recursion of Newton and Euler with two speeds. Friction takes v for
     qd, rotor inertia takes a.
@@ -146,7 +146,7 @@ def derive_slotine_li_regressor(model: SymbolicModel) -> Entries:
 
 
 def derive_momentum_regressor(model: SymbolicModel) -> Entries:
-    """P of p = P chi, over all standard columns."""
+    """Returns P of p = P chi, over all standard columns."""
 
     def build_shaft_entries(part: ShaftColumn) -> dict[int, Expr]:
         if part.kind != "rotor_inertia":
@@ -161,7 +161,7 @@ def derive_momentum_regressor(model: SymbolicModel) -> Entries:
 
 
 def derive_momentum_rest_regressor(model: SymbolicModel) -> Entries:
-    """R of tau = d/dt (P chi) + R chi: gravity and friction less dT/dq, over all columns."""
+    """Returns R of tau = d/dt (P chi) + R chi: gravity and friction less dT/dq."""
     zero = model.graph.constant(0)
     still, moved = [zero] * model.geometry.coordinate_count, _propagate_twists(model)
     gravity = model.build_projection(model.derive_link_motions(still, still))
@@ -184,7 +184,7 @@ def _derive_losses(model: SymbolicModel, part: ShaftColumn) -> dict[int, Expr]:
 
 
 def derive_energy_regressor(model: SymbolicModel) -> Entries:
-    """h of T + U = h chi, one row: kinetic and potential energy, 0 at height 0 of frame 0."""
+    """Returns h of T + U = h chi, one row; the energy is 0 at height 0 of frame 0."""
     geometry, algebra = model.geometry, model.algebra
     moved, down = _propagate_twists(model), compute_frame_gravity(geometry, model.frames, algebra)
     momenta = [compute_wrench_columns(motion) for motion in moved]
@@ -213,7 +213,10 @@ def derive_energy_regressor(model: SymbolicModel) -> Entries:
 
 
 def derive_power_regressor(model: SymbolicModel) -> Entries:
-    """d of tau . qd = d/dt (h chi) + d chi, one row: the power that friction and offsets take."""
+    """Returns d of tau .
+
+    qd = d/dt (h chi) + d chi, one row: the power that friction and offsets take.
+    """
     qd, zero = model.get_inputs("qd"), model.graph.constant(0)
 
     def build_shaft_entries(part: ShaftColumn) -> dict[int, Expr]:

@@ -68,7 +68,7 @@ class NumericRank:
 
 
 def draw_random_states(model: SymbolicModel, samples: int, rng: np.random.Generator) -> States:
-    """Positions over a turn (prismatic: +-1 m), speeds and accelerations of order 1.
+    """Returns positions over a turn (prismatic: +-1 m), speeds and accelerations of order 1.
 
     With loops: closed postures over the reachable range, not near singularities, and motions that
     the loops allow.
@@ -84,14 +84,14 @@ def draw_random_states(model: SymbolicModel, samples: int, rng: np.random.Genera
 
 
 def expand_states(model: SymbolicModel, u: np.ndarray, qd: np.ndarray, qdd: np.ndarray) -> States:
-    """The motion of all free variables at closed postures from that of the coordinates."""
+    """Returns the motion of all free variables at closed postures from that of the coordinates."""
     motion = compute_closed_motion(model, u, qd)
     ud = np.einsum("nij,nj->ni", motion.coupling, qd)
     return u, ud, np.einsum("nij,nj->ni", motion.coupling, qdd) + motion.drift
 
 
 def draw_sample(model: SymbolicModel, samples: int, seed: int) -> Sample:
-    """The standard regressor at random states, (samples * coordinates, columns) and its rounding.
+    """Returns the standard regressor at random states, and its rounding.
 
     A closed posture is closed up to rounding r in the equations, hence wrong by J_s^-1 r in the
     passive joints. What such an error changes in the regressor is its rounding; it grows towards
@@ -124,13 +124,13 @@ def draw_sample(model: SymbolicModel, samples: int, seed: int) -> Sample:
 
 
 def draw_signal_values(model: SymbolicModel, samples: int) -> np.ndarray:
-    """(signals, samples): what effects read besides the motion, positive and of order 1."""
+    """Returns (signals, samples) random values of signals, positive and of order 1."""
     shape = (len(model.signals), samples)
     return np.random.default_rng(samples).uniform(0.1, 1.0, shape)
 
 
 def evaluate_regressor(model: SymbolicModel, states: States) -> np.ndarray:
-    """(samples, coordinates, columns): the standard regressor at the nominal geometry."""
+    """Returns (samples, coordinates, columns): the standard regressor at the nominal geometry."""
     q, qd, qdd = states
     values = dict(model.geometry.values)
     inputs = {
@@ -151,7 +151,7 @@ def evaluate_regressor(model: SymbolicModel, states: States) -> np.ndarray:
 
 
 def compute_numeric_rank(sample: Sample, columns: Sequence[int]) -> NumericRank:
-    """Rank of the sampled regressor, of the columns given.
+    """Returns the rank of the sampled regressor in the given columns.
 
     Without loops singular values above `TOLERANCE` of the largest count. With loops those count
     that are ten times as large as the rounding of the closure and of the decomposition: a matrix
@@ -196,7 +196,7 @@ _NOTHING = 1e-9
 def derive_numeric_grouping(
     model: SymbolicModel, sample: Sample, numeric: NumericRank, enclosed: Enclosed
 ) -> tuple[tuple[BaseParameter, ...], tuple[str, ...], float]:
-    """First-come independent columns of the torque regressor at random states, nominal geometry.
+    """Groups columns of the sampled regressor in floating point, first come first kept.
 
     A column is dependent if the columns before it leave less of it than lies in the middle of the
     gap of the singular values: what is left of an independent one is no less than the last kept
@@ -290,7 +290,7 @@ def _convert_ball(factor: Any) -> sympy.Expr:
 def compare_torques(
     model: SymbolicModel, parameters: tuple[BaseParameter, ...], seed: int
 ) -> float:
-    """Largest |tau_base - tau_standard| / max |tau_standard| at random states and parameters."""
+    """Returns max |tau_base - tau_standard| / max |tau_standard| at random states."""
     rng = np.random.default_rng(seed)
     phi = evaluate_regressor(model, draw_random_states(model, 50, rng))
     chi = rng.normal(size=len(model.columns))
@@ -306,7 +306,7 @@ def compare_torques(
 
 
 def build_grouping_matrix(model: SymbolicModel, parameters: Sequence[BaseParameter]) -> np.ndarray:
-    """(rank, columns): beta = K chi at the nominal geometry."""
+    """Returns (rank, columns): beta = K chi at the nominal geometry."""
     place = {name: i for i, name in enumerate(model.names)}
     known = cache(partial(evaluate_coefficient, values=model.geometry.values))
     K = np.zeros((len(parameters), len(model.columns)))
@@ -317,6 +317,6 @@ def build_grouping_matrix(model: SymbolicModel, parameters: Sequence[BaseParamet
 
 
 def evaluate_coefficient(coefficient: sympy.Expr, values: Mapping[str, float]) -> float:
-    """A coefficient at the nominal geometry."""
+    """Returns a coefficient at the nominal geometry."""
     at = {s: sympy.Float(values[s.name]) for s in coefficient.free_symbols}
     return float(coefficient.xreplace(at))

@@ -25,7 +25,7 @@ Ball = Any
 
 @cache
 def load_flint() -> Any:
-    """The library of ball arithmetic; its precision is `load_flint().ctx.workprec(bits)`."""
+    """Returns the library of ball arithmetic, whose precision is that of its context."""
     # Only here: most derivations need no balls.
     import flint as library
 
@@ -33,14 +33,14 @@ def load_flint() -> Any:
 
 
 def build_ball(value: Any) -> Ball:
-    """The ball around a fraction, or the ball of radius 0 that is a double or a whole number."""
+    """Returns the ball around a fraction, or the exact ball of a double or whole number."""
     if isinstance(value, int | float):
         return load_flint().arb(value)
     return load_flint().arb(load_flint().fmpq(value.numerator, value.denominator))
 
 
 def enclose_symbols(robot: Robot) -> dict[str, Ball]:
-    """The value of every symbol of a robot, by name, as its expression says it."""
+    """Returns the value of every symbol of a robot, by name, as its expression says it."""
     known: dict[str, Ball] = {}
     for name, expression in robot.symbols.items():
         known[name] = expression.fold(
@@ -102,7 +102,7 @@ _CALLS: Mapping[str, Callable[..., Ball]] = {
 def build_ball_function(
     graph: Graph, outputs: Sequence[Expr], symbols: Mapping[str, Ball]
 ) -> Callable[[Mapping[str, Ball]], list[Ball]]:
-    """Expressions as one function of their inputs by name, at the precision of the caller.
+    """Returns expressions as one function of their inputs, in ball arithmetic.
 
     Args:
         graph: of the expressions.
@@ -114,7 +114,7 @@ def build_ball_function(
 
 
 def is_proven_regular(matrix: Sequence[Sequence[Ball]]) -> bool:
-    """True if every square matrix within the balls is regular; False if that is not certain.
+    """Returns True if every square matrix within the balls is regular, False if uncertain.
 
     The system with the right side 1 is solved in balls, which Arb does only where the matrix is
     proven regular (by the product with an approximate inverse, or by pivots without zero).
@@ -131,7 +131,7 @@ def is_proven_regular(matrix: Sequence[Sequence[Ball]]) -> bool:
 
 
 def is_surely_zero(expression: Expr, robot: Robot) -> bool:
-    """True if an expression is 0 at the given values; False if it moves or is not rational.
+    """Returns True if an expression is 0 at the given values; False if it moves or is not rational.
 
     Lengths in a file are decimals, so sums and products of them are rational numbers: the offsets
     along the axes of a plane loop add up to 0, or they do not.
@@ -163,7 +163,7 @@ Number = Any
 def evaluate_precisely(
     graph: Graph, outputs: Sequence[Expr], values: Mapping[str, float | Number]
 ) -> list[Number]:
-    """Values of the outputs, 40 digits; `values` gives a number per symbol.
+    """Returns values of the outputs, 40 digits; `values` gives a number per symbol.
 
     A double counts as the decimal that it prints, which is what was written: 0.3 is 3/10.
     """
@@ -176,18 +176,18 @@ def evaluate_precisely(
 
 
 def convert_to_precise(value: float | Number) -> Number:
-    """A double as the decimal that it prints; a number of 40 digits as it is."""
+    """Returns a double as the decimal that it prints; a number of 40 digits as it is."""
     return get_precise_context().mpf(repr(float(value)) if isinstance(value, float) else value)
 
 
 def convert_fraction(value: Fraction) -> Number:
-    """A rational number with 40 digits."""
+    """Returns a rational number with 40 digits."""
     return get_precise_context().mpf(value.numerator) / value.denominator
 
 
 @cache
 def get_precise_functions() -> Mapping[str, Callable[..., Number]]:
-    """The operations of expressions on numbers of 40 digits."""
+    """Returns the operations of expressions on numbers of 40 digits."""
     mp = get_precise_context()
     named_functions = {name: getattr(mp, name) for name in FUNCTIONS if name != "abs"}
     return {**OPERATIONS, **named_functions, "abs": abs, "pow": mp.power}

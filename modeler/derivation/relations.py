@@ -86,25 +86,25 @@ class _LatexPrinter(_DecimalPrinter, LatexPrinter):
 
 
 def format_exact_decimal(value: sympy.Expr, halves: bool) -> str | None:
-    """The digits of a number that is written as a decimal; None of any other expression."""
+    """Returns the digits of a number that is written as a decimal; None of any other expression."""
     if not value.is_Rational:
         return None
     return format_decimal(Fraction(int(value.p), int(value.q)), halves)
 
 
 def format_coefficient(coefficient: sympy.Expr, halves: bool = False) -> str:
-    """`D8/D3`: a coefficient alone, as programs read it."""
+    """Returns `D8/D3`: a coefficient alone, as programs read it."""
     return _TextPrinter(halves).doprint(coefficient)
 
 
 def format_relation(parameter: BaseParameter) -> str:
-    """`ZZ2R = ZZ2 + YY3 + D4**2*M4`."""
+    """Returns `ZZ2R = ZZ2 + YY3 + D4**2*M4`."""
     terms = [_format_term(term, parameter.halves) for term in parameter.terms]
     return f"{parameter.name} = {_format_sum(terms)}"
 
 
 def format_relation_latex(parameter: BaseParameter) -> str:
-    r"""`\mathit{ZZ}_{2R} = \mathit{ZZ}_{2} + \mathit{YY}_{3} + D_{4}^{2} M_{4}`."""
+    r"""Returns `\mathit{ZZ}_{2R} = \mathit{ZZ}_{2} + \mathit{YY}_{3} + D_{4}^{2} M_{4}`."""
     terms = [_format_latex_term(term, parameter.halves) for term in parameter.terms]
     return f"{format_latex_name(parameter.name)} = {_format_sum(terms)}"
 
@@ -153,7 +153,7 @@ def _separate_fraction(value: sympy.Expr, halves: bool) -> tuple[sympy.Expr, sym
 
 
 def separate_sign(coefficient: sympy.Expr) -> tuple[str, sympy.Expr]:
-    """The sign to write in front, and what stays: sums keep theirs unless all terms are minus."""
+    """Returns the sign to write in front, and what stays; sums of minus terms give theirs."""
     negative = (
         all(arg.could_extract_minus_sign() for arg in coefficient.args)
         if coefficient.is_Add
@@ -166,13 +166,13 @@ _WIDTH = 96
 
 
 def as_text(base: BaseParameters) -> str:
-    """All relations, one line each, then the parameters without effect."""
+    """Returns all relations, one line each, then the parameters without effect."""
     lines = [format_relation(parameter) for parameter in base.parameters]
     return "\n".join([*lines, "", f"no effect: {' '.join(base.unidentifiable) or 'none'}"])
 
 
 def as_markdown(base: BaseParameters) -> str:
-    """A table of the relations, for a page."""
+    """Returns a table of the relations, for a page."""
     lines = ["| base parameter | is | unit |", "| --- | --- | --- |"]
     for parameter in base.parameters:
         right = format_relation(parameter).split(" = ", 1)[1]
@@ -182,7 +182,7 @@ def as_markdown(base: BaseParameters) -> str:
 
 
 def as_latex(base: BaseParameters) -> str:
-    """The relations as an align environment, in lines that fit the page."""
+    """Returns the relations as an align environment, in lines that fit the page."""
     sides = [format_relation_latex(p).split(" = ", 1) for p in base.parameters]
     return format_display(
         [DisplayedEquation(left, (right,)) for left, right in sides], numbered=True
@@ -190,7 +190,7 @@ def as_latex(base: BaseParameters) -> str:
 
 
 def serialise_base_parameters(robot: str, base: BaseParameters) -> dict[str, Any]:
-    """What `modeler derive --json` writes (contract section 5)."""
+    """Returns the JSON of `modeler derive --json` (contract section 5)."""
     return {
         "robot": robot,
         "standard": [column.name for column in base.columns],
@@ -219,7 +219,7 @@ def serialise_base_parameters(robot: str, base: BaseParameters) -> dict[str, Any
 
 
 def parse_base_parameter(entry: Mapping[str, Any], halves: bool = False) -> BaseParameter:
-    """A base parameter as `serialise_base_parameters` wrote it.
+    """Parses a base parameter as JSON states it; its column is not known.
 
     Its place among the columns is " "not kept.
     """
@@ -281,12 +281,12 @@ def _serialise_proof(proof: Proof) -> dict[str, Any]:
 
 
 def format_proof(proof: Proof) -> str:
-    """The proof in a few lines."""
+    """Returns the proof in a few lines."""
     return "\n".join(textwrap.fill(text, _WIDTH) for text in format_proof_paragraphs(proof))
 
 
 def format_proof_paragraphs(proof: Proof) -> list[str]:
-    """The proof, a paragraph for each of its parts."""
+    """Returns the proof, a paragraph for each of its parts."""
     return [
         f"proof: {proof.kind}. {proof.statement}",
         _format_independence(proof.certificate),
@@ -330,7 +330,7 @@ def _format_sampling(sampling: Sampling, seed: int) -> str:
 
 
 def build_relation_formula(parameter: BaseParameter) -> tuple[Formula, ...]:
-    """`ZZ2R =`, then one formula a term with its sign in front: a page may break between them."""
+    """Returns `ZZ2R =`, then one formula a term, between which a page may break."""
     lines = [make_row(make_name(parameter.name), make_operator("="))]
     for k, term in enumerate(parameter.terms):
         sign, size = separate_sign(term.coefficient)
@@ -362,7 +362,7 @@ def _build_fenced_sum(factor: sympy.Expr, halves: bool) -> Formula:
 
 
 def build_expression_formula(expression: sympy.Expr, halves: bool = False) -> Formula:
-    """Sums, products, quotients, powers, numbers, symbols and functions of one argument."""
+    """Returns sums, products, quotients, powers, numbers, symbols and functions of one argument."""
     if expression.is_Symbol or expression is sympy.pi:
         return make_name(str(expression))
     if expression.is_Add:

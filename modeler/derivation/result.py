@@ -168,11 +168,11 @@ class BaseParameters(ShortRepr):
 
     @property
     def rank(self) -> int:
-        """Number of base parameters."""
+        """Returns number of base parameters."""
         return len(self.parameters)
 
     def count_by_kind(self) -> Mapping[str, int]:
-        """Base parameters by the kind of the standard parameter whose column they are."""
+        """Counts base parameters by the kind of the standard parameter of their column."""
         counts = dict.fromkeys(("inertial", "rotor_inertia", "friction", "offset"), 0)
         for parameter in self.parameters:
             kind = self.columns[parameter.column].kind

@@ -64,7 +64,7 @@ class Probes:
         self._known: dict[tuple[int, ...], list[Point]] = {}
 
     def draw_moved_points(self, letters: tuple[int, ...], count: int) -> list[Point]:
-        """The first `count` points that differ from home in these letters only."""
+        """Returns the first `count` points that differ from home in these letters only."""
         known = self._known.setdefault(letters, [])
         while len(known) < count:
             other = self._draw_point()
@@ -76,7 +76,7 @@ class Probes:
 
 
 def interpolate_coefficient(function: Function, K: ExactField, probes: Probes) -> Element:
-    """The element of K whose values the function has.
+    """Returns the element of K that has the values of the function.
 
     Raises:
         TooLarge: it has too many terms or too high a degree, or is no such element.
@@ -204,7 +204,7 @@ def derive_tied_relations(
     order: Sequence[int],
     seed: int,
 ) -> list[dict[int, Element]]:
-    """All relations among the energy rows of the columns, loops left open.
+    """Returns all relations among the energy rows of the columns, loops left open.
 
     Args:
         geometry: the table, with relations.
@@ -240,7 +240,7 @@ def find_dependent_columns(
     wanted: Set[int],
     seed: int,
 ) -> list[dict[int, Element]]:
-    """The relation of every wanted function that is a combination of those before it.
+    """Returns the relation of every wanted function that depends on those before it.
 
     Args:
         geometry: the table.
@@ -293,7 +293,7 @@ def _find_supports(
 
 
 def has_energy(column: StandardColumn) -> bool:
-    """True where a column adds to the energies: no friction."""
+    """Returns True where a column adds to the energies: no friction."""
     return isinstance(column, LinkColumn) or column.kind in ("rotor_inertia", "offset")
 
 

@@ -42,7 +42,7 @@ _J = ((0, 0), (0, 1), (0, 2), (1, 1), (1, 2), (2, 2))
 
 
 def multiply_matrices(a: Matrix, b: Matrix, zero: Element) -> Matrix:
-    """a b."""
+    """Returns a b."""
     there = [[(j, y) for j, y in enumerate(line) if y] for line in b]  # most entries are 0
     product_rows = []
     for line in a:
@@ -63,12 +63,12 @@ def _compute_dot(a: Sequence[Element], b: Sequence[Element], zero: Element) -> E
 
 
 def apply_matrix(a: Matrix, v: Sequence[Element], zero: Element) -> list[Element]:
-    """a v."""
+    """Returns a v."""
     return [_compute_dot(line, v, zero) for line in a]
 
 
 def build_inertial_transfer(R: Matrix, p: Sequence[Element], zero: Element, one: Element) -> Matrix:
-    """10 x 10: a body's parameters at a frame posed at (R, p) -> those at the origin."""
+    """Returns 10 x 10: a body's parameters at a frame posed at (R, p) -> those at the origin."""
     units = [[one if i == j else zero for j in range(10)] for i in range(10)]
     columns = [_move_inertia(R, p, unit, zero) for unit in units]
     return [list(line) for line in zip(*columns, strict=True)]
@@ -101,12 +101,12 @@ def _move_inertia(
 
 
 def build_rotation_z(c: Element, s: Element, zero: Element, one: Element) -> Matrix:
-    """Rz as a matrix."""
+    """Returns Rz as a matrix."""
     return [[c, -s, zero], [s, c, zero], [zero, zero, one]]
 
 
 def build_rotation_x(c: Element, s: Element, zero: Element, one: Element) -> Matrix:
-    """Rx as a matrix."""
+    """Returns Rx as a matrix."""
     return [[one, zero, zero], [zero, c, -s], [zero, s, c]]
 
 
@@ -118,7 +118,7 @@ class ConstantPlacement:
     p: list[Element]
 
     def invert_placement(self, K: ExactField) -> "ConstantPlacement":
-        """R^T and -R^T p."""
+        """Returns R^T and -R^T p."""
         back = [list(column) for column in zip(*self.R, strict=True)]
         return ConstantPlacement(back, [-x for x in apply_matrix(back, self.p, K.zero)])
 
@@ -126,12 +126,12 @@ class ConstantPlacement:
 def move_parameters(
     step: ConstantPlacement, parameters: Sequence[Element], K: ExactField
 ) -> list[Element]:
-    """Ten parameters at a frame posed at `step`, as the same body's parameters at the origin."""
+    """Returns the ten parameters of a body posed at `step` as those at the origin."""
     return _move_inertia(step.R, step.p, parameters, K.zero)
 
 
 def build_placement(row: GeometryRow, K: ExactField) -> ConstantPlacement:
-    """Rz(gamma) Tz(b) Rx(alpha) Tx(d): the antecedent to the frame before the joint motion."""
+    """Returns Rz(gamma) Tz(b) Rx(alpha) Tx(d), the pose before the joint motion."""
     zero, one = K.zero, K.one
     gamma = build_rotation_z(*K.cos_sin(row.gamma), zero, one)
     alpha = build_rotation_x(*K.cos_sin(row.alpha), zero, one)
@@ -141,7 +141,7 @@ def build_placement(row: GeometryRow, K: ExactField) -> ConstantPlacement:
 
 
 def build_joint_constant(row: GeometryRow, K: ExactField) -> ConstantPlacement:
-    """The constant part that commutes with the joint motion: Tz(r) or Rz(theta), or both."""
+    """Returns the constant part that commutes with the joint motion: Tz(r), Rz(theta) or both."""
     zero, one = K.zero, K.one
     turns = row.index is not None and row.joint.is_revolute
     slides = row.index is not None and not row.joint.is_revolute
@@ -152,7 +152,7 @@ def build_joint_constant(row: GeometryRow, K: ExactField) -> ConstantPlacement:
 
 @lru_cache(maxsize=2)
 def build_joint_motion(angular: bool) -> tuple[tuple[Matrix, Matrix], ...]:
-    """The joint motion as a sum over its basis functions, the constant one first; over Q.
+    """Returns the joint motion as a sum over its basis functions, the constant one first; over Q.
 
     Revolute: 1, c, s, c**2, cs of the rotation; prismatic: 1, r, r**2 of the travel.
 
@@ -218,7 +218,7 @@ class LinkGrouping:
 def group_tree(
     geometry: Geometry, K: ExactField, joint_columns: Collection[tuple[int, int]]
 ) -> list[LinkGrouping]:
-    """For every row of the table, what its antecedent hides of it.
+    """Returns for every row of the table what its antecedent hides of it.
 
     Args:
         geometry: the table.

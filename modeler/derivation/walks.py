@@ -161,26 +161,26 @@ class Linkage(ShortRepr):
 
     @property
     def free(self) -> tuple[Joint, ...]:
-        """Rows whose variables are u."""
+        """Returns the rows whose variables are u."""
         return self.robot.free_joints
 
     @cached_property
     def is_travel(self) -> np.ndarray:
-        """By u, True for a travel in m."""
+        """Returns for each variable True for a travel in m."""
         return np.array(self.loops.is_travel, dtype=bool)
 
     @cached_property
     def is_tied(self) -> np.ndarray:
-        """By u, True for a joint that a loop depends on; the others stand anywhere."""
+        """Returns for each variable True if a loop depends on it."""
         columns = zip(*self.loops.jacobian, strict=True)
         return np.array([any(not entry.is_zero for entry in column) for column in columns])
 
     def build_vector(self, values: Mapping[str, float]) -> np.ndarray:
-        """(u,) values by row name; NaN for rows without."""
+        """Returns (u,) values by row name; NaN for rows without."""
         return np.array([values.get(joint.name, np.nan) for joint in self.free])
 
     def get_bounds(self) -> tuple[np.ndarray, np.ndarray]:
-        """(u,) lower and upper [limits]; infinite for joints without."""
+        """Returns (u,) lower and upper [limits]; infinite for joints without."""
         limits = [self.robot.limits.get(joint.name) for joint in self.free]
         lower = np.array([-np.inf if one is None else one.lower for one in limits])
         upper = np.array([np.inf if one is None else one.upper for one in limits])
@@ -188,14 +188,14 @@ class Linkage(ShortRepr):
 
     @cached_property
     def limit_middles(self) -> np.ndarray:
-        """(u,) middles of [limits]; NaN for joints without."""
+        """Returns (u,) middles of [limits]; NaN for joints without."""
         lower, upper = self.get_bounds()
         with np.errstate(invalid="ignore"):
             middle = np.where(np.isfinite(lower + upper), 0.5 * (lower + upper), np.nan)
         return np.array([float(f"{x:.12g}") for x in middle])
 
     def compute_shape(self, u: np.ndarray) -> np.ndarray:
-        """(n, numbers) where all frames and joint axes are, an axis being a line without a sense.
+        """Returns (n, numbers) the positions of all frames and joint axes, an axis without a sense.
 
         Postures of one shape are symmetric copies: a fork turned over with its universal joint, a
         cylinder of negative length that points the other way.
@@ -214,20 +214,20 @@ class Linkage(ShortRepr):
         )
 
     def compute_distances(self, u: np.ndarray, other: np.ndarray) -> np.ndarray:
-        """(n, u) distances of joints, rad and sizes, angles the shorter way round; NaN as 0."""
+        """Returns (n, u) distances of joints, rad and robot sizes, the shorter way; NaN as 0."""
         way = u - other
         way = np.where(self.is_travel, way / self.loops.size, wrap_to_pi(way))
         return np.abs(np.nan_to_num(way))
 
     def compute_limit_excess(self, u: np.ndarray) -> np.ndarray:
-        """(n,) by how much [limits] are left, rad and sizes."""
+        """Returns (n,) the excess over [limits], rad and robot sizes."""
         lower, upper = self.get_bounds()
         beyond = np.maximum(np.maximum(lower - u, u - upper), 0.0)
         return np.asarray(np.sum(beyond / self.loops.scale, axis=1))
 
 
 def build_linkage(model: SymbolicModel) -> Linkage | None:
-    """The linkage of a model; None if no loop equation is left to be solved."""
+    """Returns the linkage of a model; None if no loop equation is left to be solved."""
     robot = model.robot
     if not robot.loops:
         return None
@@ -257,7 +257,7 @@ class ClosedStates:
 def draw_closed_walk(
     model: SymbolicModel, samples: int, rng: np.random.Generator, share: float = 0.0
 ) -> Walk:
-    """Postures in which the loops are closed, over all that the actuated joints reach from home.
+    """Returns closed postures over all that the actuated joints reach from home.
 
     Joints stay within their [limits]; without, actuated angles within a turn around home, actuated
     travels within the robot's size of it.
@@ -292,7 +292,7 @@ def draw_closed_walk(
 
 
 def compute_closed_motion(model: SymbolicModel, u: np.ndarray, qd: np.ndarray) -> ClosedStates:
-    """G and gamma at closed postures.
+    """Returns G and gamma at closed postures.
 
     Args:
         model: with loops.

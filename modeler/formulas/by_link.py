@@ -75,7 +75,7 @@ PARAMETERS = ("XX", "XY", "XZ", "YY", "YZ", "ZZ", "MX", "MY", "MZ", "M")
 
 
 def energy_functions(model: SymbolicModel, states: States) -> tuple[Equation, float]:
-    """Velocities of every link by the recursion, and its functions h, in the order of xi.
+    """Returns velocities of every link by the recursion and its energy functions h.
 
     And how far d/dt h is from the powers qd'W of the derivation's torques, of the largest power.
 
@@ -194,7 +194,7 @@ class _Body:
 
 
 def kane_form(model: SymbolicModel, states: States) -> tuple[Equation, float]:
-    """v, beta, p and F of a robot without loops, along the triads of `[terms]` or of the table.
+    """Returns v, beta, p and F of a robot without loops along the triads of `[terms]`.
 
     And how far the torques of (F - dp/dt) . beta = 0 are from the derivation's, of the largest, for
     random letters.

@@ -21,12 +21,12 @@ _SETTLED = 1e-9
 
 
 def compute_z_limit(tests: int) -> float:
-    """|z| above which one of so many tests is significant: normal, family-wise (Bonferroni)."""
+    """Returns the |z| above which one of so many tests is significant (normal, Bonferroni)."""
     return NormalDist().inv_cdf(1.0 - FALSE_ALARM / (2.0 * max(tests, 1)))
 
 
 def compute_chi_squared_limit(freedom: int) -> float:
-    """What chi^2 exceeds in one table of `1 / FALSE_ALARM` (Wilson and Hilferty 1931)."""
+    """Returns the chi^2 that consistent values exceed at the false alarm rate."""
     if freedom <= 0:
         return 0.0
     part = 2.0 / (9.0 * freedom)
@@ -62,7 +62,7 @@ def check_known(
     known: Mapping[str, float],
     sigmas: Mapping[str, float],
 ) -> tuple[KnownAgainstFit, ...]:
-    """Every known parameter that would follow, were it not known, against what would follow.
+    """Compares every known parameter that would follow from the others with what follows.
 
     Without a surplus of relations there is none. A parameter whose formula cannot be evaluated is
     left out.
@@ -170,7 +170,7 @@ class CadComparison:
 
     @property
     def suspicious(self) -> tuple[CadRow, ...]:
-        """Rows that do not agree."""
+        """Returns the rows that do not agree."""
         return tuple(row for row in self.rows if row.suspicious)
 
 
@@ -182,7 +182,7 @@ def compare_cad(
     sigmas: Mapping[str, float] | None = None,
     unknown_data: Mapping[str, str] | None = None,
 ) -> CadComparison:
-    """Which identified quantities do not agree with CAD, and which CAD entry would explain it.
+    """Tells which identified quantities disagree with CAD, and which CAD entry would explain it.
 
     z = (d - p(cad)) / sqrt(C_ii + (J S J')_ii); an explanation changes one entry, or two where
     one is not enough, so that chi^2 = r' (C + J S J')^-1 r is least; enough is a chi^2 below its

@@ -62,7 +62,7 @@ from modeler.robot import Robot
 
 
 def copy_model(model: SymbolicModel) -> SymbolicModel:
-    """The same model on another graph, which knows the sines of sums over parallel axes.
+    """Returns the same model on another graph, which knows the sines of sums over parallel axes.
 
     Lengths, gravity, speeds times these sines are known too: the recursions multiply by them first.
     The graph of `model` is left as it is: emitted code would read these sines otherwise.
@@ -81,7 +81,7 @@ def copy_model(model: SymbolicModel) -> SymbolicModel:
 
 
 def collect_symbol_names(model: SymbolicModel, parameters: Mapping[int, str]) -> dict[str, str]:
-    """{symbol of the graph: how it is written}: positions, speeds, signals, named columns."""
+    """Returns {symbol of the graph: its text}: positions, speeds, signals, named columns."""
     symbol_names = {name: name for name in model.geometry.values}
     for k, joint in enumerate(model.robot.free_joints):
         symbol_names |= {f"{kind}[{k}]": f"{kind}{joint.name}" for kind in ("q", "qd", "qdd")}
@@ -90,7 +90,7 @@ def collect_symbol_names(model: SymbolicModel, parameters: Mapping[int, str]) ->
 
 
 def get_signal_letters(model: SymbolicModel) -> list[str]:
-    """How the signals are written that effects read besides the motion: t1, T2, z3."""
+    """Returns the letters of the signals that effects read besides the motion: t1, T2, z3."""
     kinds = {
         "time": "t",
         "temperature": "T",
@@ -104,12 +104,12 @@ def get_signal_letters(model: SymbolicModel) -> list[str]:
 
 
 def get_base_columns(base: BaseParameters) -> dict[int, str]:
-    """{column: the base parameter that has it}."""
+    """Returns {column: the base parameter that has it}."""
     return {parameter.column: parameter.name for parameter in base.parameters}
 
 
 def build_effects_sheet(model: SymbolicModel, parameters: Mapping[int, str]) -> Sheet:
-    """The results of `write_effects` alone, for the parameters of those columns."""
+    """Returns the sheet of `write_effects` alone, for the parameters of those columns."""
     model = copy_model(model)
     writer = SheetWriter(
         model.graph, collect_symbol_names(model, parameters), model.robot.has_binary_fractions
@@ -119,12 +119,12 @@ def build_effects_sheet(model: SymbolicModel, parameters: Mapping[int, str]) -> 
 
 
 def create_parameter_symbols(model: SymbolicModel, columns: Iterable[int]) -> dict[int, Expr]:
-    """{column: the symbol of its parameter}."""
+    """Returns {column: the symbol of its parameter}."""
     return {column: model.graph.symbol(f"beta[{column}]") for column in columns}
 
 
 def write_effects(model: SymbolicModel, columns: Iterable[int], writer: SheetWriter) -> None:
-    """Results e<i>, torques that effects take along the free variables; rotor inertias are in J."""
+    """Writes e<i>, the torques of effects along the free variables; rotor inertias are in J."""
     total = [model.graph.constant(0)] * len(model.robot.free_joints)
     for place, value in create_parameter_symbols(model, columns).items():
         for part in model.columns[place].parts:
@@ -226,17 +226,17 @@ class ClosedForm:
 
     @cached_property
     def by_name(self) -> Mapping[str, ConfigurationFunction]:
-        """Functions by name."""
+        """Returns functions by name."""
         return {function.name: function for function in self.functions}
 
     @property
     def monomial_count(self) -> int:
-        """Number of monomials of all functions."""
+        """Returns number of monomials of all functions."""
         return sum(len(function.terms) for function in self.functions)
 
 
 def derive_closed_form(model: SymbolicModel, base: BaseParameters | None = None) -> ClosedForm:
-    """The dynamics of a robot as polynomials in sines and cosines of its joints.
+    """Returns the dynamics of a robot as polynomials in sines and cosines of its joints.
 
     Per function and per joint, either squares of the sine or squares of the cosine are eliminated,
     whichever leaves fewer monomials; where both leave as many, squares of cosines are kept. All
@@ -291,7 +291,7 @@ def derive_closed_form(model: SymbolicModel, base: BaseParameters | None = None)
 
 
 def format_function_name(letter: str, joints: Sequence[str]) -> str:
-    """Name of a function: "J12"; "J1_12" where a joint's name has several characters."""
+    """Returns name of a function: "J12"; "J1_12" where a joint's name has several characters."""
     return letter + ("" if all(len(name) == 1 for name in joints) else "_").join(joints)
 
 
@@ -313,7 +313,7 @@ def _build_function(
 
 
 def collect_monomials(entry: Form, algebra: TrigRing) -> dict[Exponents, dict[int, Poly]]:
-    """{parameter: polynomial} sorted by monomials: {monomial: {parameter: factor}}."""
+    """Returns {parameter: polynomial} sorted by monomials: {monomial: {parameter: factor}}."""
     terms: dict[Exponents, dict[int, Poly]] = {}
     for column, poly in entry.items():
         for exponents, factor in algebra.separate_motion(poly).items():
@@ -400,7 +400,7 @@ class _TreeQuantities:
 
 
 def write_short_form(model: SymbolicModel, base: BaseParameters, writer: SheetWriter) -> None:
-    """Results J_ij (i <= j), S_ijk (j <= k), g_i, e_i by composite bodies, and what they need.
+    """Writes J_ij (i <= j), S_ijk (j <= k), g_i and e_i by composite bodies.
 
     Where all joints are free, S_kij = -S_jik and S_kii = -S_iik/2 spare their lines.
     """

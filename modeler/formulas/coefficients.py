@@ -96,17 +96,17 @@ class CoefficientTable:
 
     @cached_property
     def by_name(self) -> Mapping[str, Coefficient]:
-        """Coefficients by name."""
+        """Returns coefficients by name."""
         return {coefficient.name: coefficient for coefficient in self.coefficients}
 
     @property
     def base_names(self) -> tuple[str, ...]:
-        """Names of the base parameters."""
+        """Returns names of the base parameters."""
         return tuple(parameter.name for parameter in self.base.parameters)
 
 
 def build_coefficient_table(model: SymbolicModel, base: BaseParameters) -> CoefficientTable:
-    """All coefficients of the closed form, named, defined and related.
+    """Returns all coefficients of the closed form, named, defined and related.
 
     Raises:
         DerivationError: the robot has no closed form worth printing.
@@ -140,7 +140,7 @@ def build_coefficient_table(model: SymbolicModel, base: BaseParameters) -> Coeff
 
 
 def select_independent_coefficients(table: CoefficientTable) -> CoefficientTable:
-    """The table with those coefficients only from which the others follow over Q."""
+    """Returns the table with those coefficients only from which the others follow over Q."""
     independent_names = set(table.relations.independent)
     return replace(
         table, coefficients=tuple(c for c in table.coefficients if c.name in independent_names)
@@ -148,7 +148,7 @@ def select_independent_coefficients(table: CoefficientTable) -> CoefficientTable
 
 
 def flatten_form(form: Form) -> dict[Any, Any]:
-    """A linear form over Q: {(parameter, exponents of the geometry): rational number}."""
+    """Returns a linear form over Q: {(parameter, exponents of the geometry): rational number}."""
     return {(column, at): value for column, factor in form.items() for at, value in factor.items()}
 
 
@@ -215,6 +215,6 @@ def _find_known_geometry(
 def collect_by_function(
     table: CoefficientTable,
 ) -> Iterator[tuple[ConfigurationFunction, list[Coefficient]]]:
-    """Functions with their coefficients, in order of names."""
+    """Returns functions with their coefficients, in order of names."""
     for function in table.closed.functions:
         yield function, [c for c in table.coefficients if c.function == function.name]

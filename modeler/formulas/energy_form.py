@@ -63,7 +63,7 @@ class EnergyDynamics:
 def derive_energy_dynamics(
     model: SymbolicModel, ring: TrigRing, columns: Sequence[int]
 ) -> EnergyDynamics:
-    """The entries of the dynamics for those columns; friction and offsets have none.
+    """Returns the entries of the dynamics for those columns; friction and offsets have none.
 
     Raises:
         DerivationError: more than `MOST_PRODUCTS` products; says how many.
@@ -96,7 +96,7 @@ def derive_energy_dynamics(
 def compute_normal_screws(
     geometry: Geometry, frames: Sequence[Pose], ring: TrigRing
 ) -> list[dict[int, Screw]]:
-    """For every row, the screw of each free variable that moves it, in normal form."""
+    """Returns for every row, the screw of each free variable that moves it, in normal form."""
     row_screws: list[dict[int, Screw]] = []
     for total in compute_free_screws(
         geometry, frames, ring, lambda c: QQ(c.numerator, c.denominator)
@@ -110,7 +110,7 @@ def compute_normal_screws(
 
 
 def normalise_vector(vector: Vector, ring: TrigRing) -> Vector:
-    """The vector in normal form."""
+    """Returns the vector in normal form."""
     return [ring.normalise_polynomial(ring.ring(x)) for x in vector]
 
 

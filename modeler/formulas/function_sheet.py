@@ -93,17 +93,17 @@ class SheetWriter:
         self._first: dict[int, Definition] = {}
 
     def open_section(self, title: str) -> None:
-        """What follows stands under that title."""
+        """Sets the title under which the next lines stand."""
         self._section = title
 
     def propose_quantity(self, name: str, value: Expr) -> None:
-        """A quantity that may get this name; the first name of a value stays."""
+        """Proposes a name for a quantity; the first name of a value stays."""
         node = abs(value.ref)
         if node not in self._first and not self._is_atom(node):
             self._add_definition(name, value, False)
 
     def add_result(self, name: str, value: Expr, read: bool = True) -> None:
-        """A quantity that is asked for; zeros are left out.
+        """Adds a requested quantity; zeros are left out.
 
         Args:
             name: of the quantity.
@@ -123,7 +123,7 @@ class SheetWriter:
             self._first.setdefault(abs(value.ref), definition)
 
     def build_sheet(self) -> Sheet:
-        """The sheet of all results and of what they need."""
+        """Builds the sheet of all results and of what they need."""
         results = [Expr(self.graph, line.ref) for line in self._lines if line.result]
         nodes = self.graph.find_reachable(results)
         turning = [n for n in nodes if self.graph.nodes[n].op in ("sin", "cos")]
@@ -259,7 +259,7 @@ def _is_turning(node: Node) -> bool:
 def assign_angle_names(
     graph: Graph, nodes: Iterable[int], letters: Mapping[str, str], taken: set[str]
 ) -> tuple[dict[int, str], dict[str, int]]:
-    """Names of sines and cosines, and the angles that they belong to.
+    """Returns names of sines and cosines, and the angles that they belong to.
 
     Args:
         graph: of the nodes.
@@ -360,7 +360,7 @@ class SheetPrinter:
         self.sheet, self.style = sheet, replace(style, halves=sheet.halves)
 
     def format_letter(self, name: str) -> str:
-        """A name: q, qd, qdd with dots, an underscore as a comma of the index."""
+        """Returns a name: q, qd, qdd with dots, an underscore as a comma of the index."""
         if not self.style.latex:
             return name
         for pattern, latex in _LATEX_NAMES:
@@ -372,14 +372,14 @@ class SheetPrinter:
         return format_latex_name(name)
 
     def format_trig(self, name: str) -> str:
-        """A sine or cosine, m and p of its angle as signs."""
+        """Returns a sine or cosine with the signs in its angle."""
         if self.style.latex:
             signs = re.sub(r"(?<=\d)p(?=\d)", "+", re.sub(r"(?<=\d)m(?=\d)", "-", name[1:]))
             return f"{name[0]}_{{{signs}}}"
         return name
 
     def format_value(self, definition: Definition) -> str:
-        """The right side."""
+        """Returns the right side of a definition."""
         node = abs(definition.ref)
         named_value = self.sheet.names.get(node)
         if (
@@ -389,7 +389,7 @@ class SheetPrinter:
         return self.format_sum(definition.ref, opened=node)
 
     def format_sum(self, ref: int, opened: int = 0) -> str:
-        """The value; the node `opened` is written out even if it has a name."""
+        """Returns the text of a value; the node `opened` is written out even if it has a name."""
         terms = _combine_terms(self._cancel_terms(self._collect_terms(ref, Fraction(1), opened)))
         units, signed_terms = dict[str, str](), list[tuple[Fraction, str]]()
         for number, factors in terms.values():
@@ -513,7 +513,7 @@ _WIDTH = 100
 
 
 def format_sheet_lines(sheet: Sheet) -> list[str]:
-    """The formulas as lines of Python, titles as comments."""
+    """Returns the formulas as lines of Python, titles as comments."""
     lines: list[str] = []
     for title, formulas in _format_sections(sheet):
         lines += ["", f"# {title}", *formulas] if lines else [f"# {title}", *formulas]
@@ -521,7 +521,7 @@ def format_sheet_lines(sheet: Sheet) -> list[str]:
 
 
 def format_sheet_markdown(sheet: Sheet) -> str:
-    """The lines of Python under headings."""
+    """Returns the lines of Python under headings."""
     parts = []
     for title, formulas in _format_sections(sheet):
         parts += [f"## {title}", "", "```python", *formulas, "```", ""]
@@ -567,7 +567,7 @@ def _collect_trig(printer: SheetPrinter) -> list[tuple[str, str, str]]:
 
 
 def format_sheet_latex(sheet: Sheet, heading: Callable[[str], str] | None = None) -> str:
-    """One `align*` per section.
+    """Returns one `align*` per section.
 
     Args:
         sheet: what to write.
@@ -590,7 +590,7 @@ def format_sheet_latex(sheet: Sheet, heading: Callable[[str], str] | None = None
 
 
 def serialise_sheet(sheet: Sheet) -> dict[str, Any]:
-    """{"angles", "definitions": [{"section", "name", "formula", "result"}]}."""
+    """Returns the JSON of a sheet: its angles and its definitions."""
     printer = SheetPrinter(sheet)
     return {
         "angles": {label: printer.format_sum(ref) for label, ref in sheet.angles.items()},

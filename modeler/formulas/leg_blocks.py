@@ -59,14 +59,14 @@ class LegBlock:
 
     @property
     def heading(self) -> str:
-        """What it is, its size, its rows and columns."""
+        """Returns what the block is, its size, its rows and columns."""
         size = f"{len(self.rows)} x {len(self.columns)}"
         sides = f"rows {' '.join(self.rows)}; columns {' '.join(self.columns)}"
         return f"{self.name}, {self.description}: {size}, {sides}"
 
 
 def derive_block_form(model: SymbolicModel, base: BaseParameters) -> Equation:
-    """The blocks as formulas, entry after entry, with the words that put them together.
+    """Returns the blocks as formulas, entry after entry, with the words that put them together.
 
     Raises:
         RobotError: the robot has no platform, or its legs do not stand alone.
@@ -126,7 +126,7 @@ def _describe_blocks(base: BaseParameters, blocks: Sequence[LegBlock]) -> tuple[
 def derive_leg_blocks(
     model: SymbolicModel, base: BaseParameters, writer: SheetWriter
 ) -> list[LegBlock]:
-    """The blocks, on the graph of the model: inverse Jacobians, their inverse, W_P, D_m, D_L.
+    """Derives inverse Jacobians of the legs, their inverse, W_P, D_m and D_L.
 
     Raises:
         RobotError: as `derive_block_form`.

@@ -50,18 +50,18 @@ class PhysicalParameters:
 
     @property
     def names(self) -> tuple[str, ...]:
-        """Names of all generators."""
+        """Returns names of all generators."""
         return tuple(str(symbol) for symbol in self.ring.symbols)
 
     def convert_form(self, form: Mapping[int, Poly]) -> Poly:
-        """A linear form of standard parameters in physical parameters."""
+        """Returns a linear form of standard parameters in physical parameters."""
         total = self.ring.zero
         for column, factor in form.items():
             total = total + self.lift_polynomial(factor) * self.standard[column]
         return total
 
     def differentiate_polynomial(self, poly: Poly, letter: str) -> Poly:
-        """D poly / d letter; that of an angle by its cosine and sine."""
+        """Returns d poly / d letter; for an angle by its cosine and sine."""
         places = get_generators(self.ring)
         if letter in places:
             return poly.diff(places[letter])
@@ -69,12 +69,12 @@ class PhysicalParameters:
         return c * poly.diff(s) - s * poly.diff(c)
 
     def lift_polynomial(self, factor: Poly) -> Poly:
-        """A polynomial of the geometry in this ring."""
+        """Returns a polynomial of the geometry in this ring."""
         return factor.set_ring(self.ring)
 
 
 def derive_physical_parameters(model: SymbolicModel, algebra: TrigRing) -> PhysicalParameters:
-    """The physical parameters of a robot: the letters of `[physical]`, or m1, cx1, ..., Ixx1, ...
+    """Derives the physical parameters of a robot: letters of `[physical]`, or m1, cx1, ...
 
     Huygens and Steiner: MS = m c, J = J_c + m (c.c 1 - c c').
 
@@ -137,7 +137,7 @@ def derive_physical_parameters(model: SymbolicModel, algebra: TrigRing) -> Physi
 
 
 def get_physical_link(model: SymbolicModel, joint: Joint) -> PhysicalLink:
-    """The letters of a link."""
+    """Returns the letters of a link."""
     stated_link = model.robot.physical.get(joint.name)
     if stated_link is not None:
         return stated_link
@@ -171,7 +171,7 @@ def _find_lengths(algebra: TrigRing) -> list[str]:
 def move_to_origin(
     link: PhysicalLink, joint: str, read: Callable[[Expression, str], Any]
 ) -> dict[str, Any]:
-    """Standard parameters of a link by Huygens and Steiner; `read` takes entries to any algebra."""
+    """Returns the standard parameters of a link by Huygens and Steiner, in any algebra."""
     m = read(link.mass, joint)
     x, y, z = (read(entry, joint) for entry in link.centre)
     names = ("XX", "XY", "XZ", "YY", "YZ", "ZZ")
@@ -224,7 +224,7 @@ class Identifiability:
 def analyse_identifiability(
     physical: PhysicalParameters, coefficients: Sequence[Poly], points: int = 2, seed: int = SEED
 ) -> Identifiability:
-    """What those coefficients, polynomials of the physical parameters, tell of them."""
+    """Tells which physical parameters those coefficients determine."""
     slopes = {
         letter: tuple(physical.differentiate_polynomial(poly, letter) for poly in coefficients)
         for letter in physical.letters
@@ -271,7 +271,7 @@ def _compute_rank(
 
 
 def draw_random_point(names: Sequence[str], chance: random.Random) -> tuple[int, list[int]]:
-    """(prime, values of the generators modulo it): random letters, angles on the circle, roots."""
+    """Returns (prime, values modulo it) of random letters, angles on the circle, and roots."""
     numbers = {name: sympy.sympify(name).args[0] for name in names if name.startswith("sqrt(")}
     prime = sympy.prevprime(chance.randrange(_LARGEST // 2, _LARGEST))
     while not all(sympy.is_quad_residue(_reduce_modulo(x, prime), prime) for x in numbers.values()):

@@ -81,17 +81,17 @@ class PhysicalSystem(ShortRepr):
 
     @cached_property
     def names(self) -> tuple[str, ...]:
-        """Names of the generators."""
+        """Returns names of the generators."""
         return tuple(str(symbol) for symbol in self.ring.symbols)
 
     @cached_property
     def place(self) -> Mapping[str, int]:
-        """{generator: its place}."""
+        """Returns {generator: its place}."""
         return {name: i for i, name in enumerate(self.names)}
 
     @cached_property
     def slopes(self) -> Mapping[str, tuple[Poly, ...]]:
-        """{letter: d data / d letter}."""
+        """Returns {letter: d data / d letter}."""
         gens = self.ring.gens
         return {
             letter: tuple(self.definitions[d].diff(gens[self.place[letter]]) for d in self.data)
@@ -99,7 +99,7 @@ class PhysicalSystem(ShortRepr):
         }
 
     def build_point(self, values: Mapping[str, float]) -> np.ndarray:
-        """(generators,) the constants and these values, 0 for all others."""
+        """Returns (generators,) the constants and these values, 0 for all others."""
         point = np.zeros(len(self.names))
         for name, value in (*self.constants.items(), *values.items()):
             if name in self.place:
@@ -107,7 +107,7 @@ class PhysicalSystem(ShortRepr):
         return point
 
     def derive_consistent_values(self, values: Mapping[str, Any]) -> list[Any]:
-        """Values of all generators: data follow from those of letters and constants."""
+        """Returns values of all generators: data follow from those of letters and constants."""
         plain = [values.get(name, 0) for name in self.names]
         for name, below in self.inverse.items():
             plain[self.place[name]] = 1 / evaluate_polynomial(below, plain)
@@ -115,7 +115,7 @@ class PhysicalSystem(ShortRepr):
         return [data_values.get(name, value) for name, value in zip(self.names, plain, strict=True)]
 
     def draw_modular_point(self, chance: random.Random) -> tuple[int, list[int]]:
-        """(prime, random values modulo it), data as they follow from the letters."""
+        """Returns (prime, random values modulo it), data as they follow from the letters."""
         prime, point = draw_random_point(self.names, chance)
         for name, below in self.inverse.items():
             point[self.place[name]] = pow(evaluate_modulo(below, point, prime), -1, prime)
@@ -124,7 +124,7 @@ class PhysicalSystem(ShortRepr):
         return prime, point
 
     def normalise_polynomial(self, poly: Poly) -> Poly:
-        """The same function without products of a length and its inverse."""
+        """Returns the same function without products of a length and its inverse."""
         gens = self.ring.gens
         ones = [gens[self.place[name]] * below - 1 for name, below in self.inverse.items()]
         return poly.rem(ones) if ones else poly
@@ -132,7 +132,7 @@ class PhysicalSystem(ShortRepr):
     def compute_jacobian_modulo(
         self, chance: random.Random
     ) -> tuple[int, dict[str, dict[int, int]]]:
-        """(prime, {letter: column of d data / d letter at a random point})."""
+        """Returns (prime, {letter: column of d data / d letter at a random point})."""
         prime, point = self.draw_modular_point(chance)
         columns = {
             letter: {
@@ -143,7 +143,7 @@ class PhysicalSystem(ShortRepr):
         return prime, columns
 
     def compute_rank(self, letters: Sequence[str], seed: int = 2000, points: int = 2) -> int:
-        """Generic rank of d data / d those letters, the highest of some random points."""
+        """Returns the generic rank of d data / d letters, the highest of some random points."""
         chance, ranks = random.Random(seed), [0]
         for _ in range(points):
             prime, columns = self.compute_jacobian_modulo(chance)
@@ -154,7 +154,7 @@ class PhysicalSystem(ShortRepr):
 def build_physical_system(
     model: SymbolicModel, base: BaseParameters, source: str | None = None
 ) -> PhysicalSystem:
-    """The identified quantities of a robot as polynomials of its physical parameters.
+    """Returns the identified quantities of a robot as polynomials of its physical parameters.
 
     chi = (m, m c, J_c + m (c.c 1 - c c')) per link; beta = grouped chi; PG, PJ = map * beta.
 
@@ -189,7 +189,7 @@ def build_physical_system(
 
 
 def find_free_lengths(table: CoefficientTable) -> tuple[str, ...]:
-    """Lengths whose value a fit does not need: base columns span the same functions for any.
+    """Returns lengths whose values a fit does not need.
 
     The coefficients are A(length) beta; A reduced to its independent rows must not depend on the
     length. A length that is an angle counts as known.

@@ -89,7 +89,7 @@ class TwinCheck:
 
 
 def find_wrong_functions(table: CoefficientTable) -> list[FunctionCheck]:
-    """Printed functions that differ from the derived ones.
+    """Returns printed functions that differ from the derived ones.
 
     Raises:
         RobotError: a printed function that is not a sum of coefficients times monomials.
@@ -207,7 +207,7 @@ def _find_joints(table: CoefficientTable, name: str) -> tuple[int, ...]:
 
 
 def find_wrong_definitions(table: CoefficientTable) -> list[DefinitionCheck]:
-    """Printed definitions that differ from the derived ones."""
+    """Returns printed definitions that differ from the derived ones."""
     ring, checks = table.physical.ring, []
     for name, printed in table.printed.definitions.items():
         _check_coefficient(table, name, "definitions")
@@ -228,7 +228,7 @@ def _check_coefficient(table: CoefficientTable, name: str, key: str) -> None:
 
 
 def check_solutions(table: CoefficientTable, as_printed: bool = False) -> list[SolutionCheck]:
-    """Every printed solution with the coefficients put in, exactly.
+    """Checks every printed solution with the coefficients put in, exactly.
 
     Args:
         table: of the robot.
@@ -269,7 +269,7 @@ def check_solutions(table: CoefficientTable, as_printed: bool = False) -> list[S
 
 
 def check_independent(table: CoefficientTable) -> dict[str, str]:
-    """Coefficients printed as independent that depend on the others: {name: combination}."""
+    """Returns {name: combination} of coefficients wrongly printed as independent."""
     for name in table.printed.independent:
         _check_coefficient(table, name, "independent")
     relations = find_linear_relations(
@@ -283,7 +283,7 @@ def check_independent(table: CoefficientTable) -> dict[str, str]:
 
 
 def check_twin(table: CoefficientTable) -> TwinCheck:
-    """All coefficients at the example and at its twin, exactly."""
+    """Compares all coefficients at the example and at its twin, exactly."""
     first, second = get_example_values(table), get_example_values(table, twin=True)
     points = [
         [values.get(name, Fraction(0)) for name in table.physical.names]
@@ -324,7 +324,7 @@ class PowerState:
     chi: Mapping[int, Fraction]
 
     def evaluate_term(self, at: Exponents, vector: Mapping[Any, Any]) -> Fraction:
-        """monomial * linear form of the standard parameters."""
+        """Returns monomial * linear form of the standard parameters."""
         total = Fraction(0)
         for (column, geometry), value in vector.items():
             total += (
@@ -335,12 +335,12 @@ class PowerState:
         return total * evaluate_monomial(at, self.motion)
 
     def multiply_speeds(self, joints: tuple[int, ...]) -> Fraction:
-        """qd_i qd_j qd_k."""
+        """Returns qd_i qd_j qd_k."""
         return prod((self.speeds[joint] for joint in joints), start=Fraction(1))
 
 
 def get_example_values(table: CoefficientTable, twin: bool = False) -> dict[str, Fraction]:
-    """Physical parameters of the example; lengths that it leaves out are nominal."""
+    """Returns physical parameters of the example; lengths that it leaves out are nominal."""
     nominal = table.closed.algebra.geometry.values
     values = {name: Fraction(repr(float(value))) for name, value in nominal.items()}
     values |= table.printed.example
@@ -348,7 +348,7 @@ def get_example_values(table: CoefficientTable, twin: bool = False) -> dict[str,
 
 
 def build_exact_state(table: CoefficientTable) -> PowerState:
-    """The test state of the example; physical parameters that it leaves out are 0."""
+    """Returns the test state of the example; physical parameters that it leaves out are 0."""
     motion: list[Fraction] = []
     for index, joint in enumerate(table.closed.algebra.motions):
         t = _HALF_TANGENTS[index % len(_HALF_TANGENTS)]
@@ -364,7 +364,7 @@ def build_exact_state(table: CoefficientTable) -> PowerState:
 
 
 def compute_power_balance(table: CoefficientTable, state: PowerState) -> Fraction:
-    """qd'S - qd' (dM/dt) qd / 2 of the derived functions, which is 0 for any mechanism, W."""
+    """Returns qd'S - qd' (dM/dt) qd / 2 of the derived functions: 0 W for any mechanism."""
     total = Fraction(0)
     for function in table.closed.functions:
         for at, form in function.terms.items():

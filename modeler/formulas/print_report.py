@@ -58,7 +58,7 @@ class FrictionCheck:
 
 
 def check_friction(coupling: Coupling) -> FrictionCheck:
-    """The printed friction term and the one that follows from virtual work, at one motion."""
+    """Compares the printed friction term with that of virtual work, at one motion."""
     G, C, qd = map(np.array, (coupling.motor_from_joint, coupling.coulomb, coupling.speed))
     motor = G @ qd
     printed, derived = np.diag(G) * C * _compute_signs(qd), G.T @ (C * _compute_signs(motor))
@@ -72,7 +72,7 @@ def _compute_signs(values: np.ndarray) -> np.ndarray:
 
 
 def write_print_sections(table: CoefficientTable) -> list[str]:
-    """Sections of the page about the print; none if the robot file quotes none."""
+    """Writes the sections about the print; none if the robot file quotes none."""
     printed = table.printed
     quoted = (printed.functions, printed.definitions, printed.solutions, printed.independent)
     if not any(quoted):
@@ -260,7 +260,7 @@ _WIDTH = 96
 
 
 def write_terms_report(model: SymbolicModel, base: BaseParameters) -> str:
-    """The page as Markdown: functions, relations, map, a paper's print checked, all coefficients.
+    """Writes the page as Markdown: functions, relations, map, print, all coefficients.
 
     Raises:
         DerivationError: the robot has no closed form worth printing.

@@ -86,7 +86,7 @@ class PrintedTerms:
 
 
 def read_printed_terms(robot: Robot) -> PrintedTerms:
-    """`[terms]` of the robot.
+    """Reads `[terms]` of the robot.
 
     Raises:
         RobotError: an unknown key, or a value of the wrong kind; says where and what is expected.

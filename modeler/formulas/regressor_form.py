@@ -65,7 +65,7 @@ Block = tuple[list[int], list[int]]
 
 
 def write_loops(model: SymbolicModel, writer: SheetWriter) -> list[str]:
-    """The closure, its Jacobian, J_p, J_t and the bias of the accelerations on a sheet.
+    """Writes the closure, its Jacobian, J_p, J_t and the bias of the accelerations on a sheet.
 
     Results, with joints a (actuated), p (given first), u: f<r>, F<r>_<u> = df_r/dq_u, h<r> =
     d/dt(F) u', L<u>_<p>, Jp<p>_<a>, Jt<u>_<a>, b<u> with u'' = J_t q'' + b.
@@ -96,7 +96,7 @@ def write_loops(model: SymbolicModel, writer: SheetWriter) -> list[str]:
 
 
 def find_connected_blocks(closure: Closure, independent: Sequence[int], count: int) -> list[Block]:
-    """Connected equations, in the order of their unknowns."""
+    """Returns blocks of connected equations, in the order of their unknowns."""
     unknown = [k for k in range(count) if k not in independent]
     components: list[tuple[set[int], set[int]]] = []
     for r, line in enumerate(closure.jacobian):
@@ -178,7 +178,7 @@ def _write_block(
 
 
 def multiply_rows(a: Sequence[Any], b: Sequence[Any]) -> Any:
-    """sum_k a_k b_k, of expressions or of other elements of a field."""
+    """Returns sum_k a_k b_k, of expressions or of other elements of a field."""
     total = a[0] * b[0]
     for x, y in zip(a[1:], b[1:], strict=True):
         total = total + x * y
@@ -186,7 +186,7 @@ def multiply_rows(a: Sequence[Any], b: Sequence[Any]) -> Any:
 
 
 def invert_matrix(B: Matrix, name: str, writer: SheetWriter) -> Matrix:
-    """The inverse by cofactors over the determinant, which gets the name."""
+    """Returns the inverse by cofactors over the determinant, which gets the name."""
     n = len(B)
     if n == 1:
         return [[1 / B[0][0]]]
@@ -197,7 +197,7 @@ def invert_matrix(B: Matrix, name: str, writer: SheetWriter) -> Matrix:
 
 
 def compute_cofactor(B: Sequence[Sequence[Any]], i: int, j: int) -> Any:
-    """The signed minor of B without row i and column j; 1 of a matrix of one entry."""
+    """Returns the signed minor of B without row i and column j; 1 of a matrix of one entry."""
     if len(B) == 1:
         return 1
     rest = [[x for k, x in enumerate(line) if k != j] for r, line in enumerate(B) if r != i]
@@ -298,7 +298,7 @@ class Equation:
     loops: tuple[str, ...]
 
     def format_formulas(self) -> Formulas:
-        """As text, LaTeX and Markdown."""
+        """Returns the formulas as text, LaTeX and Markdown."""
         text = "\n".join(format_sheet_lines(self.sheet))
         title = "; ".join(self.words)
         return Formulas(
@@ -307,19 +307,19 @@ class Equation:
 
 
 def derive_short_form(model: SymbolicModel, base: BaseParameters) -> Equation:
-    """J(q), S(q), g(q) and the effects' torques in closed form, abbreviated: the whole torque."""
+    """Derives J(q), S(q), g(q) and the effects' torques in abbreviated closed form."""
     return derive_equation(model, base, motion=True)
 
 
 def derive_regressor_form(model: SymbolicModel, base: BaseParameters) -> Equation:
-    """The columns of the base parameters in closed form."""
+    """Returns the columns of the base parameters in closed form."""
     return derive_equation(model, base, columns=True)
 
 
 def derive_equation(
     model: SymbolicModel, base: BaseParameters, *, motion: bool = False, columns: bool = False
 ) -> Equation:
-    """The equation of motion, the columns, or both on one sheet, where each name is one thing."""
+    """Derives the equation of motion, the columns, or both on one sheet."""
     model = copy_model(model)
     letters = collect_symbol_names(model, get_base_columns(base))
     writer = SheetWriter(model.graph, letters, model.robot.has_binary_fractions)
@@ -372,7 +372,7 @@ def _describe_laws(model: SymbolicModel) -> list[str]:
 
 
 def write_columns(model: SymbolicModel, base: BaseParameters, writer: SheetWriter) -> None:
-    """Results phi<joint>_<parameter>, N m or N per unit; those of effects too; and what they need.
+    """Writes phi<joint>_<parameter>, N m or N per unit, and what they need.
 
     Each intermediate quantity once. Newton and Euler in screw form (Khalil and Dombre 2002, 9.5 and
     9.6), as in the emitted code: w, wd and vd are angular velocity, angular acceleration and
@@ -393,7 +393,7 @@ def write_columns(model: SymbolicModel, base: BaseParameters, writer: SheetWrite
 
 
 def propose_motion(model: SymbolicModel, writer: SheetWriter) -> None:
-    """Names of the recursion's quantities, link after link."""
+    """Proposes names for the quantities of the recursion, link after link."""
     geometry = model.geometry
     moved = model.derive_link_motions(model.get_inputs("qd"), model.get_inputs("qdd"))
     for row, motion, chain in zip(geometry.rows, moved, model.free_screws, strict=True):
@@ -418,7 +418,7 @@ _ROUNDING = 1e-12
 
 
 def drop_zero_parameters(model: SymbolicModel, base: BaseParameters) -> BaseParameters:
-    """The base parameters that are not 0 at the nominal values of `[parameters]`.
+    """Returns the base parameters that are not 0 at the nominal values of `[parameters]`.
 
     Parameters of effects stay: their values are rarely known beforehand. The formulas hold for any
     values of those that are left, the others being 0.

@@ -33,7 +33,7 @@ EQUATION = "tau_i = sum_j J_ij qdd_j + sum_{j<=k} S_ijk qd_j qd_k"
 
 
 def closed_form_text(closed: ClosedForm) -> str:
-    """Every function as a sum, one monomial per line."""
+    """Returns every function as a sum, one monomial per line."""
     lines = [f"{closed.robot.name}: {format_equation(closed)}"]
     for function in closed.functions:
         lines += ["", f"{function.name} ="]
@@ -43,7 +43,7 @@ def closed_form_text(closed: ClosedForm) -> str:
 
 
 def closed_form_latex(closed: ClosedForm) -> str:
-    """Every function in an `align*` of LaTeX, each monomial on a line of its own."""
+    """Returns every function in an `align*` of LaTeX, each monomial on a line of its own."""
     out = []
     for function in closed.functions:
         lines = [
@@ -75,7 +75,7 @@ def _format_product(coefficient: str, monomial: str, style: TextStyle) -> str:
 
 
 def closed_form_markdown(closed: ClosedForm) -> str:
-    """One table per function: monomial and its coefficient."""
+    """Returns one table per function: monomial and its coefficient."""
     lines = [f"# Closed form of {closed.robot.title}", "", f"`{format_equation(closed)}`", ""]
     for function in closed.functions:
         lines += [f"## {function.name}", "", "| monomial | coefficient |", "|---|---|"]
@@ -86,7 +86,7 @@ def closed_form_markdown(closed: ClosedForm) -> str:
 
 
 def format_equation(closed: ClosedForm) -> str:
-    """What the functions mean: the equation of motion."""
+    """Returns what the functions mean: the equation of motion."""
     factor = f"{closed.gravity_factor}*" if closed.gravity_factor else ""
     return f"{EQUATION} + {factor}g_i" + (" + e_i" if closed.effects.definitions else "")
 
@@ -106,12 +106,12 @@ def _format_terms(
 
 
 def format_latex_function(name: str) -> str:
-    """`S1_12` as `S_{1,12}`."""
+    """Returns `S1_12` as `S_{1,12}`."""
     return f"{name[0]}_{{{name[1:].strip('_').replace('_', ',')}}}"
 
 
 def format_table_lines(table: CoefficientTable, style: TextStyle = TEXT) -> list[tuple[str, ...]]:
-    """(name, function, monomial, relation, base, physical) of every coefficient, in order."""
+    """Returns (name, function, monomial, relation, base, physical) of every coefficient."""
     algebra, physical, style = (
         table.closed.algebra,
         table.physical,
@@ -132,7 +132,7 @@ def format_table_lines(table: CoefficientTable, style: TextStyle = TEXT) -> list
 
 
 def coefficients_text(table: CoefficientTable) -> str:
-    """Aligned columns for a terminal."""
+    """Returns the coefficients in aligned columns for a terminal."""
     rows: list[tuple[str, ...]] = [
         ("name", "in", "monomial", "relation", "base parameters", "physical parameters")
     ]
@@ -146,7 +146,7 @@ def coefficients_text(table: CoefficientTable) -> str:
 
 
 def coefficients_markdown(table: CoefficientTable) -> str:
-    """A Markdown table."""
+    """Returns the coefficients as a Markdown table."""
     lines = [
         "| name | function | monomial | relation | base parameters | physical parameters |",
         "|---|---|---|---|---|---|",
@@ -160,7 +160,7 @@ def coefficients_markdown(table: CoefficientTable) -> str:
 
 
 def coefficients_latex(table: CoefficientTable) -> str:
-    """An `align*` of LaTeX: every coefficient, of which monomial in which function it is."""
+    """Returns an `align*` of LaTeX with the place of every coefficient."""
     equations = []
     for name, function, monomial, relation, _, physical in format_table_lines(table, LATEX):
         where = rf"\text{{of }} {monomial} \text{{ in }} {format_latex_function(function)}"
@@ -177,7 +177,7 @@ def _get_static_names(table: CoefficientTable) -> tuple[str, ...]:
 
 
 def format_forward_map(table: CoefficientTable) -> list[str]:
-    """`PJ3 = XX2R + XX3R - ZZ3`, one line per coefficient that is independent."""
+    """Returns `PJ3 = XX2R + XX3R - ZZ3`, one line per coefficient that is independent."""
     names, style = table.base_names, TEXT.adjust_to_robot(table.closed.robot)
     return [
         f"{name} = "
@@ -187,7 +187,7 @@ def format_forward_map(table: CoefficientTable) -> list[str]:
 
 
 def format_determinant(table: CoefficientTable) -> str | None:
-    """Determinant of the map; None if it is not square."""
+    """Returns determinant of the map; None if it is not square."""
     if table.map.determinant is None:
         return None
     return format_polynomial(
@@ -196,7 +196,7 @@ def format_determinant(table: CoefficientTable) -> str | None:
 
 
 def format_backward_map(table: CoefficientTable) -> list[str]:
-    """`ZZ1R = PJ7 - PJ16`, one line per base parameter; none if the map has no inverse."""
+    """Returns `ZZ1R = PJ7 - PJ16`, one line per base parameter; none if the map has no inverse."""
     inverse = invert_base_map(table.map, table.closed.algebra.static_ring) or {}
     static, style = _get_static_names(table), TEXT.adjust_to_robot(table.closed.robot)
     return [f"{name} = {_format_row(row, static, style)}" for name, row in inverse.items()]

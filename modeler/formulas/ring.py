@@ -85,14 +85,14 @@ class Motions:
     turns: Mapping[int, Mapping[int, int]]
 
     def find_travel(self, k: int) -> int:
-        """Place of the generator of the free variable u[k]."""
+        """Returns place of the generator of the free variable u[k]."""
         return next(
             m.variable for m in self.each if m.variable is not None and m.form == {k: Fraction(1)}
         )
 
 
 def find_motions(geometry: Geometry) -> Motions:
-    """The motions of all rows, in table order."""
+    """Returns the motions of all rows, in table order."""
     parts = _find_divisors(geometry)
     names: list[str] = []
     each: list[RingMotion] = []
@@ -210,11 +210,11 @@ class TrigRing:
 
     @property
     def names(self) -> tuple[str, ...]:
-        """Names of the generators, motion first."""
+        """Returns names of the generators, motion first."""
         return tuple(str(symbol) for symbol in self.ring.symbols)
 
     def static(self, value: sympy.Expr) -> Poly:
-        """A geometric constant.
+        """Returns a geometric constant.
 
         Raises:
             DerivationError: not a polynomial of symbols, sines, cosines and roots of numbers.
@@ -224,7 +224,7 @@ class TrigRing:
         )
 
     def variable(self, row: GeometryRow) -> Poly:
-        """Rate * q + offset of a prismatic joint."""
+        """Returns rate * q + offset of a prismatic joint."""
         assert row.index is not None
         total = self.static(row.r)
         for k, coefficient in self.geometry.forms[row.index].items():
@@ -233,7 +233,7 @@ class TrigRing:
         return total
 
     def cos_sin(self, row: GeometryRow) -> tuple[Poly, Poly]:
-        """Cosine and sine of theta = rate * q + offset, by the addition theorem."""
+        """Returns cosine and sine of theta = rate * q + offset, by the addition theorem."""
         c, s = self.static(sympy.cos(row.theta)), self.static(sympy.sin(row.theta))
         if row.index is None or not row.joint.is_revolute:
             return c, s
@@ -247,13 +247,13 @@ class TrigRing:
         return self.normalise_polynomial(c), self.normalise_polynomial(s)
 
     def normalise_polynomial(self, poly: Poly) -> Poly:
-        """The same function without squares of sines and of roots."""
+        """Returns the same function without squares of sines and of roots."""
         for place, square in self.squares.items():
             poly = replace_square(poly, place, square)
         return poly
 
     def differentiate_polynomial(self, poly: Poly, index: int) -> Poly:
-        """d poly / d u of the free variable `index`, in normal form."""
+        """Returns d poly / d u of the free variable `index`, in normal form."""
         total = self.ring.zero
         for motion in self.motions:
             rate = motion.form.get(index)
@@ -282,31 +282,31 @@ class TrigRing:
         return replace_square(_drop_zeros(self.ring, slope_terms), s, self.squares[s])
 
     def separate_motion(self, poly: Poly) -> dict[tuple[int, ...], Poly]:
-        """{exponents of the motion generators: factor from the geometry}."""
+        """Returns {exponents of the motion generators: factor from the geometry}."""
         factors: dict[tuple[int, ...], dict[tuple[int, ...], Any]] = {}
         for exponents, value in poly.items():
             factors.setdefault(exponents[: self.moving], {})[exponents[self.moving :]] = value
         return {key: _drop_zeros(self.static_ring, part) for key, part in factors.items()}
 
     def evaluate_static(self, values: Mapping[str, float]) -> list[float]:
-        """Numbers of the static generators."""
+        """Returns numbers of the static generators."""
         used = {symbol for atom in self._place for symbol in atom.free_symbols} - {_PI}
         numbers = {symbol: values[symbol.name] for symbol in used} | {_PI: sympy.pi}
         return [float(atom.subs(numbers)) for atom in self._place]
 
     @property
     def static_atoms(self) -> tuple[sympy.Expr, ...]:
-        """What the static generators stand for."""
+        """Returns what the static generators stand for."""
         return tuple(self._place)
 
 
 def get_generators(ring: PolyRing) -> dict[str, Poly]:
-    """The generators by name."""
+    """Returns the generators by name."""
     return {str(symbol): x for symbol, x in zip(ring.symbols, ring.gens, strict=True)}
 
 
 def find_places(*polys: Poly) -> set[int]:
-    """Places of the generators that occur."""
+    """Returns places of the generators that occur."""
     return {i for poly in polys for at in poly for i, exponent in enumerate(at) if exponent}
 
 
@@ -386,13 +386,13 @@ three joints with general angles (1 s); minutes at 216."""
 def find_combination(
     vectors: Mapping[str, SparseVector], vector: SparseVector
 ) -> Mapping[str, Fraction] | None:
-    """`vector` as a combination of `vectors`, None if it is outside their span."""
+    """Returns `vector` as a combination of `vectors`, None if it is outside their span."""
     relations = find_linear_relations({**vectors, "": vector})
     return None if "" in relations.independent else relations.combinations[""]
 
 
 def find_independent_modulo(vectors: Sequence[SparseVector], prime: int) -> list[int]:
-    """Places of the independent vectors of residues, first come first kept; the prime < 2**31."""
+    """Returns the places of independent vectors of residues, first come first kept."""
     places = enumerate_places(vectors)
     matrix = np.zeros((len(places), len(vectors)), dtype=np.int64)
     for k, vector in enumerate(vectors):
@@ -402,7 +402,7 @@ def find_independent_modulo(vectors: Sequence[SparseVector], prime: int) -> list
 
 
 def partition_by_ratio(relations: LinearRelations) -> list[list[str]]:
-    """Keys that are the same up to a constant factor."""
+    """Returns keys that are the same up to a constant factor."""
     groups: dict[tuple[tuple[str, Fraction], ...], list[str]] = {}
     for key, combination in relations.combinations.items():
         first = next(iter(combination.values()), Fraction(1))
@@ -432,7 +432,7 @@ class BaseMap:
 def build_base_map(
     rows: Sequence[str], forms: Sequence[Mapping[int, Poly]], names: Sequence[str], ring: Any
 ) -> BaseMap:
-    """The map from base parameters to coefficients.
+    """Builds the map from base parameters to coefficients.
 
     Args:
         rows: names of the coefficients.
@@ -451,7 +451,7 @@ def build_base_map(
 
 
 def invert_base_map(base_map: BaseMap, ring: Any) -> Mapping[str, Mapping[str, Any]] | None:
-    """{base parameter: {coefficient: factor, a rational function of the geometry}}.
+    """Returns {base parameter: {coefficient: factor, a rational function of the geometry}}.
 
     None if the map is not square or not invertible.
     """
@@ -478,7 +478,7 @@ def _build_domain_matrix(
 def convert_to_polynomial(
     expression: Expression, values: Mapping[str, Any], ring: PolyRing
 ) -> Poly | None:
-    """The expression as a polynomial, `values` for its names; None if it is none."""
+    """Returns the expression as a polynomial, `values` for its names; None if it is none."""
     try:
         return ring(expression.fold(values, {}, None, lambda x: QQ(x.numerator, x.denominator)))
     except (KeyError, TypeError, ValueError, ZeroDivisionError, ExactQuotientFailed):
@@ -486,7 +486,7 @@ def convert_to_polynomial(
 
 
 def evaluate_monomial(exponents: Sequence[int], values: Sequence[Any]) -> Any:
-    """The monomial's value."""
+    """Returns the monomial's value."""
     product: Any = 1
     for exponent, value in zip(exponents, values, strict=True):
         if exponent:
@@ -495,7 +495,7 @@ def evaluate_monomial(exponents: Sequence[int], values: Sequence[Any]) -> Any:
 
 
 def evaluate_polynomial(poly: Poly, values: Sequence[Any]) -> Any:
-    """The polynomial's value."""
+    """Returns the polynomial's value."""
     total: Any = 0
     for exponents, coefficient in poly.items():
         total = total + evaluate_monomial(exponents, values) * convert_to_fraction(coefficient)

@@ -68,14 +68,14 @@ class ClosedSolution:
 
     @property
     def solved_letters(self) -> tuple[str, ...]:
-        """Parameters with a formula, in order."""
+        """Returns parameters with a formula, in order."""
         return tuple(step.letter for step in self.steps)
 
 
 def find_determined(
     system: PhysicalSystem, known: Iterable[str], seed: int = SEED
 ) -> tuple[list[str], int]:
-    """(parameters that the data determine, rank of their Jacobian): generic, locally unique.
+    """Returns the parameters that the data determine generically, and the Jacobian's rank.
 
     An unknown x follows if its column of d data / d unknowns is no combination of the others.
     """
@@ -95,7 +95,7 @@ def find_determined(
 
 
 def solve(system: PhysicalSystem, known: Iterable[str], seed: int = SEED) -> ClosedSolution:
-    """The parameters that follow from data and known parameters, in closed form.
+    """Solves for the parameters that follow from data and known parameters, in closed form.
 
     Args:
         system: data as polynomials of the parameters.
@@ -301,7 +301,7 @@ SolutionForm = Literal["text", "latex", "python"]
 
 
 def format_formula(step: SolvingStep, system: PhysicalSystem, style: TextStyle = TEXT) -> str:
-    """The right side of a step's formula; the polynomial that is zero where there is none."""
+    """Returns the right side of a step's formula, else the polynomial that is zero."""
     if step.equation is not None:
         parts = []
         for power, factor in sorted(
@@ -333,7 +333,7 @@ def _add_brackets(text: str, factors: bool = False) -> str:
 
 
 def format_solution_lines(solution: ClosedSolution, form: SolutionForm = "text") -> list[str]:
-    """All formulas, one a line, each from data, known parameters and those before."""
+    """Returns all formulas, one a line, each from data, known parameters and those before."""
     return {"text": _format_text, "latex": _format_latex, "python": _format_python}[form](solution)
 
 
@@ -419,7 +419,7 @@ def _extract_symbols(text: str, functions: bool = False) -> list[str]:
 
 
 def format_definition_lines(system: PhysicalSystem) -> list[str]:
-    """What the data are made of."""
+    """Returns the data as polynomials of the parameters, one a line."""
     return [
         f"{name} = {format_physical(poly, system.names, system.masses)}"
         for name, poly in system.definitions.items()
@@ -427,7 +427,7 @@ def format_definition_lines(system: PhysicalSystem) -> list[str]:
 
 
 def format_missing_lines(solution: ClosedSolution) -> list[str]:
-    """What does not follow, and what to add; empty if all follows."""
+    """Returns what does not follow, and what to add; empty if all follows."""
     lines = []
     if solution.undetermined:
         easy = sorted(solution.undetermined, key=lambda x: EASE[solution.system.kinds[x]])
@@ -446,7 +446,7 @@ def format_missing_lines(solution: ClosedSolution) -> list[str]:
 
 
 def serialise_solution(solution: ClosedSolution, verified: Mapping[str, int] | None = None) -> Any:
-    """Plain data: formulas as text, what is known, what does not follow."""
+    """Returns the JSON of a solution: formulas as text, known and undetermined parameters."""
     system = solution.system
     return {
         "robot": system.robot,

@@ -28,7 +28,7 @@ BLOCK = 4000  # sets reduced together
 
 
 def find_components(kernel: np.ndarray) -> list[tuple[list[int], list[int]]]:
-    """(rows, columns) of the parts that share no entry; a column of zeros is its own part."""
+    """Returns (rows, columns) of the parts of a matrix that share no entry."""
     label = list(range(len(kernel)))
     for k in range(kernel.shape[1]):
         merged = {label[r] for r in np.flatnonzero(kernel[:, k])}
@@ -45,7 +45,7 @@ def find_components(kernel: np.ndarray) -> list[tuple[list[int], list[int]]]:
 def enumerate_spanning_sets(
     matrix: np.ndarray, size: int, prime: int
 ) -> Iterator[tuple[float, np.ndarray]]:
-    """(share done, sets of `size` columns that span the rows), in blocks.
+    """Returns (share done, sets of `size` columns that span the rows), in blocks.
 
     Elimination grows with the set: a column joins a set that comes before it, and the rest of the
     matrix is reduced by it; all sets of a block at once.
@@ -101,7 +101,7 @@ def _extend_sets(
 
 
 def reduce_by_column(work: np.ndarray, column: np.ndarray, prime: int) -> np.ndarray:
-    """Matrices reduced by one of their columns, its pivot row set to zero."""
+    """Returns matrices reduced by one of their columns, its pivot row set to zero."""
     if not len(work):
         return work
     at = np.arange(len(work))
@@ -117,7 +117,7 @@ def reduce_by_column(work: np.ndarray, column: np.ndarray, prime: int) -> np.nda
 
 
 def are_spanning(kernel: np.ndarray, sets: np.ndarray, prime: int) -> np.ndarray:
-    """Which sets of columns have the rank of the matrix."""
+    """Returns (sets,) True for sets of columns with the rank of the matrix."""
     work = np.broadcast_to(kernel, (len(sets), *kernel.shape)).copy()
     rank = np.zeros(len(sets), dtype=np.int64)
     at = np.arange(len(sets))
@@ -168,12 +168,12 @@ class KnownSets(ShortRepr):
 
 
 def count_smallest_set(system: PhysicalSystem) -> int:
-    """How many parameters must be known at least that all others follow."""
+    """Returns the smallest number of known parameters from which all others follow."""
     return len(system.letters) - system.compute_rank(system.letters)
 
 
 def find_easiest_set(system: PhysicalSystem, seed: int = SEED) -> tuple[str, ...]:
-    """A smallest sufficing set that is measured with the least trouble.
+    """Returns a smallest sufficing set that is easiest to measure.
 
     Greedy, which is best for a matroid: fewest inertias, of these fewest mass centres.
     """
@@ -197,7 +197,7 @@ def find_known_sets(
     progress: Callable[[float], None] = lambda share: None,
     seed: int = SEED,
 ) -> KnownSets:
-    """All sets of `size` known parameters, smallest number if None, that suffice.
+    """Returns all sets of `size` known parameters, smallest number if None, that suffice.
 
     Args:
         system: data as polynomials of the parameters.

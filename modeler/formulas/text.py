@@ -28,11 +28,11 @@ class TextStyle:
     halves: bool = False
 
     def format_name(self, name: str) -> str:
-        """One letter."""
+        """Returns the text of one letter."""
         return format_latex_symbol(name) if self.latex else name
 
     def format_power(self, name: str, exponent: int) -> str:
-        """name ** exponent."""
+        """Returns the text of name ** exponent."""
         base = self.format_name(name)
         if exponent == 1:
             return base
@@ -44,19 +44,19 @@ class TextStyle:
         return f"{base}^{{{exponent}}}"
 
     def add_brackets(self, text: str) -> str:
-        """A sum as a factor."""
+        """Returns a sum as a factor."""
         return rf"\left({text}\right)" if self.latex else f"({text})"
 
     def adjust_to_robot(self, robot: Robot) -> "TextStyle":
-        """The same for numbers of that robot."""
+        """Returns the style for numbers of that robot."""
         return replace(self, halves=robot.has_binary_fractions)
 
     def format_decimal(self, value: Fraction) -> str | None:
-        """The digits of a number that is written as a decimal."""
+        """Returns the digits of a number that is written as a decimal."""
         return format_decimal(value, self.halves)
 
     def format_fraction(self, value: Fraction) -> str:
-        """A positive number."""
+        """Returns the text of a positive number."""
         if digits := self.format_decimal(value):
             return digits
         if self.latex and value.denominator != 1:
@@ -69,7 +69,7 @@ LATEX = TextStyle(r"\,", True)
 
 
 def format_latex_symbol(name: str) -> str:
-    """LaTeX of a letter; sines, cosines and roots as functions."""
+    """Returns LaTeX of a letter; sines, cosines and roots as functions."""
     function = re.fullmatch(r"(cos|sin|sqrt)\((.*)\)", name)
     if function:
         return f"\\{function[1]}{{({format_latex_symbol(function[2])})}}"
@@ -80,13 +80,13 @@ def format_latex_symbol(name: str) -> str:
 
 
 def format_monomial(exponents: Sequence[int], names: Sequence[str], style: TextStyle = TEXT) -> str:
-    """The monomial, as "c2*s1**2"; cosines before sines, "1" for the empty product."""
+    """Returns the monomial, as "c2*s1**2"; cosines before sines, "1" for the empty product."""
     factors = [(name, e) for name, e in zip(names, exponents, strict=True) if e]
     return style.times.join(style.format_power(name, e) for name, e in sorted(factors)) or "1"
 
 
 def format_polynomial(poly: Poly, names: Sequence[str], style: TextStyle = TEXT) -> str:
-    """A polynomial, highest monomial first; "0" if it has none."""
+    """Returns a polynomial, highest monomial first; "0" if it has none."""
     return format_signed_sum(
         (
             (convert_to_fraction(value), _format_plain(at, names, style))
@@ -98,7 +98,7 @@ def format_polynomial(poly: Poly, names: Sequence[str], style: TextStyle = TEXT)
 
 def format_linear_form(form: Mapping[int, Poly], parameters: Sequence[str], names: Sequence[str],
               style: TextStyle = TEXT) -> str:  # fmt: skip
-    """A linear form of parameters, e.g. "2*XZ3 - 2*bl1*MX3"."""
+    """Returns a linear form of parameters, e.g. "2*XZ3 - 2*bl1*MX3"."""
     terms: list[tuple[Fraction, str]] = []
     for column, factor in form.items():
         letter = style.format_name(parameters[column])
@@ -116,7 +116,7 @@ def format_linear_form(form: Mapping[int, Poly], parameters: Sequence[str], name
 
 def format_physical(poly: Poly, names: Sequence[str], masses: Iterable[str],
                   style: TextStyle = TEXT) -> str:  # fmt: skip
-    """A polynomial of physical parameters with each mass in front of its own bracket."""
+    """Returns a polynomial of physical parameters with each mass in front of its own bracket."""
     wanted = [i for i, name in enumerate(names) if name in set(masses)]
     loose: dict[tuple[int, ...], Any] = {}
     brackets: dict[int, dict[tuple[int, ...], Any]] = {}
@@ -151,14 +151,14 @@ def format_physical(poly: Poly, names: Sequence[str], masses: Iterable[str],
 
 
 def format_combination(combination: Mapping[str, Fraction], style: TextStyle = TEXT) -> str:
-    """A combination of named coefficients: "2*PJ1 + 2*PJ3", "-PJ5/2"."""
+    """Returns a combination of named coefficients: "2*PJ1 + 2*PJ3", "-PJ5/2"."""
     return format_signed_sum(
         ((value, style.format_name(name)) for name, value in combination.items()), style
     )
 
 
 def format_signed_sum(terms: Iterable[tuple[Fraction, str]], style: TextStyle = TEXT) -> str:
-    """Sum of number * text with the signs pulled out; an empty text is 1."""
+    """Returns the sum of number * text with the signs pulled out; an empty text is 1."""
     out = ""
     for value, text in terms:
         size = abs(value)

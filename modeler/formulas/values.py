@@ -51,16 +51,16 @@ class DerivedValue:
     doubtful: Mapping[str, str]
 
     def get_value(self, letter: str) -> float:
-        """Of one parameter."""
+        """Returns the value of one parameter."""
         return float(self.values[self.letters.index(letter)])
 
     def get_sigma(self, letter: str) -> float:
-        """Of one parameter."""
+        """Returns the standard deviation of one parameter."""
         return float(self.sigmas[self.letters.index(letter)])
 
 
 def verify_solution(solution: ClosedSolution, times: int = VERIFIED, seed: int = SEED) -> int:
-    """Number of random robots, of `times`, for which every formula gives back the parameter.
+    """Returns the number of random robots for which every formula gives back the parameter.
 
     Exact: over Q; modulo a prime where the geometry has roots of numbers.
     """
@@ -80,7 +80,7 @@ def verify_solution(solution: ClosedSolution, times: int = VERIFIED, seed: int =
 
 
 def draw_random_rationals(system: PhysicalSystem, chance: random.Random) -> dict[str, Fraction]:
-    """Letters and constants by chance; cosine and sine on the circle."""
+    """Draws letters and constants at random, cosine and sine on the circle."""
     values: dict[str, Fraction] = {}
     for name in (*system.letters, *system.constants):
         if name.startswith("cos("):
@@ -110,11 +110,11 @@ class NumericPolynomial:
         self.factors = np.array([float(convert_to_fraction(value)) for value in poly.values()])
 
     def evaluate(self, point: np.ndarray) -> float:
-        """At a point of all generators."""
+        """Returns the value at a point of all generators."""
         return float(self.factors @ np.prod(point**self.powers, axis=1))
 
     def evaluate_slopes(self, point: np.ndarray) -> np.ndarray:
-        """(generators,) derivatives at a point."""
+        """Returns (generators,) derivatives at a point."""
         slopes = np.zeros(len(point))
         for k in np.flatnonzero(self.powers.any(axis=0)):
             lower = self.powers.copy()
@@ -132,7 +132,7 @@ def derive_values(
     sigmas: Mapping[str, float] | None = None,
     near: Mapping[str, float] | None = None,
 ) -> DerivedValue:
-    """The parameters that follow, with sigma.
+    """Computes the parameters that follow, with their standard deviations.
 
     x = g(data, known); var x = G_d C G_d' + sum (G_k sigma_k)^2, G = dg along the steps.
 
@@ -174,7 +174,7 @@ def derive_values(
 
 
 def find_impossible(derived: DerivedValue, system: PhysicalSystem) -> dict[str, str]:
-    """Why a value is that of no body: a mass that is not above 0, a moment of inertia below it.
+    """Tells which values no body can have: a mass not above 0, a moment of inertia below 0.
 
     A moment may be 0; it is told if it is below by more than 3 sigma.
     """
@@ -226,7 +226,7 @@ def _evaluate_step(
 
 
 def find_roots(step: SolvingStep, system: PhysicalSystem, point: np.ndarray) -> list[float]:
-    """The real roots of a step's equation at a point; only positive ones for a mass."""
+    """Returns the real roots of a step's equation at a point; only positive ones for a mass."""
     assert step.equation is not None
     parts = collect_powers(step.equation, system.place[step.letter])
     factors = [
@@ -313,7 +313,7 @@ def parse_known_values(text: str, system: PhysicalSystem, where: str = "--known"
 
 
 def check_symbol(name: str, system: PhysicalSystem, where: str) -> None:
-    """Refuse what is no physical parameter or length of the robot.
+    """Refuses what is no physical parameter or length of the robot.
 
     Raises:
         RobotError: tells what it may have meant.
@@ -382,7 +382,7 @@ def read_cad_file(path: Path, system: PhysicalSystem) -> KnownValues:
 
 
 def read_cad_example(robot: Robot, system: PhysicalSystem, where: str) -> KnownValues:
-    """The example of the robot file, `[terms.example]`; lengths that it leaves out are nominal.
+    """Reads the example of the robot file, `[terms.example]`; missing lengths are nominal.
 
     Raises:
         RobotError: it has none.
@@ -437,7 +437,7 @@ class RatedSet:
 def rate_sets(
     system: PhysicalSystem, sets: Sequence[Sequence[str]], values: Mapping[str, float]
 ) -> tuple[RatedSet, ...]:
-    """The sets by how little errors grow at one robot, the least median first.
+    """Rates the sets by how little errors grow at one robot, the least median first.
 
     dU = J_U^-1 (dd - J_K dK), d data, U unknowns, K known; parameters that are 0 have no per cent.
 
