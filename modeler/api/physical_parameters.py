@@ -13,7 +13,7 @@ from modeler.core.result import Presentation, Result, register_presentations
 from modeler.core.table import Table, format_percent
 from modeler.estimation import IdentifiedModel
 from modeler.formulas import (
-    VERIFIED,
+    THRESHOLDS,
     CadComparison,
     ClosedSolution,
     DerivedValue,
@@ -117,10 +117,10 @@ class Physical(Result):
         )
         solution = solve(self.system, known_values.names)
         good = rules.verify_solution(solution)
-        if good != VERIFIED:
+        if good != THRESHOLDS.verified_robots:
             raise ModelerError(
-                f"{self.system.robot}: the formulas failed {VERIFIED - good} of {VERIFIED} exact "
-                "checks; please report these known parameters"
+                f"{self.system.robot}: the formulas failed {THRESHOLDS.verified_robots - good} of "
+                f"{THRESHOLDS.verified_robots} exact checks; please report these known parameters"
             )
         return solution
 

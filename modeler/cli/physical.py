@@ -107,18 +107,17 @@ def _print_known(args: argparse.Namespace, subject: Physical) -> dict[str, Json]
         print_result()
     print_lines([*formulas.format_solution_lines(solution, args.format), ""])
     unknown = len(system.letters) - len(solution.known)
+    robots = formulas.THRESHOLDS.verified_robots
     print_result(
         f"{mark}{len(solution.steps)} of {unknown} unknown parameters follow; each formula holds "
-        f"exactly for {formulas.VERIFIED} of {formulas.VERIFIED} random robots"
+        f"exactly for {robots} of {robots} random robots"
     )
     if solution.surplus:
         print_result(
             f"{mark}{solution.surplus} more known than these need: with a model they are tested"
         )
     print_lines(formulas.format_missing_lines(solution), mark)
-    solution_document = formulas.serialise_solution(
-        solution, {"robots": formulas.VERIFIED, "right": formulas.VERIFIED}
-    )
+    solution_document = formulas.serialise_solution(solution, {"robots": robots, "right": robots})
     if fitted is not None:
         near = formulas.parse_known_values(args.near or "", system, "--near")
         solution_document["values"] = _print_values(

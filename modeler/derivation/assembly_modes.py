@@ -10,7 +10,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from modeler.derivation.closure import SINGULAR
+from modeler.derivation.thresholds import THRESHOLDS
 from modeler.derivation.walks import Linkage
 
 # Closed postures from many starts: Levenberg and Marquardt's method, all starts at once.
@@ -20,19 +20,9 @@ from modeler.derivation.walks import Linkage
 # equations included.
 
 
-STARTS = 300
-"""Random postures that a search starts from."""
-_POSTURE_SEED = 1955  # Denavit and Hartenberg
-_ITERATIONS = 60
-_LONGEST = 0.5  # rad or sizes, of one step
-_LEAST_DAMPING, _MOST_DAMPING = 1e-13, 1e-2
-_ROUGH = 1e-7  # residual from which Newton's method ends the work
-_REACH = 2.0  # sizes of the robot, of a travel without [limits]
-_LOOSE = 1e-8  # of the closing equations by a joint that does not move them, rounding
-_SPREADS = (0.05, 0.2, 0.6)  # rad or sizes, of starts around hints
-
-
-def draw_start_postures(linkage: Linkage, hints: np.ndarray, count: int = STARTS) -> np.ndarray:
+def draw_start_postures(
+    linkage: Linkage, hints: np.ndarray, count: int = THRESHOLDS.assembly_starts
+) -> np.ndarray:
     """Returns (count, u) postures over [limits], full turns and travels of some sizes of the robot.
 
     Where there are hints, every second one is near them.
@@ -42,14 +32,14 @@ def draw_start_postures(linkage: Linkage, hints: np.ndarray, count: int = STARTS
         hints: (u,) values to stay near; NaN for joints without.
         count: how many.
     """
-    rng = np.random.default_rng(_POSTURE_SEED)
+    rng = np.random.default_rng(THRESHOLDS.start_seed)
     lower, upper = linkage.get_bounds()
-    reach = np.where(linkage.is_travel, _REACH * linkage.loops.size, np.pi)
+    reach = np.where(linkage.is_travel, THRESHOLDS.travel_reach * linkage.loops.size, np.pi)
     low = np.where(np.isfinite(lower), lower, -reach)
     high = np.where(np.isfinite(upper), upper, reach)
     u = rng.uniform(low, high, (count, len(low)))
     known = np.isfinite(hints)
-    spread = np.resize(_SPREADS, count)[:, None] * linkage.loops.scale
+    spread = np.resize(THRESHOLDS.hint_spreads, count)[:, None] * linkage.loops.scale
     around = np.where(known, hints, 0.0) + spread * rng.normal(size=u.shape)
     near = known & (np.arange(count) % 2 == 0)[:, None]
     u = np.where(near, around, u)
@@ -65,9 +55,9 @@ def find_closed_postures(linkage: Linkage, u: np.ndarray, places: np.ndarray) ->
         places: numbers of the joints that may move.
     """
     loops, u = linkage.loops, np.array(u, dtype=float)
-    scale, limit = linkage.loops.scale[places], _ROUGH * loops.size
+    scale, limit = linkage.loops.scale[places], THRESHOLDS.rough_residual * loops.size
     done = []
-    for _ in range(_ITERATIONS):
+    for _ in range(THRESHOLDS.newton_iterations):
         f = loops.compute_residuals(u)
         closed = np.max(np.abs(f), axis=1, initial=0.0) < limit
         done.append(u[closed])
@@ -75,11 +65,13 @@ def find_closed_postures(linkage: Linkage, u: np.ndarray, places: np.ndarray) ->
         if not len(u):
             break
         J = loops.compute_jacobians(u)[:, :, places] * scale
-        damping = np.clip(np.sum(f**2, axis=1), _LEAST_DAMPING, _MOST_DAMPING)
+        damping = np.clip(np.sum(f**2, axis=1), THRESHOLDS.min_damping, THRESHOLDS.max_damping)
         normal = J @ J.transpose(0, 2, 1) + damping[:, None, None] * np.eye(J.shape[1])
         step = -np.einsum("nji,nj->ni", J, np.linalg.solve(normal, f[..., None])[..., 0])
         longest = np.max(np.abs(step), axis=1, keepdims=True)
-        u[:, places] += step * np.minimum(1.0, _LONGEST / np.maximum(longest, 1e-300)) * scale
+        u[:, places] += (
+            step * np.minimum(1.0, THRESHOLDS.max_search_step / np.maximum(longest, 1e-300)) * scale
+        )
     closed_postures = np.concatenate(done)
     if not len(closed_postures):
         return closed_postures
@@ -109,17 +101,12 @@ def reset_uncoupled_joints(
         closed: closed postures by which those joints are found; `u` itself if left out.
     """
     J = linkage.loops.compute_jacobians(u if closed is None else closed) * linkage.loops.scale
-    loose = np.max(np.abs(J), axis=(0, 1)) < _LOOSE * linkage.loops.size
+    loose = np.max(np.abs(J), axis=(0, 1)) < THRESHOLDS.uncoupled_column * linkage.loops.size
     rest = np.where(np.isfinite(hints), hints, np.nan_to_num(linkage.limit_middles))
     return np.where(loose, rest, u)
 
 
 # Symmetric copies of a closed posture: the same places of frames and axes, other angles.
-
-
-_SAME = 1e-6
-"""Shapes that are so near are one."""
-_CLOSED = 1e-9
 
 
 def partition_by_shape(linkage: Linkage, u: np.ndarray) -> list[np.ndarray]:
@@ -128,7 +115,9 @@ def partition_by_shape(linkage: Linkage, u: np.ndarray) -> list[np.ndarray]:
     groups: list[list[int]] = []
     firsts = np.empty((0, shape.shape[1]))
     for k, one in enumerate(shape):
-        same = np.flatnonzero(np.max(np.abs(firsts - one), axis=1, initial=0.0) < _SAME)
+        same = np.flatnonzero(
+            np.max(np.abs(firsts - one), axis=1, initial=0.0) < THRESHOLDS.same_shape
+        )
         if len(same):
             groups[int(same[0])].append(k)
         else:
@@ -212,7 +201,11 @@ def _are_copies(linkage: Linkage, others: np.ndarray, u: np.ndarray) -> np.ndarr
     loops = linkage.loops
     open_by = np.max(np.abs(loops.compute_residuals(others)), axis=1)
     different = np.max(np.abs(linkage.compute_shape(others) - linkage.compute_shape(u)), axis=1)
-    return (open_by < _CLOSED * loops.size) & (different < _SAME) & loops.are_aligned(others)
+    return (
+        (open_by < THRESHOLDS.copy_residual * loops.size)
+        & (different < THRESHOLDS.same_shape)
+        & loops.are_aligned(others)
+    )
 
 
 def _find_legs(linkage: Linkage) -> list[list[int]]:
@@ -240,13 +233,6 @@ def _find_legs(linkage: Linkage) -> list[list[int]]:
 # one that keeps directions is what such lengths are chosen for.
 
 
-_TIMES = 2  # as many speeds as joints, so that half of the postures are enough
-_FEWEST = 8
-_TIE_SEED = 1784  # Watt
-_STEP = 0.02  # rad or sizes, of the actuated joints
-_TOLERANCE = 1e-7
-
-
 def count_constant_ratios(linkage: Linkage, u: np.ndarray) -> np.ndarray:
     """Returns (n,) numbers of independent combinations of joint speeds that stay 0 around it.
 
@@ -258,8 +244,13 @@ def count_constant_ratios(linkage: Linkage, u: np.ndarray) -> np.ndarray:
     """
     loops, actuated = linkage.loops, list(linkage.loops.actuated)
     solved = list(loops.solved)
-    count = max(_FEWEST, _TIMES * -(-loops.unknown_count // len(actuated)))
-    steps = np.random.default_rng(_TIE_SEED).uniform(-_STEP, _STEP, (count, len(actuated)))
+    count = max(
+        THRESHOLDS.min_ratio_postures,
+        THRESHOLDS.speeds_per_joint * -(-loops.unknown_count // len(actuated)),
+    )
+    steps = np.random.default_rng(THRESHOLDS.ratio_seed).uniform(
+        -THRESHOLDS.ratio_step, THRESHOLDS.ratio_step, (count, len(actuated))
+    )
     around = np.repeat(u[:, None], count, axis=1)
     around[:, :, actuated] += steps * linkage.loops.scale[actuated]
     around = loops.close_loops(around.reshape(-1, loops.unknown_count))
@@ -271,19 +262,9 @@ def count_constant_ratios(linkage: Linkage, u: np.ndarray) -> np.ndarray:
     every = speeds.reshape(len(u), count, loops.unknown_count, len(actuated))
     flat = every.transpose(0, 2, 1, 3).reshape(len(u), loops.unknown_count, -1)
     values = np.linalg.svd(flat, compute_uv=False)
-    moving = np.sum(values > _TOLERANCE * values[:, :1], axis=1)
+    moving = np.sum(values > THRESHOLDS.ratio_rank * values[:, :1], axis=1)
     enough = 2 * np.sum(closed.reshape(len(u), count), axis=1) >= count
     return np.where(enough, loops.unknown_count - moving, 0)
-
-
-_GOOD = 0.2
-"""Share of the best distance to a singularity that a posture to start from has to have."""
-_KEPT = 1e-9
-"""rad or sizes by which rounding may leave [limits]."""
-_DIGITS = 5
-"""Of numbers by which postures are ranked, so that rounding never ranks them."""
-_STEPS = (0.1, 0.01, 1e-3, 1e-4, 1e-6, 1e-9)
-"""rad or sizes (their power of ten), to which actuated joints are rounded."""
 
 
 @dataclass(frozen=True)
@@ -310,7 +291,6 @@ class AssemblyMode:
 
 _BEFORE_TIES = 4
 """Columns of `_ranks` that count more than steady ties."""
-_COUNTED = 24
 
 
 def find_assembly_modes(linkage: Linkage, hints: np.ndarray) -> tuple[AssemblyMode, ...]:
@@ -336,7 +316,7 @@ def find_assembly_modes(linkage: Linkage, hints: np.ndarray) -> tuple[AssemblyMo
         u = select_best_copy(
             linkage, group, lambda some: _compute_rank_keys(linkage, some, hints, best)
         )
-        copies = len(np.unique(np.round(group, _DIGITS - 1), axis=0))
+        copies = len(np.unique(np.round(group, THRESHOLDS.rank_key_digits - 1), axis=0))
         key = _compute_rank_keys(linkage, u[None], hints, best)[0]
         ranked.append(
             (_insert_ratio_count(key, int(count_constant_ratios(linkage, u[None])[0])), u, copies)
@@ -347,7 +327,9 @@ def find_assembly_modes(linkage: Linkage, hints: np.ndarray) -> tuple[AssemblyMo
             letter=_format_letter(k),
             posture=u,
             singularity_distance=float(linkage.loops.compute_singularity_distance(u[None])[0]),
-            is_within_limits=bool(linkage.compute_limit_excess(u[None])[0] < _KEPT),
+            is_within_limits=bool(
+                linkage.compute_limit_excess(u[None])[0] < THRESHOLDS.limit_rounding
+            ),
             copy_count=copies,
             distance_from_stated=float(np.sum(linkage.compute_distances(u[None], hints))),
         )
@@ -372,13 +354,13 @@ def _compute_rank_keys(
     )
     angles = np.sum(np.abs(np.where(linkage.is_travel, 0.0, u)), axis=1)
     columns = np.column_stack([
-        np.round(linkage.compute_limit_excess(u), _DIGITS),
-        sigma < _GOOD * best,
-        np.round(np.sum(linkage.compute_distances(u, hints), axis=1), _DIGITS),
+        np.round(linkage.compute_limit_excess(u), THRESHOLDS.rank_key_digits),
+        sigma < THRESHOLDS.min_singularity_share * best,
+        np.round(np.sum(linkage.compute_distances(u, hints), axis=1), THRESHOLDS.rank_key_digits),
         negative,
         np.round(np.log2(best / sigma)),
-        np.round(angles, _DIGITS),
-        -np.round(u, _DIGITS),  # mirrored: the positive one first
+        np.round(angles, THRESHOLDS.rank_key_digits),
+        -np.round(u, THRESHOLDS.rank_key_digits),  # mirrored: the positive one first
     ])  # fmt: skip
     return [tuple(line) for line in columns.tolist()]
 
@@ -396,8 +378,11 @@ def _select_reference_posture(linkage: Linkage, u: np.ndarray, hints: np.ndarray
         linkage, u, hints, float(np.max(linkage.loops.compute_singularity_distance(u)))
     )
     order = sorted((k for k, key in enumerate(keys) if not key[1]), key=keys.__getitem__)
-    spread = np.linspace(0, len(order) - 1, _COUNTED).astype(int)
-    some = [order[k] for k in sorted({*range(min(_COUNTED, len(order))), *spread.tolist()})]
+    spread = np.linspace(0, len(order) - 1, THRESHOLDS.counted_postures).astype(int)
+    some = [
+        order[k]
+        for k in sorted({*range(min(THRESHOLDS.counted_postures, len(order))), *spread.tolist()})
+    ]
     ties = count_constant_ratios(linkage, u[some])
     return u[
         min(
@@ -440,7 +425,9 @@ def _discard_singular(linkage: Linkage, u: np.ndarray, hints: np.ndarray) -> np.
     if not len(u):
         return u
     return flip_negative_travels(
-        linkage, u[linkage.loops.compute_singularity_distance(u) > SINGULAR], hints
+        linkage,
+        u[linkage.loops.compute_singularity_distance(u) > THRESHOLDS.min_singular_value],
+        hints,
     )
 
 
@@ -448,7 +435,7 @@ def _round_actuated_joints(linkage: Linkage, u: np.ndarray, places: np.ndarray) 
     """The posture with actuated joints at short numbers, as short as leaves it where it is."""
     before = float(linkage.loops.compute_singularity_distance(u[None])[0])
     unit = np.where(linkage.is_travel, 10.0 ** np.floor(np.log10(linkage.loops.size)), 1.0)
-    for step in _STEPS:
+    for step in THRESHOLDS.rounding_steps:
         trial = u.copy()
         trial[places] = [
             float(f"{round(x / (step * one)) * step * one:.10g}")

@@ -34,10 +34,9 @@ from modeler.derivation.result import (
     SampledRank,
     Sampling,
 )
+from modeler.derivation.thresholds import THRESHOLDS
 from modeler.effects import EnergyBlock
 
-SEED = 20030914
-_AGREEMENT = 1e-9
 _EXACT = (
     "Relations: energy rows (kinetic energy, power of gravity), link by link over the exact field; "
     "they are checked modulo a prime at random states and geometry. Independence: the energy rows "
@@ -82,7 +81,9 @@ _NUMERIC = (
 )
 
 
-def derive_base_parameters(model: SymbolicModel, seed: int = SEED) -> BaseParameters:
+def derive_base_parameters(
+    model: SymbolicModel, seed: int = THRESHOLDS.proof_seed
+) -> BaseParameters:
     """Returns base parameters of a serial or tree robot, with their relations and proof.
 
     The relations are exact in the symbols of the robot file. Where the given values make more
@@ -145,7 +146,7 @@ def _derive_exact(
         argument = _LOOPS.format(tree=_OPEN[tied])
     statement = argument + _describe_independence(model, independence, numeric) + statement
     base = _attach_proof(model, grouping, kind, statement, independence, sample, numeric, seed)
-    if base.proof.agreement > _AGREEMENT:
+    if base.proof.agreement > THRESHOLDS.max_torque_difference:
         raise ProofError(f"base and standard torque differ by {base.proof.agreement:.1e}")
     return base
 
@@ -217,9 +218,6 @@ def _derive_numeric(
 # The proof of a grouping modulo a prime.
 
 
-_CHECKS = 3
-
-
 class ProofError(Exception):
     """The certificate contradicts the relations; says how."""
 
@@ -238,7 +236,7 @@ def certify_relations(
     """
     # Without gravity only the kinetic row of each point counts.
     points = len(relations.kept_columns) + 8
-    for check in range(_CHECKS):
+    for check in range(THRESHOLDS.proof_checks):
         try:
             state = ModularState(geometry, K, points, seed + check)
             _check_relations(columns, K, relations, state)
@@ -249,7 +247,7 @@ def certify_relations(
         raise ProofError(
             f"of {len(relations.kept_columns)} columns kept only {rank} are independent"
         )
-    return ModularRank(rank, PRIME, _CHECKS * points, seed)
+    return ModularRank(rank, PRIME, THRESHOLDS.proof_checks * points, seed)
 
 
 def _check_relations(

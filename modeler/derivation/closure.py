@@ -23,33 +23,12 @@ from modeler.derivation.geometry import Geometry
 from modeler.derivation.graph import Algebra, Expr, Graph, GraphAlgebra
 from modeler.derivation.kinematics import Pose, compute_relative_poses, dot, plus, times
 from modeler.derivation.precise import convert_to_precise, evaluate_precisely
+from modeler.derivation.thresholds import THRESHOLDS
 from modeler.robot import INERTIAL, Loop, Robot
 
 # The loops in floating point, for many postures at once: Newton on all equations, redundant ones
 # included, in the sense of least squares; what the emitted C does with an independent set of them
 # is checked against this.
-
-
-SINGULAR = 1e-4
-"""Of `LoopEquations.sigma`. Newton's method that ends at a residual of 1e-9 leaves a posture of
-loops that only touch wrong by the square root of that: a posture whose value is of this order
-cannot be told from a singular one."""
-
-_CLOSED = 1e-12
-"""Residual of a closed loop, relative to the robot's size."""
-_ZERO = 1e-9
-"""Length of a row of the Jacobian that counts as none, over the longest."""
-_ITERATIONS = 60
-_STEPS = 12
-_SEED = 7
-_ROWS = 1876  # Reuleaux
-_SAMPLES = 32
-_STARTS = 200
-_PLACES = 6
-"""Decimals of rad and m in which two closed postures are told apart."""
-_POLISHED = 1e-25
-"""Last step of the polishing, in sizes of the robot or rad: far below the digits of a double."""
-_POLISHING = 20
 
 
 @dataclass(frozen=True)
@@ -98,11 +77,13 @@ class LoopEquations(ShortRepr):
         Those at a posture would not do: an equation that changes only in second order there, as
         along a stretched chain, makes it singular, however small the row is.
         """
-        u = np.random.default_rng(_ROWS).uniform(-np.pi, np.pi, (_SAMPLES, self.unknown_count))
+        u = np.random.default_rng(THRESHOLDS.row_scale_seed).uniform(
+            -np.pi, np.pi, (THRESHOLDS.row_scale_samples, self.unknown_count)
+        )
         J = self.compute_jacobians(u * self.scale) * self.scale
         length = np.median(np.linalg.norm(J, axis=2), axis=0)
         # An equation that follows from relations is 0 = 0 up to rounding: not to be scaled up.
-        return np.where(length > _ZERO * np.max(length, initial=0.0), length, np.inf)
+        return np.where(length > THRESHOLDS.zero_row * np.max(length, initial=0.0), length, np.inf)
 
     def compute_residuals(self, u: np.ndarray) -> np.ndarray:
         """Returns (n, equations) residuals of (n, unknowns)."""
@@ -184,9 +165,11 @@ class LoopEquations(ShortRepr):
         places = list(self.solved if solved is None else solved)
         u = np.array(u, dtype=float)
         scale = self.scale[places]
-        for _ in range(_ITERATIONS):
+        for _ in range(THRESHOLDS.newton_iterations):
             f = self.compute_residuals(u)
-            if np.all(np.max(np.abs(f), axis=1, initial=0.0) < _CLOSED * self.size):
+            if np.all(
+                np.max(np.abs(f), axis=1, initial=0.0) < THRESHOLDS.closed_residual * self.size
+            ):
                 break
             J = self.compute_jacobians(u)[:, :, places] * scale
             step = -np.einsum("nij,nj->ni", np.linalg.pinv(J, rcond=1e-12), f)
@@ -215,10 +198,10 @@ def find_nearest_closed(loops: LoopEquations, start: np.ndarray) -> np.ndarray |
         return home[0]
     if not np.all(np.isfinite(home)):
         return None
-    rng = np.random.default_rng(_SEED)
-    others = np.tile(start, (_STARTS, 1))
+    rng = np.random.default_rng(THRESHOLDS.restart_seed)
+    others = np.tile(start, (THRESHOLDS.restarts, 1))
     angles = [k for k in loops.solved if not loops.is_travel[k]]
-    others[:, angles] += rng.uniform(-np.pi, np.pi, (_STARTS, len(angles)))
+    others[:, angles] += rng.uniform(-np.pi, np.pi, (THRESHOLDS.restarts, len(angles)))
     closed_postures = loops.close_loops(others)
     closed_postures = closed_postures[loops.are_aligned(closed_postures)]
     if len(closed_postures) == 0:
@@ -227,11 +210,11 @@ def find_nearest_closed(loops: LoopEquations, start: np.ndarray) -> np.ndarray |
         closed_postures[:, angles] - start[angles]
     )
     # Mirrored postures may be equally near: digits that no rounding reaches decide then.
-    near = np.round(np.sum(np.abs(closed_postures - start), axis=1), _PLACES)
+    near = np.round(np.sum(np.abs(closed_postures - start), axis=1), THRESHOLDS.posture_decimals)
     return closed_postures[
         min(
             range(len(closed_postures)),
-            key=lambda i: (near[i], *np.round(closed_postures[i], _PLACES)),
+            key=lambda i: (near[i], *np.round(closed_postures[i], THRESHOLDS.posture_decimals)),
         )
     ]
 
@@ -262,7 +245,7 @@ def polish_home(
     equations = [loops.equations[i] for i in chosen]
     slopes = [loops.jacobian[i][k] for i in chosen for k in solved]
     u = [convert_to_precise(float(x)) for x in home]
-    for _ in range(_POLISHING):
+    for _ in range(THRESHOLDS.polish_iterations):
         inputs = {f"q[{k}]": x for k, x in enumerate(u)}
         results = evaluate_precisely(loops.graph, [*equations, *slopes], {**loops.values, **inputs})
         # The step is good to a double, what is left is known to 40 digits: so it goes on shrinking.
@@ -273,9 +256,9 @@ def polish_home(
             break
         for k, change in zip(solved, step, strict=True):
             u[k] -= float(change)
-        if max(abs(change) for change in step) < _POLISHED * loops.size:
+        if max(abs(change) for change in step) < THRESHOLDS.polish_step * loops.size:
             for k in solved:  # what should be 0 is left at the size of the last step, not at 0
-                u[k] = mp.nint(u[k] / _POLISHED) * _POLISHED
+                u[k] = mp.nint(u[k] / THRESHOLDS.polish_step) * THRESHOLDS.polish_step
             return tuple(float(x) for x in u)
     raise LoopError(
         f"{robot.name}: [home]: the closed posture is not certain to the last digit, the loops are "
@@ -298,13 +281,13 @@ def draw_nearby_postures(
     scale = np.where(loops.is_travel, 0.5 * scale, scale)
     u = np.tile(home, (samples, 1))
     target = rng.uniform(-1.0, 1.0, u.shape) * scale
-    step = _compute_tangent(loops, u, target) / _STEPS
-    for _ in range(_STEPS):
+    step = _compute_tangent(loops, u, target) / THRESHOLDS.posture_steps
+    for _ in range(THRESHOLDS.posture_steps):
         trial = loops.close_loops(u + step, range(loops.unknown_count))
         jump = np.max(np.abs(trial - u) / loops.scale, axis=1)
-        good = np.isfinite(jump) & (jump < 4 * reach / _STEPS * 3)
+        good = np.isfinite(jump) & (jump < 4 * reach / THRESHOLDS.posture_steps * 3)
         u[good] = trial[good]
-        step = _compute_tangent(loops, u, target) / _STEPS
+        step = _compute_tangent(loops, u, target) / THRESHOLDS.posture_steps
     return u
 
 
@@ -435,13 +418,6 @@ LOOP_JOINTS: Mapping[str, LoopJoint] = {
         tuple((name,) for name in INERTIAL),
     ),
 }
-
-
-_RANK = 1e-9
-"""Singular value of `LoopEquations.scaled_jacobian` that counts as none at generic postures."""
-_ALIKE = 1e-6
-_POSTURES = 12
-_MOBILITY_SEED = 20120
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -580,7 +556,9 @@ def check_mobility(
     near = loops.close_loops(start[None], range(loops.unknown_count))[0]
     if not np.all(np.isfinite(near)):
         return False
-    postures = draw_nearby_postures(loops, near, np.random.default_rng(_MOBILITY_SEED), _POSTURES)
+    postures = draw_nearby_postures(
+        loops, near, np.random.default_rng(THRESHOLDS.mobility_seed), THRESHOLDS.mobility_postures
+    )
     J = loops.compute_scaled_jacobian(postures)
     ranks = [_compute_rank(sample) for sample in J]
     if loops.unknown_count - max(ranks) != len(loops.actuated):
@@ -604,13 +582,13 @@ def _select_independent(loops: LoopEquations, home: np.ndarray, geometry: Geomet
         LoopError: they are singular at home.
     """
     at_home = loops.compute_passive_jacobian(home[None])[0]
-    if _compute_rank(at_home, SINGULAR) < len(loops.solved):
-        moving = _find_moving_joints(loops, geometry, at_home, SINGULAR)
+    if _compute_rank(at_home, THRESHOLDS.min_singular_value) < len(loops.solved):
+        moving = _find_moving_joints(loops, geometry, at_home, THRESHOLDS.min_singular_value)
         raise LoopError(
             f"{geometry.robot.name}: the loops are singular at [home]: {moving} could move there "
             "with the actuated joints locked; state another posture"
         )
-    return sorted(select_spanning_rows(at_home, len(loops.solved), _ALIKE))
+    return sorted(select_spanning_rows(at_home, len(loops.solved), THRESHOLDS.pivot_tie))
 
 
 def select_spanning_rows(matrix: np.ndarray, count: int, alike: float = 0.0) -> list[int]:
@@ -631,12 +609,15 @@ def select_spanning_rows(matrix: np.ndarray, count: int, alike: float = 0.0) -> 
     return chosen
 
 
-def _compute_rank(matrix: np.ndarray, tolerance: float = _RANK) -> int:
+def _compute_rank(matrix: np.ndarray, tolerance: float = THRESHOLDS.mobility_rank) -> int:
     return int(np.sum(np.linalg.svd(matrix, compute_uv=False) > tolerance))
 
 
 def _find_moving_joints(
-    loops: LoopEquations, geometry: Geometry, inner: np.ndarray, tolerance: float = _RANK
+    loops: LoopEquations,
+    geometry: Geometry,
+    inner: np.ndarray,
+    tolerance: float = THRESHOLDS.mobility_rank,
 ) -> str:
     """The solved joints that take part in a motion which the equations do not stop."""
     _, _, vt = np.linalg.svd(inner, full_matrices=True)
@@ -687,7 +668,7 @@ def _select_platform(
 
     def is_solvable(places: Sequence[int]) -> bool:
         others = [k for k in range(loops.unknown_count) if k not in places]
-        return _compute_rank(J[:, others], SINGULAR) == len(loops.solved)
+        return _compute_rank(J[:, others], THRESHOLDS.min_singular_value) == len(loops.solved)
 
     for k in loops.actuated:
         if len(chosen) < len(loops.actuated) and k not in chosen and is_solvable([*chosen, k]):

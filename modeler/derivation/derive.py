@@ -9,31 +9,22 @@ import numpy as np
 from modeler.core.errors import DerivationError, LoopError, RobotError
 from modeler.core.result import Result
 from modeler.derivation.assembly_modes import (
-    STARTS,
     AssemblyMode,
     find_assembly_modes,
     flip_negative_travels,
 )
-from modeler.derivation.closure import (
-    SINGULAR,
-    check_mobility,
-    describe_open_loop,
-    find_nearest_closed,
-)
+from modeler.derivation.closure import check_mobility, describe_open_loop, find_nearest_closed
 from modeler.derivation.columns import build_standard_columns
 from modeler.derivation.geometry import build_exact_geometry
 from modeler.derivation.graph import Graph
 from modeler.derivation.model import SymbolicModel
+from modeler.derivation.thresholds import THRESHOLDS
 from modeler.derivation.walks import Linkage, build_linkage
 from modeler.robot import Robot, parse_robot_text, replace_home
 
 # [home]: taken as stated where it is good, else found; refused where it is singular.
 #
 # Singular postures: which joints could move there although the actuated ones are locked.
-
-
-_TAKES_PART = 0.1
-"""Of the largest share in a motion, from which a joint is named."""
 
 
 def describe_free_motions(linkage: Linkage, u: np.ndarray) -> list[str]:
@@ -48,9 +39,9 @@ def describe_free_motions(linkage: Linkage, u: np.ndarray) -> list[str]:
     names = [f"q{linkage.free[k].name}" for k in linkage.loops.solved]
     _, values, turned = np.linalg.svd(linkage.loops.compute_passive_jacobian(u[None])[0])
     descriptions = []
-    for motion in turned[values <= SINGULAR]:
+    for motion in turned[values <= THRESHOLDS.min_singular_value]:
         motion = motion / motion[np.argmax(np.abs(motion) > (1 - 1e-6) * np.max(np.abs(motion)))]
-        moved = [k for k, share in enumerate(motion) if abs(share) > _TAKES_PART]
+        moved = [k for k, share in enumerate(motion) if abs(share) > THRESHOLDS.min_motion_share]
         who = " : ".join(names[k] for k in moved)
         descriptions.append(who + " = " + " : ".join(f"{motion[k]:.2g}" for k in moved))
     return descriptions
@@ -70,12 +61,6 @@ class HomeModes(Result):
     linkage: Linkage
     modes: tuple[AssemblyMode, ...]
     stated_index: int | None
-
-
-NEAR = 0.5
-"""rad, or sizes of the robot: a joint that closing the loops moves further was not stated well."""
-_MOST_NAMED = 6
-_SAME_SHAPE = 1e-3
 
 
 @dataclass(frozen=True)
@@ -105,8 +90,8 @@ def resolve_home(model: SymbolicModel) -> ClosedHome:
     """Returns the robot with a [home] from which its loops close and that is not singular.
 
     A home stays as it is if the passive joints close the loops near it: none moves further than
-    `NEAR`, rows left out counting as 0, and the posture is not singular. Else the assembly modes
-    are searched, and the best one near to what is stated is taken.
+    `max_home_move`, rows left out counting as 0, and the posture is not singular. Else the assembly
+    modes are searched, and the best one near to what is stated is taken.
 
     Raises:
         LoopError: the posture stated is singular, the loops leave more or less free than is
@@ -124,7 +109,8 @@ def resolve_home(model: SymbolicModel) -> ClosedHome:
     posture = find_nearest_closed(linkage.loops, start)
     if (
         posture is not None
-        and linkage.loops.compute_singularity_distance(posture[None])[0] <= SINGULAR
+        and linkage.loops.compute_singularity_distance(posture[None])[0]
+        <= THRESHOLDS.min_singular_value
     ):
         # Meant, if all actuated joints on which the loops depend are stated.
         loop_joints = [k for k in linkage.loops.actuated if linkage.is_tied[k]]
@@ -168,14 +154,14 @@ def find_modes_near(robot: Robot, near: Mapping[str, float]) -> HomeModes:
     shapes = linkage.compute_shape(np.array([stated_posture, *(mode.posture for mode in modes)]))
     away = np.max(np.abs(shapes[1:] - shapes[0]), axis=1)
     at = int(np.argmin(away))
-    return HomeModes(linkage, modes, at if away[at] < _SAME_SHAPE else None)
+    return HomeModes(linkage, modes, at if away[at] < THRESHOLDS.stated_shape else None)
 
 
 def _build_closure_error(linkage: Linkage, start: np.ndarray) -> LoopError:
     reason = describe_open_loop(linkage.loops, start, linkage.owners)
     return LoopError(
-        f"{linkage.robot.name}: [home]: {reason}, nor from {STARTS} others without being singular; "
-        "check the lengths, and the joints of [loops]"
+        f"{linkage.robot.name}: [home]: {reason}, nor from "
+        f"{THRESHOLDS.assembly_starts} others without being singular; check the lengths, and the joints of [loops]"
     )
 
 
@@ -201,11 +187,19 @@ def express_as_home(linkage: Linkage, u: np.ndarray) -> dict[str, float]:
 def _close_stated_home(linkage: Linkage, stated: np.ndarray) -> np.ndarray | None:
     """The closed posture that was stated, rows left out at 0; None if it is no good one."""
     posture = find_nearest_closed(linkage.loops, np.nan_to_num(stated))
-    if posture is None or linkage.loops.compute_singularity_distance(posture[None])[0] <= SINGULAR:
+    if (
+        posture is None
+        or linkage.loops.compute_singularity_distance(posture[None])[0]
+        <= THRESHOLDS.min_singular_value
+    ):
         return None
     moved = linkage.compute_distances(posture[None], np.nan_to_num(stated))
     turned = flip_negative_travels(linkage, posture[None], stated)
-    return posture if np.max(moved) <= NEAR and np.array_equal(turned[0], posture) else None
+    return (
+        posture
+        if np.max(moved) <= THRESHOLDS.max_home_move and np.array_equal(turned[0], posture)
+        else None
+    )
 
 
 def _describe_home(linkage: Linkage, modes: tuple[AssemblyMode, ...], stated: np.ndarray) -> str:
@@ -224,7 +218,8 @@ def _describe_home(linkage: Linkage, modes: tuple[AssemblyMode, ...], stated: np
     moved = linkage.compute_distances(posture[None], stated)[0]
     far = [k for k in np.argsort(-moved, kind="stable") if moved[k] > 0.01]
     change = ", ".join(
-        f"q{linkage.free[k].name} {stated[k]:.4g} -> {posture[k]:.4g}" for k in far[:_MOST_NAMED]
+        f"q{linkage.free[k].name} {stated[k]:.4g} -> {posture[k]:.4g}"
+        for k in far[: THRESHOLDS.listed_moves]
     )
     change = f"moved {change}" if far else "what it leaves out was found"
     return f"{robot.name}: [home] completed: {change}; mode A of {others}"

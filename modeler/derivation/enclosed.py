@@ -35,10 +35,7 @@ from modeler.derivation.precise import (
     load_flint,
 )
 from modeler.derivation.result import BallRank, ExactState, SampledRank
-
-_STEPS = 40
-_NEAR = 1e-6
-"""Largest distance of a passive joint to where it was said to be, rad or m."""
+from modeler.derivation.thresholds import THRESHOLDS
 
 
 @dataclass(frozen=True)
@@ -126,8 +123,10 @@ class Enclosures:
         except np.linalg.LinAlgError:
             raise EnclosureError("the loops are singular at a posture") from None
         q = self._solve_midpoints(_convert_to_balls(u), Y)
-        if not all(abs(q[k] - float(u[k])) < _NEAR for k in solved):
-            raise EnclosureError(f"the loops do not close within {_NEAR:g} of a posture")
+        if not all(abs(q[k] - float(u[k])) < THRESHOLDS.max_enclosure_shift for k in solved):
+            raise EnclosureError(
+                f"the loops do not close within {THRESHOLDS.max_enclosure_shift:g} of a posture"
+            )
         radius = build_ball(2.0 ** -(self.bits // 2))
         wide = _replace_entries(q, solved, [q[k] + load_flint().arb(0, radius) for k in solved])
         step = Y * _build_column(self.equations(_collect_inputs(q=q)))
@@ -146,7 +145,7 @@ class Enclosures:
         assert self.closure is not None
         solved = list(self.closure.solved)
         enough = build_ball(2.0 ** -(self.bits * 3 // 4))
-        for _ in range(_STEPS):
+        for _ in range(THRESHOLDS.enclosure_iterations):
             step = (Y * _build_column(self.equations(_collect_inputs(q=q)))).mid()
             q = _replace_entries(
                 q, solved, [(q[k] - step[i, 0]).mid() for i, k in enumerate(solved)]
@@ -219,14 +218,6 @@ def _multiply_vector(matrix: Sequence[Sequence[Ball]], vector: Sequence[Ball]) -
 # nothing else.
 
 
-_BITS = (128, 256, 512)
-_DIGITS = 6
-"""Decimals of rad or m of the postures."""
-_SPARE = 4
-_EIGHTHS = 16
-"""Speeds and accelerations are up to so many eighths."""
-
-
 def prove_rank(
     model: SymbolicModel, kept_columns: Sequence[int], sample: Sample, seed: int
 ) -> BallRank | SampledRank:
@@ -247,7 +238,7 @@ def prove_rank(
     if len(choice.rows) < len(kept_columns):
         why = f"the states tried span {len(choice.rows)} of {len(kept_columns)} columns"
         return SampledRank(len(kept_columns), seed, why)
-    for bits in _BITS:
+    for bits in THRESHOLDS.ball_bits:
         with load_flint().ctx.workprec(bits):
             try:
                 matrix = choice.enclose_matrix(choice.kept_columns)
@@ -263,7 +254,7 @@ def prove_rank(
                     choice.locate_rows(),
                 )
             why = f"the balls of a minor of {len(kept_columns)} rows hold a singular matrix"
-    return SampledRank(len(kept_columns), seed, f"{why} ({_BITS[-1]} bits)")
+    return SampledRank(len(kept_columns), seed, f"{why} ({THRESHOLDS.ball_bits[-1]} bits)")
 
 
 def enclose_factors(
@@ -288,7 +279,7 @@ def enclose_factors(
     choice = _RowSelection(model, kept_columns, sample, seed)
     if len(choice.rows) < len(kept_columns) or not dropped_columns:
         return None
-    with load_flint().ctx.workprec(_BITS[-1]):
+    with load_flint().ctx.workprec(THRESHOLDS.ball_bits[-1]):
         try:
             rows = (
                 load_flint()
@@ -316,10 +307,12 @@ class _RowSelection:
         self.closure = model.closure
         rng = np.random.default_rng(seed)
         width = len(model.robot.coordinates)
-        count = _SPARE + -(-3 * len(kept_columns) // (2 * max(1, width)))
+        count = THRESHOLDS.spare_states + -(-3 * len(kept_columns) // (2 * max(1, width)))
         self.u = self._draw_postures(sample, count, rng)
         shape = (2, len(self.u), width)
-        self.qd, self.qdd = rng.integers(1, _EIGHTHS + 1, shape) * rng.choice([-1, 1], shape) / 8
+        self.qd, self.qdd = (
+            rng.integers(1, THRESHOLDS.speed_eighths + 1, shape) * rng.choice([-1, 1], shape) / 8
+        )
         self.signals = draw_signal_values(model, len(self.u))
         states: States = self.u, self.qd, self.qdd
         if self.closure is not None:
@@ -334,9 +327,11 @@ class _RowSelection:
             angular = np.array([joint.is_revolute for joint in self.model.robot.free_joints])
             reach = np.where(angular, np.pi, 1.0)
             drawn = rng.uniform(-reach, reach, (count, len(reach)))
-            return np.asarray(np.round(drawn, _DIGITS))
+            return np.asarray(np.round(drawn, THRESHOLDS.enclosed_decimals))
         assert self.closure is not None
-        u = self.closure.close_loops(np.round(sample.walk.postures[:count], _DIGITS))
+        u = self.closure.close_loops(
+            np.round(sample.walk.postures[:count], THRESHOLDS.enclosed_decimals)
+        )
         return np.asarray(u[np.all(np.isfinite(u), axis=1)])
 
     @property
@@ -356,7 +351,13 @@ class _RowSelection:
         names = [joint.name for joint in self.model.robot.coordinates]
         return tuple(
             ExactState(
-                dict(zip(free, np.round(self.u[i], _DIGITS).tolist(), strict=True)),
+                dict(
+                    zip(
+                        free,
+                        np.round(self.u[i], THRESHOLDS.enclosed_decimals).tolist(),
+                        strict=True,
+                    )
+                ),
                 dict(zip(names, self.qd[i].tolist(), strict=True)),
                 dict(zip(names, self.qdd[i].tolist(), strict=True)),
                 tuple(self.signals[:, i].tolist()),

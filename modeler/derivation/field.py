@@ -20,6 +20,7 @@ from sympy.polys.matrices import DomainMatrix
 from sympy.polys.rings import PolyElement, ring
 
 from modeler.derivation.geometry import Geometry, cos_sin
+from modeler.derivation.thresholds import THRESHOLDS
 
 # Turning rational functions of t = tan(a/2) back into what people write: cos(a) and sin(a).
 
@@ -52,9 +53,6 @@ def express_in_cosines(numerator: Terms, denominator: Terms, letters: Letters) -
     top, bottom = (target.convert_terms(part, pairs) for part in parts)
     top, bottom = top.cancel(bottom)
     return target.find_shortest_form(top) / target.find_shortest_form(bottom)
-
-
-_ALL_CHOICES = 4
 
 
 class _CosineRing:
@@ -102,7 +100,7 @@ class _CosineRing:
     def find_shortest_form(self, poly: PolyElement) -> sympy.Expr:
         """The expanded form of fewest terms; with many angles the choices are made in turn."""
         count = len(self.angles)
-        if count <= _ALL_CHOICES:
+        if count <= THRESHOLDS.exhaustive_angles:
             choices = product((True, False), repeat=count)
             best = min((self.eliminate_squares(poly, keep) for keep in choices), key=len)
         else:
@@ -372,12 +370,9 @@ def replace_square(poly: PolyElement, place: int, square: PolyElement) -> PolyEl
 Matrix = list[list[Element]]
 """Rows of equal length."""
 
-LARGEST = 400
-"""Terms of a coefficient, numerator and denominator together, beyond which nobody reads it."""
-
 
 class CoefficientTooLarge(ArithmeticError):
-    """The exact coefficients grow beyond `LARGEST` terms."""
+    """The exact coefficients grow beyond `THRESHOLDS.max_coefficient_terms` terms."""
 
 
 def reduce_rows(rows: Matrix) -> tuple[Matrix, list[int]]:
@@ -425,8 +420,10 @@ def _subtract_row(row: dict[int, Element], pivot: Mapping[int, Element], factor:
     for j, x in pivot.items():
         part = factor * x
         value = row[j] - part if j in row else -part
-        if _count_terms(value) > LARGEST:
-            raise CoefficientTooLarge(f"a coefficient has more than {LARGEST} terms")
+        if _count_terms(value) > THRESHOLDS.max_coefficient_terms:
+            raise CoefficientTooLarge(
+                f"a coefficient has more than {THRESHOLDS.max_coefficient_terms} terms"
+            )
         if value:
             row[j] = value
         else:

@@ -12,6 +12,7 @@ import sympy
 from modeler.core.brief import ShortRepr
 from modeler.core.errors import DerivationError
 from modeler.core.expression import Expression
+from modeler.derivation.thresholds import THRESHOLDS
 from modeler.robot import Joint, LinkFrame, Robot, locate_written_cell
 
 # Cosine and sine of constant angles, exactly, with as few different ones as possible.
@@ -19,13 +20,6 @@ from modeler.robot import Joint, LinkFrame, Robot, locate_written_cell
 # Sums and whole multiples are expanded, so that al, 2*al and al + pi/4 are made of the same two
 # angles, and relations between them are seen.
 
-
-_FINEST = 12
-"""Fractions p/q of pi up to this q are multiples of pi/q; finer ones stand for themselves."""
-
-_MOST_TURNS = 4
-"""Angles in a sum, counted with their multiples; a longer sum stands for itself. Written out, its
-cosine has 2**(turns - 1) terms. Relations that this hides are found at the given values."""
 
 Pair = tuple[sympy.Expr, sympy.Expr]
 """(cosine, sine)."""
@@ -60,7 +54,7 @@ def is_short(angle: sympy.Expr) -> bool:
     for term in sympy.Add.make_args(angle):
         factor = term.as_coeff_Mul()[0]
         turns += abs(int(factor)) if factor.is_Integer else 1
-    return turns <= _MOST_TURNS
+    return turns <= THRESHOLDS.max_angle_terms
 
 
 def _evaluate_number(angle: sympy.Expr) -> Pair:
@@ -74,7 +68,7 @@ def _evaluate_number(angle: sympy.Expr) -> Pair:
     if number and turned:  # 0.4 + pi/2 is made of the same angle as 0.4
         return _add_angles(_evaluate_number(number), _evaluate_number(turned))
     turns = angle / sympy.pi
-    if turns.is_Rational and turns.q <= _FINEST:
+    if turns.is_Rational and turns.q <= THRESHOLDS.max_pi_denominator:
         return _multiply_angle(_keep_unevaluated(sympy.pi / turns.q), int(turns.p))
     return _keep_unevaluated(angle)
 
@@ -97,8 +91,6 @@ def _add_angles(a: Pair, b: Pair) -> Pair:
 
 # Expressions of the robot file as exact sympy expressions.
 
-
-_LONGEST = 60  # letters of the user's text that are quoted
 
 _FUNCTIONS = {
     "sin": sympy.sin, "cos": sympy.cos, "sqrt": sympy.sqrt,
@@ -137,7 +129,11 @@ def _convert_rational(value: Fraction) -> sympy.Rational:
 
 
 def _shorten_text(text: str) -> str:
-    return text if len(text) <= _LONGEST else f"{text[:_LONGEST]} ..."
+    return (
+        text
+        if len(text) <= THRESHOLDS.quoted_letters
+        else f"{text[: THRESHOLDS.quoted_letters]} ..."
+    )
 
 
 # Linear relations between joint variables: every row's variable in the free ones, exactly.
@@ -203,7 +199,6 @@ def _convert_coefficient(value: sympy.Expr, numbers: Mapping[str, sympy.Rational
     return Fraction(int(at.p), int(at.q))
 
 
-_RIGHT_ANGLE_TOLERANCE = 1e-9
 _QUARTER = math.pi / 2
 
 
@@ -376,7 +371,7 @@ def _resolve_symbols(
         quarters = round(numbers[name] / _QUARTER)
         if numbers[name] == 0.0:
             resolved[name] = sympy.Integer(0)
-        elif quarters and abs(numbers[name] - quarters * _QUARTER) < _RIGHT_ANGLE_TOLERANCE:
+        elif quarters and abs(numbers[name] - quarters * _QUARTER) < THRESHOLDS.right_angle:
             resolved[name] = quarters * sympy.pi / 2
         elif expression.names or expression.uses_pi or at_nominal:
             try:
@@ -427,20 +422,12 @@ class _Cells:
             return value
         values = {symbol: self.numbers[symbol.name] for symbol in value.free_symbols}
         turns = float(value.subs(values)) / float(sympy.pi / 2)
-        if abs(turns - round(turns)) < _RIGHT_ANGLE_TOLERANCE:
+        if abs(turns - round(turns)) < THRESHOLDS.right_angle:
             return round(turns) * sympy.pi / 2
         return value
 
 
 # How large a constant becomes when it is written out, found without writing it out.
-
-
-MOST_TERMS = 1000
-"""Terms of a constant written out as a sum of products."""
-DEEPEST = 60
-"""Operations inside each other, symbols that stand for expressions replaced by these."""
-MOST_BITS = 10_000
-"""Of an exact number."""
 
 
 class ExpressionTooLong(ArithmeticError):
@@ -466,11 +453,13 @@ def check_length(value: sympy.Expr) -> None:
         stack.pop()
         depth = 1 + max((known[arg][1] for arg in node.args), default=0)
         terms = _count_terms(node, [known[arg][0] for arg in node.args])
-        if depth > DEEPEST:
-            raise ExpressionTooLong(f"has more than {DEEPEST} operations inside each other")
-        if terms > MOST_TERMS:
+        if depth > THRESHOLDS.max_constant_depth:
             raise ExpressionTooLong(
-                f"has {terms} terms when it is written out, more than {MOST_TERMS}"
+                f"has more than {THRESHOLDS.max_constant_depth} operations inside each other"
+            )
+        if terms > THRESHOLDS.max_constant_terms:
+            raise ExpressionTooLong(
+                f"has {terms} terms when written out, more than {THRESHOLDS.max_constant_terms}"
             )
         known[node] = terms, depth
 
@@ -482,7 +471,9 @@ def _count_terms(node: sympy.Basic, parts: list[int]) -> int:
         return prod(parts)
     if isinstance(node, sympy.Pow) and node.exp.is_Integer:
         n = abs(int(node.exp))
-        return comb(n + parts[0] - 1, n) if n <= MOST_TERMS or parts[0] == 1 else n
+        return (
+            comb(n + parts[0] - 1, n) if n <= THRESHOLDS.max_constant_terms or parts[0] == 1 else n
+        )
     return 1
 
 
@@ -490,13 +481,13 @@ def compute_power(base: sympy.Expr, exponent: sympy.Expr | int) -> sympy.Expr:
     """Returns base**exponent.
 
     Raises:
-        TooLong: an exact number of more than `MOST_BITS`.
+        TooLong: an exact number of more than `THRESHOLDS.max_number_bits`.
     """
     exponent = sympy.sympify(exponent)
     if base.is_Rational and exponent.is_Rational:
         bits = max(int(base.p).bit_length(), int(base.q).bit_length()) * abs(exponent)
-        if bits > MOST_BITS and base not in (0, 1, -1):
+        if bits > THRESHOLDS.max_number_bits and base not in (0, 1, -1):
             raise ExpressionTooLong(
-                f"holds an exact number of {int(bits)} bits, more than {MOST_BITS}"
+                f"holds an exact number of {int(bits)} bits, more than {THRESHOLDS.max_number_bits}"
             )
     return base**exponent

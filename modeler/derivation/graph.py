@@ -30,6 +30,7 @@ from modeler.core.expression import FUNCTIONS, LAW
 from modeler.core.law import Law
 from modeler.derivation.geometry import Geometry, GeometryRow, cos_sin, count_quarter_turns
 from modeler.derivation.labels import Label, Link
+from modeler.derivation.thresholds import THRESHOLDS
 
 # Values of expressions by steps that are listed once: closing loops asks hundreds of times.
 
@@ -117,8 +118,6 @@ def _apply_signs(call: Callable[..., Any], op: str, a: int, b: int | None) -> Ca
 
 
 PRIME = 2**61 - 1
-_LARGEST_MULTIPLE = 64
-_PLANS = 16  # of evaluation that are kept
 _MULTIPLIED = range(101)  # exponents of which powers are multiplied out
 
 Number = int | Fraction
@@ -312,7 +311,7 @@ class Graph:
             if node.op == "mul" and self._is_number(node.args[0])
             else 0
         )
-        if factor in range(1, _LARGEST_MULTIPLE):  # a small whole number
+        if factor in range(1, THRESHOLDS.max_angle_multiple):  # a small whole number
             turn, total = self._evaluate_angle(node.args[1]), (1, 0)
             for _ in range(int(factor)):
                 total = _compose_angles(total, turn)
@@ -450,7 +449,7 @@ class Graph:
         refs = tuple(output.ref for output in outputs)
         plan = self._plans.pop(refs, None) or Plan(self, outputs)
         self._plans[refs] = plan  # the last that was asked for is the last to go
-        if len(self._plans) > _PLANS:
+        if len(self._plans) > THRESHOLDS.cached_plans:
             del self._plans[next(iter(self._plans))]
         return plan(values)
 

@@ -27,23 +27,14 @@ from modeler.derivation.precise import (
     evaluate_precisely,
     get_precise_functions,
 )
+from modeler.derivation.thresholds import THRESHOLDS
 from modeler.derivation.walks import compute_closed_motion, draw_closed_walk
 from modeler.robot import Robot
 
 Term = tuple[Fraction, str]
 """factor * text."""
 
-_SAME_CONSTANT = 1e-9
-_STEP = 1e-4
-_NEAR = 0.1
-_ITERATIONS = 5
-_SLOPE = 1e-6
-_LARGEST_CONSTANT_DENOMINATOR = 4
 _SHARES = [Fraction(sign * n, d) for n, d in ((1, 1), (2, 1), (1, 2)) for sign in (1, -1)]
-_DECIMALS = 10
-_EXACT = 1e-13
-"""Home is polished to the digits of a double."""
-_TWELFTHS = 24
 
 
 class RelationConstants:
@@ -79,11 +70,13 @@ class RelationConstants:
     def _find_symbol_terms(self, coefficients: np.ndarray, angular: bool) -> Iterator[Term]:
         """The symbols on which the constant depends."""
         for name, moved in self._perturbed_homes.items():
-            change = float(coefficients @ (moved - self.home)) / _STEP
+            change = float(coefficients @ (moved - self.home)) / THRESHOLDS.perturbation
             for factor, size in self._enumerate_factors(name, angular):
-                if abs(size) > _STEP:
-                    share = Fraction(change / size).limit_denominator(_LARGEST_CONSTANT_DENOMINATOR)
-                    if abs(float(share) * size - change) < _SLOPE:
+                if abs(size) > THRESHOLDS.perturbation:
+                    share = Fraction(change / size).limit_denominator(
+                        THRESHOLDS.max_constant_denominator
+                    )
+                    if abs(float(share) * size - change) < THRESHOLDS.slope_tolerance:
                         if share:
                             yield share, f"{name}{factor}"
                         break
@@ -112,7 +105,7 @@ class RelationConstants:
         with np.errstate(all="ignore"):  # the root of a length that became negative
             moved = self._close_perturbed(names)
         far = np.abs(moved - self.home) / self.loops.scale
-        near = np.max(far, axis=1, initial=0.0) < _NEAR
+        near = np.max(far, axis=1, initial=0.0) < THRESHOLDS.max_perturbed_move
         return {name: u for name, u, good in zip(names, moved, near, strict=True) if good}
 
     def _close_perturbed(self, names: Sequence[str]) -> np.ndarray:
@@ -120,10 +113,10 @@ class RelationConstants:
         loops, count = self.loops, len(names)
         values: dict[str, Any] = {n: np.full(count, self.loops.values[n]) for n in names}
         for i, name in enumerate(names):
-            values[name][i] += _STEP
+            values[name][i] += THRESHOLDS.perturbation
         moved = replace(loops, values=values)
         u = np.tile(self.home, (count, 1))
-        for _ in range(_ITERATIONS):
+        for _ in range(THRESHOLDS.perturbed_iterations):
             u[:, list(loops.solved)] -= moved.solve_passive(u, moved.compute_residuals(u))
         return u
 
@@ -131,18 +124,18 @@ class RelationConstants:
 def _find_pi_multiple(value: float, angular: bool) -> list[Term] | None:
     """A multiple of pi/12 for an angle, nothing for a travel."""
     twelfths = round(value / (math.pi / 12)) if angular else 0
-    if abs(value - twelfths * math.pi / 12) > _SAME_CONSTANT:
+    if abs(value - twelfths * math.pi / 12) > THRESHOLDS.constant_tolerance:
         return None
     return [(Fraction(twelfths, 12), "pi")]
 
 
 def _find_decimal(value: float, angular: bool) -> list[Term] | None:
     """A short decimal number, with a multiple of pi/12 for an angle."""
-    most = _TWELFTHS if angular else 0
+    most = THRESHOLDS.max_pi_twelfths if angular else 0
     for size in sorted(range(-most, most + 1), key=abs):
         rest = value - size * math.pi / 12
-        short = round(rest, _DECIMALS)
-        if abs(rest - short) < _EXACT:
+        short = round(rest, THRESHOLDS.constant_decimals)
+        if abs(rest - short) < THRESHOLDS.decimal_tolerance:
             return [(Fraction(size, 12), "pi"), (Fraction(repr(short)), "")]
     return None
 
@@ -160,14 +153,6 @@ def _find_decimal(value: float, angular: bool) -> list[Term] | None:
 # The dimension of the span is a rank of exact functions: values with 40 digits at random postures
 # of L, and at random lengths and angles where the relations are to hold in letters. What is of
 # lower rank there to 25 digits is so identically.
-
-
-_PROOF_SEED = 47
-_SPARE = 3
-_DIGITS = 25
-_MOST_TRIES = 64
-_CHANGE = 0.1
-"""Relative, of lengths and angles where a relation is to hold in letters."""
 
 
 @dataclass(frozen=True)
@@ -191,11 +176,11 @@ class Prover:
             relations: that home fulfils.
             letters: True for all lengths and angles, False for the given ones only.
         """
-        rng = np.random.default_rng(_PROOF_SEED)
+        rng = np.random.default_rng(THRESHOLDS.implied_seed)
         geometry = self._draw_symbols(rng, letters)
         left = len(self.closure.equations) - len(relations)
         rows = []
-        for _ in range(left + _SPARE):
+        for _ in range(left + THRESHOLDS.spare_rows):
             at = {**geometry, **self._draw_posture(relations, rng, geometry)}
             rows.append(evaluate_precisely(self.closure.graph, self.closure.equations, at))
         return _compute_rank(rows) <= left
@@ -205,7 +190,11 @@ class Prover:
         known: dict[str, Number] = {}
         for name, expression in self.robot.symbols.items():
             if name in self.closure.values:
-                change = float(rng.uniform(-_CHANGE, _CHANGE)) if letters else 0.0
+                change = (
+                    float(rng.uniform(-THRESHOLDS.symbol_change, THRESHOLDS.symbol_change))
+                    if letters
+                    else 0.0
+                )
                 known[name] = convert_to_precise(self.closure.values[name]) * (
                     1 + convert_to_precise(change)
                 )
@@ -242,7 +231,7 @@ def _compute_rank(rows: Sequence[Sequence[Number]]) -> int:
     """Rank of a matrix of numbers of 40 digits, each column counted relative to its largest."""
     mp = get_precise_context()
     matrix = [list(row) for row in rows]
-    nothing = mp.mpf(10) ** -_DIGITS
+    nothing = mp.mpf(10) ** -THRESHOLDS.proof_digits
     rank = 0
     for column in range(len(matrix[0])):
         below = matrix[rank:]
@@ -270,7 +259,7 @@ def find_largest_proven(
             if prover.can_prove(chosen, letters):
                 return chosen
             tries += 1
-            if tries == _MOST_TRIES:
+            if tries == THRESHOLDS.max_proof_tries:
                 return ()
     return ()
 
@@ -283,13 +272,6 @@ def find_largest_proven(
 # range; their constants as combinations of the robot's symbols; used only where they are proven
 # (`modeler.derivation.implied`): in letters, or at the given values where only these make the
 # loops close (two bars of the same length by two symbols).
-
-
-_POSTURES = 16
-_SEED = 31
-_TOLERANCE = 1e-9
-_LARGEST_DENOMINATOR = 24
-_SAME = 1e-7
 
 
 @dataclass(frozen=True)
@@ -338,14 +320,20 @@ def _find_vanishing_rows(model: SymbolicModel) -> list[tuple[np.ndarray, int]]:
     """Combinations of speeds that vanish, each with the variable that it is solved for."""
     closure = model.closure
     assert closure is not None
-    u = draw_closed_walk(model, _POSTURES, np.random.default_rng(_SEED)).postures
+    u = draw_closed_walk(
+        model, THRESHOLDS.relation_postures, np.random.default_rng(THRESHOLDS.relation_seed)
+    ).postures
     G = compute_closed_motion(model, u, np.zeros((len(u), len(closure.actuated)))).coupling
     speeds = np.concatenate(list(G), axis=1)  # (len(u), postures * len(q))
     left, singular, _ = np.linalg.svd(speeds, full_matrices=True)
-    rank = int(np.sum(singular > _TOLERANCE * singular[0]))
+    rank = int(np.sum(singular > THRESHOLDS.relation_rank * singular[0]))
     rows = _reduce_rows(left[:, rank:].T, closure.solved)
     home = np.array(closure.home)
-    return [(row, pivot) for row, pivot in rows if np.max(np.abs((u - home) @ row)) < _SAME]
+    return [
+        (row, pivot)
+        for row, pivot in rows
+        if np.max(np.abs((u - home) @ row)) < THRESHOLDS.relation_residual
+    ]
 
 
 def _reduce_rows(rows: np.ndarray, solved: Sequence[int]) -> list[tuple[np.ndarray, int]]:
@@ -377,11 +365,11 @@ def _build_terms(
     exact = np.zeros(len(row))
     exact[pivot] = 1.0
     for k, value in enumerate(row):
-        if k == pivot or abs(value) < _TOLERANCE:
+        if k == pivot or abs(value) < THRESHOLDS.relation_rank:
             continue
-        factor = Fraction(-value).limit_denominator(_LARGEST_DENOMINATOR)
+        factor = Fraction(-value).limit_denominator(THRESHOLDS.max_ratio_denominator)
         if (
-            abs(float(factor) + value) > _TOLERANCE
+            abs(float(factor) + value) > THRESHOLDS.relation_rank
             or free[k].is_revolute != free[pivot].is_revolute
         ):
             return None

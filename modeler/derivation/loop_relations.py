@@ -41,13 +41,10 @@ from modeler.derivation.closure import ALL, LOOP_JOINTS
 from modeler.derivation.columns import StandardColumn
 from modeler.derivation.field import CoefficientTooLarge, Element, ExactField
 from modeler.derivation.geometry import Geometry
+from modeler.derivation.thresholds import THRESHOLDS
 from modeler.derivation.tied import find_dependent_columns
 from modeler.derivation.tree import build_joint_constant, build_placement, move_parameters
 from modeler.robot import INERTIAL
-
-_POINTS = 4
-_MOST = 800
-"""Columns of which relations are looked for; with more, elimination takes minutes."""
 
 
 def derive_closure_relations(
@@ -71,9 +68,9 @@ def derive_closure_relations(
     """
     products = _ClosureProducts(geometry, columns)
     first = products.find_distinct(K, seed)
-    if len(first) + len(order) > _MOST:
+    if len(first) + len(order) > THRESHOLDS.max_loop_functions:
         raise CoefficientTooLarge(
-            f"relations around the loops are among more than {_MOST} functions"
+            f"relations around loops are among more than {THRESHOLDS.max_loop_functions} functions"
         )
     return find_dependent_columns(
         geometry, products.compute_rows, K, [*first, *order], set(order), seed
@@ -93,8 +90,8 @@ class _ClosureProducts:
 
     def find_distinct(self, K: ExactField, seed: int) -> list[int]:
         """Numbers of the products that are not zero, nor equal to one before."""
-        state = ModularState(self.geometry, K, _POINTS, seed)
-        known = {bytes(2 * 8 * _POINTS)}
+        state = ModularState(self.geometry, K, THRESHOLDS.distinct_points, seed)
+        known = {bytes(2 * 8 * THRESHOLDS.distinct_points)}
         numbers = []
         for number, product in enumerate(self._collect_products(state), len(self.columns)):
             value = product.tobytes()

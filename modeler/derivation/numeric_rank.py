@@ -12,23 +12,8 @@ import sympy
 from modeler.derivation.grouping import build_named_parameters, sort_by_priority
 from modeler.derivation.model import SymbolicModel
 from modeler.derivation.result import BaseParameter, Term
+from modeler.derivation.thresholds import THRESHOLDS
 from modeler.derivation.walks import Walk, compute_closed_motion, draw_closed_walk
-
-TOLERANCE = 1e-9
-"""Relative to the largest singular value of the scaled matrix, of a robot without loops; see
-`NumericRank.gap`."""
-
-ZERO = 1e-13
-"""Columns below this share of the largest one are rounding errors of a zero column: they are left
-out, never scaled up."""
-
-_CERTAIN = 10.0
-"""A singular value counts if it is this many times the rounding: the rounding of one sample of
-closure errors is measured, another may be somewhat larger."""
-
-_REGULAR = 0.3
-"""Share of home's distance to a singularity that states keep where torques are compared: rounding
-is amplified less than by 1 / 0.3**2 of what it is at home."""
 
 States = tuple[np.ndarray, np.ndarray, np.ndarray]
 """Positions, speeds and accelerations of the free variables, each (samples, len(u))."""
@@ -78,7 +63,7 @@ def draw_random_states(model: SymbolicModel, samples: int, rng: np.random.Genera
         angular = np.array([joint.is_revolute for joint in model.robot.free_joints])
         q = rng.uniform(-1.0, 1.0, (samples, n)) * np.where(angular, np.pi, 1.0)
         return q, rng.normal(size=(samples, n)), rng.normal(size=(samples, n))
-    u = draw_closed_walk(model, samples, rng, _REGULAR).postures
+    u = draw_closed_walk(model, samples, rng, THRESHOLDS.min_distance_share).postures
     qd, qdd = rng.normal(size=(2, len(u), len(model.closure.actuated)))
     return expand_states(model, u, qd, qdd)
 
@@ -115,7 +100,7 @@ def draw_sample(model: SymbolicModel, samples: int, seed: int) -> Sample:
         for u in (walk.postures, rounded)
     )
     lengths = np.linalg.norm(phi.reshape(-1, phi.shape[2]), axis=0)
-    scale = np.where(lengths > ZERO * lengths.max(initial=0.0), lengths, np.inf)
+    scale = np.where(lengths > THRESHOLDS.zero_column * lengths.max(initial=0.0), lengths, np.inf)
     error = np.linalg.norm((other - phi) / scale, axis=(1, 2))
     error = np.maximum(error, eps * np.linalg.norm(phi / scale, axis=(1, 2)))
     weight = (np.median(error) / error)[:, None, None]
@@ -153,22 +138,22 @@ def evaluate_regressor(model: SymbolicModel, states: States) -> np.ndarray:
 def compute_numeric_rank(sample: Sample, columns: Sequence[int]) -> NumericRank:
     """Returns the rank of the sampled regressor in the given columns.
 
-    Without loops singular values above `TOLERANCE` of the largest count. With loops those count
-    that are ten times as large as the rounding of the closure and of the decomposition: a matrix
+    Without loops singular values above `rank_tolerance` of the largest count. With loops those
+    count that are ten times as large as the rounding of the closure and of the decomposition: a matrix
     of lower rank is as far away as the last singular value (Weyl).
     """
     W = sample.matrix[:, list(columns)]
     lengths = np.linalg.norm(W, axis=0)
-    having = lengths > ZERO * lengths.max(initial=0.0)
+    having = lengths > THRESHOLDS.zero_column * lengths.max(initial=0.0)
     W, lengths = W[:, having], lengths[having]
     if W.shape[1] == 0:
-        return NumericRank(0, (0.0, 0.0), TOLERANCE, "no column has an effect")
+        return NumericRank(0, (0.0, 0.0), THRESHOLDS.rank_tolerance, "no column has an effect")
     singular = np.linalg.svd(W / lengths, compute_uv=False)
-    tolerance = TOLERANCE
+    tolerance = THRESHOLDS.rank_tolerance
     if sample.rounding is not None:
         error = float(np.linalg.norm(sample.rounding[:, list(columns)][:, having] / lengths))
         rounding = max(W.shape) * float(np.finfo(float).eps)
-        tolerance = _CERTAIN * max(error / float(singular[0]), rounding)
+        tolerance = THRESHOLDS.rounding_margin * max(error / float(singular[0]), rounding)
     rank = int(np.sum(singular > tolerance * singular[0]))
     dropped = float(singular[rank]) if rank < len(singular) else 0.0
     weighed = ", rows weighed by their rounding" if sample.rounding is not None else ""
@@ -187,10 +172,6 @@ def compute_numeric_rank(sample: Sample, columns: Sequence[int]) -> NumericRank:
 
 Enclosed = Callable[[Sequence[int], Sequence[int]], list[list[Any]] | None]
 """From kept and dropped columns to the (kept, dropped) factors as balls; None without proof."""
-
-_DIGITS = 17  # of a double
-_NOTHING = 1e-9
-"""In floating point, a factor below this is 0, a number this near to a whole one is that."""
 
 
 def derive_numeric_grouping(
@@ -218,7 +199,11 @@ def derive_numeric_grouping(
     last, first = numeric.gap
     tolerance = math.sqrt(last * max(first, float(np.finfo(float).eps)))
     lengths = np.linalg.norm(W, axis=0)
-    absent = {i for i, length in enumerate(lengths) if length <= ZERO * lengths.max(initial=0.0)}
+    absent = {
+        i
+        for i, length in enumerate(lengths)
+        if length <= THRESHOLDS.zero_column * lengths.max(initial=0.0)
+    }
     order = [
         i for i in sort_by_priority(model.names, model.robot.priority_parameters) if i not in absent
     ]
@@ -264,16 +249,16 @@ def _select_first_columns(
         relations[column] = {
             b: _convert_number(float(s))
             for b, s, f in zip(kept_columns, scaled, factors, strict=True)
-            if abs(f) > _NOTHING
+            if abs(f) > THRESHOLDS.zero_factor
         }
     return kept_columns, relations, worst
 
 
 def _convert_number(value: float) -> sympy.Expr:
-    if abs(value - round(value)) < _NOTHING and round(value):
+    if abs(value - round(value)) < THRESHOLDS.zero_factor and round(value):
         return sympy.Integer(round(value))
     # Its decimals are its value: what is printed is what is computed with.
-    return sympy.Float(repr(value), _DIGITS)
+    return sympy.Float(repr(value), THRESHOLDS.double_digits)
 
 
 def _convert_ball(factor: Any) -> sympy.Expr:
@@ -281,7 +266,7 @@ def _convert_ball(factor: Any) -> sympy.Expr:
     near = round(float(factor.mid()))
     if factor.contains(near):
         return sympy.Integer(near)
-    return sympy.Float(repr(float(factor.mid())), _DIGITS)
+    return sympy.Float(repr(float(factor.mid())), THRESHOLDS.double_digits)
 
 
 # Base torque against standard torque at random states.

@@ -27,6 +27,7 @@ from modeler.derivation.certificate import (
 from modeler.derivation.columns import LinkColumn, StandardColumn
 from modeler.derivation.field import CoefficientTooLarge, Element, ExactField
 from modeler.derivation.geometry import Geometry
+from modeler.derivation.thresholds import THRESHOLDS
 
 # Rational functions from their values modulo a prime.
 #
@@ -43,9 +44,6 @@ Function = Callable[[Sequence[Point]], list[int]]
 """Its values modulo LARGE at some points."""
 
 _EXPONENTS = (1, -1, 2, -2, 3, -3, 4, -4)
-_LARGEST_DEGREE = 12
-_MOST_TERMS = 160
-_CHECKS = 2
 
 
 class Probes:
@@ -60,7 +58,7 @@ class Probes:
         self._rng = np.random.default_rng(seed)
         self._letters = letters
         self.home = self._draw_point()
-        self.fresh = [self._draw_point() for _ in range(_CHECKS)]
+        self.fresh = [self._draw_point() for _ in range(THRESHOLDS.interpolation_checks)]
         self._known: dict[tuple[int, ...], list[Point]] = {}
 
     def draw_moved_points(self, letters: tuple[int, ...], count: int) -> list[Point]:
@@ -119,7 +117,7 @@ def _fit_quotient(
     degrees = [_find_degrees(function, i, probes) for i in letters]
     above, below = (list(product(*(range(d[k] + 1) for d in degrees))) for k in (0, 1))
     terms = len(above) + len(below)
-    if terms > _MOST_TERMS:
+    if terms > THRESHOLDS.max_quotient_terms:
         raise CoefficientTooLarge(f"a coefficient has up to {terms} terms")
     weights = _fit_coefficients(
         function, probes.draw_moved_points(letters, terms), letters, above, below
@@ -143,16 +141,16 @@ def _find_degrees(function: Function, letter: int, probes: Probes) -> tuple[int,
     """Degrees of numerator and denominator in one letter, the others at home.
 
     Raises:
-        TooLarge: they are above `_LARGEST_DEGREE`.
+        TooLarge: they are above `THRESHOLDS.max_letter_degree`.
     """
-    for degree in range(1, _LARGEST_DEGREE + 1):
+    for degree in range(1, THRESHOLDS.max_letter_degree + 1):
         powers = [(e,) for e in range(degree + 1)]
         # One point more than there are terms, or some quotient would always fit.
         points = probes.draw_moved_points((letter,), 2 * len(powers) + 1)
         weights = _fit_coefficients(function, points, (letter,), powers, powers)
         if weights is not None:
             return _get_degree(weights[: degree + 1]), _get_degree(weights[degree + 1 :])
-    raise CoefficientTooLarge(f"a coefficient is of degree above {_LARGEST_DEGREE}")
+    raise CoefficientTooLarge(f"a coefficient is of degree above {THRESHOLDS.max_letter_degree}")
 
 
 def _get_degree(weights: Sequence[int]) -> int:
@@ -191,10 +189,6 @@ def _evaluate_monomials(at: np.ndarray, monomials: Sequence[Point]) -> np.ndarra
         for place, monomial in enumerate(monomials):
             values[:, place] = values[:, place] * table[monomial[i]] % LARGE
     return values
-
-
-_SPARE = 6
-_POINTS = 3
 
 
 def derive_tied_relations(
@@ -281,7 +275,7 @@ def _find_supports(
     geometry: Geometry, functions: ExactFunctions, K: ExactField, order: Sequence[int], seed: int
 ) -> dict[int, list[int]]:
     """For each dependent function the kept ones that it is a combination of."""
-    state = ModularState(geometry, K, len(order) + _SPARE, seed, SMALL)
+    state = ModularState(geometry, K, len(order) + THRESHOLDS.spare_points, seed, SMALL)
     rows = functions(state, order)
     pivots = reduce_to_echelon(rows, range(len(order)), SMALL)
     pivot_rows = {column: row for row, column in pivots}
@@ -316,7 +310,8 @@ class _CoefficientSampler:
         )
         self.place = {column: i for i, column in enumerate(self.used)}
         self.points = (
-            max((len(kept_columns) for kept_columns, _ in self.blocks), default=0) + _POINTS
+            max((len(kept_columns) for kept_columns, _ in self.blocks), default=0)
+            + THRESHOLDS.extra_points
         )
         self._known: dict[Point, dict[tuple[int, int], int]] = {}
 
@@ -345,7 +340,11 @@ class _CoefficientSampler:
             self._known[geometry] = {}
             for kept_columns, dependent in self.blocks:
                 places = [self.place[column] for column in (*kept_columns, *dependent)]
-                part = rows[:, i, : len(kept_columns) + _POINTS, places].reshape(len(places), -1).T
+                part = (
+                    rows[:, i, : len(kept_columns) + THRESHOLDS.extra_points, places]
+                    .reshape(len(places), -1)
+                    .T
+                )
                 self._known[geometry] |= self._solve_coefficients(
                     part.copy(), kept_columns, dependent
                 )

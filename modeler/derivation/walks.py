@@ -18,22 +18,8 @@ from modeler.derivation.closure import Frame, LoopEquations, derive_loop_equatio
 from modeler.derivation.geometry import Geometry
 from modeler.derivation.kinematics import compute_base_poses
 from modeler.derivation.model import SymbolicModel
+from modeler.derivation.thresholds import THRESHOLDS
 from modeler.robot import Joint, Robot
-
-_WALKERS = 32
-_STEPS = 40
-_STEP = 0.25
-"""Longest step of a joint, rad or sizes of the robot."""
-_GOING = 0.3
-"""Share of the actuated joints that a walker moves at a time, besides one of them."""
-_OPEN = 0.02
-"""Residual at which a step was too long, relative to the robot's size."""
-_SLOWEST = 1 / 64
-_POLISHING = 4
-_CLOSED = 1e-12
-_NEAREST = 1e-3
-"""Distance to a singularity (see `Walk.distance`) below which a posture is left out: rounding of a
-closed posture is amplified by its inverse, and by the square of that in accelerations."""
 
 
 @dataclass(frozen=True)
@@ -57,11 +43,14 @@ def _close_postures(loops: LoopEquations, u: np.ndarray) -> np.ndarray:
     """
     solved = list(loops.solved)
     start, u = u, u.copy()
-    for _ in range(_POLISHING):
+    for _ in range(THRESHOLDS.closing_steps):
         u[:, solved] -= loops.solve_passive(u, loops.compute_residuals(u))
     left = loops.compute_openness(u)
     far = np.abs(u - start) / loops.scale
-    return u[(left < _CLOSED * loops.size) & (np.max(far, axis=1) < _STEP)]
+    return u[
+        (left < THRESHOLDS.closed_residual * loops.size)
+        & (np.max(far, axis=1) < THRESHOLDS.max_walk_step)
+    ]
 
 
 class _Walkers:
@@ -93,10 +82,10 @@ class _Walkers:
     def advance_walkers(self) -> np.ndarray:
         """One step of every walker; the postures, all but closed, that are reached by it."""
         f, J, sign, openness = self._linearise_loops(self.u)
-        lost = openness > _OPEN * self.loops.size
+        lost = openness > THRESHOLDS.max_open_residual * self.loops.size
         lost |= (sign != self.sign) | self._is_outside(self.u)
         self.pace = np.where(lost, self.pace / 4, np.minimum(1.0, 2 * self.pace))
-        stuck = self.pace < _SLOWEST
+        stuck = self.pace < THRESHOLDS.min_pace
         if np.any(lost):
             # From the edge of what is reached steps go astray: who is stuck starts again at home.
             back = np.where(stuck[:, None], self.home, self.before)
@@ -109,7 +98,11 @@ class _Walkers:
 
     def _is_outside(self, u: np.ndarray) -> np.ndarray:
         low, high = self.ranges.T
-        return np.any((u < low - _STEP * self.scale) | (u > high + _STEP * self.scale), axis=1)
+        return np.any(
+            (u < low - THRESHOLDS.max_walk_step * self.scale)
+            | (u > high + THRESHOLDS.max_walk_step * self.scale),
+            axis=1,
+        )
 
     def _replace_targets(self, stuck: np.ndarray) -> None:
         """Other targets for walkers that are stuck, and for those that have arrived."""
@@ -117,7 +110,9 @@ class _Walkers:
         done = stuck | np.all(left < 1e-9, axis=1)
         # Most joints stay: one at its end must not hold up the others.
         goes = self.rng.random((int(np.sum(done)), len(self.actuated)))
-        stays = (goes > _GOING) & (goes > goes.min(axis=1, keepdims=True, initial=1.0))
+        stays = (goes > THRESHOLDS.moving_share) & (
+            goes > goes.min(axis=1, keepdims=True, initial=1.0)
+        )
         here = self.u[done][:, self.actuated]
         self.target[done] = np.where(stays, here, self._draw_targets(len(here)))
         self.pace[done] = 0.25
@@ -126,15 +121,23 @@ class _Walkers:
         """dq towards the target, and the du_s that keeps the loops closed; in rad and m."""
         way = (self.target - self.u[:, self.actuated]) / self.scale[self.actuated]
         longest = np.max(np.abs(way), axis=1)
-        dq = way * np.minimum(1.0, _STEP * self.pace / np.maximum(longest, 1e-300))[:, None]
+        dq = (
+            way
+            * np.minimum(1.0, THRESHOLDS.max_walk_step * self.pace / np.maximum(longest, 1e-300))[
+                :, None
+            ]
+        )
         along = np.einsum("nij,nj->ni", J[:, :, self.actuated], dq)
         both = np.stack([f, along], axis=2)
         back = -np.linalg.solve(J[:, :, self.solved], both)
         fastest = np.max(np.abs(back[:, :, 1]), axis=1)
-        share = np.minimum(1.0, _STEP / np.maximum(fastest, 1e-300))[:, None]
+        share = np.minimum(1.0, THRESHOLDS.max_walk_step / np.maximum(fastest, 1e-300))[:, None]
         step = np.zeros_like(self.u)
         step[:, self.actuated] = dq * share
-        step[:, self.solved] = np.clip(back[:, :, 0], -_STEP, _STEP) + back[:, :, 1] * share
+        step[:, self.solved] = (
+            np.clip(back[:, :, 0], -THRESHOLDS.max_walk_step, THRESHOLDS.max_walk_step)
+            + back[:, :, 1] * share
+        )
         return step * self.scale
 
 
@@ -277,16 +280,21 @@ def draw_closed_walk(
         reach = reach if k in closure.actuated else np.inf
         low, high = (limits.lower, limits.upper) if limits else (at - reach, at + reach)
         ranges.append((min(low, at), max(high, at)))
-    walkers, home = max(_WALKERS, -(-2 * samples // _STEPS)), np.array(closure.home)
+    walkers, home = (
+        max(THRESHOLDS.walkers, -(-2 * samples // THRESHOLDS.walk_steps)),
+        np.array(closure.home),
+    )
     with np.errstate(all="ignore"):  # steps that go astray are taken back
         path = _Walkers(closure, np.tile(home, (walkers, 1)), np.array(ranges), rng)
-        reached = np.concatenate([path.advance_walkers() for _ in range(_STEPS)])
+        reached = np.concatenate([path.advance_walkers() for _ in range(THRESHOLDS.walk_steps)])
         rng.shuffle(reached)
         closed_postures = _close_postures(
             closure, np.concatenate([reached[: 3 * samples], home[None]])
         )
     distance = closure.compute_singularity_distance(closed_postures)
-    far = np.flatnonzero(distance >= min(max(_NEAREST, share * distance[-1]), distance[-1]))
+    far = np.flatnonzero(
+        distance >= min(max(THRESHOLDS.min_walk_distance, share * distance[-1]), distance[-1])
+    )
     chosen = np.resize(far[::-1], samples)  # home first; few of them come again
     return Walk(closed_postures[chosen], float(distance[chosen].min()))
 

@@ -57,8 +57,8 @@ from .sufficient_sets import (
     find_known_sets as find_known_sets,
 )
 from .text import format_monomial as format_monomial
+from .thresholds import THRESHOLDS as THRESHOLDS
 from .values import (
-    VERIFIED as VERIFIED,
     DerivedValue as DerivedValue,
     KnownValues as KnownValues,
     RatedSet as RatedSet,

@@ -48,11 +48,11 @@ from modeler.formulas.closed_form import (
 from modeler.formulas.function_sheet import VECTOR, SheetWriter
 from modeler.formulas.physical import get_physical_link, move_to_origin
 from modeler.formulas.regressor_form import Equation
+from modeler.formulas.thresholds import THRESHOLDS
 
 States = tuple[np.ndarray, np.ndarray, np.ndarray]
 
 _HALF = Fraction(1, 2)
-_STEP = 1e-30  # of imaginary time: imaginary parts are then exact derivatives
 
 
 def _evaluate_complex(
@@ -60,7 +60,10 @@ def _evaluate_complex(
 ) -> np.ndarray:
     """(samples, expressions) at these states, moved on by an imaginary time."""
     q, qd, qdd = states
-    moved = (("q", q + 1j * _STEP * qd), ("qd", qd + 1j * _STEP * qdd))
+    moved = (
+        ("q", q + 1j * THRESHOLDS.imaginary_step * qd),
+        ("qd", qd + 1j * THRESHOLDS.imaginary_step * qdd),
+    )
     values: dict[str, Any] = {**model.robot.evaluate_symbols(), **model.geometry.values, **letters}
     values |= {f"{kind}[{k}]": x[:, k] for kind, x in moved for k in range(q.shape[1])}
     outputs = Plan(model.graph, expressions)(values)
@@ -100,7 +103,7 @@ def energy_functions(model: SymbolicModel, states: States) -> tuple[Equation, fl
             writer.add_result(f"h{column.name}", parts[-1], read=False)
         if parts:
             energy_rates[:, place] = (
-                _evaluate_complex(model, parts, states).imag.sum(axis=1) / _STEP
+                _evaluate_complex(model, parts, states).imag.sum(axis=1) / THRESHOLDS.imaginary_step
             )
         else:
             power[:, place] = 0.0  # friction and the like take energy, they have none
@@ -250,7 +253,7 @@ def kane_form(model: SymbolicModel, states: States) -> tuple[Equation, float]:
 def _compare_kane_torques(
     formula_model: SymbolicModel, bodies: Mapping[int, _Body], model: SymbolicModel, states: States
 ) -> float:
-    graph, rng = formula_model.graph, np.random.default_rng(_SEED)
+    graph, rng = formula_model.graph, np.random.default_rng(THRESHOLDS.kane_seed)
     placed = compute_base_poses(formula_model.geometry, formula_model.frames, formula_model.algebra)
     axes = dict(enumerate((turn for turn, _ in placed)))
     axes[-1] = [[graph.constant(int(i == j)) for j in range(3)] for i in range(3)]
@@ -269,7 +272,7 @@ def _compare_kane_torques(
             needed += total
     samples = _evaluate_complex(formula_model, needed, states, **values)
     samples = samples.reshape(len(states[0]), 2 * len(bodies), -1, 3)
-    force = samples[:, :, 0].imag / _STEP - samples[:, :, 1].real
+    force = samples[:, :, 0].imag / THRESHOLDS.imaginary_step - samples[:, :, 1].real
     tau = np.einsum("nri,nrji->nj", force, samples[:, :, 2:].real)
     chi = np.zeros(len(model.columns))
     numbers = iter(_evaluate_complex(formula_model, standard, states, **values)[0].real)
@@ -277,9 +280,6 @@ def _compare_kane_torques(
         chi[c] = sum(next(numbers) for p in column.parts if isinstance(p, LinkColumn))
     wanted = evaluate_regressor(model, states) @ chi
     return float(np.abs(tau - wanted).max() / np.abs(wanted).max())
-
-
-_SEED = 1985
 
 
 def _build_bodies(model: SymbolicModel) -> dict[int, _Body]:

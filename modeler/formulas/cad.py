@@ -12,17 +12,13 @@ from modeler.core.errors import DataError
 from modeler.formulas.physical_system import PhysicalSystem
 from modeler.formulas.ring import find_places
 from modeler.formulas.solve import ClosedSolution, solve
+from modeler.formulas.thresholds import THRESHOLDS
 from modeler.formulas.values import NumericPolynomial, derive_values
-
-FALSE_ALARM = 0.01  # of a whole table
-_ROUNDS = 30
-_GROUPS = 100  # of CAD entries that are fitted
-_SETTLED = 1e-9
 
 
 def compute_z_limit(tests: int) -> float:
     """Returns the |z| above which one of so many tests is significant (normal, Bonferroni)."""
-    return NormalDist().inv_cdf(1.0 - FALSE_ALARM / (2.0 * max(tests, 1)))
+    return NormalDist().inv_cdf(1.0 - THRESHOLDS.false_alarm_rate / (2.0 * max(tests, 1)))
 
 
 def compute_chi_squared_limit(freedom: int) -> float:
@@ -30,7 +26,7 @@ def compute_chi_squared_limit(freedom: int) -> float:
     if freedom <= 0:
         return 0.0
     part = 2.0 / (9.0 * freedom)
-    z = NormalDist().inv_cdf(1.0 - FALSE_ALARM)
+    z = NormalDist().inv_cdf(1.0 - THRESHOLDS.false_alarm_rate)
     return float(freedom * (1.0 - part + z * math.sqrt(part)) ** 3)
 
 
@@ -282,7 +278,7 @@ class _CadProblem:
     def select_promising_groups(self, letters: Sequence[str], size: int) -> list[tuple[str, ...]]:
         """Groups of that size that explain most to first order; all, if they are few."""
         groups = list(combinations(letters, size))
-        if len(groups) <= _GROUPS:
+        if len(groups) <= THRESHOLDS.fitted_groups:
             return groups
         r = self.weight @ (self.data - self.evaluate_quantities(self.start))
         J = self.weight @ self.evaluate_jacobian(self.start)
@@ -291,18 +287,18 @@ class _CadProblem:
             columns = J[:, [self.system.place[x] for x in group]]
             rest = r - columns @ np.linalg.lstsq(columns, r, rcond=None)[0]
             left.append((float(rest @ rest), group))
-        return [group for _, group in sorted(left)[:_GROUPS]]
+        return [group for _, group in sorted(left)[: THRESHOLDS.fitted_groups]]
 
     def fit_letters(self, letters: Sequence[str]) -> np.ndarray:
         """The point with those letters changed for the least sum of squares (Gauss-Newton)."""
         at = [self.system.place[x] for x in letters]
         point = self.start.copy()
         best = self.compute_chi_squared(point)
-        for _ in range(_ROUNDS):
+        for _ in range(THRESHOLDS.fit_rounds):
             r = self.weight @ (self.data - self.evaluate_quantities(point))
             J = self.weight @ self.evaluate_jacobian(point)[:, at]
             step = np.linalg.lstsq(J, r, rcond=None)[0]
-            for _ in range(_ROUNDS):
+            for _ in range(THRESHOLDS.fit_rounds):
                 trial = point.copy()
                 trial[at] += step
                 if (chi := self.compute_chi_squared(trial)) <= best:
@@ -310,7 +306,7 @@ class _CadProblem:
                 step = step / 2.0
             else:
                 break
-            done = best - chi <= _SETTLED * best
+            done = best - chi <= THRESHOLDS.fit_convergence * best
             point, best = trial, chi
             if done:
                 break

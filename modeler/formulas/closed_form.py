@@ -56,6 +56,7 @@ from modeler.effects import EnergyBlock
 from modeler.formulas.energy_form import derive_energy_dynamics
 from modeler.formulas.function_sheet import Sheet, SheetWriter
 from modeler.formulas.ring import Poly, TrigRing
+from modeler.formulas.thresholds import THRESHOLDS
 from modeler.robot import Robot
 
 # A model on a graph of its own, prepared for formulas that people read; torques of its effects.
@@ -179,7 +180,6 @@ Form: TypeAlias = Mapping[int, Poly]
 """Linear form of standard parameters: {column: factor, a polynomial of the geometry}."""
 
 KINDS = {"g": "gravity", "J": "inertia", "S": "christoffel"}
-_EXHAUSTIVE = 4  # joints with squares up to which every combination is tried
 
 
 @dataclass(frozen=True)
@@ -329,7 +329,7 @@ def _minimise_monomials(entry: Form, algebra: TrigRing) -> Form:
         if motion.cosine is not None
         and any(exponents[motion.cosine] > 1 for poly in entry.values() for exponents in poly)
     ]
-    if len(squared) <= _EXHAUSTIVE:
+    if len(squared) <= THRESHOLDS.exhaustive_joints:
         sets = [c for n in range(len(squared) + 1) for c in combinations(squared, n)]
         choices = [_keep_sine_squares(entry, algebra, chosen) for chosen in sets]
         return min(choices, key=lambda choice: _count_monomials(choice, algebra))

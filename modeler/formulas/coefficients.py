@@ -23,7 +23,6 @@ from modeler.formulas.closed_form import (
     derive_closed_form,
 )
 from modeler.formulas.physical import (
-    SEED,
     Identifiability,
     PhysicalParameters,
     analyse_identifiability,
@@ -40,6 +39,7 @@ from modeler.formulas.ring import (
     find_independent_modulo,
 )
 from modeler.formulas.text import format_monomial
+from modeler.formulas.thresholds import THRESHOLDS
 
 PREFIX = {"gravity": "PG", "inertia": "PJ", "christoffel": "PS"}
 
@@ -204,7 +204,7 @@ def _find_known_geometry(
     coefficients: tuple[Coefficient, ...], algebra: TrigRing
 ) -> tuple[str, ...]:
     names = [str(symbol) for symbol in algebra.static_ring.symbols]
-    prime, point = draw_random_point(names, random.Random(SEED))
+    prime, point = draw_random_point(names, random.Random(THRESHOLDS.seed))
     vectors = [
         {column: evaluate_modulo(factor, point, prime) for column, factor in c.standard.items()}
         for c in coefficients

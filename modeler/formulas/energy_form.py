@@ -36,10 +36,7 @@ from modeler.derivation import (
 )
 from modeler.effects import EnergyBlock
 from modeler.formulas.ring import Poly, TrigRing
-
-MOST_PRODUCTS = 500_000
-"""Products of two monomials that the inertia matrix may take: 10,186 for a PUMA 560 (1 s), 252,027
-for 5R with general angles and lengths (6 s)."""
+from modeler.formulas.thresholds import THRESHOLDS
 
 Entries = Mapping[tuple[int, ...], Mapping[int, Poly]]
 """{indices: {column of the standard parameter: factor}}, in normal form; zeros left out."""
@@ -66,7 +63,7 @@ def derive_energy_dynamics(
     """Returns the entries of the dynamics for those columns; friction and offsets have none.
 
     Raises:
-        DerivationError: more than `MOST_PRODUCTS` products; says how many.
+        DerivationError: more than `THRESHOLDS.max_products` products; says how many.
     """
     frames = compute_poses(model.geometry, ring)
     carried = compute_normal_screws(model.geometry, frames, ring)
@@ -125,11 +122,11 @@ def _check_size(
         for i, j in _enumerate_pairs(sizes):
             (e, m), (f, n) = sizes[i], sizes[j]
             products += e * f + e * n + m * f + m * n
-    if products > MOST_PRODUCTS:
+    if products > THRESHOLDS.max_products:
         raise DerivationError(
             f"robot {model.robot.name}: its closed form takes about {products:,} products of "
-            f"monomials, at most {MOST_PRODUCTS:,} are worth printing; use the generated code, "
-            "or cut the robot to the joints of interest"
+            f"monomials, at most {THRESHOLDS.max_products:,} are worth printing; use the "
+            "generated code, or cut the robot to the joints of interest"
         )
 
 

@@ -19,13 +19,7 @@ from modeler.core.formula import format_latex_name
 from modeler.core.latex_display import DisplayedEquation, format_display
 from modeler.derivation import Expr, Graph, Node
 from modeler.formulas.text import LATEX, TEXT, TextStyle, format_signed_sum
-
-SHORT = 7
-"""Characters up to which a quantity is written wherever it is read."""
-ONCE = 40
-"""Characters up to which a quantity that is read once is written where it is read."""
-UNNAMED = 14
-"""Characters from which a quantity without a proposed name, read more than once, gets one."""
+from modeler.formulas.thresholds import THRESHOLDS
 
 VECTOR = "vector:"
 """Begins the symbols of unit vectors."""
@@ -84,7 +78,7 @@ class SheetWriter:
         abbreviate: bool = True,
     ) -> None:
         self.graph, self.halves = graph, halves
-        self._unnamed = UNNAMED if abbreviate else sys.maxsize
+        self._unnamed = THRESHOLDS.unnamed_length if abbreviate else sys.maxsize
         self.letters = dict(letters)
         self._taken = set(self.letters.values())
         self._generated: set[str] = set()
@@ -171,7 +165,7 @@ class SheetWriter:
             if proposed is None and edges[node] > 1 and length[node] > self._unnamed:
                 proposed = Definition("", self._generate_name(), node, False)
                 self._first[node] = proposed
-            least = SHORT if edges[node] > 1 else ONCE
+            least = THRESHOLDS.short_length if edges[node] > 1 else THRESHOLDS.single_use_length
             if proposed is not None and (proposed.result or length[node] > least):
                 chosen[node] = (proposed.name, 1 if proposed.ref > 0 else -1)
                 length[node] = len(proposed.name)

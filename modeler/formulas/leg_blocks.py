@@ -23,7 +23,6 @@ from modeler.derivation import OPERATIONS, BaseParameters, Expr, SymbolicModel, 
 from modeler.formulas.closed_form import collect_symbol_names, copy_model, get_base_columns
 from modeler.formulas.function_sheet import SheetWriter
 from modeler.formulas.regressor_form import (
-    SOLVED,
     Equation,
     compute_cofactor,
     find_connected_blocks,
@@ -32,6 +31,7 @@ from modeler.formulas.regressor_form import (
     propose_motion,
 )
 from modeler.formulas.ring import evaluate_polynomial
+from modeler.formulas.thresholds import THRESHOLDS
 
 _PRINTED = 3
 """Legs of the paper, one equation each."""
@@ -145,10 +145,11 @@ def derive_leg_blocks(
         [entry for line in closure.jacobian for entry in line]
     )
     for k, (equations, unknown) in enumerate(legs, 1):
-        if not 0 < len(unknown) <= SOLVED:
+        if not 0 < len(unknown) <= THRESHOLDS.max_block_equations:
             raise RobotError(
                 f"--blocks: leg {k} of {robot.name} has {len(unknown)} unknown speeds where the "
-                f"platform is given; expected {SOLVED} at most; leave --blocks out"
+                f"platform is given; expected {THRESHOLDS.max_block_equations} at most; leave "
+                "--blocks out"
             )
         B, A = ([[values[closure.jacobian[r][u].ref] for u in at] for r in equations]
                 for at in (unknown, closure.platform))  # fmt: skip
@@ -168,7 +169,7 @@ def derive_leg_blocks(
         )
     K = [rates[a] for a in closure.actuated]
     blocks.append(_build_block("Jpinv", "eq. (1), Ld = Jp^-1 V", motors, V, K))
-    if len(motors) <= SOLVED:
+    if len(motors) <= THRESHOLDS.max_block_equations:
         writer.open_section("parts of the inverse of Jpinv")
         Jp = invert_matrix(K, "Dp", writer)
         blocks.append(_build_block("Jp", "the inverse of Jpinv, V = Jp Ld", V, motors, Jp))

@@ -21,6 +21,7 @@ from modeler.formulas.ring import (
     find_independent_modulo,
     get_generators,
 )
+from modeler.formulas.thresholds import THRESHOLDS
 from modeler.robot import Joint, PhysicalLink
 
 _GENERIC = ("m", "cx", "cy", "cz", "Ixx", "Ixy", "Ixz", "Iyy", "Iyz", "Izz")
@@ -193,7 +194,6 @@ def move_to_origin(
 # Which physical parameters the coefficients show, and how many of them at most.
 
 
-SEED = 2000
 _LARGEST = 2**31
 
 
@@ -222,7 +222,10 @@ class Identifiability:
 
 
 def analyse_identifiability(
-    physical: PhysicalParameters, coefficients: Sequence[Poly], points: int = 2, seed: int = SEED
+    physical: PhysicalParameters,
+    coefficients: Sequence[Poly],
+    points: int = 2,
+    seed: int = THRESHOLDS.seed,
 ) -> Identifiability:
     """Tells which physical parameters those coefficients determine."""
     slopes = {

@@ -32,8 +32,7 @@ from modeler.formulas.ring import (
     find_places,
     get_generators,
 )
-
-_FEW = 3  # joints up to which the coefficients of the closed form are derived
+from modeler.formulas.thresholds import THRESHOLDS
 
 
 @dataclass(frozen=True)
@@ -174,7 +173,11 @@ def build_physical_system(
             f"{model.robot.name}: coefficients are written for serial and tree robots; leave out "
             "--from, or write --from base"
         )
-    if source == "base" or tied or (source is None and len(model.robot.coordinates) > _FEW):
+    if (
+        source == "base"
+        or tied
+        or (source is None and len(model.robot.coordinates) > THRESHOLDS.closed_form_joints)
+    ):
         return _build_from_base(model, base)
     try:
         table = build_coefficient_table(model, base)

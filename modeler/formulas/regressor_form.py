@@ -36,6 +36,7 @@ from modeler.formulas.function_sheet import (
     format_sheet_markdown,
 )
 from modeler.formulas.ring import TrigRing, evaluate_polynomial
+from modeler.formulas.thresholds import THRESHOLDS
 
 # Loops that tie the free variables: J_t, J_p and the closure's Jacobian in closed form.
 #
@@ -53,9 +54,6 @@ from modeler.formulas.ring import TrigRing, evaluate_polynomial
 # say). Without a platform the actuated joints are given at once and J_t = -B^-1 A. Blocks of up to
 # four equations are inverted by cofactors, so that only singular postures divide by 0.
 
-
-SOLVED = 4
-"""Equations up to which a block is inverted by cofactors."""
 
 Matrix = list[list[Expr]]
 
@@ -85,9 +83,9 @@ def write_loops(model: SymbolicModel, writer: SheetWriter) -> list[str]:
     bias: dict[int, Expr] = {}
     letter = "L" if closure.platform else "Jt"
     for block in blocks:
-        if len(block[1]) <= SOLVED:
+        if len(block[1]) <= THRESHOLDS.max_block_equations:
             _write_block(closure, block, independent, names, letter, writer, rates, bias)
-    complete = all(len(unknown) <= SOLVED for _, unknown in blocks)
+    complete = all(len(unknown) <= THRESHOLDS.max_block_equations for _, unknown in blocks)
     if closure.platform and complete:
         complete = _write_platform(model, closure, names, writer, rates, bias)
     elif complete:
@@ -219,7 +217,7 @@ def _write_platform(
     """J_p, J_t and the bias, if the inverse of K is worth printing."""
     platform, motors = closure.platform, closure.actuated
     assert platform is not None
-    if len(motors) > SOLVED:
+    if len(motors) > THRESHOLDS.max_block_equations:
         return False
     zero = model.graph.constant(0)
     writer.open_section("J_p, inverse of the motors' rows of L")
@@ -413,10 +411,6 @@ def propose_motion(model: SymbolicModel, writer: SheetWriter) -> None:
 # Which base parameters are 0 at the nominal values: what printed models leave out.
 
 
-_ROUNDING = 1e-12
-"""Of the terms of a base parameter: what is left of those that cancel."""
-
-
 def drop_zero_parameters(model: SymbolicModel, base: BaseParameters) -> BaseParameters:
     """Returns the base parameters that are not 0 at the nominal values of `[parameters]`.
 
@@ -434,7 +428,7 @@ def drop_zero_parameters(model: SymbolicModel, base: BaseParameters) -> BasePara
             letters = {s: lengths[s.name] for s in term.coefficient.free_symbols}
             sizes.append(float(term.coefficient.subs(letters)) * known.get(term.parameter, 0.0))
         link = base.columns[parameter.column].kind == "inertial"
-        if not link or abs(sum(sizes)) > _ROUNDING * sum(map(abs, sizes)):
+        if not link or abs(sum(sizes)) > THRESHOLDS.zero_parameter * sum(map(abs, sizes)):
             nonzero_parameters.append(parameter)
     if not any(
         base.columns[parameter.column].kind == "inertial" for parameter in nonzero_parameters

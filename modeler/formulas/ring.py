@@ -33,6 +33,7 @@ from modeler.derivation import (
     reduce_to_echelon,
     replace_square,
 )
+from modeler.formulas.thresholds import THRESHOLDS
 
 # Which sines, cosines and travels the configuration of a robot is written in.
 #
@@ -41,14 +42,6 @@ from modeler.derivation import (
 # travel, of which functions are polynomials. The angle of a free joint is its own motion; a row
 # that follows others is a sum of whole multiples of such angles, and the addition theorem says
 # the rest.
-
-
-_MOST_TURNS = 4
-"""Whole multiples of angles in a sum; a longer sum is an angle of its own."""
-
-_FINEST = 4
-"""Parts of a free angle that a row may turn by: q2/2, q2/3, q2/4. Finer ones are angles of their
-own: gear ratios are not worth multiplying out."""
 
 
 @dataclass(frozen=True)
@@ -141,7 +134,7 @@ def _find_divisors(geometry: Geometry) -> dict[int, int]:
     for row in geometry.rows:
         if row.index is not None and row.joint.is_revolute:
             for k, coefficient in geometry.forms[row.index].items():
-                if coefficient.denominator <= _FINEST:
+                if coefficient.denominator <= THRESHOLDS.max_angle_parts:
                     divisors[k] = lcm(divisors.get(k, 1), coefficient.denominator)
     return divisors
 
@@ -161,7 +154,7 @@ def _express_in_motions(
         if place < 0:
             return None
         multiples[place] = int(ratios[place])
-    return multiples if sum(map(abs, multiples.values())) <= _MOST_TURNS else None
+    return multiples if sum(map(abs, multiples.values())) <= THRESHOLDS.max_angle_terms else None
 
 
 Poly: TypeAlias = PolyElement
@@ -378,11 +371,6 @@ def _convert_polynomial(value: sympy.Expr, ring: PolyRing, place: Mapping[sympy.
 # Linear relations between functions, exactly: rank, independent set, map to base parameters.
 
 
-MOST_MONOMIALS = 150
-"""Monomials of a map up to which its determinant is expanded: 67 for a PUMA 560, 106 for a tree of
-three joints with general angles (1 s); minutes at 216."""
-
-
 def find_combination(
     vectors: Mapping[str, SparseVector], vector: SparseVector
 ) -> Mapping[str, Fraction] | None:
@@ -445,7 +433,7 @@ def build_base_map(
     entries = {(r, place[k]): factor for r, form in enumerate(forms) for k, factor in form.items()}
     determinant = None
     size = sum(len(factor) for factor in entries.values())
-    if len(used) == len(rows) and rows and size <= MOST_MONOMIALS:
+    if len(used) == len(rows) and rows and size <= THRESHOLDS.max_determinant_monomials:
         determinant = ring(_build_domain_matrix(entries, len(used), ring).det())
     return BaseMap(tuple(rows), tuple(names[k] for k in used), entries, determinant)
 

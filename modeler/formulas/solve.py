@@ -14,14 +14,13 @@ from modeler.core.errors import ModelerError
 from modeler.core.formula import escape_latex, format_latex_name
 from modeler.core.latex_display import DisplayedEquation, format_display
 from modeler.derivation import collect_powers, evaluate_modulo
-from modeler.formulas.physical import SEED
 from modeler.formulas.physical_system import PhysicalSystem
 from modeler.formulas.ring import Poly, find_independent_modulo, find_places
 from modeler.formulas.sufficient_sets import EASE
 from modeler.formulas.text import LATEX, TEXT, TextStyle, format_physical, format_polynomial
+from modeler.formulas.thresholds import THRESHOLDS
 
 _EASY = ("mass", "length", "centre", "inertia", "rotor inertia")
-_LARGEST = 400  # terms of a polynomial that is worth factoring
 
 
 @dataclass(frozen=True)
@@ -73,7 +72,7 @@ class ClosedSolution:
 
 
 def find_determined(
-    system: PhysicalSystem, known: Iterable[str], seed: int = SEED
+    system: PhysicalSystem, known: Iterable[str], seed: int = THRESHOLDS.seed
 ) -> tuple[list[str], int]:
     """Returns the parameters that the data determine generically, and the Jacobian's rank.
 
@@ -94,7 +93,9 @@ def find_determined(
     return determined_letters, rank
 
 
-def solve(system: PhysicalSystem, known: Iterable[str], seed: int = SEED) -> ClosedSolution:
+def solve(
+    system: PhysicalSystem, known: Iterable[str], seed: int = THRESHOLDS.seed
+) -> ClosedSolution:
     """Solves for the parameters that follow from data and known parameters, in closed form.
 
     Args:
@@ -252,7 +253,7 @@ class _Elimination:
             self.open.discard(letter)
             self.equations = [self._insert_step(poly, step) for poly in others]
             self.equations = [poly for poly in self.equations if poly]
-            return all(len(poly) <= _LARGEST for poly in self.equations)
+            return all(len(poly) <= THRESHOLDS.max_factored_terms for poly in self.equations)
         return False
 
     def _estimate_cost(self, poly: Poly, letter: str) -> tuple[int, ...]:
@@ -279,7 +280,7 @@ class _Elimination:
         total = self.system.normalise_polynomial(total)
         if not self._find_unknowns(total):
             return poly.ring.zero
-        if len(total) > _LARGEST:
+        if len(total) > THRESHOLDS.max_factored_terms:
             return total
         for factor, _ in total.factor_list()[1]:
             if self._is_zero(factor):

@@ -18,13 +18,10 @@ import numpy as np
 from modeler.core.brief import ShortRepr
 from modeler.core.errors import ModelerError
 from modeler.derivation import compute_kernel
-from modeler.formulas.physical import SEED
 from modeler.formulas.physical_system import PhysicalSystem
+from modeler.formulas.thresholds import THRESHOLDS
 
 # Sets of columns of a matrix over a prime field that span its rows, many at once.
-
-
-BLOCK = 4000  # sets reduced together
 
 
 def find_components(kernel: np.ndarray) -> list[tuple[list[int], list[int]]]:
@@ -68,8 +65,8 @@ def enumerate_spanning_sets(
             yield min(1.0, done / total), sets
             continue
         grown = _extend_sets(work, sets, rank, size, prime)
-        for at in range(0, len(grown[0]), BLOCK):
-            part = slice(at, at + BLOCK)
+        for at in range(0, len(grown[0]), THRESHOLDS.sets_per_block):
+            part = slice(at, at + THRESHOLDS.sets_per_block)
             stack.append((grown[0][part], grown[1][part], grown[2][part]))
 
 
@@ -136,8 +133,6 @@ EASE: Mapping[str, int] = {
 }  # fmt: skip
 """How hard a parameter is to measure: scales and ruler, data sheet, balancing, pendulum."""
 
-MOST = 30_000_000  # sets of one component that are looked at
-
 
 @dataclass(frozen=True)
 class KnownSets(ShortRepr):
@@ -172,7 +167,7 @@ def count_smallest_set(system: PhysicalSystem) -> int:
     return len(system.letters) - system.compute_rank(system.letters)
 
 
-def find_easiest_set(system: PhysicalSystem, seed: int = SEED) -> tuple[str, ...]:
+def find_easiest_set(system: PhysicalSystem, seed: int = THRESHOLDS.seed) -> tuple[str, ...]:
     """Returns a smallest sufficing set that is easiest to measure.
 
     Greedy, which is best for a matroid: fewest inertias, of these fewest mass centres.
@@ -195,7 +190,7 @@ def find_known_sets(
     system: PhysicalSystem,
     size: int | None = None,
     progress: Callable[[float], None] = lambda share: None,
-    seed: int = SEED,
+    seed: int = THRESHOLDS.seed,
 ) -> KnownSets:
     """Returns all sets of `size` known parameters, smallest number if None, that suffice.
 
@@ -263,11 +258,11 @@ class _SetCounter:
         n = len(self.system.letters)
         total: dict[int, Table] = {0: {(0, 0, 0): np.array([1] + [0] * n, dtype=object)}}
         work = sum(self._estimate_work(part, spare) for part in self.parts)
-        if work > MOST:
+        if work > THRESHOLDS.max_sets:
             raise ModelerError(
-                f"{self.system.robot}: about {work:.1e} sets to look at, more than {MOST:.0e}; "
-                "choose fewer known parameters, or leave --sets out: the easiest set is told "
-                "without counting"
+                f"{self.system.robot}: about {work:.1e} sets to look at, more than "
+                f"{THRESHOLDS.max_sets:.0e}; choose fewer known parameters, or leave --sets "
+                "out: the easiest set is found without counting"
             )
         done = 0.0
         for part in self.parts:
@@ -338,7 +333,7 @@ def _find_members(
     members_of = map(combinations, groups, wanted)
     candidates = (sorted(chain(*parts)) for parts in product(*members_of))
     member_sets = []
-    while block := list(islice(candidates, BLOCK)):
+    while block := list(islice(candidates, THRESHOLDS.sets_per_block)):
         sets = np.array(block, dtype=np.int64).reshape(len(block), size)
         for members in sets[are_spanning(kernel, sets, prime)]:
             member_sets.append(tuple(system.letters[k] for k in members))

@@ -15,16 +15,12 @@ from modeler.core.errors import DataError, RobotError
 from modeler.core.files import read_text
 from modeler.core.json import parse_toml
 from modeler.derivation import collect_powers, convert_to_fraction, evaluate_modulo
-from modeler.formulas.physical import SEED
 from modeler.formulas.physical_system import PhysicalSystem
 from modeler.formulas.printed import read_printed_terms
 from modeler.formulas.ring import Poly, evaluate_polynomial
 from modeler.formulas.solve import ClosedSolution, SolvingStep
+from modeler.formulas.thresholds import THRESHOLDS
 from modeler.robot import Robot, suggest_name
-
-_REAL = 1e-6  # imaginary parts below this share of a root are rounding
-_SURE = 3.0  # standard deviations that a denominator, or what is below zero, must be away from it
-VERIFIED = 20
 
 
 @dataclass(frozen=True, eq=False)
@@ -59,7 +55,9 @@ class DerivedValue:
         return float(self.sigmas[self.letters.index(letter)])
 
 
-def verify_solution(solution: ClosedSolution, times: int = VERIFIED, seed: int = SEED) -> int:
+def verify_solution(
+    solution: ClosedSolution, times: int = THRESHOLDS.verified_robots, seed: int = THRESHOLDS.seed
+) -> int:
     """Returns the number of random robots for which every formula gives back the parameter.
 
     Exact: over Q; modulo a prime where the geometry has roots of numbers.
@@ -183,7 +181,7 @@ def find_impossible(derived: DerivedValue, system: PhysicalSystem) -> dict[str, 
         value, sigma = derived.values[k], derived.sigmas[k]
         if letter in system.masses and value <= 0.0:
             kinds[letter] = "mass"
-        elif letter in system.moments and value < -_SURE * sigma:
+        elif letter in system.moments and value < -THRESHOLDS.sure_sigmas * sigma:
             kinds[letter] = "moment of inertia"
     return {
         letter: f"{letter} = {derived.get_value(letter):.4g} "
@@ -215,7 +213,7 @@ def _evaluate_step(
         )
     spread = down.evaluate_slopes(point) @ gradient
     sigma = float(np.sqrt(max(spread @ C @ spread, 0.0)))
-    if abs(bottom) < _SURE * sigma:
+    if abs(bottom) < THRESHOLDS.sure_sigmas * sigma:
         doubtful[step.letter] = (
             f"{step.letter} is a quotient by {step.denominator} = {bottom:.3g} +- {sigma:.2g}, "
             "which may be 0: these data do not tell it"
@@ -234,7 +232,7 @@ def find_roots(step: SolvingStep, system: PhysicalSystem, point: np.ndarray) -> 
         for k in range(max(parts), -1, -1)
     ]
     complex_roots = np.roots(factors)
-    real = [float(x.real) for x in complex_roots if abs(x.imag) <= _REAL * abs(x)]
+    real = [float(x.real) for x in complex_roots if abs(x.imag) <= THRESHOLDS.real_root * abs(x)]
     return sorted(x for x in real if x > 0 or step.letter not in system.masses)
 
 

@@ -1,6 +1,7 @@
 """The rank of robots with loops, proven in balls: all of them, and never what is not so."""
 
 import json
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -94,13 +95,13 @@ def test_anyone_can_run_the_certificate_again(name):
 def test_more_bits_are_taken_where_few_do_not_do(monkeypatch):
     model, base, _ = module("five-bar")
     kept = [parameter.column for parameter in base.parameters]
-    monkeypatch.setattr(balls, "_BITS", (12, 128))
+    monkeypatch.setattr(balls, "THRESHOLDS", replace(balls.THRESHOLDS, ball_bits=(12, 128)))
     found = prove_rank(model, kept, draw_sample(model, 60, SEED), SEED)
     assert isinstance(found, BallRank) and found.bits == 128
 
 
 def test_what_is_sampled_only_says_so(monkeypatch):
-    monkeypatch.setattr(balls, "_BITS", (12,))
+    monkeypatch.setattr(balls, "THRESHOLDS", replace(balls.THRESHOLDS, ball_bits=(12,)))
     model = module("five-bar").model
     base = derive_base_parameters(model)
     assert base.rank == 11 and base.proof.kind == "relations exact, rank sampled"

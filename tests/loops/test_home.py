@@ -9,7 +9,7 @@ import pytest
 
 from modeler.core.builtin import read_builtin_robot
 from modeler.core.errors import LoopError
-from modeler.derivation.closure import SINGULAR
+from modeler.derivation.thresholds import THRESHOLDS
 from modeler.derivation.derive import (
     ClosedHome,
     HomeModes,
@@ -53,7 +53,7 @@ def check(found: HomeModes) -> None:
     assert np.max(np.abs(linkage.loops.compute_residuals(u))) < CLOSED * linkage.loops.size
     assert (
         np.all(linkage.loops.are_aligned(u))
-        and np.min(linkage.loops.compute_singularity_distance(u)) > SINGULAR
+        and np.min(linkage.loops.compute_singularity_distance(u)) > THRESHOLDS.min_singular_value
     )
     given = list(linkage.loops.actuated)
     assert np.ptp(u[:, given], axis=0).max() == 0.0

@@ -223,7 +223,7 @@ def test_torques_are_those_of_mujocos_equations(name, folder):
     postures, qd, qdd = states(loop, 20)
     motors = np.array(postures)[:, loop.driven]
     assert [joint.name for joint in robot.coordinates] == [f"{j + 1}" for j in loop.driven]
-    theirs = np.array(postures)[:, [int(joint.name) - 1 for joint in robot.free]]
+    theirs = np.array(postures)[:, [int(joint.name) - 1 for joint in robot.free_joints]]
     assert np.abs(c.close(motors) - theirs).max() < 1e-9
     chi = np.array([robot.parameters.get(p.name, 0.0) for p in c.spec.standard])
     tau = c.inverse_dynamics(motors, qd, qdd, c.base_parameters(chi))
