@@ -12,7 +12,7 @@ import pytest
 
 from modeler.core.manifest import EmittedModule
 from modeler.derivation.model import SymbolicModel
-from modeler.derivation.result import BaseParameters
+from modeler.derivation.relations import BaseParameters
 from modeler.robot.read import read_robot
 from modeler.runtime.model import CompiledModel, load_module
 from tests.derived_once import base_of, emitted_of, model_of

@@ -1,6 +1,11 @@
 from . import relations as relations
+from .assembly_modes import (
+    HomeModes as HomeModes,
+    complete_home as complete_home,
+    express_as_home as express_as_home,
+    find_modes_near as find_modes_near,
+)
 from .base_parameters import derive_base_parameters as derive_base_parameters
-from .certificate import compute_kernel as compute_kernel, reduce_to_echelon as reduce_to_echelon
 from .closure import (
     ALL as ALL,
     LOOP_JOINTS as LOOP_JOINTS,
@@ -8,26 +13,24 @@ from .closure import (
     compute_loop_frames as compute_loop_frames,
     draw_nearby_postures as draw_nearby_postures,
 )
-from .columns import (
-    LinkColumn as LinkColumn,
-    ShaftColumn as ShaftColumn,
-    Signal as Signal,
-    StandardColumn as StandardColumn,
-    is_in_block as is_in_block,
+from .controller_terms import (
+    BodyFrame as BodyFrame,
+    collect_frames as collect_frames,
+    derive_coriolis_matrix as derive_coriolis_matrix,
+    derive_coriolis_transpose as derive_coriolis_transpose,
+    derive_energy_regressor as derive_energy_regressor,
+    derive_frame_pose as derive_frame_pose,
+    derive_jacobian as derive_jacobian,
+    derive_jacobian_dot_qd as derive_jacobian_dot_qd,
+    derive_momentum as derive_momentum,
+    derive_momentum_regressor as derive_momentum_regressor,
+    derive_momentum_rest_regressor as derive_momentum_rest_regressor,
+    derive_power_regressor as derive_power_regressor,
+    derive_slotine_li_regressor as derive_slotine_li_regressor,
+    derive_twist as derive_twist,
+    find_body_frame as find_body_frame,
 )
-from .derive import (
-    HomeModes as HomeModes,
-    complete_home as complete_home,
-    derive_model as derive_model,
-    express_as_home as express_as_home,
-    find_modes_near as find_modes_near,
-)
-from .differentiation import differentiate as differentiate
-from .enclosed import (
-    EnclosedState as EnclosedState,
-    EnclosureError as EnclosureError,
-    Enclosures as Enclosures,
-)
+from .derive import derive_model as derive_model
 from .field import (
     LinearRelations as LinearRelations,
     SparseVector as SparseVector,
@@ -37,15 +40,6 @@ from .field import (
     evaluate_modulo as evaluate_modulo,
     find_linear_relations as find_linear_relations,
     replace_square as replace_square,
-)
-from .frame_motion import (
-    BodyFrame as BodyFrame,
-    collect_frames as collect_frames,
-    derive_frame_pose as derive_frame_pose,
-    derive_jacobian as derive_jacobian,
-    derive_jacobian_dot_qd as derive_jacobian_dot_qd,
-    derive_twist as derive_twist,
-    find_body_frame as find_body_frame,
 )
 from .geometry import (
     Geometry as Geometry,
@@ -58,15 +52,17 @@ from .graph import (
     Arithmetic as Arithmetic,
     Expr as Expr,
     Graph as Graph,
-    GraphAlgebra as GraphAlgebra,
+    Label as Label,
     Node as Node,
     Plan as Plan,
     Table as Table,
     Vector as Vector,
     combine_linearly as combine_linearly,
+    differentiate as differentiate,
 )
 from .kinematics import (
     Composite as Composite,
+    GraphAlgebra as GraphAlgebra,
     Pose as Pose,
     Screw as Screw,
     compute_base_poses as compute_base_poses,
@@ -81,27 +77,25 @@ from .kinematics import (
     project_wrench as project_wrench,
     times as times,
 )
-from .labels import Label as Label
 from .lagrange import compute_lagrange_torque as compute_lagrange_torque
 from .model import (
     Entries as Entries,
+    LinkColumn as LinkColumn,
+    ShaftColumn as ShaftColumn,
+    Signal as Signal,
+    StandardColumn as StandardColumn,
     SymbolicModel as SymbolicModel,
     combine_along_shaft as combine_along_shaft,
     derive_effect_entries as derive_effect_entries,
     evaluate_followed as evaluate_followed,
     get_signal_symbol as get_signal_symbol,
+    is_in_block as is_in_block,
 )
-from .momenta import (
-    derive_coriolis_matrix as derive_coriolis_matrix,
-    derive_coriolis_transpose as derive_coriolis_transpose,
-    derive_energy_regressor as derive_energy_regressor,
-    derive_momentum as derive_momentum,
-    derive_momentum_regressor as derive_momentum_regressor,
-    derive_momentum_rest_regressor as derive_momentum_rest_regressor,
-    derive_power_regressor as derive_power_regressor,
-    derive_slotine_li_regressor as derive_slotine_li_regressor,
-)
+from .modular import compute_kernel as compute_kernel, reduce_to_echelon as reduce_to_echelon
 from .numeric_rank import (
+    EnclosedState as EnclosedState,
+    EnclosureError as EnclosureError,
+    Enclosures as Enclosures,
     draw_random_states as draw_random_states,
     evaluate_regressor as evaluate_regressor,
 )
@@ -113,11 +107,12 @@ from .precise import (
     load_flint as load_flint,
 )
 from .relations import (
+    BaseParameter as BaseParameter,
+    BaseParameters as BaseParameters,
     as_latex as as_latex,
     as_markdown as as_markdown,
     as_text as as_text,
     format_coefficient as format_coefficient,
     format_relation as format_relation,
 )
-from .result import BaseParameter as BaseParameter, BaseParameters as BaseParameters
 from .walks import Linkage as Linkage

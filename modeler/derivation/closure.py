@@ -18,10 +18,17 @@ import numpy as np
 from modeler.core.brief import ShortRepr
 from modeler.core.errors import LoopError
 from modeler.core.rounded import get_precise_context
-from modeler.derivation.differentiation import differentiate
 from modeler.derivation.geometry import Geometry
-from modeler.derivation.graph import Algebra, Expr, Graph, GraphAlgebra
-from modeler.derivation.kinematics import Pose, compute_relative_poses, dot, plus, times
+from modeler.derivation.graph import Expr, Graph, differentiate
+from modeler.derivation.kinematics import (
+    Algebra,
+    GraphAlgebra,
+    Pose,
+    compute_relative_poses,
+    dot,
+    plus,
+    times,
+)
 from modeler.derivation.precise import convert_to_precise, evaluate_precisely
 from modeler.derivation.thresholds import THRESHOLDS
 from modeler.robot import INERTIAL, Loop, Robot

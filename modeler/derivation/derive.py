@@ -1,248 +1,426 @@
-"""From a robot to its symbolic model."""
+"""Linear relations that loops imply: constant ratios between joints, found and proven.
 
-import dataclasses
-from collections.abc import Mapping
-from dataclasses import dataclass, replace
+u_p = sum c_k u_k + constant. How the constant depends on a symbol is seen by closing the loops anew
+with a slightly different value of it: the derivative is a rational number, of a length also a
+rational multiple of the cosine or sine of an angle. What is left is a multiple of pi/12, a short
+decimal number of the table, or both. This only proposes; `modeler.derivation.derive` proves.
+"""
+
+import math
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, field, replace
+from fractions import Fraction
+from functools import cached_property
+from itertools import combinations
+from typing import Any
 
 import numpy as np
 
-from modeler.core.errors import DerivationError, LoopError, RobotError
-from modeler.core.result import Result
-from modeler.derivation.assembly_modes import (
-    AssemblyMode,
-    find_assembly_modes,
-    flip_negative_travels,
-)
-from modeler.derivation.closure import check_mobility, describe_open_loop, find_nearest_closed
-from modeler.derivation.columns import build_standard_columns
-from modeler.derivation.geometry import build_exact_geometry
-from modeler.derivation.graph import Graph
+from modeler.core.expression import Expression, parse_expression
+from modeler.core.rounded import get_precise_context
+from modeler.derivation.assembly_modes import _build_model, resolve_home
+from modeler.derivation.closure import Closure
 from modeler.derivation.model import SymbolicModel
+from modeler.derivation.precise import (
+    Number,
+    convert_fraction,
+    convert_to_precise,
+    evaluate_precisely,
+    get_precise_functions,
+)
 from modeler.derivation.thresholds import THRESHOLDS
-from modeler.derivation.walks import Linkage, build_linkage
-from modeler.robot import Robot, parse_robot_text, replace_home
+from modeler.derivation.walks import compute_closed_motion, draw_closed_walk
+from modeler.robot import Robot
+
+Term = tuple[Fraction, str]
+"""factor * text."""
+
+_SHARES = [Fraction(sign * n, d) for n, d in ((1, 1), (2, 1), (1, 2)) for sign in (1, -1)]
+
+
+class RelationConstants:
+    """Constants of relations of one robot at its home."""
+
+    def __init__(self, closure: Closure, derived: Mapping[str, float]) -> None:
+        """Constants of loops at home; `derived` symbols are given by expressions of others."""
+        self.loops, self.home, self.derived = closure, np.array(closure.home), derived
+
+    def find_terms(self, coefficients: np.ndarray, angular: bool) -> list[Term] | None:
+        """Returns the constant coefficients .
+
+        home as a sum of terms, or None.
+
+        Args:
+            coefficients: by variable: 1 for the one that follows, -c_k for the others.
+            angular: True for an angle, False for a travel.
+        """
+        value = float(coefficients @ self.home)
+        terms = list(self._find_symbol_terms(coefficients, angular))
+        left = value - sum(float(c) * self._evaluate_text(text) for c, text in terms)
+        rest = _find_pi_multiple(left, angular)
+        if rest is not None:
+            return [*terms, *rest]
+        for name, size in self.derived.items():  # no combination of the others: w = sqrt(v)
+            for share in _SHARES:
+                rest = _find_pi_multiple(value - float(share) * size, angular)
+                if rest is not None:
+                    return [(share, name), *rest]
+        rest = _find_decimal(left, angular)
+        return None if rest is None else [*terms, *rest]
+
+    def _find_symbol_terms(self, coefficients: np.ndarray, angular: bool) -> Iterator[Term]:
+        """The symbols on which the constant depends."""
+        for name, moved in self._perturbed_homes.items():
+            change = float(coefficients @ (moved - self.home)) / THRESHOLDS.perturbation
+            for factor, size in self._enumerate_factors(name, angular):
+                if abs(size) > THRESHOLDS.perturbation:
+                    share = Fraction(change / size).limit_denominator(
+                        THRESHOLDS.max_constant_denominator
+                    )
+                    if abs(float(share) * size - change) < THRESHOLDS.slope_tolerance:
+                        if share:
+                            yield share, f"{name}{factor}"
+                        break
+
+    def _enumerate_factors(self, name: str, angular: bool) -> Iterator[tuple[str, float]]:
+        """What a symbol may be multiplied by: text and value."""
+        yield "", 1.0
+        if not angular:
+            for other, value in self.loops.values.items():
+                if other not in (name, "g"):
+                    yield f"*cos({other})", math.cos(value)
+                    yield f"*sin({other})", math.sin(value)
+
+    def _evaluate_text(self, text: str) -> float:
+        name, _, factor = text.partition("*")
+        value = float(self.loops.values[name])
+        if not factor:
+            return value
+        function, other = factor[:3], factor[4:-1]
+        return value * getattr(math, function)(self.loops.values[other])
+
+    @cached_property
+    def _perturbed_homes(self) -> Mapping[str, np.ndarray]:
+        """By symbol, home closed anew with another value of it; where it does not, left out."""
+        names = list(self.loops.values)
+        with np.errstate(all="ignore"):  # the root of a length that became negative
+            moved = self._close_perturbed(names)
+        far = np.abs(moved - self.home) / self.loops.scale
+        near = np.max(far, axis=1, initial=0.0) < THRESHOLDS.max_perturbed_move
+        return {name: u for name, u, good in zip(names, moved, near, strict=True) if good}
+
+    def _close_perturbed(self, names: Sequence[str]) -> np.ndarray:
+        """(names, unknowns): Newton from home, one sample for each symbol."""
+        loops, count = self.loops, len(names)
+        values: dict[str, Any] = {n: np.full(count, self.loops.values[n]) for n in names}
+        for i, name in enumerate(names):
+            values[name][i] += THRESHOLDS.perturbation
+        moved = replace(loops, values=values)
+        u = np.tile(self.home, (count, 1))
+        for _ in range(THRESHOLDS.perturbed_iterations):
+            u[:, list(loops.solved)] -= moved.solve_passive(u, moved.compute_residuals(u))
+        return u
+
+
+def _find_pi_multiple(value: float, angular: bool) -> list[Term] | None:
+    """A multiple of pi/12 for an angle, nothing for a travel."""
+    twelfths = round(value / (math.pi / 12)) if angular else 0
+    if abs(value - twelfths * math.pi / 12) > THRESHOLDS.constant_tolerance:
+        return None
+    return [(Fraction(twelfths, 12), "pi")]
+
+
+def _find_decimal(value: float, angular: bool) -> list[Term] | None:
+    """A short decimal number, with a multiple of pi/12 for an angle."""
+    most = THRESHOLDS.max_pi_twelfths if angular else 0
+    for size in sorted(range(-most, most + 1), key=abs):
+        rest = value - size * math.pi / 12
+        short = round(rest, THRESHOLDS.constant_decimals)
+        if abs(rest - short) < THRESHOLDS.decimal_tolerance:
+            return [(Fraction(size, 12), "pi"), (Fraction(repr(short)), "")]
+    return None
+
+
+# Whether loops imply linear relations: a proof, in letters or at the given values.
+#
+# Let f(u) = 0 be r independent closure equations with a regular home u0, so that the closed
+# postures near u0 are a manifold V of dimension n - r. Let L be the postures that fulfil k linear
+# relations, u0 among them. If the functions f restricted to L span a space of dimension r - k only,
+# then r - k of them cut out of L (dimension n - k) a set of dimension n - r or more through u0, on
+# which the others vanish too: it lies in V and has the dimension of V, so the two coincide near u0,
+# and, both being analytic, on the whole branch of closed postures that is connected with u0. So
+# every relation holds there. (A parallelogram: both equations vanish identically, r - k = 0.)
+#
+# The dimension of the span is a rank of exact functions: values with 40 digits at random postures
+# of L, and at random lengths and angles where the relations are to hold in letters. What is of
+# lower rank there to 25 digits is so identically.
+
+
+@dataclass(frozen=True)
+class CandidateRelation:
+    """A relation to be proven: the variable `pivot` of u equals `expression` of the others."""
+
+    pivot: int
+    expression: Expression
+
+
+class Prover:
+    """Tells which relations the loops of a robot imply on the branch of home."""
+
+    def __init__(self, closure: Closure, robot: Robot) -> None:
+        self.closure, self.robot = closure, robot
+
+    def can_prove(self, relations: Sequence[CandidateRelation], letters: bool) -> bool:
+        """Returns True if the loops imply all these relations together.
+
+        Args:
+            relations: that home fulfils.
+            letters: True for all lengths and angles, False for the given ones only.
+        """
+        rng = np.random.default_rng(THRESHOLDS.implied_seed)
+        geometry = self._draw_symbols(rng, letters)
+        left = len(self.closure.equations) - len(relations)
+        rows = []
+        for _ in range(left + THRESHOLDS.spare_rows):
+            at = {**geometry, **self._draw_posture(relations, rng, geometry)}
+            rows.append(evaluate_precisely(self.closure.graph, self.closure.equations, at))
+        return _compute_rank(rows) <= left
+
+    def _draw_symbols(self, rng: np.random.Generator, letters: bool) -> dict[str, Number]:
+        """Numbers for all symbols: as given, or random near that."""
+        known: dict[str, Number] = {}
+        for name, expression in self.robot.symbols.items():
+            if name in self.closure.values:
+                change = (
+                    float(rng.uniform(-THRESHOLDS.symbol_change, THRESHOLDS.symbol_change))
+                    if letters
+                    else 0.0
+                )
+                known[name] = convert_to_precise(self.closure.values[name]) * (
+                    1 + convert_to_precise(change)
+                )
+            else:
+                known[name] = _fold_precise(expression, known)
+        return known
+
+    def _draw_posture(
+        self,
+        relations: Sequence[CandidateRelation],
+        rng: np.random.Generator,
+        geometry: Mapping[str, Number],
+    ) -> dict[str, Number]:
+        """Random values of `q[k]` that fulfil the relations."""
+        u = [
+            convert_to_precise(
+                float(at + rng.uniform(-1.0, 1.0) * (self.closure.size if length else 1.0))
+            )
+            for at, length in zip(self.closure.home, self.closure.is_travel, strict=True)
+        ]
+        names = [joint.variable for joint in self.robot.free_joints]
+        known = {**geometry, **dict(zip(names, u, strict=True))}
+        for relation in relations:
+            u[relation.pivot] = _fold_precise(relation.expression, known)
+        return {f"q[{k}]": value for k, value in enumerate(u)}
+
+
+def _fold_precise(expression: Expression, known: Mapping[str, Number]) -> Number:
+    functions, pi = get_precise_functions(), +get_precise_context().pi
+    return expression.fold(known, functions, pi, convert_fraction, functions["pow"])
+
+
+def _compute_rank(rows: Sequence[Sequence[Number]]) -> int:
+    """Rank of a matrix of numbers of 40 digits, each column counted relative to its largest."""
+    mp = get_precise_context()
+    matrix = [list(row) for row in rows]
+    nothing = mp.mpf(10) ** -THRESHOLDS.proof_digits
+    rank = 0
+    for column in range(len(matrix[0])):
+        below = matrix[rank:]
+        if not below:
+            break
+        best = max(range(len(below)), key=lambda i: abs(below[i][column]))
+        if abs(below[best][column]) < nothing:
+            continue
+        matrix[rank], matrix[rank + best] = matrix[rank + best], matrix[rank]
+        pivot = matrix[rank]
+        for i in range(rank + 1, len(matrix)):
+            factor = matrix[i][column] / pivot[column]
+            matrix[i] = [x - factor * y for x, y in zip(matrix[i], pivot, strict=True)]
+        rank += 1
+    return rank
+
+
+def find_largest_proven(
+    prover: Prover, relations: Sequence[CandidateRelation], letters: bool
+) -> tuple[CandidateRelation, ...]:
+    """Returns the largest proven set of the relations; sets are tried from the largest down."""
+    tries = 0
+    for size in range(len(relations), 0, -1):
+        for chosen in combinations(relations, size):
+            if prover.can_prove(chosen, letters):
+                return chosen
+            tries += 1
+            if tries == THRESHOLDS.max_proof_tries:
+                return ()
+    return ()
+
+
+# Linear relations between joints that loops imply, as a parallelogram does.
+#
+# A variable that the loops tie to others by constant rational coefficients (q7 = q3, q5 = -q2 -
+# pi/2) is better stated than solved for: the model gets simpler, its C faster and its grouping
+# exact. Found as combinations of speeds that vanish at many closed postures over the reachable
+# range; their constants as combinations of the robot's symbols; used only where they are proven
+# (`modeler.derivation.derive`): in letters, or at the given values where only these make the
+# loops close (two bars of the same length by two symbols).
+
+
+@dataclass(frozen=True)
+class ImpliedRelations:
+    """Relations that the loops of a robot imply.
+
+    Attributes:
+        relations: joint -> its variable, proven.
+        special: joints among them whose relations hold at the given lengths and angles only.
+        unproven: joints that seemed to follow others by a relation that was not proven; not used.
+    """
+
+    relations: Mapping[str, Expression] = field(default_factory=dict)
+    special: tuple[str, ...] = ()
+    unproven: tuple[str, ...] = ()
+
+
+def find_implied_relations(model: SymbolicModel) -> ImpliedRelations:
+    """Returns the relations that the loops of a robot imply."""
+    closure, robot = model.closure, model.robot
+    assert closure is not None
+    names = [joint.name for joint in robot.free_joints]
+    seen, proposals = [], []
+    derived = {n: x for n, x in robot.evaluate_symbols().items() if n not in closure.values}
+    constants = RelationConstants(closure, derived)
+    for row, pivot in _find_vanishing_rows(model):
+        seen.append(names[pivot])
+        terms = _build_terms(robot, row, pivot, constants)
+        if terms is not None:
+            proposals.append(CandidateRelation(pivot, parse_expression(_format_sum(terms))))
+    if not seen:
+        return ImpliedRelations()
+    prover = Prover(closure, robot)
+    proven = general = find_largest_proven(prover, proposals, letters=True)
+    if len(general) < len(proposals):
+        at_values = find_largest_proven(prover, proposals, letters=False)
+        proven = at_values if len(at_values) > len(general) else general
+    proven_relations = {names[relation.pivot]: relation.expression for relation in proven}
+    special = tuple(names[r.pivot] for r in proven if r not in general)
+    return ImpliedRelations(
+        proven_relations, special, tuple(name for name in seen if name not in proven_relations)
+    )
+
+
+def _find_vanishing_rows(model: SymbolicModel) -> list[tuple[np.ndarray, int]]:
+    """Combinations of speeds that vanish, each with the variable that it is solved for."""
+    closure = model.closure
+    assert closure is not None
+    u = draw_closed_walk(
+        model, THRESHOLDS.relation_postures, np.random.default_rng(THRESHOLDS.relation_seed)
+    ).postures
+    G = compute_closed_motion(model, u, np.zeros((len(u), len(closure.actuated)))).coupling
+    speeds = np.concatenate(list(G), axis=1)  # (len(u), postures * len(q))
+    left, singular, _ = np.linalg.svd(speeds, full_matrices=True)
+    rank = int(np.sum(singular > THRESHOLDS.relation_rank * singular[0]))
+    rows = _reduce_rows(left[:, rank:].T, closure.solved)
+    home = np.array(closure.home)
+    return [
+        (row, pivot)
+        for row, pivot in rows
+        if np.max(np.abs((u - home) @ row)) < THRESHOLDS.relation_residual
+    ]
+
+
+def _reduce_rows(rows: np.ndarray, solved: Sequence[int]) -> list[tuple[np.ndarray, int]]:
+    """Reduced rows with their pivots: late variables follow early ones, never the actuated."""
+    rows = rows.copy()
+    pivots: list[int] = []
+    for column in sorted(solved, reverse=True):
+        done = len(pivots)
+        if done == len(rows):
+            break
+        best = done + int(np.argmax(np.abs(rows[done:, column])))
+        if abs(rows[best, column]) < 1e-6:
+            continue
+        rows[[done, best]] = rows[[best, done]]
+        rows[done] /= rows[done, column]
+        for other in range(len(rows)):
+            if other != done:
+                rows[other] -= rows[other, column] * rows[done]
+        pivots.append(column)
+    return [(rows[i], pivot) for i, pivot in enumerate(pivots)]
+
+
+def _build_terms(
+    robot: Robot, row: np.ndarray, pivot: int, constants: RelationConstants
+) -> list[Term] | None:
+    """The right side of the relation, None where it is not one of simple numbers."""
+    free = robot.free_joints
+    terms: list[Term] = []
+    exact = np.zeros(len(row))
+    exact[pivot] = 1.0
+    for k, value in enumerate(row):
+        if k == pivot or abs(value) < THRESHOLDS.relation_rank:
+            continue
+        factor = Fraction(-value).limit_denominator(THRESHOLDS.max_ratio_denominator)
+        if (
+            abs(float(factor) + value) > THRESHOLDS.relation_rank
+            or free[k].is_revolute != free[pivot].is_revolute
+        ):
+            return None
+        terms.append((factor, free[k].variable))
+        exact[k] = -float(factor)
+    constant = constants.find_terms(exact, free[pivot].is_revolute)
+    return None if constant is None else [*terms, *constant]
+
+
+def _format_sum(terms: Sequence[Term]) -> str:
+    """`-q2 + q7 + pi/2`; a term without name is a number."""
+    text = ""
+    for factor, name in terms:
+        size = abs(factor)
+        if size:
+            over = f"/{size.denominator}" if size.denominator > 1 else ""
+            times = f"{size.numerator}*" if size.numerator > 1 and name else ""
+            sign = ("-" if factor < 0 else "") if not text else (" - " if factor < 0 else " + ")
+            text += f"{sign}{times}{name}{over}" if name else f"{sign}{size.numerator}{over}"
+    return text or "0"
+
+
+# From a robot to its symbolic model.
+
 
 # [home]: taken as stated where it is good, else found; refused where it is singular.
 #
 # Singular postures: which joints could move there although the actuated ones are locked.
 
 
-def describe_free_motions(linkage: Linkage, u: np.ndarray) -> list[str]:
-    """Describes the motions that a singular posture leaves free: `q11 : q12 : qP = 1 : -0.5 : 0.3`.
-
-    Travels count in sizes of the robot. Joints that move little are left out.
-
-    Args:
-        linkage: the robot.
-        u: (u,) closed posture.
-    """
-    names = [f"q{linkage.free[k].name}" for k in linkage.loops.solved]
-    _, values, turned = np.linalg.svd(linkage.loops.compute_passive_jacobian(u[None])[0])
-    descriptions = []
-    for motion in turned[values <= THRESHOLDS.min_singular_value]:
-        motion = motion / motion[np.argmax(np.abs(motion) > (1 - 1e-6) * np.max(np.abs(motion)))]
-        moved = [k for k, share in enumerate(motion) if abs(share) > THRESHOLDS.min_motion_share]
-        who = " : ".join(names[k] for k in moved)
-        descriptions.append(who + " = " + " : ".join(f"{motion[k]:.2g}" for k in moved))
-    return descriptions
 
 
-@dataclass(frozen=True)
-class HomeModes(Result):
-    """The assembly modes of a robot, and which of them its file means.
-
-    Attributes:
-        linkage: the robot.
-        modes: the best first; at least one.
-        own: place among them of the posture that the file means as it stands; None if [home] is
-            missing or poor, so that the first is taken.
-    """
-
-    linkage: Linkage
-    modes: tuple[AssemblyMode, ...]
-    stated_index: int | None
 
 
-@dataclass(frozen=True)
-class ClosedHome:
-    """A robot with a [home] from which its loops close.
-
-    Attributes:
-        robot: with its home; the robot itself where that was good as it stood.
-        told: one line on what was found or moved; "" where nothing was.
-    """
-
-    robot: Robot
-    message: str = ""
-
-    def write_to_text(self, robot: Robot) -> Robot:
-        """Returns the robot whose file's text states the home too, for model files."""
-        if not self.message:
-            return robot
-        try:
-            text = replace_home(robot.text, robot.home, self.robot.home)
-        except RobotError:  # it is found again, the same
-            return self.robot
-        return parse_robot_text(text, f"{robot.name} with its [home]")
 
 
-def resolve_home(model: SymbolicModel) -> ClosedHome:
-    """Returns the robot with a [home] from which its loops close and that is not singular.
-
-    A home stays as it is if the passive joints close the loops near it: none moves further than
-    `max_home_move`, rows left out counting as 0, and the posture is not singular. Else the assembly
-    modes are searched, and the best one near to what is stated is taken.
-
-    Raises:
-        LoopError: the posture stated is singular, the loops leave more or less free than is
-            actuated, or cannot close.
-    """
-    robot, linkage = model.robot, build_linkage(model)
-    if linkage is None:
-        return ClosedHome(robot)
-    stated = linkage.build_vector(robot.home)
-    if _close_stated_home(linkage, stated) is not None:
-        return ClosedHome(robot)
-    start = np.nan_to_num(stated)
-    check_mobility(linkage.loops, start, linkage.geometry, linkage.owners)
-    modes = find_assembly_modes(linkage, stated)
-    posture = find_nearest_closed(linkage.loops, start)
-    if (
-        posture is not None
-        and linkage.loops.compute_singularity_distance(posture[None])[0]
-        <= THRESHOLDS.min_singular_value
-    ):
-        # Meant, if all actuated joints on which the loops depend are stated.
-        loop_joints = [k for k in linkage.loops.actuated if linkage.is_tied[k]]
-        if np.all(np.isfinite(stated[loop_joints])):
-            raise LoopError(_describe_singularity(linkage, posture, modes))
-    if not modes:
-        raise _build_closure_error(linkage, start)
-    home = express_as_home(linkage, modes[0].posture)
-    return ClosedHome(dataclasses.replace(robot, home=home), _describe_home(linkage, modes, stated))
 
 
-def find_modes_near(robot: Robot, near: Mapping[str, float]) -> HomeModes:
-    """Returns the assembly modes of a robot with loops, the best one near a posture first.
-
-    Args:
-        robot: as read.
-        near: values that are meant, by row; what is left out is found.
-
-    Raises:
-        DerivationError: an entry of the table has no exact value.
-        LoopError: the robot has no loops that are left to close, they leave more or less free than
-            is actuated, or no closed posture is found that is not singular.
-    """
-    linkage = build_linkage(_build_model(robot))
-    if linkage is None:
-        raise LoopError(
-            f"{robot.name}: there is no loop to close; [home] is asked for robots with [loops] "
-            "that no relations close already"
-        )
-    hints = linkage.build_vector(near)
-    start = np.nan_to_num(hints)
-    check_mobility(linkage.loops, start, linkage.geometry, linkage.owners)
-    stated_posture = _close_stated_home(linkage, linkage.build_vector(robot.home))
-    if stated_posture is not None and not near:  # [home] is left out where all joints at 0 will do
-        hints[list(linkage.loops.actuated)] = stated_posture[list(linkage.loops.actuated)]
-    modes = find_assembly_modes(linkage, hints)
-    if not modes:
-        raise _build_closure_error(linkage, np.nan_to_num(hints))
-    if stated_posture is None:
-        return HomeModes(linkage, modes, None)
-    shapes = linkage.compute_shape(np.array([stated_posture, *(mode.posture for mode in modes)]))
-    away = np.max(np.abs(shapes[1:] - shapes[0]), axis=1)
-    at = int(np.argmin(away))
-    return HomeModes(linkage, modes, at if away[at] < THRESHOLDS.stated_shape else None)
 
 
-def _build_closure_error(linkage: Linkage, start: np.ndarray) -> LoopError:
-    reason = describe_open_loop(linkage.loops, start, linkage.owners)
-    return LoopError(
-        f"{linkage.robot.name}: [home]: {reason}, nor from "
-        f"{THRESHOLDS.assembly_starts} others without being singular; check the lengths, and the joints of [loops]"
-    )
 
 
-def express_as_home(linkage: Linkage, u: np.ndarray) -> dict[str, float]:
-    """Returns a posture as [home] states it: actuated joints exact, the others to 1e-6.
-
-    Rows that follow others are stated where they were before.
-    """
-    robot, actuated = linkage.robot, linkage.loops.actuated
-    home = {
-        joint.name: float(u[k]) if k in actuated else round(float(u[k]), 6) + 0.0
-        for k, joint in enumerate(linkage.free)
-    }
-    values = {**robot.evaluate_symbols(), **{f"q{name}": value for name, value in home.items()}}
-    left = dict(robot.relations)
-    while left:  # there are no circles
-        for name in [n for n, relation in left.items() if relation.names <= values.keys()]:
-            values[f"q{name}"] = left.pop(name).evaluate(values)
-    stated = {name: values[f"q{name}"] for name in robot.relations if name in robot.home}
-    return {**home, **stated}
 
 
-def _close_stated_home(linkage: Linkage, stated: np.ndarray) -> np.ndarray | None:
-    """The closed posture that was stated, rows left out at 0; None if it is no good one."""
-    posture = find_nearest_closed(linkage.loops, np.nan_to_num(stated))
-    if (
-        posture is None
-        or linkage.loops.compute_singularity_distance(posture[None])[0]
-        <= THRESHOLDS.min_singular_value
-    ):
-        return None
-    moved = linkage.compute_distances(posture[None], np.nan_to_num(stated))
-    turned = flip_negative_travels(linkage, posture[None], stated)
-    return (
-        posture
-        if np.max(moved) <= THRESHOLDS.max_home_move and np.array_equal(turned[0], posture)
-        else None
-    )
 
 
-def _describe_home(linkage: Linkage, modes: tuple[AssemblyMode, ...], stated: np.ndarray) -> str:
-    robot, posture = linkage.robot, modes[0].posture
-    others = f"{len(modes)} assembly modes: `modeler home` shows them, --write writes one down"
-    if len(modes) == 1:
-        others = "the only assembly mode found; `modeler home --write` writes it down"
-    if not modes[0].is_within_limits:
-        others += "; it is outside [limits], which none keeps there: check the lengths"
-    if not np.any(np.isfinite(stated)):
-        actuated = linkage.loops.actuated
-        return (
-            f"{robot.name}: [home] found: mode A at "
-            f"{_format_values(linkage, posture, actuated)}; {others}"
-        )
-    moved = linkage.compute_distances(posture[None], stated)[0]
-    far = [k for k in np.argsort(-moved, kind="stable") if moved[k] > 0.01]
-    change = ", ".join(
-        f"q{linkage.free[k].name} {stated[k]:.4g} -> {posture[k]:.4g}"
-        for k in far[: THRESHOLDS.listed_moves]
-    )
-    change = f"moved {change}" if far else "what it leaves out was found"
-    return f"{robot.name}: [home] completed: {change}; mode A of {others}"
 
 
-def _format_values(linkage: Linkage, u: np.ndarray, places: tuple[int, ...] | range) -> str:
-    return ", ".join(f"q{linkage.free[k].name} = {float(f'{u[k]:.5g}') + 0.0:g}" for k in places)
 
 
-def _describe_singularity(linkage: Linkage, u: np.ndarray, modes: tuple[AssemblyMode, ...]) -> str:
-    names = [f"q{joint.name}" for joint in linkage.free]
-    motions = describe_free_motions(linkage, u)
-    lost = [name for name in names if any(name in m.split(" = ")[0].split(" : ") for m in motions)]
-    away = linkage.loops.compute_singularity_distance(u[None])[0]
-    advice = "state another posture"
-    if modes:
-        advice += f", such as {_format_values(linkage, modes[0].posture, range(len(names)))}"
-    joints = ", ".join(name[1:] for name in lost)
-    return (
-        f"{linkage.robot.name}: the loops are singular at [home]: joint"
-        f"{'s' if len(lost) > 1 else ''} {joints} could move there with the actuated joints "
-        f"locked ({'; '.join(motions)}; singular value {away:.1e}); {advice}"
-    )
 
 
 def derive_model(robot: Robot) -> SymbolicModel:
@@ -263,27 +441,7 @@ def derive_model(robot: Robot) -> SymbolicModel:
         model = _build_model(robot)
     if model.closure is None:
         return model
-    from modeler.derivation.implied import find_implied_relations  # of loops alone
-
     implied = find_implied_relations(model)
     if implied.relations:
         model = _build_model(replace(robot, relations={**robot.relations, **implied.relations}))
     return replace(model, special=implied.special, unproven=implied.unproven)
-
-
-def complete_home(robot: Robot) -> ClosedHome:
-    """Returns the robot with a [home] from which its loops close, found where it is missing.
-
-    Raises:
-        DerivationError: an entry of the table has no exact value.
-        LoopError: see `resolve_home`.
-    """
-    return resolve_home(_build_model(robot))
-
-
-def _build_model(robot: Robot) -> SymbolicModel:
-    try:
-        geometry = build_exact_geometry(robot)
-    except DerivationError as error:
-        raise DerivationError(f"{robot.name}: {error}") from None
-    return SymbolicModel(robot, geometry, Graph(), build_standard_columns(geometry))

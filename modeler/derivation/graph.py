@@ -1,36 +1,64 @@
-"""Expression graph: hash-consed, with exact constants and folding while it is built.
-
-A value is a *reference*: an integer whose sign is the sign of the value and whose magnitude is a
-node; 0 is the constant zero, 1 the constant one. So negation costs nothing, `x - x` and `0*x`
-vanish where they arise, and equal expressions are one node. A node is *static* if it holds only
-numbers and geometric symbols; products and sums collect their static factors, as a compiler would
-fold numbers, so that symbolic lengths cost no more operations than numeric ones.
-
-Two expressions are equal when they are equal as functions, however they are written: every node
-carries its value modulo the prime 2**61 - 1 at a fixed random point, with cos and sin on the unit
-circle (those of a sum are composed of those of its terms), and a new node whose value is known is
-the known node. So c*c + s*s is 1, and what vanishes identically is the zero. (Two different
-rational functions of degree d share a value with a probability of about d * 2**-61; emitted code is
-compared with other derivations anyway.)
-"""
+"""What values of the recursions are, for those who write them as text."""
 
 import hashlib
 import operator
+import re
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import partial
-from typing import Any, Protocol, Union
+from typing import Any, NamedTuple, Union
 
 import numpy as np
-import sympy
 
 from modeler.core.errors import DerivationError
-from modeler.core.expression import FUNCTIONS, LAW
+from modeler.core.expression import LAW
 from modeler.core.law import Law
-from modeler.derivation.geometry import Geometry, GeometryRow, cos_sin, count_quarter_turns
-from modeler.derivation.labels import Label, Link
 from modeler.derivation.thresholds import THRESHOLDS
+
+
+class Label(NamedTuple):
+    """What a node of a graph is.
+
+    Attributes:
+        quantity: a letter of `codegen/quantities.toml`.
+        link: name of the row whose frame it is given in.
+        component: "x", "xy" of a matrix, "" of a number.
+        step: "a" or "b", on the way to the quantity; empty for itself.
+        of: the joint or parameter that it is for one unit of; may be empty.
+        minus: True if the node is minus that.
+    """
+
+    quantity: str
+    link: str
+    component: str
+    step: str
+    of: str
+    minus: bool
+
+
+class Link(NamedTuple):
+    """A row: name of its antecedent, "0" of the base; "turning", "sliding", or "" if fixed."""
+
+    antecedent: str
+    moves: str
+
+
+# Expression graph: hash-consed, with exact constants and folding while it is built.
+#
+# A value is a *reference*: an integer whose sign is the sign of the value and whose magnitude is a
+# node; 0 is the constant zero, 1 the constant one. So negation costs nothing, `x - x` and `0*x`
+# vanish where they arise, and equal expressions are one node. A node is *static* if it holds only
+# numbers and geometric symbols; products and sums collect their static factors, as a compiler would
+# fold numbers, so that symbolic lengths cost no more operations than numeric ones.
+#
+# Two expressions are equal when they are equal as functions, however they are written: every node
+# carries its value modulo the prime 2**61 - 1 at a fixed random point, with cos and sin on the unit
+# circle (those of a sum are composed of those of its terms), and a new node whose value is known is
+# the known node. So c*c + s*s is 1, and what vanishes identically is the zero. (Two different
+# rational functions of degree d share a value with a probability of about d * 2**-61; emitted code is
+# compared with other derivations anyway.)
+
 
 # Values of expressions by steps that are listed once: closing loops asks hundreds of times.
 
@@ -565,89 +593,92 @@ Vector = list[Scalar]
 """Three scalars."""
 
 
-class Algebra(Protocol):
-    """Abstract: holds no data."""
-
-    def static(self, value: sympy.Expr) -> Scalar:
-        """Returns a geometric constant."""
-        ...
-
-    def variable(self, row: GeometryRow) -> Scalar:
-        """Returns rate * q + offset of a prismatic joint."""
-        ...
-
-    def cos_sin(self, row: GeometryRow) -> tuple[Scalar, Scalar]:
-        """Returns cosine and sine of theta = rate * q + offset."""
-        ...
+# Derivatives of graph expressions along a direction, by the rules of differentiation.
 
 
-class GraphAlgebra:
-    """Expressions of a graph; its symbols `q[0]`, `qd[0]`, ... are those of the free variables."""
+_EVERYWHERE = {"add", "mul", "div", "sin", "cos", "sqrt", "exp", "tan", "tanh"}
+"""Operations that have a derivative wherever they have a value, for our purposes."""
 
-    def __init__(self, graph: Graph, geometry: Geometry) -> None:
-        self.graph = graph
-        self.geometry = geometry
-        for row in geometry.rows:
-            before = "0" if row.parent is None else geometry.rows[row.parent].joint.name
-            moves = "turning" if row.joint.is_revolute else "sliding"
-            graph.links[row.joint.name] = Link(before, "" if row.index is None else moves)
 
-    def static(self, value: sympy.Expr) -> Expr:
-        """Returns a geometric constant as a static expression."""
-        if value.is_Rational:
-            return self.graph.constant(Fraction(int(value.p), int(value.q)))
-        if value.is_Float:
-            return self.graph.constant(Fraction(repr(float(value))))
-        if value.is_Symbol:
-            return self.graph.symbol(value.name, static=True)
-        if value is sympy.pi:
-            return self.graph.pi()
-        if value is sympy.E:
-            return self.graph.call("exp", self.graph.constant(1))
-        args = [self.static(arg) for arg in value.args]
-        if value.is_Add or value.is_Mul:
-            total = args[0]
-            for arg in args[1:]:
-                total = total + arg if value.is_Add else total * arg
-            return total
-        if value.is_Pow:
-            halves = 2 * value.exp
-            if not halves.is_Integer:
-                raise DerivationError(
-                    f"{value}: only whole powers and square roots have a C form; give the number"
-                )
-            whole, half = divmod(int(halves), 2)
-            power = args[0] ** whole
-            return power * self.graph.call("sqrt", args[0]) if half else power
-        name = value.func.__name__.lower()
-        if name not in FUNCTIONS:
-            raise DerivationError(f"{value}: {name} has no C form; expected {', '.join(FUNCTIONS)}")
-        return self.graph.call(name, args[0])
+def differentiate(
+    values: Sequence[Expr], direction: Mapping[str, Expr], kinks: bool = False
+) -> list[Expr]:
+    """Returns d values / ds where each symbol of `direction` moves with that speed.
 
-    def variable(self, row: GeometryRow) -> Expr:
-        """Returns rate * q + offset of a prismatic joint."""
-        q = self.combine_variable("q", row)
-        return (q if row.rate > 0 else -q) + self.static(row.r)
+    With speeds 1 and 0 these are partial derivatives; with dq/dt they are time derivatives.
 
-    def combine_variable(self, kind: str, row: GeometryRow) -> Expr:
-        """Returns the variable of a moving row ("q"), or its derivative ("qd", "qdd")."""
-        assert row.index is not None
-        form = self.geometry.forms[row.index]
-        return combine_linearly(
-            self.graph, form, {k: self.graph.symbol(f"{kind}[{k}]") for k in form}
-        )
+    Args:
+        values: of one graph.
+        direction: {symbol: speed}.
+        kinks: True to take 0 for the derivative of a sign, and the sign for that of |x|.
 
-    def cos_sin(self, row: GeometryRow) -> tuple[Expr, Expr]:
-        """Returns cosine and sine of theta; right angles are taken out exactly."""
-        if row.index is None or not row.joint.is_revolute:
-            c, s = cos_sin(row.theta)
-            return self.static(c), self.static(s)
-        q = self.combine_variable("q", row)
-        angle = q if row.rate > 0 else -q
-        quarters, rest = count_quarter_turns(row.theta)
-        if rest:
-            angle = angle + self.static(rest)
-        c, s = self.graph.call("cos", angle), self.graph.call("sin", angle)
-        for _ in range(quarters % 4):
-            c, s = -s, c
-        return c, s
+    Raises:
+        DerivationError: a function that has no derivative everywhere (sign, abs), without `kinks`.
+    """
+    if not values:
+        return []
+    graph = values[0].graph
+    zero = graph.constant(0)
+    node_slopes: dict[int, Expr] = {0: zero}
+    for index in graph.find_reachable(values):
+        node = graph.nodes[index]
+        if node.op == "sym":
+            node_slopes[index] = direction.get(node.args[0], zero)
+        elif node.static:
+            node_slopes[index] = zero
+        elif (kinks or node.op in _EVERYWHERE) and not any(
+            node_slopes[abs(ref)].ref for ref in node.args
+        ):
+            node_slopes[index] = zero  # most nodes depend on few symbols
+        else:
+            node_slopes[index] = _differentiate_node(index, node, values[0], node_slopes, kinks)
+            _attach_label(graph, index, node_slopes[index], direction)
+    return [node_slopes[abs(v.ref)] if v.ref >= 0 else -node_slopes[-v.ref] for v in values]
+
+
+def _attach_label(graph: Graph, index: int, slope: Expr, direction: Mapping[str, Expr]) -> None:
+    """Names it by what is derived, and by the one variable that moves, or the time."""
+    if label := graph.labels.get(index):
+        by = re.sub(r"\W", "", min(direction)) if len(direction) == 1 else "t"
+        value = [-slope if label.minus else slope]
+        step, of = f"{label.step}d", label.of + by
+        attach_labels(label.quantity, label.link, value, step, of, [label.component])
+
+
+def _differentiate_node(
+    index: int, node: Node, like: Expr, node_slopes: Mapping[int, Expr], kinks: bool
+) -> Expr:
+    graph = like.graph
+    args = [Expr(graph, ref) for ref in node.args]
+    slopes = [node_slopes[abs(a.ref)] if a.ref >= 0 else -node_slopes[-a.ref] for a in args]
+    if node.op == "add":
+        return slopes[0] + slopes[1]
+    if node.op == "mul":
+        return slopes[0] * args[1] + args[0] * slopes[1]
+    if table := graph.tables.get(node.op):
+        if table.along is not None:
+            raise DerivationError("a law that was learned is derived once only")
+        total = graph.constant(0)
+        for axis, slope in enumerate(slopes):
+            total = total + (graph.law(table.law, *args, along=axis) * slope if slope.ref else 0)
+        return total
+    value = Expr(graph, index)
+    if node.op == "div":
+        return (slopes[0] - value * slopes[1]) / args[1]
+    rules: dict[str, Callable[[Expr], Expr]] = {
+        "sin": lambda x: graph.call("cos", x),
+        "cos": lambda x: -graph.call("sin", x),
+        "sqrt": lambda x: 1 / (2 * value),
+        "exp": lambda x: value,
+        "tan": lambda x: 1 + value * value,
+        "tanh": lambda x: 1 - value * value,
+    }
+    if kinks:
+        rules |= {
+            "sign": lambda x: graph.constant(0),
+            "abs": lambda x: graph.call("sign", x),
+            "pow": lambda x: args[1] * graph.power(x, args[1] - 1),  # of constant exponents
+        }
+    if node.op not in rules:
+        raise DerivationError(f"{node.op} has no derivative everywhere")
+    return rules[node.op](args[0]) * slopes[0]

@@ -7,13 +7,114 @@ rotations, so that right angles cost nothing and general ones eight multiplicati
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
-from typing import Any
+from typing import Any, Protocol
 
 import sympy
 
 from modeler.core.brief import ShortRepr
-from modeler.derivation.geometry import Geometry, GeometryRow, cos_sin
-from modeler.derivation.graph import Algebra, Scalar, Vector, attach_labels, attach_matrix_labels
+from modeler.core.errors import DerivationError
+from modeler.core.expression import FUNCTIONS
+from modeler.derivation.geometry import Geometry, GeometryRow, cos_sin, count_quarter_turns
+from modeler.derivation.graph import (
+    Expr,
+    Graph,
+    Link,
+    Scalar,
+    Vector,
+    attach_labels,
+    attach_matrix_labels,
+    combine_linearly,
+)
+
+
+class Algebra(Protocol):
+    """Abstract: holds no data."""
+
+    def static(self, value: sympy.Expr) -> Scalar:
+        """Returns a geometric constant."""
+        ...
+
+    def variable(self, row: GeometryRow) -> Scalar:
+        """Returns rate * q + offset of a prismatic joint."""
+        ...
+
+    def cos_sin(self, row: GeometryRow) -> tuple[Scalar, Scalar]:
+        """Returns cosine and sine of theta = rate * q + offset."""
+        ...
+
+
+class GraphAlgebra:
+    """Expressions of a graph; its symbols `q[0]`, `qd[0]`, ... are those of the free variables."""
+
+    def __init__(self, graph: Graph, geometry: Geometry) -> None:
+        self.graph = graph
+        self.geometry = geometry
+        for row in geometry.rows:
+            before = "0" if row.parent is None else geometry.rows[row.parent].joint.name
+            moves = "turning" if row.joint.is_revolute else "sliding"
+            graph.links[row.joint.name] = Link(before, "" if row.index is None else moves)
+
+    def static(self, value: sympy.Expr) -> Expr:
+        """Returns a geometric constant as a static expression."""
+        if value.is_Rational:
+            return self.graph.constant(Fraction(int(value.p), int(value.q)))
+        if value.is_Float:
+            return self.graph.constant(Fraction(repr(float(value))))
+        if value.is_Symbol:
+            return self.graph.symbol(value.name, static=True)
+        if value is sympy.pi:
+            return self.graph.pi()
+        if value is sympy.E:
+            return self.graph.call("exp", self.graph.constant(1))
+        args = [self.static(arg) for arg in value.args]
+        if value.is_Add or value.is_Mul:
+            total = args[0]
+            for arg in args[1:]:
+                total = total + arg if value.is_Add else total * arg
+            return total
+        if value.is_Pow:
+            halves = 2 * value.exp
+            if not halves.is_Integer:
+                raise DerivationError(
+                    f"{value}: only whole powers and square roots have a C form; give the number"
+                )
+            whole, half = divmod(int(halves), 2)
+            power = args[0] ** whole
+            return power * self.graph.call("sqrt", args[0]) if half else power
+        name = value.func.__name__.lower()
+        if name not in FUNCTIONS:
+            raise DerivationError(f"{value}: {name} has no C form; expected {', '.join(FUNCTIONS)}")
+        return self.graph.call(name, args[0])
+
+    def variable(self, row: GeometryRow) -> Expr:
+        """Returns rate * q + offset of a prismatic joint."""
+        q = self.combine_variable("q", row)
+        return (q if row.rate > 0 else -q) + self.static(row.r)
+
+    def combine_variable(self, kind: str, row: GeometryRow) -> Expr:
+        """Returns the variable of a moving row ("q"), or its derivative ("qd", "qdd")."""
+        assert row.index is not None
+        form = self.geometry.forms[row.index]
+        return combine_linearly(
+            self.graph, form, {k: self.graph.symbol(f"{kind}[{k}]") for k in form}
+        )
+
+    def cos_sin(self, row: GeometryRow) -> tuple[Expr, Expr]:
+        """Returns cosine and sine of theta; right angles are taken out exactly."""
+        if row.index is None or not row.joint.is_revolute:
+            c, s = cos_sin(row.theta)
+            return self.static(c), self.static(s)
+        q = self.combine_variable("q", row)
+        angle = q if row.rate > 0 else -q
+        quarters, rest = count_quarter_turns(row.theta)
+        if rest:
+            angle = angle + self.static(rest)
+        c, s = self.graph.call("cos", angle), self.graph.call("sin", angle)
+        for _ in range(quarters % 4):
+            c, s = -s, c
+        return c, s
+
+
 
 
 def cross(a: Vector, b: Vector) -> Vector:
@@ -565,3 +666,5 @@ def _fill_column(
         f = attach_labels("lin", names[0], frames[at].rotate_to_antecedent(f), "a", names[1])
         n = plus(frames[at].rotate_to_antecedent(n), cross(frames[at].p, f))
         attach_labels("ang", names[0], n, "a", names[1])
+
+

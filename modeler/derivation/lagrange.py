@@ -10,9 +10,8 @@ import casadi
 import numpy as np
 import sympy
 
-from modeler.derivation.columns import LinkColumn
 from modeler.derivation.geometry import Geometry
-from modeler.derivation.model import SymbolicModel
+from modeler.derivation.model import LinkColumn, SymbolicModel
 from modeler.derivation.walks import compute_closed_motion
 from modeler.robot import INERTIAL
 

@@ -2,16 +2,33 @@
 
 import math
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cache, partial
 from typing import Any
 
 import numpy as np
 import sympy
 
-from modeler.derivation.grouping import build_named_parameters, sort_by_priority
+from modeler.derivation.closure import select_spanning_rows
 from modeler.derivation.model import SymbolicModel
-from modeler.derivation.result import BaseParameter, Term
+from modeler.derivation.precise import (
+    Ball,
+    build_ball,
+    build_ball_function,
+    enclose_symbols,
+    is_proven_regular,
+    is_surely_zero,
+    load_flint,
+)
+from modeler.derivation.relations import (
+    BallRank,
+    BaseParameter,
+    ExactState,
+    SampledRank,
+    Term,
+    build_named_parameters,
+    sort_by_priority,
+)
 from modeler.derivation.thresholds import THRESHOLDS
 from modeler.derivation.walks import Walk, compute_closed_motion, draw_closed_walk
 
@@ -305,3 +322,379 @@ def evaluate_coefficient(coefficient: sympy.Expr, values: Mapping[str, float]) -
     """Returns a coefficient at the nominal geometry."""
     at = {s: sympy.Float(values[s.name]) for s in coefficient.free_symbols}
     return float(coefficient.xreplace(at))
+
+
+# Closed states in ball arithmetic: postures that exist for certain, and motions of the loops.
+#
+# The actuated joints of a posture are exact numbers. That the passive joints x can close the loops
+# f(x) = 0 there is Krawczyk's theorem: with x0 near the solution, any matrix Y and a box X around x0,
+#
+#     K = x0 - Y f(x0) + (1 - Y f'(X)) (X - x0),
+#
+# if K lies in the interior of X, there is one solution in X, and it lies in K (Krawczyk 1969;
+# Neumaier 1990, 5.1). Y is the inverse of f'(x0) in floating point. Speeds and accelerations follow
+# by solving the linear equations of `modeler.derivation.closure` in balls.
+
+
+@dataclass(frozen=True)
+class EnclosedState:
+    """Balls of a state of the free variables u.
+
+    Attributes:
+        inputs: positions, speeds and accelerations by name, as `q[0]`, `qd[0]`, `qdd[0]`.
+        coupling: G of ud = G qd, (len(u), len(q)).
+    """
+
+    inputs: Mapping[str, Ball]
+    coupling: Sequence[Sequence[Ball]]
+
+
+class EnclosureError(Exception):
+    """No closed posture is proven near a posture; says why."""
+
+
+class Enclosures:
+    """States of a model in balls, at the precision of the caller."""
+
+    def __init__(
+        self,
+        model: SymbolicModel,
+        symbols: Mapping[str, Ball],
+        independent: tuple[int, ...] | None = None,
+    ) -> None:
+        """For a model, with or without loops.
+
+        Args:
+            model: of the robot.
+            symbols: balls of its symbols.
+            independent: places in u of the variables that move the loops; None for the coordinates
+                q.
+        """
+        self.model, self.closure = model, model.closure
+        self.symbols = symbols
+        self.bits = int(load_flint().ctx.prec)
+        if self.closure is not None:
+            if independent is not None:
+                solved = tuple(k for k in range(len(self.closure.home)) if k not in independent)
+                self.closure = replace(self.closure, actuated=independent, solved=solved)
+            slopes = [entry for line in self.closure.jacobian for entry in line]
+            closure = self.closure
+            functions = (closure.equations, slopes, closure.drift, closure.alignments)
+            self.equations, self.slopes, self.drift, self.alignments = (
+                build_ball_function(model.graph, expressions, symbols) for expressions in functions
+            )
+
+    def enclose_state(self, u: np.ndarray, qd: np.ndarray, qdd: np.ndarray) -> EnclosedState:
+        """Returns the motion of all free variables.
+
+        Args:
+            u: (len(u),) a posture closed in floating point; its actuated joints are exact.
+            qd: (len(q),) speeds of the coordinates, exact.
+            qdd: (len(q),) their accelerations, exact.
+
+        Raises:
+            NotEnclosed: there may be no closed posture at these u.
+        """
+        if self.closure is None:
+            n = len(u)
+            unit = [[build_ball(int(i == k)) for k in range(n)] for i in range(n)]
+            return EnclosedState(
+                _collect_inputs(
+                    q=_convert_to_balls(u), qd=_convert_to_balls(qd), qdd=_convert_to_balls(qdd)
+                ),
+                unit,
+            )
+        q = self.enclose_posture(u)
+        return self._enclose_motion(q, _convert_to_balls(qd), _convert_to_balls(qdd))
+
+    def enclose_posture(self, u: np.ndarray) -> list[Ball]:
+        """Returns balls of the closed posture next to `u` with the same actuated joints.
+
+        Raises:
+            NotEnclosed: there may be none.
+        """
+        assert self.closure is not None
+        solved = list(self.closure.solved)
+        try:
+            inner = self.closure.compute_jacobians(u[None])[0][:, solved]
+            Y = _build_matrix(np.linalg.inv(inner).tolist())
+        except np.linalg.LinAlgError:
+            raise EnclosureError("the loops are singular at a posture") from None
+        q = self._solve_midpoints(_convert_to_balls(u), Y)
+        if not all(abs(q[k] - float(u[k])) < THRESHOLDS.max_enclosure_shift for k in solved):
+            raise EnclosureError(
+                f"the loops do not close within {THRESHOLDS.max_enclosure_shift:g} of a posture"
+            )
+        radius = build_ball(2.0 ** -(self.bits // 2))
+        wide = _replace_entries(q, solved, [q[k] + load_flint().arb(0, radius) for k in solved])
+        step = Y * _build_column(self.equations(_collect_inputs(q=q)))
+        rest = _build_matrix(np.eye(len(solved)).tolist()) - Y * self._evaluate_slopes(wide, solved)
+        turned = rest * _build_column([wide[k] - q[k] for k in solved])
+        image = [q[k] - step[i, 0] + turned[i, 0] for i, k in enumerate(solved)]
+        if not all(wide[k].contains_interior(x) for k, x in zip(solved, image, strict=True)):
+            raise EnclosureError("the box of a posture is not mapped into itself")
+        q = _replace_entries(q, solved, image)
+        if not all(x > 0 for x in self.alignments(_collect_inputs(q=q))):
+            raise EnclosureError("a loop may be closed with axes opposite")
+        return q
+
+    def _solve_midpoints(self, q: list[Ball], Y: Ball) -> list[Ball]:
+        """Newton with the same slope all the way, on the midpoints."""
+        assert self.closure is not None
+        solved = list(self.closure.solved)
+        enough = build_ball(2.0 ** -(self.bits * 3 // 4))
+        for _ in range(THRESHOLDS.enclosure_iterations):
+            step = (Y * _build_column(self.equations(_collect_inputs(q=q)))).mid()
+            q = _replace_entries(
+                q, solved, [(q[k] - step[i, 0]).mid() for i, k in enumerate(solved)]
+            )
+            if all(abs(x) < enough for x in step.entries()):
+                return q
+        raise EnclosureError("the loops do not close at a posture")
+
+    def _evaluate_slopes(self, q: Sequence[Ball], places: Sequence[int]) -> Ball:
+        """The columns of the Jacobian that `places` names, at a box."""
+        flat, n = self.slopes(_collect_inputs(q=q)), len(q)
+        return _build_matrix([[flat[i + k] for k in places] for i in range(0, len(flat), n)])
+
+    def _enclose_motion(self, q: list[Ball], qd: list[Ball], qdd: list[Ball]) -> EnclosedState:
+        assert self.closure is not None
+        actuated, solved = list(self.closure.actuated), list(self.closure.solved)
+        try:
+            inner = self._evaluate_slopes(q, solved)
+            follow = -inner.solve(self._evaluate_slopes(q, actuated))
+            G = [[build_ball(0)] * len(actuated) for _ in q]
+            for place, k in enumerate(actuated):
+                G[k][place] = build_ball(1)
+            for place, k in enumerate(solved):
+                G[k] = [follow[place, i] for i in range(len(actuated))]
+            ud, udd = _multiply_vector(G, qd), _multiply_vector(G, qdd)
+            drift = inner.solve(_build_column(self.drift(_collect_inputs(q=q, qd=ud))))
+        except ZeroDivisionError:
+            raise EnclosureError("the loops may be singular at a posture") from None
+        for place, k in enumerate(solved):
+            udd[k] = udd[k] - drift[place, 0]
+        return EnclosedState(_collect_inputs(q=q, qd=ud, qdd=udd), G)
+
+
+def _convert_to_balls(values: np.ndarray) -> list[Ball]:
+    return [build_ball(float(value)) for value in values]
+
+
+def _collect_inputs(**kinds: Sequence[Ball]) -> dict[str, Ball]:
+    return {f"{kind}[{k}]": x for kind, values in kinds.items() for k, x in enumerate(values)}
+
+
+def _replace_entries(
+    q: Sequence[Ball], places: Sequence[int], values: Sequence[Ball]
+) -> list[Ball]:
+    changed = list(q)
+    for k, value in zip(places, values, strict=True):
+        changed[k] = value
+    return changed
+
+
+def _build_matrix(rows: Sequence[Sequence[Ball]]) -> Ball:
+    return load_flint().arb_mat(rows)
+
+
+def _build_column(values: Sequence[Ball]) -> Ball:
+    return load_flint().arb_mat([[value] for value in values])
+
+
+def _multiply_vector(matrix: Sequence[Sequence[Ball]], vector: Sequence[Ball]) -> list[Ball]:
+    return [
+        sum((x * y for x, y in zip(line, vector, strict=True)), build_ball(0)) for line in matrix
+    ]
+
+
+# A lower bound of the rank of the torques, proven in ball arithmetic.
+#
+# At closed states in balls some rows of the torque regressor of the base columns make a square
+# matrix; if it is regular for all numbers in its balls, these columns are independent. States are
+# chosen in floating point and are written into the proof with few digits: whoever checks it needs
+# nothing else.
+
+
+def prove_rank(
+    model: SymbolicModel, kept_columns: Sequence[int], sample: Sample, seed: int
+) -> BallRank | SampledRank:
+    """Proves in ball arithmetic that the columns are independent, or says why it cannot.
+
+    Args:
+        model: of the robot, at its given lengths and angles.
+        kept_columns: numbers of columns.
+        sample: whose closed postures are used.
+        seed: of the states.
+    """
+    over = model.closure.others if model.closure else ()
+    count = sum(not is_surely_zero(equation, model.robot) for equation in over)
+    if count:
+        why = f"{count} closure equations seem to follow from the others, unproven"
+        return SampledRank(len(kept_columns), seed, why)
+    choice = _RowSelection(model, kept_columns, sample, seed)
+    if len(choice.rows) < len(kept_columns):
+        why = f"the states tried span {len(choice.rows)} of {len(kept_columns)} columns"
+        return SampledRank(len(kept_columns), seed, why)
+    for bits in THRESHOLDS.ball_bits:
+        with load_flint().ctx.workprec(bits):
+            try:
+                matrix = choice.enclose_matrix(choice.kept_columns)
+            except EnclosureError as error:
+                why = str(error)
+                continue
+            if is_proven_regular(matrix):
+                return BallRank(
+                    len(kept_columns),
+                    bits,
+                    seed,
+                    choice.collect_exact_states(),
+                    choice.locate_rows(),
+                )
+            why = f"the balls of a minor of {len(kept_columns)} rows hold a singular matrix"
+    return SampledRank(len(kept_columns), seed, f"{why} ({THRESHOLDS.ball_bits[-1]} bits)")
+
+
+def enclose_factors(
+    model: SymbolicModel,
+    sample: Sample,
+    seed: int,
+    kept_columns: Sequence[int],
+    dropped_columns: Sequence[int],
+) -> list[list[Ball]] | None:
+    """Returns (kept, dropped) factors of the dependent columns as balls.
+
+    Args:
+        model: of the robot, at its given lengths and angles.
+        sample: whose closed postures are used.
+        seed: of the states.
+        kept_columns: numbers of independent columns.
+        dropped_columns: numbers of columns that are sums of these.
+
+    Returns:
+        None where a posture is not proven to exist, or the states do not span the columns.
+    """
+    choice = _RowSelection(model, kept_columns, sample, seed)
+    if len(choice.rows) < len(kept_columns) or not dropped_columns:
+        return None
+    with load_flint().ctx.workprec(THRESHOLDS.ball_bits[-1]):
+        try:
+            rows = (
+                load_flint()
+                .arb_mat(choice.enclose_matrix([*kept_columns, *dropped_columns]))
+                .tolist()
+            )
+            scaled, right = (
+                [row[part] for row in rows]
+                for part in (slice(None, len(kept_columns)), slice(len(kept_columns), None))
+            )
+            factors = load_flint().arb_mat(scaled).solve(load_flint().arb_mat(right)).tolist()
+        except (EnclosureError, ZeroDivisionError):
+            return None
+        scale = [build_ball(float(x)) for x in choice.scale]
+        return [[x * by for x in row] for row, by in zip(factors, scale, strict=True)]
+
+
+class _RowSelection:
+    """Rows of the regressor at exact states that are as independent as can be."""
+
+    def __init__(
+        self, model: SymbolicModel, kept_columns: Sequence[int], sample: Sample, seed: int
+    ) -> None:
+        self.model, self.kept_columns = model, list(kept_columns)
+        self.closure = model.closure
+        rng = np.random.default_rng(seed)
+        width = len(model.robot.coordinates)
+        count = THRESHOLDS.spare_states + -(-3 * len(kept_columns) // (2 * max(1, width)))
+        self.u = self._draw_postures(sample, count, rng)
+        shape = (2, len(self.u), width)
+        self.qd, self.qdd = (
+            rng.integers(1, THRESHOLDS.speed_eighths + 1, shape) * rng.choice([-1, 1], shape) / 8
+        )
+        self.signals = draw_signal_values(model, len(self.u))
+        states: States = self.u, self.qd, self.qdd
+        if self.closure is not None:
+            states = expand_states(model, *states)
+        phi = evaluate_regressor(model, states)[:, :, self.kept_columns]
+        self.rows, self.scale = _select_independent_rows(phi.reshape(-1, len(self.kept_columns)))
+        self.width = phi.shape[1]
+
+    def _draw_postures(self, sample: Sample, count: int, rng: np.random.Generator) -> np.ndarray:
+        """(n, len(u)) exact in the actuated joints, closed in floating point."""
+        if sample.walk is None:
+            angular = np.array([joint.is_revolute for joint in self.model.robot.free_joints])
+            reach = np.where(angular, np.pi, 1.0)
+            drawn = rng.uniform(-reach, reach, (count, len(reach)))
+            return np.asarray(np.round(drawn, THRESHOLDS.enclosed_decimals))
+        assert self.closure is not None
+        u = self.closure.close_loops(
+            np.round(sample.walk.postures[:count], THRESHOLDS.enclosed_decimals)
+        )
+        return np.asarray(u[np.all(np.isfinite(u), axis=1)])
+
+    @property
+    def used_states(self) -> list[int]:
+        """Numbers of the states whose rows are chosen."""
+        return sorted({row // self.width for row in self.rows})
+
+    def locate_rows(self) -> tuple[tuple[int, str], ...]:
+        """(number among the used states, joint) of every row."""
+        order = {state: place for place, state in enumerate(self.used_states)}
+        names = [joint.name for joint in self.model.robot.coordinates]
+        return tuple((order[row // self.width], names[row % self.width]) for row in self.rows)
+
+    def collect_exact_states(self) -> tuple[ExactState, ...]:
+        """The states whose rows are chosen."""
+        free = [joint.name for joint in self.model.robot.free_joints]
+        names = [joint.name for joint in self.model.robot.coordinates]
+        return tuple(
+            ExactState(
+                dict(
+                    zip(
+                        free,
+                        np.round(self.u[i], THRESHOLDS.enclosed_decimals).tolist(),
+                        strict=True,
+                    )
+                ),
+                dict(zip(names, self.qd[i].tolist(), strict=True)),
+                dict(zip(names, self.qdd[i].tolist(), strict=True)),
+                tuple(self.signals[:, i].tolist()),
+            )
+            for i in self.used_states
+        )
+
+    def enclose_matrix(self, columns: Sequence[int]) -> list[list[Any]]:
+        """The chosen rows of these columns in balls; those of the base columns are scaled.
+
+        Raises:
+            NotEnclosed: a posture is not proven to exist.
+        """
+        model = self.model
+        symbols = enclose_symbols(model.robot)
+        enclosures = Enclosures(model, symbols)
+        place = {column: i for i, column in enumerate(columns)}
+        entries = {at: x for at, x in model.regressor.items() if at[1] in place}
+        regressor = build_ball_function(model.graph, list(entries.values()), symbols)
+        ball_rows = {}
+        for i in self.used_states:
+            state = enclosures.enclose_state(self.u[i], self.qd[i], self.qdd[i])
+            signals = {f"s[{k}]": build_ball(float(x)) for k, x in enumerate(self.signals[:, i])}
+            values = regressor({**state.inputs, **signals})
+            for k in range(self.width):
+                row = [build_ball(0)] * len(place)
+                for (joint, column), value in zip(entries, values, strict=True):
+                    row[place[column]] += state.coupling[joint][k] * value
+                ball_rows[i * self.width + k] = row
+        known = dict(zip(self.kept_columns, self.scale.tolist(), strict=True))
+        scale = [build_ball(known.get(column, 1.0)) for column in columns]
+        return [[x * y for x, y in zip(ball_rows[row], scale, strict=True)] for row in self.rows]
+
+
+def _select_independent_rows(matrix: np.ndarray) -> tuple[list[int], np.ndarray]:
+    """Rows, each the longest of what those before leave, and the factors of the columns."""
+    lengths = np.linalg.norm(matrix, axis=0)
+    scale = 1.0 / np.where(lengths > 0.0, lengths, 1.0)
+    rest = matrix * scale
+    sizes = np.linalg.norm(rest, axis=1)
+    rest = rest / np.where(sizes > 0.0, sizes, 1.0)[:, None]
+    return select_spanning_rows(rest, matrix.shape[1]), scale

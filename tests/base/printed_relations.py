@@ -8,8 +8,14 @@ import numpy as np
 import sympy
 
 from modeler.core.manifest import EmittedModule
-from modeler.derivation.relations import as_latex, as_markdown, as_text, serialise_base_parameters
-from modeler.derivation.result import BaseParameter, BaseParameters
+from modeler.derivation.relations import (
+    BaseParameter,
+    BaseParameters,
+    as_latex,
+    as_markdown,
+    as_text,
+    serialise_base_parameters,
+)
 from tests.base.formulas import Values, latex_value, name_of_latex, text_value
 
 Read = Callable[[str, Values], np.ndarray]

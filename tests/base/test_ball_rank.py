@@ -6,14 +6,25 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from modeler.derivation import enclosed as balls
+from modeler.derivation import numeric_rank as balls
 from modeler.derivation.base_parameters import derive_base_parameters
 from modeler.derivation.derive import derive_model
-from modeler.derivation.enclosed import EnclosureError, Enclosures, prove_rank
-from modeler.derivation.numeric_rank import draw_sample, evaluate_regressor, expand_states
+from modeler.derivation.numeric_rank import (
+    EnclosureError,
+    Enclosures,
+    draw_sample,
+    evaluate_regressor,
+    expand_states,
+    prove_rank,
+)
 from modeler.derivation.precise import enclose_symbols, load_flint
-from modeler.derivation.relations import format_proof, serialise_base_parameters
-from modeler.derivation.result import BallRank, ModularRank, SampledRank
+from modeler.derivation.relations import (
+    BallRank,
+    ModularRank,
+    SampledRank,
+    format_proof,
+    serialise_base_parameters,
+)
 from modeler.derivation.walks import draw_closed_walk
 from modeler.robot.read import parse_robot_text
 from tests.base.test_hard_tables import CASES, model_of

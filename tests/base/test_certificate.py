@@ -5,17 +5,20 @@ import dataclasses
 import numpy as np
 import pytest
 
-from modeler.derivation.base_parameters import ProofError, certify_relations
-from modeler.derivation.certificate import (
+from modeler.derivation.base_parameters import (
+    ProofError,
+    certify_relations,
+    derive_column_relations,
+)
+from modeler.derivation.derive import derive_model
+from modeler.derivation.field import build_geometry_field
+from modeler.derivation.modular import (
     PRIME,
     compute_modular_rank,
     compute_power,
     invert_residues,
     reduce_to_echelon,
 )
-from modeler.derivation.derive import derive_model
-from modeler.derivation.field import build_geometry_field
-from modeler.derivation.grouping import derive_column_relations
 from modeler.robot.read import read_robot
 
 

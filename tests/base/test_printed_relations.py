@@ -8,8 +8,13 @@ from hypothesis import given, settings, strategies as st
 
 from modeler.core.formula import format_latex_name
 from modeler.core.manifest import EmittedModule
-from modeler.derivation.relations import format_relation, format_relation_latex
-from modeler.derivation.result import BaseParameter, BaseParameters, Term
+from modeler.derivation.relations import (
+    BaseParameter,
+    BaseParameters,
+    Term,
+    format_relation,
+    format_relation_latex,
+)
 from tests.base.formulas import UnreadableError, latex_value, name_of_latex, text_value
 from tests.base.printed_relations import Exact, printed_forms
 from tests.modules import module

@@ -8,11 +8,11 @@ import pytest
 import sympy
 
 from modeler.core.builtin import read_builtin_robot
+from modeler.derivation.base_parameters import derive_column_relations
 from modeler.derivation.derive import derive_model
 from modeler.derivation.field import CoefficientTooLarge, build_geometry_field, reduce_sparse_rows
-from modeler.derivation.grouping import derive_column_relations
+from modeler.derivation.modular import derive_tied_relations
 from modeler.derivation.numeric_rank import draw_random_states, evaluate_regressor
-from modeler.derivation.tied import derive_tied_relations
 from modeler.robot.read import parse_robot_text
 from tests.base.ranks import seen
 from tests.modules import module

@@ -11,7 +11,7 @@ from modeler.api import load, show
 from modeler.cli import main
 from modeler.core.builtin import read_builtin_robot
 from modeler.core.errors import DataError
-from modeler.derivation.derive import complete_home
+from modeler.derivation.assembly_modes import complete_home
 from modeler.robot.read import read_robot
 from modeler.views.robot_closing import find_home_posture
 from modeler.views.robot_drawing import render_picture

@@ -7,7 +7,7 @@ import numpy as np
 
 from modeler.api import compile_model, derive, generate
 from modeler.cli.motion import parse_bounds
-from modeler.derivation.derive import complete_home
+from modeler.derivation.assembly_modes import complete_home
 from modeler.excitation import ExcitationTask, MotionBounds, MotionRequest, build_task
 from modeler.robot import Robot, read_robot
 from modeler.runtime.model import CompiledModel

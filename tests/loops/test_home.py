@@ -9,14 +9,9 @@ import pytest
 
 from modeler.core.builtin import read_builtin_robot
 from modeler.core.errors import LoopError
+from modeler.derivation.assembly_modes import ClosedHome, HomeModes, complete_home, find_modes_near
+from modeler.derivation.derive import derive_model
 from modeler.derivation.thresholds import THRESHOLDS
-from modeler.derivation.derive import (
-    ClosedHome,
-    HomeModes,
-    complete_home,
-    derive_model,
-    find_modes_near,
-)
 from modeler.derivation.walks import build_linkage
 from modeler.robot.read import parse_robot_text
 from modeler.robot.robot import Robot

@@ -15,8 +15,7 @@ from modeler.core.errors import LoopError
 from modeler.derivation.base_parameters import derive_base_parameters
 from modeler.derivation.derive import derive_model
 from modeler.derivation.numeric_rank import evaluate_regressor
-from modeler.derivation.relations import format_proof, serialise_base_parameters
-from modeler.derivation.result import SampledRank
+from modeler.derivation.relations import SampledRank, format_proof, serialise_base_parameters
 from modeler.derivation.walks import compute_closed_motion
 from modeler.robot.read import parse_robot_text, read_robot
 from tests.base.test_printed_relations import wrong
@@ -69,7 +68,7 @@ def spectrum(model, u, seed=4):
     if model.closure is None:
         ud, udd = rng.normal(size=(2, *u.shape))
     else:
-        u = model.closure.close_loops(u)
+        u = model.closure.closed(u)
         qd, qdd = rng.normal(size=(2, len(u), len(model.closure.actuated)))
         motion = compute_closed_motion(model, u, qd)
         ud = np.einsum("nij,nj->ni", motion.coupling, qd)

@@ -15,12 +15,11 @@ import pytest
 
 from modeler.codegen.emit import emit
 from modeler.codegen.workflow import Derivation
+from modeler.derivation.assembly_modes import find_modes_near
 from modeler.derivation.base_parameters import derive_base_parameters
-from modeler.derivation.columns import build_standard_columns
-from modeler.derivation.derive import find_modes_near
 from modeler.derivation.geometry import build_exact_geometry
 from modeler.derivation.graph import Graph
-from modeler.derivation.model import SymbolicModel
+from modeler.derivation.model import SymbolicModel, build_standard_columns
 from modeler.robot.read import parse_robot_text, read_robot
 from tests.loops.derived import WEIGHED, compiled_plainly, of_drawing, of_file
 from tests.modules import loaded, module, plain

@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 
-from modeler.derivation.columns import LinkColumn
 from modeler.derivation.lagrange import compute_lagrange_torque
+from modeler.derivation.model import LinkColumn
 from modeler.derivation.numeric_rank import draw_random_states, evaluate_regressor
 from tests.modules import module
 from tests.robots import ROBOTS, TREES

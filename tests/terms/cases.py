@@ -6,7 +6,7 @@ from modeler.core.builtin import read_builtin_robot
 from modeler.derivation.base_parameters import derive_base_parameters
 from modeler.derivation.derive import derive_model
 from modeler.derivation.model import SymbolicModel
-from modeler.derivation.result import BaseParameters
+from modeler.derivation.relations import BaseParameters
 from modeler.formulas.closed_form import ClosedForm, derive_closed_form
 from modeler.formulas.coefficients import CoefficientTable, build_coefficient_table
 from modeler.robot.read import parse_robot_text

@@ -4,10 +4,9 @@ import numpy as np
 import pytest
 
 from modeler.core.errors import DerivationError, RobotError
-from modeler.derivation.columns import LinkColumn
 from modeler.derivation.derive import derive_model
 from modeler.derivation.geometry import create_geometric_symbol
-from modeler.derivation.model import SymbolicModel
+from modeler.derivation.model import LinkColumn, SymbolicModel
 from modeler.effects.effect import EnergyBlock
 from modeler.formulas.closed_form import derive_closed_form
 from modeler.robot.read import parse_robot_text
