@@ -12,7 +12,7 @@ from docsite.markdown import block, cell, code, table
 from modeler import formulas
 from modeler.codegen import Derivation, derive, generate
 from modeler.core.builtin import list_builtin_robots, read_builtin_robot
-from modeler.derivation import as_markdown
+from modeler.derivation import format_base_parameters
 from modeler.robot import read_robot
 from modeler.views import render_picture, show
 
@@ -53,7 +53,8 @@ def exhibit(name: str) -> Exhibit:
         f"# {name}", "", f"**{cell(robot.title)}**", "", _notes(text), "", *_written_about(name),
         f"![{name}]({name}.png){{ width=420 }}", "", _counts(derivation), "",
         "## Table", "", _mdh(text), "",
-        "## Base parameters", "", as_markdown(derivation.base), "", *coefficients(derivation),
+        "## Base parameters", "", format_base_parameters(derivation.base, "markdown"),
+        "", *coefficients(derivation),
         "## C", "", _sum(sizes), "", table(("file", "lines", "bytes"), _rows(sizes)), "",
         table(("function", "additions", "multiplications"), functions), "",
         "## File", "", block(text, "toml"),

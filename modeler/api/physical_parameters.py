@@ -26,12 +26,16 @@ from modeler.formulas import (
     check_known,
     compare_cad,
     count_smallest_set,
+    derive_values,
     find_easiest_set,
+    find_impossible,
     find_known_sets,
     parse_known_values,
     rate_sets,
+    read_cad_example,
+    read_cad_file,
     solve,
-    values as rules,
+    verify_solution,
 )
 from modeler.robot import Robot, parse_robot_text
 
@@ -116,7 +120,7 @@ class Physical(Result):
             parse_known_values(known, self.system, "known") if isinstance(known, str) else known
         )
         solution = solve(self.system, known_values.names)
-        good = rules.verify_solution(solution)
+        good = verify_solution(solution)
         if good != THRESHOLDS.verified_robots:
             raise ModelerError(
                 f"{self.system.robot}: the formulas failed {THRESHOLDS.verified_robots - good} of "
@@ -150,7 +154,7 @@ class Physical(Result):
         """The values of formulas."""
         fitted = self._require_fitted()
         data = fitted.data.tolist()
-        derived = rules.derive_values(
+        derived = derive_values(
             solution, data, fitted.covariance, known_values.values, known_values.sigmas, near
         )
         doubts = dict(derived.doubtful)
@@ -158,7 +162,7 @@ class Physical(Result):
             for name, why in fitted.unidentified.items():
                 if derived.slopes[k, derived.inputs.index(name)] != 0.0:
                     doubts[letter] = f"{letter} needs {name}, and {why}"
-        doubts |= rules.find_impossible(derived, self.system)
+        doubts |= find_impossible(derived, self.system)
         tested = check_known(
             solution, data, fitted.covariance, known_values.values, known_values.sigmas
         )
@@ -184,9 +188,9 @@ class Physical(Result):
     def read_cad(self, file: str | Path = NOMINAL) -> KnownValues:
         """CAD values from a file, or, without one, those that the robot file states."""
         if str(file) != NOMINAL:
-            return rules.read_cad_file(Path(file), self.system)
+            return read_cad_file(Path(file), self.system)
         robot = self.derivation.robot
-        return rules.read_cad_example(robot, self.system, f"--cad, robot {self.system.robot}")
+        return read_cad_example(robot, self.system, f"--cad, robot {self.system.robot}")
 
     def compare_with_cad(self, cad: KnownValues | str | Path = NOMINAL) -> CadComparison:
         """The identified quantities against CAD.

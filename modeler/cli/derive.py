@@ -5,7 +5,6 @@ import dataclasses
 import re
 import shlex
 import textwrap
-from collections.abc import Callable
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -37,7 +36,7 @@ from modeler.derivation import (
 if TYPE_CHECKING:
     from modeler.core.manifest import FunctionSpec
     from modeler.estimation import IdentifiedModel
-    from modeler.formulas import CoefficientTable, function_sheet
+    from modeler.formulas import CoefficientTable
 
 # Words around printed formulas: as they are, as comments of LaTeX, or as a whole document.
 
@@ -157,13 +156,6 @@ MANY = 200
 PAGE = 40
 """Coefficients that are listed unasked."""
 
-_SHEETS: "dict[Form, Callable[[function_sheet.Sheet, FormulaPrinter], str]]" = {
-    "text": lambda sheet, _: "\n".join(formulas.function_sheet.format_sheet_lines(sheet)),
-    "latex": lambda sheet, words: formulas.function_sheet.format_sheet_latex(
-        sheet, words.format_heading
-    ),
-    "markdown": lambda sheet, _: formulas.function_sheet.format_sheet_markdown(sheet),
-}
 _WIDTH = 96
 _COMMENT: dict[Form, str] = {"text": "# ", "latex": "", "markdown": "* "}
 _FORMS = ("closed_form", "regressor", "blocks", "energy", "kane")
@@ -202,7 +194,7 @@ def run_derive(args: argparse.Namespace) -> Json:
     for line in tied:
         printer.print_text(line)
     printer.print_text()
-    printer.print_formulas(getattr(relations, f"format_{args.format}")(base))
+    printer.print_formulas(relations.format_base_parameters(base, args.format))
     printer.print_text()
     printer.print_text(relations.format_proof(base.proof))
     printer.print_text(agreement)
@@ -278,10 +270,8 @@ def print_closed_forms(
         printer.print_text()
         closed = formulas.derive_closed_form(model, base)
         if args.format == "latex":
-            printer.print_text(formulas.render.format_equation(closed))
-        printer.print_formulas(
-            getattr(formulas.render, f"format_closed_form_{args.format}")(closed)
-        )
+            printer.print_text(formulas.coefficients.format_equation(closed))
+        printer.print_formulas(formulas.coefficients.format_closed_form(closed, args.format))
     motion = args.closed_form and not args.expanded
     is_requested = {"closed_form": motion, "regressor": args.regressor}
     if any(is_requested.values()):
@@ -330,7 +320,9 @@ def _print_equation(equation: "formulas.Equation", form: Form, printer: FormulaP
         indent = mark + "  " if mark != "* " else "  "
         printer.print_text(textwrap.fill(mark + line, _WIDTH, subsequent_indent=indent))
     printer.print_text()
-    printer.print_formulas(_SHEETS[form](equation.sheet, printer))
+    printer.print_formulas(
+        formulas.function_sheet.format_sheet(equation.sheet, form, printer.format_heading)
+    )
     return {
         "equation": list(equation.words),
         **formulas.function_sheet.serialise_sheet(equation.sheet),
@@ -365,7 +357,7 @@ def _print_coefficients(
         printer.print_text(f"no coefficients: {error}")
         return
     printer.print_text()
-    printer.print_formulas(getattr(formulas.render, f"format_coefficients_{args.format}")(shown))
+    printer.print_formulas(formulas.coefficients.format_coefficients(shown, args.format))
     printer.print_text()
     for line in lines:
         printer.print_text(line)
@@ -385,10 +377,10 @@ def _describe_coefficients(table: "CoefficientTable") -> list[str]:
         f"effect: {' '.join(identifiability.vanishing) or 'none'}",
     ]
     lines += [f"only together: {' '.join(group)}" for group in identifiability.sums]
-    size, determinant = len(table.map.rows), formulas.render.format_determinant(table)
+    size, determinant = len(table.map.rows), formulas.coefficients.format_determinant(table)
     if determinant is not None:
         lines += [f"map to the base parameters, {size} x {size}, determinant {determinant}:"]
-        lines += [f"  {line}" for line in formulas.render.format_backward_map(table)]
+        lines += [f"  {line}" for line in formulas.coefficients.format_backward_map(table)]
     return lines
 
 

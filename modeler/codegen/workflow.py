@@ -12,9 +12,6 @@ from modeler.core.result import Result
 from modeler.derivation import (
     BaseParameters,
     SymbolicModel,
-    as_latex,
-    as_markdown,
-    as_text,
     derive_base_parameters,
     derive_model,
     relations,
@@ -23,6 +20,9 @@ from modeler.robot import Robot, read_robot
 
 if TYPE_CHECKING:
     from modeler.codegen.control import Control
+
+
+_FORMS = ("text", "latex", "markdown")
 
 
 @dataclass(frozen=True)
@@ -37,7 +37,8 @@ class Derivation(Result):
     def relations(self) -> Formulas:
         """The base parameters as sums of standard ones; a notebook typesets them."""
         title = f"base parameters of {self.robot.name}"
-        return Formulas(title, as_text(self.base), as_latex(self.base), as_markdown(self.base))
+        forms = (relations.format_base_parameters(self.base, form) for form in _FORMS)
+        return Formulas(title, *forms)
 
     def to_json(self) -> dict[str, Any]:
         """What scripts read: base parameters, their sums, the proof."""

@@ -109,9 +109,7 @@ from .precise import (
 from .relations import (
     BaseParameter as BaseParameter,
     BaseParameters as BaseParameters,
-    as_latex as as_latex,
-    as_markdown as as_markdown,
-    as_text as as_text,
+    format_base_parameters as format_base_parameters,
     format_coefficient as format_coefficient,
     format_relation as format_relation,
 )

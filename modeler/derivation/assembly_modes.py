@@ -591,7 +591,8 @@ def _build_closure_error(linkage: Linkage, start: np.ndarray) -> LoopError:
     reason = describe_open_loop(linkage.loops, start, linkage.owners)
     return LoopError(
         f"{linkage.robot.name}: [home]: {reason}, nor from "
-        f"{THRESHOLDS.assembly_starts} others without being singular; check the lengths, and the joints of [loops]"
+        f"{THRESHOLDS.assembly_starts} others without being singular; check the "
+        "lengths, and the joints of [loops]"
     )
 
 

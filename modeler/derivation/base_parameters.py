@@ -228,8 +228,6 @@ def _find_block_relations(
 # Which parameters are kept first when they group: the user's order, else the table's.
 
 
-
-
 @dataclass(frozen=True)
 class GroupingRelations:
     """Every linear relation among the columns, reduced: one row for each column that is not kept.

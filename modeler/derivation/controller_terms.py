@@ -246,8 +246,8 @@ def _fill_column(
 
 # What controllers read of momentum, energy and speeds that are not the robot's own.
 #
-# Momentum p = M qd is the torque that accelerations qd ask of a robot at rest without gravity, so the
-# recursions of the torque give it. With T = qd^T M qd/2, dT/dq = C^T qd and
+# Momentum p = M qd is the torque that accelerations qd ask of a robot at rest without gravity, so
+# the recursions of the torque give it. With T = qd^T M qd/2, dT/dq = C^T qd and
 #
 #     tau = M qdd + C qd + g + f = dp/dt - C^T qd + g + f,
 #     tau . qd = d/dt (T + U) + f . qd.

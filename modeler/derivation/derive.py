@@ -401,28 +401,6 @@ def _format_sum(terms: Sequence[Term]) -> str:
 # Singular postures: which joints could move there although the actuated ones are locked.
 
 
-
-
-
-
-
-
-
-
-
-
-
-
-
-
-
-
-
-
-
-
-
-
 def derive_model(robot: Robot) -> SymbolicModel:
     """Returns the symbolic model of a robot.
 

@@ -56,8 +56,8 @@ class Link(NamedTuple):
 # carries its value modulo the prime 2**61 - 1 at a fixed random point, with cos and sin on the unit
 # circle (those of a sum are composed of those of its terms), and a new node whose value is known is
 # the known node. So c*c + s*s is 1, and what vanishes identically is the zero. (Two different
-# rational functions of degree d share a value with a probability of about d * 2**-61; emitted code is
-# compared with other derivations anyway.)
+# rational functions of degree d share a value with a probability of about d * 2**-61; emitted code
+# is compared with other derivations anyway.)
 
 
 # Values of expressions by steps that are listed once: closing loops asks hundreds of times.

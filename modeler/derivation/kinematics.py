@@ -115,8 +115,6 @@ class GraphAlgebra:
         return c, s
 
 
-
-
 def cross(a: Vector, b: Vector) -> Vector:
     """Returns a x b."""
     return [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
@@ -666,5 +664,3 @@ def _fill_column(
         f = attach_labels("lin", names[0], frames[at].rotate_to_antecedent(f), "a", names[1])
         n = plus(frames[at].rotate_to_antecedent(n), cross(frames[at].p, f))
         attach_labels("ang", names[0], n, "a", names[1])
-
-

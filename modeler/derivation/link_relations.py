@@ -378,16 +378,17 @@ def _build_twist_transfer(step: ConstantPlacement, K: ExactField) -> Matrix:
 
 # Relations whose energies are multiples of the closure equations.
 #
-# Where a joint closes a loop, components of the difference of two speeds vanish in every motion that
-# the loop allows, and with them every product of such a component and a speed of the opened tree. So
-# a combination of parameters whose energy rows are, in the opened tree, sums of such products
+# Where a joint closes a loop, components of the difference of two speeds vanish in every motion
+# that the loop allows, and with them every product of such a component and a speed of the opened
+# tree. So a combination of parameters whose energy rows are, in the opened tree, sums of such
+# products
 #
 #     2T = sum a_ijk x_i w_jk + sum b_ijk x_i v_jk,   P = sum c_ij x_i g_j
 #
 # has no effect once the loop is closed. Here x_i are the components that vanish, w_k and v_k belong
 # to the bodies k of the loop, and a, b, c are constants; all vectors have the axes of one body. Of
-# frames A and B that meet, with angular velocities wA and wB, origins at pA and pB and velocities vA
-# and vB of these, vanish
+# frames A and B that meet, with angular velocities wA and wB, origins at pA and pB and velocities
+# vA and vB of these, vanish
 #
 #     all of vB - vA, where the joint keeps the origins in one point;
 #     else, of vB - vA - wA x (pB - pA), what is across the axis along which the frames slide, or
@@ -400,8 +401,9 @@ def _build_twist_transfer(step: ConstantPlacement, K: ExactField) -> Matrix:
 # An example are the products of inertia of the bars of a planar four-bar that swings as a whole: a
 # vector s fixed to each bar, XZ and YZ of each its components, adds 2 W.(e x ds/dt) to 2T, with the
 # swing W and the axes' direction e; the vectors of a closed polygon sum to a constant. Another is a
-# body on a cylindrical joint of the base: it turns about one axis only. Relations of one joint stand
-# below; these go around the loop, and are looked for where the torques tell that some are missing.
+# body on a cylindrical joint of the base: it turns about one axis only. Relations of one joint
+# stand below; these go around the loop, and are looked for where the torques tell that some are
+# missing.
 
 
 def derive_closure_relations(

@@ -411,10 +411,11 @@ def compute_modular_rank(matrix: np.ndarray) -> int:
 
 # Exact grouping where joints follow others by linear relations.
 #
-# Link-by-link elimination (`modeler.derivation.link_relations`) needs joints that move on their own. Here the
-# energy rows are sampled modulo a prime at random states: which columns depend on which others
-# follows from one random geometry; each coefficient, a rational function of a few letters of the
-# geometry, is interpolated from its values at several geometries and checked at fresh ones.
+# Link-by-link elimination (`modeler.derivation.link_relations`) needs joints that move on their
+# own. Here the energy rows are sampled modulo a prime at random states: which columns depend on
+# which others follows from one random geometry; each coefficient, a rational function of a few
+# letters of the geometry, is interpolated from its values at several geometries and checked at
+# fresh ones.
 
 
 # Rational functions from their values modulo a prime.

@@ -155,9 +155,9 @@ def evaluate_regressor(model: SymbolicModel, states: States) -> np.ndarray:
 def compute_numeric_rank(sample: Sample, columns: Sequence[int]) -> NumericRank:
     """Returns the rank of the sampled regressor in the given columns.
 
-    Without loops singular values above `rank_tolerance` of the largest count. With loops those
-    count that are ten times as large as the rounding of the closure and of the decomposition: a matrix
-    of lower rank is as far away as the last singular value (Weyl).
+    Without loops singular values above `rank_tolerance` of the largest count. With loops
+    those count that are ten times as large as the rounding of the closure and of the decomposition:
+    a matrix of lower rank is as far away as the last singular value (Weyl).
     """
     W = sample.matrix[:, list(columns)]
     lengths = np.linalg.norm(W, axis=0)
@@ -327,7 +327,8 @@ def evaluate_coefficient(coefficient: sympy.Expr, values: Mapping[str, float]) -
 # Closed states in ball arithmetic: postures that exist for certain, and motions of the loops.
 #
 # The actuated joints of a posture are exact numbers. That the passive joints x can close the loops
-# f(x) = 0 there is Krawczyk's theorem: with x0 near the solution, any matrix Y and a box X around x0,
+# f(x) = 0 there is Krawczyk's theorem: with x0 near the solution, any matrix Y and a box X around
+# x0,
 #
 #     K = x0 - Y f(x0) + (1 - Y f'(X)) (X - x0),
 #

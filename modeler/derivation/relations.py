@@ -216,8 +216,6 @@ def sort_by_priority(names: Sequence[str], patterns: Sequence[str]) -> list[int]
     return order + [i for i in range(len(names)) if i not in order]
 
 
-
-
 def build_named_parameters(
     columns: Sequence[StandardColumn], terms: Mapping[int, Sequence[Term]], halves: bool
 ) -> tuple[BaseParameter, ...]:
@@ -368,28 +366,20 @@ def separate_sign(coefficient: sympy.Expr) -> tuple[str, sympy.Expr]:
 _WIDTH = 96
 
 
-def as_text(base: BaseParameters) -> str:
-    """Returns all relations, one line each, then the parameters without effect."""
+def format_base_parameters(base: BaseParameters, form: str = "text") -> str:
+    """Returns all relations as text, as a Markdown table, or as an align environment."""
+    if form == "latex":
+        sides = [format_relation_latex(p).split(" = ", 1) for p in base.parameters]
+        rows = [DisplayedEquation(left, (right,)) for left, right in sides]
+        return format_display(rows, numbered=True)
     lines = [format_relation(parameter) for parameter in base.parameters]
-    return "\n".join([*lines, "", f"no effect: {' '.join(base.unidentifiable) or 'none'}"])
-
-
-def as_markdown(base: BaseParameters) -> str:
-    """Returns a table of the relations, for a page."""
-    lines = ["| base parameter | is | unit |", "| --- | --- | --- |"]
-    for parameter in base.parameters:
-        right = format_relation(parameter).split(" = ", 1)[1]
-        lines.append(f"| {parameter.name} | `{right}` | {base.columns[parameter.column].unit} |")
-    lines += ["", f"Without effect: {', '.join(base.unidentifiable) or 'none'}."]
-    return "\n".join(lines)
-
-
-def as_latex(base: BaseParameters) -> str:
-    """Returns the relations as an align environment, in lines that fit the page."""
-    sides = [format_relation_latex(p).split(" = ", 1) for p in base.parameters]
-    return format_display(
-        [DisplayedEquation(left, (right,)) for left, right in sides], numbered=True
-    )
+    if form == "text":
+        return "\n".join([*lines, "", f"no effect: {' '.join(base.unidentifiable) or 'none'}"])
+    table = ["| base parameter | is | unit |", "| --- | --- | --- |"]
+    for parameter, line in zip(base.parameters, lines, strict=True):
+        unit = base.columns[parameter.column].unit
+        table.append(f"| {parameter.name} | `{line.split(' = ', 1)[1]}` | {unit} |")
+    return "\n".join([*table, "", f"Without effect: {', '.join(base.unidentifiable) or 'none'}."])
 
 
 def serialise_base_parameters(robot: str, base: BaseParameters) -> dict[str, Any]:

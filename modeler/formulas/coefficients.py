@@ -3,15 +3,18 @@
 import random
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
+from fractions import Fraction
 from functools import cached_property
 from typing import Any
 
 from modeler.core.errors import RobotError
 from modeler.core.expression import Expression
+from modeler.core.latex_display import DisplayedEquation, format_display
 from modeler.derivation import (
     BaseParameters,
     LinearRelations,
     SymbolicModel,
+    convert_to_fraction,
     evaluate_modulo,
     find_linear_relations,
 )
@@ -22,23 +25,34 @@ from modeler.formulas.closed_form import (
     Form,
     derive_closed_form,
 )
+from modeler.formulas.function_sheet import FormulaForm, format_sheet
 from modeler.formulas.physical import (
     Identifiability,
     PhysicalParameters,
+    PrintedTerms,
     analyse_identifiability,
     derive_physical_parameters,
     draw_random_point,
+    read_printed_terms,
 )
-from modeler.formulas.printed import PrintedTerms, read_printed_terms
 from modeler.formulas.ring import (
+    LATEX,
+    TEXT,
     BaseMap,
     Poly,
+    TextStyle,
     TrigRing,
     build_base_map,
     convert_to_polynomial,
     find_independent_modulo,
+    format_combination,
+    format_linear_form,
+    format_monomial,
+    format_physical,
+    format_polynomial,
+    format_signed_sum,
+    invert_base_map,
 )
-from modeler.formulas.text import format_monomial
 from modeler.formulas.thresholds import THRESHOLDS
 
 PREFIX = {"gravity": "PG", "inertia": "PJ", "christoffel": "PS"}
@@ -218,3 +232,170 @@ def collect_by_function(
     """Returns functions with their coefficients, in order of names."""
     for function in table.closed.functions:
         yield function, [c for c in table.coefficients if c.function == function.name]
+
+
+# A closed form and its coefficients as text, LaTeX and Markdown.
+
+
+EQUATION = "tau_i = sum_j J_ij qdd_j + sum_{j<=k} S_ijk qd_j qd_k"
+
+
+def format_closed_form(closed: ClosedForm, form: FormulaForm = "text") -> str:
+    """Returns every function of a closed form, one monomial a line or a row."""
+    style, parts = LATEX if form == "latex" else TEXT, list[str]()
+    if form != "latex":
+        title = f"# Closed form of {closed.robot.title}\n\n`{format_equation(closed)}`\n\n"
+        text = f"{closed.robot.name}: {format_equation(closed)}\n"
+        parts.append(title if form == "markdown" else text)
+    for function in closed.functions:
+        terms = _format_terms(closed, function, style)
+        if form == "markdown":
+            rows = "".join(f"| `{monomial}` | `{factor}` |\n" for factor, monomial in terms)
+            parts.append(f"## {function.name}\n\n| monomial | coefficient |\n|---|---|\n{rows}\n")
+            continue
+        lines = [_format_signed_product(*term, style) for term in terms]
+        if form == "text":
+            parts.append("\n".join([f"\n{function.name} =", *(f"  {line}" for line in lines), ""]))
+        else:
+            equation = DisplayedEquation(format_latex_function(function.name), tuple(lines))
+            parts.append(format_display([equation]) + "\n")
+    effects = format_sheet(closed.effects, form)
+    return (
+        "".join(parts) + effects
+        if form != "text"
+        else f"{''.join(parts)}\n{effects}".rstrip() + "\n"
+    )
+
+
+def _format_signed_product(factor: str, monomial: str, style: TextStyle) -> str:
+    """The sign, then the product; sums stand in brackets behind a plus."""
+    sign = "-" if factor.startswith("-") else "+"
+    if " + " in factor or " - " in factor:
+        sign, factor = "+", style.add_brackets(factor)
+    else:
+        factor = factor.lstrip("-")
+    return f"{sign} {factor}" + ("" if monomial == "1" else f"{style.times}{monomial}")
+
+
+def format_equation(closed: ClosedForm) -> str:
+    """Returns what the functions mean: the equation of motion."""
+    factor = f"{closed.gravity_factor}*" if closed.gravity_factor else ""
+    return f"{EQUATION} + {factor}g_i" + (" + e_i" if closed.effects.definitions else "")
+
+
+def _format_terms(
+    closed: ClosedForm, function: ConfigurationFunction, style: TextStyle
+) -> list[tuple[str, str]]:
+    algebra, style = closed.algebra, style.adjust_to_robot(closed.robot)
+    motion, static = algebra.names[: algebra.moving], algebra.names[algebra.moving :]
+    return [
+        (
+            format_linear_form(form, closed.parameters, static, style),
+            format_monomial(at, motion, style),
+        )
+        for at, form in function.terms.items()
+    ]
+
+
+def format_latex_function(name: str) -> str:
+    """Returns `S1_12` as `S_{1,12}`."""
+    return f"{name[0]}_{{{name[1:].strip('_').replace('_', ',')}}}"
+
+
+def format_table_lines(table: CoefficientTable, style: TextStyle = TEXT) -> list[tuple[str, ...]]:
+    """Returns (name, function, monomial, relation, base, physical) of every coefficient."""
+    algebra, physical, style = (
+        table.closed.algebra,
+        table.physical,
+        style.adjust_to_robot(table.closed.robot),
+    )
+    motion, static = algebra.names[: algebra.moving], algebra.names[algebra.moving :]
+    return [
+        (
+            style.format_name(c.name),
+            c.function,
+            format_monomial(c.exponents, motion, style),
+            format_combination(table.relations.combinations[c.name], style),
+            format_linear_form(c.base, table.base_names, static, style),
+            format_physical(c.physical, physical.names, physical.masses, style),
+        )
+        for c in table.coefficients
+    ]
+
+
+def format_coefficients(table: CoefficientTable, form: FormulaForm = "text") -> str:
+    """Returns the coefficients in aligned columns, as a table or as equations."""
+    rows = format_table_lines(table, LATEX if form == "latex" else TEXT)
+    heads = ["relation", "base parameters", "physical parameters"]
+    if form == "text":
+        rows = [("name", "in", "monomial", *heads), *rows]
+        widths = [max(len(row[i]) for row in rows) for i in range(5)]
+        cells = ([c.ljust(w) for c, w in zip(row, [*widths, 0], strict=True)] for row in rows)
+        return "\n".join("  ".join(line).rstrip() for line in cells) + "\n"
+    if form == "markdown":
+        lines = [
+            f"| name | function | monomial | {' | '.join(heads)} |",
+            "|---|---|---|---|---|---|",
+        ]
+        for name, function, monomial, relation, base, physical in rows:
+            cell = "independent" if relation == name else f"`{relation}`"
+            lines.append(
+                f"| {name} | {function} | `{monomial}` | {cell} | `{base}` | `{physical}` |"
+            )
+        return "\n".join(lines) + "\n"
+    equations = []
+    for name, function, monomial, relation, _, physical in rows:
+        where = rf"\text{{of }} {monomial} \text{{ in }} {format_latex_function(function)}"
+        right = relation if relation != name else physical
+        equations.append(DisplayedEquation(name, (rf"{right} \quad {where}",)))
+    return format_display(equations) + "\n" if equations else ""
+
+
+# The map between independent coefficients and base parameters, as lines of text.
+
+
+def _get_static_names(table: CoefficientTable) -> tuple[str, ...]:
+    return tuple(table.closed.algebra.names[table.closed.algebra.moving :])
+
+
+def format_forward_map(table: CoefficientTable) -> list[str]:
+    """Returns `PJ3 = XX2R + XX3R - ZZ3`, one line per coefficient that is independent."""
+    names, style = table.base_names, TEXT.adjust_to_robot(table.closed.robot)
+    return [
+        f"{name} = "
+        f"{format_linear_form(table.by_name[name].base, names, _get_static_names(table), style)}"
+        for name in table.map.rows
+    ]
+
+
+def format_determinant(table: CoefficientTable) -> str | None:
+    """Returns determinant of the map; None if it is not square."""
+    if table.map.determinant is None:
+        return None
+    return format_polynomial(
+        table.map.determinant, _get_static_names(table), TEXT.adjust_to_robot(table.closed.robot)
+    )
+
+
+def format_backward_map(table: CoefficientTable) -> list[str]:
+    """Returns `ZZ1R = PJ7 - PJ16`, one line per base parameter; none if the map has no inverse."""
+    inverse = invert_base_map(table.map, table.closed.algebra.static_ring) or {}
+    static, style = _get_static_names(table), TEXT.adjust_to_robot(table.closed.robot)
+    return [f"{name} = {_format_row(row, static, style)}" for name, row in inverse.items()]
+
+
+def _format_row(row: Mapping[str, Any], static: tuple[str, ...], style: TextStyle) -> str:
+    """A row of the inverse: each factor is a quotient of polynomials of the geometry."""
+    terms: list[tuple[Fraction, str]] = []
+    for name, factor in row.items():
+        above, below = factor.numer, factor.denom
+        if len(above) == 1 and below.is_ground:
+            number = convert_to_fraction(above.LC) / convert_to_fraction(below.LC)
+            letters = format_polynomial(above.monic(), static, style)
+            terms.append((number, name if letters == "1" else f"{letters}*{name}"))
+        else:
+            quotient = f"({format_polynomial(above, static, style)})"
+            if below != 1:
+                quotient += f"/({format_polynomial(below, static, style)})"
+            terms.append((Fraction(1), f"{quotient}*{name}"))
+    return format_signed_sum(terms, style)

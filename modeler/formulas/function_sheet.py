@@ -13,12 +13,12 @@ from collections import Counter
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
-from typing import Any
+from typing import Any, Literal
 
 from modeler.core.formula import format_latex_name
 from modeler.core.latex_display import DisplayedEquation, format_display
 from modeler.derivation import Expr, Graph, Node
-from modeler.formulas.text import LATEX, TEXT, TextStyle, format_signed_sum
+from modeler.formulas.ring import LATEX, TEXT, TextStyle, format_signed_sum
 from modeler.formulas.thresholds import THRESHOLDS
 
 VECTOR = "vector:"
@@ -504,22 +504,26 @@ class SheetPrinter:
 
 
 _WIDTH = 100
+FormulaForm = Literal["text", "latex", "markdown"]
+"""How formulas are printed."""
 
 
-def format_sheet_lines(sheet: Sheet) -> list[str]:
-    """Returns the formulas as lines of Python, titles as comments."""
-    lines: list[str] = []
-    for title, formulas in _format_sections(sheet):
-        lines += ["", f"# {title}", *formulas] if lines else [f"# {title}", *formulas]
-    return lines
+def format_sheet(
+    sheet: Sheet, form: FormulaForm = "text", heading: Callable[[str], str] = "% {}".format
+) -> str:
+    """Returns the formulas as lines of Python, an `align*` a section, or Markdown.
 
-
-def format_sheet_markdown(sheet: Sheet) -> str:
-    """Returns the lines of Python under headings."""
-    parts = []
-    for title, formulas in _format_sections(sheet):
-        parts += [f"## {title}", "", "```python", *formulas, "```", ""]
-    return "\n".join(parts)
+    Args:
+        sheet: what to write.
+        form: how.
+        heading: how titles are written in LaTeX.
+    """
+    if form == "latex":
+        return _format_latex(sheet, heading)
+    pattern = "## {}\n\n```python\n{}\n```\n" if form == "markdown" else "# {}\n{}\n"
+    sections = (pattern.format(t, "\n".join(lines)) for t, lines in _format_sections(sheet))
+    text = "\n".join(sections)
+    return text if form == "markdown" else text.removesuffix("\n")
 
 
 def _format_sections(sheet: Sheet) -> list[tuple[str, list[str]]]:
@@ -560,14 +564,8 @@ def _collect_trig(printer: SheetPrinter) -> list[tuple[str, str, str]]:
     ]
 
 
-def format_sheet_latex(sheet: Sheet, heading: Callable[[str], str] | None = None) -> str:
-    """Returns one `align*` per section.
-
-    Args:
-        sheet: what to write.
-        heading: how titles are written; None for comments.
-    """
-    heading, printer = heading or "% {}".format, SheetPrinter(sheet, LATEX)
+def _format_latex(sheet: Sheet, heading: Callable[[str], str]) -> str:
+    printer = SheetPrinter(sheet, LATEX)
     angles = [
         DisplayedEquation(printer.format_trig(name), (f"\\{function}({angle})",))
         for name, function, angle in _collect_trig(printer)

@@ -16,14 +16,23 @@ from sympy.polys.rings import PolyRing
 
 from modeler.core.brief import ShortRepr
 from modeler.core.errors import DerivationError, RobotError
-from modeler.derivation import BaseParameters, SymbolicModel, evaluate_modulo, reduce_to_echelon
-from modeler.formulas.coefficients import CoefficientTable, build_coefficient_table
+from modeler.derivation import (
+    BaseParameters,
+    SymbolicModel,
+    convert_to_fraction,
+    evaluate_modulo,
+    reduce_to_echelon,
+)
+from modeler.formulas.coefficients import (
+    CoefficientTable,
+    build_coefficient_table,
+    format_forward_map,
+)
 from modeler.formulas.physical import (
     PhysicalParameters,
     derive_physical_parameters,
     draw_random_point,
 )
-from modeler.formulas.render import format_forward_map
 from modeler.formulas.ring import (
     Poly,
     TrigRing,
@@ -383,3 +392,25 @@ def _has_body(letter: str, physical: PhysicalParameters) -> bool:
         return True
     at = physical.names.index(letter)
     return any(e[at] for poly in physical.standard.values() for e in poly)
+
+
+class NumericPolynomial:
+    """Polynomials of a system as arrays: values and slopes quickly."""
+
+    def __init__(self, poly: Poly) -> None:
+        self.powers = np.array(list(poly), dtype=int).reshape(len(poly), poly.ring.ngens)
+        self.factors = np.array([float(convert_to_fraction(value)) for value in poly.values()])
+
+    def evaluate(self, point: np.ndarray) -> float:
+        """Returns the value at a point of all generators."""
+        return float(self.factors @ np.prod(point**self.powers, axis=1))
+
+    def evaluate_slopes(self, point: np.ndarray) -> np.ndarray:
+        """Returns (generators,) derivatives at a point."""
+        slopes = np.zeros(len(point))
+        for k in np.flatnonzero(self.powers.any(axis=0)):
+            lower = self.powers.copy()
+            lower[:, k] = np.maximum(lower[:, k] - 1, 0)
+            terms = self.factors * self.powers[:, k] * np.prod(point**lower, axis=1)
+            slopes[k] = terms.sum()
+        return slopes

@@ -2,7 +2,7 @@
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
-from typing import Any
+from typing import Any, get_args
 
 from modeler.core.errors import DerivationError, RobotError
 from modeler.core.formula import Formulas
@@ -20,7 +20,9 @@ from modeler.derivation import (
     plus,
     times,
 )
-from modeler.formulas.closed_form import (
+from modeler.formulas.function_sheet import FormulaForm, Sheet, SheetWriter, format_sheet
+from modeler.formulas.ring import TrigRing, evaluate_polynomial
+from modeler.formulas.short_form import (
     collect_symbol_names,
     copy_model,
     get_base_columns,
@@ -28,14 +30,6 @@ from modeler.formulas.closed_form import (
     propose_vector,
     write_short_form,
 )
-from modeler.formulas.function_sheet import (
-    Sheet,
-    SheetWriter,
-    format_sheet_latex,
-    format_sheet_lines,
-    format_sheet_markdown,
-)
-from modeler.formulas.ring import TrigRing, evaluate_polynomial
 from modeler.formulas.thresholds import THRESHOLDS
 
 # Loops that tie the free variables: J_t, J_p and the closure's Jacobian in closed form.
@@ -297,11 +291,8 @@ class Equation:
 
     def format_formulas(self) -> Formulas:
         """Returns the formulas as text, LaTeX and Markdown."""
-        text = "\n".join(format_sheet_lines(self.sheet))
-        title = "; ".join(self.words)
-        return Formulas(
-            title, text, format_sheet_latex(self.sheet), format_sheet_markdown(self.sheet)
-        )
+        text, latex, markdown = (format_sheet(self.sheet, form) for form in get_args(FormulaForm))
+        return Formulas("; ".join(self.words), text, latex, markdown)
 
 
 def derive_short_form(model: SymbolicModel, base: BaseParameters) -> Equation:

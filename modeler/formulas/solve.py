@@ -6,18 +6,31 @@ zero, is told by its value at a consistent random point modulo a prime: so no qu
 """
 
 import random
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
+from fractions import Fraction
+from functools import partial
 from typing import Any, Literal
 
-from modeler.core.errors import ModelerError
+import numpy as np
+
+from modeler.core.errors import DataError, ModelerError
 from modeler.core.formula import escape_latex, format_latex_name
 from modeler.core.latex_display import DisplayedEquation, format_display
 from modeler.derivation import collect_powers, evaluate_modulo
-from modeler.formulas.physical_system import PhysicalSystem
-from modeler.formulas.ring import Poly, find_independent_modulo, find_places
+from modeler.formulas.physical_system import NumericPolynomial, PhysicalSystem
+from modeler.formulas.ring import (
+    LATEX,
+    TEXT,
+    Poly,
+    TextStyle,
+    evaluate_polynomial,
+    find_independent_modulo,
+    find_places,
+    format_physical,
+    format_polynomial,
+)
 from modeler.formulas.sufficient_sets import EASE
-from modeler.formulas.text import LATEX, TEXT, TextStyle, format_physical, format_polynomial
 from modeler.formulas.thresholds import THRESHOLDS
 
 _EASY = ("mass", "length", "centre", "inertia", "rotor inertia")
@@ -471,3 +484,217 @@ def serialise_solution(solution: ClosedSolution, verified: Mapping[str, int] | N
         "without_effect": list(system.vanishing),
         "verified": dict(verified) if verified else None,
     }
+
+
+@dataclass(frozen=True, eq=False)
+class DerivedValue:
+    """Physical parameters with values.
+
+    Attributes:
+        letters: in the order of the steps.
+        values: (n,) SI units.
+        sigmas: (n,) standard deviations, to first order.
+        inputs: names of data, then of known parameters.
+        slopes: (n, inputs) d letter / d input.
+        shares: (n, inputs) part of the variance that the uncertainty of each input brings;
+            correlated data share their covariance by halves, so rows add up to 1.
+        doubtful: {letter: why its quotient may be one by zero}.
+    """
+
+    letters: tuple[str, ...]
+    values: np.ndarray
+    sigmas: np.ndarray
+    inputs: tuple[str, ...]
+    slopes: np.ndarray
+    shares: np.ndarray
+    doubtful: Mapping[str, str]
+
+    def get_value(self, letter: str) -> float:
+        """Returns the value of one parameter."""
+        return float(self.values[self.letters.index(letter)])
+
+    def get_sigma(self, letter: str) -> float:
+        """Returns the standard deviation of one parameter."""
+        return float(self.sigmas[self.letters.index(letter)])
+
+
+def verify_solution(
+    solution: ClosedSolution, times: int = THRESHOLDS.verified_robots, seed: int = THRESHOLDS.seed
+) -> int:
+    """Returns the number of random robots for which every formula gives back the parameter.
+
+    Exact: over Q; modulo a prime where the geometry has roots of numbers.
+    """
+    system, chance = solution.system, random.Random(seed)
+    good = 0
+    for _ in range(times):
+        value: Callable[[Poly], Any]
+        if any(name.startswith("sqrt(") for name in system.names):
+            prime, point = system.draw_modular_point(chance)
+            value = partial(evaluate_modulo, point=point, prime=prime)
+        else:
+            prime, point = 0, system.derive_consistent_values(draw_random_rationals(system, chance))
+            value = partial(evaluate_polynomial, values=point)
+        good += all(_is_satisfied(step, value, point[system.place[step.letter]], prime)
+                    for step in solution.steps)  # fmt: skip
+    return good
+
+
+def draw_random_rationals(system: PhysicalSystem, chance: random.Random) -> dict[str, Fraction]:
+    """Draws letters and constants at random, cosine and sine on the circle."""
+    values: dict[str, Fraction] = {}
+    for name in (*system.letters, *system.constants):
+        if name.startswith("cos("):
+            t = Fraction(chance.randint(2, 40), chance.randint(41, 90))
+            values[name] = (1 - t * t) / (1 + t * t)
+            values["sin" + name[3:]] = 2 * t / (1 + t * t)
+        elif name not in values:
+            sign = 1 if name in system.masses else chance.choice((-1, 1))
+            values[name] = sign * Fraction(chance.randint(1, 99), chance.randint(1, 99))
+    return values
+
+
+def _is_satisfied(step: SolvingStep, value: Callable[[Poly], Any], truth: Any, prime: int) -> bool:
+    """If the formula gives `truth`: modulo the prime, or exactly where that is 0."""
+    if step.equation is not None:
+        return bool(value(step.equation) == 0)
+    down = value(step.denominator)
+    rest = value(step.numerator) - truth * down
+    return bool(down != 0 and (rest % prime if prime else rest) == 0)
+
+
+def derive_values(
+    solution: ClosedSolution,
+    data: Sequence[float],
+    covariance: np.ndarray,
+    known: Mapping[str, float],
+    sigmas: Mapping[str, float] | None = None,
+    near: Mapping[str, float] | None = None,
+) -> DerivedValue:
+    """Computes the parameters that follow, with their standard deviations.
+
+    x = g(data, known); var x = G_d C G_d' + sum (G_k sigma_k)^2, G = dg along the steps.
+
+    Args:
+        solution: formulas.
+        data: (data,) identified values, in the order of `solution.system.data`.
+        covariance: (data, data) of them.
+        known: values of the known parameters, SI units.
+        sigmas: their standard deviations, 0 where not given; all errors are independent.
+        near: about what value a parameter has, to choose between roots.
+
+    Raises:
+        DataError: a quotient by exactly 0, or an equation without a root or with several.
+    """
+    system = solution.system
+    inputs = (*system.data, *solution.known)
+    spread = [(sigmas or {}).get(name, 0.0) ** 2 for name in solution.known]
+    C = np.diag([0.0] * len(data) + spread)
+    C[: len(data), : len(data)] = covariance
+    # Values of all generators before the first step, and their slopes by the inputs.
+    point = system.build_point(known)
+    point[: len(data)] = data
+    gradient = np.zeros((len(point), len(inputs)))
+    for i, name in enumerate(inputs):
+        gradient[system.place[name], i] = 1.0
+    doubtful: dict[str, str] = {}
+    for step in solution.steps:
+        _evaluate_step(step, solution, point, gradient, C, doubtful, near or {})
+    at = [system.place[letter] for letter in solution.solved_letters]
+    slopes = gradient[at]
+    parts = slopes * (slopes @ C)
+    variance = np.maximum(parts.sum(axis=1), 0.0)
+    shares = np.divide(
+        parts, variance[:, None], out=np.zeros_like(parts), where=variance[:, None] > 0
+    )
+    return DerivedValue(
+        solution.solved_letters, point[at], np.sqrt(variance), inputs, slopes, shares, doubtful
+    )
+
+
+def find_impossible(derived: DerivedValue, system: PhysicalSystem) -> dict[str, str]:
+    """Tells which values no body can have: a mass not above 0, a moment of inertia below 0.
+
+    A moment may be 0; it is told if it is below by more than 3 sigma.
+    """
+    kinds = {}
+    for k, letter in enumerate(derived.letters):
+        value, sigma = derived.values[k], derived.sigmas[k]
+        if letter in system.masses and value <= 0.0:
+            kinds[letter] = "mass"
+        elif letter in system.moments and value < -THRESHOLDS.sure_sigmas * sigma:
+            kinds[letter] = "moment of inertia"
+    return {
+        letter: f"{letter} = {derived.get_value(letter):.4g} "
+        f"+- {derived.get_sigma(letter):.2g} is no "
+        f"{what}: a known value or the fit is wrong, or the fit is not sure enough"
+        for letter, what in kinds.items()
+    }
+
+
+def _evaluate_step(
+    step: SolvingStep, solution: ClosedSolution, point: np.ndarray, gradient: np.ndarray,
+    C: np.ndarray, doubtful: dict[str, str], near: Mapping[str, float],
+) -> None:  # fmt: skip
+    """One step more: value and slopes of its letter."""
+    system = solution.system
+    at = system.place[step.letter]
+    if step.equation is not None:
+        point[at] = _select_root(step, system, point, near)
+        slopes = NumericPolynomial(step.equation).evaluate_slopes(point)
+        letter_slope, slopes[at] = slopes[at], 0.0
+        gradient[at] = -(slopes @ gradient) / letter_slope
+        return
+    up, down = NumericPolynomial(step.numerator), NumericPolynomial(step.denominator)
+    bottom = down.evaluate(point)
+    if bottom == 0.0:
+        raise DataError(
+            f"{system.robot}: {step.letter} is a quotient by {step.denominator}, which is 0 in "
+            f"this fit; {step.letter} cannot be told, add it to the known parameters"
+        )
+    spread = down.evaluate_slopes(point) @ gradient
+    sigma = float(np.sqrt(max(spread @ C @ spread, 0.0)))
+    if abs(bottom) < THRESHOLDS.sure_sigmas * sigma:
+        doubtful[step.letter] = (
+            f"{step.letter} is a quotient by {step.denominator} = {bottom:.3g} +- {sigma:.2g}, "
+            "which may be 0: these data do not tell it"
+        )
+    point[at] = up.evaluate(point) / bottom
+    slopes = (up.evaluate_slopes(point) - point[at] * down.evaluate_slopes(point)) / bottom
+    gradient[at] = slopes @ gradient
+
+
+def find_roots(step: SolvingStep, system: PhysicalSystem, point: np.ndarray) -> list[float]:
+    """Returns the real roots of a step's equation at a point; only positive ones for a mass."""
+    assert step.equation is not None
+    parts = collect_powers(step.equation, system.place[step.letter])
+    factors = [
+        NumericPolynomial(parts[k]).evaluate(point) if k in parts else 0.0
+        for k in range(max(parts), -1, -1)
+    ]
+    complex_roots = np.roots(factors)
+    real = [float(x.real) for x in complex_roots if abs(x.imag) <= THRESHOLDS.real_root * abs(x)]
+    return sorted(x for x in real if x > 0 or step.letter not in system.masses)
+
+
+def _select_root(
+    step: SolvingStep, system: PhysicalSystem, point: np.ndarray, near: Mapping[str, float]
+) -> float:
+    real_roots = find_roots(step, system, point)
+    if real_roots and step.letter in near:
+        return min(real_roots, key=lambda x: abs(x - near[step.letter]))
+    if len(real_roots) == 1:
+        return real_roots[0]
+    kind = "positive " if step.letter in system.masses else ""
+    if not real_roots:
+        raise DataError(
+            f"{system.robot}: the equation of {step.letter} has no {kind}root with these values; "
+            "a known value or the fit is wrong"
+        )
+    root_list = ", ".join(f"{x:.6g}" for x in real_roots)
+    raise DataError(
+        f"{system.robot}: the equation of {step.letter} has {len(real_roots)} {kind}roots "
+        f"({root_list}); "
+        f"each fits the data; say which with --near {step.letter}={real_roots[-1]:.3g}, or add a "
+        "parameter to the known ones"
+    )

@@ -8,7 +8,7 @@ one in a million, and the count is repeated at another point with another prime.
 """
 
 import random
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from itertools import chain, combinations, islice, product
 from math import comb, prod
@@ -18,7 +18,7 @@ import numpy as np
 from modeler.core.brief import ShortRepr
 from modeler.core.errors import ModelerError
 from modeler.derivation import compute_kernel
-from modeler.formulas.physical_system import PhysicalSystem
+from modeler.formulas.physical_system import NumericPolynomial, PhysicalSystem
 from modeler.formulas.thresholds import THRESHOLDS
 
 # Sets of columns of a matrix over a prime field that span its rows, many at once.
@@ -338,3 +338,54 @@ def _find_members(
         for members in sets[are_spanning(kernel, sets, prime)]:
             member_sets.append(tuple(system.letters[k] for k in members))
     return tuple(sorted(member_sets, key=lambda s: [system.letters.index(x) for x in s]))
+
+
+@dataclass(frozen=True)
+class RatedSet:
+    """How errors grow with one set of known parameters.
+
+    Attributes:
+        known: the set.
+        middle: median over the parameters that follow: per cent of error, root mean square, for
+            independent errors of 1 % in every identified quantity and every known parameter.
+        worst: the largest.
+        letter: whose that is.
+    """
+
+    known: tuple[str, ...]
+    middle: float
+    worst: float
+    letter: str
+
+
+def rate_sets(
+    system: PhysicalSystem, sets: Sequence[Sequence[str]], values: Mapping[str, float]
+) -> tuple[RatedSet, ...]:
+    """Rates the sets by how little errors grow at one robot, the least median first.
+
+    dU = J_U^-1 (dd - J_K dK), d data, U unknowns, K known; parameters that are 0 have no per cent.
+
+    Args:
+        system: data as polynomials of the parameters.
+        sets: smallest sufficing sets.
+        values: of all parameters, SI units; sets that fail there are left out.
+    """
+    point = system.build_point(values)
+    polys = [NumericPolynomial(system.definitions[d]) for d in system.data]
+    J = np.array([poly.evaluate_slopes(point) for poly in polys])
+    data = np.array([poly.evaluate(point) for poly in polys])
+    ratings = []
+    for known in sets:
+        U = [system.place[x] for x in system.letters if x not in known]
+        K = [system.place[x] for x in known]
+        inner = J[:, U]
+        if inner.shape[0] != inner.shape[1] or np.linalg.matrix_rank(inner) < len(U):
+            continue
+        G = np.linalg.solve(inner, np.hstack([np.diag(data), -J[:, K] * point[K]]))
+        with np.errstate(divide="ignore", invalid="ignore"):
+            share = np.linalg.norm(G, axis=1) / np.abs(point[U])
+        share[~np.isfinite(share)] = np.nan
+        k = int(np.nanargmax(share))
+        middle, letter = float(np.nanmedian(share)), system.names[U[k]]
+        ratings.append(RatedSet(tuple(known), middle, float(share[k]), letter))
+    return tuple(sorted(ratings, key=lambda r: (r.middle, r.worst)))

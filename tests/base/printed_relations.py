@@ -11,9 +11,7 @@ from modeler.core.manifest import EmittedModule
 from modeler.derivation.relations import (
     BaseParameter,
     BaseParameters,
-    as_latex,
-    as_markdown,
-    as_text,
+    format_base_parameters,
     serialise_base_parameters,
 )
 from tests.base.formulas import Values, latex_value, name_of_latex, text_value
@@ -74,9 +72,9 @@ def printed_forms(
     """(form, relations as printed, reader) of every form in which they are printed."""
     files = emitted.files
     raw = json.loads(json.dumps(serialise_base_parameters(robot, base)))
-    yield "text", of_text(as_text(base)), text_value
-    yield "Markdown", of_markdown(as_markdown(base)), text_value
-    yield "LaTeX", of_latex(as_latex(base)), latex_value
+    yield "text", of_text(format_base_parameters(base)), text_value
+    yield "Markdown", of_markdown(format_base_parameters(base, "markdown")), text_value
+    yield "LaTeX", of_latex(format_base_parameters(base, "latex")), latex_value
     yield "JSON", of_terms(raw["base"]), text_value
     yield "manifest", of_terms(json.loads(files["manifest.json"])["base"]), text_value
     yield "header", of_header(files[f"{emitted.spec.prefix}.h"]), text_value

@@ -10,7 +10,7 @@ import sympy
 from modeler import formulas
 from modeler.codegen.workflow import derive
 from modeler.core.expression import format_decimal
-from modeler.derivation.relations import as_latex, as_text, serialise_base_parameters
+from modeler.derivation.relations import format_base_parameters, serialise_base_parameters
 from modeler.robot.read import parse_robot_text
 
 BIG = re.compile(r"\d{3,}/\d{3,}|frac\{\d{3,}\}")
@@ -61,7 +61,7 @@ def test_numbers_are_those_of_the_letters_exactly():
 
 def test_relations_show_what_was_written():
     base = derive(arm([0.1564, 0.4318, 0, 0.33])).base
-    text, latex = as_text(base), as_latex(base)
+    text, latex = format_base_parameters(base), format_base_parameters(base, "latex")
     assert "0.4318*M3" in text and "0.18645124*M3" in text and "0.02446096*M2" in text
     assert "0.4318 M_{3}" in latex and "0.18645124 M_{3}" in latex
     assert not BIG.search(text) and not BIG.search(latex)
@@ -69,7 +69,9 @@ def test_relations_show_what_was_written():
 
 
 def test_halves_are_decimals_where_the_file_writes_them_so():
-    halves, others = (as_text(derive(arm([x, "0.4", 0, 0.3])).base) for x in ("0.5", "0.6"))
+    halves, others = (
+        format_base_parameters(derive(arm([x, "0.4", 0, 0.3])).base) for x in ("0.5", "0.6")
+    )
     assert "0.75*YY3" in halves and "3/4" not in halves
     assert "3/4*YY3" in others and "0.75" not in others
     assert "0.36*M2" in others
@@ -88,15 +90,17 @@ def test_closed_forms_show_what_was_written():
     ).sheet
     table = formulas.coefficients.build_coefficient_table(derivation.model, derivation.base)
     text, latex = (
-        getattr(formulas.render, f"closed_form_{way}")(closed) for way in ("text", "latex")
+        formulas.coefficients.format_closed_form(closed, way) for way in ("text", "latex")
     )
     rows = [
-        " ".join(row[3:]) for row in formulas.render.format_table_lines(table) if "PS" in row[0]
+        " ".join(row[3:])
+        for row in formulas.coefficients.format_table_lines(table)
+        if "PS" in row[0]
     ]
     for page in (
         text,
         latex,
-        formulas.function_sheet.format_sheet_markdown(sheet),
+        formulas.function_sheet.format_sheet(sheet, "markdown"),
         "\n".join(rows),
     ):
         assert not BIG.search(page)

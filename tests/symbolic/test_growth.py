@@ -54,10 +54,7 @@ LETTERS = {name: sympy.Symbol(name, real=True) for name in "abcde"}
     ("text", "told"),
     [
         ("(a + b + c + d + e)**60", "has 635376 terms"),
-        (
-            "*".join(f"(a + b + c + {k}*d)" for k in range(1, 6)),
-            "has 1024 terms when written",
-        ),
+        ("*".join(f"(a + b + c + {k}*d)" for k in range(1, 6)), "has 1024 terms when written"),
         ("(0.999**100)**100", "an exact number of .* bits"),
         ("a*tan(pi/2)", "not finite"),
     ],

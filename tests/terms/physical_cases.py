@@ -4,9 +4,12 @@ from functools import cache
 
 import numpy as np
 
-from modeler.formulas.physical_system import PhysicalSystem, build_physical_system
-from modeler.formulas.printed import read_printed_terms
-from modeler.formulas.values import NumericPolynomial
+from modeler.formulas.physical import read_printed_terms
+from modeler.formulas.physical_system import (
+    NumericPolynomial,
+    PhysicalSystem,
+    build_physical_system,
+)
 from tests.terms.cases import base_of, model_of
 
 SEVEN = ("am", "bm", "bl1", "bt2", "ct1", "bJ33", "cJ33")

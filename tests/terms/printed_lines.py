@@ -9,7 +9,7 @@ import numpy as np
 
 from modeler.api import derive, generate, load
 from modeler.codegen.workflow import Derivation
-from modeler.formulas.closed_form import format_function_name
+from modeler.formulas.short_form import format_function_name
 from modeler.runtime.model import CompiledModel
 from tests import modules
 from tests.robots import ROBOTS

@@ -8,8 +8,8 @@ import pytest
 
 from modeler.cli import main
 from modeler.derivation import draw_random_states
-from modeler.formulas import by_link
-from modeler.formulas.function_sheet import format_sheet_lines
+from modeler.formulas import paper_forms as by_link
+from modeler.formulas.function_sheet import format_sheet
 from modeler.robot import parse_robot_text
 from tests.json_schemas import check_schema
 from tests.papers import mechanisms as m
@@ -54,7 +54,7 @@ def test_the_printed_energy_functions_are_those_of_moving_points(name):
     start = dict(model.robot.evaluate_symbols()) | dict(model.geometry.values)
     for joint, q, qd in zip(free, u, speed, strict=True):
         start |= {f"q{joint.name}": q, f"qd{joint.name}": qd}
-    text = run_lines(format_sheet_lines(equation.sheet), start)
+    text = run_lines(format_sheet(equation.sheet).splitlines(), start)
     frames = m.moving(lambda u: m.Posture(placed(model, u), {}), u, speed).bodies
     gravity = np.array([number(x, start) for x in model.geometry.gravity])
     told = 0
@@ -78,7 +78,7 @@ def test_the_printed_form_of_kane_is_that_of_the_paper():
     start |= {f"qd{k + 1}": x for k, x in enumerate(qd)} | {"tau3": 4}
     axes = triads(q) | {"n": np.eye(3)}
     start |= {f"{b}_{k + 1}": turn[:, k] for b, turn in axes.items() for k in range(3)}
-    text = run_lines(format_sheet_lines(equation.sheet), start)
+    text = run_lines(format_sheet(equation.sheet).splitlines(), start)
     none = np.zeros(3)
     power = 0.0
     for r, body in enumerate("abc"):

@@ -12,17 +12,18 @@ from modeler.core.errors import RobotError
 from modeler.derivation.base_parameters import derive_base_parameters
 from modeler.derivation.derive import derive_model
 from modeler.derivation.numeric_rank import draw_random_states, evaluate_regressor
+from modeler.formulas.physical import read_printed_terms
 from modeler.formulas.physical_system import build_physical_system
-from modeler.formulas.printed import read_printed_terms
 from modeler.formulas.solve import (
+    derive_values,
     find_determined,
     format_formula,
     format_missing_lines,
     format_solution_lines,
     solve,
+    verify_solution,
 )
 from modeler.formulas.sufficient_sets import count_smallest_set
-from modeler.formulas.values import derive_values, verify_solution
 from modeler.robot.read import parse_robot_text
 from tests.robots import ROBOTS, one_always
 from tests.rotation import rotating

@@ -6,25 +6,22 @@ import numpy as np
 import pytest
 
 from modeler.core.errors import DataError, ModelerError, RobotError
-from modeler.formulas.cad import (
+from modeler.formulas.known_values import (
     check_known,
     compare_cad,
     compute_chi_squared_limit,
     compute_z_limit,
+    parse_known_values,
+    read_cad_example,
+    read_cad_file,
 )
-from modeler.formulas.solve import solve
+from modeler.formulas.solve import derive_values, solve
 from modeler.formulas.sufficient_sets import (
     EASE,
     count_smallest_set,
     find_easiest_set,
     find_known_sets,
-)
-from modeler.formulas.values import (
-    derive_values,
-    parse_known_values,
     rate_sets,
-    read_cad_example,
-    read_cad_file,
 )
 from tests.rotation import rotating
 from tests.terms.cases import model_of

@@ -10,7 +10,7 @@ import pytest
 
 from modeler.core.errors import RobotError
 from modeler.formulas import derive_block_form
-from modeler.formulas.function_sheet import format_sheet_lines
+from modeler.formulas.function_sheet import format_sheet
 from modeler.formulas.regressor_form import derive_short_form
 from tests.rotation import rotating
 from tests.terms.cases import base_of, model_of
@@ -21,7 +21,7 @@ from tests.terms.test_terms_whole_torque import check, motions_of
 def printed(name):
     """(words, lines, {block: (rows, columns)}) as they are printed."""
     form = derive_block_form(derived(name).model, derived(name).base)
-    lines = format_sheet_lines(form.sheet)
+    lines = format_sheet(form.sheet).splitlines()
     head = r"^# (\w+), .*: (\d+) x (\d+), rows (.*); columns (.*)$"
     heads = re.findall(head, "\n".join(lines), re.M)
     sides = {block: (rows.split(), columns.split()) for block, _, _, rows, columns in heads}
@@ -142,7 +142,7 @@ SPHERES = [
 
 def test_spheres_are_those_of_the_paper():
     derivation = derived("orthoglide-2012")
-    lines = format_sheet_lines(derive_short_form(derivation.model, derivation.base).sheet)
+    lines = format_sheet(derive_short_form(derivation.model, derivation.base).sheet).splitlines()
     names, rng = [j.name for j in derivation.model.robot.free_joints], np.random.default_rng(2)
     u = rng.uniform(-1, 1, len(names))
     found = run_lines(lines, known(derivation, u, u, beta=[0.0] * derivation.base.rank))
@@ -161,7 +161,9 @@ def test_six_motors_leave_the_inverse_of_k_to_a_solver():
     assert closure is not None and closure.platform is not None
     posture = {f"q{name}": u for name, u in zip(names, closure.home, strict=True)}
     still = {f"qd{name}": 0.0 for name in names}
-    found = run_lines(format_sheet_lines(form.sheet), {**model.geometry.values, **posture, **still})
+    found = run_lines(
+        format_sheet(form.sheet).splitlines(), {**model.geometry.values, **posture, **still}
+    )
     L = np.array(
         [
             [found.get(f"L{x}_{names[p]}", float(x == names[p])) for p in closure.platform]

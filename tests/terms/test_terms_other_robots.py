@@ -15,9 +15,13 @@ from modeler.core.errors import RobotError
 from modeler.derivation.base_parameters import derive_base_parameters
 from modeler.derivation.derive import derive_model
 from modeler.derivation.field import evaluate_modulo
-from modeler.formulas.coefficients import build_coefficient_table, select_independent_coefficients
+from modeler.formulas.coefficients import (
+    build_coefficient_table,
+    format_backward_map,
+    format_forward_map,
+    select_independent_coefficients,
+)
 from modeler.formulas.physical import draw_random_point
-from modeler.formulas.render import format_backward_map, format_forward_map
 from modeler.formulas.ring import build_base_map
 from modeler.robot.read import parse_robot_text
 from tests.base.formulas import text_value

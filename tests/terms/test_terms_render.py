@@ -11,19 +11,15 @@ import pytest
 
 from modeler.api import load
 from modeler.cli import main
-from modeler.derivation.relations import as_latex
-from modeler.formulas.function_sheet import SheetPrinter, format_sheet_latex, format_sheet_lines
-from modeler.formulas.regressor_form import derive_regressor_form, derive_short_form
-from modeler.formulas.render import (
-    closed_form_latex,
-    closed_form_markdown,
-    closed_form_text,
-    coefficients_latex,
-    coefficients_markdown,
-    coefficients_text,
+from modeler.derivation.relations import format_base_parameters
+from modeler.formulas.coefficients import (
+    format_closed_form,
+    format_coefficients,
     format_determinant,
 )
-from modeler.formulas.text import LATEX, format_latex_symbol
+from modeler.formulas.function_sheet import SheetPrinter, format_sheet
+from modeler.formulas.regressor_form import derive_regressor_form, derive_short_form
+from modeler.formulas.ring import LATEX, format_latex_symbol
 from tests.base.formulas import text_value, written_value
 from tests.effects.test_effects_in_c import REFERENCE, SHAPES, written
 from tests.terms.cases import closed_of, model_of, table_of
@@ -68,11 +64,11 @@ def expected(name: str) -> dict[str, float]:
 
 def test_a_closed_form_can_be_read_back_from_text_and_latex():
     closed, told, names = closed_of("odd"), expected("odd"), numbers_of("odd")[0]
-    printed = printed_functions(closed_form_text(closed))
+    printed = printed_functions(format_closed_form(closed))
     for function, text in list(printed.items())[::8]:
         assert text_value(text, names) == pytest.approx(told[function], rel=1e-9)
     letters = {format_latex_symbol(key): value for key, value in names.items()}
-    blocks = closed_form_latex(closed).split("\\begin{align*}\n")[1:]
+    blocks = format_closed_form(closed, "latex").split("\\begin{align*}\n")[1:]
     assert len(blocks) >= len(closed.functions) == len(told)
     for block, function in list(zip(blocks, told, strict=False))[::4]:
         _, right = block.split("\n\\end{align*}")[0].split(" ={}& ")
@@ -82,17 +78,19 @@ def test_a_closed_form_can_be_read_back_from_text_and_latex():
 
 def test_tables_of_the_wrist():
     closed, table = closed_of("wrist"), table_of("wrist")
-    page = closed_form_markdown(closed)
+    page = format_closed_form(closed, "markdown")
     assert page.count("\n| `") == closed.monomial_count == 101
     assert "| `s2**2*s3**2` | `-XX3 + YY3` |" in page
-    assert "+ g*g_i" in closed_form_text(closed) and "+ g_i" in closed_form_text(closed_of("odd"))
+    assert "+ g*g_i" in format_closed_form(closed) and "+ g_i" in format_closed_form(
+        closed_of("odd")
+    )
     assert format_determinant(table) == "-16"
-    lines = coefficients_text(table).splitlines()
+    lines = format_coefficients(table).splitlines()
     assert len(lines) == 102 and lines[0].split()[:3] == ["name", "in", "monomial"]
     assert re.search(r"^PS3 +S112 +c2\*s2 +2\*PJ1 \+ 2\*PJ3 ", "\n".join(lines), re.M)
-    page = coefficients_markdown(table)
+    page = format_coefficients(table, "markdown")
     assert page.count("\n") == 103 and page.count("| independent |") == 17
-    latex = coefficients_latex(table)
+    latex = format_coefficients(table, "latex")
     assert latex.count(" ={}& ") == latex.count(r"\text{ in }") == 101
     assert r"\mathit{PS}_{3} ={}& 2\,\mathit{PJ}_{1} + 2\,\mathit{PJ}_{3} \quad" in latex
 
@@ -169,7 +167,9 @@ def test_what_physical_prints_compiles(capsys, tmp_path) -> None:
 
 def test_a_line_too_wide_would_be_seen(tmp_path) -> None:
     """The relations of the Orthoglide without breaks are wider than the page."""
-    page = as_latex(derived("orthoglide-2003").base).replace(" \\notag \\\\\n&\\quad {}", " ")
+    page = format_base_parameters(derived("orthoglide-2003").base, "latex").replace(
+        " \\notag \\\\\n&\\quad {}", " "
+    )
     with pytest.raises(AssertionError):
         check_log(typeset(FRAGMENT % page, tmp_path))
 
@@ -193,10 +193,10 @@ def test_latex_has_the_values_of_the_text(every, name, form) -> None:
     start = known(derivation, *numbers, rng.uniform(0.2, 1.4, derivation.base.rank))
     sheet = form(derivation.model, derivation.base).sheet
     start |= {f"{signal}{j}": 0.5 for signal in "tTz" for j in "123"}
-    text = run_lines(format_sheet_lines(sheet), start | {"exp": np.exp, "tanh": np.tanh})
+    text = run_lines(format_sheet(sheet).splitlines(), start | {"exp": np.exp, "tanh": np.tanh})
     latex = {SheetPrinter(sheet, LATEX).format_letter(key): value for key, value in start.items()}
     assert len(latex) == len(start)
-    sides = equations(format_sheet_latex(sheet))
+    sides = equations(format_sheet(sheet, "latex"))
     assert len({left for left, _ in sides}) == len(sides)
     for left, right in sides:
         latex[left] = float(written_value(right, latex))

@@ -3,7 +3,7 @@
 import pytest
 
 from modeler.derivation.graph import Graph
-from modeler.formulas.function_sheet import SheetWriter, format_sheet_lines
+from modeler.formulas.function_sheet import SheetWriter, format_sheet
 
 LETTERS = {"q[0]": "q1", "q[1]": "q2", "qd[0]": "qd1", "a": "a", "b": "b", "k1": "k1"}
 
@@ -18,7 +18,9 @@ def symbols(graph: Graph, *names: str):
 
 
 def formulas(writer: SheetWriter) -> list[str]:
-    return [line for line in format_sheet_lines(writer.build_sheet()) if line and line[0] != "#"]
+    return [
+        line for line in format_sheet(writer.build_sheet()).splitlines() if line and line[0] != "#"
+    ]
 
 
 def test_what_is_read_once_and_short_is_written_where_it_is_read(graph):

@@ -11,11 +11,7 @@ import numpy as np
 import pytest
 
 from modeler.core.errors import RobotError
-from modeler.formulas.function_sheet import (
-    format_sheet_latex,
-    format_sheet_lines,
-    format_sheet_markdown,
-)
+from modeler.formulas.function_sheet import format_sheet
 from modeler.formulas.regressor_form import (
     derive_equation,
     derive_regressor_form,
@@ -121,12 +117,12 @@ def test_a_document_of_both_has_one_thing_under_each_name(name):
     """The torque and the columns on one sheet: names are given once, and before they are read."""
     derivation = derived(name)
     found = derive_equation(derivation.model, derivation.base, motion=True, columns=True)
-    tree = ast.parse("\n".join(format_sheet_lines(found.sheet)))
+    tree = ast.parse(format_sheet(found.sheet))
     names = [node.targets[0].id for node in tree.body if isinstance(node, ast.Assign)]
     assert max(Counter(names).values()) == 1
     free = range(len(derivation.model.robot.free_joints))
     values = known(derivation, *([0.5 + 0.1 * k for k in free],) * 3, [1.0] * derivation.base.rank)
-    run_lines(format_sheet_lines(found.sheet), values)  # NameError otherwise
+    run_lines(format_sheet(found.sheet).splitlines(), values)  # NameError otherwise
     read = {n.id for n in ast.walk(tree) if isinstance(n, ast.Name) and isinstance(n.ctx, ast.Load)}
     assert not set(names) & set(values)
     assert {d.name for d in found.sheet.definitions if not d.result} <= read
@@ -139,7 +135,7 @@ LINES = {"puma560": 300, "rx90": 280, "ur10e": 260, "sr400": 340, "orthoglide-le
 def test_short_forms_are_short(name):
     """The expanded form of a PUMA 560 has 7376 lines, that of an SR400 2678."""
     derivation = derived(name)
-    lines = format_sheet_lines(derive_short_form(derivation.model, derivation.base).sheet)
+    lines = format_sheet(derive_short_form(derivation.model, derivation.base).sheet).splitlines()
     assert len(lines) <= LINES[name] and max(map(len, lines)) <= 100
 
 
@@ -148,7 +144,7 @@ def test_known_subexpressions_have_their_names():
     text = {}
     for name in ("ur10e", "puma560", "sr400"):
         found = derive_short_form(derived(name).model, derived(name).base)
-        text[name] = "\n".join(format_sheet_lines(found.sheet))
+        text[name] = format_sheet(found.sheet)
     assert "s234 = sin(q2 + q3 + q4)" in text["ur10e"]
     assert "s23 = sin(q2 + q3)" in text["puma560"] and "gx_4 = g*s23*c4" in text["puma560"]
     assert "J44 = ZZ4c" in text["puma560"] and "S334 = S324" in text["puma560"]
@@ -191,7 +187,7 @@ def test_puma_is_the_published_one():
     beta = nominal_beta(derivation)
     base = drop_zero_parameters(derivation.model, derivation.base)
     assert base.rank == 20
-    lines = format_sheet_lines(derive_short_form(derivation.model, base).sheet)
+    lines = format_sheet(derive_short_form(derivation.model, base).sheet).splitlines()
     assert len(lines) <= 180
     rng = np.random.default_rng(3)
     pairs: dict[str, list[tuple[float, float]]] = {name: [] for name in PUBLISHED}
@@ -235,7 +231,9 @@ def printed_columns(derivation, found) -> np.ndarray:
 def test_printed_columns_are_those_of_the_c(name):
     """Those of a robot with loops are the tree's, projected."""
     derivation, model = derived(name), compiled(name)
-    lines = format_sheet_lines(derive_regressor_form(derivation.model, derivation.base).sheet)
+    lines = format_sheet(
+        derive_regressor_form(derivation.model, derivation.base).sheet
+    ).splitlines()
     for motion in motions_of(derivation):
         found, _, _, J = ran(derivation, model, lines, motion)
         expected = model.base_regressor(*motion[:, None])[0]
@@ -247,7 +245,7 @@ def test_printed_columns_are_those_of_the_c(name):
 def test_latex_and_markdown_have_every_column(name):
     derivation = derived(name)
     sheet = derive_regressor_form(derivation.model, derivation.base).sheet
-    latex, markdown = format_sheet_latex(sheet), format_sheet_markdown(sheet)
+    latex, markdown = format_sheet(sheet, "latex"), format_sheet(sheet, "markdown")
     assert latex.count("\\begin{align*}") == latex.count("\\end{align*}") > 3
     assert latex.count("{") == latex.count("}") and latex.count(r"\left") == latex.count(r"\right")
     formulas = "".join(line for line in latex.splitlines() if line[0] not in "%\\")

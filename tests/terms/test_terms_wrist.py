@@ -12,16 +12,21 @@ from modeler.derivation.base_parameters import derive_base_parameters
 from modeler.formulas.coefficients import build_coefficient_table
 from modeler.formulas.print_checks import (
     build_exact_state,
+    check_friction,
     check_independent,
     check_solutions,
     check_twin,
     compute_power_balance,
     find_wrong_definitions,
     find_wrong_functions,
+    write_terms_report,
 )
-from modeler.formulas.print_report import check_friction, write_terms_report
-from modeler.formulas.ring import invert_base_map, partition_by_ratio
-from modeler.formulas.text import format_linear_form, format_physical
+from modeler.formulas.ring import (
+    format_linear_form,
+    format_physical,
+    invert_base_map,
+    partition_by_ratio,
+)
 from tests.terms.cases import base_of, edited_wrist, model_of, table_of
 
 REFERENCE = Path(__file__).resolve().parents[1] / "reference"

@@ -1,19 +1,181 @@
-"""Known parameters and CAD values against what a fit says."""
+"""A closed solution in numbers: exactly, to verify it, and with standard deviations of a fit."""
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass
 from itertools import combinations
+from pathlib import Path
 from statistics import NormalDist
+from typing import Any
 
 import numpy as np
 
-from modeler.core.errors import DataError
-from modeler.formulas.physical_system import PhysicalSystem
+from modeler.core.errors import DataError, RobotError
+from modeler.core.files import read_text
+from modeler.core.json import parse_toml
+from modeler.formulas.physical import read_printed_terms
+from modeler.formulas.physical_system import NumericPolynomial, PhysicalSystem
 from modeler.formulas.ring import find_places
-from modeler.formulas.solve import ClosedSolution, solve
+from modeler.formulas.solve import ClosedSolution, derive_values, solve
 from modeler.formulas.thresholds import THRESHOLDS
-from modeler.formulas.values import NumericPolynomial, derive_values
+from modeler.robot import Robot, suggest_name
+
+# Values of physical parameters as people give them: "am=12+-0.1,bm=6", or a CAD file.
+
+
+_CAD_KEY = "relative_sigma"
+
+
+@dataclass(frozen=True)
+class KnownValues:
+    """Parameters that somebody knows.
+
+    Attributes:
+        names: in the order given.
+        values: of those that came with one, SI units.
+        sigmas: standard deviations of those that came with one.
+    """
+
+    names: tuple[str, ...]
+    values: Mapping[str, float]
+    sigmas: Mapping[str, float]
+
+
+def parse_known_values(text: str, system: PhysicalSystem, where: str = "--known") -> KnownValues:
+    """Reads "am=12,bm=6+-0.1,bl1".
+
+    Raises:
+        RobotError: an unknown or repeated name, no number, or that of no body.
+    """
+    values: dict[str, float] = {}
+    sigmas: dict[str, float] = {}
+    names: list[str] = []
+    for piece in filter(None, (part.strip() for part in text.split(","))):
+        name, equals, rest = (part.strip() for part in piece.partition("="))
+        check_symbol(name, system, where)
+        if name in names:
+            raise RobotError(f"{where}: {name} is given twice; expected each parameter once")
+        names.append(name)
+        if equals:
+            value, spread, sigma = rest.replace("±", "+-").partition("+-")
+            values[name] = _check_possible(
+                name, _parse_number(value, f"{where}, {name}"), system, where
+            )
+            if spread:
+                sigmas[name] = _parse_sigma(sigma, f"{where}, {name}")
+    effective = tuple(name for name in names if name in system.letters)
+    return KnownValues(
+        effective,
+        {name: values[name] for name in effective if name in values},
+        {name: sigmas[name] for name in effective if name in sigmas},
+    )
+
+
+def check_symbol(name: str, system: PhysicalSystem, where: str) -> None:
+    """Refuses what is no physical parameter or length of the robot.
+
+    Raises:
+        RobotError: tells what it may have meant.
+    """
+    names = (*system.letters, *system.vanishing, *system.alone, *system.constants)
+    if name not in names:
+        raise RobotError(
+            f'{where}: got "{name}"{suggest_name(name, names)}; expected physical parameters of '
+            f"{system.robot}: {', '.join(system.letters)}"
+        )
+
+
+def _parse_number(text: Any, where: str) -> float:
+    try:
+        value = float(text)
+    except (TypeError, ValueError):
+        value = math.nan
+    if isinstance(text, bool) or not math.isfinite(value):
+        raise RobotError(f"{where}: got {text!r}; expected a finite number, SI units")
+    return value
+
+
+def _check_possible(name: str, value: float, system: PhysicalSystem, where: str) -> float:
+    if name in system.masses and value <= 0.0:
+        raise RobotError(f"{where}, {name}: got the mass {value:g} kg; expected more than 0")
+    if name in system.moments and value < 0.0:
+        raise RobotError(f"{where}, {name}: got the moment {value:g} kg m^2; expected 0 or more")
+    return value
+
+
+def _parse_sigma(text: Any, where: str) -> float:
+    value = _parse_number(text, f"{where}, standard deviation")
+    if value < 0.0:
+        raise RobotError(f"{where}: got the standard deviation {value:g}; expected 0 or more")
+    return value
+
+
+def read_cad_file(path: Path, system: PhysicalSystem) -> KnownValues:
+    """Reads a TOML file: `am = 12.0`, `bm = [6.0, 0.1]` with a standard deviation.
+
+    `relative_sigma = 0.02` gives every value without one that share of itself.
+
+    Raises:
+        RobotError: no such file, no TOML, an unknown name, no number.
+    """
+    try:
+        raw = parse_toml(read_text(path))
+    except OSError as error:
+        raise RobotError(f"{path}: cannot be read ({error.strerror}); check the path") from None
+    except ValueError as error:
+        raise RobotError(f"{path}: no TOML ({error}); expected lines such as am = 12.0") from None
+    share = _parse_sigma(raw.pop(_CAD_KEY, 0.0), f"{path}, {_CAD_KEY}")
+    values: dict[str, float] = {}
+    sigmas: dict[str, float] = {}
+    for name, cell in raw.items():
+        check_symbol(name, system, str(path))
+        where = f"{path}, {name}"
+        if isinstance(cell, list):
+            if len(cell) != 2:
+                raise RobotError(f"{where}: got {cell}; expected [value, standard deviation]")
+            values[name], sigmas[name] = _parse_number(cell[0], where), _parse_sigma(cell[1], where)
+        else:
+            values[name] = _parse_number(cell, where)
+            sigmas[name] = share * abs(values[name])
+    return _select_effective(values, sigmas, system, str(path))
+
+
+def read_cad_example(robot: Robot, system: PhysicalSystem, where: str) -> KnownValues:
+    """Reads the example of the robot file, `[terms.example]`; missing lengths are nominal.
+
+    Raises:
+        RobotError: it has none.
+    """
+    example = read_printed_terms(robot).example
+    if not example:
+        raise RobotError(
+            f"{where}: the robot file has no values of physical parameters ([terms.example]); "
+            "give a file, such as --cad cad.toml"
+        )
+    values = robot.evaluate_symbols() | {name: float(value) for name, value in example.items()}
+    return _select_effective(values, {}, system, where)
+
+
+def _select_effective(
+    values: Mapping[str, float], sigmas: Mapping[str, float], system: PhysicalSystem, where: str
+) -> KnownValues:
+    effective_names: Collection[str] = [name for name in values if name in system.letters]
+    if not effective_names:
+        raise RobotError(
+            f"{where}: no value of a parameter with an effect on the torques; expected some of "
+            f"{', '.join(system.letters)}"
+        )
+    return KnownValues(
+        tuple(effective_names),
+        {name: values[name] for name in effective_names},
+        {name: sigmas[name] for name in effective_names if sigmas.get(name, 0.0) > 0.0},
+    )
+
+
+# Which sufficing set of known parameters lets errors grow least.
+
+
+# Known parameters and CAD values against what a fit says.
 
 
 def compute_z_limit(tests: int) -> float:
