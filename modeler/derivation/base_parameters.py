@@ -390,119 +390,112 @@ def derive_base_parameters(
     """
     samples = max(60, 3 * len(model.columns) // max(1, len(model.robot.coordinates)))
     sample = draw_sample(model, samples, seed)
-    numeric = compute_numeric_rank(sample, range(len(model.columns)))
+    attempt = _Attempt(model, sample, compute_numeric_rank(sample, range(len(model.columns))), seed)
     try:
         if model.special:  # loops that close at the given values only
-            joints = "joint" if len(model.special) == 1 else "joints"
-            raise ProofError(
-                f"the loops tie {joints} {', '.join(model.special)} to others at the given values "
-                "only"
-            )
-        return _derive_exact(model, model.geometry, sample, numeric, seed, "")
+            joints = f"joint{'s' if len(model.special) > 1 else ''} {', '.join(model.special)}"
+            raise ProofError(f"the loops tie {joints} to others at the given values only")
+        return attempt.derive_exact(model.geometry, "")
     except (ProofError, CoefficientTooLarge) as error:
         why = str(error)
     try:
         nominal = build_exact_geometry(model.robot, at_nominal=True)
-        statement = _AT_NOMINAL.format(why=why)
-        return _derive_exact(model, nominal, sample, numeric, seed, statement)
+        return attempt.derive_exact(nominal, _AT_NOMINAL.format(why=why))
     except (ProofError, CoefficientTooLarge) as error:
         if str(error) != why:
             why += f"; with these, {error}" if model.special else f"; in numbers, {error}"
-        return _derive_numeric(model, sample, numeric, seed, why)
+        return attempt.derive_numeric(why)
 
 
-def _derive_exact(
-    model: SymbolicModel,
-    geometry: Geometry,
-    sample: Sample,
-    numeric: NumericRank,
-    seed: int,
-    statement: str,
-) -> BaseParameters:
-    """Raises NotProved or TooLarge unless everything agrees."""
-    K = build_geometry_field(geometry)
-    relations = _derive_relations(model, geometry, K, numeric, seed)
-    independence: Certificate
-    if model.closure is not None:
-        independence = prove_rank(model, relations.kept_columns, sample, seed)
-    else:
-        independence = certify_relations(geometry, model.columns, K, relations, seed)
-    grouping = build_base_parameters(model.columns, relations, K, model.robot.has_binary_fractions)
-    kind = "exact at the given values" if statement else "exact"
-    if isinstance(independence, SampledRank):
-        kind = f"relations {kind}, rank sampled"
-    tied = model.geometry.has_relations
-    if model.closure is None:
+@dataclass(frozen=True)
+class _Attempt:
+    """A model with its sampled regressor, whose rank any relations must have."""
+
+    model: SymbolicModel
+    sample: Sample
+    numeric: NumericRank
+    seed: int
+
+    def derive_exact(self, geometry: Geometry, statement: str) -> BaseParameters:
+        """Raises ProofError or CoefficientTooLarge unless everything agrees."""
+        model, K = self.model, build_geometry_field(geometry)
+        relations = self._derive_relations(geometry, K)
+        independence: Certificate
+        if model.closure is not None:
+            independence = prove_rank(model, relations.kept_columns, self.sample, self.seed)
+        else:
+            independence = certify_relations(geometry, model.columns, K, relations, self.seed)
+        halves = model.robot.has_binary_fractions
+        grouping = build_base_parameters(model.columns, relations, K, halves)
+        kind = "exact at the given values" if statement else "exact"
+        if isinstance(independence, SampledRank):
+            kind = f"relations {kind}, rank sampled"
+        tied = model.geometry.has_relations
         argument = _TIED if tied else _EXACT
-    else:
-        argument = _LOOPS.format(tree=_OPEN[tied])
-    statement = argument + _describe_independence(model, independence, numeric) + statement
-    base = _attach_proof(model, grouping, kind, statement, independence, sample, numeric, seed)
-    if base.proof.agreement > THRESHOLDS.max_torque_difference:
-        raise ProofError(f"base and standard torque differ by {base.proof.agreement:.1e}")
-    return base
+        if model.closure is not None:
+            argument = _LOOPS.format(tree=_OPEN[tied])
+        statement = argument + self._describe_independence(independence) + statement
+        base = self._attach_proof(*grouping, kind, statement, independence)
+        if base.proof.agreement > THRESHOLDS.max_torque_difference:
+            raise ProofError(f"base and standard torque differ by {base.proof.agreement:.1e}")
+        return base
 
+    def _derive_relations(self, geometry: Geometry, K: ExactField) -> GroupingRelations:
+        """All relations; raises ProofError where they are not as many as the torques say."""
+        relations = derive_column_relations(self.model, geometry, K, self.seed)
+        rank, sampled_rank = len(relations.kept_columns), self.numeric.rank
+        if self.model.closure is not None and rank > sampled_rank:
+            relations = add_closure_relations(self.model, geometry, K, relations, self.seed)
+            rank = len(relations.kept_columns)
+        if rank != sampled_rank:
+            raise ProofError(
+                f"the symbols give rank {rank}, the torques at the given values {sampled_rank}"
+            )
+        return relations
 
-def _attach_proof(
-    model: SymbolicModel, grouping: tuple[tuple[BaseParameter, ...], tuple[str, ...]], kind: str,
-    statement: str, independence: Certificate, sample: Sample, numeric: NumericRank, seed: int,
-) -> BaseParameters:  # fmt: skip
-    """The base parameters and those without effect, with their proof."""
-    parameters, unidentifiable = grouping
-    if model.unproven:
-        statement += _UNPROVEN.format(joints=", ".join(model.unproven))
-    sampling, walk = None, sample.walk
-    if walk is not None:
-        assert model.closure is not None
-        moved = walk.postures[:, list(model.closure.actuated)]
-        ends = zip(model.robot.coordinates, moved.min(axis=0), moved.max(axis=0), strict=True)
-        ranges = {joint.name: (float(low), float(high)) for joint, low, high in ends}
-        sampling = Sampling(len(walk.postures), ranges, walk.distance)
-    proof = Proof(
-        kind, statement, independence, seed, numeric.rank, numeric.gap, numeric.tolerance,
-        numeric.scale, compare_torques(model, parameters, seed), sampling,
-    )  # fmt: skip
-    return BaseParameters(model.columns, parameters, unidentifiable, proof)
-
-
-def _derive_relations(
-    model: SymbolicModel, geometry: Geometry, K: ExactField, numeric: NumericRank, seed: int
-) -> GroupingRelations:
-    """All relations; raises NotProved where they are not as many as the torques say."""
-    relations = derive_column_relations(model, geometry, K, seed)
-    if model.closure is not None and len(relations.kept_columns) > numeric.rank:
-        relations = add_closure_relations(model, geometry, K, relations, seed)
-    if len(relations.kept_columns) != numeric.rank:
-        raise ProofError(
-            f"the symbols give rank {len(relations.kept_columns)}, the torques at the given values "
-            f"{numeric.rank}"
+    def derive_numeric(self, why: str) -> BaseParameters:
+        """The base parameters in floating point, for that reason."""
+        exact = partial(enclose_factors, self.model, self.sample, self.seed)
+        parameters, unidentifiable, bound = derive_numeric_grouping(
+            self.model, self.sample, self.numeric, exact
         )
-    return relations
+        columns = [p.column for p in parameters]
+        independence = prove_rank(self.model, columns, self.sample, self.seed)
+        statement = _NUMERIC.format(why=why, bound=bound)
+        statement += self._describe_independence(independence)
+        return self._attach_proof(parameters, unidentifiable, "numeric", statement, independence)
 
+    def _describe_independence(self, independence: Certificate) -> str:
+        """The argument of the independence, where relations and independence have two."""
+        if isinstance(independence, BallRank):
+            return _IN_BALLS.format(where=_WHERE[self.model.closure is not None])
+        if isinstance(independence, SampledRank):
+            margin = self.numeric.gap[0] / max(self.numeric.gap[1], float(np.finfo(float).eps))
+            return _SAMPLED.format(why=independence.why, margin=margin)
+        return ""
 
-def _describe_independence(
-    model: SymbolicModel, independence: Certificate, numeric: NumericRank
-) -> str:
-    """The argument of the independence, where relations and independence have two."""
-    if isinstance(independence, BallRank):
-        return _IN_BALLS.format(where=_WHERE[model.closure is not None])
-    if isinstance(independence, SampledRank):
-        margin = numeric.gap[0] / max(numeric.gap[1], float(np.finfo(float).eps))
-        return _SAMPLED.format(why=independence.why, margin=margin)
-    return ""
-
-
-def _derive_numeric(
-    model: SymbolicModel, sample: Sample, numeric: NumericRank, seed: int, why: str
-) -> BaseParameters:
-    exact = partial(enclose_factors, model, sample, seed)
-    parameters, unidentifiable, bound = derive_numeric_grouping(model, sample, numeric, exact)
-    independence = prove_rank(model, [p.column for p in parameters], sample, seed)
-    statement = _NUMERIC.format(why=why, bound=bound) + _describe_independence(
-        model, independence, numeric
-    )
-    grouping = parameters, unidentifiable
-    return _attach_proof(model, grouping, "numeric", statement, independence, sample, numeric, seed)
+    def _attach_proof(
+        self,
+        parameters: tuple[BaseParameter, ...],
+        unidentifiable: tuple[str, ...],
+        kind: str,
+        statement: str,
+        independence: Certificate,
+    ) -> BaseParameters:
+        """The base parameters and those without effect, with their proof."""
+        model, numeric, walk, sampling = self.model, self.numeric, self.sample.walk, None
+        if model.unproven:
+            statement += _UNPROVEN.format(joints=", ".join(model.unproven))
+        if walk is not None:
+            assert model.closure is not None
+            moved = walk.postures[:, list(model.closure.actuated)]
+            ends = zip(model.robot.coordinates, moved.min(axis=0), moved.max(axis=0), strict=True)
+            ranges = {joint.name: (float(low), float(high)) for joint, low, high in ends}
+            sampling = Sampling(len(walk.postures), ranges, walk.distance)
+        agreement = compare_torques(model, parameters, self.seed)
+        rank = (numeric.rank, numeric.gap, numeric.tolerance, numeric.scale)
+        proof = Proof(kind, statement, independence, self.seed, *rank, agreement, sampling)
+        return BaseParameters(model.columns, parameters, unidentifiable, proof)
 
 
 # The proof of a grouping modulo a prime.
@@ -522,58 +515,41 @@ def certify_relations(
     """Proves that the relations hold and that the kept columns are independent.
 
     Raises:
-        NotProved: a relation does not hold, or the kept columns are dependent.
+        ProofError: a relation does not hold, or the kept columns are dependent.
     """
     # Without gravity only the kinetic row of each point counts.
-    points = len(relations.kept_columns) + 8
+    kept_columns = list(relations.kept_columns)
+    points = len(kept_columns) + 8
     for check in range(THRESHOLDS.proof_checks):
         try:
             state = ModularState(geometry, K, points, seed + check)
-            _check_relations(columns, K, relations, state)
+            energy = state.compute_energy_rows(columns)
+            rayleigh = state.compute_rayleigh_rows(columns)
+            _check_relations(columns, K, relations, np.vstack([energy, rayleigh]), state.residues)
         except ValueError as error:  # a constant whose denominator is a multiple of the prime
             raise ProofError(f"a constant has no value modulo {PRIME} ({error})") from None
-    rank = _compute_kept_rank(columns, relations, state)
-    if rank != len(relations.kept_columns):
-        raise ProofError(
-            f"of {len(relations.kept_columns)} columns kept only {rank} are independent"
-        )
+    left = [columns[i] for i in kept_columns]
+    coulomb = [column for column in left if is_in_block(column, EnergyBlock.COULOMB)]
+    # Columns |v| of pairwise non-proportional speeds are independent; see the friction relations.
+    rank = len(coulomb) - len(find_friction_relations(coulomb))
+    rank += sum(is_in_block(column, EnergyBlock.OWN) for column in left)
+    rank += sum(compute_modular_rank(rows[:, kept_columns]) for rows in (energy, rayleigh))
+    if rank != len(left):
+        raise ProofError(f"of {len(left)} columns kept only {rank} are independent")
     return ModularRank(rank, PRIME, THRESHOLDS.proof_checks * points, seed)
 
 
 def _check_relations(
-    columns: tuple[StandardColumn, ...],
+    columns: Sequence[StandardColumn],
     K: ExactField,
     relations: GroupingRelations,
-    state: ModularState,
+    rows: np.ndarray,
+    residues: Mapping[sympy.Expr, int],
 ) -> None:
-    rows = np.vstack([state.compute_energy_rows(columns), state.compute_rayleigh_rows(columns)])
-    coulomb_places = {
-        place for place, c in enumerate(columns) if is_in_block(c, EnergyBlock.COULOMB)
-    }
-    residue = cache(partial(K.compute_residue, values=state.residues, prime=PRIME))
+    residue = cache(partial(K.compute_residue, values=residues, prime=PRIME))
     for relation, dropped in zip(relations.rows, relations.dropped_columns, strict=True):
-        total = np.zeros(rows.shape[0], dtype=np.int64)
+        total = np.zeros(len(rows), dtype=np.int64)
         for place, coefficient in relation.items():
             total = (total + rows[:, place] * residue(coefficient)) % PRIME
-        if np.any(total) and dropped not in coulomb_places:
+        if np.any(total) and not is_in_block(columns[dropped], EnergyBlock.COULOMB):
             raise ProofError(f"the relation of {columns[dropped].name} does not hold")
-
-
-def _compute_kept_rank(
-    columns: tuple[StandardColumn, ...], relations: GroupingRelations, state: ModularState
-) -> int:
-    kept_columns = list(relations.kept_columns)
-    left = [columns[i] for i in kept_columns]
-    energy = compute_modular_rank(state.compute_energy_rows(columns)[:, kept_columns])
-    rayleigh = compute_modular_rank(state.compute_rayleigh_rows(columns)[:, kept_columns])
-    coulomb_columns = [column for column in left if is_in_block(column, EnergyBlock.COULOMB)]
-    separate_rank = sum(is_in_block(column, EnergyBlock.OWN) for column in left)
-    # Columns |v| of pairwise non-proportional speeds are independent: see
-    # `modeler.derivation.base_parameters`.
-    return (
-        energy
-        + rayleigh
-        + separate_rank
-        + len(coulomb_columns)
-        - len(find_friction_relations(coulomb_columns))
-    )

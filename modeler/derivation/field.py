@@ -420,7 +420,7 @@ def _subtract_row(row: dict[int, Element], pivot: Mapping[int, Element], factor:
     for j, x in pivot.items():
         part = factor * x
         value = row[j] - part if j in row else -part
-        if _count_terms(value) > THRESHOLDS.max_coefficient_terms:
+        if isinstance(value, Quotient) and len(value) > THRESHOLDS.max_coefficient_terms:
             raise CoefficientTooLarge(
                 f"a coefficient has more than {THRESHOLDS.max_coefficient_terms} terms"
             )
@@ -443,10 +443,6 @@ def compute_null_space(rows: Matrix, width: int, zero: Element, one: Element) ->
             vector[pivot] = -line[free]
         basis.append(vector)
     return basis
-
-
-def _count_terms(value: Element) -> int:
-    return len(value) if isinstance(value, Quotient) else 1
 
 
 # Linear relations between vectors over Q, first come first kept.

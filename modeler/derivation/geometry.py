@@ -107,7 +107,7 @@ def fold_expression(expression: Expression, values: Mapping[str, sympy.Expr]) ->
     """
     try:
         value = sympy.sympify(
-            expression.fold(values, _FUNCTIONS, sympy.pi, _convert_rational, compute_power)
+            expression.fold(values, _FUNCTIONS, sympy.pi, sympy.Rational, compute_power)
         )
         check_length(value)
     except ExpressionTooLong as error:
@@ -122,10 +122,6 @@ def fold_expression(expression: Expression, values: Mapping[str, sympy.Expr]) ->
     if not turned or not all(is_short(function.args[0]) for function in turned):
         return value
     return sympy.expand_trig(value)
-
-
-def _convert_rational(value: Fraction) -> sympy.Rational:
-    return sympy.Rational(value.numerator, value.denominator)
 
 
 def _shorten_text(text: str) -> str:

@@ -607,7 +607,9 @@ def _evaluate_on_shaft(
                 values[name + joint.name] = combine_linearly(graph, form, model.get_inputs(kind))
     for name in ("load", "static", "torque"):
         if name in names:
-            values[name] = _project_on_shaft(graph, shaft, model.derive_reference_torque(name))
+            # Torque of the joint that the shaft is; motors of several joints read no load.
+            inverse = {k: 1 / coefficient for k, coefficient in shaft.items()}
+            values[name] = combine_linearly(graph, inverse, model.derive_reference_torque(name))
     zero = graph.constant(0)
     for name, value in read.items():
         values[name] = value - values.get(f"{name}0", zero) if name in ("t", "T") else value
@@ -619,13 +621,6 @@ def _evaluate_on_shaft(
 def combine_along_shaft(model: SymbolicModel, shaft: Mapping[int, Fraction], kind: str) -> Expr:
     """Returns position, speed or acceleration of a shaft."""
     return combine_linearly(model.graph, shaft, model.get_inputs(kind))
-
-
-def _project_on_shaft(graph: Graph, shaft: Mapping[int, Fraction], torques: list[Expr]) -> Expr:
-    """Torque of the joint that the shaft is; effects on motors of several joints read no load."""
-    return combine_linearly(
-        graph, {k: 1 / coefficient for k, coefficient in shaft.items()}, torques
-    )
 
 
 def _derive_position_effect(model: SymbolicModel, column: ShaftColumn) -> dict[int, Expr]:

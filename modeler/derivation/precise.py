@@ -49,10 +49,6 @@ def enclose_symbols(robot: Robot) -> dict[str, Ball]:
     return known
 
 
-def _get_ball_method(name: str) -> Callable[[Ball], Ball]:
-    return operator.methodcaller({"sign": "sgn"}.get(name, name))
-
-
 def _enclose_law(table: Table, *x: Ball) -> Ball:
     """A law that was learned: of all cells in which x may lie."""
     law, places = table.law, []
@@ -93,7 +89,7 @@ def _compute_weights(f: Ball, rate: Ball, slope: bool) -> list[Ball]:
 _CALLS: Mapping[str, Callable[..., Ball]] = {
     **OPERATIONS,
     "pow": operator.pow,
-    **{name: _get_ball_method(name) for name in FUNCTIONS},
+    **{name: operator.methodcaller({"sign": "sgn"}.get(name, name)) for name in FUNCTIONS},
     "abs": abs,
     LAW: _enclose_law,
 }

@@ -421,13 +421,9 @@ def parse_base_parameter(entry: Mapping[str, Any], halves: bool = False) -> Base
         read = parse_expression(str(term["coefficient"]))
         letters = {letter: sympy.Symbol(letter) for letter in read.names}
         functions = {known: getattr(sympy, known) for known in ("sin", "cos", "tan", "sqrt", "exp")}
-        exact = read.fold(letters, functions, sympy.pi, _convert_rational)
+        exact = read.fold(letters, functions, sympy.pi, sympy.Rational)
         terms.append(Term(exact, term["parameter"]))
     return BaseParameter(entry["name"], -1, tuple(terms), halves)
-
-
-def _convert_rational(value: Fraction) -> sympy.Rational:
-    return sympy.Rational(value.numerator, value.denominator)
 
 
 def _serialise_proof(proof: Proof) -> dict[str, Any]:

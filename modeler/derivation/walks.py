@@ -83,7 +83,9 @@ class _Walkers:
         """One step of every walker; the postures, all but closed, that are reached by it."""
         f, J, sign, openness = self._linearise_loops(self.u)
         lost = openness > THRESHOLDS.max_open_residual * self.loops.size
-        lost |= (sign != self.sign) | self._is_outside(self.u)
+        (low, high), margin = self.ranges.T, THRESHOLDS.max_walk_step * self.scale
+        outside = np.any((self.u < low - margin) | (self.u > high + margin), axis=1)
+        lost |= (sign != self.sign) | outside
         self.pace = np.where(lost, self.pace / 4, np.minimum(1.0, 2 * self.pace))
         stuck = self.pace < THRESHOLDS.min_pace
         if np.any(lost):
@@ -95,14 +97,6 @@ class _Walkers:
         self.before = self.u
         self.u = self.u + self._compute_step(f, J)
         return self.before[~lost]
-
-    def _is_outside(self, u: np.ndarray) -> np.ndarray:
-        low, high = self.ranges.T
-        return np.any(
-            (u < low - THRESHOLDS.max_walk_step * self.scale)
-            | (u > high + THRESHOLDS.max_walk_step * self.scale),
-            axis=1,
-        )
 
     def _replace_targets(self, stuck: np.ndarray) -> None:
         """Other targets for walkers that are stuck, and for those that have arrived."""

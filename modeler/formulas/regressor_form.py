@@ -193,15 +193,9 @@ def compute_cofactor(B: Sequence[Sequence[Any]], i: int, j: int) -> Any:
     if len(B) == 1:
         return 1
     rest = [[x for k, x in enumerate(line) if k != j] for r, line in enumerate(B) if r != i]
-    minor = _expand_determinant(rest)
+    minors = [compute_cofactor(rest, 0, k) for k in range(len(rest))]
+    minor = multiply_rows(rest[0], minors)  # the graph shares them
     return minor if (i + j) % 2 == 0 else -minor
-
-
-def _expand_determinant(B: Sequence[Sequence[Any]]) -> Any:
-    """By the first row; the graph shares minors."""
-    if len(B) == 1:
-        return B[0][0]
-    return multiply_rows(B[0], [compute_cofactor(B, 0, j) for j in range(len(B))])
 
 
 def _write_platform(

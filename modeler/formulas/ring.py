@@ -336,7 +336,7 @@ def _collect_parts(
         letters.add(value if value.is_Symbol else _PI)
     elif isinstance(value, sympy.cos | sympy.sin):
         angles.setdefault(str(value.args[0]), value.args[0])
-    elif _is_root(value):
+    elif value.is_Pow and value.exp == sympy.Rational(1, 2) and value.base.is_Rational:
         roots.setdefault(str(value), sympy.sqrt(value.base))
     elif not value.is_Rational:
         for arg in value.args:
@@ -344,10 +344,6 @@ def _collect_parts(
 
 
 _PI = sympy.Symbol("pi", real=True)
-
-
-def _is_root(value: sympy.Expr) -> bool:
-    return bool(value.is_Pow and value.exp == sympy.Rational(1, 2) and value.base.is_Rational)
 
 
 def _convert_polynomial(value: sympy.Expr, ring: PolyRing, place: Mapping[sympy.Expr, int]) -> Poly:

@@ -194,16 +194,14 @@ class _Elimination:
             keep = [i for i in order if rows[i]]
             for i in list(keep):
                 fewer = [k for k in keep if k != i]
-                if self._is_determined([rows[k] for k in fewer], at):
+                # Is the unit vector of that place a combination of the fewer rows?
+                left = [rows[k] for k in fewer]
+                ranks = (find_independent_modulo(r, self.prime) for r in (left, [*left, {at: 1}]))
+                if len({len(rank) for rank in ranks}) == 1:
                     keep = fewer
             kind = _EASY.index(self.system.kinds[letter])
             candidates.append((len(keep), kind, letter, sorted(keep)))
         return [(letter, keep) for _, _, letter, keep in sorted(candidates)]
-
-    def _is_determined(self, rows: Sequence[Mapping[int, int]], at: int) -> bool:
-        """Is the unit vector of that place a combination of the rows?"""
-        rank = len(find_independent_modulo(rows, self.prime))
-        return len(find_independent_modulo([*rows, {at: 1}], self.prime)) == rank
 
     def _find_unknowns(self, poly: Poly) -> set[str]:
         """Unknowns in it that have no formula yet."""
