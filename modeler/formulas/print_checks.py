@@ -1,7 +1,7 @@
 """A paper's print against the derived model: every claim is computed, none believed."""
 
 import dataclasses
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from fractions import Fraction
 from itertools import product
@@ -452,15 +452,14 @@ class FrictionCheck:
 def check_friction(coupling: Coupling) -> FrictionCheck:
     """Compares the printed friction term with that of virtual work, at one motion."""
     G, C, qd = map(np.array, (coupling.motor_from_joint, coupling.coulomb, coupling.speed))
-    motor = G @ qd
-    printed, derived = np.diag(G) * C * _compute_signs(qd), G.T @ (C * _compute_signs(motor))
-    return FrictionCheck(
-        tuple(printed), tuple(derived), qd @ printed, C @ np.abs(motor), qd @ derived
-    )
+    joint_signs, motor_signs = ((x > 0).astype(int) - (x < 0) for x in (qd, G @ qd))
+    printed, derived = np.diag(G) * C * joint_signs, G.T @ (C * motor_signs)
+    powers = qd @ printed, C @ np.abs(G @ qd), qd @ derived
+    return FrictionCheck(tuple(printed), tuple(derived), *powers)
 
 
-def _compute_signs(values: np.ndarray) -> np.ndarray:
-    return (values > 0).astype(int) - (values < 0).astype(int)
+def _format_section(title: str, intro: str, lines: Iterable[str]) -> str:
+    return "\n".join([title, "", intro, "", *lines, ""])
 
 
 def write_print_sections(table: CoefficientTable) -> list[str]:
@@ -469,79 +468,63 @@ def write_print_sections(table: CoefficientTable) -> list[str]:
     quoted = (printed.functions, printed.definitions, printed.solutions, printed.independent)
     if not any(quoted):
         return []
-    sections = [
-        "## Where the print is wrong, and how one sees it\n",
-        _write_independent(table),
-        _write_definitions(table),
-        _write_function_section(table),
-        _write_solutions(table),
-        _write_vanishing(table),
-    ]
-    if printed.coupling is not None:
-        sections.append(_write_friction(printed.coupling))
-    if printed.twin:
-        sections.append(_write_twin(table))
-    return [section for section in sections if section]
+    writers = (
+        _write_independent,
+        _write_definitions,
+        _write_function_section,
+        _write_solutions,
+        _write_vanishing,
+        _write_friction,
+        _write_twin,
+    )
+    sections = (write(table) for write in writers)
+    title = "## Where the print is wrong, and how one sees it\n"
+    return [title, *(section for section in sections if section)]
 
 
 def _write_independent(table: CoefficientTable) -> str:
     printed, dependent = table.printed.independent, check_independent(table)
-    if not dependent:
-        return ""
-    lines = [
-        "### Independent coefficients",
-        "",
+    intro = (
         f"{len(printed)} are printed as independent; their rank over Q is "
         f"**{len(printed) - len(dependent)}**; that of all {len(table.coefficients)} is "
-        f"**{table.relations.rank}**:",
-        "",
-    ]
-    lines += [f"* `{name} = {text}`, identically." for name, text in dependent.items()]
-    return "\n".join([*lines, ""])
+        f"**{table.relations.rank}**:"
+    )
+    lines = [f"* `{name} = {text}`, identically." for name, text in dependent.items()]
+    return _format_section("### Independent coefficients", intro, lines) if lines else ""
 
 
 def _write_definitions(table: CoefficientTable) -> str:
     wrong, count = find_wrong_definitions(table), len(table.printed.definitions)
     lines = [
-        "### Definitions",
-        "",
-        f"{count - len(wrong)} of {count} printed definitions are the derived polynomials. The "
-        "others:",
-        "",
+        f"* {check.name}, printed `{check.printed}`: derived minus printed is `{check.difference}`."
+        for check in wrong
     ]
-    for check in wrong:
-        lines.append(
-            f"* {check.name}, printed `{check.printed}`: derived minus printed is "
-            f"`{check.difference}`."
-        )
-    derived = {check.letter: check.verdict for check in check_solutions(table)}
-    spoilt = [
-        check.letter
-        for check in check_solutions(table, as_printed=True)
-        if derived[check.letter] == "right" != check.verdict
-    ]
+    verdicts = {check.letter: check.verdict for check in check_solutions(table)}
+    printed = check_solutions(table, as_printed=True)
+    spoilt = [c.letter for c in printed if verdicts[c.letter] == "right" != c.verdict]
     if spoilt:
         lines += [
             "",
             "The print contradicts itself: with the printed definitions its own solutions for "
             f"{', '.join(spoilt)} do not return their parameter, with the derived ones they do.",
         ]
-    return "\n".join([*lines, ""]) if wrong else ""
+    right = f"{count - len(wrong)} of {count} printed definitions are the derived polynomials."
+    return _format_section("### Definitions", f"{right} The others:", lines) if wrong else ""
 
 
 def _write_function_section(table: CoefficientTable) -> str:
-    wrong = find_wrong_functions(table)
+    wrong, printed = find_wrong_functions(table), table.printed
     if not wrong:
         return ""
     lines = ["### Functions", ""]
-    count, true = table.printed.count, len(table.coefficients)
-    if count is not None and count != true:
-        lines += [f"The print counts {count} coefficients, there are **{true}**.", ""]
+    true = len(table.coefficients)
+    if printed.count not in (None, true):
+        lines += [f"The print counts {printed.count} coefficients, there are **{true}**.", ""]
     lines += [
         "A mechanism keeps its power balance, qd'S = qd' (dM/dt) qd / 2. With the example of the "
         f"robot file at {STATE},"
     ]
-    if table.printed.example:
+    if printed.example:
         balance = compute_power_balance(table, build_exact_state(table))
         lines += [f"the derived functions miss it by {balance} W, in exact arithmetic.", ""]
     lines += ["| function | derived minus printed | print misses by |", "|---|---|---|"]
@@ -549,100 +532,85 @@ def _write_function_section(table: CoefficientTable) -> str:
         rest = "; ".join(f"`({text})*{at}`" for at, text in check.difference.items())
         power = "" if check.power_defect is None else f"{float(check.power_defect):.4f} W"
         lines.append(f"| {check.name} | {rest} | {power} |")
-    lines += ["", "As printed:", "", "```text"]
-    lines += [f"{check.name} = {check.printed}" for check in wrong]
-    lines += ["```", ""]
-    for name in table.closed.by_name:
-        if name not in table.printed.functions:
-            coefficient_names = {c.name for c in table.coefficients if c.function == name}
-            holders = [
-                f for f, text in table.printed.functions.items() if coefficient_names & text.names
-            ]
-            where = f"; its terms stand in {', '.join(holders)}" if holders else ""
-            lines += [f"Without a name of its own in the print: {name}{where}.", ""]
+    quotes = [f"{check.name} = {check.printed}" for check in wrong]
+    lines += ["", "As printed:", "", "```text", *quotes, "```", ""]
+    for name in (n for n in table.closed.by_name if n not in printed.functions):
+        names = {c.name for c in table.coefficients if c.function == name}
+        holders = [f for f, text in printed.functions.items() if names & text.names]
+        where = f"; its terms stand in {', '.join(holders)}" if holders else ""
+        lines += [f"Without a name of its own in the print: {name}{where}.", ""]
     return "\n".join(lines)
 
 
 def _write_solutions(table: CoefficientTable) -> str:
-    checks = check_solutions(table)
-    wrong = [check for check in checks if check.verdict != "right"]
-    if not wrong:
-        return ""
-    lines = [
-        "### Solutions for the physical parameters",
-        "",
-        f"With the derived coefficients put in, {len(checks) - len(wrong)} of {len(checks)} "
-        "printed solutions return their parameter. The others:",
-        "",
-    ]
-    for check in wrong:
-        why = f"it gives `({check.numerator}) / ({check.denominator})`"
-        if check.denominator == "0":
-            why = f"the denominator is the zero polynomial, the numerator `{check.numerator}`"
-        sign = ", the overall sign is wrong" if check.verdict.startswith("returns") else f": {why}"
-        lines.append(f"* {check.letter} = `{check.printed}`: **{check.verdict}**{sign}.")
-    return "\n".join([*lines, ""])
+    checks, lines = check_solutions(table), []
+    for check in (check for check in checks if check.verdict != "right"):
+        why = f": it gives `({check.numerator}) / ({check.denominator})`"
+        if check.verdict.startswith("returns"):
+            why = ", the overall sign is wrong"
+        elif check.denominator == "0":
+            why = f": the denominator is the zero polynomial, the numerator `{check.numerator}`"
+        lines.append(f"* {check.letter} = `{check.printed}`: **{check.verdict}**{why}.")
+    intro = (
+        f"With the derived coefficients put in, {len(checks) - len(lines)} of {len(checks)} "
+        "printed solutions return their parameter. The others:"
+    )
+    title = "### Solutions for the physical parameters"
+    return _format_section(title, intro, lines) if lines else ""
 
 
 def _write_vanishing(table: CoefficientTable) -> str:
-    printed, derived = set(table.printed.vanishing), set(table.identifiability.vanishing)
-    if not printed or printed == derived:
+    printed, derived = table.printed.vanishing, table.identifiability.vanishing
+    if not printed or set(printed) == set(derived):
         return ""
-    known = set(table.identifiability.letters)
-    strange = sorted(printed - known)
-    lines = [
-        "### Parameters without effect",
-        "",
-        f"Printed: {', '.join(table.printed.vanishing)}. Derived, because no coefficient "
-        f"depends on them: {', '.join(table.identifiability.vanishing)}.",
-    ]
-    if strange:
-        lines.append(f"No parameters at all: {', '.join(strange)}.")
-    return "\n".join([*lines, ""])
+    text = (
+        f"Printed: {', '.join(printed)}. Derived, because no coefficient depends on them: "
+        f"{', '.join(derived)}.\n"
+    )
+    strange = sorted(set(printed) - set(table.identifiability.letters))
+    text += f"No parameters at all: {', '.join(strange)}.\n" if strange else ""
+    return f"### Parameters without effect\n\n{text}"
 
 
-def _write_friction(coupling: Coupling) -> str:
+def _write_friction(table: CoefficientTable) -> str:
+    coupling = table.printed.coupling
+    if coupling is None:
+        return ""
     check = check_friction(coupling)
 
     def format_row(values: tuple[Fraction, ...]) -> str:
         return ", ".join(f"{float(value):g}" for value in values)
 
-    matrix = "; ".join(format_row(line) for line in coupling.motor_from_joint)
-    return "\n".join(
-        [
-            "### Friction of coupled motors",
-            "",
-            "Printed: G_ii C_i sgn(qd_i), C being diagonal. Virtual work: (G^T C sgn(G qd))_i, "
-            "with the motor speeds G qd; friction must take sum C_i |(G qd)_i|.",
-            "",
-            f"With G = [{matrix}], C = ({format_row(coupling.coulomb)}) N m, qd = "
-            f"({format_row(coupling.speed)}) "
-            f"rad/s the motors take {float(check.dissipated):g} W:",
-            "",
-            "| | joint torques, N m | power, W |",
-            "|---|---|---|",
-            f"| printed | {format_row(check.printed)} | {float(check.printed_power):g} |",
-            f"| derived | {format_row(check.derived)} | {float(check.derived_power):g} |",
-            "",
-        ]
+    matrix = "; ".join(map(format_row, coupling.motor_from_joint))
+    intro = (
+        "Printed: G_ii C_i sgn(qd_i), C being diagonal. Virtual work: (G^T C sgn(G qd))_i, "
+        "with the motor speeds G qd; friction must take sum C_i |(G qd)_i|.\n\n"
+        f"With G = [{matrix}], C = ({format_row(coupling.coulomb)}) N m, qd = "
+        f"({format_row(coupling.speed)}) rad/s the motors take {float(check.dissipated):g} W:"
     )
+    rows = (
+        ("printed", check.printed, check.printed_power),
+        ("derived", check.derived, check.derived_power),
+    )
+    lines = [f"| {name} | {format_row(x)} | {float(power):g} |" for name, x, power in rows]
+    heads = ["| | joint torques, N m | power, W |", "|---|---|---|"]
+    return _format_section("### Friction of coupled motors", intro, [*heads, *lines])
 
 
 def _write_twin(table: CoefficientTable) -> str:
+    if not table.printed.twin:
+        return ""
     check = check_twin(table)
     first, second = get_example_values(table), get_example_values(table, twin=True)
-    lines = [
-        "### Two different robots with the same torques",
-        "",
+    intro = (
         f"These two differ in {len(check.changed)} parameters; **{check.equal} of "
         f"{len(table.coefficients)}** coefficients are equal, in exact arithmetic."
-        + ("" if check.different else " No motion tells them apart."),
-        "",
-        "| parameter | first | second |",
-        "|---|---|---|",
-    ]
-    lines += [f"| {name} | {first.get(name, 0)} | {second[name]} |" for name in check.changed]
-    return "\n".join([*lines, ""])
+        + ("" if check.different else " No motion tells them apart.")
+    )
+    heads = ["| parameter | first | second |", "|---|---|---|"]
+    lines = [f"| {name} | {first.get(name, 0)} | {second[name]} |" for name in check.changed]
+    title = "### Two different robots with the same torques"
+    return _format_section(title, intro, [*heads, *lines])
 
 
 # The page about a robot's coefficients, computed while it is written.
@@ -659,56 +627,40 @@ def write_terms_report(model: SymbolicModel, base: BaseParameters) -> str:
         RobotError: `[terms]` or `[physical]` of the robot file is wrong.
     """
     table = build_coefficient_table(model, base)
-    parts = [
-        _write_head(table),
-        _write_functions(table),
-        _write_relations(model, table),
-        _write_map(table),
-    ]
-    parts += write_print_sections(table)
+    parts = [_write_head(table), _write_functions(table), _write_relations(model, table)]
+    parts += [_write_map(table), *write_print_sections(table)]
     parts.append("## All coefficients\n\n" + format_coefficients(table, "markdown"))
     return "\n".join(parts)
 
 
 def _write_head(table: CoefficientTable) -> str:
-    closed = table.closed
-    factor = ""
-    if closed.gravity_factor:
-        factor = f" Gravity torques are {closed.gravity_factor} times g_i."
+    closed, source = table.closed, table.printed.source
+    factor, sign = "", closed.gravity_factor
+    if sign:
+        factor = f" Gravity torques are {sign} times g_i."
     lines = [
-        f"# Coefficients of the closed form: {closed.robot.title}",
-        "",
         "All formulas and numbers below are computed from the robot file when this page is made; "
-        "only what is called printed is quoted.",
-        "",
-        f"`{format_equation(closed)}`",
-        "",
+        "only what is called printed is quoted.\n",
+        f"`{format_equation(closed)}`\n",
         "J is the inertia matrix (symmetric), S_ijk (j <= k) the full coefficient of qd_j qd_k; s "
-        f"and c are sine and cosine of a joint angle.{factor} Functions not listed are zero.",
-        "",
+        f"and c are sine and cosine of a joint angle.{factor} Functions not listed are zero.\n",
+        *([f"Source of the print: {source}.\n"] if source else []),
     ]
-    if table.printed.source:
-        lines += [f"Source of the print: {table.printed.source}.", ""]
-    return "\n".join(lines)
+    return "\n".join([f"# Coefficients of the closed form: {closed.robot.title}\n", *lines])
 
 
 def _write_functions(table: CoefficientTable) -> str:
     lines = ["## The functions", "", "```text"]
     for function, coefficients in collect_by_function(table):
         terms = [c.name if c.monomial == "1" else f"{c.name}*{c.monomial}" for c in coefficients]
-        lines += _wrap_terms(f"{function.name} = ", terms)
+        line = f"{function.name} = {terms[0] if terms else ''}"
+        for piece in (f" + {term}" for term in terms[1:]):
+            if len(line) + len(piece) > _WIDTH:
+                lines.append(line)
+                line = "     "
+            line += piece
+        lines.append(line)
     return "\n".join([*lines, "```", ""])
-
-
-def _wrap_terms(head: str, terms: list[str]) -> list[str]:
-    lines, line = [], head
-    for index, term in enumerate(terms):
-        piece = term if index == 0 else f" + {term}"
-        if len(line) + len(piece) > _WIDTH:
-            lines.append(line)
-            line = "     "
-        line += piece
-    return [*lines, line]
 
 
 def _describe_fewest_monomials(model: SymbolicModel) -> list[str]:
@@ -724,41 +676,36 @@ def _describe_fewest_monomials(model: SymbolicModel) -> list[str]:
 
 
 def _write_relations(model: SymbolicModel, table: CoefficientTable) -> str:
-    identifiability, relations = table.identifiability, table.relations
+    seen, relations = table.identifiability, table.relations
     kinds = {"gravity": 0, "inertia": 0, "christoffel": 0}
     for function in table.closed.functions:
         kinds[function.kind] += len(function.terms)
-    appearing, rank = len(identifiability.appearing), identifiability.jacobian_rank
+    appearing, rank = len(seen.appearing), seen.jacobian_rank
     lines = [
         "## Relations",
         "",
-        f"* {kinds['gravity']} + {kinds['inertia']} + {kinds['christoffel']} = "
+        f"* {' + '.join(map(str, kinds.values()))} = "
         f"**{len(table.coefficients)}** coefficients (gravity, inertia matrix, Christoffel). Up to "
         f"constant factors they are {len(partition_by_ratio(relations))} different functions of "
-        "the "
-        "parameters.",
+        "the parameters.",
         *_describe_fewest_monomials(model),
         f"* Rank over Q, exact, with all lengths unknown: **{relations.rank}**; the first that are "
         "independent stand in the map below.",
         f"* Rank with the geometry known: {len(table.known_geometry)}; base parameters: "
         f"{table.base.rank}.",
-        f"* {len(identifiability.letters)} physical parameters, of which {appearing} appear. The "
-        f"{len(identifiability.vanishing)} without effect on any torque: "
-        f"**{', '.join(identifiability.vanishing) or 'none'}**.",
+        f"* {len(seen.letters)} physical parameters, of which {appearing} appear. The "
+        f"{len(seen.vanishing)} without effect on any torque: "
+        f"**{', '.join(seen.vanishing) or 'none'}**.",
     ]
-    if identifiability.sums:
-        sums = (
-            format_signed_sum((Fraction(v), k) for k, v in group.items())
-            for group in identifiability.sums
-        )
-        lines.append(f"* Only together: {', '.join(f'`{text}`' for text in sums)}.")
-    lines += [
+    if seen.sums:
+        groups = [[(Fraction(v), k) for k, v in group.items()] for group in seen.sums]
+        sums = ", ".join(f"`{format_signed_sum(group)}`" for group in groups)
+        lines.append(f"* Only together: {sums}.")
+    lines.append(
         f"* Generic rank of d coefficients / d parameters, over the {appearing} that appear: "
-        f"**{rank}** (modulo a prime at {identifiability.points} random points, seed "
-        f"{identifiability.seed}). So at "
-        f"least {appearing - rank} of the {appearing} must be known to find the others.",
-        "",
-    ]
+        f"**{rank}** (modulo a prime at {seen.points} random points, seed {seen.seed}). So at "
+        f"least {appearing - rank} of the {appearing} must be known to find the others.\n"
+    )
     return "\n".join(lines)
 
 
@@ -768,13 +715,15 @@ def _write_map(table: CoefficientTable) -> str:
     if grouped:
         lines += ["Grouped parameters:", "", "```text", *grouped, "```", ""]
     lines += ["```text", *format_forward_map(table), "```", ""]
-    determinant, size = format_determinant(table), len(table.map.rows)
+    determinant, rows, columns = (
+        format_determinant(table),
+        len(table.map.rows),
+        len(table.map.columns),
+    )
     if determinant is None:
-        why = (
-            "not square" if size != len(table.map.columns) else "its determinant too long to print"
-        )
-        lines.append(f"This map is {size} x {len(table.map.columns)}, {why}.")
+        why = "not square" if rows != columns else "its determinant too long to print"
+        lines.append(f"This map is {rows} x {columns}, {why}.")
     else:
-        lines.append(f"Determinant of this {size} x {size} map: **{determinant}**.")
+        lines.append(f"Determinant of this {rows} x {rows} map: **{determinant}**.")
         lines += ["", "Backwards:", "", "```text", *format_backward_map(table), "```"]
     return "\n".join([*lines, ""])
