@@ -173,11 +173,8 @@ def _find_flip_angles(linkage: Linkage, k: int) -> list[tuple[int, ...]]:
     chain = set(linkage.geometry.find_ancestors(row)) | {
         i for i in range(len(rows)) if row in linkage.geometry.find_ancestors(i)
     }
-    angles = [
-        i
-        for i, joint in enumerate(linkage.free)
-        if joint.is_revolute and names.index(joint.name) in chain
-    ]
+    free = enumerate(linkage.free)
+    angles = [i for i, joint in free if joint.is_revolute and names.index(joint.name) in chain]
     return [(i,) for i in angles] + [(i, j) for i in angles for j in angles if i < j]
 
 
@@ -209,11 +206,8 @@ def _are_copies(linkage: Linkage, others: np.ndarray, u: np.ndarray) -> np.ndarr
     loops = linkage.loops
     open_by = np.max(np.abs(loops.compute_residuals(others)), axis=1)
     different = np.max(np.abs(linkage.compute_shape(others) - linkage.compute_shape(u)), axis=1)
-    return (
-        (open_by < THRESHOLDS.copy_residual * loops.size)
-        & (different < THRESHOLDS.same_shape)
-        & loops.are_aligned(others)
-    )
+    same = (open_by < THRESHOLDS.copy_residual * loops.size) & (different < THRESHOLDS.same_shape)
+    return same & loops.are_aligned(others)
 
 
 def _find_legs(linkage: Linkage) -> list[list[int]]:
@@ -252,10 +246,8 @@ def count_constant_ratios(linkage: Linkage, u: np.ndarray) -> np.ndarray:
     """
     loops, actuated = linkage.loops, list(linkage.loops.actuated)
     solved = list(loops.solved)
-    count = max(
-        THRESHOLDS.min_ratio_postures,
-        THRESHOLDS.speeds_per_joint * -(-loops.unknown_count // len(actuated)),
-    )
+    per_actuated = -(-loops.unknown_count // len(actuated))
+    count = max(THRESHOLDS.min_ratio_postures, THRESHOLDS.speeds_per_joint * per_actuated)
     steps = np.random.default_rng(THRESHOLDS.ratio_seed).uniform(
         -THRESHOLDS.ratio_step, THRESHOLDS.ratio_step, (count, len(actuated))
     )
@@ -330,14 +322,13 @@ def find_assembly_modes(linkage: Linkage, hints: np.ndarray) -> tuple[AssemblyMo
             (_insert_ratio_count(key, int(count_constant_ratios(linkage, u[None])[0])), u, copies)
         )
     ranked.sort(key=lambda one: one[0])
+    distance, excess = linkage.loops.compute_singularity_distance, linkage.compute_limit_excess
     return tuple(
         AssemblyMode(
             letter=_format_letter(k),
             posture=u,
-            singularity_distance=float(linkage.loops.compute_singularity_distance(u[None])[0]),
-            is_within_limits=bool(
-                linkage.compute_limit_excess(u[None])[0] < THRESHOLDS.limit_rounding
-            ),
+            singularity_distance=float(distance(u[None])[0]),
+            is_within_limits=bool(excess(u[None])[0] < THRESHOLDS.limit_rounding),
             copy_count=copies,
             distance_from_stated=float(np.sum(linkage.compute_distances(u[None], hints))),
         )
@@ -356,10 +347,8 @@ def _compute_rank_keys(
     """By posture, what sorts the better one first."""
     sigma = linkage.loops.compute_singularity_distance(u)
     is_leg_joint = np.array([joint.name not in linkage.robot.platform for joint in linkage.free])
-    negative = np.sum(
-        (u < -1e-9 * linkage.loops.size) & linkage.is_travel & linkage.is_tied & is_leg_joint,
-        axis=1,
-    )
+    counted = linkage.is_travel & linkage.is_tied & is_leg_joint
+    negative = np.sum((u < -1e-9 * linkage.loops.size) & counted, axis=1)
     angles = np.sum(np.abs(np.where(linkage.is_travel, 0.0, u)), axis=1)
     columns = np.column_stack([
         np.round(linkage.compute_limit_excess(u), THRESHOLDS.rank_key_digits),
@@ -387,16 +376,11 @@ def _select_reference_posture(linkage: Linkage, u: np.ndarray, hints: np.ndarray
     )
     order = sorted((k for k, key in enumerate(keys) if not key[1]), key=keys.__getitem__)
     spread = np.linspace(0, len(order) - 1, THRESHOLDS.counted_postures).astype(int)
-    some = [
-        order[k]
-        for k in sorted({*range(min(THRESHOLDS.counted_postures, len(order))), *spread.tolist()})
-    ]
+    first = range(min(THRESHOLDS.counted_postures, len(order)))
+    some = [order[k] for k in sorted({*first, *spread.tolist()})]
     ties = count_constant_ratios(linkage, u[some])
-    return u[
-        min(
-            zip(some, ties, strict=True), key=lambda one: _insert_ratio_count(keys[one[0]], one[1])
-        )[0]
-    ]
+    ranked = zip(some, ties, strict=True)
+    return u[min(ranked, key=lambda one: _insert_ratio_count(keys[one[0]], one[1]))[0]]
 
 
 def _find_common_postures(linkage: Linkage, hints: np.ndarray) -> np.ndarray:
@@ -432,11 +416,8 @@ def _discard_singular(linkage: Linkage, u: np.ndarray, hints: np.ndarray) -> np.
     """Those that are not singular, cylinders longer than zero."""
     if not len(u):
         return u
-    return flip_negative_travels(
-        linkage,
-        u[linkage.loops.compute_singularity_distance(u) > THRESHOLDS.min_singular_value],
-        hints,
-    )
+    regular = linkage.loops.compute_singularity_distance(u) > THRESHOLDS.min_singular_value
+    return flip_negative_travels(linkage, u[regular], hints)
 
 
 def _round_actuated_joints(linkage: Linkage, u: np.ndarray, places: np.ndarray) -> np.ndarray:
@@ -626,11 +607,8 @@ def _close_stated_home(linkage: Linkage, stated: np.ndarray) -> np.ndarray | Non
         return None
     moved = linkage.compute_distances(posture[None], np.nan_to_num(stated))
     turned = flip_negative_travels(linkage, posture[None], stated)
-    return (
-        posture
-        if np.max(moved) <= THRESHOLDS.max_home_move and np.array_equal(turned[0], posture)
-        else None
-    )
+    stays = np.max(moved) <= THRESHOLDS.max_home_move and np.array_equal(turned[0], posture)
+    return posture if stays else None
 
 
 def _describe_home(linkage: Linkage, modes: tuple[AssemblyMode, ...], stated: np.ndarray) -> str:
@@ -642,10 +620,8 @@ def _describe_home(linkage: Linkage, modes: tuple[AssemblyMode, ...], stated: np
         others += "; it is outside [limits], which none keeps there: check the lengths"
     if not np.any(np.isfinite(stated)):
         actuated = linkage.loops.actuated
-        return (
-            f"{robot.name}: [home] found: mode A at "
-            f"{_format_values(linkage, posture, actuated)}; {others}"
-        )
+        values = _format_values(linkage, posture, actuated)
+        return f"{robot.name}: [home] found: mode A at {values}; {others}"
     moved = linkage.compute_distances(posture[None], stated)[0]
     far = [k for k in np.argsort(-moved, kind="stable") if moved[k] > 0.01]
     change = ", ".join(

@@ -121,12 +121,8 @@ class GroupingUnits:
         """Returns units in the order of the columns that own them, those without owner last."""
         places = {column: i for i, column in enumerate(columns)}
         last = len(places)
-        return sorted(
-            range(len(self.owner)),
-            key=lambda unit: (
-                last if (owner_column := self.owner[unit]) is None else places[owner_column]
-            ),
-        )
+        ranks = [last if owner is None else places[owner] for owner in self.owner]
+        return sorted(range(len(ranks)), key=ranks.__getitem__)
 
     @cached_property
     def _column_units(self) -> dict[int, list[int]]:

@@ -120,11 +120,8 @@ class LoopEquations(ShortRepr):
         count, every = len(self.equations), len(self.equations) + len(self.others)
         results = self.evaluate_expressions([*self.equations, *self.others, *slopes], u)
         openness = np.max(np.abs(results[:, :every]), axis=1, initial=0.0)
-        return (
-            results[:, :count],
-            openness,
-            results[:, every:].reshape(len(u), count, self.unknown_count),
-        )
+        jacobians = results[:, every:].reshape(len(u), count, self.unknown_count)
+        return results[:, :count], openness, jacobians
 
     def compute_scaled_jacobian(self, u: np.ndarray) -> np.ndarray:
         """Returns Jacobians with travels in robot sizes and rows of usual length 1."""
@@ -218,12 +215,8 @@ def find_nearest_closed(loops: LoopEquations, start: np.ndarray) -> np.ndarray |
     )
     # Mirrored postures may be equally near: digits that no rounding reaches decide then.
     near = np.round(np.sum(np.abs(closed_postures - start), axis=1), THRESHOLDS.posture_decimals)
-    return closed_postures[
-        min(
-            range(len(closed_postures)),
-            key=lambda i: (near[i], *np.round(closed_postures[i], THRESHOLDS.posture_decimals)),
-        )
-    ]
+    keys = np.round(closed_postures, THRESHOLDS.posture_decimals)
+    return closed_postures[min(range(len(keys)), key=lambda i: (near[i], *keys[i]))]
 
 
 def wrap_to_pi(angle: np.ndarray) -> np.ndarray:
@@ -355,6 +348,14 @@ def _compute_axis_offset(a: Frame, b: Frame) -> list[Expr]:
     return [dot(a[0][0], way), dot(a[0][1], way)]
 
 
+def _compare_axis(a: Frame, b: Frame) -> list[Expr]:
+    return [dot(a[0][2], b[0][2])]
+
+
+def _compute_height(a: Frame, b: Frame) -> list[Expr]:
+    return [dot(a[0][2], _subtract_origins(b, a))]
+
+
 ALL, ACROSS, ALONG = (0, 1, 2), (0, 1), (2,)
 """Components by axes of a frame: all, x and y, z."""
 _ROUND = ("XX", "YY")
@@ -365,8 +366,8 @@ class LoopJoint:
     """A joint that closes a loop, by the two frames that meet in it.
 
     Attributes:
-        equations: expressions that vanish where it is closed, some perhaps redundant; lengths in m
-            where positions are compared, cosines where directions are.
+        equations: that give expressions which vanish where it is closed, some perhaps redundant;
+            lengths in m where positions are compared, cosines where directions are.
         axes: whose product is 1 where it is closed as meant, -1 with axes opposite: the equations
             compare directions by right angles, which opposite axes fulfil too.
         velocity: components of the difference of the frames' velocities that vanish; all where
@@ -375,54 +376,33 @@ class LoopJoint:
         bodies: at the meeting frames that move alike with both: parameters that are 1.
     """
 
-    equations: Callable[[Frame, Frame], list[Expr]]
+    equations: tuple[Callable[[Frame, Frame], list[Expr]], ...]
     axes: tuple[int, ...]
     velocity: tuple[int, ...]
     turning: tuple[int, ...]
     bodies: tuple[tuple[str, ...], ...]
 
 
-_SPHERICAL = LoopJoint(_subtract_origins, (), ALL, (), (("M",),))
+_SPHERICAL = LoopJoint((_subtract_origins,), (), ALL, (), (("M",),))
+_PIN = (_subtract_origins, _compare_directions)
 LOOP_JOINTS: Mapping[str, LoopJoint] = {
     "position": _SPHERICAL,
     "spherical": _SPHERICAL,
-    "universal": LoopJoint(
-        lambda a, b: [*_subtract_origins(a, b), dot(a[0][2], b[0][2])], (), ALL, (), (("M",),)
-    ),
-    "revolute": LoopJoint(
-        lambda a, b: [*_subtract_origins(a, b), *_compare_directions(a, b)],
-        (2,),
-        ALL,
-        ACROSS,
-        (("M",), ("MZ",), _ROUND),
-    ),
+    "universal": LoopJoint((_subtract_origins, _compare_axis), (), ALL, (), (("M",),)),
+    "revolute": LoopJoint(_PIN, (2,), ALL, ACROSS, (("M",), ("MZ",), _ROUND)),
     "cylindrical": LoopJoint(
-        lambda a, b: [*_compute_axis_offset(a, b), *_compare_directions(a, b)],
-        (2,),
-        ACROSS,
-        ACROSS,
-        (_ROUND,),
+        (_compute_axis_offset, _compare_directions), (2,), ACROSS, ACROSS, (_ROUND,)
     ),
     "prismatic": LoopJoint(
-        lambda a, b: [*_compute_axis_offset(a, b), *_compare_axes(a, b)],
+        (_compute_axis_offset, _compare_axes),
         (0, 2),
         ACROSS,
         ALL,
-        tuple((name,) for name in INERTIAL[:6]),
+        tuple((x,) for x in INERTIAL[:6]),
     ),
-    "planar": LoopJoint(
-        lambda a, b: [dot(a[0][2], _subtract_origins(b, a)), *_compare_directions(a, b)],
-        (2,),
-        ALONG,
-        ACROSS,
-        (_ROUND,),
-    ),
+    "planar": LoopJoint((_compute_height, _compare_directions), (2,), ALONG, ACROSS, (_ROUND,)),
     "rigid": LoopJoint(
-        lambda a, b: [*_subtract_origins(a, b), *_compare_axes(a, b)],
-        (0, 2),
-        ALL,
-        ALL,
-        tuple((name,) for name in INERTIAL),
+        (_subtract_origins, _compare_axes), (0, 2), ALL, ALL, tuple((x,) for x in INERTIAL)
     ),
 }
 
@@ -513,7 +493,8 @@ def derive_loop_equations(
     for loop in robot.loops:
         one, other = compute_loop_frames(geometry, loop, frames, algebra)
         joint = LOOP_JOINTS[loop.kind]
-        joint_equations = [value for value in joint.equations(one, other) if not value.is_zero]
+        values = (value for equation in joint.equations for value in equation(one, other))
+        joint_equations = [value for value in values if not value.is_zero]
         alignments += [dot(one[0][axis], other[0][axis]) for axis in joint.axes]
         equations += joint_equations
         owners += [loop.name] * len(joint_equations)
@@ -646,11 +627,10 @@ def _describe_mobility(
     if free > len(loops.actuated):
         inner = J[:, list(loops.solved)]
         return (
-            f"{summary}, {len(loops.actuated)} joints are actuated ({actuated}): "
-            "under-constrained, "
-            f"{_find_moving_joints(loops, geometry, inner)} could move with these locked; actuate "
-            "one "
-            "of them (mu 1), add a relation, or close the loop by a joint that lets less free"
+            f"{summary}, {len(loops.actuated)} joints are actuated ({actuated}): under-"
+            f"constrained, {_find_moving_joints(loops, geometry, inner)} could move with these "
+            "locked; actuate one of them (mu 1), add a relation, or close the loop by a joint that "
+            "lets less free"
         )
     # The loops without which more would be free.
     names, full = list(dict.fromkeys(owners)), _compute_rank(J)

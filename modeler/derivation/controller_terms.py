@@ -95,11 +95,8 @@ class MovingComposite(Composite):
         first = plus(self.MS_rate, times(speed, cross_z(self.MS)))
         h = plus(self.h, times(speed, [line[2] for line in J]))
         attach_matrix_labels("Jd", self.link, rates, "t")
-        return (
-            attach_labels("MSd", self.link, first, "t"),
-            rates,
-            attach_labels("hc", self.link, h, "t"),
-        )
+        attach_labels("MSd", self.link, first, "t")
+        return first, rates, attach_labels("hc", self.link, h, "t")
 
     def add_moving_composite(
         self, other: "MovingComposite", frame: Pose, row: GeometryRow, speed: Scalar
@@ -110,10 +107,8 @@ class MovingComposite(Composite):
         first, rates, h = other.compute_turned_rates(turning)
         S, dS = frame.rotate_to_antecedent(other.MS), frame.rotate_to_antecedent(first)
         shifted = plus(S, times(other.M, p))
-        turned, zero = (
-            attach_matrix_labels("Jd", other.link, frame.rotate_inertia(rates), "a"),
-            0 * other.M,
-        )
+        turned = attach_matrix_labels("Jd", other.link, frame.rotate_inertia(rates), "a")
+        zero = 0 * other.M
         for i in range(3):
             for j in range(3):
                 moved = compute_steiner_term(p, dS, zero, i, j) + compute_steiner_term(
@@ -185,12 +180,8 @@ def compute_coriolis_matrix(
     arms: list[Vector] = []  # how fast p turns and grows
     for row, frame in zip(geometry.rows, frames, strict=True):
         w = at_rest if row.parent is None else moved[row.parent].w
-        arms.append(
-            plus(
-                cross(w, frame.p),
-                compute_slide_velocity(row, frame, _get_joint_speed(row, speeds, zero)),
-            )
-        )
+        speed = _get_joint_speed(row, speeds, zero)
+        arms.append(plus(cross(w, frame.p), compute_slide_velocity(row, frame, speed)))
     matrix = [[zero] * geometry.joint_count for _ in range(geometry.joint_count)]
     for k in reversed(range(len(links))):
         row = geometry.rows[k]
@@ -221,11 +212,8 @@ def _fill_column(
     F, N = link.compute_column(row, moved[k].w)
     f, n = link.compute_momentum(row)
     a, name = link.compute_arm_rate(row, moved[k].w), row.joint.name
-    (
-        attach_labels("fu", name, F, of=name),
-        attach_labels("nu", name, N, of=name),
-        attach_labels("angd", name, a, of=name),
-    )
+    for letter, vector in (("fu", F), ("nu", N), ("angd", a)):
+        attach_labels(letter, name, vector, of=name)
     for at in geometry.find_ancestors(k):
         other = geometry.rows[at]
         if other.index is not None:
@@ -506,10 +494,8 @@ def derive_frame_pose(model: SymbolicModel, frame: BodyFrame) -> list[list[Expr]
     at = compute_relative_poses(model.geometry, model.frames, model.algebra, None, {frame.row})[
         frame.row
     ]
-    axes, origin = (
-        [_rotate_vector(at, axis) for axis in frame.axes],
-        plus(at[1], _rotate_vector(at, frame.origin)),
-    )
+    axes = [_rotate_vector(at, axis) for axis in frame.axes]
+    origin = plus(at[1], _rotate_vector(at, frame.origin))
     return [[*(axis[i] for axis in axes), origin[i]] for i in range(3)]
 
 

@@ -191,11 +191,8 @@ class Prover:
         known: dict[str, Number] = {}
         for name, expression in self.robot.symbols.items():
             if name in self.closure.values:
-                change = (
-                    float(rng.uniform(-THRESHOLDS.symbol_change, THRESHOLDS.symbol_change))
-                    if letters
-                    else 0.0
-                )
+                most = THRESHOLDS.symbol_change
+                change = float(rng.uniform(-most, most)) if letters else 0.0
                 known[name] = convert_to_precise(self.closure.values[name]) * (
                     1 + convert_to_precise(change)
                 )
@@ -330,11 +327,8 @@ def _find_vanishing_rows(model: SymbolicModel) -> list[tuple[np.ndarray, int]]:
     rank = int(np.sum(singular > THRESHOLDS.relation_rank * singular[0]))
     rows = _reduce_rows(left[:, rank:].T, closure.solved)
     home = np.array(closure.home)
-    return [
-        (row, pivot)
-        for row, pivot in rows
-        if np.max(np.abs((u - home) @ row)) < THRESHOLDS.relation_residual
-    ]
+    errors = (np.max(np.abs((u - home) @ row)) for row, _ in rows)
+    return [at for at, e in zip(rows, errors, strict=True) if e < THRESHOLDS.relation_residual]
 
 
 def _reduce_rows(rows: np.ndarray, solved: Sequence[int]) -> list[tuple[np.ndarray, int]]:

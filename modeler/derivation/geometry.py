@@ -125,11 +125,8 @@ def fold_expression(expression: Expression, values: Mapping[str, sympy.Expr]) ->
 
 
 def _shorten_text(text: str) -> str:
-    return (
-        text
-        if len(text) <= THRESHOLDS.quoted_letters
-        else f"{text[: THRESHOLDS.quoted_letters]} ..."
-    )
+    start = text[: THRESHOLDS.quoted_letters]
+    return text if text == start else f"{start} ..."
 
 
 # Linear relations between joint variables: every row's variable in the free ones, exactly.

@@ -334,11 +334,8 @@ class Graph:
             return _compose_angles(
                 self._evaluate_angle(node.args[0]), self._evaluate_angle(node.args[1])
             )
-        factor = (
-            self._get_number(node.args[0])
-            if node.op == "mul" and self._is_number(node.args[0])
-            else 0
-        )
+        multiple = node.op == "mul" and self._is_number(node.args[0])
+        factor = self._get_number(node.args[0]) if multiple else 0
         if factor in range(1, THRESHOLDS.max_angle_multiple):  # a small whole number
             turn, total = self._evaluate_angle(node.args[1]), (1, 0)
             for _ in range(int(factor)):
@@ -412,10 +409,7 @@ class Graph:
         if a == b:
             return self.mul(self._intern_number(Fraction(2)), a)
         if not (self.nodes[abs(a)].static or self.nodes[abs(b)].static):
-            (k, x), (l, y) = (
-                self._separate_static_factor(abs(a)),
-                self._separate_static_factor(abs(b)),
-            )
+            (k, x), (l, y) = (self._separate_static_factor(abs(ref)) for ref in (a, b))
             if x == y:
                 return self.mul(self.add(k if a > 0 else -k, l if b > 0 else -l), x)
         for total, part in ((a, b), (b, a)):

@@ -405,20 +405,15 @@ def propagate_motions(
     base = Motion(none, none, [-g for g in state.gravity], none, [none] * 3, half)
     link_motions: list[Motion] = []
     for row, frame in zip(geometry.rows, frames, strict=True):
-        link_motions.append(
-            _propagate_motion(
-                base if row.parent is None else link_motions[row.parent], row, frame, state
-            )
-        )
+        before = base if row.parent is None else link_motions[row.parent]
+        link_motions.append(_propagate_motion(before, row, frame, state))
     return link_motions
 
 
 def _propagate_motion(a: Motion, row: GeometryRow, frame: Pose, state: MotionState) -> Motion:
     link = row.joint.name
-    w, wd = (
-        attach_labels("w", link, frame.rotate_to_link(a.w), "b"),
-        attach_labels("wd", link, frame.rotate_to_link(a.wd), "b"),
-    )
+    w = attach_labels("w", link, frame.rotate_to_link(a.w), "b")
+    wd = attach_labels("wd", link, frame.rotate_to_link(a.wd), "b")
     half = a.half if state.v is None else frame.rotate_to_link(a.half)
     vd = attach_labels("vd", link, plus(a.vd, [dot(line, frame.p) for line in a.U]), "a")
     vd = attach_labels("vd", link, frame.rotate_to_link(vd), "b")
@@ -465,10 +460,8 @@ def compute_wrench_columns(motion: Motion) -> dict[str, tuple[Vector, Vector]]:
     """
     columns = _build_wrench_columns(motion)
     for name, (force, moment) in columns.items():
-        (
-            attach_labels("f", motion.link, force, of=name),
-            attach_labels("n", motion.link, moment, of=name),
-        )
+        attach_labels("f", motion.link, force, of=name)
+        attach_labels("n", motion.link, moment, of=name)
     return columns
 
 

@@ -316,11 +316,8 @@ class _TreeStep:
             # The offset's power is tau qd, the links' speed along z is rate * qd.
             offset = here * self.row.rate
             rows += self._pad_rows(multiply_matrices(self.before.twist, momentum, K.zero))
-            rows += multiply_matrices(
-                self.before.gravity,
-                [[*line, K.zero, K.zero] for line in pull] + [[K.zero] * 11 + [offset]],
-                K.zero,
-            )
+            pull = [*self._pad_rows(pull), [K.zero] * 11 + [offset]]
+            rows += multiply_matrices(self.before.gravity, pull, K.zero)
         return [line for line in rows if any(line)]
 
 
@@ -463,13 +460,8 @@ class _ClosureProducts:
         """(2 points, places): rows of 2T, then of the power of gravity."""
         count = len(self.columns)
         standard_places = [place for place in places if place < count]
-        row_columns = dict(
-            zip(
-                standard_places,
-                state.compute_energy_rows([self.columns[i] for i in standard_places]).T,
-                strict=True,
-            )
-        )
+        energies = state.compute_energy_rows([self.columns[i] for i in standard_places]).T
+        row_columns = dict(zip(standard_places, energies, strict=True))
         if len(standard_places) < len(places):
             row_columns |= dict(enumerate(self._collect_products(state), count))
         return np.stack([row_columns[place] for place in places], axis=1)

@@ -120,10 +120,8 @@ def build_standard_columns(geometry: Geometry) -> tuple[StandardColumn, ...]:
     columns: list[StandardColumn] = []
     for row, joint in enumerate(robot.joints):
         if joint.is_moving:
-            columns += [
-                build_link_column(prefix, row, joint)
-                for prefix in robot.get_inertial_prefixes(joint.name)
-            ]
+            prefixes = robot.get_inertial_prefixes(joint.name)
+            columns += [build_link_column(prefix, row, joint) for prefix in prefixes]
             columns += _build_effect_columns(geometry, row, joint)
     return _merge_shared_columns(robot, columns)
 
@@ -352,12 +350,8 @@ class SymbolicModel(ShortRepr):
         """
         zero = self.graph.constant(0)
         down = [self.algebra.static(x) if gravity else zero for x in self.geometry.gravity]
-        state = MotionState(
-            self.expand_to_rows(qd),
-            self.expand_to_rows(qdd),
-            down,
-            None if v is None else self.expand_to_rows(v),
-        )
+        second = None if v is None else self.expand_to_rows(v)
+        state = MotionState(self.expand_to_rows(qd), self.expand_to_rows(qdd), down, second)
         return propagate_motions(self.geometry, self.frames, state, self.algebra)
 
     def expand_to_rows(self, free: Sequence[Expr]) -> list[Expr]:
@@ -385,10 +379,8 @@ class SymbolicModel(ShortRepr):
 
         def project_part(part: LinkColumn) -> dict[int, Expr]:
             force, moment = columns[part.row][part.prefix]
-            return {
-                k: project_wrench(screw, force, moment)
-                for k, screw in free_screws[part.row].items()
-            }
+            screws = free_screws[part.row].items()
+            return {k: project_wrench(screw, force, moment) for k, screw in screws}
 
         return project_part
 
@@ -565,10 +557,8 @@ def _evaluate_equation(
     model: SymbolicModel, column: ShaftColumn, motion: Sequence[str] = _MEASURED
 ) -> Expr:
     """The equation of the column on its shaft."""
-    read = {
-        name: get_signal_symbol(model, signal)
-        for name, signal in map_column_signals(column).items()
-    }
+    signals = map_column_signals(column)
+    read = {name: get_signal_symbol(model, signal) for name, signal in signals.items()}
     return _evaluate_on_shaft(
         model, column.equation, column.shaft, column.nonlinear_parameters, read, motion
     )

@@ -10,7 +10,7 @@ the rank from above, this proves the number of base parameters.
 from collections.abc import Callable, Mapping, Sequence, Set
 from fractions import Fraction
 from functools import cache, partial
-from itertools import accumulate, product
+from itertools import accumulate, combinations_with_replacement, product
 from math import isqrt, lcm
 
 import numpy as np
@@ -286,11 +286,8 @@ class ModularState:
         if moving and row.joint.is_revolute:
             R = rotate_about_axis(R, 2, *self._compute_joint_angle(row), prime)
         slides = moving and not row.joint.is_revolute
-        r = (
-            self.value(row.r)
-            if not slides or self.geometry.has_relations
-            else self.value(sympy.Integer(0))
-        )
+        counts = not slides or self.geometry.has_relations
+        r = self.value(row.r if counts else sympy.Integer(0))
         if slides:
             r = (r + row.rate * self._combine_row(row, self.travel)) % prime
         p = (p + R[:, 2] * r) % prime
@@ -298,11 +295,10 @@ class ModularState:
         if moving:
             speed = row.rate * self._combine_row(row, self.qd) % prime
             joint_velocity = R[:, 2] * speed
-            w, v = (
-                ((w + joint_velocity) % prime, v)
-                if row.joint.is_revolute
-                else (w, (v + joint_velocity) % prime)
-            )
+            if row.joint.is_revolute:
+                w = (w + joint_velocity) % prime
+            else:
+                v = (v + joint_velocity) % prime
         return R, p, w, v
 
     def _combine_row(self, row: GeometryRow, free: Residues) -> Residues:
@@ -318,10 +314,8 @@ class ModularState:
     def _compute_joint_angle(self, row: GeometryRow) -> tuple[Residues, Residues]:
         """(cos, sin) of rate * the row's variable: powers of the free variables' angles."""
         assert row.index is not None
-        total = (
-            fill_residues(1, self.points, self.prime),
-            fill_residues(0, self.points, self.prime),
-        )
+        one, zero = (fill_residues(n, self.points, self.prime) for n in (1, 0))
+        total = one, zero
         for k, coefficient in self.geometry.forms[row.index].items():
             turns = int(coefficient * self._scales[k]) * row.rate
             c, s = self._units[k]
@@ -378,16 +372,9 @@ class ModularState:
         def multiply_speeds(i: int, j: int) -> tuple[Residues, Residues]:
             return (w[i] * w[j] % prime * (1 if i == j else 2)) % prime, nothing
 
-        rows = {
-            "XX": multiply_speeds(0, 0),
-            "XY": multiply_speeds(0, 1),
-            "XZ": multiply_speeds(0, 2),
-        }
-        rows |= {
-            "YY": multiply_speeds(1, 1),
-            "YZ": multiply_speeds(1, 2),
-            "ZZ": multiply_speeds(2, 2),
-        }
+        pairs = combinations_with_replacement(range(3), 2)
+        names = ("XX", "XY", "XZ", "YY", "YZ", "ZZ")
+        rows = {name: multiply_speeds(i, j) for name, (i, j) in zip(names, pairs, strict=True)}
         for i, name in enumerate(("MX", "MY", "MZ")):
             rows[name] = (2 * vw[i] % prime, -gw[i] % prime)
         rows["M"] = (dot(v, v, prime), -dot(g, v, prime) % prime)
@@ -559,10 +546,8 @@ def _fit_coefficients(
     """
     values = np.array(function(points), dtype=object)[:, None]
     at = np.array(points, dtype=object)[:, list(letters)]
-    matrix = (
-        np.hstack([_evaluate_monomials(at, above), -values * _evaluate_monomials(at, below)])
-        % LARGE
-    )
+    sides = [_evaluate_monomials(at, above), -values * _evaluate_monomials(at, below)]
+    matrix = np.hstack(sides) % LARGE
     kernel = compute_kernel(matrix, LARGE)
     weights: list[int] = kernel[0].tolist() if len(kernel) else []
     return weights if any(weights[len(above) :]) else None
@@ -642,10 +627,8 @@ def find_dependent_columns(
         sampler = _CoefficientSampler(geometry, functions, K, supports, seed)
         probes = Probes(len(K.letters), seed)
         places = [(i, k) for i, support in supports.items() for k in support if k in wanted]
-        moved = [
-            probes.home,
-            *(probes.draw_moved_points((i,), 1)[0] for i in range(len(K.letters))),
-        ]
+        points = (probes.draw_moved_points((i,), 1)[0] for i in range(len(K.letters)))
+        moved = [probes.home, *points]
         # That of most letters first: if one is too large, it is.
         places.sort(key=lambda at: len(set(sampler.evaluate_coefficient(at, moved))), reverse=True)
         coefficients = {
@@ -698,10 +681,8 @@ class _CoefficientSampler:
             {c for kept_columns, dependent in self.blocks for c in (*kept_columns, *dependent)}
         )
         self.place = {column: i for i, column in enumerate(self.used)}
-        self.points = (
-            max((len(kept_columns) for kept_columns, _ in self.blocks), default=0)
-            + THRESHOLDS.extra_points
-        )
+        largest = max((len(kept_columns) for kept_columns, _ in self.blocks), default=0)
+        self.points = largest + THRESHOLDS.extra_points
         self._known: dict[Point, dict[tuple[int, int], int]] = {}
 
     def evaluate_coefficient(self, at: tuple[int, int], geometries: Sequence[Point]) -> list[int]:
@@ -729,11 +710,8 @@ class _CoefficientSampler:
             self._known[geometry] = {}
             for kept_columns, dependent in self.blocks:
                 places = [self.place[column] for column in (*kept_columns, *dependent)]
-                part = (
-                    rows[:, i, : len(kept_columns) + THRESHOLDS.extra_points, places]
-                    .reshape(len(places), -1)
-                    .T
-                )
+                count = len(kept_columns) + THRESHOLDS.extra_points
+                part = rows[:, i, :count, places].reshape(len(places), -1).T
                 self._known[geometry] |= self._solve_coefficients(
                     part.copy(), kept_columns, dependent
                 )

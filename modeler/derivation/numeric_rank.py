@@ -216,11 +216,8 @@ def derive_numeric_grouping(
     last, first = numeric.gap
     tolerance = math.sqrt(last * max(first, float(np.finfo(float).eps)))
     lengths = np.linalg.norm(W, axis=0)
-    absent = {
-        i
-        for i, length in enumerate(lengths)
-        if length <= THRESHOLDS.zero_column * lengths.max(initial=0.0)
-    }
+    nothing = THRESHOLDS.zero_column * lengths.max(initial=0.0)
+    absent = {i for i, length in enumerate(lengths) if length <= nothing}
     order = [
         i for i in sort_by_priority(model.names, model.robot.priority_parameters) if i not in absent
     ]
@@ -300,11 +297,8 @@ def compare_torques(
     base_columns = [parameter.column for parameter in parameters]
     standard = phi @ chi
     largest = float(np.max(np.abs(standard)))
-    return (
-        float(np.max(np.abs(phi[:, :, base_columns] @ beta - standard))) / largest
-        if largest
-        else 0.0
-    )
+    difference = float(np.max(np.abs(phi[:, :, base_columns] @ beta - standard)))
+    return difference / largest if largest else 0.0
 
 
 def build_grouping_matrix(model: SymbolicModel, parameters: Sequence[BaseParameter]) -> np.ndarray:
@@ -399,12 +393,8 @@ class Enclosures:
         if self.closure is None:
             n = len(u)
             unit = [[build_ball(int(i == k)) for k in range(n)] for i in range(n)]
-            return EnclosedState(
-                _collect_inputs(
-                    q=_convert_to_balls(u), qd=_convert_to_balls(qd), qdd=_convert_to_balls(qdd)
-                ),
-                unit,
-            )
+            q, v, a = (_convert_to_balls(x) for x in (u, qd, qdd))
+            return EnclosedState(_collect_inputs(q=q, qd=v, qdd=a), unit)
         q = self.enclose_posture(u)
         return self._enclose_motion(q, _convert_to_balls(qd), _convert_to_balls(qdd))
 
@@ -545,13 +535,8 @@ def prove_rank(
                 why = str(error)
                 continue
             if is_proven_regular(matrix):
-                return BallRank(
-                    len(kept_columns),
-                    bits,
-                    seed,
-                    choice.collect_exact_states(),
-                    choice.locate_rows(),
-                )
+                states, rows = choice.collect_exact_states(), choice.locate_rows()
+                return BallRank(len(kept_columns), bits, seed, states, rows)
             why = f"the balls of a minor of {len(kept_columns)} rows hold a singular matrix"
     return SampledRank(len(kept_columns), seed, f"{why} ({THRESHOLDS.ball_bits[-1]} bits)")
 
@@ -580,11 +565,8 @@ def enclose_factors(
         return None
     with load_flint().ctx.workprec(THRESHOLDS.ball_bits[-1]):
         try:
-            rows = (
-                load_flint()
-                .arb_mat(choice.enclose_matrix([*kept_columns, *dropped_columns]))
-                .tolist()
-            )
+            matrix = choice.enclose_matrix([*kept_columns, *dropped_columns])
+            rows = load_flint().arb_mat(matrix).tolist()
             scaled, right = (
                 [row[part] for row in rows]
                 for part in (slice(None, len(kept_columns)), slice(len(kept_columns), None))
@@ -648,15 +630,10 @@ class _RowSelection:
         """The states whose rows are chosen."""
         free = [joint.name for joint in self.model.robot.free_joints]
         names = [joint.name for joint in self.model.robot.coordinates]
+        rounded = np.round(self.u, THRESHOLDS.enclosed_decimals)
         return tuple(
             ExactState(
-                dict(
-                    zip(
-                        free,
-                        np.round(self.u[i], THRESHOLDS.enclosed_decimals).tolist(),
-                        strict=True,
-                    )
-                ),
+                dict(zip(free, rounded[i].tolist(), strict=True)),
                 dict(zip(names, self.qd[i].tolist(), strict=True)),
                 dict(zip(names, self.qdd[i].tolist(), strict=True)),
                 tuple(self.signals[:, i].tolist()),

@@ -58,17 +58,10 @@ def _enclose_law(table: Table, *x: Ball) -> Ball:
         u = free.max(build_ball(0)).min(build_ball(count))
         cells = [int(end.floor().unique_fmpz()) for end in (u.lower(), u.upper())]
         rate = scale if table.along == axis and u.overlaps(free) else build_ball(0)
-        places.append(
-            [
-                (
-                    k,
-                    _compute_weights(
-                        (u - k).intersection(load_flint().arb(0.5, 0.5)), rate, table.along == axis
-                    ),
-                )
-                for k in range(min(cells[0], count - 1), min(cells[1], count - 1) + 1)
-            ]
-        )
+        unit, slope = load_flint().arb(0.5, 0.5), table.along == axis
+        inside = range(min(cells[0], count - 1), min(cells[1], count - 1) + 1)
+        weights = (_compute_weights((u - k).intersection(unit), rate, slope) for k in inside)
+        places.append(list(zip(inside, weights, strict=True)))
     cell_values = []
     for place in itertools.product(*places):
         total = build_ball(0)
@@ -163,11 +156,8 @@ def evaluate_precisely(
 
     A double counts as the decimal that it prints, which is what was written: 0.3 is 3/10.
     """
-    plan = Plan(
-        graph,
-        outputs,
-        Arithmetic(convert_fraction, lambda: +get_precise_context().pi, get_precise_functions()),
-    )
+    pi, functions = (lambda: +get_precise_context().pi), get_precise_functions()
+    plan = Plan(graph, outputs, Arithmetic(convert_fraction, pi, functions))
     return plan({name: convert_to_precise(value) for name, value in values.items()})
 
 

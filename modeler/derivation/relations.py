@@ -220,15 +220,8 @@ def build_named_parameters(
     columns: Sequence[StandardColumn], terms: Mapping[int, Sequence[Term]], halves: bool
 ) -> tuple[BaseParameter, ...]:
     """Builds base parameters of {column: terms}; names of grouped ones end in R."""
-    return tuple(
-        BaseParameter(
-            columns[b].name + ("R" if len(parameter_terms) > 1 else ""),
-            b,
-            tuple(parameter_terms),
-            halves,
-        )
-        for b, parameter_terms in terms.items()
-    )
+    names = {b: columns[b].name + ("R" if len(group) > 1 else "") for b, group in terms.items()}
+    return tuple(BaseParameter(names[b], b, tuple(group), halves) for b, group in terms.items())
 
 
 # All base parameters as people and programs read them: text, LaTeX, Markdown, JSON.
@@ -355,11 +348,8 @@ def _separate_fraction(value: sympy.Expr, halves: bool) -> tuple[sympy.Expr, sym
 
 def separate_sign(coefficient: sympy.Expr) -> tuple[str, sympy.Expr]:
     """Returns the sign to write in front, and what stays; sums of minus terms give theirs."""
-    negative = (
-        all(arg.could_extract_minus_sign() for arg in coefficient.args)
-        if coefficient.is_Add
-        else coefficient.could_extract_minus_sign()
-    )
+    parts = coefficient.args if coefficient.is_Add else (coefficient,)
+    negative = all(part.could_extract_minus_sign() for part in parts)
     return ("-", -coefficient) if negative else ("", coefficient)
 
 
@@ -431,12 +421,8 @@ def _serialise_proof(proof: Proof) -> dict[str, Any]:
     modular = certificate if isinstance(certificate, ModularRank) else None
     independence: dict[str, Any] = {"rank": certificate.rank, "seed": certificate.seed}
     if isinstance(certificate, ModularRank):
-        independence = {
-            "kind": "modular",
-            **independence,
-            "prime": certificate.prime,
-            "points": certificate.points,
-        }
+        counts = {"prime": certificate.prime, "points": certificate.points}
+        independence = {"kind": "modular", **independence, **counts}
     elif isinstance(certificate, SampledRank):
         independence = {"kind": "sampled", **independence, "why": certificate.why}
     else:
@@ -491,14 +477,13 @@ def _format_independence(certificate: Certificate) -> str:
     if isinstance(certificate, ModularRank):
         return (
             f"rank {certificate.rank} modulo {certificate.prime} ({certificate.points} random "
-            "points, seed "
-            f"{certificate.seed})"
+            f"points, seed {certificate.seed})"
         )
     if isinstance(certificate, BallRank):
         return (
             f"rank {certificate.rank} in balls of {certificate.bits} bits (a minor of "
-            f"{certificate.rank} rows at "
-            f"{len(certificate.states)} exact states, seed {certificate.seed}; --json lists them)"
+            f"{certificate.rank} rows at {len(certificate.states)} exact states, seed "
+            f"{certificate.seed}; --json lists them)"
         )
     return (
         f"rank {certificate.rank} in floating point only (seed {certificate.seed}): "

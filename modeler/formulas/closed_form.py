@@ -105,10 +105,8 @@ def compute_normal_screws(
     for total in compute_free_screws(
         geometry, frames, ring, lambda c: QQ(c.numerator, c.denominator)
     ):
-        normal = {
-            k: Screw(normalise_vector(x.e, ring), normalise_vector(x.m, ring))
-            for k, x in total.items()
-        }
+        pairs = ((k, [normalise_vector(v, ring) for v in (x.e, x.m)]) for k, x in total.items())
+        normal = {k: Screw(*pair) for k, pair in pairs}
         row_screws.append({k: x for k, x in normal.items() if any(x.e) or any(x.m)})
     return row_screws
 
@@ -181,11 +179,7 @@ def _derive_christoffel(
 ) -> dict[tuple[int, ...], dict[int, Poly]]:
     """S_ijk = dM_ij/dq_k + dM_ik/dq_j - dM_jk/dq_i for j < k, half of that for j = k."""
     slopes = {
-        (at, k): {
-            p: slope
-            for p, factor in entry.items()
-            if (slope := ring.differentiate_polynomial(factor, k))
-        }
+        (at, k): {p: ring.differentiate_polynomial(factor, k) for p, factor in entry.items()}
         for at, entry in inertia.items()
         for k in range(joints)
     }
@@ -315,11 +309,11 @@ def derive_closed_form(model: SymbolicModel, base: BaseParameters | None = None)
     algebra = TrigRing(model.geometry)
     everything: Sequence[int] = range(len(model.columns))
     columns = everything if base is None else [p.column for p in base.parameters]
-    energy_dynamics = derive_energy_dynamics(model, algebra, columns)
+    full = derive_energy_dynamics(model, algebra, columns)
     factor = _find_gravity_factor(algebra)
     names = [joint.name for joint in model.robot.free_joints]
     keep = _read_sine_squares(model.robot)
-    gravity = energy_dynamics.gravity
+    gravity = full.gravity
     if factor is not None:
         letter_of = algebra.ring.gens[factor]
         gravity = {
@@ -328,11 +322,7 @@ def derive_closed_form(model: SymbolicModel, base: BaseParameters | None = None)
         }
     functions = [
         _build_function(letter, names, at, entry, algebra, keep)
-        for letter, entries in (
-            ("g", gravity),
-            ("J", energy_dynamics.inertia),
-            ("S", energy_dynamics.christoffel),
-        )
+        for letter, entries in (("g", gravity), ("J", full.inertia), ("S", full.christoffel))
         for at, entry in entries.items()
     ]
     known = [function.name for function in functions]
@@ -377,12 +367,9 @@ def collect_monomials(entry: Form, algebra: TrigRing) -> dict[Exponents, dict[in
 
 def _minimise_monomials(entry: Form, algebra: TrigRing) -> Form:
     """The same function with the squares of sines kept where that saves monomials."""
-    squared = [
-        index
-        for index, motion in enumerate(algebra.motions)
-        if motion.cosine is not None
-        and any(exponents[motion.cosine] > 1 for poly in entry.values() for exponents in poly)
-    ]
+    monomials = [exponents for poly in entry.values() for exponents in poly]
+    cosines = [(index, motion.cosine) for index, motion in enumerate(algebra.motions)]
+    squared = [i for i, c in cosines if c is not None and any(at[c] > 1 for at in monomials)]
     if len(squared) <= THRESHOLDS.exhaustive_joints:
         sets = [c for n in range(len(squared) + 1) for c in combinations(squared, n)]
         choices = [_keep_sine_squares(entry, algebra, chosen) for chosen in sets]

@@ -260,11 +260,8 @@ def format_closed_form(closed: ClosedForm, form: FormulaForm = "text") -> str:
             equation = DisplayedEquation(format_latex_function(function.name), tuple(lines))
             parts.append(format_display([equation]) + "\n")
     effects = format_sheet(closed.effects, form)
-    return (
-        "".join(parts) + effects
-        if form != "text"
-        else f"{''.join(parts)}\n{effects}".rstrip() + "\n"
-    )
+    text = "".join(parts)
+    return f"{text}\n{effects}".rstrip() + "\n" if form == "text" else text + effects
 
 
 def _format_signed_product(factor: str, monomial: str, style: TextStyle) -> str:
@@ -304,11 +301,8 @@ def format_latex_function(name: str) -> str:
 
 def format_table_lines(table: CoefficientTable, style: TextStyle = TEXT) -> list[tuple[str, ...]]:
     """Returns (name, function, monomial, relation, base, physical) of every coefficient."""
-    algebra, physical, style = (
-        table.closed.algebra,
-        table.physical,
-        style.adjust_to_robot(table.closed.robot),
-    )
+    algebra, physical = table.closed.algebra, table.physical
+    style = style.adjust_to_robot(table.closed.robot)
     motion, static = algebra.names[: algebra.moving], algebra.names[algebra.moving :]
     return [
         (
@@ -333,10 +327,7 @@ def format_coefficients(table: CoefficientTable, form: FormulaForm = "text") -> 
         cells = ([c.ljust(w) for c, w in zip(row, [*widths, 0], strict=True)] for row in rows)
         return "\n".join("  ".join(line).rstrip() for line in cells) + "\n"
     if form == "markdown":
-        lines = [
-            f"| name | function | monomial | {' | '.join(heads)} |",
-            "|---|---|---|---|---|---|",
-        ]
+        lines = [f"| name | function | monomial | {' | '.join(heads)} |", "|---" * 6 + "|"]
         for name, function, monomial, relation, base, physical in rows:
             cell = "independent" if relation == name else f"`{relation}`"
             lines.append(
@@ -361,11 +352,8 @@ def _get_static_names(table: CoefficientTable) -> tuple[str, ...]:
 def format_forward_map(table: CoefficientTable) -> list[str]:
     """Returns `PJ3 = XX2R + XX3R - ZZ3`, one line per coefficient that is independent."""
     names, style = table.base_names, TEXT.adjust_to_robot(table.closed.robot)
-    return [
-        f"{name} = "
-        f"{format_linear_form(table.by_name[name].base, names, _get_static_names(table), style)}"
-        for name in table.map.rows
-    ]
+    static, forms = _get_static_names(table), {x: table.by_name[x].base for x in table.map.rows}
+    return [f"{x} = {format_linear_form(form, names, static, style)}" for x, form in forms.items()]
 
 
 def format_determinant(table: CoefficientTable) -> str | None:

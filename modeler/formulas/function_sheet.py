@@ -302,10 +302,8 @@ def _collect_angle_terms(
         return [(sign, letters.get(node.args[0], node.args[0]).removeprefix("q"))]
     if node.op == "mul" and graph.nodes[abs(node.args[0])].op == "num":
         number = str(graph.nodes[abs(node.args[0])].args[0]).replace("/", "by")
-        return [
-            (sign * s, f"{number}x{t}")
-            for s, t in _collect_angle_terms(graph, node.args[1], letters)
-        ]
+        terms = _collect_angle_terms(graph, node.args[1], letters)
+        return [(sign * s, f"{number}x{t}") for s, t in terms]
     return [(sign, f"n{abs(ref)}")]
 
 
@@ -463,10 +461,8 @@ class SheetPrinter:
         lower = self.format_sum(below)
         if self.style.latex:
             return number, [(_NAMED, rf"\frac{{{text}}}{{{lower}}}", 0)]
-        closed = (
-            each if re.fullmatch(r"\w+(\([^()]*\))?", each) else f"({each})"
-            for each in (text, lower)
-        )
+        atom = re.compile(r"\w+(\([^()]*\))?")
+        closed = (each if atom.fullmatch(each) else f"({each})" for each in (text, lower))
         return number, [(_NAMED, "/".join(closed), 0)]
 
     def _format_atom(self, node: int) -> str:
@@ -584,15 +580,11 @@ def _format_latex(sheet: Sheet, heading: Callable[[str], str]) -> str:
 def serialise_sheet(sheet: Sheet) -> dict[str, Any]:
     """Returns the JSON of a sheet: its angles and its definitions."""
     printer = SheetPrinter(sheet)
+    values = [(d, printer.format_value(d)) for d in sheet.definitions]
     return {
         "angles": {label: printer.format_sum(ref) for label, ref in sheet.angles.items()},
         "definitions": [
-            {
-                "section": d.section,
-                "name": d.name,
-                "formula": printer.format_value(d),
-                "result": d.result,
-            }
-            for d in sheet.definitions
+            {"section": d.section, "name": d.name, "formula": value, "result": d.result}
+            for d, value in values
         ],
     }

@@ -243,16 +243,8 @@ def check_known(
         value, sigma = derived.get_value(letter), derived.get_sigma(letter)
         known_sigma = sigmas.get(letter, 0.0)
         spread = math.hypot(sigma, known_sigma)
-        tested_rows.append(
-            (
-                letter,
-                known[letter],
-                known_sigma,
-                value,
-                sigma,
-                _standardise_difference(known[letter] - value, spread),
-            )
-        )
+        z = _standardise_difference(known[letter] - value, spread)
+        tested_rows.append((letter, known[letter], known_sigma, value, sigma, z))
     bound = compute_z_limit(len(tested_rows))
     return tuple(KnownAgainstFit(*row, abs(row[-1]) > bound) for row in tested_rows)
 

@@ -316,10 +316,8 @@ def _evaluate_complex(
 ) -> np.ndarray:
     """(samples, expressions) at these states, moved on by an imaginary time."""
     q, qd, qdd = states
-    moved = (
-        ("q", q + 1j * THRESHOLDS.imaginary_step * qd),
-        ("qd", qd + 1j * THRESHOLDS.imaginary_step * qdd),
-    )
+    step = 1j * THRESHOLDS.imaginary_step
+    moved = (("q", q + step * qd), ("qd", qd + step * qdd))
     values: dict[str, Any] = {**model.robot.evaluate_symbols(), **model.geometry.values, **letters}
     values |= {f"{kind}[{k}]": x[:, k] for kind, x in moved for k in range(q.shape[1])}
     outputs = Plan(model.graph, expressions)(values)
@@ -543,10 +541,8 @@ def _build_bodies(model: SymbolicModel) -> dict[int, _Body]:
     rows, free = model.geometry.rows, model.robot.free_joints
     triads, torques = _read_triads(model), _collect_motor_torques(model)
     units = [[model.graph.constant(int(a is b)) for a in free] for b in free]
-    ways = [
-        _resolve_along_frames(model, model.expand_to_rows(qd))
-        for qd in (model.get_inputs("qd"), *units)
-    ]
+    speeds = map(model.expand_to_rows, (model.get_inputs("qd"), *units))
+    ways = [_resolve_along_frames(model, qd) for qd in speeds]
     gravity, bodies = [model.algebra.static(x) for x in model.geometry.gravity], {}
 
     def read_entry(entry: Expression, _: str = "") -> Expr:
@@ -605,11 +601,10 @@ def _resolve_along_frames(
             V = _add_components(V, _express_in_row(row.parent, cross(before, model.frames[k].p)))
         if row.index is not None:
             joint_rate = {(k, 2): qd[row.index] * row.rate}
-            V, turn = (
-                (V, _add_components(turn, joint_rate))
-                if row.joint.is_revolute
-                else (_add_components(V, joint_rate), turn)
-            )
+            if row.joint.is_revolute:
+                turn = _add_components(turn, joint_rate)
+            else:
+                V = _add_components(V, joint_rate)
         row_motions.append((V, turn, w))
     return row_motions
 

@@ -317,14 +317,8 @@ def _reduce_modulo(value: sympy.Rational, prime: int) -> int:
 _KEYS = ("source", "keep_sine_squares", "missing", "monomials", "printed", "example", "twin",
          "triads")  # fmt: skip
 _COUPLING = ("motor_from_joint", "coulomb", "speed")
-_PRINTED = (
-    "count",
-    "independent",
-    "vanishing",
-    "functions",
-    "definitions",
-    "solutions",
-    "coupling",
+_PRINTED = tuple(
+    ["count", "independent", "vanishing", "functions", "definitions", "solutions", "coupling"]
 )
 
 
@@ -388,17 +382,13 @@ def read_printed_terms(robot: Robot) -> PrintedTerms:
     count = printed.get("count")
     if count is not None and (isinstance(count, bool) or not isinstance(count, int)):
         raise RobotError(f"{where}, printed, count: got {count!r}; expected a number such as 96")
+    place = f"{where}, monomials"
     return PrintedTerms(
         source=_check_text(terms.get("source", ""), f"{where}, source"),
         missing=_check_text(terms.get("missing", "PX"), f"{where}, missing"),
         monomials={
-            name: tuple(
-                _parse_expression(x, f"{where}, monomials, {name}")
-                for x in _check_list(cell, where)
-            )
-            for name, cell in _check_table(
-                terms.get("monomials", {}), f"{where}, monomials"
-            ).items()
+            name: tuple(_parse_expression(x, f"{place}, {name}") for x in _check_list(cell, where))
+            for name, cell in _check_table(terms.get("monomials", {}), place).items()
         },
         count=count,
         independent=_parse_names(printed.get("independent", []), f"{where}, printed, independent"),

@@ -142,13 +142,10 @@ class PhysicalSystem(ShortRepr):
     ) -> tuple[int, dict[str, dict[int, int]]]:
         """Returns (prime, {letter: column of d data / d letter at a random point})."""
         prime, point = self.draw_modular_point(chance)
-        columns = {
-            letter: {
-                i: evaluate_modulo(poly, point, prime) for i, poly in enumerate(slopes) if poly
-            }
-            for letter, slopes in self.slopes.items()
+        return prime, {
+            x: {i: evaluate_modulo(poly, point, prime) for i, poly in enumerate(slopes) if poly}
+            for x, slopes in self.slopes.items()
         }
-        return prime, columns
 
     def compute_rank(self, letters: Sequence[str], seed: int = 2000, points: int = 2) -> int:
         """Returns the generic rank of d data / d letters, the highest of some random points."""

@@ -280,15 +280,8 @@ def check_solutions(table: CoefficientTable, as_printed: bool = False) -> list[S
             opposite = numerator == -denominator * letters[letter]
             verdict = f"returns -{letter}" if opposite else "wrong"
         quoted = above.text if below.text == "1" else f"({above.text}) / ({below.text})"
-        checks.append(
-            SolutionCheck(
-                letter,
-                quoted,
-                verdict,
-                format_polynomial(numerator, table.physical.names),
-                format_polynomial(denominator, table.physical.names),
-            )
-        )
+        sides = (format_polynomial(x, table.physical.names) for x in (numerator, denominator))
+        checks.append(SolutionCheck(letter, quoted, verdict, *sides))
     return checks
 
 
@@ -309,10 +302,8 @@ def check_independent(table: CoefficientTable) -> dict[str, str]:
 def check_twin(table: CoefficientTable) -> TwinCheck:
     """Compares all coefficients at the example and at its twin, exactly."""
     first, second = get_example_values(table), get_example_values(table, twin=True)
-    points = [
-        [values.get(name, Fraction(0)) for name in table.physical.names]
-        for values in (first, second)
-    ]
+    names, zero = table.physical.names, Fraction(0)
+    points = [[values.get(name, zero) for name in names] for values in (first, second)]
     different = tuple(
         c.name
         for c in table.coefficients
@@ -351,11 +342,8 @@ class PowerState:
         """Returns monomial * linear form of the standard parameters."""
         total = Fraction(0)
         for (column, geometry), value in vector.items():
-            total += (
-                convert_to_fraction(value)
-                * evaluate_monomial(geometry, self.static)
-                * self.chi[column]
-            )
+            factor = convert_to_fraction(value) * evaluate_monomial(geometry, self.static)
+            total += factor * self.chi[column]
         return total * evaluate_monomial(at, self.motion)
 
     def multiply_speeds(self, joints: tuple[int, ...]) -> Fraction:

@@ -129,10 +129,8 @@ def _write_spheres(model: SymbolicModel, closure: Closure, writer: SheetWriter) 
     generators += [model.algebra.static(atom) for atom in ring.static_atoms]
     frames, is_written = compute_poses(model.geometry, ring), False
     for number, loop in enumerate(model.robot.loops, start=1):
-        joint, (one, other) = (
-            LOOP_JOINTS[loop.kind],
-            compute_loop_frames(model.geometry, loop, frames, ring),
-        )
+        joint = LOOP_JOINTS[loop.kind]
+        one, other = compute_loop_frames(model.geometry, loop, frames, ring)
         square, total = ring.ring.zero, model.graph.constant(0)
         for entry in plus(one[1], times(-1, other[1])) if joint.velocity == ALL else ():
             entry = ring.normalise_polynomial(ring.ring(entry))

@@ -566,13 +566,8 @@ def format_monomial(exponents: Sequence[int], names: Sequence[str], style: TextS
 
 def format_polynomial(poly: Poly, names: Sequence[str], style: TextStyle = TEXT) -> str:
     """Returns a polynomial, highest monomial first; "0" if it has none."""
-    return format_signed_sum(
-        (
-            (convert_to_fraction(value), _format_plain(at, names, style))
-            for at, value in poly.terms()
-        ),
-        style,
-    )
+    terms = ((convert_to_fraction(x), _format_plain(at, names, style)) for at, x in poly.terms())
+    return format_signed_sum(terms, style)
 
 
 def format_linear_form(form: Mapping[int, Poly], parameters: Sequence[str], names: Sequence[str],
