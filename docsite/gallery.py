@@ -75,7 +75,7 @@ def coefficients(derivation: Derivation) -> list[str]:
     if not derivation.robot.terms:
         return []
     found = formulas.build_coefficient_table(derivation.model, derivation.base)
-    return ["## Coefficients", "", formulas.render.coefficients_markdown(found), ""]
+    return ["## Coefficients", "", formulas.coefficients.format_coefficients(found, "markdown"), ""]
 
 
 def gallery_index(exhibits: Sequence[Exhibit]) -> str:
