@@ -350,15 +350,18 @@ def _compute_rank_keys(
     counted = linkage.is_travel & linkage.is_tied & is_leg_joint
     negative = np.sum((u < -1e-9 * linkage.loops.size) & counted, axis=1)
     angles = np.sum(np.abs(np.where(linkage.is_travel, 0.0, u)), axis=1)
-    columns = np.column_stack([
-        np.round(linkage.compute_limit_excess(u), THRESHOLDS.rank_key_digits),
-        sigma < THRESHOLDS.min_singularity_share * best,
-        np.round(np.sum(linkage.compute_distances(u, hints), axis=1), THRESHOLDS.rank_key_digits),
-        negative,
-        np.round(np.log2(best / sigma)),
-        np.round(angles, THRESHOLDS.rank_key_digits),
-        -np.round(u, THRESHOLDS.rank_key_digits),  # mirrored: the positive one first
-    ])  # fmt: skip
+    digits = THRESHOLDS.rank_key_digits
+    columns = np.column_stack(
+        [
+            np.round(linkage.compute_limit_excess(u), digits),
+            sigma < THRESHOLDS.min_singularity_share * best,
+            np.round(np.sum(linkage.compute_distances(u, hints), axis=1), digits),
+            negative,
+            np.round(np.log2(best / sigma)),
+            np.round(angles, digits),
+            -np.round(u, digits),  # mirrored: the positive one first
+        ]
+    )
     return [tuple(line) for line in columns.tolist()]
 
 

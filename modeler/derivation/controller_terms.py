@@ -159,9 +159,13 @@ class MovingComposite(Composite):
 
 
 def compute_coriolis_matrix(
-    geometry: Geometry, frames: Sequence[Pose], moved: Sequence[Motion], speeds: Sequence[Scalar],
-    parameters: Sequence[Mapping[str, Any]], zero: Scalar,
-) -> list[list[Scalar]]:  # fmt: skip
+    geometry: Geometry,
+    frames: Sequence[Pose],
+    moved: Sequence[Motion],
+    speeds: Sequence[Scalar],
+    parameters: Sequence[Mapping[str, Any]],
+    zero: Scalar,
+) -> list[list[Scalar]]:
     """Returns C(q, qd) of the rigid links, (joints, joints).
 
     Args:
@@ -198,9 +202,14 @@ def _get_joint_speed(row: GeometryRow, speeds: Sequence[Scalar], zero: Scalar) -
 
 
 def _fill_column(
-    matrix: list[list[Scalar]], geometry: Geometry, frames: Sequence[Pose],
-    moved: Sequence[Motion], arms: Sequence[Vector], link: MovingComposite, k: int,
-) -> None:  # fmt: skip
+    matrix: list[list[Scalar]],
+    geometry: Geometry,
+    frames: Sequence[Pose],
+    moved: Sequence[Motion],
+    arms: Sequence[Vector],
+    link: MovingComposite,
+    k: int,
+) -> None:
     """Column of joint k in the rows of the joints below, and its row in their columns.
 
     With F, N the force and moment of column k, C_ik = z_i . N of joints i that turn. With f, n the

@@ -92,11 +92,8 @@ def _add_angles(a: Pair, b: Pair) -> Pair:
 # Expressions of the robot file as exact sympy expressions.
 
 
-_FUNCTIONS = {
-    "sin": sympy.sin, "cos": sympy.cos, "sqrt": sympy.sqrt,
-    "tan": lambda x: sympy.sin(x) / sympy.cos(x),
-    "exp": sympy.exp, "abs": sympy.Abs, "sign": sympy.sign, "tanh": sympy.tanh,
-}  # fmt: skip
+_FUNCTIONS = {name: getattr(sympy, name) for name in ("sin", "cos", "sqrt", "exp", "sign", "tanh")}
+_FUNCTIONS |= {"abs": sympy.Abs, "tan": lambda x: sympy.sin(x) / sympy.cos(x)}
 
 
 def fold_expression(expression: Expression, values: Mapping[str, sympy.Expr]) -> sympy.Expr:
@@ -295,10 +292,9 @@ def build_exact_geometry(robot: Robot, at_nominal: bool = False) -> Geometry:
     except DerivationError as error:
         raise DerivationError(f"gravity: {error}") from None
     used = {name for name, value in symbols.items() if value == create_geometric_symbol(name)}
-    return Geometry(
-        robot, rows, (gravity[0], gravity[1], gravity[2]),
-        {name: numbers[name] for name in numbers if name in used}, forms,
-    )  # fmt: skip
+    x, y, z = gravity
+    lengths = {name: number for name, number in numbers.items() if name in used}
+    return Geometry(robot, rows, (x, y, z), lengths, forms)
 
 
 def compute_placement(

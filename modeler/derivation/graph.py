@@ -12,7 +12,7 @@ from typing import Any, NamedTuple, Union
 import numpy as np
 
 from modeler.core.errors import DerivationError
-from modeler.core.expression import LAW
+from modeler.core.expression import FUNCTIONS, LAW
 from modeler.core.law import Law
 from modeler.derivation.thresholds import THRESHOLDS
 
@@ -64,8 +64,10 @@ class Link(NamedTuple):
 
 
 OPERATIONS: Mapping[str, Callable[..., Any]] = {
-    "add": operator.add, "mul": operator.mul, "div": operator.truediv,
-}  # fmt: skip
+    "add": operator.add,
+    "mul": operator.mul,
+    "div": operator.truediv,
+}
 
 
 @dataclass(frozen=True)
@@ -84,11 +86,10 @@ class Arithmetic:
     functions: Mapping[str, Callable[..., Any]]
 
 
-FLOATS = Arithmetic(float, lambda: np.pi, {
-    **OPERATIONS, "sin": np.sin, "cos": np.cos, "tan": np.tan, "sqrt": np.sqrt,
-    "exp": np.exp, "abs": np.abs, "sign": np.sign, "tanh": np.tanh, "pow": np.power,
-    LAW: lambda table, *x: table(*x),
-})  # fmt: skip
+_FLOATS = {name: getattr(np, name) for name in FUNCTIONS} | {"pow": np.power}
+FLOATS = Arithmetic(
+    float, lambda: np.pi, {**OPERATIONS, **_FLOATS, LAW: lambda table, *x: table(*x)}
+)
 
 _ALONE = -1
 """In place of the second argument of a function of one."""
@@ -535,9 +536,13 @@ class Expr:
 
 
 def attach_labels(
-    quantity: str, link: str, values: Any, step: str = "", of: str = "",
+    quantity: str,
+    link: str,
+    values: Any,
+    step: str = "",
+    of: str = "",
     components: Sequence[str] = "xyz",
-) -> Any:  # fmt: skip
+) -> Any:
     """Labels the values as this quantity of a link, and returns them.
 
     A node keeps its first label, whatever else it turns out to be, unless that is a step; other

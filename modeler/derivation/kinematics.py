@@ -249,9 +249,11 @@ def compute_screws(
 
 
 def compute_free_screws(
-    geometry: Geometry, frames: Sequence[Pose], algebra: Algebra,
+    geometry: Geometry,
+    frames: Sequence[Pose],
+    algebra: Algebra,
     number: Callable[[Fraction], Scalar] = lambda coefficient: coefficient,
-) -> list[dict[int, Screw]]:  # fmt: skip
+) -> list[dict[int, Screw]]:
     """Returns for every row the screw of each free variable that moves it.
 
     A row that follows others passes its screw on to them, times its coefficients.

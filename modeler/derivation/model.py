@@ -226,10 +226,8 @@ def _find_signals(
     names: Collection[str], row: int, nonlinear_parameters: Mapping[str, float]
 ) -> dict[str, Signal]:
     """Signals that an equation reads, by the variable; not its inner state."""
-    signals = {
-        "t": Signal("time", -1), "T": Signal("temperature", row),
-        "since": Signal("since", row, nonlinear_parameters.get(TURN, NOISE)),
-    }  # fmt: skip
+    since = Signal("since", row, nonlinear_parameters.get(TURN, NOISE))
+    signals = {"t": Signal("time", -1), "T": Signal("temperature", row), "since": since}
     return {name: signal for name, signal in signals.items() if name in names}
 
 
@@ -337,9 +335,12 @@ class SymbolicModel(ShortRepr):
         return free_torques
 
     def derive_link_motions(
-        self, qd: Sequence[Expr], qdd: Sequence[Expr], gravity: bool = True,
+        self,
+        qd: Sequence[Expr],
+        qdd: Sequence[Expr],
+        gravity: bool = True,
         v: Sequence[Expr] | None = None,
-    ) -> list[Motion]:  # fmt: skip
+    ) -> list[Motion]:
         """Returns the motion of every link for speeds and accelerations of the free variables.
 
         Args:
@@ -385,9 +386,10 @@ class SymbolicModel(ShortRepr):
         return project_part
 
     def assemble_entries(
-        self, link: Callable[[LinkColumn], Mapping[int, Expr]],
+        self,
+        link: Callable[[LinkColumn], Mapping[int, Expr]],
         shaft: Callable[[ShaftColumn], Mapping[int, Expr]],
-    ) -> Entries:  # fmt: skip
+    ) -> Entries:
         """Returns the structural nonzeros over all standard columns from those of their parts.
 
         Args:
@@ -457,9 +459,15 @@ class SymbolicModel(ShortRepr):
         )
 
     def derive_torque(
-        self, parameters: Mapping[int, Expr], *, speeds: bool = True,
-        accelerations: bool = True, gravity: bool = True, effects: bool = True, links: bool = True,
-    ) -> list[Expr]:  # fmt: skip
+        self,
+        parameters: Mapping[int, Expr],
+        *,
+        speeds: bool = True,
+        accelerations: bool = True,
+        gravity: bool = True,
+        effects: bool = True,
+        links: bool = True,
+    ) -> list[Expr]:
         """Returns tau by the Newton-Euler recursion for parameters by column; the others are 0.
 
         Args:
@@ -581,9 +589,13 @@ def evaluate_followed(model: SymbolicModel, signal: Signal, now: Mapping[Signal,
 
 
 def _evaluate_on_shaft(
-    model: SymbolicModel, equation: Expression, shaft: Mapping[int, Fraction],
-    nonlinear_parameters: Mapping[str, float], read: Mapping[str, Expr], motion: Sequence[str],
-) -> Expr:  # fmt: skip
+    model: SymbolicModel,
+    equation: Expression,
+    shaft: Mapping[int, Fraction],
+    nonlinear_parameters: Mapping[str, float],
+    read: Mapping[str, Expr],
+    motion: Sequence[str],
+) -> Expr:
     """An equation on a shaft; `read` are the signals by variable."""
     graph, names = model.graph, equation.names
     values: dict[str, Expr] = {

@@ -174,10 +174,9 @@ def compute_numeric_rank(sample: Sample, columns: Sequence[int]) -> NumericRank:
     rank = int(np.sum(singular > tolerance * singular[0]))
     dropped = float(singular[rank]) if rank < len(singular) else 0.0
     weighed = ", rows weighed by their rounding" if sample.rounding is not None else ""
-    return NumericRank(
-        rank, (float(singular[rank - 1]), dropped), tolerance,
-        f"{W.shape[0]} rows, {W.shape[1]} columns (the others are 0), scaled to length 1{weighed}",
-    )  # fmt: skip
+    sides = f"{W.shape[0]} rows, {W.shape[1]} columns (the others are 0)"
+    gap = (float(singular[rank - 1]), dropped)
+    return NumericRank(rank, gap, tolerance, f"{sides}, scaled to length 1{weighed}")
 
 
 # Base parameters in floating point, where exact symbols cannot be had.
@@ -224,11 +223,10 @@ def derive_numeric_grouping(
     kept_columns, relations, bound = _select_first_columns(W, lengths, order, tolerance)
     balls = enclosed(kept_columns, list(relations))
     if balls is not None:
-        relations = {
-            column: {b: _convert_ball(row[k]) for b, row in zip(kept_columns, balls, strict=True)
-                     if not row[k].contains(0)}
-            for k, column in enumerate(relations)
-        }  # fmt: skip
+        for k, column in enumerate(relations):
+            factors = {b: row[k] for b, row in zip(kept_columns, balls, strict=True)}
+            nonzero = {b: x for b, x in factors.items() if not x.contains(0)}
+            relations[column] = {b: _convert_ball(x) for b, x in nonzero.items()}
     terms = {b: [Term(sympy.Integer(1), model.names[b])] for b in sorted(kept_columns)}
     for column in sorted(relations):
         for b, factor in relations[column].items():

@@ -340,9 +340,13 @@ def derive_closed_form(model: SymbolicModel, base: BaseParameters | None = None)
 
 
 def _build_function(
-    letter: str, names: Sequence[str], at: tuple[int, ...], entry: Form, algebra: TrigRing,
+    letter: str,
+    names: Sequence[str],
+    at: tuple[int, ...],
+    entry: Form,
+    algebra: TrigRing,
     keep: frozenset[str] | None,
-) -> ConfigurationFunction:  # fmt: skip
+) -> ConfigurationFunction:
     name = format_function_name(letter, [names[i] for i in at])
     if keep is None:
         entry = _minimise_monomials(entry, algebra)

@@ -540,9 +540,12 @@ def _format_sections(sheet: Sheet) -> list[tuple[str, list[str]]]:
         if len(line) > _WIDTH:
             right = f"{definition.name} = ({printer.format_value(definition)})"
             more = textwrap.wrap(
-                right, _WIDTH, subsequent_indent="    ", break_on_hyphens=False,
+                right,
+                _WIDTH,
+                subsequent_indent="    ",
+                break_on_hyphens=False,
                 break_long_words=False,
-            )  # fmt: skip
+            )
             sections[-1][1].extend(more)
         else:
             sections[-1][1].append(line)

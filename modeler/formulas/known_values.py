@@ -372,9 +372,14 @@ class _CadProblem:
     """Residuals of the compared quantities for any values of the parameters."""
 
     def __init__(
-        self, system: PhysicalSystem, compared: Sequence[int], data: np.ndarray,
-        covariance: np.ndarray, cad: Mapping[str, float], sigmas: Mapping[str, float],
-    ) -> None:  # fmt: skip
+        self,
+        system: PhysicalSystem,
+        compared: Sequence[int],
+        data: np.ndarray,
+        covariance: np.ndarray,
+        cad: Mapping[str, float],
+        sigmas: Mapping[str, float],
+    ) -> None:
         self.system, self.compared = system, list(compared)
         self.data = data[self.compared]
         self.polys = [NumericPolynomial(system.definitions[system.data[i]]) for i in self.compared]

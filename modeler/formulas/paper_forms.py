@@ -181,14 +181,15 @@ def derive_leg_blocks(
                 f"platform is given; expected {THRESHOLDS.max_block_equations} at most; leave "
                 "--blocks out"
             )
-        B, A = ([[values[closure.jacobian[r][u].ref] for u in at] for r in equations]
-                for at in (unknown, closure.platform))  # fmt: skip
+        lines = [closure.jacobian[r] for r in equations]
+        sides = (unknown, closure.platform)
+        B, A = ([[values[line[u].ref] for u in at] for line in lines] for at in sides)
         cofactors = [[compute_cofactor(B, i, j) for j in range(len(B))] for i in range(len(B))]
         size = multiply_rows(B[0], cofactors[0])
         for j, u in enumerate(unknown):
             line = [row[j] for row in cofactors]
-            rates[u] = [write_expression(-multiply_rows(line, [a[p] for a in A]) / size)
-                        for p in range(len(V))]  # fmt: skip
+            speeds = (-multiply_rows(line, [a[p] for a in A]) / size for p in range(len(V)))
+            rates[u] = list(map(write_expression, speeds))
         description = f"eq. (2), qd{k} = J{k}^-1 V"
         rows = [rates[u] for u in unknown]
         blocks.append(_build_block(f"J{k}inv", description, [names[u] for u in unknown], V, rows))
@@ -229,15 +230,15 @@ def _build_column_blocks(
     closure, zero = model.closure, model.graph.constant(0)
     assert closure is not None and closure.platform is not None
     names = [joint.name for joint in model.robot.free_joints]
-    acts = {p: {u for u in range(len(names)) if (u, p.column) in model.regressor}
-            for p in base.parameters}  # fmt: skip
+    places = range(len(names))
+    acts = {p: {u for u in places if (u, p.column) in model.regressor} for p in base.parameters}
 
     def select_block(
         name: str, description: str, places: Sequence[int], drive: bool | None = None
     ) -> LegBlock:
         motors = {*closure.actuated}
-        chosen = [p for p, rows in acts.items() if rows & {*places}
-                  and (drive is None or (rows <= motors) is drive)]  # fmt: skip
+        touching = {p: rows for p, rows in acts.items() if rows & {*places}}
+        chosen = [p for p, at in touching.items() if drive is None or (at <= motors) is drive]
         rows = [u for u in places if not drive or u in motors]
         lines = [[model.regressor.get((u, p.column), zero) for p in chosen] for u in rows]
         return _build_block(
@@ -513,8 +514,8 @@ def _compare_kane_torques(
     axes[-1] = [[graph.constant(int(i == j)) for j in range(3)] for i in range(3)]
     parts = [p for c in model.columns for p in c.parts if isinstance(p, LinkColumn)]
     standard = [bodies[p.row].standard[p.prefix] for p in parts]
-    values = {graph.nodes[n].args[0]: float(rng.uniform(0.1, 1.0))
-              for n in graph.find_reachable(standard) if graph.nodes[n].op == "sym"}  # fmt: skip
+    nodes = (graph.nodes[n] for n in graph.find_reachable(standard))
+    values = {node.args[0]: float(rng.uniform(0.1, 1.0)) for node in nodes if node.op == "sym"}
     values |= formula_model.robot.evaluate_symbols()
     needed: list[Expr] = []
     for body, k in product(bodies.values(), (0, 1)):

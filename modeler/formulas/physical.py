@@ -314,8 +314,16 @@ def _reduce_modulo(value: sympy.Rational, prime: int) -> int:
 # * `[terms.example]` and `[terms.twin]`: two sets of physical parameters, as exact fractions.
 
 
-_KEYS = ("source", "keep_sine_squares", "missing", "monomials", "printed", "example", "twin",
-         "triads")  # fmt: skip
+_KEYS = (
+    "source",
+    "keep_sine_squares",
+    "missing",
+    "monomials",
+    "printed",
+    "example",
+    "twin",
+    "triads",
+)
 _COUPLING = ("motor_from_joint", "coulomb", "speed")
 _PRINTED = tuple(
     ["count", "independent", "vanishing", "functions", "definitions", "solutions", "coupling"]

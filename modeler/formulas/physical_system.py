@@ -361,7 +361,9 @@ def _build_system(
     return PhysicalSystem(
         robot,
         "base" if free is None else "coefficients",
-        ring, tuple(definitions), letters,
+        ring,
+        tuple(definitions),
+        letters,
         {x: physical.kinds[x] for x in letters},
         tuple(x for x in physical.masses if x in letters),
         tuple(x for x in physical.moments if x in letters),
@@ -373,7 +375,7 @@ def _build_system(
         {name: poly.set_ring(ring) for name, poly in definitions.items()},
         *base,
         to_data,
-    )  # fmt: skip
+    )
 
 
 def _find_used(polys: Iterable[Poly], names: Sequence[str]) -> set[str]:

@@ -146,9 +146,15 @@ def _write_spheres(model: SymbolicModel, closure: Closure, writer: SheetWriter) 
 
 
 def _write_block(
-    closure: Closure, block: Block, independent: Sequence[int], names: Sequence[str], letter: str,
-    writer: SheetWriter, rates: dict[int, dict[int, Expr]], bias: dict[int, Expr],
-) -> None:  # fmt: skip
+    closure: Closure,
+    block: Block,
+    independent: Sequence[int],
+    names: Sequence[str],
+    letter: str,
+    writer: SheetWriter,
+    rates: dict[int, dict[int, Expr]],
+    bias: dict[int, Expr],
+) -> None:
     """L = -B^-1 A and -B^-1 h of one block."""
     equations, unknown = block
     unknown_names = ", ".join(names[k] for k in unknown)
@@ -197,9 +203,13 @@ def compute_cofactor(B: Sequence[Sequence[Any]], i: int, j: int) -> Any:
 
 
 def _write_platform(
-    model: SymbolicModel, closure: Closure, names: Sequence[str], writer: SheetWriter,
-    rates: Mapping[int, Mapping[int, Expr]], bias: dict[int, Expr],
-) -> bool:  # fmt: skip
+    model: SymbolicModel,
+    closure: Closure,
+    names: Sequence[str],
+    writer: SheetWriter,
+    rates: Mapping[int, Mapping[int, Expr]],
+    bias: dict[int, Expr],
+) -> bool:
     """J_p, J_t and the bias, if the inverse of K is worth printing."""
     platform, motors = closure.platform, closure.actuated
     assert platform is not None
@@ -258,8 +268,10 @@ def _describe_loops(
         rows = "Jp<p>_<a> of p, Jt<u>_<a> of the others" if platform_names else "Jt<u>_<a>"
         lines.append(f"u' = J_t q', u'' = J_t q'' + b; rows of J_t: {rows}; of motors: 1 and 0")
     else:
-        lines.append("u' = J_t q', u'' = J_t q'' + b by a solver, too large to write: F J_t = 0, "
-                     "F b = -h, motors' rows of J_t 1 and 0, of b 0")  # fmt: skip
+        lines.append(
+            "u' = J_t q', u'' = J_t q'' + b by a solver, too large to write: F J_t = 0, "
+            "F b = -h, motors' rows of J_t 1 and 0, of b 0"
+        )
     lines.append("tau = J_t' t, t: torques of the opened tree along u")
     return lines
 
@@ -323,8 +335,9 @@ def derive_equation(
             words.append(f"constant gravity and an offset in one, in e or in g: {', '.join(mixed)}")
     if columns:
         write_columns(model, base, writer)
-        words.append(f"{'t' if loops else 'tau'} = phi beta, phi<joint>_<parameter>; what is not "
-                     "listed is 0")  # fmt: skip
+        words.append(
+            f"{'t' if loops else 'tau'} = phi beta, phi<joint>_<parameter>; what is not listed is 0"
+        )
     words += [*_describe_signals(model), *_describe_laws(model), *loops]
     return Equation(tuple(words), writer.build_sheet(), tuple(loops))
 

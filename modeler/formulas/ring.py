@@ -570,8 +570,12 @@ def format_polynomial(poly: Poly, names: Sequence[str], style: TextStyle = TEXT)
     return format_signed_sum(terms, style)
 
 
-def format_linear_form(form: Mapping[int, Poly], parameters: Sequence[str], names: Sequence[str],
-              style: TextStyle = TEXT) -> str:  # fmt: skip
+def format_linear_form(
+    form: Mapping[int, Poly],
+    parameters: Sequence[str],
+    names: Sequence[str],
+    style: TextStyle = TEXT,
+) -> str:
     """Returns a linear form of parameters, e.g. "2*XZ3 - 2*bl1*MX3"."""
     terms: list[tuple[Fraction, str]] = []
     for column, factor in form.items():
@@ -588,8 +592,9 @@ def format_linear_form(form: Mapping[int, Poly], parameters: Sequence[str], name
     return format_signed_sum(terms, style)
 
 
-def format_physical(poly: Poly, names: Sequence[str], masses: Iterable[str],
-                  style: TextStyle = TEXT) -> str:  # fmt: skip
+def format_physical(
+    poly: Poly, names: Sequence[str], masses: Iterable[str], style: TextStyle = TEXT
+) -> str:
     """Returns a polynomial of physical parameters with each mass in front of its own bracket."""
     wanted = [i for i, name in enumerate(names) if name in set(masses)]
     loose: dict[tuple[int, ...], Any] = {}

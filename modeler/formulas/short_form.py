@@ -313,9 +313,12 @@ def _write_chain(
 
 
 def _write_tied(
-    model: SymbolicModel, rows: _TreeQuantities, shafts: Mapping[tuple[int, int], Expr],
-    names: Sequence[str], writer: SheetWriter,
-) -> None:  # fmt: skip
+    model: SymbolicModel,
+    rows: _TreeQuantities,
+    shafts: Mapping[tuple[int, int], Expr],
+    names: Sequence[str],
+    writer: SheetWriter,
+) -> None:
     """Results along the free joints: J_u = E' J E, and so on."""
     moving = [joint.name for joint in model.robot.moving_joints]
     writer.open_section("as if every joint were free")

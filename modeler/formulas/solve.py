@@ -139,9 +139,12 @@ class _Elimination:
     """
 
     def __init__(
-        self, system: PhysicalSystem, unknown: Sequence[str], follow: Sequence[str],
+        self,
+        system: PhysicalSystem,
+        unknown: Sequence[str],
+        follow: Sequence[str],
         chance: random.Random,
-    ) -> None:  # fmt: skip
+    ) -> None:
         self.system = system
         self.place = system.place
         self.prime, self.point = system.draw_modular_point(chance)
@@ -183,10 +186,13 @@ class _Elimination:
         """
         letters = [x for x in self.system.letters if x in self.open]
         rows = [
-            {k: evaluate_modulo(self.system.slopes[x][i], self.point, self.prime)
-             for k, x in enumerate(letters) if self.system.slopes[x][i]}
+            {
+                k: evaluate_modulo(self.system.slopes[x][i], self.point, self.prime)
+                for k, x in enumerate(letters)
+                if self.system.slopes[x][i]
+            }
             for i in range(len(self.defined))
-        ]  # fmt: skip
+        ]
         order = sorted(range(len(rows)), key=lambda i: -len(self.defined[i]))
         candidates = []
         for letter in sorted(self.wanted):
@@ -389,8 +395,12 @@ def _format_python(solution: ClosedSolution) -> list[str]:
     polys = [p for s in solution.steps for p in (s.numerator, s.denominator, s.equation) if p]
     read = find_places(*polys)
     data = [name for name in system.data if system.place[name] in read]
-    made_of = [w for name in (*system.constants, *system.abbreviations.values())
-               for w in _extract_symbols(name) if w not in system.abbreviations]  # fmt: skip
+    made_of = [
+        w
+        for name in (*system.constants, *system.abbreviations.values())
+        for w in _extract_symbols(name)
+        if w not in system.abbreviations
+    ]
     arguments = [*data, *solution.known, *dict.fromkeys(made_of)]
     where = "base parameters" if system.source == "base" else "coefficients PG, PJ"
     more = ": a list, every robot that fits" if rooted else ""
@@ -413,9 +423,11 @@ def _format_python(solution: ClosedSolution) -> list[str]:
             lines.append(f"{indent}for {step.letter} in {root_call}:")
             indent += "    "
     result_text = "{" + ", ".join(f'"{x}": {x}' for x in solution.solved_letters) + "}"
-    lines += [f"{indent}found.append({result_text})", "    return found"] if rooted else [
-        f"    return {result_text}"
-    ]  # fmt: skip
+    lines += (
+        [f"{indent}found.append({result_text})", "    return found"]
+        if rooted
+        else [f"    return {result_text}"]
+    )
     used = set(_extract_symbols("\n".join(lines), functions=True))
     some = [name for name in ("cos", "pi", "sin", "sqrt") if name in used]
     head = [f"from math import {', '.join(some)}"] if some else []
@@ -533,8 +545,8 @@ def verify_solution(
         else:
             prime, point = 0, system.derive_consistent_values(draw_random_rationals(system, chance))
             value = partial(evaluate_polynomial, values=point)
-        good += all(_is_satisfied(step, value, point[system.place[step.letter]], prime)
-                    for step in solution.steps)  # fmt: skip
+        truths = ((step, point[system.place[step.letter]]) for step in solution.steps)
+        good += all(_is_satisfied(step, value, truth, prime) for step, truth in truths)
     return good
 
 
@@ -631,9 +643,14 @@ def find_impossible(derived: DerivedValue, system: PhysicalSystem) -> dict[str, 
 
 
 def _evaluate_step(
-    step: SolvingStep, solution: ClosedSolution, point: np.ndarray, gradient: np.ndarray,
-    C: np.ndarray, doubtful: dict[str, str], near: Mapping[str, float],
-) -> None:  # fmt: skip
+    step: SolvingStep,
+    solution: ClosedSolution,
+    point: np.ndarray,
+    gradient: np.ndarray,
+    C: np.ndarray,
+    doubtful: dict[str, str],
+    near: Mapping[str, float],
+) -> None:
     """One step more: value and slopes of its letter."""
     system = solution.system
     at = system.place[step.letter]

@@ -128,9 +128,7 @@ def are_spanning(kernel: np.ndarray, sets: np.ndarray, prime: int) -> np.ndarray
 # Sets of known parameters.
 
 
-EASE: Mapping[str, int] = {
-    "mass": 0, "length": 0, "rotor inertia": 1, "centre": 2, "inertia": 3,
-}  # fmt: skip
+EASE: Mapping[str, int] = {"mass": 0, "length": 0, "rotor inertia": 1, "centre": 2, "inertia": 3}
 """How hard a parameter is to measure: scales and ruler, data sheet, balancing, pendulum."""
 
 
@@ -276,9 +274,11 @@ class _SetCounter:
     def _estimate_work(self, part: tuple[list[int], list[int]], spare: int) -> float:
         rows, columns = part
         return float(
-            sum(comb(len(columns), len(rows) + more)
-                for more in range(min(spare, len(columns) - len(rows)) + 1))
-        )  # fmt: skip
+            sum(
+                comb(len(columns), len(rows) + more)
+                for more in range(min(spare, len(columns) - len(rows)) + 1)
+            )
+        )
 
     def _count_part(
         self, part: tuple[list[int], list[int]], spare: int, start: float, share: float
