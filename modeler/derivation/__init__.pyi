@@ -35,10 +35,12 @@ from .field import (
     LinearRelations as LinearRelations,
     SparseVector as SparseVector,
     collect_powers as collect_powers,
+    compute_kernel as compute_kernel,
     convert_to_fraction as convert_to_fraction,
     enumerate_places as enumerate_places,
     evaluate_modulo as evaluate_modulo,
     find_linear_relations as find_linear_relations,
+    reduce_to_echelon as reduce_to_echelon,
     replace_square as replace_square,
 )
 from .geometry import (
@@ -91,7 +93,6 @@ from .model import (
     get_signal_symbol as get_signal_symbol,
     is_in_block as is_in_block,
 )
-from .modular import compute_kernel as compute_kernel, reduce_to_echelon as reduce_to_echelon
 from .numeric_rank import (
     EnclosedState as EnclosedState,
     EnclosureError as EnclosureError,

@@ -9,11 +9,13 @@ from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cache
-from itertools import product
+from itertools import accumulate, product
+from math import isqrt
 from operator import add
 from typing import Any, TypeAlias
 
 import flint
+import numpy as np
 import sympy
 from sympy import QQ
 from sympy.polys.matrices import DomainMatrix
@@ -494,3 +496,165 @@ def find_linear_relations(vectors: Mapping[Any, SparseVector]) -> LinearRelation
 def enumerate_places(vectors: Iterable[SparseVector]) -> dict[Any, int]:
     """Returns the row of each place, in order of appearance."""
     return {place: i for i, place in enumerate(dict.fromkeys(p for v in vectors for p in v))}
+
+
+SMALL = 2**31 - 1
+
+
+LARGE = 2**127 - 1
+
+
+Residues = np.ndarray
+"""Reduced modulo the prime; one entry per point."""
+
+
+def fill_residues(value: int, points: int, prime: int) -> Residues:
+    """Returns the same residue at all points."""
+    return np.full(points, value % prime, dtype=np.int64 if prime == SMALL else object)
+
+
+def draw_residues(rng: np.random.Generator, shape: tuple[int, ...], prime: int) -> Residues:
+    """Returns random residues, neither 0 nor 1."""
+    if prime == SMALL:
+        return rng.integers(2, prime, size=shape, dtype=np.int64)
+    parts = rng.integers(2, 2**62, size=(2, *shape)).astype(object)
+    return (parts[0] * 2**62 + parts[1]) % prime
+
+
+def compute_power(value: Residues, n: int, prime: int) -> Residues:
+    """Returns value**n, n >= 0."""
+    result = value * 0 + 1
+    while n:
+        if n & 1:
+            result = result * value % prime
+        value = value * value % prime
+        n >>= 1
+    return result
+
+
+def invert_residues(value: Residues, prime: int) -> Residues:
+    """Returns 1 / value.
+
+    Raises:
+        ValueError: an entry is 0, modulo LARGE.
+    """
+    if prime == SMALL:
+        return compute_power(value, prime - 2, prime)
+    # One inversion for all entries (Montgomery): that of their product.
+    products = list(accumulate(value.tolist(), lambda a, b: a * b % prime))
+    rest = pow(products[-1], -1, prime)
+    inverses = np.empty(len(products), dtype=object)
+    for i in range(len(products) - 1, 0, -1):
+        inverses[i] = rest * products[i - 1] % prime
+        rest = rest * value[i] % prime
+    inverses[0] = rest
+    return inverses
+
+
+def reduce_rational(number: Fraction, prime: int) -> int:
+    """Returns a rational number as a residue.
+
+    Raises:
+        ValueError: its denominator is a multiple of the prime.
+    """
+    return number.numerator * pow(number.denominator, -1, prime) % prime
+
+
+def compute_circle_point(t: Residues, prime: int) -> tuple[Residues, Residues]:
+    """Returns the point of the unit circle with tan(a/2) = t: (cos, sin)."""
+    square = t * t % prime
+    # 1 + t**2 is never 0: both primes are 3 modulo 4.
+    scale = invert_residues((1 + square) % prime, prime)
+    return (1 - square) * scale % prime, 2 * t % prime * scale % prime
+
+
+def add_angles(
+    a: tuple[Residues, Residues], b: tuple[Residues, Residues], prime: int
+) -> tuple[Residues, Residues]:
+    """Returns (cos, sin) of the sum of two angles."""
+    c = (a[0] * b[0] % prime - a[1] * b[1] % prime) % prime
+    return c, (a[1] * b[0] % prime + a[0] * b[1] % prime) % prime
+
+
+def reconstruct_rational(residue: int, prime: int) -> Fraction | None:
+    """Returns the rational number of small numerator and denominator that the residue stands for.
+
+    Wang's algorithm: half of the extended Euclidean algorithm, bounded by sqrt(prime / 2); None if
+    there is none.
+    """
+    bound = isqrt(prime // 2)
+    a, b, u, v = prime, residue % prime, 0, 1
+    while b > bound:
+        q = a // b
+        a, b, u, v = b, a - q * b, v, u - q * v
+    if v == 0 or abs(v) > bound:
+        return None
+    return Fraction(b, v)
+
+
+def reduce_to_echelon(
+    matrix: np.ndarray, order: Sequence[int], prime: int, reduced: bool = True
+) -> list[tuple[int, int]]:
+    """Reduces `matrix` in place to (reduced) row echelon form, columns in the given order.
+
+    432 x 210 modulo SMALL take 0.11 s; 3.0 s as a sympy `DomainMatrix`, 0.24 s by python-flint.
+
+    Returns:
+        (row, column) of the pivots; the pivot columns are the first-come independent ones.
+    """
+    pivots: list[tuple[int, int]] = []
+    for column in order:
+        rank = len(pivots)
+        if rank == matrix.shape[0]:
+            break
+        having = np.nonzero(matrix[rank:, column])[0]
+        if len(having) == 0:
+            continue
+        pivot = rank + int(having[0])
+        matrix[[rank, pivot]] = matrix[[pivot, rank]]
+        scale = pow(int(matrix[rank, column]), -1, prime)
+        matrix[rank] = matrix[rank] * scale % prime
+        factors = matrix[:, column].copy()
+        factors[rank if reduced else 0 : rank + 1] = 0
+        used = np.nonzero(factors)[0]
+        touched = np.ix_(used, np.nonzero(matrix[rank])[0])
+        lines = factors[used][:, None] * matrix[rank][touched[1]] % prime
+        matrix[touched] = (matrix[touched] - lines) % prime
+        pivots.append((rank, column))
+    return pivots
+
+
+def compute_kernel(matrix: np.ndarray, prime: int) -> np.ndarray:
+    """Returns rows (columns - rank, columns) that span {x: matrix x = 0}; reduces `matrix`."""
+    width = matrix.shape[1]
+    pivots = [column for _, column in reduce_to_echelon(matrix, range(width), prime)]
+    free = [k for k in range(width) if k not in pivots]
+    kernel = np.zeros((len(free), width), dtype=matrix.dtype)
+    kernel[range(len(free)), free] = 1
+    kernel[:, pivots] = -matrix[: len(pivots), free].T % prime
+    return kernel
+
+
+def cross(a: Residues, b: Residues, prime: int) -> Residues:
+    """Returns a x b."""
+    (x, y, z), (u, v, w) = a, b
+    return np.stack([y * w % prime - z * v, z * u % prime - x * w, x * v % prime - y * u]) % prime
+
+
+def dot(a: Residues, b: Residues, prime: int) -> Residues:
+    """Returns a . b."""
+    return np.asarray((a * b % prime).sum(axis=0) % prime)
+
+
+def rotate_into_axes(R: Residues, v: Residues, prime: int) -> Residues:
+    """Returns R^T v: the components of v along the axes of R."""
+    return np.asarray((R * v[:, None] % prime).sum(axis=0) % prime)
+
+
+def rotate_about_axis(R: Residues, axis: int, c: Residues, s: Residues, prime: int) -> Residues:
+    """Returns R times the rotation by (c, s) about its own axis x (0) or z (2)."""
+    i, j = (1, 2) if axis == 0 else (0, 1)
+    out = R.copy()
+    out[:, i] = (c * R[:, i] % prime + s * R[:, j] % prime) % prime
+    out[:, j] = (c * R[:, j] % prime - s * R[:, i] % prime) % prime
+    return out

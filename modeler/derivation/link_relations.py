@@ -28,20 +28,17 @@ from modeler.derivation.field import (
     Element,
     ExactField,
     Matrix,
+    Residues,
     compute_null_space,
+    cross,
+    fill_residues,
     reduce_rows,
     replace_square,
+    rotate_into_axes,
 )
 from modeler.derivation.geometry import Geometry, GeometryRow
 from modeler.derivation.model import StandardColumn
-from modeler.derivation.modular import (
-    ModularState,
-    Residues,
-    cross,
-    fill_residues,
-    find_dependent_columns,
-    rotate_into_axes,
-)
+from modeler.derivation.modular import ModularState, find_dependent_columns
 from modeler.derivation.thresholds import THRESHOLDS
 from modeler.robot import INERTIAL
 

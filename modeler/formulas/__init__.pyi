@@ -14,6 +14,7 @@ from .known_values import (
     parse_known_values as parse_known_values,
     read_cad_example as read_cad_example,
     read_cad_file as read_cad_file,
+    verify_solution as verify_solution,
 )
 from .paper_forms import (
     LegBlock as LegBlock,
@@ -54,7 +55,6 @@ from .solve import (
     format_solution_lines as format_solution_lines,
     serialise_solution as serialise_solution,
     solve as solve,
-    verify_solution as verify_solution,
 )
 from .sufficient_sets import (
     KnownSets as KnownSets,

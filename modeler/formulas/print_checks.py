@@ -118,29 +118,29 @@ def find_wrong_functions(table: CoefficientTable) -> list[FunctionCheck]:
     Raises:
         RobotError: a printed function that is not a sum of coefficients times monomials.
     """
-    checks = []
+    checks, algebra = [], table.closed.algebra
+    motion = algebra.names[: algebra.moving]
     for name, printed in table.printed.functions.items():
         joints = _find_joints(table, name)
         difference = _subtract_printed(table, name, printed)
+        texts = {
+            format_monomial(at, motion): _express_in_coefficients(table, vector)
+            for at, vector in sorted(difference.items(), reverse=True)
+        }
         if difference:
-            algebra = table.closed.algebra
-            motion = algebra.names[: algebra.moving]
-            texts = {
-                format_monomial(at, motion): _express_in_coefficients(table, vector)
-                for at, vector in sorted(difference.items(), reverse=True)
-            }
             power = _compute_power_defect(table, joints, difference)
             checks.append(FunctionCheck(name, printed.text, texts, power))
     return checks
 
 
 def _express_in_coefficients(table: CoefficientTable, vector: Mapping[Any, Any]) -> str:
-    independent = {
-        name: flatten_form(table.by_name[name].standard) for name in table.relations.independent
-    }
-    combination = find_combination(independent, vector)
+    combination = find_combination(_collect_vectors(table, table.relations.independent), vector)
     assert combination is not None, "a difference of coefficients is a combination of coefficients"
     return format_combination(combination)
+
+
+def _collect_vectors(table: CoefficientTable, names: Iterable[str]) -> dict[str, dict[Any, Any]]:
+    return {name: flatten_form(table.by_name[name].standard) for name in names}
 
 
 def _subtract_printed(
@@ -157,9 +157,8 @@ def _subtract_printed(
     rest = (0,) * algebra.static_ring.ngens
     differences: dict[Exponents, dict[Any, Any]] = {}
     for coefficient, part in total.items():
-        poly = algebra.normalise_polynomial(
-            algebra.ring.zero.new({at + rest: v for at, v in part.items() if v})
-        )
+        printed_part = {at + rest: v for at, v in part.items() if v}
+        poly = algebra.normalise_polynomial(algebra.ring.zero.new(printed_part))
         vector = flatten_form(table.by_name[coefficient].standard)
         for at, value in poly.items():
             sums = differences.setdefault(at[: algebra.moving], {})
@@ -289,14 +288,10 @@ def check_independent(table: CoefficientTable) -> dict[str, str]:
     """Returns {name: combination} of coefficients wrongly printed as independent."""
     for name in table.printed.independent:
         _check_coefficient(table, name, "independent")
-    relations = find_linear_relations(
-        {name: flatten_form(table.by_name[name].standard) for name in table.printed.independent}
-    )
-    return {
-        name: format_combination(combination)
-        for name, combination in relations.combinations.items()
-        if name not in relations.independent
-    }
+    relations = find_linear_relations(_collect_vectors(table, table.printed.independent))
+    combinations = relations.combinations
+    dependent = (name for name in combinations if name not in relations.independent)
+    return {name: format_combination(combinations[name]) for name in dependent}
 
 
 def check_twin(table: CoefficientTable) -> TwinCheck:
@@ -410,9 +405,6 @@ def _compute_half_slope_power(
             )
             total += slope * state.multiply_speeds((*joints, k))
     return total / 2 if joints[0] == joints[1] else total
-
-
-# Where a paper's print is wrong, and how one sees it.
 
 
 # Coulomb friction of motors that turn with several joints: a printed term and virtual work.

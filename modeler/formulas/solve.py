@@ -6,10 +6,8 @@ zero, is told by its value at a consistent random point modulo a prime: so no qu
 """
 
 import random
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
-from fractions import Fraction
-from functools import partial
 from typing import Any, Literal
 
 import numpy as np
@@ -24,7 +22,6 @@ from modeler.formulas.ring import (
     TEXT,
     Poly,
     TextStyle,
-    evaluate_polynomial,
     find_independent_modulo,
     find_places,
     format_physical,
@@ -526,51 +523,6 @@ class DerivedValue:
     def get_sigma(self, letter: str) -> float:
         """Returns the standard deviation of one parameter."""
         return float(self.sigmas[self.letters.index(letter)])
-
-
-def verify_solution(
-    solution: ClosedSolution, times: int = THRESHOLDS.verified_robots, seed: int = THRESHOLDS.seed
-) -> int:
-    """Returns the number of random robots for which every formula gives back the parameter.
-
-    Exact: over Q; modulo a prime where the geometry has roots of numbers.
-    """
-    system, chance = solution.system, random.Random(seed)
-    good = 0
-    for _ in range(times):
-        value: Callable[[Poly], Any]
-        if any(name.startswith("sqrt(") for name in system.names):
-            prime, point = system.draw_modular_point(chance)
-            value = partial(evaluate_modulo, point=point, prime=prime)
-        else:
-            prime, point = 0, system.derive_consistent_values(draw_random_rationals(system, chance))
-            value = partial(evaluate_polynomial, values=point)
-        truths = ((step, point[system.place[step.letter]]) for step in solution.steps)
-        good += all(_is_satisfied(step, value, truth, prime) for step, truth in truths)
-    return good
-
-
-def draw_random_rationals(system: PhysicalSystem, chance: random.Random) -> dict[str, Fraction]:
-    """Draws letters and constants at random, cosine and sine on the circle."""
-    values: dict[str, Fraction] = {}
-    for name in (*system.letters, *system.constants):
-        if name.startswith("cos("):
-            t = Fraction(chance.randint(2, 40), chance.randint(41, 90))
-            values[name] = (1 - t * t) / (1 + t * t)
-            values["sin" + name[3:]] = 2 * t / (1 + t * t)
-        elif name not in values:
-            sign = 1 if name in system.masses else chance.choice((-1, 1))
-            values[name] = sign * Fraction(chance.randint(1, 99), chance.randint(1, 99))
-    return values
-
-
-def _is_satisfied(step: SolvingStep, value: Callable[[Poly], Any], truth: Any, prime: int) -> bool:
-    """If the formula gives `truth`: modulo the prime, or exactly where that is 0."""
-    if step.equation is not None:
-        return bool(value(step.equation) == 0)
-    down = value(step.denominator)
-    rest = value(step.numerator) - truth * down
-    return bool(down != 0 and (rest % prime if prime else rest) == 0)
 
 
 def derive_values(

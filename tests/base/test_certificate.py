@@ -11,14 +11,13 @@ from modeler.derivation.base_parameters import (
     derive_column_relations,
 )
 from modeler.derivation.derive import derive_model
-from modeler.derivation.field import build_geometry_field
-from modeler.derivation.modular import (
-    PRIME,
-    compute_modular_rank,
+from modeler.derivation.field import (
+    build_geometry_field,
     compute_power,
     invert_residues,
     reduce_to_echelon,
 )
+from modeler.derivation.modular import PRIME, compute_modular_rank
 from modeler.robot.read import read_robot
 
 

@@ -12,6 +12,7 @@ from modeler.core.errors import RobotError
 from modeler.derivation.base_parameters import derive_base_parameters
 from modeler.derivation.derive import derive_model
 from modeler.derivation.numeric_rank import draw_random_states, evaluate_regressor
+from modeler.formulas.known_values import verify_solution
 from modeler.formulas.physical import read_printed_terms
 from modeler.formulas.physical_system import build_physical_system
 from modeler.formulas.solve import (
@@ -21,7 +22,6 @@ from modeler.formulas.solve import (
     format_missing_lines,
     format_solution_lines,
     solve,
-    verify_solution,
 )
 from modeler.formulas.sufficient_sets import count_smallest_set
 from modeler.robot.read import parse_robot_text
