@@ -308,9 +308,6 @@ def check_twin(table: CoefficientTable) -> TwinCheck:
     return TwinCheck(len(table.coefficients) - len(different), different, changed)
 
 
-# The power balance at one exact state: the law that exposes a wrong Christoffel coefficient.
-
-
 _HALF_TANGENTS = (Fraction(1, 2), Fraction(-1, 3), Fraction(2, 5))
 _SPEEDS = (Fraction(1), Fraction(-2), Fraction(3))
 STATE = "tan(q/2) = (1/2, -1/3, 2/5), qd = (1, -2, 3) rad/s"
@@ -405,9 +402,6 @@ def _compute_half_slope_power(
             )
             total += slope * state.multiply_speeds((*joints, k))
     return total / 2 if joints[0] == joints[1] else total
-
-
-# Coulomb friction of motors that turn with several joints: a printed term and virtual work.
 
 
 @dataclass(frozen=True)
@@ -591,9 +585,6 @@ def _write_twin(table: CoefficientTable) -> str:
     lines = [f"| {name} | {first.get(name, 0)} | {second[name]} |" for name in check.changed]
     title = "### Two different robots with the same torques"
     return _format_section(title, intro, [*heads, *lines])
-
-
-# The page about a robot's coefficients, computed while it is written.
 
 
 _WIDTH = 96

@@ -1,6 +1,6 @@
 """The equation of motion, and the regressor, in closed form with the words that explain them."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from typing import Any, get_args
 
@@ -68,23 +68,7 @@ def write_loops(model: SymbolicModel, writer: SheetWriter) -> list[str]:
     """
     closure = model.closure
     assert closure is not None
-    names = [joint.name for joint in model.robot.free_joints]
-    independent = closure.platform or closure.actuated
-    blocks = find_connected_blocks(closure, independent, len(names))
-    _write_closure(closure, names, writer)
-    spheres = _write_spheres(model, closure, writer)
-    rates: dict[int, dict[int, Expr]] = {p: {p: model.graph.constant(1)} for p in independent}
-    bias: dict[int, Expr] = {}
-    letter = "L" if closure.platform else "Jt"
-    for block in blocks:
-        if len(block[1]) <= THRESHOLDS.max_block_equations:
-            _write_block(closure, block, independent, names, letter, writer, rates, bias)
-    complete = all(len(unknown) <= THRESHOLDS.max_block_equations for _, unknown in blocks)
-    if closure.platform and complete:
-        complete = _write_platform(model, closure, names, writer, rates, bias)
-    elif complete:
-        _write_bias(closure.solved, names, bias, writer)
-    return _describe_loops(model, closure, complete, spheres)
+    return _LoopWriter(model, closure, writer).write()
 
 
 def find_connected_blocks(closure: Closure, independent: Sequence[int], count: int) -> list[Block]:
@@ -99,78 +83,6 @@ def find_connected_blocks(closure: Closure, independent: Sequence[int], count: i
         components.append((rows, reads.union(*(part[1] for part in touched))))
     blocks = [(sorted(rows), sorted(reads)) for rows, reads in components]
     return sorted(blocks, key=lambda block: block[1])
-
-
-def _write_closure(closure: Closure, names: Sequence[str], writer: SheetWriter) -> None:
-    writer.open_section("closure equations, 0 where the loops are closed")
-    for r, equation in enumerate(closure.equations, start=1):
-        writer.add_result(f"f{r}", equation)
-    for r, (line, drift) in enumerate(zip(closure.jacobian, closure.drift, strict=True), start=1):
-        writer.open_section(f"Jacobian of f{r}, and d/dt(Jacobian) u'")
-        for name, entry in zip(names, line, strict=True):
-            writer.add_result(f"F{r}_{name}", entry)
-        writer.add_result(f"h{r}", drift)
-
-
-def _write_spheres(model: SymbolicModel, closure: Closure, writer: SheetWriter) -> bool:
-    """|e|^2 - |w|^2 of e + w = 0, all passive joints in w, where |w| is without; True if any is."""
-    try:
-        ring = TrigRing(model.geometry)
-    except DerivationError:  # lengths that are no polynomials
-        return False
-    writer.open_section("closure equations without the passive joints")
-    passive = {*closure.solved} - {*(closure.platform or ())}
-    places = [(m.sine, m.cosine, m.variable) for m in ring.motions if passive & {*m.form}]
-    turned = [k for each in places for k in each if k is not None]
-    generators, call = list[Expr](), model.graph.call  # of the ring, as expressions of the graph
-    for motion in ring.motions:
-        at = combine_along_shaft(model, motion.form, "q")
-        generators += [at] if motion.variable is not None else [call("sin", at), call("cos", at)]
-    generators += [model.algebra.static(atom) for atom in ring.static_atoms]
-    frames, is_written = compute_poses(model.geometry, ring), False
-    for number, loop in enumerate(model.robot.loops, start=1):
-        joint = LOOP_JOINTS[loop.kind]
-        one, other = compute_loop_frames(model.geometry, loop, frames, ring)
-        square, total = ring.ring.zero, model.graph.constant(0)
-        for entry in plus(one[1], times(-1, other[1])) if joint.velocity == ALL else ():
-            entry = ring.normalise_polynomial(ring.ring(entry))
-            moved = {e: x for e, x in entry.items() if any(e[k] for k in turned)}
-            w = ring.ring.zero.new(moved)
-            e = evaluate_polynomial(entry - w, generators)
-            square, total = square + w**2, total + e * e
-        square = ring.normalise_polynomial(square)
-        if square and not any(at[k] for at in square for k in turned):
-            writer.add_result(f"fp{number}", total - evaluate_polynomial(square, generators))
-            is_written = True
-    return is_written
-
-
-def _write_block(
-    closure: Closure,
-    block: Block,
-    independent: Sequence[int],
-    names: Sequence[str],
-    letter: str,
-    writer: SheetWriter,
-    rates: dict[int, dict[int, Expr]],
-    bias: dict[int, Expr],
-) -> None:
-    """L = -B^-1 A and -B^-1 h of one block."""
-    equations, unknown = block
-    unknown_names = ", ".join(names[k] for k in unknown)
-    writer.open_section(
-        f"speeds of {unknown_names} by those of {', '.join(names[k] for k in independent)}"
-    )
-    B = [[closure.jacobian[r][k] for k in unknown] for r in equations]
-    inverse = invert_matrix(B, f"D{names[unknown[0]]}", writer)
-    for u, line in zip(unknown, inverse, strict=True):
-        rates[u] = {}
-        for p in independent:
-            value = -multiply_rows(line, [closure.jacobian[r][p] for r in equations])
-            if not value.is_zero:
-                rates[u][p] = value
-                writer.add_result(f"{letter}{names[u]}_{names[p]}", value)
-        bias[u] = -multiply_rows(line, [closure.drift[r] for r in equations])
 
 
 def multiply_rows(a: Sequence[Any], b: Sequence[Any]) -> Any:
@@ -202,78 +114,152 @@ def compute_cofactor(B: Sequence[Sequence[Any]], i: int, j: int) -> Any:
     return minor if (i + j) % 2 == 0 else -minor
 
 
-def _write_platform(
-    model: SymbolicModel,
-    closure: Closure,
-    names: Sequence[str],
-    writer: SheetWriter,
-    rates: Mapping[int, Mapping[int, Expr]],
-    bias: dict[int, Expr],
-) -> bool:
-    """J_p, J_t and the bias, if the inverse of K is worth printing."""
-    platform, motors = closure.platform, closure.actuated
-    assert platform is not None
-    if len(motors) > THRESHOLDS.max_block_equations:
-        return False
-    zero = model.graph.constant(0)
-    writer.open_section("J_p, inverse of the motors' rows of L")
-    K = [[rates[a].get(p, zero) for p in platform] for a in motors]
-    inverse = invert_matrix(K, "Dp", writer)
-    for p, line in zip(platform, inverse, strict=True):
-        for a, value in zip(motors, line, strict=True):
-            writer.add_result(f"Jp{names[p]}_{names[a]}", value)
-    offsets = [bias.get(a, zero) for a in motors]
-    for p, line in zip(platform, inverse, strict=True):
-        bias[p] = -multiply_rows(line, offsets)
-    writer.open_section("J_t of the legs' passive joints")
-    passive = [k for k in rates if k not in platform and k not in motors]
-    for u in passive:
-        row = [rates[u].get(p, zero) for p in platform]
-        for i, a in enumerate(motors):
-            value = multiply_rows(row, [line[i] for line in inverse])
-            writer.add_result(f"Jt{names[u]}_{names[a]}", value)
-        bias[u] = bias[u] + multiply_rows(row, [bias[p] for p in platform])
-    _write_bias(closure.solved, names, bias, writer)
-    return True
+class _LoopWriter:
+    """Writes the loops of a model: speeds and bias of the joints that follow, block by block."""
 
+    def __init__(self, model: SymbolicModel, closure: Closure, writer: SheetWriter) -> None:
+        self.model, self.closure, self.writer = model, closure, writer
+        self.names = [joint.name for joint in model.robot.free_joints]
+        self.zero, one = model.graph.constant(0), model.graph.constant(1)
+        self.independent = closure.platform or closure.actuated
+        self.rates: dict[int, dict[int, Expr]] = {p: {p: one} for p in self.independent}
+        self.bias: dict[int, Expr] = {}
 
-def _write_bias(
-    solved: Sequence[int], names: Sequence[str], bias: Mapping[int, Expr], writer: SheetWriter
-) -> None:
-    writer.open_section("accelerations where the motors' are 0: u'' = J_t q'' + b")
-    for u in solved:
-        writer.add_result(f"b{names[u]}", bias[u])
+    def write(self) -> list[str]:
+        """Returns what the names mean."""
+        blocks = find_connected_blocks(self.closure, self.independent, len(self.names))
+        self._write_closure()
+        spheres = self._write_spheres()
+        small = [b for b in blocks if len(b[1]) <= THRESHOLDS.max_block_equations]
+        for equations, unknown in small:
+            self._write_block(equations, unknown)
+        complete = len(small) == len(blocks)
+        if self.closure.platform and complete:
+            complete = self._write_platform(self.closure.platform, self.closure.actuated)
+        if complete:
+            self.writer.open_section("accelerations where the motors' are 0: u'' = J_t q'' + b")
+            for u in self.closure.solved:
+                self.writer.add_result(f"b{self.names[u]}", self.bias[u])
+        return self._describe_loops(complete, spheres)
 
+    def _write_closure(self) -> None:
+        closure, writer = self.closure, self.writer
+        writer.open_section("closure equations, 0 where the loops are closed")
+        for r, equation in enumerate(closure.equations, start=1):
+            writer.add_result(f"f{r}", equation)
+        lines = zip(closure.jacobian, closure.drift, strict=True)
+        for r, (line, drift) in enumerate(lines, start=1):
+            writer.open_section(f"Jacobian of f{r}, and d/dt(Jacobian) u'")
+            for name, entry in zip(self.names, line, strict=True):
+                writer.add_result(f"F{r}_{name}", entry)
+            writer.add_result(f"h{r}", drift)
 
-def _describe_loops(
-    model: SymbolicModel, closure: Closure, complete: bool, spheres: bool
-) -> list[str]:
-    """What the names mean."""
-    names = [joint.name for joint in model.robot.free_joints]
-    motors = ", ".join(f"q{names[k]}" for k in closure.actuated)
-    lines = [
-        f"motors: {motors}; free variables u of the opened tree: "
-        + ", ".join(f"q{name}" for name in names)
-    ]
-    if model.robot.relations:
-        ties = [f"q{name} = {text.text}" for name, text in model.robot.relations.items()]
-        lines.append("joints that follow (matrix G): " + "; ".join(ties))
-    lines.append("f_r(u) = 0, F<r>_<u> = df_r/dq_u, h<r> = d/dt(F_r) u'")
-    if spheres:
-        lines.append("fp<k> = 0: loop k without its passive joints (Briot and Gautier 2012: f_p)")
-    platform_names = ", ".join(f"q{names[k]}" for k in closure.platform or ())
-    if platform_names:
-        lines.append(f"legs by the platform: u' = L p', p = ({platform_names}); L<u>_<p>")
-    if complete:
-        rows = "Jp<p>_<a> of p, Jt<u>_<a> of the others" if platform_names else "Jt<u>_<a>"
-        lines.append(f"u' = J_t q', u'' = J_t q'' + b; rows of J_t: {rows}; of motors: 1 and 0")
-    else:
-        lines.append(
-            "u' = J_t q', u'' = J_t q'' + b by a solver, too large to write: F J_t = 0, "
-            "F b = -h, motors' rows of J_t 1 and 0, of b 0"
-        )
-    lines.append("tau = J_t' t, t: torques of the opened tree along u")
-    return lines
+    def _write_spheres(self) -> bool:
+        """|e|^2 - |w|^2 of e + w = 0, all passive joints in w; True if any |w| is without them."""
+        model, closure, writer = self.model, self.closure, self.writer
+        try:
+            ring = TrigRing(model.geometry)
+        except DerivationError:  # lengths that are no polynomials
+            return False
+        writer.open_section("closure equations without the passive joints")
+        passive = {*closure.solved} - {*(closure.platform or ())}
+        places = [(m.sine, m.cosine, m.variable) for m in ring.motions if passive & {*m.form}]
+        turned = [k for each in places for k in each if k is not None]
+        generators, call = (
+            list[Expr](),
+            model.graph.call,
+        )  # of the ring, as expressions of the graph
+        for motion in ring.motions:
+            at = combine_along_shaft(model, motion.form, "q")
+            generators += (
+                [at] if motion.variable is not None else [call("sin", at), call("cos", at)]
+            )
+        generators += [model.algebra.static(atom) for atom in ring.static_atoms]
+        frames, is_written = compute_poses(model.geometry, ring), False
+        for number, loop in enumerate(model.robot.loops, start=1):
+            joint = LOOP_JOINTS[loop.kind]
+            one, other = compute_loop_frames(model.geometry, loop, frames, ring)
+            square, total = ring.ring.zero, model.graph.constant(0)
+            for entry in plus(one[1], times(-1, other[1])) if joint.velocity == ALL else ():
+                entry = ring.normalise_polynomial(ring.ring(entry))
+                moved = {e: x for e, x in entry.items() if any(e[k] for k in turned)}
+                w = ring.ring.zero.new(moved)
+                e = evaluate_polynomial(entry - w, generators)
+                square, total = square + w**2, total + e * e
+            square = ring.normalise_polynomial(square)
+            if square and not any(at[k] for at in square for k in turned):
+                writer.add_result(f"fp{number}", total - evaluate_polynomial(square, generators))
+                is_written = True
+        return is_written
+
+    def _write_block(self, equations: Sequence[int], unknown: Sequence[int]) -> None:
+        """L = -B^-1 A and -B^-1 h of one block."""
+        jacobian, names = self.closure.jacobian, self.names
+        sides = (", ".join(names[k] for k in at) for at in (unknown, self.independent))
+        self.writer.open_section("speeds of {} by those of {}".format(*sides))
+        B = [[jacobian[r][k] for k in unknown] for r in equations]
+        inverse = invert_matrix(B, f"D{names[unknown[0]]}", self.writer)
+        letter = "L" if self.closure.platform else "Jt"
+        for u, line in zip(unknown, inverse, strict=True):
+            self.rates[u] = {}
+            for p in self.independent:
+                value = -multiply_rows(line, [jacobian[r][p] for r in equations])
+                if not value.is_zero:
+                    self.rates[u][p] = value
+                    self.writer.add_result(f"{letter}{names[u]}_{names[p]}", value)
+            self.bias[u] = -multiply_rows(line, [self.closure.drift[r] for r in equations])
+
+    def _write_platform(self, platform: Sequence[int], motors: Sequence[int]) -> bool:
+        """J_p, J_t and the bias, if the inverse of K is worth printing."""
+        if len(motors) > THRESHOLDS.max_block_equations:
+            return False
+        names, rates, bias = self.names, self.rates, self.bias
+        zero, writer = self.zero, self.writer
+        writer.open_section("J_p, inverse of the motors' rows of L")
+        K = [[rates[a].get(p, zero) for p in platform] for a in motors]
+        inverse = invert_matrix(K, "Dp", writer)
+        for p, line in zip(platform, inverse, strict=True):
+            for a, value in zip(motors, line, strict=True):
+                writer.add_result(f"Jp{names[p]}_{names[a]}", value)
+        offsets = [bias.get(a, zero) for a in motors]
+        for p, line in zip(platform, inverse, strict=True):
+            bias[p] = -multiply_rows(line, offsets)
+        writer.open_section("J_t of the legs' passive joints")
+        for u in [k for k in rates if k not in platform and k not in motors]:
+            row = [rates[u].get(p, zero) for p in platform]
+            for i, a in enumerate(motors):
+                value = multiply_rows(row, [line[i] for line in inverse])
+                writer.add_result(f"Jt{names[u]}_{names[a]}", value)
+            bias[u] = bias[u] + multiply_rows(row, [bias[p] for p in platform])
+        return True
+
+    def _describe_loops(self, complete: bool, spheres: bool) -> list[str]:
+        """What the names mean."""
+        closure, names, relations = self.closure, self.names, self.model.robot.relations
+        motors = ", ".join(f"q{names[k]}" for k in closure.actuated)
+        free = ", ".join(f"q{name}" for name in names)
+        lines = [f"motors: {motors}; free variables u of the opened tree: {free}"]
+        if relations:
+            ties = [f"q{name} = {text.text}" for name, text in relations.items()]
+            lines.append("joints that follow (matrix G): " + "; ".join(ties))
+        lines.append("f_r(u) = 0, F<r>_<u> = df_r/dq_u, h<r> = d/dt(F_r) u'")
+        if spheres:
+            lines.append(
+                "fp<k> = 0: loop k without its passive joints (Briot and Gautier 2012: f_p)"
+            )
+        platform_names = ", ".join(f"q{names[k]}" for k in closure.platform or ())
+        if platform_names:
+            lines.append(f"legs by the platform: u' = L p', p = ({platform_names}); L<u>_<p>")
+        if complete:
+            rows = "Jp<p>_<a> of p, Jt<u>_<a> of the others" if platform_names else "Jt<u>_<a>"
+            lines.append(f"u' = J_t q', u'' = J_t q'' + b; rows of J_t: {rows}; of motors: 1 and 0")
+        else:
+            lines.append(
+                "u' = J_t q', u'' = J_t q'' + b by a solver, too large to write: F J_t = 0, "
+                "F b = -h, motors' rows of J_t 1 and 0, of b 0"
+            )
+        lines.append("tau = J_t' t, t: torques of the opened tree along u")
+        return lines
 
 
 _AXES = "xyz"

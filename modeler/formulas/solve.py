@@ -182,13 +182,13 @@ class _Elimination:
         They tell x if the unit vector of x is a combination of their rows of the Jacobian.
         """
         letters = [x for x in self.system.letters if x in self.open]
+        columns = [self.system.slopes[x] for x in letters]
+        entries = (
+            {k: c[i] for k, c in enumerate(columns) if c[i]} for i in range(len(self.defined))
+        )
         rows = [
-            {
-                k: evaluate_modulo(self.system.slopes[x][i], self.point, self.prime)
-                for k, x in enumerate(letters)
-                if self.system.slopes[x][i]
-            }
-            for i in range(len(self.defined))
+            {k: evaluate_modulo(poly, self.point, self.prime) for k, poly in line.items()}
+            for line in entries
         ]
         order = sorted(range(len(rows)), key=lambda i: -len(self.defined[i]))
         candidates = []
@@ -392,12 +392,9 @@ def _format_python(solution: ClosedSolution) -> list[str]:
     polys = [p for s in solution.steps for p in (s.numerator, s.denominator, s.equation) if p]
     read = find_places(*polys)
     data = [name for name in system.data if system.place[name] in read]
-    made_of = [
-        w
-        for name in (*system.constants, *system.abbreviations.values())
-        for w in _extract_symbols(name)
-        if w not in system.abbreviations
-    ]
+    texts = (*system.constants, *system.abbreviations.values())
+    symbols = (w for text in texts for w in _extract_symbols(text))
+    made_of = [w for w in symbols if w not in system.abbreviations]
     arguments = [*data, *solution.known, *dict.fromkeys(made_of)]
     where = "base parameters" if system.source == "base" else "coefficients PG, PJ"
     more = ": a list, every robot that fits" if rooted else ""
@@ -420,11 +417,10 @@ def _format_python(solution: ClosedSolution) -> list[str]:
             lines.append(f"{indent}for {step.letter} in {root_call}:")
             indent += "    "
     result_text = "{" + ", ".join(f'"{x}": {x}' for x in solution.solved_letters) + "}"
-    lines += (
-        [f"{indent}found.append({result_text})", "    return found"]
-        if rooted
-        else [f"    return {result_text}"]
-    )
+    if rooted:
+        lines += [f"{indent}found.append({result_text})", "    return found"]
+    else:
+        lines.append(f"    return {result_text}")
     used = set(_extract_symbols("\n".join(lines), functions=True))
     some = [name for name in ("cos", "pi", "sin", "sqrt") if name in used]
     head = [f"from math import {', '.join(some)}"] if some else []
@@ -559,19 +555,24 @@ def derive_values(
     gradient = np.zeros((len(point), len(inputs)))
     for i, name in enumerate(inputs):
         gradient[system.place[name], i] = 1.0
-    doubtful: dict[str, str] = {}
+    doubts: dict[str, str] = {}
     for step in solution.steps:
-        _evaluate_step(step, solution, point, gradient, C, doubtful, near or {})
+        place = system.place[step.letter]
+        if step.equation is not None:
+            point[place] = _select_root(step, system, point, near or {})
+            slopes = NumericPolynomial(step.equation).evaluate_slopes(point)
+            letter_slope, slopes[place] = slopes[place], 0.0
+            gradient[place] = -(slopes @ gradient) / letter_slope
+        elif doubt := _evaluate_quotient(step, system, point, gradient, C):
+            doubts[step.letter] = doubt
     at = [system.place[letter] for letter in solution.solved_letters]
     slopes = gradient[at]
     parts = slopes * (slopes @ C)
     variance = np.maximum(parts.sum(axis=1), 0.0)
-    shares = np.divide(
-        parts, variance[:, None], out=np.zeros_like(parts), where=variance[:, None] > 0
-    )
-    return DerivedValue(
-        solution.solved_letters, point[at], np.sqrt(variance), inputs, slopes, shares, doubtful
-    )
+    total = variance[:, None]
+    shares = np.divide(parts, total, out=np.zeros_like(parts), where=total > 0)
+    letters, sigmas_of = solution.solved_letters, np.sqrt(variance)
+    return DerivedValue(letters, point[at], sigmas_of, inputs, slopes, shares, doubts)
 
 
 def find_impossible(derived: DerivedValue, system: PhysicalSystem) -> dict[str, str]:
@@ -586,60 +587,44 @@ def find_impossible(derived: DerivedValue, system: PhysicalSystem) -> dict[str, 
             kinds[letter] = "mass"
         elif letter in system.moments and value < -THRESHOLDS.sure_sigmas * sigma:
             kinds[letter] = "moment of inertia"
-    return {
-        letter: f"{letter} = {derived.get_value(letter):.4g} "
-        f"+- {derived.get_sigma(letter):.2g} is no "
-        f"{what}: a known value or the fit is wrong, or the fit is not sure enough"
-        for letter, what in kinds.items()
-    }
+    why = "a known value or the fit is wrong, or the fit is not sure enough"
+    values = {x: f"{derived.get_value(x):.4g} +- {derived.get_sigma(x):.2g}" for x in kinds}
+    return {x: f"{x} = {values[x]} is no {what}: {why}" for x, what in kinds.items()}
 
 
-def _evaluate_step(
+def _evaluate_quotient(
     step: SolvingStep,
-    solution: ClosedSolution,
+    system: PhysicalSystem,
     point: np.ndarray,
     gradient: np.ndarray,
     C: np.ndarray,
-    doubtful: dict[str, str],
-    near: Mapping[str, float],
-) -> None:
-    """One step more: value and slopes of its letter."""
-    system = solution.system
-    at = system.place[step.letter]
-    if step.equation is not None:
-        point[at] = _select_root(step, system, point, near)
-        slopes = NumericPolynomial(step.equation).evaluate_slopes(point)
-        letter_slope, slopes[at] = slopes[at], 0.0
-        gradient[at] = -(slopes @ gradient) / letter_slope
-        return
+) -> str:
+    """Value and slopes of the letter of a step; why its quotient may be one by zero, or ""."""
     up, down = NumericPolynomial(step.numerator), NumericPolynomial(step.denominator)
-    bottom = down.evaluate(point)
+    at, bottom = system.place[step.letter], down.evaluate(point)
+    quotient = f"{step.letter} is a quotient by {step.denominator}"
     if bottom == 0.0:
         raise DataError(
-            f"{system.robot}: {step.letter} is a quotient by {step.denominator}, which is 0 in "
-            f"this fit; {step.letter} cannot be told, add it to the known parameters"
+            f"{system.robot}: {quotient}, which is 0 in this fit; {step.letter} cannot be told, "
+            "add it to the known parameters"
         )
     spread = down.evaluate_slopes(point) @ gradient
     sigma = float(np.sqrt(max(spread @ C @ spread, 0.0)))
-    if abs(bottom) < THRESHOLDS.sure_sigmas * sigma:
-        doubtful[step.letter] = (
-            f"{step.letter} is a quotient by {step.denominator} = {bottom:.3g} +- {sigma:.2g}, "
-            "which may be 0: these data do not tell it"
-        )
     point[at] = up.evaluate(point) / bottom
     slopes = (up.evaluate_slopes(point) - point[at] * down.evaluate_slopes(point)) / bottom
     gradient[at] = slopes @ gradient
+    if abs(bottom) < THRESHOLDS.sure_sigmas * sigma:
+        value = f"{bottom:.3g} +- {sigma:.2g}"
+        return f"{quotient} = {value}, which may be 0: these data do not tell it"
+    return ""
 
 
 def find_roots(step: SolvingStep, system: PhysicalSystem, point: np.ndarray) -> list[float]:
     """Returns the real roots of a step's equation at a point; only positive ones for a mass."""
     assert step.equation is not None
     parts = collect_powers(step.equation, system.place[step.letter])
-    factors = [
-        NumericPolynomial(parts[k]).evaluate(point) if k in parts else 0.0
-        for k in range(max(parts), -1, -1)
-    ]
-    complex_roots = np.roots(factors)
+    values = {k: NumericPolynomial(part).evaluate(point) for k, part in parts.items()}
+    complex_roots = np.roots([values.get(k, 0.0) for k in range(max(parts), -1, -1)])
     real = [float(x.real) for x in complex_roots if abs(x.imag) <= THRESHOLDS.real_root * abs(x)]
     return sorted(x for x in real if x > 0 or step.letter not in system.masses)
 
@@ -661,7 +646,6 @@ def _select_root(
     root_list = ", ".join(f"{x:.6g}" for x in real_roots)
     raise DataError(
         f"{system.robot}: the equation of {step.letter} has {len(real_roots)} {kind}roots "
-        f"({root_list}); "
-        f"each fits the data; say which with --near {step.letter}={real_roots[-1]:.3g}, or add a "
-        "parameter to the known ones"
+        f"({root_list}); each fits the data; say which with "
+        f"--near {step.letter}={real_roots[-1]:.3g}, or add a parameter to the known ones"
     )
