@@ -551,7 +551,7 @@ def find_modes_near(robot: Robot, near: Mapping[str, float]) -> HomeModes:
     linkage = build_linkage(_build_model(robot))
     if linkage is None:
         raise LoopError(
-            f"{robot.name}: there is no loop to close; [home] is asked for robots with [loops] "
+            f"{robot.name}: there is no loop to close; [home] applies to robots with [loops] "
             "that no relations close already"
         )
     hints = linkage.build_vector(near)

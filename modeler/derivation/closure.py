@@ -262,7 +262,7 @@ def polish_home(
             return tuple(float(x) for x in u)
     raise LoopError(
         f"{robot.name}: [home]: the closed posture is not certain to the last digit, the loops are "
-        "all but singular there; state another posture"
+        "nearly singular there; state another posture"
     )
 
 
@@ -630,7 +630,7 @@ def _describe_mobility(
             f"{summary}, {len(loops.actuated)} joints are actuated ({actuated}): under-"
             f"constrained, {_find_moving_joints(loops, geometry, inner)} could move with these "
             "locked; actuate one of them (mu 1), add a relation, or close the loop by a joint that "
-            "lets less free"
+            "leaves fewer degrees of freedom"
         )
     # The loops without which more would be free.
     names, full = list(dict.fromkeys(owners)), _compute_rank(J)
@@ -638,7 +638,7 @@ def _describe_mobility(
     strictest = ", ".join(f'"{name}"' for name in blamed or names)
     return (
         f"{summary}, {len(loops.actuated)} joints are actuated ({actuated}): over-constrained by "
-        f"loop {strictest}; close it by a joint that lets more free, or make "
+        f"loop {strictest}; close it by a joint that leaves more degrees of freedom, or make "
         "actuated joints passive (mu 0)"
     )
 

@@ -185,7 +185,7 @@ def _create_joint_symbol(joint: Joint) -> sympy.Symbol:
 def _convert_coefficient(value: sympy.Expr, numbers: Mapping[str, sympy.Rational]) -> Fraction:
     at = sympy.nsimplify(value.subs({s: numbers[s.name] for s in value.free_symbols}))
     if not at.is_Rational:
-        raise DerivationError(f"the coefficient {value} of a relation is no rational number")
+        raise DerivationError(f"the coefficient {value} of a relation is not rational")
     return Fraction(int(at.p), int(at.q))
 
 

@@ -326,7 +326,7 @@ def interpolate_coefficient(function: Function, K: ExactField, probes: Probes) -
         element = _fit_quotient(function, tuple(changes), K, probes)
     for point, value in zip(probes.fresh, function(probes.fresh), strict=True):
         if K.compute_residue(element, dict(zip(K.letters, point, strict=True)), LARGE) != value:
-            raise CoefficientTooLarge("a coefficient is no quotient of short polynomials")
+            raise CoefficientTooLarge("a coefficient is not a quotient of short polynomials")
     return element
 
 
@@ -362,7 +362,7 @@ def _fit_quotient(
         function, probes.draw_moved_points(letters, terms), letters, above, below
     )
     if weights is None:
-        raise CoefficientTooLarge("a coefficient is no quotient of short polynomials")
+        raise CoefficientTooLarge("a coefficient is not a quotient of short polynomials")
     numbers = [reconstruct_rational(weight, LARGE) for weight in weights]
     top, bottom = K.zero, K.zero
     for place, (number, monomial) in enumerate(zip(numbers, [*above, *below], strict=True)):

@@ -76,7 +76,7 @@ def parse_known_values(text: str, system: PhysicalSystem, where: str = "--known"
 
 
 def check_symbol(name: str, system: PhysicalSystem, where: str) -> None:
-    """Refuses what is no physical parameter or length of the robot.
+    """Refuses what is not a physical parameter or length of the robot.
 
     Raises:
         RobotError: tells what it may have meant.

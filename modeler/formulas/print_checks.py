@@ -579,7 +579,7 @@ def _write_twin(table: CoefficientTable) -> str:
     intro = (
         f"These two differ in {len(check.changed)} parameters; **{check.equal} of "
         f"{len(table.coefficients)}** coefficients are equal, in exact arithmetic."
-        + ("" if check.different else " No motion tells them apart.")
+        + ("" if check.different else " No motion distinguishes them.")
     )
     heads = ["| parameter | first | second |", "|---|---|---|"]
     lines = [f"| {name} | {first.get(name, 0)} | {second[name]} |" for name in check.changed]

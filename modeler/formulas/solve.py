@@ -587,9 +587,9 @@ def find_impossible(derived: DerivedValue, system: PhysicalSystem) -> dict[str, 
             kinds[letter] = "mass"
         elif letter in system.moments and value < -THRESHOLDS.sure_sigmas * sigma:
             kinds[letter] = "moment of inertia"
-    why = "a known value or the fit is wrong, or the fit is not sure enough"
+    why = "a known value or the fit is wrong, or the fit is too uncertain"
     values = {x: f"{derived.get_value(x):.4g} +- {derived.get_sigma(x):.2g}" for x in kinds}
-    return {x: f"{x} = {values[x]} is no {what}: {why}" for x, what in kinds.items()}
+    return {x: f"{x} = {values[x]} is not a possible {what}: {why}" for x, what in kinds.items()}
 
 
 def _evaluate_quotient(
@@ -605,8 +605,8 @@ def _evaluate_quotient(
     quotient = f"{step.letter} is a quotient by {step.denominator}"
     if bottom == 0.0:
         raise DataError(
-            f"{system.robot}: {quotient}, which is 0 in this fit; {step.letter} cannot be told, "
-            "add it to the known parameters"
+            f"{system.robot}: {quotient}, which is 0 in this fit; {step.letter} is not identifiable "
+            "here; add it to the known parameters"
         )
     spread = down.evaluate_slopes(point) @ gradient
     sigma = float(np.sqrt(max(spread @ C @ spread, 0.0)))
@@ -615,7 +615,7 @@ def _evaluate_quotient(
     gradient[at] = slopes @ gradient
     if abs(bottom) < THRESHOLDS.sure_sigmas * sigma:
         value = f"{bottom:.3g} +- {sigma:.2g}"
-        return f"{quotient} = {value}, which may be 0: these data do not tell it"
+        return f"{quotient} = {value}, which may be 0: not identifiable from these data"
     return ""
 
 
@@ -646,6 +646,6 @@ def _select_root(
     root_list = ", ".join(f"{x:.6g}" for x in real_roots)
     raise DataError(
         f"{system.robot}: the equation of {step.letter} has {len(real_roots)} {kind}roots "
-        f"({root_list}); each fits the data; say which with "
+        f"({root_list}); each fits the data; choose one with "
         f"--near {step.letter}={real_roots[-1]:.3g}, or add a parameter to the known ones"
     )

@@ -149,7 +149,7 @@ def test_a_home_without_certain_digits_is_refused(start):
     graph = Graph()
     q = graph.symbol("q[0]")
     loops = LoopEquations(graph, {}, [q * q], [[q * 2]], (), (0,), (False,), 1.0)
-    with pytest.raises(LoopError, match=r"two-link: \[home\]: .* all but singular there; state"):
+    with pytest.raises(LoopError, match=r"two-link: \[home\]: .* nearly singular there; state"):
         polish_home(loops, np.array([start]), [0], read_robot("two-link"))
 
 

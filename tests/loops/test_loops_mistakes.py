@@ -14,7 +14,7 @@ from tests.robot_texts import CRANK, PARALLELOGRAM
 
 MISTAKES = [
     ("two motors", '"3", "0", 0, 1', '"3", "0", 1, 1', "1 degree of freedom, 2 joints are actuated "
-     r"\(1, 3\): over-constrained by loop \"pin\"; close it by a joint that lets more free"),
+     r"\(1, 3\): over-constrained by loop \"pin\"; close it by a joint that leaves more degrees"),
     ("loop that closes nothing", '"tip", "3", "position"', '"tip", "0", "planar"',
      r"leave 3 degrees of freedom, 1 joints are actuated \(1\): under-constrained, joints 2, 3"),
     ("lengths that never meet", '"R", "q2", 0]', '"R", "q2", 0.2]',
