@@ -605,8 +605,8 @@ def _evaluate_quotient(
     quotient = f"{step.letter} is a quotient by {step.denominator}"
     if bottom == 0.0:
         raise DataError(
-            f"{system.robot}: {quotient}, which is 0 in this fit; {step.letter} is not identifiable "
-            "here; add it to the known parameters"
+            f"{system.robot}: {quotient}, which is 0 in this fit; {step.letter} is not "
+            "identifiable here; add it to the known parameters"
         )
     spread = down.evaluate_slopes(point) @ gradient
     sigma = float(np.sqrt(max(spread @ C @ spread, 0.0)))
