@@ -392,8 +392,8 @@ def _format_python(solution: ClosedSolution) -> list[str]:
     polys = [p for s in solution.steps for p in (s.numerator, s.denominator, s.equation) if p]
     read = find_places(*polys)
     data = [name for name in system.data if system.place[name] in read]
-    texts = (*system.constants, *system.abbreviations.values())
-    symbols = (w for text in texts for w in _extract_symbols(text))
+    sources = (*system.constants, *system.abbreviations.values())
+    symbols = (w for text in sources for w in _extract_symbols(text))
     made_of = [w for w in symbols if w not in system.abbreviations]
     arguments = [*data, *solution.known, *dict.fromkeys(made_of)]
     where = "base parameters" if system.source == "base" else "coefficients PG, PJ"
@@ -408,10 +408,8 @@ def _format_python(solution: ClosedSolution) -> list[str]:
             lines.append(f"{indent}{step.letter} = {format_formula(step, system)}")
         else:
             factors = collect_powers(step.equation, system.place[step.letter])
-            texts = [
-                format_polynomial(factors.get(power, system.ring.zero), system.names)
-                for power in range(max(factors), -1, -1)
-            ]
+            parts = (factors.get(k, system.ring.zero) for k in range(max(factors), -1, -1))
+            texts = (format_polynomial(part, system.names) for part in parts)
             positive = ", positive=True" if step.letter in system.masses else ""
             root_call = f"real_roots([{', '.join(texts)}]{positive})"
             lines.append(f"{indent}for {step.letter} in {root_call}:")
