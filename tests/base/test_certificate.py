@@ -53,8 +53,8 @@ def test_a_missing_relation_is_found(wrist):
     fewer = dataclasses.replace(
         relations,
         rows=relations.rows[1:],
-        dropped=relations.dropped_columns[1:],
-        kept=tuple(sorted((*relations.kept_columns, relations.dropped_columns[0]))),
+        dropped_columns=relations.dropped_columns[1:],
+        kept_columns=tuple(sorted((*relations.kept_columns, relations.dropped_columns[0]))),
     )
     with pytest.raises(ProofError, match="of 18 columns kept only 17 are independent"):
         prove(model, K, fewer, seed=1)
