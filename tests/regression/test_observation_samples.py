@@ -291,12 +291,12 @@ def test_joints_at_rest_do_not_count_whatever_their_noise(colour):
     log = arm_log()
     log.q[:, 1:] = 0.3 + np.column_stack([noise_of(colour, 1e-3, seed) for seed in range(3)])
     piece = first_piece(log)
-    assert [joint.is_moving for joint in noise_in(piece).joints] == [True, False, False, False]
+    assert [joint.moves for joint in noise_in(piece).joints] == [True, False, False, False]
     assert band_of(piece) == pytest.approx(0.6, abs=0.05)
     said = cutoffs_of(Processing(), piece)[1]
     assert "joints 2, 3, 4 rest: not counted in the motion band" in said
     both = noise_in(piece, first_piece(arm_log()))
-    assert all(joint.is_moving for joint in both.joints)
+    assert all(joint.moves for joint in both.joints)
 
 
 def test_a_commanded_joint_moves_no_faster_than_its_command():
