@@ -37,7 +37,9 @@ def placed(row, values):
     pose = row_pose(**{column: getattr(row, column).evaluate(at_zero) for column in columns})
     moving = row.theta if row.is_revolute else row.r
     sign = (
-        moving.evaluate(values | {row.variable: 1.0}) - moving.evaluate(at_zero) if row.is_moving else 0
+        moving.evaluate(values | {row.variable: 1.0}) - moving.evaluate(at_zero)
+        if row.is_moving
+        else 0
     )
     return pose[:3, :3], pose[:3, 3], sign
 

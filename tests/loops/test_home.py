@@ -229,5 +229,5 @@ def test_a_home_is_far_from_where_a_parallelogram_could_cross() -> None:
 def test_without_a_loop_to_close_there_are_no_modes(name) -> None:
     robot = of_text(read_builtin_robot(name))
     assert complete_home(robot).robot is robot
-    with pytest.raises(LoopError, match=r"there is no loop to close; \[home\] is asked for robots"):
+    with pytest.raises(LoopError, match=r"there is no loop to close; \[home\] applies to robots"):
         find_modes_near(robot, {})

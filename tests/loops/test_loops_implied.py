@@ -68,7 +68,7 @@ def spectrum(model, u, seed=4):
     if model.closure is None:
         ud, udd = rng.normal(size=(2, *u.shape))
     else:
-        u = model.closure.closed(u)
+        u = model.closure.close_loops(u)
         qd, qdd = rng.normal(size=(2, len(u), len(model.closure.actuated)))
         motion = compute_closed_motion(model, u, qd)
         ud = np.einsum("nij,nj->ni", motion.coupling, qd)

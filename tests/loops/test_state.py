@@ -170,7 +170,7 @@ def test_the_bound_of_the_whole_library_is_a_macro(tmp_path):
     emitted = module("five-bar").emitted
     library = compiled(emitted, tmp_path, "-DFIVE_BAR_MAX_CLOSURE_EVALUATIONS=9")
     counter, u = ctypes.c_int.in_dll(library, "evaluations"), np.zeros(4)
-    home = np.array([emitted.spec.closure.home[k] for k in emitted.spec.closure.actuated])
+    home = np.array([emitted.spec.closure.home[k] for k in emitted.spec.closure.given])
     for far, status in ((1e-3, 0), (0.6, 4), (1e9, 4)):
         counter.value = 0
         q = home + far * np.array([1.0, -1.0])
