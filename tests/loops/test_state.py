@@ -84,7 +84,7 @@ def motion(spec: ModuleSpec, t: np.ndarray, seed: int) -> tuple[np.ndarray, ...]
     rng = np.random.default_rng(seed)
     closure = spec.closure
     assert closure is not None
-    home = np.array([closure.home[k] for k in closure.actuated])
+    home = np.array([closure.home[k] for k in closure.given])
     size = np.array([0.3 if joint.unit == "rad" else 0.08 for joint in spec.joints])
     size = size * rng.uniform(0.5, 1, len(home))
     w, phase = rng.uniform(4, 8, len(home)), rng.uniform(-3, 3, len(home))
