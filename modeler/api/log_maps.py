@@ -36,7 +36,8 @@ _BETTER = 0.5  # of the error, that a guess must reach to be believed
 def build_log_map(compiled: CompiledModel | EmittedModule, mapping: Mapped = ()) -> LogMap:
     """Which columns of logs are ours: [log] of the robot file, and `mapping` over it.
 
-    >>> build_log_map(compiled, ["q1=position_a:deg"]).expand_entries(compiled.spec.joints)["q1"].columns
+    >>> names = build_log_map(compiled, ["q1=position_a:deg"])
+    >>> names.expand_entries(compiled.spec.joints)["q1"].columns
     ('position_a',)
     """
     if isinstance(mapping, LogMap):
