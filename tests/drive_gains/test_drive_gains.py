@@ -11,8 +11,8 @@ from modeler.api import compile_model, derive, generate, load, read_currents
 from modeler.core.builtin import read_builtin_robot
 from modeler.core.errors import DataError, RobotError
 from modeler.estimation import Payload, check_known_quantities, describe_deviations
-from modeler.estimation.doubts import find_moved_payloads, separate_payload
 from modeler.estimation.drive_gains import identify_gains, solve_mixed_tls
+from modeler.estimation.payload import find_heterogeneous_logs, separate_payload
 from modeler.numerics.least_squares import compress_rows
 from modeler.regression.observe import observe
 from modeler.robot.edit import replace_drive_gains
@@ -234,7 +234,7 @@ def test_a_load_that_sat_alike_is_not_said_to_have_moved(arm):
         rows = {key: getattr(second, key)[own] for key in ("time", "q", "tau")}
         parts.append(replace(second, name=name, **rows))
     seen = observe(arm.compiled, [first, *parts])
-    assert find_moved_payloads(arm.compiled, seen, [Payload(("one", "two"))]) == []
+    assert find_heterogeneous_logs(arm.compiled, seen, [Payload(("one", "two"))]) == []
 
 
 @pytest.mark.rotating("long tests of drive_gains")

@@ -12,9 +12,8 @@ from modeler import api
 from modeler.cli import main
 from modeler.core.errors import DataError
 from modeler.estimation import DirectModel, define_physical_parameters, project_parameters
-from modeler.estimation.identify import build_base_equations, identify
+from modeler.estimation.identify import METHODS, build_base_equations, identify
 from modeler.estimation.least_squares import Problem
-from modeler.estimation.methods import METHODS
 from modeler.estimation.payload import Payload, identify_with_payloads
 from modeler.regression.log import Log
 from modeler.regression.read import cut_rows

@@ -10,9 +10,13 @@ import pytest
 
 from modeler.core.errors import DataError
 from modeler.estimation.instrumental import estimate_with_instruments
-from modeler.estimation.least_squares import Problem, estimate_ordinary, solve_least_squares
-from modeler.estimation.ridge import estimate_ridge
-from modeler.estimation.robust import estimate_robust
+from modeler.estimation.least_squares import (
+    Problem,
+    estimate_ordinary,
+    estimate_ridge,
+    estimate_robust,
+    solve_least_squares,
+)
 from modeler.numerics.least_squares import compress_rows
 
 BETA = np.array([1.0, -2.0, 0.3, 5.0])

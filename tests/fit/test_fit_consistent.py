@@ -9,7 +9,7 @@ from pyarrow import parquet
 
 from modeler.cli import main
 from modeler.estimation.model_file import load_model
-from modeler.estimation.nearest_body import (
+from modeler.estimation.physical_consistency import (
     attribute_distance,
     define_physical_parameters,
     project_parameters,

@@ -18,8 +18,8 @@ from modeler.estimation import (
     load_model,
     solve_least_squares,
 )
-from modeler.estimation.essential import select_essential_parameters
 from modeler.estimation.model_file import collect_provenance, keep_essential, save_model
+from modeler.estimation.parameters import select_essential_parameters
 from modeler.estimation.result import FitResult, read_fit
 from modeler.numerics.least_squares import compress_rows
 from modeler.regression import MASKS, WHY, Processing, classify_rows, observe

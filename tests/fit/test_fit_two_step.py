@@ -8,8 +8,12 @@ import pytest
 from modeler.cli import main
 from modeler.core.errors import DataError
 from modeler.estimation.identify import identify
-from modeler.estimation.two_step import JointDirections, estimate_two_steps
-from modeler.estimation.two_step_result import build_inertia_rows, identify_in_two_steps
+from modeler.estimation.two_step import (
+    JointDirections,
+    build_inertia_rows,
+    estimate_two_steps,
+    identify_in_two_steps,
+)
 from modeler.estimation.verdict import judge_fit
 from modeler.regression import Log, Processing, observe
 from modeler.robot import Limits, compute_joint_directions, read_robot
