@@ -271,8 +271,8 @@ def check_time(
             likely = [name for name, rate in rates.items() if low <= rate <= high]
             why = "accelerations are not resolved" if is_slow else "faster than robots are logged"
             advice = (
-                f"in {likely[0]} the rate were {rates[likely[0]]:.4g} Hz; multiply the column time "
-                f"by {_TIME_UNITS[likely[0]]:g} if it is"
+                f"in {likely[0]}, the rate would be {rates[likely[0]]:.4g} Hz; multiply the column "
+                f"time by {_TIME_UNITS[likely[0]]:g} if it is"
                 if likely
                 else "is the column time in seconds, or a count of rows? give seconds"
             )

@@ -115,7 +115,7 @@ def test_instruments_end_in_the_machine_nearest_in_their_own_metric(badly_known)
     near = project_parameters(machine, free.beta, R)
     rise = np.linalg.norm(R @ (bound.beta - free.beta)) ** 2
     assert near.distance > 1.0 and near.distance**2 <= rise < 1.4 * near.distance**2
-    (said,) = (said for said in bound.sentences if "at the bound of what can be built" in said)
+    (said,) = (said for said in bound.sentences if "at the bound of physical consistency" in said)
     assert "3" in said.partition(":")[0]
 
 
@@ -214,7 +214,7 @@ def test_methods_that_simulate_say_what_they_lack_without_commands(run):
 
 def test_a_command_that_does_not_move_is_refused(run):
     still = dataclasses.replace(run[0], commanded=0.0 * run[0].q)
-    with pytest.raises(DataError, match="the instruments tell nothing of a parameter"):
+    with pytest.raises(DataError, match="is not identifiable by the instruments"):
         identify(api.observe(compiled(), [still]), "iv", compiled())
 
 

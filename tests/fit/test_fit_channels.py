@@ -58,10 +58,10 @@ MISTAKES = {
                                                   for i in range(len(q[0]))]), "look like turns"),
     "twice": (lambda c, q, tau, j, k: tau[:, j].__imul__(2.0), "the measured torque is "),
     "two signs": (lambda c, q, tau, j, k: tau.__setitem__(np.s_[:, [j, k]], -tau[:, [j, k]]),
-                  "the measured torques have the other sign"),
+                  "the measured torques have the wrong sign"),
     "torque sign": (lambda c, q, tau, j, k: tau[:, j].__imul__(-1.0), "sign"),
     "all signs": (lambda c, q, tau, j, k: tau.__imul__(-1.0),
-                  "all measured torques have the other sign"),
+                  "all measured torques have the wrong sign"),
 }  # fmt: skip
 
 
