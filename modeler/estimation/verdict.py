@@ -542,7 +542,7 @@ def _find_impossible(
     worst = int(np.argmax(after - before))
     fit_error, error = float(before[worst]), float(after[worst])
     line = (
-        f"Not physically consistent: distance {nearest.distance:.3g} sigma (threshold "
+        f"not physically consistent: distance {nearest.distance:.3g} sigma (threshold "
         f"{limit:.2g}), mainly from {', '.join(names) or 'no single link'}"
     )
     if error >= THRESHOLDS.reported_error_ratio * fit_error:

@@ -180,7 +180,7 @@ def test_logs_of_two_robots_are_named(arm):
     seen = arm.seen(np.ones(3))
     rows = seen.run == 1
     seen.torque[rows] += seen.predict(other - arm.beta)[rows]
-    words = "do not fit one robot: joint . has .* % of its torque left if each is described alone"
+    words = "do not fit one robot: joint . has a fit error of .* % alone and .* % together"
     (doubt,) = check_known_quantities(arm.compiled, seen, [arm.payload()], currents=True)
     assert re.search(words, doubt.line)
     with pytest.raises(DataError, match=f"no gap.*{words}"):

@@ -76,9 +76,9 @@ def test_a_torque_with_the_wrong_sign(log):
     tau[:, 1] *= -1.0
     verdict = verdict_of(dataclasses.replace(log, tau=tau))
     assert not verdict.usable
-    assert verdict.line.startswith("Not valid: Not physically consistent: distance ")
+    assert verdict.line.startswith("Not valid: not physically consistent: distance ")
     assert "2" in verdict.line.split("mainly from")[1]
-    assert "% of the torque of joint 2, not " in verdict.line
+    assert "% on joint 2, not " in verdict.line
     assert any("is negative, which physics does not allow" in line for line in verdict.doubts)
     assert verdict.possible is False
     own = verdict.by_joint["2"]
@@ -87,9 +87,9 @@ def test_a_torque_with_the_wrong_sign(log):
 
 DEFECTS = {
     "milliseconds": (lambda log: clock(log, 1e3), "nothing", "median time step 2 s",
-                     "in milliseconds, the rate would be 500 Hz; multiply the column time by 0.001"),
+                     "rate would be 500 Hz; multiply the column time by 0.001"),
     "microseconds": (lambda log: clock(log, 1e6), "nothing", "median time step 2e+03 s",
-                     "in microseconds, the rate would be 500 Hz; multiply the column time by 1e-06"),
+                     "rate would be 500 Hz; multiply the column time by 1e-06"),
     "minutes": (lambda log: clock(log, 1.0 / 60.0), "", "in minutes, the rate would be"),
     "clock": (lambda log: clock(log, 2.0), ""),
     "torques of another motion": (
