@@ -158,7 +158,7 @@ def arm(tmp_path_factory):
 SAID = {
     "turns": "joint 2: its position looks like turns",
     "late": "joint 2: its position comes ",
-    "sign": "joint 1: the measured torque has the other sign of what a machine",
+    "sign": "joint 1: the measured torque has the wrong sign for physically consistent",
 }
 
 
