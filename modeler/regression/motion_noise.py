@@ -224,7 +224,7 @@ class MotionNoise(ShortRepr):
         if chosen > 1.05 * noise_cutoff:
             return (
                 f"the {self.quantity} are noise above {noise_cutoff:.2g} Hz; twice the parallel "
-                "filter, which takes that off"
+                "filter, which removes it"
             )
         if noise_cutoff > 0.99 * THRESHOLDS.max_position_cutoff:  # a mean of logarithms
             return f"the {self.quantity} are no noise up to there"

@@ -303,19 +303,17 @@ def _describe_choice(
     if not is_fixed:
         why = noise.explain_cutoff(position)
         if chatter_free.chatter_ratio and position < noise.cutoff:
-            why = (
-                f"lowered with the parallel filter; the noise alone asks for {noise.cutoff:.2g} Hz"
-            )
+            why = f"lowered with the parallel filter; by the noise alone {noise.cutoff:.2g} Hz"
         said.append(f"position filter {position:g} Hz: {why}")
     if chatter_free.joint is None:
         return *said, f"parallel filter {parallel:g} Hz: {crossover.explain_cutoff(noise)}"
     return (
         *said,
-        f"parallel filter {parallel:g} Hz: with more, the model's torque trembles and the measured "
-        "one does not",
-        f"motion between {parallel:g} and {widest:g} Hz is not what the torques answer to: up to "
-        f"there the model's torque of joint {noise.joints[chatter_free.joint].joint} trembles "
-        f"{chatter_free.chatter_ratio:.2g} times as much as the measured one",
+        f"parallel filter {parallel:g} Hz: above, the predicted torque has a high-frequency content "
+        "that the measured one lacks",
+        f"the torques do not show the motion between {parallel:g} and {widest:g} Hz: up to there "
+        f"the predicted torque of joint {noise.joints[chatter_free.joint].joint} has "
+        f"{chatter_free.chatter_ratio:.2g} times the high-frequency content of the measured one",
     )
 
 
@@ -597,19 +595,16 @@ class NoiseCrossover(ShortRepr):
     def explain_cutoff(self, noise: MotionNoise) -> str:
         """Returns why it is there."""
         if self.joint is None:
-            why = (
-                "the widest that the motion asks for; the noise of the torques is larger up to "
-                "there"
-            )
+            why = "the widest that the motion needs; up to there the torque noise is larger"
         elif self.is_drive_limited:
             why = (
-                "above, a drive that answers the noise of its encoder could bend the inertias, "
-                f"most by joint {noise.joints[self.joint].joint}"
+                "above, encoder noise that the controller feeds back could bias the inertias, most "
+                f"by joint {noise.joints[self.joint].joint}"
             )
         else:
             why = (
-                f"there the noise of the {noise.quantity} makes as much torque on joint "
-                f"{noise.joints[self.joint].joint} as is left of it"
+                f"there the torque of joint {noise.joints[self.joint].joint} by the noise of the "
+                f"{noise.quantity} is as large as its residual"
             )
         return f"{why}; it would be lower, but for the motion band" if self.is_bounded else why
 

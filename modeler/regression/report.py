@@ -421,8 +421,8 @@ class DataReport(Result):
             lines.append(
                 "all values are used as logged"
                 if self.processing.keep_damaged
-                else "values are mended or left out only where a fit predicts left-out rows better "
-                "with it; --keep-damaged uses all as logged"
+                else "values are repaired or left out only where a fit then predicts left-out rows "
+                "better; --keep-damaged uses all as logged"
             )
         if any(log.contradicted for log in self.logs):
             used = "used" if self.processing.keep_contradicted else "not used"

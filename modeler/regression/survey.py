@@ -408,10 +408,9 @@ class LogPasses:
         passes = "once" if self.passes == 1 else f"{self.passes} times"
         return (
             f"long logs: all {counts['rows']} rows are read {passes}, in {counts['chunks']} chunks "
-            "that overlap by what the filters remember; "
-            f"{counts['rows_in_windows']} of them, in {counts['windows']} windows, are looked at "
-            "for "
-            "the choices below, doubts about channels, and what needs samples side by side",
+            f"that overlap by the length of the filters; {counts['rows_in_windows']} of them, in "
+            f"{counts['windows']} windows, serve the choices below, warnings about channels, and "
+            "what needs samples side by side",
         )
 
     def to_json(self) -> dict[str, int]:
