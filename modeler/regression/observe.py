@@ -309,7 +309,7 @@ def _describe_choice(
         return *said, f"parallel filter {parallel:g} Hz: {crossover.explain_cutoff(noise)}"
     return (
         *said,
-        f"parallel filter {parallel:g} Hz: above, the predicted torque has a high-frequency content "
+        f"parallel filter {parallel:g} Hz: above, the predicted torque has high-frequency content "
         "that the measured one lacks",
         f"the torques do not show the motion between {parallel:g} and {widest:g} Hz: up to there "
         f"the predicted torque of joint {noise.joints[chatter_free.joint].joint} has "
