@@ -80,11 +80,9 @@ class ThinnedRows:
             place = (s.time[k, None] + shift - s.time[0]) / s.step
             below = np.clip(place.astype(int), 0, s.samples - 2)
             above, joint = np.clip(place - below, 0.0, 1.0), np.arange(len(shift))
-            moved = (
-                x[below, joint] * (1.0 - above) + x[below + 1, joint] * above
-                for x in (s.q, s.qd, s.qdd)
-            )
-            motions.append(np.stack(list(moved)))
+            a, b = (below, joint), (below + 1, joint)
+            motion = [x[a] * (1.0 - above) + x[b] * above for x in (s.q, s.qd, s.qdd)]
+            motions.append(np.stack(motion))
         of: Callable[..., np.ndarray] = compiled.base_regressor
         if beta is not None:
             of = partial(_compute_torque, compiled, beta)

@@ -412,15 +412,12 @@ def _judge_joints(
             errors += f", cross-validated error {format_percent(float(error))}"
         is_bad = any(warning.is_certain for warning in joint_warnings)
         is_bad |= bool(error > THRESHOLDS.max_cross_validated_error)
+        is_doubtful = error > THRESHOLDS.good_error or block_error > THRESHOLDS.max_block_error
         if joint.relative_error is None:
             verdict = JointVerdict("undetermined", (NOT_FITTED, *lines))
         elif is_bad:
             verdict = JointVerdict("undetermined", lines or (errors,))
-        elif (
-            joint_warnings
-            or error > THRESHOLDS.good_error
-            or block_error > THRESHOLDS.max_block_error
-        ):
+        elif joint_warnings or is_doubtful:
             verdict = JointVerdict("doubtful", lines or (errors,))
         else:
             verdict = JointVerdict("good", (errors,))

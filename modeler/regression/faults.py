@@ -297,18 +297,10 @@ def compute_jump_floors(walks: Sequence[EncoderJumpScan], resolution: np.ndarray
 
 
 def compute_local_floors(walks: Sequence[EncoderJumpScan], known: np.ndarray) -> np.ndarray:
-    """Returns (J,) `compute_jump_floors` of a whole log for a part of it.
-
-    Higher where the part is " "rougher.
-    """
-    return np.array(
-        [
-            compute_local_threshold(
-                [walk.excess[:, j] for walk in walks], floor, THRESHOLDS.max_jump_share
-            )
-            for j, floor in enumerate(known)
-        ]
-    )
+    """Returns (J,) `compute_jump_floors` of a whole log for a part of it, higher if rougher."""
+    share = THRESHOLDS.max_jump_share
+    excess = [[walk.excess[:, j] for walk in walks] for j in range(len(known))]
+    return np.array([compute_local_threshold(*of, share) for of in zip(excess, known, strict=True)])
 
 
 def _compute_excess(
@@ -496,12 +488,11 @@ def repair_log(
     """
 
     def mended_by(name: str, defects_by_joint: Sequence[Sequence[Defect]]) -> list[list[Defect]]:
+        def is_mended(j: int, kind: str) -> bool:
+            return repairs is None or kind in ALWAYS or (name, j, kind) in repairs
+
         return [
-            [
-                one
-                for one in channel
-                if repairs is None or one.kind in ALWAYS or (name, j, one.kind) in repairs
-            ]
+            [one for one in channel if is_mended(j, one.kind)]
             for j, channel in enumerate(defects_by_joint)
         ]
 
@@ -580,9 +571,8 @@ def repair_log(
 def _count_held_rows(log: Log) -> dict[str, tuple[int, ...]]:
     """Returns (J,) rows for which the values of each channel are held; 1: they are not."""
     channels = {"q": log.q, "tau": log.tau, "qd": log.qd, "qdd": log.qdd}
-    return {
-        name: tuple(map(estimate_hold_length, x.T)) for name, x in channels.items() if x is not None
-    }
+    logged = {name: x.T for name, x in channels.items() if x is not None}
+    return {name: tuple(map(estimate_hold_length, x)) for name, x in logged.items()}
 
 
 def _find_repeats(log: Log, scales: ChannelScales | None) -> np.ndarray:
@@ -702,9 +692,8 @@ def _find_spikes(
             speeds = [np.gradient(log.q[part], log.time[part], axis=0) for part in rows]
             torque = torque or compute_torque_scales(parts, speeds)
             spikes = select_unexplained(spikes, parts, speeds, torque)
-        by_channel[name] = [_locate_defects(part, rows, log) for part in spikes] or [
-            [] for _ in log.joints
-        ]
+        defects = [_locate_defects(part, rows, log) for part in spikes]
+        by_channel[name] = defects or [[] for _ in log.joints]
     return by_channel, floors, torque
 
 

@@ -305,14 +305,9 @@ def split_log(
     motion = [log.q, *(m for m in (log.qd, log.qdd) if logged_motion and m is not None)]
     rows = np.flatnonzero(np.all([np.isfinite(m).all(axis=1) for m in motion], axis=0))
     ends = [None] * log.tau.shape[1] if extremes is None else extremes
-    clipped = np.column_stack(
-        [
-            find_saturated(*part)
-            for part in zip(
-                log.tau.T, log.q.T, ends, (log.tau if logged is None else logged).T, strict=True
-            )
-        ]
-    )
+    own = log.tau if logged is None else logged
+    parts = zip(log.tau.T, log.q.T, ends, own.T, strict=True)
+    clipped = np.column_stack([find_saturated(*part) for part in parts])
     steps, stamps = np.diff(log.time[rows]), np.diff(log.time)
     cut = gap = steps > log.gap
     inside = stamps[stamps <= log.gap]
@@ -320,13 +315,12 @@ def split_log(
         cut = cut | (np.diff(log.segment[rows]) != 0)
     groups = np.split(rows, np.flatnonzero(cut) + 1)
     long_groups = [group for group in groups if len(group) >= THRESHOLDS.min_piece_rows]
+    short = [group for group in groups if len(group) < THRESHOLDS.min_piece_rows]
     report = SplitReport(
         gaps=log.time[rows[1:][gap]],
         widths=steps[gap],
         jitter=float(np.max(np.abs(inside / log.step - 1.0))) if inside.size else 0.0,
-        short=log.time[
-            np.concatenate([rows[:0], *(g for g in groups if len(g) < THRESHOLDS.min_piece_rows)])
-        ],
+        short=log.time[np.concatenate([rows[:0], *short])],
     )
     q_step = tuple(map(estimate_lattice_step, log.q.T))
     qd_step = () if log.qd is None else tuple(map(estimate_lattice_step, log.qd.T))

@@ -276,14 +276,8 @@ def _classify_samples(
     The bend of a bridge, or of a wrong velocity, reaches as far as the start-up of the filter; a
     few missing samples that take less than 0.4 periods of the cut-off leave no bend.
     """
-    few = (
-        min(
-            THRESHOLDS.short_bridge,
-            int(THRESHOLDS.short_bridge_periods / (cutoff * piece.step)) - 1,
-        )
-        if cutoff
-        else 0
-    )
+    periods = THRESHOLDS.short_bridge_periods
+    few = min(THRESHOLDS.short_bridge, int(periods / (cutoff * piece.step)) - 1) if cutoff else 0
     bent = select_long_runs(piece.bridged, few) if few > 0 else piece.bridged
     flags = {
         EDGE: ~whole[:, None],

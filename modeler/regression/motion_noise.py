@@ -159,14 +159,11 @@ class MotionNoise(ShortRepr):
         Args:
             which: the joints of which that is taken.
         """
-        every = (
-            dataclasses.replace(
-                channel, **find_floor(self.spectra, j, channel.band_hz, self.rate, last=True)
-            )
-            if which(channel)
-            else channel
-            for j, channel in enumerate(self.joints)
-        )
+        every = list(self.joints)
+        for j, channel in enumerate(every):
+            if which(channel):
+                floor = find_floor(self.spectra, j, channel.band_hz, self.rate, last=True)
+                every[j] = dataclasses.replace(channel, **floor)
         return dataclasses.replace(self, joints=tuple(every))
 
     def compute_speed_noise(self, coefficients: Sequence[float], cutoff: float) -> float:

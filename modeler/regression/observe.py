@@ -389,10 +389,7 @@ class CutoffSearch(ShortRepr):
         return WeightedFit(self.model, assemble_observation(self.model, (), some, report))
 
     def find_worst_chatter(self, position: float, parallel: float) -> tuple[float, int | None]:
-        """Returns how much more than the measured torque that of `narrowest_fit` trembles.
-
-        Joint where " "most.
-        """
+        """Returns the largest chatter ratio of the torque of `narrowest_fit`, and its joint."""
         fit, (_, beta) = self.fit(position, parallel), self.narrowest_fit
         if fit is None or beta is None:
             return 0.0, None

@@ -114,8 +114,8 @@ class PreparedLogs(ShortRepr):
         raise DataError(
             f"no more than {(len(longest.time) - 1) * longest.step:.2g} s without a gap; expected "
             f"more than {2.0 * compute_edge(longest, chosen) * longest.step:.2g} s: the ends are "
-            "lost "
-            f"to the {chosen.position_cutoff:g} Hz low-pass of the positions; record longer motions"
+            f"lost to the {chosen.position_cutoff:g} Hz low-pass of the positions; record longer "
+            "motions"
         )
 
     def drop_commands(self) -> "PreparedLogs":
@@ -128,8 +128,7 @@ class PreparedLogs(ShortRepr):
 
     def set_cutoffs(self, position: float, parallel: float) -> "PreparedLogs":
         """Returns with other filters."""
-        cutoffs = {"position_cutoff": position, "parallel_cutoff": parallel}
-        chosen = dataclasses.replace(self.processing, **cutoffs)
+        chosen = replace(self.processing, position_cutoff=position, parallel_cutoff=parallel)
         return dataclasses.replace(self, processing=chosen)
 
 
@@ -252,20 +251,18 @@ def prepare_logs(
         used_pieces, check, source = _choose_derivatives(log, log_pieces, chosen, noisy)
         # what is left of rows that repeat comes unevenly, as it was stamped
         own_spectra = [s for p, s in zip(pieces, seen.spectra, strict=True) if p.run == run]
-        rings = (
-            [] if channel_scales.repeats else find_ringing_joints(own_spectra, steps, log_pieces)
-        )
-        rings = [ring for ring in rings if channel_scales.held["q"][ring.joint] == 1]
+        own = channel_scales
+        rings = [] if own.repeats else find_ringing_joints(own_spectra, steps, log_pieces)
+        rings = [ring for ring in rings if own.held["q"][ring.joint] == 1]
         said = tuple(ring.describe(spec.joints[ring.joint].name) for ring in rings)
         repairs = processing.repairs_of(log.name)
-        prepared.append(
-            PreparedLog(used_pieces, cuts, source, check, said, damage, channel_scales, repairs)
-        )
+        entry = PreparedLog(used_pieces, cuts, source, check, said, damage, own, repairs)
+        prepared.append(entry)
     pieces = [piece for log in prepared for piece in log.pieces]
     has_logged_speeds = all(piece.qd is not None for piece in pieces)
-    noise = (
-        estimate_motion_noise(spec.joints, pieces, seen.bands) if has_logged_speeds else positions
-    )
+    noise = positions
+    if has_logged_speeds:
+        noise = estimate_motion_noise(spec.joints, pieces, seen.bands)
     chosen, choices = choose_cutoffs(processing, pieces, noise)
     band = compute_visible_band(noise.band, pieces)
     return PreparedLogs(chosen, choices, tuple(prepared), noise, band)
