@@ -134,7 +134,7 @@ def test_a_row_that_moves_pulls_a_consistent_estimate_as_it_says():
     e = 0.5 * start.sigma[observation.row_joint[row]]
     other = estimate(equations.y + e * (np.arange(len(equations.y)) == row))
     sigma = np.sqrt(np.diag(start.covariance))
-    told, seen = e * start.pull[row] / sigma, (other.beta - start.beta) / sigma
+    told, seen = e * start.influence[row] / sigma, (other.beta - start.beta) / sigma
     assert np.abs(told).max() > 0.01
     np.testing.assert_allclose(seen, told, atol=0.25 * np.abs(told).max())
 
