@@ -305,8 +305,8 @@ def split_log(
     motion = [log.q, *(m for m in (log.qd, log.qdd) if logged_motion and m is not None)]
     rows = np.flatnonzero(np.all([np.isfinite(m).all(axis=1) for m in motion], axis=0))
     ends = [None] * log.tau.shape[1] if extremes is None else extremes
-    own = log.tau if logged is None else logged
-    parts = zip(log.tau.T, log.q.T, ends, own.T, strict=True)
+    measured = log.tau if logged is None else logged
+    parts = zip(log.tau.T, log.q.T, ends, measured.T, strict=True)
     clipped = np.column_stack([find_saturated(*part) for part in parts])
     steps, stamps = np.diff(log.time[rows]), np.diff(log.time)
     cut = gap = steps > log.gap

@@ -247,16 +247,15 @@ def prepare_logs(
     noisy = processing.derivatives == "auto" and is_position_quieter(rated, chosen.position_cutoff)
     steps, prepared = [joint.step for joint in positions.joints], []
     for run, (log, (log_pieces, cuts)) in enumerate(zip(logs, seen.cut, strict=True)):
-        _, damage, channel_scales = repair.get_repaired(run, processing)
+        _, damage, scales = repair.get_repaired(run, processing)
         used_pieces, check, source = _choose_derivatives(log, log_pieces, chosen, noisy)
         # what is left of rows that repeat comes unevenly, as it was stamped
         own_spectra = [s for p, s in zip(pieces, seen.spectra, strict=True) if p.run == run]
-        own = channel_scales
-        rings = [] if own.repeats else find_ringing_joints(own_spectra, steps, log_pieces)
-        rings = [ring for ring in rings if own.held["q"][ring.joint] == 1]
+        rings = [] if scales.repeats else find_ringing_joints(own_spectra, steps, log_pieces)
+        rings = [ring for ring in rings if scales.held["q"][ring.joint] == 1]
         said = tuple(ring.describe(spec.joints[ring.joint].name) for ring in rings)
         repairs = processing.repairs_of(log.name)
-        entry = PreparedLog(used_pieces, cuts, source, check, said, damage, own, repairs)
+        entry = PreparedLog(used_pieces, cuts, source, check, said, damage, scales, repairs)
         prepared.append(entry)
     pieces = [piece for log in prepared for piece in log.pieces]
     has_logged_speeds = all(piece.qd is not None for piece in pieces)
