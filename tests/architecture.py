@@ -39,7 +39,7 @@ ROUND = {"diagnosis/add.py": {"robot", "codegen"}, "diagnosis/added_model.py": {
 # Which packages of others a room may import, besides the standard library.
 PACKAGES: dict[str, set[str]] = {
     "core": {"numpy", "mpmath", "pandas", "distributed"},
-    "numerics": {"numpy", "scipy"},
+    "numerics": {"numpy", "scipy", "clarabel"},
     "effects": set(),
     "robot": {"numpy", "mujoco"},
     "derivation": {"numpy", "sympy", "casadi", "flint"},
@@ -48,7 +48,7 @@ PACKAGES: dict[str, set[str]] = {
     "runtime": {"numpy", "cffi", "cupy"},
     "logs": {"numpy", "scipy", "pyarrow", "h5py", "rosbags", "python_calamine"},
     "regression": {"numpy", "scipy"},
-    "estimation": {"numpy", "scipy", "clarabel", "cvxpy"},
+    "estimation": {"numpy", "scipy"},
     "diagnosis": {"numpy", "scipy", "threadpoolctl"},
     "validation": {"numpy", "scipy"},
     "fleet": {"numpy", "scipy"},
@@ -68,8 +68,8 @@ ONLY_IN = {
     "cupy": ("runtime/gpu.py",),
     "cffi": ("runtime/bind.py",),
     "casadi": ("derivation/lagrange.py", "codegen/casadi_functions.py", "simulation/"),
-    "clarabel": ("estimation/nearest_body.py",),
-    "cvxpy": ("estimation/consistent.py", "simulation/completion.py", "exports/completion.py"),
+    "clarabel": ("numerics/cones.py",),
+    "cvxpy": ("simulation/completion.py", "exports/completion.py"),
     "flint": ("derivation/field.py", "derivation/precise.py"),
     "pandas": ("core/table.py",),
     "h5py": ("logs/arrays.py",),

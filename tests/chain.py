@@ -18,8 +18,8 @@ from modeler.core.manifest import EmittedModule
 from modeler.effects.catalogue import find_effect
 from modeler.estimation.model_file import IdentifiedModel
 from modeler.regression.log import Log
+from modeler.regression.motion import Processing
 from modeler.regression.read import read_log
-from modeler.regression.settings import Processing
 from modeler.robot.read import parse_robot_text
 from modeler.robot.robot import Robot
 from modeler.runtime.model import CompiledModel

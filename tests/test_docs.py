@@ -21,7 +21,7 @@ from modeler.core.builtin import read_builtin_robot
 from modeler.core.errors import RobotError
 from modeler.effects.catalogue import CATALOGUE
 from modeler.effects.effect import MOTION, EffectTarget
-from modeler.regression.settings import Processing
+from modeler.regression.motion import Processing
 from modeler.robot.conventions import COLUMNS
 from modeler.robot.read import _KEYS, parse_robot_text
 from modeler.simulation.hidden import HIDDEN

@@ -104,9 +104,7 @@ def run_estimator(
         return FitOutcome(_append_sentences(energy.result, unused), refit=energy.fit_without)
     if request.method == TWO_STEPS:
         ways = estimation.JointDirections(compute_joint_directions(robot))
-        steps = estimation.two_step_result.identify_in_two_steps(
-            compiled, observation, ways, request.below
-        )
+        steps = estimation.identify_in_two_steps(compiled, observation, ways, request.below)
         further = {"two_step": steps.to_json()}
         result = _append_sentences(steps.result, unused)
         return FitOutcome(

@@ -18,7 +18,7 @@ from modeler.diagnosis.state import SearchData, State, build_state, is_visible
 from modeler.diagnosis.timing import CONVENTION
 from modeler.effects import Effect, EffectTarget
 from modeler.estimation import IdentifiedModel, find_log_faults
-from modeler.regression import TREMBLES, DataWarning, Observation, compute_chatter_ratios
+from modeler.regression import THRESHOLDS, DataWarning, Observation, compute_chatter_ratios
 
 if TYPE_CHECKING:
     from modeler.runtime import CompiledModel
@@ -156,7 +156,11 @@ def exclude_friction(data: SearchData, beta: np.ndarray) -> StatedEffects | None
 def _check_chatter(state: State) -> list[str]:
     """Joints whose model trembles from row to row, and whose torque does not."""
     ratios = compute_chatter_ratios(state.data.observation, state.torque)
-    joint_ratios = {state.joint_names[j]: ratio for j, ratio in ratios.items() if ratio > TREMBLES}
+    joint_ratios = {
+        state.joint_names[j]: ratio
+        for j, ratio in ratios.items()
+        if ratio > THRESHOLDS.max_chatter_ratio
+    }
     if not joint_ratios:
         return []
     cutoff = state.data.observation.report.processing.position_cutoff

@@ -40,7 +40,7 @@ from modeler.numerics.least_squares import (
     reduce_rows,
 )
 from modeler.regression import (
-    HIGHEST,
+    THRESHOLDS,
     ChosenProcessing,
     CutoffSearch,
     Log,
@@ -527,7 +527,9 @@ def choose_band(
     )
     wide, _ = choose_cutoffs(asked, prepared.pieces, noise)
     motion = wide.parallel_cutoff
-    highest = user_cutoff or HIGHEST / max(piece.step for piece in prepared.pieces)
+    highest = user_cutoff or THRESHOLDS.max_cutoff_share / max(
+        piece.step for piece in prepared.pieces
+    )
     if band is None:
         parallel = max(motion, min(BAND, 0.5 * highest, 0.5 * noise.cutoff))
         position = max(wide.position_cutoff, 2.0 * parallel)

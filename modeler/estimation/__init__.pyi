@@ -1,38 +1,32 @@
-from . import long_logs as long_logs, model_file as model_file, two_step_result as two_step_result
+from . import long_logs as long_logs, model_file as model_file
 from .covariance import (
     estimate_autocorrelation as estimate_autocorrelation,
     estimate_correlation as estimate_correlation,
     sum_lagged_products as sum_lagged_products,
 )
-from .direct_model import (
-    ControlLoop as ControlLoop,
-    DirectModel as DirectModel,
-    scale_inertia as scale_inertia,
-)
-from .doubts import (
-    find_heterogeneous_logs as find_heterogeneous_logs,
-    separate_payload as separate_payload,
-)
 from .drive_gains import (
     GainFit as GainFit,
     are_currents as are_currents,
     check_currents as check_currents,
+    check_known_quantities as check_known_quantities,
+    describe_deviations as describe_deviations,
     identify_gains as identify_gains,
     set_unit_gains as set_unit_gains,
 )
 from .energy_fit import identify_energy as identify_energy
-from .findings import find_log_faults as find_log_faults
 from .identify import (
     Equations as Equations,
     compute_relative_errors as compute_relative_errors,
     find_disconnected_joints as find_disconnected_joints,
     identify as identify,
 )
-from .known import (
-    check_known_quantities as check_known_quantities,
-    describe_deviations as describe_deviations,
+from .instrumental import (
+    ControlLoop as ControlLoop,
+    DirectModel as DirectModel,
+    scale_inertia as scale_inertia,
 )
 from .least_squares import solve_by_qr as solve_by_qr, solve_least_squares as solve_least_squares
+from .log_faults import find_log_faults as find_log_faults
 from .long_logs import (
     OF_TRIANGLES as OF_TRIANGLES,
     read_all_rows as read_all_rows,
@@ -47,7 +41,20 @@ from .model_file import (
     load_model as load_model,
     save_model as save_model,
 )
-from .nearest_body import (
+from .parameters import (
+    ParameterEstimate as ParameterEstimate,
+    format_prior as format_prior,
+    format_spread as format_spread,
+)
+from .payload import (
+    Payload as Payload,
+    add_known_load as add_known_load,
+    build_loaded_equations as build_loaded_equations,
+    find_heterogeneous_logs as find_heterogeneous_logs,
+    identify_with_payloads as identify_with_payloads,
+    separate_payload as separate_payload,
+)
+from .physical_consistency import (
     PREFIXES as PREFIXES,
     PhysicalParameters as PhysicalParameters,
     compute_pseudo_inertia as compute_pseudo_inertia,
@@ -55,13 +62,6 @@ from .nearest_body import (
     define_physical_parameters as define_physical_parameters,
     extract_parameters as extract_parameters,
     project_parameters as project_parameters,
-)
-from .parameter import format_prior as format_prior, format_spread as format_spread
-from .payload import (
-    Payload as Payload,
-    add_known_load as add_known_load,
-    build_loaded_equations as build_loaded_equations,
-    identify_with_payloads as identify_with_payloads,
 )
 from .prior import (
     Prior as Prior,
@@ -71,7 +71,6 @@ from .prior import (
 )
 from .result import (
     FitResult as FitResult,
-    ParameterEstimate as ParameterEstimate,
     compute_friction_by_direction as compute_friction_by_direction,
 )
 from .side_by_side import (
@@ -79,8 +78,9 @@ from .side_by_side import (
     MethodResult as MethodResult,
     compare_methods as compare_methods,
 )
-from .two_step import JointDirections as JointDirections
-from .two_step_result import (
+from .thresholds import THRESHOLDS as THRESHOLDS
+from .two_step import (
+    JointDirections as JointDirections,
     TwoStepFit as TwoStepFit,
     identify_in_two_steps as identify_in_two_steps,
 )

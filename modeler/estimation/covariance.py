@@ -1,4 +1,4 @@
-"""What raises standard deviations: residuals that remember, halves of the motion that differ."""
+"""What raises standard deviations: autocorrelated residuals, halves of the motion that differ."""
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
@@ -6,26 +6,21 @@ from dataclasses import dataclass
 import numpy as np
 
 from modeler.estimation.least_squares import Estimate, Rows, solve_by_qr, sum_streamed_products
+from modeler.estimation.thresholds import THRESHOLDS
 from modeler.numerics.filters import SPREAD
 from modeler.numerics.least_squares import CompressedRegression, compute_triangle
 from modeler.regression import DataWarning, Observation
 
-_WORTH = 1.2  # a factor above it is said
-_LAGS = 60  # rows; with one row per 1 / (2.5 cut-off), 24 periods of the parallel filter
-_SPREADS = 1.0  # standard deviations of the autocorrelation of white residuals
-_FADED = 0.01
-_TOLD = 0.2  # autocorrelation that is told: filtering leaves 0.1
-
 
 @dataclass(frozen=True, eq=False)
 class ResidualAutocorrelation:
-    """What the memory of the residuals does.
+    """Holds what the autocorrelation of the residuals does.
 
     Attributes:
         factors: (c,) on the standard deviations, 1 and more.
-        memory: (joint, s) of the joints whose residuals are not white.
-        lasting: (n,) autocorrelation of their residuals over one row.
-        extra: (c, c) what it adds to the covariance of white residuals.
+        correlation_times: (joint, s) of the joints whose residuals are not white.
+        lag1: (n,) autocorrelation of their residuals over one row.
+        added_covariance: (c, c) what it adds to the covariance of white residuals.
     """
 
     factors: np.ndarray
@@ -34,7 +29,7 @@ class ResidualAutocorrelation:
     added_covariance: np.ndarray
 
     def inflate_covariance(self, white: np.ndarray) -> np.ndarray:
-        """(c, c) the covariance with it: in no direction less than that of white residuals."""
+        """Returns (c, c) the covariance with it: in no direction less than that of white ones."""
         at = np.ix_(*[np.flatnonzero(np.diag(white))] * 2)
         root, inverse = compute_roots(white[at])
         ratio, turn = np.linalg.eigh(inverse @ self.added_covariance[at] @ inverse.T)
@@ -44,19 +39,19 @@ class ResidualAutocorrelation:
         return inflated
 
     def format_sentences(self) -> list[str]:
-        """One, if it matters."""
-        if not self.correlation_times or self.factors.max(initial=1.0) < _WORTH:
+        """Returns one sentence, if it matters."""
+        factor = self.factors.max(initial=1.0)
+        if not self.correlation_times or factor < THRESHOLDS.reported_sigma_factor:
             return []
-        longest = max(self.correlation_times, key=lambda entry: entry[1])
+        joint, seconds = max(self.correlation_times, key=lambda entry: entry[1])
         return [
-            f"the residuals are no white noise (joint {longest[0]} remembers {longest[1]:.2g} s): "
-            f"neighbouring rows repeat each other, and the sigmas are raised for it, by up to a "
-            f"factor {self.factors.max():.2g}"
+            f"Residuals are autocorrelated (joint {joint}: {seconds:.2g} s); standard deviations "
+            f"are corrected for it (up to x {factor:.2g})."
         ]
 
 
 def compute_roots(V: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """(k, k) R R^T = V and R^-1, of V (k, k) without zeros on its diagonal.
+    """Returns (k, k) R, R R^T = V, and R^-1, of V (k, k) without zeros on its diagonal.
 
     Nothing is known better than rounding lets V say.
     """
@@ -69,7 +64,7 @@ def compute_roots(V: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
 def estimate_hac_covariance(
     rows: Rows, estimate: Estimate, at: Sequence[int] | None = None, share: float = 1.0
 ) -> ResidualAutocorrelation:
-    """By how much autocorrelated residuals raise the standard deviations.
+    """Estimates by how much autocorrelated residuals raise the standard deviations.
 
     The covariance C = (W^T S^-1 W)^-1 takes rows for independent. With residuals of joint j of
     autocorrelation r_j(k), stationary, it is
@@ -78,9 +73,9 @@ def estimate_hac_covariance(
 
     w_j(t) the row of joint j at sample t (Newey and West 1987, weights replaced by truncation: the
     sum over k ends with the first r_j below one standard deviation of that of white noise). r_j is
-    at least that of white noise through the parallel filter. An estimator with a bread or a pull
-    has bread w_t rms_j or pull_t rms_j in place of C w_t / sigma_j. Each sigma is multiplied by the
-    square root of the ratio of the diagonals, never by less than 1.
+    at least that of white noise through the parallel filter. An estimator with a bread or an
+    influence has bread w_t rms_j or influence_t rms_j in place of C w_t / sigma_j. Each sigma is
+    multiplied by the square root of the ratio of the diagonals, never by less than 1.
 
     Args:
         rows: of which the counted ones were fitted.
@@ -88,59 +83,53 @@ def estimate_hac_covariance(
         at: (c,) columns of the rows that were fitted, in order; None: all.
         share: of the fitted rows that these are.
     """
-    observation, W = rows.observation, rows
-    has_influence = estimate.influence is not None or estimate.bread is not None
+    observation, W, bread = rows.observation, rows, estimate.bread
     columns = len(observation.names) if rows.has_streamed_rows else rows.W.shape[1]
     picked = np.eye(columns) if at is None else np.eye(columns)[:, at]
     residual = estimate.residual
     if residual is None:
         residual = rows.compute_residual(picked @ estimate.beta)
-    matrix = picked @ (estimate.covariance if estimate.bread is None else estimate.bread)
+    matrix = picked @ (estimate.covariance if bread is None else bread)
     if estimate.influence is not None:
         W, matrix = Rows(observation, estimate.influence, rows.y, rows.counted), picked
+    is_white = estimate.influence is None and bread is None
     joints, correlation_times = len(observation.joints), []
-    lag1, pulls = np.zeros(joints), np.zeros((joints, *picked.shape))
+    lag1, matrices = np.zeros(joints), np.zeros((joints, *picked.shape))
     correlations = [np.ones(1) for _ in observation.joints]
     for j, joint in enumerate(observation.joints):
-        if not (is_of_joint := rows.counted & (rows.row_joint == j)).any():
+        if not (part := rows.counted & (rows.row_joint == j)).any():
             continue
-        correlations[j] = r = estimate_correlation(
-            observation, residual[is_of_joint], observation.row_sample[is_of_joint]
-        )
+        sample = observation.row_sample[part]
+        correlations[j] = r = estimate_correlation(observation, residual[part], sample)
         lag1[j] = r[1] if len(r) > 1 else 0.0
-        if significant_lags := int(np.sum(r > _TOLD)) - 1:
-            correlation_times.append((joint.name, significant_lags * _compute_spacing(observation)))
-        size = float(np.sqrt(np.mean(residual[is_of_joint] ** 2)))
-        pulls[j] = matrix * (size if has_influence else 1.0 / estimate.sigma[j])
-    extra = _sum_row_products(W, pulls, correlations) / share  # C (B - C^-1) C
+        if lags := int(np.sum(r > THRESHOLDS.reported_correlation)) - 1:
+            correlation_times.append((joint.name, lags * _compute_spacing(observation)))
+        rms = float(np.sqrt(np.mean(residual[part] ** 2)))
+        matrices[j] = matrix * (1.0 / estimate.sigma[j] if is_white else rms)
+    extra = _sum_row_products(W, matrices, correlations) / share  # C (B - C^-1) C
     white = np.diag(estimate.covariance)
     ratio = 1.0 + np.diag(extra) / np.where(white > 0.0, white, 1.0)
-    return ResidualAutocorrelation(
-        np.sqrt(np.maximum(ratio, 1.0)), tuple(correlation_times), lag1, extra
-    )
+    factors = np.sqrt(np.maximum(ratio, 1.0))
+    return ResidualAutocorrelation(factors, tuple(correlation_times), lag1, extra)
 
 
 def _sum_row_products(
     rows: Rows, matrices: np.ndarray, correlations: Sequence[np.ndarray]
 ) -> np.ndarray:
-    """(k, k) `sum_lagged_products` of the counted rows of all joints.
-
-    Each times its matrix (c, " "k).
-    """
+    """Returns (k, k) `sum_lagged_products` of counted rows times their joint's matrix (c, k)."""
+    observation = rows.observation
     if rows.has_streamed_rows:
-        return sum_streamed_products(rows.observation, rows.counted, matrices, correlations)
-    total, observation = np.zeros((matrices.shape[2],) * 2), rows.observation
+        return sum_streamed_products(observation, rows.counted, matrices, correlations)
+    total = np.zeros((matrices.shape[2],) * 2)
     for j, r in enumerate(correlations):
-        is_of_joint = rows.counted & (rows.row_joint == j)
-        sample = observation.row_sample[is_of_joint]
-        total += sum_lagged_products(
-            rows.W[is_of_joint] @ matrices[j], r, sample, observation.segment
-        )
+        part = rows.counted & (rows.row_joint == j)
+        sample, weighted = observation.row_sample[part], rows.W[part] @ matrices[j]
+        total += sum_lagged_products(weighted, r, sample, observation.segment)
     return total
 
 
 def estimate_correlation(observation: Observation, e: np.ndarray, sample: np.ndarray) -> np.ndarray:
-    """r(0) = 1, r(1), ... of the residual of one joint, at least that of the parallel filter.
+    """Returns r(0) = 1, r(1), ... of the residual of one joint, at least the parallel filter's.
 
     Args:
         observation: of the rows.
@@ -153,9 +142,9 @@ def estimate_correlation(observation: Observation, e: np.ndarray, sample: np.nda
         return correlation
     # White noise through the filter: means with Gaussian weights of standard deviation s, d apart,
     # correlate by exp(-d^2 / 4 s^2), down to 0.01.
-    lags = np.arange(_LAGS) * _compute_spacing(observation) * cutoff / SPREAD
+    lags = np.arange(THRESHOLDS.max_lags) * _compute_spacing(observation) * cutoff / SPREAD
     floor = np.exp(-(lags**2) / 4.0)
-    floor = floor[: max(1, int(np.argmax(floor < _FADED)))]
+    floor = floor[: max(1, int(np.argmax(floor < THRESHOLDS.faded_correlation)))]
     longer = np.zeros(max(len(correlation), len(floor)))
     longer[: len(correlation)] = correlation
     longer[: len(floor)] = np.maximum(longer[: len(floor)], floor)
@@ -165,7 +154,7 @@ def estimate_correlation(observation: Observation, e: np.ndarray, sample: np.nda
 def sum_lagged_products(
     rows: np.ndarray, r: np.ndarray, sample: np.ndarray, segment: np.ndarray
 ) -> np.ndarray:
-    """(c, c) sum_k r(k) sum_t (rows(t) rows(t + k)^T + its transpose).
+    """Returns (c, c) sum_k r(k) sum_t (rows(t) rows(t + k)^T + its transpose).
 
     With rows^T rows it is the middle of the covariance of least squares over these rows.
     """
@@ -177,7 +166,7 @@ def sum_lagged_products(
 
 
 def estimate_autocorrelation(e: np.ndarray, sample: np.ndarray, segment: np.ndarray) -> np.ndarray:
-    """r(0) = 1, r(1), ... up to the first that does not stand out, at most 60, within segments.
+    """Returns r(0) = 1, r(1), ... up to the first that is not significant, within segments.
 
     Args:
         e: (rows,) residual of one joint.
@@ -186,19 +175,18 @@ def estimate_autocorrelation(e: np.ndarray, sample: np.ndarray, segment: np.ndar
     """
     r = [1.0]
     power = float(np.mean(e**2))
-    while len(r) <= _LAGS and power > 0.0:
+    while len(r) <= THRESHOLDS.max_lags and power > 0.0:
         left, right = _pair_rows(sample, segment, len(r))
         if not left.size:
             break
-        value = float(np.mean(e[left] * e[right])) / power
-        r.append(value)
-        if value < _SPREADS / np.sqrt(left.size):
+        r.append(float(np.mean(e[left] * e[right])) / power)
+        if r[-1] < THRESHOLDS.white_lag_sigmas / np.sqrt(left.size):
             break
     return np.array(r)
 
 
 def _pair_rows(sample: np.ndarray, segment: np.ndarray, lag: int) -> tuple[np.ndarray, np.ndarray]:
-    """Rows that are `lag` samples apart within a segment."""
+    """Returns rows that are `lag` samples apart within a segment."""
     if not len(sample):
         return sample, sample
     place = np.full(sample[-1] - sample[0] + 1 + lag, -1)
@@ -213,43 +201,37 @@ def _compute_spacing(observation: Observation) -> float:
     return float(np.median(steps)) if steps.size else 0.0
 
 
-# Do halves of the motion tell the same values? Where not, an effect is missing in some of them.
-
-
-_FAR = 4.5  # standard deviations; noise alone reaches it in one of 1e5 differences
-_NEAR = 3.0  # where most of the residual is no noise
-_FELT = 2.0  # where another value differs so far
-_MOST = 0.5  # of its variance: lasts from row to row
+# Do halves of the motion have the same values? Where not, an effect is missing in some of them.
 
 
 @dataclass(frozen=True)
 class HalvesComparison:
-    """What differs.
+    """Holds what differs.
 
     Attributes:
         factors: (c,) on the standard deviations, 1 and more.
         worst: index of the column that differs by most standard deviations, the joint and the
-            signal whose halves say so, and by how many; None where nothing does.
+            signal whose halves show it, and by how many; None where nothing does.
     """
 
     factors: np.ndarray
     worst: tuple[int, int, str, float] | None = None
 
     def collect_warnings(self, names: Sequence[str], joints: Sequence[str]) -> list[DataWarning]:
-        """One, if something differs."""
+        """Returns a warning, if something differs."""
         if self.worst is None:
             return []
         column, joint, signal, apart = self.worst
         why = (
-            "by more than noise: what the model leaves out counts; `modeler diagnose` looks for it"
-            if apart > _FAR
-            else "and most of the residual lasts from row to row: noise that remembers, or an "
-            "effect that is missing; `modeler diagnose` tells which"
+            "a model term is missing"
+            if apart > THRESHOLDS.split_sigmas
+            else "coloured noise, or a missing model term"
         )
         line = (
-            f"joint {joints[joint]}: rows of little and of much {signal} tell different "
-            f"{names[column]}, {why}; the sigmas are raised for it, by up to a factor "
-            f"{self.factors.max():.2g} ({names[int(self.factors.argmax())]})"
+            f"joint {joints[joint]}: {names[column]} differs significantly between samples of low "
+            f"and of high {signal}: {why}; standard deviations are raised by up to a factor "
+            f"{self.factors.max():.2g} ({names[int(self.factors.argmax())]}); run `modeler "
+            "diagnose`"
         )
         return [DataWarning(line, joints=(joints[joint],))]
 
@@ -263,28 +245,28 @@ def compare_halves(
     lag1: np.ndarray,
     loaded: np.ndarray | None = None,
 ) -> HalvesComparison:
-    """By how much values that differ between halves of the motion raise the standard deviations.
+    """Estimates by how much values that differ between halves of the motion raise the sigmas.
 
     With all effects in the model, beta without some rows differs from beta by noise, of covariance
     C_k - C (Hausman 1978, Econometrica 46). Left out are, joint by joint, its rows below or above
     the mean of its |qd|, of q, of |tau|, and those with or without a load. Where a difference d_k
-    is more than chance, the mean of d_k^2, weighed by how well either half tells the parameter,
-    less what noise makes of it, is added to the variance: the error that an effect makes which is
-    missing in slow motion only is then in sigma.
+    is more than chance, the mean of d_k^2, weighed by how well either half determines the
+    parameter, less what noise makes of it, is added to the variance: the error that an effect makes
+    which is missing in slow motion only is then in sigma.
 
     Args:
         observation: says which row is which.
         compressed: of some rows (rows,), the equations.
         counted: (rows,) that were fitted.
         estimate: its joint weights and kept columns are taken.
-        sigma: (c,) standard deviations so far, memory of the residuals included.
+        sigma: (c,) standard deviations so far, autocorrelation included.
         lag1: (n,) autocorrelation of the residual of each joint over one row.
         loaded: (rows,) True where a load is carried; None: nowhere.
     """
-    kept_columns, row = np.array(estimate.rank.kept_columns, dtype=int), observation.row_sample
+    columns, row = np.array(estimate.rank.kept_columns, dtype=int), observation.row_sample
     weighted = _weight_triangles(compressed, estimate)
-    every = {"speed": np.abs(observation.qd), "position": observation.q,
-             "torque": np.abs(observation.torque)}  # fmt: skip
+    every = {"speed": np.abs(observation.qd), "position": observation.q}
+    every["torque"] = np.abs(observation.torque)
     signals = {name: values[row, observation.row_joint] for name, values in every.items()}
     signals |= {} if loaded is None else {"load": loaded.astype(float)}
     added, farthest, worst = np.zeros(len(sigma)), 0.0, None
@@ -296,32 +278,29 @@ def compare_halves(
         beta, var = _solve_blocks([*R[0], *R[1]])
         if beta is None:
             break
-        raised = np.maximum((sigma[kept_columns] ** 2) / var, 1.0)
+        raised = np.maximum((sigma[columns] ** 2) / var, 1.0)
         for j in range(len(observation.joints)):
             solutions = [_solve_blocks([*np.delete(R[k], j, 0), *R[1 - k]]) for k in (0, 1)]
             if any(b is None for b, _ in solutions) or not all(half[j].any() for half in R):
                 continue
-            d, half = (
-                np.array([b - beta for b, _ in solutions]),
-                np.array([v for _, v in solutions]),
-            )
-            noise = raised * np.maximum(half - var, 1e-6 * var)
+            d = np.array([b - beta for b, _ in solutions])
+            variances = np.array([v for _, v in solutions])
+            noise = raised * np.maximum(variances - var, 1e-6 * var)
             z = (np.abs(d) / np.sqrt(noise)).max(axis=0)
-            more = np.sum((d**2 - noise) / half, axis=0) / np.sum(1.0 / half, axis=0)
-            if z.max() < (_NEAR if lag1[j] > _MOST else _FAR):
+            more = np.sum((d**2 - noise) / variances, axis=0) / np.sum(1.0 / variances, axis=0)
+            is_correlated = lag1[j] > THRESHOLDS.correlated_share
+            limits = THRESHOLDS.split_sigmas, THRESHOLDS.coloured_split_sigmas
+            if z.max() < limits[int(is_correlated)]:
                 continue
-            added[kept_columns] = np.maximum(added[kept_columns], np.where(z > _FELT, more, 0.0))
+            more = np.where(z > THRESHOLDS.raised_split_sigmas, more, 0.0)
+            added[columns] = np.maximum(added[columns], more)
             if z.max() > farthest:
                 farthest, in_rows = float(z.max()), (R[0][j] != 0.0).any(axis=0)[:-1]
-                worst = int(kept_columns[np.where(in_rows, z, 0.0).argmax()]), j, name, farthest
-    beside = estimate_reversal_bias(observation, compressed, counted, estimate, sigma)
-    added = np.maximum(added, beside)
+                worst = int(columns[np.where(in_rows, z, 0.0).argmax()]), j, name, farthest
+    bias = estimate_reversal_bias(observation, compressed, counted, estimate, sigma)
+    added = np.maximum(added, bias)
     square = np.where(sigma > 0.0, sigma, 1.0) ** 2
     return HalvesComparison(np.sqrt(1.0 + added / square), worst)
-
-
-_DOUBTED = 2.0  # standard deviations of a difference, that are chance
-_ALSO = 0.1  # of a variance, that a difference has beside the noise it is expected to have
 
 
 def estimate_reversal_bias(
@@ -331,7 +310,7 @@ def estimate_reversal_bias(
     estimate: Estimate,
     sigma: np.ndarray,
 ) -> np.ndarray:
-    """(c,) variances that what lies near reversals adds: noise of the speed bends friction there.
+    """Returns (c,) variances from rows near reversals: noise of the speed biases friction there.
 
     Without those rows beta is d off. Of noise alone d has the variance u = V_w - V (Hausman 1978);
     what d^2 is more than 4 (u + 0.1 V) is a bias that no residual shows.
@@ -346,33 +325,31 @@ def estimate_reversal_bias(
     added = np.zeros(len(sigma))
     if observation.steady is None:
         return added
-    kept_columns, steady = (
-        np.array(estimate.rank.kept_columns, dtype=int),
-        observation.steady[observation.used],
-    )
+    columns = np.array(estimate.rank.kept_columns, dtype=int)
     weighted = _weight_triangles(compressed, estimate)
     (whole, var), (far, far_var) = (
-        _solve_blocks([*weighted(rows)]) for rows in (counted, counted & steady)
+        _solve_blocks([*weighted(rows)])
+        for rows in (counted, counted & observation.steady[observation.used])
     )
     if whole is None or far is None:
         return added
-    raised = np.maximum(sigma[kept_columns] ** 2 / var, 1.0)
-    noise = raised * (np.abs(far_var - var) + _ALSO * var)
+    raised = np.maximum(sigma[columns] ** 2 / var, 1.0)
+    noise = raised * (np.abs(far_var - var) + THRESHOLDS.reversal_variance_share * var)
     d = (far - whole) ** 2
-    added[kept_columns] = np.maximum(d - _DOUBTED**2 * noise, 0.0)
+    added[columns] = np.maximum(d - THRESHOLDS.reversal_sigmas**2 * noise, 0.0)
     return added
 
 
 def _weight_triangles(
     compressed: Callable[[np.ndarray], CompressedRegression], estimate: Estimate
 ) -> Callable[[np.ndarray], np.ndarray]:
-    """(n, ., k + 1) triangles of some rows, over the sigmas of an estimate; its kept columns."""
+    """Returns (n, ., k + 1) triangles of some rows, over an estimate's sigmas; its kept columns."""
     scale, columns = estimate.sigma[:, None, None], [*estimate.rank.kept_columns, -1]
     return lambda rows: (compressed(rows).triangles / scale)[:, :, columns]
 
 
 def _solve_blocks(blocks: list[np.ndarray]) -> tuple[np.ndarray | None, np.ndarray]:
-    """beta (k,) of weighted triangles [W y], and its white variances; None if they do not tell."""
+    """Returns beta (k,) of weighted triangles [W y], None if singular, and its white variances."""
     whole = compute_triangle(np.vstack(blocks))
     W = whole[:, :-1]
     lengths = np.linalg.norm(W, axis=0)

@@ -9,9 +9,11 @@ and w the torque of a known load, per unit of m = 1. V alone is noisy, so
 is no least-squares problem: with V on the right-hand side of nothing, X = 0 would solve it, and
 with m w there, the noise of V pulls every gain to 0. X is the null vector of the matrix nearest to
 it that has one, V changed and W not (mixed LS-TLS, Van Huffel and Vandewalle 1991, ch. 3; for
-drive gains Gautier and Briot 2012). The load of known size sets the length of X.
+drive gains Gautier and Briot 2012). The load of known size sets the length of X. What a fit takes
+for known, weights of loads and drive gains, is tested against the data.
 """
 
+import contextlib
 import dataclasses
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
@@ -22,41 +24,45 @@ from modeler.core.errors import DataError
 from modeler.core.manifest import JointSpec, ModuleSpec
 from modeler.core.table import format_percent
 from modeler.estimation.covariance import ResidualAutocorrelation, estimate_hac_covariance
-from modeler.estimation.doubts import find_heterogeneous_logs
 from modeler.estimation.identify import Equations, find_disconnected_joints, fit_equations
 from modeler.estimation.least_squares import Estimate, Rows, solve_by_qr, solve_least_squares
-from modeler.estimation.payload import LoadedEquations, Payload, build_loaded_equations
+from modeler.estimation.payload import (
+    LoadedEquations,
+    Payload,
+    build_loaded_equations,
+    find_heterogeneous_logs,
+)
 from modeler.estimation.result import FitResult, ParameterEstimate
+from modeler.estimation.thresholds import THRESHOLDS
 from modeler.numerics.least_squares import (
     CompressedRegression,
     Rank,
     compute_triangle,
     find_independent_columns,
 )
-from modeler.regression import Log, LogReport, Observation
+from modeler.regression import DataWarning, Log, LogReport, Observation
 from modeler.runtime import CompiledModel
 
-MAX_ITERATIONS = 30  # a dozen is enough where the gains are told
-_SETTLED = 1e-9  # relative change of the gains
-_SMALLEST = 1e-12  # singular values below are rounding
+_KNOWN = "known weight"  # its column; no parameter is called so
+_ADVICE = "record a livelier motion of all joints at once, bare and loaded, or a heavier load"
 
 
 @dataclass(frozen=True, eq=False)
 class GainEstimate:
-    """The solution; n joints, d of them driven, c columns.
+    """Holds the solution; n joints, d of them driven, c columns.
 
     Attributes:
         gains: (n,) torque per unit of V; 1 for joints without a motor; NaN if nothing bounds them.
-        beta: (c,) of all columns, with `known` at its place; 0 for those set aside.
+        beta: (c,) of all columns, with `known` at its place; 0 for those that were dropped.
         covariance: (d + c, d + c) of the gains of the driven joints and of beta, for white
-            residuals; 0 for columns set aside and for the known one; its diagonal infinite where
+            residuals; 0 for dropped columns and for the known one; its diagonal infinite where
             nothing bounds them.
         sigma: (n,) standard deviation of a row of each joint, N m or N.
-        rank: columns kept and set aside.
+        rank: columns kept and dropped.
         singular: (d,) singular values of what W leaves of V, descending, every column of V in
             units of its noise: a combination of currents that is all noise has 1.
         vague: (n,) shares of the drives in the combination of the last but one singular value.
-        settled: weights and gains reached their fixed point.
+        is_converged: weights and gains reached their fixed point.
     """
 
     gains: np.ndarray
@@ -71,13 +77,14 @@ class GainEstimate:
     @property
     def gap(self) -> float:
         """s[-2] / s[-1]; infinite with one drive, or without noise."""
-        if len(self.singular) < 2 or self.singular[-1] <= _SMALLEST * self.singular[-2]:
+        last = self.singular[-2:]
+        if len(last) < 2 or last[1] <= THRESHOLDS.tiny_share * last[0]:
             return float("inf")
-        return float(self.singular[-2] / self.singular[-1])
+        return float(last[0] / last[1])
 
 
 def solve_mixed_tls(data: CompressedRegression, known: int) -> GainEstimate | None:
-    """Gains and beta of diag(g) V = W beta; None if W cannot tell the known column from others.
+    """Returns gains and beta of diag(g) V = W beta; None if others reproduce the known column.
 
     QR takes the columns without noise away, [W | -V] = Q [R11 R12; 0 R22]; the gains are the
     smallest right singular vector of R22, and beta = -R11^-1 R12 g. Rows of drive j are divided by
@@ -90,101 +97,93 @@ def solve_mixed_tls(data: CompressedRegression, known: int) -> GainEstimate | No
         data: compressed rows of W and V; W includes the column of the known load.
         known: index of that column, whose parameter is 1.
     """
-    units = np.where(data.free, 1.0, data.compute_torque_rms())
+    rms = data.compute_torque_rms()
+    units = np.where(data.free, 1.0, rms)
     scaled = _scale_torque(data, 1.0 / np.where(units > 0.0, units, 1.0))
     size = np.linalg.norm(data.triangles[:, :, :-1], axis=(1, 2)) + 1e-300
-    sigma = np.where(data.free & (data.compute_torque_rms() == 0.0), size, 1.0)
-    whole = scaled.combine_joints(sigma)[:, :-1]
+    whole = scaled.combine_joints(np.where(data.free & (rms == 0.0), size, 1.0))[:, :-1]
     rank = find_independent_columns(whole, data.names)
     others = [i for i in range(len(data.names)) if i != known]
     without = find_independent_columns(whole[:, others], [data.names[i] for i in others])
     if known not in rank.kept_columns or len(without.kept_columns) == len(rank.kept_columns):
         return None
-    kept_columns = np.asarray(rank.kept_columns, dtype=int)
-    gains, settled, iterations = np.ones(len(units)), False, 0
+    columns = np.asarray(rank.kept_columns, dtype=int)
+    gains, is_converged, iterations = np.ones(len(units)), False, 0
     sigma = solve_least_squares(data).sigma
-    while not settled and iterations < MAX_ITERATIONS:
-        beta, updated, singular, vague = _solve_null_vector(data, kept_columns, sigma, gains)
+    while not is_converged and iterations < THRESHOLDS.max_variance_iterations:
+        beta, updated, singular, vague = _solve_null_vector(data, columns, sigma, gains)
         length = 1.0 / beta[known] if beta[known] else 1.0
         beta, updated = length * beta, np.where(data.free, 1.0, length * updated)
         if not (np.isfinite(updated).all() and updated.all()):
             gains = np.full(len(gains), np.nan)  # nothing holds them: they run to 0, or away
             break
-        settled = bool(np.all(np.abs(updated / gains - 1.0) < _SETTLED))
+        is_converged = bool(np.all(np.abs(updated / gains - 1.0) < THRESHOLDS.weight_tolerance))
         gains, iterations = updated, iterations + 1
-        sigma = _estimate_sigma(data, gains, known)
-    covariance = _compute_covariance(data, kept_columns, known, gains, beta, sigma)
-    return GainEstimate(gains, beta, covariance, sigma, rank, singular, vague, settled)
+        right = _scale_torque(data, gains)  # the weighted fit of the others gives the sigmas
+        right.triangles[:, :, -1] -= data.triangles[:, :, known]
+        sigma = solve_least_squares(right.drop_columns([data.names[known]])).sigma
+    covariance = _compute_covariance(data, columns, known, gains, beta, sigma)
+    return GainEstimate(gains, beta, covariance, sigma, rank, singular, vague, is_converged)
 
 
 def _combine_columns(
-    data: CompressedRegression, kept_columns: np.ndarray, sigma: np.ndarray, torque: np.ndarray
+    data: CompressedRegression, columns: np.ndarray, sigma: np.ndarray, torque: np.ndarray
 ) -> np.ndarray:
-    """[W | V] over sigma: kept columns, then one for each drive with its torque (n, c + 1)."""
-    driven, c = np.flatnonzero(~data.free), len(kept_columns)
-    stacked = np.zeros((*data.triangles.shape[:2], c + len(driven)))
-    stacked[:, :, :c] = data.triangles[:, :, kept_columns] / sigma[:, None, None]
-    stacked[driven, :, c + np.arange(len(driven))] = torque[driven]
-    return stacked.reshape(-1, stacked.shape[2])
+    """Returns [W | V] over sigma: columns, then one for each drive with its torque (n, c + 1)."""
+    driven, c = np.flatnonzero(~data.free), len(columns)
+    combined = np.zeros((*data.triangles.shape[:2], c + len(driven)))
+    combined[:, :, :c] = data.triangles[:, :, columns] / sigma[:, None, None]
+    combined[driven, :, c + np.arange(len(driven))] = torque[driven]
+    return combined.reshape(-1, combined.shape[2])
 
 
 def _solve_null_vector(
-    data: CompressedRegression, kept_columns: np.ndarray, sigma: np.ndarray, gains: np.ndarray
+    data: CompressedRegression, columns: np.ndarray, sigma: np.ndarray, gains: np.ndarray
 ) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
-    """One mixed LS-TLS with given weights and given noise of the columns of V.
+    """Returns one mixed LS-TLS with given weights and given noise of the columns of V.
 
-    Returns the null vector, of any length, beta (c,) and gains (n,); singular (d,); vague (n,).
+    The null vector, of any length, beta (c,) and gains (n,); singular (d,); vague (n,).
     """
-    n, c = len(data.rows), len(kept_columns)
-    driven = np.flatnonzero(~data.free)
+    c, driven = len(columns), np.flatnonzero(~data.free)
     noise = np.abs(gains) / np.sqrt(np.maximum(data.rows, 1))
     torque = -data.triangles[:, :, -1] * noise[:, None] / sigma[:, None]
-    stacked = _combine_columns(data, kept_columns, sigma, torque)
-    lengths = np.linalg.norm(stacked[:, :c], axis=0)
-    stacked[:, :c] /= lengths
-    R = compute_triangle(stacked)
+    combined = _combine_columns(data, columns, sigma, torque)
+    lengths = np.linalg.norm(combined[:, :c], axis=0)
+    combined[:, :c] /= lengths
+    R = compute_triangle(combined)
     _, singular, right = np.linalg.svd(R[c:, c:])
     u = right[-1]
-    new_gains, beta = np.ones(n), np.zeros(len(data.names))
+    new_gains, vague, beta = np.ones(len(gains)), np.zeros(len(gains)), np.zeros(len(data.names))
     new_gains[driven] = noise[driven] * u
-    beta[kept_columns] = -np.linalg.solve(R[:c, :c], R[:c, c:] @ u) / lengths
-    vague = np.zeros(n)
+    beta[columns] = -np.linalg.solve(R[:c, :c], R[:c, c:] @ u) / lengths
     vague[driven] = np.abs(right[-2]) if len(driven) > 1 else 0.0
     return beta, new_gains, singular, vague
 
 
 def _scale_torque(data: CompressedRegression, gains: np.ndarray) -> CompressedRegression:
-    """The data with the right-hand side of joint j multiplied by gains[j]."""
+    """Returns the data with the right-hand side of joint j multiplied by gains[j]."""
     triangles = data.triangles.copy()
     triangles[:, :, -1] *= gains[:, None]
-    return CompressedRegression(data.names, triangles, data.rows, data.free)
-
-
-def _estimate_sigma(data: CompressedRegression, gains: np.ndarray, known: int) -> np.ndarray:
-    """(n,) standard deviation of the rows with these gains, of the weighted fit of the others."""
-    right = _scale_torque(data, gains)
-    right.triangles[:, :, -1] -= data.triangles[:, :, known]
-    return solve_least_squares(right.drop_columns([data.names[known]])).sigma
+    return dataclasses.replace(data, triangles=triangles)
 
 
 def _compute_covariance(
     data: CompressedRegression,
-    kept_columns: np.ndarray,
+    columns: np.ndarray,
     known: int,
     gains: np.ndarray,
     beta: np.ndarray,
     sigma: np.ndarray,
 ) -> np.ndarray:
-    """(J^T S^-1 J)^-1 with J = [-V | W], V without its noise: W beta / g; the known one left out.
+    """Returns (J^T S^-1 J)^-1, J = [-V | W], V without noise: W beta / g; without the known one.
 
     With the measured V in J, its noise would count as information.
     """
-    driven = np.flatnonzero(~data.free)
-    d = len(driven)
-    kept_columns = kept_columns[kept_columns != known]
+    d = int(np.sum(~data.free))
+    columns = columns[columns != known]
     torque = -(data.triangles[:, :, :-1] @ beta) / gains[:, None] / sigma[:, None]
-    R = compute_triangle(np.roll(_combine_columns(data, kept_columns, sigma, torque), d, axis=1))
-    places = np.concatenate([np.arange(d), d + kept_columns])
+    R = compute_triangle(np.roll(_combine_columns(data, columns, sigma, torque), d, axis=1))
+    places = np.concatenate([np.arange(d), d + columns])
     covariance = np.zeros((d + len(beta),) * 2)
     lengths = np.linalg.norm(R, axis=0)  # 0 for the gain of a joint whose torque is noise
     if not (np.isfinite(R).all() and lengths.all()) or np.linalg.cond(R / lengths) > 1e12:
@@ -195,23 +194,9 @@ def _compute_covariance(
     return covariance
 
 
-# Drive gains from the currents of bare and of loaded runs.
-
-
-LOOSE = 0.1
-"""Share of a gain that its sigma may be; beyond, a maker's data sheet is as good."""
-
-_FAR = 5.0  # standard deviations of a singular value of noise
-_KNOWN = "known weight"  # its column; no parameter is called so
-_MORE = (
-    "record a motion that is livelier and moves all joints at once, bare and loaded, or a heavier "
-    "load"
-)
-
-
 @dataclass(frozen=True, eq=False)
 class GainFit:
-    """Drive gains and the fit with them.
+    """Holds drive gains and the fit with them.
 
     Attributes:
         gains: torque per drive unit, by joint, N m or N.
@@ -225,7 +210,7 @@ class GainFit:
 
 
 def set_unit_gains(spec: ModuleSpec) -> ModuleSpec:
-    """The manifest to read logs with before gains are known: 1 where the robot file states none."""
+    """Returns the manifest with gain 1 where the robot file states none, to read logs with."""
     joints = tuple(
         dataclasses.replace(joint, drive_gain=1.0) if joint.drive_gain is None else joint
         for joint in spec.joints
@@ -234,7 +219,7 @@ def set_unit_gains(spec: ModuleSpec) -> ModuleSpec:
 
 
 def check_currents(logs: Sequence[Log], joints: Sequence[JointSpec]) -> None:
-    """Nothing, if every motor's current is logged, or the duty that makes it.
+    """Checks that every motor's current is logged, or the duty that makes it.
 
     Raises:
         DataError: a log gives a torque instead; names it.
@@ -250,17 +235,17 @@ def check_currents(logs: Sequence[Log], joints: Sequence[JointSpec]) -> None:
 
 
 def are_currents(logs: Sequence[Log | LogReport]) -> bool:
-    """True if no torque of the logs was measured as a torque."""
+    """Returns True if no torque of the logs was measured as a torque."""
     return not any(source.startswith("tau") for log in logs for source in log.torque_source)
 
 
 def identify_gains(
     model: CompiledModel, observation: Observation, payloads: Sequence[Payload]
 ) -> GainFit:
-    """One gain for each drive, base parameters and loads: g_j V = W beta + W_L chi_L.
+    """Returns one gain for each drive, base parameters and loads: g_j V = W beta + W_L chi_L.
 
-    Gautier 2012, section 3; see `solve_mixed_tls`). Sigmas are those of gains and parameters
-    together, raised for residuals that remember; the error of the scale, which the load's mass
+    Gautier 2012, section 3; see `solve_mixed_tls`. Sigmas are those of gains and parameters
+    together, raised for autocorrelated residuals; the error of the scale, which the load's mass
     sets, is not in them.
 
     Args:
@@ -269,8 +254,8 @@ def identify_gains(
         payloads: at least one of known mass.
 
     Raises:
-        DataError: no load of known mass, a current that is 0 throughout, or logs that do not tell
-            the gains; says by which figure.
+        DataError: no load of known mass, a current that is 0 throughout, or logs from which the
+            gains are not identifiable; says by which figure.
     """
     loaded = build_loaded_equations(model, observation, payloads)
     if not loaded.weighed:
@@ -306,35 +291,34 @@ def _estimate_gains(observation: Observation, loaded: LoadedEquations) -> GainEs
     estimate = solve_mixed_tls(data, known=columns - 1)
     if estimate is None:
         raise DataError(
-            "--method tls: the weight of the known load cannot be told from the robot's own "
-            "parameters, or from the load's inertia, in these logs, so nothing sets the scale of "
-            f"the gains; {_MORE}"
+            "--method tls: the weight of the known load is not identifiable apart from parameters "
+            f"of robot and load, so nothing sets the scale of the gains; {_ADVICE}"
         )
     if not np.isfinite(estimate.covariance).all():
         raise DataError(
-            f"--method tls: the gain of joint {_find_worst_joints(observation, estimate)} has a "
-            "sigma without "
-            f"bound, as where it rests; {_MORE}"
+            f"--method tls: the gain of joint {_find_worst_joints(observation, estimate)} has an "
+            f"unbounded sigma, as where it rests; {_ADVICE}"
         )
     return estimate
+
+
+def _find_driven(joints: Sequence[JointSpec]) -> list[int]:
+    return [j for j, joint in enumerate(joints) if joint.actuated]
 
 
 def _estimate_autocorrelation(
     observation: Observation, equations: Equations, estimate: GainEstimate
 ) -> ResidualAutocorrelation:
-    """What memory of the residuals does to the sigmas of gains and parameters."""
-    driven = [j for j, joint in enumerate(observation.joints) if joint.actuated]
-    predicted = observation.y - equations.y + equations.W @ estimate.beta[:-1]
+    """Returns what autocorrelated residuals do to the sigmas of gains and parameters."""
+    driven, beta = _find_driven(observation.joints), estimate.beta[:-1]
+    predicted = observation.y - equations.y + equations.W @ beta
     is_of_joint = observation.row_joint[:, None] == np.array(driven)
-    J = np.column_stack(
-        [is_of_joint * (-predicted / estimate.gains[observation.row_joint])[:, None], equations.W]
-    )
-    values = np.concatenate([estimate.gains[driven], estimate.beta[:-1]])
-    residual = equations.y - equations.W @ estimate.beta[:-1]
-    white = Estimate(
-        values, estimate.covariance[:-1, :-1], estimate.sigma, estimate.rank,
-        0, estimate.is_converged, 0.0, 0.0, 0,
-    )  # fmt: skip
+    currents = is_of_joint * (-predicted / estimate.gains[observation.row_joint])[:, None]
+    J, values = np.column_stack([currents, equations.W]), estimate.gains[driven]
+    values, residual = np.concatenate([values, beta]), equations.y - equations.W @ beta
+    covariance, rank = estimate.covariance[:-1, :-1], estimate.rank
+    settled = estimate.is_converged
+    white = Estimate(values, covariance, estimate.sigma, rank, 0, settled, 0.0, 0.0, 0)
     every = np.ones(len(residual), dtype=bool)
     return estimate_hac_covariance(Rows(observation, J, residual + J @ values, every), white)
 
@@ -342,27 +326,26 @@ def _estimate_autocorrelation(
 def _explain_ambiguity(
     observation: Observation, estimate: GainEstimate, autocorrelation: ResidualAutocorrelation
 ) -> str:
-    """Why the logs do not tell the gains apart: no gap of singular values, or a large sigma."""
-    driven = [j for j, joint in enumerate(observation.joints) if joint.actuated]
-    d = len(driven)
-    sigma = autocorrelation.factors[:d] * np.sqrt(np.diag(estimate.covariance)[:d])
-    share = sigma / np.abs(estimate.gains[driven])
+    """Returns why gains are not identifiable: no gap of singular values, or a large sigma."""
+    driven = _find_driven(observation.joints)
+    d, gap = len(driven), f"s[-2]/s[-1] = {estimate.gap:.4g}"
+    factors = autocorrelation.factors[:d]
+    share = factors * np.sqrt(np.diag(estimate.covariance)[:d]) / np.abs(estimate.gains[driven])
     rows = np.bincount(observation.row_joint, minlength=len(observation.joints))[driven]
-    noise = 1.0 + _FAR * float(autocorrelation.factors[:d].max()) * float(np.sqrt(2.0 / rows.min()))
+    spread = float(factors.max()) * float(np.sqrt(2.0 / rows.min()))
+    noise = 1.0 + THRESHOLDS.noise_gap_sigmas * spread
     if estimate.gap**2 < noise:
         names = _find_worst_joints(observation, estimate)
         return (
-            f"--method tls: no gap between the singular values that tell the drive gains: the last "
-            f"two are {_format_values(estimate.singular[-2:])}, s[-2]/s[-1] = {estimate.gap:.4g}, "
-            "and "
-            f"noise alone makes up to {noise**0.5:.4g}; least told: joint {names}; {_MORE}"
+            f"--method tls: no gap between the singular values of the drive gains: {gap}, and "
+            f"noise alone makes up to {noise**0.5:.4g}; least determined: joint {names}; {_ADVICE}"
         )
-    if not np.all(share <= LOOSE):
+    if not np.all(share <= THRESHOLDS.max_gain_sigma):
         worst = int(np.argmax(np.where(np.isnan(share), np.inf, share)))
         return (
             f"--method tls: the gain of joint {observation.joints[driven[worst]].name} has a sigma "
             f"of {format_percent(share[worst])}, no better than a data sheet; expected at most "
-            f"{format_percent(LOOSE)} (s[-2]/s[-1] = {estimate.gap:.4g}); {_MORE}"
+            f"{format_percent(THRESHOLDS.max_gain_sigma)} ({gap}); {_ADVICE}"
         )
     return ""
 
@@ -373,10 +356,6 @@ def _find_worst_joints(observation: Observation, estimate: GainEstimate) -> str:
     return ", ".join(observation.joints[j].name for j in worst[:3])
 
 
-def _format_values(values: np.ndarray) -> str:
-    return ", ".join(f"{value:.4g}" for value in values)
-
-
 def _build_result(
     spec: ModuleSpec,
     fit: FitResult,
@@ -384,20 +363,17 @@ def _build_result(
     autocorrelation: ResidualAutocorrelation,
     loaded: LoadedEquations,
 ) -> GainFit:
-    driven = [j for j, joint in enumerate(spec.joints) if joint.actuated]
-    d, c = len(driven), len(fit.parameters)
-    covariance = estimate.covariance[:-1, :-1] * np.outer(
-        autocorrelation.factors, autocorrelation.factors
-    )
-    sigma = np.sqrt(np.diag(covariance))
-    starts = [1.0 if (gain := spec.joints[j].drive_gain) is None else gain for j in driven]
-    gains = tuple(
-        ParameterEstimate(
-            f"g_tau{spec.joints[j].name}", f"{spec.joints[j].effort_unit}/unit",
-            start * float(estimate.gains[j]), abs(start) * float(s), True, "estimated",
-        )
-        for j, start, s in zip(driven, starts, sigma[:d], strict=True)
-    )  # fmt: skip
+    driven = _find_driven(spec.joints)
+    d, c, factors = len(driven), len(fit.parameters), autocorrelation.factors
+    covariance = estimate.covariance[:-1, :-1] * np.outer(factors, factors)
+    sigma, gains = np.sqrt(np.diag(covariance)), {}
+    for j, s in zip(driven, sigma[:d], strict=True):
+        joint, start = spec.joints[j], spec.joints[j].drive_gain
+        start = 1.0 if start is None else start
+        name, unit = f"g_tau{joint.name}", f"{joint.effort_unit}/unit"
+        value, deviation = start * float(estimate.gains[j]), abs(start) * float(s)
+        gain = ParameterEstimate(name, unit, value, deviation, True, "estimated")
+        gains[joint.name] = gain
     values = [
         p if p.sigma is None else dataclasses.replace(p, sigma=float(s))
         for p, s in zip((*fit.parameters, *fit.loads), sigma[d:], strict=True)
@@ -409,31 +385,122 @@ def _build_result(
         parameters=tuple(values[:c]),
         loads=tuple(values[c:]),
         covariance=covariance[d : d + c, d : d + c],
-        gains=gains,
+        gains=tuple(gains.values()),
         singular_values=tuple(map(float, estimate.singular)),
         sentences=(*fit.sentences, *_describe_gains(estimate, loaded)),
     )
-    names = [spec.joints[j].name for j in driven]
-    return GainFit(
-        {name: gain.value for name, gain in zip(names, gains, strict=True)},
-        {name: gain.sigma or 0.0 for name, gain in zip(names, gains, strict=True)},
-        result,
-    )
+    sigmas = {name: gain.sigma or 0.0 for name, gain in gains.items()}
+    return GainFit({name: gain.value for name, gain in gains.items()}, sigmas, result)
 
 
 def _describe_gains(estimate: GainEstimate, loaded: LoadedEquations) -> list[str]:
     masses = ", ".join(f"{payload.mass:g} kg" for payload in loaded.weighed)
-    said = [
+    lines = [
         f"the known load ({masses}) sets the scale: 1 % of its mass is 1 % of every drive gain and "
         "every parameter, beyond the sigmas"
     ]
     if len(estimate.singular) > 1:
         gap = f"{estimate.gap:.4g}" if np.isfinite(estimate.gap) else "infinite"
-        said.append(
-            "singular values of the currents beside the model: "
-            f"{_format_values(estimate.singular)} "
-            f"(noise has 1); gap s[-2]/s[-1] = {gap}"
+        values = ", ".join(f"{value:.4g}" for value in estimate.singular)
+        lines.append(
+            f"singular values of the currents beside the model: {values} (noise has 1); gap "
+            f"s[-2]/s[-1] = {gap}"
         )
     if not estimate.is_converged:
-        said.append(f"gains and weights still change after {MAX_ITERATIONS} iterations")
-    return said
+        count = THRESHOLDS.max_variance_iterations
+        lines.append(f"gains and weights have not converged after {count} iterations")
+    return lines
+
+
+def check_known_quantities(
+    model: CompiledModel, observation: Observation, payloads: Sequence[Payload], currents: bool
+) -> list[DataWarning]:
+    """Returns warnings on known quantities that the logs contradict, each with the factor.
+
+    First that a load sits alike in all its logs, and that all are of one robot; if not, nothing
+    else is tested.
+
+    Each is set free with all parameters: the mass of a load as the factor of its torques, drive
+    gains as in `identify_gains`. It is contradicted if it is farther from what was given than
+    so many of its own standard deviations, autocorrelation included, and a share of it.
+
+    Args:
+        model: the robot.
+        observation: of bare and loaded logs.
+        payloads: of which those of known mass are tested.
+        currents: True if the torques are logged currents times the gains of the robot file.
+    """
+    lines = find_heterogeneous_logs(model, observation, payloads)
+    if not lines and any(payload.mass is not None for payload in payloads):
+        loaded = build_loaded_equations(model, observation, payloads)
+        lines = _check_weights(observation, loaded, currents)
+        if currents:
+            with contextlib.suppress(DataError):  # unidentifiable gains contradict none
+                gains = identify_gains(model, observation, payloads)
+                if doubtful := describe_deviations(model.spec, gains, only_doubtful=True):
+                    lines.append(
+                        "by the weight of the load, the drive gains are not those of the robot "
+                        f"file: {'; '.join(doubtful)}; check them, or use --method tls"
+                    )
+    return [DataWarning(line, affects_values=True) for line in lines]
+
+
+def _check_weights(observation: Observation, loaded: LoadedEquations, currents: bool) -> list[str]:
+    lines = []
+    for i, payload in enumerate(loaded.weighed):
+        if not loaded.can_identify_mass(i):
+            continue
+        # The factor on its torques that the logs ask for; 1 if its mass is right.
+        column = loaded.torques[:, i]
+        equations = loaded.equations.append_columns(column, ["factor"])
+        equations = dataclasses.replace(equations, y=loaded.equations.y + column)
+        fit = fit_equations(observation, equations, "weighted", noise_only=True)
+        factor = fit.loads[-1]
+        if factor.sigma is None or not _is_contradicted(factor.value, factor.sigma):
+            continue
+        stated = payload.mass or 0.0
+        mass, sigma = factor.value * stated, factor.sigma * stated
+        more = format_percent(abs(factor.value - 1.0))
+        more += " more" if factor.value > 1.0 else " less"
+        cause = (
+            f"all drive gains are {1.0 / factor.value:.3g} times what the robot file says; "
+            "--method tls finds the gains"
+            if currents
+            else f"all torques are logged {factor.value:.3g} times as large as they are, by wrong "
+            "drive gains in the controller"
+        )
+        lines.append(
+            f"payload {payload.name}: the logs say that it weighs {mass:.4g} +- {sigma:.1g} kg, "
+            f"{more} than the {stated:g} kg given; check the weight, or {cause}"
+        )
+    return lines
+
+
+def _is_contradicted(factor: float, sigma: float) -> bool:
+    limit = max(THRESHOLDS.known_sigmas * sigma, THRESHOLDS.min_known_share)
+    return abs(factor - 1.0) > limit
+
+
+def describe_deviations(
+    spec: ModuleSpec, gain_fit: GainFit, only_doubtful: bool = False
+) -> list[str]:
+    """Returns how far gains are from those of the robot file, a phrase for each that differs."""
+    lines = []
+    for joint in spec.joints:
+        if (gain := gain_fit.gains.get(joint.name)) is None:
+            continue
+        sigma, stated = gain_fit.sigmas[joint.name], joint.drive_gain
+        label = f"joint {joint.name} {gain:.4g} +- {sigma:.1g}"
+        if stated is None or gain * stated < 0.0:
+            if stated is None and gain >= 0.0:
+                continue
+            beside = "negative" if stated is None else f"of the other sign than {stated:.4g}"
+            lines.append(
+                f"{label}, {beside}: current{joint.name} or q{joint.name} has the wrong sign; if "
+                "the log is wrong, give that column sign = -1 in [log]"
+            )
+        elif not only_doubtful or _is_contradicted(gain / stated, sigma / abs(stated)):
+            share = gain / stated - 1.0
+            side = "above" if share > 0.0 else "below"
+            lines.append(f"{label}, {format_percent(abs(share))} {side} {stated:.4g}")
+    return lines

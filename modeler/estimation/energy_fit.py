@@ -9,17 +9,17 @@ import numpy as np
 from modeler.core.errors import DataError, Method
 from modeler.core.table import format_percent
 from modeler.estimation.covariance import estimate_autocorrelation, sum_lagged_products
-from modeler.estimation.essential import EssentialParameters, select_essential_parameters
 from modeler.estimation.identify import (
-    SEEN,
     build_base_equations,
     build_result,
     find_disconnected_joints,
+    find_method,
     identify,
 )
 from modeler.estimation.least_squares import Estimate, compute_condition_numbers, expand_columns
-from modeler.estimation.methods import find_method
-from modeler.estimation.result import KNOWN_BELOW_PERCENT, EnergyReport, FitResult, ModelFigures
+from modeler.estimation.parameters import EssentialParameters, select_essential_parameters
+from modeler.estimation.result import EnergyReport, FitResult, ModelFigures
+from modeler.estimation.thresholds import THRESHOLDS
 from modeler.numerics.least_squares import (
     compress_rows,
     compute_triangle,
@@ -32,16 +32,10 @@ from modeler.runtime import CompiledModel
 Rule = Literal["simpson", "trapezoid"]
 """How powers are integrated."""
 
-_ENERGY = ("inertial", "rotor_inertia")
-"""Kinds of base parameters whose work is a difference of energies."""
-
-_BLOCK = 4000  # samples evaluated at a time: 4000 x 8 joints x 122 columns is 31 MB
-_STILL = 1e-9  # of the largest: work below it is rounding
-
 
 @dataclass(frozen=True, eq=False)
 class EnergyRows:
-    """y = W beta of r windows; n joints, c base parameters.
+    """Holds y = W beta of r windows; n joints, c base parameters.
 
     Attributes:
         W: (r, c) work of each base parameter at value one over the window; W beta in J.
@@ -66,12 +60,8 @@ class EnergyRows:
     window: float
 
     def estimate(self, names: tuple[str, ...], method: Method) -> "HeteroscedasticEstimate":
-        """By `solve_heteroscedastic`."""
+        """Estimates beta by `solve_heteroscedastic`."""
         return solve_heteroscedastic(self.W, self.y, self.spread, names, self.stretch, method)
-
-
-_Windows = tuple[Segment, np.ndarray, np.ndarray]
-"""A segment, the samples (r, k) of its windows, and the number (r,) of the stretch of each."""
 
 
 def build_energy_rows(
@@ -80,7 +70,7 @@ def build_energy_rows(
     window: float | None = None,
     rule: Rule = "simpson",
 ) -> EnergyRows:
-    """The rows of the energy model of Houda, Amouri, Beji and Mallem, eqs. (13) to (17).
+    """Returns the rows of the energy model of Houda, Amouri, Beji and Mallem, eqs. (13) to (17).
 
         y = int tau^T qd dt = (Delta h) beta + int of the power of all other parameters,
 
@@ -88,7 +78,7 @@ def build_energy_rows(
     E = qd^T M(q) qd / 2, whose integral is E(t2) - E(t1) without any acceleration, and that of
     gravity, qd^T g(q); all others the power qd^T phi. One rule integrates y and all powers over the
     same samples: the kinks of |qd| cancel. Rows at low speed stay, for the power of dry friction
-    has no leap. A window counts if every sample of every joint does: the energy is the machine's.
+    has no jump. A window counts if every sample of every joint does: the energy is the machine's.
 
     Args:
         model: the compiled robot.
@@ -101,7 +91,7 @@ def build_energy_rows(
         DataError: a window longer than any motion, no window without a missing sample, or a robot
             that stands still.
     """
-    windows = _choose_windows(observation, window)
+    windows, logs = _choose_windows(observation, window), ", ".join(observation.logs)
     counts = [len(at) for _, at, _ in windows]
     if not sum(counts):
         valid = np.concatenate([part.segment.valid for part in observation.stretches])
@@ -110,35 +100,38 @@ def build_energy_rows(
             for joint, share in zip(observation.joints, valid.mean(axis=0), strict=True)
         ]
         raise DataError(
-            f"{', '.join(observation.logs)}: no window in which every sample of every joint is a "
-            f"measurement ({', '.join(bad)}); the energy is that of the whole machine: mend the "
-            "log, give a shorter --window, or take --model torque"
+            f"{logs}: no window in which every sample of every joint is a measurement "
+            f"({', '.join(bad)}); the energy is that of the whole machine: repair the log, give a "
+            "shorter --window, or take --model torque"
         )
     rows = [_integrate_rows(model, segment, at, rule) for segment, at, _ in windows if len(at)]
     W, y, balance, spread, time = (np.concatenate(group) for group in zip(*rows, strict=True))
     # J are compared with the largest torque over a unit of travel:
-    least = _STILL * float(np.abs(observation.torque).max(initial=0.0))
+    least = THRESHOLDS.rounding_share * float(np.abs(observation.torque).max(initial=0.0))
     if not np.abs(W).max() > 0.0 or not np.abs(y).max() > least:
         raise DataError(
-            f"{', '.join(observation.logs)}: the motors do no work in any window: no joint with a "
-            "torque moves; the energy model needs velocity, record a motion of every joint"
+            f"{logs}: the motors do no work in any window: no joint with a torque moves; record a "
+            "motion of every joint"
         )
-    return EnergyRows(
-        W=W, y=y, balance=balance, spread=spread, time=time,
-        stretch=np.concatenate([stretch for _, _, stretch in windows]),
-        run=np.repeat([segment.run for segment, _, _ in windows], counts),
-        window=(windows[0][1].shape[1] - 1) * windows[0][0].step,
-    )  # fmt: skip
+    stretch = np.concatenate([stretch for _, _, stretch in windows])
+    run = np.repeat([segment.run for segment, _, _ in windows], counts)
+    length = (windows[0][1].shape[1] - 1) * windows[0][0].step
+    return EnergyRows(W, y, balance, spread, stretch, time, run, length)
 
 
-def _choose_windows(observation: Observation, window: float | None) -> list[_Windows]:
-    """Windows of all segments, laid into the uninterrupted stretches of good samples."""
+def _choose_windows(
+    observation: Observation, window: float | None
+) -> list[tuple[Segment, np.ndarray, np.ndarray]]:
+    """Returns segments, samples (r, k) of their windows, and the stretch (r,) of each window.
+
+    Windows are laid into the uninterrupted stretches of good samples.
+    """
     windows, number = [], 0
     if window is not None:
         _check_window(observation, window)
     for part in observation.stretches:
-        s, centres = part.segment, part.rows.centres
-        spacing = int(centres[1] - centres[0]) if len(centres) > 1 else 2
+        s = part.segment
+        spacing = part.decimation if len(part.rows.centres) > 1 else 2
         intervals = 2 * max(1, round((spacing if window is None else window / s.step) / 2))
         inside = np.arange(intervals + 1)
         every, stretch = [np.zeros((0, len(inside)), dtype=int)], [np.zeros(0, dtype=int)]
@@ -154,23 +147,21 @@ def _choose_windows(observation: Observation, window: float | None) -> list[_Win
 
 
 def _check_window(observation: Observation, window: float) -> None:
-    parts = observation.stretches
-    step = min(part.segment.step for part in parts)
-    longest = max(part.segment.step * max(0, int(part.segment.whole.sum()) - 1) for part in parts)
-    where = ", ".join(observation.logs)
-    if not window >= 2.0 * step * (1.0 - 1e-6):
-        raise DataError(
-            f"{where}: --window of {window:g} s; expected two samples or more, {2.0 * step:.4g} s"
-        )
+    segments = [part.segment for part in observation.stretches]
+    shortest = 2.0 * min(s.step for s in segments)
+    longest = max(s.step * max(0, int(s.whole.sum()) - 1) for s in segments)
+    where = f"{', '.join(observation.logs)}: --window of {window:g} s"
+    if not window >= shortest * (1.0 - 1e-6):
+        raise DataError(f"{where}; expected two samples or more, {shortest:.4g} s")
     if window > longest:
         raise DataError(
-            f"{where}: --window of {window:g} s is longer than the longest motion without a gap, "
-            f"{longest:.4g} s; give a shorter one, or leave it out"
+            f"{where} is longer than the longest motion without a gap, {longest:.4g} s; give a "
+            "shorter one, or leave it out"
         )
 
 
 def compute_weights(intervals: int, step: float, rule: Rule) -> np.ndarray:
-    """(intervals + 1,) s, of the samples of a window; intervals is even."""
+    """Returns (intervals + 1,) s, of the samples of a window; intervals is even."""
     inner, unit = np.where(np.arange(intervals + 1) % 2, 4.0, 2.0), step / 3.0
     if rule == "trapezoid":
         inner, unit = np.ones(intervals + 1), step
@@ -181,10 +172,10 @@ def compute_weights(intervals: int, step: float, rule: Rule) -> np.ndarray:
 def _integrate_rows(
     model: CompiledModel, s: Segment, windows: np.ndarray, rule: Rule
 ) -> tuple[np.ndarray, ...]:
-    """W, y, balance, spread and times of the windows of one segment."""
+    """Returns W, y, balance, spread and times of the windows of one segment."""
     w = compute_weights(windows.shape[1] - 1, s.step, rule)
     signals = compute_signals(model, s)
-    per_block = max(1, _BLOCK // len(w))
+    per_block = max(1, THRESHOLDS.energy_block_samples // len(w))
     blocks = []
     for first in range(0, len(windows), per_block):
         at = windows[first : first + per_block]
@@ -205,7 +196,7 @@ def _integrate_rows(
 def _compute_powers(
     model: CompiledModel, q: np.ndarray, qd: np.ndarray, qdd: np.ndarray, read: np.ndarray | None
 ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """All power; power that is no change of kinetic energy; kinetic energy: (samples, c) each.
+    """Returns all power; power but that of kinetic energy; kinetic energy: (samples, c) each.
 
     The regressor gives them all: E_c = qd^T (phi_c(q, 0, qd) - phi_c(q, 0, 0)) / 2.
     """
@@ -220,28 +211,20 @@ def _compute_powers(
 
 
 def find_kinetic_columns(model: CompiledModel) -> np.ndarray:
-    """(c,) True for base parameters of bodies and rotors."""
-    return np.array([base.kind in _ENERGY for base in model.spec.base])
-
-
-# The fit.
+    """Returns (c,) True for base parameters of bodies and rotors: their work is a difference."""
+    return np.array([base.kind in ("inertial", "rotor_inertia") for base in model.spec.base])
 
 
 # Least squares over rows of unequal, modelled variance: one sum of known shares per row.
 
 
-_ROUNDS = 30
-_SETTLED = 1e-6  # relative change of the variances
-_LEAST = 1e-12  # of the mean square of y: a variance is at least this
-
-
 @dataclass(frozen=True, eq=False, kw_only=True)
 class HeteroscedasticEstimate(Estimate):
-    """The solution; its condition numbers are those of W unweighted, its sigma is 1.
+    """Holds the solution; its condition numbers are those of W unweighted, its sigma is 1.
 
     Attributes:
-        deviation: (rows,) modelled standard deviation of each row.
-        memory: largest factor by which neighbours that repeat each other raise a sigma.
+        row_sigma: (rows,) modelled standard deviation of each row.
+        autocorrelation_factor: largest factor by which autocorrelation raises a sigma.
     """
 
     row_sigma: np.ndarray
@@ -256,16 +239,16 @@ def solve_heteroscedastic(
     stretch: np.ndarray,
     method: Method = "weighted",
 ) -> HeteroscedasticEstimate:
-    """The estimate of beta in y = W beta + rho, var(rho_r) = sum_j shares_rj s_j, s_j >= 0.
+    """Returns beta in y = W beta + rho, var(rho_r) = sum_j shares_rj s_j, s_j >= 0.
 
     The variances s_j, and one more that all rows have alike (what no source of noise explains:
     rows at rest must not weigh without bound), follow from the squares of the residuals by
     Fisher's scoring, which is their maximum likelihood for normal noise: weighted non-negative
-    least squares of r^2 / (1 - h), h the leverage, with weights 1 / var^2, until they settle.
+    least squares of r^2 / (1 - h), h the leverage, with weights 1 / var^2, until they converge.
 
     Weighted: rows divided by their standard deviations, (W^T V^-1 W)^-1. Ordinary: eq. (18) of
     Houda et al., all rows alike; its covariance is (W^T W)^-1 W^T V W (W^T W)^-1, for the rows are
-    no more alike than before. Both are raised where neighbouring residuals repeat each other.
+    no more alike than before. Both are raised for autocorrelated residuals.
 
     Args:
         W: (rows, c).
@@ -276,21 +259,20 @@ def solve_heteroscedastic(
         method: "weighted" or "ordinary".
     """
     rank = find_independent_columns(compute_triangle(W), names)
-    kept_columns = np.asarray(rank.kept_columns, dtype=int)
-    X = W[:, kept_columns]
+    columns = np.asarray(rank.kept_columns, dtype=int)
+    X = W[:, columns]
     used = shares[:, shares.max(axis=0) > 0.0]
     sources = np.column_stack([used / used.mean(axis=0), np.ones(len(y))])  # the last: all alike
-    deviation, settled = _iterate_deviations(X, y, sources, method)
+    deviation, is_converged = _iterate_deviations(X, y, sources, method)
     A = _compute_influence(X, deviation, method)
     values, C = A @ y, (A * deviation**2) @ A.T
-    # As in `coloured`; neighbours share the sample between them, so a little is always there.
+    # Neighbours share the sample between them, so a little autocorrelation is always there.
     sample, white = np.arange(len(y)), (y - X @ values) / deviation
     r = estimate_autocorrelation(white, sample, stretch)
     extra = sum_lagged_products((A * deviation).T, r, sample, stretch)
     factors = np.sqrt(np.maximum(1.0 + np.diag(extra) / np.diag(C), 1.0))
-    beta, covariance = expand_columns(
-        len(names), kept_columns, values, C * np.outer(factors, factors)
-    )
+    covariance = C * np.outer(factors, factors)
+    beta, covariance = expand_columns(len(names), columns, values, covariance)
     raw, scaled = compute_condition_numbers(X)
     return HeteroscedasticEstimate(
         beta,
@@ -298,10 +280,10 @@ def solve_heteroscedastic(
         np.ones(1),
         rank,
         0,
-        settled,
+        is_converged,
         raw,
         scaled,
-        max(1, len(y) - len(kept_columns)),
+        max(1, len(y) - len(columns)),
         row_sigma=deviation,
         autocorrelation_factor=float(factors.max(initial=1.0)),
     )
@@ -310,29 +292,27 @@ def solve_heteroscedastic(
 def _iterate_deviations(
     X: np.ndarray, y: np.ndarray, sources: np.ndarray, method: Method
 ) -> tuple[np.ndarray, bool]:
-    """(rows,) standard deviations, and whether they no longer change."""
+    """Returns (rows,) standard deviations, and whether they no longer change."""
     from scipy.optimize import nnls  # it takes long to load
 
     deviation = np.ones(len(y))
-    least = max(_LEAST * float(np.mean(y**2)), np.finfo(float).tiny)
-    for _ in range(_ROUNDS):
+    least = max(THRESHOLDS.tiny_share * float(np.mean(y**2)), np.finfo(float).tiny)
+    for _ in range(THRESHOLDS.max_variance_iterations):
         weight = 1.0 / deviation**2
         A = _compute_influence(X, deviation, method)
         leverage = np.clip(np.einsum("rc,cr->r", X, A), 0.0, 0.99)
         squares = (y - X @ (A @ y)) ** 2 / (1.0 - leverage)
         scale = float(np.mean(squares * weight)) or 1.0
-        variances, _ = nnls(
-            sources * weight[:, None], squares * weight / scale
-        )  # a step of scoring
+        variances, _ = nnls(sources * weight[:, None], squares * weight / scale)  # of scoring
         updated = np.sqrt(np.maximum(sources @ variances * scale, least))
-        if np.all(np.abs(updated / deviation - 1.0) < _SETTLED):
+        if np.all(np.abs(updated / deviation - 1.0) < THRESHOLDS.variance_tolerance):
             return updated, True
         deviation = updated
     return deviation, False
 
 
 def _compute_influence(X: np.ndarray, deviation: np.ndarray, method: Method) -> np.ndarray:
-    """(c, rows) A of beta = A y."""
+    """Returns (c, rows) A of beta = A y."""
     weight = 1.0 / deviation if method == "weighted" else np.ones(len(X))
     lengths = np.linalg.norm(X * weight[:, None], axis=0)
     q, r = np.linalg.qr(X * weight[:, None] / lengths)
@@ -341,7 +321,7 @@ def _compute_influence(X: np.ndarray, deviation: np.ndarray, method: Method) -> 
 
 @dataclass(frozen=True, eq=False)
 class EnergyFit:
-    """A fit of the energy model, and its rows for whoever leaves some of them out.
+    """Holds a fit of the energy model, and its rows for whoever leaves some of them out.
 
     Attributes:
         result: of all rows.
@@ -356,7 +336,7 @@ class EnergyFit:
     observation: Observation
 
     def fit_without(self, held: np.ndarray) -> np.ndarray:
-        """Beta (c,) of the windows that touch no sample (s,) of the observation that is held out.
+        """Fits beta (c,) to the windows that touch no held-out sample (s,) of the observation.
 
         A window touches the samples nearest to its ends.
         """
@@ -369,7 +349,7 @@ class EnergyFit:
                 touched = held[samples][near.clip(0, len(samples) - 1)].any(axis=1)
                 free[np.flatnonzero(windows)[touched]] = False
         W, y = self.rows.W / self.deviation[:, None], self.rows.y / self.deviation
-        return solve_scaled_least_squares(W[free], y[free], SEEN)
+        return solve_scaled_least_squares(W[free], y[free], THRESHOLDS.min_singular_share)
 
 
 def identify_energy(
@@ -379,7 +359,7 @@ def identify_energy(
     method: Method = "weighted",
     below: float | None = None,
 ) -> EnergyFit:
-    """The base parameters from energies over windows, and the torque model beside them.
+    """Returns the base parameters from energies over windows, and the torque model beside them.
 
     Args:
         model: the compiled robot.
@@ -392,47 +372,50 @@ def identify_energy(
         DataError: a motor without torque, few windows, no such method, or as `build_energy_rows`.
     """
     find_method(method, "windows")
+    logs, names = ", ".join(observation.logs), observation.names
     dead = [observation.joints[j].name for j in find_disconnected_joints(observation)]
     if dead:
         raise DataError(
-            f"{', '.join(observation.logs)}: the torque of joint {', '.join(dead)} is 0 in every "
-            "row; the energy model needs the torque of every motor, for it adds up their work; "
-            "connect it, or take --model torque"
+            f"{logs}: the torque of joint {', '.join(dead)} is 0 in every row; the energy model "
+            "needs the torque of every motor, for it adds up their work; connect it, or take "
+            "--model torque"
         )
     rows = build_energy_rows(model, observation, window)
-    if len(rows.y) < len(observation.names):
+    if len(rows.y) < len(names):
         raise DataError(
-            f"{', '.join(observation.logs)}: {len(rows.y)} windows of {rows.window:.4g} s for "
-            f"{len(observation.names)} parameters; record more motion, or give a shorter --window"
+            f"{logs}: {len(rows.y)} windows of {rows.window:.4g} s for {len(names)} parameters; "
+            "record more motion, or give a shorter --window"
         )
-    estimate = rows.estimate(observation.names, method)
-    torques = build_base_equations(observation).compress_rows(
-        np.ones(len(observation.y), dtype=bool)
-    )
-    essential = _select_essential(rows, observation.names, estimate, below)
-    said = [tangle.describe() for tangle in estimate.rank.dropped_columns]
+    estimate, equations = rows.estimate(names, method), build_base_equations(observation)
+    torques = equations.compress_rows(np.ones(len(observation.y), dtype=bool))
+    essential = _select_essential(rows, names, estimate, below)
+    lines = [dropped.describe() for dropped in estimate.rank.dropped_columns]
     if not estimate.is_converged:
-        said.append("the variances of the windows still change; record more rows")
-    if estimate.autocorrelation_factor > 1.2:
-        said.append(
-            "neighbouring windows repeat each other, and the sigmas are raised for it, by up to a "
-            f"factor {estimate.autocorrelation_factor:.2g}"
+        lines.append("the variances of the windows have not converged; record more rows")
+    factor = estimate.autocorrelation_factor
+    if factor > THRESHOLDS.reported_sigma_factor:
+        lines.append(
+            "Residuals of neighbouring windows are autocorrelated; standard deviations are "
+            f"corrected for it (up to x {factor:.2g})."
         )
-    said.append(essential.describe(torques, estimate.beta))
     result = build_result(
-        build_base_equations(observation), method, estimate, essential, torques,
+        equations,
+        method,
+        estimate,
+        essential,
+        torques,
         rows=len(rows.y),
-        sentences=tuple(said),
+        sentences=(*lines, essential.describe(torques, estimate.beta)),
         reduced=np.ones(len(essential.names)),
         energy=_build_report(model, observation, rows, estimate, window, method),
-    )  # fmt: skip
+    )
     return EnergyFit(result, rows, estimate.row_sigma, observation)
 
 
 def _select_essential(
     rows: EnergyRows, names: tuple[str, ...], estimate: HeteroscedasticEstimate, below: float | None
 ) -> EssentialParameters:
-    """By the F-test of the windows."""
+    """Returns the essential parameters by the F-test of the windows."""
     weight, zeros = 1.0 / estimate.row_sigma, np.zeros(len(rows.y), dtype=int)
     data = compress_rows(rows.W * weight[:, None], rows.y * weight, zeros, 1, names)
     essential = select_essential_parameters(data, estimate, "ordinary", below)
@@ -457,21 +440,25 @@ def _build_report(
     rough = build_energy_rows(model, observation, window, "trapezoid")
     coarse = rough.estimate(observation.names, method)
     figures = [_compute_figures("torque", observation, torque.rows, torque)]
-    for name, part, fit in (
-        ("energy, Simpson", rows, estimate),
-        ("energy, trapezoid", rough, coarse),
-    ):
-        missed, kept_columns = (part.balance - part.W) @ estimate.beta, list(fit.rank.kept_columns)
-        share = float(np.linalg.norm(missed) / np.linalg.norm(part.y))
+    for rule, part, fit in (("Simpson", rows, estimate), ("trapezoid", rough, coarse)):
+        columns = list(fit.rank.kept_columns)
+        missed = (part.balance - part.W) @ estimate.beta
         # What the energy that integration misses moves at most, in sigmas.
-        weighted = part.W[:, kept_columns] / fit.row_sigma[:, None]
-        moved = solve_scaled_least_squares(weighted, missed / fit.row_sigma, SEEN)
-        sigma = np.sqrt(np.diag(fit.covariance)[kept_columns])
-        bias = float(np.max(np.abs(moved) / sigma, initial=0.0))
-        model_figures = _compute_figures(name, observation, len(part.y), fit)
-        figures.append(dataclasses.replace(model_figures, imbalance=share, bias=bias))
-    error = float(np.linalg.norm(rows.y - rows.W @ estimate.beta) / np.linalg.norm(rows.y))
-    return EnergyReport(rows.window, error, tuple(figures), len(estimate.rank.kept_columns))
+        weighted = part.W[:, columns] / fit.row_sigma[:, None]
+        least = THRESHOLDS.min_singular_share
+        moved = solve_scaled_least_squares(weighted, missed / fit.row_sigma, least)
+        sigma = np.sqrt(np.diag(fit.covariance)[columns])
+        figures.append(
+            dataclasses.replace(
+                _compute_figures(f"energy, {rule}", observation, len(part.y), fit),
+                imbalance=float(np.linalg.norm(missed) / np.linalg.norm(part.y)),
+                bias=float(np.max(np.abs(moved) / sigma, initial=0.0)),
+            )
+        )
+    residual = rows.y - rows.W @ estimate.beta
+    error = float(np.linalg.norm(residual) / np.linalg.norm(rows.y))
+    count = len(estimate.rank.kept_columns)
+    return EnergyReport(rows.window, error, tuple(figures), count)
 
 
 def _compute_figures(
@@ -481,11 +468,12 @@ def _compute_figures(
     sigma = np.sqrt(np.diag(covariance))
     squares = np.einsum("rc,cd,rd->r", W, covariance, W, optimize=True)
     joint = observation.row_joint
+    is_known = 100.0 * sigma < THRESHOLDS.known_below_percent * np.abs(beta)
     return ModelFigures(
         model=name,
         rows=rows,
         condition_scaled=fit.condition_scaled,
-        known=int(np.sum((sigma > 0.0) & (100.0 * sigma < KNOWN_BELOW_PERCENT * np.abs(beta)))),
+        known=int(np.sum((sigma > 0.0) & is_known)),
         torque_error=float(np.linalg.norm(y - W @ beta) / np.linalg.norm(y)),
         torque_sigma=float(np.sqrt(squares.sum()) / np.linalg.norm(y)),
         joint_sigma={

@@ -1,49 +1,260 @@
-"""Gravity as one hypothesis: a vector g of frame 0 that the torques of logs carry.
+"""Rows of logs with other channels: turned, in other units, at other times, of another gravity.
 
-Torques are linear in it beside standard parameters, tau = (W_motion + sum_d g_d G_d) chi, where
+Gravity is a vector g of frame 0 that the torques of logs carry. Torques are linear in it beside
+standard parameters, tau = (W_motion + sum_d g_d G_d) chi, where
 G_d chi = -d/dq (e_d . sum_j (M_j p_j + R_j MS_j)) for the frames [R_j | p_j] of the links. A log
 of drives that take gravity out has g = 0, a table with a wrong sign -g, a base that hangs another
 direction. Where positions close loops, a factor of the stated gravity is all that is asked for.
 """
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
+from functools import partial
 
 import numpy as np
+from scipy.sparse import block_diag, csr_array, diags_array
 
-from modeler.estimation.nearest_body import PhysicalParameters, define_physical_parameters
-from modeler.regression import ThinnedRows
+from modeler.estimation.physical_consistency import PhysicalParameters, define_physical_parameters
+from modeler.estimation.thresholds import THRESHOLDS
+from modeler.numerics.filters import restrict_weights
+from modeler.regression import (
+    Observation,
+    Segment,
+    compute_signals,
+    evaluate_columns_at,
+    find_nearest_closed,
+)
 from modeler.runtime import CompiledModel
+
+_CLOCKS = (2.0, 5.0, 10.0, 20.0, 50.0, 100.0, 0.5, 0.2, 0.1, 0.05, 0.02, 0.01)  # are off by
+
+
+@dataclass(frozen=True, eq=False)
+class ThinnedRows:
+    """Holds some rows of an observation, and some of the samples that those reach.
+
+    Attributes:
+        W: (m, n, c).
+        tau: (m, n).
+        used: (m, n) that count.
+        means: by joint, (m, samples) weights of the samples in each row; they sum to one.
+        samples: by stretch, its segment and places in it.
+        read: (samples, k) other inputs of the model; None without any.
+    """
+
+    W: np.ndarray
+    tau: np.ndarray
+    used: np.ndarray
+    means: tuple[csr_array, ...]
+    samples: tuple[tuple[Segment, np.ndarray], ...]
+    read: np.ndarray | None
+
+    @property
+    def motion(self) -> np.ndarray:
+        """(3, samples, n) q, qd, qdd."""
+        every = [np.stack([s.q[k], s.qd[k], s.qdd[k]]) for s, k in self.samples]
+        return np.concatenate(every, axis=1)
+
+    def filter_values(self, values: np.ndarray) -> np.ndarray:
+        """Returns (m, n, k) rows of what the samples have, (samples, n, k)."""
+        return np.stack([mean @ values[:, j] for j, mean in enumerate(self.means)], axis=1)
+
+    def transform_columns(
+        self, compiled: CompiledModel, transform: "MotionTransform"
+    ) -> np.ndarray:
+        """Returns (m, n, c) columns of the motion with other positions, or by another clock."""
+        q, qd, qdd = self.motion @ transform.motion
+        speed = transform.speed
+        moved = q + transform.offset, speed * qd, speed**2 * qdd
+        return self._filter_function(compiled, compiled.base_regressor, *moved)
+
+    def shift_columns(
+        self, compiled: CompiledModel, shift: np.ndarray, beta: np.ndarray | None = None
+    ) -> np.ndarray:
+        """Returns (m, n, c) columns of the motion of each joint, shift (n,) s later.
+
+        With parameters beta (c,) their torques, (m, n).
+        """
+        motions = []
+        for s, k in self.samples:
+            place = (s.time[k, None] + shift - s.time[0]) / s.step
+            below = np.clip(place.astype(int), 0, s.samples - 2)
+            above, joint = np.clip(place - below, 0.0, 1.0), np.arange(len(shift))
+            a, b = (below, joint), (below + 1, joint)
+            motion = [x[a] * (1.0 - above) + x[b] * above for x in (s.q, s.qd, s.qdd)]
+            motions.append(np.stack(motion))
+        of: Callable[..., np.ndarray] = compiled.base_regressor
+        if beta is not None:
+            of = partial(_compute_torque, compiled, beta)
+        return self._filter_function(compiled, of, *np.concatenate(motions, axis=1))
+
+    def _filter_function(
+        self,
+        compiled: CompiledModel,
+        of: Callable[..., np.ndarray],
+        q: np.ndarray,
+        qd: np.ndarray,
+        qdd: np.ndarray,
+    ) -> np.ndarray:
+        """Returns (m, n, ...) filtered values of a function of a motion of the samples."""
+        nearest = find_nearest_closed(compiled, q)  # a motion that was changed may leave the loops
+        if nearest is not None:
+            q = np.ascontiguousarray(q[nearest])
+        values = of(q, qd, qdd, self.read)
+        out = np.zeros((self.means[0].shape[0], *values.shape[1:]))
+        for j, mean in enumerate(self.means):
+            span = (compiled.pattern.spans[j],) if values.ndim == 3 else ()
+            index = (slice(None), j, *span)
+            out[index] = mean @ values[index]
+        return out
+
+
+def _compute_torque(
+    compiled: CompiledModel,
+    beta: np.ndarray,
+    q: np.ndarray,
+    qd: np.ndarray,
+    qdd: np.ndarray,
+    read: np.ndarray | None,
+) -> np.ndarray:
+    return compiled.inverse_dynamics(q, qd, qdd, beta, read)
+
+
+def thin_rows(compiled: CompiledModel, observation: Observation) -> ThinnedRows:
+    """Returns at most so many of the rows of the observation, evenly; fewer of many joints."""
+    cells = THRESHOLDS.max_thinned_cells // len(observation.joints)
+    most = max(1, min(THRESHOLDS.max_thinned_rows, cells))
+    every = max(1, -(-len(observation.time) // most))
+    means: list[list[csr_array]] = [[] for _ in observation.joints]
+    samples, read, chosen, at = [], [], [], 0
+    for part in observation.stretches:
+        rows = np.arange(-at % every, len(part.used), every)
+        chosen.append(at + rows)
+        at += len(part.used)
+        if not rows.size:
+            continue
+        weights = part.rows.weights[rows]
+        width = max(1, int(np.max(np.diff(weights.indptr))))
+        reached = np.unique(weights.indices)
+        reached = reached[reached % max(1, width // THRESHOLDS.filter_taps) == 0]
+        weights = weights[:, reached]
+        for joint_means, usable in zip(means, part.usable[reached].T, strict=True):
+            masked = restrict_weights(weights, usable)
+            total = masked.sum(axis=1)
+            joint_means.append(diags_array(1.0 / np.where(total > 0.0, total, 1.0)) @ masked)
+        samples.append((part.segment, reached))
+        signals = compute_signals(compiled, part.segment)
+        read += [] if signals is None else [signals[reached]]
+    place = np.concatenate(chosen)
+    return ThinnedRows(
+        W=evaluate_columns_at(observation, place),
+        tau=observation.torque[place],
+        used=observation.used[place],
+        means=tuple(block_diag(joint_means, format="csr") for joint_means in means),
+        samples=tuple(samples),
+        read=np.concatenate(read) if read else None,
+    )
+
+
+@dataclass(frozen=True)
+class MotionTransform:
+    """Describes what may be wrong with positions, or with the clock, and what repairs it.
+
+    Attributes:
+        line: what, and what to do.
+        motion: (J, J) q = measured q motion + offset, and its derivatives alike.
+        offset: (J,) rad or m.
+        torque: (J,) tau_j = measured tau[torque[j]].
+        speed: times that of the log.
+    """
+
+    line: str
+    motion: np.ndarray
+    offset: np.ndarray
+    torque: np.ndarray
+    speed: float = 1.0
+
+
+def propose_clocks(observation: Observation) -> Iterator[MotionTransform]:
+    """Yields all motion faster or slower than it is logged."""
+    same = np.eye(len(observation.joints))
+    for speed in _CLOCKS:
+        line = (
+            f"the clock seems to be wrong: with all motion {speed:g} times as fast, torques are "
+            "those of a machine; check the time column, its unit and rate"
+        )
+        yield MotionTransform(line, same, np.zeros(len(same)), np.arange(len(same)), speed)
+
+
+def propose_zero(observation: Observation, j: int, degrees: int) -> MotionTransform:
+    """Returns positions of a joint that turns, counted from another zero."""
+    line = (
+        f"joint {observation.joints[j].name}: its zero seems to be off by {degrees} degrees, by "
+        "gravity and the other joints; check the zero of that encoder against the table"
+    )
+    same = np.eye(len(observation.joints))
+    return MotionTransform(line, same, -np.deg2rad(degrees) * same[j], np.arange(len(same)))
+
+
+def propose_transforms(
+    observation: Observation, zeros_only: bool = False
+) -> Iterator[MotionTransform]:
+    """Yields positions from another zero; in other units, reversed, exchanged, torques too."""
+    for j, joint in enumerate(observation.joints):
+        for degrees in (90, -90, 180) if joint.unit == "rad" else ():
+            yield propose_zero(observation, j, degrees)
+    if zeros_only:
+        return
+    joints, names = observation.joints, [joint.name for joint in observation.joints]
+    same, none = np.arange(len(joints)), np.zeros(len(joints))
+    expected = "expected rad and m; convert the position, and the speeds if they are logged"
+    angles, lengths = {"degrees": np.pi / 180.0, "turns": 2.0 * np.pi}, {"mm": 1e-3, "cm": 1e-2}
+    for rad, metre in zip(angles.items(), lengths.items(), strict=True):
+        units = [rad if joint.unit == "rad" else metre for joint in joints]
+        factors = np.array([factor for _, factor in units])
+        text = " or ".join(dict.fromkeys(unit for unit, _ in units))
+        line = f"the positions look like {text}; {expected}"
+        yield MotionTransform(line, np.diag(factors), none, same)
+        for j, (unit, factor) in enumerate(units):
+            line = f"joint {names[j]}: its position looks like {unit}; {expected}"
+            yield MotionTransform(line, np.diag(np.where(same == j, factor, 1.0)), none, same)
+    for j in range(len(joints)):
+        line = f"joint {names[j]}: its position seems to be counted the other way; check its sign"
+        yield MotionTransform(line, np.diag(np.where(same == j, -1.0, 1.0)), none, same)
+        for k in range(j):
+            order = same.copy()
+            order[[j, k]] = order[[k, j]]
+            swap = np.eye(len(joints))[order]
+            for what, torque in (("positions", same), ("columns, torques too,", order)):
+                line = (
+                    f"joints {names[k]} and {names[j]}: their {what} look exchanged; check the "
+                    "order of the columns"
+                )
+                yield MotionTransform(line, swap, none, torque)
+
 
 ABSENT = "the torques carry no gravity"
 """What a line says beside which no clock is to blame: at rest, none makes gravity vanish."""
 
-TURNED = 0.3
-"""rad between two directions of gravity, from which on no tilt of a base looks like it."""
-
-NEAR = 0.05
-"""Of the stated gravity: a smaller difference is none."""
-
-_STEP = 1e-5  # rad or m of differences
 _EARTH = 9.81  # m/s^2
 _SCAN = (-2.0, -1.0, -0.5, 0.0, 0.1, 0.2, 0.35, 0.5, 0.7, 1.0, 1.4, 2.0, 3.0, 4.0)  # factors
-_FINER = 5  # scans, each within two steps of the one before: factors to 0.002
 _ROUND = (0.0, 0.5, 2.0, -1.0)  # preferred where they do as well
-_AS_WELL = 0.5  # of the sum of logarithms of the errors
-_STARTS = 3  # axes from which a direction is sought
-_STEPS = 6  # of Gauss and Newton
-_ROUNDING = 1e-9  # of a column, or of m/s2 along an axis
-_MOST_COLUMNS = 150  # of standard parameters; larger robots are asked for a factor alone
+
+Score = Callable[[np.ndarray], float]
+"""Sum of the logarithms of the errors with a gravity (k,)."""
+
+Step = Callable[[np.ndarray], np.ndarray]
+"""By Gauss and Newton, from a gravity to a better one."""
 
 
 @dataclass(frozen=True, eq=False)
 class GravityModel:
-    """What rows of logs feel of gravity.
+    """Describes how rows of logs depend on gravity.
 
     Attributes:
         machine: whose parameters the p columns belong to.
         motion: (m, n, p) columns without gravity.
-        along: (k, m, n, p) of 1 m/s^2 along the axes of frame 0, or of the stated gravity alone.
+        per_axis: (k, m, n, p) of 1 m/s^2 along the axes of frame 0, or of the stated gravity alone.
         stated: (k,) in the robot file.
     """
 
@@ -52,58 +263,56 @@ class GravityModel:
     per_axis: np.ndarray
     stated: np.ndarray
 
-    def propose_candidates(
-        self, left: Callable[[np.ndarray], float], step: Callable[[np.ndarray], np.ndarray],
-        turned: bool,
-    ) -> list[np.ndarray]:  # fmt: skip
-        """Gravities that may explain torques better than the stated one.
+    def propose_candidates(self, score: Score, step: Step, turned: bool) -> list[np.ndarray]:
+        """Returns gravities that may explain torques better than the stated one.
 
         Args:
-            left: sum of the logarithms of the errors with a gravity (k,).
-            step: by Gauss and Newton, from a gravity to a better one.
+            score: that is to be least.
+            step: to a better gravity.
             turned: True if other directions are asked for.
         """
         candidates: list[np.ndarray] = []
+        equal = THRESHOLDS.equal_log_error
         if self.stated.any():
             scan = list(_SCAN)
-            for _ in range(_FINER):
-                scores = [left(x * self.stated) for x in scan]
+            for _ in range(THRESHOLDS.gravity_scans):
+                scores = [score(x * self.stated) for x in scan]
                 best = int(np.argmin(scores))
                 least, least_score = scan[best], scores[best]
                 span = scan[max(0, best - 1)], scan[min(len(scan) - 1, best + 1)]
                 scan = [float(x) for x in np.linspace(*span, 9)]
-            enough = least_score + _AS_WELL
-            rounded = [x for x in _ROUND if left(x * self.stated) <= enough]
+            rounded = [x for x in _ROUND if score(x * self.stated) <= least_score + equal]
             factor = rounded[0] if rounded else least
-            if factor == 0.0 or min(abs(factor), abs(factor - 1.0)) > NEAR:
+            change = min(abs(factor), abs(factor - 1.0))
+            if factor == 0.0 or change > THRESHOLDS.min_gravity_change:
                 candidates.append(factor * self.stated)
         if turned and len(self.stated) == 3:
             axes = [sign * _EARTH * axis for axis in np.eye(3) for sign in (1.0, -1.0)]
-            starts = [self.stated, *sorted(axes, key=left)[:_STARTS]]
-            g = min((_minimize_error(start, left, step) for start in starts), key=left)
+            starts = [self.stated, *sorted(axes, key=score)[: THRESHOLDS.gravity_starts]]
+            g = min((_minimize_error(start, score, step) for start in starts), key=score)
             size = float(np.linalg.norm(self.stated)) or _EARTH
-            as_large = g * size / max(float(np.linalg.norm(g)), _ROUNDING)
-            if not 0.5 < np.linalg.norm(g) / size < 2.0 or left(as_large) <= left(g) + _AS_WELL:
+            as_large = g * size / max(float(np.linalg.norm(g)), THRESHOLDS.rounding_share)
+            if not 0.5 < np.linalg.norm(g) / size < 2.0 or score(as_large) <= score(g) + equal:
                 g = as_large
-            if self._compare_stated(g)[1] > TURNED:
+            if self._compare_stated(g)[1] > THRESHOLDS.min_tilt:
                 candidates.append(g)
         return candidates
 
     def _compare_stated(self, g: np.ndarray) -> tuple[float, float]:
-        """Factor of the stated gravity, and rad between the two; 0 and pi / 2 where it is none."""
+        """Returns the factor of the stated gravity, and rad between both; 0 and pi / 2 if none."""
         size, length = float(np.linalg.norm(self.stated)), float(np.linalg.norm(g))
         factor = float(g @ self.stated / max(size, 1e-9) ** 2)
         cosine = abs(g @ self.stated) / max(size * length, 1e-9) if length else 1.0
         return factor, float(np.arccos(min(1.0, cosine)))
 
     def format_line(self, g: np.ndarray) -> str:
-        """What is to be said of it."""
+        """Returns what is wrong, and what to do."""
         factor, angle = self._compare_stated(g)
-        if angle > TURNED:
+        if angle > THRESHOLDS.min_tilt:
             stated, asked = (str((v.round(1) + 0.0).tolist()) for v in (self.stated, g))
             return (
-                f"gravity of the robot file, {stated} m/s2, does not fit the torques: they ask "
-                f"for about {asked} in frame 0; check gravity there and how the base is mounted"
+                f"gravity of the robot file, {stated} m/s2, does not fit the torques: they need "
+                f"about {asked} in frame 0; check gravity there and how the base is mounted"
             )
         if factor == 0.0:
             return (
@@ -123,20 +332,18 @@ class GravityModel:
         )
 
 
-def _minimize_error(
-    g: np.ndarray, left: Callable[[np.ndarray], float], step: Callable[[np.ndarray], np.ndarray]
-) -> np.ndarray:
-    least = left(g)
-    for _ in range(_STEPS):
+def _minimize_error(g: np.ndarray, score: Score, step: Step) -> np.ndarray:
+    least = score(g)
+    for _ in range(THRESHOLDS.gravity_steps):
         further = g + step(g)
-        if (score := left(further)) >= least:
+        if (reached := score(further)) >= least:
             break
-        g, least = further, score
+        g, least = further, reached
     return g
 
 
 def extract_gravity(compiled: CompiledModel, rows: ThinnedRows, free: bool) -> GravityModel | None:
-    """What rows feel of gravity; None where they feel none of any direction.
+    """Returns how rows depend on gravity; None where they do not.
 
     Args:
         compiled: the robot.
@@ -147,40 +354,38 @@ def extract_gravity(compiled: CompiledModel, rows: ThinnedRows, free: bool) -> G
     whole = compiled.base_regressor(q, qd, qdd, rows.read)
     at_rest = compiled.base_regressor(q, 0.0 * q, 0.0 * q, rows.read)
     at_rest *= np.array([base.kind == "inertial" for base in compiled.spec.base])
-    moving = whole - at_rest
-    moving *= np.abs(moving).max(axis=(0, 1)) > _ROUNDING * np.abs(whole).max(axis=(0, 1))
+    moving, least = whole - at_rest, THRESHOLDS.rounding_share
+    moving *= np.abs(moving).max(axis=(0, 1)) > least * np.abs(whole).max(axis=(0, 1))
     motion, still = rows.filter_values(moving), rows.filter_values(at_rest)
-    machine = define_physical_parameters(compiled.spec)
-    if free and compiled.spec.closure is None and len(machine.names) <= _MOST_COLUMNS:
-        along = _evaluate_axes(compiled, rows, machine, q)
-        if along is not None:
-            felt = (still @ machine.K).ravel()
-            flat = along.reshape(3, -1)
-            stated = np.linalg.lstsq(flat @ flat.T, flat @ felt, rcond=1e-9)[0]
-            if np.linalg.norm(stated @ flat - felt) <= 1e-4 * np.linalg.norm(felt):
-                standard_parameters = replace(machine, K=np.eye(len(machine.names)))
+    machine, count = define_physical_parameters(compiled.spec), THRESHOLDS.max_gravity_columns
+    if free and compiled.spec.closure is None and len(machine.names) <= count:
+        per_axis = _evaluate_axes(compiled, rows, machine, q)
+        if per_axis is not None:
+            weight, flat = (still @ machine.K).ravel(), per_axis.reshape(3, -1)
+            stated = np.linalg.lstsq(flat @ flat.T, flat @ weight, rcond=1e-9)[0]
+            if np.linalg.norm(stated @ flat - weight) <= 1e-4 * np.linalg.norm(weight):
+                standard = replace(machine, K=np.eye(len(machine.names)))
                 rounded = np.asarray(np.round(stated, 6) + 0.0)
-                return GravityModel(standard_parameters, motion @ machine.K, along, rounded)
-    if not still.any():
-        return None
-    return GravityModel(machine, motion, still[None], np.ones(1))
+                return GravityModel(standard, motion @ machine.K, per_axis, rounded)
+    return GravityModel(machine, motion, still[None], np.ones(1)) if still.any() else None
 
 
 def _evaluate_axes(
     compiled: CompiledModel, rows: ThinnedRows, machine: PhysicalParameters, q: np.ndarray
 ) -> np.ndarray | None:
-    """(3, m, n, p) of 1 m/s^2 along each axis of frame 0; None where frames have no names."""
+    """Returns (3, m, n, p) of 1 m/s^2 along each axis of frame 0; None without named frames."""
+    difference = THRESHOLDS.gravity_step
     slopes = [
         compiled.forward_kinematics(q + step) - compiled.forward_kinematics(q - step)
-        for step in _STEP * np.eye(q.shape[1])
+        for step in difference * np.eye(q.shape[1])
     ]
     if slopes[0].shape[1] != len(machine.links):
         return None
-    every = -np.stack(slopes, axis=1) / (2.0 * _STEP)  # (samples, n, links, 3, 4)
-    every[np.abs(every) < _ROUNDING] = 0.0
-    felt = rows.filter_values(every.reshape(*every.shape[:2], -1))
-    felt = felt.reshape(*felt.shape[:2], *every.shape[2:])
-    along = np.zeros((3, *felt.shape[:2], len(machine.names)))
+    every = -np.stack(slopes, axis=1) / (2.0 * difference)  # (samples, n, links, 3, 4)
+    every[np.abs(every) < THRESHOLDS.rounding_share] = 0.0
+    weight = rows.filter_values(every.reshape(*every.shape[:2], -1))
+    weight = weight.reshape(*weight.shape[:2], *every.shape[2:])
+    per_axis = np.zeros((3, *weight.shape[:2], len(machine.names)))
     for link, places in enumerate(machine.links.values()):
-        along[..., places[6:]] = np.moveaxis(felt[:, :, link], 2, 0)  # MX, MY, MZ, M
-    return along
+        per_axis[..., places[6:]] = np.moveaxis(weight[:, :, link], 2, 0)  # MX, MY, MZ, M
+    return per_axis

@@ -1,4 +1,4 @@
-"""From an observation to a fitted model."""
+"""From an observation to a fitted model: the estimators, the fit, and its cross-validation."""
 
 import dataclasses
 from collections.abc import Callable, Sequence
@@ -9,37 +9,113 @@ from typing import Any
 import numpy as np
 
 from modeler.core.errors import DataError, Method
+from modeler.core.estimators import ABOUT, EstimatorInfo
 from modeler.core.json import select_attributes
+from modeler.estimation import instrumental
 from modeler.estimation.covariance import HalvesComparison, compare_halves, estimate_hac_covariance
-from modeler.estimation.essential import (
-    NONE_LEAVES,
-    EssentialParameters,
-    build_reduced_model,
-    select_essential_parameters,
-)
 from modeler.estimation.least_squares import (
     Estimate,
     Problem,
     compute_base_residual,
     compute_least_sigma,
+    estimate_ordinary,
+    estimate_ridge,
+    estimate_robust,
     select_rows,
+    solve_least_squares,
 )
-from modeler.estimation.methods import find_method
-from modeler.estimation.parameter import ParameterEstimate
+from modeler.estimation.parameters import (
+    EssentialParameters,
+    ParameterEstimate,
+    build_reduced_model,
+    select_essential_parameters,
+)
+from modeler.estimation.physical_consistency import estimate_consistent
 from modeler.estimation.prior import Prior, build_prior, describe_unused_prior
 from modeler.estimation.result import FitResult, JointFit
+from modeler.estimation.thresholds import THRESHOLDS
 from modeler.numerics.least_squares import (
     CompressedRegression,
     compress_rows,
     solve_scaled_least_squares,
 )
-from modeler.regression import SAMPLES, Observation, compute_triangles, is_streamed
+from modeler.regression import THRESHOLDS as REGRESSION, Observation, compute_triangles, is_streamed
 from modeler.runtime import CompiledModel
+
+_REFUSALS = {
+    "rows": 'method is "{method}"; expected {capable}',
+    "triangles": "fit: method {method} reads every row again and again, and long logs are not kept "
+    "in memory; expected {capable}, or a part of the log, FILE@START:END",
+    "windows": "--method {method}: the energy model takes {capable}; leave out --method or --model "
+    "energy",
+}
+"""What an estimator may work on, and the sentence for one that does not."""
+
+
+@dataclass(frozen=True)
+class Estimator:
+    """Describes a way to estimate.
+
+    Attributes:
+        about: id, title, law, source, and when not to use it.
+        estimate: the function. Raises DataError where the problem gives it nothing to work on.
+        works_on: "rows"; "triangles", if it needs no row again once these are there; "windows" of
+            the energy model.
+    """
+
+    about: EstimatorInfo
+    estimate: Callable[[Problem], Estimate]
+    works_on: tuple[str, ...]
+
+    @property
+    def takes_prior(self) -> bool:
+        """False of those that have one of their own: what a robot file states would be a second."""
+        return not (self.about.is_consistent or self.about.id == "ridge")
+
+
+_ESTIMATES: dict[Method, Callable[[Problem], Estimate]] = {
+    "weighted": lambda problem: solve_least_squares(problem.data, "weighted"),
+    "ordinary": estimate_ordinary,
+    "robust": estimate_robust,
+    "ridge": estimate_ridge,
+    "iv": instrumental.estimate_iv,
+    "iv-direct": instrumental.estimate_iv_direct,
+    "didim": instrumental.estimate_didim,
+    "didim-robust": instrumental.estimate_didim_robust,
+    "consistent": estimate_consistent,
+    "iv-consistent": instrumental.estimate_iv_consistent,
+    "iv-direct-consistent": instrumental.estimate_iv_direct_consistent,
+    "didim-consistent": instrumental.estimate_didim_consistent,
+}
+_OF_TRIANGLES = ("weighted", "ordinary")
+METHODS: dict[Method, Estimator] = {
+    id: Estimator(ABOUT[id], estimate, tuple(_REFUSALS) if id in _OF_TRIANGLES else ("rows",))
+    for id, estimate in _ESTIMATES.items()
+}
+"""By id, in the order in which they are listed."""
+
+
+def find_methods(of: str) -> tuple[Method, ...]:
+    """Returns ids of the estimators that work on such data."""
+    return tuple(id for id, estimator in METHODS.items() if of in estimator.works_on)
+
+
+def find_method(method: str, of: str = "rows") -> Estimator:
+    """Returns the estimator of that id.
+
+    Raises:
+        DataError: there is none, or it does not work on such data.
+    """
+    for id in find_methods(of):
+        if id == method:
+            return METHODS[id]
+    *first, last = find_methods(of)
+    raise DataError(_REFUSALS[of].format(method=method, capable=f"{', '.join(first)} or {last}"))
 
 
 @dataclass(frozen=True, eq=False)
 class Equations:
-    """y = W beta, row for row those of an observation; first the base parameters, then loads.
+    """Holds y = W beta, row for row those of an observation; first base parameters, then loads.
 
     Attributes:
         observation: whose W stands first.
@@ -48,7 +124,7 @@ class Equations:
         names: (c + loads,) of the columns.
         units: (c + loads,) of the parameters.
         sentences: what a reader of the fit must know of them.
-        carried: names of the logs with a load.
+        loaded_logs: names of the logs with a load.
     """
 
     observation: Observation
@@ -67,11 +143,11 @@ class Equations:
 
     @property
     def stored_matrix(self) -> np.ndarray | None:
-        """W; None where it is large and the base parameters' alone: then rows are to pass by."""
+        """W; None where it is large and the base parameters' alone: then rows are streamed."""
         return None if not self.loaded_logs and is_streamed(self.observation) else self.W
 
     def select_conditions(self, counted: np.ndarray) -> dict[str, np.ndarray]:
-        """(rows,) True for the counted ones, "bare" and "loaded"; empty if no log has a load."""
+        """Returns (rows,) True for the counted ones, "bare" and "loaded"; empty without loads."""
         if not self.loaded_logs:
             return {}
         logs = np.array(self.observation.logs)
@@ -79,7 +155,7 @@ class Equations:
         return {"bare": counted & ~loaded, "loaded": counted & loaded}
 
     def append_columns(self, columns: np.ndarray, names: Sequence[str]) -> "Equations":
-        """The same with further columns (rows, k), and the torques as they were measured."""
+        """Returns the same with further columns (rows, k), and the torques as measured."""
         return dataclasses.replace(
             self,
             extra=np.column_stack([self.extra, columns]),
@@ -91,23 +167,23 @@ class Equations:
     def compress_rows(
         self, counted: np.ndarray, weight: np.ndarray | None = None
     ) -> CompressedRegression:
-        """Some rows, compressed; each with its weight (rows,), if that is given."""
+        """Returns some rows, compressed; each with its weight (rows,), if that is given."""
         joints, row_joint = self.observation.joints, self.observation.row_joint[counted]
         free = [j for j, joint in enumerate(joints) if not joint.actuated]
+        W = self.W if weight is not None else self.stored_matrix
+        if W is None:
+            selected = select_rows(self.observation, counted)
+            triangles = compute_triangles(self.observation, selected)
+            rows, idle = triangles.rows.astype(np.intp), np.isin(np.arange(len(joints)), free)
+            return CompressedRegression(self.names, triangles.triangles, rows, idle)
+        W, y = W[counted], self.y[counted]
         if weight is not None:
             root = np.sqrt(weight[counted])
-            W, y = self.W[counted] * root[:, None], self.y[counted] * root
-            return compress_rows(W, y, row_joint, len(joints), self.names, free)
-        if (W := self.stored_matrix) is None:
-            joint_triangles = compute_triangles(
-                self.observation, select_rows(self.observation, counted)
-            )
-            rows, idle = joint_triangles.rows.astype(np.intp), np.isin(np.arange(len(joints)), free)
-            return CompressedRegression(self.names, joint_triangles.triangles, rows, idle)
-        return compress_rows(W[counted], self.y[counted], row_joint, len(joints), self.names, free)
+            W, y = W * root[:, None], y * root
+        return compress_rows(W, y, row_joint, len(joints), self.names, free)
 
     def compute_residual(self, beta: np.ndarray, counted: np.ndarray) -> np.ndarray:
-        """y - W beta of some rows."""
+        """Returns y - W beta of some rows."""
         if (W := self.stored_matrix) is None:
             return compute_base_residual(self.observation, beta, counted)
         return np.asarray(self.y[counted] - W[counted] @ beta)
@@ -119,13 +195,13 @@ def identify(
     model: CompiledModel | None = None,
     below: float | None = None,
 ) -> FitResult:
-    """The fit of the base parameters to an observation.
+    """Returns the fit of the base parameters to an observation.
 
-    Parameters that the data cannot tell are set aside by name; the essential ones are marked.
+    Parameters that are not identifiable are dropped by name; the essential ones are marked.
 
     Args:
         observation: of one or several logs.
-        method: the estimator, see `estimation.methods`.
+        method: the estimator, see `METHODS`.
         model: the compiled robot, for estimators that simulate it or know its nominal values.
         below: percent, of the rule by sigmas for what is essential; see
             `select_essential_parameters`.
@@ -138,7 +214,7 @@ def identify(
 
 
 def build_base_equations(observation: Observation) -> Equations:
-    """The equations of the bare robot."""
+    """Returns the equations of the bare robot."""
     none = np.zeros((len(observation.y), 0))
     return Equations(observation, none, observation.y, observation.names, observation.units)
 
@@ -153,15 +229,15 @@ def fit_equations(
     data: CompressedRegression | None = None,
     share: float = 1.0,
 ) -> FitResult:
-    """The fit of y = W beta; equations row for row those of the observation, else as `identify`.
+    """Returns the fit of y = W beta; equations row for row those of the observation.
 
     Sigmas of noise only leave out what halves of the motion disagree about: for tests of it.
 
     Of long logs the data are all rows, and the observation's are windows, that share of them: how
-    far residuals remember, what halves disagree about, and by what factors that raises the sigmas,
-    comes from the windows.
+    long residuals are correlated, what halves disagree about, and by what factors that raises the
+    sigmas, comes from the windows. Else as `identify`.
     """
-    estimator, windows = find_method(method), data is not None
+    estimator, is_part = find_method(method), data is not None
     dead, alive = find_disconnected_joints(observation), find_connected_rows(observation)
     data = data or equations.compress_rows(alive)
     columns, count = len(equations.names), int(data.rows.sum())
@@ -170,86 +246,77 @@ def fit_equations(
             f"{', '.join(observation.logs)}: {count} rows for {columns} parameters; record "
             "more motion, or filter less (a higher --parallel-cutoff keeps more rows)"
         )
-    problem = Problem(
-        observation, equations.stored_matrix, equations.y, alive, equations.names, data, model
-    )
-    prior, unused = None, tuple[str, ...]()
+    matrix, joints = equations.stored_matrix, [joint.name for joint in observation.joints]
+    problem = Problem(observation, matrix, equations.y, alive, equations.names, data, model)
+    prior, notes = None, list(equations.sentences)
     if model is not None and not noise_only:
         if estimator.takes_prior:
             prior = build_prior(model.spec)
         else:
             use = "; the values of the robot file are a guide that the data overrule"
-            unused = describe_unused_prior(model.spec, f"method {method}", use)
+            notes += describe_unused_prior(model.spec, f"method {method}", use)
     estimate = estimator.estimate(problem)
     autocorrelation = estimate_hac_covariance(problem, estimate, share=share)
     white = np.sqrt(np.diag(estimate.covariance))
     differ = HalvesComparison(np.ones(len(white)))
     if not noise_only:
-        lasting = np.zeros(len(observation.joints)) if windows else autocorrelation.lag1
-        differ = compare_halves(  # windows tell a difference by so much less surely than all rows
+        differ = compare_halves(  # windows show a difference by so much less surely than all rows
             observation,
             lambda rows: equations.compress_rows(rows, estimate.weight),
             alive,
             estimate,
             autocorrelation.factors * white / share**0.5,
-            lasting,
+            np.zeros(len(joints)) if is_part else autocorrelation.lag1,
             equations.select_conditions(alive).get("loaded"),
         )
-    warnings = differ.collect_warnings(
-        equations.names, [joint.name for joint in observation.joints]
-    )
+    warnings = differ.collect_warnings(equations.names, joints)
     raised = np.sqrt(1.0 + (differ.factors**2 - 1.0) / share)
     factors = autocorrelation.factors * raised
     covariance = estimate.covariance * np.outer(factors, factors)
     if prior is not None:  # rows that repeat each other weigh less beside it
         full = autocorrelation.inflate_covariance(estimate.covariance)
         more = np.maximum(np.diag(covariance) - np.diag(full), 0.0)
-        estimate = prior.combine_with_data(
-            estimate, data, full, more, [j.name for j in observation.joints]
-        )
+        estimate = prior.combine_with_data(estimate, data, full, more, joints)
     essential = select_essential_parameters(data, estimate, method, below)
-    at = [equations.names.index(name) for name in essential.names]
+    sigma = estimate.sigma
     if essential.dropped and below is None and not noise_only:
-        errors, as_good = compute_held_out_errors(equations, alive, estimate.sigma, prior, at)
+        some = [equations.names.index(name) for name in essential.names]
+        errors, as_good = compute_held_out_errors(equations, alive, sigma, prior, some)
         if not as_good:
-            essential = select_essential_parameters(data, estimate, method, NONE_LEAVES)
+            keep_all = THRESHOLDS.keep_all_percent
+            essential = select_essential_parameters(data, estimate, method, keep_all)
         essential = dataclasses.replace(essential, held_out=errors)
-        at = [equations.names.index(name) for name in essential.names]
+    at = [equations.names.index(name) for name in essential.names]
     reduced = np.ones(len(at))
     if prior is None:
-        reduced = (
-            raised[at] * estimate_hac_covariance(problem, essential.reduced, at, share).factors
-        )
+        hac = estimate_hac_covariance(problem, essential.reduced, at, share)
+        reduced = raised[at] * hac.factors
         estimate = dataclasses.replace(estimate, covariance=covariance)
+    notes += [
+        f"joint {joints[j]}: its torque is 0 in every row, so none of them is used; is it "
+        "connected? if it has no motor, mark it passive in the robot file (mu = 0)"
+        for j in dead
+    ]
+    notes += estimate.sentences
+    notes += [dropped.describe() for dropped in estimate.rank.dropped_columns]
+    notes += [*estimate.describe_nonconvergence(), essential.describe(data, estimate.beta)]
+    notes += [*autocorrelation.format_sentences(), *(warning.line for warning in warnings)]
     return build_result(
         equations,
         method,
         estimate,
         essential,
         data,
-        estimate.sigma,
+        sigma,
         rows=count,
-        sentences=(
-            *equations.sentences,
-            *unused,
-            *_describe_disconnected(observation, dead),
-            *estimate.sentences,
-            *(tangle.describe() for tangle in estimate.rank.dropped_columns),
-            *estimate.describe_nonconvergence(),
-            essential.describe(data, estimate.beta),
-            *autocorrelation.format_sentences(),
-            *(doubt.line for doubt in warnings),
-            *compare_bands(observation, estimate),
-        ),
+        sentences=(*notes, *compare_bands(observation, estimate)),
         reduced=reduced,
         standard=estimate.standard,
         estimator_notes=estimate.sentences,
         joint_warnings=tuple(warnings),
         by_load={
-            name: build_joint_fits(
-                observation, equations.compress_rows(is_counted), estimate.beta, estimate.sigma
-            )
-            for name, is_counted in equations.select_conditions(alive).items()
+            name: build_joint_fits(observation, equations.compress_rows(part), estimate.beta, sigma)
+            for name, part in equations.select_conditions(alive).items()
         },
     )
 
@@ -264,48 +331,42 @@ def build_result(
     reduced: np.ndarray | None = None,
     **further: Any,
 ) -> FitResult:
-    """The result that an estimate makes.
+    """Returns the result that an estimate makes.
 
     Args:
         equations: that were fitted.
         method: id.
-        estimate: its solution, the covariance raised where residuals repeat each other.
+        estimate: its solution, the covariance raised where residuals are autocorrelated.
         essential: of its parameters.
         data: the torques that its errors are of.
-        sigma_of_rows: (n,) of each joint; None: what is left of it.
+        sigma_of_rows: (n,) of each joint; None: from the residual.
         reduced: (essential,) factors on the sigmas of the reduced model; None: it has none.
         **further: fields of the result.
     """
     observation, count = equations.observation, len(equations.observation.names)
     before, after = essential.compute_errors(data, estimate.beta)
-    labels = list(zip(equations.names, equations.units, strict=True))
-    alone = (
-        None if reduced is None else build_reduced_model(essential, reduced, dict(labels), after)
-    )
-    settled = "ok" if estimate.is_converged else "not settled"
-    sigma, estimated = np.sqrt(np.diag(estimate.covariance)), set(estimate.rank.kept_columns)
+    units = dict(zip(equations.names, equations.units, strict=True))
+    is_estimated = np.isin(np.arange(len(units)), estimate.rank.kept_columns)
+    sigma, share = np.sqrt(np.diag(estimate.covariance)), estimate.prior_share
     every = tuple(
         ParameterEstimate(
             name=name,
             unit=unit,
             value=float(estimate.beta[i]),
-            sigma=float(sigma[i]) if i in estimated else None,
+            sigma=float(sigma[i]) if is_estimated[i] else None,
             essential=name in essential.names,
             status="held"
             if name in estimate.fixed_names
-            else "estimated"
-            if i in estimated
-            else "set aside",
-            prior=float(estimate.prior_share[i])
-            if estimate.prior_share is not None and i in estimated
-            else None,
+            else ("set aside", "estimated")[int(is_estimated[i])],
+            prior=float(share[i]) if share is not None and is_estimated[i] else None,
         )
-        for i, (name, unit) in enumerate(labels)
+        for i, (name, unit) in enumerate(units.items())
     )
+    status = "ok" if estimate.is_converged else "not settled"
     return FitResult(
         robot=observation.robot,
         method=method,
-        status="rank deficient" if estimate.rank.dropped_columns else settled,
+        status="rank deficient" if estimate.rank.dropped_columns else status,
         samples=len(observation.time),
         **select_attributes(estimate, "condition_number condition_scaled contradicted"),
         relative_error=before,
@@ -316,26 +377,25 @@ def build_result(
         loads=every[count:],
         processing=observation.report.processing,
         bands=observation.report.bands,
-        essential=alone,
+        essential=reduced
+        if reduced is None
+        else build_reduced_model(essential, reduced, units, after),
         **further,
     )
 
 
 def compress_all_rows(observation: Observation) -> CompressedRegression:
-    """The equations of the bare robot on all joints whose torque is connected."""
+    """Returns the equations of the bare robot on all joints whose torque is connected."""
     return build_base_equations(observation).compress_rows(find_connected_rows(observation))
 
 
 def find_connected_rows(observation: Observation) -> np.ndarray:
-    """(rows,) True for those of joints whose torque is connected.
-
-    See " "`find_disconnected_joints`.
-    """
+    """Returns (rows,) True for those of joints whose torque is connected."""
     return ~np.isin(observation.row_joint, find_disconnected_joints(observation))
 
 
 def find_disconnected_joints(observation: Observation) -> list[int]:
-    """Indices of the joints that have a motor and a torque of 0 in all their rows.
+    """Returns indices of the joints that have a motor and a torque of 0 in all their rows.
 
     0 = W_j beta from a channel that is not connected would pull all of beta to 0.
 
@@ -353,25 +413,13 @@ def find_disconnected_joints(observation: Observation) -> list[int]:
     return dead
 
 
-def _describe_disconnected(observation: Observation, dead: Sequence[int]) -> list[str]:
-    """A line on each joint whose torque is not connected."""
-    return [
-        f"joint {observation.joints[j].name}: its torque is 0 in every row, so none of them is "
-        "used; is it connected? if it has no motor, mark it passive in the robot file (mu = 0)"
-        for j in dead
-    ]
-
-
 def compute_relative_errors(observation: Observation, beta: np.ndarray) -> dict[str, float]:
-    """||y_j - W_j beta|| / ||y_j|| by joint: the one number that is called error."""
-    count, joint = len(observation.joints), observation.row_joint
-    left = np.bincount(joint, compute_base_residual(observation, beta) ** 2, count)
-    total = np.bincount(joint, observation.y**2, count)
-    return {
-        each.name: float(np.sqrt(a / b))
-        for each, a, b in zip(observation.joints, left, total, strict=True)
-        if b > 0.0
-    }
+    """Returns ||y_j - W_j beta|| / ||y_j|| by joint: the one number that is called error."""
+    equations = build_base_equations(observation)
+    residual = compute_base_residual(observation, beta)
+    errors = compute_errors(equations, residual, np.ones(len(residual), dtype=bool))
+    pairs = zip(observation.joints, errors.tolist(), strict=True)
+    return {joint.name: error for joint, error in pairs if np.isfinite(error)}
 
 
 def build_joint_fits(
@@ -380,29 +428,26 @@ def build_joint_fits(
     beta: np.ndarray,
     sigma: np.ndarray | None = None,
 ) -> tuple[JointFit, ...]:
-    """What is left of each joint; without a `sigma` (n,) of its rows, that is it."""
+    """Returns the residual of each joint; a `sigma` (n,) of its rows that is None follows."""
     residual, torque = data.compute_residual_norms(beta), data.compute_torque_norms()
+    count = np.maximum(data.rows, 1)
     if sigma is None:
-        sigma = np.maximum(residual / np.sqrt(np.maximum(data.rows, 1)), compute_least_sigma(data))
+        sigma = np.maximum(residual / np.sqrt(count), compute_least_sigma(data))
     return tuple(
         JointFit(
             name=joint.name,
             unit=joint.effort_unit,
             rows=int(data.rows[j]),
             relative_error=float(residual[j] / torque[j]) if torque[j] > 0.0 else None,
-            rms=float(residual[j] / np.sqrt(max(1, data.rows[j]))),
+            rms=float(residual[j] / np.sqrt(count[j])),
             sigma=float(sigma[j]),
         )
         for j, joint in enumerate(observation.joints)
     )
 
 
-DISAGREE = 4.0
-"""Standard deviations by which the widest cut-offs and the chosen ones may disagree unsaid."""
-
-
 def compare_bands(observation: Observation, estimate: Estimate) -> list[str]:
-    """A sentence where wider filters give other values: the noise of the motion bends those."""
+    """Returns a sentence where wider filters give other values: noise of the motion biases them."""
     values = np.array(observation.report.bands.widest_values)
     if not values.size:
         return []
@@ -411,32 +456,27 @@ def compare_bands(observation: Observation, estimate: Estimate) -> list[str]:
     apart = np.divide(d, sigma, out=np.zeros(len(d)), where=sigma > 0.0)
     worst = int(apart.argmax())
     # of long logs, only a part was looked at
-    share = min(1.0, SAMPLES / sum(log.rows for log in observation.report.logs))
-    if apart[worst] < DISAGREE / share**0.5:
+    rows = sum(log.rows for log in observation.report.logs)
+    share = min(1.0, REGRESSION.search_samples / rows)
+    if apart[worst] < THRESHOLDS.band_sigmas / share**0.5:
         return []
     return [
-        f"the widest cut-offs and the chosen ones disagree by {apart[worst]:.2g} sigma "
-        f"({observation.names[worst]}): behind the wider ones, the noise of the motion bends values"
+        f"the widest cut-offs and the chosen ones differ by {apart[worst]:.2g} sigma "
+        f"({observation.names[worst]}): noise of the motion biases the values of the wider ones"
     ]
 
 
-# Does the fit predict motion like that of its logs? What was left out answers.
-
-
-FOLDS = 8
-
-SEEN = 1e-8
-"""Share of the largest singular value, columns scaled, below which a fold sees no direction."""
+# Does the fit predict motion like that of its logs? Rows that were left out show it.
 
 
 @dataclass(frozen=True, eq=False)
 class CrossValidation:
-    """Errors of the fit on stretches that it was not fitted to.
+    """Holds errors of the fit on stretches that it was not fitted to.
 
     Attributes:
         errors: (n,) ||y_j - W_j beta|| / ||y_j||, each stretch predicted from the others; nan for
             a joint without rows or torque.
-        swing: s, half a period of the mean motion: the length of a stretch.
+        half_period: s, of the mean motion: the length of a stretch.
         stretches: that many.
         residual: (rows,) y - W beta, each row predicted from other stretches; 0 for those left out.
         fold: (rows,) which stretches were left out together; of rows that were used.
@@ -450,7 +490,7 @@ class CrossValidation:
 
 
 def compute_errors(equations: Equations, residual: np.ndarray, rows: np.ndarray) -> np.ndarray:
-    """(n,) ||y_j - W_j beta|| / ||y_j|| on some of the rows, of a residual (rows,) of all."""
+    """Returns (n,) ||y_j - W_j beta|| / ||y_j|| on some rows, of a residual (rows,) of all."""
     joint, count = equations.observation.row_joint[rows], len(equations.observation.joints)
     left = np.bincount(joint, residual[rows] ** 2, count)
     total = np.bincount(joint, equations.y[rows] ** 2, count)
@@ -465,7 +505,7 @@ def cross_validate(
     prior: Prior | None = None,
     columns: Sequence[int] | None = None,
 ) -> CrossValidation:
-    """Cross-validation over stretches of half a swing.
+    """Returns the cross-validation over stretches of half a period.
 
     A stretch is as long as the motion needs to turn round, pi rms(qd) / rms(qdd), the median over
     joints: neighbouring samples are alike, and would answer for each other. Every eighth stretch
@@ -480,72 +520,66 @@ def cross_validate(
         prior: beside those of least squares.
         columns: that are fitted by least squares, others are 0; None: all.
     """
-    observation = equations.observation
-    speed, acceleration = (
-        np.sqrt(np.mean(values**2, axis=0)) for values in (observation.qd, observation.qdd)
-    )
+    observation, folds = equations.observation, THRESHOLDS.folds
+    motion = observation.qd, observation.qdd
+    speed, acceleration = (np.sqrt(np.mean(values**2, axis=0)) for values in motion)
     moving = (speed > 1e-6 * speed.max(initial=0.0)) & (acceleration > 0.0)
     periods = np.pi * speed[moving] / acceleration[moving]
-    swing = float(np.median(periods)) if moving.any() else 0.0
-    number = _count_stretches(observation, swing)
+    half_period = float(np.median(periods)) if moving.any() else 0.0
+    number = _count_stretches(observation, half_period)
     seen = np.unique(number[observation.row_sample[rows]])
-    fold = np.searchsorted(seen, number[observation.row_sample]) % FOLDS
-    folds = [rows & (fold == k) for k in range(min(FOLDS, len(seen)))]
-    parts = [equations.compress_rows(fold_rows).combine_joints(sigma) for fold_rows in folds]
+    sample_fold = np.searchsorted(seen, number) % folds
+    fold = sample_fold[observation.row_sample]
+    held_out = [rows & (fold == k) for k in range(min(folds, len(seen)))]
+    parts = [equations.compress_rows(part).combine_joints(sigma) for part in held_out]
     residual, known = np.zeros(len(equations.y)), parts[0][:0]
     if prior is not None:
         known = prior.extend_rows(np.linalg.norm(np.vstack(parts)[:, :-1], axis=0))
-    for k, fold_rows in enumerate(folds):
+    every = np.arange(parts[0].shape[1] - 1) if columns is None else np.asarray(columns)
+    for k, part in enumerate(held_out):
         if refit is None:
             others = np.vstack([known, *parts[:k], *parts[k + 1 :]])
             beta = np.zeros(others.shape[1] - 1)
-            own_columns = np.arange(len(beta)) if columns is None else np.asarray(columns)
-            beta[own_columns] = solve_scaled_least_squares(
-                others[:, own_columns], others[:, -1], SEEN
-            )
+            least = THRESHOLDS.min_singular_share
+            beta[every] = solve_scaled_least_squares(others[:, every], others[:, -1], least)
         else:
-            beta = refit(np.searchsorted(seen, number) % FOLDS == k)
-        residual[fold_rows] = equations.compute_residual(beta, fold_rows)
+            beta = refit(sample_fold == k)
+        residual[part] = equations.compute_residual(beta, part)
     errors = compute_errors(equations, residual, rows)
-    return CrossValidation(errors, swing, len(seen), residual, fold)
+    return CrossValidation(errors, half_period, len(seen), residual, fold)
 
 
 def compute_held_out_errors(
-    equations: Equations, rows: np.ndarray, sigma: np.ndarray, prior: Prior | None,
+    equations: Equations,
+    rows: np.ndarray,
+    sigma: np.ndarray,
+    prior: Prior | None,
     columns: Sequence[int],
-) -> tuple[tuple[float, float], bool]:  # fmt: skip
-    """Cross-validated relative errors of all columns and of some; whether these are as good.
+) -> tuple[tuple[float, float], bool]:
+    """Returns cross-validated errors of all columns and of some; whether these are as good.
 
     They are if the mean over the folds of the logarithm of their error, rows weighed, is larger
     than that of all by no more than its standard error.
     """
-    every, some = (
-        cross_validate(equations, rows, sigma, None, prior, selection)
-        for selection in (None, columns)
-    )
+    both = [cross_validate(equations, rows, sigma, None, prior, some) for some in (None, columns)]
+    residuals = [validation.residual[rows] for validation in both]
     size = sigma[equations.observation.row_joint[rows]]
-    left = [
-        np.bincount(some.fold[rows], (selection.residual[rows] / size) ** 2)
-        for selection in (every, some)
-    ]
+    left = [np.bincount(both[1].fold[rows], (residual / size) ** 2) for residual in residuals]
     seen = (left[0] > 0.0) & (left[1] > 0.0)
     change = 0.5 * np.log(left[1][seen] / left[0][seen])
     spread = np.std(change, ddof=1) / len(change) ** 0.5 if len(change) > 1 else 0.0
     total = float(np.linalg.norm(equations.y[rows])) or np.nan
-    before, after = (
-        float(np.linalg.norm(selection.residual[rows])) / total for selection in (every, some)
-    )
+    before, after = (float(np.linalg.norm(residual)) / total for residual in residuals)
     return (before, after), bool(len(change) and change.mean() <= spread)
 
 
-def _count_stretches(observation: Observation, swing: float) -> np.ndarray:
-    """(s,) number of the stretch of each sample, ascending over the logs."""
+def _count_stretches(observation: Observation, half_period: float) -> np.ndarray:
+    """Returns (s,) number of the stretch of each sample, ascending over the logs."""
     number, first = np.zeros(len(observation.time), dtype=int), 0
-    for run in range(len(observation.logs)):
-        is_in_run = observation.run == run
-        if not is_in_run.any():
-            continue
-        since = observation.time[is_in_run] - observation.time[is_in_run].min()
-        number[is_in_run] = first + (np.floor(since / swing).astype(int) if swing > 0.0 else 0)
-        first = int(number[is_in_run].max()) + 1
+    for run in np.unique(observation.run):
+        part = observation.run == run
+        since = observation.time[part] - observation.time[part].min()
+        steps = np.floor(since / half_period).astype(int) if half_period > 0.0 else 0
+        number[part] = first + steps
+        first = int(number[part].max()) + 1
     return number

@@ -1,4 +1,4 @@
-"""Long logs: a look at windows, then every row once, in chunks, in flat memory; their fit.
+"""Long logs: windows are inspected, then every row once, in chunks, in flat memory; their fit.
 
 A chunk is reduced to what a fit needs of it by pure functions, for any worker.
 """
@@ -20,10 +20,12 @@ from modeler.core.errors import DataError, LoopError, Method
 from modeler.estimation.identify import (
     build_base_equations,
     find_disconnected_joints,
+    find_method,
+    find_methods,
     fit_equations,
 )
-from modeler.estimation.methods import find_method, find_methods
 from modeler.estimation.result import FitResult
+from modeler.estimation.thresholds import THRESHOLDS
 from modeler.numerics.least_squares import CompressedRegression, merge_compressed
 from modeler.regression import (
     FINGER,
@@ -47,22 +49,19 @@ from modeler.regression import (
 )
 from modeler.runtime import CompiledModel, make_empty_triangles
 
-PASSES = 3
-"""Over the logs, at most: what a pass finds that the windows did not show may ask for another."""
-
 OF_TRIANGLES = find_methods("triangles")
 """Methods that need no row again once the triangles are there."""
 
 Share = Callable[[float], None]
-"""Is told the share of the rows that are done."""
+"""Gets the share of the rows that are done."""
 
 Reducer = Callable[[CompiledModel, Source, LogChoices], Iterable[Any]]
-"""Parts of all chunks of a log in order: `Partial`, or what has its `facts` and `merged_with`."""
+"""Parts of all chunks of a log in order: `PartialFit`, or what has `facts` and `merged_with`."""
 
 
 @dataclass(frozen=True, eq=False)
 class PartialFit:
-    """What a fit needs of some rows of a log; it can be pickled.
+    """Holds what a fit needs of some rows of a log; it can be pickled.
 
     Attributes:
         data: their triangles.
@@ -73,14 +72,13 @@ class PartialFit:
     facts: LogFacts
 
     def merged_with(self, later: "PartialFit") -> "PartialFit":
-        """Of these rows, and of those that follow them."""
-        return PartialFit(
-            merge_compressed(self.data, later.data), self.facts.merged_with(later.facts)
-        )
+        """Returns that of these rows, and of those that follow them."""
+        facts = self.facts.merged_with(later.facts)
+        return PartialFit(merge_compressed(self.data, later.data), facts)
 
 
 def reduce_chunk(model: CompiledModel, chunk: Chunk, chosen: LogChoices) -> PartialFit:
-    """The rows y = W beta of a chunk, as triangles. Pure: equal chunks give equal bits.
+    """Reduces the rows y = W beta of a chunk to triangles. Pure: equal chunks give equal bits.
 
     Args:
         model: the compiled robot.
@@ -96,15 +94,13 @@ def reduce_chunk(model: CompiledModel, chunk: Chunk, chosen: LogChoices) -> Part
     for part in parts:  # W is never there as a whole
         state = add_stretch(regressor, part, part.filter_torque(), part.used, state)
     names, joints = tuple(base.name for base in model.spec.base), model.spec.joints
-    free = np.array([not joint.actuated for joint in joints])
-    return PartialFit(
-        CompressedRegression(names, state.triangles, state.rows.astype(np.intp), free), facts
-    )
+    free, rows = np.array([not joint.actuated for joint in joints]), state.rows.astype(np.intp)
+    return PartialFit(CompressedRegression(names, state.triangles, rows, free), facts)
 
 
 @dataclass(frozen=True, eq=False)
 class StreamedLogs:
-    """Long logs, ready for a fit.
+    """Holds long logs, ready for a fit.
 
     Attributes:
         observation: of the windows, whose report is that of all rows.
@@ -128,15 +124,15 @@ def stream_logs(
     """Reads every row of long logs once, in chunks, and keeps what a fit needs.
 
     Windows spread over the logs choose what must be one choice: cut-offs, speed floors, where
-    velocities come from, what is usual in each channel. Then every chunk is mended, split,
-    filtered and reduced to triangles by itself, with margins as long as the filters remember.
+    velocities come from, the scales of each channel. Then every chunk is repaired, split,
+    filtered and reduced to triangles by itself, with margins as long as the filters need.
     Where rows contradict what the windows showed, all are read again with what is known then.
 
     Args:
         model: the compiled robot.
         sources: of the logs.
         processing: None: automatic.
-        progress: is told the share that is done.
+        progress: gets the share that is done.
         rows: of a chunk, at least; a multiple of `log.FINGER` for a log read from a file.
         reducer: of one log; None: by threads of this process.
 
@@ -144,26 +140,23 @@ def stream_logs(
         DataError: a log that is damaged, changes while it is read or lacks a column; rows that no
             choice of the windows fits; no usable row.
     """
-    passes, every = read_all_rows(
-        model, sources, processing, progress, rows, reducer or reduce_by_threads
-    )
-    data, windows = (
-        reduce(merge_compressed, [part.data for part in every]),
-        passes.survey.observation,
-    )
+    reducer = reducer or reduce_by_threads
+    passes, every = read_all_rows(model, sources, processing, progress, rows, reducer)
+    data = reduce(merge_compressed, [part.data for part in every])
     report = build_streamed_report(model, sources, passes)
     if not data.rows.any():
         raise build_no_row_error(report)
-    return StreamedLogs(dataclasses.replace(windows, report=report), data, passes)
+    observation = dataclasses.replace(passes.survey.observation, report=report)
+    return StreamedLogs(observation, data, passes)
 
 
 def identify_long(
     streamed: StreamedLogs, method: Method = "weighted", model: CompiledModel | None = None
 ) -> FitResult:
-    """The fit of the base parameters to long logs.
+    """Returns the fit of the base parameters to long logs.
 
-    Values, sigmas, errors and the essential parameters come from all rows; how far residuals
-    remember, and by what factor that raises the sigmas, from the windows.
+    Values, sigmas, errors and the essential parameters come from all rows; how long residuals
+    are correlated, and by what factor that raises the sigmas, from the windows.
 
     Args:
         streamed: the logs.
@@ -193,22 +186,20 @@ def read_all_rows(
     rows: int,
     reducer: Reducer,
 ) -> tuple[LogPasses, list[Any]]:
-    """The passes over long logs, and of each log its part; as `stream_logs`.
-
-    Whatever is kept of rows.
+    """Returns the passes over long logs, and of each log its part; whatever is kept of rows.
 
     Raises:
         DataError: as `stream_logs`.
     """
     if any(signal.is_internal_state for signal in model.spec.signals):
         raise WholeLogNeeded(
-            f"{sources[0].name}: an effect of {model.spec.robot} remembers its motion without end, "
-            "and long logs are read in chunks; fit a part of it, FILE@START:END"
+            f"{sources[0].name}: an effect of {model.spec.robot} depends on all motion before, and "
+            "long logs are read in chunks; fit a part of it, FILE@START:END"
         )
     known, total = KnownFacts(), max(1, sum(source.rows for source in sources))
-    for number in range(1, PASSES + 1):
-        log_survey = choose_from_windows(model, sources, processing or Processing(), known, rows)
-        begun = [reducer(model, *each) for each in zip(sources, log_survey.chosen, strict=True)]
+    for number in range(1, THRESHOLDS.max_passes + 1):
+        survey = choose_from_windows(model, sources, processing or Processing(), known, rows)
+        begun = [reducer(model, *each) for each in zip(sources, survey.chosen, strict=True)]
         every: list[Any] = []
         for source, parts in zip(sources, begun, strict=True):
             whole: Any = None
@@ -219,12 +210,12 @@ def read_all_rows(
                 raise DataError(f"{source.name}: no rows; expected a motion; leave it out")
             every.append(whole)
         facts = tuple(part.facts for part in every)
-        again = _prepare_next_pass(facts, log_survey, known)
-        if again is None or number == PASSES:
+        again = _prepare_next_pass(facts, survey, known)
+        if again is None or number == THRESHOLDS.max_passes:
             break
         known = again
     _check_whole_logs(model, sources, facts)
-    return LogPasses(log_survey, facts, number), every
+    return LogPasses(survey, facts, number), every
 
 
 def reduce_by_threads(
@@ -233,7 +224,7 @@ def reduce_by_threads(
     chosen: LogChoices,
     reduce_by: Callable[[CompiledModel, Chunk, LogChoices], Any] = reduce_chunk,
 ) -> Iterator[Any]:
-    """The parts of all chunks of a log, in their order, by threads of this process.
+    """Yields the parts of all chunks of a log, in their order, by threads of this process.
 
     As many chunks are in memory as there are threads, and two. `reduce_by` says what is kept of
     each.
@@ -253,48 +244,41 @@ def reduce_by_threads(
 
 
 def _prepare_next_pass(
-    facts: Sequence[LogFacts], log_survey: Survey, known: KnownFacts
+    facts: Sequence[LogFacts], survey: Survey, known: KnownFacts
 ) -> KnownFacts | None:
-    """What another pass is to know; None if this one was given all."""
-    low = log_survey.chosen[0].processing.low_speed
-    floors = {
-        name: low * top for log_facts in facts for name, top in log_facts.moving_shafts.items()
-    }
-    wrong = [k for k, log_facts in enumerate(facts) if log_facts.is_wrongly_clipped()]
-    if not floors and not wrong:
+    """Returns what another pass is to know; None if this one knew all."""
+    low = survey.chosen[0].processing.low_speed
+    floors = {name: low * top for log in facts for name, top in log.moving_shafts.items()}
+    if not floors and not any(log.is_wrongly_clipped() for log in facts):
         return None
-    extremes = {k: log_facts.ranges.torques for k, log_facts in enumerate(facts)}
+    extremes = {k: log.ranges.torques for k, log in enumerate(facts)}
     return KnownFacts({**known.floors, **floors}, extremes)
 
 
 def _check_whole_logs(
     model: CompiledModel, sources: Sequence[Source], facts: Sequence[LogFacts]
 ) -> None:
-    """Refuse what only a log as a whole shows.
+    """Refuses what only a log as a whole shows.
 
     Raises:
         DataError: a channel without values, or a position whose count changes for good.
     """
-    for source, log_facts in zip(sources, facts, strict=True):
-        log_facts.ranges.check_values(Path(source.name), model.spec)
-        turned = {
-            j: t for j, t in log_facts.find_first("wrap").items() if not _is_periodic(model, j)
-        }
-        for kind, first_times in (
-            ("another zero", log_facts.find_first("zero")),
-            ("another turn", turned),
-        ):
+    for source, log in zip(sources, facts, strict=True):
+        log.ranges.check_values(Path(source.name), model.spec)
+        turned = {j: t for j, t in log.find_first("wrap").items() if not _is_periodic(model, j)}
+        zeros = log.find_first("zero")
+        for kind, first_times in (("another zero", zeros), ("another turn", turned)):
             for j, time in first_times.items():
-                name, rows = model.spec.joints[j].name, log_facts.tally.count("rows")
                 raise WholeLogNeeded(
-                    f"{source.name}: q{name} counts from {kind} from {time:.6g} s on; a log of "
-                    f"{rows} rows is read in chunks, which cannot be joined across that; fit its "
-                    f"parts, as in {source.name}@:{time:.6g}"
+                    f"{source.name}: q{model.spec.joints[j].name} counts from {kind} from "
+                    f"{time:.6g} s on; a log of {log.tally.count('rows')} rows is read in chunks, "
+                    "which cannot be joined across that; fit its parts, as in "
+                    f"{source.name}@:{time:.6g}"
                 )
 
 
 def _is_periodic(model: CompiledModel, j: int) -> bool:
-    """True if a turn of a joint changes nothing in the model."""
+    """Returns True if a turn of a joint changes nothing in the model."""
     joints, signals = len(model.spec.joints), model.spec.signals
     q, qd, qdd = np.random.default_rng(2).uniform(0.2, 1.0, (3, 1, joints))
     read = np.full((1, len(signals)), 0.5) if signals else None

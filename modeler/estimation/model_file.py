@@ -1,7 +1,7 @@
 """The MODEL file: one JSON file with all that later commands need; it can be mailed.
 
-It is told whether it still says what was saved, by checksums of its entries and by values that fit
-each other. A checksum tells an edited value from a saved one; it is no proof of who saved the file.
+Checksums of its entries, and values that fit each other, show whether it still says what was
+saved. A checksum tells an edited value from a saved one; it is no proof of who saved the file.
 """
 
 import dataclasses
@@ -32,19 +32,18 @@ from modeler.core.manifest import FittedParameter, FittedSpec, ModuleSpec, build
 from modeler.core.result import Result
 from modeler.core.table import format_percent
 from modeler.estimation.result import FitResult, read_fit
+from modeler.estimation.thresholds import THRESHOLDS
 from modeler.regression import DataReport, LogRows, Processing, has_shared_rows
 from modeler.runtime import CompiledModel, load_module
 
 FORMAT = 4
 KIND = "modeler model"
 
+_OPENED = (3, FORMAT)  # format 3 has no mapping, and no paths of logs
+
 CHECKSUMS = "checksums"
 """Name of the entry with the checksums of all others."""
 
-_SAME = 1e-6  # relative, of sigma; it is the root of a variance that was saved with all its digits
-_SYMMETRIC = 1e-9  # of a correlation
-_INDEFINITE = -1e-6  # smallest eigenvalue of the correlations: rounding of singular ones
-_REMEDY = "take the file as it was saved, or fit the model again"
 _MEANING = {
     "fit": "fit (the values and how they were found)",
     "covariance": "covariance (how sure the values are)",
@@ -59,7 +58,7 @@ _MEANING = {
 
 @dataclass(frozen=True)
 class LogProvenance:
-    """A log the model was fitted on.
+    """Describes a log the model was fitted on.
 
     Attributes:
         name: its file name, no folder.
@@ -69,7 +68,7 @@ class LogProvenance:
         start, end: s, first and last row that was used of it.
         path: as it was given, `@START:END` of a piece of it too; relative to the folder of work, or
             to that of the model file. A hint, where the model was mailed; "" of what was no file.
-        checksum: of the bytes of that file or folder, see `core.files.checksum`; "" without one.
+        checksum: of the bytes of that file or folder, see `compute_checksum`; "" without one.
     """
 
     name: str
@@ -82,40 +81,40 @@ class LogProvenance:
     checksum: str = ""
 
     def find_places(self, folder: str | Path) -> dict[str, str]:
-        """{where it may be: checksum of what is there, "" without}: by its path, from a folder."""
+        """Returns {where it may be: checksum of what is there}: by its path, from a folder."""
         both = (self.path, str(Path(folder, self.path))) if self.path else ()
         return {place: compute_place_checksum(place) for place in both}
 
     def find_place(self, folder: str | Path) -> str:
-        """Where it is, unchanged: by its path, or by that from a folder; "" if nowhere."""
-        candidates = self.find_places(folder).items()
-        return next((place for place, value in candidates if value and value == self.checksum), "")
+        """Returns where it is, unchanged: by its path, or by that from a folder; "" if nowhere."""
+        places = self.find_places(folder).items()
+        return next((place for place, x in places if x and x == self.checksum), "")
 
     def has_rows_of(self, log: LogRows) -> bool:
-        """True if rows of `log` were fitted."""
+        """Returns True if rows of `log` were fitted."""
         return has_shared_rows(log, self.content, self.start, self.end)
 
 
 @dataclass(frozen=True)
 class Addition(Result):
-    """One effect that was added to a model.
+    """Describes one effect that was added to a model.
 
     Attributes:
         effect: id; "" for the model as it was first fitted.
         joint: name; None for an effect of the whole robot.
-        shapes: values of its shape parameters, SI.
+        shapes: values of its nonlinear parameters, SI.
         error: relative error with it on held-out logs, root mean square over the joints; on the
             fitted logs, eight parts left out in turn, where none were held out.
         training_error: the same on the fitted logs.
         held_out: names of the held-out logs.
         robot_text: the robot file with it.
         delay: s, of the processing with it.
-        shape_sigmas: standard deviations of the shapes.
-        shape_intervals: 95 % intervals of the shapes.
+        shape_sigmas: standard deviations of the nonlinear parameters.
+        shape_intervals: 95 % intervals of the nonlinear parameters.
         joints: relative error before and with it, by joint, on the logs of `error`.
-        changed: joints whose error surely changed.
-        falls: True if the error surely falls, and no joint is spoilt (see `diagnosis.score`).
-        doubt: why a diagnosis would call it no more than a perhaps; empty if it would name it.
+        changed: joints whose error changed significantly.
+        falls: True if the error falls significantly, and rises on no joint.
+        doubt: why a diagnosis would call it possible only; empty if it would call it likely.
         moved: by how much each parameter that was there moved, in its sigmas; of learned laws only.
     """
 
@@ -141,12 +140,11 @@ class Addition(Result):
         return bool(self.moved)
 
     def to_json(self) -> dict[str, Any]:
-        """Plain data, without the robot file."""
+        """Returns plain data, without the robot file."""
+        names = "joint error training_error shapes shape_sigmas shape_intervals held_out"
         return {
             "effect": self.effect or None,
-            **select_attributes(
-                self, "joint error training_error shapes shape_sigmas shape_intervals held_out"
-            ),
+            **select_attributes(self, names),
             "joints": {j: {"before": a, "after": b} for j, (a, b) in self.joints.items()},
             **select_attributes(self, "changed falls doubt learned moved"),
         }
@@ -154,12 +152,12 @@ class Addition(Result):
 
 @dataclass(frozen=True, eq=False)
 class IdentifiedModel(Result):
-    """A robot with values.
+    """Holds a robot with values.
 
     Attributes:
         robot_text: the robot file, TOML.
         spec: the manifest.
-        sources: C by file name, as `Emitted.code`.
+        sources: C by file name, as `EmittedModule.code`.
         fit: the estimate; `fit.processing` is how its data were processed.
         logs: what it was fitted on.
         history: the model as first fitted and every effect added since; empty before the first.
@@ -184,12 +182,9 @@ class IdentifiedModel(Result):
         """
         if not any(step.learned for step in self.history):
             return None
-        falls = [
-            (new.learned, old.error - new.error) for old, new in itertools.pairwise(self.history)
-        ]
-        physics, learned = (
-            sum(f for is_learned, f in falls if is_learned is kind) for kind in (False, True)
-        )
+        pairs = itertools.pairwise(self.history)
+        falls = [(new.learned, old.error - new.error) for old, new in pairs]
+        physics, learned = (sum(fall for x, fall in falls if x is kind) for kind in (False, True))
         return physics, learned
 
     @property
@@ -213,12 +208,12 @@ class IdentifiedModel(Result):
         return [] if self.fit.verdict is None else self.fit.verdict.format_warning()
 
     def to_json(self) -> dict[str, Any]:
-        """What scripts read: the fit, what was added to it, and its logs."""
+        """Returns what scripts read: the fit, what was added to it, and its logs."""
         steps = {"waterfall": [step.to_json() for step in self.history]} if self.history else {}
         return self.fit.to_json() | steps | {"logs": [vars(log) for log in self.logs]}
 
     def compile(self) -> CompiledModel:
-        """The compiled robot.
+        """Returns the compiled robot.
 
         Raises:
             BuildError: no C compiler, or it refused the sources.
@@ -227,25 +222,28 @@ class IdentifiedModel(Result):
             table = tomllib.loads(self.robot_text).get("log", {})
         except ValueError:
             table = {}
-        return load_module(
-            self.spec, self.sources, self.mapping or (table if isinstance(table, Mapping) else {})
-        )
+        mapping = self.mapping or (table if isinstance(table, Mapping) else {})
+        return load_module(self.spec, self.sources, mapping)
 
 
 def collect_provenance(report: DataReport) -> tuple[LogProvenance, ...]:
-    """Which logs went into an observation."""
+    """Returns which logs went into an observation."""
     return tuple(
         LogProvenance(
-            log.name, log.rows, log.samples, log.content, *log.span,
+            log.name,
+            log.rows,
+            log.samples,
+            log.content,
+            *log.span,
             path=os.fsencode(log.path).decode(errors="replace"),
             checksum=compute_place_checksum(log.path),
         )
         for log in report.logs
-    )  # fmt: skip
+    )
 
 
 def compute_place_checksum(place: str) -> str:
-    """Of the file or folder of a log, `@START:END` left aside; "" if there is none."""
+    """Returns that of the file or folder of a log, `@START:END` left aside; "" if there is none."""
     try:
         return compute_checksum(Path(split_time_range(place)[0])) if place else ""
     except OSError:
@@ -253,7 +251,7 @@ def compute_place_checksum(place: str) -> str:
 
 
 def save_model(path: str | Path, model: IdentifiedModel) -> None:
-    """Write the model file; an interrupted write leaves the old file.
+    """Writes the model file; an interrupted write leaves the old file.
 
     Raises:
         ModelerError: the folder cannot be written.
@@ -278,7 +276,7 @@ def save_model(path: str | Path, model: IdentifiedModel) -> None:
 
 
 def load_model(path: str | Path) -> IdentifiedModel:
-    """Read a model file.
+    """Reads a model file.
 
     Raises:
         ManifestError: missing, not a model file, of another format, damaged, or changed since it
@@ -289,24 +287,20 @@ def load_model(path: str | Path) -> IdentifiedModel:
     check_checksums(raw, where)
     spec = build_manifest(_read_entry(raw, "manifest", Any, where), f"{where}, manifest")
     if _read_entry(raw, "signature", str, where) != spec.compute_signature():
-        raise _make_refusal(
-            where, "the manifest does not match its signature, so it was changed after it was saved"
-        )
-    fit = _read_fit(raw, where)
-    expected = [base.name for base in spec.base]
+        raise _make_refusal(where, "the manifest was changed after it was saved: wrong signature")
+    fit, count = _read_fit(raw, where), len(spec.base)
     if (
-        [p.name for p in fit.parameters] != expected
-        or fit.covariance.shape != (len(expected),) * 2
+        [p.name for p in fit.parameters] != [base.name for base in spec.base]
+        or fit.covariance.shape != (count, count)
         or spec.robot != _read_entry(raw, "robot", str, where)
     ):
-        raise _make_refusal(
-            where,
-            f"the values are not those of the {len(expected)} base parameters of its manifest",
-        )
+        what = f"the values are not those of the {count} base parameters of its manifest"
+        raise _make_refusal(where, what)
     for what in itertools.chain(_find_wrong_values(fit), _find_wrong_covariance(fit)):
         raise _make_refusal(where, what)
     kinds = get_type_hints(IdentifiedModel)
     as_saved = ("robot_text", "sources", "logs", "history", "mapping")
+    raw = {"mapping": {}} | raw if raw["format"] < FORMAT else raw
     further = {name: _read_entry(raw, name, kinds[name], where) for name in as_saved}
     return IdentifiedModel(spec=spec, fit=fit, **further)
 
@@ -316,7 +310,7 @@ def _make_refusal(where: str, what: str) -> ManifestError:
 
 
 def _read_fit(raw: Mapping[str, Any], where: str) -> FitResult:
-    """The estimate, every entry of the type that its class declares."""
+    """Returns the estimate, every entry of the type that its class declares."""
     rows = _read_entry(raw, "covariance", tuple[tuple[float, ...], ...], where)
     fitted = _read_entry(raw, "fit", Mapping[str, Any], where)
     if any(len(row) != len(rows) for row in rows):
@@ -328,6 +322,7 @@ def _read_fit(raw: Mapping[str, Any], where: str) -> FitResult:
 
 
 def _read_model_file(path: Path) -> dict[str, Any]:
+    expected = "expected the output of `modeler fit --out`"
     try:
         raw = parse_json(read_file(path))
     except OSError as error:
@@ -341,18 +336,14 @@ def _read_model_file(path: Path) -> dict[str, Any]:
                 f"{path}: is a robot; expected a model: make one with "
                 f"`modeler fit {shlex.quote(str(path))} LOG --out MODEL.json`"
             ) from None
-        raise ManifestError(
-            f"{path}: not a model file: it {error}; expected the output of `modeler fit --out`"
-        ) from None
+        raise ManifestError(f"{path}: not a model file: it {error}; {expected}") from None
     if not isinstance(raw, dict) or raw.get("kind") != KIND:
-        raise ManifestError(
-            f"{path}: JSON, but not a model file; expected the output of `modeler fit --out`"
-        )
-    if (got := raw.get("format")) != FORMAT:
+        raise ManifestError(f"{path}: JSON, but not a model file; {expected}")
+    if (got := raw.get("format")) not in _OPENED:
         version = f"model format {shorten_value(got)}" if "format" in raw else "no model format"
         newer = isinstance(got, int) and got > FORMAT
         raise ManifestError(
-            f"{path}: {version}, this version opens {FORMAT}; "
+            f"{path}: {version}, this version opens {_OPENED[0]} to {FORMAT}; "
             f"{'install a newer modeler' if newer else 'fit the model again'}"
         )
     return raw
@@ -375,7 +366,7 @@ def _read_entry(raw: Mapping[str, Any], name: str, kind: Any, where: str) -> Any
 
 
 def compute_checksums(content: Mapping[str, Any]) -> dict[str, str]:
-    """{entry: checksum} of every entry of a model file but the checksums themselves."""
+    """Returns {entry: checksum} of every entry of a model file but the checksums themselves."""
     # Entries stay in their order: that of the joints says which torque is whose.
     texts = {
         name: json.dumps(value, separators=(",", ":"), allow_nan=False)
@@ -386,7 +377,7 @@ def compute_checksums(content: Mapping[str, Any]) -> dict[str, str]:
 
 
 def check_checksums(content: Mapping[str, Any], where: str) -> None:
-    """Refuse a model file of which anything was changed since it was saved.
+    """Refuses a model file of which anything was changed since it was saved.
 
     Raises:
         ManifestError: names the entries that do not fit.
@@ -403,12 +394,12 @@ def check_checksums(content: Mapping[str, Any], where: str) -> None:
         more = f" and {len(wrong) - 3} more" if len(wrong) > 3 else ""
         raise ManifestError(
             f"{where}: changed since it was saved, the checksum does not fit: {changed}{more}; "
-            f"{_REMEDY}"
+            "take the file as it was saved, or fit the model again"
         )
 
 
 def _find_wrong_values(fit: FitResult) -> Iterator[str]:
-    """Which values and deviations no fit gives, and why."""
+    """Yields which values and deviations no fit gives, and why."""
     for p in (*fit.gains, *fit.parameters, *fit.loads):
         for what, number in (("value", p.value), ("sigma", p.sigma)):
             if number is not None and not np.isfinite(number):
@@ -418,7 +409,7 @@ def _find_wrong_values(fit: FitResult) -> Iterator[str]:
 
 
 def _find_wrong_covariance(fit: FitResult) -> Iterator[str]:
-    """Why no fit gives this covariance, or sigmas beside it."""
+    """Yields why no fit gives this covariance, or sigmas beside it."""
     names, C = [p.name for p in fit.parameters], fit.covariance
     for i, j in np.argwhere(~np.isfinite(C)):
         yield f"the covariance of {names[i]} and {names[j]} is not finite"
@@ -426,7 +417,7 @@ def _find_wrong_covariance(fit: FitResult) -> Iterator[str]:
         if variance < 0.0:
             yield f"the variance of {p.name} is {variance:g}; expected 0 or more"
         deviation = float(np.sqrt(variance))
-        if abs((p.sigma or 0.0) - deviation) > _SAME * deviation:
+        if abs((p.sigma or 0.0) - deviation) > THRESHOLDS.sigma_tolerance * deviation:
             got = "none" if p.sigma is None else f"{p.sigma:g}"
             yield f"the sigma of {p.name} is {got}, the root of its variance {deviation:g}"
     deviations = np.sqrt(np.diag(C))
@@ -436,10 +427,10 @@ def _find_wrong_covariance(fit: FitResult) -> Iterator[str]:
     safe = np.where(known, deviations, 1.0)
     correlation = np.where(np.outer(known, known), C / np.outer(safe, safe), 0.0)
     uneven = np.abs(correlation - correlation.T)
-    if uneven.max(initial=0.0) > _SYMMETRIC:
+    if uneven.max(initial=0.0) > THRESHOLDS.symmetry_tolerance:
         i, j = np.unravel_index(int(np.argmax(uneven)), uneven.shape)
         yield f"the covariance of {names[i]} and {names[j]} is not symmetric"
-    if np.linalg.eigvalsh(correlation).min(initial=0.0) < _INDEFINITE:
+    if np.linalg.eigvalsh(correlation).min(initial=0.0) < THRESHOLDS.min_eigenvalue:
         yield "the covariance gives a sum of parameters a negative variance"
 
 
@@ -447,10 +438,10 @@ def _find_wrong_covariance(fit: FitResult) -> Iterator[str]:
 
 
 def build_fitted_spec(model: IdentifiedModel) -> FittedSpec:
-    """The values of a model for `codegen.emit`: all parameters, as `compare` predicts with them.
+    """Returns the values of a model for `codegen.emit`: all parameters, as `compare` uses them.
 
-    Parameters that were set aside are 0. Drive gains, fitted or not, are those of the robot file;
-    they are left out unless every joint has one.
+    Dropped parameters are 0. Drive gains, fitted or not, are those of the robot file; they are
+    left out unless every joint has one.
     """
     fit, joints = model.fit, model.spec.joints
     verdict = fit.verdict
@@ -469,7 +460,7 @@ def build_fitted_spec(model: IdentifiedModel) -> FittedSpec:
 
 
 def _write_remarks(model: IdentifiedModel) -> list[str]:
-    """Sentences on what the values are of."""
+    """Returns sentences on what the values are of."""
     fit = model.fit
     energy = "" if fit.energy is None else ", of the energies instead of the torques"
     remarks = [
@@ -493,7 +484,7 @@ def _write_remarks(model: IdentifiedModel) -> list[str]:
 
 
 def keep_essential(model: IdentifiedModel, where: str) -> IdentifiedModel:
-    """The model with the values of its reduced model, all others 0.
+    """Returns the model with the values of its reduced model, all others 0.
 
     Args:
         model: as it was loaded.
@@ -504,7 +495,10 @@ def keep_essential(model: IdentifiedModel, where: str) -> IdentifiedModel:
     """
     fit, reduced = model.fit, model.fit.essential
     if reduced is None:
-        raise DataError(f"{where}: holds no reduced model (--essential); fit it again")
+        raise DataError(
+            f"{where}: holds no reduced model (--essential), it was fitted by an earlier version; "
+            "fit it again"
+        )
     estimates = {parameter.name: parameter for parameter in reduced.parameters}
     none: Any = {"value": 0.0, "sigma": None, "essential": False, "interval": None}
     values = [estimates.get(p.name, dataclasses.replace(p, **none)) for p in fit.parameters]

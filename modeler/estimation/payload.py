@@ -1,7 +1,7 @@
-"""Runs with a load on a link: its parameters beside those of the robot; mounted again."""
+"""Runs with a load on a link: its parameters, and whether the logs are of one robot and load."""
 
 import dataclasses
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import TypeVar
 
@@ -9,9 +9,12 @@ import numpy as np
 
 from modeler.core.errors import DataError, Method
 from modeler.core.manifest import ModuleSpec
+from modeler.core.table import format_percent
 from modeler.estimation.identify import Equations, build_base_equations, fit_equations
+from modeler.estimation.least_squares import solve_least_squares
 from modeler.estimation.model_file import IdentifiedModel
 from modeler.estimation.result import FitResult
+from modeler.estimation.thresholds import THRESHOLDS
 from modeler.numerics.least_squares import (
     compute_column_norms,
     compute_triangle,
@@ -23,9 +26,6 @@ from modeler.runtime import CompiledModel
 _ORDER = ("M", "MX", "MY", "MZ", "ZZ", "XX", "YY", "XY", "XZ", "YZ")
 """Where two load parameters cannot be told apart, the first in this order stays."""
 
-_TOLERANCE = 1e-8  # what is left of a column, as a share of its length, counts as zero
-
-
 AnyModel = TypeVar("AnyModel", bound=IdentifiedModel)
 
 LARGEST_MASS = 1e6
@@ -34,7 +34,7 @@ LARGEST_MASS = 1e6
 
 @dataclass(frozen=True)
 class Payload:
-    """A load that is fixed on a link during some logs.
+    """Describes a load that is fixed on a link during some logs.
 
     Attributes:
         logs: names of those logs (`Log.name`).
@@ -56,7 +56,7 @@ def identify_with_payloads(
     method: Method = "weighted",
     below: float | None = None,
 ) -> FitResult:
-    """The fit of robot and loads together: y - m w_M = W beta + W_L chi_L.
+    """Returns the fit of robot and loads together: y - m w_M = W beta + W_L chi_L.
 
     W_L holds the ten standard inertial columns of the link on the rows of the loaded logs, zero on
     the others, reduced to those that base and other load columns do not reproduce (Khalil, Gautier
@@ -78,7 +78,7 @@ def identify_with_payloads(
 
 @dataclass(frozen=True, eq=False)
 class LoadedEquations:
-    """The equations of robot and loads.
+    """Holds the equations of robot and loads.
 
     Attributes:
         equations: with the known weights on the side of the measurement.
@@ -91,14 +91,14 @@ class LoadedEquations:
     torques: np.ndarray
 
     def can_identify_mass(self, i: int) -> bool:
-        """True if the logs tell the mass of a weighed payload from all other parameters."""
+        """Returns True if the mass of a weighed payload is identifiable beside all parameters."""
         return bool(select_independent(self.equations.W, self.torques[:, [i]]))
 
 
 def build_loaded_equations(
     model: CompiledModel, observation: Observation, payloads: Sequence[Payload]
 ) -> LoadedEquations:
-    """The equations that `identify_with_payloads` fits.
+    """Returns the equations that `identify_with_payloads` fits.
 
     Raises:
         DataError: see there.
@@ -112,29 +112,28 @@ def build_loaded_equations(
     known = [i for i, payload in enumerate(payloads) if payload.mass is not None]
     weighed = tuple(payloads[i] for i in known)
     loaded = LoadedEquations(equations, weighed, -np.diff(sides, axis=0)[known].T)
-    blind = [
-        f"{payload.name}: its mass of {payload.mass:g} kg is taken as given: these logs do not "
-        "tell it from its other parameters"
+    notes = [
+        f"{payload.name}: its mass of {payload.mass:g} kg is taken as given: it is not "
+        "identifiable from these logs beside its other parameters"
         for i, payload in enumerate(weighed)
         if not loaded.can_identify_mass(i)
     ]
-    annotated = dataclasses.replace(equations, sentences=(*equations.sentences, *blind))
-    return dataclasses.replace(loaded, equations=annotated)
+    noted = dataclasses.replace(equations, sentences=(*equations.sentences, *notes))
+    return dataclasses.replace(loaded, equations=noted)
 
 
 def _add_load(
     equations: Equations, model: CompiledModel, observation: Observation, payload: Payload
 ) -> Equations:
-    """The equations with the columns of a load that can be told apart, beside those there are."""
+    """Returns the equations with the columns of a load that are independent of those there are."""
     link = payload.link or find_carrier(model.spec)
     place = {p.name: i for i, p in enumerate(model.spec.standard) if p.effect == "rigid_body"}
     labels = [label for label in _ORDER if f"{label}{link}" in place]
     places = [place[f"{label}{link}"] for label in labels]
-    units = [model.spec.standard[i].unit for i in places]
 
     def evaluate(s: Segment, w: slice) -> np.ndarray:
-        read = compute_signals(model, s)
-        part = None if read is None else read[w]
+        signals = compute_signals(model, s)
+        part = None if signals is None else signals[w]
         return model.regressor(s.q[w], s.qd[w], s.qdd[w], part)[:, :, places]
 
     columns = observation.filter_columns(evaluate)[observation.used]
@@ -143,25 +142,35 @@ def _add_load(
     y = equations.y
     if payload.mass is not None:
         y = y - payload.mass * columns[:, labels.index("M")]
-        columns, labels, units = columns[:, 1:], labels[1:], units[1:]
+        columns, labels, places = columns[:, 1:], labels[1:], places[1:]
     kept_columns = select_independent(equations.W, columns)
     names = [f"{label}{link}" for label in labels]
     sums = _group_columns(equations.W, columns, names, kept_columns)
     load_names = [f"{names[i]}{'R' if i in sums else ''}_{payload.name}" for i in kept_columns]
-    remarks = _describe_load(payload, columns, names, kept_columns, sums)
+    idle = [name for i, name in enumerate(names) if not columns[:, i].any()]
+    gone = [n for i, n in enumerate(names) if i not in kept_columns and n not in idle]
+    notes = [f"{names[k]}R_{payload.name} = {text}" for k, text in sums.items()]
+    if gone:
+        notes.insert(
+            0,
+            f"{', '.join(gone)} of the load are not identifiable apart from the others and are "
+            "grouped with them",
+        )
+    if idle:
+        notes.insert(0, f"{', '.join(idle)} of the load have no effect on the torques")
     return dataclasses.replace(
         equations,
         extra=np.column_stack([equations.extra, columns[:, kept_columns]]),
         y=y,
         names=(*equations.names, *load_names),
-        units=(*equations.units, *(units[i] for i in kept_columns)),
-        sentences=(*equations.sentences, *remarks),
+        units=(*equations.units, *(model.spec.standard[places[i]].unit for i in kept_columns)),
+        sentences=(*equations.sentences, *(f"{payload.name}: {note}" for note in notes)),
         loaded_logs=(*equations.loaded_logs, *payload.logs),
     )
 
 
 def find_carrier(spec: ModuleSpec) -> str:
-    """The link that carries loads: the platform of a parallel robot, or the last one."""
+    """Returns the link that carries loads: the platform of a parallel robot, or the last one."""
     closure = spec.closure  # whose joints are the coordinates only
     return spec.joints[-1].name if closure is None else closure.carrier or closure.variables[-1]
 
@@ -169,7 +178,7 @@ def find_carrier(spec: ModuleSpec) -> str:
 def add_known_load(
     model: AnyModel, mass: float, centre: Sequence[float] = (0.0, 0.0, 0.0), link: str | None = None
 ) -> AnyModel:
-    """The model of the robot with a load that is known: beta + K d(chi).
+    """Returns the model of the robot with a load that is known: beta + K d(chi).
 
     A mass m at c of a link's frame adds m to M, m c to MX, MY, MZ and m (c'c 1 - c c') to the
     inertia of the link; the base parameters that these are grouped with change by as much.
@@ -184,11 +193,10 @@ def add_known_load(
         DataError: no such link, or a load that can be none.
     """
     place = link or find_carrier(model.spec)
-    links = {p.joint: None for p in model.spec.standard if p.effect == "rigid_body"}
+    links = {p.joint for p in model.spec.standard if p.effect == "rigid_body"}
     if place not in links:
-        raise DataError(
-            f"payload: no link {place}; {model.spec.robot} has {', '.join(sorted(links))}"
-        )
+        there = ", ".join(sorted(links))
+        raise DataError(f"payload: no link {place}; {model.spec.robot} has {there}")
     c = np.asarray(centre, dtype=float)
     if not 0.0 < mass <= LARGEST_MASS or c.shape != (3,) or not np.all(np.isfinite(c)):
         raise DataError(
@@ -199,19 +207,16 @@ def add_known_load(
     added = {"M": mass, **dict(zip(("MX", "MY", "MZ"), mass * c, strict=True))}
     added |= {f"{a}{b}": J[i, k] for i, a in enumerate("XYZ") for k, b in enumerate("XYZ")}
     named = {f"{label}{place}": value for label, value in added.items()}
-    fit = model.fit
-    loaded = [
-        dataclasses.replace(p, value=p.value + sum(t.value * named.get(t.parameter, 0.0)
-                                                   for t in base.terms))
-        for p, base in zip(fit.parameters, model.spec.base, strict=True)
-    ]  # fmt: skip
-    return dataclasses.replace(model, fit=dataclasses.replace(fit, parameters=tuple(loaded)))
+    changes = (sum(t.value * named.get(t.parameter, 0.0) for t in b.terms) for b in model.spec.base)
+    pairs = zip(model.fit.parameters, changes, strict=True)
+    parameters = tuple(dataclasses.replace(p, value=p.value + change) for p, change in pairs)
+    fit = dataclasses.replace(model.fit, parameters=parameters)
+    return dataclasses.replace(model, fit=fit)
 
 
 def _check_payloads(
     model: CompiledModel, observation: Observation, payloads: Sequence[Payload]
 ) -> None:
-    loaded: set[str] = set()
     links = {parameter.joint for parameter in model.spec.standard}
     for payload in payloads:
         unknown = [name for name in payload.logs if name not in observation.logs]
@@ -230,57 +235,137 @@ def _check_payloads(
                 f"payload {payload.name}: mass {payload.mass} kg; expected above 0 and at most "
                 f"{LARGEST_MASS:g}"
             )
-        loaded |= set(payload.logs)
     if len({payload.name for payload in payloads}) < len(payloads):
         raise DataError("two payloads have the same name; give each its own")
-    if loaded >= set(observation.logs):
+    if {name for payload in payloads for name in payload.logs} >= set(observation.logs):
         raise DataError(
-            "every log carries a load, so it cannot be told from the last link; add a log of the "
-            "bare robot"
+            "every log carries a load, so the load is not identifiable apart from the last link; "
+            "add a log of the bare robot"
         )
 
 
 def _group_columns(
     base: np.ndarray, columns: np.ndarray, names: Sequence[str], kept_columns: Sequence[int]
 ) -> dict[int, str]:
-    """{kept column: the sum that its parameter stands for, "M3 + 11.1*YY3"}, of those that are."""
-    basis, lengths = (
-        np.column_stack([base, columns[:, kept_columns]]),
-        np.linalg.norm(columns, axis=0),
-    )
+    """Returns {kept column: the sum that its parameter stands for, "M3 + 11.1*YY3"}."""
+    basis = np.column_stack([base, columns[:, kept_columns]])
+    lengths = np.linalg.norm(columns, axis=0)
     relations: dict[int, str] = {}
     for i, name in enumerate(names):
         if i in kept_columns or lengths[i] == 0.0 or not kept_columns:
             continue
         factors = solve_scaled_least_squares(basis, columns[:, i])[-len(kept_columns) :]
         for k, factor in zip(kept_columns, factors, strict=True):
-            if abs(factor) * lengths[k] > _TOLERANCE**0.5 * lengths[i]:
+            if abs(factor) * lengths[k] > THRESHOLDS.column_tolerance**0.5 * lengths[i]:
                 term = f"{'-' if factor < 0.0 else '+'} {abs(factor):.4g}*{name}"
                 relations[k] = f"{relations.get(k, names[k])} {term}"
     return relations
 
 
-def _describe_load(
-    payload: Payload, columns: np.ndarray, names: Sequence[str], kept_columns: Sequence[int],
-    sums: Mapping[int, str],
-) -> list[str]:  # fmt: skip
-    """What became of the load's parameters that are not estimated."""
-    idle = [name for i, name in enumerate(names) if not columns[:, i].any()]
-    gone = [n for i, n in enumerate(names) if i not in kept_columns and n not in idle]
-    said = []
-    if idle:
-        said.append(f"{payload.name}: {', '.join(idle)} of the load have no effect on the torques")
-    if gone:
-        said.append(
-            f"{payload.name}: {', '.join(gone)} of the load cannot be told from the others "
-            "and are grouped with them"
-        )
-    said += [f"{payload.name}: {names[k]}R_{payload.name} = {text}" for k, text in sums.items()]
-    return said
-
-
 def select_independent(base: np.ndarray, columns: np.ndarray) -> list[int]:
-    """Indices of the columns that neither `base` nor earlier columns reproduce."""
+    """Returns indices of the columns that neither `base` nor earlier columns reproduce."""
     every = np.column_stack([base, columns])
     left = np.diag(compute_triangle(every / compute_column_norms(every)))[base.shape[1] :]
-    return np.flatnonzero(np.abs(left) > _TOLERANCE).tolist()
+    return np.flatnonzero(np.abs(left) > THRESHOLDS.column_tolerance).tolist()
+
+
+def find_heterogeneous_logs(
+    model: CompiledModel, observation: Observation, payloads: Sequence[Payload]
+) -> list[str]:
+    """Returns why logs do not belong together: moved payloads, or else different robots."""
+    every = (payload for payload in payloads if len(payload.logs) > 1)
+    moved = [line for payload in every if (line := _find_moved_load(model, observation, payload))]
+    return moved or find_different_robots(model, observation, payloads)
+
+
+def separate_payload(payload: Payload) -> list[Payload]:
+    """Returns a load for each log: the same mass, its own centre and inertia."""
+    if len(payload.logs) == 1:
+        return [payload]
+    return [
+        dataclasses.replace(payload, logs=(log,), name=f"{payload.name}{i}")
+        for i, log in enumerate(payload.logs, start=1)
+    ]
+
+
+def _find_moved_load(model: CompiledModel, observation: Observation, payload: Payload) -> str:
+    """Returns a line if the centre of mass of a load is not the same in all its logs.
+
+    Each of its logs gets a load of its own. Two logs disagree if a first moment MX, MY, MZ differs
+    by more than so many of its standard deviations and a share of the largest one.
+    """
+    parts = separate_payload(payload)
+    equations = build_loaded_equations(model, observation, parts).equations
+    fit = fit_equations(observation, equations, "weighted", noise_only=True)
+    first_moments = [
+        {
+            p.name.removesuffix(f"_{part.name}"): p
+            for p in fit.loads
+            if p.name.endswith(f"_{part.name}")
+            and p.sigma is not None
+            and p.name.startswith(("MX", "MY", "MZ"))
+        }
+        for part in parts
+    ]
+    values = [abs(p.value) for moments in first_moments for p in moments.values()]
+    least = THRESHOLDS.min_moment_share * max(values, default=0.0)
+    worst, line = THRESHOLDS.different_log_sigmas, ""
+    for label in sorted(set.intersection(*(set(moments) for moments in first_moments))):
+        b, *_, a = sorted((moments[label] for moments in first_moments), key=lambda p: p.value)
+        apart = (a.value - b.value) / float(np.hypot(a.sigma or np.inf, b.sigma or np.inf))
+        if apart > worst and a.value - b.value > least:
+            worst = apart
+            line = (
+                f"payload {payload.name}: the logs {', '.join(payload.logs)} disagree about where "
+                f"it sits: {label} is from {b.value:.3g} to {a.value:.3g} {a.unit}; if it was "
+                "taken off in between, give --payload-moved"
+            )
+    return line
+
+
+def find_different_robots(
+    model: CompiledModel, observation: Observation, payloads: Sequence[Payload]
+) -> list[str]:
+    """Returns a line if a fit describes the logs alone, but not together.
+
+    Together every log has the same base parameters, loads come beside them, and every load has its
+    own mass; torques are taken as they are. Alone, loaded logs have another last link. The line
+    names the joint where it shows most.
+
+    Args:
+        model: the robot.
+        observation: of all logs.
+        payloads: which of them carry what.
+    """
+    loaded = build_loaded_equations(model, observation, payloads)
+    weights = [f"weight {i}" for i in range(len(loaded.weighed))]
+    free = loaded.equations.append_columns(loaded.torques, weights)
+    bare, every = build_base_equations(observation), np.ones(len(observation.y), dtype=bool)
+    together = _compute_residual_norms(free, every) ** 2
+    runs = (observation.row_run == run for run in range(len(observation.logs)))
+    alone = np.sum([_compute_residual_norms(bare, rows) ** 2 for rows in runs], axis=0)
+    torque = bare.compress_rows(every).compute_torque_norms()
+    is_large = together > (THRESHOLDS.min_different_share * torque) ** 2
+    ratio = np.where((torque > 0.0) & is_large, together / np.maximum(alone, 1e-300), 0.0)
+    worst = int(np.argmax(ratio))
+    if ratio[worst] < THRESHOLDS.max_joint_ratio**2:
+        return []
+    errors = (format_percent(np.sqrt(v[worst]) / torque[worst]) for v in (alone, together))
+    return [
+        f"the logs {', '.join(observation.logs)} do not fit one robot: joint "
+        f"{observation.joints[worst].name} has a fit error of {' alone and '.join(errors)} "
+        "together; are all of the same robot, and is the load on the link that carries it?"
+    ]
+
+
+def _compute_residual_norms(equations: Equations, rows: np.ndarray) -> np.ndarray:
+    """Returns (n,) norm of the residual of a weighted fit of these rows, by joint, N m or N.
+
+    Raised by as much as the parameters lower it: few rows are described by many parameters.
+    """
+    count, columns = int(rows.sum()), len(equations.names)
+    if count <= columns:
+        return np.full(len(equations.observation.joints), np.inf)  # nothing to be said of so few
+    data = equations.compress_rows(rows)
+    norms = data.compute_residual_norms(solve_least_squares(data).beta)
+    return float(np.sqrt(count / (count - columns))) * norms

@@ -28,11 +28,12 @@ from modeler.core.manifest import ModuleSpec
 from modeler.core.table import format_percent
 from modeler.estimation.covariance import compute_roots
 from modeler.estimation.least_squares import Estimate, expand_columns, solve_by_qr
-from modeler.estimation.nearest_body import (
+from modeler.estimation.physical_consistency import (
     compute_pseudo_inertia,
     define_physical_parameters,
     extract_parameters,
 )
+from modeler.estimation.thresholds import THRESHOLDS
 from modeler.numerics.least_squares import (
     CompressedRegression,
     compute_column_norms,
@@ -41,19 +42,10 @@ from modeler.numerics.least_squares import (
     solve_scaled_least_squares,
 )
 
-HELD = 1e-5
-"""Standard deviation of what is held, over that which the data alone would give it."""
-
-CHANCE = 1e-3
-"""Probability with which data contradict a true prior of some body."""
-
-_LEFT_OUT = ", and it is left out of the prior"
-_NONE = 1e-9  # share of a column's length that is rounding
-
 
 @dataclass(frozen=True, eq=False)
 class Prior:
-    """N(K chi_0, K S K^T) of c base parameters, m standard ones.
+    """Holds N(K chi_0, K S K^T) of c base parameters, m standard ones.
 
     Attributes:
         names: (c,) base parameters.
@@ -61,8 +53,8 @@ class Prior:
         mean: (m,) chi_0; 0 for those that are free.
         S: (m, m); 0 for those that are free.
         groups: what is known together: "link 2", or a name, and its places in chi.
-        held: base parameters that cannot move.
-        without: bodies that have no prior, and why.
+        fixed_names: base parameters that cannot move.
+        skipped_bodies: that have no prior, and why.
     """
 
     names: tuple[str, ...]
@@ -79,34 +71,33 @@ class Prior:
         return any(len(places) > 1 for places in self.groups.values())
 
     def exclude_groups(self, names: Sequence[str]) -> "Prior":
-        """The same without some groups."""
+        """Returns the same without some groups."""
         groups = {name: places for name, places in self.groups.items() if name not in names}
         return dataclasses.replace(self, groups=groups)
 
     def scale_sigmas(self, factors: Mapping[str, float]) -> "Prior":
-        """The same with standard deviations of some groups so many times as large."""
-        S = self.S.copy()
+        """Returns the same with standard deviations of some groups so many times as large."""
+        scale = np.ones(len(self.S))
         for name, factor in factors.items():
-            places = self.groups[name]
-            S[places] *= factor
-            S[:, places] *= factor
-        return dataclasses.replace(self, S=S)
+            scale[self.groups[name]] *= factor
+        return dataclasses.replace(self, S=self.S * np.outer(scale, scale))
 
     def evaluate_prior(self, M: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-        """What is known of M beta: N (r, k), N M K chi_0 (r,), and a root (r, m) of its covariance.
+        """Returns what is known of M beta: N (r, k), N M K chi_0 (r,), a root of its covariance.
 
-        The rows of N are orthonormal and see nothing of parameters that are free.
+        The rows of N are orthonormal and see nothing of parameters that are free; the root is
+        (r, m).
 
         Args:
             M: (k, c).
         """
         every = [i for places in self.groups.values() for i in places]
-        K = M @ self.K
+        K, least = M @ self.K, THRESHOLDS.rounding_share
         loose = np.delete(K, every, axis=1)
-        loose = loose / compute_column_norms(loose)
-        U, s, _ = np.linalg.svd(loose)
-        N = U[:, int(np.sum(s > _NONE * s.max(initial=1.0))) :].T
-        N = N[np.abs(N @ K[:, every]).max(axis=1, initial=0.0) > _NONE * np.abs(K).max(initial=0.0)]
+        U, s, _ = np.linalg.svd(loose / compute_column_norms(loose))
+        N = U[:, int(np.sum(s > least * s.max(initial=1.0))) :].T
+        largest = np.abs(N @ K[:, every]).max(axis=1, initial=0.0)
+        N = N[largest > least * np.abs(K).max(initial=0.0)]
         part = N @ K[:, every]
         return N, part @ self.mean[every], part @ self._root[every]
 
@@ -120,128 +111,127 @@ class Prior:
         return np.asarray(size[:, None] * half)
 
     def build_rows(self, lengths: np.ndarray) -> np.ndarray:
-        """(r, c + 1) [R, R beta_0] with R^T R the information on beta.
+        """Returns (r, c + 1) [R, R beta_0] with R^T R the information on beta.
 
         Args:
             lengths: (c,) of the weighted columns of the data, 1 / sd of each parameter alone: what
-                is held is `HELD` of that.
+                is fixed is `fixed_sigma_share` of that.
         """
         scale = np.where(lengths > 0.0, lengths, 1.0)
         N, mean, root = self.evaluate_prior(np.diag(scale))
         vectors, values, _ = np.linalg.svd(root)
-        turn = vectors / np.maximum(np.pad(values, (0, len(vectors) - len(values))), HELD)
+        values = np.pad(values, (0, len(vectors) - len(values)))
+        turn = vectors / np.maximum(values, THRESHOLDS.fixed_sigma_share)
         return np.column_stack([turn.T @ N * scale, turn.T @ mean])
 
     def extend_rows(self, lengths: np.ndarray) -> np.ndarray:
-        """(r, k + 1) `build_rows` of the k columns of a fit.
-
-        First of which are the base " "parameters.
-        """
-        prior_rows = self.build_rows(lengths[: len(self.names)])
-        padded = np.zeros((len(prior_rows), len(lengths) + 1))
-        padded[:, [*range(len(self.names)), -1]] = prior_rows
-        return padded
+        """Returns (r, k + 1) rows of the k columns of a fit, first the base parameters."""
+        rows = self.build_rows(lengths[: len(self.names)])
+        return np.insert(rows, [len(self.names)] * (len(lengths) - len(self.names)), 0.0, axis=1)
 
     def find_unlikely_groups(self, beta: np.ndarray) -> list[str]:
-        """Groups that lie, by less than `CHANCE`, as far off as the likeliest chi of beta (c,)."""
+        """Returns groups whose likeliest chi of beta (c,) is improbably far off."""
         N, mean, root = self.evaluate_prior(np.eye(len(beta)))
         size = np.linalg.norm(root, axis=1)
-        size = np.where(size > _NONE * size.max(initial=0.0), size, np.inf)  # held: moves nothing
+        is_free = size > THRESHOLDS.rounding_share * size.max(initial=0.0)
+        size = np.where(is_free, size, np.inf)  # fixed: moves nothing
         apart = np.linalg.lstsq(root / size[:, None], (N @ beta - mean) / size, rcond=1e-9)[0]
-        every = self.groups.items()
-        return [
-            k for k, places in every if chdtrc(len(places), np.sum(apart[places] ** 2)) < CHANCE
-        ]
+        squares = {name: np.sum(apart[places] ** 2) for name, places in self.groups.items()}
+        chance = THRESHOLDS.chance_probability
+        return [k for k, square in squares.items() if chdtrc(len(self.groups[k]), square) < chance]
 
     def find_contradictions(
         self, M: np.ndarray, value: np.ndarray, covariance: np.ndarray
     ) -> dict[str, str]:
-        """A line for each body or value that the data contradict.
+        """Returns a line for each body or value that the data contradict.
 
         d = M beta_0 - value has the covariance V + M K S K^T M^T, and d^T (..)^-1 d is chi-square.
         Without the prior of a group it falls, by chi-square of as many degrees as are lost; that
-        which falls by least chance is told, and those that fall by half as much.
+        which falls by least chance is reported, and those that fall by half as much.
 
         Args:
-            M: (k, c) what the data tell of beta.
+            M: (k, c) what the data determine of beta.
             value: (k,).
             covariance: (k, k) V.
         """
 
-        def misfit(prior: "Prior") -> tuple[float, int]:
+        def compute_misfit(prior: "Prior") -> tuple[float, int]:
             N, mean, root = prior.evaluate_prior(M)
             d, total = mean - N @ value, root @ root.T + N @ covariance @ N.T
             size = np.sqrt(np.maximum(np.diag(total), 1e-300))
             apart = np.linalg.lstsq(total / np.outer(size, size), d / size, rcond=1e-12)[0]
             return float(d / size @ apart), len(d)
 
-        whole, degrees = misfit(self)
-        chance = CHANCE / max(1, len(self.groups))
+        whole, degrees = compute_misfit(self)
+        chance = THRESHOLDS.chance_probability / max(1, len(self.groups))
         falls = {}
         for name in self.groups:
-            left, rest = misfit(self.exclude_groups([name]))
+            left, rest = compute_misfit(self.exclude_groups([name]))
             lost, fall = degrees - rest, max(whole - left, 0.0)
             if lost and chdtrc(lost, fall) < chance:
                 falls[name] = fall**0.5, chdtri(lost, chance) ** 0.5
         most = max((fall for fall, _ in falls.values()), default=0.0)
         named = sorted(falls.items(), key=lambda item: -item[1][0])
+        left_out = ", and it is left out of the prior"
         return {
-            name: f"{name}: the data contradict what the robot file says of it, by {fall:.3g} "
-            f"sigmas where {limit:.2g} are chance{'' if self._is_fixed(name) else _LEFT_OUT}; "
-            "correct "
-            "[parameters] or its uncertainty, or let `modeler diagnose` look for an effect that is "
-            "missing"
+            name: f"{name}: the data contradict the robot file: distance {fall:.3g} sigma "
+            f"(threshold {limit:.2g}){'' if self._is_fixed(name) else left_out}; correct "
+            "[parameters] or its uncertainty, or run `modeler diagnose`"
             for name, (fall, limit) in named
             if fall**2 >= 0.5 * most**2
         }
 
     def _is_fixed(self, name: str) -> bool:
-        """True if a group is held as it is."""
+        """Returns True if a group cannot move."""
         return not self.S[self.groups[name]].any()
 
     def combine_with_data(
-        self, estimate: Estimate, data: CompressedRegression, covariance: np.ndarray,
-        more: np.ndarray | float = 0.0, joints: Sequence[str] = (),
-    ) -> Estimate:  # fmt: skip
-        """The estimate of data and prior together.
+        self,
+        estimate: Estimate,
+        data: CompressedRegression,
+        covariance: np.ndarray,
+        more: np.ndarray | float = 0.0,
+        joints: Sequence[str] = (),
+    ) -> Estimate:
+        """Returns the estimate of data and prior together.
 
-        The data tell theta = M beta of covariance V, raised for all that their rows repeat, and
-        M = [1 T] where T carries columns that were set aside: least squares of
+        The data determine theta = M beta of covariance V, raised for autocorrelated rows, and
+        M = [1 T] where T carries columns that were dropped: least squares of
         [V^-1/2 (M beta - theta); R (beta - beta_0)].
 
         Args:
             estimate: of the data.
             data: of which columns; first the base parameters, then those of loads.
-            covariance: (c, c) V, 0 for columns set aside.
+            covariance: (c, c) V, 0 for dropped columns.
             more: (c,) variance of what halves of the data disagree about. It is no noise: beside
                 V, it would part values of which the data know the sum. Data that contradict the
                 prior do so beyond it, and it stays in the standard deviations.
             joints: names, for a line on each that the prior makes worse.
         """
         whole = data.combine_joints(estimate.sigma)
-        kept_columns, c = np.asarray(estimate.rank.kept_columns, dtype=int), len(estimate.beta)
-        M, V = np.zeros((len(kept_columns), c)), covariance[np.ix_(kept_columns, kept_columns)]
-        rest = np.setdiff1d(np.arange(c), kept_columns)
-        M[:, kept_columns] = np.eye(len(kept_columns))
-        M[:, rest] = solve_scaled_least_squares(whole[:, kept_columns], whole[:, rest])
-        whitened_data = compute_roots(V)[1] @ np.column_stack([M, estimate.beta[kept_columns]])
-        doubt = V + np.diag(np.broadcast_to(more, c)[kept_columns])
-        against = self.find_contradictions(
-            M[:, : len(self.names)], estimate.beta[kept_columns], doubt
-        )
-        left = self.exclude_groups([name for name in against if not self._is_fixed(name)])
-        both = np.vstack(
-            [whitened_data, left.extend_rows(np.linalg.norm(whitened_data[:, :-1], axis=0))]
-        )
+        columns, c = np.asarray(estimate.rank.kept_columns, dtype=int), len(estimate.beta)
+        M, V = np.zeros((len(columns), c)), covariance[np.ix_(columns, columns)]
+        rest = np.setdiff1d(np.arange(c), columns)
+        M[:, columns] = np.eye(len(columns))
+        M[:, rest] = solve_scaled_least_squares(whole[:, columns], whole[:, rest])
+        values = estimate.beta[columns]
+        whitened = compute_roots(V)[1] @ np.column_stack([M, values])
+        doubt = V + np.diag(np.broadcast_to(more, c)[columns])
+        against = self.find_contradictions(M[:, : len(self.names)], values, doubt)
+        prior = self.exclude_groups([name for name in against if not self._is_fixed(name)])
+        lengths = np.linalg.norm(whitened[:, :-1], axis=0)
+        both = np.vstack([whitened, prior.extend_rows(lengths)])
         rank = find_independent_columns(both[:, :-1], data.names)
-        values, half = solve_by_qr(both[:, rank.kept_columns], both[:, -1])
-        beta, posterior = expand_columns(c, rank.kept_columns, values, half @ half.T)
+        used = list(rank.kept_columns)
+        values, half = solve_by_qr(both[:, used], both[:, -1])
+        beta, posterior = expand_columns(c, used, values, half @ half.T)
         before, after = np.full(c, np.inf), np.diag(posterior)
-        before[kept_columns] = np.diag(V)
+        before[columns] = np.diag(V)
         share = np.clip(1.0 - after / before, 0.0, 1.0)
         posterior = posterior + np.diag(np.where(after > 0.0, more, 0.0))
         noise = np.zeros((1, c + 1))
         noise[0, -1] = max(1, estimate.degrees) ** 0.5
+        raised = _find_raised_errors(data, estimate.beta, beta, joints)
         return dataclasses.replace(
             estimate,
             beta=beta,
@@ -250,67 +240,53 @@ class Prior:
             whole=compute_triangle(np.vstack([both, noise])),
             prior_share=share,
             fixed_names=self.fixed_names,
-            contradicted=(
-                *against.values(),
-                *_find_raised_errors(data, estimate.beta, beta, joints),
-            ),
-            sentences=(*estimate.sentences, *left.format_sentences(share)),
+            contradicted=(*against.values(), *raised),
+            sentences=(*estimate.sentences, *prior.format_sentences(share)),
         )
 
     def format_sentences(self, share: np.ndarray) -> list[str]:
-        """What the prior did."""
-        count = len(self.names)
-        said = (
-            [
-                f"prior of the robot file on {', '.join(self.groups)}: "
-                f"{format_percent(share[:count].mean())} "
-                f"of what is known of {count} parameters comes from it"
-            ]
-            if self.groups
-            else []
-        )
+        """Returns what the prior did."""
+        count, lines = len(self.names), []
+        if self.groups:
+            lines.append(
+                f"prior of the robot file on {', '.join(self.groups)}: it gives "
+                f"{format_percent(share[:count].mean())} of the information on {count} parameters"
+            )
         if self.skipped_bodies:
             reasons = ", ".join(f"{name} ({why})" for name, why in self.skipped_bodies.items())
-            said.append(f"no prior from [parameters] on placeholders: {reasons}")
-        return said
-
-
-RAISED = 0.1
-"""Of the fit error of a joint: what a prior may add to it unsaid, where it is beyond chance."""
+            lines.append(f"no prior from [parameters] on placeholders: {reasons}")
+        return lines
 
 
 def _find_raised_errors(
     data: CompressedRegression, free: np.ndarray, beta: np.ndarray, joints: Sequence[str]
 ) -> list[str]:
-    """A line for each joint whose error the prior raises beyond three of its standard errors."""
+    """Returns a line for each joint whose error the prior raises beyond three standard errors."""
     torque = data.compute_torque_norms()
     before, after = data.compute_residual_norms(free), data.compute_residual_norms(beta)
     chance = 3.0 / np.sqrt(2.0 * np.maximum(data.rows, 1))
     return [
         f"joint {name}: the prior of the robot file raises its fit error from "
-        f"{format_percent(a / t)} to "
-        f"{format_percent(b / t)}; correct [parameters] or its uncertainty"
+        f"{format_percent(a / t)} to {format_percent(b / t)}; correct [parameters] or its "
+        "uncertainty"
         for name, t, a, b, most in zip(joints, torque, before, after, chance, strict=False)
-        if t > 0.0 and b > (1.0 + max(RAISED, float(most))) * a
+        if t > 0.0 and b > (1.0 + max(THRESHOLDS.max_prior_error, float(most))) * a
     ]
 
 
 def build_prior(spec: ModuleSpec) -> Prior | None:
-    """The prior that a robot file states; None without `[parameters.uncertainty]` and `held`."""
-    machine, every, share = (
-        define_physical_parameters(spec),
-        spec.standard,
-        spec.inertial_uncertainty,
-    )
+    """Returns the prior of a robot file; None without `[parameters.uncertainty]` and `held`."""
+    machine, every = define_physical_parameters(spec), spec.standard
+    share = spec.inertial_uncertainty
     if share is None and all(p.deviation is None for p in every):
         return None
     count = len(machine.names)
     mean, S = np.zeros(count), np.zeros((count, count))
     groups: dict[str, list[int]] = {}
-    without: dict[str, str] = {}
+    skipped: dict[str, str] = {}
     value = {p.name: p.nominal for p in every}
     for link, places in machine.links.items() if share else ():
-        ten = [value.get(machine.names[i], 0.0) for i in places]  # 0 where no torque feels it
+        ten = [value.get(machine.names[i], 0.0) for i in places]  # 0 where no torque depends on it
         stated = np.array([worth or 0.0 for worth in ten])
         why, block = compute_body_covariance(stated, share or 0.0)
         if None in ten:
@@ -318,7 +294,7 @@ def build_prior(spec: ModuleSpec) -> Prior | None:
         elif not why and not block[0, 0] and max(places) < len(every):
             why = "inertia of 0"
         if why:
-            without[f"link {link}"] = why
+            skipped[f"link {link}"] = why
         else:
             mean[places], S[np.ix_(places, places)] = stated, block
             groups[f"link {link}"] = places.tolist()
@@ -332,11 +308,11 @@ def build_prior(spec: ModuleSpec) -> Prior | None:
     names = tuple(base.name for base in spec.base)
     held = {p.name for p in every if p.deviation == 0.0}
     fixed = tuple(b.name for b in spec.base if all(term.parameter in held for term in b.terms))
-    return Prior(names, machine.K, mean, S, groups, fixed, without)
+    return Prior(names, machine.K, mean, S, groups, fixed, skipped)
 
 
 def compute_body_covariance(ten: np.ndarray, share: float) -> tuple[str, np.ndarray]:
-    """Why these are the ten parameters of no body, or (10, 10) their covariance.
+    """Returns why these are the ten parameters of no body, or (10, 10) their covariance.
 
     A body that its own uncertainty makes possible is one.
 
@@ -365,7 +341,7 @@ def compute_body_covariance(ten: np.ndarray, share: float) -> tuple[str, np.ndar
 
 
 def describe_unused_prior(spec: ModuleSpec, what: str, use: str) -> tuple[str, ...]:
-    """What an estimator without a prior makes of [parameters], as a sentence; none without it.
+    """Returns what an estimator without a prior makes of [parameters]; nothing without them.
 
     Args:
         spec: of the robot.

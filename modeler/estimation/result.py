@@ -12,24 +12,21 @@ from modeler.core.json import build_instance, convert_to_plain, select_attribute
 from modeler.core.manifest import ModuleSpec
 from modeler.core.result import Result
 from modeler.core.table import POOLED, format_errors_by_unit, format_percent, pool_errors_by_unit
-from modeler.estimation.essential import ReducedModel
-from modeler.estimation.nearest_body import PREFIXES, compute_pseudo_inertia
-from modeler.estimation.parameter import ParameterEstimate, format_parameters, read_all, read_back
+from modeler.estimation.parameters import (
+    ParameterEstimate,
+    ReducedModel,
+    format_parameters,
+    read_all,
+    read_back,
+)
+from modeler.estimation.physical_consistency import PREFIXES, compute_pseudo_inertia
+from modeler.estimation.thresholds import THRESHOLDS
 from modeler.regression import Bands, DataWarning, Processing, read_processing
-
-# The energy model beside the torque model of the same data: figures, and what they come to.
-
-
-KNOWN_BELOW_PERCENT = 10.0
-"""%sigma below which a parameter counts as known."""
-
-_FELT = 0.5  # sigmas: a bias that is no longer small beside the noise
-_WORTH = 1.2  # ratio of two uncertainties that is told as a difference
 
 
 @dataclass(frozen=True)
 class ModelFigures(ShortRepr):
-    """One model fitted to the data.
+    """Holds figures of one model fitted to the data.
 
     Attributes:
         model: "torque", "energy, Simpson" or "energy, trapezoid".
@@ -58,7 +55,7 @@ class ModelFigures(ShortRepr):
     joint_sigma: Mapping[str, float] = field(default_factory=dict)
 
     def format_cells(self) -> tuple[str, ...]:
-        """Its line of the table."""
+        """Returns its line of the table."""
         return (
             f"{self.rows}",
             f"{self.condition_scaled:.4g}",
@@ -70,14 +67,9 @@ class ModelFigures(ShortRepr):
         )
 
 
-def _format_row(name: str, cells: Sequence[str]) -> str:
-    widths = (7, 10, 7, 10, 10, 9, 13)
-    return f"{name:<18}" + "".join(f"{c:>{w}}" for c, w in zip(cells, widths, strict=True))
-
-
 @dataclass(frozen=True)
 class EnergyReport(ShortRepr):
-    """How the rows of energy were made, and how they compare.
+    """Holds how the rows of energy were made, and how they compare with the torque model.
 
     Attributes:
         window: s.
@@ -95,7 +87,7 @@ class EnergyReport(ShortRepr):
     def ratio(self) -> float:
         """Uncertainty of the torques over that of the torque model, at the joint where it is most.
 
-        Of all joints together the largest torques alone would speak.
+        Over all joints together the largest torques alone would count.
         """
         return self._find_worst_joint()[1]
 
@@ -105,53 +97,50 @@ class EnergyReport(ShortRepr):
             f"joint {name}": (sigma, torque.joint_sigma.get(name, 0.0))
             for name, sigma in energy.joint_sigma.items()
         } or {"all joints": (energy.torque_sigma, torque.torque_sigma)}  # a file from before
-        ratios = {
-            name: energy_sigma / first if first > 0.0 else 1.0
-            for name, (energy_sigma, first) in pairs.items()
-        }
+        ratios = {name: a / b if b > 0.0 else 1.0 for name, (a, b) in pairs.items()}
         return max(ratios.items(), key=lambda item: item[1])
 
     def format_lines(self) -> list[str]:
-        """Lines of text."""
+        """Returns lines of text."""
         head = ("rows", "cond", "known", "error", "sigma", "missed", "bias")
+        rows = [("model", head), *((item.model, item.format_cells()) for item in self.figures)]
+        widths = (7, 10, 7, 10, 10, 9, 13)
+        table = [
+            f"{name:<18}" + "".join(f"{c:>{w}}" for c, w in zip(cells, widths, strict=True))
+            for name, cells in rows
+        ]
         return [
-            f"energy model: windows of {self.window:.4g} s, energies met to "
+            f"energy model: windows of {self.window:.4g} s, energies with an error of "
             f"{format_percent(self.relative_error)}; beside the torque model on the same data:",
-            _format_row("model", head),
-            *(_format_row(item.model, item.format_cells()) for item in self.figures),
+            *table,
             "cond: columns of length one; known: sigma below 10 %; error, sigma: of the predicted "
-            "torques; missed: share of the energy that integrals and derivatives miss; bias: what "
-            "that moves at most",
+            "torques; missed: energy error of the integration; bias: its largest effect",
             *self.format_sentences(),
         ]
 
     def format_sentences(self) -> list[str]:
-        """Which of the two models to take, and what the rule of integration does."""
+        """Returns which of the two models to take, and what the rule of integration does."""
         torque, energy, _ = self.figures
         where, ratio = self._find_worst_joint()
-        knows = (
-            f"knows {energy.known} parameters where that knows {torque.known}, of {self.parameters}"
-        )
+        known = f"{energy.known} (torque model: {torque.known}) of {self.parameters} parameters"
         first = (
-            f"the energy model predicts the torques of {where} {ratio:.3g} times less surely than "
-            f"the torque model on the same data and {knows}: one equation a window in place of one "
-            "a joint; for torques and values take --model torque"
-            if ratio > _WORTH
-            else "the energy model is about as sure as the torque model (at most "
-            f"{ratio:.3g} times its sigma of the torques, {where}), {knows}, and needs no "
-            "acceleration"
+            f"the energy model has {ratio:.3g} times the uncertainty of the torque model in the "
+            f"torques of {where} and knows {known}; for torques and values take --model torque"
+            if ratio > THRESHOLDS.different_sigma_ratio
+            else f"the energy model has at most {ratio:.3g} times the uncertainty of the torque "
+            f"model ({where}), knows {known}, and needs no acceleration"
         )
         simpson, trapezoid = (item.bias or 0.0 for item in self.figures[1:])
         second = (
-            f"integrals by Simpson's rule, and derivatives, move no parameter by more than "
+            "integrals by Simpson's rule, and derivatives, change no parameter by more than "
             f"{simpson:.2g} sigma; with the trapezoid {trapezoid:.2g}"
         )
-        if simpson > _FELT:
+        if simpson > THRESHOLDS.max_bias_sigmas:
             second += "; log faster, or move more slowly"
         return [first, second]
 
     def to_json(self) -> dict[str, Any]:
-        """Plain data."""
+        """Returns plain data."""
         return select_attributes(self, "window relative_error parameters ratio") | {
             "figures": [vars(item) for item in self.figures],
             "sentences": self.format_sentences(),
@@ -162,16 +151,16 @@ class EnergyReport(ShortRepr):
 
 
 _LAW = (
-    ("Fv", "+", (("viscous", 1.0), ("asymmetric_viscous", 1.0))),
-    ("Fs", "+", (("coulomb", 1.0), ("offset", 1.0))),
-    ("Fv", "-", (("viscous", 1.0), ("asymmetric_viscous", -1.0))),
-    ("Fs", "-", (("coulomb", 1.0), ("offset", -1.0))),
+    ("Fv", "+", {"viscous": 1.0, "asymmetric_viscous": 1.0}),
+    ("Fs", "+", {"coulomb": 1.0, "offset": 1.0}),
+    ("Fv", "-", {"viscous": 1.0, "asymmetric_viscous": -1.0}),
+    ("Fs", "-", {"coulomb": 1.0, "offset": -1.0}),
 )
 
 
 @dataclass(frozen=True)
 class DirectedFriction:
-    """Friction of one joint in one direction of its motion, a sum of base parameters.
+    """Holds friction of one joint in one direction of its motion, a sum of base parameters.
 
     Attributes:
         name: "Fv1+", "Fs1+" for qd > 0, "Fv1-", "Fs1-" for qd < 0.
@@ -188,7 +177,7 @@ class DirectedFriction:
     relation: str
 
     def to_json(self) -> dict[str, Any]:
-        """Plain data."""
+        """Returns plain data."""
         share = 100.0 * self.sigma / abs(self.value) if self.value else None
         return vars(self) | {"relative_sigma_percent": share}
 
@@ -196,7 +185,7 @@ class DirectedFriction:
 def compute_friction_by_direction(
     spec: ModuleSpec, fit: "FitResult"
 ) -> tuple[DirectedFriction, ...]:
-    """Friction by direction of the joints whose viscous friction differs between the directions.
+    """Returns that of the joints whose viscous friction differs between the directions.
 
     The law of the columns qd, |qd|, sign(qd), 1 is that of two slopes and two levels,
 
@@ -211,34 +200,33 @@ def compute_friction_by_direction(
         fit: its c base parameters, and the (c, c) covariance of their values.
     """
     parameters, covariance = fit.parameters, fit.covariance
-    effect_and_joint = {
-        parameter.name: (parameter.effect, parameter.joint) for parameter in spec.standard
-    }
+    keys = {parameter.name: (parameter.effect, parameter.joint) for parameter in spec.standard}
     column = {
-        effect_and_joint[base.column_of]: i
+        keys[base.column_of]: i
         for i, base in enumerate(spec.base)
-        if base.column_of in effect_and_joint and parameters[i].sigma is not None
+        if base.column_of in keys and parameters[i].sigma is not None
     }
     frictions = []
     for joint in spec.joints:
         if ("asymmetric_viscous", joint.name) not in column:
             continue
         for prefix, sign, parts in _LAW:
-            if (parts[0][0], joint.name) not in column:  # another carries it
+            used = {column[k, joint.name]: c for k, c in parts.items() if (k, joint.name) in column}
+            if (next(iter(parts)), joint.name) not in column:  # another carries it
                 continue
-            used = [(column[key, joint.name], c) for key, c in parts if (key, joint.name) in column]
-            at, c = [i for i, _ in used], np.array([factor for _, factor in used])
+            at, c = list(used), np.array(list(used.values()))
             name = f"{prefix}{joint.name}{sign}"
-            terms = " ".join(f"{'+' if f > 0 else '-'} {parameters[i].name}" for i, f in used)
+            signed = (f"{'+' if f > 0 else '-'} {parameters[i].name}" for i, f in used.items())
+            terms = " ".join(signed)
             value = float(c @ [parameters[i].value for i in at])
             sigma = max(float(c @ covariance[np.ix_(at, at)] @ c), 0.0) ** 0.5
-            relation = f"{name} = {terms.removeprefix('+ ')}"
-            frictions.append(DirectedFriction(name, parameters[at[0]].unit, value, sigma, relation))
+            relation, unit = f"{name} = {terms.removeprefix('+ ')}", parameters[at[0]].unit
+            frictions.append(DirectedFriction(name, unit, value, sigma, relation))
     return tuple(frictions)
 
 
 def format_directions(directions: tuple[DirectedFriction, ...]) -> list[str]:
-    """A table; nothing without one."""
+    """Returns a table; nothing without one."""
     if not directions:
         return []
     width = max(9, *(len(item.name) for item in directions))
@@ -252,12 +240,9 @@ def format_directions(directions: tuple[DirectedFriction, ...]) -> list[str]:
     ]
 
 
-_ROUND = "{:.4g}".format
-
-
 @dataclass(frozen=True)
 class JointFit:
-    """One joint.
+    """Holds the fit of one joint.
 
     Attributes:
         name: joint.
@@ -284,7 +269,7 @@ class JointFit:
 
 @dataclass(frozen=True)
 class JointVerdict(ShortRepr):
-    """What a fit is worth on one joint.
+    """Holds what a fit is valid for on one joint.
 
     Attributes:
         state: "good": nothing speaks against it; "doubtful": its torques or its values are to be
@@ -298,18 +283,17 @@ class JointVerdict(ShortRepr):
 
 @dataclass(frozen=True)
 class Verdict(ShortRepr):
-    """How a fit ends.
+    """Holds what a fit is valid for.
 
     Attributes:
         usable: True if it predicts the torques of motion like that of its logs.
         valid_for: "parameters" (its values are those of a machine: simulation, control, other
             motion), "prediction" (torques of motion like that of its logs), "nothing".
-        line: for people: usable or not, why, what to do.
+        line: for people: valid or not, why, what to do.
         doubts: all that speaks against it.
-        unseen: faults that logs may have and these would not show, in words.
+        unseen: faults that these logs would not show, in words.
         by_joint: the same joint by joint; empty in files that lack it.
-        possible: whether a machine with these values could be built; None where nobody asked, as
-            where the logs are at fault.
+        possible: whether the values are physically consistent; None where the logs are at fault.
     """
 
     usable: bool
@@ -321,14 +305,14 @@ class Verdict(ShortRepr):
     possible: bool | None = None
 
     def format_warning(self) -> list[str]:
-        """A line for whoever uses a model that is not valid; none for one that is."""
+        """Returns a line for whoever uses a model that is not valid; none for one that is."""
         line = self.line[:1].lower() + self.line[1:]
         return [] if self.usable else [f"the fit of this model is {line}"]
 
 
 @dataclass(frozen=True, eq=False)
 class FitResult(Result):
-    """A fitted model.
+    """Holds a fitted model.
 
     Attributes:
         robot: name.
@@ -336,25 +320,25 @@ class FitResult(Result):
         status: "ok" | "rank deficient" | "not settled".
         samples: after decimation.
         rows: of W.
-        condition_number: of W, parameters set aside left out.
+        condition_number: of W, without dropped parameters.
         condition_scaled: with columns of length one.
         relative_error: ||y - W beta|| / ||y||, after the same filter on both sides.
         essential_error: the same with the essential parameters only.
         joints: in the order of the manifest.
         parameters: (c,) base parameters in the order of the manifest.
-        covariance: (c, c) of their values; 0 for those set aside.
+        covariance: (c, c) of their values; 0 for dropped ones.
         loads: parameters of payloads, named `M6_load`; empty without payloads.
         sentences: what a reader must know, plain text.
         processing: with all choices filled in; use it for held-out logs.
-        verdict: usable or not; None if nobody has judged it.
+        verdict: valid or not; None if it was not judged.
         standard: all standard parameters by name, SI, of an estimator that ends in them.
-        own: those of the sentences that the estimator says of itself; not kept in model files.
-        of_joints: those of the sentences that doubt single joints; not kept in model files.
-        essential: the reduced model; None if it has no parameter.
+        estimator_notes: those of the sentences that are the estimator's; not kept in model files.
+        joint_warnings: those of the sentences on single joints; not kept in model files.
+        essential: the reduced model; None if it has no parameter, or in files that lack it.
         directions: friction by direction, of joints whose viscous friction differs.
         energy: how it compares with the torque model; None for the torque model itself.
         gains: drive gains, named `g_tau1`, N m or N per drive unit; empty if none were fitted.
-        singular_values: that tell the gains apart, descending; 1 is noise (see `mixed_tls`).
+        singular_values: of the drive gains, descending; 1 is noise (see `solve_mixed_tls`).
         reading: of long logs: passes, chunks, rows, windows, rows_in_windows; empty of others.
         contradicted: lines on what the prior of the robot file says and the data contradict.
         by_load: the joints on the "bare" and on the "loaded" logs; empty without payloads.
@@ -401,13 +385,13 @@ class FitResult(Result):
         return pool_errors_by_unit((joint.unit, *joint.squares) for joint in self.joints)
 
     def format_error(self) -> str:
-        """The relative error as text; of torques and forces apart where the robot has both."""
+        """Returns the relative error as text; of torques and forces apart where both occur."""
         if self.energy is None and len(self.by_unit) > 1:
             return format_errors_by_unit(self.by_unit)
         return format_percent(self.relative_error)
 
     def format_lines(self) -> list[str]:
-        """Lines of text: parameters, joints, remarks, the verdict last."""
+        """Returns lines of text: parameters, joints, remarks, the verdict last."""
         alone = self.essential.parameters if self.essential and self.essential.dropped else ()
         lines = format_parameters((*self.gains, *self.parameters, *self.loads), alone)
         lines += format_directions(self.directions)
@@ -417,10 +401,8 @@ class FitResult(Result):
             f"relative error {self.format_error()}",
         ]
         for k, joint in enumerate(self.joints):
-            apart = "".join(
-                f", {name} {format_percent(joint_fits[k].relative_error)}"
-                for name, joint_fits in self.by_load.items()
-            )
+            loads = self.by_load.items()
+            apart = "".join(f", {n} {format_percent(fits[k].relative_error)}" for n, fits in loads)
             lines.append(
                 f"  joint {joint.name}: {format_percent(joint.relative_error)}{apart}, rms "
                 f"{joint.rms:.4g} {joint.unit}"
@@ -429,62 +411,54 @@ class FitResult(Result):
         lines += self.energy.format_lines() if self.energy is not None else []
         if self.verdict is not None:
             others = (line for line in self.verdict.doubts if line not in self.verdict.line)
-            lines += [*(f"doubt: {line}" for line in others), *self.verdict.unseen]
+            lines += [*(f"warning: {line}" for line in others), *self.verdict.unseen]
             lines.append(self.verdict.line)
         return lines
 
     def to_json(self) -> dict[str, Any]:
-        """The `fit` object that scripts read; numbers that mean nothing are null."""
+        """Returns the `fit` object that scripts read; numbers that mean nothing are null."""
         verdict = self.verdict
-        return convert_to_plain(
-            {
-                **select_attributes(
-                    self,
-                    "robot method status samples rows condition_number condition_scaled "
-                    "relative_error",
-                ),
-                "relative_error_pools": POOLED,
-                **select_attributes(self, "by_unit essential_error"),
-                "joints": _serialise_joints(
-                    self.joints, {} if verdict is None else verdict.by_joint
-                ),
-                "by_load": {
-                    name: {
-                        "relative_error": combine_errors(joint_fits),
-                        "joints": _serialise_joints(joint_fits),
-                    }
-                    for name, joint_fits in self.by_load.items()
-                },
-                **select_attributes(
-                    self, "parameters loads gains singular_values sentences processing"
-                ),
-                **select_attributes(self, "standard essential contradicted directions"),
-                "model": "torque" if self.energy is None else "energy",
-                **select_attributes(self, "energy bands"),
-                "usable": None if verdict is None else verdict.usable,
-                "valid_for": None if verdict is None else verdict.valid_for,
-                "verdict": None if verdict is None else verdict.line,
-                "doubts": [] if verdict is None else verdict.doubts,
-                "possible": None if verdict is None else verdict.possible,
-                **({"unseen": verdict.unseen} if verdict is not None and verdict.unseen else {}),
-                **({"reading": dict(self.reading)} if self.reading else {}),
-            }
-        )
+        head = "robot method status samples rows condition_number condition_scaled relative_error"
+        plain = select_attributes(self, head) | {"relative_error_pools": POOLED}
+        plain |= select_attributes(self, "by_unit essential_error")
+        plain["joints"] = _serialise_joints(self.joints, verdict.by_joint if verdict else {})
+        plain["by_load"] = {
+            name: {"relative_error": combine_errors(fits), "joints": _serialise_joints(fits)}
+            for name, fits in self.by_load.items()
+        }
+        names = "parameters loads gains singular_values sentences processing"
+        plain |= select_attributes(self, names)
+        plain |= select_attributes(self, "standard essential contradicted directions")
+        plain["model"] = "torque" if self.energy is None else "energy"
+        plain |= select_attributes(self, "energy bands")
+        plain |= {
+            "usable": None,
+            "valid_for": None,
+            "verdict": None,
+            "doubts": [],
+            "possible": None,
+        }
+        if verdict is not None:
+            plain |= select_attributes(verdict, "usable valid_for doubts possible")
+            plain["verdict"] = verdict.line
+            plain |= {"unseen": verdict.unseen} if verdict.unseen else {}
+        plain |= {"reading": dict(self.reading)} if self.reading else {}
+        return dict(convert_to_plain(plain))
 
 
 _LISTS: Mapping[str, type] = {
-    "parameters": ParameterEstimate, "loads": ParameterEstimate, "gains": ParameterEstimate,
+    **dict.fromkeys(("parameters", "loads", "gains"), ParameterEstimate),
     "directions": DirectedFriction,
-}  # fmt: skip
+}
 _NULLS = {
-    "condition_number": np.inf, "condition_scaled": np.inf, "relative_error": np.nan,
-    "essential_error": np.nan,
-}  # fmt: skip
+    **dict.fromkeys(("condition_number", "condition_scaled"), np.inf),
+    **dict.fromkeys(("relative_error", "essential_error"), np.nan),
+}
 """Numbers that are null in JSON, and what they were."""
 
 
 def read_fit(raw: Mapping[str, Any], covariance: np.ndarray) -> FitResult:
-    """Read `FitResult.to_json` back; the covariance is stored beside it.
+    """Reads `FitResult.to_json` back; the covariance is stored beside it.
 
     Raises:
         ManifestError: an entry is missing or of the wrong kind; names it.
@@ -493,16 +467,14 @@ def read_fit(raw: Mapping[str, Any], covariance: np.ndarray) -> FitResult:
         reduced, energy = raw.get("essential"), raw.get("energy")
         if reduced is not None:
             parameters = read_all(ParameterEstimate, reduced, "parameters")
-            reduced = build_instance(
-                ReducedModel, {**reduced, "parameters": parameters}, "essential"
-            )
+            reduced = {**reduced, "parameters": parameters}
+            reduced = build_instance(ReducedModel, reduced, "essential")
+        loads = raw.get("by_load", {}).items()
         values: dict[str, Any] = {
             **{name: read_all(kind, raw, name) for name, kind in _LISTS.items() if name in raw},
             **{name: unknown for name, unknown in _NULLS.items() if raw[name] is None},
             "joints": _add_names(raw["joints"]),
-            "by_load": {
-                load: _add_names(x["joints"]) for load, x in raw.get("by_load", {}).items()
-            },
+            "by_load": {load: _add_names(part["joints"]) for load, part in loads},
             "essential": reduced,
             "energy": None if energy is None else read_back(EnergyReport, energy, "energy"),
             "covariance": covariance,
@@ -515,7 +487,7 @@ def read_fit(raw: Mapping[str, Any], covariance: np.ndarray) -> FitResult:
 
 
 def combine_errors(joints: Sequence[JointFit]) -> float:
-    """||y - W beta|| / ||y|| over joints; NaN without torque."""
+    """Returns ||y - W beta|| / ||y|| over joints; NaN without torque."""
     seen = [joint.squares for joint in joints if joint.relative_error]
     left, total = np.sum(seen, axis=0) if seen else (0.0, 0.0)
     return float(np.sqrt(left / total)) if total else float("nan")
@@ -524,12 +496,9 @@ def combine_errors(joints: Sequence[JointFit]) -> float:
 def _serialise_joints(
     joints: Sequence[JointFit], judged: Mapping[str, JointVerdict] | None = None
 ) -> dict[str, Any]:
-    judgements = {name: vars(one) for name, one in (judged or {}).items()}
-    return {
-        joint.name: select_attributes(joint, "relative_error rms sigma rows unit")
-        | judgements.get(joint.name, {})
-        for joint in joints
-    }
+    verdicts = {name: vars(one) for name, one in (judged or {}).items()}
+    names = "relative_error rms sigma rows unit"
+    return {j.name: select_attributes(j, names) | verdicts.get(j.name, {}) for j in joints}
 
 
 def _add_names(joints: Mapping[str, Any]) -> list[dict[str, Any]]:
@@ -540,7 +509,7 @@ def _add_names(joints: Mapping[str, Any]) -> list[dict[str, Any]]:
 
 
 def _read_verdict(raw: Mapping[str, Any]) -> Verdict | None:
-    """None where nobody has judged the fit."""
+    """Returns None where the fit was not judged, as in files of earlier versions."""
     if raw.get("usable") is None:
         return None
     judged = {
@@ -553,7 +522,7 @@ def _read_verdict(raw: Mapping[str, Any]) -> Verdict | None:
 
 
 def format_bodies(standard: Mapping[str, float]) -> list[str]:
-    """A line per link: mass, mass centre in its frame, principal moments about the mass centre.
+    """Returns a line per link: mass, mass centre in its frame, principal moments about it.
 
     Args:
         standard: standard parameters by name; links of which one of the ten is missing are left
@@ -569,8 +538,6 @@ def format_bodies(standard: Mapping[str, float]) -> list[str]:
         centre = P[:3, 3] / mass
         second = P[:3, :3] - mass * np.outer(centre, centre)
         moments = np.linalg.eigvalsh(np.trace(second) * np.eye(3) - second)
-        lines.append(
-            f"link {link}: {_ROUND(mass)} kg, centre ({', '.join(map(_ROUND, centre))}) m, "
-            f"principal moments {', '.join(map(_ROUND, moments))} kg m2"
-        )
+        x, m = (", ".join(f"{value:.4g}" for value in values) for values in (centre, moments))
+        lines.append(f"link {link}: {mass:.4g} kg, centre ({x}) m, principal moments {m} kg m2")
     return lines

@@ -23,14 +23,14 @@ FIRST: Method = "weighted"
 
 @dataclass(frozen=True, eq=False)
 class MethodResult(ShortRepr):
-    """One estimator.
+    """Holds what one estimator gives.
 
     Attributes:
         method: id.
         fit: None where it was refused.
         refusal: why; empty if it was not.
         seconds: of the fit.
-        held_out: ||y - W beta|| / ||y|| of other logs, processed alike; None without any.
+        held_out_error: ||y - W beta|| / ||y|| of other logs, processed alike; None without any.
         farthest: parameter whose value is farthest from that of the weighted fit, and by how many
             of the larger sigma; None for the weighted fit itself.
         remarks: what this fit says of itself; else when not to use it.
@@ -45,25 +45,23 @@ class MethodResult(ShortRepr):
     remarks: tuple[str, ...]
 
     def to_json(self) -> dict[str, Any]:
-        """Plain data."""
+        """Returns plain data."""
         return {
             "method": self.method,
             **select_attributes(ABOUT[self.method], "title avoid"),
             "refusal": self.refusal or None,
-            "seconds": self.seconds,
-            "held_out_error": self.held_out_error,
-            **select_attributes(self, "farthest remarks"),
+            **select_attributes(self, "seconds held_out_error farthest remarks"),
             "fit": None if self.fit is None else self.fit.to_json(),
         }
 
 
 @dataclass(frozen=True, eq=False)
 class MethodComparison(Result):
-    """Estimators on the same logs.
+    """Holds estimators on the same logs.
 
     Attributes:
         robot: name.
-        tried: one each.
+        results: one each.
         data: what was done with the logs, lines of text.
     """
 
@@ -79,7 +77,7 @@ def compare_methods(
     methods: Sequence[Method] = tuple(ABOUT),
     progress: Callable[[float], None] | None = None,
 ) -> tuple[MethodResult, ...]:
-    """Every method on the same rows.
+    """Fits by every method on the same rows.
 
     Args:
         observation: of the training logs.
@@ -92,7 +90,7 @@ def compare_methods(
         DataError: what the weighted fit raises. What another method refuses stands in its row.
     """
     first = identify(observation, FIRST, model)
-    tried = []
+    results = []
     for count, method in enumerate(methods, start=1):
         start, refusal, fit = time.perf_counter(), "", None
         try:
@@ -101,23 +99,22 @@ def compare_methods(
             refusal = str(error)
         seconds = time.perf_counter() - start
         apart = [
-            (estimate.name, abs(estimate.value - other.value) / max(estimate.sigma, other.sigma))
-            for estimate, other in zip((fit or first).parameters, first.parameters, strict=True)
-            if fit and method != FIRST and estimate.sigma and other.sigma
+            (a.name, abs(a.value - b.value) / max(a.sigma, b.sigma))
+            for a, b in zip((fit or first).parameters, first.parameters, strict=True)
+            if fit and method != FIRST and a.sigma and b.sigma
         ]
         missed = compute_held_out_error(held_out, fit.beta) if fit and held_out else None
         farthest = max(apart, key=lambda pair: pair[1], default=None)
-        remarks = (
-            fit.estimator_notes if fit and fit.estimator_notes else (f"not {ABOUT[method].avoid}",)
-        )
-        tried.append(MethodResult(method, fit, refusal, seconds, missed, farthest, remarks))
+        notes = fit.estimator_notes if fit else ()
+        remarks = notes or (f"not {ABOUT[method].avoid}",)
+        results.append(MethodResult(method, fit, refusal, seconds, missed, farthest, remarks))
         if progress is not None:
             progress(count / len(methods))
-    return tuple(tried)
+    return tuple(results)
 
 
 def compute_held_out_error(observation: Observation, beta: np.ndarray) -> float:
-    """||y - W beta|| / ||y|| over the rows of joints that have a torque."""
+    """Returns ||y - W beta|| / ||y|| over the rows of joints that have a torque."""
     y, rest, joint = observation.y, observation.y - observation.W @ beta, observation.row_joint
     seen = (np.bincount(joint, y**2) > 0.0)[joint]
     return float(np.linalg.norm(rest[seen]) / max(float(np.linalg.norm(y)), 1e-300))

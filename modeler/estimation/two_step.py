@@ -1,4 +1,4 @@
-"""Two-step identification: first what is felt while one joint moves alone, then the parameters.
+"""Two-step identification: first the torques while one joint moves alone, then the parameters.
 
 Step 1: at each configuration of the others, joint i moves alone, and least squares of its torque on
 [qdd, sin q, cos q, sign qd] give its inertia J_ii, gravity and friction there; those of the other
@@ -12,30 +12,38 @@ import dataclasses
 from collections import Counter
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from scipy.linalg import cholesky, solve_triangular
 
-from modeler.core.errors import DataError
+from modeler.core.errors import TWO_STEPS, DataError
+from modeler.core.json import select_attributes
+from modeler.core.table import format_percent
 from modeler.estimation.covariance import estimate_autocorrelation
+from modeler.estimation.identify import (
+    build_base_equations,
+    build_result,
+    compress_all_rows,
+    identify,
+)
 from modeler.estimation.least_squares import Estimate, solve_least_squares
+from modeler.estimation.parameters import select_essential_parameters
+from modeler.estimation.result import FitResult
+from modeler.estimation.thresholds import THRESHOLDS
 from modeler.numerics.filters import LEAST_WEIGHT
 from modeler.numerics.least_squares import CompressedRegression, compress_rows
-from modeler.regression import Observation, find_runs
+from modeler.regression import DataWarning, Observation, find_runs
 from modeler.runtime import CompiledModel
 
 # Where one joint moves and the others stand: the pieces of logs that a two-step fit uses.
 
 
-STANDS = 0.02
-"""A joint stands below this share of the top speed of the fastest joint of its unit."""
-
-_TOP = 0.98  # quantile of the speeds that is the top speed
 _SEVERAL, _NONE = -2, -1
 
 
 class JointDirections:
-    """How the coordinates move with each joint: q = a D, a the positions of the joints.
+    """Describes how the coordinates move with each joint: q = a D, a the positions of the joints.
 
     For logs of the joints D is the identity; for logs of motors its rows are the columns of G,
     q_m = G q_a (Hanssen, Hovland and Brogardh 2000, section 5).
@@ -51,13 +59,13 @@ class JointDirections:
         self._inverse = np.linalg.inv(self.rows)
 
     def convert_to_joints(self, coordinates: np.ndarray) -> np.ndarray:
-        """(..., n) positions, speeds or accelerations of the joints."""
+        """Returns (..., n) positions, speeds or accelerations of the joints."""
         return coordinates @ self._inverse
 
 
 @dataclass(frozen=True)
 class SingleJointMove:
-    """A piece of motion of one joint alone.
+    """Describes a piece of motion of one joint alone.
 
     Attributes:
         joint: its index.
@@ -73,11 +81,11 @@ class SingleJointMove:
 def find_single_joint_moves(
     observation: Observation, directions: JointDirections
 ) -> tuple[list[SingleJointMove], float, float]:
-    """All pieces in which one joint moves and the others stand, in order of time.
+    """Returns all pieces in which one joint moves and the others stand, in order of time.
 
     And for how long several move at a time, of all the time, s.
 
-    A joint stands while its speed is below `STANDS` times the top speed of the fastest joint of
+    A joint stands while its speed is below a share of the top speed of the fastest joint of
     its unit. A piece begins and ends at standstill of all; its joint may pause and turn back in
     between, and any motion of another one ends it.
 
@@ -87,25 +95,28 @@ def find_single_joint_moves(
     """
     segments = [part.segment for part in observation.stretches]
     speeds = np.concatenate([directions.convert_to_joints(s.qd[s.whole]) for s in segments])
-    tops = np.quantile(np.abs(speeds), _TOP, axis=0) if speeds.size else np.ones(speeds.shape[1])
+    tops = np.ones(speeds.shape[1])
+    if speeds.size:
+        tops = np.quantile(np.abs(speeds), THRESHOLDS.top_speed_quantile, axis=0)
     main = np.argmax(np.abs(directions.rows), axis=1)
     units = np.array([observation.joints[k].unit for k in main])
-    floors = STANDS * np.array([tops[units == unit].max() for unit in units])
-    single_moves: list[SingleJointMove] = []
+    fastest = np.array([tops[units == unit].max() for unit in units])
+    moves: list[SingleJointMove] = []
     several = total = 0.0
     for number, segment in enumerate(segments):
-        moves = np.abs(directions.convert_to_joints(segment.qd)) > floors
-        count = moves.sum(axis=1)
-        labels = np.where(count > 1, _SEVERAL, np.where(count == 0, _NONE, moves.argmax(axis=1)))
-        labels = np.where(segment.whole, labels, _SEVERAL)
+        speed = np.abs(directions.convert_to_joints(segment.qd))
+        is_moving = speed > THRESHOLDS.standstill_share * fastest
+        count = is_moving.sum(axis=1)
+        labels = np.where(count == 0, _NONE, is_moving.argmax(axis=1))
+        labels = np.where((count > 1) | ~segment.whole, _SEVERAL, labels)
         several += segment.step * float(np.sum((labels == _SEVERAL) & segment.whole))
         total += segment.step * float(np.sum(segment.whole))
-        single_moves += [SingleJointMove(i, number, window) for i, window in _find_episodes(labels)]
-    return single_moves, several, total
+        moves += [SingleJointMove(i, number, window) for i, window in _find_episodes(labels)]
+    return moves, several, total
 
 
 def _find_episodes(labels: np.ndarray) -> list[tuple[int, slice]]:
-    """(joint, samples) from standstill to standstill in which one joint moves alone.
+    """Returns (joint, samples) from standstill to standstill in which one joint moves alone.
 
     Those of one joint that follow each other are one. Joints that come to rest together do so one
     after the other, and the last is not alone: where several move at any time, all is left out.
@@ -130,9 +141,6 @@ def _find_episodes(labels: np.ndarray) -> list[tuple[int, slice]]:
 # and Brogardh 2000, sections 2.2 and 5). Their weights are linear in the base parameters.
 
 
-_EXACT = 1e-8  # relative; what is no sum of the functions differs by far more
-_POINTS = 60
-_REACH = 1.5  # rad or m
 _SEED = 1788
 
 _Function = Callable[[np.ndarray, np.ndarray, np.ndarray], np.ndarray]
@@ -156,7 +164,7 @@ FUNCTIONS: dict[str, _Function] = {
 
 @dataclass(frozen=True, eq=False)
 class SingleJointMotion:
-    """The torque of one joint while one moves alone: sum of theta * function, theta = V beta.
+    """Describes the torque of one joint while one moves alone: theta * functions, theta = V beta.
 
     Attributes:
         names: (p,) of `FUNCTIONS`, those that occur.
@@ -167,7 +175,7 @@ class SingleJointMotion:
     weights: np.ndarray
 
     def evaluate_columns(self, a: np.ndarray, v: np.ndarray, u: np.ndarray) -> np.ndarray:
-        """(samples, p) of position, speed and acceleration of the joint that moves."""
+        """Returns (samples, p) of position, speed and acceleration of the joint that moves."""
         return np.column_stack([FUNCTIONS[name](a, v, u) for name in self.names])
 
 
@@ -179,9 +187,9 @@ def fit_single_joint_motions(
     span: tuple[float, float],
     directions: np.ndarray,
 ) -> list[SingleJointMotion | None]:
-    """The torques felt by some joints while one moves alone; None for what is no such sum.
+    """Returns the torques of some joints while one moves alone; None for what is no such sum.
 
-    None also where nothing is felt.
+    None also for a torque that is 0.
 
     Args:
         model: the robot.
@@ -189,21 +197,21 @@ def fit_single_joint_motions(
         a: position of the joint there.
         way: (n,) speed of the coordinates at its speed 1.
         span: range of its positions, for robots with loops.
-        directions: (k, n) directions of the joints that feel it.
+        directions: (k, n) of the joints with these torques.
 
     Raises:
         DataError: the model has effects that read more than the motion.
     """
     if model.spec.signals:
         raise DataError(
-            f"{model.spec.robot}: the two-step fit knows friction that depends on the speed, and "
-            "some effect of the robot reads time, temperature or travel; use --method weighted"
+            f"{model.spec.robot}: an effect of the robot reads time, temperature or travel, which "
+            "the two-step fit cannot; use --method weighted"
         )
-    rng = np.random.default_rng(_SEED)
+    rng, count = np.random.default_rng(_SEED), THRESHOLDS.sampled_points
     if model.spec.closure is None:
-        span = (a - _REACH, a + _REACH)
-    places = rng.uniform(*span, _POINTS)
-    v, u = rng.uniform(-1.0, 1.0, (2, _POINTS))
+        span = (a - THRESHOLDS.sampled_range, a + THRESHOLDS.sampled_range)
+    places = rng.uniform(*span, count)
+    v, u = rng.uniform(-1.0, 1.0, (2, count))
     moved = q + (places - a)[:, None] * way
     rows = model.base_regressor(moved, v[:, None] * way, u[:, None] * way)
     matrix = np.column_stack([function(places, v, u) for function in FUNCTIONS.values()])
@@ -212,29 +220,22 @@ def fit_single_joint_motions(
         values = np.einsum("tjc,j->tc", rows, direction)
         weights = np.linalg.lstsq(matrix, values, rcond=None)[0]
         size = np.abs(values).max()
-        if size == 0.0 or np.abs(matrix @ weights - values).max() > _EXACT * size:
+        least = THRESHOLDS.min_singular_share * size
+        if size == 0.0 or np.abs(matrix @ weights - values).max() > least:
             motions.append(None)
             continue
-        used_functions = np.flatnonzero(np.abs(weights).max(axis=1) > _EXACT * size)
-        names = tuple(np.array([*FUNCTIONS])[used_functions].tolist())
-        motions.append(SingleJointMotion(names, weights[used_functions]))
+        used = np.flatnonzero(np.abs(weights).max(axis=1) > least)
+        names = tuple(np.array([*FUNCTIONS])[used].tolist())
+        motions.append(SingleJointMotion(names, weights[used]))
     return motions
 
 
 # Step 1 and step 2.
 
 
-_ROWS_PER_COLUMN = 3
-_WHOLE = 1.0 - 1e-9
-_SINGULAR = 1e-8  # of the scaled columns of step 1
-_LEAST = 1e-12  # of the coefficients: exact data would otherwise divide by zero
-_CORRELATED = 1.0 - 1e-6  # so that exact data leave a matrix that has an inverse
-_SEEN = 0.9  # of the rows of the joint that moves
-
-
 @dataclass(frozen=True, eq=False)
 class FirstStep:
-    """Step 1 for the torque of one joint: y = Q R theta + residual; p coefficients.
+    """Holds step 1 for the torque of one joint: y = Q R theta + residual; p coefficients.
 
     Attributes:
         joint: index.
@@ -252,23 +253,18 @@ class FirstStep:
     projected: np.ndarray
     residual: np.ndarray
 
-    @property
-    def theta(self) -> np.ndarray:
-        """(p,) coefficients."""
-        return np.linalg.solve(self.R, self.projected)
-
 
 @dataclass(frozen=True, eq=False)
 class Configuration:
-    """Step 1 at one configuration of the joints that stand.
+    """Holds step 1 at one configuration of the joints that stand.
 
     Attributes:
         log: name.
         start, end: s.
         joint: index of the joint that moves.
         pose: (n,) positions of all joints, its own in the middle of its motion.
-        felt: its own torque first, then those of other joints.
-        noise: (felt, felt) covariance of their residuals, memory counted.
+        first_steps: its own torque first, then those of other joints.
+        noise: (torques, torques) covariance of their residuals, autocorrelation included.
     """
 
     log: str
@@ -280,21 +276,22 @@ class Configuration:
     noise: np.ndarray
 
     def compute_coefficients(self, k: int) -> list[tuple[str, float, float]]:
-        """Function, theta and its standard deviation, of the k-th torque that is felt."""
+        """Returns function, theta and its standard deviation, of the k-th torque."""
         step = self.first_steps[k]
+        theta = np.linalg.solve(step.R, step.projected)
         sigma = np.linalg.norm(np.linalg.inv(step.R), axis=1) * self.noise[k, k] ** 0.5
-        return list(zip(step.along.names, step.theta.tolist(), sigma.tolist(), strict=True))
+        return list(zip(step.along.names, theta.tolist(), sigma.tolist(), strict=True))
 
 
 @dataclass(frozen=True, eq=False)
 class TwoStepEstimate:
-    """Both steps.
+    """Holds both steps.
 
     Attributes:
         directions: how the coordinates move with each joint.
         configurations: step 1.
         left_out: pieces that were not used: reason -> how many.
-        several: s, motion of several joints at a time.
+        simultaneous_time: s, motion of several joints at a time.
         data: step 2, rows of standard deviation 1.
         estimate: of the base parameters.
     """
@@ -310,7 +307,7 @@ class TwoStepEstimate:
 def estimate_two_steps(
     model: CompiledModel, observation: Observation, directions: JointDirections
 ) -> TwoStepEstimate:
-    """The two-step estimate.
+    """Returns the two-step estimate.
 
     Args:
         model: the robot.
@@ -318,24 +315,23 @@ def estimate_two_steps(
         directions: how the coordinates move with each joint.
 
     Raises:
-        DataError: no piece in which one joint moves and the others stand, or none that tells it.
+        DataError: no piece in which one joint moves and the others stand, or none long enough.
     """
     moves, several, total = find_single_joint_moves(observation, directions)
     steps = [_solve_first_step(model, observation, directions, move) for move in moves]
     left_out = Counter(step for step in steps if isinstance(step, str))
-    candidates = [step for step in steps if isinstance(step, Configuration)]
-    if not candidates:
+    alike: dict[tuple[int, ...], list[Configuration]] = {}  # by who moves, and whose torque is used
+    for step in steps:
+        if isinstance(step, Configuration):
+            alike.setdefault((step.joint, *(f.joint for f in step.first_steps)), []).append(step)
+    if not alike:
         why = "".join(f"; {count} left out: {reason}" for reason, count in left_out.items())
         raise DataError(
             f"{', '.join(observation.logs)}: no piece in which one joint moves and the others "
-            f"stand ({several:.3g} of {total:.3g} s are motion of several){why}; "
-            "expected joints that move one after the other, at several configurations of the "
-            "others, as `modeler simulate --motion one-joint` makes them; use --method weighted "
-            "for these logs"
+            f"stand ({several:.3g} of {total:.3g} s are motion of several){why}; expected joints "
+            "that move one after the other, as by `modeler simulate --motion one-joint`; use "
+            "--method weighted for these logs"
         )
-    alike: dict[tuple[int, ...], list[Configuration]] = {}  # by who moves, and whose torque is felt
-    for c in candidates:
-        alike.setdefault((c.joint, *(f.joint for f in c.first_steps)), []).append(c)
     configurations = [c for group in alike.values() for c in _estimate_noise(group)]
     data, estimate = _solve_second_step(observation, configurations)
     configurations.sort(key=lambda c: (c.joint, c.log, c.start))
@@ -345,9 +341,9 @@ def estimate_two_steps(
 def _solve_second_step(
     observation: Observation, configurations: Sequence[Configuration]
 ) -> tuple[CompressedRegression, Estimate]:
-    """The base parameters from rows of standard deviation 1, and their covariance.
+    """Returns base parameters from rows of standard deviation 1, and their covariance.
 
-    Its scale is 1 as far as the residuals of step 1 tell, which stand in the data as one row. It
+    Its scale is 1 as far as the residuals of step 1 show, which stand in the data as one row. It
     is raised where the configurations contradict each other by more.
     """
     rows, values = zip(*map(_whiten_rows, configurations), strict=True)
@@ -369,86 +365,81 @@ def _solve_first_step(
     directions: JointDirections,
     move: SingleJointMove,
 ) -> Configuration | str:
-    """Least squares of the torques while one joint moves; a text where that cannot be."""
+    """Returns least squares of torques while one joint moves; a text where that cannot be."""
     part, i = observation.stretches[move.part], move.joint
-    segment, window, way = part.segment, move.window, directions.rows[move.joint]
+    segment, window, way = part.segment, move.window, directions.rows[i]
     if not all(observation.joints[k].actuated for k in np.flatnonzero(way)):
         return "the joint has no motor"
     inside = np.zeros((segment.samples, 1), dtype=bool)
     inside[window] = True
-    numbers = np.flatnonzero(part.rows.compute_usable_share(inside)[:, 0] >= _WHOLE)
+    share = part.rows.compute_usable_share(inside)[:, 0]
+    numbers = np.flatnonzero(share >= THRESHOLDS.whole_weight)
     if not numbers.size:
         return "too short for the parallel filter"
-    a, v, u = (
-        directions.convert_to_joints(x[window]) for x in (segment.q, segment.qd, segment.qdd)
-    )
-    pose = np.median(a, axis=0)
-    span = a[:, i].min(), a[:, i].max()
+    motion = (x[window] for x in (segment.q, segment.qd, segment.qdd))
+    a, v, u = (directions.convert_to_joints(x) for x in motion)
+    pose, span = np.median(a, axis=0), (a[:, i].min(), a[:, i].max())
     rows = part.rows.extract_rows(slice(int(numbers[0]), int(numbers[-1]) + 1), window)
     usable, others = _find_usable(part.usable[window], directions, i)
     used = rows.compute_usable_share(usable[:, None])[:, 0] >= LEAST_WEIGHT
-    order = [i, *others]
-    first_steps: list[FirstStep] = []
+    order, first_steps = [i, *others], list[FirstStep]()
     motions = fit_single_joint_motions(
         model, pose @ directions.rows, pose[i], way, span, directions.rows[order]
     )
-    for k, motion in zip(order, motions, strict=True):
-        if motion is not None:
-            columns = motion.evaluate_columns(a[:, i], v[:, i], u[:, i])
+    for k, along in zip(order, motions, strict=True):
+        if along is not None:
+            columns = along.evaluate_columns(a[:, i], v[:, i], u[:, i])
             values = np.column_stack([columns, segment.tau[window] @ directions.rows[k]])
             filtered = rows.average_samples(values, usable)[used]
-            if (solved := _fit_first_step(k, motion, filtered)) is not None:
+            if (solved := _fit_first_step(k, along, filtered)) is not None:
                 first_steps.append(solved)
         if k == i and not first_steps:
             return (
                 "other functions than those of one body that turns"
-                if motion is None
+                if along is None
                 else "too short to tell inertia, gravity and friction apart"
             )
-    return Configuration(
-        observation.logs[segment.run], float(segment.time[window][0]),
-        float(segment.time[window][-1]), i, pose, tuple(first_steps), np.eye(len(first_steps)),
-    )  # fmt: skip
+    log, times = observation.logs[segment.run], segment.time[window]
+    start, end, noise = float(times[0]), float(times[-1]), np.eye(len(first_steps))
+    return Configuration(log, start, end, i, pose, tuple(first_steps), noise)
 
 
 def _find_usable(
     usable: np.ndarray, directions: JointDirections, i: int
 ) -> tuple[np.ndarray, list[int]]:
-    """(samples,) at which the torques count, and the other joints whose torques do then too.
+    """Returns (samples,) at which torques count, and the other joints whose torques do too.
 
     The torque of a joint is made of those of some motors. A motor with dry friction that stands
     says nothing: its samples are not usable.
     """
-    usable_rows = np.all(usable[:, directions.rows[i] != 0], axis=1)
-    count = max(1, int(usable_rows.sum()))
+    rows = np.all(usable[:, directions.rows[i] != 0], axis=1)
+    least = THRESHOLDS.min_seen_share * max(1, int(rows.sum()))
     others: list[int] = []
     for k, way in enumerate(directions.rows):
-        both = np.logical_and(usable_rows, np.all(usable[:, way != 0], axis=1))
-        if k != i and both.sum() >= _SEEN * count:
-            usable_rows = both
+        both = rows & np.all(usable[:, way != 0], axis=1)
+        if k != i and both.sum() >= least:
+            rows = both
             others.append(k)
-    return usable_rows, others
+    return rows, others
 
 
-def _fit_first_step(
-    joint: int, motion: SingleJointMotion, filtered: np.ndarray
-) -> FirstStep | None:
-    """Step 1 from its columns and torque; None where the rows do not tell the coefficients."""
+def _fit_first_step(joint: int, along: SingleJointMotion, filtered: np.ndarray) -> FirstStep | None:
+    """Returns step 1 from its columns and torque; None where coefficients are not identifiable."""
     X, y = filtered[:, :-1], filtered[:, -1]
     rows, count = X.shape
     lengths = np.linalg.norm(X, axis=0)
-    if not count or rows < _ROWS_PER_COLUMN * count or not lengths.all():
+    if not count or rows < THRESHOLDS.min_rows_per_column * count or not lengths.all():
         return None
     values = np.linalg.svd(X / lengths, compute_uv=False)
-    if values[-1] < _SINGULAR * values[0]:
+    if values[-1] < THRESHOLDS.min_singular_share * values[0]:
         return None
     Q, R = np.linalg.qr(X)
     projected = Q.T @ y
-    return FirstStep(joint, motion, Q, R, projected, y - Q @ projected)
+    return FirstStep(joint, along, Q, R, projected, y - Q @ projected)
 
 
 def _estimate_noise(alike: list[Configuration]) -> list[Configuration]:
-    """Configurations in which the same torques were used, with the covariance of their noise.
+    """Returns configurations with the same torques, with the covariance of their noise.
 
     Of one motion of the same joint the noise of its torques is the same at every configuration;
     torques that are made of the same motors share theirs.
@@ -460,11 +451,11 @@ def _estimate_noise(alike: list[Configuration]) -> list[Configuration]:
         products += residual.T @ residual
         degrees += [len(f.residual) - len(f.projected) for f in c.first_steps]
     noise = products / np.sqrt(np.outer(degrees, degrees))
-    noise[~np.eye(count, dtype=bool)] *= _CORRELATED
+    noise[~np.eye(count, dtype=bool)] *= THRESHOLDS.max_correlation
     pieces = np.repeat(np.arange(len(alike)), [len(c.first_steps[0].residual) for c in alike])
     for k in range(count):
-        least = _LEAST * max(np.abs(c.first_steps[k].projected).max() for c in alike)
-        noise[k, k] = max(noise[k, k], least**2)
+        largest = max(np.abs(c.first_steps[k].projected).max() for c in alike)
+        noise[k, k] = max(noise[k, k], (THRESHOLDS.tiny_share * largest) ** 2)
         every = np.concatenate([c.first_steps[k].residual for c in alike])
         r = estimate_autocorrelation(every, np.arange(len(every)), pieces)
         longer = np.sqrt(max(1.0, 1.0 + 2.0 * float(np.sum(r[1:]))))
@@ -474,14 +465,250 @@ def _estimate_noise(alike: list[Configuration]) -> list[Configuration]:
 
 
 def _whiten_rows(configuration: Configuration) -> tuple[np.ndarray, np.ndarray]:
-    """Rows of step 2 of standard deviation 1: R V beta = Q^T y, their covariance taken out."""
-    first_steps, noise = configuration.first_steps, configuration.noise
+    """Returns rows of step 2 of standard deviation 1: R V beta = Q^T y, covariance taken out."""
+    steps, noise = configuration.first_steps, configuration.noise
     scale = np.sqrt(np.diag(noise))
-    joined = np.hstack([f.Q for f in first_steps])
-    which = np.repeat(np.arange(len(first_steps)), [len(f.projected) for f in first_steps])
+    joined = np.hstack([f.Q for f in steps])
+    which = np.repeat(np.arange(len(steps)), [len(f.projected) for f in steps])
     correlation = noise / np.outer(scale, scale)
-    C = joined.T @ joined * correlation[np.ix_(which, which)]
-    root = cholesky(C, lower=True)
-    W = np.vstack([f.R @ f.along.weights / s for f, s in zip(first_steps, scale, strict=True)])
-    y = np.concatenate([f.projected / s for f, s in zip(first_steps, scale, strict=True)])
+    root = cholesky(joined.T @ joined * correlation[np.ix_(which, which)], lower=True)
+    W = np.vstack([f.R @ f.along.weights / s for f, s in zip(steps, scale, strict=True)])
+    y = np.concatenate([f.projected / s for f, s in zip(steps, scale, strict=True)])
     return solve_triangular(root, W, lower=True), solve_triangular(root, y, lower=True)
+
+
+# Persistent excitation of a two-step fit: the singular values of Phi, joint by joint.
+
+
+_POSES_SEED = 1872
+
+
+@dataclass(frozen=True)
+class PersistentExcitation:
+    """Describes Phi of the inertia of one joint: J(configuration) = Phi beta.
+
+    Attributes:
+        joint: name.
+        configurations: at which it moved alone.
+        singular_values: of Phi, those that are 0 left out, largest first.
+        possible_rank: of Phi at ever so many configurations.
+        usual_ratio: last of the singular values over the first at ever so many configurations.
+    """
+
+    joint: str
+    configurations: int
+    singular_values: tuple[float, ...]
+    possible_rank: int
+    usual_ratio: float
+
+    @property
+    def rank(self) -> int:
+        """Of Phi at these configurations."""
+        return len(self.singular_values)
+
+    def format_line(self) -> str:
+        """Returns the rank and the singular values as text."""
+        values = self.singular_values
+        listed = " ".join(f"{value:.3g}" for value in values)
+        ratio = values[-1] / values[0] if values else 0.0
+        return (
+            f"J of joint {self.joint} at {self.configurations} configurations: rank "
+            f"{self.rank} of {self.possible_rank}, singular values of Phi {listed} (last "
+            f"{ratio:.2g} of the first; {self.usual_ratio:.2g} at many random ones)"
+        )
+
+    def describe(self) -> str:
+        """Returns what to do where it is not persistent."""
+        return (
+            f"joint {self.joint} moves alone at {self.configurations} configurations, rank "
+            f"{self.rank} of {self.possible_rank} in its inertia: not persistently exciting; move "
+            f"it at {self.possible_rank - self.rank} or more further configurations of the others"
+        )
+
+    def to_json(self) -> dict[str, Any]:
+        """Returns plain data."""
+        names = "joint configurations singular_values rank possible_rank usual_ratio"
+        return select_attributes(self, names)
+
+
+def compute_excitations(
+    model: CompiledModel, observation: Observation, steps: TwoStepEstimate
+) -> tuple[PersistentExcitation, ...]:
+    """Returns that of every joint that moved alone; what is possible is what random poses give.
+
+    Robots with loops cannot take any pose: theirs are those of the logs.
+    """
+    directions, count = steps.directions, THRESHOLDS.poses_per_column * len(observation.names)
+    if model.spec.closure is None:
+        rng = np.random.default_rng(_POSES_SEED)
+        poses = rng.uniform(-np.pi, np.pi, (count, len(directions.names)))
+    else:
+        poses = observation.q[np.linspace(0, len(observation.q) - 1, count).astype(int)]
+    results = []
+    for i in sorted({c.joint for c in steps.configurations}):
+        logged = np.array([c.pose for c in steps.configurations if c.joint == i]) @ directions.rows
+        values, every = (
+            _compute_singular_values(build_inertia_rows(model, q, directions.rows[i]))
+            for q in (logged, poses)
+        )
+        usual = every[-1] / every[0]
+        name = directions.names[i]
+        results.append(PersistentExcitation(name, len(logged), values, len(every), usual))
+    return tuple(results)
+
+
+def build_inertia_rows(model: CompiledModel, q: np.ndarray, direction: np.ndarray) -> np.ndarray:
+    """Returns (t, c) Phi of J = d^T M(q) d = Phi beta at poses q (t, n)."""
+    still, moved = np.zeros_like(q), np.tile(direction, (len(q), 1))
+    rows = model.base_regressor(q, still, moved) - model.base_regressor(q, still, still)
+    return np.einsum("tjc,j->tc", rows, direction)
+
+
+def _compute_singular_values(rows: np.ndarray) -> tuple[float, ...]:
+    values = np.linalg.svd(rows, compute_uv=False)
+    return tuple(values[values > THRESHOLDS.min_singular_share * values[0]].tolist())
+
+
+@dataclass(frozen=True, eq=False)
+class TwoStepFit:
+    """Holds a two-step fit beside the one-step fit of the same logs.
+
+    Attributes:
+        result: of the two steps, for the model file.
+        steps: configurations and Phi.
+        excitation: of each joint that moved alone.
+        one_step: the weighted least squares of all rows.
+    """
+
+    result: FitResult
+    steps: TwoStepEstimate
+    excitation: tuple[PersistentExcitation, ...]
+    one_step: FitResult
+
+    def format_lines(self) -> list[str]:
+        """Returns lines: step 1 by configuration, singular values of Phi, both fits."""
+        unused = [
+            f"{count} piece{'s' * (count > 1)} not used: {why}"
+            for why, count in self.steps.left_out.items()
+        ]
+        if self.steps.simultaneous_time > 0.0:
+            time = self.steps.simultaneous_time
+            unused.append(f"{time:.3g} s not used: several joints move")
+        first = (*map(self._format_line, self.steps.configurations), *unused)
+        return [
+            "step 1: one joint moves, the others stand",
+            *(f"  {line}" for line in first),
+            "step 2: theta = Phi beta",
+            *(f"  {excitation.format_line()}" for excitation in self.excitation),
+            *self._compare_fits(),
+        ]
+
+    def collect_warnings(self) -> list[DataWarning]:
+        """Returns a warning on joints that never moved alone, and whose torque misses it."""
+        used = {c.joint for c in self.steps.configurations}
+        never = [name for k, name in enumerate(self.steps.directions.names) if k not in used]
+        short = all(why.startswith("too short") for why in self.steps.left_out)
+        worst = max(joint.relative_error or 0.0 for joint in self.result.joints)
+        if not never or not short or worst <= THRESHOLDS.max_fit_error:
+            return []
+        line = (
+            f"joint {', '.join(never)} never moved alone for long enough, and the two steps use no "
+            "other motion; record more motion of it alone, or use --method weighted"
+        )
+        certain = worst > THRESHOLDS.half_variance_error
+        return [DataWarning(line, is_certain=certain, affects_values=True)]
+
+    def _format_line(self, c: Configuration) -> str:
+        names = self.steps.directions.names
+        where = ", ".join(f"q{name} {x:.2f}" for name, x in self._collect_others(c).items())
+        cells = [
+            f"{'J' if name == 'qdd' else name} {x:.5g} +- {s:.2g}"
+            for name, x, s in c.compute_coefficients(0)
+        ]
+        further = [names[f.joint] for f in c.first_steps[1:]]
+        also = f"; torque of joint {', '.join(further)} too" if further else ""
+        return (
+            f"{c.log}, {c.start:.2f} to {c.end:.2f} s: joint {names[c.joint]} at {where or '-'}: "
+            f"{', '.join(cells)}{also}"
+        )
+
+    def _collect_others(self, c: Configuration) -> dict[str, float]:
+        names = self.steps.directions.names
+        return {names[k]: float(x) for k, x in enumerate(c.pose) if k != c.joint}
+
+    def _compare_fits(self) -> list[str]:
+        width = max([9, *(len(p.name) for p in self.result.parameters)])
+        head = f"{'two-step':>12} {'sigma':>9} {'one-step':>12} {'sigma':>9}"
+        lines = [f"{'parameter':<{width}} {head}"]
+        for pair in zip(self.result.parameters, self.one_step.parameters, strict=True):
+            cells = [
+                f"{'set aside':>12} {'':>9}"
+                if p.sigma is None
+                else f"{p.value:>12.6g} {p.sigma:>9.3g}"
+                for p in pair
+            ]
+            lines.append(f"{pair[0].name:<{width}} {cells[0]} {cells[1]}")
+        two, one = (format_percent(f.relative_error) for f in (self.result, self.one_step))
+        return [*lines, f"relative error {two} in two steps, {one} in one"]
+
+    def to_json(self) -> dict[str, Any]:
+        """Returns the object `two_step` beside that of the fit."""
+        names = self.steps.directions.names
+        return {
+            "configurations": [
+                {
+                    **select_attributes(c, "log start end"),
+                    "joint": names[c.joint],
+                    "others": self._collect_others(c),
+                    "rows": len(c.first_steps[0].residual),
+                    "torques": {
+                        names[f.joint]: {
+                            name: {"value": x, "sigma": s}
+                            for name, x, s in c.compute_coefficients(k)
+                        }
+                        for k, f in enumerate(c.first_steps)
+                    },
+                }
+                for c in self.steps.configurations
+            ],
+            "left_out": dict(self.steps.left_out),
+            "several_moving": self.steps.simultaneous_time,
+            "excitation": [excitation.to_json() for excitation in self.excitation],
+            "one_step": [parameter.to_json() for parameter in self.one_step.parameters],
+        }
+
+
+def identify_in_two_steps(
+    model: CompiledModel,
+    observation: Observation,
+    directions: JointDirections,
+    below: float | None = None,
+) -> TwoStepFit:
+    """Returns the two-step fit of an observation, and the one-step fit beside it.
+
+    Args:
+        model: the robot.
+        observation: of logs in which joints move one at a time.
+        directions: how the coordinates move with each joint.
+        below: as for `identify`.
+
+    Raises:
+        DataError: no piece in which one joint moves and the others stand, or what `identify` says.
+    """
+    one = identify(observation)
+    steps = estimate_two_steps(model, observation, directions)
+    excitation = compute_excitations(model, observation, steps)
+    estimate, equations = steps.estimate, build_base_equations(observation)
+    essential = select_essential_parameters(steps.data, estimate, "ordinary", below)
+    notes = [e.describe() for e in excitation if e.rank < e.possible_rank]
+    notes += [dropped.describe() for dropped in estimate.rank.dropped_columns]
+    result = build_result(
+        equations,
+        TWO_STEPS,
+        estimate,
+        essential,
+        compress_all_rows(observation),
+        rows=sum(len(f.residual) for c in steps.configurations for f in c.first_steps),
+        sentences=tuple(notes),
+    )
+    return TwoStepFit(result, steps, excitation, one)

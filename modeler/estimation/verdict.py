@@ -1,4 +1,4 @@
-"""What a fit is valid for, why, and what to do: how a fit ends."""
+"""What a fit is valid for, why, and what to do: warnings, and the verdict of each joint."""
 
 import dataclasses
 from collections.abc import Callable, Mapping, Sequence
@@ -8,9 +8,7 @@ from scipy.special import chdtri
 
 from modeler.core.manifest import ModuleSpec
 from modeler.core.table import format_percent
-from modeler.estimation import doubts
 from modeler.estimation.covariance import estimate_autocorrelation
-from modeler.estimation.doubts import LITTLE, WIDE
 from modeler.estimation.identify import (
     CrossValidation,
     Equations,
@@ -21,7 +19,7 @@ from modeler.estimation.identify import (
     find_connected_rows,
 )
 from modeler.estimation.least_squares import solve_by_qr
-from modeler.estimation.nearest_body import (
+from modeler.estimation.physical_consistency import (
     attribute_distance,
     define_physical_parameters,
     project_parameters,
@@ -34,40 +32,229 @@ from modeler.estimation.result import (
     Verdict,
     compute_friction_by_direction,
 )
+from modeler.estimation.thresholds import THRESHOLDS
 from modeler.numerics.least_squares import (
     CompressedRegression,
     compute_triangle,
     find_independent_columns,
 )
-from modeler.regression import DataWarning, Observation, find_nearest_closed
+from modeler.regression import (
+    THRESHOLDS as REGRESSION,
+    DataWarning,
+    Observation,
+    find_nearest_closed,
+)
 from modeler.runtime import CompiledModel
 
-# Is the time of the logs in seconds? The clock that a robot carries with it is gravity.
+NOT_FITTED = "no row was fitted"
+"""Why a joint is not determined that has no motor, or no torque in its rows."""
+
+_EARTH = 9.81  # m/s^2
+_TIME_UNITS = {
+    "milliseconds": 1e-3,
+    "microseconds": 1e-6,
+    "nanoseconds": 1e-9,
+    "minutes": 60.0,
+    "hours": 3600.0,
+}
+_LOG_RATES = (20.0, 2e4)  # Hz; at which robots are logged
 
 
-SLOW = 0.2
-"""s; with fewer than five rows a second neither accelerations nor reversals are seen."""
+def find_joints_of_parameters(spec: ModuleSpec, names: Sequence[str]) -> tuple[str, ...]:
+    """Returns joints that base or standard parameters belong to, in the order of the names."""
+    row = {parameter.name: parameter.joint for parameter in spec.standard}
+    row |= {base.name: row[base.column_of] for base in spec.base if base.column_of in row}
+    return tuple(dict.fromkeys(row[name] for name in names if name in row))
 
-ABSURD = 100.0
-"""Length of the pendulum that a joint and its links swing like, over the reach of the robot."""
 
-HEAVY = 3000.0
-"""kg/m^3: mass of the links over the cube of the robot's reach; that of robots is 5 to 500."""
+def find_negative_values(spec: ModuleSpec, result: FitResult) -> list[DataWarning]:
+    """Returns a warning on each value below zero that physics does not allow.
 
-LOADED = 0.1
-"""Gravity over torque of a joint, from which on it swings."""
+    A base parameter cannot be negative if all its terms are parameters that cannot be, with
+    coefficients that are not: friction, rotor inertias, moments of inertia, masses.
+    """
+    possible = {parameter.name for parameter in spec.standard if parameter.nonnegative}
+    return [
+        DataWarning(
+            f"{base.name} = {estimate.value:.4g} {base.unit} is negative, which physics does not "
+            "allow; check signs, units and order of the columns, and run `modeler diagnose`",
+            affects_values=True,
+            joints=find_joints_of_parameters(spec, [base.name]),
+        )
+        for base, estimate in zip(spec.base, result.parameters, strict=True)
+        if estimate.sigma is not None
+        and estimate.value < -THRESHOLDS.negative_sigmas * estimate.sigma
+        and all(term.value >= 0.0 and term.parameter in possible for term in base.terms)
+    ]
 
-_GRAVITY = 9.81  # m/s^2
-_POSES = 40
-_UNITS = (("milliseconds", 1e-3), ("microseconds", 1e-6), ("nanoseconds", 1e-9), ("minutes", 60.0),
-          ("hours", 3600.0))  # fmt: skip
-_USUAL = (20.0, 2e4)  # Hz; rates at which robots are logged
+
+def _list_moving_joints(result: FitResult) -> list[JointFit]:
+    """Returns joints with an error that move: at rest, dry friction is no error of the model."""
+    floors = result.processing.speed_floors or {}
+    return [
+        joint
+        for joint in result.joints
+        if joint.relative_error is not None and floors.get(joint.name) != float("inf")
+    ]
+
+
+def find_lack_of_fit(result: FitResult) -> list[DataWarning]:
+    """Returns a warning on each joint whose torque is not described even where it was fitted."""
+    return [
+        DataWarning(
+            f"joint {joint.name}: {format_percent(joint.relative_error)} of the torque is not "
+            "described, even on the data of the fit; check units, signs and columns of the log, "
+            "the table and the effects; run `modeler diagnose`",
+            is_certain=joint.relative_error > THRESHOLDS.half_variance_error,
+            affects_values=True,
+            joints=(joint.name,),
+        )
+        for joint in _list_moving_joints(result)
+        if joint.relative_error is not None and joint.relative_error > THRESHOLDS.max_fit_error
+    ]
+
+
+def check_motion_noise(observation: Observation) -> list[DataWarning]:
+    """Returns a warning if the predicted torque is noise even behind the lowest filters."""
+    bands = observation.report.bands
+    if bands.trembling_left <= REGRESSION.max_chatter_ratio:
+        return []
+    line = (
+        f"above {bands.parallel_cutoff:g} Hz, the lowest cut-off that the motion allows, the "
+        f"predicted torque has {bands.trembling_left:.2g} times the high-frequency content of the "
+        "measured one: values may be biased towards zero; run `modeler diagnose`, move farther and "
+        "faster, or measure positions more finely"
+    )
+    return [DataWarning(line, affects_values=True)]
+
+
+def find_systematic_residuals(result: FitResult, systematic_share: np.ndarray) -> list[DataWarning]:
+    """Returns a warning on joints whose residual is large and no noise.
+
+    Args:
+        result: of the fit.
+        systematic_share: (n,) what of the residual is the same in the next row, rms over that of
+            the torque.
+    """
+    moving = {joint.name for joint in _list_moving_joints(result)}
+    large = {
+        joint.name: float(share)
+        for joint, share in zip(result.joints, systematic_share, strict=True)
+        if share > THRESHOLDS.max_systematic_share
+        and joint.name in moving
+        and (joint.relative_error or 0.0) <= THRESHOLDS.max_fit_error  # else it is reported already
+    }
+    if not large:
+        return []
+    line = (
+        f"joint {', '.join(large)}: up to {format_percent(max(large.values()))} of the torque is a "
+        "residual that is no noise: an effect is missing, and values absorb it; run `modeler "
+        "diagnose`"
+    )
+    return [DataWarning(line, affects_values=True, joints=tuple(large))]
+
+
+def find_few_rows(result: FitResult, seen: CrossValidation) -> list[DataWarning]:
+    """Returns a warning on joints whose held-out torques the fit does not predict."""
+    errors = dict(zip((joint.name for joint in result.joints), seen.errors, strict=True))
+    lost = {
+        joint.name: errors[joint.name]
+        for joint in _list_moving_joints(result)
+        if np.isfinite(errors[joint.name])
+        and errors[joint.name]
+        > max(THRESHOLDS.max_fit_error, THRESHOLDS.max_error_ratio * (joint.relative_error or 0.0))
+    }
+    if not lost:
+        return []
+    error = max(lost.values())
+    missed = "all of the torque" if error >= 1.0 else f"up to {format_percent(error)} of the torque"
+    swings = f"swings of the motion ({seen.half_period:.2g} s each)"
+    line = (
+        f"joint {', '.join(lost)}: not enough data for {len(result.parameters)} parameters, or "
+        "columns that do not belong together: "
+        + (
+            f"the logs hold less than two {swings}"
+            if seen.stretches < 2
+            else f"of {seen.stretches} {swings}, a fit to the others misses each by {missed}"
+        )
+        + "; record a longer motion of all joints, at many speeds and poses"
+    )
+    return [DataWarning(line, is_certain=True, joints=tuple(lost))]
+
+
+def find_unexplained_joints(
+    result: FitResult, seen: CrossValidation, scale: np.ndarray
+) -> list[DataWarning]:
+    """Returns a warning on joints described worse on all rows than windows of them let expect.
+
+    Relatively, and in N m too: where the windows show a faster motion, noise alone is a larger
+    share of the other torques.
+
+    Args:
+        result: of all rows.
+        seen: in the windows.
+        scale: (n,) rms torque of all rows over that of the windows.
+    """
+    return [
+        DataWarning(
+            f"joint {joint.name}: fit error {format_percent(joint.relative_error)} on all rows, "
+            f"{format_percent(error)} in the windows: some rows hold what the windows do not show; "
+            "fit pieces, FILE@START:END, to find them",
+            is_certain=True,
+            joints=(joint.name,),
+        )
+        for joint, error, torque in zip(result.joints, seen.errors, scale, strict=True)
+        if joint.relative_error is not None
+        and joint.relative_error * min(1.0, float(torque)) > THRESHOLDS.max_window_ratio * error
+    ]
+
+
+def find_undetermined_parameters(
+    spec: ModuleSpec, result: FitResult, spread: np.ndarray
+) -> list[DataWarning]:
+    """Returns warnings on parameters of which only sums with others are known.
+
+    Args:
+        spec: the robot.
+        result: of the fit.
+        spread: (c,) one standard deviation of each parameter, as torque over that of the joint
+            where it is largest.
+    """
+    vague = [base.name for base, share in zip(spec.base, spread, strict=True) if share > 1.0]
+    dropped = [p.name for p in result.parameters if p.sigma is None]
+    unknown, count = len({*vague, *dropped}), len(result.parameters)
+
+    def shorten(names: list[str]) -> str:
+        return ", ".join(names[:5]) + (f" and {len(names) - 5} more" if len(names) > 5 else "")
+
+    if unknown > THRESHOLDS.max_open_share * count:
+        line = (
+            f"not enough data for {count} parameters: {unknown} of them are not identifiable from "
+            f"these logs ({shorten([*dropped, *vague])}); record a longer motion of all joints, at "
+            "many speeds and poses"
+        )
+        return [DataWarning(line, is_certain=True)]
+    causes = {
+        "practically unidentifiable, the standard deviation exceeds the joint's rms torque; record "
+        "poses and accelerations that the logs lack": vague,
+        "not identifiable from these data; record a motion that moves all joints over a wide "
+        "range": dropped,
+    }
+    return [
+        DataWarning(
+            f"{shorten(names)}: {cause}",
+            affects_values=True,
+            joints=find_joints_of_parameters(spec, names),
+        )
+        for cause, names in causes.items()
+        if names
+    ]
 
 
 def check_time(
     model: CompiledModel, observation: Observation, result: FitResult
 ) -> list[DataWarning]:
-    """Time steps that no log of a robot has, and inertias that belong to another unit of time.
+    """Returns warnings on time steps that no log has, and on inertias of another unit of time.
 
     Accelerations scale with 1/time^2, gravity does not. With the time in milliseconds inertias
     come out a million times too large beside first moments: a joint with its links, inertia J and
@@ -77,57 +264,46 @@ def check_time(
     """
     warnings = []
     for log in observation.report.logs:
-        step = 1.0 / log.rate
-        if step > SLOW or step < 1.0 / _USUAL[1]:
-            what = (
-                "with which neither accelerations nor reversals are seen"
-                if step > SLOW
-                else "faster than robots are logged"
+        step, is_slow = 1.0 / log.rate, 1.0 / log.rate > THRESHOLDS.max_time_step
+        if is_slow or step < 1.0 / _LOG_RATES[1]:
+            rates = {name: 1.0 / (step * seconds) for name, seconds in _TIME_UNITS.items()}
+            low, high = _LOG_RATES
+            likely = [name for name, rate in rates.items() if low <= rate <= high]
+            why = "accelerations are not resolved" if is_slow else "faster than robots are logged"
+            advice = (
+                f"in {likely[0]}, the rate would be {rates[likely[0]]:.4g} Hz; multiply the column "
+                f"time by {_TIME_UNITS[likely[0]]:g} if it is"
+                if likely
+                else "is the column time in seconds, or a count of rows? give seconds"
             )
-            line = f"{log.name}: median time step {step:.3g} s, {what}: {_suggest_unit(step)}"
-            warnings.append(DataWarning(line, is_certain=step > SLOW, affects_values=step <= SLOW))
+            line = f"{log.name}: median time step {step:.3g} s, {why}: {advice}"
+            warnings.append(DataWarning(line, is_certain=is_slow, affects_values=not is_slow))
     ratio, density = _compute_pendulum(model, observation, result)
-    if not warnings and ratio > ABSURD:
-        warnings.append(
-            DataWarning(
-                f"the clock seems to be wrong: the inertias are {ratio:.2g} times those of links "
-                f"of this reach under this gravity, as if all motion were {ratio**0.5:.2g} times "
-                "as fast, or the lengths of the table not in metres; check the time column, its "
-                "unit and rate",
-                is_certain=True,
-            )
-        )
-    elif density > HEAVY and result.status != "rank deficient":
+    if not warnings and ratio > THRESHOLDS.max_pendulum_ratio:
         line = (
-            f"the links would weigh {density:.2g} kg for every cubic metre within the robot's "
-            "reach: the torques look like mN m, or the lengths of the table are not in metres; "
-            "give N m and metres"
+            f"the clock seems to be wrong: the inertias are {ratio:.2g} times those of links of "
+            f"this reach, as if all motion were {ratio**0.5:.2g} times as fast; check "
+            "the time column, its unit and rate, and whether the lengths are in metres"
+        )
+        warnings.append(DataWarning(line, is_certain=True))
+    elif density > THRESHOLDS.max_density and result.status != "rank deficient":
+        line = (
+            f"the links would weigh {density:.2g} kg for every cubic metre within its reach: "
+            "the torques look like mN m, or the lengths are not in metres; give N m and metres"
         )
         warnings.append(DataWarning(line, is_certain=True))
     return warnings
 
 
-def _suggest_unit(step: float) -> str:
-    """What the unit may be, and what to do."""
-    for name, seconds in _UNITS:
-        rate = 1.0 / (step * seconds)
-        if _USUAL[0] <= rate <= _USUAL[1]:
-            return (
-                f"were the column time in {name}, the rows came at {rate:.4g} Hz; multiply it by "
-                f"{seconds:g} if they are"
-            )
-    return "is the column time in seconds, or a count of rows? give seconds"
-
-
 def _compute_pendulum(
     model: CompiledModel, observation: Observation, result: FitResult
 ) -> tuple[float, float]:
-    """Least J g / m over the reach, over the joints that gravity loads; 0 if none.
+    """Returns the least J g / m over the reach, over the joints that gravity loads; 0 if none.
 
     Of a slide J and m / g are masses, and the reach is none of it. And the mass that makes the
     largest inertia, over the cube of the reach, kg/m^3.
     """
-    q = observation.q[:: max(1, len(observation.q) // _POSES)]
+    q = observation.q[:: max(1, len(observation.q) // THRESHOLDS.pendulum_poses)]
     nearest = find_nearest_closed(model, q)
     if nearest is None:
         return 0.0, 0.0
@@ -136,26 +312,19 @@ def _compute_pendulum(
     reach = float(np.linalg.norm(origins[:, :, None] - origins[:, None], axis=-1).max())  # m
     if reach == 0.0:
         return 0.0, 0.0
-    kinds = np.array([base.kind for base in model.spec.base])
-    links = np.where(kinds == "inertial", result.beta, 0.0)
-    weight = np.abs(model.gravity(q, links)).max(axis=0)
+    is_inertial = np.array([base.kind == "inertial" for base in model.spec.base])
+    weight = np.abs(model.gravity(q, np.where(is_inertial, result.beta, 0.0))).max(axis=0)
     matrices = model.inertia_matrix(q, result.beta)
     inertia = np.median(np.abs(np.diagonal(matrices, axis1=1, axis2=2)), axis=0)
     torque = np.sqrt(np.mean(observation.torque**2, axis=0))
     length = np.array([reach if joint.unit == "rad" else 1.0 for joint in model.spec.joints])
-    mass = np.maximum(inertia / length**2, weight / length / _GRAVITY)
+    mass = np.maximum(inertia / length**2, weight / length / _EARTH)
     loaded = np.array([joint.actuated for joint in model.spec.joints])
-    loaded &= (weight > LOADED * torque) & (weight > 0.0)
-    swings = (inertia * _GRAVITY / np.where(loaded, weight, 1.0) / length)[loaded]
+    loaded &= (weight > THRESHOLDS.min_gravity_share * torque) & (weight > 0.0)
+    swings = (inertia * _EARTH / np.where(loaded, weight, 1.0) / length)[loaded]
     swing = float(np.min(swings)) if loaded.any() else 0.0
     beyond = max(swing, 1.0)  # axes alone place the frames: links reach as far as they swing
     return swing, float(mass.max() / beyond**2 / (reach * beyond) ** 3)
-
-
-CHANCE = 1e-3
-"""Probability with which the machine that was measured lies outside of its confidence region."""
-
-_FELT = 1.1  # ratio of errors that is worth a word
 
 
 def judge_fit(
@@ -167,148 +336,117 @@ def judge_fit(
     refit: Callable[[np.ndarray], np.ndarray] | None = None,
     data: CompressedRegression | None = None,
 ) -> FitResult:
-    """The fit with its verdict.
+    """Returns the fit with its verdict.
 
     A fit is valid for prediction of torques of motion like that of its logs if it describes every
     joint, predicts stretches that are left out, the time runs in seconds, and a machine that
     could be built describes the joints as well. It is valid for its parameters if, beyond that,
-    no joint is doubtful, one such machine lies in their confidence region, the logs tell the
-    values apart, and what is left of the torques is small or noise.
+    no joint is doubtful, one such machine lies in their confidence region, the logs determine the
+    values, and what is left of the torques is small or noise.
 
     Args:
         model: the robot.
         observation: that was fitted.
         result: of the fit.
-        log_warnings: findings of other stages about the logs; one that is certain makes the fit
-            invalid.
+        log_warnings: of other stages about the logs; a certain one makes the fit invalid.
         equations: that were fitted; None: those of the bare robot.
         refit: how the fit is made without some samples; None: by least squares of the torques.
         data: all rows that were fitted, where the observation has a part of them only.
     """
     equations = equations or build_base_equations(observation)
     rows = find_connected_rows(observation)
-    part, data = data is not None, data or equations.compress_rows(rows)
-    sigma, prior = np.array([joint.sigma for joint in result.joints]), build_prior(model.spec)
-    seen = cross_validate(equations, rows, sigma, refit, prior)
-    unseen = tuple(doubt.line for doubt in log_warnings if doubt.is_undetectable)
-    warnings = [doubt for doubt in log_warnings if not doubt.is_undetectable]
+    is_part, data = data is not None, data or equations.compress_rows(rows)
+    sigma = np.array([joint.sigma for joint in result.joints])
+    seen = cross_validate(equations, rows, sigma, refit, build_prior(model.spec))
+    warnings = [warning for warning in log_warnings if not warning.is_undetectable]
     possible = None
-    if not any(
-        doubt.is_certain for doubt in warnings
-    ):  # else what the fit says is said of the fault
-        warnings += [
-            *check_time(model, observation, result),
-            *doubts.check_motion_noise(observation),
-        ]
-        warnings += [*doubts.find_few_rows(result, seen), *doubts.find_lack_of_fit(result)]
-        if part:
-            warnings += doubts.find_unexplained_joints(
-                result, seen, _compute_torque_ratio(data, observation, rows)
-            )
-        warnings += doubts.find_systematic_residuals(
-            result, _estimate_systematic_share(equations, rows, result)
-        )
-        warnings += [
-            DataWarning(line, affects_values=True, joints=_find_joint(line, result))
-            for line in result.contradicted
-        ]
-        warnings += doubts.find_undetermined_parameters(
-            model.spec, result, _compute_spread(data, result)
-        )
+    if not any(warning.is_certain for warning in warnings):  # else the fit describes the fault
+        warnings += [*check_time(model, observation, result), *check_motion_noise(observation)]
+        warnings += [*find_few_rows(result, seen), *find_lack_of_fit(result)]
+        if is_part:
+            scale = _compute_torque_ratio(data, observation, rows)
+            warnings += find_unexplained_joints(result, seen, scale)
+        share = _estimate_systematic_share(equations, rows, result)
+        warnings += find_systematic_residuals(result, share)
+        for line in result.contradicted:
+            joints = (j.name for j in result.joints if line.startswith(f"joint {j.name}: "))
+            warnings.append(DataWarning(line, affects_values=True, joints=tuple(joints)))
+        spread = _compute_spread(data, result)
+        warnings += find_undetermined_parameters(model.spec, result, spread)
         impossible = _find_impossible(model.spec, result, data)
         possible = not impossible
-        warnings += [*impossible, *doubts.find_negative_values(model.spec, result)]
-    worst = _find_worst_blocks(seen, equations, rows)
+        warnings += [*impossible, *find_negative_values(model.spec, result)]
+    block, blocks = observation.row_sample, THRESHOLDS.time_blocks
+    block = block * blocks // len(observation.time)
+    every = [compute_errors(equations, seen.residual, rows & (block == k)) for k in range(blocks)]
+    worst = np.nan_to_num(every).max(axis=0)
     by_joint = _judge_joints([*warnings, *result.joint_warnings], result, seen, worst)
-    verdict = _write_verdict(
-        warnings, by_joint, _describe_prediction(equations, rows, result, seen)
+    verdict = dataclasses.replace(
+        _write_verdict(warnings, by_joint, _describe_prediction(equations, rows, result, seen)),
+        unseen=tuple(warning.line for warning in log_warnings if warning.is_undetectable),
+        possible=possible,
     )
     directions = compute_friction_by_direction(model.spec, result)
-    verdict = dataclasses.replace(verdict, unseen=unseen, possible=possible)
     return dataclasses.replace(result, verdict=verdict, directions=directions)
-
-
-GOOD = 0.15
-"""Cross-validated error of a joint below which nothing speaks against its torques."""
-
-LAPSE = 0.3
-"""Cross-validated error in a fifth of the time above which a joint is doubtful."""
-
-LOST = 0.5
-"""Cross-validated error of a joint above which it is not determined."""
-
-FILTERED = 0.2
-"""Autocorrelation of residuals over one row up to which the filter of the rows makes it."""
-
-NOT_FITTED = "no row was fitted"
-"""Why a joint is not determined that has no motor, or no torque in its rows."""
-
-_BLOCKS = 5  # in time
-
-
-def _find_worst_blocks(seen: CrossValidation, equations: Equations, rows: np.ndarray) -> np.ndarray:
-    """(n,) largest cross-validated error in a block of time."""
-    observation = equations.observation
-    block = observation.row_sample * _BLOCKS // len(observation.time)
-    every = [compute_errors(equations, seen.residual, rows & (block == k)) for k in range(_BLOCKS)]
-    return np.asarray(np.nan_to_num(every).max(axis=0))
 
 
 def _judge_joints(
     warnings: Sequence[DataWarning], result: FitResult, seen: CrossValidation, worst: np.ndarray
 ) -> dict[str, JointVerdict]:
-    """What speaks against each joint: what is said of it, of the whole robot, and its errors.
+    """Returns what speaks against each joint: what concerns it, the whole robot, and its errors.
 
-    What is said of no joint, and leaves prediction and values as they are, speaks against none.
+    A warning on no joint that leaves prediction and values as they are speaks against none.
     """
     names = {joint.name for joint in result.joints}
-    judged = {}
-    for joint, error, lapse in zip(result.joints, seen.errors, worst, strict=True):
+    verdicts = {}
+    for joint, error, block_error in zip(result.joints, seen.errors, worst, strict=True):
         joint_warnings = [
-            doubt
-            for doubt in warnings
-            if joint.name in doubt.joints
-            or (not names & set(doubt.joints) and (doubt.is_certain or doubt.affects_values))
+            warning
+            for warning in warnings
+            if joint.name in warning.joints
+            or (not names & set(warning.joints) and (warning.is_certain or warning.affects_values))
         ]
-        lines = tuple(dict.fromkeys(doubt.line for doubt in joint_warnings))
+        lines = tuple(dict.fromkeys(warning.line for warning in joint_warnings))
         errors = f"fit error {format_percent(joint.relative_error)}"
         if np.isfinite(error):
             errors += f", cross-validated error {format_percent(float(error))}"
+        is_bad = any(warning.is_certain for warning in joint_warnings)
+        is_bad |= bool(error > THRESHOLDS.max_cross_validated_error)
+        is_doubtful = error > THRESHOLDS.good_error or block_error > THRESHOLDS.max_block_error
         if joint.relative_error is None:
-            judged[joint.name] = JointVerdict("undetermined", (NOT_FITTED, *lines))
-        elif any(doubt.is_certain for doubt in joint_warnings) or error > LOST:
-            judged[joint.name] = JointVerdict("undetermined", lines or (errors,))
-        elif joint_warnings or error > GOOD or lapse > LAPSE:
-            judged[joint.name] = JointVerdict("doubtful", lines or (errors,))
+            verdict = JointVerdict("undetermined", (NOT_FITTED, *lines))
+        elif is_bad:
+            verdict = JointVerdict("undetermined", lines or (errors,))
+        elif joint_warnings or is_doubtful:
+            verdict = JointVerdict("doubtful", lines or (errors,))
         else:
-            judged[joint.name] = JointVerdict("good", (errors,))
-    return judged
+            verdict = JointVerdict("good", (errors,))
+        verdicts[joint.name] = verdict
+    return verdicts
 
 
 def _describe_prediction(
     equations: Equations, rows: np.ndarray, result: FitResult, seen: CrossValidation
 ) -> str:
-    """How well torques are predicted; no better than where they were fitted."""
+    """Returns how well torques are predicted; no better than where they were fitted."""
 
-    def largest(errors: np.ndarray, joints: Sequence[JointFit]) -> str:
-        fit_errors = [np.nan if j.relative_error is None else j.relative_error for j in joints]
-        return format_percent(
-            float(np.fmax(np.nan_to_num(errors), np.nan_to_num(fit_errors)).max())
-        )
+    def find_largest(errors: np.ndarray, joints: Sequence[JointFit]) -> str:
+        fitted = [joint.relative_error or 0.0 for joint in joints]
+        return format_percent(float(np.fmax(np.nan_to_num(errors), np.nan_to_num(fitted)).max()))
 
-    parts = {
-        name: largest(compute_errors(equations, seen.residual, is_counted), result.by_load[name])
-        for name, is_counted in equations.select_conditions(rows).items()
-        if name in result.by_load
-    }
-    errors = " and ".join(f"{error} {name}" for name, error in parts.items())
-    return f"cross-validated error at most {errors or largest(seen.errors, result.joints)}"
+    parts = [
+        f"{find_largest(compute_errors(equations, seen.residual, part), joints)} {name}"
+        for name, part in equations.select_conditions(rows).items()
+        if (joints := result.by_load.get(name))
+    ]
+    errors = " and ".join(parts) or find_largest(seen.errors, result.joints)
+    return f"cross-validated error at most {errors}"
 
 
 def _compute_torque_ratio(
     data: CompressedRegression, observation: Observation, rows: np.ndarray
 ) -> np.ndarray:
-    """(n,) rms torque of all rows over that of the observation's; 1 where either has none."""
+    """Returns (n,) rms torque of all rows over the observation's; 1 where either has none."""
     count = len(data.rows)
     joint, y = observation.row_joint[rows], observation.y[rows]
     here = np.sqrt(np.bincount(joint, y**2, count) / np.fmax(np.bincount(joint, None, count), 1))
@@ -324,7 +462,7 @@ def find_contradictions(
     log_warnings: Sequence[DataWarning] = (),
     data: CompressedRegression | None = None,
 ) -> list[str]:
-    """Why a fit is certainly not valid, other than for want of data.
+    """Returns why a fit is certainly not valid, other than for want of data.
 
     A log that is too short for a fit of its own may still say something beside others.
 
@@ -332,47 +470,41 @@ def find_contradictions(
         model: the robot.
         observation: that was fitted.
         result: of the fit.
-        log_warnings: findings of other stages about the logs.
+        log_warnings: of other stages about the logs.
         data: all rows that were fitted; None: those of the observation.
     """
     warnings = list(log_warnings)
-    if not any(doubt.is_certain for doubt in warnings):
-        warnings += [*check_time(model, observation, result), *doubts.find_lack_of_fit(result)]
+    if not any(warning.is_certain for warning in warnings):
+        warnings += [*check_time(model, observation, result), *find_lack_of_fit(result)]
         warnings += _find_impossible(model.spec, result, data or compress_all_rows(observation))
-    return list(dict.fromkeys(doubt.line for doubt in warnings if doubt.is_certain))
+    return list(dict.fromkeys(warning.line for warning in warnings if warning.is_certain))
 
 
 def _estimate_systematic_share(
     equations: Equations, rows: np.ndarray, result: FitResult
 ) -> np.ndarray:
-    """(n,) e_j sqrt(r_j(1)): relative error, and autocorrelation of the residual over one row."""
+    """Returns (n,) e_j sqrt(r_j(1)): relative error, and lag-1 autocorrelation of the residual."""
     observation, every = equations.observation, np.ones(len(rows), dtype=bool)
     residual = equations.compute_residual(_collect_values(result), every)
     shares = np.zeros(len(result.joints))
     for j, joint in enumerate(result.joints):
-        is_of_joint = rows & (observation.row_joint == j)
-        if joint.relative_error is None or not is_of_joint.any():
+        part = rows & (observation.row_joint == j)
+        if joint.relative_error is None or not part.any():
             continue
-        r = estimate_autocorrelation(
-            residual[is_of_joint], observation.row_sample[is_of_joint], observation.segment
-        )
-        lasts = float(r[1]) if len(r) > 1 and r[1] > FILTERED else 0.0
-        shares[j] = joint.relative_error * lasts**0.5
+        sample = observation.row_sample[part]
+        r = estimate_autocorrelation(residual[part], sample, observation.segment)
+        if len(r) > 1 and r[1] > THRESHOLDS.filter_correlation:
+            shares[j] = joint.relative_error * float(r[1]) ** 0.5
     return shares
 
 
-def _find_joint(line: str, result: FitResult) -> tuple[str, ...]:
-    """The joint that a line begins with."""
-    return tuple(j.name for j in result.joints if line.startswith(f"joint {j.name}: "))
-
-
 def _collect_values(result: FitResult) -> np.ndarray:
-    """(c + loads,) of all columns that were fitted."""
+    """Returns (c + loads,) of all columns that were fitted."""
     return np.append(result.beta, [load.value for load in result.loads])
 
 
 def _compute_spread(data: CompressedRegression, result: FitResult) -> np.ndarray:
-    """(c,) ||W_jc|| sigma_c / ||y_j|| of the joint where it is largest."""
+    """Returns (c,) ||W_jc|| sigma_c / ||y_j|| of the joint where it is largest."""
     sigma = np.sqrt(np.diag(result.covariance))
     column = np.linalg.norm(data.triangles[:, :, : len(sigma)], axis=1)
     torque = data.compute_torque_norms()
@@ -384,92 +516,77 @@ def _compute_spread(data: CompressedRegression, result: FitResult) -> np.ndarray
 def _find_impossible(
     spec: ModuleSpec, result: FitResult, data: CompressedRegression
 ) -> list[DataWarning]:
-    """Values that no completion makes those of a machine that could be built."""
+    """Returns a warning if no completion of the values is physically consistent."""
     machine, c = define_physical_parameters(spec), len(result.beta)
-    # A root of what the rows tell of the robot's parameters, whatever those of loads are.
+    # A root of what the rows determine of the robot's parameters, whatever those of loads are.
     whole = data.combine_joints(np.array([joint.sigma for joint in result.joints]))
     loads = whole.shape[1] - 1 - c
     white = compute_triangle(np.hstack([whole[:, c:-1], whole[:, :c]]))[loads:, loads:]
     root = white / _estimate_sigma_factors(white, result)
     nearest = project_parameters(machine, result.beta, root)
-    limit = float(chdtri(max(1, np.linalg.matrix_rank(root)), CHANCE)) ** 0.5
+    degrees = max(1, np.linalg.matrix_rank(root))
+    limit = float(chdtri(degrees, THRESHOLDS.chance_probability)) ** 0.5
     if nearest is None or nearest.distance <= limit:
         return []
     blamed = attribute_distance(machine, result.beta, root, nearest.distance)
     names = [name if name in machine.positive else f"the mass of link {name}" for name in blamed]
-    # Relative errors with the fit and with the possible machine, and the joint that it costs most.
+    # Relative errors with both, and the joint that loses most.
     torque, values = data.compute_torque_norms(), _collect_values(result)
     driven = np.flatnonzero(torque > 0.0)
-    moved = np.append(nearest.beta, values[len(nearest.beta) :])
-    errors = [
-        data.compute_residual_norms(beta)[driven] / torque[driven] for beta in (values, moved)
-    ]
-    worst = int(np.argmax(errors[1] - errors[0]))
-    before, after = (float(error[worst]) for error in errors)
-    cost = (
-        ""
-        if after < _FELT * before
-        else (
-            f"; the nearest possible one leaves {format_percent(after)} of the torque of joint "
-            f"{result.joints[driven[worst]].name}, not {format_percent(before)}"
-        )
+    moved = np.append(nearest.beta, values[c:])
+    norms = (data.compute_residual_norms(beta)[driven] for beta in (values, moved))
+    before, after = (norm / torque[driven] for norm in norms)
+    worst = int(np.argmax(after - before))
+    fit_error, error = float(before[worst]), float(after[worst])
+    line = (
+        f"not physically consistent: distance {nearest.distance:.3g} sigma (threshold "
+        f"{limit:.2g}), mainly from {', '.join(names) or 'no single link'}"
     )
-    return [
-        DataWarning(
-            f"no machine that could be built has these values: {nearest.distance:.3g} sigmas from "
-            f"any, where {limit:.2g} are chance; carried by {', '.join(names) or 'no single link'}"
-            f"{cost}; check signs, order and units of those channels, and let `modeler "
-            "diagnose` look for an effect that they stand in for",
-            is_certain=after > max(LITTLE, WIDE * before),
-            affects_values=True,
-            joints=tuple(
-                joint
-                for name in blamed
-                for joint in doubts.find_joints_of_parameters(spec, [name]) or (name,)
-            ),
+    if error >= THRESHOLDS.reported_error_ratio * fit_error:
+        line += (
+            f"; the nearest consistent parameters have a fit error of {format_percent(error)} on "
+            f"joint {result.joints[driven[worst]].name}, not {format_percent(fit_error)}"
         )
-    ]
+    line += "; check signs, order and units of those channels, and run `modeler diagnose`"
+    largest = max(THRESHOLDS.max_fit_error, THRESHOLDS.max_error_ratio * fit_error)
+    joints = [j for name in blamed for j in find_joints_of_parameters(spec, [name]) or (name,)]
+    return [DataWarning(line, error > largest, affects_values=True, joints=tuple(joints))]
 
 
 def _estimate_sigma_factors(white: np.ndarray, result: FitResult) -> np.ndarray:
-    """(c,) factors of the standard deviations over those of white residuals, 1 and more.
+    """Returns (c,) factors of the standard deviations over those of white residuals, 1 and more.
 
-    All are the largest if columns were set aside: others carry their effect, and must go on to.
+    All are the largest if columns were dropped: others carry their effect, and must go on to.
     """
     raised = np.sqrt(np.diag(result.covariance))
     names = [parameter.name for parameter in result.parameters]
-    kept_columns = np.intersect1d(
-        np.flatnonzero(raised), find_independent_columns(white, names).kept_columns
-    )
+    rank = find_independent_columns(white, names)
+    columns = np.intersect1d(np.flatnonzero(raised), rank.kept_columns)
     factors = np.ones(len(raised))
-    if kept_columns.size:
-        _, root = solve_by_qr(white[:, kept_columns], np.zeros(len(white)))
-        factors[kept_columns] = np.maximum(raised[kept_columns] / np.linalg.norm(root, axis=1), 1.0)
-    return factors if kept_columns.size == len(factors) else np.full(len(factors), factors.max())
+    if columns.size:
+        _, root = solve_by_qr(white[:, columns], np.zeros(len(white)))
+        factors[columns] = np.maximum(raised[columns] / np.linalg.norm(root, axis=1), 1.0)
+    return factors if columns.size == len(factors) else np.full(len(factors), factors.max())
 
 
 def _write_verdict(
     warnings: Sequence[DataWarning], by_joint: Mapping[str, JointVerdict], error: str
 ) -> Verdict:
-    lines = tuple(dict.fromkeys(doubt.line for doubt in warnings))
-    fatal = [doubt for doubt in warnings if doubt.is_certain]
+    lines = tuple(dict.fromkeys(warning.line for warning in warnings))
+    fatal = [warning.line for warning in warnings if warning.is_certain]
+    reasons = [warning.line for warning in warnings if warning.affects_values]
+    for name, verdict in by_joint.items():
+        why = verdict.why[0]
+        if verdict.state != "good" and why != NOT_FITTED:  # which blocks no other joint
+            reasons.append(why if why.startswith("joint") else f"joint {name}, {why}")
     if fatal:
-        return Verdict(False, "nothing", f"Not valid: {fatal[0].line}", lines, (), by_joint)
-    values = [doubt.line for doubt in warnings if doubt.affects_values]
-    doubtful = {
-        name: judged.why[0]
-        for name, judged in by_joint.items()
-        if judged.state != "good" and judged.why[0] != NOT_FITTED  # which blocks no other joint
-    }
-    if values or doubtful:
-        named = (why if why.startswith("joint") else f"joint {name}, {why}"
-                 for name, why in doubtful.items())  # fmt: skip
-        reason = [*values, *named][0]
+        return Verdict(False, "nothing", f"Not valid: {fatal[0]}", lines, (), by_joint)
+    if reasons:
         line = (
             f"Valid for torque prediction on similar motions only: {error} on every joint. "
-            f"Individual parameters are not reliable: {reason}"
+            f"Individual parameters are not reliable: {reasons[0]}"
         )
         return Verdict(True, "prediction", line, lines, (), by_joint)
     line = f"Valid for torque prediction: {error} on every joint. "
-    line += f"Note: {warnings[0].line}" if warnings else "Parameters are physically consistent."
+    line += f"Note: {lines[0]}" if lines else "Parameters are physically consistent."
     return Verdict(True, "parameters", line, lines, (), by_joint)

@@ -1,12 +1,3 @@
-from .channels import (
-    DataWarning as DataWarning,
-    MotionTransform as MotionTransform,
-    ThinnedRows as ThinnedRows,
-    propose_clocks as propose_clocks,
-    propose_transforms as propose_transforms,
-    propose_zero as propose_zero,
-    thin_rows as thin_rows,
-)
 from .chunk import (
     SPREAD as SPREAD,
     Chunk as Chunk,
@@ -23,39 +14,43 @@ from .log import (
     Log as Log,
     LogRows as LogRows,
     check_no_overlap as check_no_overlap,
+    find_runs as find_runs,
     has_shared_rows as has_shared_rows,
 )
-from .low_speed import (
-    apply_lag as apply_lag,
-    compute_bristle_state as compute_bristle_state,
-    compute_signals as compute_signals,
-    compute_signals_along as compute_signals_along,
-    compute_time_since_reversal as compute_time_since_reversal,
-    find_shafts as find_shafts,
-)
 from .motion import (
-    HIGHEST as HIGHEST,
+    ChosenProcessing as ChosenProcessing,
+    Processing as Processing,
     Segment as Segment,
     apply_low_pass as apply_low_pass,
     compute_travel_since_reversal as compute_travel_since_reversal,
     differentiate_positions as differentiate_positions,
+    read_processing as read_processing,
 )
-from .motion_noise import ChannelNoise as ChannelNoise, MotionNoise as MotionNoise
+from .motion_noise import (
+    Bands as Bands,
+    ChannelNoise as ChannelNoise,
+    MotionNoise as MotionNoise,
+    build_bands as build_bands,
+)
 from .observation import (
     MASKS as MASKS,
     WHY as WHY,
     ModelRegressor as ModelRegressor,
     Observation as Observation,
+    add_stretch as add_stretch,
     assemble_observation as assemble_observation,
     build_no_row_error as build_no_row_error,
     build_observation as build_observation,
     classify_rows as classify_rows,
+    compute_fitted_torque as compute_fitted_torque,
     compute_model_torque as compute_model_torque,
+    compute_triangles as compute_triangles,
+    evaluate_columns_at as evaluate_columns_at,
+    is_streamed as is_streamed,
+    iterate_blocks as iterate_blocks,
     rebuild_observation as rebuild_observation,
 )
 from .observe import (
-    SAMPLES as SAMPLES,
-    TREMBLES as TREMBLES,
     CutoffSearch as CutoffSearch,
     compute_chatter_ratios as compute_chatter_ratios,
     observe as observe,
@@ -79,26 +74,21 @@ from .read import (
     read_log as read_log,
     read_log_in_memory as read_log_in_memory,
 )
-from .reduce import (
-    add_stretch as add_stretch,
-    compute_fitted_torque as compute_fitted_torque,
-    compute_triangles as compute_triangles,
-    is_streamed as is_streamed,
-    iterate_blocks as iterate_blocks,
-)
 from .report import (
-    Bands as Bands,
     DataReport as DataReport,
+    DataWarning as DataWarning,
+    LogFacts as LogFacts,
     LogReport as LogReport,
-    build_bands as build_bands,
 )
-from .segments import find_runs as find_runs
-from .settings import (
-    ChosenProcessing as ChosenProcessing,
-    Processing as Processing,
-    read_processing as read_processing,
+from .segments import (
+    FilteredSegment as FilteredSegment,
+    apply_lag as apply_lag,
+    compute_bristle_state as compute_bristle_state,
+    compute_signals as compute_signals,
+    compute_signals_along as compute_signals_along,
+    compute_time_since_reversal as compute_time_since_reversal,
+    find_shafts as find_shafts,
 )
-from .stretch import FilteredSegment as FilteredSegment
 from .survey import (
     WINDOW as WINDOW,
     WINDOWS as WINDOWS,
@@ -111,4 +101,4 @@ from .survey import (
     build_streamed_report as build_streamed_report,
     choose_from_windows as choose_from_windows,
 )
-from .tally import LogFacts as LogFacts
+from .thresholds import THRESHOLDS as THRESHOLDS

@@ -12,6 +12,7 @@ from modeler.core.errors import DataError
 from modeler.core.manifest import ModuleSpec
 from modeler.numerics.filters import compute_reach
 from modeler.regression.log import FINGER, Log, combine_hashes, compute_block_hash
+from modeler.regression.motion import ChosenProcessing
 from modeler.regression.read import (
     ChannelRanges,
     FileSource,
@@ -20,13 +21,7 @@ from modeler.regression.read import (
     join_logs,
     join_windows,
 )
-from modeler.regression.settings import ChosenProcessing
-
-MEMORY = 12.0
-"""Periods of the position filter after which nothing of it is left: its slowest poles fade as
-exp(-2.4 t cutoff), to 3e-13."""
-
-_BESIDE = 64  # rows, at least: what looks for damage sees 30 to both sides, and judges not the ends
+from modeler.regression.thresholds import THRESHOLDS
 
 
 @dataclass(frozen=True, eq=False)
@@ -59,9 +54,8 @@ class Chunk:
             if self.number == 0
             else float(time[inner_rows.start - 1 : inner_rows.start + 1].mean())
         )
-        return start, np.inf if self.last else float(
-            time[inner_rows.stop - 1 : inner_rows.stop + 1].mean()
-        )
+        stop = float(time[inner_rows.stop - 1 : inner_rows.stop + 1].mean())
+        return start, np.inf if self.last else stop
 
     @property
     def rows(self) -> int:
@@ -69,22 +63,22 @@ class Chunk:
         return self.inner_rows.stop - self.inner_rows.start
 
     def is_inside(self, time: np.ndarray) -> np.ndarray:
-        """(n,) True at the times (n,), s, that are its own."""
+        """Returns (n,) True at the times (n,), s, that are its own."""
         start, stop = self.span
         return np.asarray((time >= start) & (time < stop))
 
     def is_inner(self, rows: np.ndarray | int) -> np.ndarray:
-        """True for the rows of `log` that are its own."""
+        """Returns True for the rows of `log` that are its own."""
         return np.asarray((self.inner_rows.start <= rows) & (rows < self.inner_rows.stop))
 
 
 def wrap_log(log: Log) -> Chunk:
-    """A log as its one chunk."""
+    """Returns a log as its one chunk."""
     return Chunk(0, 0, slice(0, log.rows), log, True)
 
 
 def compute_margin(processing: ChosenProcessing, step: float) -> int:
-    """Rows beside a chunk that filters and searches of its own rows reach.
+    """Returns rows beside a chunk that filters and searches of its own rows reach.
 
     Zero-phase filtering of a chunk then differs from that of the whole log by what the position
     filter remembers after `MEMORY` periods, exp(-12 x 2.4) = 3e-13 of the motion within them.
@@ -94,36 +88,34 @@ def compute_margin(processing: ChosenProcessing, step: float) -> int:
         step: of the log, s.
     """
     position, parallel = processing.position_cutoff, processing.parallel_cutoff
-    memory = MEMORY / (position * step) if position > 0.0 else 0.0
+    memory = THRESHOLDS.filter_memory / (position * step) if position > 0.0 else 0.0
     window = 1.0 / (parallel * step) if parallel > 0.0 else 0.0  # in which derivatives are checked
     delay = abs(processing.delay) / step
     edge = (processing.edge or 0.0) / step
     reach = compute_reach(step, parallel)
-    return _BESIDE + int(np.ceil(max(memory, edge) + reach + window + delay))
+    return THRESHOLDS.min_margin_rows + int(np.ceil(max(memory, edge) + reach + window + delay))
 
 
-def read_chunks(source: Source, chunk_rows: int, margin_rows: int) -> Iterator[Chunk]:
-    """All rows of a log as chunks.
+def read_chunks(source: Source, size: int, margin: int) -> Iterator[Chunk]:
+    """Yields all rows of a log as chunks.
 
     Args:
         source: of the log.
-        chunk_rows: rows of each, but for the last.
-        margin_rows: rows of its margins.
+        size: rows of each, but for the last.
+        margin: rows of its margins.
     """
     held, first, rows, number = list[Log](), 0, 0, 0  # first: row of the log that held begins with
-    for block in chain(source.read_blocks(chunk_rows), [None]):
+    for block in chain(source.read_blocks(size), [None]):
         if block is not None:
             held.append(block)
             rows += block.rows
         # behind the last block there is no margin to wait for
-        while first + rows > number * chunk_rows + (
-            chunk_rows + margin_rows if block is not None else 0
-        ):
+        while first + rows > number * size + (size + margin) * (block is not None):
             log = join_logs(held)
-            last = block is None and first + rows <= (number + 1) * chunk_rows
-            yield _cut_chunk(log, first, number, chunk_rows, margin_rows, last)
+            last = block is None and first + rows <= (number + 1) * size
+            yield _cut_chunk(log, first, number, size, margin, last)
             number += 1
-            dropped_rows = max(0, number * chunk_rows - margin_rows) - first
+            dropped_rows = max(0, number * size - margin) - first
             held, first, rows = (
                 [cut_rows(log, slice(dropped_rows, None))],
                 first + dropped_rows,
@@ -131,31 +123,25 @@ def read_chunks(source: Source, chunk_rows: int, margin_rows: int) -> Iterator[C
             )
 
 
-def read_chunks_between(
-    source: Source, numbers: range, chunk_rows: int, margin_rows: int
-) -> Iterator[Chunk]:
-    """Some of those chunks, of a log whose rows can be read from anywhere; the same to the bit.
+def read_chunks_between(source: Source, numbers: range, size: int, margin: int) -> Iterator[Chunk]:
+    """Yields some of those chunks, of a log that can be read from any row; the same to the bit.
 
     Args:
         source: whose windows begin at the very row that is asked for.
         numbers: of the chunks, from 0, one after the other.
-        chunk_rows: as of `read_chunks`.
-        margin_rows: as of `read_chunks`.
+        size: as of `read_chunks`.
+        margin: as of `read_chunks`.
     """
-    start = max(0, numbers[0] * chunk_rows - margin_rows)
-    stop = min((numbers[-1] + 1) * chunk_rows + margin_rows, source.rows)
+    start = max(0, numbers[0] * size - margin)
+    stop = min((numbers[-1] + 1) * size + margin, source.rows)
     log = source.read_window((start + 0.5) / source.rows, stop - start)
     for number in numbers:
-        yield _cut_chunk(
-            log, start, number, chunk_rows, margin_rows, source.rows <= (number + 1) * chunk_rows
-        )
+        yield _cut_chunk(log, start, number, size, margin, source.rows <= (number + 1) * size)
 
 
-def _cut_chunk(
-    log: Log, first: int, number: int, chunk_rows: int, margin_rows: int, last: bool
-) -> Chunk:
-    start, stop = number * chunk_rows, min((number + 1) * chunk_rows, first + log.rows)
-    low, high = max(first, start - margin_rows), min(stop + margin_rows, first + log.rows)
+def _cut_chunk(log: Log, first: int, number: int, size: int, margin: int, last: bool) -> Chunk:
+    start, stop = number * size, min((number + 1) * size, first + log.rows)
+    low, high = max(first, start - margin), min(stop + margin, first + log.rows)
     part = cut_rows(log, slice(low - first, high - first))
     return Chunk(number, start, slice(start - low, stop - low), part, last)
 
@@ -166,7 +152,7 @@ def _cut_chunk(
 def cut_window(
     log: Log, start: float | None, end: float | None, span: tuple[float, float] | None = None
 ) -> Log:
-    """The rows of `log` with start <= time < end, s; None leaves that side open.
+    """Returns the rows of `log` with start <= time < end, s; None leaves that side open.
 
     Args:
         log: it, or those rows of it that may be in the window.
@@ -196,7 +182,7 @@ def cut_window(
 
 
 def read_part(source: FileSource, spec: ModuleSpec, start: float | None, end: float | None) -> Log:
-    """What `cut_window` makes of the whole log. All rows are read.
+    """Returns what `cut_window` makes of the whole log. All rows are read.
 
     A piece has the log's fingerprint.
 
@@ -227,7 +213,7 @@ _ROWS, _PARTS = 2**18, 32  # that are kept of it
 
 
 def read_spread(source: FileSource, spec: ModuleSpec) -> Log:
-    """Evenly spread stretches of a log of more than `SPREAD` rows, as its segments.
+    """Returns evenly spread stretches of a log of more than `SPREAD` rows, as its segments.
 
     All rows are read: the fingerprint and what channels hold are those of the whole log.
 
@@ -240,11 +226,8 @@ def read_spread(source: FileSource, spec: ModuleSpec) -> Log:
 
     def there(chunk: Chunk) -> Log | None:
         # copies: of a view all rows would stay
-        return (
-            cut_rows(chunk.log, np.arange(min(size, chunk.rows)))
-            if chunk.number in places
-            else None
-        )
+        rows = np.arange(min(size, chunk.rows))
+        return cut_rows(chunk.log, rows) if chunk.number in places else None
 
     parts, last, span = _read_parts(source, spec, there)
     rows, least = sum(log.rows for log in parts), min(log.rows for log in parts)
@@ -258,7 +241,7 @@ def read_spread(source: FileSource, spec: ModuleSpec) -> Log:
 def _read_parts(
     source: FileSource, spec: ModuleSpec, there: Callable[[Chunk], Log | None]
 ) -> tuple[list[Log], Log, tuple[float, float]]:
-    """What is kept of a log that is read once; its end, with what all rows tell; its times."""
+    """Returns the kept parts of a log that is read once, its end with all notes, and its times."""
     parts, hashes, ranges, start = list[Log](), list[bytes](), list[ChannelRanges](), None
     for chunk in read_chunks(source, FINGER, 0):
         log = chunk.log

@@ -15,13 +15,11 @@ from modeler.numerics.noise import (
     estimate_robust_deviation,
     estimate_white_noise,
 )
-from modeler.regression.log import Log
-from modeler.regression.segments import RawSegment
+from modeler.regression.log import Log, RawSegment
+from modeler.regression.thresholds import THRESHOLDS
 
 # Means of a logged derivative and difference quotients of what it derives from, over windows.
 
-
-_LEAST_HALF = 3  # samples: a leap of the acceleration then weighs 1/12 of itself at most
 
 Column = Literal["qd", "qdd"]
 
@@ -46,7 +44,7 @@ class DerivativeWindows:
 def build_windows(
     piece: RawSegment, column: Column, lower: str, cutoff: float, delay: np.ndarray
 ) -> DerivativeWindows:
-    """The windows of one period of the parallel filter, 7 samples at least.
+    """Returns the windows of one period of the parallel filter, 7 samples at least.
 
     Args:
         piece: with the column logged.
@@ -60,19 +58,18 @@ def build_windows(
         logged = np.column_stack(
             [np.interp(piece.time + d, piece.time, v) for d, v in zip(delay, logged.T, strict=True)]
         )
-    half = max(_LEAST_HALF, round(0.5 / (cutoff * piece.step)) if cutoff else 0)
+    half = max(THRESHOLDS.min_half_window, round(0.5 / (cutoff * piece.step)) if cutoff else 0)
     half = min(half, (len(piece.time) - 1) // 2)
     length = 2 * half * piece.step
     trapezoids = 0.5 * piece.step * (logged[1:] + logged[:-1])
     integral = np.concatenate([np.zeros((1, logged.shape[1])), np.cumsum(trapezoids, axis=0)])
-    mean, quotient, slope = (
-        (v[2 * half :] - v[: -2 * half]) / length for v in (integral, below, logged)
-    )
+    signals = integral, below, logged
+    mean, quotient, slope = ((v[2 * half :] - v[: -2 * half]) / length for v in signals)
     return DerivativeWindows(piece.time[half:-half], piece.step, half, mean, quotient, slope)
 
 
 def compute_size(values: np.ndarray) -> np.ndarray:
-    """(joints,) of (n, joints): root mean square weighted by energy, so long rests do not count."""
+    """Returns (joints,) of (n, joints): root mean square weighted by energy, not by rests."""
     total = np.sum(values**2, axis=0)
     return np.sqrt(np.sum(values**4, axis=0) / np.where(total > 0.0, total, 1.0))
 
@@ -83,16 +80,8 @@ def compute_size(values: np.ndarray) -> np.ndarray:
 AS_LOGGED = "used as logged; fit with --derivatives position to avoid it"
 POSITIONS = "the positions are differentiated instead"
 
-HARM = 0.02
-"""Mean disagreement, as a share of the derivative, from which on a late column is not used."""
 
-_TOLD = 0.75  # steps; a leap between two samples already looks half a step early or late
-_BELIEVED = 0.5  # of the sum of errors: what may be left without the delay
-_LEFT_OF_MEAN = 0.25  # of the derivative's mean: what may be left where one joint alone is late
-_TURNS = 3  # the equation is linear for small delays only
-_FAR = 0.3  # disagreement from which on a delay may be too large for the linear equation
 _EARLIEST, _LATEST = -0.05, 0.2  # s
-_STEP = 5e-3  # s
 
 
 @dataclass(frozen=True)
@@ -114,7 +103,7 @@ class DerivativeDelay:
     share: float
 
     def describe(self, used: str) -> str:
-        """Text, with what becomes of the column."""
+        """Returns the delay as text, with what becomes of the column."""
         way = "lags behind" if self.seconds > 0.0 else "runs ahead of"
         whose = "in all joints" if self.column in ("qd", "qdd") else "and not all joints do"
         return (
@@ -126,7 +115,7 @@ class DerivativeDelay:
 def estimate_delays(
     pieces: Sequence[RawSegment], joints: Sequence[str], column: Column, lower: str, cutoff: float
 ) -> tuple[list[DerivativeDelay], np.ndarray]:
-    """What is late, and (joints,) s by which each column is; 0 if small or not to be told.
+    """Returns what is late, and (joints,) s by which each column is; 0 if small or not to be told.
 
     A delay is that which makes the sum of the absolute differences least, between the window means
     of the logged derivative and the difference quotients. Gross errors of a few samples do not
@@ -143,19 +132,21 @@ def estimate_delays(
     errors = _DelayErrors(pieces, column, lower, cutoff)
     none, step = np.zeros(len(joints)), pieces[0].step
     before = errors.sum_errors(none)
-    far = np.any((before > _FAR * errors.whole) & (errors.whole > 0.0))
+    far = np.any((before > THRESHOLDS.scanned_disagreement * errors.whole) & (errors.whole > 0.0))
     delays = errors.refine_delays(errors.scan_delays(before) if far else none)
     left = errors.sum_errors(delays)
-    common = np.full(
-        len(joints), np.median(delays[errors.size > 0.0]) if errors.size.any() else 0.0
-    )
+    median = np.median(delays[errors.size > 0.0]) if errors.size.any() else 0.0
+    common = np.full(len(joints), median)
     together = errors.sum_errors(common)
-    is_significant = (np.abs(delays) >= _TOLD * step) & (left <= _BELIEVED * before)
-    delays = np.where(is_significant & (left < _LEFT_OF_MEAN * errors.whole), delays, 0.0)
-    halves = together.sum() <= _BELIEVED * before.sum()
+    is_significant = (np.abs(delays) >= THRESHOLDS.min_delay_steps * step) & (
+        left <= THRESHOLDS.max_delayed_error * before
+    )
+    is_significant &= left < THRESHOLDS.max_single_error * errors.whole
+    delays = np.where(is_significant, delays, 0.0)
+    halves = together.sum() <= THRESHOLDS.max_delayed_error * before.sum()
     if (
         halves
-        and abs(common[0]) >= _TOLD * step
+        and abs(common[0]) >= THRESHOLDS.min_delay_steps * step
         and np.all(together <= 2.0 * errors.sum_errors(delays))
     ):
         mean = float(before.sum() / max(float(errors.whole.sum()), 1e-300))
@@ -186,30 +177,31 @@ class _DelayErrors:
         self.whole = np.sum(np.abs(quotient), axis=0)
 
     def _collect_parts(self, delay: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-        windows = [
-            build_windows(piece, *self._levels, self._cutoff, delay) for piece in self._pieces
-        ]
+        levels, cutoff = self._levels, self._cutoff
+        windows = [build_windows(piece, *levels, cutoff, delay) for piece in self._pieces]
         parts = [(part.quotient, part.error, part.slope) for part in windows]
         quotient, error, slope = (np.concatenate(group) for group in zip(*parts, strict=True))
         return quotient, error, slope
 
     def sum_errors(self, delay: np.ndarray) -> np.ndarray:
-        """(joints,) of the absolute differences."""
+        """Returns (joints,) of the absolute differences."""
         return np.asarray(np.sum(np.abs(self._collect_parts(delay)[1]), axis=0))
 
     def scan_delays(self, before: np.ndarray) -> np.ndarray:
-        """(joints,) the best of delays in steps of 5 ms."""
+        """Returns (joints,) the best of delays in steps of 5 ms."""
         best, least = np.zeros(len(before)), before.copy()
-        for candidate in np.arange(_EARLIEST, _LATEST + 0.5 * _STEP, _STEP):
+        for candidate in np.arange(
+            _EARLIEST, _LATEST + 0.5 * THRESHOLDS.delay_scan_step, THRESHOLDS.delay_scan_step
+        ):
             sums = self.sum_errors(np.full(len(before), candidate))
             better = sums < least
             best[better], least[better] = candidate, sums[better]
         return best
 
     def refine_delays(self, delay: np.ndarray) -> np.ndarray:
-        """(joints,) the delays after a few steps of least absolute values, error + delay slope."""
+        """Returns (joints,) the delays after a few steps of least absolute values."""
         delay = delay.copy()
-        for _ in range(_TURNS):
+        for _ in range(THRESHOLDS.delay_iterations):
             _, error, slope = self._collect_parts(delay)
             for j in np.flatnonzero(self.size):
                 there = slope[:, j] != 0.0
@@ -218,25 +210,8 @@ class _DelayErrors:
         return delay
 
 
-SCATTERS = 8.0
-"""A disagreement counts above this many robust standard deviations of all disagreements ..."""
-
-SHARE = 0.25
-"""... above this share of the derivative's own size ..."""
-
-STEPS = 5.0
-"""... and above this many resolution steps of the lower signal over the window."""
-
-WRONG = 0.5
-"""Disagreeing by this share on average while it moves, a column is wrong throughout."""
-
-_CLEAR = 10.0  # times its noise is what the lower signal must change by over a window to judge it
 _DEGREES = 180.0 / np.pi
 _CAUSES = ((_DEGREES, "is it in degrees?"), (1.0 / _DEGREES, "is it the position in degrees?"))
-
-QUIETER = 2.0
-"""Noise of the logged velocity over that of the differentiated position from which on that is
-taken: below, a measured velocity has no delay and no quantisation of its own to fear."""
 
 
 @dataclass(frozen=True)
@@ -260,7 +235,7 @@ class Contradiction:
     time: float
 
     def format_line(self) -> str:
-        """Text."""
+        """Returns the contradiction as text."""
         return (
             f"{self.column}: {self.samples} samples disagree with the difference quotient of "
             f"{self.of} by more than {self.limit:.3g}, at worst {self.largest:.3g} at "
@@ -292,11 +267,11 @@ class DerivativeCheck:
     @property
     def is_harmful(self) -> bool:
         """True if a delay is large enough to spoil what is made of the column."""
-        return any(late.share > HARM for late in self.delays)
+        return any(late.share > THRESHOLDS.max_delay_share for late in self.delays)
 
 
 def discard_contradictions(check: DerivativeCheck, pieces: Sequence[RawSegment]) -> DerivativeCheck:
-    """The check where positions are differentiated: nothing is contradicted, the delay is told."""
+    """Returns the check where positions are differentiated: delays, and no contradictions."""
     bad = tuple(np.zeros(len(piece.time), dtype=bool) for piece in pieces)
     return DerivativeCheck(bad, (), check.delays, POSITIONS)
 
@@ -304,7 +279,7 @@ def discard_contradictions(check: DerivativeCheck, pieces: Sequence[RawSegment])
 def check_derivatives(
     log: Log, pieces: Sequence[RawSegment], parallel_cutoff: float, refuse: bool = True
 ) -> DerivativeCheck:
-    """Which samples of a log carry a velocity or acceleration that cannot be.
+    """Returns which samples of a log carry a velocity or acceleration that cannot be.
 
     Over every window of T = 1 / parallel_cutoff (7 samples at least) the mean of a derivative is,
     exactly, the change of what it is the derivative of:
@@ -341,18 +316,13 @@ def check_derivatives(
         windows = [build_windows(piece, column, lower, parallel_cutoff, delay) for piece in pieces]
         steps = np.array([estimate_lattice_step(values) for values in getattr(log, lower).T])
         if refuse:
-            noise = [
-                [estimate_white_noise(values) for values in getattr(piece, lower).T]
-                for piece in pieces
-            ]
+            noise = [list(map(estimate_white_noise, getattr(piece, lower).T)) for piece in pieces]
             noises = np.maximum(steps, np.median(noise, axis=0))
             _refuse_wrong(log, column, lower, windows, noises)
         for j, joint in enumerate(log.joints):
             flags, limit = _find_contradicted(windows, steps[j], j)
-            masks = [
-                np.pad(flag, part.half, mode="edge")
-                for flag, part in zip(flags, windows, strict=True)
-            ]
+            pairs = zip(flags, windows, strict=True)
+            masks = [np.pad(flag, part.half, mode="edge") for flag, part in pairs]
             for mask, values in zip(bad, masks, strict=True):
                 mask |= values
             if np.any(np.concatenate(flags)):
@@ -375,7 +345,7 @@ def check_derivatives(
 def _find_contradicted(
     windows: Sequence[DerivativeWindows], resolution: float, j: int
 ) -> tuple[list[np.ndarray], float]:
-    """Windows of joint j beyond the limit, by piece; and the limit of a window of full length."""
+    """Returns windows of joint j beyond the limit, by piece, and the limit of a full window."""
     full = max(part.half for part in windows)
     # A piece too short for the full window has the more noise in its quotients.
     noisier = [full / part.half for part in windows]
@@ -383,12 +353,15 @@ def _find_contradicted(
     scatter = estimate_robust_deviation(np.concatenate(scaled))
     size = float(compute_size(np.concatenate([part.quotient[:, [j]] for part in windows]))[0])
     length = 2 * full * windows[0].step
-    random = max(SCATTERS * scatter, STEPS * resolution / length)
+    random = max(
+        THRESHOLDS.contradiction_sigmas * scatter,
+        THRESHOLDS.contradiction_steps * resolution / length,
+    )
     flags = [
-        np.abs(part.error[:, j]) > max(SHARE * size, random * n)
+        np.abs(part.error[:, j]) > max(THRESHOLDS.contradiction_share * size, random * n)
         for part, n in zip(windows, noisier, strict=True)
     ]
-    return flags, max(SHARE * size, random)
+    return flags, max(THRESHOLDS.contradiction_share * size, random)
 
 
 def _refuse_wrong(
@@ -404,31 +377,34 @@ def _refuse_wrong(
     )
     size = compute_size(quotients)
     length = 2 * min(part.half for part in windows) * windows[0].step
-    gains = {
-        j: _estimate_gain(logged[:, j], quotients[:, j]) for j in map(int, np.flatnonzero(size))
-    }
+    places = map(int, np.flatnonzero(size))
+    gains = {j: _estimate_gain(logged[:, j], quotients[:, j]) for j in places}
     scaled = {
-        j for j, gain in gains.items()
-        if gain and _compute_misfit(logged[:, j] / gain, quotients[:, j], size[j]) < WRONG
-    }  # fmt: skip
+        j
+        for j, gain in gains.items()
+        if gain
+        and _compute_misfit(logged[:, j] / gain, quotients[:, j], size[j])
+        < THRESHOLDS.max_column_error
+    }
     like = [gain for j, gain in gains.items() if j in scaled and gain > 0.0]
     factor = find_common_factor(like) if len(like) > max(1.0, 0.5 * len(gains)) else None
-    if column == "qd" and factor is not None and abs(factor - 1.0) > WRONG:
+    if column == "qd" and factor is not None and abs(factor - 1.0) > THRESHOLDS.max_column_error:
         raise DataError(
             f"{log.name}: {describe_clock_factor(factor, 1.0 / log.step)}; or fit with "
             "--derivatives "
             "position, which believes the clock"
         )
-    for j in map(int, np.flatnonzero(size * length > _CLEAR * noise)):
-        misfits = [
-            _compute_misfit(logged[:, j], *other) for other in zip(quotients.T, size, strict=True)
-        ]
+    for j in map(int, np.flatnonzero(size * length > THRESHOLDS.min_signal_to_noise * noise)):
+        others = zip(quotients.T, size, strict=True)
+        misfits = [_compute_misfit(logged[:, j], *other) for other in others]
         both = getattr(log, lower)[:, j], getattr(log, column)[:, j], log.time
-        near = abs(gains[j] - 1.0) < SHARE and is_derivative(*both)  # it is coarse, and no more
-        if misfits[j] <= WRONG or near or not is_moving(both[0]):
+        near = abs(gains[j] - 1.0) < THRESHOLDS.contradiction_share and is_derivative(
+            *both
+        )  # it is coarse, and no more
+        if misfits[j] <= THRESHOLDS.max_column_error or near or not is_moving(both[0]):
             continue
         other = int(np.argmin(misfits))
-        if other != j and misfits[other] < 0.5 * WRONG:
+        if other != j and misfits[other] < 0.5 * THRESHOLDS.max_column_error:
             guess = f"it is that of {lower}{log.joints[other]}: are columns exchanged?"
         elif j in scaled:
             known = (words for factor, words in _CAUSES if abs(abs(gains[j] / factor) - 1.0) < 0.1)
@@ -445,20 +421,20 @@ def _refuse_wrong(
 
 
 def _estimate_gain(logged: np.ndarray, quotient: np.ndarray) -> float:
-    """What a logged derivative is times the difference quotient."""
+    """Returns what a logged derivative is times the difference quotient."""
     there = quotient != 0.0
     return compute_weighted_median(logged[there] / quotient[there], np.abs(quotient[there]))
 
 
 def _compute_misfit(logged: np.ndarray, quotient: np.ndarray, size: float) -> float:
-    """Mean absolute disagreement as a share of the quotient's, while either moves."""
-    moving = np.maximum(np.abs(logged), np.abs(quotient)) > SHARE * size
+    """Returns mean absolute disagreement as a share of the quotient's, while either moves."""
+    moving = np.maximum(np.abs(logged), np.abs(quotient)) > THRESHOLDS.contradiction_share * size
     total = float(np.sum(np.abs(quotient[moving])))
     return float(np.sum(np.abs(logged - quotient)[moving])) / total if total else float("inf")
 
 
 def is_position_quieter(pieces: Sequence[RawSegment], cutoff: float) -> bool:
-    """True if differentiating the position is quieter than the logged velocity on most joints.
+    """Returns True if the differentiated position is quieter than the logged velocity.
 
     White noise of standard deviation s_q on the position, through the position filter of cut-off
     f, is noise of (2 pi f) s_q / sqrt(3) on the velocity. A lattice of step s is noise of
@@ -478,6 +454,8 @@ def is_position_quieter(pieces: Sequence[RawSegment], cutoff: float) -> bool:
     if not logged:
         return False
     q = np.concatenate([piece.q for piece in pieces])
-    moves = np.ptp(q, axis=0) > STEPS * np.array([estimate_lattice_step(column) for column in q.T])
-    noisier = np.median(logged, axis=0) > QUIETER * np.median(moved, axis=0)
+    moves = np.ptp(q, axis=0) > THRESHOLDS.contradiction_steps * np.array(
+        [estimate_lattice_step(column) for column in q.T]
+    )
+    noisier = np.median(logged, axis=0) > THRESHOLDS.max_noise_ratio * np.median(moved, axis=0)
     return bool(moves.any() and np.mean(noisier[moves]) > 0.5)

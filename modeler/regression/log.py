@@ -1,5 +1,6 @@
-"""A log: what one run of the robot left behind; and whether two logs share rows."""
+"""Logs: what one run of the robot left behind; their pieces on a uniform time grid."""
 
+import dataclasses
 import hashlib
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
@@ -9,11 +10,9 @@ import numpy as np
 
 from modeler.core.errors import DataError
 from modeler.core.result import Result
-
-GAP = 5.0
-"""A step longer than this many median steps ends a piece of motion."""
-
-_FINE = 1e-7  # of a step; over the rows of a block, less than a row
+from modeler.numerics.held import estimate_channel_noise, estimate_hold_length
+from modeler.numerics.noise import estimate_lattice_step
+from modeler.regression.thresholds import THRESHOLDS
 
 
 class LogRows(Protocol):
@@ -95,9 +94,10 @@ class Log(Result):
         kinds = {"q": self.q, "qd": self.qd, "qdd": self.qdd, "qc": self.commanded}
         missing_rows = {
             f"{prefix}{name}": int(np.isnan(values[:, j]).sum())
-            for prefix, values in kinds.items() if values is not None
+            for prefix, values in kinds.items()
+            if values is not None
             for j, name in enumerate(self.joints)
-        }  # fmt: skip
+        }
         sources = self.torque_source or [f"tau{name}" for name in self.joints]
         for source, values in zip(sources, self.tau.T, strict=True):
             missing_rows[source.split()[0]] = int(np.isnan(values).sum())
@@ -122,14 +122,14 @@ class Log(Result):
         steps = np.diff(self.time)
         step = float(np.median(steps))
         resolution = float(np.spacing(np.abs(self.time).max()))
-        if resolution < _FINE * step:
+        if resolution < THRESHOLDS.time_resolution_share * step:
             return step
         return float(np.mean(steps[np.abs(steps - step) <= 1.5 * resolution]))
 
     @property
     def gap(self) -> float:
         """s; a longer step ends a piece of motion."""
-        return max(GAP * self.step, *(self.robot_steps or (0.0,)))
+        return max(THRESHOLDS.gap_steps * self.step, *(self.robot_steps or (0.0,)))
 
 
 FINGER = 32_768
@@ -143,7 +143,7 @@ MOST_WHOLE = 5_000_000
 
 
 def compute_fingerprint(*measurements: np.ndarray) -> str:
-    """A text that equal arrays share and others do not: SHA-256 of their numbers, in hexadecimal.
+    """Returns a text that equal arrays share and others do not: SHA-256 of their numbers.
 
     The numbers and not the bytes of the file: a copy as CSV of a Parquet log is the same run. A
     long log has the fingerprint of those of its blocks, which are taken one by one.
@@ -160,20 +160,19 @@ def compute_fingerprint(*measurements: np.ndarray) -> str:
 
 
 def compute_block_hashes(*measurements: np.ndarray) -> tuple[bytes, ...]:
-    """Those of the blocks of a long log: rows from a multiple of `FINGER` on."""
+    """Returns the hashes of the blocks of a long log: rows from a multiple of `FINGER` on."""
     starts = range(0, len(measurements[0]), FINGER)
-    return tuple(
-        compute_block_hash(*(values[k : k + FINGER] for values in measurements)) for k in starts
-    )
+    blocks = ([values[k : k + FINGER] for values in measurements] for k in starts)
+    return tuple(compute_block_hash(*block) for block in blocks)
 
 
 def combine_hashes(hashes: Sequence[bytes]) -> str:
-    """That of a long log."""
+    """Returns the fingerprint of a long log from those of its blocks."""
     return hashlib.sha256(b"".join(hashes)).hexdigest()
 
 
 def compute_block_hash(*measurements: np.ndarray) -> bytes:
-    """That of one block."""
+    """Returns the hash of one block of rows."""
     content = hashlib.sha256()
     for values in measurements:
         # Adding 0 makes -0 into 0: writers differ there, and no fit does.
@@ -185,7 +184,7 @@ def compute_block_hash(*measurements: np.ndarray) -> bytes:
 
 
 def has_shared_rows(log: LogRows, content: str, start: float, end: float) -> bool:
-    """True if `log` holds rows of the file with that fingerprint from `start` to `end`, s."""
+    """Returns True if `log` holds rows of the file of that fingerprint from `start` to `end`, s."""
     same = log.content != "" and log.content == content
     return same and log.span[0] <= end and start <= log.span[1]
 
@@ -196,7 +195,7 @@ def has_shared_rows(log: LogRows, content: str, start: float, end: float) -> boo
 def check_no_overlap(
     logs: Sequence[LogRows], holdout: Sequence[LogRows] = (), places: Sequence[str] = ()
 ) -> None:
-    """Refuse rows that are given twice, and held-out rows that are also explained.
+    """Refuses rows that are given twice, and held-out rows that are also explained.
 
     Args:
         logs: as they were read, or their reports.
@@ -223,3 +222,277 @@ def check_no_overlap(
                     f"--holdout {other.name}: shares rows with {log.name}; expected other motion; "
                     "leave it out, or split the log with FILE@START:END"
                 )
+
+
+@dataclass(frozen=True, eq=False)
+class RawSegment:
+    """One uniform stretch of a log, before differentiation; n samples.
+
+    Attributes:
+        run: index of its log.
+        time: (n,) s, uniform.
+        step: s.
+        q, tau: (n, joints).
+        qd, qdd: (n, joints) as logged, or None.
+        extra: further columns, (n,).
+        valid: (n, joints) False where torque or motion was missing and is bridged.
+        bridged: (n,) True where the motion was missing.
+        contradicted: (n,) True where a logged derivative cannot be.
+        clipped: (n, joints) True where the torque was at the drive's limit.
+        resampled: True if the rows were moved to the grid.
+        commanded: (n, joints) positions, or None.
+        induced: (joints,) as of the log.
+        q_step, qd_step: (joints,) steps of resolution as logged; resampling hides them.
+    """
+
+    run: int
+    time: np.ndarray
+    step: float
+    q: np.ndarray
+    tau: np.ndarray
+    qd: np.ndarray | None
+    qdd: np.ndarray | None
+    extra: Mapping[str, np.ndarray]
+    valid: np.ndarray
+    bridged: np.ndarray
+    contradicted: np.ndarray
+    clipped: np.ndarray
+    resampled: bool
+    commanded: np.ndarray | None = None
+    induced: tuple[float, ...] = ()
+    q_step: tuple[float, ...] = ()
+    qd_step: tuple[float, ...] = ()
+
+
+@dataclass(frozen=True, eq=False)
+class SplitReport:
+    """Where splitting cut one log.
+
+    Attributes:
+        gaps: (g,) s, of the rows that a time gap of more than 5 steps ends at.
+        widths: (g,) of those gaps, s.
+        jitter: largest deviation of a step from the median step, as a share of it, gaps apart.
+        short: (k,) s, of rows in pieces too short to differentiate, left out.
+    """
+
+    gaps: np.ndarray
+    widths: np.ndarray
+    jitter: float
+    short: np.ndarray
+
+
+def split_log(
+    log: Log,
+    run: int,
+    logged_motion: bool,
+    extremes: Sequence[tuple[float, float] | None] | None = None,
+    logged: np.ndarray | None = None,
+) -> tuple[tuple[RawSegment, ...], SplitReport]:
+    """Returns the uniform pieces of a log.
+
+    Cut where `segment` changes and where a step exceeds 5 median steps; rows without a position
+    (or, where used, a logged velocity) are gaps too, bridged when shorter than that. Irregular
+    time stamps are resampled: motion by monotone cubics, which do not overshoot; torque linearly.
+    Bridges of up to 3 samples are cubic splines: a monotone cubic flattens the tops of a motion.
+
+    Args:
+        log: one log.
+        run: its index.
+        logged_motion: logged velocities and accelerations are used.
+        extremes: of each torque in the whole log, of which this is a part; None: it is all of it.
+        logged: (n, joints) torques before they were mended; None: they were not.
+    """
+    motion = [log.q, *(m for m in (log.qd, log.qdd) if logged_motion and m is not None)]
+    rows = np.flatnonzero(np.all([np.isfinite(m).all(axis=1) for m in motion], axis=0))
+    ends = [None] * log.tau.shape[1] if extremes is None else extremes
+    measured = log.tau if logged is None else logged
+    parts = zip(log.tau.T, log.q.T, ends, measured.T, strict=True)
+    clipped = np.column_stack([find_saturated(*part) for part in parts])
+    steps, stamps = np.diff(log.time[rows]), np.diff(log.time)
+    cut = gap = steps > log.gap
+    inside = stamps[stamps <= log.gap]
+    if log.segment is not None:
+        cut = cut | (np.diff(log.segment[rows]) != 0)
+    groups = np.split(rows, np.flatnonzero(cut) + 1)
+    long_groups = [group for group in groups if len(group) >= THRESHOLDS.min_piece_rows]
+    short = [group for group in groups if len(group) < THRESHOLDS.min_piece_rows]
+    report = SplitReport(
+        gaps=log.time[rows[1:][gap]],
+        widths=steps[gap],
+        jitter=float(np.max(np.abs(inside / log.step - 1.0))) if inside.size else 0.0,
+        short=log.time[np.concatenate([rows[:0], *short])],
+    )
+    q_step = tuple(map(estimate_lattice_step, log.q.T))
+    qd_step = () if log.qd is None else tuple(map(estimate_lattice_step, log.qd.T))
+    pieces = (_build_piece(log, run, group, clipped, logged_motion) for group in long_groups)
+    stepped = (dataclasses.replace(part, q_step=q_step, qd_step=qd_step) for part in pieces)
+    return tuple(stepped), report
+
+
+def _build_piece(
+    log: Log, run: int, rows: np.ndarray, clipped: np.ndarray, logged_motion: bool
+) -> RawSegment:
+    measured = log.time[rows]
+    samples = max(THRESHOLDS.min_piece_rows, round((measured[-1] - measured[0]) / log.step) + 1)
+    time = np.linspace(measured[0], measured[-1], samples)
+    step = float(measured[-1] - measured[0]) / (samples - 1)  # of large times, two are too coarse
+    uniform = samples == len(rows)
+    uniform = uniform and bool(np.all(np.abs(measured - time) <= THRESHOLDS.max_jitter * step))
+    near = np.arange(samples)  # the measured row nearest to each sample
+    if not uniform:
+        near = np.searchsorted(measured, time).clip(1, len(measured) - 1)
+        near -= time - measured[near - 1] < measured[near] - time
+    # Where rows come when they come, what lies between two is no bridge.
+    steps = np.diff(measured)
+    usual = float(np.quantile(steps, THRESHOLDS.uneven_quantile)) if len(steps) else 0.0
+    beside = max(
+        THRESHOLDS.bridge_distance * step,
+        0.5 * (log.robot_steps or (0.0, 0.0))[1],
+        THRESHOLDS.uneven_distance * usual,
+    )
+    bridged = np.abs(time - measured[near]) > beside
+    short = bridged & ~select_long_runs(bridged, THRESHOLDS.short_bridge)
+
+    def on_grid(values: np.ndarray) -> np.ndarray:
+        return values[rows] if uniform else _resample_values(measured, values[rows], time, short)
+
+    def smooth(values: np.ndarray | None, wanted: bool) -> np.ndarray | None:
+        return on_grid(values) if values is not None and wanted else None
+
+    tau, valid = _bridge_torque(time, measured, log.tau[rows], bridged, beside)
+    asked = log.commanded
+    return RawSegment(
+        run=run,
+        time=time,
+        step=step,
+        q=on_grid(log.q),
+        tau=tau,
+        qd=smooth(log.qd, logged_motion),
+        qdd=smooth(log.qdd, logged_motion),
+        extra={name: np.interp(time, measured, v[rows]) for name, v in log.extra.items()},
+        valid=valid,
+        bridged=bridged,
+        contradicted=np.zeros(samples, dtype=bool),
+        clipped=clipped[rows][near],
+        resampled=not uniform,
+        commanded=smooth(asked, asked is not None and bool(np.isfinite(asked[rows]).all())),
+        induced=log.induced,
+    )
+
+
+def _resample_values(
+    measured: np.ndarray, values: np.ndarray, time: np.ndarray, short: np.ndarray
+) -> np.ndarray:
+    """Returns values at other times: monotone cubics, and within short bridges cubic splines."""
+    from scipy.interpolate import CubicSpline, PchipInterpolator  # they take long to load
+
+    moved = PchipInterpolator(measured, values)(time)
+    if short.any():
+        moved[short] = CubicSpline(measured, values)(time[short])
+    return np.asarray(moved)
+
+
+def select_long_runs(flags: np.ndarray, length: int) -> np.ndarray:
+    """Returns the flags (n,) that stand in runs of more than `length`."""
+    is_long = np.zeros(len(flags), dtype=bool)
+    for start, stop in find_runs(flags):
+        is_long[start:stop] = stop - start > length
+    return is_long
+
+
+def _bridge_torque(
+    time: np.ndarray, measured: np.ndarray, tau: np.ndarray, bridged: np.ndarray, beside: float
+) -> tuple[np.ndarray, np.ndarray]:
+    """Returns the torque on the grid, missing entries interpolated, and where it is measured.
+
+    Args:
+        time: (n,) the grid.
+        measured: (m,) time stamps.
+        tau: (m, joints) as measured.
+        bridged: (n,) True where no row was measured near.
+        beside: s, within which a measured value stands for one of the grid.
+    """
+    values = np.zeros((len(time), tau.shape[1]))
+    valid = np.repeat(~bridged[:, None], tau.shape[1], axis=1)
+    for j in range(tau.shape[1]):
+        there = np.isfinite(tau[:, j])
+        if not there.any():
+            valid[:, j] = False
+            continue
+        stamps = measured[there]
+        values[:, j] = np.interp(time, stamps, tau[there, j])
+        if not there.all():
+            right = np.searchsorted(stamps, time).clip(0, len(stamps) - 1)
+            left = (right - 1).clip(0)
+            distance = np.minimum(np.abs(time - stamps[left]), np.abs(time - stamps[right]))
+            valid[:, j] &= distance <= beside
+    return values, valid
+
+
+def find_saturated(
+    values: np.ndarray,
+    position: np.ndarray,
+    extremes: tuple[float, float] | None = None,
+    logged: np.ndarray | None = None,
+) -> np.ndarray:
+    """Returns samples at which a torque is clipped; (n,) bool.
+
+    A run counts when the torque is exactly its largest or smallest value of the whole log for at
+    least 5 samples in a row, and leaps into or out of that run by more than 3 steps of its own
+    resolution. A clean quantised signal rounds its crest one step at a time and is not caught;
+    a torque at rest, which is constant all along, has no leap and is not caught either, and the
+    joint moves in one run at least. A torque that is held is sampled more slowly.
+
+    Args:
+        values: (n,) torque of one joint, NaN where missing.
+        position: (n,) of the joint.
+        extremes: smallest and largest value of the log elsewhere, of which these are a part.
+        logged: (n,) the torque before it was mended: between held samples it is interpolated.
+    """
+    is_saturated = np.zeros(len(values), dtype=bool)
+    if not len(values):
+        return is_saturated
+    low, high = float(np.fmin.reduce(values)), float(np.fmax.reduce(values))
+    if not low < high:
+        return is_saturated
+    ends = [low, high]
+    if extremes is not None:
+        ends = [low] * (low <= extremes[0]) + [high] * (high >= extremes[1])
+    found_runs = [
+        (end, (start, stop))
+        for end in ends
+        for start, stop in find_runs(values == end)
+        if stop - start >= THRESHOLDS.min_saturated_run
+    ]
+    least = (
+        THRESHOLDS.min_saturated_travel * estimate_channel_noise(position[np.isfinite(position)])
+        if found_runs
+        else 0.0
+    )
+    travels = ((end, position[stop - 1] - position[start]) for end, (start, stop) in found_runs)
+    moved = {end for end, travel in travels if abs(travel) > least}
+    if (
+        not moved
+        or estimate_hold_length(values if logged is None else logged)
+        >= THRESHOLDS.min_saturated_run
+    ):
+        return is_saturated
+    found_runs = [(end, run) for end, run in found_runs if end in moved]
+    step = estimate_lattice_step(values)
+    resolution = (
+        step
+        if len(np.unique(values[np.isfinite(values)])) > THRESHOLDS.max_switched_values
+        else 0.0
+    )
+    for extreme, (start, stop) in found_runs:
+        beside = [values[i] for i in (start - 1, stop) if 0 <= i < len(values)]
+        leap = max((abs(extreme - v) for v in beside if np.isfinite(v)), default=0.0)
+        if leap > THRESHOLDS.min_saturated_jump * resolution:
+            is_saturated[start:stop] = True
+    return is_saturated
+
+
+def find_runs(flags: np.ndarray) -> list[tuple[int, int]]:
+    """Returns [start, stop) of each stretch of True in flags (n,)."""
+    edges = np.flatnonzero(np.diff(flags.astype(np.int8), prepend=0, append=0)).tolist()
+    return list(zip(edges[::2], edges[1::2], strict=True))

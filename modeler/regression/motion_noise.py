@@ -6,7 +6,7 @@ masks, sigmas, doubts and the diagnosis read it.
 """
 
 import dataclasses
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -21,34 +21,12 @@ from modeler.numerics.spectra import (
     compute_band_spectrum,
     compute_motion_spectrum,
 )
-from modeler.regression.segments import RawSegment
-
-FLAT = 3.0
-"""The spectrum meets its floor where it is less than this many times its median over the two
-octaves above, and no band of these stands out by more than the square of it: white noise is flat,
-motion falls far more steeply, and may come back in lines."""
-
-OCTAVES = 2.0
-
-HIGHEST_CUTOFF = 80.0
-"""Hz, of the position filter: more than twice the 30 Hz that a diagnosis looks at; joints whose
-positions are exact would ask for the Nyquist frequency."""
-
-LEAST_BANDS = 5.0
-"""Bands of the motion that a position filter leaves at least: closer to it, it damps the
-acceleration."""
+from modeler.regression.log import RawSegment
+from modeler.regression.motion import ChosenProcessing
+from modeler.regression.thresholds import THRESHOLDS
 
 MEASURED = ("accelerations", "speeds", "positions")
 """What noise is told of, by the number of derivatives from it to the acceleration."""
-
-STILL = 5.0
-"""Steps of its encoder that a joint at rest stays within."""
-
-EXACT = 1e-8
-"""Rad or m, of noise of positions that no encoder has: 28 bits of a turn."""
-
-WHITE = 1.0
-"""Power of 1/f in the floor above which noise is called coloured."""
 
 
 @dataclass(frozen=True)
@@ -95,17 +73,17 @@ class ChannelNoise(ShortRepr):
     @property
     def cutoff(self) -> float:
         """Hz up to which what is measured says more of the motion than of its sensor."""
-        least = LEAST_BANDS * self.band_hz
-        return float(np.clip(self.hides_above_hz or np.inf, least, HIGHEST_CUTOFF))
+        least = THRESHOLDS.min_position_bands * self.band_hz
+        return float(np.clip(self.hides_above_hz or np.inf, least, THRESHOLDS.max_position_cutoff))
 
     @property
     def is_exact(self) -> bool:
         """True if no sensor has so little noise."""
         size = self.deviation / max(2.0 * np.pi * self.band_hz, 1.0) ** (2 - self.order)
-        return size < EXACT and self.step < EXACT
+        return size < THRESHOLDS.exact_noise and self.step < THRESHOLDS.exact_noise
 
     def compute_speed_deviation(self, cutoff: float) -> float:
-        """Standard deviation of the noise of the speed below a cut-off (Hz), unit/s.
+        """Returns standard deviation of the noise of the speed below a cut-off (Hz), unit/s.
 
         White noise of density N differentiated, sigma_v^2 = N (2 pi)^2 f^3 / 3; of a logged speed
         N f.
@@ -115,18 +93,18 @@ class ChannelNoise(ShortRepr):
         return float(np.sqrt(self.density * factor * cutoff**power))
 
     def compute_acceleration_density(self, frequency: float) -> float:
-        """Its noise as that of the acceleration: (2 pi f)^(2 order) N, (unit/s^2)^2/Hz."""
+        """Returns its noise as that of the acceleration: (2 pi f)^(2 order) N, (unit/s^2)^2/Hz."""
         return float(self.density * (2.0 * np.pi * frequency) ** (2 * self.order))
 
     def format_words(self) -> str:
-        """Its noise in words."""
+        """Returns its noise in words."""
         size, unit = self.scale_to_milli(self.deviation)
         coloured = f", growing as f^-{self.colour:.1f}" if self.colour else ""
         above = self.hides_above_hz or np.inf
         return f"joint {self.joint} {size:.2g} {unit} above {above:.2g} Hz{coloured}"
 
     def scale_to_milli(self, size: float) -> tuple[float, str]:
-        """A size and its unit: mrad or mm if it is small; counts stay counts."""
+        """Returns a size and its unit: mrad or mm if it is small; counts stay counts."""
         small = size < 0.1 and self.unit in ("rad", "m")
         unit = self.unit + ("/s2", "/s", "")[self.order]
         return (1e3 * size, f"m{unit}") if small else (size, unit)
@@ -159,8 +137,9 @@ class MotionNoise(ShortRepr):
     @property
     def cutoff(self) -> float:
         """Hz of the position filter that the noise asks for: the geometric mean of the joints'."""
-        every = [max(joint.cutoff, LEAST_BANDS * self.band) for joint in self.moving]
-        return float(np.exp(np.mean(np.log(every)))) if every else HIGHEST_CUTOFF
+        least = THRESHOLDS.min_position_bands * self.band
+        every = [max(joint.cutoff, least) for joint in self.moving]
+        return float(np.exp(np.mean(np.log(every)))) if every else THRESHOLDS.max_position_cutoff
 
     @property
     def order(self) -> int:
@@ -175,23 +154,20 @@ class MotionNoise(ShortRepr):
     def take_last_floors(
         self, which: Callable[[ChannelNoise], bool] = lambda joint: True
     ) -> "MotionNoise":
-        """The noise if what looks like a floor, and falls again, is motion: see `find_floor`.
+        """Returns the noise if what looks like a floor, and falls again, is motion.
 
         Args:
             which: the joints of which that is taken.
         """
-        every = (
-            dataclasses.replace(
-                channel, **find_floor(self.spectra, j, channel.band_hz, self.rate, last=True)
-            )
-            if which(channel)
-            else channel
-            for j, channel in enumerate(self.joints)
-        )
+        every = list(self.joints)
+        for j, channel in enumerate(every):
+            if which(channel):
+                floor = find_floor(self.spectra, j, channel.band_hz, self.rate, last=True)
+                every[j] = dataclasses.replace(channel, **floor)
         return dataclasses.replace(self, joints=tuple(every))
 
     def compute_speed_noise(self, coefficients: Sequence[float], cutoff: float) -> float:
-        """Standard deviation of the noise of a shaft's speed below a cut-off, Hz, or D f if more.
+        """Returns the standard deviation of the noise of a shaft's speed below a cut-off, Hz.
 
         Args:
             coefficients: (J,) of the joints' speeds in that of the shaft.
@@ -203,12 +179,12 @@ class MotionNoise(ShortRepr):
         return float(np.linalg.norm(np.asarray(coefficients) * np.maximum(deviations, step)))
 
     def compute_speed_step(self, coefficients: Sequence[float]) -> float:
-        """Resolution of a shaft's speed where speeds were logged; else 0."""
+        """Returns resolution of a shaft's speed where speeds were logged; else 0."""
         steps = [joint.step if self.order == 1 else 0.0 for joint in self.joints]
         return float(np.linalg.norm(np.asarray(coefficients) * steps))
 
     def format_channels(self) -> list[str]:
-        """A line of each channel: its noise, from where on it hides the motion, its resolution."""
+        """Returns a line of each channel: its noise, where it hides the motion, its resolution."""
         lines = []
         for joint in self.joints:
             if joint.moves and not joint.is_exact:
@@ -222,7 +198,7 @@ class MotionNoise(ShortRepr):
         return lines + self._describe_exact()
 
     def _describe_exact(self) -> list[str]:
-        """A line on the joints whose motion was not measured."""
+        """Returns a line on the joints whose motion was not measured."""
         names = [joint.joint for joint in self.moving if joint.is_exact]
         if not names:
             return []
@@ -232,7 +208,7 @@ class MotionNoise(ShortRepr):
         ]
 
     def format_lines(self) -> list[str]:
-        """One line: of each joint that moves, how large its noise is and where it begins."""
+        """Returns one line: the noise of each joint that moves, and where it exceeds the motion."""
         if not self.moving:
             return []
         every = "; ".join(joint.format_words() for joint in self.moving if not joint.is_exact)
@@ -240,14 +216,14 @@ class MotionNoise(ShortRepr):
         return [f"{title}: {every}"] * bool(every) + self._describe_exact()
 
     def explain_cutoff(self, chosen: float) -> str:
-        """Why a position filter of this cut-off (Hz) was chosen."""
+        """Returns why a position filter of this cut-off (Hz) was chosen."""
         noise_cutoff = self.cutoff
         if chosen > 1.05 * noise_cutoff:
             return (
                 f"the {self.quantity} are noise above {noise_cutoff:.2g} Hz; twice the parallel "
-                "filter, which takes that off"
+                "filter, which removes it"
             )
-        if noise_cutoff > 0.99 * HIGHEST_CUTOFF:  # a mean of logarithms
+        if noise_cutoff > 0.99 * THRESHOLDS.max_position_cutoff:  # a mean of logarithms
             return f"the {self.quantity} are no noise up to there"
         return f"above, the spectrum of the {self.quantity} is that of their noise"
 
@@ -255,7 +231,7 @@ class MotionNoise(ShortRepr):
 def estimate_motion_noise(
     joints: Sequence[JointSpec], pieces: Sequence[RawSegment], bands: np.ndarray
 ) -> MotionNoise:
-    """The noise of the motion in all logs.
+    """Returns the noise of the motion in all logs.
 
     Args:
         joints: of the robot.
@@ -265,16 +241,15 @@ def estimate_motion_noise(
     order = 2 if any(piece.qd is None for piece in pieces) else 1
     order = 0 if all(piece.qdd is not None for piece in pieces) else order
     measured = [(p.qdd, p.qd, p.q)[order] for p in pieces]
-    spectra = compute_band_spectrum(
-        [np.asarray(x) for x in measured], [piece.step for piece in pieces], order
-    )
+    steps_of = [piece.step for piece in pieces]
+    spectra = compute_band_spectrum([np.asarray(x) for x in measured], steps_of, order)
     rate = 1.0 / float(np.median([piece.step for piece in pieces]))
     none, every = (0.0,) * len(joints), []
     logged = [[piece.q_step or none, piece.qd_step or none] for piece in pieces]
     steps = np.max(np.array(logged), axis=0)
     for j, (joint, band) in enumerate(zip(joints, bands, strict=True)):
         q, density = np.concatenate([piece.q[:, j] for piece in pieces]), spectra.density[:, j]
-        moves = bool(np.isfinite(band)) and float(np.ptp(q)) > STILL * steps[0, j]
+        moves = bool(np.isfinite(band)) and float(np.ptp(q)) > THRESHOLDS.rest_steps * steps[0, j]
         hz, seen = spectra.frequency[np.isfinite(density)], density[np.isfinite(density)]
         band_hz = float(band) if moves else 0.0
         every.append(
@@ -294,14 +269,14 @@ def estimate_motion_noise(
 
 
 def _shorten_number(value: float) -> float:
-    """To four digits, as pictures need it."""
+    """Returns to four digits, as pictures need it."""
     return float(f"{value:.4g}")
 
 
 def find_floor(
     spectra: BandSpectrum, j: int, band: float, rate: float, last: bool = False
 ) -> dict[str, Any]:
-    """The floor that the spectrum of joint j meets, as fields of its noise.
+    """Returns the floor that the spectrum of joint j meets, as fields of its noise.
 
     Args:
         spectra: of what is measured.
@@ -316,11 +291,13 @@ def find_floor(
     f, S = f[is_above_band], S[is_above_band]
     density, meets, colour = (S[-1], f[-1], 0.0) if f.size else (0.0, None, 0.0)
     for k in range(len(f)):
-        above = S[(f > f[k]) & (f <= f[k] * 2.0**OCTAVES)]
-        if above.size < 3 or max(S[k], above.max() / FLAT) > FLAT * np.median(above):
+        above = S[(f > f[k]) & (f <= f[k] * 2.0**THRESHOLDS.floor_octaves)]
+        if above.size < 3 or max(
+            S[k], above.max() / THRESHOLDS.floor_ratio
+        ) > THRESHOLDS.floor_ratio * np.median(above):
             continue
-        beyond = S[f > f[k] * 2.0**OCTAVES]
-        if not (last and beyond.size and S[k] > FLAT**2 * np.median(beyond)):
+        beyond = S[f > f[k] * 2.0**THRESHOLDS.floor_octaves]
+        if not (last and beyond.size and S[k] > THRESHOLDS.floor_ratio**2 * np.median(beyond)):
             density, meets, colour = np.median(above), f[k], _estimate_spectral_slope(f[k:], S[k:])
             break
     return {
@@ -335,36 +312,14 @@ def _estimate_spectral_slope(f: np.ndarray, S: np.ndarray) -> float:
     if len(f) < 6 or not (S > 0.0).all():
         return 0.0
     slope = -float(np.polyfit(np.log(f), np.log(S), 1)[0])
-    return slope if slope > WHITE else 0.0
-
-
-RANDOM_WALK = 2.0
-"""Power of 1/f. Where no torque can say it, what falls faster is taken for motion: no sensor's."""
+    return slope if slope > THRESHOLDS.coloured_slope else 0.0
 
 
 # Which part of the measured positions is motion, joint by joint.
 
 
-SHARE = 0.99
-"""The motion band holds this share of the energy of the velocity."""
-
-VALLEY = 4.0
-"""Over an octave the position's energy is lower by this than that of motion and of trembling."""
-
-APART = 4.0
-"""Times the band of the joints' median: a joint that is faster may be one that trembles."""
-
-TREMBLING = 0.05
-"""Rms position of what is apart from the motion over that of the motion: below, it is none."""
-
-REST = 0.01
-"""Rms position over that of the joint that moves most: a joint at rest has less."""
-
-_STEPS = 6  # per octave
-
-
 def estimate_motion_bands(piece: RawSegment, measured: MotionSpectrum) -> np.ndarray:
-    """(J,) Hz below which 99 % of the velocity's energy lies in one piece; NaN of joints at rest.
+    """Returns (J,) Hz below which 99 % of the velocity's energy lies; NaN of joints at rest.
 
     What counts is the power above white noise, up to where the joint rings or trembles; where
     positions were commanded, up to the band of the command. The window's own width 2/T is taken
@@ -378,11 +333,10 @@ def estimate_motion_bands(piece: RawSegment, measured: MotionSpectrum) -> np.nda
     joints = range(above.shape[1])
     speed = above * frequency[:, None] ** 2
     rings = [find_ringing(frequency, speed[:, j], j)[1] for j in joints]
-    ends = [
-        _find_motion_end(frequency[:n], above[:n, j]) for j, n in zip(joints, rings, strict=True)
-    ]
+    pairs = zip(joints, rings, strict=True)
+    ends = [_find_motion_end(frequency[:n], above[:n, j]) for j, n in pairs]
     size = np.array([np.sqrt(above[: ends[j], j].sum()) for j in joints])
-    moves = (size > REST * size.max()) & (np.ptp(piece.q, axis=0) > 0.0)
+    moves = (size > THRESHOLDS.min_motion_share * size.max()) & (np.ptp(piece.q, axis=0) > 0.0)
     ends = _align_ends(frequency, above, ends, moves)
     window = 2.0 / (len(piece.time) * piece.step)
     band = np.fmin(_compute_bands(frequency, above, ends), _compute_commanded_band(piece))
@@ -392,7 +346,7 @@ def estimate_motion_bands(piece: RawSegment, measured: MotionSpectrum) -> np.nda
 def _align_ends(
     frequency: np.ndarray, above: np.ndarray, ends: list[int], moves: np.ndarray
 ) -> list[int]:
-    """The ends of the motion, where a joint that is far faster than the others only trembles.
+    """Returns the ends of the motion, where a joint far faster than the others only chatters.
 
     The joints of a robot are moved together: what one of them does beyond `APART` bands of their
     median, and does a little of, is noise of any colour.
@@ -400,7 +354,7 @@ def _align_ends(
     if not moves.any():
         return ends
     band = _compute_bands(frequency, above, ends)
-    most = int(np.searchsorted(frequency, APART * np.median(band[moves])))
+    most = int(np.searchsorted(frequency, THRESHOLDS.fast_joint_bands * np.median(band[moves])))
     return [
         most
         if most < end and joint_band > frequency[most] and _is_small(above[:end, j], most)
@@ -410,33 +364,37 @@ def _align_ends(
 
 
 def _compute_bands(frequency: np.ndarray, power: np.ndarray, ends: Sequence[int]) -> np.ndarray:
-    """(J,) energy bands of the power (n, J) before each joint's end."""
+    """Returns (J,) energy bands of the power (n, J) before each joint's end."""
     return np.array([compute_energy_band(frequency[:n], power[:n, j]) for j, n in enumerate(ends)])
 
 
 def compute_energy_band(frequency: np.ndarray, power: np.ndarray) -> float:
-    """Frequency below which 99 % of the velocity's energy lies, Hz; 0 without any.
+    """Returns frequency below which 99 % of the velocity's energy lies, Hz; 0 without any.
 
     Args:
         frequency: (n,) Hz.
         power: (n,) of the position.
     """
     total = np.cumsum(power * frequency**2)
-    return float(frequency[np.searchsorted(total, SHARE * total[-1])]) if total[-1] > 0.0 else 0.0
+    return (
+        float(frequency[np.searchsorted(total, THRESHOLDS.band_energy_share * total[-1])])
+        if total[-1] > 0.0
+        else 0.0
+    )
 
 
 def _compute_commanded_band(piece: RawSegment) -> np.ndarray:
-    """(J,) band of the commanded positions, Hz; NaN where none is known, or none moves."""
+    """Returns (J,) band of the commanded positions, Hz; NaN where none is known, or none moves."""
     if piece.commanded is None:
         return np.full(piece.q.shape[1], np.nan)
     command = compute_motion_spectrum(piece.commanded, piece.step)
     size = np.sqrt(command.power_above_noise.sum(axis=0))
     band = [compute_energy_band(command.frequency, power) for power in command.power_above_noise.T]
-    return np.where(size > REST * size.max(), band, np.nan)
+    return np.where(size > THRESHOLDS.min_motion_share * size.max(), band, np.nan)
 
 
 def _find_motion_end(frequency: np.ndarray, above: np.ndarray) -> int:
-    """Index of the first frequency that is not motion.
+    """Returns index of the first frequency that is not motion.
 
     Motion fades with frequency, noise and shaking grow before they fade: the position's energy per
     octave has a wide valley between them. What stands behind it is motion unless it is small.
@@ -448,7 +406,7 @@ def _find_motion_end(frequency: np.ndarray, above: np.ndarray) -> int:
     if len(frequency) < 3 or not above.any():
         return len(frequency)
     octaves = np.log2(frequency[-1] / frequency[1])
-    grid = frequency[1] * 2.0 ** np.arange(0.0, octaves, 1.0 / _STEPS)
+    grid = frequency[1] * 2.0 ** np.arange(0.0, octaves, 1.0 / THRESHOLDS.steps_per_octave)
     energy = _integrate_octaves(frequency, above, grid)
     start = int(np.argmax(energy))
     while (valley := _find_valley(energy[start:])) is not None:
@@ -462,12 +420,12 @@ def _find_motion_end(frequency: np.ndarray, above: np.ndarray) -> int:
 
 
 def _is_small(power: np.ndarray, place: int) -> bool:
-    """True if what stands from there on in power (n,) is none of the motion before."""
-    return bool(power[place:].sum() < TREMBLING**2 * power[:place].sum())
+    """Returns True if what stands from there on in power (n,) is none of the motion before."""
+    return bool(power[place:].sum() < THRESHOLDS.max_chatter_share**2 * power[:place].sum())
 
 
 def _integrate_octaves(frequency: np.ndarray, energy: np.ndarray, grid: np.ndarray) -> np.ndarray:
-    """(m,) energy within half an octave of each frequency of the grid (m,), Hz."""
+    """Returns (m,) energy within half an octave of each frequency of the grid (m,), Hz."""
     total = np.concatenate([[0.0], np.cumsum(energy)])
     low = np.searchsorted(frequency, grid / np.sqrt(2.0))
     high = np.searchsorted(frequency, grid * np.sqrt(2.0), side="right")
@@ -475,16 +433,16 @@ def _integrate_octaves(frequency: np.ndarray, energy: np.ndarray, grid: np.ndarr
 
 
 def _find_valley(energy: np.ndarray) -> tuple[int, int] | None:
-    """First and last place of the first valley of energies (m,) per octave; None without one.
+    """Returns first and last place of the first valley of energies (m,); None without one.
 
     It is an octave wide or more, and lower than what stands on either side by `VALLEY`.
     """
     before = np.maximum.accumulate(energy)
     behind = np.maximum.accumulate(energy[::-1])[::-1]
-    low = VALLEY * energy < np.minimum(before, behind)
+    low = THRESHOLDS.valley_ratio * energy < np.minimum(before, behind)
     edges = np.flatnonzero(np.diff(low.astype(np.int8), prepend=0, append=0))
     for first, stop in zip(edges[::2], edges[1::2], strict=True):
-        if stop - first > _STEPS:
+        if stop - first > THRESHOLDS.steps_per_octave:
             return int(first), int(stop) - 1
     return None
 
@@ -492,22 +450,9 @@ def _find_valley(energy: np.ndarray) -> tuple[int, int] | None:
 # Joints that ring far above their motion: a controller that oscillates, or a resonance.
 
 
-RINGS_ABOVE = 30.0
-"""Hz: below, it is motion."""
-
-EMPTY_GAP = 4.0
-"""Ratio of frequencies without energy between motion and ringing."""
-
-LEAST_MOTION = 1e-3
-"""Energy of the motion over that of the ringing, at least: below, the robot only shakes."""
-
-MOST_IN_GAP = 0.01
-"""Energy in the gap over that of the motion, at most."""
-
-LEAST_RINGING = 0.01
-"""Energy of the ringing over that of the motion, at least."""
-
-_MOTION_ENDS = RINGS_ABOVE / EMPTY_GAP * 1.25 ** np.arange(26)  # Hz where the motion may end
+_MOTION_ENDS = (
+    THRESHOLDS.min_ringing_frequency / THRESHOLDS.ringing_gap * 1.25 ** np.arange(26)
+)  # Hz where the motion may end
 
 
 @dataclass(frozen=True)
@@ -525,7 +470,7 @@ class Ringing:
     share: float
 
     def describe(self, name: str) -> str:
-        """For the report."""
+        """Returns what rings and its share, for the report."""
         return (
             f"joint {name} rings at {self.frequency:.3g} Hz, with {format_percent(self.share)} of "
             "its velocity's energy, far above its motion; the cut-offs are chosen without it, and "
@@ -536,7 +481,7 @@ class Ringing:
 def find_ringing(
     frequency: np.ndarray, energy: np.ndarray, joint: int
 ) -> tuple[Ringing | None, int]:
-    """What rings, and the index of the first frequency that does; all of them if nothing does.
+    """Returns what rings, and the index of its first frequency; all if nothing does.
 
     Ringing is energy above `RINGS_ABOVE` Hz that an empty gap of two octaves parts from motion.
 
@@ -548,16 +493,51 @@ def find_ringing(
     whole = len(frequency)
     total = np.concatenate([[0.0], np.cumsum(energy)])
     for edge in _MOTION_ENDS:
-        low, high = np.searchsorted(frequency, [edge, EMPTY_GAP * edge])
+        low, high = np.searchsorted(frequency, [edge, THRESHOLDS.ringing_gap * edge])
         if high >= whole:
             continue
         motion, between, above = total[low], total[high] - total[low], total[-1] - total[high]
         if (
-            motion > LEAST_MOTION * above
-            and between < MOST_IN_GAP * motion
-            and above > LEAST_RINGING * motion
+            motion > THRESHOLDS.min_motion_energy * above
+            and between < THRESHOLDS.max_gap_energy * motion
+            and above > THRESHOLDS.min_ringing_energy * motion
         ):
             top = high + int(np.argmax(energy[high:]))
             share = float(above / total[-1])
             return Ringing(joint, float(frequency[top]), share), int(high)
     return None, whole
+
+
+@dataclass(frozen=True)
+class Bands(ShortRepr):
+    """The cut-offs, what chose them, and the noise of the motion, as plain data.
+
+    Attributes:
+        position_cutoff, parallel_cutoff: Hz; None if there was no fit.
+        noise: of every channel of the motion.
+        widest: Hz of both filters, as the motion alone asks for; empty where one was given.
+        chosen_by: sentences.
+        limited_by: joint that they were lowered for; None if the parallel filter is the widest.
+        trembling: how many times as much as the measured torque that of the model trembles behind
+            the first filters of which it is too much; 0 if behind none.
+        trembling_left: the same behind the filters that were chosen.
+        widest_values: (c,) base parameters behind the widest filters; empty where they were chosen.
+    """
+
+    position_cutoff: float | None
+    parallel_cutoff: float | None
+    noise: tuple[ChannelNoise, ...]
+    widest: Mapping[str, float] = field(default_factory=dict)
+    chosen_by: tuple[str, ...] = ()
+    limited_by: str | None = None
+    trembling: float = 0.0
+    trembling_left: float = 0.0
+    widest_values: tuple[float, ...] = ()
+
+
+def build_bands(noise: MotionNoise | None, processing: ChosenProcessing | None = None) -> Bands:
+    """Returns the noise of the motion, and cut-offs that nothing was lowered for."""
+    joints = noise.joints if noise else ()
+    if processing is None:
+        return Bands(None, None, joints)
+    return Bands(processing.position_cutoff, processing.parallel_cutoff, joints)

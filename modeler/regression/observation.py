@@ -1,7 +1,7 @@
 """y = W beta: the rows of all logs through the compiled model and the parallel filter."""
 
 import dataclasses
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from functools import cached_property, partial
 from typing import Any
@@ -14,16 +14,6 @@ from modeler.core.result import Result
 from modeler.numerics.filters import LEAST_WEIGHT
 from modeler.regression.chunk import wrap_log
 from modeler.regression.log import Log
-from modeler.regression.low_speed import (
-    PERIODS,
-    clear_resting_speeds,
-    compute_signals,
-    compute_speed_floors,
-    compute_wide_floors,
-    find_all_shafts,
-    find_moving_samples,
-    find_shafts,
-)
 from modeler.regression.motion import (
     BRIDGES,
     CAUSES,
@@ -35,13 +25,26 @@ from modeler.regression.motion import (
     Segment,
 )
 from modeler.regression.prepare import PreparedLogs, close_segments
-from modeler.regression.report import DataReport
-from modeler.regression.stretch import FilteredSegment, filter_segment
-from modeler.regression.tally import build_joint_reports, build_log_report, count_rows
-from modeler.runtime import CompiledModel, NonzeroPattern, Triangles
-
-COMPLETE = 0.95
-"""Least share of the weights of a row on usable samples, where it must be whole."""
+from modeler.regression.report import DataReport, build_joint_reports, build_log_report, count_rows
+from modeler.regression.segments import (
+    FilteredSegment,
+    clear_resting_speeds,
+    compute_signals,
+    compute_speed_floors,
+    compute_wide_floors,
+    filter_segment,
+    find_all_shafts,
+    find_moving_samples,
+    find_shafts,
+)
+from modeler.regression.thresholds import THRESHOLDS
+from modeler.runtime import (
+    CompiledModel,
+    NonzeroPattern,
+    Triangles,
+    make_empty_triangles,
+    reduce_rows,
+)
 
 # The rows of y = W beta, and which is which.
 
@@ -120,9 +123,10 @@ class Observation(Result):
     def driven(self) -> list[int]:
         """Indices of the joints with a motor, rows and a torque."""
         return [
-            j for j, joint in enumerate(self.joints)
+            j
+            for j, joint in enumerate(self.joints)
             if joint.actuated and self.torque[self.used[:, j], j].any()
-        ]  # fmt: skip
+        ]
 
     @cached_property
     def whole(self) -> np.ndarray:
@@ -132,21 +136,21 @@ class Observation(Result):
         of the sign of a speed there looks like physics.
         """
         shares = [part.rows.compute_usable_share(part.usable) for part in self.stretches]
-        return self.used & (np.concatenate(shares) >= COMPLETE)
+        return self.used & (np.concatenate(shares) >= THRESHOLDS.complete_weight)
 
     def select_rows(self, used: np.ndarray) -> "Observation":
-        """The same with other rows (s, n) that count."""
+        """Returns the observation with other rows (s, n) that count."""
         ends = np.cumsum([len(part.used) for part in self.stretches])[:-1]
         pairs = zip(self.stretches, np.split(used, ends), strict=True)
         parts = tuple(dataclasses.replace(part, used=part_used) for part, part_used in pairs)
         return dataclasses.replace(self, used=used, stretches=parts)
 
     def predict(self, beta: np.ndarray) -> np.ndarray:
-        """(s, n) torque of the model, filtered like the measurement: columns beta."""
+        """Returns (s, n) torque of the model, filtered like the measurement: columns beta."""
         return self.columns @ beta
 
     def filter_columns(self, evaluate: Callable[[Segment, slice], np.ndarray]) -> np.ndarray:
-        """Further columns (s, n, ...) through the same filter, row for row beside `columns`.
+        """Returns further columns (s, n, ...) through the same filter, row by row as `columns`.
 
         Args:
             evaluate: (b, n, ...) for the b samples of a segment in a window.
@@ -167,7 +171,7 @@ class ModelRegressor:
         self._signals = {part.segment: compute_signals(model, part.segment) for part in stretches}
 
     def __call__(self, s: Segment, w: slice | np.ndarray) -> np.ndarray:
-        """(b, n, c) for the b samples of a window, or of indices."""
+        """Returns (b, n, c) for the b samples of a window, or of indices."""
         return self._model.base_regressor(s.q[w], s.qd[w], s.qdd[w], self._read_signals(s, w))
 
     @property
@@ -178,7 +182,7 @@ class ModelRegressor:
     def compute_torque(
         self, s: Segment, w: slice | np.ndarray, beta: np.ndarray, turn: np.ndarray | None = None
     ) -> np.ndarray:
-        """(b, n) torque of the model, by the inverse dynamics; w may be indices.
+        """Returns (b, n) torque of the model, by the inverse dynamics; w may be indices.
 
         With a turn (n, n) the motion is q turn instead of q.
         """
@@ -189,7 +193,7 @@ class ModelRegressor:
     def compute_triangles(
         self, part: FilteredSegment, use: np.ndarray, state: Triangles | None
     ) -> Triangles:
-        """Triangles of the rows of a stretch whose rows are samples; use (rows, n) bool."""
+        """Returns triangles of the rows of a stretch whose rows are samples; use (rows, n) bool."""
         some = np.flatnonzero(use.any(axis=1))
         s, w = part.segment, part.rows.centres[some]
         part_triangles = self._model.triangles(
@@ -208,7 +212,7 @@ class ModelRegressor:
 def build_observation(
     model: CompiledModel, logs: Sequence[Log], prepared: PreparedLogs, every_joint: bool = False
 ) -> Observation:
-    """The observation of logs that are prepared already, for this or a like robot.
+    """Returns the observation of logs that are prepared already, for this or a like robot.
 
     Raises:
         DataError: no usable row.
@@ -229,9 +233,8 @@ def build_observation(
         wrong = of.check.contradictions if of.check else ()
         decimation = max((part.decimation for part in log_stretches), default=1)
         tallies.append(whole)
-        reports.append(
-            build_log_report(log, model.spec, of, whole, of.defects, wrong, decimation, times)
-        )
+        facts = whole, of.defects, wrong, decimation, times
+        reports.append(build_log_report(log, model.spec, of, *facts))
     report = DataReport(
         processing=chosen,
         choices=prepared.choices,
@@ -250,7 +253,7 @@ def build_observation(
     if every_joint or not parts:
         return rows
     wide, far = compute_wide_floors(*seen, prepared.noise), []
-    margin = PERIODS / chosen.position_cutoff if chosen.position_cutoff else 0.0
+    margin = THRESHOLDS.reversal_periods / chosen.position_cutoff if chosen.position_cutoff else 0.0
     for part in stretches:
         usable = part.segment.valid & find_moving_samples(part.segment, parts, wide, margin)
         far.append(part.used & (part.rows.compute_usable_share(usable) >= LEAST_WEIGHT))
@@ -258,7 +261,7 @@ def build_observation(
 
 
 def build_no_row_error(report: DataReport) -> DataError:
-    """What is told of logs without a usable row."""
+    """Returns what is told of logs without a usable row."""
     notes = [f"{log.name}: {note}" for log in report.logs for note in log.notes]
     return DataError(
         f"{', '.join(log.name for log in report.logs)}: no usable row is left: "
@@ -268,12 +271,12 @@ def build_no_row_error(report: DataReport) -> DataError:
 
 
 def rebuild_observation(model: CompiledModel, like: Observation) -> Observation:
-    """What a robot makes of logs that another one has seen, which masks the same samples."""
+    """Returns the observation of another robot, of logs that mask the same samples."""
     return dataclasses.replace(like, **_describe_columns(model, like.stretches))
 
 
 def _describe_columns(model: CompiledModel, stretches: Sequence[FilteredSegment]) -> dict[str, Any]:
-    """What an observation has of its robot."""
+    """Returns what an observation has of its robot."""
     return {
         "robot": model.spec.robot,
         "joints": model.spec.joints,
@@ -289,7 +292,7 @@ def assemble_observation(
     stretches: tuple[FilteredSegment, ...],
     report: DataReport,
 ) -> Observation:
-    """The rows of some stretches of logs of these names, with what is told of them."""
+    """Returns the rows of some stretches of logs of these names, with what is told of them."""
     motion = np.concatenate([_filter_motion(part) for part in stretches])
     counts = [len(part.rows.centres) for part in stretches]
     return Observation(
@@ -309,7 +312,7 @@ def assemble_observation(
 
 
 def _filter_motion(part: FilteredSegment) -> np.ndarray:
-    """(rows, 3, joints) q, qd, qdd over all whole samples."""
+    """Returns (rows, 3, joints) q, qd, qdd over all whole samples."""
     s = part.segment
     return np.concatenate(
         [
@@ -335,13 +338,17 @@ WHY = {
 MASKS = tuple(WHY)
 
 _OF = {
-    EDGE: "filter end", MISSING: "no good value", BRIDGES: "no good value",
-    CONTRADICTED: "impossible derivative", SATURATED: "torque at its limit", OPEN: "loops open",
-}  # fmt: skip
+    EDGE: "filter end",
+    MISSING: "no good value",
+    BRIDGES: "no good value",
+    CONTRADICTED: "impossible derivative",
+    SATURATED: "torque at its limit",
+    OPEN: "loops open",
+}
 
 
 def classify_rows(observation: Observation) -> np.ndarray:
-    """(s, n) place in MASKS of what most weight of a row falls on; -1 where the row counts.
+    """Returns (s, n) place in MASKS of what most weight of a row falls on; -1 where the row counts.
 
     Args:
         observation: of logs.
@@ -361,7 +368,7 @@ def classify_rows(observation: Observation) -> np.ndarray:
 def compute_model_torque(
     observation: Observation, model: CompiledModel, beta: np.ndarray, turn: np.ndarray | None = None
 ) -> np.ndarray:
-    """(s, n) `observation.predicted(beta)` without its columns, by the inverse dynamics.
+    """Returns (s, n) `observation.predicted(beta)` without its columns, by the inverse dynamics.
 
     Args:
         observation: of the robot.
@@ -371,3 +378,100 @@ def compute_model_torque(
     """
     torque = ModelRegressor(model, observation.stretches).compute_torque
     return observation.filter_columns(partial(torque, beta=beta, turn=turn))
+
+
+KEPT = 2**26
+"""Bytes of the filtered regressor up to which it is kept."""
+
+
+def is_streamed(observation: Observation) -> bool:
+    """Returns True if W is not built: it would be large, and nobody has asked for it yet.
+
+    What passes by is the regressor of a compiled model; another one is kept.
+    """
+    large = 8 * observation.used.size * len(observation.names) > KEPT
+    compiled = isinstance(observation.regressor, ModelRegressor)
+    return large and compiled and "columns" not in vars(observation)
+
+
+def iterate_blocks(observation: Observation) -> Iterator[tuple[slice, np.ndarray]]:
+    """Yields samples (b of them) and their filtered regressor (b, n, c), in order."""
+    for part, part_rows in _iterate_stretches(observation):
+        for rows, columns in part.iterate_blocks(partial(observation.regressor, part.segment)):
+            yield slice(part_rows.start + rows.start, part_rows.start + rows.stop), columns
+
+
+def evaluate_columns_at(observation: Observation, places: np.ndarray) -> np.ndarray:
+    """Returns (m, n, c) filtered regressor of some samples (m,), ascending."""
+    if not is_streamed(observation):
+        return np.asarray(observation.columns[places])
+    columns = []
+    for part, part_rows in _iterate_stretches(observation):
+        rows = places[(places >= part_rows.start) & (places < part_rows.stop)] - part_rows.start
+        if is_unfiltered(part):
+            columns.append(observation.regressor(part.segment, part.rows.centres[rows]))
+        elif rows.size:
+            columns.append(part.filter_rows(rows, partial(observation.regressor, part.segment)))
+    return np.concatenate(columns)
+
+
+def compute_fitted_torque(
+    observation: Observation, beta: np.ndarray, keep: np.ndarray
+) -> np.ndarray:
+    """Returns (s, n) torque of the model, `columns beta`, where keep (s, n); 0 elsewhere."""
+    regressor = observation.regressor
+    assert isinstance(regressor, ModelRegressor)
+    torque = partial(regressor.compute_torque, beta=beta)
+    return np.where(keep, observation.filter_columns(torque), 0.0)
+
+
+def compute_triangles(observation: Observation, keep: np.ndarray) -> Triangles:
+    """Returns triangles of [W_j y_j] over the rows keep (s, n) bool."""
+    regressor = observation.regressor
+    assert isinstance(regressor, ModelRegressor)
+    state = make_empty_triangles(regressor.pattern)
+    for part, part_rows in _iterate_stretches(observation):
+        state = add_stretch(regressor, part, observation.torque[part_rows], keep[part_rows], state)
+    return state
+
+
+def add_stretch(
+    regressor: ModelRegressor,
+    part: FilteredSegment,
+    torque: np.ndarray,
+    keep: np.ndarray,
+    state: Triangles,
+) -> Triangles:
+    """Returns triangles with the rows of a stretch added.
+
+    Args:
+        regressor: over its samples.
+        part: the stretch.
+        torque: (rows, n) filtered.
+        keep: (rows, n) bool.
+        state: before.
+    """
+    if not keep.any():
+        return state
+    if is_unfiltered(part):
+        return regressor.compute_triangles(part, keep, state)
+    spans = regressor.pattern.spans
+    for rows, columns in part.iterate_blocks(
+        partial(regressor, part.segment), THRESHOLDS.triangle_block_samples, spans
+    ):
+        used = np.ascontiguousarray(keep[rows])
+        state = reduce_rows(state.pattern, columns, torque[rows], used, state)
+    return state
+
+
+def is_unfiltered(part: FilteredSegment) -> bool:
+    """Returns True if the rows of a stretch are samples: no parallel filter."""
+    return len(part.rows.weights.data) == len(part.rows.centres)
+
+
+def _iterate_stretches(observation: Observation) -> Iterator[tuple[FilteredSegment, slice]]:
+    first = 0
+    for part in observation.stretches:
+        count = len(part.rows.centres)
+        yield part, slice(first, first + count)
+        first += count

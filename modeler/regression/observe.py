@@ -1,8 +1,4 @@
-"""From logs to rows, with the cut-offs below which the torques answer to the measured motion.
-
-Two things are asked of a band: that the noise of the motion, as torque, is less than that of the
-drives, and that the torque of the model does not tremble more than the measured one.
-"""
+"""From logs to rows: repairs that a fit confirms, and the cut-offs of both filters."""
 
 import dataclasses
 from collections.abc import Iterator, Mapping, Sequence
@@ -13,58 +9,188 @@ from typing import Any
 import numpy as np
 
 from modeler.core.brief import ShortRepr
+from modeler.core.errors import DataError, LoopError
 from modeler.core.json import select_attributes
 from modeler.numerics.filters import BANDWIDTH, SPREAD
 from modeler.numerics.least_squares import solve_scaled_least_squares
+from modeler.regression.faults import ALWAYS, Defects, find_column
 from modeler.regression.log import Log
-from modeler.regression.low_speed import clear_resting_speeds, compute_speed_floors, find_shafts
-from modeler.regression.motion import HIGHEST, Segment, build_segment
-from modeler.regression.motion_noise import ChannelNoise, MotionNoise
+from modeler.regression.motion import Processing, Segment, build_segment
+from modeler.regression.motion_noise import Bands, ChannelNoise, MotionNoise
 from modeler.regression.observation import Observation, assemble_observation, build_observation
 from modeler.regression.prepare import (
+    LogRepair,
     PreparedLogs,
+    check_logs,
     close_segment,
     prepare_logs,
     round_to_two_digits,
 )
-from modeler.regression.repairs import choose_repairs
-from modeler.regression.report import Bands, DataReport
-from modeler.regression.settings import Processing
-from modeler.regression.stretch import filter_segment
+from modeler.regression.report import DataReport
+from modeler.regression.segments import (
+    clear_resting_speeds,
+    compute_speed_floors,
+    filter_segment,
+    find_shafts,
+)
+from modeler.regression.thresholds import THRESHOLDS
 from modeler.runtime import CompiledModel
 
-LEAST_BANDS = 2.0
-"""Bands of the motion that a parallel filter leaves at least, and ..."""
+SEVERAL = ("held", "lost")
+"""Kinds that befall several joints alike: one hypothesis."""
 
-LEAST_CUTOFF = 0.5
-"""... Hz."""
 
-TREMBLES = 4.0
-"""Times as much as the measured torque a model's may tremble: beyond, its motion is noise."""
+def choose_repairs(model: CompiledModel, logs: Sequence[Log], asked: Processing) -> Processing:
+    """Returns the processing with the score of every repair; what is known already stays.
 
-ANSWERED = 0.5
-"""Share of the trembling of a model's torque that the measured one has, if it is a motion."""
+    A repair is a hypothesis. Its score is the error out of block of a weighted fit to the log that
+    it mends, over that to the log without it: behind the same filters, on rows that both have. It
+    is made if that is below `CONFIRMED`; then the others are tried beside it.
 
-LOWER = 0.7
-"""Factor by which a cut-off is lowered."""
+    Args:
+        model: the compiled robot.
+        logs: read with it.
+        asked: processing of them.
+    """
+    check_logs(model.spec, logs, asked)
+    if asked.repairs is not None or asked.keep_damaged:
+        return asked
+    repair = LogRepair(logs, model.spec)
+    open_ = [
+        (log, tried)
+        for run, log in enumerate(logs)
+        for tried in _propose_repairs(log, model, repair.get_repaired(run, asked)[1])
+    ]
+    chosen = dataclasses.replace(asked, repairs={})
+    if not open_:
+        return chosen
+    try:
+        every = dict.fromkeys((f"{log.name}: {key}" for log, keys in open_ for key in keys), 0.0)
+        whole = prepare_logs(model.spec, logs, dataclasses.replace(asked, repairs=every), repair)
+        cutoffs = whole.processing.position_cutoff, whole.processing.parallel_cutoff
+        base = _fit_blocks(model, logs, chosen, repair, cutoffs)
+    except (DataError, LoopError):
+        return chosen
+    is_new = True
+    while is_new and open_:
+        is_new = False
+        for log, keys in tuple(open_):
+            names = [f"{log.name}: {key}" for key in keys]
+            tried = dataclasses.replace(
+                chosen, repairs={**(chosen.repairs or {}), **dict.fromkeys(names, 0.0)}
+            )
+            try:
+                mended = _fit_blocks(model, logs, tried, repair, cutoffs)
+                score = _compute_score(mended, base)
+            except (DataError, LoopError):
+                continue
+            scores = {**(chosen.repairs or {}), **dict.fromkeys(names, score)}
+            chosen = dataclasses.replace(chosen, repairs=scores)
+            if score < THRESHOLDS.max_repair_ratio:
+                base, is_new = mended, True
+                open_.remove((log, keys))
+    return chosen
 
-APART = 2.5
-"""Times the parallel cut-off, down to which that of the positions is lowered by itself."""
 
-ROWS_EACH = 10
-"""Rows for every parameter, at least: a fit of fewer leaves less than their noise."""
+def _propose_repairs(
+    log: Log, model: CompiledModel, by_channel: Defects
+) -> Iterator[tuple[str, ...]]:
+    """Yields names of defects, as "q2 zero", that are mended together."""
+    several: dict[str, list[str]] = {}
+    for name, by_joint in by_channel.items():
+        for j, channel in enumerate(by_joint if name != "rows" else ()):
+            for kind in dict.fromkeys(one.kind for one in channel if one.kind not in ALWAYS):
+                key = f"{find_column(log, model.spec, name, j)} {kind}"
+                if kind in SEVERAL:
+                    several.setdefault(f"{name} {kind}", []).append(key)
+                else:
+                    yield (key,)
+    yield from map(tuple, several.values())
 
-ROUNDS = 4
-"""Fits by which the parallel cut-off is found."""
 
-SAMPLES = 2**15
-"""Of the logs, evenly spread over them, that the cut-offs are chosen by."""
+@dataclasses.dataclass(frozen=True, eq=False)
+class BlockFit:
+    """Rows of logs, and what a fit to other blocks leaves of each (s, n)."""
+
+    rows: Observation
+    residual: np.ndarray
+
+
+def _fit_blocks(
+    model: CompiledModel,
+    logs: Sequence[Log],
+    processing: Processing,
+    repair: LogRepair,
+    cutoffs: tuple[float, float],
+) -> BlockFit:
+    prepared = prepare_logs(model.spec, logs, processing, repair).set_cutoffs(*cutoffs)
+    rows = build_observation(model, logs, prepared)
+    return BlockFit(rows, compute_left_out_residual(rows))
+
+
+def compute_left_out_residual(rows: Observation) -> np.ndarray:
+    """Returns (s, n) torque less what a weighted fit to the other blocks of time predicts.
+
+    No parameter makes more torque than the joint has: what a motion does not show is near 0.
+    """
+    W, y, used = rows.columns, rows.torque, rows.used
+    block = np.arange(len(y)) * THRESHOLDS.repair_blocks // max(1, len(y))
+    driven = [j for j in rows.driven if used[:, j].sum() > THRESHOLDS.repair_blocks]
+    sigma = {j: float(np.sqrt(np.mean(y[used[:, j], j] ** 2))) for j in driven}
+    size = [np.mean(W[used[:, j], j] ** 2, axis=0) / sigma[j] ** 2 for j in driven]
+    if not size:
+        raise DataError("no row")
+    weak, left = np.maximum(np.max(size, axis=0), 1e-12), np.full(y.shape, np.nan)
+    scale = 1.0 / np.sqrt(weak)
+    parts = {
+        (j, b): (W[is_used, j] * scale, y[is_used, j], is_used)
+        for j in driven
+        for b in range(THRESHOLDS.repair_blocks)
+        if (is_used := used[:, j] & (block == b)).any()
+    }
+    least = {j: 1e-9 * sigma[j] for j in driven}
+    for _ in range(THRESHOLDS.repair_reweightings):
+        sums = {
+            key: (A.T @ A / sigma[key[0]] ** 2, A.T @ t / sigma[key[0]] ** 2)
+            for key, (A, t, _) in parts.items()
+        }
+        for b in range(THRESHOLDS.repair_blocks):
+            some = [both for (_, other), both in sums.items() if other != b]
+            if not some:
+                continue
+            gram = np.sum([g for g, _ in some], axis=0) + np.eye(len(scale))
+            beta = np.linalg.solve(gram, np.sum([r for _, r in some], axis=0))
+            for (j, other), (A, t, is_used) in parts.items():
+                if other == b:
+                    left[is_used, j] = t - A @ beta
+        for j in driven:
+            sigma[j] = max(float(np.sqrt(np.nanmean(left[:, j] ** 2))), least[j])
+    return left
+
+
+def _compute_score(mended: BlockFit, logged: BlockFit) -> float:
+    """Returns geometric mean over joints of the ratio of errors on rows that both have."""
+    a, b = mended.rows, logged.rows
+    start, span = float(a.time.min()), float(np.ptp(np.append(a.time, b.time))) + 1.0
+    one, other = (fit_rows.time - start + 2.0 * span * fit_rows.run for fit_rows in (a, b))
+    order = np.argsort(other)
+    place = np.clip(np.searchsorted(other[order], one), 1, len(order) - 1)
+    nearest = order[place - (one - other[order[place - 1]] < other[order[place]] - one)]
+    close = np.abs(other[nearest] - one) <= 0.6 * np.median(np.diff(other[order]))
+    ratios = []
+    for j in range(a.torque.shape[1]):
+        left = np.stack([mended.residual[close, j], logged.residual[nearest[close], j]])
+        left = left[:, np.isfinite(left).all(axis=0)]
+        if left.shape[1] > THRESHOLDS.repair_blocks:
+            errors = np.maximum(np.sqrt(np.mean(left**2, axis=1)), 1e-300)
+            ratios.append(np.log(errors[0] / errors[1]))
+    return float(np.exp(np.mean(ratios))) if ratios else float("nan")
 
 
 def observe(
     model: CompiledModel, logs: Sequence[Log], processing: Processing | None = None
 ) -> Observation:
-    """The observation of logs: W, y, and which row is which.
+    """Returns the observation of logs: W, y, and which row is which.
 
     One parallel filter and decimation for the torque and every column (Guegan, Khalil and Lemoine
     2003, section 5.2). Samples below the speed floor, saturated or missing ones have no weight.
@@ -84,7 +210,7 @@ def observe(
 
 
 def limit_cutoffs(model: CompiledModel, prepared: PreparedLogs, asked: Processing) -> PreparedLogs:
-    """The logs with both cut-offs where the torques answer to the motion.
+    """Returns the logs with both cut-offs where the torques answer to the motion.
 
     Parallel filter: where the noise of the positions, as torque, meets the noise of the torques.
     With positions of noise density N_i, M the inertia matrix of the fitted model, and the residual
@@ -103,24 +229,21 @@ def limit_cutoffs(model: CompiledModel, prepared: PreparedLogs, asked: Processin
     """
     if asked.parallel_cutoff is not None or not prepared.noise.moving:
         return prepared
-    is_position_given = asked.position_cutoff is not None
-    search = widen_search(CutoffSearch(model, prepared), is_position_given)
+    is_fixed = asked.position_cutoff is not None
+    search = widen_search(CutoffSearch(model, prepared), is_fixed)
     prepared, noise, wide = search.prepared, search.prepared.noise, search.prepared.processing
     position = wide.position_cutoff
     crossover = find_noise_crossover(search, position)
     widest = search.fit(position, wide.parallel_cutoff)
-    chatter_free = search.find_chatter_free(crossover.cutoff, is_position_given)
+    chatter_free = search.find_chatter_free(crossover.cutoff, is_fixed)
     if chatter_free.position < position:
         crossover = find_noise_crossover(search, chatter_free.position)
     parallel = round_to_two_digits(min(crossover.cutoff, chatter_free.parallel))
-    if not is_position_given:
-        position = round_to_two_digits(
-            max(min(noise.cutoff, chatter_free.position), 2.0 * parallel)
-        )
+    if not is_fixed:
+        lowered = min(noise.cutoff, chatter_free.position)
+        position = round_to_two_digits(max(lowered, 2.0 * parallel))
     prepared = prepared.set_cutoffs(position, parallel)
-    said = _describe_choice(
-        prepared, wide.parallel_cutoff, is_position_given, crossover, chatter_free
-    )
+    said = _describe_choice(prepared, wide.parallel_cutoff, is_fixed, crossover, chatter_free)
     by = crossover.joint if chatter_free.joint is None else chatter_free.joint
     bands = Bands(
         position,
@@ -132,34 +255,35 @@ def limit_cutoffs(model: CompiledModel, prepared: PreparedLogs, asked: Processin
         trembling=chatter_free.chatter_ratio,
         trembling_left=chatter_free.chatter_ratio_filtered,
         widest_values=()
-        if widest is None or parallel > LOWER * wide.parallel_cutoff
+        if widest is None or parallel > THRESHOLDS.cutoff_factor * wide.parallel_cutoff
         else tuple(widest.solution[0].tolist()),
     )
     return dataclasses.replace(prepared, choices=(*prepared.choices, *said), lowered=bands)
 
 
-def widen_search(search: "CutoffSearch", is_position_given: bool) -> "CutoffSearch":
-    """The logs with later floors of the noise, where the torques answer to what lies before them.
+def widen_search(search: "CutoffSearch", is_fixed: bool) -> "CutoffSearch":
+    """Returns the logs with later floors of the noise, where the torques follow the motion.
 
     What a controller leaves of a motion may be flat for octaves before it falls, and so may the
     noise of a slow sensor: positions do not tell which it is, torques do.
 
     Args:
         search: at the logs, with the first floors.
-        is_position_given: the position cut-off is the user's.
+        is_fixed: the position cut-off is the user's.
     """
     prepared, later = search.prepared, search.prepared.noise.take_last_floors()
     if later.cutoff <= prepared.noise.cutoff:
         return search
     _, beta = search.narrowest_fit
-    position = prepared.processing.position_cutoff if is_position_given else later.cutoff
-    position = min(position, HIGHEST / max(piece.step for piece in prepared.pieces))
+    position = prepared.processing.position_cutoff if is_fixed else later.cutoff
+    slowest = max(piece.step for piece in prepared.pieces)
+    position = min(position, THRESHOLDS.max_cutoff_share / slowest)
     parallel = prepared.processing.parallel_cutoff
     fit = search.fit(position, parallel)
     if (
         fit is None
         or beta is None
-        or compute_coherence(fit.rows, fit.rows.predict(beta)) < ANSWERED
+        or compute_coherence(fit.rows, fit.rows.predict(beta)) < THRESHOLDS.min_coherence
     ):
         return search
     wider = prepared.set_cutoffs(round_to_two_digits(position), parallel)
@@ -169,29 +293,27 @@ def widen_search(search: "CutoffSearch", is_position_given: bool) -> "CutoffSear
 def _describe_choice(
     prepared: PreparedLogs,
     widest: float,
-    is_position_given: bool,
+    is_fixed: bool,
     crossover: "NoiseCrossover",
     chatter_free: "ChatterFreeCutoffs",
 ) -> tuple[str, ...]:
-    """What was chosen, and why."""
+    """Returns what was chosen, and why."""
     noise, chosen, said = prepared.noise, prepared.processing, []
     position, parallel = chosen.position_cutoff, chosen.parallel_cutoff
-    if not is_position_given:
+    if not is_fixed:
         why = noise.explain_cutoff(position)
         if chatter_free.chatter_ratio and position < noise.cutoff:
-            why = (
-                f"lowered with the parallel filter; the noise alone asks for {noise.cutoff:.2g} Hz"
-            )
+            why = f"lowered with the parallel filter; by the noise alone {noise.cutoff:.2g} Hz"
         said.append(f"position filter {position:g} Hz: {why}")
     if chatter_free.joint is None:
         return *said, f"parallel filter {parallel:g} Hz: {crossover.explain_cutoff(noise)}"
     return (
         *said,
-        f"parallel filter {parallel:g} Hz: with more, the model's torque trembles and the measured "
-        "one does not",
-        f"motion between {parallel:g} and {widest:g} Hz is not what the torques answer to: up to "
-        f"there the model's torque of joint {noise.joints[chatter_free.joint].joint} trembles "
-        f"{chatter_free.chatter_ratio:.2g} times as much as the measured one",
+        f"parallel filter {parallel:g} Hz: above, the predicted torque has high-frequency content "
+        "that the measured one lacks",
+        f"the torques do not show the motion between {parallel:g} and {widest:g} Hz: up to there "
+        f"the predicted torque of joint {noise.joints[chatter_free.joint].joint} has "
+        f"{chatter_free.chatter_ratio:.2g} times the high-frequency content of the measured one",
     )
 
 
@@ -215,29 +337,31 @@ class CutoffSearch(ShortRepr):
         """The lowest parallel cut-off that leaves rows enough, Hz, and beta (c,) of its fit."""
         noise, widest = self.prepared.noise, self.prepared.processing
         highest, position = widest.parallel_cutoff, min(noise.cutoff, widest.position_cutoff)
-        least = min(max(LEAST_BANDS * noise.band, LEAST_CUTOFF), highest)
+        least = max(THRESHOLDS.min_parallel_bands * noise.band, THRESHOLDS.min_parallel_cutoff)
+        least = min(least, highest)
         while True:
             fit = self.fit(max(position, 2.0 * least), least)
             if least >= highest or (fit is not None and fit.is_determined):
                 return least, None if fit is None else fit.solution[0]
-            least = min(least / LOWER, highest)
+            least = min(least / THRESHOLDS.cutoff_factor, highest)
 
     @cached_property
     def _segments_by_cutoff(self) -> dict[float, tuple[Segment, ...]]:
         return {}
 
     def filter_segments(self, position: float) -> tuple[Segment, ...]:
-        """Parts of the pieces behind a position filter, Hz, that are not all edge."""
+        """Returns parts of the pieces behind a position filter, Hz, that are not all edge."""
         if position not in self._segments_by_cutoff:
             pieces, chosen = self.prepared.pieces, self.prepared.processing
             chosen = dataclasses.replace(chosen, position_cutoff=position)
             every = [build_segment(piece, chosen) for piece in pieces]
-            share = SAMPLES / sum(len(piece.time) for piece in pieces)
+            share = THRESHOLDS.search_samples / sum(len(piece.time) for piece in pieces)
             parts = [
                 close_segment(self.model, _cut_segment(segment, place))[0]
-                for segment in every if segment is not None
+                for segment in every
+                if segment is not None
                 for place in _spread_windows(segment.samples, share)
-            ]  # fmt: skip
+            ]
             self._segments_by_cutoff[position] = tuple(part for part in parts if part.whole.any())
         return self._segments_by_cutoff[position]
 
@@ -246,7 +370,7 @@ class CutoffSearch(ShortRepr):
         return {}
 
     def fit(self, position: float, parallel: float) -> "WeightedFit | None":
-        """The weighted fit of the rows behind filters of these cut-offs, Hz; None without rows."""
+        """Returns the weighted fit behind filters of these cut-offs, Hz; None without rows."""
         if (position, parallel) not in self._fits_by_cutoffs:
             self._fits_by_cutoffs[position, parallel] = self._fit_rows(position, parallel)
         return self._fits_by_cutoffs[position, parallel]
@@ -259,49 +383,45 @@ class CutoffSearch(ShortRepr):
         floors = compute_speed_floors(chosen, parts, segments, self.prepared.noise)
         chosen = dataclasses.replace(chosen, speed_floors=floors)
         still = [name for name, floor in floors.items() if floor == float("inf")]
-        some = tuple(
-            filter_segment(s, parts, chosen) for s in clear_resting_speeds(segments, parts, still)
-        )
+        segments = clear_resting_speeds(segments, parts, still)
+        some = tuple(filter_segment(segment, parts, chosen) for segment in segments)
         report = DataReport(chosen, (), (), ())
         return WeightedFit(self.model, assemble_observation(self.model, (), some, report))
 
     def find_worst_chatter(self, position: float, parallel: float) -> tuple[float, int | None]:
-        """How much more than the measured torque that of `narrowest_fit` trembles.
-
-        Joint where " "most.
-        """
+        """Returns the largest chatter ratio of the torque of `narrowest_fit`, and its joint."""
         fit, (_, beta) = self.fit(position, parallel), self.narrowest_fit
         if fit is None or beta is None:
             return 0.0, None
         ratios = compute_chatter_ratios(fit.rows, fit.rows.predict(beta))
         return max(((most, j) for j, most in ratios.items()), default=(0.0, None))
 
-    def find_chatter_free(self, floor: float, is_position_given: bool) -> "ChatterFreeCutoffs":
-        """Cut-offs lowered while the model's torque trembles `TREMBLES` times as much as measured.
+    def find_chatter_free(self, floor: float, is_fixed: bool) -> "ChatterFreeCutoffs":
+        """Returns cut-offs lowered until the predicted torque has no excess high-frequency content.
 
         The model is that of `narrowest_fit`. First the parallel filter, then that of the
         positions, then both.
 
         Args:
             floor: Hz to which the parallel filter is lowered before that of the positions is.
-            is_position_given: the position filter is the user's, and stays.
+            is_fixed: the position filter is the user's, and stays.
         """
         widest, (least, _) = self.prepared.processing, self.narrowest_fit
         position, parallel = widest.position_cutoff, widest.parallel_cutoff
         most, joint = 0.0, None
         while True:
             left, worst = self.find_worst_chatter(position, parallel)
-            if left <= TREMBLES or parallel <= least:
+            if left <= THRESHOLDS.max_chatter_ratio or parallel <= least:
                 return ChatterFreeCutoffs(position, parallel, left, most, joint)
             if left > most:
                 most, joint = left, worst
             if parallel > floor:
-                parallel = max(floor, LOWER * parallel)
+                parallel = max(floor, THRESHOLDS.cutoff_factor * parallel)
                 continue
-            if is_position_given or position <= APART * parallel:
-                parallel = max(least, LOWER * parallel)
-            if not is_position_given:
-                position *= LOWER
+            if is_fixed or position <= THRESHOLDS.position_cutoff_ratio * parallel:
+                parallel = max(least, THRESHOLDS.cutoff_factor * parallel)
+            if not is_fixed:
+                position *= THRESHOLDS.cutoff_factor
 
 
 @dataclass(frozen=True)
@@ -323,7 +443,7 @@ class ChatterFreeCutoffs(ShortRepr):
 
 
 def _cut_segment(segment: Segment, place: slice) -> Segment:
-    """The samples of a segment in some place of it."""
+    """Returns the samples of a segment in some place of it."""
     arrays: dict[str, Any] = {
         member.name: x[place]
         for member in dataclasses.fields(segment)
@@ -334,7 +454,7 @@ def _cut_segment(segment: Segment, place: slice) -> Segment:
 
 
 def _spread_windows(samples: int, share: float) -> list[slice]:
-    """Eight evenly spread windows that hold a share of the samples, or all of them."""
+    """Returns eight evenly spread windows that hold a share of the samples, or all of them."""
     if share >= 1.0:
         return [slice(0, samples)]
     size = max(1, round(samples * share / 8.0))
@@ -361,42 +481,41 @@ class WeightedFit(ShortRepr):
         W = {j: rows.columns[rows.used[:, j], j] for j in rows.driven}
         y = {j: rows.torque[rows.used[:, j], j] for j in rows.driven}
         sigma = {j: float(np.sqrt(np.mean(y[j] ** 2))) for j in rows.driven}
-        least, beta = {j: _EXACT * sigma[j] for j in sigma}, np.zeros(len(rows.names))
-        for _ in range(_WEIGHTINGS if W else 0):
+        least = {j: THRESHOLDS.min_residual_share * sigma[j] for j in sigma}
+        beta = np.zeros(len(rows.names))
+        for _ in range(THRESHOLDS.weight_iterations if W else 0):
             beta = solve_scaled_least_squares(
                 np.concatenate([W[j] / sigma[j] for j in W]),
                 np.concatenate([y[j] / sigma[j] for j in W]),
-                _SEEN,
+                THRESHOLDS.min_singular_share,
             )
             free = 1.0 - min(0.9, len(beta) / sum(map(len, y.values())))
-            sigma = {
-                j: max(float(np.sqrt(np.mean((y[j] - W[j] @ beta) ** 2) / free)), least[j])
-                for j in W
-            }
+            squares = {j: np.mean((y[j] - W[j] @ beta) ** 2) / free for j in W}
+            sigma = {j: max(float(np.sqrt(squares[j])), least[j]) for j in W}
         return beta, sigma
 
     @property
     def is_determined(self) -> bool:
         """True if there are rows enough for the residual to be one."""
         count = self.rows.used[:, self.rows.driven].sum()
-        return bool(count >= ROWS_EACH * len(self.rows.names))
+        return bool(count >= THRESHOLDS.min_rows_per_parameter * len(self.rows.names))
 
     @cached_property
     def _inertias(self) -> tuple[np.ndarray, np.ndarray]:
         """(k, n, n) matrices at some of the rows, and (k, n) accelerations there."""
         beta, _ = self.solution
         q = np.concatenate([part.segment.q[part.rows.centres] for part in self.rows.stretches])
-        every = max(1, len(q) // _POSTURES)
+        every = max(1, len(q) // THRESHOLDS.inertia_postures)
         return self.model.inertia_matrix(q[::every], beta), self.rows.qdd[::every]
 
     def propagate_noise(self, noise: MotionNoise) -> dict[int, float]:
-        """Torque of the noise of the motion at 1 Hz, as density, (N m)^2/Hz, by driven joint."""
+        """Returns the torque of the motion's noise at 1 Hz, as density, (N m)^2/Hz, by joint."""
         densities = [joint.compute_acceleration_density(1.0) for joint in noise.joints]
         squares = np.mean(self._inertias[0] ** 2, axis=0) @ densities
         return {j: float(squares[j]) for j in self.rows.driven}
 
     def compute_inertial_power(self) -> dict[int, float]:
-        """Mean square of the torque of inertia, (N m)^2, by driven joint."""
+        """Returns mean square of the torque of inertia, (N m)^2, by driven joint."""
         torque = np.einsum("kij,kj->ki", *self._inertias)
         return {j: float(np.mean(torque[:, j] ** 2)) for j in self.rows.driven}
 
@@ -405,7 +524,7 @@ class WeightedFit(ShortRepr):
 
 
 def compute_chatter_ratios(rows: Observation, model: np.ndarray) -> dict[int, float]:
-    """How much more a model's torque (s, n) trembles than the measured one, by driven joint.
+    """Returns the high-frequency content of a model's torque over the measured one, by joint.
 
     Root mean square of the second differences from row to row, over that of the torque itself, of
     the model's over that of the measured: a gain of the channel leaves it as it is.
@@ -419,7 +538,7 @@ def compute_chatter_ratios(rows: Observation, model: np.ndarray) -> dict[int, fl
 
 
 def compute_coherence(rows: Observation, model: np.ndarray) -> float:
-    """The share of the trembling of a model's torque (s, n) that the measured one has.
+    """Returns the share of the trembling of a model's torque (s, n) that the measured one has.
 
     sum of b m over the sum of m^2, b and m second differences of the measured and of the model's
     torque, each joint in units of its torque: 1 of a motion, 0 of noise of its sensor.
@@ -435,7 +554,7 @@ def compute_coherence(rows: Observation, model: np.ndarray) -> float:
 def compute_curvatures(
     rows: Observation, model: np.ndarray
 ) -> Iterator[tuple[int, np.ndarray, np.ndarray]]:
-    """Second differences (2, k) from row to row, and sizes (2,), of the torques of driven joints.
+    """Yields second differences (2, k) from row to row, and sizes (2,), of torques by joint.
 
     Args:
         rows: with the measured torque, which comes first.
@@ -446,16 +565,9 @@ def compute_curvatures(
     for j in rows.driven:
         used = rows.whole[:, j]
         used_rows = near & used[2:] & used[1:-1] & used[:-2]
-        if used_rows.sum() >= _FEW:
+        if used_rows.sum() >= THRESHOLDS.min_curvature_rows:
             both = np.stack([rows.torque[:, j], model[:, j]])
             yield j, np.diff(both, 2)[:, used_rows], np.sqrt(np.mean(both[:, used] ** 2, axis=1))
-
-
-_EXACT = 1e-6  # of a torque's rms: a residual that is less is none
-_WEIGHTINGS = 4
-_SEEN = 1e-8  # of the largest singular value, columns scaled
-_POSTURES = 50
-_FEW = 10  # rows
 
 
 @dataclass(frozen=True)
@@ -478,26 +590,23 @@ class NoiseCrossover(ShortRepr):
     is_bounded: bool = False
 
     def explain_cutoff(self, noise: MotionNoise) -> str:
-        """Why it is there."""
+        """Returns why it is there."""
         if self.joint is None:
-            why = (
-                "the widest that the motion asks for; the noise of the torques is larger up to "
-                "there"
-            )
+            why = "the widest that the motion needs; up to there the torque noise is larger"
         elif self.is_drive_limited:
             why = (
-                "above, a drive that answers the noise of its encoder could bend the inertias, "
-                f"most by joint {noise.joints[self.joint].joint}"
+                "above, encoder noise that the controller feeds back could bias the inertias, most "
+                f"by joint {noise.joints[self.joint].joint}"
             )
         else:
             why = (
-                f"there the noise of the {noise.quantity} makes as much torque on joint "
-                f"{noise.joints[self.joint].joint} as is left of it"
+                f"there the torque of joint {noise.joints[self.joint].joint} by the noise of the "
+                f"{noise.quantity} is as large as its residual"
             )
         return f"{why}; it would be lower, but for the motion band" if self.is_bounded else why
 
     def attach_torque_noise(self, noise: MotionNoise) -> tuple[ChannelNoise, ...]:
-        """The channels of the motion, with the noise of the torques of their joints."""
+        """Returns the channels of the motion, with the noise of the torques of their joints."""
         channels = list(noise.joints)
         for j, (A, T) in self.torques.items():
             channels[j] = dataclasses.replace(channels[j], torque_of_noise=A, torque_noise=T)
@@ -505,7 +614,7 @@ class NoiseCrossover(ShortRepr):
 
 
 def find_noise_crossover(search: CutoffSearch, position: float) -> NoiseCrossover:
-    """Where the noise of the motion, as torque, meets that of the drives.
+    """Returns where the noise of the motion, as torque, meets that of the drives.
 
     And no more than where a drive that answers the same noise could bend the inertias by one
     standard deviation: there the share P_n / P_s of it in the torque of inertia is 1 / n, n rows.
@@ -525,7 +634,7 @@ def find_noise_crossover(search: CutoffSearch, position: float) -> NoiseCrossove
     power = 2 * noise.order
     at, value = least, min(noise.cutoff, position)
     torques = dict[int, tuple[float, float]]()
-    for _ in range(ROUNDS):
+    for _ in range(THRESHOLDS.crossover_fits):
         fit = search.fit(max(value, 2.0 * at), at)
         if fit is None:
             return NoiseCrossover(highest)
@@ -535,7 +644,7 @@ def find_noise_crossover(search: CutoffSearch, position: float) -> NoiseCrossove
         inside = spread**power * (1.0, 0.5, 0.75)[noise.order]
         for j, density in fit.propagate_noise(noise).items():
             T = sigma[j] ** 2 / (BANDWIDTH * at)
-            torques[j] = density, max(T - density * inside, _LEAST_SHARE * T)
+            torques[j] = density, max(T - density * inside, THRESHOLDS.min_torque_noise_share * T)
         meets = torques.items() if power else ()
         crossovers = [((T / max(A, 1e-300)) ** (1.0 / power), j) for j, (A, T) in meets]
         shares = {j: A * inside * BANDWIDTH * at / sigma[j] ** 2 for j, (A, _) in torques.items()}
@@ -544,13 +653,9 @@ def find_noise_crossover(search: CutoffSearch, position: float) -> NoiseCrossove
         answered = at * (inertial / max(rows, 1e-300)) ** (1.0 / (power + 2))
         crossovers.append((answered, max(shares, key=lambda j: shares[j], default=0)))
         new = float(np.clip(min(crossovers)[0], least, highest))
-        if abs(new - at) < _SAME * at:
+        if abs(new - at) < THRESHOLDS.cutoff_tolerance * at:
             break
         at = new
     limit, by = min(crossovers)
     joint = None if at >= highest else by
     return NoiseCrossover(at, joint, torques, limit == answered, at <= least > limit)
-
-
-_LEAST_SHARE = 0.1  # of the residual's variance that is taken for the torque's own noise
-_SAME = 0.03

@@ -2,7 +2,7 @@
 
 import dataclasses
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
@@ -20,36 +20,33 @@ from modeler.regression.consistency import (
     discard_contradictions,
     is_position_quieter,
 )
-from modeler.regression.log import Log
-from modeler.regression.motion import CAUSES, HIGHEST, OPEN, Segment, build_segment, compute_edge
-from modeler.regression.motion_noise import (
-    RANDOM_WALK,
-    MotionNoise,
-    Ringing,
-    estimate_motion_bands,
-    estimate_motion_noise,
-    find_ringing,
-)
-from modeler.regression.outliers import (
+from modeler.regression.faults import (
     ChannelScales,
     Defects,
     parse_repairs,
     repair_log,
     select_confirmed,
 )
-from modeler.regression.report import Bands
-from modeler.regression.segments import RawSegment, SplitReport, split_log
-from modeler.regression.settings import ChosenProcessing, Processing
+from modeler.regression.log import Log, RawSegment, SplitReport, split_log
+from modeler.regression.motion import (
+    CAUSES,
+    OPEN,
+    ChosenProcessing,
+    Processing,
+    Segment,
+    build_segment,
+    compute_edge,
+)
+from modeler.regression.motion_noise import (
+    Bands,
+    MotionNoise,
+    Ringing,
+    estimate_motion_bands,
+    estimate_motion_noise,
+    find_ringing,
+)
+from modeler.regression.thresholds import THRESHOLDS
 from modeler.runtime import CompiledModel
-
-LARGEST = 1e12
-"""Positions, velocities, accelerations and torques above are damage, not measurements."""
-
-ANSWERS = 0.5
-"""Coherence of a torque with a position that rings."""
-
-PARALLEL_BANDS = 4.0
-LEAST_PARALLEL = 5.0  # Hz
 
 
 @dataclass(frozen=True, eq=False)
@@ -117,25 +114,21 @@ class PreparedLogs(ShortRepr):
         raise DataError(
             f"no more than {(len(longest.time) - 1) * longest.step:.2g} s without a gap; expected "
             f"more than {2.0 * compute_edge(longest, chosen) * longest.step:.2g} s: the ends are "
-            "lost "
-            f"to the {chosen.position_cutoff:g} Hz low-pass of the positions; record longer motions"
+            f"lost to the {chosen.position_cutoff:g} Hz low-pass of the positions; record longer "
+            "motions"
         )
 
     def drop_commands(self) -> "PreparedLogs":
-        """Without commanded positions, of which rows of torques know nothing."""
+        """Returns without commanded positions, of which rows of torques know nothing."""
         logs = tuple(
-            dataclasses.replace(
-                log, pieces=tuple(dataclasses.replace(p, commanded=None) for p in log.pieces)
-            )
+            dataclasses.replace(log, pieces=tuple(replace(p, commanded=None) for p in log.pieces))
             for log in self.logs
         )
         return dataclasses.replace(self, logs=logs)
 
     def set_cutoffs(self, position: float, parallel: float) -> "PreparedLogs":
-        """With other filters."""
-        chosen = dataclasses.replace(
-            self.processing, position_cutoff=position, parallel_cutoff=parallel
-        )
+        """Returns with other filters."""
+        chosen = replace(self.processing, position_cutoff=position, parallel_cutoff=parallel)
         return dataclasses.replace(self, processing=chosen)
 
 
@@ -158,7 +151,7 @@ class LogRepair(ShortRepr):
         return {}
 
     def get_repaired(self, run: int, processing: Processing) -> tuple[Log, Defects, ChannelScales]:
-        """What `repair_log` makes of a log, with the repairs that a fit confirmed."""
+        """Returns what `repair_log` makes of a log, with the repairs that a fit confirmed."""
         log, spec = self.logs[run], self.spec
         key = run, select_confirmed(processing.repairs_of(log.name))
         if key not in self._repaired_logs:
@@ -167,7 +160,7 @@ class LogRepair(ShortRepr):
         return self._repaired_logs[key]
 
     def cut_logs(self, processing: Processing) -> "CutLogs":
-        """The logs in pieces; what is known of them as long as nothing is filtered."""
+        """Returns the logs in pieces; what is known of them as long as nothing is filtered."""
         used = tuple(_has_speeds(log, processing) for log in self.logs)
         key = processing.keep_damaged, used, select_confirmed(processing.repairs or {})
         if key not in self._cut_by_choice:
@@ -225,7 +218,7 @@ class CutLogs(ShortRepr):
 def prepare_logs(
     spec: ModuleSpec, logs: Sequence[Log], processing: Processing, repair: LogRepair | None = None
 ) -> PreparedLogs:
-    """Mend, split and resample; the noise of the motion, and the cut-offs that it asks for.
+    """Returns mend, split and resample; the noise of the motion, and the cut-offs that it asks for.
 
     Args:
         spec: the robot's manifest.
@@ -254,28 +247,24 @@ def prepare_logs(
     noisy = processing.derivatives == "auto" and is_position_quieter(rated, chosen.position_cutoff)
     steps, prepared = [joint.step for joint in positions.joints], []
     for run, (log, (log_pieces, cuts)) in enumerate(zip(logs, seen.cut, strict=True)):
-        _, damage, channel_scales = repair.get_repaired(run, processing)
+        _, damage, scales = repair.get_repaired(run, processing)
         used_pieces, check, source = _choose_derivatives(log, log_pieces, chosen, noisy)
         # what is left of rows that repeat comes unevenly, as it was stamped
         own_spectra = [s for p, s in zip(pieces, seen.spectra, strict=True) if p.run == run]
-        rings = (
-            [] if channel_scales.repeats else find_ringing_joints(own_spectra, steps, log_pieces)
-        )
-        rings = [ring for ring in rings if channel_scales.held["q"][ring.joint] == 1]
+        rings = [] if scales.repeats else find_ringing_joints(own_spectra, steps, log_pieces)
+        rings = [ring for ring in rings if scales.held["q"][ring.joint] == 1]
         said = tuple(ring.describe(spec.joints[ring.joint].name) for ring in rings)
         repairs = processing.repairs_of(log.name)
-        prepared.append(
-            PreparedLog(used_pieces, cuts, source, check, said, damage, channel_scales, repairs)
-        )
+        entry = PreparedLog(used_pieces, cuts, source, check, said, damage, scales, repairs)
+        prepared.append(entry)
     pieces = [piece for log in prepared for piece in log.pieces]
     has_logged_speeds = all(piece.qd is not None for piece in pieces)
-    noise = (
-        estimate_motion_noise(spec.joints, pieces, seen.bands) if has_logged_speeds else positions
-    )
+    noise = positions
+    if has_logged_speeds:
+        noise = estimate_motion_noise(spec.joints, pieces, seen.bands)
     chosen, choices = choose_cutoffs(processing, pieces, noise)
-    return PreparedLogs(
-        chosen, choices, tuple(prepared), noise, compute_visible_band(noise.band, pieces)
-    )
+    band = compute_visible_band(noise.band, pieces)
+    return PreparedLogs(chosen, choices, tuple(prepared), noise, band)
 
 
 def _has_speeds(log: Log, processing: Processing) -> bool:
@@ -285,7 +274,7 @@ def _has_speeds(log: Log, processing: Processing) -> bool:
 def _choose_derivatives(
     log: Log, pieces: tuple[RawSegment, ...], processing: ChosenProcessing, noisy: bool
 ) -> tuple[tuple[RawSegment, ...], DerivativeCheck | None, str]:
-    """The pieces of a log with the logged velocities that are used; their check, and their source.
+    """Returns the pieces of a log with the velocities that are used; their check, and their source.
 
     Args:
         log: mended.
@@ -297,10 +286,15 @@ def _choose_derivatives(
     if _has_speeds(log, processing):
         check = check_derivatives(log, pieces, processing.parallel_cutoff, refuse=not keep)
     auto = processing.derivatives == "auto" and not keep
-    wrong = [
-        name for name, q, qd in zip(log.joints, log.q.T, log.qd.T, strict=True)
-        if not is_derivative(q, qd, log.time)
-    ] if auto and check is not None and log.qd is not None else []  # fmt: skip
+    wrong = (
+        [
+            name
+            for name, q, qd in zip(log.joints, log.q.T, log.qd.T, strict=True)
+            if not is_derivative(q, qd, log.time)
+        ]
+        if auto and check is not None and log.qd is not None
+        else []
+    )
     late = check is not None and check.is_harmful and auto
     if check is not None and not noisy and not late and not wrong:
         source = "qd and qdd as logged" if log.qdd is not None else "qd as logged, qdd from it"
@@ -318,7 +312,7 @@ def _choose_derivatives(
 def exclude_contradicted(
     pieces: Sequence[RawSegment], check: DerivativeCheck
 ) -> tuple[RawSegment, ...]:
-    """The pieces without their contradicted samples: an acceleration enters every torque.
+    """Returns the pieces without their contradicted samples: an acceleration enters every torque.
 
     Where accelerations come from the logged velocities, the filter carries a wrong velocity as far
     as its start-up reaches: like a bridge, it takes its surroundings with it.
@@ -330,7 +324,7 @@ def exclude_contradicted(
 
 
 def check_logs(spec: ModuleSpec, logs: Sequence[Log], processing: Processing) -> None:
-    """Refuse what is no log of this robot.
+    """Refuses what is no log of this robot.
 
     Raises:
         DataError: no logs, of another robot, impossible values, or none of logged speeds.
@@ -355,7 +349,7 @@ def check_logs(spec: ModuleSpec, logs: Sequence[Log], processing: Processing) ->
 def _check_nyquist(
     logs: Sequence[Log], pieces: Sequence[RawSegment], processing: Processing
 ) -> None:
-    """A filter above half the sampling rate does not exist; one that is not needed may be any."""
+    """Checks that the position filter is below half the sampling rate, where it is needed."""
     cutoff = processing.position_cutoff or 0.0
     for piece in pieces:
         rate = 1.0 / piece.step
@@ -372,7 +366,7 @@ def _check_nyquist(
 def _check_windows(
     logs: Sequence[Log], pieces: Sequence[RawSegment], processing: Processing
 ) -> None:
-    """A filter that averages over more than the motion leaves one row of it, however long it takes.
+    """Checks that no filter averages over more than the motion, which would leave one row of it.
 
     The longest piece holds at least a period of either cut-off, and two rows.
     """
@@ -397,7 +391,7 @@ def _check_windows(
 
 
 def check_size(log: Log, spec: ModuleSpec) -> None:
-    """No robot has such values, and their squares overflow.
+    """Returns no robot has such values, and their squares overflow.
 
     Raises:
         DataError: names the largest.
@@ -407,18 +401,18 @@ def check_size(log: Log, spec: ModuleSpec) -> None:
         if values is None or not np.isfinite(values).any():
             continue
         row, j = np.unravel_index(int(np.nanargmax(np.abs(values))), values.shape)
-        if abs(values[row, j]) > LARGEST:
+        if abs(values[row, j]) > THRESHOLDS.max_value:
             raise DataError(
                 f"{log.name}: {label} of joint {spec.joints[j].name} is {values[row, j]:.3g} at "
-                f"{log.time[row]:.6g} s; expected at most {LARGEST:g} in SI units; repair the log, "
-                "or leave the entry empty"
+                f"{log.time[row]:.6g} s; expected at most "
+                f"{THRESHOLDS.max_value:g} in SI units; repair the log, or leave the entry empty"
             )
 
 
 def estimate_joint_bands(
     pieces: Sequence[RawSegment], spectra: Sequence[MotionSpectrum]
 ) -> np.ndarray:
-    """(J,) Hz below which 99 % of each velocity's energy lies; NaN of a joint at rest.
+    """Returns (J,) Hz below which 99 % of each velocity's energy lies; NaN of a joint at rest.
 
     The median over the pieces in which the joint moves, by their lengths.
 
@@ -427,9 +421,8 @@ def estimate_joint_bands(
         spectra: of their positions.
     """
     lengths = np.array([len(piece.time) * piece.step for piece in pieces])
-    piece_bands = np.stack(
-        [estimate_motion_bands(*pair) for pair in zip(pieces, spectra, strict=True)]
-    )
+    pairs = zip(pieces, spectra, strict=True)
+    piece_bands = np.stack([estimate_motion_bands(*pair) for pair in pairs])
     bands = np.full(piece_bands.shape[1], np.nan)
     for j, joint_values in enumerate(piece_bands.T):
         moved = np.isfinite(joint_values)
@@ -439,7 +432,7 @@ def estimate_joint_bands(
 
 
 def estimate_position_noise(seen: Positions | None) -> MotionNoise | None:
-    """The noise of the positions of a log whose robot is not known; None without motion.
+    """Returns the noise of the positions of a log whose robot is not known; None without motion.
 
     Args:
         seen: as logged; rows whose time repeats or goes back are left out.
@@ -459,32 +452,31 @@ def estimate_position_noise(seen: Positions | None) -> MotionNoise | None:
     pieces, _ = split_log(Log("", seen.names, time[rises], q, np.zeros_like(q)), 0, False)
     if not pieces:
         return None
-    noise = estimate_motion_noise(
-        joints, pieces, estimate_joint_bands(pieces, compute_spectra(pieces))
-    )
-    return noise.take_last_floors(lambda joint: joint.colour > RANDOM_WALK)
+    bands = estimate_joint_bands(pieces, compute_spectra(pieces))
+    noise = estimate_motion_noise(joints, pieces, bands)
+    return noise.take_last_floors(lambda joint: joint.colour > THRESHOLDS.max_noise_slope)
 
 
 def compute_visible_band(band: float, pieces: Sequence[RawSegment]) -> float:
-    """Hz of the fastest joint, as the window of a piece shows it: 2/T at least."""
+    """Returns hz of the fastest joint, as the window of a piece shows it: 2/T at least."""
     lengths = np.array([len(piece.time) * piece.step for piece in pieces])
     return float(np.hypot(band, 2.0 / compute_weighted_median(lengths, lengths)))
 
 
 def drop_speeds(piece: RawSegment) -> RawSegment:
-    """The piece with its velocities to be taken from the positions."""
+    """Returns the piece with its velocities to be taken from the positions."""
     return dataclasses.replace(piece, qd=None, qdd=None)
 
 
 def compute_spectra(pieces: Sequence[RawSegment]) -> list[MotionSpectrum]:
-    """The spectrum of each piece's positions."""
+    """Returns the spectrum of each piece's positions."""
     return [compute_motion_spectrum(piece.q, piece.step) for piece in pieces]
 
 
 def find_ringing_joints(
     spectra: Sequence[MotionSpectrum], steps: Sequence[float], pieces: Sequence[RawSegment]
 ) -> list[Ringing]:
-    """Joints that ring in the longest of some pieces, by more than the steps of their encoders.
+    """Returns joints that ring in the longest of some pieces, by more than their encoders' steps.
 
     A joint that passes count after count shows lines too, but none that are as large as a few
     counts; and torque answers to a controller that oscillates.
@@ -496,9 +488,8 @@ def find_ringing_joints(
     """
     if not spectra:
         return []
-    longest, piece = max(
-        zip(spectra, pieces, strict=True), key=lambda energy: len(energy[0].frequency)
-    )
+    pairs = zip(spectra, pieces, strict=True)
+    longest, piece = max(pairs, key=lambda pair: len(pair[0].frequency))
     speed = longest.power_above_noise * longest.frequency[:, None] ** 2
     rings = []
     for j, energy in enumerate(speed.T):
@@ -508,7 +499,7 @@ def find_ringing_joints(
             continue
         if (
             estimate_coherence(piece.q[:, j], piece.tau[:, j], ring.frequency * piece.step)
-            > ANSWERS
+            > THRESHOLDS.min_ringing_coherence
         ):
             rings.append(ring)
     return rings
@@ -517,7 +508,7 @@ def find_ringing_joints(
 def choose_cutoffs(
     processing: Processing, pieces: Sequence[RawSegment], noise: MotionNoise
 ) -> tuple[ChosenProcessing, tuple[str, ...]]:
-    """The processing with the widest cut-offs that the motion asks for, and what it was chosen by.
+    """Returns the processing with the widest cut-offs that the motion needs, and their reasons.
 
     Parallel filter: 4 times the motion band of the fastest joint, at least 5 Hz. Position filter:
     where the spectrum of the positions meets their noise, at most 80 Hz, never less than 5 bands
@@ -543,10 +534,13 @@ def choose_cutoffs(
             f"joint{'' if one else 's'} {', '.join(rest)} rest{'s' if one else ''}: not counted in "
             "the motion band"
         )
-    given_cutoff, highest = processing.position_cutoff, HIGHEST * slowest
+    given_cutoff, highest = processing.position_cutoff, THRESHOLDS.max_cutoff_share * slowest
     parallel = processing.parallel_cutoff
     if parallel is None:
-        parallel = min(max(LEAST_PARALLEL, PARALLEL_BANDS * band), 0.5 * (given_cutoff or highest))
+        parallel = min(
+            max(THRESHOLDS.min_widest_parallel, THRESHOLDS.parallel_bands * band),
+            0.5 * (given_cutoff or highest),
+        )
         parallel = round_to_two_digits(parallel)
     logged = all(piece.qdd is not None for piece in pieces)
     position = given_cutoff
@@ -559,9 +553,8 @@ def choose_cutoffs(
             f"{fastest.joint}, {band:.3g} Hz: accelerations are damped; "
             f"{better if given_cutoff is None else higher}"
         )
-    automatic = [
-        n for n in ("position_cutoff", "parallel_cutoff") if getattr(processing, n) is None
-    ]
+    names = ("position_cutoff", "parallel_cutoff")
+    automatic = [name for name in names if getattr(processing, name) is None]
     choices = {
         "position_cutoff": position,
         "parallel_cutoff": parallel,
@@ -572,7 +565,7 @@ def choose_cutoffs(
 
 
 def round_to_two_digits(value: float) -> float:
-    """As it is told, and used."""
+    """Returns as it is told, and used."""
     return float(f"{value:.2g}")
 
 
@@ -583,12 +576,8 @@ def round_to_two_digits(value: float) -> float:
 # that everything that is evaluated along a log goes through, and their rows do not count.
 
 
-FEWEST = 0.1
-"""Where a smaller share of the samples closes, the model is of another machine or other units."""
-
-
 def find_nearest_closed(model: CompiledModel, *postures: np.ndarray) -> np.ndarray | None:
-    """(n,) the nearest sample, in time, whose postures all close; its own place where its own do.
+    """Returns (n,) the nearest sample, in time, whose postures all close the loops.
 
     Args:
         model: the compiled robot.
@@ -613,7 +602,7 @@ def find_nearest_closed(model: CompiledModel, *postures: np.ndarray) -> np.ndarr
 def close_segments(
     model: CompiledModel, logs: Sequence[Log], segments: Sequence[Segment]
 ) -> tuple[tuple[Segment, ...], tuple[tuple[float, ...], ...]]:
-    """The segments with another posture where theirs does not close, and those times of each log.
+    """Returns the segments with another posture where theirs does not close, and those times.
 
     Raises:
         LoopError: fewer than a tenth of the samples close; says how many, and where the first.
@@ -624,7 +613,7 @@ def close_segments(
         times[segment.run] += tuple(segment.time[open_ & segment.whole].tolist())
     whole = sum(int(segment.whole.sum()) for segment in segments)
     count = sum(len(open_times) for open_times in times)
-    if count > (1.0 - FEWEST) * whole:
+    if count > (1.0 - THRESHOLDS.min_closed_share) * whole:
         run = next(run for run, open_times in enumerate(times) if open_times)
         first = times[run][0]
         segment = next(s for s in segments if s.run == run and first in s.time)
@@ -639,7 +628,7 @@ def close_segments(
 
 
 def close_segment(model: CompiledModel, segment: Segment) -> tuple[Segment, np.ndarray]:
-    """The segment with postures that close the loops, and (n,) True where its own does not."""
+    """Returns the segment with postures that close the loops, and (n,) True where it changed."""
     if model.spec.closure is None:
         return segment, np.zeros(segment.samples, dtype=bool)
     nearest = find_nearest_closed(model, segment.q)

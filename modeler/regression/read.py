@@ -22,15 +22,13 @@ from modeler.logs import (
     open_blocks,
 )
 from modeler.regression.log import MOST_WHOLE, Log, compute_fingerprint
+from modeler.regression.thresholds import THRESHOLDS
 
-_SLOW_STEP = 0.2  # s; a median step above it is more likely a time column in ms
 _SHORTEST_STEP, _LONGEST_STEP = 1e-7, 1e7  # s; beyond, squares of it say nothing any more
-_WHOLE_DUTY = 1.2  # share of the supply; a little more is noise of a converter
-_FAR = 30.0  # rad; nearly five turns: more likely degrees
 
 
 def read_log(path: str | Path, spec: ModuleSpec, mapping: LogMap | None = None) -> Log:
-    """The `Log` of one file; columns `time`, `q<j>`, optional `qd<j> qdd<j> qc<j>`, `tau<j>`.
+    """Reads the `Log` of one file; columns `time`, `q<j>`, optional `qd<j> qdd<j> qc<j>`, `tau<j>`.
 
     The torque of a joint is `tau<j>` if the log has it, else `current<j>` times the drive gain of
     the robot file, else that of the current that `duty<j>` makes, (duty voltage - k_e qd) / R. A
@@ -59,7 +57,7 @@ def read_log(path: str | Path, spec: ModuleSpec, mapping: LogMap | None = None) 
 def read_log_in_memory(
     data: InMemory, spec: ModuleSpec, mapping: LogMap | None = None, where: str = "log"
 ) -> Log:
-    """The same of a frame or a dict of arrays; it is named after what it holds.
+    """Reads a frame or a dict of arrays as a `Log`; it is named after what it holds.
 
     Args:
         data: it.
@@ -77,13 +75,13 @@ def read_log_in_memory(
 def build_table(
     data: InMemory, joints: Sequence[JointSpec], mapping: LogMap | None, where: str
 ) -> LogTable:
-    """Its columns under our names."""
+    """Returns its columns under our names."""
     columns = build_frame_columns(data, where, joints)
     return LogTable(Path(where), mapping, joints, part=columns, whole=True)
 
 
 def read_whole_log(table: LogTable, spec: ModuleSpec) -> Log:
-    """All rows of a log, with what only they can tell.
+    """Returns all rows of a log, with what only they can tell.
 
     Raises:
         DataError: as `read_log`.
@@ -97,7 +95,7 @@ def read_whole_log(table: LogTable, spec: ModuleSpec) -> Log:
 
 
 def build_log(table: LogTable, spec: ModuleSpec, measured: bool = True) -> Log:
-    """The rows of a table as a log, each looked at by itself.
+    """Returns the rows of a table as a log, each looked at by itself.
 
     Args:
         table: its columns.
@@ -108,11 +106,7 @@ def build_log(table: LogTable, spec: ModuleSpec, measured: bool = True) -> Log:
         DataError: as `read_log` does, but for what only a whole log can tell.
     """
     time = _read_time(table)
-    reading_notes: list[str] = [
-        *table.reading_notes,
-        *table.notes,
-        *_check_induced_voltage(table, spec),
-    ]
+    reading_notes = [*table.reading_notes, *table.notes, *_check_induced_voltage(table, spec)]
     positions = []
     for joint in spec.joints:
         if f"q{joint.name}" not in table and not joint.actuated:
@@ -145,14 +139,15 @@ def build_log(table: LogTable, spec: ModuleSpec, measured: bool = True) -> Log:
 
 
 def find_needed_columns(table: LogTable, spec: ModuleSpec) -> list[str]:
-    """The file's names of the columns that a fit of these joints reads."""
+    """Returns the file's names of the columns that a fit of these joints reads."""
     used = _collect_names(spec) | {"time", "segment"}
     return [
         table.find_file_column(name)
         for name in table.names
-        if (name in used or name.startswith("temperature")) and table.is_numeric(name)
+        if (name in used or name.startswith("temperature"))
+        and table.is_numeric(name)
         and not (name == "time" and table.rated)
-    ]  # fmt: skip
+    ]
 
 
 def _read_time(table: LogTable) -> np.ndarray:
@@ -166,9 +161,8 @@ def _read_time(table: LogTable) -> np.ndarray:
     back = np.flatnonzero(np.diff(time) <= 0.0)
     if back.size:
         row = int(back[0]) + 1
-        channels = (
-            table.read_numbers(n) for n in table.names if n != "time" and table.is_numeric(n)
-        )
+        numeric = [name for name in table.names if name != "time" and table.is_numeric(name)]
+        channels = (table.read_numbers(name) for name in numeric)
         if coarse := describe_coarse_clock(time, channels):
             raise DataError(f"{table.path}: column {name}, row {table.before + row + 1}: {coarse}")
         raise build_time_error(table, table.before + row, time[row - 1], time[row])
@@ -183,7 +177,7 @@ def _read_time(table: LogTable) -> np.ndarray:
 
 
 def build_time_error(table: LogTable, row: int, before: float, time: float) -> DataError:
-    """The error of a row, counted from 0, whose time is not after the one before it."""
+    """Returns the error of a row, counted from 0, whose time is not after the one before it."""
     remedy = "sort the file, or split it where the clock restarts"
     if time == before:
         remedy = "delete rows written twice; if times are rounded, give the rate, --map rate=HZ"
@@ -196,7 +190,7 @@ def build_time_error(table: LogTable, row: int, before: float, time: float) -> D
 def _read_torque(
     table: LogTable, joint: JointSpec, spec: ModuleSpec
 ) -> tuple[np.ndarray, str, float]:
-    """Its torque, where that comes from, and the torque per speed that is to be taken from it."""
+    """Returns its torque, the source of that, and the torque per speed to be taken from it."""
     tau, current, duty = (f"{kind}{joint.name}" for kind in ("tau", "current", "duty"))
     if tau in table:
         return table.read_measured(tau), table.describe_source(tau), 0.0
@@ -225,7 +219,7 @@ def _read_torque(
 def _compute_duty_torque(
     table: LogTable, joint: JointSpec, spec: ModuleSpec
 ) -> tuple[np.ndarray, str, float]:
-    """The torque gain (duty voltage - k_e qd) / R of a joint, its last term apart."""
+    """Returns the torque gain (duty voltage - k_e qd) / R of a joint, its last term apart."""
     duty, voltage, drive = f"duty{joint.name}", f"voltage{joint.name}", joint.drive
     if drive is None or joint.drive_gain is None:
         raise DataError(
@@ -244,16 +238,18 @@ def _compute_duty_torque(
 
 
 def _find_duty_joints(table: LogTable, spec: ModuleSpec) -> list[JointSpec]:
-    """Joints whose torque comes of a duty."""
+    """Returns joints whose torque comes of a duty."""
     return [
-        joint for joint in spec.joints
-        if joint.drive and f"duty{joint.name}" in table
+        joint
+        for joint in spec.joints
+        if joint.drive
+        and f"duty{joint.name}" in table
         and not {f"tau{joint.name}", f"current{joint.name}"} & {*table.names}
-    ]  # fmt: skip
+    ]
 
 
 def _check_duties(table: LogTable, spec: ModuleSpec) -> list[str]:
-    """Sentences on duties that are no shares of 1."""
+    """Returns sentences on duties that are no shares of 1."""
     names = [f"duty{joint.name}" for joint in _find_duty_joints(table, spec)]
     largest = {n: float(np.nanmax(np.abs(table.read_measured(n)), initial=0.0)) for n in names}
     return [
@@ -261,22 +257,23 @@ def _check_duties(table: LogTable, spec: ModuleSpec) -> list[str]:
         "%? "
         f"say so in [log] or with --map"
         for name, value in largest.items()
-        if value > _WHOLE_DUTY
+        if value > THRESHOLDS.max_duty
     ]
 
 
 def _check_induced_voltage(table: LogTable, spec: ModuleSpec) -> list[str]:
-    """What is told where a voltage model has no k_e."""
-    names = [
-        joint.name
-        for joint in _find_duty_joints(table, spec)
-        if joint.drive and not joint.drive.k_e
-    ]
+    """Returns what is told where a voltage model has no k_e."""
+    joints = _find_duty_joints(table, spec)
+    names = [joint.name for joint in joints if joint.drive and not joint.drive.k_e]
     what = f"joint{'s' * (len(names) > 1)} {', '.join(names)}"
-    return [
-        f"{what}: without k_e in [drives], what the motor induces is part of the viscous friction "
-        "(from duties alone both cannot be told apart)"
-    ] if names else []  # fmt: skip
+    return (
+        [
+            f"{what}: without k_e in [drives], the back-EMF is part of the viscous friction "
+            "(from duties alone both cannot be told apart)"
+        ]
+        if names
+        else []
+    )
 
 
 def _read_optional(
@@ -330,7 +327,7 @@ def _read_extra(
 def _interpolate_temperatures(
     table: LogTable, extra: dict[str, np.ndarray], reading_notes: list[str]
 ) -> dict[str, np.ndarray]:
-    """Temperatures, which are slow: between logged values they are taken from a straight line."""
+    """Returns temperatures, which are slow: interpolated linearly between logged values."""
     temperatures = {}
     for name, values in extra.items():
         logged = np.isfinite(values)
@@ -368,7 +365,7 @@ class ChannelRanges:
 
     @staticmethod
     def compute_from(log: Log) -> "ChannelRanges":
-        """Of some rows."""
+        """Returns the ranges of some rows."""
         channels = (log.q, log.tau)
         there = np.stack([np.isfinite(values).sum(axis=0) for values in channels])
         low = np.stack([np.fmin.reduce(values, axis=0) for values in channels])
@@ -381,7 +378,7 @@ class ChannelRanges:
         return tuple(zip(self.low[1].tolist(), self.high[1].tolist(), strict=True))
 
     def merged_with(self, other: "ChannelRanges") -> "ChannelRanges":
-        """Of the rows of both."""
+        """Returns the ranges of the rows of both."""
         return ChannelRanges(
             self.values + other.values,
             np.minimum(self.low, other.low),
@@ -389,20 +386,20 @@ class ChannelRanges:
         )
 
     def collect_warnings(self, step: float, spec: ModuleSpec) -> list[str]:
-        """Sentences on units and dead channels; usable, so no error."""
+        """Returns sentences on units and dead channels; usable, so no error."""
         warnings = []
-        if step > _SLOW_STEP:
+        if step > THRESHOLDS.max_plain_step:
             warnings.append(f"median time step {step:.3g} s: is the column in seconds?")
         span = self.high - self.low
         for index, joint in enumerate(spec.joints):
-            if joint.kind == "revolute" and span[0, index] > _FAR:
+            if joint.kind == "revolute" and span[0, index] > THRESHOLDS.max_plain_span:
                 warnings.append(f"q{joint.name} spans {span[0, index]:.4g}: is it in rad?")
             if joint.actuated and span[1, index] == 0.0:
                 warnings.append(f"the torque of joint {joint.name} never changes: is it connected?")
         return warnings
 
     def check_values(self, path: Path, spec: ModuleSpec) -> None:
-        """Refuse a log without measurements.
+        """Refuses a log without measurements.
 
         Raises:
             DataError: a channel has no values, or every torque is 0.
@@ -425,7 +422,6 @@ class ChannelRanges:
 
 
 _COLUMNS = ("time", "q", "tau", "qd", "qdd", "commanded", "segment")
-_FIRST = 1000  # rows that tell which columns a file has
 
 
 class FileSource:
@@ -442,7 +438,7 @@ class FileSource:
     def __init__(
         self, path: Path, blocks: Blocks, spec: ModuleSpec, mapping: LogMap | None = None
     ) -> None:
-        """Looks at the first rows: which columns there are.
+        """Inspects at the first rows: which columns there are.
 
         Raises:
             DataError: the file is damaged, or lacks a column.
@@ -450,13 +446,13 @@ class FileSource:
         self.name, self.place, self.content = path.name, (path, mapping), ""
         self.rows, self.exact = blocks.rows, isinstance(blocks, ParquetBlocks)
         self._blocks, self._spec = blocks, spec
-        table = self._build_table(blocks.read_window(0.0, _FIRST))
+        table = self._build_table(blocks.read_window(0.0, THRESHOLDS.header_rows))
         whole = build_log(table, spec)
         self._notes, self._how = whole.notes, whole.reading_notes
         self._names = find_needed_columns(table, spec)
 
     def read_blocks(self, size: int) -> Iterator[Log]:
-        """All rows in their order, about `size` at a time.
+        """Yields all rows in their order, about `size` at a time.
 
         Raises:
             DataError: the log is damaged, or its time does not increase.
@@ -471,17 +467,16 @@ class FileSource:
             yield self._add_notes(log, warm)
 
     def read_window(self, share: float, size: int) -> Log:
-        """Up to `size` consecutive rows from about a share of the log on."""
+        """Returns up to `size` consecutive rows from about a share of the log on."""
         columns = self._blocks.read_window(share, size, self._names)
-        return self._add_notes(
-            build_log(self._build_table(columns, int(share * self.rows)), self._spec), {}
-        )
+        table = self._build_table(columns, int(share * self.rows))
+        return self._add_notes(build_log(table, self._spec), {})
 
     def _build_table(self, part: Columns, before: int = 0) -> LogTable:
         return LogTable(*self.place, self._spec.joints, part=part, before=before)
 
     def _add_notes(self, log: Log, last: dict[str, float]) -> Log:
-        """With the notes; slow columns without a value in its rows have the last before them."""
+        """Returns the log with its notes; slow columns without a value keep the last one."""
         extra = {}
         for name, values in log.extra.items():
             if not np.isfinite(values).any():
@@ -503,12 +498,12 @@ class MemorySource:
         self.log, self.name, self.rows, self.content = log, log.name, log.rows, log.content
 
     def read_blocks(self, size: int) -> Iterator[Log]:
-        """All rows in their order."""
+        """Yields all rows in their order."""
         for first in range(0, self.rows, size):
             yield cut_rows(self.log, slice(first, first + size))
 
     def read_window(self, share: float, size: int) -> Log:
-        """Some rows."""
+        """Returns some rows of the log."""
         first = max(0, min(int(share * self.rows), self.rows - size))
         return cut_rows(self.log, slice(first, first + size))
 
@@ -518,7 +513,7 @@ Source = FileSource | MemorySource
 
 
 def open_source(path: Path, spec: ModuleSpec, mapping: LogMap | None = None) -> FileSource | None:
-    """The rows of a file that can be read in blocks; None of another format.
+    """Returns the rows of a file that can be read in blocks; None of another format.
 
     Raises:
         DataError: the file is damaged, or lacks a column.
@@ -528,7 +523,7 @@ def open_source(path: Path, spec: ModuleSpec, mapping: LogMap | None = None) -> 
 
 
 def join_logs(logs: Sequence[Log]) -> Log:
-    """Consecutive rows of one log, put together."""
+    """Returns consecutive rows of one log, put together."""
     if len(logs) == 1:
         return logs[0]
     columns: dict[str, Any] = {}
@@ -540,7 +535,7 @@ def join_logs(logs: Sequence[Log]) -> Log:
 
 
 def join_windows(logs: Sequence[Log]) -> Log:
-    """Windows of one log, increasing in time, as a log whose segments they are."""
+    """Returns windows of one log, increasing in time, as a log whose segments they are."""
     numbers, first = [], 0
     for log in logs:
         numbers.append(first + log.piece_number)
@@ -549,7 +544,7 @@ def join_windows(logs: Sequence[Log]) -> Log:
 
 
 def cut_rows(log: Log, rows: slice | np.ndarray) -> Log:
-    """Some rows of a log: consecutive ones, or those of a mask (n,)."""
+    """Returns some rows of a log: consecutive ones, or those of a mask (n,)."""
     whole = {name: getattr(log, name) for name in _COLUMNS}
     parts: dict[str, Any] = {n: v if v is None else v[rows] for n, v in whole.items()}
     extra = {name: values[rows] for name, values in log.extra.items()}

@@ -1,291 +1,484 @@
-"""Pieces of a log on a uniform time grid: filters never run across a gap."""
+"""Shafts with dry friction that all but stand still; inner states of bristles; signals."""
 
 import dataclasses
-from collections.abc import Mapping, Sequence
+import math
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from functools import partial
 
 import numpy as np
+from scipy.sparse import csr_array
 
-from modeler.numerics.held import estimate_channel_noise, estimate_hold_length
-from modeler.numerics.noise import estimate_lattice_step
-from modeler.regression.log import Log
+from modeler.core.brief import ShortRepr
+from modeler.core.errors import DataError, LoopError
+from modeler.numerics.filters import (
+    LEAST_WEIGHT,
+    RowFilter,
+    apply_biquad,
+    build_row_filter,
+    choose_row_spacing,
+)
+from modeler.regression.motion import ChosenProcessing, Segment, dilate_flags
+from modeler.regression.motion_noise import MotionNoise
+from modeler.regression.thresholds import THRESHOLDS
+from modeler.runtime import CompiledModel
 
-JITTER = 0.01
-"""Time stamps off the uniform grid by more than this share of a step are resampled."""
-
-_NEAR = 0.75  # of a step: a grid point farther than this from any measured row is a bridge
-_USUAL = 0.95  # quantile of the steps of an uneven clock ...
-_HALF = 0.51  # ... of which a grid point in the middle of one is no farther
-SHORT = 3
-"""A bridge of up to so many samples is a cubic, as smooth as the motion beside it."""
-
-_LEAST = 4  # samples; the second difference and its neighbours
-
-LEAST_RUN = 5
-QUANTA = 3.0
-SWITCHES = 3
-"""Values of a drive that knows full torque, none, and full torque back: a step is its limit."""
-MOVES = 10.0
-"""Standard deviations of a position's noise that a joint moves while its torque is at a limit."""
+REST_TRAVEL = {"rad": 5e-3, "m": 2e-4}  # a joint that rests in a log, its encoder's steps included
+IDLE_TRAVEL = {"rad": 1e-3, "m": 1e-4}  # less than this over all logs counts as standing still
 
 
-@dataclass(frozen=True, eq=False)
-class RawSegment:
-    """One uniform stretch of a log, before differentiation; n samples.
+@dataclass(frozen=True)
+class FrictionShaft:
+    """A rotating part whose friction leaps when its speed changes sign.
 
     Attributes:
-        run: index of its log.
-        time: (n,) s, uniform.
-        step: s.
-        q, tau: (n, joints).
-        qd, qdd: (n, joints) as logged, or None.
-        extra: further columns, (n,).
-        valid: (n, joints) False where torque or motion was missing and is bridged.
-        bridged: (n,) True where the motion was missing.
-        contradicted: (n,) True where a logged derivative cannot be.
-        clipped: (n, joints) True where the torque was at the drive's limit.
-        resampled: True if the rows were moved to the grid.
-        commanded: (n, joints) positions, or None.
-        induced: (joints,) as of the log.
-        q_step, qd_step: (joints,) steps of resolution as logged; resampling hides them.
+        name: "3", or "5+6" for a motor that turns with two joints.
+        coefficients: (joints,) its speed is coefficients . qd.
+        joints: rows whose torque leaps.
+        unit: "rad" or "m".
     """
 
-    run: int
-    time: np.ndarray
-    step: float
-    q: np.ndarray
-    tau: np.ndarray
-    qd: np.ndarray | None
-    qdd: np.ndarray | None
-    extra: Mapping[str, np.ndarray]
-    valid: np.ndarray
-    bridged: np.ndarray
-    contradicted: np.ndarray
-    clipped: np.ndarray
-    resampled: bool
-    commanded: np.ndarray | None = None
-    induced: tuple[float, ...] = ()
-    q_step: tuple[float, ...] = ()
-    qd_step: tuple[float, ...] = ()
+    name: str
+    coefficients: tuple[float, ...]
+    joints: tuple[int, ...]
+    unit: str
+
+    def compute_speed(self, qd: np.ndarray) -> np.ndarray:
+        """Returns (n,) from joint velocities (n, joints)."""
+        return qd @ np.asarray(self.coefficients)
 
 
-@dataclass(frozen=True, eq=False)
-class SplitReport:
-    """Where splitting cut one log.
+def find_shafts(model: CompiledModel) -> tuple[FrictionShaft, ...]:
+    """Returns the shafts whose columns leap at standstill, found by creeping both ways past it.
 
-    Attributes:
-        gaps: (g,) s, of the rows that a time gap of more than 5 steps ends at.
-        widths: (g,) of those gaps, s.
-        jitter: largest deviation of a step from the median step, as a share of it, gaps apart.
-        short: (k,) s, of rows in pieces too short to differentiate, left out.
+    Each base column's leap is measured while one joint after the other creeps forwards and
+    backwards at 1e-9 rad/s: smooth columns do not leap, whatever effect they belong to. A column
+    leaps for the joints its shaft turns with, by the shaft's coefficient on the rows it acts on.
     """
-
-    gaps: np.ndarray
-    widths: np.ndarray
-    jitter: float
-    short: np.ndarray
-
-
-def split_log(
-    log: Log,
-    run: int,
-    logged_motion: bool,
-    extremes: Sequence[tuple[float, float] | None] | None = None,
-    logged: np.ndarray | None = None,
-) -> tuple[tuple[RawSegment, ...], SplitReport]:
-    """The uniform pieces of a log.
-
-    Cut where `segment` changes and where a step exceeds 5 median steps; rows without a position
-    (or, where used, a logged velocity) are gaps too, bridged when shorter than that. Irregular
-    time stamps are resampled: motion by monotone cubics, which do not overshoot; torque linearly.
-    Bridges of up to 3 samples are cubic splines: a monotone cubic flattens the tops of a motion.
-
-    Args:
-        log: one log.
-        run: its index.
-        logged_motion: logged velocities and accelerations are used.
-        extremes: of each torque in the whole log, of which this is a part; None: it is all of it.
-        logged: (n, joints) torques before they were mended; None: they were not.
-    """
-    motion = [log.q, *(m for m in (log.qd, log.qdd) if logged_motion and m is not None)]
-    rows = np.flatnonzero(np.all([np.isfinite(m).all(axis=1) for m in motion], axis=0))
-    ends = [None] * log.tau.shape[1] if extremes is None else extremes
-    clipped = np.column_stack(
-        [
-            find_saturated(*part)
-            for part in zip(
-                log.tau.T, log.q.T, ends, (log.tau if logged is None else logged).T, strict=True
-            )
-        ]
-    )
-    steps, stamps = np.diff(log.time[rows]), np.diff(log.time)
-    cut = gap = steps > log.gap
-    inside = stamps[stamps <= log.gap]
-    if log.segment is not None:
-        cut = cut | (np.diff(log.segment[rows]) != 0)
-    groups = np.split(rows, np.flatnonzero(cut) + 1)
-    long_groups = [group for group in groups if len(group) >= _LEAST]
-    report = SplitReport(
-        gaps=log.time[rows[1:][gap]],
-        widths=steps[gap],
-        jitter=float(np.max(np.abs(inside / log.step - 1.0))) if inside.size else 0.0,
-        short=log.time[np.concatenate([rows[:0], *(g for g in groups if len(g) < _LEAST)])],
-    )
-    q_step = tuple(map(estimate_lattice_step, log.q.T))
-    qd_step = () if log.qd is None else tuple(map(estimate_lattice_step, log.qd.T))
-    pieces = (_build_piece(log, run, group, clipped, logged_motion) for group in long_groups)
-    return tuple(
-        dataclasses.replace(part, q_step=q_step, qd_step=qd_step) for part in pieces
-    ), report
+    joints = len(model.spec.joints)
+    state = np.tile(_choose_posture(model), (joints, 1))
+    creep = THRESHOLDS.creep_speed * np.eye(joints)
+    still = np.zeros((joints, joints))
+    signals = np.full((joints, len(model.spec.signals)), 0.5) if model.spec.signals else None
+    forwards = model.base_regressor(state, creep, still, signals)
+    backwards = model.base_regressor(state, -creep, still, signals)
+    leap = 0.5 * (forwards - backwards)  # (moved, row, column)
+    shaft_by_coefficients: dict[tuple[float, ...], FrictionShaft] = {}
+    scale = np.max(np.abs(leap), axis=(0, 1))
+    for column in np.flatnonzero(scale > 1e-3):
+        share = leap[:, :, column] / scale[column]
+        rows = tuple(int(j) for j in np.flatnonzero(np.max(np.abs(share), axis=0) > 1e-6))
+        moved = np.flatnonzero(np.max(np.abs(share), axis=1) > 1e-6)
+        coefficients = np.zeros(joints)
+        if len(moved) == 1:
+            coefficients[moved] = 1.0
+        else:  # E^T sign(E qd): the leap on the rows is the shaft's coefficient
+            coefficients[moved] = share[moved[0], moved]
+        key = tuple(round(float(c), 9) for c in coefficients)
+        acted = (
+            rows
+            if key not in shaft_by_coefficients
+            else tuple(sorted({*rows, *shaft_by_coefficients[key].joints}))
+        )
+        names = "+".join(model.spec.joints[j].name for j in moved)
+        unit = model.spec.joints[moved[0]].unit
+        shaft_by_coefficients[key] = FrictionShaft(names, key, acted, unit)
+    return tuple(shaft_by_coefficients.values())
 
 
-def _build_piece(
-    log: Log, run: int, rows: np.ndarray, clipped: np.ndarray, logged_motion: bool
-) -> RawSegment:
-    measured = log.time[rows]
-    samples = max(_LEAST, round((measured[-1] - measured[0]) / log.step) + 1)
-    time = np.linspace(measured[0], measured[-1], samples)
-    step = float(measured[-1] - measured[0]) / (samples - 1)  # of large times, two are too coarse
-    uniform = samples == len(rows) and bool(np.all(np.abs(measured - time) <= JITTER * step))
-    near = np.arange(samples)  # the measured row nearest to each sample
-    if not uniform:
-        near = np.searchsorted(measured, time).clip(1, len(measured) - 1)
-        near -= time - measured[near - 1] < measured[near] - time
-    # Where rows come when they come, what lies between two is no bridge.
-    steps = np.diff(measured)
-    usual = float(np.quantile(steps, _USUAL)) if len(steps) else 0.0
-    beside = max(_NEAR * step, 0.5 * (log.robot_steps or (0.0, 0.0))[1], _HALF * usual)
-    bridged = np.abs(time - measured[near]) > beside
-    short = bridged & ~select_long_runs(bridged, SHORT)
-
-    def on_grid(values: np.ndarray) -> np.ndarray:
-        return values[rows] if uniform else _resample_values(measured, values[rows], time, short)
-
-    def smooth(values: np.ndarray | None, wanted: bool) -> np.ndarray | None:
-        return on_grid(values) if values is not None and wanted else None
-
-    tau, valid = _bridge_torque(time, measured, log.tau[rows], bridged, beside)
-    asked = log.commanded
-    return RawSegment(
-        run=run,
-        time=time,
-        step=step,
-        q=on_grid(log.q),
-        tau=tau,
-        qd=smooth(log.qd, logged_motion),
-        qdd=smooth(log.qdd, logged_motion),
-        extra={name: np.interp(time, measured, v[rows]) for name, v in log.extra.items()},
-        valid=valid,
-        bridged=bridged,
-        contradicted=np.zeros(samples, dtype=bool),
-        clipped=clipped[rows][near],
-        resampled=not uniform,
-        commanded=smooth(asked, asked is not None and bool(np.isfinite(asked[rows]).all())),
-        induced=log.induced,
-    )
-
-
-def _resample_values(
-    measured: np.ndarray, values: np.ndarray, time: np.ndarray, short: np.ndarray
-) -> np.ndarray:
-    """Values at other times: monotone cubics, and within short bridges cubic splines."""
-    from scipy.interpolate import CubicSpline, PchipInterpolator  # they take long to load
-
-    moved = PchipInterpolator(measured, values)(time)
-    if short.any():
-        moved[short] = CubicSpline(measured, values)(time[short])
-    return np.asarray(moved)
-
-
-def select_long_runs(flags: np.ndarray, length: int) -> np.ndarray:
-    """The flags (n,) that stand in runs of more than `length`."""
-    is_long = np.zeros(len(flags), dtype=bool)
-    for start, stop in find_runs(flags):
-        is_long[start:stop] = stop - start > length
-    return is_long
-
-
-def _bridge_torque(
-    time: np.ndarray, measured: np.ndarray, tau: np.ndarray, bridged: np.ndarray, beside: float
-) -> tuple[np.ndarray, np.ndarray]:
-    """Torque on the grid, missing entries bridged linearly; and where it and all else is measured.
-
-    Args:
-        time: (n,) the grid.
-        measured: (m,) time stamps.
-        tau: (m, joints) as measured.
-        bridged: (n,) True where no row was measured near.
-        beside: s, within which a measured value stands for one of the grid.
-    """
-    values = np.zeros((len(time), tau.shape[1]))
-    valid = np.repeat(~bridged[:, None], tau.shape[1], axis=1)
-    for j in range(tau.shape[1]):
-        there = np.isfinite(tau[:, j])
-        if not there.any():
-            valid[:, j] = False
+def _choose_posture(model: CompiledModel) -> np.ndarray:
+    """Returns (joints,) positions, none of them special; with loops as near home as they close."""
+    joints, closure = len(model.spec.joints), model.spec.closure
+    state = np.random.default_rng(1).uniform(0.2, 1.0, joints)
+    if closure is None:
+        return state
+    home = np.asarray(closure.home)[list(closure.given)]
+    for halved in range(THRESHOLDS.home_halvings):
+        near = home + 0.5**halved * (state - home)
+        try:
+            model.coupling(near[None])
+        except LoopError:
             continue
-        stamps = measured[there]
-        values[:, j] = np.interp(time, stamps, tau[there, j])
-        if not there.all():
-            right = np.searchsorted(stamps, time).clip(0, len(stamps) - 1)
-            left = (right - 1).clip(0)
-            distance = np.minimum(np.abs(time - stamps[left]), np.abs(time - stamps[right]))
-            valid[:, j] &= distance <= beside
-    return values, valid
+        return near
+    return home
 
 
-def find_saturated(
-    values: np.ndarray, position: np.ndarray, extremes: tuple[float, float] | None = None,
-    logged: np.ndarray | None = None,
-) -> np.ndarray:  # fmt: skip
-    """Samples at which a torque is clipped; (n,) bool.
+def find_all_shafts(model: CompiledModel) -> tuple[FrictionShaft, ...]:
+    """Returns the shafts, and every joint with a motor that is none of them.
 
-    A run counts when the torque is exactly its largest or smallest value of the whole log for at
-    least 5 samples in a row, and leaps into or out of that run by more than 3 steps of its own
-    resolution. A clean quantised signal rounds its crest one step at a time and is not caught;
-    a torque at rest, which is constant all along, has no leap and is not caught either, and the
-    joint moves in one run at least. A torque that is held is sampled more slowly.
+    For looking at dry friction that the model lacks.
+    """
+    all_shafts, joints = list(find_shafts(model)), model.spec.joints
+    names = {part.name for part in all_shafts}
+    for j, joint in enumerate(joints):
+        if joint.actuated and joint.name not in names:
+            coefficients = tuple(float(i == j) for i in range(len(joints)))
+            all_shafts.append(FrictionShaft(joint.name, coefficients, (j,), joint.unit))
+    return tuple(all_shafts)
+
+
+def compute_speed_floors(
+    processing: ChosenProcessing,
+    parts: Sequence[FrictionShaft],
+    segments: Sequence[Segment],
+    noise: MotionNoise,
+) -> dict[str, float]:
+    """Returns the speed of each shaft below which its rows are masked; infinite at standstill.
+
+    `low_speed` times the shaft's top speed over all logs, which is its 98 % quantile: a short
+    transient (an axis that slams into its first position) must not mask the motion after it. And a
+    step of logged speeds, which are 0 or a step at lower ones.
+    """
+    floors, low = {}, processing.low_speed
+    for part, top in zip(parts, compute_top_speeds(parts, segments, noise), strict=True):
+        step = noise.compute_speed_step(part.coefficients) if low else 0.0
+        floor = (
+            max(low * top, min(step, THRESHOLDS.max_reversal_share * top)) if top else float("inf")
+        )
+        floors[part.name] = processing.speed_floors.get(part.name, floor)
+    return floors
+
+
+def compute_top_speeds(
+    parts: Sequence[FrictionShaft],
+    segments: Sequence[Segment],
+    noise: MotionNoise | None = None,
+    least: Mapping[str, float] = IDLE_TRAVEL,
+) -> list[float]:
+    """Returns 98 % quantile of the speed of each shaft; 0 of one that stands still."""
+    tops = []
+    for part in parts:
+        turned = np.flatnonzero(part.coefficients)
+        if noise is not None and not any(noise.joints[j].moves for j in turned):
+            tops.append(0.0)
+            continue
+        speeds = np.concatenate([np.abs(part.compute_speed(s.qd[s.whole])) for s in segments])
+        travel = np.concatenate([part.compute_speed(s.q[s.whole]) for s in segments])
+        idle = not travel.size or np.ptp(travel) < least[part.unit]
+        tops.append(0.0 if idle else float(np.quantile(speeds, THRESHOLDS.top_speed_quantile)))
+    return tops
+
+
+def compute_wide_floors(
+    processing: ChosenProcessing,
+    parts: Sequence[FrictionShaft],
+    segments: Sequence[Segment],
+    noise: MotionNoise,
+) -> dict[str, float]:
+    """Returns speed of each shaft below which it is near a reversal.
+
+    Whoever leaves that out must find the same parameters; a position filter smears the reversal
+    itself over `PERIODS` of its cut-off.
+    """
+    floors, cutoff = {}, processing.position_cutoff
+    for part, top in zip(parts, compute_top_speeds(parts, segments, noise), strict=True):
+        doubtful = noise.compute_speed_noise(part.coefficients, cutoff)
+        doubtful *= THRESHOLDS.reversal_speed_sigmas
+        floors[part.name] = min(
+            max(THRESHOLDS.reversal_speed_share * top, doubtful),
+            THRESHOLDS.max_reversal_share * top,
+        ) or float("inf")
+    return floors
+
+
+def find_moving_samples(
+    segment: Segment,
+    parts: Sequence[FrictionShaft],
+    floors: Mapping[str, float],
+    margin: float = 0.0,
+) -> np.ndarray:
+    """Returns (n, joints) False where a shaft that acts on the joint is slower than its floor.
+
+    With a margin, s, also so near to such a sample or to a reversal. One that rests has neither.
+    """
+    fast = np.ones(segment.qd.shape, dtype=bool)
+    reach = round(margin / segment.step)
+    for part in parts:
+        if segment.rests and {*np.flatnonzero(part.coefficients)} <= {*segment.rests}:
+            continue  # gravity on it counts
+        speed = part.compute_speed(segment.qd)
+        slow = np.abs(speed) < floors[part.name]
+        if reach:
+            slow[1:] |= np.diff(np.sign(speed)) != 0.0
+            slow = dilate_flags(slow, reach)
+        fast[np.ix_(slow, list(part.joints))] = False
+    return fast
+
+
+def clear_resting_speeds(
+    segments: Sequence[Segment], parts: Sequence[FrictionShaft], still: Sequence[str] = ()
+) -> tuple[Segment, ...]:
+    """Returns the segments without speeds of joints that rest all along a log: noise has no sign.
 
     Args:
-        values: (n,) torque of one joint, NaN where missing.
-        position: (n,) of the joint.
-        extremes: smallest and largest value of the log elsewhere, of which these are a part.
-        logged: (n,) the torque before it was mended: between held samples it is interpolated.
+        segments: of all logs.
+        parts: shafts; those of several joints are left as they are.
+        still: names of those that move in no log.
     """
-    is_saturated = np.zeros(len(values), dtype=bool)
-    if not len(values):
-        return is_saturated
-    low, high = float(np.fmin.reduce(values)), float(np.fmax.reduce(values))
-    if not low < high:
-        return is_saturated
-    ends = [low, high]
-    if extremes is not None:
-        ends = [low] * (low <= extremes[0]) + [high] * (high >= extremes[1])
-    found_runs = [
-        (end, (start, stop))
-        for end in ends
-        for start, stop in find_runs(values == end)
-        if stop - start >= LEAST_RUN
-    ]
-    least = MOVES * estimate_channel_noise(position[np.isfinite(position)]) if found_runs else 0.0
-    moved = {
-        end for end, (start, stop) in found_runs
-        if abs(position[stop - 1] - position[start]) > least
-    }  # fmt: skip
-    if not moved or estimate_hold_length(values if logged is None else logged) >= LEAST_RUN:
-        return is_saturated
-    found_runs = [(end, run) for end, run in found_runs if end in moved]
-    step = estimate_lattice_step(values)
-    resolution = step if len(np.unique(values[np.isfinite(values)])) > SWITCHES else 0.0
-    for extreme, (start, stop) in found_runs:
-        beside = [values[i] for i in (start - 1, stop) if 0 <= i < len(values)]
-        leap = max((abs(extreme - v) for v in beside if np.isfinite(v)), default=0.0)
-        if leap > QUANTA * resolution:
-            is_saturated[start:stop] = True
-    return is_saturated
+    turned = {part.name: np.flatnonzero(part.coefficients) for part in parts}
+    cleared_segments = []
+    for segment in segments:
+        positions = [s.q for s in segments if s.run == segment.run]
+        travel = np.ptp(np.concatenate(positions), axis=0)
+        whole = np.ptp(np.concatenate([s.q for s in segments]), axis=0)
+        joints = tuple(
+            int(j[0])
+            for part in parts
+            if len(j := turned[part.name]) == 1
+            and travel[j[0]] < REST_TRAVEL[part.unit]
+            and (part.name in still or travel[j[0]] < THRESHOLDS.rest_travel_share * whole[j[0]])
+        )
+        if joints:
+            qd, qdd = segment.qd.copy(), segment.qdd.copy()
+            qd[:, joints] = qdd[:, joints] = 0.0
+            segment = dataclasses.replace(segment, qd=qd, qdd=qdd, rests=joints)
+        cleared_segments.append(segment)
+    return tuple(cleared_segments)
 
 
-def find_runs(flags: np.ndarray) -> list[tuple[int, int]]:
-    """[start, stop) of each stretch of True in flags (n,)."""
-    edges = np.flatnonzero(np.diff(flags.astype(np.int8), prepend=0, append=0)).tolist()
-    return list(zip(edges[::2], edges[1::2], strict=True))
+# Inner states along measured positions, as `advance` of the C steps them.
+
+
+def compute_bristle_state(q: np.ndarray, distance: float) -> np.ndarray:
+    """Returns (n,) the state z of Dahl's friction along positions q (n,), from z = sign v.
+
+    z' = (v/d)(1 - z sign v): between reversals z = s + (z0 - s) exp(-travel/d), s = sign v.
+    """
+    step = np.diff(q)
+    if not step.any():
+        return np.zeros(len(q))
+    direction = _carry_direction(np.sign(step))
+    begins = np.concatenate([[0], np.flatnonzero(np.diff(direction)) + 1])
+    lengths = np.diff(np.append(begins, len(step)))
+    travel = np.abs(q[1:] - np.repeat(q[begins], lengths))
+    left = np.exp(-travel / distance)
+    way, remaining = direction[begins], left[begins + lengths - 1]
+    apart = np.empty(len(begins))  # z - s at each turn
+    before = float(direction[0])
+    for k, (s, share) in enumerate(zip(way.tolist(), remaining.tolist(), strict=True)):
+        apart[k] = before - s
+        before = s + (before - s) * share
+    return np.concatenate([direction[:1], direction + np.repeat(apart, lengths) * left])
+
+
+def compute_time_since_reversal(
+    q: np.ndarray, step: float, back: float
+) -> tuple[np.ndarray, np.ndarray]:
+    """Returns direction and s since the joint last turned back, along positions q (n,); each (n,).
+
+    It has turned once it has come back by more than `back`, which takes twice as long at constant
+    acceleration as at the speed that it has then; before the first time, s since the start. The
+    sign of the direction is the way it goes; its size is 1 less the share of `back` come back.
+    """
+    way, since = np.zeros(len(q)), step * np.arange(len(q))
+    far = np.flatnonzero(np.abs(q - q[0]) > back)
+    if not len(far):
+        return way, since
+    way[0] = direction = float(np.sign(q[far[0]] - q[0]))
+    ago = 0.0
+    for k, share in enumerate((np.diff(q) / back).tolist(), start=1):
+        moved, ago = direction + share, ago + step
+        if moved * direction < 0.0:
+            ago = min(ago, 2.0 * (1.0 + abs(moved)) * step / abs(share))
+            direction = math.copysign(1.0, moved)
+        else:
+            direction = min(1.0, max(-1.0, moved))
+        way[k], since[k] = direction, ago
+    return way, since
+
+
+def apply_lag(x: np.ndarray, step: float, tau: float) -> np.ndarray:
+    """Returns (n,) z of z' = (x - z)/tau along x (n,) at even steps, s; at rest at first."""
+    decay = math.exp(-step / tau)
+    driven = np.append(0.0, (1.0 - decay) * (0.5 * (x[1:] + x[:-1]) - x[0]))
+    forward, back = np.array([1.0, 0, 0]), np.array([1.0, -decay, 0])
+    return np.asarray(x[0] + apply_biquad(driven, forward, back))
+
+
+def _carry_direction(direction: np.ndarray) -> np.ndarray:
+    """Returns zeros replaced by the last direction before them, at the start by the first after."""
+    known = np.flatnonzero(direction)
+    place = np.searchsorted(known, np.arange(len(direction)), side="right") - 1
+    return direction[known[np.maximum(place, 0)]]
+
+
+# What effects of a model read besides the motion, over the samples of a segment.
+
+
+Temperature = Callable[[str], np.ndarray]
+"""(n,) of the joint of that name."""
+
+
+def compute_signals(model: CompiledModel, segment: Segment) -> np.ndarray | None:
+    """Returns (n, m) the input `s` of the model's functions; None if it has none.
+
+    Raises:
+        DataError: a temperature that an effect reads was not logged.
+    """
+    if segment.read is not None:
+        return segment.read
+    motion = segment.q, segment.qd, segment.qdd
+    return compute_signals_along(model, motion, segment.time, partial(_read_temperature, segment))
+
+
+def compute_signals_along(
+    model: CompiledModel, motion: Sequence[np.ndarray], time: np.ndarray, temperature: Temperature
+) -> np.ndarray | None:
+    """Returns (n, m) the same along q, qd, qdd (n, joints) at even times (n,)."""
+    spec = model.spec
+    if not spec.signals:
+        return None
+    names, read = [joint.name for joint in spec.joints], np.zeros((len(time), len(spec.signals)))
+    step = (time[-1] - time[0]) / max(1, len(time) - 1)
+    for k, signal in enumerate(spec.signals):
+        if signal.kind == "time":
+            read[:, k] = time
+        elif signal.kind == "temperature":
+            read[:, k] = temperature(signal.joint)
+        elif signal.kind == "slip":
+            q = motion[0][:, names.index(signal.joint)]
+            read[:, k] = compute_bristle_state(q, signal.value)
+        elif signal.kind == "direction":  # the time since it changed stands after it
+            q = motion[0][:, names.index(signal.joint)]
+            pair = compute_time_since_reversal(q, step, signal.value)
+            read[:, [k, k + 1]] = np.stack(pair, axis=1)
+        elif signal.kind == "followed":  # a step of no length gives it
+            read[:, k] = model.advance(0.0 * motion[0], 0.0, read, *motion)[:, k]
+        elif signal.kind == "lag":
+            read[:, k] = apply_lag(read[:, k - 1], step, signal.value)
+    return read
+
+
+def _read_temperature(segment: Segment, joint: str) -> np.ndarray:
+    for name in (f"temperature{joint}", "temperature"):
+        if name in segment.extra:
+            return segment.extra[name]
+    raise DataError(
+        f"no column temperature{joint} or temperature: an effect of the model on joint {joint} "
+        "depends on it; log it, or take that effect out of the robot file"
+    )
+
+
+@dataclass(frozen=True, eq=False)
+class FilteredSegment(ShortRepr):
+    """A segment, its usable samples and its filter.
+
+    Attributes:
+        segment: full-rate motion and torque.
+        usable: (samples, joints) samples that count.
+        rows: the parallel filter.
+        used: (rows, joints) rows with enough usable samples.
+    """
+
+    segment: Segment
+    usable: np.ndarray
+    rows: RowFilter
+    used: np.ndarray
+
+    def thin_samples(self, every: int, read: np.ndarray | None) -> "FilteredSegment":
+        """Returns the same rows by every n-th sample; `read` (samples, m) is what effects read."""
+        weights = csr_array(self.rows.weights[:, ::every])
+        rows = RowFilter(weights, self.rows.centres // every)
+        usable = self.usable[::every].copy()
+        return FilteredSegment(self.segment.thin_samples(every, read), usable, rows, self.used)
+
+    @property
+    def decimation(self) -> int:
+        """Samples from one row to the next; 1 where there are no two."""
+        centres = self.rows.centres
+        return int(centres[1] - centres[0]) if len(centres) > 1 else 1
+
+    def filter_columns(self, evaluate: Callable[[slice], np.ndarray]) -> np.ndarray:
+        """Returns filtered columns (rows, joints, ...) of evaluate(window).
+
+        Evaluated in blocks, so that a long log needs no more memory than a short one.
+        """
+        return np.concatenate([values for _, values in self.iterate_blocks(evaluate)])
+
+    def iterate_blocks(
+        self,
+        evaluate: Callable[[slice], np.ndarray],
+        samples: int = THRESHOLDS.filter_block_samples,
+        spans: Sequence[slice] | None = None,
+    ) -> Iterator[tuple[slice, np.ndarray]]:
+        """Yields filtered columns, about so many samples at a time: which rows, and their values.
+
+        Args:
+            evaluate: as of `filter_columns`.
+            samples: of a block.
+            spans: of each joint, the columns that are not 0; None: all.
+        """
+        for part, window, rows in self.iterate_parts(samples):
+            yield rows, self._compute_means(part, evaluate(window), window, self.used[rows], spans)
+
+    def filter_rows(
+        self, rows: np.ndarray, evaluate: Callable[[np.ndarray], np.ndarray]
+    ) -> np.ndarray:
+        """Returns (m, joints, ...) the same of some rows (m,), of the samples that they reach."""
+        blocks, most = list[np.ndarray](), max(1, int(np.diff(self.rows.weights.indptr).max()))
+        for some in np.array_split(rows, -(-len(rows) * most // THRESHOLDS.filter_block_samples)):
+            weights = self.rows.weights[some]
+            reached = np.unique(weights.indices)
+            part = RowFilter(csr_array(weights[:, reached]), self.rows.centres[some])
+            blocks.append(self._compute_means(part, evaluate(reached), reached, self.used[some]))
+        return np.concatenate(blocks)
+
+    def filter_torque(self) -> np.ndarray:
+        """Returns (rows, joints) filtered torque."""
+        return self.filter_columns(lambda window: self.segment.tau[window])
+
+    def iterate_parts(
+        self, samples: int = THRESHOLDS.filter_block_samples
+    ) -> Iterator[tuple[RowFilter, slice, slice]]:
+        """Filters of a few rows each, the samples that they reach, and which rows they are."""
+        total, count = len(self.rows.centres), max(1, samples // self.decimation)
+        for first in range(0, total, count):
+            rows = slice(first, min(first + count, total))
+            window = self.rows.find_sample_range(rows)
+            yield self.rows.extract_rows(rows, window), window, rows
+
+    def _compute_means(
+        self,
+        part: RowFilter,
+        values: np.ndarray,
+        window: slice | np.ndarray,
+        used: np.ndarray,
+        spans: Sequence[slice] | None = None,
+    ) -> np.ndarray:
+        """Returns means over usable samples where the row counts, over whole samples elsewhere."""
+        result = np.zeros((len(used), *values.shape[1:]))
+        for j in range(values.shape[1]):
+            index = (slice(None), j) if spans is None else (slice(None), j, spans[j])
+            result[index] = part.average_samples(
+                values[index], self.usable[window, j], used[:, j], self.segment.whole[window]
+            )
+        return result
+
+
+def filter_segment(
+    segment: Segment,
+    shafts: Sequence[FrictionShaft],
+    processing: ChosenProcessing,
+    centres: np.ndarray | None = None,
+) -> FilteredSegment:
+    """Returns the segment with its filter; rows with half of their weight on usable samples count.
+
+    Args:
+        segment: of a log, or of a chunk of one.
+        shafts: whose low speeds do not count.
+        processing: of it.
+        centres: (rows,) samples in the middle of the rows; None: as of a whole log.
+    """
+    cutoff = processing.parallel_cutoff
+    usable = segment.valid & find_moving_samples(segment, shafts, processing.speed_floors)
+    if centres is None:
+        every = choose_row_spacing(segment.step, cutoff, processing.decimation)
+        centres = choose_row_centres(segment, every)
+    rows = build_row_filter(centres, segment.samples, segment.step, cutoff)
+    return FilteredSegment(segment, usable, rows, rows.compute_usable_share(usable) >= LEAST_WEIGHT)
+
+
+def choose_row_centres(segment: Segment, every: int) -> np.ndarray:
+    """Returns (rows,) samples in the middle of the rows of a segment, so many samples apart."""
+    inside = np.flatnonzero(segment.whole)
+    return inside[(len(inside) - 1) % every // 2 :: every]

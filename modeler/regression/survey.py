@@ -11,25 +11,26 @@ from modeler.core.errors import DataError, LoopError
 from modeler.numerics.filters import choose_row_spacing
 from modeler.regression.chunk import Chunk, compute_margin
 from modeler.regression.consistency import check_derivatives
+from modeler.regression.faults import (
+    ChannelScales,
+    Defect,
+    parse_repairs,
+    repair_log,
+    select_confirmed,
+)
 from modeler.regression.log import (
     FINGER,
     LONG,
     Log,
+    RawSegment,
     combine_hashes,
     compute_block_hashes,
     compute_fingerprint,
+    split_log,
 )
-from modeler.regression.low_speed import (
-    REST_TRAVEL,
-    FrictionShaft,
-    clear_resting_speeds,
-    compute_top_speeds,
-    find_shafts,
-)
-from modeler.regression.motion import Segment, build_segment
+from modeler.regression.motion import ChosenProcessing, Processing, Segment, build_segment
 from modeler.regression.observation import Observation, build_observation
-from modeler.regression.observe import limit_cutoffs
-from modeler.regression.outliers import ChannelScales, parse_repairs, repair_log, select_confirmed
+from modeler.regression.observe import choose_repairs, limit_cutoffs
 from modeler.regression.prepare import (
     PreparedLog,
     check_size,
@@ -38,20 +39,30 @@ from modeler.regression.prepare import (
     prepare_logs,
 )
 from modeler.regression.read import ChannelRanges, Source, cut_rows, join_logs, join_windows
-from modeler.regression.repairs import choose_repairs
-from modeler.regression.report import DataReport, LogReport
-from modeler.regression.segments import RawSegment, split_log
-from modeler.regression.settings import ChosenProcessing, Processing
-from modeler.regression.spikes import Defect
-from modeler.regression.stretch import FilteredSegment, choose_row_centres, filter_segment
-from modeler.regression.tally import LogFacts, build_joint_reports, build_log_report, count_rows
+from modeler.regression.report import (
+    DataReport,
+    LogFacts,
+    LogReport,
+    build_joint_reports,
+    build_log_report,
+    count_rows,
+)
+from modeler.regression.segments import (
+    REST_TRAVEL,
+    FilteredSegment,
+    FrictionShaft,
+    choose_row_centres,
+    clear_resting_speeds,
+    compute_top_speeds,
+    filter_segment,
+    find_shafts,
+)
+from modeler.regression.thresholds import THRESHOLDS
 from modeler.runtime import CompiledModel
 
 WINDOWS = 8
 """Windows of all logs together, at least one of each log."""
 
-MOST_WINDOWS = 64
-"""Logs that are looked at; of more, every so many."""
 
 WINDOW = 16_384
 """Rows of a window, at least ..."""
@@ -62,11 +73,8 @@ SECONDS = 8.0
 LONGEST = 65_536
 """... but no more rows than these."""
 
-UNIT = 100.0
-"""Ratio of time steps of two motions in a log that another unit of time makes: it is 1000 or so."""
 
 _PLACES = (0.5, 0.25, 0.75, 0.1, 0.9, 0.4, 0.6)  # of a window in its part of a log
-_TRAVEL = 1e-3  # rad or m: less is rest
 
 Extremes = tuple[tuple[float, float], ...]
 
@@ -145,7 +153,7 @@ def choose_from_windows(
     known: KnownFacts,
     rows: int = FINGER,
 ) -> Survey:
-    """Looks at windows of the logs and chooses.
+    """Inspects at windows of the logs and chooses.
 
     Args:
         model: the compiled robot.
@@ -158,9 +166,8 @@ def choose_from_windows(
         DataError: a log is damaged.
         WholeNeeded: `observe` refuses the windows.
     """
-    windows = [
-        _read_windows(source, _count_windows(sources, k)) for k, source in enumerate(sources)
-    ]
+    counts = [_count_windows(sources, k) for k in range(len(sources))]
+    windows = [_read_windows(*pair) for pair in zip(sources, counts, strict=True)]
     looked = [k for k, log_windows in enumerate(windows) if log_windows]
     logs = [join_windows(log_windows) if log_windows else None for log_windows in windows]
     seen = [log for log in logs if log is not None]
@@ -212,15 +219,15 @@ def choose_from_windows(
 
 
 def _count_windows(sources: Sequence[Source], k: int) -> int:
-    """Windows of a log."""
-    if len(sources) > MOST_WINDOWS:
-        return int(k % -(-len(sources) // MOST_WINDOWS) == 0)
+    """Returns windows of a log."""
+    if len(sources) > THRESHOLDS.max_window_logs:
+        return int(k % -(-len(sources) // THRESHOLDS.max_window_logs) == 0)
     total = sum(source.rows for source in sources)
     return max(1, round(WINDOWS * sources[k].rows / max(1, total)))
 
 
 def _read_windows(source: Source, count: int) -> list[Log]:
-    """Windows of a log, increasing in time."""
+    """Returns windows of a log, increasing in time."""
     if not count:
         return []
     first = source.read_window(0.5 / count, WINDOW)
@@ -237,7 +244,7 @@ def _read_windows(source: Source, count: int) -> list[Log]:
 
 
 def _check_unit(windows: Sequence[Log]) -> None:
-    """Refuse a log whose time changes its unit: at one rate, its second part is gaps or years.
+    """Refuses a log whose time changes its unit: at one rate, its second part is gaps or years.
 
     A logger may be slow while the robot rests; windows of motion count.
 
@@ -247,7 +254,7 @@ def _check_unit(windows: Sequence[Log]) -> None:
     moving = [log for log in windows if log.rows > 1 and _is_moving(log)]
     for log in moving[1:]:
         first, ratio = moving[0], log.step / moving[0].step
-        if max(ratio, 1.0 / ratio) > UNIT:
+        if max(ratio, 1.0 / ratio) > THRESHOLDS.max_rate_ratio:
             raise DataError(
                 f"{log.name}: column time: a row every {first.step:.3g} s at {first.time[0]:.6g} s "
                 f"and every {log.step:.3g} s at {log.time[0]:.6g} s; expected one unit, seconds, "
@@ -257,7 +264,7 @@ def _check_unit(windows: Sequence[Log]) -> None:
 
 
 def _find_moving_window(source: Source, part: tuple[float, float], size: int) -> Log:
-    """A window in which something moves, in a part of a log; that in its middle if none does."""
+    """Returns a window in which something moves, in a part of a log; its middle if none does."""
     start, stop = part
     looks = (source.read_window(start + place * (stop - start), size) for place in _PLACES)
     middle = next(looks)
@@ -266,7 +273,7 @@ def _find_moving_window(source: Source, part: tuple[float, float], size: int) ->
 
 def _is_moving(log: Log) -> bool:
     there = log.q[np.isfinite(log.q).all(axis=1)]
-    return bool(len(there) and np.ptp(there, axis=0).max() > _TRAVEL)
+    return bool(len(there) and np.ptp(there, axis=0).max() > THRESHOLDS.min_window_travel)
 
 
 # What a chunk makes of its rows, with every choice given.
@@ -275,7 +282,7 @@ def _is_moving(log: Log) -> bool:
 def build_chunk_rows(
     model: CompiledModel, chunk: Chunk, chosen: LogChoices
 ) -> tuple[tuple[FilteredSegment, ...], LogFacts]:
-    """The rows of a chunk: mended, split, filtered and differentiated as those of a whole log.
+    """Returns the rows of a chunk: repaired, split, filtered and differentiated as a whole log.
 
     Its stretches have the rows that are its own and no others.
 
@@ -297,9 +304,8 @@ def build_chunk_rows(
     filtered = [build_segment(piece, processing) for piece in pieces]
     both = [close_segment(model, segment) for segment in filtered if segment is not None]
     still = [part for part in chosen.shafts if processing.speed_floors[part.name] == float("inf")]
-    segments = clear_resting_speeds(
-        [segment for segment, _ in both], still, [part.name for part in still]
-    )
+    names_still = [part.name for part in still]
+    segments = clear_resting_speeds([segment for segment, _ in both], still, names_still)
     stretches = tuple(
         filter_segment(s, chosen.shafts, processing, _find_centres(s, chunk, chosen))
         for s in segments
@@ -330,7 +336,7 @@ def build_chunk_rows(
 
 
 def _select_inner(chunk: Chunk, defects: Sequence[Defect], together: bool) -> list[Defect]:
-    """What was found in the chunk's own rows; together: as one, of as many rows."""
+    """Returns what was found in the chunk's own rows; together: as one, of as many rows."""
     inner = [one for one in defects if chunk.is_inner(one.start)]
     if not together or not inner:
         return inner
@@ -339,7 +345,7 @@ def _select_inner(chunk: Chunk, defects: Sequence[Defect], together: bool) -> li
 
 
 def _find_centres(segment: Segment, chunk: Chunk, chosen: LogChoices) -> np.ndarray:
-    """Samples on which the chunk's own rows are centred.
+    """Returns samples on which the chunk's own rows are centred.
 
     A segment that begins and ends in the chunk has them where it would have them in a whole log.
     One that goes on beside it has them at every d-th row of the log, counted from its start, so
@@ -363,7 +369,7 @@ def _find_centres(segment: Segment, chunk: Chunk, chosen: LogChoices) -> np.ndar
 
 
 def _find_clipped(log: Log, pieces: Sequence[RawSegment]) -> np.ndarray:
-    """(2, J) the ends of each torque's range that were taken for a limit; NaN of the others."""
+    """Returns (2, J) the ends of each torque's range that were taken for a limit; NaN of others."""
     limits = []
     for end in (np.fmin.reduce(log.tau, axis=0), np.fmax.reduce(log.tau, axis=0)):
         at = [np.any(piece.clipped & (piece.tau == end), axis=0) for piece in pieces]
@@ -372,7 +378,7 @@ def _find_clipped(log: Log, pieces: Sequence[RawSegment]) -> np.ndarray:
 
 
 def _find_moving_shafts(segments: Sequence[Segment], chosen: LogChoices) -> dict[str, float]:
-    """Top speeds of the shafts that move, and were taken to stand still."""
+    """Returns top speeds of the shafts that move, and were taken to stand still."""
     floors, moving = chosen.processing.speed_floors, [s for s in segments if s.whole.any()]
     still = [part for part in chosen.shafts if floors[part.name] == float("inf")]
     tops = compute_top_speeds(still, moving, least=REST_TRAVEL) if moving else []
@@ -397,19 +403,18 @@ class LogPasses:
     passes: int
 
     def format_sentences(self) -> tuple[str, ...]:
-        """Which rows were read for what."""
+        """Returns which rows were read for what."""
         counts = self.to_json()
         passes = "once" if self.passes == 1 else f"{self.passes} times"
         return (
             f"long logs: all {counts['rows']} rows are read {passes}, in {counts['chunks']} chunks "
-            "that overlap by what the filters remember; "
-            f"{counts['rows_in_windows']} of them, in {counts['windows']} windows, are looked at "
-            "for "
-            "the choices below, doubts about channels, and what needs samples side by side",
+            f"that overlap by the length of the filters; {counts['rows_in_windows']} of them, in "
+            f"{counts['windows']} windows, serve the choices below, warnings about channels, and "
+            "what needs samples side by side",
         )
 
     def to_json(self) -> dict[str, int]:
-        """Plain data."""
+        """Returns plain data."""
         tallies = [facts.tally for facts in self.facts]
         return {
             "passes": self.passes,
@@ -423,7 +428,7 @@ class LogPasses:
 def build_streamed_report(
     model: CompiledModel, sources: Sequence[Source], passes: LogPasses
 ) -> DataReport:
-    """What happened to all rows of long logs.
+    """Returns what happened to all rows of long logs.
 
     Args:
         model: the compiled robot.
@@ -453,7 +458,13 @@ def _build_log_report(model: CompiledModel, source: Source, k: int, passes: LogP
     notes = (*first.notes, *facts.ranges.collect_warnings(chosen.step, model.spec))
     log = dataclasses.replace(first, name=source.name, notes=notes, content=content)
     report = build_log_report(
-        log, model.spec, log_survey.logs[k], counts, facts.defects, facts.contradictions,
-        chosen.decimation, facts.open_times,
-    )  # fmt: skip
+        log,
+        model.spec,
+        log_survey.logs[k],
+        counts,
+        facts.defects,
+        facts.contradictions,
+        chosen.decimation,
+        facts.open_times,
+    )
     return dataclasses.replace(report, rate=1.0 / chosen.step, span=facts.span)

@@ -11,7 +11,7 @@ import pytest
 
 from modeler.api import compile, generate, load
 from modeler.estimation.model_file import Addition, build_fitted_spec, load_model, save_model
-from modeler.estimation.parameter import ParameterEstimate
+from modeler.estimation.parameters import ParameterEstimate
 from modeler.estimation.result import Verdict
 from tests.cli.running import answer, complaint, run
 from tests.codegen.fitted_library import Functions

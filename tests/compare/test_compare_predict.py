@@ -7,8 +7,7 @@ import pytest
 
 from modeler.api import compile_model, derive, fit, generate, load, observe
 from modeler.regression.log import Log
-from modeler.regression.motion import compute_travel_since_reversal
-from modeler.regression.settings import Processing
+from modeler.regression.motion import Processing, compute_travel_since_reversal
 from modeler.validation.comparison import Comparison, compare
 from modeler.validation.predict import predict
 from modeler.validation.verdict import classify_residual, write_joint_verdict

@@ -23,7 +23,7 @@ from modeler.diagnosis.score import ErrorChange, Score
 from modeler.diagnosis.search import CandidateScan
 from modeler.diagnosis.sentences import describe_rejected
 from modeler.effects.catalogue import find_effect
-from modeler.regression.channels import DataWarning
+from modeler.regression import DataWarning
 from tests.diagnose.conftest import Case
 
 

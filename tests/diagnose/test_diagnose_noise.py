@@ -8,7 +8,7 @@ import pytest
 from modeler.diagnosis.diagnosis import diagnose
 from modeler.diagnosis.state import analyse_logs, describe_bands
 from modeler.regression.log import Log
-from modeler.regression.settings import Processing
+from modeler.regression.motion import Processing
 from tests.diagnose.conftest import Case, motion, nothing
 
 

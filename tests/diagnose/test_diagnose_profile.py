@@ -14,7 +14,7 @@ from modeler.diagnosis.search import extend_state, scan_catalogue
 from modeler.diagnosis.state import SearchData, analyse_logs, build_state
 from modeler.estimation.identify import identify
 from modeler.estimation.model_file import load_model, save_model
-from modeler.estimation.parameter import format_spread
+from modeler.estimation.parameters import format_spread
 from modeler.runtime.model import load_module
 from modeler.simulation import SimulationSettings, parse_hidden_effect, simulate
 from tests.chain import chain_of

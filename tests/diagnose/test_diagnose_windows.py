@@ -14,8 +14,8 @@ from modeler.diagnosis.generate import generate_candidates
 from modeler.diagnosis.ranking import estimate_sigma
 from modeler.diagnosis.state import SearchData, analyse_logs, build_all_columns, build_state
 from modeler.numerics.least_squares import ReducedRows
+from modeler.regression.motion import Processing
 from modeler.regression.prepare import LogRepair
-from modeler.regression.settings import Processing
 from tests.chain import chain_of
 
 

@@ -8,7 +8,7 @@ import pytest
 
 from modeler.api import derive, generate
 from modeler.core.errors import ShapeError
-from modeler.regression.low_speed import (
+from modeler.regression.segments import (
     apply_lag,
     compute_signals_along,
     compute_time_since_reversal,

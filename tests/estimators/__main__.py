@@ -5,7 +5,7 @@ import sys
 from collections.abc import Sequence
 from pathlib import Path
 
-from modeler.estimation.methods import METHODS
+from modeler.estimation.identify import METHODS
 from tests.estimators.coverage import CASES, covered, table
 from tests.estimators.measured import HEADER, here, lines, tried
 from tests.measured_sets.sets import DATA, SETS

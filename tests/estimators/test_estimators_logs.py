@@ -12,9 +12,8 @@ from modeler import api
 from modeler.cli import main
 from modeler.core.errors import DataError
 from modeler.estimation import DirectModel, define_physical_parameters, project_parameters
-from modeler.estimation.identify import build_base_equations, identify
+from modeler.estimation.identify import METHODS, build_base_equations, identify
 from modeler.estimation.least_squares import Problem
-from modeler.estimation.methods import METHODS
 from modeler.estimation.payload import Payload, identify_with_payloads
 from modeler.regression.log import Log
 from modeler.regression.read import cut_rows
@@ -116,7 +115,7 @@ def test_instruments_end_in_the_machine_nearest_in_their_own_metric(badly_known)
     near = project_parameters(machine, free.beta, R)
     rise = np.linalg.norm(R @ (bound.beta - free.beta)) ** 2
     assert near.distance > 1.0 and near.distance**2 <= rise < 1.4 * near.distance**2
-    (said,) = (said for said in bound.sentences if "at the bound of what can be built" in said)
+    (said,) = (said for said in bound.sentences if "at the bound of physical consistency" in said)
     assert "3" in said.partition(":")[0]
 
 
@@ -135,7 +134,7 @@ def test_a_row_that_moves_pulls_a_consistent_estimate_as_it_says():
     e = 0.5 * start.sigma[observation.row_joint[row]]
     other = estimate(equations.y + e * (np.arange(len(equations.y)) == row))
     sigma = np.sqrt(np.diag(start.covariance))
-    told, seen = e * start.pull[row] / sigma, (other.beta - start.beta) / sigma
+    told, seen = e * start.influence[row] / sigma, (other.beta - start.beta) / sigma
     assert np.abs(told).max() > 0.01
     np.testing.assert_allclose(seen, told, atol=0.25 * np.abs(told).max())
 
@@ -215,7 +214,7 @@ def test_methods_that_simulate_say_what_they_lack_without_commands(run):
 
 def test_a_command_that_does_not_move_is_refused(run):
     still = dataclasses.replace(run[0], commanded=0.0 * run[0].q)
-    with pytest.raises(DataError, match="the instruments tell nothing of a parameter"):
+    with pytest.raises(DataError, match="is not identifiable by the instruments"):
         identify(api.observe(compiled(), [still]), "iv", compiled())
 
 

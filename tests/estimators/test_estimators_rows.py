@@ -10,9 +10,13 @@ import pytest
 
 from modeler.core.errors import DataError
 from modeler.estimation.instrumental import estimate_with_instruments
-from modeler.estimation.least_squares import Problem, estimate_ordinary, solve_least_squares
-from modeler.estimation.ridge import estimate_ridge
-from modeler.estimation.robust import estimate_robust
+from modeler.estimation.least_squares import (
+    Problem,
+    estimate_ordinary,
+    estimate_ridge,
+    estimate_robust,
+    solve_least_squares,
+)
 from modeler.numerics.least_squares import compress_rows
 
 BETA = np.array([1.0, -2.0, 0.3, 5.0])
@@ -128,7 +132,7 @@ def test_ridge_shares_out_what_cannot_be_told_and_sets_columns_of_zeros_aside():
     assert found.rank.kept_columns == (0, 2, 3) and found.covariance[1, 1] == 0.0
     assert found.beta[2] + 2.0 * found.beta[3] == pytest.approx(1.0, abs=0.02)
     assert found.beta[2] / found.beta[3] == pytest.approx(2.0, abs=0.01)
-    assert any("cannot be told from" in said for said in found.sentences)
+    assert any("is not identifiable apart from" in said for said in found.sentences)
 
 
 def noisy(random, strength=0.5, shift=0.0):
@@ -171,5 +175,7 @@ def test_weak_instruments_are_told_and_blind_ones_refused():
     assert any("instruments are weak" in said for said in weak.sentences)
     blind = W.copy()
     blind[:, 2] = blind[:, 3]
-    with pytest.raises(DataError, match=r'method "iv": the instruments tell nothing.*for [CD];'):
+    with pytest.raises(
+        DataError, match=r'method "iv": [CD] is not identifiable by the instruments;'
+    ):
         estimate_with_instruments(problem, blind, "iv")

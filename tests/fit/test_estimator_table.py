@@ -6,7 +6,7 @@ import pytest
 
 from modeler.core.errors import DataError, Method
 from modeler.core.estimators import ABOUT, find_estimator_title
-from modeler.estimation.methods import METHODS, find_method, find_methods
+from modeler.estimation.identify import METHODS, find_method, find_methods
 from tests.repository import ROOT
 
 

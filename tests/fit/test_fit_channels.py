@@ -2,6 +2,7 @@
 time: named with their delay, physics is not called late.
 """
 
+import dataclasses
 import json
 from collections import Counter
 from dataclasses import replace
@@ -16,7 +17,7 @@ from scipy.signal import lfilter
 
 from modeler.api import observe
 from modeler.cli import main
-from modeler.estimation import find_log_faults, findings, identify, judge_fit
+from modeler.estimation import find_log_faults, identify, judge_fit, log_faults
 from modeler.regression.log import Log
 from modeler.robot.read import parse_robot_text
 from modeler.simulation import SimulationSettings, parse_hidden_effect, simulate
@@ -57,10 +58,10 @@ MISTAKES = {
                                                   for i in range(len(q[0]))]), "look like turns"),
     "twice": (lambda c, q, tau, j, k: tau[:, j].__imul__(2.0), "the measured torque is "),
     "two signs": (lambda c, q, tau, j, k: tau.__setitem__(np.s_[:, [j, k]], -tau[:, [j, k]]),
-                  "the measured torques have the other sign"),
+                  "the measured torques have the wrong sign"),
     "torque sign": (lambda c, q, tau, j, k: tau[:, j].__imul__(-1.0), "sign"),
     "all signs": (lambda c, q, tau, j, k: tau.__imul__(-1.0),
-                  "all measured torques have the other sign"),
+                  "all measured torques have the wrong sign"),
 }  # fmt: skip
 
 
@@ -157,7 +158,7 @@ def arm(tmp_path_factory):
 SAID = {
     "turns": "joint 2: its position looks like turns",
     "late": "joint 2: its position comes ",
-    "sign": "joint 1: the measured torque has the other sign of what a machine",
+    "sign": "joint 1: the measured torque has the wrong sign for physically consistent",
 }
 
 
@@ -197,20 +198,21 @@ def test_a_log_beside_a_model_of_another_is_judged_by_its_values():
 def test_the_delay_that_is_not_detectable_raises_the_error_by_a_third(monkeypatch):
     """Told per joint, far below the longest that is looked for where a robot moves well."""
     machine, (log, _) = runs("demo-arm")
-    monkeypatch.setattr(findings, "_DELAY", 0.0)
+    limits = dataclasses.replace(log_faults.THRESHOLDS, min_delay=0.0)
+    monkeypatch.setattr(log_faults, "THRESHOLDS", limits)
     noisy = np.random.default_rng(3).normal(size=log.tau.shape) * log.tau.std(axis=0)
     observation = observe(machine, [replace(log, tau=log.tau + noisy)])
     (found, *_) = find_log_faults(machine, observation)
     assert found.is_undetectable and found.line.startswith("Not detectable in these logs: ")
     stated = found.line.partition("a delay below ")[2].split(";")[0].split(", ")
     delays = {text.split()[-1]: 1e-3 * float(text.split()[0]) for text in stated}
-    assert delays and max(delays.values()) < findings.LONGEST
-    seen = findings._gather_evidence(machine, observation)
+    assert delays and max(delays.values()) < limits.max_delay
+    seen = log_faults._gather_evidence(machine, observation)
     beta = seen.judge.project_fit(seen.data, *seen.judge.solve(seen.data))
     places = {seen.get_joint_name(k): k for k in range(len(seen.joints))}
     for name, delay in delays.items():
         shift = delay * np.eye(len(log.joints))[seen.joints[places[name]]]
-        late = findings._simulate_data(seen, seen.rows.shift_columns(machine, shift), beta)
+        late = seen.build_equations(seen.rows.shift_columns(machine, shift), seen.rows.W @ beta)
         ratio = seen.judge.compute_errors(late, False)[places[name]] / seen.errors[places[name]]
         assert np.hypot(ratio, 1.0) == pytest.approx(4.0 / 3.0, rel=0.1)
 

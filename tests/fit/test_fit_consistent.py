@@ -9,7 +9,7 @@ from pyarrow import parquet
 
 from modeler.cli import main
 from modeler.estimation.model_file import load_model
-from modeler.estimation.nearest_body import (
+from modeler.estimation.physical_consistency import (
     attribute_distance,
     define_physical_parameters,
     project_parameters,
@@ -101,7 +101,7 @@ def test_what_is_put_at_zero_is_not_called_negative(tmp_path, capsys):
     words = f"fit {robot} {log} --method consistent --out {tmp_path / 'm.json'}"
     assert main(words.split()) == 0
     said = capsys.readouterr().out
-    assert "Ia2 cannot be told from ZZ2 and is put at 0" in said
+    assert "Ia2 is not identifiable apart from ZZ2 and is put at 0" in said
     assert "\nFv1 held at 0, which would be negative" in said
 
 

@@ -76,9 +76,9 @@ def test_a_torque_with_the_wrong_sign(log):
     tau[:, 1] *= -1.0
     verdict = verdict_of(dataclasses.replace(log, tau=tau))
     assert not verdict.usable
-    assert verdict.line.startswith("Not valid: no machine that could be built has these values: ")
-    assert "carried by" in verdict.line and "2" in verdict.line.split("carried by")[1]
-    assert "% of the torque of joint 2, not " in verdict.line
+    assert verdict.line.startswith("Not valid: not physically consistent: distance ")
+    assert "2" in verdict.line.split("mainly from")[1]
+    assert "% on joint 2, not " in verdict.line
     assert any("is negative, which physics does not allow" in line for line in verdict.doubts)
     assert verdict.possible is False
     own = verdict.by_joint["2"]
@@ -87,14 +87,14 @@ def test_a_torque_with_the_wrong_sign(log):
 
 DEFECTS = {
     "milliseconds": (lambda log: clock(log, 1e3), "nothing", "median time step 2 s",
-                     "in milliseconds, the rows came at 500 Hz; multiply it by 0.001"),
+                     "rate would be 500 Hz; multiply the column time by 0.001"),
     "microseconds": (lambda log: clock(log, 1e6), "nothing", "median time step 2e+03 s",
-                     "in microseconds, the rows came at 500 Hz; multiply it by 1e-06"),
-    "minutes": (lambda log: clock(log, 1.0 / 60.0), "", "were the column time in minutes"),
+                     "rate would be 500 Hz; multiply the column time by 1e-06"),
+    "minutes": (lambda log: clock(log, 1.0 / 60.0), "", "in minutes, the rate would be"),
     "clock": (lambda log: clock(log, 2.0), ""),
     "torques of another motion": (
         lambda log: dataclasses.replace(log, tau=np.roll(log.tau, 800, axis=0)), "nothing",
-        "is not described even on the data of the fit; check units, signs"),
+        "is not described, even on the data of the fit; check units, signs"),
     "too few rows": (lambda log: cut_rows(log, slice(1000, 1800)), "nothing",
                      "not enough data for 25 parameters", "record a longer motion of all joints"),
     "torque twice as large":
@@ -128,7 +128,7 @@ def test_a_joint_that_stands_still_leaves_the_prediction(log):
             line.startswith(parameter.name) and "set aside" in line for line in fit.format_lines()
         )
     assert verdict.valid_for != "parameters"
-    assert any("and set aside; record a motion that moves" in line for line in verdict.doubts)
+    assert any("record a motion that moves all joints" in line for line in verdict.doubts)
     assert verdict.by_joint["1"].state == "undetermined"
     assert "no row was fitted" in verdict.by_joint["1"].why
 
@@ -141,7 +141,7 @@ def test_values_that_stand_in_for_what_the_model_lacks(log):
     observation = observe(model, [log])
     verdict = judge_fit(model, observation, identify(observation)).verdict
     assert verdict.usable and verdict.valid_for == "prediction"
-    stands_in = "the values of others stand in for it; `modeler diagnose` names it"
+    stands_in = "an effect is missing, and values absorb it; run `modeler diagnose`"
     assert any(stands_in in line for line in verdict.doubts)
     about = next(line for line in verdict.doubts if stands_in in line).split(":")[0]
     named = about.removeprefix("joint ").split(", ")
@@ -214,7 +214,7 @@ def test_every_command_that_takes_the_model_says_so(log, tmp_path, capsys):
         assert sum(line.startswith("the fit of this model is not valid: ") for line in said) == 1
 
 
-TOLD = "tell different"
+TOLD = "differs significantly between samples"
 
 
 def fit_and_errors(name, seed, hide=None, rate=500.0):

@@ -97,15 +97,15 @@ def test_the_result_says_how_it_compares_with_the_torque_model(arm, fitted):
     assert torque.condition_scaled < energy.condition_scaled
     assert torque.torque_sigma < energy.torque_sigma and torque.rows > energy.rows
     (first, *_) = report.format_sentences()
-    assert report.ratio > 1.2 and "times less surely than the torque model" in first
-    assert "parameters where that knows" in first
+    assert report.ratio > 1.2 and "times the uncertainty of the torque model" in first
+    assert "(torque model: " in first
     assert energy.imbalance < 0.1 * coarse.imbalance and energy.bias < coarse.bias
     assert fit.result.relative_error == pytest.approx(energy.torque_error)
     text = "\n".join(fit.result.format_lines())
     assert "energy, Simpson" in text and "integrals by Simpson's rule" in text
     alike = dataclasses.replace(energy, joint_sigma=torque.joint_sigma)
     like = dataclasses.replace(report, figures=(torque, alike, coarse)).format_sentences()[0]
-    assert "about as sure as the torque model (at most " in like
+    assert "the energy model has at most " in like
 
 
 def test_a_quiet_joint_beside_a_loud_one_is_not_overlooked(arm):

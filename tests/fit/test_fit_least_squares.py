@@ -8,7 +8,7 @@ import pytest
 
 from modeler.core.builtin import read_builtin_robot
 from modeler.estimation import identify, judge_fit, solve_least_squares
-from modeler.estimation.essential import select_essential_parameters
+from modeler.estimation.parameters import select_essential_parameters
 from modeler.estimation.result import read_fit
 from modeler.numerics.least_squares import compress_rows, find_independent_columns
 from modeler.regression import Log, Processing, observe

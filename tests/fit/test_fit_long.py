@@ -15,12 +15,13 @@ from test_observation_rows import exact_log, some_beta
 
 from modeler.core.errors import DataError
 from modeler.estimation import judge_fit, long_logs as streamed
-from modeler.estimation.doubts import find_unexplained_joints
+from modeler.estimation.gravity import thin_rows
 from modeler.estimation.identify import CrossValidation, identify
 from modeler.estimation.long_logs import identify_long, reduce_chunk, stream_logs
-from modeler.regression import Log, observe, reduce as passing, stretch, thin_rows
+from modeler.estimation.verdict import find_unexplained_joints
+from modeler.regression import Log, observation as passing, observe, segments
+from modeler.regression.motion import Processing
 from modeler.regression.read import MemorySource, cut_rows
-from modeler.regression.settings import Processing
 from modeler.regression.survey import KnownFacts, WholeLogNeeded, choose_from_windows
 from modeler.runtime.model import CompiledModel
 from tests.modules import compiled
@@ -165,7 +166,7 @@ def test_the_zero_of_the_clock_changes_nothing(zero, monkeypatch):
 @pytest.fixture
 def any_machine(monkeypatch):
     """Values drawn at random are of no real machine."""
-    for name in ("time_doubts", "_impossible"):
+    for name in ("check_time", "_find_impossible"):
         monkeypatch.setattr(f"modeler.estimation.verdict.{name}", lambda *_: [])
 
 
@@ -185,7 +186,7 @@ def test_what_the_windows_do_not_show_makes_a_fit_not_usable(small_windows, any_
     tau[2400:2800, 0] *= 1.5
     wrong, fit = verdict_of(log, tau=tau)
     assert fit.joints[0].relative_error > 0.03 and not wrong.usable
-    assert "joint 1: all rows are described to" in wrong.line and "the windows to" in wrong.line
+    assert "joint 1: fit error " in wrong.line and " on all rows, " in wrong.line
     # no verdict promises better than the error on all rows
     tau[2400:2800, 0] *= 1.003 / 1.5
     verdict, fit = verdict_of(log, tau=tau)
@@ -436,7 +437,8 @@ def test_a_fit_without_w_is_the_fit_with_it(monkeypatch, name, processing, memor
     log = passed_log(model, memory, 1.0 if name == "wrist" else 0.1)
     kept, expected = fitted(model, log, processing, method)
     monkeypatch.setattr(passing, "KEPT", 0)
-    monkeypatch.setattr(stretch, "_BLOCK", 50)  # fewer samples than lags
+    limits = dataclasses.replace(segments.THRESHOLDS, filter_block_samples=50)
+    monkeypatch.setattr(segments, "THRESHOLDS", limits)  # fewer samples than lags
     observation, found = fitted(model, log, processing, method)
     assert len(kept.stretches) == 2 and not kept.used.all()
     assert "columns" in vars(kept)

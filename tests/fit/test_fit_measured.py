@@ -11,7 +11,7 @@ from functools import cache
 import pytest
 
 from modeler import api
-from modeler.regression.settings import Processing
+from modeler.regression.motion import Processing
 from modeler.robot.read import parse_robot_text
 from tests.chain import chain_of
 from tests.measured_sets.sets import DATA, SETS

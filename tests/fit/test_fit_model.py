@@ -167,7 +167,7 @@ DAMAGE = {
     "sources": ([(("sources",), 3)], "sources is 3, expected an object"),
     "source": ([(("sources", "arm.c"), 3)], "'arm.c' is 3, expected text"),
     "robot": ([(("robot_text",), [])], r"robot_text is \[\], expected text"),
-    "edited": ([(("manifest", "robot"), "x")], "does not match its signature"),
+    "edited": ([(("manifest", "robot"), "x")], "wrong signature"),
     "old manifest": ([(("manifest", "format"), 0)], "manifest format 0"),
     "covariance": ([(("covariance",), [[1.0]])], "values are not those"),
     "ragged": ([(("covariance",), [[1.0], [1, 2]])], "is not square"),

@@ -18,8 +18,8 @@ from modeler.estimation import (
     load_model,
     solve_least_squares,
 )
-from modeler.estimation.essential import select_essential_parameters
 from modeler.estimation.model_file import collect_provenance, keep_essential, save_model
+from modeler.estimation.parameters import select_essential_parameters
 from modeler.estimation.result import FitResult, read_fit
 from modeler.numerics.least_squares import compress_rows
 from modeler.regression import MASKS, WHY, Processing, classify_rows, observe
@@ -271,7 +271,7 @@ def test_sigmas_and_band_cover_the_truth(memory: float, within: float) -> None:
     assert np.sqrt(np.mean(errors**2)) == pytest.approx(1.0, abs=within)
     assert 0.90 < np.mean(np.abs(errors) < 2.0) < 0.99
     assert 0.90 < np.mean(inside) < 0.99
-    assert any("no white noise" in s for s in fit.sentences) is (memory > 0.0)
+    assert any("Residuals are autocorrelated" in s for s in fit.sentences) is (memory > 0.0)
 
 
 def test_the_band_is_the_spread_of_draws() -> None:

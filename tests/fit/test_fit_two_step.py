@@ -8,8 +8,12 @@ import pytest
 from modeler.cli import main
 from modeler.core.errors import DataError
 from modeler.estimation.identify import identify
-from modeler.estimation.two_step import JointDirections, estimate_two_steps
-from modeler.estimation.two_step_result import build_inertia_rows, identify_in_two_steps
+from modeler.estimation.two_step import (
+    JointDirections,
+    build_inertia_rows,
+    estimate_two_steps,
+    identify_in_two_steps,
+)
 from modeler.estimation.verdict import judge_fit
 from modeler.regression import Log, Processing, observe
 from modeler.robot import Limits, compute_joint_directions, read_robot
@@ -85,7 +89,13 @@ def test_step_one_finds_the_inertia_gravity_and_friction_of_the_paper(exact):
         J11 = PJ1 * s3**2 * s2**2 + PJ2 * s3 * c3 * s2**2 + PJ3 * s2**2 + PJ4 * s2 * c2 * s3
         J11 += PJ5 * c2 * s2 * c3 + PJ6 * c2 * s2 + p["ZZ1R"] + p["ZZ3"]
         J11 += 0.4**2 * p["Iam2"] + 0.2**2 * p["Iam3"]  # G21, G31; Jm1 is in ZZ1R
-        found = dict(zip(c.first_steps[0].along.names, c.first_steps[0].theta, strict=True))
+        found = dict(
+            zip(
+                c.first_steps[0].along.names,
+                np.linalg.solve(c.first_steps[0].R, c.first_steps[0].projected),
+                strict=True,
+            )
+        )
         assert set(found) == {"qdd", "sin", "cos", "sign qd", "qd"}
         assert found["qdd"] == pytest.approx(J11, rel=1e-9)
         assert found["sign qd"] == pytest.approx(3.0 + 0.4 * 2.0 + 0.2 * 1.2, rel=1e-9)

@@ -12,7 +12,7 @@ from modeler.core.manifest import EmittedModule
 from modeler.fleet.naming import LogName
 from modeler.fleet.summary import LogSummary, summarise_log
 from modeler.regression.log import Log
-from modeler.regression.settings import Processing
+from modeler.regression.motion import Processing
 from modeler.runtime.model import CompiledModel
 
 RATE = 100.0  # Hz

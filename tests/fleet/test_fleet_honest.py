@@ -12,7 +12,7 @@ from modeler.fleet.naming import LogName
 from modeler.fleet.result import Fleet, format_fleet
 from modeler.fleet.summary import LogSummary, SkippedLog, summarise_log
 from modeler.regression.log import Log
-from modeler.regression.settings import Processing
+from modeler.regression.motion import Processing
 from modeler.runtime.model import CompiledModel
 from tests.fleet.machines import Planted, Scene, compiled, logs, motion, parameters
 from tests.rotation import rotating

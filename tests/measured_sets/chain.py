@@ -16,9 +16,9 @@ from modeler.diagnosis.diagnosis import diagnose
 from modeler.diagnosis.result import Diagnosis
 from modeler.diagnosis.score import Residuals, Score, score_change
 from modeler.estimation.model_file import IdentifiedModel
+from modeler.regression import THRESHOLDS
 from modeler.regression.log import Log
-from modeler.regression.motion import HIGHEST
-from modeler.regression.settings import Processing
+from modeler.regression.motion import Processing
 from modeler.runtime.model import CompiledModel, load_module as load_compiled
 from tests.chain import Chain, chain_of
 from tests.measured_sets.answer import Answer
@@ -108,7 +108,7 @@ def _at(fitted: Fitted, factor: float) -> Fitted:
 
 def scaled(chosen: Processing, factor: float, logs: Sequence[Log]) -> Processing:
     """The defaults with both cut-offs given, as far as the sampling rate goes."""
-    highest = HIGHEST / max(log.step for log in logs)
+    highest = THRESHOLDS.max_cutoff_share / max(log.step for log in logs)
     pair = (chosen.position_cutoff, chosen.parallel_cutoff)
     wanted = (min(factor * (cutoff or 0.0), highest) for cutoff in pair)
     position, parallel = (float(f"{cutoff:.6g}") for cutoff in wanted)

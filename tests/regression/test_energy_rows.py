@@ -8,8 +8,8 @@ import pytest
 from modeler.core.errors import DataError
 from modeler.estimation.energy_fit import build_energy_rows, compute_weights, find_kinetic_columns
 from modeler.regression.log import Log
+from modeler.regression.motion import Processing
 from modeler.regression.observe import observe
-from modeler.regression.settings import Processing
 from tests.modules import compiled
 from tests.oracles.numpy_model import planar_arm
 from tests.regression.motions import exact_log, some_beta

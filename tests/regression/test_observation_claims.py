@@ -9,8 +9,8 @@ from modeler.cli import main
 from modeler.numerics.held import estimate_hold_length, find_clips, find_repeated_rows
 from modeler.numerics.noise import estimate_lattice_step
 from modeler.regression.log import Log
+from modeler.regression.motion import Processing
 from modeler.regression.observe import observe
-from modeler.regression.settings import Processing
 from tests.oracles.numpy_model import planar_arm
 from tests.regression.motions import fourier, noisy_torque, write
 from tests.rotation import rotating

@@ -7,11 +7,10 @@ import pytest
 
 from modeler.core.errors import DataError
 from modeler.regression.consistency import check_derivatives
-from modeler.regression.log import Log
+from modeler.regression.log import Log, split_log
+from modeler.regression.motion import Processing, read_processing
 from modeler.regression.observe import observe
 from modeler.regression.read import read_log
-from modeler.regression.segments import split_log
-from modeler.regression.settings import Processing, read_processing
 from tests.measured_sets.sets import DATA
 from tests.oracles.numpy_model import NumpyModel, Row, planar_arm
 from tests.rotation import rotating

@@ -10,11 +10,12 @@ import pyarrow.parquet as pq
 import pytest
 from rough_joint import KINDS, rough_log
 
+from modeler.regression.faults import repair_log
 from modeler.regression.log import Log
+from modeler.regression.motion import Processing
 from modeler.regression.observe import observe
-from modeler.regression.outliers import describe_damages, repair_log
 from modeler.regression.read import read_log
-from modeler.regression.settings import Processing
+from modeler.regression.report import describe_damages
 from tests.oracles.numpy_model import NumpyModel, Row, planar_arm, rotor, slider
 from tests.regression.motions import fourier, manifest_of, noisy_torque, root_mean_square
 from tests.rotation import rotating

@@ -6,12 +6,11 @@ import numpy as np
 import pytest
 
 from modeler.regression.consistency import check_derivatives, is_position_quieter
-from modeler.regression.log import Log
+from modeler.regression.log import Log, split_log
+from modeler.regression.motion import Processing
 from modeler.regression.observe import observe
 from modeler.regression.prepare import drop_speeds
 from modeler.regression.read import read_log
-from modeler.regression.segments import split_log
-from modeler.regression.settings import Processing
 from tests.oracles.numpy_model import planar_arm
 from tests.regression.motions import fourier, manifest_of, root_mean_square
 from tests.rotation import rotating

@@ -8,10 +8,10 @@ import pytest
 
 from modeler.cli import main
 from modeler.regression.log import Log
+from modeler.regression.motion import Processing
 from modeler.regression.observation import MASKS, classify_rows
 from modeler.regression.observe import observe
 from modeler.regression.prepare import find_nearest_closed
-from modeler.regression.settings import Processing
 from tests.modules import compiled
 from tests.regression.motions import some_beta, write
 from tests.rotation import ROTATING

@@ -9,10 +9,9 @@ from scipy.signal import butter, sosfiltfilt
 from modeler.core.errors import DataError
 from modeler.numerics.filters import apply_zero_phase_lowpass, build_row_filter
 from modeler.regression.log import Log
-from modeler.regression.low_speed import find_shafts
-from modeler.regression.motion import apply_low_pass
+from modeler.regression.motion import Processing, apply_low_pass
 from modeler.regression.observe import observe
-from modeler.regression.settings import Processing
+from modeler.regression.segments import find_shafts
 from tests.oracles.numpy_model import NumpyModel, Row, planar_arm, rotor, slider
 from tests.regression.motions import exact_log, motion, some_beta
 from tests.rotation import rotating

@@ -9,8 +9,8 @@ from modeler.core.errors import DataError
 from modeler.core.manifest import JointSpec
 from modeler.estimation.identify import identify
 from modeler.numerics.filters import apply_zero_phase_lowpass
-from modeler.regression.log import Log
-from modeler.regression.motion import build_segment
+from modeler.regression.log import Log, find_saturated, split_log
+from modeler.regression.motion import ChosenProcessing, Processing, build_segment, read_processing
 from modeler.regression.motion_noise import estimate_motion_noise
 from modeler.regression.observe import observe
 from modeler.regression.prepare import (
@@ -19,8 +19,6 @@ from modeler.regression.prepare import (
     estimate_joint_bands,
     find_ringing_joints,
 )
-from modeler.regression.segments import find_saturated, split_log
-from modeler.regression.settings import ChosenProcessing, Processing, read_processing
 from tests.fleet.machines import compiled, motion, parameters
 from tests.rotation import rotating
 

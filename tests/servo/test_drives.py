@@ -99,7 +99,7 @@ def test_what_is_not_told_apart_is_told():
     (log,) = read_logs(arm, [{"time": t, "q": q, "duty": duty_of(tau, qd)}])
     assert log.induced == (0.0, pytest.approx(GAIN * K_E / RESISTANCE))
     assert log.reading_notes[-1].startswith(
-        "joint 1: without k_e in [drives], what the motor induces is"
+        "joint 1: without k_e in [drives], the back-EMF is part of"
     )
 
 

@@ -1,0 +1,277 @@
+"""Numbers that decide in this package: what each bounds, its unit, and why it is this one."""
+
+import math
+from dataclasses import dataclass
+
+
+@dataclass(frozen=True)
+class Thresholds:
+    """Holds the bounds, tolerances and counts of the package; one instance, `THRESHOLDS`."""
+
+    reference_weight: float = 0.01
+    """Weight gamma of the reference of an unknown link: moves no value that the data determine; no
+    study."""
+    known_reference_weight: float = 1.0
+    """Weight gamma of a link that the robot file states: an error of its own size costs one
+    standard deviation of a row; no study."""
+    zero_share: float = 1e-6
+    """Share of the torque below which a friction or rotor inertia is at its bound of 0; rounding of
+    the solver."""
+    plate_thickness: float = 1e-6
+    """Relative thickness that a plate or a rod of a drawing gets so that it is a body; no study."""
+    reported_sigma_factor: float = 1.2
+    """Factor on a standard deviation from which on it is reported; no study."""
+    max_lags: int = 60
+    """Rows of autocorrelation, 24 periods of the parallel filter at 2.5 rows a cut-off."""
+    white_lag_sigmas: float = 1.0
+    """Standard deviations of a white autocorrelation at which the lags end (Newey and West
+    1987)."""
+    faded_correlation: float = 0.01
+    """Autocorrelation of the parallel filter below which it ends."""
+    reported_correlation: float = 0.2
+    """Autocorrelation that is reported: filtering leaves 0.1."""
+    split_sigmas: float = 4.5
+    """Standard deviations between halves of a motion: noise alone exceeds them in one of 1e5
+    differences."""
+    coloured_split_sigmas: float = 3.0
+    """The same where most of the residual is correlated; tests/estimators/coverage."""
+    raised_split_sigmas: float = 2.0
+    """Standard deviations from which on a further value of the same half is raised too;
+    tests/estimators/coverage."""
+    correlated_share: float = 0.5
+    """Lag-1 autocorrelation from which on most of a residual lasts from row to row."""
+    reversal_sigmas: float = 2.0
+    """Standard deviations by which values may change without the rows near reversals."""
+    reversal_variance_share: float = 0.1
+    """Share of a variance that such a difference has beside its expected noise;
+    tests/estimators/coverage."""
+    max_step: float = 1e-3
+    """s, of a step of the simulation."""
+    max_loop_step: float = 0.4
+    """Bandwidth kv times the step, at most: stability of Adams and Bashforth."""
+    integral_share: float = 0.25
+    """Integral action in units of kv^2; a cascade of drives."""
+    reference_cutoff_share: float = 0.5
+    """Low-pass of a reference made of the logged motion, over the position cut-off; no study."""
+    window_seconds: float = 0.5
+    """s, of a window that is simulated beside the others."""
+    warm_up_seconds: float = 1.0
+    """s, simulated before a window and left out: the start has decayed."""
+    loop_windows: int = 5
+    """Windows on which the control loop is chosen."""
+    divergence_ranges: float = 10.0
+    """Ranges of motion from the reference at which the simulation has diverged."""
+    min_inertia_eigenvalue: float = 1e-2
+    """To which eigenvalues of the inertia matrix are raised, its median diagonal being 1."""
+    negative_sigmas: float = 3.0
+    """Standard deviations below zero from which on a value is negative."""
+    max_fit_error: float = 0.3
+    """Relative error above which a model does not describe a joint: 9 % of the variance; no
+    study."""
+    half_variance_error: float = 0.5**0.5
+    """Relative error above which half of a joint's variance is left."""
+    max_error_ratio: float = 2.0
+    """Cross-validated error over fit error above which rows are too few; tests/fit."""
+    max_window_ratio: float = 3.0
+    """Error on all rows over that in windows of them; logs of one kind have 0.6 to 1.3."""
+    max_systematic_share: float = 0.03
+    """Rms of the correlated residual over that of the torque; tests/hidden_effects."""
+    max_open_share: float = 0.5
+    """Share of the parameters that logs may leave open; no study."""
+    max_joint_ratio: float = 2.0
+    """Residual of logs together over that alone from which on they are not of one robot."""
+    min_different_share: float = 0.02
+    """Share of a joint's torque below which logs are not compared: machines differ by more."""
+    different_log_sigmas: float = 4.0
+    """Standard deviations between two logs with one load."""
+    min_moment_share: float = 0.1
+    """Share of the largest first moment that a moved load changes."""
+    max_variance_iterations: int = 30
+    """Of weights and gains, or variances; a dozen suffice where the data determine them."""
+    weight_tolerance: float = 1e-9
+    """Relative change of weights at which an iteration ends."""
+    tiny_share: float = 1e-12
+    """Share of a size below which a variance or a singular value is rounding."""
+    max_gain_sigma: float = 0.1
+    """Relative standard deviation of a drive gain: beyond, a data sheet is as good."""
+    noise_gap_sigmas: float = 5.0
+    """Standard deviations of a singular value of noise."""
+    energy_block_samples: int = 4000
+    """Samples evaluated at a time: 4000 x 8 joints x 122 columns is 31 MB."""
+    variance_tolerance: float = 1e-6
+    """Relative change of the variances of windows at which their iteration ends."""
+    rounding_share: float = 1e-9
+    """Share of a size below which a number is rounding."""
+    significance_level: float = 0.05
+    """Of the F-test for essential parameters (Gautier and Khalil 1991)."""
+    max_reduced_error: float = 1.05
+    """Fit error of a joint in the reduced model over that in the full one; docs/studies."""
+    keep_all_percent: float = 1e300
+    """Percent of sigma below which no parameter leaves."""
+    max_repaired_error: float = 0.5
+    """Share of a joint's error that a repaired fault leaves: physics explains less."""
+    equivalent_fault_ratio: float = 1.3
+    """Error of another fault over the least, up to which it explains the logs as well."""
+    min_error: float = 0.001
+    """Relative error below which all are alike."""
+    suspicious_error: float = 0.1
+    """Relative error of a joint from which on its channels may be wrong."""
+    wrong_channel_error: float = 0.5
+    """Relative error of a joint that no physics explains."""
+    min_evidence: float = math.log(3.0)
+    """Fall of the sum of log errors: missing physics looks like a delay by up to 1."""
+    min_torque_factor: float = 1.4
+    """Factor of a torque from which on its scale is wrong; gains are not known better."""
+    unit_factor: float = 5.0
+    """Factor of a torque that is a matter of units, not of a drive gain or a load."""
+    max_unit_factor: float = 1e9
+    """Units are no farther apart."""
+    min_exchanged_rows: int = 20
+    """Rows of a joint whose torque may be exchanged."""
+    min_rows_each: int = 3
+    """Rows for every parameter: a fit of fewer describes anything."""
+    normal_equation_ridge: float = 1e-11
+    """Ridge of normal equations with columns of length one."""
+    fault_reweightings: int = 4
+    """Rounds of weights; they gain a digit each time."""
+    max_sign_joints: int = 8
+    """Joints up to which every subset of signs is tried."""
+    max_sign_subsets: int = 8
+    """Subsets of signs that are projected onto physical parameters."""
+    max_delay: float = 0.15
+    """s, the largest delay that is searched: beyond it, channels are wrong in another way."""
+    min_delay: float = 0.01
+    """s; a shorter delay is not searched where nothing is late."""
+    typical_delay: float = 0.02
+    """s, from whose effect that of other delays is scaled."""
+    delay_difference: float = 5e-3
+    """s between the motions of which a slope is taken."""
+    delay_steps: int = 4
+    """Gauss-Newton steps of a delay."""
+    min_shift_hint: float = 0.2
+    """Fall of the sum of log errors that the linearised shift promises at least."""
+    detectable_error_ratio: float = 4.0 / 3.0
+    """Times the error of a joint that a delay makes of it before it is detectable."""
+    detectable_evidence_ratio: float = 1.5
+    """Times `min_evidence` below which a fault may remain undetected."""
+    min_tilt: float = 0.3
+    """rad between two directions of gravity: a tilted base has less."""
+    min_gravity_change: float = 0.05
+    """Share of the stated gravity: a smaller difference is none."""
+    gravity_step: float = 1e-5
+    """rad or m of numerical differences."""
+    gravity_scans: int = 5
+    """Scans of the factor of gravity, to 0.002."""
+    equal_log_error: float = 0.5
+    """Sum of log errors within which rounder values are preferred."""
+    gravity_starts: int = 3
+    """Axes from which a direction of gravity is searched."""
+    gravity_steps: int = 6
+    """Gauss-Newton steps of a direction of gravity."""
+    max_gravity_columns: int = 150
+    """Standard parameters; of larger robots only a factor is searched."""
+    band_sigmas: float = 4.0
+    """Standard deviations by which the widest cut-offs and the chosen ones may disagree."""
+    folds: int = 8
+    """Of the cross-validation."""
+    min_singular_share: float = 1e-8
+    """Share of the largest singular value, columns scaled: less is no direction."""
+    max_reweightings: int = 200
+    """Iterations of weights of instruments, and of robust weights."""
+    min_instrument_cosine: float = 1e-6
+    """Cosine between instruments and columns at which a parameter is lost."""
+    weak_instrument_cosine: float = 0.3
+    """The same below which instruments are weak; docs/studies."""
+    max_simulations: int = 12
+    """Of an estimator by the direct model."""
+    max_misfit_ratio: float = 1.5
+    """Error along the logged motion over that of the weighted fit."""
+    settled_sigmas: float = 0.1
+    """Step in standard deviations after which no simulation follows."""
+    known_sigmas: float = 4.0
+    """Standard deviations between a known quantity and the data."""
+    min_known_share: float = 0.01
+    """Share of a known quantity: a load is weighed to this."""
+    max_weight_iterations: int = 500
+    """Of the joint weights."""
+    max_passes: int = 3
+    """Over long logs: a pass may show what the windows did not."""
+    sigma_tolerance: float = 1e-6
+    """Relative: a sigma is the root of a variance saved with all digits."""
+    symmetry_tolerance: float = 1e-9
+    """Of a correlation."""
+    min_eigenvalue: float = -1e-6
+    """Of saved correlations: rounding of singular ones."""
+    max_interval_ratio: float = 2.0
+    """Ratio of the sides of an interval that a standard deviation still describes."""
+    column_tolerance: float = 1e-8
+    """Share of the length of a column that counts as zero."""
+    fixed_sigma_share: float = 1e-5
+    """Standard deviation of a fixed parameter over that which the data alone give."""
+    chance_probability: float = 1e-3
+    """Probability of a false alarm, of a prior or of physical consistency."""
+    max_prior_error: float = 0.1
+    """Share of a joint's fit error that a prior may add."""
+    known_below_percent: float = 10.0
+    """Percent of sigma below which a parameter counts as known."""
+    max_bias_sigmas: float = 0.5
+    """Standard deviations of a bias by integration."""
+    different_sigma_ratio: float = 1.2
+    """Ratio of two uncertainties that is a difference."""
+    prior_widths: int = 601
+    """Widths of the ridge's prior that are tried."""
+    width_log_probability: float = 2.0
+    """Log-probability from the best width, as of the 95 % interval."""
+    robust_tolerance: float = 1e-8
+    """Step in standard deviations of the parameters at which the iteration ends."""
+    max_rejected_share: float = 0.05
+    """Share of a joint's rows with less than half a weight; Gaussian noise has 1.7 %."""
+    standstill_share: float = 0.02
+    """Share of the top speed of the fastest joint of a unit below which a joint stands."""
+    top_speed_quantile: float = 0.98
+    """Quantile of the speeds that is the top speed."""
+    sampled_points: int = 60
+    """At which a torque is compared with known functions."""
+    sampled_range: float = 1.5
+    """rad or m, to both sides."""
+    min_rows_per_column: int = 3
+    """Of step 1."""
+    whole_weight: float = 1.0 - 1e-9
+    """Share of the weights of a row inside a piece."""
+    max_correlation: float = 1.0 - 1e-6
+    """Of the noise of torques, so that it has an inverse."""
+    min_seen_share: float = 0.9
+    """Share of a joint's rows at which the torque of another must count."""
+    poses_per_column: int = 4
+    """At which the largest possible rank is computed."""
+    max_time_step: float = 0.2
+    """s; slower, neither accelerations nor reversals are seen."""
+    max_pendulum_ratio: float = 100.0
+    """Length of a joint's pendulum over the reach of the robot."""
+    max_density: float = 3000.0
+    """kg/m^3, mass of the links over the cube of the reach; robots have 5 to 500."""
+    min_gravity_share: float = 0.1
+    """Gravity over torque of a joint, from which on it is a pendulum."""
+    pendulum_poses: int = 40
+    """At which gravity and inertia are evaluated."""
+    reported_error_ratio: float = 1.1
+    """Ratio of errors that is reported."""
+    good_error: float = 0.15
+    """Cross-validated error of a joint that is good."""
+    max_block_error: float = 0.3
+    """Cross-validated error in a fifth of the time."""
+    max_cross_validated_error: float = 0.5
+    """Cross-validated error above which a joint is not determined."""
+    filter_correlation: float = 0.2
+    """Lag-1 autocorrelation that the filter of the rows makes."""
+    time_blocks: int = 5
+    """In which errors are compared."""
+    max_thinned_rows: int = 400
+    """Rows on which faults are judged: enough for any fit."""
+    max_thinned_cells: int = 8000
+    """Joints times rows: many joints make many pairs to exchange."""
+    filter_taps: int = 16
+    """Samples of each thinned row."""
+
+
+THRESHOLDS = Thresholds()
