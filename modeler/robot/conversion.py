@@ -1,5 +1,6 @@
-"""Robot files of other programs: what a file is, by what stands in it, and who reads it."""
+"""The robot of any file: robot files (TOML), URDF, MJCF, SYMORO files, by what stands in them."""
 
+import dataclasses
 import re
 from collections.abc import Mapping
 from pathlib import Path
@@ -7,13 +8,32 @@ from typing import Any
 
 from modeler.core.builtin import OTHER_PROGRAMS
 from modeler.core.errors import RobotError
-from modeler.core.files import read_file
+from modeler.core.builtin import list_builtin_robots
+from modeler.core.files import read_file, write_without_overwriting
+from modeler.robot.read import parse_robot_text, read_file_text, read_robot as read_toml_robot
+from modeler.robot.robot import Robot
 from modeler.robot.robot_text import ConvertedRobot
 
 # Atomic: comments are not tried in all ways of taking them together.
 _FIRST = re.compile(
     rb"(?:\xef\xbb\xbf)?(?>\s+|<\?.*?\?>|<!--.*?-->)*+<(robot|mujoco|sdf)", re.DOTALL
 )
+
+
+def read_robot(robot: str | Path) -> Robot:
+    """Reads the robot of a file of any format, or the built-in one of that name.
+
+    A text that is the name of a built-in robot means that one; write `./wrist` for a file `wrist`.
+
+    Raises:
+        RobotError: no such file or name, or a mistake in the file.
+    """
+    path = Path(robot)
+    if robot not in list_builtin_robots() and str(robot).strip():
+        other = path.suffix.lower() in OTHER_PROGRAMS
+        if other or is_robot_xml(read_file_text(path).encode()):  # under another name
+            return build_converted_robot(convert_robot_file(path), path)
+    return read_toml_robot(robot)
 
 
 def convert_robot_file(
@@ -77,3 +97,49 @@ def _convert_xml(
     else:
         tree = read_urdf_tree(data, str(path), exact_decimals)
     return convert_tree(cut_tree(tree, **part), str(path))
+
+
+def build_converted_robot(converted: ConvertedRobot, path: str | Path) -> Robot:
+    """The robot of another program's file; its readings say what was decided."""
+    read = parse_robot_text(converted.text, f"{path}, as a robot file")
+    return dataclasses.replace(read, readings=(*converted.notes, *read.readings))
+
+
+def convert(
+    file: str | Path,
+    out: str | Path | None = None,
+    base: str = "",
+    tip: str = "",
+    lock: Mapping[str, str | float] | None = None,
+    exact_decimals: bool = False,
+    force: bool = False,
+) -> Robot:
+    """The robot of a URDF, MJCF or SYMORO file; written as a robot file if `out` says where.
+
+    >>> exported = export(model, "arm.urdf", force=True)
+    >>> convert("arm.urdf", "arm-again.toml", force=True).moving_joints[1].name
+    '2'
+
+    Args:
+        file: of the other program.
+        out: robot file to write.
+        base: link that stands still; by default the first.
+        tip: last link of the chain that is meant; by default all branches are.
+        lock: joint -> position at which it is held: rad, m, or text such as "30 deg".
+        exact_decimals: take printed angles and lengths as they are: 1.5708 is no pi/2.
+        force: write over a file that is there and holds something else.
+
+    Returns:
+        The robot; its `readings` say what was decided and what was left out.
+
+    Raises:
+        RobotError: no such file, a format that is not read, or a mistake in it.
+        DataError: a file that is there.
+    """
+    converted = convert_robot_file(file, exact_decimals, base=base, tip=tip, locks=lock)
+    robot = build_converted_robot(converted, file)
+    if out is not None:
+        write_without_overwriting(Path(out), converted.text, force)
+    return robot
+
+

@@ -11,7 +11,7 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
-from modeler.core.builtin import OTHER_PROGRAMS, list_builtin_robots, read_builtin_robot
+from modeler.core.builtin import list_builtin_robots, read_builtin_robot
 from modeler.core.errors import RobotError
 from modeler.core.files import read_text
 from modeler.core.json import TomlError, parse_toml
@@ -19,7 +19,6 @@ from modeler.core.toml_cells import TomlCell, join_names, quote_value, suggest_n
 from modeler.robot.angles import describe_rounded_angles
 from modeler.robot.cells import check_name_length, read_gravity, read_symbols
 from modeler.robot.conventions import read_convention
-from modeler.robot.conversion import convert_robot_file, is_robot_xml
 from modeler.robot.effects import needs_reference, read_effects, read_own_effects
 from modeler.robot.loops import (
     expand_legs,
@@ -38,7 +37,6 @@ from modeler.robot.motors import (
     read_shared,
 )
 from modeler.robot.robot import Joint, Robot
-from modeler.robot.robot_text import ConvertedRobot
 from modeler.robot.sections import (
     read_capsules,
     read_coupling,
@@ -72,7 +70,7 @@ _ROBOT_NAME = re.compile(r"[A-Za-z0-9][A-Za-z0-9_-]*")
 
 
 def read_robot(robot: str | Path) -> Robot:
-    """The robot of a file, or the built-in one of that name.
+    """Reads the robot of a robot file (TOML), or the built-in one of that name.
 
     A text that is the name of a built-in robot means that one; write `./wrist` for a file `wrist`.
 
@@ -87,11 +85,7 @@ def read_robot(robot: str | Path) -> Robot:
             f"({join_names(list_builtin_robots())})"
         )
     path = Path(robot)
-    if path.suffix.lower() in OTHER_PROGRAMS:
-        return build_converted_robot(convert_robot_file(path), path)
     text = read_file_text(path)
-    if is_robot_xml(text.encode()):  # under another name
-        return build_converted_robot(convert_robot_file(path), path)
     if text.lstrip().startswith("{"):  # as JSON does and a robot file never
         what = "a model file" if '"modeler model"' in text else "JSON"
         raise RobotError(
@@ -117,12 +111,6 @@ def read_file_text(path: Path) -> str:
     except OSError as error:
         raise RobotError(f"{path}: cannot be read ({error.strerror}); check the path") from None
     raise RobotError(_describe_missing_file(path))
-
-
-def build_converted_robot(converted: ConvertedRobot, path: str | Path) -> Robot:
-    """The robot of another program's file; its readings say what was decided."""
-    read = parse_robot_text(converted.text, f"{path}, as a robot file")
-    return dataclasses.replace(read, readings=(*converted.notes, *read.readings))
 
 
 def parse_robot_text(text: str, where: str) -> Robot:

@@ -15,8 +15,7 @@ from modeler.core.files import (
 )
 from modeler.robot.cells import choose_robot_name
 from modeler.robot.conventions import CONVENTIONS, GEOMETRY, STEPS
-from modeler.robot.conversion import convert_robot_file
-from modeler.robot.read import build_converted_robot, parse_robot_text
+from modeler.robot.read import parse_robot_text
 from modeler.robot.robot import Robot
 from modeler.robot.robot_text import align_cells
 
@@ -59,44 +58,6 @@ def new_robot(
     text = fill_template(choose_robot_name(place.stem), template, joints, convention)
     robot = parse_robot_text(text, str(place))
     write_atomically(place, text)
-    return robot
-
-
-def convert(
-    file: str | Path,
-    out: str | Path | None = None,
-    base: str = "",
-    tip: str = "",
-    lock: Mapping[str, str | float] | None = None,
-    exact_decimals: bool = False,
-    force: bool = False,
-) -> Robot:
-    """The robot of a URDF, MJCF or SYMORO file; written as a robot file if `out` says where.
-
-    >>> exported = export(model, "arm.urdf", force=True)
-    >>> convert("arm.urdf", "arm-again.toml", force=True).moving_joints[1].name
-    '2'
-
-    Args:
-        file: of the other program.
-        out: robot file to write.
-        base: link that stands still; by default the first.
-        tip: last link of the chain that is meant; by default all branches are.
-        lock: joint -> position at which it is held: rad, m, or text such as "30 deg".
-        exact_decimals: take printed angles and lengths as they are: 1.5708 is no pi/2.
-        force: write over a file that is there and holds something else.
-
-    Returns:
-        The robot; its `readings` say what was decided and what was left out.
-
-    Raises:
-        RobotError: no such file, a format that is not read, or a mistake in it.
-        DataError: a file that is there.
-    """
-    converted = convert_robot_file(file, exact_decimals, base=base, tip=tip, locks=lock)
-    robot = build_converted_robot(converted, file)
-    if out is not None:
-        write_without_overwriting(Path(out), converted.text, force)
     return robot
 
 
