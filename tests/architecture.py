@@ -25,12 +25,12 @@ STAGES: dict[str, set[str]] = {
     "fleet": {"core", "effects", *SOUTH[: SOUTH.index("fleet")]},
     "excitation": {"core", "effects", "numerics", "runtime", "regression", "diagnosis"},
     "simulation": {"core", "robot"},
-    "exports": {"core", "effects", "robot", "numerics", "runtime", "regression", "estimation"},
+    "formats": {"core", "effects", "robot", "numerics", "runtime", "regression", "estimation"},
     "papers": {"core", *NORTH, *SOUTH[:2], "regression", "estimation", "simulation", "excitation"},
     "views": {"core", *NORTH, *SOUTH, "simulation"},
-    "api": {"core", *NORTH, *SOUTH, "simulation", "exports", "views"},
-    "studio": {"core", *NORTH, *SOUTH, "simulation", "exports", "views", "api"},
-    "cli": {"core", *NORTH, *SOUTH, "simulation", "papers", "exports", "views", "api", "studio"},
+    "api": {"core", *NORTH, *SOUTH, "simulation", "formats", "views"},
+    "studio": {"core", *NORTH, *SOUTH, "simulation", "formats", "views", "api"},
+    "cli": {"core", *NORTH, *SOUTH, "simulation", "papers", "formats", "views", "api", "studio"},
 }
 
 # An effect goes round: from the diagnosis into the robot description, and from there all the way.
@@ -41,7 +41,7 @@ PACKAGES: dict[str, set[str]] = {
     "core": {"numpy", "mpmath", "pandas", "distributed"},
     "numerics": {"numpy", "scipy"},
     "effects": set(),
-    "robot": {"numpy", "mujoco"},
+    "robot": set(),
     "derivation": {"numpy", "sympy", "casadi", "flint"},
     "formulas": {"numpy", "sympy"},
     "codegen": {"numpy", "sympy", "jinja2", "casadi"},
@@ -54,7 +54,7 @@ PACKAGES: dict[str, set[str]] = {
     "fleet": {"numpy", "scipy"},
     "excitation": {"numpy", "scipy", "matplotlib", "pyarrow"},
     "simulation": {"numpy", "scipy", "pyarrow", "casadi", "cvxpy"},
-    "exports": {"numpy", "scipy", "cvxpy"},
+    "formats": {"numpy", "scipy", "cvxpy", "mujoco"},
     "papers": {"numpy", "sympy"},
     "views": {"numpy", "scipy", "matplotlib", "jinja2"},
     "api": {"numpy", "sklearn"},
@@ -69,7 +69,7 @@ ONLY_IN = {
     "cffi": ("runtime/bind.py",),
     "casadi": ("derivation/lagrange.py", "codegen/casadi_functions.py", "simulation/"),
     "clarabel": ("estimation/nearest_body.py",),
-    "cvxpy": ("estimation/consistent.py", "simulation/completion.py", "exports/completion.py"),
+    "cvxpy": ("estimation/consistent.py", "simulation/parameters.py", "formats/completion.py"),
     "flint": ("derivation/field.py", "derivation/precise.py"),
     "pandas": ("core/table.py",),
     "h5py": ("logs/arrays.py",),
@@ -77,7 +77,7 @@ ONLY_IN = {
     "python_calamine": ("logs/sheets.py",),
     "distributed": ("core/jobs.py",),
     "sklearn": ("api/regressor.py",),
-    "mujoco": ("robot/mjcf.py",),
+    "mujoco": ("formats/mjcf.py",),
     "matplotlib": ("views/", "excitation/result.py"),
 }
 

@@ -15,10 +15,10 @@ from dataclasses import dataclass
 from modeler.core.errors import RobotError
 from modeler.core.expression import FUNCTIONS
 from modeler.core.toml_cells import join_names
-from modeler.robot.conventions import ANGLES, CONVENTIONS
 from modeler.robot.edit import replace_limits
-from modeler.robot.start import fill_template
-from modeler.robot.table_text import replace_table
+from modeler.robot.read import fill_template
+from modeler.robot.robot_text import replace_table
+from modeler.robot.table import ANGLES, CONVENTIONS
 
 _FULL_TURN = 6.3  # rad: a larger angle is in degrees
 _LONGEST = 20.0  # m: a larger length is in mm

@@ -14,13 +14,12 @@ from modeler.simulation.closing import (
     evaluate_samples,
     find_closed_motion,
 )
-from modeler.simulation.hidden import HIDDEN
+from modeler.simulation.log import HiddenEffect, SimulationSettings
 from modeler.simulation.parameters import PlantParameters, estimate_joint_scales
-from modeler.simulation.physics import HiddenKind, ShaftScale, Site
+from modeler.simulation.physics import HIDDEN, HiddenKind, ShaftScale, Site
 from modeler.simulation.plant import build_torque_function, find_last_link
 from modeler.simulation.portable_math import round_to_ten_digits
 from modeler.simulation.rigid import compute_gravity_vector, compute_world_frames
-from modeler.simulation.settings import HiddenEffect, SimulationSettings
 from modeler.simulation.trajectory import build_exciting_reference
 
 # How large a torque on a joint of a robot with loops is for the motors, which carry them.

@@ -17,8 +17,9 @@ from modeler.core.errors import DataError, RobotError
 from modeler.core.expression import parse_expression
 from modeler.robot import Joint, Limits, Robot
 from modeler.simulation.closing import Constraints, build_identity_map, compute_tree_map
-from modeler.simulation.hidden import HIDDEN
+from modeler.simulation.log import HiddenEffect
 from modeler.simulation.parameters import PlantParameters
+from modeler.simulation.physics import HIDDEN
 from modeler.simulation.portable_math import make_portable, round_to_ten_digits
 from modeler.simulation.rigid import (
     Body,
@@ -29,7 +30,6 @@ from modeler.simulation.rigid import (
     compute_standard_parameters,
     reduce_dynamics,
 )
-from modeler.simulation.settings import HiddenEffect
 from modeler.simulation.shafts import (
     ShaftEffects,
     Transmissions,

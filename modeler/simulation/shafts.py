@@ -8,11 +8,10 @@ import numpy as np
 
 from modeler.core.errors import RobotError
 from modeler.robot import Limits, Robot
-from modeler.simulation.hidden import HIDDEN
+from modeler.simulation.log import HiddenEffect
 from modeler.simulation.parameters import PlantParameters, find_joint_physics
-from modeler.simulation.physics import Act, Contribution, Shaft, Values
+from modeler.simulation.physics import HIDDEN, Act, Contribution, Shaft, Values
 from modeler.simulation.rigid import RigidDynamics, compute_world_frames
-from modeler.simulation.settings import HiddenEffect
 
 _CORE = 1e-3  # width of the smooth core of dry friction, relative to the top speed
 _RISE = 5e-3  # s, in which a push sets in

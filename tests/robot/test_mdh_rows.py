@@ -7,12 +7,17 @@ import numpy as np
 import pytest
 
 from modeler.core.errors import RobotError
-from modeler.robot import mdh_rows
-from modeler.robot.body_tree import BodyTree, Inertial, Pose, TreeJoint, collect_moving_links
-from modeler.robot.mdh_rows import build_mdh_table, compute_roll_pitch_yaw, snap_angle, snap_length
+from modeler.formats import mdh_rows
+from modeler.formats.body_tree import BodyTree, Inertial, Pose, TreeJoint, collect_moving_links
+from modeler.formats.mdh_rows import (
+    build_mdh_table,
+    compute_roll_pitch_yaw,
+    snap_angle,
+    snap_length,
+)
+from modeler.formats.tree_text import convert_tree
 from modeler.robot.read import parse_robot_text
 from modeler.robot.robot import JointKind as Kind, Robot
-from modeler.robot.tree_text import convert_tree
 from tests.oracles.pinocchio_dynamics import pin, places_of
 from tests.robot.poses import link_poses
 

@@ -18,8 +18,8 @@ from modeler.estimation import (
     define_physical_parameters,
     extract_parameters,
 )
-from modeler.exports.capsules import compute_capsule_parameters
-from modeler.exports.completion import (
+from modeler.formats.body_tree import Pose
+from modeler.formats.completion import (
     INSIDE,
     CompletedParameters,
     Prior,
@@ -28,7 +28,8 @@ from modeler.exports.completion import (
     find_nearest_physical,
     find_violations,
 )
-from modeler.robot import Pose, Robot, parse_robot_text
+from modeler.formats.linkage import compute_capsule_parameters
+from modeler.robot import Robot, parse_robot_text
 
 SHARE = 0.3
 """How sure the values of a file are that says nothing of it, over the scale of a body."""

@@ -7,23 +7,19 @@ from pathlib import PurePath
 
 import numpy as np
 
-import modeler.robot.robot_text as toml
 from modeler.core.errors import RobotError
 from modeler.core.toml_cells import join_names
-from modeler.robot.angles import format_pi_multiple
-from modeler.robot.body_tree import (
+from modeler.formats.body_tree import (
     BodyTree,
     LoopClosure,
     MovingLink,
     Pose,
     collect_moving_links,
+    compute_body_poses,
     compute_standard_parameters,
     summarise_names,
 )
-from modeler.robot.cells import choose_robot_name
-from modeler.robot.conventions import ANGLES
-from modeler.robot.loop_joints import choose_independent_joints
-from modeler.robot.mdh_rows import (
+from modeler.formats.mdh_rows import (
     Loop,
     MdhRow,
     build_mdh_table,
@@ -32,10 +28,91 @@ from modeler.robot.mdh_rows import (
     compute_roll_pitch_yaw,
     snap_length,
 )
-from modeler.robot.par_table import LETTER, Symbols, convert_gravity
-from modeler.robot.robot import INERTIAL, JointKind, TomlCell
-from modeler.robot.robot_text import ConvertedRobot, TextRow
-from modeler.robot.sections import FRAME_COLUMNS
+from modeler.formats.par_table import LETTER, Symbols, convert_gravity
+from modeler.robot import (
+    ANGLES,
+    FRAME_COLUMNS,
+    INERTIAL,
+    LINKS,
+    PARAMETERS,
+    ConvertedRobot,
+    JointKind,
+    TextRow,
+    TomlCell,
+    choose_robot_name,
+    format_columns_and_rows,
+    format_effects,
+    format_head,
+    format_loops,
+    format_mdh,
+    format_number,
+    format_pi_multiple,
+    format_section,
+    format_symbols,
+    join_lines,
+    quote_cell,
+)
+
+_STEP = 1e-6  # rad, m, of central differences
+_RANK = 1e-7  # of the largest singular value: differences are good to 1e-10
+_TIES = {
+    "rigid": (0, 1, 2, 3, 4, 5), "revolute": (0, 1, 2, 3, 4), "prismatic": (0, 1, 3, 4, 5),
+    "cylindrical": (0, 1, 3, 4), "universal": (0, 1, 2, 6), "planar": (2, 3, 4),
+}  # fmt: skip
+"""Kind -> which of `_apart` it ties; the others tie the three of the origin."""
+
+
+def choose_independent_joints(tree: BodyTree) -> set[str]:
+    """As many joints as the loops leave free, those that are nearest to the base first.
+
+    The rank is taken where no loop is closed: it is that of the mechanism wherever it does not
+    depend on special lengths.
+    """
+    depth = {tree.root: 0}
+    for joint in tree.joints:
+        depth[joint.child] = depth[joint.parent] + 1
+    leading = [j for j in tree.joints if j.kind is not JointKind.FIXED and not j.leader]
+    leading.sort(key=lambda joint: depth[joint.child])
+    q = np.random.default_rng(0).uniform(-1.0, 1.0, len(leading))
+    names = [joint.name for joint in leading]
+
+    def compute_closure_errors(q: np.ndarray) -> np.ndarray:
+        poses = compute_body_poses(tree, dict(zip(names, q.tolist(), strict=True)))
+        return np.concatenate(
+            [_compute_closure_error(meeting, poses) for meeting in tree.loop_closures]
+        )
+
+    steps = _STEP * np.eye(len(q))
+    J = np.column_stack(
+        [
+            (compute_closure_errors(q + h) - compute_closure_errors(q - h)) / (2 * _STEP)
+            for h in steps
+        ]
+    )
+    rank, dependent = _compute_rank(J), list(range(len(names)))
+    for k in range(len(names)):
+        others = [i for i in dependent if i != k]
+        if len(dependent) > rank and _compute_rank(J[:, others]) == rank:
+            dependent = others
+    return {name for k, name in enumerate(names) if k not in dependent}
+
+
+def _compute_closure_error(meeting: LoopClosure, poses: dict[str, Pose]) -> np.ndarray:
+    """What the joint that closes a loop holds at 0."""
+    one = poses[meeting.body] @ meeting.pose
+    relative_pose = one.inverse() @ (poses[meeting.other] @ meeting.other_pose)
+    R = relative_pose.rotation
+    residuals = np.array([*relative_pose.position, R[0, 2], R[1, 2], R[0, 1], R[2, 2]])
+    return residuals[list(_TIES.get(meeting.kind, (0, 1, 2)))]
+
+
+def _compute_rank(matrix: np.ndarray) -> int:
+    values = np.linalg.svd(matrix, compute_uv=False) if matrix.size else np.zeros(1)
+    return int(np.sum(values > _RANK * max(values[0], 1e-3)))
+
+
+# A tree of bodies as the text of a robot file, with what had to be decided or left out.
+
 
 UNCERTAINTY = 0.3
 """How sure masses, centres and inertias of another program's file are, over their scale."""
@@ -74,24 +151,24 @@ def convert_tree(tree: BodyTree, where: str) -> ConvertedRobot:
         )
     writer = _TreeWriter(tree, where)
     parts = [
-        *toml.format_section(
-            "[symbols]", toml.format_symbols(writer.symbols.values, writer.symbols.comments)
+        *format_section(
+            "[symbols]", format_symbols(writer.symbols.values, writer.symbols.comments)
         ),
-        *toml.format_mdh(writer.rows),
-        *toml.format_section("[relations]", writer.format_relations()),
-        *toml.format_loops(writer.loops),
-        *toml.format_section("[home]", writer.format_home()),
+        *format_mdh(writer.rows),
+        *format_section("[relations]", writer.format_relations()),
+        *format_loops(writer.loops),
+        *format_section("[home]", writer.format_home()),
         *writer.format_frames(),
-        *toml.format_section(toml.LINKS, writer.format_massless_links()),
-        *toml.format_section("[effects]", writer.format_effects()),
+        *format_section(LINKS, writer.format_massless_links()),
+        *format_section("[effects]", writer.format_effects()),
         *writer.format_parameters(),
-        *toml.format_section(_LIMITS, writer.format_limits()),
+        *format_section(_LIMITS, writer.format_limits()),
     ]
     name = choose_robot_name(tree.name, PurePath(where).stem)[:40]
     source = f"{tree.format} {PurePath(where).name}"
     notes = writer.symbols.notes
-    head = toml.format_head(name, tree.name, source, notes, writer.gravity)
-    return ConvertedRobot(toml.join_lines([*head, *parts]), tuple(notes))
+    head = format_head(name, tree.name, source, notes, writer.gravity)
+    return ConvertedRobot(join_lines([*head, *parts]), tuple(notes))
 
 
 class _TreeWriter:
@@ -187,9 +264,7 @@ class _TreeWriter:
         if not self.loops:
             return []
         places = {joint.name: joint.zero for joint in self.joints.values()} | dict(self.tree.home)
-        return [
-            f"q{name} = {toml.format_number(places[j.name])}" for name, j in self.joints.items()
-        ]
+        return [f"q{name} = {format_number(places[j.name])}" for name, j in self.joints.items()]
 
     def format_relations(self) -> list[str]:
         """Joints that follow others."""
@@ -214,13 +289,13 @@ class _TreeWriter:
                 joint = link.joint.name if link.joint and body == moved_body else ""
                 numbers = [_format_number(snap_length(float(x))) for x in place.position]
                 angles = [
-                    toml.quote_cell(_format_angle(a) or repr(a))
+                    quote_cell(_format_angle(a) or repr(a))
                     for a in compute_roll_pitch_yaw(place.rotation)
                 ]
                 names = [json.dumps(text, ensure_ascii=False) for text in (body, f"{k}", joint)]
                 cells.append([*names, *numbers, *angles])
         head = "[frames]                              # links of the file on their rows: m, rad"
-        return [head, *toml.format_columns_and_rows(FRAME_COLUMNS, cells)]
+        return [head, *format_columns_and_rows(FRAME_COLUMNS, cells)]
 
     def format_massless_links(self) -> list[str]:
         """Links between the joints of one body: they are nothing."""
@@ -243,7 +318,7 @@ class _TreeWriter:
         if self.loops and any(joint.stiffness for joint in self.joints.values()):
             self.symbols.notes.append("springs are left out: robots with loops have none here")
         springs = [
-            f'{{joint = "{name}", q0 = {toml.format_number(self.joints[name].rest)}, h = 0}}'
+            f'{{joint = "{name}", q0 = {format_number(self.joints[name].rest)}, h = 0}}'
             for name in rows_by_effect.pop("spring")
         ]
         unstated_effects = [
@@ -259,7 +334,7 @@ class _TreeWriter:
                 "nothing; a fit "
                 "without would be wrong"
             )
-        lines = toml.format_effects({k: v for k, v in rows_by_effect.items() if v}, self.driven)
+        lines = format_effects({k: v for k, v in rows_by_effect.items() if v}, self.driven)
         return lines + ([f"spring = [{', '.join(springs)}]"] if springs else [])
 
     def format_parameters(self) -> list[str]:
@@ -275,7 +350,7 @@ class _TreeWriter:
                 inertia = max(*np.abs(ten[:6]).tolist(), abs(whole.mass) * _SMALLEST**2)
                 scales = [inertia] * 6 + [math.sqrt(abs(whole.mass) * inertia)] * 3 + [0.0]
                 lines += [
-                    f"{prefix}{k} = {toml.format_number(*number_and_scale)}"
+                    f"{prefix}{k} = {format_number(*number_and_scale)}"
                     for prefix, *number_and_scale in zip(
                         INERTIAL, ten.tolist(), scales, strict=True
                     )
@@ -295,8 +370,8 @@ class _TreeWriter:
                 "scale; all other values are nominal only"
             )
         return [
-            *toml.format_section(toml.PARAMETERS, lines),
-            *toml.format_section(
+            *format_section(PARAMETERS, lines),
+            *format_section(
                 "[parameters.uncertainty]              # over the scale of a body", prior
             ),
         ]
@@ -334,7 +409,7 @@ class _TreeWriter:
     def _format_joint_parameters(self) -> list[str]:
         """What the file states of friction, rotors and springs."""
         return [
-            f"{prefix}{name} = {toml.format_number(value)}"
+            f"{prefix}{name} = {format_number(value)}"
             for key, prefix in _EFFECTS.values()
             for name in self._select_rows(key)
             if (value := getattr(self.joints[name], key)) is not None
@@ -364,7 +439,7 @@ class _TreeWriter:
                 assumptions.append(f"acceleration {_ACCELERATION:g}/s times the speed")
             for what in assumptions:
                 assumed.setdefault(what, []).append(joint.name)
-            cells = ", ".join(toml.format_number(x) for x in (lower, upper, speed, acceleration))
+            cells = ", ".join(format_number(x) for x in (lower, upper, speed, acceleration))
             assumed_names = ", ".join(what.split()[0] for what in assumptions)
             lines.append(
                 f"{name} = [{cells}]" + f"  # assumed: {assumed_names}" * bool(assumptions)

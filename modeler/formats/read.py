@@ -6,13 +6,16 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
-from modeler.core.builtin import OTHER_PROGRAMS
+from modeler.core.builtin import OTHER_PROGRAMS, list_builtin_robots
 from modeler.core.errors import RobotError
-from modeler.core.builtin import list_builtin_robots
 from modeler.core.files import read_file, write_without_overwriting
-from modeler.robot.read import parse_robot_text, read_file_text, read_robot as read_toml_robot
-from modeler.robot.robot import Robot
-from modeler.robot.robot_text import ConvertedRobot
+from modeler.robot import (
+    ConvertedRobot,
+    Robot,
+    parse_robot_text,
+    read_file_text,
+    read_robot as read_toml_robot,
+)
 
 # Atomic: comments are not tried in all ways of taking them together.
 _FIRST = re.compile(
@@ -68,7 +71,7 @@ def convert_robot_file(
             f"{path}: --base, --tip, --lock and --exact-decimals are for URDF and MJCF; leave them "
             "out"
         )
-    from modeler.robot.par_convert import convert_par_file
+    from modeler.formats.par_convert import convert_par_file
 
     return convert_par_file(data, str(path))
 
@@ -81,9 +84,9 @@ def is_robot_xml(data: bytes) -> bool:
 def _convert_xml(
     path: Path, data: bytes, exact_decimals: bool, part: Mapping[str, Any]
 ) -> ConvertedRobot:
-    from modeler.robot.tree_cuts import cut_tree
-    from modeler.robot.tree_text import convert_tree
-    from modeler.robot.urdf import read_urdf_tree
+    from modeler.formats.tree_cuts import cut_tree
+    from modeler.formats.tree_text import convert_tree
+    from modeler.formats.urdf import read_urdf_tree
 
     first = root_match[1] if (root_match := _FIRST.match(data)) else b""
     if first == b"sdf":
@@ -91,7 +94,7 @@ def _convert_xml(
             f"{path}: is SDF, which is not read; give the URDF that it was made from, or an MJCF"
         )
     if first == b"mujoco":  # or what one includes, as is told there
-        from modeler.robot.mjcf import read_mjcf_tree
+        from modeler.formats.mjcf import read_mjcf_tree
 
         tree = read_mjcf_tree(path, exact_decimals)
     else:
@@ -141,5 +144,3 @@ def convert(
     if out is not None:
         write_without_overwriting(Path(out), converted.text, force)
     return robot
-
-

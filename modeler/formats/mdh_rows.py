@@ -23,10 +23,8 @@ from dataclasses import dataclass, field, replace
 
 import numpy as np
 
-from modeler.robot.angles import compute_cosine_sine
-from modeler.robot.body_tree import MovingLink, Pose, TreeJoint
-from modeler.robot.conventions import GEOMETRY
-from modeler.robot.robot import JointKind
+from modeler.formats.body_tree import MovingLink, Pose, TreeJoint
+from modeler.robot import GEOMETRY, JointKind, compute_cosine_sine
 
 PARALLEL = 1e-9
 """rad; a smaller angle is none, as it is none between an angle and a multiple of pi/12."""

@@ -12,11 +12,7 @@ from types import MappingProxyType
 from modeler.core.expression import FUNCTIONS, ExpressionError, format_tree, parse_expression
 from modeler.core.toml_cells import TomlCell, join_names
 from modeler.effects import CATALOGUE
-from modeler.robot.angles import describe_rounded_angles, recognise_angle, recognise_angle_terms
-from modeler.robot.cells import C_WORDS
-from modeler.robot.conventions import ANGLES, GEOMETRY
-from modeler.robot.effects import collect_parameter_owners
-from modeler.robot.par_text import (
+from modeler.formats.par_text import (
     BODIES,
     FRAMES,
     INERTIA,
@@ -29,6 +25,15 @@ from modeler.robot.par_text import (
     parse_python,
     rename_letters,
     rewrite_tree,
+)
+from modeler.robot import (
+    ANGLES,
+    C_WORDS,
+    GEOMETRY,
+    collect_parameter_owners,
+    describe_rounded_angles,
+    recognise_angle,
+    recognise_angle_terms,
 )
 
 # The frames of a `.par` file: how many there are, what carries them, where their joints are.

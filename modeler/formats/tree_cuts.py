@@ -11,9 +11,8 @@ from dataclasses import replace
 from modeler.core.errors import RobotError
 from modeler.core.expression import ExpressionError, parse_expression
 from modeler.core.toml_cells import TomlCell, join_names, quote_value, suggest_name
-from modeler.robot.body_tree import BodyTree, TreeJoint, compute_body_poses
-from modeler.robot.cells import LARGEST_LENGTH
-from modeler.robot.robot import JointKind
+from modeler.formats.body_tree import BodyTree, TreeJoint, compute_body_poses
+from modeler.robot import LARGEST_LENGTH, JointKind
 
 
 def cut_tree(

@@ -1,4 +1,4 @@
-"""The bytes of an original with other numbers: masses, centres, inertias, what resists its joints.
+"""The bytes of an original with other numbers: masses, centres, inertias, joint resistance.
 
 All that is no such number stays as it is, byte for byte. A number that the file does not have is
 put in the smallest way: an attribute, or one element.
@@ -12,8 +12,9 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from modeler.core.errors import DataError
-from modeler.exports.bodies import ExportParameters, compute_central_parameters, express_parameters
-from modeler.exports.original import (
+from modeler.formats.bodies import ExportParameters, compute_central_parameters, express_parameters
+from modeler.formats.body_tree import compute_standard_parameters
+from modeler.formats.original import (
     TENSOR,
     OriginalFile,
     PlacedLinks,
@@ -23,7 +24,7 @@ from modeler.exports.original import (
     find_inertial_axes,
     get_text_at,
 )
-from modeler.exports.result import (
+from modeler.formats.result import (
     Value,
     build_body_values,
     build_drive_values,
@@ -31,9 +32,9 @@ from modeler.exports.result import (
     format_numbers,
     keep_unchanged,
 )
-from modeler.robot import Element, compute_standard_parameters, replace_spans
+from modeler.formats.xml_source import Element, replace_spans
 
-_SAME = 1e-10  # of a body's scale: what is nearer has not changed
+_UNCHANGED = 1e-10  # of a body's scale: what is nearer has not changed
 _TURNED = ("diaginertia", "quat", "axisangle", "xyaxes", "zaxis", "euler")
 _RESCALED = ("settotalmass", "boundmass", "boundinertia")
 _RESISTS = ("damping", "friction", "armature", "stiffness")
@@ -318,4 +319,6 @@ def _is_same_body(one: np.ndarray, other: np.ndarray) -> bool:
     """Whether two bodies are the same but for rounding, in the same frame."""
     size, mass = max(np.abs([one[:6], other[:6]]).max(), 1e-300), max(abs(one[9]), abs(other[9]))
     moment = max(np.sqrt(size * mass), np.abs(other[6:9]).max())
-    return bool(np.all(np.abs(one - other) <= _SAME * np.repeat([size, moment, mass], [6, 3, 1])))
+    return bool(
+        np.all(np.abs(one - other) <= _UNCHANGED * np.repeat([size, moment, mass], [6, 3, 1]))
+    )

@@ -1,4 +1,4 @@
-"""What was identified, written for other programs: URDF, MJCF, SDF."""
+"""Reads and writes robots in the formats of other programs: URDF, MJCF, SDF, SYMORO."""
 
 import lazy_loader
 

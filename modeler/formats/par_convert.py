@@ -3,11 +3,8 @@
 from dataclasses import dataclass, field
 from pathlib import PurePath
 
-import modeler.robot.robot_text as toml
 from modeler.core.toml_cells import join_names
-from modeler.robot.cells import choose_robot_name
-from modeler.robot.conventions import GEOMETRY
-from modeler.robot.par_table import (
+from modeler.formats.par_table import (
     Counts,
     ParFrame,
     Symbols,
@@ -17,7 +14,7 @@ from modeler.robot.par_table import (
     read_counts,
     read_par_frames,
 )
-from modeler.robot.par_text import (
+from modeler.formats.par_text import (
     BASE,
     FORCES,
     INERTIA,
@@ -26,7 +23,22 @@ from modeler.robot.par_text import (
     Statements,
     scan_statements,
 )
-from modeler.robot.robot_text import ConvertedRobot, TextRow
+from modeler.robot import (
+    GEOMETRY,
+    LINKS,
+    PARAMETERS,
+    ConvertedRobot,
+    TextRow,
+    choose_robot_name,
+    format_effects,
+    format_head,
+    format_loops,
+    format_mdh,
+    format_name_list,
+    format_section,
+    format_symbols,
+    join_lines,
+)
 
 # What a `.par` file says of the links: which parameters they have, values, friction, rotors.
 
@@ -228,9 +240,9 @@ def convert_par_file(data: bytes, where: str) -> ConvertedRobot:
         )
     name = choose_robot_name(statements.name, PurePath(where).stem)
     source = f"SYMORO file {PurePath(where).name}"
-    head = toml.format_head(name, statements.name, source, notes, pull)
+    head = format_head(name, statements.name, source, notes, pull)
     return ConvertedRobot(
-        toml.join_lines([*head, *_format_tables(symbols, counts, links, frames)]), tuple(notes)
+        join_lines([*head, *_format_tables(symbols, counts, links, frames)]), tuple(notes)
     )
 
 
@@ -248,14 +260,14 @@ def _format_tables(
         (f"cut{k + 1}", f"{counts.links + k + 1}", f"{counts.joints + k + 1}", "rigid")
         for k in range(counts.loops)
     ]
-    has = [f"{name} = {toml.format_name_list(keys)}" for name, keys in links.links.items()]
+    has = [f"{name} = {format_name_list(keys)}" for name, keys in links.links.items()]
     actuated = [f"{frame.number}" for frame in frames if frame.mu]
     numbers = [f"{name} = {value!r}" for name, value in links.parameters.items()]
     return [
-        *toml.format_section("[symbols]", toml.format_symbols(symbols.values, symbols.comments)),
-        *toml.format_mdh(rows),
-        *toml.format_loops(loops),
-        *toml.format_section(toml.LINKS, has),
-        *toml.format_section("[effects]", toml.format_effects(links.effects, actuated)),
-        *toml.format_section(toml.PARAMETERS, numbers),
+        *format_section("[symbols]", format_symbols(symbols.values, symbols.comments)),
+        *format_mdh(rows),
+        *format_loops(loops),
+        *format_section(LINKS, has),
+        *format_section("[effects]", format_effects(links.effects, actuated)),
+        *format_section(PARAMETERS, numbers),
     ]

@@ -9,8 +9,16 @@ import numpy as np
 from modeler.core.errors import DataError
 from modeler.core.files import read_file
 from modeler.estimation import compute_pseudo_inertia, extract_parameters
-from modeler.exports.bodies import Original, build_symmetric_matrix, express_parameters
-from modeler.exports.linkage import (
+from modeler.formats.bodies import Original, build_symmetric_matrix, express_parameters
+from modeler.formats.body_tree import (
+    BodyTree,
+    Inertial,
+    Pose,
+    collect_moving_links,
+    compute_quaternion_rotation,
+    compute_standard_parameters,
+)
+from modeler.formats.linkage import (
     BASE,
     SAME_GRAVITY,
     compute_frame_pose,
@@ -19,21 +27,10 @@ from modeler.exports.linkage import (
     compute_rpy_rotation,
     evaluate_variables,
 )
-from modeler.robot import (
-    BodyTree,
-    Element,
-    Inertial,
-    JointKind,
-    Pose,
-    Robot,
-    collect_moving_links,
-    compute_quaternion_rotation,
-    compute_standard_parameters,
-    parse_xml,
-    read_mjcf_tree,
-    read_urdf_tree,
-    suggest_name,
-)
+from modeler.formats.mjcf import read_mjcf_tree
+from modeler.formats.urdf import read_urdf_tree
+from modeler.formats.xml_source import Element, parse_xml
+from modeler.robot import JointKind, Robot, suggest_name
 
 FORMATS = {"robot": "urdf", "mujoco": "mjcf", "sdf": "sdf"}
 """Of a file, by its outermost element."""

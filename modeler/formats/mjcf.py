@@ -19,27 +19,24 @@ import numpy as np
 from modeler.core.errors import RobotError, flatten_message, suggest_install
 from modeler.core.files import read_file
 from modeler.core.toml_cells import quote_value
-from modeler.robot.body_tree import (
+from modeler.formats.body_tree import (
+    ALIKE,
+    EXACT,
     BodyTree,
     Inertial,
     LoopClosure,
     Pose,
     Roundings,
     TreeJoint,
-    find_inertia_defect,
-    summarise_names,
-)
-from modeler.robot.elements import load_element_table
-from modeler.robot.quaternions import (
-    ALIKE,
-    EXACT,
     compute_quaternion_rotation,
+    find_inertia_defect,
     snap_direction,
     snap_quaternion,
+    summarise_names,
 )
-from modeler.robot.robot import JointKind
-from modeler.robot.tree_cuts import resolve_leaders
-from modeler.robot.xml_source import LARGEST_FILE, Element, parse_xml
+from modeler.formats.tree_cuts import resolve_leaders
+from modeler.formats.xml_source import LARGEST_FILE, Element, load_element_table, parse_xml
+from modeler.robot import JointKind
 
 MOST_FILES = 200
 _COUNTS = {"replicate": ("count", 1e3), "hfield": ("nrow ncol", 1e6), "mesh": ("params", 1e3)}
