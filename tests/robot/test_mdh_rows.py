@@ -267,8 +267,8 @@ def test_bodies_without_values_have_no_prior():
             "a_link": None, "b_link": None, "c_link": Inertial(1.0, np.zeros(3), np.eye(3)),
             "flange": nothing, "marker": Inertial(1.0, np.zeros(3), np.eye(3)),
         },
-        hidden=frozenset({"b_link"}),
-        doubted={name: "the identity as inertia" for name in ("c_link", "marker")}
+        auxiliary_bodies=frozenset({"b_link"}),
+        unreliable_bodies={name: "the identity as inertia" for name in ("c_link", "marker")}
         | {"flange": "mass 0"},
     )  # fmt: skip
     made = convert_tree(tree, "drawn.xml")
