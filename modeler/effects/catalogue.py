@@ -40,9 +40,18 @@ _SLIPS = (
 )
 _LAGS = "lags by a time, which has no positive values here; add it, as in shapes = {tau = [0.1, 1"
 _CATALOGUE_KEYS = (
-    *_KEYS, "scale", "limits", "meaning", "prismatic_unit", "kind", "energy", "largest",
-    "resonance", "forms", "needs",
-)  # fmt: skip
+    *_KEYS,
+    "scale",
+    "limits",
+    "meaning",
+    "prismatic_unit",
+    "kind",
+    "energy",
+    "largest",
+    "resonance",
+    "forms",
+    "needs",
+)
 """What the catalogue says of an effect, besides fields of `Effect` as they are."""
 
 _PREFIX = re.compile(r"[A-Za-z]([A-Za-z0-9]*[A-Za-z])?")
@@ -52,22 +61,39 @@ _RESERVED = ("joint", "t0", "T0", "pi", "lambda", *FUNCTIONS, LAW)  # [effects],
 _STATES = 12  # of a joint, in which equations are tried, besides rest
 
 _PLAIN = {
-    "q": "position", "v": "speed", "a": "acceleration", "load": "load", "static": "load",
-    "torque": "torque", "t": "time", "T": "temperature", "since": "time since the last reversal",
+    "q": "position",
+    "v": "speed",
+    "a": "acceleration",
+    "load": "load",
+    "static": "load",
+    "torque": "torque",
+    "t": "time",
+    "T": "temperature",
+    "since": "time since the last reversal",
     "z": "travel since the last reversal",
-}  # fmt: skip
+}
 _AXES: dict[str, SignatureAxis] = {
-    "T": "T", "t": "t", "load": "load", "static": "load", "torque": "torque", "since": "since",
-    "z": "travel", "q": "q", "a": "a",
-}  # fmt: skip
+    "T": "T",
+    "t": "t",
+    "load": "load",
+    "static": "load",
+    "torque": "torque",
+    "since": "since",
+    "z": "travel",
+    "q": "q",
+    "a": "a",
+}
 """Variable -> axis; the first that an equation uses shows it: friction that also depends on
 something else shows itself there, turned with the motion."""
 
 
 def read_definition(
-    name: str, place: TomlCell, taken: Mapping[str, str], is_user_defined: bool = True,
+    name: str,
+    place: TomlCell,
+    taken: Mapping[str, str],
+    is_user_defined: bool = True,
     joints: Collection[str] | None = (),
-) -> Effect:  # fmt: skip
+) -> Effect:
     """The effect of one table.
 
     Args:
@@ -365,8 +391,9 @@ def _check_form(form: Form, acts: EffectTarget, place: TomlCell) -> None:
             raise place.enter("shapes").make_error(
                 f"no equation uses {shape.name}; use it or take it out"
             )
-    if "law" in place.read_table(EXAMPLE) and not any(re.search(r"\blaw\b", c.equation.text)
-                                                 for c in form.columns):  # fmt: skip
+    if "law" in place.read_table(EXAMPLE) and not any(
+        re.search(r"\blaw\b", c.equation.text) for c in form.columns
+    ):
         raise place.enter("law").make_error(
             "no equation calls law; use it, as in law(q), or take it out"
         )

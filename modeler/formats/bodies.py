@@ -54,10 +54,13 @@ HELD = {
 """What a joint of these formats has."""
 
 _HELD_AS = {
-    ("viscous", "Fv"): "damping", ("passive_friction", "Fvp"): "damping",
-    ("coulomb", "Fs"): "friction", ("passive_friction", "Fsp"): "friction",
-    ("rotor_inertia", "Ia"): "armature", ("spring", "Ks"): "stiffness",
-}  # fmt: skip
+    ("viscous", "Fv"): "damping",
+    ("passive_friction", "Fvp"): "damping",
+    ("coulomb", "Fs"): "friction",
+    ("passive_friction", "Fsp"): "friction",
+    ("rotor_inertia", "Ia"): "armature",
+    ("spring", "Ks"): "stiffness",
+}
 
 Terms = Mapping[str, Mapping[str, float]]
 """quantity -> {standard parameter: coefficient}."""
@@ -373,8 +376,12 @@ def _complete_with_torques(robot: Robot, equations: Equations) -> ExportParamete
         for link, indices in machine.links.items()
     }
     thin, others, moves, notes = list[str](), dict(machine.links), np.zeros(len(known)), list[str]()
-    carrying = {row for link, indices in machine.links.items() if known[indices[9]] > 0.0
-                for row in _iterate_carrying_rows(robot, link)}  # fmt: skip
+    carrying = {
+        row
+        for link, indices in machine.links.items()
+        if known[indices[9]] > 0.0
+        for row in _iterate_carrying_rows(robot, link)
+    }
     for link, indices in machine.links.items():
         if link in carrying and not known[indices].any():
             del others[link]  # without a body, as in the C
@@ -433,8 +440,11 @@ def _collect_stated_values(
     effects = [
         (row.name, e) for row in robot.moving_joints for e in robot.find_joint_effects(row.name)
     ]
-    effect_parameters = [f"{column.prefix}{row}{instance.label}"
-           for row, (_, form, instance) in effects for column in form.columns]  # fmt: skip
+    effect_parameters = [
+        f"{column.prefix}{row}{instance.label}"
+        for row, (_, form, instance) in effects
+        for column in form.columns
+    ]
     names = [f"{prefix}{link}" for link in links for prefix in PREFIXES]
     names += [name for name in effect_parameters if name in values]
     has_mass = any(f"M{link}" in values or f"ZZ{link}" in values for link in links)

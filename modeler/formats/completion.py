@@ -17,8 +17,6 @@ a semidefinite problem (Sousa and Cortesao 2014, IJRR 33(6); Wensing, Kim and Sl
 RA-L 3(1)).
 """
 
-import contextlib
-import warnings
 from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cached_property
@@ -26,6 +24,7 @@ from functools import cached_property
 import numpy as np
 
 from modeler.estimation import PhysicalParameters, compute_pseudo_inertia
+from modeler.numerics.cones import minimize_over_cones
 
 INSIDE = 1e-7
 """Least eigenvalue of a body that could be built, a round one of its size being 1."""
@@ -106,40 +105,28 @@ def find_nearest_physical(
     floors = {link: attached_inertia.get(link, np.zeros(10)) for link in machine.links}
     if not find_violations(machine, completion.chi, size, floors):
         return completion
-    import cvxpy as cp  # only here: most fits can be built as they are
-
     L = completion.root[:, np.abs(completion.root).any(axis=0)]
-    if not L.size:
+    places = list(machine.positive.values())
+    if not L.size or np.any(~L[places].any(axis=1) & (completion.chi[places] < 0.0)):
         return None
-    deviation = np.linalg.norm(L, axis=1)
-    z = cp.Variable(L.shape[1])
-    bounds = []
-    for place in machine.positive.values():
-        scale = max(abs(completion.chi[place]), deviation[place]) or 1.0
-        if L[place].any():
-            bounds.append((completion.chi[place] + L[place] @ z) / scale >= 0.0)
-        elif completion.chi[place] < 0.0:
-            return None
+    scale = np.maximum(np.abs(completion.chi[places]), np.linalg.norm(L[places], axis=1))
+    scale = np.where(scale > 0.0, scale, 1.0)
+    matrices = []
     for link, indices in machine.links.items():
         W = size[link]
         now = W @ compute_pseudo_inertia(completion.chi[indices] - floors[link]) @ W.T
-        moves = np.einsum("ai,ijk,bj->abk", W, compute_pseudo_inertia(L[indices]), W).reshape(
-            16, -1
-        )
-        matrix = cp.reshape(now.ravel() + moves @ z, (4, 4), order="C")
-        bounds.append(matrix - _WELL_INSIDE * np.eye(4) >> 0)
-    problem = cp.Problem(cp.Minimize(cp.sum_squares(z)), bounds)
-    with contextlib.suppress(cp.SolverError), warnings.catch_warnings():
-        warnings.simplefilter("ignore")  # what comes is looked at below
-        problem.solve(solver=cp.CLARABEL)
-    if z.value is None:
+        moves = np.einsum("ai,ijk,bj->kab", W, compute_pseudo_inertia(L[indices]), W)
+        matrices.append((now - _WELL_INSIDE * np.eye(4), moves))
+    unit = np.eye(L.shape[1])
+    bounds = L[places] / scale[:, None], completion.chi[places] / scale
+    z = minimize_over_cones((unit, np.zeros(len(unit))), bounds, matrices)
+    if z is None:
         return None
-    chi = completion.chi + L @ z.value
-    places = list(machine.positive.values())
+    chi = completion.chi + L @ z
     chi[places] = np.maximum(chi[places], 0.0)
     if find_violations(machine, chi, size, floors):
         return None
-    far = float(np.linalg.norm(z.value))
+    far = float(np.linalg.norm(z))
     return CompletedParameters(
         chi, completion.root, compute_distance(machine.K @ chi - beta, C), far
     )

@@ -393,9 +393,11 @@ def _build_sdf(physics: ExportParameters, parts: list[Part], names: Names) -> ET
     base, keys = names.links[BASE], {"stiffness": "spring_stiffness", "rest": "spring_reference"}
     ends = _build_node("parent", "world"), _build_node("child", base)
     model = _build_node(
-        "model", _build_node("link", _build_pose_node(lift), name=base),
-        _build_node("joint", *ends, name=names.upright, type="fixed"), name=physics.robot.name,
-    )  # fmt: skip
+        "model",
+        _build_node("link", _build_pose_node(lift), name=base),
+        _build_node("joint", *ends, name=names.upright, type="fixed"),
+        name=physics.robot.name,
+    )
     for part in parts:
         if part.body is None or not part.row.is_moving:
             frame_attributes = {"name": part.link, "attached_to": part.parent}
@@ -447,9 +449,13 @@ def _build_pose_node(pose: Pose, **attributes: str) -> ET.Element:
 
 
 ENDINGS = {
-    ".urdf": "urdf", ".xml": "mjcf", ".mjcf": "mjcf", ".sdf": "sdf", ".casadi": "casadi",
+    ".urdf": "urdf",
+    ".xml": "mjcf",
+    ".mjcf": "mjcf",
+    ".sdf": "sdf",
+    ".casadi": "casadi",
     ".fmu": "fmu",
-}  # fmt: skip
+}
 """Formats by the ending of a file."""
 
 FORMATS = ("urdf", "mjcf", "sdf", "casadi", "fmu", "simulink", "ros2")

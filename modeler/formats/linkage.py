@@ -217,8 +217,9 @@ def build_capsules(robot: Robot, q: Mapping[str, float]) -> dict[str, tuple[Caps
         if stated and stated[0].ends is not None:
             capsules_by_row[row] = tuple(
                 Capsule(np.array(entry.ends[1]), entry.radius, np.array(entry.ends[0]))
-                for entry in stated if entry.ends is not None
-            )  # fmt: skip
+                for entry in stated
+                if entry.ends is not None
+            )
     return capsules_by_row
 
 

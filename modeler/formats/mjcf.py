@@ -47,11 +47,13 @@ NOTHING = 1e-9
 """kg; what weighs less states nothing."""
 _FREE, _BALL, _SLIDE, _HINGE = range(4)  # mjtJoint
 _WRAP_JOINT = 1  # mjtWrap
-_LEFT_OUT = ("cameras", "lights", "hfields", "sensors", "pairs", "excludes", "skins", "tuples",
-             "numerics", "texts", "materials", "textures")  # fmt: skip
-_NUMBERS = ("body_pos", "body_mass", "body_ipos", "body_inertia", "jnt_pos", "qpos0", "eq_data",
-            "dof_damping", "dof_armature", "actuator_gear", "actuator_damping", "actuator_armature",
-            )  # fmt: skip
+_LEFT_OUT = """
+    cameras lights hfields sensors pairs excludes skins tuples numerics texts materials textures
+"""
+_NUMBERS = """
+    body_pos body_mass body_ipos body_inertia jnt_pos qpos0 eq_data dof_damping dof_armature
+    actuator_gear actuator_damping actuator_armature
+"""
 LARGEST = 1e12
 _NUMBER = re.compile(r"\d+\.?\d*(?:[eE]\+?\d+)?")
 _ALWAYS = 1  # inertiafromgeom="true"
@@ -108,8 +110,13 @@ def _suppress_warnings(mujoco: Any, path: Path) -> Iterator[None]:
             warnings.simplefilter("ignore")
             yield
     except (
-        ValueError, TypeError, RuntimeError, MemoryError, mujoco.FatalError, mujoco.UnexpectedError,
-    ) as error:  # fmt: skip
+        ValueError,
+        TypeError,
+        RuntimeError,
+        MemoryError,
+        mujoco.FatalError,
+        mujoco.UnexpectedError,
+    ) as error:
         message = " ".join(str(error).split()).replace("XML Error: ", "").replace("Error: ", "")
         raise RobotError(
             flatten_message(f"{path}: MuJoCo does not take it: {message}; correct it there")
@@ -204,10 +211,12 @@ def _remove_irrelevant_parts(spec: Any, path: Path) -> list[str]:
         spec.delete(body)
     without = _remove_shapes(spec)
     if without and total > 0.0:
-        raise RobotError(flatten_message(
-            f"{path}: settotalmass shares {total:g} kg by masses of meshes that are not there, of "
-            f"{summarise_names(without)}; put them there, or take settotalmass out"
-        ))  # fmt: skip
+        raise RobotError(
+            flatten_message(
+                f"{path}: settotalmass shares {total:g} kg by masses of meshes that are not there, of "
+                f"{summarise_names(without)}; put them there, or take settotalmass out"
+            )
+        )
     if total > 0.0 and removed_bodies:
         scaled = spec.compile().body_mass
         removed_ids = [b.id for body in removed_bodies for b in (body, *body.find_all("body"))]
@@ -245,7 +254,7 @@ def _remove_shapes(spec: Any) -> list[str]:
             body.explicitinertial, body.mass, body.inertia = True, LIGHT, [LIGHT] * 3
     for part in [*spec.geoms, *spec.sites]:
         part.material = ""
-    idle = [part for name in _LEFT_OUT for part in getattr(spec, name)]
+    idle = [part for name in _LEFT_OUT.split() for part in getattr(spec, name)]
     for part in [*idle, *(mesh for mesh in spec.meshes if mesh.name not in used)]:
         spec.delete(part)
     return without
@@ -302,7 +311,7 @@ class _ModelReader:
     def read_tree(self, name: str) -> BodyTree:
         """All of it."""
         model, hidden, unread = self._model, set[str](), dict[str, str]()
-        for numbers in _NUMBERS:
+        for numbers in _NUMBERS.split():
             if not np.all(np.abs(getattr(model, numbers)) < LARGEST):
                 raise self._build_error(f"{numbers}: got more than {LARGEST:g}; expected SI units")
         if np.all(model.jnt_type == _FREE):

@@ -287,8 +287,10 @@ def _locate_by_order(source: OriginalFile, tree: BodyTree, robot: Robot) -> Link
     row_of = {name: row for link, row in zip(links, rows, strict=True) for name in link.bodies}
     wrong = None
     for base in links[0].bodies.values():  # any of them may be frame 0
-        on = {name: (row, at[row].inverse() @ base.inverse() @ body_poses[name])
-              for name, row in row_of.items()}  # fmt: skip
+        on = {
+            name: (row, at[row].inverse() @ base.inverse() @ body_poses[name])
+            for name, row in row_of.items()
+        }
         try:
             _check_tree(source, tree, robot, on, joints)
         except DataError as error:

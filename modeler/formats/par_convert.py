@@ -251,11 +251,15 @@ def _format_tables(
 ) -> list[str]:
     """`[symbols]` and all below."""
     rows = [
-        TextRow(f"{frame.number}", f"{frame.antecedent}", frame.mu, frame.sigma, {
-            c: "0" if frame.cells[c].is_zero else frame.cells[c].text for c in GEOMETRY
-        })
+        TextRow(
+            f"{frame.number}",
+            f"{frame.antecedent}",
+            frame.mu,
+            frame.sigma,
+            {c: "0" if frame.cells[c].is_zero else frame.cells[c].text for c in GEOMETRY},
+        )
         for frame in frames
-    ]  # fmt: skip
+    ]
     loops = [  # every cut joint meets its second frame
         (f"cut{k + 1}", f"{counts.links + k + 1}", f"{counts.joints + k + 1}", "rigid")
         for k in range(counts.loops)

@@ -206,13 +206,13 @@ def _parse_entries(inner: str, key: str, place: TomlCell) -> tuple[str, ...]:
 
 
 INVERSE: dict[str, Callable[..., float]] = {
-    "atan2": math.atan2, "atan": math.atan, "acos": math.acos, "asin": math.asin,
-}  # fmt: skip
+    name: getattr(math, name) for name in ("atan2", "atan", "acos", "asin")
+}
 """Functions of `.par` files that robot files do not have."""
 
 _FUNCTION = {name: name for name in (*FUNCTIONS, *INVERSE)} | {
-    "arctan": "atan", "arctan2": "atan2", "arccos": "acos", "arcsin": "asin",
-}  # fmt: skip
+    f"arc{name[1:]}": name for name in INVERSE
+}
 _NUMBER = r"(?:\d+\.?\d*|\.\d+)(?:(?:[eE]|\*\^)[+-]?\d+)?"
 _TOKEN = re.compile(rf"({_NUMBER})|([^\W\d]\w*)(\s*[(\[])?|(\*\*|\^|[-+*/()\[\],])|(\s+)|(.)")
 _PLAIN = re.compile(rf"[+-]?\s*{_NUMBER}")

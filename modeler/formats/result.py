@@ -20,6 +20,7 @@ from modeler.formats.bodies import (
 from modeler.formats.body_tree import Pose
 from modeler.formats.completion import compute_distance
 from modeler.formats.linkage import SAME_GRAVITY, compute_gravity
+from modeler.formats.original import TENSOR
 from modeler.robot import Joint
 
 Torques = Callable[[np.ndarray], tuple[np.ndarray, tuple[str, ...]]]
@@ -83,8 +84,11 @@ def find_lost_effects(
     for joint in robot.moving_joints:
         for effect, form, instance in robot.find_joint_effects(joint.name):
             names = [f"{column.prefix}{joint.name}{instance.label}" for column in form.columns]
-            values = {n: float(physics.completion.chi[physics.indices[n]]) for n in names
-                      if n in physics.indices and n not in stated_names}  # fmt: skip
+            values = {
+                n: float(physics.completion.chi[physics.indices[n]])
+                for n in names
+                if n in physics.indices and n not in stated_names
+            }
             if any(values.values()):
                 share, of = _compute_torque_share(physics, list(values), joint.name, torques)
                 if share is None or share >= _NOTHING:
@@ -119,17 +123,17 @@ _HEAD = b"<!-- modeler export: "
 _OURS = re.compile(re.escape(_HEAD) + rb".*?-->\r?\n?", re.DOTALL)
 _DECLARATION = re.compile(rb"\A(?:\xef\xbb\xbf)?(?:\s*<\?xml[^>]*\?>[ \t]*(?:\r?\n)?)?")
 
-QUANTITIES = (
-    "mass", "centre x", "centre y", "centre z", "ixx", "ixy", "ixz", "iyy", "iyz", "izz",
-)  # fmt: skip
+QUANTITIES = ("mass", *(f"centre {axis}" for axis in "xyz"), *TENSOR)
 """Of a body, as `written` orders them: centre in the link's frame, inertia about it along the axes
 of the file."""
 
 _UNITS = ("kg", *3 * ("m",), *6 * ("kg m2",))
 _DRIVE_UNITS = {
-    "damping": ("N m s/rad", "N s/m"), "friction": ("N m", "N"), "armature": ("kg m2", "kg"),
+    "damping": ("N m s/rad", "N s/m"),
+    "friction": ("N m", "N"),
+    "armature": ("kg m2", "kg"),
     "stiffness": ("N m/rad", "N/m"),
-}  # fmt: skip
+}
 _SAME = 1e-9  # of the size of its kind: what is nearer has not changed
 
 
@@ -338,21 +342,36 @@ def _build_values_table(exported: Exported, values: Iterable[Value]) -> Table:
 
 def _build_lost_table(exported: Exported) -> Table:
     rows = [
-        (one.effect, one.joint, ", ".join(f"{n} = {x:.4g}" for n, x in one.values.items()),
-         one.share, one.of)
+        (
+            one.effect,
+            one.joint,
+            ", ".join(f"{n} = {x:.4g}" for n, x in one.values.items()),
+            one.share,
+            one.of,
+        )
         for one in exported.lost_effects
-    ]  # fmt: skip
+    ]
     head = "effect, joint, values, share, of"
     return Table.build(f"{exported.robot}: what {_format_title(exported)} cannot hold", head, rows)
 
 
-register_presentations({
-    Exported: Presentation("a file for another program", _format_summary, lambda found: {
-        "values": lambda: _build_values_table(found, found.values),
-        "changed": lambda: _build_values_table(found, filter(_is_visible_change, found.values)),
-        "not held": lambda: _build_lost_table(found),
-        "functions": lambda: Table.build(
-            f"{found.robot}: functions", "function, arguments", [*found.functions.items()]
+def _list_tables(exported: Exported) -> dict[str, Callable[[], Table]]:
+    functions = [*exported.functions.items()]
+    head = "function, arguments"
+    return {
+        "values": lambda: _build_values_table(exported, exported.values),
+        "changed": lambda: _build_values_table(
+            exported, filter(_is_visible_change, exported.values)
         ),
-    }, page=("values", "not held")),
-})  # fmt: skip
+        "not held": lambda: _build_lost_table(exported),
+        "functions": lambda: Table.build(f"{exported.robot}: functions", head, functions),
+    }
+
+
+register_presentations(
+    {
+        Exported: Presentation(
+            "a file for another program", _format_summary, _list_tables, page=("values", "not held")
+        )
+    }
+)

@@ -39,16 +39,31 @@ _TURNED = ("diaginertia", "quat", "axisangle", "xyaxes", "zaxis", "euler")
 _RESCALED = ("settotalmass", "boundmass", "boundinertia")
 _RESISTS = ("damping", "friction", "armature", "stiffness")
 _PATHS = {
-    "urdf": {"mass": "inertial/mass@value", "centre": "inertial/origin@xyz",
-             "tensor": "inertial/inertia@{}",
-             "damping": "dynamics@damping", "friction": "dynamics@friction"},
-    "sdf": {"mass": "inertial/mass", "centre": "inertial/pose", "tensor": "inertial/inertia/{}",
-            "damping": "axis/dynamics/damping", "friction": "axis/dynamics/friction",
-            "stiffness": "axis/dynamics/spring_stiffness"},
-    "mjcf": {"mass": "inertial@mass", "centre": "inertial@pos", "tensor": "inertial@fullinertia",
-             "damping": "@damping", "friction": "@frictionloss", "armature": "@armature",
-             "stiffness": "@stiffness"},
-}  # fmt: skip
+    "urdf": {
+        "mass": "inertial/mass@value",
+        "centre": "inertial/origin@xyz",
+        "tensor": "inertial/inertia@{}",
+        "damping": "dynamics@damping",
+        "friction": "dynamics@friction",
+    },
+    "sdf": {
+        "mass": "inertial/mass",
+        "centre": "inertial/pose",
+        "tensor": "inertial/inertia/{}",
+        "damping": "axis/dynamics/damping",
+        "friction": "axis/dynamics/friction",
+        "stiffness": "axis/dynamics/spring_stiffness",
+    },
+    "mjcf": {
+        "mass": "inertial@mass",
+        "centre": "inertial@pos",
+        "tensor": "inertial@fullinertia",
+        "damping": "@damping",
+        "friction": "@frictionloss",
+        "armature": "@armature",
+        "stiffness": "@stiffness",
+    },
+}
 """Where numbers stand in a link or a joint: elements, and behind @ an attribute."""
 
 
@@ -228,8 +243,11 @@ class _NumberEditor:
         """Puts what resists a joint."""
         stated = self.joints.get(name)
         if stated is None:
-            texts = {q: get_text_at(self._find_element("joint", name), p)
-                     for q, p in self.paths.items() if q in _RESISTS}  # fmt: skip
+            texts = {
+                q: get_text_at(self._find_element("joint", name), p)
+                for q, p in self.paths.items()
+                if q in _RESISTS
+            }
             was = {quantity: float(text or 0.0) for quantity, text in texts.items()}
         else:
             was = {quantity: float(getattr(stated, quantity) or 0.0) for quantity in _RESISTS}
@@ -263,8 +281,11 @@ class _NumberEditor:
 def _collect_elements(root: Element) -> dict[tuple[str, str], Element]:
     """Links and joints of URDF (<transmission> names joints too) and SDF."""
     parts = root.children if root.tag == "robot" else root.iterate_elements()
-    return {(e.tag, e.attributes.get("name", "").strip()): e for e in parts
-            if e.tag in ("link", "joint")}  # fmt: skip
+    return {
+        (e.tag, e.attributes.get("name", "").strip()): e
+        for e in parts
+        if e.tag in ("link", "joint")
+    }
 
 
 def _collect_mjcf_elements(root: Element) -> dict[tuple[str, str], Element]:
@@ -303,8 +324,11 @@ def _check_mjcf(source: OriginalFile) -> None:
     """Refuse files of which MuJoCo changes the numbers that they state."""
     for element in source.root.iterate_elements():
         stated = element.attributes
-        wrong = [f"{key} changes the masses that are stated; take it out"
-                 for key in _RESCALED if float(stated.get(key, "0")) > 0.0]  # fmt: skip
+        wrong = [
+            f"{key} changes the masses that are stated; take it out"
+            for key in _RESCALED
+            if float(stated.get(key, "0")) > 0.0
+        ]
         if stated.get("inertiafromgeom") == "true":
             wrong.append('inertiafromgeom="true" takes all masses from geoms; write "auto" there')
         if "springdamper" in stated:

@@ -56,9 +56,13 @@ from modeler.robot import (
 _STEP = 1e-6  # rad, m, of central differences
 _RANK = 1e-7  # of the largest singular value: differences are good to 1e-10
 _TIES = {
-    "rigid": (0, 1, 2, 3, 4, 5), "revolute": (0, 1, 2, 3, 4), "prismatic": (0, 1, 3, 4, 5),
-    "cylindrical": (0, 1, 3, 4), "universal": (0, 1, 2, 6), "planar": (2, 3, 4),
-}  # fmt: skip
+    "rigid": (0, 1, 2, 3, 4, 5),
+    "revolute": (0, 1, 2, 3, 4),
+    "prismatic": (0, 1, 3, 4, 5),
+    "cylindrical": (0, 1, 3, 4),
+    "universal": (0, 1, 2, 6),
+    "planar": (2, 3, 4),
+}
 """Kind -> which of `_apart` it ties; the others tie the three of the origin."""
 
 

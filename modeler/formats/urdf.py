@@ -46,13 +46,18 @@ Tell = Callable[[str, str], None]
 """Adds a name to a sentence with {} that is told."""
 
 _COUPLED = (
-    ("joint", "mimic", "name", "joint"), ("joint", "drake:mimic", "name", "joint"),
-    ("gazebo", "plugin", "mimicJoint", "joint"), ("ros2_control", "joint", "name", "mimic"),
-)  # fmt: skip
+    ("joint", "mimic", "name", "joint"),
+    ("joint", "drake:mimic", "name", "joint"),
+    ("gazebo", "plugin", "mimicJoint", "joint"),
+    ("ros2_control", "joint", "name", "mimic"),
+)
 """Element, element in it, and which of their values name the joint that follows and its leader."""
 _LOOPS = {kind: kind for kind in LOOP_KINDS} | {
-    "continuous": "revolute", "ball": "spherical", "fixed": "rigid", "weld": "rigid",
-}  # fmt: skip
+    "continuous": "revolute",
+    "ball": "spherical",
+    "fixed": "rigid",
+    "weld": "rigid",
+}
 _SIDES = ("link1", "link2", "predecessor", "successor", "parent", "child")
 _GEARS = ("drake:rotor_inertia", "motorInertia", "drake:gear_ratio", "mechanicalReduction")
 _SPRING = ("springStiffness", "springReference")
@@ -110,8 +115,10 @@ def _find_couplings(
                     tell("plugins of Gazebo are left out: {}", spot.get_text("filename"))
     above = {joint.child: joint for joint in joints.values()}
     for spot in root.find_children("coupling"):
-        one, two = (above.get(spot.require_child(tag, 'link="a"').require_attribute("link", "a"))
-                    for tag in ("predecessor", "successor"))  # fmt: skip
+        one, two = (
+            above.get(spot.require_child(tag, 'link="a"').require_attribute("link", "a"))
+            for tag in ("predecessor", "successor")
+        )
         line = spot.merge_children("ratio")
         line.require_attribute("ratio", "1")
         if one is None or two is None or one is two or one.parent != two.parent:
@@ -288,10 +295,14 @@ def add_springs(root: LocatedElement, joints: Joints, tell: Tell) -> None:
     Raises:
         RobotError: two that differ.
     """
-    springs = [(joint.name, joint.find_child("dynamics"), "spring_stiffness", "spring_reference")
-               for joint in root.find_children("joint", "drake:joint")]  # fmt: skip
-    springs += [(spot.get_text("reference"), spot.merge_children(*_SPRING), *_SPRING)
-                for spot in root.find_children("gazebo")]  # fmt: skip
+    springs = [
+        (joint.name, joint.find_child("dynamics"), "spring_stiffness", "spring_reference")
+        for joint in root.find_children("joint", "drake:joint")
+    ]
+    springs += [
+        (spot.get_text("reference"), spot.merge_children(*_SPRING), *_SPRING)
+        for spot in root.find_children("gazebo")
+    ]
     for name, spot, stiffness, rest in springs:
         spring_values = tuple(float(spot.read_numbers(key, "0")[0]) for key in (stiffness, rest))
         if not spot.get_text(stiffness):

@@ -19,8 +19,15 @@ FINE, COARSE = 3, 2
 """Decimals that an angle must have to be taken for a multiple of pi/12, and of pi/2: with fewer,
 a measured angle is near one by chance too often."""
 
-_SINES = (0.0, math.sin(math.pi / 12), 0.5, math.sqrt(0.5), math.sqrt(0.75),
-          math.cos(math.pi / 12), 1.0)  # fmt: skip
+_SINES = (
+    0.0,
+    math.sin(math.pi / 12),
+    0.5,
+    math.sqrt(0.5),
+    math.sqrt(0.75),
+    math.cos(math.pi / 12),
+    1.0,
+)
 """Of 0, pi/12, .. pi/2, each the double next to it."""
 
 

@@ -334,9 +334,11 @@ def set_joint_effect(
     entries = [e for e in has if (e["joint"] if isinstance(e, dict) else e) != joint]
     entries += [joint] if is_present else []
     is_everywhere = sorted(map(str, entries)) == sorted(everyone)
-    effects[name] = "all" if is_everywhere else [e for e in everyone if e in entries] + [
-        e for e in entries if e not in everyone
-    ]  # fmt: skip
+    effects[name] = (
+        "all"
+        if is_everywhere
+        else [e for e in everyone if e in entries] + [e for e in entries if e not in everyone]
+    )
     return replace_effects(text, {n: joints for n, joints in effects.items() if joints})
 
 

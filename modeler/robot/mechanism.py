@@ -461,9 +461,7 @@ def build_motor_rows(place: TomlCell, rows: Rows) -> Rows:
             )
         sliding = all(read_row_kind(*joint) is JointKind.PRISMATIC for joint in joints)
         kind = JointKind.PRISMATIC if sliding else JointKind.REVOLUTE
-        motor: Row = {
-            "j": name, "a": "0", "mu": 1, "sigma": kind.value, HOME[kind]: f"q{name}",
-        }  # fmt: skip
+        motor: Row = {"j": name, "a": "0", "mu": 1, "sigma": kind.value, HOME[kind]: f"q{name}"}
         new_rows.append((motor, RowPlace(here.file, here.location, row=name)))
         for joint, _ in joints:
             joint["mu"] = 0

@@ -66,12 +66,11 @@ from modeler.robot.table import (
     read_table_rows,
 )
 
-_KEYS = (
-    "name", "title", "notes", "gravity", "priority", "legs", "shared", "symbols", "mdh",
-    "relations", "platform", "loops", "home", "frames", "tool", "links", "effects", "own_effects",
-    "coupling", "motors", "parameters", "reference", "drive_gains", "drives", "limits",
-    "physical", "terms", "log", "fit", "diagnose", "capsules",
-)  # fmt: skip
+_KEYS = """
+    name title notes gravity priority legs shared symbols mdh relations platform loops home
+    frames tool links effects own_effects coupling motors parameters reference drive_gains
+    drives limits physical terms log fit diagnose capsules
+"""
 _NEEDED = {
     "name": 'write a first line such as name = "arm"',
     "gravity": 'write the acceleration of gravity in frame 0, such as [0, 0, "-g"] with g among '
@@ -303,7 +302,7 @@ def parse_toml_document(text: str, place: TomlCell) -> dict[str, Any]:
 
 def _read_document(text: str, place: TomlCell) -> dict[str, Any]:
     document = parse_toml_document(text, place)
-    place.with_value(document).read_checked_table(_KEYS, "")
+    place.with_value(document).read_checked_table(_KEYS.split(), "")
     for key, advice in _NEEDED.items():
         if key not in document:
             raise place.enter(key).make_error(f"is missing; {advice}")
@@ -509,14 +508,17 @@ def _build_serial_values(kinds: str, convention: str) -> dict[str, str]:
     stated = f'convention = "{convention}"\n' if convention != "khalil" else ""
     body = "".join(f"          [{line}],\n" for line in lines)
     symbols = [f"{name} = {length}".ljust(38) + "# m" for name, length in lengths.items()]
-    ranges = {"R": ('["-90 deg", "90 deg", 2, 8]', "rad, rad/s, rad/s^2"),
-              "P": ("[-0.3, 0.3, 0.5, 3]", "m, m/s, m/s^2")}  # fmt: skip
+    ranges = {
+        "R": ('["-90 deg", "90 deg", 2, 8]', "rad, rad/s, rad/s^2"),
+        "P": ("[-0.3, 0.3, 0.5, 3]", "m, m/s, m/s^2"),
+    }
     limits = [
         f"{j} = {ranges[kind][0]}".ljust(38) + f"# {ranges[kind][1]}"
         for j, kind in enumerate(kinds, 1)
     ]
     return {
-        "symbols": "\n".join(symbols), "limits": "\n".join(limits),
+        "symbols": "\n".join(symbols),
+        "limits": "\n".join(limits),
         "table": f"{stated}columns = [{head}]\nrows = [\n{body}]",
         "step": STEPS[convention].translate(_WORDS).replace("; ", "\n# "),
-    }  # fmt: skip
+    }

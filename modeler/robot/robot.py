@@ -182,8 +182,15 @@ class LinkCapsule:
 
 
 LOOP_KINDS = (
-    "rigid", "revolute", "prismatic", "cylindrical", "universal", "spherical", "position", "planar",
-)  # fmt: skip
+    "rigid",
+    "revolute",
+    "prismatic",
+    "cylindrical",
+    "universal",
+    "spherical",
+    "position",
+    "planar",
+)
 """What the joint that closes a loop lets free; see `Loop`."""
 
 

@@ -251,12 +251,19 @@ def read_drives(
 
 _SHARE, _POSITIVE = "a share from 0 to 1, such as 0.05", "a number of 0 or more, such as 20"
 FIT_OPTIONS: Mapping[str, str | tuple[str, ...]] = {
-    "cutoff": _POSITIVE, "parallel_cutoff": _POSITIVE, "decimate": "a whole number from 1",
-    "derivatives": get_args(Derivatives), "low_speed": _SHARE,
-    "method": (*get_args(Method), GAIN_METHOD, TWO_STEPS), "model": ("torque", "energy"),
-    "window": _POSITIVE, "essential_below": _POSITIVE, "keep_saturated": "true or false",
-    "keep_contradicted": "true or false", "keep_damaged": "true or false",
-}  # fmt: skip
+    "cutoff": _POSITIVE,
+    "parallel_cutoff": _POSITIVE,
+    "decimate": "a whole number from 1",
+    "derivatives": get_args(Derivatives),
+    "low_speed": _SHARE,
+    "method": (*get_args(Method), GAIN_METHOD, TWO_STEPS),
+    "model": ("torque", "energy"),
+    "window": _POSITIVE,
+    "essential_below": _POSITIVE,
+    "keep_saturated": "true or false",
+    "keep_contradicted": "true or false",
+    "keep_damaged": "true or false",
+}
 """What `[fit]` may hold, by names of options of `modeler fit`: words, or what is expected."""
 
 
@@ -390,9 +397,12 @@ def read_frames(
 
 
 def _iterate_rows(
-    place: TomlCell, table: Mapping[str, Any], needed: tuple[str, ...], known: tuple[str, ...],
+    place: TomlCell,
+    table: Mapping[str, Any],
+    needed: tuple[str, ...],
+    known: tuple[str, ...],
     example: str,
-) -> Iterator[tuple[TomlCell, dict[str, Any]]]:  # fmt: skip
+) -> Iterator[tuple[TomlCell, dict[str, Any]]]:
     """The rows of a table with columns, each with its cells by column."""
     here = place.enter("columns", table["columns"])
     columns = here.read_list(example)

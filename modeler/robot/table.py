@@ -31,26 +31,25 @@ Row = dict[str, Any]
 
 _EMPTY: Mapping[str, str] = MappingProxyType({})
 CONVENTIONS: Mapping[str, Mapping[str, str]] = {
-    "khalil": {column: column for column in COLUMNS},
-    "craig": {
-        "j": "j", "a": "parent", "mu": "mu", "sigma": "sigma", "gamma": "gamma", "b": "b",
-        "alpha": "alpha", "d": "a", "r": "d", "theta": "theta",
-    },
-    "classical": {
-        "j": "j", "mu": "mu", "sigma": "sigma", "theta": "theta", "r": "d", "d": "a",
-        "alpha": "alpha",
-    },
-}  # fmt: skip
+    name: {khalil: letter for khalil, _, letter in (c.partition(":") for c in columns.split())}
+    for name, columns in {
+        "khalil": " ".join(f"{column}:{column}" for column in COLUMNS),
+        "craig": "j:j a:parent mu:mu sigma:sigma gamma:gamma b:b alpha:alpha d:a r:d theta:theta",
+        "classical": "j:j mu:mu sigma:sigma theta:theta r:d d:a alpha:alpha",
+    }.items()
+}
 """By whose table it is: Khalil's column -> its letter there, in the order in which they print."""
 _ONE_ROW = {
     "khalil": '["j", "alpha", "d", "theta", "r"], rows = [["1", 0, 0, "q1", 0]]',
     "craig": '["j", "alpha", "a", "d", "theta"], rows = [["1", 0, 0, 0, "q1"]]',
     "classical": '["j", "theta", "d", "a", "alpha"], rows = [["1", "q1", 0, 0, 0]]',
 }
-_GREEK = {
-    "\u03b1": "alpha", "\u03b3": "gamma", "\u03b8": "theta", "\u03c3": "sigma", "\u03bc": "mu",
-    "\u00b5": "mu",
-}  # fmt: skip
+GREEK = dict(
+    zip(
+        "\u03b1\u03b3\u03b8\u03c3\u03bc\u00b5", "alpha gamma theta sigma mu mu".split(), strict=True
+    )
+)
+"""Greek letter -> its name."""
 _SERIAL = (
     "a classical table is of a serial robot, for its a and alpha place the one axis that follows; "
     'write the table in the notation of Khalil or Craig, convention = "khalil" or "craig"'
@@ -120,7 +119,7 @@ def read_khalil_columns(place: TomlCell, convention: str) -> list[str]:
         RobotError: columns that such a table has not, or twice, or no names of rows.
     """
     written_columns = place.read_list(_ONE_ROW[convention].split(", rows")[0])
-    columns = [_GREEK.get(c, c) if isinstance(c, str) else c for c in written_columns]
+    columns = [GREEK.get(c, c) if isinstance(c, str) else c for c in written_columns]
     ours = {letter: column for column, letter in CONVENTIONS[convention].items()}
     for number, column in enumerate(columns, start=1):
         if column not in list(ours):
@@ -347,9 +346,11 @@ def read_table_rows(
     example = format_table_example(convention)
     stated = {"convention": convention, **place.read_table(f"[mdh] {example}")}
     table = place.with_value(stated).read_checked_table(
-        ("columns", "rows", "convention"), "", "expected columns, rows and convention only",
+        ("columns", "rows", "convention"),
+        "",
+        "expected columns, rows and convention only",
         missing=f"write {example}",
-    )  # fmt: skip
+    )
     columns = read_khalil_columns(place.enter("columns", table["columns"]), convention)
     listed_rows = place.enter("rows", table["rows"]).read_list(example)
     count = len(listed_rows) + len(platform)

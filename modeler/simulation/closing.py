@@ -291,9 +291,9 @@ def _interpolate_postures(
     for k in anchors:
         before = _close_stepwise(robot, constraints, before, q[k], f"at sample {first + k + 1}")
         anchor_postures.append(before)
-    start = np.column_stack([
-        np.interp(np.arange(len(q)), anchors, column) for column in np.array(anchor_postures).T
-    ])  # fmt: skip
+    start = np.column_stack(
+        [np.interp(np.arange(len(q)), anchors, column) for column in np.array(anchor_postures).T]
+    )
     start[:, constraints.coordinate_rows] = q
     v, closed = _refine_postures(constraints, start)
     wrong = ~closed | (np.max(np.abs(v - start), axis=1) > _JUMP)

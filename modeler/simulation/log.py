@@ -23,9 +23,13 @@ if TYPE_CHECKING:
 
 
 _MOST = {
-    "seed": math.inf, "parameter_seed": math.inf, "encoder_counts": 1e12,
-    "linear_resolution": 1.0, "torque_noise": 100.0, "process_noise": 100.0,
-}  # fmt: skip
+    "seed": math.inf,
+    "parameter_seed": math.inf,
+    "encoder_counts": 1e12,
+    "linear_resolution": 1.0,
+    "torque_noise": 100.0,
+    "process_noise": 100.0,
+}
 """What may be 0 and more, up to this."""
 _FORM = "EFFECT, EFFECT@JOINT or EFFECT@JOINT:name=value,..., as in stribeck@2:extra=3"
 

@@ -1,7 +1,6 @@
 """The true parameters of a simulated robot: as the robot file states them, the rest drawn."""
 
 import dataclasses
-import warnings
 from collections.abc import Mapping
 from dataclasses import dataclass
 
@@ -10,6 +9,7 @@ import numpy as np
 from scipy.spatial.transform import Rotation
 
 from modeler.core.errors import RobotError
+from modeler.numerics.cones import minimize_over_cones
 from modeler.robot import INERTIAL, Limits, Robot
 from modeler.simulation.physics import PHYSICS, EffectPhysics, ShaftScale
 from modeler.simulation.portable_math import round_to_ten_digits
@@ -195,22 +195,19 @@ def _find_feasible(problem: _BodyProblem) -> np.ndarray | None:
 
     Least S(x) below 0 then means that none is above.
     """
-    import cvxpy as cp  # only here: most robots state all of a link, or nothing
-
-    if not len(problem.directions):
+    count, rows = len(problem.directions), np.eye(len(problem.rows))
+    if not count:
         return np.zeros(0)
-    x, t = cp.Variable(len(problem.directions)), cp.Variable()
-    S = problem.origin + sum(x[k] * E for k, E in enumerate(problem.directions))
     # The trace keeps free elements from running away.
-    goal = cp.Maximize(t - _PULL * cp.trace(S))
-    semidefinite_problem = cp.Problem(goal, [S - t * np.eye(len(problem.rows)) >> 0, t <= 1.0])
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore")  # the caller looks at the answer itself
-        try:
-            semidefinite_problem.solve(solver=cp.CLARABEL, **_TOLERANCES)
-        except cp.SolverError:
-            return None
-    return None if x.value is None else np.asarray(x.value)
+    pull = _PULL * np.trace(problem.directions, axis1=1, axis2=2)
+    x = minimize_over_cones(
+        (np.zeros((0, count + 1)), np.zeros(0)),
+        (-np.eye(count + 1)[count:], np.ones(1)),
+        [(problem.origin, np.concatenate([problem.directions, -rows[None]]))],
+        linear=np.append(pull, -1.0),
+        **_TOLERANCES,
+    )
+    return None if x is None else x[:count]
 
 
 def _flatten_solution(problem: _BodyProblem, x: np.ndarray) -> np.ndarray:

@@ -17,9 +17,15 @@ from modeler.simulation.portable_math import compute_sine_and_cosine
 
 
 FUNCTIONS = {
-    "sin": ca.sin, "cos": ca.cos, "tan": ca.tan, "sqrt": ca.sqrt, "exp": ca.exp,
-    "abs": ca.fabs, "sign": ca.sign, "tanh": ca.tanh,
-}  # fmt: skip
+    "sin": ca.sin,
+    "cos": ca.cos,
+    "tan": ca.tan,
+    "sqrt": ca.sqrt,
+    "exp": ca.exp,
+    "abs": ca.fabs,
+    "sign": ca.sign,
+    "tanh": ca.tanh,
+}
 
 
 @dataclass(frozen=True)

@@ -55,11 +55,16 @@ _PASSES = 30  # of the fixed point that inverts an eccentric encoder; contracts 
 
 def compute_encoder_resolution(joints: Sequence[Joint], settings: SimulationSettings) -> np.ndarray:
     """(joints,) rad or m per count; 0 for an ideal encoder."""
-    return np.array([
-        2 * np.pi / settings.encoder_counts if joint.is_revolute and settings.encoder_counts
-        else 0.0 if joint.is_revolute else settings.linear_resolution
-        for joint in joints
-    ])  # fmt: skip
+    return np.array(
+        [
+            2 * np.pi / settings.encoder_counts
+            if joint.is_revolute and settings.encoder_counts
+            else 0.0
+            if joint.is_revolute
+            else settings.linear_resolution
+            for joint in joints
+        ]
+    )
 
 
 def quantise_position(position: np.ndarray, resolution: np.ndarray) -> np.ndarray:

@@ -245,11 +245,13 @@ class _ReferenceBuilder:
                 size = round_to_ten_digits(rng.uniform(0.5, 1.0)) / harmonic
                 sine, cosine = compute_sine_and_cosine(phase)
                 series += size * np.array([sine, omega * cosine, -(omega**2) * sine])
-            shaped = np.array([
-                window[0] * series[0],
-                window[1] * series[0] + window[0] * series[1],
-                window[2] * series[0] + 2 * window[1] * series[1] + window[0] * series[2],
-            ])  # fmt: skip
+            shaped = np.array(
+                [
+                    window[0] * series[0],
+                    window[1] * series[0] + window[0] * series[1],
+                    window[2] * series[0] + 2 * window[1] * series[1] + window[0] * series[2],
+                ]
+            )
             bounds = ((limit.upper - limit.lower) / 2, limit.speed, limit.acceleration)
             peaks = np.max(np.abs(shaped), axis=1)
             shares = [bound / peak for bound, peak in zip(bounds, peaks, strict=True) if peak > 0]

@@ -12,9 +12,9 @@ from modeler.estimation import (
     compute_pseudo_inertia,
     extract_parameters,
 )
+from modeler.formats import read_robot
 from modeler.formats.bodies import Original, build_export_parameters
 from modeler.formats.completion import Prior, compute_completion, find_nearest_physical
-from modeler.formats import read_robot
 from modeler.robot import parse_robot_text
 from tests.export.arms import URDF, changed, written
 from tests.export.test_fresh_files import close, mujoco_torques, pinocchio_torques
