@@ -94,7 +94,7 @@ def read_definition(
     is_user_defined: bool = True,
     joints: Collection[str] | None = (),
 ) -> Effect:
-    """The effect of one table.
+    """Returns the effect of one table.
 
     Args:
         name: its id.
@@ -181,13 +181,13 @@ class _Names:
     law: Law | None = None
 
     def is_motion(self, name: str) -> bool:
-        """True of `v3`, if there is a joint 3, or nobody knows."""
+        """Returns True of `v3`, if there is a joint 3, or nobody knows."""
         head, joint = name[0], name[1:]
         known = joint != "" if self.joints is None else joint in self.joints
         return head in MOTION and known
 
     def read_equation(self, place: TomlCell) -> Expression:
-        """The equation at a place, which reads nothing else."""
+        """Returns the equation at a place, which reads nothing else."""
         equation = place.read_expression(self.law)
         known_names = (*self.variables, *self.nonlinear_parameters)
         for name in sorted(equation.names):
@@ -410,7 +410,7 @@ def _check_form(form: Form, acts: EffectTarget, place: TomlCell) -> None:
 def check_finite(
     form: Form, place: TomlCell, parameter_values: Mapping[str, float] | None = None
 ) -> None:
-    """Refuse equations that have no real value up to `LARGEST` at rest or in a random state.
+    """Refuses equations that have no real value up to `LARGEST` at rest or in a random state.
 
     Args:
         form: of an effect.
@@ -492,7 +492,7 @@ PASSIVE_FRICTION_IS = ("viscous", "coulomb")
 
 
 def find_effect(name: str, among: Sequence[Effect] = CATALOGUE) -> Effect | None:
-    """The effect with that id or alias; None if there is none.
+    """Returns the effect with that id or alias; None if there is none.
 
     Args:
         name: as in robot files.

@@ -92,7 +92,7 @@ class ExportParameters:
 
     @cached_property
     def indices(self) -> dict[str, int]:
-        """Of every parameter in chi; of those that similar legs share under every name."""
+        """Returns the place of every parameter in chi; a shared one has that of all its names."""
         indices = {name: i for i, name in enumerate(self.machine.names)}
         for shared in self.robot.shared:
             if shared.name in indices:
@@ -100,31 +100,31 @@ class ExportParameters:
         return indices
 
     def find_link_indices(self, row: str) -> list[int]:
-        """Places in chi of the ten parameters of the link of a row; none if it has no body."""
+        """Returns places in chi of the ten parameters of the link of a row; [] without a body."""
         if not self.robot.get_inertial_prefixes(row) or not self.robot.get_joint(row).is_moving:
             return []
         indices = [self.indices.get(f"{prefix}{row}") for prefix in PREFIXES]
         return [i for i in indices if i is not None] if None not in indices else []
 
     def get_link_parameters(self, row: str) -> np.ndarray | None:
-        """(10,) standard parameters of the link of a row; None if it has no body."""
+        """Returns (10,) standard parameters of the link of a row; None if it has no body."""
         places = self.find_link_indices(row)
         return self.completion.chi[places] if places else None
 
     def get_nominal_parameters(self, row: str) -> np.ndarray | None:
-        """(10,) what the robot file says of them; None unless it says all."""
+        """Returns (10,) what the robot file says of them; None unless it says all."""
         values = [self.nominal.get(f"{prefix}{row}") for prefix in PREFIXES]
         return None if None in values else np.array(values, dtype=float)
 
     def evaluate_sum(self, terms: Mapping[str, float]) -> tuple[float, float]:
-        """A sum of parameters, and its standard deviation."""
+        """Returns a sum of parameters, and its standard deviation."""
         at = [self.indices[name] for name in terms]
         c = np.array(list(terms.values()))
         variance = float(c @ self.completion.covariance[np.ix_(at, at)] @ c)
         return float(c @ self.completion.chi[at]), max(variance, 0.0) ** 0.5
 
     def collect_drive_terms(self, row: str, to: str) -> Terms:
-        """What the joint of a row gets in a file of that format, of what has a value."""
+        """Returns what the joint of a row gets in a file of that format, of what has a value."""
         drive_terms: dict[str, Mapping[str, float]] = {}
         joint_terms = {} if row in self.robot.motors else collect_joint_terms(self.robot, row)
         for quantity, terms in joint_terms.items():
@@ -135,7 +135,7 @@ class ExportParameters:
 
 
 def collect_joint_terms(robot: Robot, row: str) -> dict[str, dict[str, float]]:
-    """Damping, friction, armature and stiffness of a joint, as sums of parameters.
+    """Returns damping, friction, armature and stiffness of a joint, as sums of parameters.
 
     Those of a motor of its own, too, that turns c times as fast: c^2 Fv, |c| Fs, c^2 Ia.
     """
@@ -164,7 +164,7 @@ def _iterate_joint_parameters(robot: Robot, row: str) -> Iterator[tuple[str, str
 
 
 def find_spring_rest(robot: Robot, row: str) -> float:
-    """Where the spring of a joint is at rest."""
+    """Returns where the spring of a joint is at rest."""
     springs = [
         i.nonlinear_parameters
         for effect, _, i in robot.find_joint_effects(row)
@@ -177,7 +177,7 @@ def find_spring_rest(robot: Robot, row: str) -> float:
 
 
 def express_parameters(ten: np.ndarray, pose: Pose) -> np.ndarray:
-    """(10, ...) parameters in a frame a of a body given in b, whose pose in a that is."""
+    """Returns (10, ...) parameters in a frame a of a body given in b, whose pose in a that is."""
     T = np.eye(4)
     T[:3, :3], T[:3, 3] = pose.rotation, pose.position
     P = compute_pseudo_inertia(ten)
@@ -185,7 +185,7 @@ def express_parameters(ten: np.ndarray, pose: Pose) -> np.ndarray:
 
 
 def compute_central_parameters(ten: np.ndarray, axes: np.ndarray | None = None) -> np.ndarray:
-    """(10,) mass, centre, and XX XY XZ YY YZ ZZ about the centre along some axes.
+    """Returns (10,) mass, centre, and XX XY XZ YY YZ ZZ about the centre along some axes.
 
     A body without mass has its centre in the origin.
 
@@ -208,12 +208,12 @@ def compute_central_parameters(ten: np.ndarray, axes: np.ndarray | None = None) 
 
 
 def build_symmetric_matrix(six: np.ndarray) -> np.ndarray:
-    """(3, 3) of XX XY XZ YY YZ ZZ."""
+    """Returns (3, 3) of XX XY XZ YY YZ ZZ."""
     return np.asarray(six[[[0, 1, 2], [1, 3, 4], [2, 4, 5]]])
 
 
 def compute_magnitudes(body: np.ndarray) -> np.ndarray:
-    """(10,) how large the numbers of a body are, as `compute_central_parameters`.
+    """Returns (10,) how large the numbers of a body are, as `compute_central_parameters`.
 
     Those of a kind are alike.
 
@@ -229,7 +229,7 @@ def compute_magnitudes(body: np.ndarray) -> np.ndarray:
 def propagate_deviations(
     function: Callable[[np.ndarray], np.ndarray], at: np.ndarray, covariance: np.ndarray
 ) -> np.ndarray:
-    """Standard deviations of a function of what has that covariance, to first order.
+    """Returns standard deviations of a function of what has that covariance, to first order.
 
     The slopes are exact: Im f(x + i h) / h with a tiny h (Squire and Trapp 1998).
     """
@@ -269,7 +269,7 @@ class Original:
 
 
 def get_robot(robot_or_model: Robot | IdentifiedModel) -> Robot:
-    """The robot, or that of the model."""
+    """Returns the robot, or that of the model."""
     if isinstance(robot_or_model, Robot):
         return robot_or_model
     return parse_robot_text(
@@ -282,7 +282,7 @@ def build_export_parameters(
     original: Original,
     equations: Callable[[], Equations] | None = None,
 ) -> ExportParameters:
-    """The numbers of a robot, or of a model.
+    """Returns the numbers of a robot, or of a model.
 
     Args:
         robot_or_model: it.
@@ -468,7 +468,7 @@ def _collect_stated_values(
 
 
 def collect_nominal_values(robot: Robot) -> dict[str, float]:
-    """Nominal values by name, those that legs share under the name of every leg too."""
+    """Returns nominal values by name, those that legs share under the name of every leg too."""
     values = dict(robot.parameters)
     for shared in robot.shared:
         if shared.name in values:
@@ -479,7 +479,7 @@ def collect_nominal_values(robot: Robot) -> dict[str, float]:
 def build_prior(
     machine: PhysicalParameters, robot: Robot, original: Original, beta: np.ndarray, C: np.ndarray
 ) -> tuple[Prior, frozenset[str], list[str]]:
-    """What is known without torques; links of which something is; what is to be told."""
+    """Returns what is known without torques; links of which something is; what is to be told."""
     values, count = collect_nominal_values(robot), len(machine.names)
     mean, S = np.zeros(count), np.zeros((count, count))
     share = robot.uncertainty.get("inertial") or SHARE

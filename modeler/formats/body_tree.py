@@ -31,7 +31,7 @@ MOST_NAMED = 6
 
 
 def summarise_names(names: Iterable[str]) -> str:
-    """`"a", "b" and 12 more`."""
+    """Returns `"a", "b" and 12 more`."""
     unique_names = list(dict.fromkeys(names))
     return ", ".join(quote_value(name) for name in unique_names[:MOST_NAMED]) + _format_remainder(
         len(unique_names)
@@ -57,7 +57,7 @@ class Roundings:
     zeros: int = 0
 
     def snap_angle(self, digits: str) -> float:
-        """What the printed angle means, rad: by `count_twelfths`, or as near as `NOUGHT`."""
+        """Returns what the printed angle means, rad: a multiple of pi/12 if near one."""
         value = float(digits)
         if self.exact:
             return value
@@ -72,7 +72,7 @@ class Roundings:
         return count * math.pi / 12
 
     def snap_lengths(self, values: np.ndarray) -> np.ndarray:
-        """What printed lengths, or parts of a unit axis, mean."""
+        """Returns what printed lengths, or parts of a unit axis, mean."""
         dust = (values != 0.0) & (abs(values) < NOUGHT)
         if self.exact:
             return values
@@ -80,7 +80,7 @@ class Roundings:
         return np.where(dust, 0.0, values)
 
     def describe_roundings(self) -> Iterator[str]:
-        """What to tell of them."""
+        """Yields what to tell of them."""
         if self.angles:
             most = describe_rounded_angles(dict(list(self.angles.items())[:MOST_NAMED]))
             yield f"{most}{_format_remainder(len(self.angles))}; --exact-decimals keeps them"
@@ -105,11 +105,11 @@ class Pose:
         return Pose(self.transform_point(other.position), self.rotation @ other.rotation)
 
     def transform_point(self, point: np.ndarray) -> np.ndarray:
-        """A point of b, in a."""
+        """Returns a point of b, in a."""
         return self.rotation @ point + self.position
 
     def inverse(self) -> "Pose":
-        """The pose of a in b."""
+        """Returns the pose of a in b."""
         return Pose(-self.rotation.T @ self.position, self.rotation.T)
 
 
@@ -128,13 +128,13 @@ class Inertial:
     inertia: np.ndarray
 
     def express_in(self, pose: Pose) -> "Inertial":
-        """The same in the frame a, in which the body's frame b has that pose."""
+        """Returns the same in the frame a, in which the body's frame b has that pose."""
         turn = pose.rotation
         return Inertial(self.mass, pose.transform_point(self.centre), turn @ self.inertia @ turn.T)
 
 
 def compute_axis_rotation(axis: np.ndarray, angle: float) -> np.ndarray:
-    """(3, 3) the rotation about an axis of length one (Rodrigues), exact for right angles."""
+    """Computes the (3, 3) rotation about a unit axis (Rodrigues), exact for right angles."""
     cosine, sine = compute_cosine_sine(angle)
     along = np.outer(axis, axis)
     x, y, z = axis
@@ -144,7 +144,7 @@ def compute_axis_rotation(axis: np.ndarray, angle: float) -> np.ndarray:
 
 
 def find_inertia_defect(body: Inertial, slack: float = 0.0) -> str:
-    """Why no body can have these values, or nobody has weighed them; "" if there is no doubt.
+    """Says why no body can have these values; "" if one can.
 
     The principal moments of a body are not negative, and none is larger than the sum of the others
     (Wensing et al. 2018, equation 6).
@@ -172,7 +172,7 @@ def find_inertia_defect(body: Inertial, slack: float = 0.0) -> str:
 
 
 def compute_standard_parameters(body: Inertial) -> np.ndarray:
-    """(10,) XX XY XZ YY YZ ZZ about the origin of the frame, MX MY MZ, M: standard parameters."""
+    """Computes (10,) XX XY XZ YY YZ ZZ about the origin of the frame, MX MY MZ, M."""
     c, m = body.centre, body.mass
     tensor = body.inertia + m * (c @ c * np.eye(3) - np.outer(c, c))
     return np.array([*tensor[np.triu_indices(3)], *(m * c), m])
@@ -224,7 +224,7 @@ class TreeJoint:
     actuated: bool = True
 
     def compute_pose(self, position: float) -> Pose:
-        """The frame of the child in that of the parent, at a joint position."""
+        """Returns the frame of the child in that of the parent, at a joint position."""
         step = position - self.zero
         if self.kind is JointKind.FIXED or step == 0.0:
             return self.pose
@@ -291,7 +291,7 @@ class BodyTree:
 
 
 def compute_body_poses(tree: BodyTree, positions: Mapping[str, float]) -> dict[str, Pose]:
-    """Of every body's frame in frame 0; joints that lead stand at 0 where nothing is said."""
+    """Computes the pose of every body's frame in frame 0; leaders stand at 0 by default."""
     poses = {tree.root: Pose()}
     for joint in tree.joints:
         at = positions.get(joint.leader or joint.name, 0.0)
@@ -323,7 +323,7 @@ class MovingLink:
 
 
 def collect_moving_links(tree: BodyTree) -> list[MovingLink]:
-    """The links of the tree, bodies on fixed joints lumped; the first stands still.
+    """Returns the links of the tree, bodies on fixed joints lumped; the first stands still.
 
     The order of the others is that of the joints that move.
     """
@@ -360,7 +360,7 @@ def _collect_inertials(tree: BodyTree, members: Mapping[str, Pose]) -> Iterator[
 
 
 def combine_inertials(bodies: Iterator[Inertial]) -> Inertial | None:
-    """One body of several in the same frame; None of none."""
+    """Returns one body of several in the same frame; None of none."""
     parts = list(bodies)
     if len(parts) < 2:
         return parts[0] if parts else None
@@ -384,17 +384,17 @@ ALIKE, EXACT = 1e-9, 1e-15
 
 
 def snap_quaternion(quaternion: np.ndarray, rounded: Roundings) -> np.ndarray:
-    """The quaternion of a turn by multiples of pi/12 that the printed one rounds, or itself."""
+    """Returns quaternion of a turn by multiples of pi/12 that the printed one rounds, or itself."""
     return _snap_to_known(quaternion, _build_known_rotations(), rounded)
 
 
 def snap_direction(direction: np.ndarray, rounded: Roundings) -> np.ndarray:
-    """The direction in a coordinate plane that the printed axis rounds, or itself."""
+    """Returns the direction in a coordinate plane that the printed axis rounds, or itself."""
     return _snap_to_known(direction, _build_known_directions(), rounded)
 
 
 def compute_quaternion_rotation(quaternion: np.ndarray) -> np.ndarray:
-    """(3, 3) of a quaternion of any length; what ought to be 0 or 1 is."""
+    """Returns (3, 3) of a quaternion of any length; what ought to be 0 or 1 is."""
     w, v = quaternion[0], quaternion[1:]
     across = np.array([[0.0, -v[2], v[1]], [v[2], 0.0, -v[0]], [-v[1], v[0], 0.0]])
     turn = (w * w - v @ v) * np.eye(3) + 2.0 * (np.outer(v, v) + w * across)

@@ -65,14 +65,14 @@ class CompletedParameters:
 
     @cached_property
     def covariance(self) -> np.ndarray:
-        """(m, m)."""
+        """Returns (m, m)."""
         return np.asarray(self.root @ self.root.T)
 
 
 def compute_completion(
     K: np.ndarray, before: Prior, beta: np.ndarray, C: np.ndarray
 ) -> CompletedParameters:
-    """The Gaussian completion; K chi = beta wherever what is known beforehand lets chi move."""
+    """Returns Gaussian completion; K chi = beta wherever what is known beforehand lets chi move."""
     mean, S = before.mean, before.S
     G = S @ K.T @ _invert_covariance(K @ S @ K.T)
     for _ in range(2):  # K G = 1 to the last digits (Newton)
@@ -92,7 +92,7 @@ def find_nearest_physical(
     size: Mapping[str, np.ndarray],
     attached_inertia: Mapping[str, np.ndarray],
 ) -> CompletedParameters | None:
-    """The nearest that could be built: itself where it can; None if nothing near can.
+    """Returns the nearest that could be built: itself where it can; None if nothing near can.
 
     Args:
         machine: unknowns and bounds.
@@ -138,7 +138,7 @@ def find_violations(
     size: Mapping[str, np.ndarray],
     floors: Mapping[str, np.ndarray],
 ) -> list[str]:
-    """Links that could not be built, and parameters that are negative and must not."""
+    """Returns links that could not be built, and parameters that are negative and must not."""
     invalid_links = [
         link
         for link, indices in machine.links.items()
@@ -148,12 +148,12 @@ def find_violations(
 
 
 def compute_smallest_eigenvalue(ten: np.ndarray, size: np.ndarray) -> float:
-    """Least eigenvalue of the scaled pseudo-inertia."""
+    """Returns least eigenvalue of the scaled pseudo-inertia."""
     return float(np.linalg.eigvalsh(size @ compute_pseudo_inertia(ten) @ size.T)[0])
 
 
 def compute_distance(apart: np.ndarray, C: np.ndarray) -> float:
-    """sqrt(d^T C^-1 d): standard deviations; of what has none nothing is counted."""
+    """Returns sqrt(d^T C^-1 d): standard deviations; of what has none nothing is counted."""
     return float(max(apart @ _invert_covariance(C) @ apart, 0.0)) ** 0.5
 
 

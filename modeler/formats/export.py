@@ -100,7 +100,7 @@ class Names:
 
     @classmethod
     def choose_names(cls, robot: Robot) -> "Names":
-        """Of a table."""
+        """Chooses the names of the links and joints of a robot."""
         taken = {"world", *(frame.joint for frame in robot.frames.values())}
 
         def make_unique(name: str) -> str:
@@ -117,7 +117,7 @@ class Names:
 
 
 def format_new_file(physics: ExportParameters, to: str, notes: list[str]) -> bytes:
-    """The text of the file; notes grow.
+    """Returns the text of the file; notes grow.
 
     Raises:
         DataError: loops, or couplings of several joints, that the format cannot state.
@@ -463,7 +463,7 @@ FORMATS = ("urdf", "mjcf", "sdf", "casadi", "fmu", "simulink", "ros2")
 
 
 def choose_format(to: str | None, like: str, out: str) -> str:
-    """The format that is meant; "" where the original says it.
+    """Returns the format that is meant; "" where the original says it.
 
     Raises:
         DataError: nothing says it.
@@ -486,7 +486,7 @@ def export_robot(
     torques: Torques | None = None,
     equations: Callable[[], Equations] | None = None,
 ) -> Exported:
-    """The file, and what it holds.
+    """Returns the file, and what it holds.
 
     Args:
         robot_or_model: a robot with values, or a model.

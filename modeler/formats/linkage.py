@@ -26,13 +26,13 @@ _CLOSED = 1e-9  # m, rad: what may be left of a loop
 
 
 def compute_frame_pose(frame: LinkFrame, symbols: Mapping[str, float]) -> Pose:
-    """Pose of a link's frame on its row."""
+    """Returns pose of a link's frame on its row."""
     position = np.array([cell.evaluate(symbols) for cell in frame.position])
     return Pose(position, compute_rpy_rotation([cell.evaluate(symbols) for cell in frame.angles]))
 
 
 def compute_rpy_rotation(angles: Sequence[float]) -> np.ndarray:
-    """(3, 3) Rz(yaw) Ry(pitch) Rx(roll)."""
+    """Returns (3, 3) Rz(yaw) Ry(pitch) Rx(roll)."""
     roll, pitch, yaw = angles
     return (
         compute_axis_rotation(_Z, yaw)
@@ -42,7 +42,7 @@ def compute_rpy_rotation(angles: Sequence[float]) -> np.ndarray:
 
 
 def compute_row_pose(joint: Joint, values: Mapping[str, float]) -> Pose:
-    """T(a -> j) = Rz(gamma) Tz(b) Rx(alpha) Tx(d) Rz(theta) Tz(r).
+    """Returns T(a -> j) = Rz(gamma) Tz(b) Rx(alpha) Tx(d) Rz(theta) Tz(r).
 
     Args:
         joint: the row.
@@ -61,19 +61,19 @@ def compute_row_pose(joint: Joint, values: Mapping[str, float]) -> Pose:
 
 
 def compute_gravity(robot: Robot) -> np.ndarray:
-    """(3,) acceleration of gravity in frame 0."""
+    """Returns (3,) acceleration of gravity in frame 0."""
     symbols = robot.evaluate_symbols()
     return np.array([cell.evaluate(symbols) for cell in robot.gravity])
 
 
 def get_variable_sign(joint: Joint, symbols: Mapping[str, float]) -> float:
-    """1.0, or -1.0 where the table has the variable of the row with a minus."""
+    """Returns 1.0, or -1.0 where the table has the variable of the row with a minus."""
     cell = joint.theta if joint.kind is JointKind.REVOLUTE else joint.r
     return float(np.sign(extract_linear_form(cell, symbols).coefficients[joint.variable]))
 
 
 def evaluate_variables(robot: Robot, q: Mapping[str, float]) -> dict[str, float]:
-    """Values of the symbols and of all joint variables, those that follow others included.
+    """Returns values of the symbols and of all joint variables, those that follow others included.
 
     Args:
         robot: its relations.
@@ -91,7 +91,7 @@ def evaluate_variables(robot: Robot, q: Mapping[str, float]) -> dict[str, float]
 
 
 def compute_row_poses(robot: Robot, q: Mapping[str, float]) -> dict[str, Pose]:
-    """Pose of every row's frame in frame 0, and of frame 0, by row."""
+    """Returns pose of every row's frame in frame 0, and of frame 0, by row."""
     values, poses = evaluate_variables(robot, q), {BASE: Pose()}
     for joint in robot.joints:
         poses[joint.name] = poses[joint.antecedent] @ compute_row_pose(joint, values)
@@ -105,7 +105,7 @@ CLOSED_BY = ("spherical", "position", "revolute", "rigid")
 
 
 def close_loops(robot: Robot) -> dict[str, float]:
-    """Every joint variable at [home], by row, the passive ones moved until the loops close.
+    """Returns every joint variable at [home], by row, the passive ones moved until the loops close.
 
     Raises:
         DataError: a loop of another kind; the loops do not close near [home].
@@ -170,16 +170,16 @@ class Capsule:
 
     @property
     def axis_vector(self) -> np.ndarray:
-        """(3,) from start to end, m."""
+        """Returns (3,) from start to end, m."""
         return self.end - self.start
 
     @property
     def length(self) -> float:
-        """Of the way, m; 0 of a ball."""
+        """Returns the length of the axis, m; 0 of a ball."""
         return float(np.linalg.norm(self.axis_vector))
 
     def compute_inertial(self) -> Inertial:
-        """Of a cylinder of the length of the whole, of `DENSITY`."""
+        """Computes mass, centre and inertia of a cylinder of the same length and of `DENSITY`."""
         long, r = self.length + 2.0 * self.radius, self.radius
         mass = DENSITY * np.pi * r**2 * long
         along = self.axis_vector / self.length if self.length else np.array([0.0, 0.0, 1.0])
@@ -190,7 +190,7 @@ class Capsule:
 
 
 def build_capsules(robot: Robot, q: Mapping[str, float]) -> dict[str, tuple[Capsule, ...]]:
-    """By row: those of the robot file, else from its origin to those of the rows after it.
+    """Builds the capsules of every row: those of the robot file, else by the frames after it.
 
     A ball where there are none; as thick as 0.12 of the middle length where no radius is stated.
 
@@ -224,7 +224,7 @@ def build_capsules(robot: Robot, q: Mapping[str, float]) -> dict[str, tuple[Caps
 
 
 def compute_capsule_parameters(robot: Robot, q: Mapping[str, float]) -> dict[str, np.ndarray]:
-    """(10,) standard parameters of the capsules of every row."""
+    """Returns (10,) standard parameters of the capsules of every row."""
     parameters = {}
     for row, row_capsules in build_capsules(robot, q).items():
         whole = combine_inertials(iter([capsule.compute_inertial() for capsule in row_capsules]))
@@ -234,7 +234,7 @@ def compute_capsule_parameters(robot: Robot, q: Mapping[str, float]) -> dict[str
 
 
 def locate_capsules(robot: Robot, q: Mapping[str, float]) -> list[tuple[str, str, Capsule]]:
-    """Every body's capsules: its row, the moving row that carries it (or the base), the shape.
+    """Lists every body's capsules: its row, the moving row that carries it, the shape.
 
     The shape is in the frame of the row that carries it. Where the robot file has [capsules], rows
     that are not among them have none.

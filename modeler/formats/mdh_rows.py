@@ -55,7 +55,7 @@ class MdhRow:
 
     @property
     def kind(self) -> JointKind:
-        """Sigma."""
+        """Returns the kind, sigma of the table."""
         return self.joint.kind if self.joint else JointKind.FIXED
 
 
@@ -85,7 +85,7 @@ Loop = tuple[tuple[int, Pose], tuple[int, Pose]]
 
 
 def snap_length(length: float) -> float:
-    """The decimal that it is but for rounding, else the length itself."""
+    """Returns the decimal that it is but for rounding, else the length itself."""
     for digits in range(_DECIMALS + 1):
         if abs(length - (short := round(length, digits))) <= _ROUNDING * max(1.0, abs(length)):
             return short + 0.0  # no -0.0
@@ -93,7 +93,7 @@ def snap_length(length: float) -> float:
 
 
 def snap_angle(angle: float) -> float:
-    """The angle in (-pi, pi], as a multiple of pi/12 or a decimal if it is one but for rounding."""
+    """Returns the angle in (-pi, pi], as a multiple of pi/12 or a decimal if near one."""
     angle = math.remainder(angle, math.tau)
     twelfths = round(angle / _TWELFTH)
     if abs(angle - twelfths * _TWELFTH) < PARALLEL:
@@ -102,7 +102,7 @@ def snap_angle(angle: float) -> float:
 
 
 def compute_row_pose(cells: Mapping[str, float]) -> Pose:
-    """Rz(gamma) Tz(b) Rx(alpha) Tx(d) Rz(theta) Tz(r)."""
+    """Returns Rz(gamma) Tz(b) Rx(alpha) Tx(d) Rz(theta) Tz(r)."""
     gamma, b, alpha, d, theta, r = (cells.get(column, 0.0) for column in GEOMETRY)
     c, s = compute_cosine_sine(alpha)
     middle = Pose(np.array([d, 0.0, 0.0]), np.array([[1.0, 0.0, 0.0], [0.0, c, -s], [0.0, s, c]]))
@@ -128,7 +128,7 @@ class _Axis:
     through: np.ndarray | None
 
     def express_in(self, pose: Pose) -> "_Axis":
-        """The same in the frame a, in which the frame b has that pose."""
+        """Returns the same in the frame a, in which the frame b has that pose."""
         through = None if self.through is None else pose.transform_point(self.through)
         return _Axis(pose.rotation @ self.along, through)
 
@@ -218,7 +218,7 @@ class _RowBuilder:
     rows: list[MdhRow] = field(default_factory=list)
 
     def compute_normals(self, link: int, frame: Pose) -> list[_Normal]:
-        """To the axes and points that a link carries, from a frame on it."""
+        """Computes the common normals of a frame and the axes and points that its link carries."""
         back = frame.inverse()
         axes = [
             self.axes[k].express_in(back @ other.pose)
@@ -230,7 +230,7 @@ class _RowBuilder:
         return normals + [replace(_compute_point_normal(p[:2]), b=float(p[2])) for p in points]
 
     def add_row(self, k: int) -> None:
-        """The row of link k, and the fixed one before it where that is needed."""
+        """Returns the row of link k, and the fixed one before it where that is needed."""
         link = self.links[k]
         joint, name = link.joint, f"{k}"
         assert joint is not None
@@ -256,7 +256,7 @@ class _RowBuilder:
         self.frames.append(placed @ at_zero)
 
     def get_base_row(self, k: int) -> tuple[str, Pose]:
-        """The row before that of link k, and its pose in the file frame of the link before."""
+        """Returns row before that of link k, and its pose in the file frame of the link before."""
         parent, lead = self.links[k].parent, self.loop_leaders.get(k)
         if lead in self.base_rows:
             return self.base_rows[lead]
@@ -275,7 +275,7 @@ class _RowBuilder:
         return name, frame
 
     def locate_end(self, link: int, pose: Pose, other: int) -> End:
-        """The row that carries a frame of a link, which meets one of another."""
+        """Returns the row that carries a frame of a link, which meets one of another."""
         while other and self.links[other].parent != link:
             other = self.links[other].parent
         link_row = f"{link}", self.frames[link]
@@ -371,7 +371,7 @@ def _collect_axes(links: Sequence[MovingLink]) -> list[_Axis]:
 
 
 def build_mdh_table(links: Sequence[MovingLink], loops: Sequence[Loop] = ()) -> MdhTable:
-    """The rows of a tree; row j, counted from 1, moves link j, and q_j is the file's position.
+    """Returns rows of a tree; row j, counted from 1, moves link j, and q_j is the file's position.
 
     Args:
         links: as `moving_links` gives them.
@@ -399,7 +399,7 @@ def build_mdh_table(links: Sequence[MovingLink], loops: Sequence[Loop] = ()) -> 
 
 
 def compute_roll_pitch_yaw(rotation: np.ndarray) -> tuple[float, float, float]:
-    """Angles of R = Rz(yaw) Ry(pitch) Rx(roll), exact where they are; roll is 0 where free."""
+    """Computes the angles of R = Rz(yaw) Ry(pitch) Rx(roll); roll is 0 where it is free."""
     level = math.hypot(rotation[0, 0], rotation[1, 0])
     pitch = math.atan2(-rotation[2, 0], level)
     if level < PARALLEL:
@@ -412,7 +412,7 @@ def compute_roll_pitch_yaw(rotation: np.ndarray) -> tuple[float, float, float]:
 
 
 def compute_point_row(point: np.ndarray) -> dict[str, float]:
-    """gamma, b and d of a fixed row whose origin is at a point of the frame before it."""
+    """Returns gamma, b and d of a fixed row whose origin is at a point of the frame before it."""
     normal = _compute_point_normal(point[:2])
     gamma = _fold_angle(normal.gamma or 0.0)
     d = snap_length(normal.d * _get_fold_sign(gamma, normal.gamma))
@@ -420,7 +420,7 @@ def compute_point_row(point: np.ndarray) -> dict[str, float]:
 
 
 def compute_fixed_row(pose: Pose, free_about_z: bool) -> dict[str, float]:
-    """The cells of a fixed row that stands as a frame does in the one before it.
+    """Returns the cells of a fixed row that stands as a frame does in the one before it.
 
     Args:
         pose: of that frame.

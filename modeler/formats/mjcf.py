@@ -60,7 +60,7 @@ _ALWAYS = 1  # inertiafromgeom="true"
 
 
 def read_mjcf_tree(path: Path, exact_decimals: bool = False) -> BodyTree:
-    """The robot of an MJCF file; the world is the root.
+    """Returns the robot of an MJCF file; the world is the root.
 
     Ball joints are in `unread`; what floats stands still where the file has it.
 
@@ -213,8 +213,8 @@ def _remove_irrelevant_parts(spec: Any, path: Path) -> list[str]:
     if without and total > 0.0:
         raise RobotError(
             flatten_message(
-                f"{path}: settotalmass shares {total:g} kg by masses of meshes that are not there, of "
-                f"{summarise_names(without)}; put them there, or take settotalmass out"
+                f"{path}: settotalmass shares {total:g} kg by masses of meshes that are not there, "
+                f"of {summarise_names(without)}; put them there, or take settotalmass out"
             )
         )
     if total > 0.0 and removed_bodies:
@@ -309,7 +309,7 @@ class _ModelReader:
         self._actuated = self._find_driven_joints()
 
     def read_tree(self, name: str) -> BodyTree:
-        """All of it."""
+        """Returns all of it."""
         model, hidden, unread = self._model, set[str](), dict[str, str]()
         for numbers in _NUMBERS.split():
             if not np.all(np.abs(getattr(model, numbers)) < LARGEST):

@@ -78,7 +78,7 @@ class PlacedLinks:
 
 
 def read_original(path: Path) -> OriginalFile:
-    """Read the original.
+    """Reads the original.
 
     Raises:
         DataError: no such file, or none of the formats.
@@ -102,12 +102,12 @@ def read_original(path: Path) -> OriginalFile:
 
 
 def find_first_child(element: Element, tag: str) -> Element | None:
-    """Its first child of that tag."""
+    """Returns its first child of that tag."""
     return next(iter(element.find_children(tag)), None)
 
 
 def get_text_at(element: Element, path: str) -> str:
-    """The text, or behind @ the attribute, at a path of elements; "" without."""
+    """Returns the text, or behind @ the attribute, at a path of elements; "" without."""
     element_path, _, attribute = path.partition("@")
     for tag in element_path.split("/") if element_path else ():
         child = find_first_child(element, tag)
@@ -118,7 +118,7 @@ def get_text_at(element: Element, path: str) -> str:
 
 
 def find_inertial_axes(source: OriginalFile, link: Element | None) -> np.ndarray | None:
-    """(3, 3) along which the inertia of a link is written; None: along those of its frame."""
+    """Returns the (3, 3) axes of the stated inertia of a link; None: those of its frame."""
     paths = {"urdf": "inertial/origin@rpy", "sdf": "inertial/pose"}
     if link is None or source.format not in paths:
         return None
@@ -166,7 +166,7 @@ class Placement:
 
 
 def assign_links(source: OriginalFile, robot: Robot) -> Placement:
-    """The links and joints of the file by row.
+    """Returns the links and joints of the file by row.
 
     Raises:
         DataError: it is not the same robot: names the first link that differs.
@@ -223,7 +223,7 @@ def _choose_carrier(
 
 
 def collect_original(links: Mapping[str, PlacedLinks]) -> Original:
-    """What the file says of the links, on their rows."""
+    """Returns what the file says of the links, on their rows."""
     whole = {
         row: np.sum(list(placed_links.parameters.values()), axis=0)
         for row, placed_links in links.items()
@@ -410,7 +410,7 @@ def _is_same_pose(one: Pose, other: Pose) -> bool:
 
 
 def distribute_change(bodies: Mapping[str, np.ndarray], whole: np.ndarray) -> dict[str, np.ndarray]:
-    """Bodies that hang together, changed alike so that they come to a given whole.
+    """Returns bodies that hang together, changed alike so that they come to a given whole.
 
     With P' = A P A^T of the wholes, every part becomes A P_k A^T: they add up, and what could be
     built can be built. A is the symmetric one (optimal transport of normal distributions).

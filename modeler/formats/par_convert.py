@@ -66,7 +66,7 @@ class Bodies:
     others: list[str] = field(default_factory=list)
 
     def add_parameter(self, name: str, cell: ParFormula) -> None:
-        """Keep the value of a parameter, or its letter if that is another."""
+        """Keeps the value of a parameter, or its letter if that is another."""
         if cell.literal is not None:
             self.parameters[name] = float(cell.literal)
         elif cell.text.lower() != name.lower():
@@ -74,7 +74,7 @@ class Bodies:
 
 
 def read_bodies(statements: Statements, counts: Counts, frames: list[ParFrame]) -> Bodies:
-    """The parameters of links 1 .. NL, and what is left out.
+    """Returns the parameters of links 1 .. NL, and what is left out.
 
     A parameter that is 0 beside letters is one that the link has not; beside numbers only, a
     value. Cut joints carry nothing.
@@ -179,7 +179,7 @@ def _has_gravity(statements: Statements) -> bool:
 
 
 def read_gravity_entries(statements: Statements, notes: list[str]) -> tuple[str, ...]:
-    """G; -VP0 where the file has gravity as an acceleration of the base; downwards without both."""
+    """Reads the entries of G; without it -VP0, and without both gravity along -z0."""
     if _has_gravity(statements):
         return statements.get_entries("G")
     base = statements.get_entries("VP0")
@@ -199,7 +199,7 @@ _NO_HOME = (
 
 
 def convert_par_file(data: bytes, where: str) -> ConvertedRobot:
-    """The robot file that says what the SYMORO file says.
+    """Returns the robot file that says what the SYMORO file says.
 
     Frames 1 .. NL are rows; frames NL + 1 .. NJ are rows without a body, each tied rigidly to its
     second frame NJ + 1 .. NF by a row of `[loops]`.

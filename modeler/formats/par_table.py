@@ -58,12 +58,12 @@ class Counts:
 
     @property
     def frames(self) -> int:
-        """NF: every cut joint has a second frame, on the other side."""
+        """Returns NF: every cut joint has a second frame, on the other side."""
         return 2 * self.joints - self.links
 
     @property
     def loops(self) -> int:
-        """Cut joints."""
+        """Returns the number of cut joints."""
         return self.joints - self.links
 
 
@@ -87,12 +87,12 @@ class ParFrame:
 
     @property
     def variable_column(self) -> str | None:
-        """The column of the joint variable."""
+        """Returns the column of the joint variable."""
         return {0: "theta", 1: "r"}.get(self.sigma)
 
 
 def read_counts(statements: Statements) -> Counts:
-    """The numbers that the file states, checked against the lengths of its lists.
+    """Returns the numbers that the file states, checked against the lengths of its lists.
 
     Raises:
         RobotError: they are no counts, or a list is shorter or longer.
@@ -122,7 +122,7 @@ def read_counts(statements: Statements) -> Counts:
 
 
 def read_par_frames(statements: Statements, counts: Counts) -> list[ParFrame]:
-    """The frames with their cells.
+    """Returns the frames with their cells.
 
     Raises:
         RobotError: an entry is no formula, no frame, or no 0, 1, 2.
@@ -142,7 +142,7 @@ def read_par_frames(statements: Statements, counts: Counts) -> list[ParFrame]:
 
 
 def find_joint_variables(frames: list[ParFrame], statements: Statements) -> dict[str, str]:
-    """Letter of a joint variable in the file -> `q<j>`; frames without one get theirs.
+    """Returns letter of a joint variable in the file -> `q<j>`; frames without one get theirs.
 
     The variable of frame j is the letter with its number (th3, t3, q3, r3), else the only letter
     of theta (revolute) or r (prismatic) that no frame before has. An entry without letters is the
@@ -233,7 +233,7 @@ class Symbols:
     notes: list[str] = field(default_factory=list)
 
     def add_symbol(self, preferred_name: str, number: float, comment: str) -> str:
-        """A symbol for a number, under that name or one like it; returns the name."""
+        """Returns a symbol for a number, under that name or one like it; returns the name."""
         name, count = preferred_name, 1
         while name in self.values or name in _TAKEN:
             count += 1
@@ -243,21 +243,21 @@ class Symbols:
         return name
 
     def evaluate_symbol(self, name: str) -> float:
-        """What it is worth."""
+        """Returns what it is worth."""
         value = self.values[name]
         if isinstance(value, float):
             return value
         return self.evaluate_formula(parse_python(value))
 
     def evaluate_formula(self, tree: ast.expr) -> float:
-        """What a formula without `INVERSE` functions is worth."""
+        """Returns what a formula without `INVERSE` functions is worth."""
         names = {node.id for node in ast.walk(tree) if isinstance(node, ast.Name)}
         values = {name: self.evaluate_symbol(name) for name in names & self.values.keys()}
         return parse_expression(ast.unparse(tree)).evaluate(values)
 
 
 def collect_reserved_names(rows: int) -> set[str]:
-    """Names that a symbol cannot have in a robot of rows 1, 2, ...: variables and parameters."""
+    """Collects the names that no symbol can have in a robot of rows 1, 2, ..."""
     owners = collect_parameter_owners(CATALOGUE)
     columns = (prefix for prefix in owners if prefix[0].isupper())  # the others are no columns
     prefixes = ("q", "qc", "qd", "qdd", *INERTIA, *columns)
@@ -267,7 +267,7 @@ def collect_reserved_names(rows: int) -> set[str]:
 def choose_symbol_names(
     letters: Iterable[str], taken: Collection[str], symbols: Symbols
 ) -> dict[str, str]:
-    """Letter of the file -> name of the symbol, where it cannot keep its own; told in the notes."""
+    """Chooses names of symbols for letters that cannot keep their own; notes grow."""
     letters = list(letters)
     names: dict[str, str] = {}
     for letter in letters:
@@ -288,7 +288,7 @@ def choose_symbol_names(
 def replace_inverse_functions(
     cells: list[ParFormula], symbols: Symbols, place: TomlCell
 ) -> list[ParFormula]:
-    """The formulas without atan2, atan, acos and asin, which robot files do not have.
+    """Returns the formulas without atan2, atan, acos and asin, which robot files do not have.
 
     `atan2(y, x)` of two letters becomes an angle A, with y = L*sin(A) and x = L*cos(A): exact,
     and `sqrt(x**2 + y**2)` is L. Any other becomes a symbol with its number.
@@ -388,7 +388,7 @@ def convert_table_cells(
     symbols: Symbols,
     place: TomlCell,
 ) -> None:
-    """Turn the cells of the frames into those of a robot file; symbols and notes grow.
+    """Turns the cells of the frames into those of a robot file; symbols and notes grow.
 
     Decimals near a multiple of pi/12 become it; other numbers become symbols with that value, in
     a robot with loops the same one wherever the length is the same; letters become symbols; joint
@@ -534,7 +534,7 @@ def _add_variables(frames: list[ParFrame], symbols: Symbols) -> None:
 
 
 def convert_gravity(entries: tuple[str, ...], symbols: Symbols, place: TomlCell) -> list[str]:
-    """The cells of `convert_gravity`: numbers with the letter g where they are about 9.81.
+    """Returns the cells of `convert_gravity`: numbers with the letter g where they are about 9.81.
 
     Letters have stand-ins: by these gravity has the usual size, along -z0 where the third entry has
     letters, else as the sign of the entry says; it is told.

@@ -46,7 +46,7 @@ class Statement:
     place: TomlCell
 
     def locate_entry(self, number: int) -> TomlCell:
-        """Where entry `number`, counted from 1, stands."""
+        """Returns where entry `number`, counted from 1, stands."""
         return self.place.enter(f"{self.key}, entry {number}")
 
 
@@ -65,12 +65,12 @@ class Statements:
     place: TomlCell
 
     def get_entries(self, key: str) -> tuple[str, ...]:
-        """The list of that key; empty if the file has none."""
+        """Returns the list of that key; empty if the file has none."""
         statement = self.by_key.get(key)
         return statement.entries if statement else ()
 
     def read_scalar(self, key: str, pattern: str, expected: str) -> str:
-        """The one value of that key in small letters; empty if the file has none.
+        """Returns the one value of that key in small letters; empty if the file has none.
 
         Raises:
             RobotError: it does not match the pattern.
@@ -84,7 +84,7 @@ class Statements:
         return text.lower()
 
     def read_formula(self, key: str, k: int, default: str) -> "ParFormula":
-        """Entry k, counted from 0, of the list of that key; the default if the file has none.
+        """Reads entry k, counted from 0, of the list of that key; the default without a list.
 
         Raises:
             RobotError: it is no formula.
@@ -96,7 +96,7 @@ class Statements:
 
 
 def scan_statements(data: bytes, where: str) -> Statements:
-    """The statements of a file.
+    """Returns the statements of a file.
 
     Keys may be written in capitals or not, and in any order; line ends and encoding are found.
 
@@ -232,35 +232,35 @@ class ParFormula:
 
     @property
     def names(self) -> frozenset[str]:
-        """The letters in it; pi and functions are none."""
+        """Returns the letters in it; pi and functions are none."""
         called = {id(n.func) for n in ast.walk(self.tree) if isinstance(n, ast.Call)}
         names = (n for n in ast.walk(self.tree) if isinstance(n, ast.Name) and id(n) not in called)
         return frozenset(name.id for name in names if name.id != "pi")
 
     @property
     def literal(self) -> str | None:
-        """The number as its digits are written, if it is nothing but a number."""
+        """Returns the number as its digits are written, if it is nothing but a number."""
         if not _PLAIN.fullmatch(self.source_text):
             return None
         return self.source_text.replace(" ", "").replace("*^", "e")
 
     @property
     def is_zero(self) -> bool:
-        """True of 0 in any spelling."""
+        """Returns True of 0 in any spelling."""
         return self.literal is not None and float(self.literal) == 0
 
     @property
     def text(self) -> str:
-        """As robot files spell it."""
+        """Writes the formula as robot files spell it."""
         return format_tree(self.tree)
 
     def replace_tree(self, tree: ast.expr) -> "ParFormula":
-        """Another formula in its place."""
+        """Returns another formula in its place."""
         return ParFormula(tree, format_tree(tree))
 
 
 def parse_formula(entry: str, place: TomlCell) -> ParFormula:
-    """The formula of an entry: `-Pi/2`, `Sqrt[b^2 + d6^2]`, `0.45`.
+    """Returns the formula of an entry: `-Pi/2`, `Sqrt[b^2 + d6^2]`, `0.45`.
 
     Raises:
         RobotError: it is none.
@@ -277,7 +277,7 @@ def parse_formula(entry: str, place: TomlCell) -> ParFormula:
 
 
 def rewrite_tree(tree: ast.expr, replace: Callable[[ast.expr], ast.expr]) -> ast.expr:
-    """A copy of the formula with its names and calls replaced, innermost first."""
+    """Returns a copy of the formula with its names and calls replaced, innermost first."""
 
     class Rewrite(ast.NodeTransformer):
         def visit_Name(self, node: ast.Name) -> ast.expr:
@@ -292,19 +292,19 @@ def rewrite_tree(tree: ast.expr, replace: Callable[[ast.expr], ast.expr]) -> ast
 
 
 def parse_python(text: str) -> ast.expr:
-    """The tree of a formula in Python's spelling."""
+    """Returns the tree of a formula in Python's spelling."""
     return ast.parse(text, mode="eval").body
 
 
 def get_called_name(node: ast.expr) -> str:
-    """Name of the function that is called; empty if none is."""
+    """Returns name of the function that is called; empty if none is."""
     if isinstance(node, ast.Call) and isinstance(node.func, ast.Name):
         return node.func.id
     return ""
 
 
 def rename_letters(tree: ast.expr, names: Mapping[str, str]) -> ast.expr:
-    """The formula with other names."""
+    """Returns the formula with other names."""
     return rewrite_tree(
         tree,
         lambda n: ast.Name(names.get(n.id, n.id), ast.Load()) if isinstance(n, ast.Name) else n,

@@ -42,7 +42,7 @@ def read_robot(robot: str | Path) -> Robot:
 def convert_robot_file(
     path: str | Path, exact_decimals: bool = False, **part: Any
 ) -> ConvertedRobot:
-    """Another program's robot file as the text of ours.
+    """Returns another program's robot file as the text of ours.
 
     What begins with `<robot>` is a URDF, with `<mujoco>` an MJCF, whatever the file is called.
 
@@ -77,7 +77,7 @@ def convert_robot_file(
 
 
 def is_robot_xml(data: bytes) -> bool:
-    """True if the first element is that of a robot of another program."""
+    """Returns True if the first element is that of a robot of another program."""
     return _FIRST.match(data) is not None
 
 
@@ -103,7 +103,7 @@ def _convert_xml(
 
 
 def build_converted_robot(converted: ConvertedRobot, path: str | Path) -> Robot:
-    """The robot of another program's file; its readings say what was decided."""
+    """Returns the robot of another program's file; its readings say what was decided."""
     read = parse_robot_text(converted.text, f"{path}, as a robot file")
     return dataclasses.replace(read, readings=(*converted.notes, *read.readings))
 
@@ -117,7 +117,7 @@ def convert(
     exact_decimals: bool = False,
     force: bool = False,
 ) -> Robot:
-    """The robot of a URDF, MJCF or SYMORO file; written as a robot file if `out` says where.
+    """Returns robot of a URDF, MJCF or SYMORO file; written as a robot file if `out` says where.
 
     >>> exported = export(model, "arm.urdf", force=True)
     >>> convert("arm.urdf", "arm-again.toml", force=True).moving_joints[1].name

@@ -50,7 +50,7 @@ class LostEffect(ShortRepr):
 
     @property
     def summary_line(self) -> str:
-        """For people."""
+        """Returns the effect, its values and its share of the torque as a line."""
         values = ", ".join(f"{name} = {value:.4g}" for name, value in self.values.items())
         share_text = (
             "" if self.share is None else f", about {format_percent(self.share, 2)} of {self.of}"
@@ -62,7 +62,7 @@ class LostEffect(ShortRepr):
 def find_lost_effects(
     physics: ExportParameters, to: str, torques: Torques | None = None
 ) -> tuple[LostEffect, ...]:
-    """Effects that the format cannot hold, those that carry most first; none that carries nothing.
+    """Lists the effects that the format cannot hold, by share of torque.
 
     URDF and SDF models hold the direction of gravity alone, and programs take 9.81 m/s2.
 
@@ -189,7 +189,7 @@ class Exported(Result):
     files: Mapping[str, bytes] = field(default_factory=dict)
 
     def to_json(self) -> dict[str, Any]:
-        """What `--json` writes."""
+        """Returns what `--json` writes."""
         return {
             "robot": self.robot,
             "format": self.format,
@@ -204,12 +204,12 @@ class Exported(Result):
 
 
 def format_numbers(values: Iterable[float]) -> str:
-    """Shortest decimals that read as the same numbers."""
+    """Returns shortest decimals that read as the same numbers."""
     return " ".join(repr(float(x) + 0.0).removesuffix(".0") for x in values)
 
 
 def keep_unchanged(now: np.ndarray, was: np.ndarray | None) -> np.ndarray:
-    """(10,) a body as `compute_central_parameters`.
+    """Returns (10,) a body as `compute_central_parameters`.
 
     With the numbers that were there where these " "are the same.
     """
@@ -229,7 +229,7 @@ def compute_sigmas(
     attached_inertia: np.ndarray | float = 0.0,
     axes: np.ndarray | None = None,
 ) -> np.ndarray | None:
-    """(10,) standard deviations of the body of a row as `compute_central_parameters`.
+    """Returns (10,) standard deviations of the body of a row as `compute_central_parameters`.
 
     None of a robot.
 
@@ -256,7 +256,7 @@ def compute_sigmas(
 def build_body_values(
     part: str, was: np.ndarray | None, now: np.ndarray, sigma: np.ndarray | None = None
 ) -> Iterator[Value]:
-    """The numbers of a body, as `compute_central_parameters`."""
+    """Yields the numbers of a body, as `compute_central_parameters`."""
     same = keep_unchanged(now, was)
     for k, (quantity, unit) in enumerate(zip(QUANTITIES, _UNITS, strict=True)):
         before = None if was is None else float(was[k])
@@ -268,7 +268,7 @@ def build_body_values(
 def build_drive_values(
     physics: ExportParameters, joint: Joint, part: str, to: str, was: dict[str, float]
 ) -> Iterator[Value]:
-    """Damping, friction and the like of a joint."""
+    """Yields damping, friction and the like of a joint."""
     for quantity, terms in physics.collect_drive_terms(joint.name, to).items():
         now, sigma = physics.evaluate_sum(terms)
         unit, before = _DRIVE_UNITS[quantity][0 if joint.is_revolute else 1], was.get(quantity)
@@ -278,7 +278,7 @@ def build_drive_values(
 
 
 def insert_comment(data: bytes, exported: Exported) -> bytes:
-    """The file with what it holds as one comment at its head, in place of an earlier one."""
+    """Returns file with what it holds as one comment at its head, in place of an earlier one."""
     data = _OURS.sub(b"", data, count=1)
     lines = [f"{exported.robot}: value, was, standard deviation"]
     lines += [

@@ -130,7 +130,7 @@ class FileEdits:
         self.changes[at, at] = text
 
     def render_bytes(self) -> bytes:
-        """The file."""
+        """Returns the file."""
         for element, new_root in self.new.values():
             text = "".join(ET.tostring(child, "unicode") for child in new_root)
             self._insert_child_text(element, text.replace(" />", "/>"))
@@ -140,7 +140,7 @@ class FileEdits:
 def rewrite_file(
     physics: ExportParameters, source: OriginalFile, placement: Placement, notes: list[str]
 ) -> tuple[bytes, list[Value]]:
-    """The file with the numbers of the physics, and these; notes grow.
+    """Returns the file with the numbers of the physics, and these; notes grow.
 
     Raises:
         DataError: MJCF that states no numbers itself, or changes those that it states.

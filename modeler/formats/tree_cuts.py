@@ -18,7 +18,7 @@ from modeler.robot import LARGEST_LENGTH, JointKind
 def cut_tree(
     tree: BodyTree, base: str = "", tip: str = "", locks: Mapping[str, str | float] | None = None
 ) -> BodyTree:
-    """The part of a robot that is meant, every joint of it of a kind that we have.
+    """Returns the part of a robot that is meant, every joint of it of a kind that we have.
 
     Joints are locked first, then what is before `base` is left out, then what is not on the way to
     `tip`. A joint of another kind is held where it carries the first link (a floating base); it may
@@ -43,7 +43,7 @@ def cut_tree(
 
 
 def parse_lock_values(texts: Iterable[str]) -> dict[str, str]:
-    """`elbow=30 deg` of the command line, as joint -> position.
+    """Returns `elbow=30 deg` of the command line, as joint -> position.
 
     Raises:
         RobotError: no `=`, or a joint twice.
@@ -62,7 +62,7 @@ def parse_lock_values(texts: Iterable[str]) -> dict[str, str]:
 
 
 def fix_joint(joint: TreeJoint, position: float) -> TreeJoint:
-    """The joint as one that is fixed at a position."""
+    """Returns the joint as one that is fixed at a position."""
     return TreeJoint(
         joint.name,
         JointKind.FIXED,
@@ -76,7 +76,7 @@ def fix_joint(joint: TreeJoint, position: float) -> TreeJoint:
 def resolve_leaders(
     joints: dict[str, TreeJoint], direct: Mapping[str, tuple[str, float, float]]
 ) -> tuple[list[str], str]:
-    """Let joints follow the one that leads, through those that follow it themselves.
+    """Lets joints follow the one that leads, through those that follow it themselves.
 
     Args:
         joints: by name; changed in place.

@@ -67,7 +67,7 @@ _TIES = {
 
 
 def choose_independent_joints(tree: BodyTree) -> set[str]:
-    """As many joints as the loops leave free, those that are nearest to the base first.
+    """Chooses as many joints as the loops leave free, the nearest to the base first.
 
     The rank is taken where no loop is closed: it is that of the mechanism wherever it does not
     depend on special lengths.
@@ -137,7 +137,7 @@ _LIMITS = "[limits]                              # lower, upper, speed, accelera
 
 
 def convert_tree(tree: BodyTree, where: str) -> ConvertedRobot:
-    """The robot file that says what the tree says.
+    """Returns the robot file that says what the tree says.
 
     Rows 1, 2, ... are the joints that move, in their order; q_j is the position of the file, frame
     0 that of its root.
@@ -264,14 +264,14 @@ class _TreeWriter:
         return loops
 
     def format_home(self) -> list[str]:
-        """The posture of the file, near which its loops are closed."""
+        """Returns the posture of the file, near which its loops are closed."""
         if not self.loops:
             return []
         places = {joint.name: joint.zero for joint in self.joints.values()} | dict(self.tree.home)
         return [f"q{name} = {format_number(places[j.name])}" for name, j in self.joints.items()]
 
     def format_relations(self) -> list[str]:
-        """Joints that follow others."""
+        """Returns joints that follow others."""
         lines = []
         for name, joint in self.joints.items():
             if joint.leader:
@@ -284,7 +284,7 @@ class _TreeWriter:
         return lines
 
     def format_frames(self) -> list[str]:
-        """`[frames]`: every body of the file on its row."""
+        """Returns `[frames]`: every body of the file on its row."""
         cells = []
         for k, link in enumerate(self.links):
             moved_body = link.joint.child if link.joint else ""
@@ -302,7 +302,7 @@ class _TreeWriter:
         return [head, *format_columns_and_rows(FRAME_COLUMNS, cells)]
 
     def format_massless_links(self) -> list[str]:
-        """Links between the joints of one body: they are nothing."""
+        """Returns links between the joints of one body: they are nothing."""
         return [f"{k} = []" for k, link in enumerate(self.links) if self._is_hidden(link)]
 
     def _is_hidden(self, link: MovingLink) -> bool:
@@ -316,7 +316,7 @@ class _TreeWriter:
         return [n for n, joint in self.joints.items() if getattr(joint, key) or n in default_rows]
 
     def format_effects(self) -> list[str]:
-        """Friction, rotors and offset of every joint, and springs that the file states."""
+        """Returns friction, rotors and offset of every joint, and springs that the file states."""
         rows_by_effect = {effect: self._select_rows(key) for effect, (key, _) in _EFFECTS.items()}
         rows_by_effect["offset"] = self.driven
         if self.loops and any(joint.stiffness for joint in self.joints.values()):
@@ -342,7 +342,7 @@ class _TreeWriter:
         return lines + ([f"spring = [{', '.join(springs)}]"] if springs else [])
 
     def format_parameters(self) -> list[str]:
-        """Nominal values, and how sure those of the links are."""
+        """Returns nominal values, and how sure those of the links are."""
         lines, unreliable_bodies, notes = list[str](), list[str](), self.symbols.notes
         notes += self._describe_unreliable_bodies()
         for k, link in enumerate(self.links):
@@ -420,7 +420,7 @@ class _TreeWriter:
         ]
 
     def format_limits(self) -> list[str]:
-        """Ranges of motion of the joints for which the file states some; tells what is assumed."""
+        """Writes the ranges of motion of joints that have some; notes say what is assumed."""
         lines, assumed = list[str](), dict[str, list[str]]()
         for name in self.free:
             joint = self.joints[name]

@@ -72,7 +72,7 @@ _SEVERAL = "transmissions of several joints are left out, rotors too; [motors] s
 def read_couplings(
     root: LocatedElement, joints: Joints, tell: Tell
 ) -> dict[str, tuple[str, float, float]]:
-    """Joint -> that which it follows, ratio and offset.
+    """Returns joint -> that which it follows, ratio and offset.
 
     Raises:
         RobotError: two statements that differ, a coupling of no two joints.
@@ -132,7 +132,7 @@ def _find_couplings(
 
 
 def add_loops(root: LocatedElement, tree: BodyTree, rounded: Roundings) -> BodyTree:
-    """The tree with the loops that the file closes, the motors that it names, and its posture.
+    """Returns tree with the loops that the file closes, the motors that it names, and its posture.
 
     Raises:
         RobotError: a loop of a kind that robot files do not have, links that are not there.
@@ -253,7 +253,7 @@ def _compute_axis_frame(axis: LocatedElement, attribute: str, kind: str) -> np.n
 
 
 def add_armatures(root: LocatedElement, joints: Joints, tell: Tell) -> None:
-    """Gear ratio squared times rotor inertia, where transmissions state it; added for each motor.
+    """Adds gear ratio squared times rotor inertia to the joints of stated transmissions.
 
     As `motorInertia` and `mechanicalReduction` of the actuator, the joint and the transmission, or
     as `drake:rotor_inertia` and `drake:gear_ratio` (drake.mit.edu, "Reflected inertia").
@@ -290,7 +290,7 @@ def add_armatures(root: LocatedElement, joints: Joints, tell: Tell) -> None:
 
 
 def add_springs(root: LocatedElement, joints: Joints, tell: Tell) -> None:
-    """Springs of joints, of `<dynamics>` and of Gazebo's `<springStiffness>`.
+    """Returns springs of joints, of `<dynamics>` and of Gazebo's `<springStiffness>`.
 
     Raises:
         RobotError: two that differ.
@@ -333,7 +333,7 @@ _MOST_LINKS = 5000
 
 
 def read_urdf_tree(data: bytes, where: str, exact_decimals: bool = False) -> BodyTree:
-    """The robot of a URDF.
+    """Returns the robot of a URDF.
 
     Joints of kinds that we do not have stand in `unread`; `tree_cuts.cut_tree` deals with them.
 

@@ -76,11 +76,11 @@ class Element:
     text_span: Span | None = None
 
     def find_children(self, *tags: str) -> "list[Element]":
-        """Its children of these tags."""
+        """Returns its children of these tags."""
         return [child for child in self.children if child.tag in tags]
 
     def iterate_elements(self) -> "Iterator[Element]":
-        """Itself, and all elements in it, in file order."""
+        """Yields itself, and all elements in it, in file order."""
         waiting = [self]
         while waiting:
             element = waiting.pop()
@@ -89,7 +89,7 @@ class Element:
 
 
 def parse_xml(data: bytes, where: str) -> Element:
-    """The root element of the text.
+    """Returns the root element of the text.
 
     Args:
         data: UTF-8, with or without a byte order mark, or the encoding of western Europe that it
@@ -239,7 +239,7 @@ class _XmlReader:
 
 
 def replace_spans(data: bytes, changes: Mapping[Span, str]) -> bytes:
-    """The bytes with others in place of some spans; all else stays as it is.
+    """Returns the bytes with others in place of some spans; all else stays as it is.
 
     Args:
         data: that was read.
@@ -280,7 +280,7 @@ class ElementTable:
     same: Mapping[str, str]
 
     def classify_path(self, path: str, attribute: str = "") -> str:
-        """read, idle, told or refused; "" for what the table does not know."""
+        """Returns read, idle, told or refused; "" for what the table does not know."""
         name = f"{path}@{attribute}" if attribute else path
         for part in ("refused", "told"):
             if name in getattr(self, part):
@@ -293,7 +293,7 @@ class ElementTable:
         return next((p for p, names in known.items() if attribute in names or "**" in names), "")
 
     def extend_path(self, parent: str, tag: str) -> str:
-        """Of a child; bodies in bodies, and defaults in defaults, count once."""
+        """Returns the path of a child; bodies in bodies, and defaults in defaults, count once."""
         path_name = self.same.get(tag, tag)
         known = tag in self.same
         return (
@@ -303,7 +303,7 @@ class ElementTable:
         )
 
     def collect_notes(self, roots: Iterable[tuple[str, Element]]) -> list[str]:
-        """What to tell of files, those that are included behind their own.
+        """Returns what to tell of files, those that are included behind their own.
 
         Raises:
             RobotError: the first that is refused.
@@ -355,7 +355,7 @@ class ElementTable:
 
 @cache
 def load_element_table(format: str) -> ElementTable:
-    """Of "urdf" or "mjcf"."""
+    """Loads the table of "urdf" or "mjcf"."""
     text = Path(__file__).with_name(f"{format}_elements.toml").read_text(encoding="utf-8")
     parts = tomllib.loads(text)
     return ElementTable(**{key: parts.get(key, {}) for key in ElementTable.__annotations__})
@@ -389,7 +389,7 @@ class LocatedElement:
         self.place = TomlCell(f"{where}: line {element.line}", spot)
 
     def find_child(self, tag: str) -> "LocatedElement":
-        """Its child of that tag, of which it may have one."""
+        """Returns its child of that tag, of which it may have one."""
         children = self.element.find_children(tag)
         if len(children) > 1:
             self.place = TomlCell(f"{self._where}: line {children[1].line}", self.place.location)
@@ -400,7 +400,7 @@ class LocatedElement:
         return LocatedElement(inner, self._where, f"{self.place.location} <{tag}>", bool(children))
 
     def find_children(self, *tags: str) -> "list[LocatedElement]":
-        """Its children of these tags."""
+        """Returns its children of these tags."""
         return [
             LocatedElement(
                 e,
@@ -412,15 +412,15 @@ class LocatedElement:
 
     @property
     def name(self) -> str:
-        """Of the element; "" without one."""
+        """Returns the name of the element; "" without one."""
         return _get_name(self.element)
 
     def get_text(self, attribute: str) -> str:
-        """An attribute; "" without it."""
+        """Returns an attribute; "" without it."""
         return self.element.attributes.get(attribute, "").strip()
 
     def merge_children(self, *keys: str) -> "LocatedElement":
-        """Itself, with what children of these tags, or params of these names, say as attributes.
+        """Returns the element with what children of these names say as attributes.
 
         Raises:
             RobotError: two children that say different things under one name.
@@ -440,19 +440,19 @@ class LocatedElement:
         )
 
     def require_child(self, tag: str, example: str) -> "LocatedElement":
-        """Its child of that tag, which it must have."""
+        """Returns its child of that tag, which it must have."""
         if not (child := self.find_child(tag)).is_given:
             raise self.place.make_error(f"<{tag}> is missing; write <{tag} {example}/>")
         return child
 
     def require_attribute(self, attribute: str, example: str) -> str:
-        """An attribute that must be there."""
+        """Returns an attribute that must be there."""
         if not (value := self.element.attributes.get(attribute, "").strip()):
             raise self.place.make_error(f'{attribute} is missing; write {attribute}="{example}"')
         return value
 
     def read_digits(self, attribute: str, default: str, most: float = LARGEST) -> list[str]:
-        """The numbers of an attribute as printed, as many as those of the default."""
+        """Returns the numbers of an attribute as printed, as many as those of the default."""
         text = self.element.attributes.get(attribute, default)
         place, words, count = self.place.enter(attribute, text), text.split(), len(default.split())
         expected = f'{"a number" if count == 1 else f"{count} numbers"} such as "{default}"'
@@ -463,11 +463,11 @@ class LocatedElement:
         return words
 
     def read_numbers(self, attribute: str, default: str, most: float = LARGEST) -> np.ndarray:
-        """The same as numbers."""
+        """Returns the same as numbers."""
         return np.array([float(word) for word in self.read_digits(attribute, default, most)])
 
     def read_optional_number(self, attribute: str) -> float | None:
-        """A number that may be missing; what is infinite, or as good as that, sets no limit."""
+        """Reads a number that may be missing or infinite: None then."""
         text = self.element.attributes.get(attribute, "").strip()
         if not text or text.lower().lstrip("+-") in ("inf", "infinity", ".inf"):
             return None
@@ -475,7 +475,7 @@ class LocatedElement:
         return value if abs(value) <= LARGEST else None
 
     def read_direction(self, attribute: str, default: str) -> np.ndarray:
-        """(3,) a direction, of length one."""
+        """Returns (3,) a direction, of length one."""
         axis = self.read_numbers(attribute, default)
         length = float(np.linalg.norm(axis))
         if length < NOUGHT:
@@ -489,7 +489,7 @@ def _get_name(element: Element) -> str:
 
 
 def read_pose(origin: LocatedElement, rounded: Roundings) -> Pose:
-    """Of xyz, and of rpy or of quat_xyzw.
+    """Reads a pose of xyz, and of rpy or of quat_xyzw.
 
     Raises:
         RobotError: both, or a quaternion 0.
@@ -511,7 +511,7 @@ def read_pose(origin: LocatedElement, rounded: Roundings) -> Pose:
 
 
 def compute_rpy_rotation(angles: Iterable[float]) -> np.ndarray:
-    """(3, 3) of roll, pitch, yaw about fixed axes: Rz(yaw) Ry(pitch) Rx(roll)."""
+    """Returns (3, 3) of roll, pitch, yaw about fixed axes: Rz(yaw) Ry(pitch) Rx(roll)."""
     rotation = np.eye(3)
     for axis, angle in zip(np.eye(3), angles, strict=True):
         rotation = compute_axis_rotation(axis, angle) @ rotation
@@ -519,7 +519,7 @@ def compute_rpy_rotation(angles: Iterable[float]) -> np.ndarray:
 
 
 def check_number(place: TomlCell, expected: str, most: float = LARGEST) -> None:
-    """Refuse what is no decimal number, or one that is too large."""
+    """Refuses what is no decimal number, or one that is too large."""
     if len(place.value) > 100 or not _DECIMAL.fullmatch(place.value):
         raise place.make_mismatch(expected)
     if abs(float(place.value)) > most:
@@ -527,7 +527,7 @@ def check_number(place: TomlCell, expected: str, most: float = LARGEST) -> None:
 
 
 def compute_half_unit(digits: str) -> float:
-    """Half a unit of the last printed digit."""
+    """Returns half a unit of the last printed digit."""
     number_match = _DECIMAL.fullmatch(digits)
     assert number_match is not None
     return 0.5 * 10.0 ** (

@@ -32,7 +32,7 @@ _SINES = (
 
 
 def recognise_angle(digits: str) -> str | None:
-    """The multiple of pi/12 that the printed number is a rounding of; None if it is of none.
+    """Returns multiple of pi/12 that the printed number is a rounding of; None if it is of none.
 
     Args:
         digits: a decimal number, rad.
@@ -42,7 +42,7 @@ def recognise_angle(digits: str) -> str | None:
 
 
 def count_twelfths(digits: str) -> int | None:
-    """How many twelfths of pi the printed number is a rounding of; None if of no whole number.
+    """Returns how many twelfths of pi the printed number rounds; None if no whole number.
 
     `1.5708`, `1.571`, `1.57080` and the cut-off `3.1415` are: from the multiple to the number it
     is half a unit of its last digit, or towards 0 a whole one. Zeros at the end are taken for
@@ -68,7 +68,7 @@ def count_twelfths(digits: str) -> int | None:
 
 
 def compute_cosine_sine(angle: float) -> tuple[float, float]:
-    """Both, of the double next to a multiple of pi/12 as that multiple has them: cos pi/2 is 0."""
+    """Returns cosine and sine, exact for multiples of pi/12: cos pi/2 is 0."""
     count = round(angle * 12 / math.pi)
     if abs(angle - count * math.pi / 12) > 2 * math.ulp(max(1.0, abs(angle))):
         return math.cos(angle), math.sin(angle)
@@ -87,7 +87,7 @@ def _count_decimals(number: Decimal) -> int:
 
 
 def recognise_angle_terms(tree: ast.expr, rounded: dict[str, str]) -> ast.expr:
-    """The angle with its decimal terms, and whole multiples of such, put as what they mean.
+    """Returns the angle with its decimal terms, and whole multiples of such, put as what they mean.
 
     Args:
         tree: of Python's arithmetic.
@@ -116,12 +116,12 @@ def recognise_angle_terms(tree: ast.expr, rounded: dict[str, str]) -> ast.expr:
 
 
 def describe_rounded_angles(rounded: dict[str, str]) -> str:
-    """What to tell of them."""
+    """Returns what to tell of them."""
     return "rounded angles are exact here: " + ", ".join(f"{d} is {a}" for d, a in rounded.items())
 
 
 def format_pi_multiple(turns: Fraction) -> str:
-    """`turns` times pi as text: `pi/2`, `-pi`, `3*pi/4`, `0`."""
+    """Returns `turns` times pi as text: `pi/2`, `-pi`, `3*pi/4`, `0`."""
     if turns == 0:
         return "0"
     head = "" if abs(turns.numerator) == 1 else f"{abs(turns.numerator)}*"
@@ -199,7 +199,7 @@ class Linear:
 
 
 def extract_linear_form(expression: Expression, symbols: Mapping[str, float]) -> Linear:
-    """The expression as constant + sum of coefficient * variable; zero coefficients left out.
+    """Returns expression as constant + sum of coefficient * variable; zero coefficients left out.
 
     Every name that is not among `symbols` is a variable.
 
@@ -249,7 +249,7 @@ _EXACT = 1e-9  # rad; nearer to a multiple of pi/2 than this is that multiple
 def read_linear_form(
     expression: Expression, symbols: Mapping[str, float], place: TomlCell, example: str = "q5 + q6"
 ) -> Linear:
-    """The expression as a linear form in the names that are not among `symbols`.
+    """Returns the expression as a linear form in the names that are not among `symbols`.
 
     Raises:
         RobotError: not linear, or without a value (division by zero, overflow).
@@ -283,7 +283,7 @@ def read_joint_sum(
     example: str,
     only: str = "",
 ) -> Linear:
-    """The expression as a sum of joint variables, none of which is turned far up or down.
+    """Returns the expression as a sum of joint variables, none of which is turned far up or down.
 
     Args:
         expression: of symbols and variables.
@@ -309,7 +309,7 @@ def read_joint_sum(
 
 
 def read_length(expression: Expression, symbols: Mapping[str, float], place: TomlCell) -> float:
-    """Value of a constant that is a length, m, or an acceleration of gravity, m/s2.
+    """Returns value of a constant that is a length, m, or an acceleration of gravity, m/s2.
 
     Raises:
         RobotError: no finite value, or one beyond `LARGEST_LENGTH`.
@@ -322,7 +322,7 @@ def read_length(expression: Expression, symbols: Mapping[str, float], place: Tom
 def check_size(
     expression: Expression, values: Iterable[float], most: float, place: TomlCell
 ) -> None:
-    """Refuse values beyond `most`.
+    """Refuses values beyond `most`.
 
     Raises:
         RobotError: names the expression and its value.
@@ -337,7 +337,7 @@ def check_size(
 
 
 def check_count(count: int, most: int, what: str, place: TomlCell) -> None:
-    """Refuse more of them than a table may have.
+    """Refuses more of them than a table may have.
 
     Raises:
         RobotError: says how many there are.
@@ -350,7 +350,7 @@ def check_count(count: int, most: int, what: str, place: TomlCell) -> None:
 
 
 def check_declared(expression: Expression, known: Mapping[str, Any], place: TomlCell) -> None:
-    """Refuse names that are not known: declared symbols, and joint variables where they may stand.
+    """Refuses names that are not known: declared symbols, and joint variables where they may stand.
 
     Raises:
         RobotError: names the first undeclared one and those it looks like.
@@ -368,7 +368,7 @@ def check_declared(expression: Expression, known: Mapping[str, Any], place: Toml
 def check_unit(
     expression: Expression, of: Mapping[str, Collection[str]], unit: str, place: TomlCell
 ) -> None:
-    """Refuse a length where an angle stands, and an angle where a length stands.
+    """Refuses a length where an angle stands, and an angle where a length stands.
 
     Args:
         expression: what stands there.
@@ -388,7 +388,7 @@ def check_unit(
 
 
 def read_number(place: TomlCell, symbols: Mapping[str, float], unit: str = "") -> float:
-    """The cell as a number, in `unit`; it may be an expression of the declared symbols.
+    """Returns the cell as a number, in `unit`; it may be an expression of the declared symbols.
 
     Raises:
         RobotError: not a number, or a name that is not declared.
@@ -400,14 +400,14 @@ def read_number(place: TomlCell, symbols: Mapping[str, float], unit: str = "") -
 
 
 def normalise_row_name(value: Any) -> Any:
-    """A row number that stands without quotes as its name: 1 as "1"; anything else as it is."""
+    """Returns a row number without quotes as its name, 1 as "1"; anything else as it is."""
     if isinstance(value, int) and not isinstance(value, bool) and 0 <= value < 10**6:
         return str(value)
     return value
 
 
 def choose_robot_name(*candidates: str) -> str:
-    """The first of these with the letters that names may have; `robot` if none has any."""
+    """Returns the first of these with the letters that names may have; `robot` if none has any."""
     for candidate in candidates:
         plain = unicodedata.normalize("NFKD", candidate).encode("ascii", "ignore").decode()
         name = re.sub(r"[^A-Za-z0-9_-]+", "-", plain).strip("-_")
@@ -417,7 +417,7 @@ def choose_robot_name(*candidates: str) -> str:
 
 
 def check_name_length(name: str, place: TomlCell) -> None:
-    """Refuse a name of more than `MOST_NAME_LETTERS`.
+    """Refuses a name of more than `MOST_NAME_LETTERS`.
 
     Raises:
         RobotError: says how long it is.
@@ -432,7 +432,7 @@ def check_name_length(name: str, place: TomlCell) -> None:
 def read_exact_angle(
     expression: Expression, variable: str | None, place: TomlCell, rounded: dict[str, str]
 ) -> Expression:
-    """The angle with decimals that are multiples of pi put as exactly these.
+    """Returns the angle with decimals that are multiples of pi put as exactly these.
 
     `1.5707963267948966` becomes `pi/2`; so does `1.57`, which is told. Rounding of the sine and
     cosine would otherwise hide relations between parameters. Symbols keep their values.
@@ -481,7 +481,7 @@ C_WORDS = """
 def read_symbols(
     place: TomlCell, variables: Collection[str]
 ) -> tuple[dict[str, Expression], dict[str, float]]:
-    """Symbols, so ordered that each stands after those its value uses, and what they are worth.
+    """Reads symbols and their values, each after those that its value uses.
 
     Args:
         place: the table.
@@ -520,7 +520,7 @@ def read_symbols(
 def read_gravity(
     place: TomlCell, variables: Collection[str], symbols: Mapping[str, float]
 ) -> tuple[Expression, Expression, Expression]:
-    """Acceleration of gravity in frame 0, m/s2.
+    """Returns acceleration of gravity in frame 0, m/s2.
 
     Raises:
         RobotError: not three entries, or entries that are not constants.

@@ -36,7 +36,7 @@ Effects = Mapping[str, str | list]
 def insert_effect(
     text: str, effect: str, joint: str, shapes: Mapping[str, float], everyone: Sequence[str] = ()
 ) -> str:
-    """The robot file with an effect on one joint more.
+    """Returns the robot file with an effect on one joint more.
 
     Args:
         text: of the file.
@@ -68,7 +68,7 @@ def insert_effect(
 
 
 def insert_own_effect(text: str, name: str, definition: Mapping[str, Any]) -> str:
-    """The robot file with the definition of one effect more.
+    """Returns the robot file with the definition of one effect more.
 
     Args:
         text: of the file.
@@ -91,7 +91,7 @@ def _read_catalogue(text: str) -> tuple[Effect, ...]:
 
 
 def replace_parameters(text: str, values: Mapping[str, float]) -> str:
-    """The robot file with these nominal values, and others only for what they leave open."""
+    """Returns robot file with these nominal values, and others only for what they leave open."""
     before = dict(tomllib.loads(text).get("parameters", {}))
     uncertainty = before.pop("uncertainty", None)
     if uncertainty is not None:
@@ -100,7 +100,7 @@ def replace_parameters(text: str, values: Mapping[str, float]) -> str:
 
 
 def replace_fitted_values(text: str, values: Mapping[str, float]) -> str:
-    """The robot file with fitted values, of inertial parameters only those that it may state."""
+    """Returns the robot file with fitted values; inertial ones only where it may state them."""
     robot = parse_robot_text(text, "robot of the model")
     stateable = {
         f"{prefix}{joint.name}": prefix in robot.get_inertial_prefixes(joint.name)
@@ -112,12 +112,12 @@ def replace_fitted_values(text: str, values: Mapping[str, float]) -> str:
 
 
 def replace_reference(text: str, values: Mapping[str, float]) -> str:
-    """The robot file with another table [reference]."""
+    """Returns the robot file with another table [reference]."""
     return _replace_numbers(text, "reference", values)
 
 
 def replace_drive_gains(text: str, gains: Mapping[str, float]) -> str:
-    """The robot file with other gains: in [drives] where they stand there, else in [drive_gains].
+    """Returns the robot file with other gains, in [drives] or [drive_gains] as it has them.
 
     Raises:
         RobotError: the file's own table is written in a way that cannot be replaced line by line.
@@ -136,7 +136,7 @@ def replace_drive_gains(text: str, gains: Mapping[str, float]) -> str:
 
 
 def replace_log_table(text: str, table: Mapping[str, Any]) -> str:
-    """The robot file with another table [log], where the old one stood, or at the end.
+    """Returns the robot file with another table [log], where the old one stood, or at the end.
 
     Raises:
         RobotError: the file's own table is written in a way that cannot be replaced line by line.
@@ -201,7 +201,7 @@ def _parse_document(text: str) -> dict[str, Any] | None:
 
 
 def replace_gravity(text: str, gravity: Sequence[float]) -> str:
-    """The robot file with another gravity, m/s^2 in frame 0.
+    """Returns the robot file with another gravity, m/s^2 in frame 0.
 
     Raises:
         RobotError: the file's own entry does not stand on one line.
@@ -214,7 +214,7 @@ def replace_gravity(text: str, gravity: Sequence[float]) -> str:
 
 
 def insert_coupling(text: str, joint: str, speed: str) -> str:
-    """The robot file with one motor more that turns with several joints."""
+    """Returns the robot file with one motor more that turns with several joints."""
     lines = text.splitlines()
     entry = f'"{joint}" = "{speed}"'
     for place, line in enumerate(lines):
@@ -224,7 +224,7 @@ def insert_coupling(text: str, joint: str, speed: str) -> str:
 
 
 def replace_effects(text: str, effects: Effects) -> str:
-    """The robot file with another `[effects]` table.
+    """Returns the robot file with another `[effects]` table.
 
     Nominal values of effects that are gone leave `[parameters]` with them: they would be values
     of parameters that the robot does not have.
@@ -263,7 +263,7 @@ def replace_effects(text: str, effects: Effects) -> str:
 def replace_robot_effects(
     robot: Robot, effects: str | Sequence[str] | Mapping[str, Any], where: str
 ) -> Robot:
-    """The robot with other effects.
+    """Returns the robot with other effects.
 
     Args:
         robot: as it is.
@@ -313,7 +313,7 @@ def _has_owner(
 def set_joint_effect(
     text: str, effect: str, joint: str, is_present: bool, everyone: Sequence[str]
 ) -> str:
-    """The robot file where a joint has a plain effect, or has it no more.
+    """Returns the robot file where a joint has a plain effect, or has it no more.
 
     Args:
         text: of the file.
@@ -343,7 +343,7 @@ def set_joint_effect(
 
 
 def replace_limits(text: str, joint: str, cells: Sequence[str]) -> str:
-    """The robot file with other limits of a joint; without them where all cells are empty.
+    """Returns the robot file with other limits of a joint; without them where all cells are empty.
 
     Args:
         text: of the file.
@@ -361,7 +361,7 @@ def replace_limits(text: str, joint: str, cells: Sequence[str]) -> str:
 
 
 def replace_symbol(text: str, name: str, value: str) -> str:
-    """The robot file with another value of a letter; its comment stays.
+    """Returns the robot file with another value of a letter; its comment stays.
 
     Args:
         text: of the file.
@@ -385,13 +385,13 @@ def replace_symbol(text: str, name: str, value: str) -> str:
 
 
 def read_symbol_texts(text: str) -> dict[str, str]:
-    """The letters of a robot file and their values, as it has them."""
+    """Returns the letters of a robot file and their values, as it has them."""
     stated = tomllib.loads(text).get("symbols", {})
     return {name: v if isinstance(v, str) else f"{v:.15g}" for name, v in stated.items()}
 
 
 def read_limit_texts(text: str) -> dict[str, tuple[str, ...]]:
-    """Lower, upper, speed, acceleration by joint, as a robot file has them."""
+    """Returns lower, upper, speed, acceleration by joint, as a robot file has them."""
     stated = _read_expanded_table(text, "limits")
     return {
         joint: tuple(e if isinstance(e, str) else f"{e:.15g}" for e in cells)
@@ -429,7 +429,7 @@ _KEPT = 1e-6
 
 
 def replace_home(text: str, stated: Mapping[str, float], home: Mapping[str, float]) -> str:
-    """The robot file with that `[home]`; comments, and values that stay, as they were written.
+    """Returns robot file with that `[home]`; comments, and values that stay, as they were written.
 
     Args:
         text: of the file.
@@ -451,7 +451,7 @@ def replace_home(text: str, stated: Mapping[str, float], home: Mapping[str, floa
 
 
 def format_home_lines(home: Mapping[str, float]) -> list[str]:
-    """`q2 = -1.2` for every row."""
+    """Returns `q2 = -1.2` for every row."""
     return [
         f"{format_toml_key(f'q{name}')} = {_format_number(value)}" for name, value in home.items()
     ]
@@ -549,7 +549,7 @@ def _is_home_stated(changed: str, text: str, home: Mapping[str, float]) -> bool:
 
 
 def export_effect(robot: Robot, name: str) -> str:
-    """A file that defines an effect of the robot, and nothing else.
+    """Returns a file that defines an effect of the robot, and nothing else.
 
     Its shapes are first tried at the values that they have in the robot, and beside these.
 
@@ -609,14 +609,14 @@ class SharedEffects(ShortRepr):
     left_out: Mapping[str, str] = field(default_factory=dict)
 
     def insert_definitions(self, text: str, names: Collection[str]) -> str:
-        """A robot file with the definitions of those among the names."""
+        """Returns a robot file with the definitions of those among the names."""
         for name in [effect_id for effect_id in self.definitions if effect_id in names]:
             text = insert_own_effect(text, name, self.definitions[name])
         return text
 
 
 def collect_shared_effects(robot: Robot, folder: str | Path) -> SharedEffects:
-    """The own effects of every *.toml file of a folder, as far as the robot has what they read.
+    """Returns own effects of every *.toml file of a folder, as far as the robot has what they read.
 
     What the robot, or a file before, defines alike counts once.
 

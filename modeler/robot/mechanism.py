@@ -36,7 +36,7 @@ _ROUNDING = 1e-3
 
 
 def read_loops(place: TomlCell, joints: Sequence[Joint]) -> tuple[Loop, ...]:
-    """The loops of a file.
+    """Returns the loops of a file.
 
     Raises:
         RobotError: columns, rows, frames or joints are wrong, or there is nothing to close.
@@ -120,7 +120,7 @@ def _suggest_joint(kind: str) -> str | None:
 def read_home(
     place: TomlCell, moving: Mapping[str, Joint], symbols: Mapping[str, float]
 ) -> dict[str, float]:
-    """The posture from which loops are closed, by row: `[home] q2 = "-pi/2"`.
+    """Returns the posture from which loops are closed, by row: `[home] q2 = "-pi/2"`.
 
     Raises:
         RobotError: no such joint variable, or no number.
@@ -157,7 +157,7 @@ def read_relations(
     rounded: dict[str, str],
     readings: list[str],
 ) -> dict[str, Expression]:
-    """The relations of a file, by row; rows that follow others become passive in `rows`.
+    """Returns the relations of a file, by row; rows that follow others become passive in `rows`.
 
     A row whose theta (revolute) or r (prismatic) holds other rows' variables and not its own
     follows them: its variable is that cell.
@@ -259,7 +259,7 @@ _UNTOUCHED = ("legs", "shared", "notes", "title", "name", "log")
 
 
 def expand_legs(document: dict[str, Any], place: TomlCell) -> dict[str, Any]:
-    """The document with every {i} replaced by the names of the legs.
+    """Returns the document with every {i} replaced by the names of the legs.
 
     Consecutive rows of a table with {i} are repeated leg after leg; so is an entry of a list, and
     a line `key = value`.
@@ -275,7 +275,7 @@ def expand_legs(document: dict[str, Any], place: TomlCell) -> dict[str, Any]:
 
 
 def read_leg_names(place: TomlCell) -> tuple[str, ...]:
-    """Names of the legs; empty if the file has no `legs`.
+    """Returns names of the legs; empty if the file has no `legs`.
 
     Raises:
         RobotError: not a list of different letters and digits.
@@ -375,7 +375,7 @@ _MOTIONS = {
 
 
 def read_platform(place: TomlCell) -> tuple[list[tuple[Row, RowPlace]], tuple[str, ...]]:
-    """Rows that carry the platform, and their names; none without a platform.
+    """Returns rows that carry the platform, and their names; none without a platform.
 
     They stand before the table's, so that frames may be fixed on the platform. Each turns the axes
     cyclically (gamma = alpha = pi/2: z is the x axis of the frame before), so that the travels are
@@ -430,7 +430,7 @@ Ratios = Mapping[str, Mapping[str, Fraction]]
 
 
 def build_motor_rows(place: TomlCell, rows: Rows) -> Rows:
-    """The rows of the motors, to stand below the table; the joints that they drive get mu 0.
+    """Returns rows of the motors, to stand below the table; the joints that they drive get mu 0.
 
     Raises:
         RobotError: a name that is taken or no name, a motor that drives no joint of the table.
@@ -471,7 +471,7 @@ def build_motor_rows(place: TomlCell, rows: Rows) -> Rows:
 def read_motors(
     place: TomlCell, rows: Rows, symbols: Mapping[str, float]
 ) -> tuple[Ratios, dict[str, str]]:
-    """G, and the relations of the joints to the motors, as cells of `[relations]`.
+    """Returns G, and the relations of the joints to the motors, as cells of `[relations]`.
 
     Args:
         place: the table `[motors]`.
@@ -508,7 +508,7 @@ def read_motors(
 
 
 def check_driven(robot: Robot, place: TomlCell) -> None:
-    """Refuse joints with a motor of their own beside those of `[motors]`.
+    """Refuses joints with a motor of their own beside those of `[motors]`.
 
     Raises:
         RobotError: names the first.
@@ -522,7 +522,7 @@ def check_driven(robot: Robot, place: TomlCell) -> None:
 
 
 def compute_joint_directions(robot: Robot) -> dict[str, tuple[float, ...]]:
-    """How fast the coordinates move when one joint moves alone at speed 1: columns of G.
+    """Returns how fast the coordinates move when one joint moves alone at speed 1: columns of G.
 
     Unit vectors where the coordinates are the joints themselves. Joints in table order, entries in
     the order of `robot.coordinates`.
@@ -606,7 +606,7 @@ def _format_ratios(ratios: Ratios) -> str:
 
 
 def read_links(place: TomlCell, moving: Mapping[str, Joint]) -> dict[str, tuple[str, ...]]:
-    """Inertial parameters of the rows that have not all ten: `[links] 5 = []`, `P = ["M"]`.
+    """Returns inertial parameters of the rows that have not all ten: `[links] 5 = []`, `P = ["M"]`.
 
     Raises:
         RobotError: unknown rows or parameters.
@@ -627,7 +627,7 @@ def read_links(place: TomlCell, moving: Mapping[str, Joint]) -> dict[str, tuple[
 def read_shared(
     place: TomlCell, known: Sequence[str], legs: Sequence[str]
 ) -> tuple[SharedParameter, ...]:
-    """Parameters that the legs have in common: `shared = ["*2{i}"]` makes XX2 of XX21, XX22, XX23.
+    """Reads the parameters that legs share: `shared = ["*2{i}"]` makes XX2 of XX21, XX22.
 
     Raises:
         RobotError: patterns without {i} or without a parameter, a name that is taken.
@@ -670,7 +670,7 @@ def read_shared(
 
 
 def merge_shared_names(known: Sequence[str], shared: Sequence[SharedParameter]) -> tuple[str, ...]:
-    """The parameters' names with shared ones once, where their first member stood."""
+    """Returns the parameters' names with shared ones once, where their first member stood."""
     first = {parameter.members[0]: parameter.name for parameter in shared}
     merged_names = {member for parameter in shared for member in parameter.members[1:]}
     return tuple(first.get(name, name) for name in known if name not in merged_names)

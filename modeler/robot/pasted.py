@@ -92,7 +92,7 @@ class PastedTable:
 
 
 def parse_pasted_table(text: str, convention: str = "") -> PastedTable:
-    """The table in a text from the clipboard.
+    """Returns the table in a text from the clipboard.
 
     Args:
         text: lines of cells.
@@ -293,7 +293,7 @@ def _append_unit(cell: str, unit: str) -> str:
 
 
 def build_pasted_robot(table: PastedTable, name: str) -> str:
-    """A robot file with that table, which derives as it is.
+    """Returns a robot file with that table, which derives as it is.
 
     Args:
         table: pasted.
@@ -304,14 +304,14 @@ def build_pasted_robot(table: PastedTable, name: str) -> str:
 
 
 def format_symbol_line(name: str) -> str:
-    """A line of `[symbols]` for a name whose value is to be written yet."""
+    """Returns a line of `[symbols]` for a name whose value is to be written yet."""
     angle = name.lower().startswith(("alpha", "theta", "gamma", "beta", "phi", "th"))
     unit = "rad" if angle else "m"
     return f"{name} = {_PLACEHOLDER}".ljust(38) + f"# {unit}: a placeholder, write the value"
 
 
 def insert_pasted_table(text: str, table: PastedTable) -> str:
-    """A robot file with another table, and lines for the symbols that it lacks.
+    """Returns a robot file with another table, and lines for the symbols that it lacks.
 
     Raises:
         RobotError: the file has no table that can be replaced.
@@ -330,6 +330,6 @@ def insert_pasted_table(text: str, table: PastedTable) -> str:
 
 
 def parse_pasted_cells(text: str) -> list[list[str]]:
-    """A block of cells from the clipboard, for a part of a table: as they are, but readable."""
+    """Returns a block of cells from the clipboard, with readable signs."""
     lines = io.StringIO(_replace_signs(text).strip("\r\n"))
     return [[_clean_cell(cell) for cell in row] for row in csv.reader(lines, delimiter="\t")]

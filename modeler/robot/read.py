@@ -108,7 +108,7 @@ def read_robot(robot: str | Path) -> Robot:
 
 
 def read_file_text(path: Path) -> str:
-    """What a file says.
+    """Returns what a file says.
 
     Raises:
         RobotError: it is not there, cannot be read, or is no text.
@@ -126,7 +126,7 @@ def read_file_text(path: Path) -> str:
 
 
 def parse_robot_text(text: str, where: str) -> Robot:
-    """The robot that the TOML text describes.
+    """Returns the robot that the TOML text describes.
 
     Args:
         text: contents of a robot file.
@@ -276,7 +276,7 @@ def _describe_missing_file(path: Path) -> str:
 
 
 def parse_toml_document(text: str, place: TomlCell) -> dict[str, Any]:
-    """What a TOML text says.
+    """Returns what a TOML text says.
 
     Raises:
         RobotError: it is no TOML; says in which line.
@@ -436,7 +436,7 @@ def new_robot(
 
 
 def check_new_robot(place: Path, force: bool) -> None:
-    """Refuse what `new_robot` would: another ending, or a file that is there."""
+    """Refuses what `new_robot` would: another ending, or a file that is there."""
     if place.suffix.lower() != ".toml":
         raise DataError(
             f"{place}: got {place.suffix or 'no ending'}; expected a name such as arm.toml"
@@ -451,7 +451,7 @@ def check_new_robot(place: Path, force: bool) -> None:
 def fill_template(
     name: str, template: str = SERIAL, joints: str = "RRR", convention: str = "khalil"
 ) -> str:
-    """The text of a robot file that derives as it is, with comments on what to change.
+    """Returns the text of a robot file that derives as it is, with comments on what to change.
 
     Args:
         name: of the robot.

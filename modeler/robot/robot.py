@@ -53,27 +53,27 @@ class Joint(ShortRepr):
 
     @property
     def variable(self) -> str:
-        """Name of the joint variable."""
+        """Returns name of the joint variable."""
         return f"q{self.name}"
 
     @property
     def is_moving(self) -> bool:
-        """False for a frame fixed on its antecedent (sigma = 2), which carries no link."""
+        """Returns False for a frame fixed on its antecedent (sigma = 2), which carries no link."""
         return self.kind is not JointKind.FIXED
 
     @property
     def is_revolute(self) -> bool:
-        """True for a revolute joint."""
+        """Returns True for a revolute joint."""
         return self.kind is JointKind.REVOLUTE
 
     @property
     def unit(self) -> str:
-        """Unit of the joint variable."""
+        """Returns unit of the joint variable."""
         return "rad" if self.is_revolute else "m"
 
     @property
     def effort_unit(self) -> str:
-        """Unit of the joint torque or force."""
+        """Returns unit of the joint torque or force."""
         return "N m" if self.is_revolute else "N"
 
 
@@ -115,7 +115,7 @@ class EffectUse:
 
     @property
     def instances(self) -> tuple[EffectInstance, ...]:
-        """The effect on every joint, as often as it stands there."""
+        """Returns the effect on every joint, as often as it stands there."""
         return self.stated_instances or tuple(EffectInstance(joint) for joint in self.joints)
 
 
@@ -310,27 +310,27 @@ class Robot(Result):
 
     @property
     def heading(self) -> str:
-        """Name and title as a line."""
+        """Returns name and title as a line."""
         return self.name if self.title == self.name else f"{self.name}: {self.title}"
 
     def open_loops(self) -> "Robot":
-        """The virtual tree: no loops, no relations, every joint of the table actuated."""
+        """Returns the virtual tree: no loops, no relations, every joint of the table actuated."""
         joints = tuple(replace(joint, actuated=joint.is_moving) for joint in self.joints)
         return replace(self, joints=joints, loops=(), relations={})
 
     @property
     def moving_joints(self) -> tuple[Joint, ...]:
-        """Rows with a joint variable, in table order."""
+        """Returns rows with a joint variable, in table order."""
         return tuple(joint for joint in self.joints if joint.is_moving)
 
     @property
     def free_joints(self) -> tuple[Joint, ...]:
-        """Moving rows whose variable does not follow others, in table order."""
+        """Returns moving rows whose variable does not follow others, in table order."""
         return tuple(joint for joint in self.moving_joints if joint.name not in self.relations)
 
     @property
     def coordinates(self) -> tuple[Joint, ...]:
-        """Rows whose variables are q, qd, qdd, tau, in that order.
+        """Returns rows whose variables are q, qd, qdd, tau, in that order.
 
         The free rows of a tree; the actuated ones among them once loops tie the others to them.
         """
@@ -338,13 +338,13 @@ class Robot(Result):
 
     @property
     def log_mapping(self) -> Mapping[str, object]:
-        """[log]; where it is silent on names, logs call joints as the file that they are from."""
+        """Returns [log]; without names there, columns are named as the source file's joints."""
         names = {frame.row: frame.joint for frame in self.frames.values() if frame.joint}
         return {"names": names, **self.log} if names else self.log
 
     @property
     def has_binary_fractions(self) -> bool:
-        """True if lengths and angles of the file hold decimals such as 0.5, 0.75 or 1.125."""
+        """Returns True if lengths and angles of the file hold decimals such as 0.5 or 0.75."""
         cells = [
             getattr(j, c) for j in self.joints for c in ("gamma", "b", "alpha", "d", "theta", "r")
         ]
@@ -356,7 +356,7 @@ class Robot(Result):
 
     @property
     def priority_parameters(self) -> tuple[str, ...]:
-        """`priority`; where none is stated, the platform's parameters.
+        """Returns `priority`; where none is stated, the platform's parameters.
 
         What moves the platform is what people look for, and legs group into it more simply than
         it into legs.
@@ -368,19 +368,19 @@ class Robot(Result):
 
     @property
     def catalogue(self) -> tuple[Effect, ...]:
-        """The effects that the robot may have: those of the catalogue, then its own."""
+        """Returns the effects that the robot may have: those of the catalogue, then its own."""
         return (*CATALOGUE, *self.own_effects)
 
     def get_inertial_prefixes(self, name: str) -> tuple[str, ...]:
-        """Prefixes of the inertial parameters of the link of that row."""
+        """Returns prefixes of the inertial parameters of the link of that row."""
         return self.links.get(name, INERTIAL)
 
     def get_joint(self, name: str) -> Joint:
-        """Row of that name."""
+        """Returns row of that name."""
         return next(joint for joint in self.joints if joint.name == name)
 
     def find_joint_effects(self, joint: str) -> list[tuple[Effect, Form, EffectInstance]]:
-        """The effects of a joint, in catalogue order."""
+        """Returns the effects of a joint, in catalogue order."""
         joint_effects = []
         for use in self.effects:
             effect = find_effect(use.effect, self.catalogue)
@@ -392,11 +392,11 @@ class Robot(Result):
         return joint_effects
 
     def has_effect(self, effect: str, joint: str) -> bool:
-        """True if that joint carries that effect."""
+        """Returns True if that joint carries that effect."""
         return any(use.effect == effect and joint in use.joints for use in self.effects)
 
     def evaluate_symbols(self) -> dict[str, float]:
-        """Numbers of all declared symbols."""
+        """Returns numbers of all declared symbols."""
         values: dict[str, float] = {}
         for name, expression in self.symbols.items():
             values[name] = expression.evaluate(values)
@@ -422,7 +422,7 @@ class ParameterDescription:
 
 
 def describe_parameters(robot: Robot) -> dict[str, ParameterDescription]:
-    """Every standard parameter of the robot, by its name; shared ones besides their members."""
+    """Describes every standard parameter of the robot, by name; shared ones too."""
     descriptions = dict(_iterate_descriptions(robot))
     for shared in robot.shared:
         members = [descriptions[name] for name in shared.members if name in descriptions]

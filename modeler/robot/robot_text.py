@@ -46,7 +46,7 @@ class TextRow:
 def format_head(
     name: str, title: str, source: str, notes: Sequence[str], gravity: Sequence[str]
 ) -> list[str]:
-    """What stands above the first table.
+    """Returns what stands above the first table.
 
     Args:
         name: of the robot.
@@ -68,17 +68,17 @@ def format_head(
 
 
 def remove_unprintable(text: str, more: str = "") -> str:
-    """The text without what no file should hold."""
+    """Returns the text without what no file should hold."""
     return "".join(c for c in text if c.isprintable() or c in more)
 
 
 def quote_cell(cell: str) -> str:
-    """A TOML cell: whole numbers bare, all else as text."""
+    """Returns a TOML cell: whole numbers bare, all else as text."""
     return cell if re.fullmatch(r"-?\d+(\.\d+)?", cell) else f'"{cell}"'
 
 
 def format_number(value: float, scale: float = 0.0) -> str:
-    """A TOML number, of as few digits as are within rounding of it.
+    """Returns a TOML number, of as few digits as are within rounding of it.
 
     Args:
         value: what to print.
@@ -91,7 +91,7 @@ def format_number(value: float, scale: float = 0.0) -> str:
 
 
 def align_cells(cells: Sequence[Sequence[str]]) -> list[str]:
-    """Rows of a table, cells below each other."""
+    """Returns rows of a table, cells below each other."""
     widths = [max(map(len, column)) + 2 for column in zip(*cells, strict=True)]
     lines = [
         "".join(f"{cell},".ljust(width) for cell, width in zip(row, widths, strict=True))
@@ -103,7 +103,7 @@ def align_cells(cells: Sequence[Sequence[str]]) -> list[str]:
 def format_columns_and_rows(
     columns: Sequence[str], rows: Sequence[Sequence[str]], comments: Sequence[str] = ()
 ) -> list[str]:
-    """`columns` and `rows` of a table, aligned; a comment behind every row that has one."""
+    """Returns `columns` and `rows` of a table, aligned; a comment behind every row that has one."""
     first, *lines = align_cells([[f'"{column}"' for column in columns], *rows])
     lines = [f"          [{line}]," for line in lines]
     width = max(map(len, lines), default=0) + 2
@@ -116,7 +116,7 @@ def format_columns_and_rows(
 
 
 def format_mdh(rows: Sequence[TextRow]) -> list[str]:
-    """`[mdh]`, aligned; columns that are 0 everywhere are left out."""
+    """Returns `[mdh]`, aligned; columns that are 0 everywhere are left out."""
     used = [c for c in GEOMETRY if any(row.cells.get(c, "0") != "0" for row in rows)]
     cells = [
         [f'"{row.name}"', f'"{row.antecedent}"', str(row.mu), str(row.sigma)]
@@ -133,7 +133,7 @@ def format_mdh(rows: Sequence[TextRow]) -> list[str]:
 
 
 def format_symbols(values: Mapping[str, float | str], comments: Mapping[str, str]) -> list[str]:
-    """Lines of `[symbols]`."""
+    """Returns lines of `[symbols]`."""
     lines = []
     for name, value in values.items():
         start = f'{name} = "{value}"' if isinstance(value, str) else f"{name} = {value!r}"
@@ -142,7 +142,7 @@ def format_symbols(values: Mapping[str, float | str], comments: Mapping[str, str
 
 
 def format_effects(effects: Mapping[str, Sequence[str]], actuated: Sequence[str]) -> list[str]:
-    """Lines of `[effects]`: "all" where all actuated joints have it."""
+    """Returns lines of `[effects]`: "all" where all actuated joints have it."""
     return [
         f"{effect} = " + ('"all"' if list(joints) == list(actuated) else format_name_list(joints))
         for effect, joints in effects.items()
@@ -154,7 +154,7 @@ PARAMETERS = f"{'[parameters]':<37} # kg m^2, kg m, kg; N m s/rad, N m"
 
 
 def format_loops(loops: Sequence[tuple[str, str, str, str]]) -> list[str]:
-    """`[loops]`: name, the frames that meet, and how."""
+    """Returns `[loops]`: name, the frames that meet, and how."""
     if not loops:
         return []
     rows = [[f'"{cell}"' for cell in loop] for loop in loops]
@@ -162,17 +162,17 @@ def format_loops(loops: Sequence[tuple[str, str, str, str]]) -> list[str]:
 
 
 def format_name_list(names: Sequence[str]) -> str:
-    """`["1", "2"]`."""
+    """Returns `["1", "2"]`."""
     return "[" + ", ".join(f'"{name}"' for name in names) + "]"
 
 
 def format_section(head: str, lines: Sequence[str]) -> list[str]:
-    """A table and a blank line; nothing for one without entries."""
+    """Returns a table and a blank line; nothing for one without entries."""
     return [head, *lines, ""] if lines else []
 
 
 def join_lines(parts: Sequence[str]) -> str:
-    """The file of its lines."""
+    """Returns the file of its lines."""
     return "\n".join(parts).rstrip("\n") + "\n"
 
 
@@ -215,7 +215,7 @@ class TableText:
 
 
 def find_table_text(text: str) -> TableText | None:
-    """The cells of the table; None where the text has none that can be found."""
+    """Returns the cells of the table; None where the text has none that can be found."""
     arrays = _find_arrays(text)
     if arrays is None:
         return None
@@ -228,7 +228,7 @@ def find_table_text(text: str) -> TableText | None:
 
 
 def replace_cell(text: str, row: int, column: int, cell: str) -> str:
-    """The text with another cell; the columns stay below each other where there is room.
+    """Returns the text with another cell; the columns stay below each other where there is room.
 
     Args:
         text: of the file.
@@ -255,7 +255,7 @@ def replace_cell(text: str, row: int, column: int, cell: str) -> str:
 
 
 def insert_row(text: str, after: int, cells: Sequence[str]) -> str:
-    """The text with a row more, behind the row of that number.
+    """Returns the text with a row more, behind the row of that number.
 
     Raises:
         RobotError: there is no such row, or no table.
@@ -280,7 +280,7 @@ def insert_row(text: str, after: int, cells: Sequence[str]) -> str:
 
 
 def remove_row(text: str, row: int) -> str:
-    """The text without that row.
+    """Returns the text without that row.
 
     Raises:
         RobotError: there is no such row.
@@ -299,7 +299,7 @@ def remove_row(text: str, row: int) -> str:
 def replace_table(
     text: str, columns: Sequence[str], rows: Sequence[Sequence[str]], convention: str
 ) -> str:
-    """The text with another table.
+    """Returns the text with another table.
 
     Args:
         text: of the file.
@@ -322,7 +322,7 @@ def replace_table(
 
 
 def locate_error_cell(error: str, text: str) -> tuple[int, str] | None:
-    """The row and the column that the line of a reader is about.
+    """Returns the row and the column that the line of a reader is about.
 
     Args:
         error: the line.
@@ -353,7 +353,7 @@ def locate_error_cell(error: str, text: str) -> tuple[int, str] | None:
 
 
 def read_table_convention(text: str) -> str:
-    """Whose table it is, as the text has it."""
+    """Returns whose table it is, as the text has it."""
     begin, end = _find_section(text)
     stated = re.search(r"(?m)^[ \t]*convention[ \t]*=[ \t]*[\"'](\w+)", text[begin:end])
     return stated[1] if stated else "khalil"
@@ -422,7 +422,7 @@ def _strip_quotes(cell: str) -> str:
 
 
 def quote_table_cell(cell: str, name: bool) -> str:
-    """As TOML has it: numbers that are no names bare, all else as text; "" is 0."""
+    """Writes a TOML cell: numbers that are no names bare, all else as text; "" is 0."""
     plain = " ".join(cell.split()) or "0"
     if not name and re.fullmatch(r"[+-]?(0|[1-9]\d*)(\.\d+)?", plain):
         return plain

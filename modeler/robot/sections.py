@@ -19,7 +19,7 @@ INERTIAL_UNCERTAINTY = "inertial"
 
 
 def find_joint(name: Any, moving: Mapping[str, Joint], place: TomlCell) -> Joint:
-    """The moving joint of that name.
+    """Returns the moving joint of that name.
 
     Raises:
         RobotError: no such joint; lists those there are.
@@ -49,7 +49,7 @@ def _iterate_joints(
 def read_coupling(
     place: TomlCell, moving: Mapping[str, Joint], symbols: Mapping[str, float]
 ) -> Coupling:
-    """Motors that turn with several joints: {joint of the motor: {joint: coefficient}}.
+    """Returns motors that turn with several joints: {joint of the motor: {joint: coefficient}}.
 
     Raises:
         RobotError: unknown joints, or a speed that is not a sum of joint variables.
@@ -76,7 +76,7 @@ def read_coupling(
 def read_numbers(
     place: TomlCell, known: Collection[str], table: str, expected: str
 ) -> dict[str, float]:
-    """Values of standard parameters: `[parameters]` or `[reference]`.
+    """Returns values of standard parameters: `[parameters]` or `[reference]`.
 
     Args:
         place: the table.
@@ -101,7 +101,7 @@ def read_numbers(
 def read_parameters(
     place: TomlCell, known: Collection[str], expected: str
 ) -> tuple[dict[str, float], dict[str, float]]:
-    """Values of standard parameters, and how sure they are: `[parameters]`.
+    """Returns values of standard parameters, and how sure they are: `[parameters]`.
 
     Args:
         place: the table.
@@ -167,7 +167,7 @@ def _check_stated(
 
 
 def read_drive_gains(place: TomlCell, moving: Mapping[str, Joint]) -> dict[str, float]:
-    """Joint torque per unit of the logged current, by joint.
+    """Returns joint torque per unit of the logged current, by joint.
 
     Raises:
         RobotError: unknown joint, or a gain that is no number or zero.
@@ -195,7 +195,7 @@ _EFFICIENT = 1.1  # gain over k_e; the same number of a motor without losses
 def read_drives(
     place: TomlCell, moving: Mapping[str, Joint], gains: Mapping[str, float], readings: list[str]
 ) -> tuple[dict[str, float], dict[str, DriveSpec]]:
-    """Gains and voltage models: `[drives]`.
+    """Returns gains and voltage models: `[drives]`.
 
     Args:
         place: the table.
@@ -268,7 +268,7 @@ FIT_OPTIONS: Mapping[str, str | tuple[str, ...]] = {
 
 
 def read_fit(place: TomlCell) -> dict[str, Any]:
-    """Options of `modeler fit` that this robot needs always: `[fit]`.
+    """Returns options of `modeler fit` that this robot needs always: `[fit]`.
 
     Raises:
         RobotError: an unknown option, or a value that it cannot have.
@@ -291,7 +291,7 @@ def read_fit(place: TomlCell) -> dict[str, Any]:
 
 
 def read_diagnose(place: TomlCell) -> dict[str, Any]:
-    """Options of `modeler diagnose` that this robot needs always: `[diagnose]`.
+    """Returns options of `modeler diagnose` that this robot needs always: `[diagnose]`.
 
     Raises:
         RobotError: an unknown option, or no list of effects.
@@ -306,7 +306,7 @@ def read_diagnose(place: TomlCell) -> dict[str, Any]:
 def read_limits(
     place: TomlCell, moving: Mapping[str, Joint], symbols: Mapping[str, float]
 ) -> dict[str, Limits]:
-    """Range of motion by joint.
+    """Returns range of motion by joint.
 
     Raises:
         RobotError: unknown joint, wrong entries, an empty range.
@@ -331,7 +331,7 @@ def read_limits(
 
 
 def read_physical(place: TomlCell, moving: Mapping[str, Joint]) -> dict[str, PhysicalLink]:
-    """The letters of a paper for the links, by joint; letters need not be declared.
+    """Returns the letters of a paper for the links, by joint; letters need not be declared.
 
     Raises:
         RobotError: unknown joint, missing or unknown keys, joint variables in an entry.
@@ -371,7 +371,7 @@ _FRAMES = 'columns = ["link", "row", "x"], rows = [["hand", "6", 0.1]]'
 def read_frames(
     place: TomlCell, rows: Collection[str], symbols: Mapping[str, float]
 ) -> dict[str, LinkFrame]:
-    """Links of another program's file on the rows of the table: `[frames]`.
+    """Returns links of another program's file on the rows of the table: `[frames]`.
 
     Raises:
         RobotError: columns, names of links or rows, or numbers are wrong.
@@ -431,7 +431,7 @@ _CAPSULES = 'columns = ["row", "radius"], rows = [["1", 0.05]]'
 def read_capsules(
     place: TomlCell, rows: Collection[str], symbols: Mapping[str, float]
 ) -> tuple[tuple[LinkCapsule, ...], dict[str, tuple[float, ...]]]:
-    """What links fill, and planes of the surroundings: `[capsules]`.
+    """Returns what links fill, and planes of the surroundings: `[capsules]`.
 
     Raises:
         RobotError: columns, names of rows, or numbers are wrong.
@@ -485,7 +485,7 @@ _TOOL = '[tool] with x, y, z, roll, pitch, yaw, and row = "6" or link = "flange"
 
 
 def read_tool(place: TomlCell, robot: Robot, symbols: Mapping[str, float]) -> LinkFrame | None:
-    """The frame whose motion a controller commands: `[tool]`.
+    """Returns the frame whose motion a controller commands: `[tool]`.
 
     It stands on a row of the table, or on a link of `[frames]`, in whose frame it is placed; on the
     last moving row where it names neither and the robot has one end.

@@ -44,11 +44,8 @@ _ONE_ROW = {
     "craig": '["j", "alpha", "a", "d", "theta"], rows = [["1", 0, 0, 0, "q1"]]',
     "classical": '["j", "theta", "d", "a", "alpha"], rows = [["1", "q1", 0, 0, 0]]',
 }
-GREEK = dict(
-    zip(
-        "\u03b1\u03b3\u03b8\u03c3\u03bc\u00b5", "alpha gamma theta sigma mu mu".split(), strict=True
-    )
-)
+GREEK_LETTERS = "\u03b1\u03b3\u03b8\u03c3\u03bc\u00b5"
+GREEK = dict(zip(GREEK_LETTERS, [*ANGLES, "sigma", "mu", "mu"], strict=True))
 """Greek letter -> its name."""
 _SERIAL = (
     "a classical table is of a serial robot, for its a and alpha place the one axis that follows; "
@@ -72,20 +69,20 @@ class RowPlace(TomlCell):
     before: "RowPlace | None" = None
 
     def find_owner(self, column: str) -> "RowPlace":
-        """Where that cell is written."""
+        """Returns where that cell is written."""
         return self.before if self.before and column in ("alpha", "d") else self
 
     def get_letter(self, column: str) -> str:
-        """How the table calls that column of Khalil's."""
+        """Returns how the table calls that column of Khalil's."""
         return self.letters.get(column, column)
 
     def locate_column(self, column: str, value: Any = None) -> TomlCell:
-        """The place of a cell."""
+        """Returns the place of a cell."""
         return self.find_owner(column).enter(f"column {self.get_letter(column)}", value)
 
 
 def read_convention(table: TomlCell, document: Mapping[str, Any]) -> str:
-    """Whose table it is.
+    """Returns whose table it is.
 
     Args:
         table: `[mdh]`.
@@ -108,12 +105,12 @@ def read_convention(table: TomlCell, document: Mapping[str, Any]) -> str:
 
 
 def format_table_example(convention: str) -> str:
-    """Columns and a row, as text."""
+    """Returns columns and a row, as text."""
     return f"columns = {_ONE_ROW[convention]}"
 
 
 def read_khalil_columns(place: TomlCell, convention: str) -> list[str]:
-    """The columns of the table as Khalil calls them.
+    """Returns the columns of the table as Khalil calls them.
 
     Raises:
         RobotError: columns that such a table has not, or twice, or no names of rows.
@@ -149,7 +146,7 @@ def read_khalil_columns(place: TomlCell, convention: str) -> list[str]:
 def check_convention(
     columns: Sequence[str], rows: Sequence[Row], place: TomlCell, stated: bool
 ) -> None:
-    """Refuse a table that reads like that of another convention than it is said to be.
+    """Refuses a table that reads like that of another convention than it is said to be.
 
     Args:
         columns: Khalil's, in the order of the file.
@@ -188,14 +185,14 @@ def check_convention(
 
 
 def is_length(cell: Any) -> bool:
-    """True of a cell that is no name of a row, but may be a length."""
+    """Returns True of a cell that is no name of a row, but may be a length."""
     if isinstance(cell, float):
         return True
     return isinstance(cell, str) and not cell.isdigit() and any(c.isdigit() for c in cell)
 
 
 def suggest_convention(columns: Sequence[str], rows: Sequence[Row]) -> str:
-    """The line to write, by where the table begins and ends with zeros."""
+    """Returns the line to write, by where the table begins and ends with zeros."""
     zero = [all(row.get(c, 0) in (0, "0") for c in ("alpha", "a")) for row in rows]
     classical = columns.index("theta") < columns.index("alpha") if "alpha" in columns else False
     if zero and zero[0] != zero[-1]:  # Craig's first axis is z0; often the last frame is the end
@@ -213,7 +210,7 @@ def suggest_convention(columns: Sequence[str], rows: Sequence[Row]) -> str:
 
 
 def shift_classical_rows(rows: Sequence[tuple[Row, RowPlace]]) -> list[tuple[Row, RowPlace]]:
-    """Classical rows as Khalil's; a fixed frame ends the last link where it has a or alpha."""
+    """Converts classical rows to those of Khalil; a fixed frame ends the last link if needed."""
     khalil_rows: list[tuple[Row, RowPlace]] = []
     carried: Row = {}
     before: RowPlace | None = None
@@ -250,7 +247,7 @@ class WrittenCell(NamedTuple):
 
     @property
     def expression(self) -> Expression:
-        """What stands there."""
+        """Returns what stands there."""
         return parse_expression(0) if self.joint is None else getattr(self.joint, self.column)
 
 
@@ -272,13 +269,13 @@ class WrittenTable:
 
 
 def locate_written_cell(robot: Robot, joint: Joint, column: str) -> str:
-    """`row "3", column alpha`: where the file has that cell of Khalil's."""
+    """Returns `row "3", column alpha`: where the file has that cell of Khalil's."""
     row, letter = _locate_cell(robot, joint, column)
     return f'row "{row}", column {letter}'
 
 
 def get_written_letter(robot: Robot, joint: Joint, column: str) -> str:
-    """`alpha`, or `alpha of 3`: how the file calls that cell of Khalil's."""
+    """Returns `alpha`, or `alpha of 3`: how the file calls that cell of Khalil's."""
     row, letter = _locate_cell(robot, joint, column)
     return letter if row == joint.name else f"{letter} of {row}"
 
@@ -291,7 +288,7 @@ def _locate_cell(robot: Robot, joint: Joint, column: str) -> tuple[str, str]:
 
 
 def build_written_table(robot: Robot) -> WrittenTable:
-    """The table of a robot as its file has it."""
+    """Returns the table of a robot as its file has it."""
     letters = CONVENTIONS[robot.convention]
     after = {joint.antecedent: joint for joint in robot.joints if joint.name not in robot.motors}
     rows = []
@@ -335,7 +332,7 @@ HOME = {JointKind.REVOLUTE: "theta", JointKind.PRISMATIC: "r"}
 def read_table_rows(
     place: TomlCell, platform: Sequence[tuple[Row, RowPlace]] = (), convention: str = "khalil"
 ) -> Rows:
-    """The rows of `[mdh]` as {Khalil's column: cell}, each with its place.
+    """Returns the rows of `[mdh]` as {Khalil's column: cell}, each with its place.
 
     `j` becomes text; a missing `a` becomes the name of the row above, "0" for the first. The rows
     of the platform stand before the others.
@@ -388,7 +385,7 @@ def read_table_rows(
 def build_joints(
     rows: Rows, symbols: Mapping[str, float], rounded: dict[str, str]
 ) -> tuple[Joint, ...]:
-    """The joints of checked rows (`read_table_rows`).
+    """Returns the joints of checked rows (`read_table_rows`).
 
     Args:
         rows: cells by column, with their places.
@@ -415,7 +412,7 @@ def build_joints(
 
 
 def check_units(robot: Robot, values: Mapping[str, float], place: TomlCell) -> list[str]:
-    """Refuse angles in columns of lengths and the reverse.
+    """Refuses angles in columns of lengths and the reverse.
 
     Args:
         robot: with its rows.
@@ -524,7 +521,7 @@ def _find_cycle(name: str, antecedents: Mapping[str, str]) -> list[str]:
 
 
 def read_row_kind(row: Row, place: RowPlace) -> JointKind:
-    """Sigma of a row.
+    """Returns sigma of a row.
 
     Raises:
         RobotError: not 0, 1 or 2.

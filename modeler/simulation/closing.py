@@ -41,7 +41,7 @@ class Constraints:
 
 
 def build_constraints(robot: Robot) -> Constraints:
-    """The equations of a robot's relations and loops; lengths in sizes of the robot."""
+    """Returns the equations of a robot's relations and loops; lengths in sizes of the robot."""
     moving = robot.moving_joints
     v, vd = ca.SX.sym("v", len(moving)), ca.SX.sym("vd", len(moving))
     names = [joint.name for joint in moving]
@@ -75,7 +75,7 @@ def build_constraints(robot: Robot) -> Constraints:
 
 
 def evaluate_samples(function: ca.Function, *samples: np.ndarray) -> np.ndarray:
-    """(n, rows, columns) of a function of vectors, for samples (n, its length) of each."""
+    """Returns (n, rows, columns) of a function of vectors, for samples (n, its length) of each."""
     rows, columns = function.size_out(0)
     count = len(samples[0])
     mapped: Any = function.map(count)
@@ -141,7 +141,7 @@ def compute_closed_postures(
     q: np.ndarray,
     progress: Callable[[float], None] | None = None,
 ) -> np.ndarray:
-    """(n, moving rows) closed postures along (n, coordinates) positions, led there from `home`.
+    """Computes (n, moving rows) closed postures along (n, coordinates), from `home` on.
 
     Raises:
         RobotError: `home` does not close, or leaves joints undetermined.
@@ -161,7 +161,7 @@ def compute_closed_postures(
 def compute_rates(
     constraints: Constraints, v: np.ndarray, qd: np.ndarray, qdd: np.ndarray
 ) -> tuple[np.ndarray, np.ndarray]:
-    """(n, moving rows) speeds and accelerations that the constraints allow.
+    """Returns (n, moving rows) speeds and accelerations that the constraints allow.
 
     J vd = 0 and J vdd + J' vd = 0 at closed postures v, for those of the coordinates.
     """
@@ -181,7 +181,7 @@ def compute_rates(
 
 
 def compute_motor_torques(constraints: Constraints, v: np.ndarray, load: np.ndarray) -> np.ndarray:
-    """(n, coordinates) motor torques that, with the constraint forces, make up the joints' load.
+    """Computes (n, coordinates) motor torques that balance the joints' load.
 
     load = S tau + J^T lambda: the rows of joints without motor give the multipliers lambda (the
     smallest ones where equations are redundant), the others then tau.
@@ -205,7 +205,7 @@ def compute_motor_torques(constraints: Constraints, v: np.ndarray, load: np.ndar
 
 
 def compute_singularity_distances(constraints: Constraints, v: np.ndarray) -> np.ndarray:
-    """(n,) least singular value of J in the joints that follow; 0 in a singular posture.
+    """Returns (n,) least singular value of J in the joints that follow; 0 in a singular posture.
 
     Lengths count in sizes of the robot.
     """
@@ -349,7 +349,7 @@ def _build_closure_error(robot: Robot, q: np.ndarray, where: str) -> DataError:
 
 
 def compute_tree_map(robot: Robot) -> tuple[np.ndarray, np.ndarray]:
-    """F (moving rows, free rows) and c (moving rows,) of v = F u + c.
+    """Returns F (moving rows, free rows) and c (moving rows,) of v = F u + c.
 
     Args:
         robot: u are the variables of `robot.free`, v those of `robot.moving`.
@@ -372,7 +372,7 @@ def compute_tree_map(robot: Robot) -> tuple[np.ndarray, np.ndarray]:
 
 
 def build_identity_map(robot: Robot) -> tuple[np.ndarray, np.ndarray]:
-    """The same matrix and constants with every moving row free."""
+    """Returns the same matrix and constants with every moving row free."""
     count = len(robot.moving_joints)
     return np.eye(count), np.zeros(count)
 
@@ -414,7 +414,7 @@ def find_closed_motion(
     motion: Motion,
     progress: Callable[[float], None] | None = None,
 ) -> ClosedMotion:
-    """The motion over the largest share of the range that keeps away from singular postures.
+    """Returns motion over the largest share of the range that keeps away from singular postures.
 
     The loops close all along, and every posture keeps half of home's distance to a singular one
     (see `compute_singularity_distances`). Near one the motors' torques grow without bound, and so

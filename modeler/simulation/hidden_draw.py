@@ -32,7 +32,7 @@ _TOP = 0.98
 def compute_motor_amplitudes(
     robot: Robot, parameters: PlantParameters, limits: Sequence[Limits], joint: str, seed: int
 ) -> tuple[float, float]:
-    """(torque, speed) of a joint that are large for the closed machine around it.
+    """Returns (torque, speed) of a joint that are large for the closed machine around it.
 
     The torque is the one that asks of some motor as much as its rms torque tau_m, and of none
     more: 1 / max_m(rms(G_m) / tau_m), with G_m = d speed / d speed of motor m; of a joint with a
@@ -93,7 +93,7 @@ def complete_effects(
     limits: tuple[Limits, ...],
     settings: SimulationSettings,
 ) -> tuple[HiddenEffect, ...]:
-    """The hidden effects of the settings with a joint and all values.
+    """Returns the hidden effects of the settings with a joint and all values.
 
     What is drawn depends on `parameter_seed`, and not on the other effects that are hidden; the
     time at which an external force pushes also on the duration.

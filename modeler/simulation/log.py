@@ -101,7 +101,7 @@ class SimulationSettings(ShortRepr):
 
 
 def check_settings(settings: SimulationSettings, joints: tuple[str, ...]) -> None:
-    """Nothing, if the settings can be simulated with these joints.
+    """Checks that the settings can be simulated with these joints.
 
     Raises:
         DataError: names the setting, what was got and what is expected.
@@ -139,7 +139,7 @@ def check_settings(settings: SimulationSettings, joints: tuple[str, ...]) -> Non
 
 
 def parse_hidden_effect(text: str) -> HiddenEffect:
-    """The effect that a user writes as "stribeck", "stribeck@2" or "stribeck@2:extra=3,speed=0.1".
+    """Parses an effect such as "stribeck", "stribeck@2" or "stribeck@2:extra=3,speed=0.1".
 
     Raises:
         DataError: the text has another form, or a value is no number.
@@ -162,7 +162,7 @@ def parse_hidden_effect(text: str) -> HiddenEffect:
 
 
 def parse_drive_gains(texts: Sequence[str], robot: Robot) -> dict[str, float]:
-    """Torque per drive unit by joint, N m or N, from texts such as "11=2110".
+    """Returns torque per drive unit by joint, N m or N, from texts such as "11=2110".
 
     Raises:
         DataError: another form, no such joint or one without a motor, a joint twice, a gain that
@@ -257,7 +257,7 @@ class SimulatedLog(Result):
 
 
 def build_log_columns(log: SimulatedLog) -> dict[str, np.ndarray]:
-    """Columns by name: time, q1.., qc1.., tau1.. or current1.., further ones.
+    """Returns columns by name: time, q1.., qc1.., tau1.. or current1.., further ones.
 
     A joint without motor has only its q; one whose drive gain is set logs its current.
     """
@@ -274,7 +274,7 @@ def build_log_columns(log: SimulatedLog) -> dict[str, np.ndarray]:
 
 
 def write_log(path: Path, log: SimulatedLog) -> None:
-    """Write the log as Parquet or CSV, by the suffix of `path`.
+    """Writes the log as Parquet or CSV, by the suffix of `path`.
 
     Raises:
         DataError: another suffix.
@@ -297,7 +297,7 @@ def write_log(path: Path, log: SimulatedLog) -> None:
 
 
 def check_suffix(path: Path) -> None:
-    """Nothing, if `write_log` knows the suffix of `path`; ask before a long simulation.
+    """Checks that `write_log` knows the suffix of `path`; ask before a long simulation.
 
     Raises:
         DataError: it does not.
@@ -309,7 +309,7 @@ def check_suffix(path: Path) -> None:
 
 
 def write_truth(path: Path, log: SimulatedLog) -> None:
-    """Write the true parameters and the seeds as JSON.
+    """Writes the true parameters and the seeds as JSON.
 
     Raises:
         ModelerError: the file cannot be written.
@@ -330,7 +330,7 @@ def write_truth(path: Path, log: SimulatedLog) -> None:
 
 
 def serialise_hidden_effects(log: SimulatedLog) -> list[dict[str, object]]:
-    """The hidden effects for JSON."""
+    """Returns the hidden effects for JSON."""
     return [
         {"effect": h.effect, "joint": h.joint, "values": dict(h.values)} for h in log.truth.hidden
     ]

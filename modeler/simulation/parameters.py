@@ -62,7 +62,7 @@ class _BodyProblem:
 
 
 def complete_body(stated: Mapping[str, float], reference: Mapping[str, float]) -> Completion:
-    """The stated parameters, and for the others those of the nearest possible body.
+    """Returns the stated parameters, and for the others those of the nearest possible body.
 
     Nearest: least log-determinant divergence tr(P R^-1) - log det(P R^-1) from the reference R,
     brought to the stated mass; a body with an inside is preferred to plates, rods and points.
@@ -289,7 +289,7 @@ class PlantParameters:
 def draw_plant_parameters(
     robot: Robot, limits: tuple[Limits, ...], seed: int = 0
 ) -> PlantParameters:
-    """Parameters of the robot file, completed by plausible ones from the seed.
+    """Returns parameters of the robot file, completed by plausible ones from the seed.
 
     Friction, offsets and rotor inertias are drawn as shares of the torque and inertia which the
     links themselves need within `limits` (order of `robot.moving`).
@@ -336,7 +336,7 @@ def draw_plant_parameters(
 
 
 def find_joint_physics(robot: Robot, joint: str) -> list[EffectPhysics]:
-    """The physics of the effects of that joint, in the order of the robot's effects.
+    """Returns the physics of the effects of that joint, in the order of the robot's effects.
 
     Raises:
         RobotError: an effect without physics here.
@@ -356,7 +356,7 @@ def find_joint_physics(robot: Robot, joint: str) -> list[EffectPhysics]:
 def estimate_joint_scales(
     robot: Robot, bodies: Mapping[str, Body], limits: tuple[Limits, ...], rng: np.random.Generator
 ) -> list[ShaftScale]:
-    """What is large and small on each moving row, by the torques of the links in random states."""
+    """Estimates the scales of every moving row, by torques of the links in random states."""
     dynamics = build_rigid_dynamics(robot, bodies)
     q, qd = dynamics.q, dynamics.qd
     qdd = ca.SX.sym("qdd", q.shape[0])
@@ -391,7 +391,7 @@ _OF_MEAN = 0.35  # length of a link without extent, relative to the mean of the 
 
 
 def collect_stated_inertia(robot: Robot, joint: str) -> dict[str, float]:
-    """Inertial parameters of that link that the robot file gives a number for, by prefix.
+    """Returns inertial parameters of that link that the robot file gives a number for, by prefix.
 
     A standard parameter under `[parameters]` wins over the letters of a paper.
     """
@@ -413,7 +413,7 @@ def collect_stated_inertia(robot: Robot, joint: str) -> dict[str, float]:
 def complete_link_parameters(
     robot: Robot, pose: np.ndarray, rng: np.random.Generator
 ) -> tuple[dict[str, dict[str, float]], tuple[str, ...]]:
-    """Ten parameters of each moving link by joint and prefix, and the names that were drawn.
+    """Completes the ten parameters of each moving link; returns the drawn names too.
 
     Sizes follow from the lengths of the table at `pose`, masses from the reach; a box of uneven
     density stands for each link, so that the ten parameters are those of a real body.
@@ -524,7 +524,7 @@ def _find_tips(robot: Robot, pose: np.ndarray) -> dict[str, np.ndarray]:
 def merge_shared_names(
     robot: Robot, parameters: PlantParameters
 ) -> tuple[dict[str, float], tuple[str, ...]]:
-    """Values and drawn ones by the robot's own names: XX2 where legs share XX21, XX22, XX23."""
+    """Returns values and drawn names by the robot's own names: XX2 for XX21, XX22, XX23."""
     first = {shared.members[0]: shared.name for shared in robot.shared}
     merged_names = {member for shared in robot.shared for member in shared.members[1:]}
     return (

@@ -110,7 +110,7 @@ Scale = TypeVar("Scale", bound=ShaftScale)
 def build_share_draw(
     low: float, high: float, of: str = "", either: bool = False
 ) -> Callable[[np.random.Generator, ShaftScale], float]:
-    """A plausible value: uniform from low to high, as a share of what is large on the shaft.
+    """Returns plausible value: uniform from low to high, as a share of what is large on the shaft.
 
     Args:
         low: smallest share.
@@ -129,14 +129,14 @@ def build_share_draw(
 
 
 def draw_sign(rng: np.random.Generator, scale: ShaftScale | None = None) -> float:
-    """-1 or 1, whatever the scale."""
+    """Returns -1 or 1, whatever the scale."""
     return float(rng.choice([-1.0, 1.0]))
 
 
 def combine_draws(
     **draws: Callable[[np.random.Generator, Scale], float],
 ) -> Callable[[np.random.Generator, Scale], dict[str, float]]:
-    """Values by name, each drawn by itself, in this order."""
+    """Returns values by name, each drawn by itself, in this order."""
     return lambda rng, scale: {name: draw(rng, scale) for name, draw in draws.items()}
 
 
@@ -193,19 +193,19 @@ class HiddenKind:
 
 
 def compute_dry_friction(shaft: Shaft, level: ca.SX | float) -> ca.SX:
-    """Friction of that level against the motion, nearly independent of the speed."""
+    """Returns friction of that level against the motion, nearly independent of the speed."""
     # sign(v) with a core 1/1000 of the top speed wide: the joint creeps there instead of sticking,
     # and the equation stays one that Runge-Kutta steps can follow.
     return level * ca.tanh(shaft.speed / shaft.settling)
 
 
 def build_inertia_act(inertia: str) -> Act:
-    """The shaft's own inertia, the value of that name."""
+    """Returns the shaft's own inertia, the value of that name."""
     return lambda shaft, value: Contribution(inertia=value[inertia])
 
 
 def build_friction_act(viscous: str, dry: str) -> Act:
-    """Viscous and dry friction, the values of these names."""
+    """Returns viscous and dry friction, the values of these names."""
     return lambda shaft, value: Contribution(
         value[viscous] * shaft.speed + compute_dry_friction(shaft, value[dry])
     )

@@ -43,7 +43,7 @@ _LOAD_PASSES = 3  # friction of a share mu of the load is then exact to about mu
 def apply_hidden_loads(
     robot: Robot, parameters: PlantParameters, effects: Sequence[HiddenEffect]
 ) -> tuple[Robot, PlantParameters]:
-    """The robot with hidden loads on its links, on a base that stands askew."""
+    """Returns the robot with hidden loads on its links, on a base that stands askew."""
     bodies = dict(parameters.bodies)
     for effect in effects:
         role, values = HIDDEN[effect.effect].role, effect.values
@@ -62,7 +62,7 @@ def apply_hidden_loads(
 
 
 def find_last_link(robot: Robot) -> str:
-    """The row that carries a load: the platform, or the last one that moves."""
+    """Returns the row that carries a load: the platform, or the last one that moves."""
     return robot.platform[-1] if robot.platform else robot.moving_joints[-1].name
 
 
@@ -130,7 +130,7 @@ def build_plant(
     hidden: tuple[HiddenEffect, ...] = (),
     constraints: Constraints | None = None,
 ) -> Plant:
-    """The plant with these parameters, in the coordinates.
+    """Returns the plant with these parameters, in the coordinates.
 
     Args:
         robot: its table and effects.
@@ -314,7 +314,7 @@ def _expand_function(function: ca.Function, *arguments: ca.SX) -> ca.SX:
 
 
 def compute_inner_states(plant: Plant, constraints: Constraints, v: np.ndarray) -> np.ndarray:
-    """(n, plant.states) of a plant with loops at rest in postures v (n, moving rows)."""
+    """Returns (n, plant.states) of a plant with loops at rest in postures v (n, moving rows)."""
     z = np.zeros((len(v), plant.states))
     z[:, : len(constraints.passive_rows)] = v[:, constraints.passive_rows]
     return z
@@ -326,7 +326,7 @@ def build_torque_function(
     limits: tuple[Limits, ...],
     hidden: tuple[HiddenEffect, ...] = (),
 ) -> tuple[ca.Function, int]:
-    """(q, qd, qdd, z) -> tau of all moving rows, untied, and the number of states z."""
+    """Returns (q, qd, qdd, z) -> tau of all moving rows, untied, and the number of states z."""
     links = build_rigid_dynamics(robot, parameters.bodies)
     effects = combine_shaft_effects(
         robot, parameters, limits, links, build_identity_map(robot), hidden
@@ -338,7 +338,7 @@ def build_torque_function(
 
 
 def build_motor_inertia(plant: Plant) -> ca.Function:
-    """(q, z) -> (joints, joints) inertia that motors feel, joints without motor swinging freely.
+    """Builds (q, z) -> (joints, joints) inertia that motors accelerate.
 
     The Schur complement of the passive joints in M; rows and columns of passive joints are 0.
     """
@@ -359,13 +359,13 @@ def build_motor_inertia(plant: Plant) -> ca.Function:
 
 
 def select_free_limits(robot: Robot, limits: tuple[Limits, ...]) -> tuple[Limits, ...]:
-    """Those of `robot.free` among limits in the order of `robot.moving`."""
+    """Returns those of `robot.free` among limits in the order of `robot.moving`."""
     pairs = zip(robot.moving_joints, limits, strict=True)
     return tuple(limit for joint, limit in pairs if joint.name not in robot.relations)
 
 
 def generate_poses(limits: tuple[Limits, ...], count: int = 16) -> np.ndarray:
-    """(count, joints) poses spread over the range of motion, the middle first; always the same."""
+    """Returns (count, joints) fixed poses over the range of motion, the middle first."""
     lower, upper = (np.array([getattr(li, k) for li in limits]) for k in ("lower", "upper"))
     share = np.random.default_rng(0).uniform(size=(count, len(limits)))
     share[0] = 0.5
@@ -386,7 +386,7 @@ def choose_steps_per_tick(
     tick: float,
     postures: tuple[np.ndarray, np.ndarray] | None = None,
 ) -> int:
-    """Runge-Kutta steps inside one control tick of `tick` seconds.
+    """Returns Runge-Kutta steps inside one control tick of `tick` seconds.
 
     The fastest mode is the spectral radius of d(x')/dx at rest, where dry friction is stiffest,
     over poses of the whole range, or over `postures`: (k, joints) positions, (k, states) states.
@@ -423,7 +423,7 @@ def choose_steps_per_tick(
 
 
 def build_tick_function(plant: Plant, tick: float, steps: int) -> ca.Function:
-    """x, tau -> x one tick later under constant torque; x = (q, qd, z), Runge-Kutta of order 4.
+    """Builds x, tau -> x one tick later at constant torque; x = (q, qd, z), Runge-Kutta 4.
 
     What is left open in loops, 1e-10 of the robot's size, is closed at the end of every tick.
     """
@@ -506,7 +506,7 @@ class FastFunction:
 
 
 def compile_if_possible(function: ca.Function) -> ca.Function:
-    """The same function, about ten times faster if a C compiler is found; else as it is."""
+    """Returns the same function, about ten times faster if a C compiler is found; else as it is."""
     compiler = shutil.which("cc") or shutil.which("gcc") or shutil.which("clang")
     if compiler is None:
         return function

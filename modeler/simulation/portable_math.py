@@ -48,7 +48,7 @@ _EXPRESSIONS = _PortableAlgebra(
 
 
 def compute_sine_and_cosine(x: Any) -> tuple[Any, Any]:
-    """sin(x), cos(x) to 1e-16; x number, array or CasADi expression, rad, |x| below 1e6."""
+    """Returns sin(x), cos(x) to 1e-16; x number, array or CasADi expression, rad, |x| below 1e6."""
     to = _choose_algebra(x)
     turns = to.floor(x * (2 / math.pi) + 0.5)
     r = x - turns * _QUARTER[0] - turns * _QUARTER[1] - turns * _QUARTER[2]
@@ -64,7 +64,7 @@ def compute_sine_and_cosine(x: Any) -> tuple[Any, Any]:
 
 
 def compute_exponential(x: Any) -> Any:
-    """exp(x) to 1e-16 of itself; beyond |x| = 700 that of 700."""
+    """Returns exp(x) to 1e-16 of itself; beyond |x| = 700 that of 700."""
     to = _choose_algebra(x)
     exponent = to.clip(x, -_HIGHEST, _HIGHEST)
     halvings = to.floor(exponent / math.log(2.0) + 0.5)
@@ -73,12 +73,12 @@ def compute_exponential(x: Any) -> Any:
 
 
 def compute_hyperbolic_tangent(x: Any) -> Any:
-    """tanh(x) to 1e-16."""
+    """Returns tanh(x) to 1e-16."""
     return 1 - 2 / (compute_exponential(2 * x) + 1)
 
 
 def compute_power(x: Any, exponent: Any) -> Any:
-    """x**exponent = exp(exponent log x) to 1e-14 of itself, x between 1e-12 and 1e12."""
+    """Returns x**exponent = exp(exponent log x) to 1e-14 of itself, x between 1e-12 and 1e12."""
     root = x
     for _ in range(_ROOTS):
         root = _choose_algebra(root).sqrt(root)
@@ -89,7 +89,7 @@ def compute_power(x: Any, exponent: Any) -> Any:
 
 
 def round_to_ten_digits(value: float) -> float:
-    """A number that linear algebra or a generator drew, without the digits that machines differ in.
+    """Rounds a number to ten digits, in which all machines agree.
 
     What is left differs where a digit is on the edge, for one number in a million.
     """
@@ -97,7 +97,7 @@ def round_to_ten_digits(value: float) -> float:
 
 
 def make_portable(function: ca.Function) -> ca.Function:
-    """The same function of CasADi scalars, with the functions above in place of the library's."""
+    """Returns the same function of CasADi scalars, with the functions of this module."""
     arguments = [ca.SX.sym(name, *function.size_in(name)) for name in function.name_in()]
     elements = [argument.nz for argument in arguments]
     results = [[ca.SX(0)] * function.nnz_out(k) for k in range(function.n_out())]

@@ -54,7 +54,7 @@ _PASSES = 30  # of the fixed point that inverts an eccentric encoder; contracts 
 
 
 def compute_encoder_resolution(joints: Sequence[Joint], settings: SimulationSettings) -> np.ndarray:
-    """(joints,) rad or m per count; 0 for an ideal encoder."""
+    """Returns (joints,) rad or m per count; 0 for an ideal encoder."""
     return np.array(
         [
             2 * np.pi / settings.encoder_counts
@@ -68,7 +68,7 @@ def compute_encoder_resolution(joints: Sequence[Joint], settings: SimulationSett
 
 
 def quantise_position(position: np.ndarray, resolution: np.ndarray) -> np.ndarray:
-    """What an encoder of that resolution reads; a resolution of 0 reads the position itself."""
+    """Returns what an encoder of that resolution reads; 0: the position itself."""
     step = np.where(resolution > 0, resolution, 1.0)
     return np.where(resolution > 0, np.round(position / step) * step, position)
 
@@ -93,7 +93,7 @@ class SensorFaults:
 
 
 def collect_sensor_faults(joints: Sequence[str], hidden: Sequence[HiddenEffect]) -> SensorFaults:
-    """The faults among hidden effects."""
+    """Returns the faults among hidden effects."""
     offset, ratio, drift = np.zeros(len(joints)), np.ones(len(joints)), np.zeros(len(joints))
     waves, delay = [], 0.0
     for effect in hidden:
@@ -113,7 +113,7 @@ def collect_sensor_faults(joints: Sequence[str], hidden: Sequence[HiddenEffect])
 
 
 def read_encoders(faults: SensorFaults, position: np.ndarray) -> np.ndarray:
-    """(joints,) what encoders of endless resolution read at these positions."""
+    """Returns (joints,) what encoders of endless resolution read at these positions."""
     read = position + faults.offset
     for i, amplitude, order, phase in faults.waves:
         read[i] += amplitude * compute_sine_and_cosine(order * position[i] + phase)[0]
@@ -121,7 +121,7 @@ def read_encoders(faults: SensorFaults, position: np.ndarray) -> np.ndarray:
 
 
 def invert_encoders(faults: SensorFaults, reading: np.ndarray) -> np.ndarray:
-    """(joints,) positions at which such encoders read that."""
+    """Returns (joints,) positions at which such encoders read that."""
     position = np.array(reading, dtype=float)
     for _ in range(_PASSES if faults.waves or np.any(faults.offset) else 0):
         position = position - (read_encoders(faults, position) - reading)
@@ -129,7 +129,7 @@ def invert_encoders(faults: SensorFaults, reading: np.ndarray) -> np.ndarray:
 
 
 def compute_logged_torques(faults: SensorFaults, time: np.ndarray, held: np.ndarray) -> np.ndarray:
-    """(n, joints) torques before noise: means over sampling intervals centred at the samples.
+    """Computes (n, joints) torques before noise: means over intervals about the samples.
 
     Args:
         faults: of the sensors.
@@ -145,7 +145,7 @@ def compute_logged_torques(faults: SensorFaults, time: np.ndarray, held: np.ndar
 def compute_sampled_torques(
     faults: SensorFaults, time: np.ndarray, tau: np.ndarray, known: np.ndarray | None = None
 ) -> np.ndarray:
-    """(n, joints) torques before noise, from (n, joints) torques at the samples, or times known."""
+    """Computes (n, joints) torques before noise, from torques at the samples or times known."""
     if faults.delay:
         at, late = time if known is None else known, time - faults.delay
         tau = np.column_stack([np.interp(late, at, column) for column in tau.T])
@@ -204,7 +204,7 @@ class ControllerState:
 def tune_gains(
     rate: float, bandwidth: float, feedforward: bool, highest: np.ndarray
 ) -> ControllerGains:
-    """Gains of a velocity loop of `bandwidth` [Hz], lowered where the delay asks for it."""
+    """Returns gains of a velocity loop of `bandwidth` [Hz], lowered where the delay asks for it."""
     delay = _DELAY_TICKS / rate + 1 / (2 * np.pi * _SPEED_FILTER)
     omega = min(2 * np.pi * bandwidth, _PHASE / delay)
     return ControllerGains(
@@ -225,7 +225,7 @@ def update_controller(
     measured: np.ndarray,
     command: tuple[np.ndarray, np.ndarray, np.ndarray],
 ) -> tuple[ControllerState, np.ndarray]:
-    """The next state, and the torque the controller asks for; (joints,).
+    """Returns the next state, and the torque the controller asks for; (joints,).
 
     tau = sat(M (kv (kp (qc - q) + qdc - v) + qddc) + effort), effort' = M ki (the same error). With
     fixed gains an arm without rotor inertias loses its wrist: its inertia varies a hundredfold.
@@ -265,7 +265,7 @@ _CORRELATION = 0.03  # s
 
 
 def draw_process_torques(settings: SimulationSettings, ticks: int, rms: np.ndarray) -> np.ndarray:
-    """(ticks, joints) an Ornstein-Uhlenbeck process on each joint, stationary, held over ticks.
+    """Draws (ticks, joints) a stationary Ornstein-Uhlenbeck process on each joint.
 
     Args:
         settings: share, rate and seed.
@@ -317,7 +317,7 @@ def simulate(
     settings: SimulationSettings | None = None,
     progress: Callable[[float], None] | None = None,
 ) -> SimulatedLog:
-    """A measurement of `robot` under closed-loop control.
+    """Returns a measurement of `robot` under closed-loop control.
 
     With loops the commanded motion is carried out exactly, unless the settings ask for the
     controller.
@@ -442,7 +442,7 @@ def build_task(
     settings: SimulationSettings,
     hidden: tuple[HiddenEffect, ...],
 ) -> PlantTask:
-    """The machine under a controller, with these parameters and limits of `robot.moving`."""
+    """Returns machine under a controller, with these parameters and limits of `robot.moving`."""
     real = apply_hidden_loads(robot, parameters, hidden)
     if robot.loops:
         constraints = build_constraints(robot)
@@ -464,7 +464,7 @@ def build_task(
 
 
 def compute_needed_torques(task: PlantTask) -> np.ndarray:
-    """(about 500, joints) torques of the commanded motion."""
+    """Returns (about 500, joints) torques of the commanded motion."""
     reference = task.reference
     thinned = slice(None, None, max(1, reference.time.size // 500))
     motion = (reference.q, reference.qd, reference.qdd, task.states_along)
@@ -530,7 +530,7 @@ def _run_closed_loop(
 
 
 def select_postures(task: PlantTask) -> tuple[np.ndarray, np.ndarray] | None:
-    """Some of the commanded ones, where not all that the limits hold can be reached."""
+    """Returns some of the commanded ones, where not all that the limits hold can be reached."""
     if task.plant.closer is None:
         return None
     some = np.linspace(0, len(task.states_along) - 1, _LOOKED_AT).astype(int)

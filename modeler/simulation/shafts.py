@@ -47,7 +47,7 @@ def combine_shaft_effects(
     tie: tuple[np.ndarray, np.ndarray],
     hidden: tuple[HiddenEffect, ...] = (),
 ) -> ShaftEffects:
-    """The effects in the coordinates of `links`.
+    """Returns the effects in the coordinates of `links`.
 
     Args:
         robot: with the effects of its file.
@@ -169,7 +169,7 @@ class Transmissions:
     effects: tuple[HiddenEffect, ...]
 
     def compute_torque(self, ahead: ca.SX, rate: ca.SX) -> ca.SX:
-        """(transmissions, 1) torques that pull the links back to their motors, N m or N."""
+        """Returns (transmissions, 1) torques that pull the links back to their motors, N m or N."""
         torques = [ca.SX(0, 1)]
         for i, effect in enumerate(self.effects):
             spring = HIDDEN[effect.effect].spring
@@ -179,7 +179,7 @@ class Transmissions:
 
 
 def find_transmissions(robot: Robot, hidden: tuple[HiddenEffect, ...]) -> Transmissions:
-    """The hidden effects that lie between motors and links."""
+    """Returns the hidden effects that lie between motors and links."""
     names = [joint.name for joint in robot.free_joints]
     effects = tuple(h for h in hidden if HIDDEN[h.effect].role == "transmission")
     rows = tuple(names.index(effect.joint) for effect in effects if effect.joint)
@@ -188,7 +188,7 @@ def find_transmissions(robot: Robot, hidden: tuple[HiddenEffect, ...]) -> Transm
 
 
 def compute_rest_states(strain: ca.Function, q: np.ndarray, z: np.ndarray) -> np.ndarray:
-    """(states,) inner states of a robot at rest: links sag until their springs carry them.
+    """Returns (states,) inner states of a robot at rest: links sag until their springs carry them.
 
     Args:
         strain: (q, z) -> torque on each such link, rising with how far it is ahead.

@@ -51,7 +51,7 @@ class Reference:
 
 
 def widen_limits(limits: tuple[Limits, ...], motion: Reference) -> tuple[Limits, ...]:
-    """Limits that hold the motion."""
+    """Returns limits that hold the motion."""
     peaks = (motion.q.min(0), motion.q.max(0), np.abs(motion.qd).max(0), np.abs(motion.qdd).max(0))
     return tuple(
         Limits(min(li.lower, low), max(li.upper, high), max(li.speed, v), max(li.acceleration, a))
@@ -62,7 +62,7 @@ def widen_limits(limits: tuple[Limits, ...], motion: Reference) -> tuple[Limits,
 def build_point_to_point_reference(
     limits: tuple[Limits, ...], duration: float, rate: float, seed: int
 ) -> Reference:
-    """Quintic moves of all joints between random points, as fast as the limits allow.
+    """Returns quintic moves of all joints between random points, as fast as the limits allow.
 
     The motion of Guegan, Khalil and Lemoine 2003 (ICRA, section 5). Arguments as those of
     `build_exciting_reference`.
@@ -87,7 +87,7 @@ def build_one_joint_reference(
     seed: int,
     directions: np.ndarray | None = None,
 ) -> Reference:
-    """One joint after the other moves alone, at ever new configurations of the others.
+    """Returns one joint after the other moves alone, at ever new configurations of the others.
 
     For a two-step identification (Hanssen, Hovland and Brogardh 2000, section 5): all coordinates
     go to a random place, and one joint goes there and back over its range at several speeds.
@@ -137,7 +137,7 @@ def build_one_joint_reference(
 def build_exciting_reference(
     limits: tuple[Limits, ...], duration: float, rate: float, seed: int
 ) -> Reference:
-    """Point-to-point moves for the first half, a Fourier series for the rest, within the limits.
+    """Builds moves for the first half and a Fourier series for the rest, within the limits.
 
     The moves are quintic polynomials at 10 to 100 % of the top speed, of all joints or of some of
     them, so that friction is seen at several speeds and joints also move alone. The series
@@ -187,11 +187,11 @@ class _ReferenceBuilder:
         return Reference(self.time, *self.values)
 
     def draw_position(self, rng: np.random.Generator) -> np.ndarray:
-        """(joints,) positions within reach."""
+        """Returns (joints,) positions within reach."""
         return self.middle + self.reach * np.round(rng.uniform(-1, 1, len(self.limits)), 10)
 
     def compute_move_time(self, distance: np.ndarray, level: float = 1.0) -> float:
-        """Duration of a quintic move of all joints together, none above level * top speed, s."""
+        """Computes the duration of a quintic move of all joints, below level * top speed, s."""
         speed = _MARGIN * level * np.array([limit.speed for limit in self.limits])
         lift = _MARGIN * np.array([limit.acceleration for limit in self.limits])
         length = np.abs(distance)
@@ -229,7 +229,7 @@ class _ReferenceBuilder:
         return now + back + _PAUSE if turn else 0.0
 
     def add_series(self, begin: float, rng: np.random.Generator) -> None:
-        """A sum of harmonics for each joint, faded in from `begin` and out to the end."""
+        """Returns a sum of harmonics for each joint, faded in from `begin` and out to the end."""
         time, end = self.time, float(self.time[-1])
         lasts = end - begin
         fade = min(1.0, lasts / 3)
@@ -277,7 +277,7 @@ _BEYOND = 1e12  # of s, rad, m and their rates: squares of squares of it are num
 
 
 def read_motion(path: str | Path, joints: Sequence[str]) -> Reference:
-    """The motion of a CSV or Parquet file, with its own samples.
+    """Returns the motion of a CSV or Parquet file, with its own samples.
 
     Columns by name: time, positions qc1.. (commanded) or else q1.., and qd1.., qdd1.. where all
     joints have them; else the derivatives of a spline of degree five through the positions.
@@ -314,13 +314,13 @@ def read_motion(path: str | Path, joints: Sequence[str]) -> Reference:
 
 
 def build_curve(motion: Reference) -> BPoly:
-    """Polynomials of degree five that meet all that is given: q of times from 0 to the last."""
+    """Builds polynomials of degree five through all that is given, from time 0."""
     ends = np.stack([motion.q, motion.qd, motion.qdd], axis=1)
     return BPoly.from_derivatives(motion.time, ends)
 
 
 def resample_motion(motion: Reference, rate: float) -> Reference:
-    """The motion at other samples: polynomials of degree five that meet all that is given."""
+    """Returns motion at other samples: polynomials of degree five that meet all that is given."""
     curve = build_curve(motion)
     if motion.time[-1] * rate > MOST_SAMPLES:
         raise DataError(
@@ -410,7 +410,7 @@ _AROUND_HOME = 0.2  # of the defaults' range, for robots with loops
 def collect_motion_limits(
     robot: Robot, changes: Mapping[str, Limits] | None = None
 ) -> tuple[Limits, ...]:
-    """Limits in the order of `robot.moving`: `changes`, else the robot file, else the defaults.
+    """Collects limits in the order of `robot.moving_joints`: `changes`, file, defaults.
 
     A robot with loops moves around its home by default, and less: it could not close far away.
 
