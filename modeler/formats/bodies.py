@@ -20,7 +20,6 @@ from modeler.estimation import (
 )
 from modeler.formats.body_tree import Pose
 from modeler.formats.completion import (
-    INSIDE,
     CompletedParameters,
     Prior,
     compute_completion,
@@ -29,22 +28,10 @@ from modeler.formats.completion import (
     find_violations,
 )
 from modeler.formats.linkage import compute_capsule_parameters
+from modeler.formats.thresholds import THRESHOLDS
 from modeler.robot import Robot, parse_robot_text
 
-SHARE = 0.3
-"""How sure the values of a file are that says nothing of it, over the scale of a body."""
-
-_UNKNOWN = 1.0  # the same of a capsule
-_WIDE = 100.0  # how sure a value is of which nothing is known, over what the torques allow
-_LOOSE = (1e-2, 0.1, 1.0)  # of what is known beforehand: by how much values of no body may move
-_ROUNDING = 1e-15  # of the size of a number
-LEAST = 1e-14
-"""kg m2: MuJoCo takes no smaller moment of inertia (its mjEPS of full inertias)."""
-
-_NO_BODY = 1e-12  # an eigenvalue of a pseudo-inertia that rounding does not explain
-_THIN = 1e-10  # of the inertia of a capsule of its mass: what a rod or a point gets
 _ROUND = np.array([1.0, 0.0, 0.0, 1.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0])  # the inertia of a ball
-_DENSITIES = (1e-3, 1e3)  # what a fit may say of a capsule's
 
 HELD = {
     "urdf": ("damping", "friction"),
@@ -201,7 +188,7 @@ def compute_central_parameters(ten: np.ndarray, axes: np.ndarray | None = None) 
     if axes is not None:
         about = axes.T @ about @ axes
     parameters = np.concatenate([[mass], centre, about[np.triu_indices(3)]])
-    nothing = np.abs(parameters) <= _ROUNDING * compute_magnitudes(
+    nothing = np.abs(parameters) <= THRESHOLDS.max_relative_rounding * compute_magnitudes(
         parameters
     )  # what differences leave of 0
     return parameters - np.where(nothing, parameters.real, 0.0)
@@ -352,7 +339,8 @@ def _is_body(ten: list[float | None]) -> bool:
     known = np.array([x for x in ten if x is not None])
     return (
         len(known) == 10
-        and compute_smallest_eigenvalue(known, _compute_sphere_scaling(known)) >= INSIDE
+        and compute_smallest_eigenvalue(known, _compute_sphere_scaling(known))
+        >= THRESHOLDS.min_body_eigenvalue
     )
 
 
@@ -391,16 +379,23 @@ def _complete_with_torques(robot: Robot, equations: Equations) -> ExportParamete
             if known[indices[9]] > 0.0
             else -1.0
         )
-        if smallest < -_NO_BODY:
+        if smallest < -THRESHOLDS.min_rounded_eigenvalue:
             moves[indices] = 1.0
             continue
         del others[link]
-        if smallest < INSIDE:
+        if smallest < THRESHOLDS.min_body_eigenvalue:
             thin.append(link)
-            known[indices] += max(_THIN * before.mean[indices[:6]].max(), 2.0 * LEAST) * _ROUND
+            known[indices] += (
+                max(
+                    THRESHOLDS.added_inertia_share * before.mean[indices[:6]].max(),
+                    2.0 * THRESHOLDS.min_moment_of_inertia,
+                )
+                * _ROUND
+            )
     if thin:
         notes.append(
-            f"link {', '.join(thin)}: a rod or a point as it is stated; {_THIN:g} of its size was "
+            f"link {', '.join(thin)}: a rod or a point as it is stated; "
+            f"{THRESHOLDS.added_inertia_share:g} of its size was "
             "added to its inertia, for programs refuse bodies without"
         )
     beta = machine.K @ known
@@ -482,7 +477,7 @@ def build_prior(
     """Returns what is known without torques; links of which something is; what is to be told."""
     values, count = collect_nominal_values(robot), len(machine.names)
     mean, S = np.zeros(count), np.zeros((count, count))
-    share = robot.uncertainty.get("inertial") or SHARE
+    share = robot.uncertainty.get("inertial") or THRESHOLDS.stated_body_deviation
     unknown, stated = {}, set()
     capsule_parameters = compute_capsule_parameters(robot, robot.home)
     for link, indices in machine.links.items():
@@ -505,7 +500,9 @@ def build_prior(
         for link, indices in unknown.items():
             mass = values.get(f"M{link}") or density * capsule_parameters[link][9]
             mean[indices] = capsule_parameters[link] * (mass / capsule_parameters[link][9])
-            S[np.ix_(indices, indices)] = compute_body_covariance(mean[indices], _UNKNOWN)[1]
+            S[np.ix_(indices, indices)] = compute_body_covariance(
+                mean[indices], THRESHOLDS.capsule_deviation
+            )[1]
         notes.append(
             f"link {', '.join(unknown)}: no body is stated in the robot file; what "
             f"{_describe_undetermined(C)} of "
@@ -517,7 +514,7 @@ def build_prior(
         deviation = robot.uncertainty.get(name)
         if i not in of_links and deviation is None:
             active_rows = np.flatnonzero(machine.K[:, i])
-            deviation = _WIDE * float(
+            deviation = THRESHOLDS.unknown_value_deviation * float(
                 max(most[active_rows] / np.abs(machine.K[active_rows, i]), default=0.0)
             )
         if deviation is not None:
@@ -548,7 +545,7 @@ def _estimate_density(
     weight = np.where(size > 0.0, 1.0 / np.where(size > 0.0, size, 1.0), 0.0)
     weighted_norm = float(np.sum((weight * a) ** 2))
     density = float(np.sum(weight**2 * a * beta) / weighted_norm) if weighted_norm else 0.0
-    if _DENSITIES[0] < density < _DENSITIES[1]:
+    if THRESHOLDS.density_range[0] < density < THRESHOLDS.density_range[1]:
         return density, ", as dense as the torques allow: a mass they do not determine is arbitrary"
     return 1.0, " as dense as water: its mass is arbitrary"
 
@@ -580,7 +577,10 @@ def _find_projection(
         machine, completion.chi, size, {link: np.zeros(10) for link in machine.links}
     )
     notes, stated = [], C
-    for tolerance in (0.0, *_LOOSE):  # values that are stated of no body
+    for tolerance in (
+        0.0,
+        *THRESHOLDS.stated_value_tolerances,
+    ):  # values that are stated of no body
         if tolerance:
             C = stated + tolerance**2 * machine.K @ before.S @ machine.K.T
             completion = compute_completion(machine.K, before, beta, C)

@@ -16,6 +16,7 @@ from functools import cache
 import numpy as np
 
 from modeler.core.toml_cells import quote_value
+from modeler.formats.thresholds import THRESHOLDS
 from modeler.robot import (
     JointKind,
     compute_cosine_sine,
@@ -24,22 +25,21 @@ from modeler.robot import (
     format_pi_multiple,
 )
 
-NOUGHT = 1e-6
-"""m, rad, and of a unit axis: smaller is what an exporter's arithmetic left of 0."""
-MOST_NAMED = 6
-"""Names and numbers that a note tells: more nobody reads."""
-
 
 def summarise_names(names: Iterable[str]) -> str:
     """Returns `"a", "b" and 12 more`."""
     unique_names = list(dict.fromkeys(names))
-    return ", ".join(quote_value(name) for name in unique_names[:MOST_NAMED]) + _format_remainder(
-        len(unique_names)
-    )
+    return ", ".join(
+        quote_value(name) for name in unique_names[: THRESHOLDS.max_names_in_note]
+    ) + _format_remainder(len(unique_names))
 
 
 def _format_remainder(count: int) -> str:
-    return f" and {count - MOST_NAMED} more" if count > MOST_NAMED else ""
+    return (
+        f" and {count - THRESHOLDS.max_names_in_note} more"
+        if count > THRESHOLDS.max_names_in_note
+        else ""
+    )
 
 
 @dataclass
@@ -49,7 +49,7 @@ class Roundings:
     Attributes:
         exact: True to take numbers as printed.
         angles: printed -> multiple of pi/12.
-        zeros: numbers below `NOUGHT`.
+        zeros: numbers below `THRESHOLDS.max_rounded_zero`.
     """
 
     exact: bool
@@ -62,7 +62,7 @@ class Roundings:
         if self.exact:
             return value
         count, nearest = count_twelfths(digits), round(value * 12 / math.pi)
-        if count is None and abs(value - nearest * math.pi / 12) <= NOUGHT:
+        if count is None and abs(value - nearest * math.pi / 12) <= THRESHOLDS.max_rounded_zero:
             count = nearest
         if count is None or value == count * math.pi / 12:
             return value
@@ -73,7 +73,7 @@ class Roundings:
 
     def snap_lengths(self, values: np.ndarray) -> np.ndarray:
         """Returns what printed lengths, or parts of a unit axis, mean."""
-        dust = (values != 0.0) & (abs(values) < NOUGHT)
+        dust = (values != 0.0) & (abs(values) < THRESHOLDS.max_rounded_zero)
         if self.exact:
             return values
         self.zeros += int(dust.sum())
@@ -82,10 +82,15 @@ class Roundings:
     def describe_roundings(self) -> Iterator[str]:
         """Yields what to tell of them."""
         if self.angles:
-            most = describe_rounded_angles(dict(list(self.angles.items())[:MOST_NAMED]))
+            most = describe_rounded_angles(
+                dict(list(self.angles.items())[: THRESHOLDS.max_names_in_note])
+            )
             yield f"{most}{_format_remainder(len(self.angles))}; --exact-decimals keeps them"
         if self.zeros:
-            yield f"{self.zeros} lengths, angles and parts of axes below {NOUGHT:g} are 0 here"
+            yield (
+                f"{self.zeros} lengths, angles and parts of axes below "
+                f"{THRESHOLDS.max_rounded_zero:g} are 0 here"
+            )
 
 
 @dataclass(frozen=True, eq=False)
@@ -378,8 +383,6 @@ def combine_inertials(bodies: Iterator[Inertial]) -> Inertial | None:
 # Printed quaternions and axes, and the turns by multiples of pi/12 that they round.
 
 
-HIDDEN = 4e-6
-"""What 1.5708 instead of pi/2 leaves in the components of a quaternion with more digits."""
 ALIKE, EXACT = 1e-9, 1e-15
 
 
@@ -411,7 +414,11 @@ def _snap_to_known(vector: np.ndarray, known: np.ndarray, rounded: Roundings) ->
     digits = max(-int(Decimal(repr(float(x))).as_tuple().exponent) for x in vector)
     if digits < 3:
         return vector
-    allowed = 0.51 * 10.0**-digits if digits < 5 else max(10.0**-digits, HIDDEN)
+    allowed = (
+        0.51 * 10.0**-digits
+        if digits < 5
+        else max(10.0**-digits, THRESHOLDS.max_quaternion_rounding)
+    )
     best: np.ndarray = known[np.argmax(known @ vector)]
     if np.max(np.abs(best - vector)) > allowed:
         return vector

@@ -24,14 +24,8 @@ from functools import cached_property
 import numpy as np
 
 from modeler.estimation import PhysicalParameters, compute_pseudo_inertia
+from modeler.formats.thresholds import THRESHOLDS
 from modeler.numerics.cones import minimize_over_cones
-
-INSIDE = 1e-7
-"""Least eigenvalue of a body that could be built, a round one of its size being 1."""
-
-_WELL_INSIDE = 1e-6  # that which is asked of the solver
-
-_NONE = 1e-13  # relative: an eigenvalue that is rounding
 
 
 @dataclass(frozen=True, eq=False)
@@ -116,7 +110,7 @@ def find_nearest_physical(
         W = size[link]
         now = W @ compute_pseudo_inertia(completion.chi[indices] - floors[link]) @ W.T
         moves = np.einsum("ai,ijk,bj->kab", W, compute_pseudo_inertia(L[indices]), W)
-        matrices.append((now - _WELL_INSIDE * np.eye(4), moves))
+        matrices.append((now - THRESHOLDS.min_solver_eigenvalue * np.eye(4), moves))
     unit = np.eye(L.shape[1])
     bounds = L[places] / scale[:, None], completion.chi[places] / scale
     z = minimize_over_cones((unit, np.zeros(len(unit))), bounds, matrices)
@@ -142,7 +136,8 @@ def find_violations(
     invalid_links = [
         link
         for link, indices in machine.links.items()
-        if compute_smallest_eigenvalue(chi[indices] - floors[link], size[link]) < INSIDE
+        if compute_smallest_eigenvalue(chi[indices] - floors[link], size[link])
+        < THRESHOLDS.min_body_eigenvalue
     ]
     return invalid_links + [name for name, place in machine.positive.items() if chi[place] < 0.0]
 
@@ -175,5 +170,7 @@ def _decompose_covariance(V: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.nda
     size = np.sqrt(np.maximum(np.diag(V), 0.0))
     safe = np.where(size > 0.0, size, 1.0)
     values, vectors = np.linalg.eigh(V / np.outer(safe, safe))
-    is_significant = values > _NONE * max(1.0, float(values.max(initial=0.0)))
+    is_significant = values > THRESHOLDS.min_relative_eigenvalue * max(
+        1.0, float(values.max(initial=0.0))
+    )
     return safe, values[is_significant], vectors[:, is_significant]

@@ -11,7 +11,6 @@ import numpy as np
 from modeler.core.errors import DataError
 from modeler.estimation import IdentifiedModel
 from modeler.formats.bodies import (
-    LEAST,
     Equations,
     ExportParameters,
     Original,
@@ -46,6 +45,7 @@ from modeler.formats.result import (
     insert_comment,
 )
 from modeler.formats.rewriting import rewrite_file
+from modeler.formats.thresholds import THRESHOLDS
 from modeler.robot import Joint, JointKind, Robot, extract_linear_form
 
 _TINY = {"mjcf": 1e-13, "urdf": 1e-9, "sdf": 1e-9}
@@ -150,7 +150,7 @@ def _build_parts(
         for j in robot.moving_joints
         if (t := physics.get_link_parameters(j.name)) is not None
     )
-    parts, moment, tiny = [], LEAST, _TINY[to]
+    parts, moment, tiny = [], THRESHOLDS.min_moment_of_inertia, _TINY[to]
     for row in robot.joints:
         if row.name in robot.motors:
             continue
@@ -159,7 +159,9 @@ def _build_parts(
         if body is None and row.is_moving:
             massless_links.append(names.links[row.name])
             moment = total_mass * capsules_by_row[row.name][0].radius ** 2
-            moment = float(np.clip(2.0 * LEAST, tiny * moment, 1e3 * tiny * moment))
+            moment = float(
+                np.clip(2.0 * THRESHOLDS.min_moment_of_inertia, tiny * moment, 1e3 * tiny * moment)
+            )
             body = np.array([tiny * total_mass, 0, 0, 0, moment, 0, 0, moment, 0, moment])
         relation = robot.relations.get(row.name)
         form = None if relation is None else extract_linear_form(relation, symbols)
@@ -194,8 +196,12 @@ def _build_parts(
             )
         )
     if massless_links:
-        refusing_programs = "SDF refuses" if moment < LEAST else "MuJoCo and SDF refuse"
-        size_note = "; it is too small for MuJoCo" if moment < LEAST else ""
+        refusing_programs = (
+            "SDF refuses" if moment < THRESHOLDS.min_moment_of_inertia else "MuJoCo and SDF refuse"
+        )
+        size_note = (
+            "; it is too small for MuJoCo" if moment < THRESHOLDS.min_moment_of_inertia else ""
+        )
         notes.append(
             f"{', '.join(massless_links)}: no body, and {tiny:g} of the mass of all is written, "
             f"for {refusing_programs} "
@@ -563,10 +569,12 @@ def _find_too_small(values: Iterable[Value], to: str) -> Iterator[str]:
     small = [
         name
         for name, six in bodies.items()
-        if 0.0 < np.linalg.eigvalsh(build_symmetric_matrix(np.array(six)))[0] < LEAST
+        if 0.0
+        < np.linalg.eigvalsh(build_symmetric_matrix(np.array(six)))[0]
+        < THRESHOLDS.min_moment_of_inertia
     ]
     if small and to != "sdf":
         yield (
             f"{', '.join(small)}: too small for MuJoCo, which takes no moment of inertia below "
-            f"{LEAST:g} kg m2"
+            f"{THRESHOLDS.min_moment_of_inertia:g} kg m2"
         )

@@ -13,16 +13,14 @@ from modeler.formats.body_tree import (
     compute_axis_rotation,
     compute_standard_parameters,
 )
+from modeler.formats.thresholds import THRESHOLDS
 from modeler.robot import Joint, JointKind, LinkFrame, Loop, Robot, extract_linear_form
 
 BASE = "0"
 """Name of the frame that stands still."""
 
-SAME_GRAVITY = 2e-3
-"""Share of gravity: 9.80665 is 9.81 in other digits."""
 
 _X, _Y, _Z = np.eye(3)
-_CLOSED = 1e-9  # m, rad: what may be left of a loop
 
 
 def compute_frame_pose(frame: LinkFrame, symbols: Mapping[str, float]) -> Pose:
@@ -129,7 +127,7 @@ def close_loops(robot: Robot) -> dict[str, float]:
 
         start = np.array([robot.home.get(name, 0.0) for name in passive])
         solution = least_squares(compute_gaps, start, xtol=1e-15, ftol=1e-15, gtol=1e-15)
-        if np.abs(solution.fun).max() > _CLOSED:
+        if np.abs(solution.fun).max() > THRESHOLDS.max_loop_gap:
             raise DataError(
                 f"{robot.name}: its loops do not close near [home]; find it with `modeler home`"
             )
@@ -152,14 +150,6 @@ def _compute_gap(loop: Loop, at: Mapping[str, Pose]) -> np.ndarray:
 # Links as capsules: what is drawn of them, and what they would weigh of plastic or metal.
 
 
-DENSITY = 1000.0
-"""kg/m3 of a link of which nothing is known."""
-
-_THICK = 0.12  # radius over the middle length of the links
-_BARE = 0.2  # m, of a robot without lengths
-_SHORT = 0.02  # of the middle length: frames that are nearer stand at one place
-
-
 @dataclass(frozen=True, eq=False)
 class Capsule:
     """Points that are no farther than `radius` from the way from `start` to `end`, in a frame."""
@@ -179,9 +169,9 @@ class Capsule:
         return float(np.linalg.norm(self.axis_vector))
 
     def compute_inertial(self) -> Inertial:
-        """Computes mass, centre and inertia of a cylinder of the same length and of `DENSITY`."""
+        """Computes mass, centre and inertia of a cylinder of the same length."""
         long, r = self.length + 2.0 * self.radius, self.radius
-        mass = DENSITY * np.pi * r**2 * long
+        mass = THRESHOLDS.capsule_density * np.pi * r**2 * long
         along = self.axis_vector / self.length if self.length else np.array([0.0, 0.0, 1.0])
         across = mass * (3.0 * r**2 + long**2) / 12.0
         spin = 0.5 * mass * r**2
@@ -206,13 +196,18 @@ def build_capsules(robot: Robot, q: Mapping[str, float]) -> dict[str, tuple[Caps
         ends.setdefault(joint.antecedent, []).append(end_point)
     lengths = [float(np.linalg.norm(end)) for entry in ends.values() for end in entry]
     some = [length for length in lengths if length > 1e-6]
-    middle = float(np.median(some)) if some else _BARE
+    middle = float(np.median(some)) if some else THRESHOLDS.capsule_default_length
     capsules_by_row = {}
     for row in (BASE, *(joint.name for joint in robot.joints)):
-        far = {tuple(np.rint(end / (_SHORT * middle))): end for end in ends.get(row, [])}.values()
-        long = [end for end in far if np.linalg.norm(end) > _SHORT * middle]
+        far = {
+            tuple(np.rint(end / (THRESHOLDS.min_capsule_length_share * middle))): end
+            for end in ends.get(row, [])
+        }.values()
+        long = [
+            end for end in far if np.linalg.norm(end) > THRESHOLDS.min_capsule_length_share * middle
+        ]
         stated = [capsule for capsule in robot.capsules if capsule.row == row]
-        radius = stated[0].radius if stated else _THICK * middle
+        radius = stated[0].radius if stated else THRESHOLDS.capsule_radius_share * middle
         capsules_by_row[row] = tuple(Capsule(end, radius) for end in long or [np.zeros(3)])
         if stated and stated[0].ends is not None:
             capsules_by_row[row] = tuple(

@@ -24,17 +24,10 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 
 from modeler.formats.body_tree import MovingLink, Pose, TreeJoint
+from modeler.formats.thresholds import THRESHOLDS
 from modeler.robot import GEOMETRY, JointKind, compute_cosine_sine
 
-PARALLEL = 1e-9
-"""rad; a smaller angle is none, as it is none between an angle and a multiple of pi/12."""
-FAR = 20.0
-"""Distance of the foot of a common normal, over that of neighbouring joints, beyond which a fixed
-row takes its place. Torques lose as much as the square of it in accuracy."""
-
 _TWELFTH = math.pi / 12
-_ROUNDING = 1e-13  # of a length that is a decimal of at most `_DECIMALS` digits, relative from 1 m
-_DECIMALS = 10
 
 
 @dataclass(frozen=True, eq=False)
@@ -86,8 +79,10 @@ Loop = tuple[tuple[int, Pose], tuple[int, Pose]]
 
 def snap_length(length: float) -> float:
     """Returns the decimal that it is but for rounding, else the length itself."""
-    for digits in range(_DECIMALS + 1):
-        if abs(length - (short := round(length, digits))) <= _ROUNDING * max(1.0, abs(length)):
+    for digits in range(THRESHOLDS.max_length_decimals + 1):
+        if abs(length - (short := round(length, digits))) <= THRESHOLDS.max_length_rounding * max(
+            1.0, abs(length)
+        ):
             return short + 0.0  # no -0.0
     return length
 
@@ -96,7 +91,7 @@ def snap_angle(angle: float) -> float:
     """Returns the angle in (-pi, pi], as a multiple of pi/12 or a decimal if near one."""
     angle = math.remainder(angle, math.tau)
     twelfths = round(angle / _TWELFTH)
-    if abs(angle - twelfths * _TWELFTH) < PARALLEL:
+    if abs(angle - twelfths * _TWELFTH) < THRESHOLDS.max_parallel_angle:
         return math.pi if twelfths == -12 else twelfths * _TWELFTH
     return snap_length(angle)
 
@@ -154,7 +149,7 @@ class _Normal:
 def _compute_common_normal(axis: _Axis, reach: float) -> _Normal:
     x, y, z = axis.along
     point = axis.through
-    if math.hypot(x, y) < PARALLEL:
+    if math.hypot(x, y) < THRESHOLDS.max_parallel_angle:
         return _Normal() if point is None else _compute_point_normal(point[:2])
     gamma = math.atan2(x, -y)
     if point is None:
@@ -163,7 +158,7 @@ def _compute_common_normal(axis: _Axis, reach: float) -> _Normal:
     across = np.array([-along[1], along[0]])
     distance = -(across @ point[:2]) / (across @ axis.along[:2])
     b = float(point[2] + distance * z)
-    if max(abs(b), abs(distance)) <= FAR * reach:
+    if max(abs(b), abs(distance)) <= THRESHOLDS.max_foot_distance_ratio * reach:
         return _Normal(gamma, b, float(along @ point[:2]))
     meets = point - point[2] / z * axis.along
     near = _compute_point_normal(meets[:2])
@@ -178,20 +173,23 @@ def _compute_point_normal(point: np.ndarray) -> _Normal:
 def _fold_angle(angle: float) -> float:
     """The angle or its opposite direction, exact, in (-pi/2, pi/2]."""
     angle = snap_angle(angle)
-    if -math.pi / 2 + PARALLEL < angle <= math.pi / 2 + PARALLEL:
+    if (
+        -math.pi / 2 + THRESHOLDS.max_parallel_angle
+        < angle
+        <= math.pi / 2 + THRESHOLDS.max_parallel_angle
+    ):
         return angle
     return snap_angle(angle + math.pi)
-
-
-_BEFORE_JOINT = 3.0
-"""What gamma or b costs, a cell of `theta` or `r` being 1: a serial table has none."""
 
 
 def _compute_cell_cost(number: float, angle: bool = False) -> float:
     """What a cell costs."""
     if number == 0.0:
         return 0.0
-    plain = not angle or abs(number / _TWELFTH - round(number / _TWELFTH)) < PARALLEL
+    plain = (
+        not angle
+        or abs(number / _TWELFTH - round(number / _TWELFTH)) < THRESHOLDS.max_parallel_angle
+    )
     return 1.0 if plain else 1.5
 
 
@@ -297,7 +295,9 @@ class _RowBuilder:
 
         def compute_shift_cost(h: float) -> float:
             others = (_compute_cell_cost(snap_length(b - h)) for b in feet)
-            return _compute_cell_cost(snap_length(h - plain[1])) + _BEFORE_JOINT * sum(others)
+            return _compute_cell_cost(snap_length(h - plain[1])) + THRESHOLDS.gamma_or_b_cost * sum(
+                others
+            )
 
         r = snap_length(min([plain[1], *feet], key=compute_shift_cost) - plain[1])
         at = placed @ _compute_screw(0.0, r + plain[1])
@@ -306,9 +306,9 @@ class _RowBuilder:
 
         def compute_turn_cost(phi: float) -> float:
             others = (_compute_cell_cost(_fold_angle(gamma - phi), angle=True) for gamma in angles)
-            return _compute_cell_cost(snap_angle(phi - plain[0]), True) + _BEFORE_JOINT * sum(
-                others
-            )
+            return _compute_cell_cost(
+                snap_angle(phi - plain[0]), True
+            ) + THRESHOLDS.gamma_or_b_cost * sum(others)
 
         both = [gamma + half for gamma in angles for half in (0.0, math.pi)]
         return snap_angle(min([plain[0], *both], key=compute_turn_cost) - plain[0]), r
@@ -364,7 +364,10 @@ def _collect_axes(links: Sequence[MovingLink]) -> list[_Axis]:
             carried = [i for i, link in enumerate(links) if link.parent == k]
             if len(carried) == 1:
                 other = axes[carried[0]].express_in(links[carried[0]].pose)
-                if np.linalg.norm(np.cross(other.along, joint.axis)) < PARALLEL:
+                if (
+                    np.linalg.norm(np.cross(other.along, joint.axis))
+                    < THRESHOLDS.max_parallel_angle
+                ):
                     through = other.through
         axes[k] = _Axis(joint.axis, through)
     return axes
@@ -402,7 +405,7 @@ def compute_roll_pitch_yaw(rotation: np.ndarray) -> tuple[float, float, float]:
     """Computes the angles of R = Rz(yaw) Ry(pitch) Rx(roll); roll is 0 where it is free."""
     level = math.hypot(rotation[0, 0], rotation[1, 0])
     pitch = math.atan2(-rotation[2, 0], level)
-    if level < PARALLEL:
+    if level < THRESHOLDS.max_parallel_angle:
         roll, yaw = 0.0, math.atan2(-rotation[0, 1], rotation[1, 1])
     else:
         yaw = math.atan2(rotation[1, 0], rotation[0, 0])
@@ -427,7 +430,7 @@ def compute_fixed_row(pose: Pose, free_about_z: bool) -> dict[str, float]:
         free_about_z: True if only its origin and z axis matter: theta is 0 then.
     """
     along, place = pose.rotation[:, 2].tolist(), pose.position.tolist()
-    parallel = math.hypot(*along[:2]) < PARALLEL
+    parallel = math.hypot(*along[:2]) < THRESHOLDS.max_parallel_angle
     gamma = math.atan2(place[1], place[0]) if parallel else math.atan2(along[0], -along[1])
     gamma = _fold_angle(gamma)
     rest = _compute_screw(-gamma, 0.0) @ pose

@@ -34,17 +34,13 @@ from modeler.formats.body_tree import (
     snap_quaternion,
     summarise_names,
 )
+from modeler.formats.thresholds import THRESHOLDS
 from modeler.formats.tree_cuts import resolve_leaders
 from modeler.formats.xml_source import LARGEST_FILE, Element, load_element_table, parse_xml
 from modeler.robot import JointKind
 
-MOST_FILES = 200
 _COUNTS = {"replicate": ("count", 1e3), "hfield": ("nrow ncol", 1e6), "mesh": ("params", 1e3)}
 """Element -> attributes whose product makes bodies or numbers, and how many at most."""
-LIGHT = 1e-12
-"""Of bodies that state nothing, kg and kg m2, for MuJoCo compiles no moving body without."""
-NOTHING = 1e-9
-"""kg; what weighs less states nothing."""
 _FREE, _BALL, _SLIDE, _HINGE = range(4)  # mjtJoint
 _WRAP_JOINT = 1  # mjtWrap
 _LEFT_OUT = """
@@ -54,7 +50,6 @@ _NUMBERS = """
     body_pos body_mass body_ipos body_inertia jnt_pos qpos0 eq_data dof_damping dof_armature
     actuator_gear actuator_damping actuator_armature
 """
-LARGEST = 1e12
 _NUMBER = re.compile(r"\d+\.?\d*(?:[eE]\+?\d+)?")
 _ALWAYS = 1  # inertiafromgeom="true"
 
@@ -151,8 +146,10 @@ def _read_sources(path: Path) -> list[tuple[Path, Element]]:
                     part.children = inner.children
                 else:
                     roots.append((included_path, inner))
-            if len(seen) > MOST_FILES:
-                raise RobotError(f"{path}: expected at most {MOST_FILES} included files")
+            if len(seen) > THRESHOLDS.max_included_files:
+                raise RobotError(
+                    f"{path}: expected at most {THRESHOLDS.max_included_files} included files"
+                )
     return roots
 
 
@@ -251,7 +248,11 @@ def _remove_shapes(spec: Any) -> list[str]:
         if body.name != "world" and (absent or not (stated or body.geoms)):
             for geom in body.geoms:
                 spec.delete(geom)
-            body.explicitinertial, body.mass, body.inertia = True, LIGHT, [LIGHT] * 3
+            body.explicitinertial, body.mass, body.inertia = (
+                True,
+                THRESHOLDS.placeholder_inertia,
+                [THRESHOLDS.placeholder_inertia] * 3,
+            )
     for part in [*spec.geoms, *spec.sites]:
         part.material = ""
     idle = [part for name in _LEFT_OUT.split() for part in getattr(spec, name)]
@@ -312,8 +313,10 @@ class _ModelReader:
         """Returns all of it."""
         model, hidden, unread = self._model, set[str](), dict[str, str]()
         for numbers in _NUMBERS.split():
-            if not np.all(np.abs(getattr(model, numbers)) < LARGEST):
-                raise self._build_error(f"{numbers}: got more than {LARGEST:g}; expected SI units")
+            if not np.all(np.abs(getattr(model, numbers)) < THRESHOLDS.max_mjcf_number):
+                raise self._build_error(
+                    f"{numbers}: got more than {THRESHOLDS.max_mjcf_number:g}; expected SI units"
+                )
         if np.all(model.jnt_type == _FREE):
             raise self._build_error("no hinge or slide moves anything; expected a robot")
         joints = tuple(self._read_tree_joints(hidden, unread))
@@ -342,7 +345,7 @@ class _ModelReader:
     def _read_inertial(self, body: int) -> Inertial | None:
         model = self._model
         mass, moments = float(model.body_mass[body]), model.body_inertia[body]
-        if mass < NOTHING and np.all(moments < NOTHING):
+        if mass < THRESHOLDS.min_stated_mass and np.all(moments < THRESHOLDS.min_stated_mass):
             return None
         turn = compute_quaternion_rotation(model.body_iquat[body])
         inertia = turn @ np.diag(moments) @ turn.T

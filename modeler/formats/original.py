@@ -20,7 +20,6 @@ from modeler.formats.body_tree import (
 )
 from modeler.formats.linkage import (
     BASE,
-    SAME_GRAVITY,
     compute_frame_pose,
     compute_gravity,
     compute_row_poses,
@@ -28,6 +27,7 @@ from modeler.formats.linkage import (
     evaluate_variables,
 )
 from modeler.formats.mjcf import read_mjcf_tree
+from modeler.formats.thresholds import THRESHOLDS
 from modeler.formats.urdf import read_urdf_tree
 from modeler.formats.xml_source import Element, parse_xml
 from modeler.robot import JointKind, Robot, suggest_name
@@ -36,9 +36,6 @@ FORMATS = {"robot": "urdf", "mujoco": "mjcf", "sdf": "sdf"}
 """Of a file, by its outermost element."""
 
 TENSOR = ("ixx", "ixy", "ixz", "iyy", "iyz", "izz")
-
-_SAME = 1e-4  # m, rad: rounded angles of a file are exact in the robot file
-_POSTURES = 5
 
 
 @dataclass(frozen=True, eq=False)
@@ -327,7 +324,7 @@ def _check_tree(
 ) -> None:
     """Every joint places its child as the table does, at random postures."""
     rng = np.random.default_rng(0)
-    for _ in range(_POSTURES):
+    for _ in range(THRESHOLDS.compared_postures):
         q = {joint.name: rng.uniform(-1.0, 1.0) for joint in robot.moving_joints}
         at, values = compute_row_poses(robot, q), evaluate_variables(robot, q)
         for joint in tree.joints:
@@ -361,7 +358,7 @@ def _check_ties(
             what = f"follows {joint.leader} there, and is free"
         elif relation is not None and not joint.leader:
             what = "is free there, and follows"
-        elif leader and abs(led - values[f"q{row}"]) > _SAME:
+        elif leader and abs(led - values[f"q{row}"]) > THRESHOLDS.max_pose_difference:
             what = f"follows {joint.leader} otherwise"
         else:
             continue
@@ -381,7 +378,7 @@ def _compare_gravity(
         file_gravity *= np.linalg.norm(robot_gravity) / np.linalg.norm(file_gravity)
     if (
         np.abs(file_gravity - robot_gravity).max()
-        > SAME_GRAVITY * np.abs([file_gravity, robot_gravity]).max()
+        > THRESHOLDS.max_gravity_difference * np.abs([file_gravity, robot_gravity]).max()
     ):
         one, other = (", ".join(f"{x:.4g}" for x in g) for g in (file_gravity, robot_gravity))
         yield (
@@ -406,7 +403,10 @@ def _check_sdf(source: OriginalFile, robot: Robot, on: Links) -> None:
 
 def _is_same_pose(one: Pose, other: Pose) -> bool:
     apart = np.abs(one.position - other.position).max()
-    return max(float(apart), float(np.abs(one.rotation - other.rotation).max())) < _SAME
+    return (
+        max(float(apart), float(np.abs(one.rotation - other.rotation).max()))
+        < THRESHOLDS.max_pose_difference
+    )
 
 
 def distribute_change(bodies: Mapping[str, np.ndarray], whole: np.ndarray) -> dict[str, np.ndarray]:

@@ -84,11 +84,11 @@ def read_bodies(statements: Statements, counts: Counts, frames: list[ParFrame]) 
     """
     result = Bodies()
 
-    def read_cell(key: str, k: int) -> ParFormula:
-        return statements.read_formula(key, k + counts.floating, f"{key}{k + 1}")
-
     for k in range(counts.links):
-        cells = {key: read_cell(key, k) for key in INERTIA}
+        cells = {
+            key: statements.read_formula(key, k + counts.floating, f"{key}{k + 1}")
+            for key in INERTIA
+        }
         if frames[k].variable_column is None:
             if any(key in statements.by_key and not cells[key].is_zero for key in INERTIA):
                 result.notes.append(
@@ -106,12 +106,25 @@ def read_bodies(statements: Statements, counts: Counts, frames: list[ParFrame]) 
     for j in range(counts.links, counts.joints):
         if frames[j].variable_column is not None:
             result.links[f"{j + 1}"] = []
+    _read_effects(statements, counts, frames, result)
+    if result.others:
+        result.notes.append(
+            f"parameters that are not letters of their own: {join_names(result.others)}"
+        )
+    _describe_omissions(statements, counts, result)
+    return result
+
+
+def _read_effects(
+    statements: Statements, counts: Counts, frames: list[ParFrame], result: Bodies
+) -> None:
+    """Adds friction and rotor inertias of the joints, and offsets where there is friction."""
     without = []
     for key, (effect, prefix) in _EFFECT.items():
         if key not in statements.by_key:
             continue
         for k in range(counts.links):
-            entry = read_cell(key, k)
+            entry = statements.read_formula(key, k + counts.floating, f"{key}{k + 1}")
             if entry.is_zero or frames[k].variable_column is None:
                 continue
             if effect == "rotor_inertia" and not frames[k].mu:
@@ -131,12 +144,6 @@ def read_bodies(statements: Statements, counts: Counts, frames: list[ParFrame]) 
         result.notes.append(
             f"{join_names(without)}: left out, rotor inertias of joints without a motor (Mu 0)"
         )
-    if result.others:
-        result.notes.append(
-            f"parameters that are not letters of their own: {join_names(result.others)}"
-        )
-    _describe_omissions(statements, counts, result)
-    return result
 
 
 def _describe_omissions(statements: Statements, counts: Counts, result: Bodies) -> None:

@@ -26,6 +26,7 @@ from modeler.formats.par_text import (
     rename_letters,
     rewrite_tree,
 )
+from modeler.formats.thresholds import THRESHOLDS
 from modeler.robot import (
     ANGLES,
     C_WORDS,
@@ -376,9 +377,7 @@ def _make_polar(
 # The cells of the frames as those of a robot file.
 
 
-_USUAL_G = 9.81  # m/s2
 LETTER = {"gamma": "gam", "alpha": "alp", "theta": "off", "b": "B", "d": "D", "r": "R"}
-_TURN = 6.29  # rad
 
 
 def convert_table_cells(
@@ -496,7 +495,7 @@ def _declare_number(
     `equal` grows: the value -> its symbol, and the entries of the file that share it.
     """
     number = float(cell.literal or 0)
-    if column in ANGLES and abs(number) > _TURN:
+    if column in ANGLES and abs(number) > THRESHOLDS.max_par_angle:
         raise place.enter(f"{column}, entry {frame.number}").make_error(
             f"got {cell.source_text}, which is more than a turn; angles are in radians: write Pi/2 "
             "for "
@@ -580,7 +579,7 @@ def _assign_gravity_values(
             at = [evaluate_entry(k, {**others, first: x}) for x in (0.0, 1.0, 2.0)]
             slope = at[1] - at[0]
             if abs(slope) > 0.0 and math.isclose(at[2] - at[1], slope):
-                pull = 0.0 if fixed or k != entry_indices[0] else -_USUAL_G
+                pull = 0.0 if fixed or k != entry_indices[0] else -THRESHOLDS.usual_gravity
                 pull = pull if k == 2 else math.copysign(pull, slope)
                 known |= {**others, first: round((pull - at[0]) / slope, 12)}
                 break

@@ -19,14 +19,14 @@ from modeler.formats.bodies import (
 )
 from modeler.formats.body_tree import Pose
 from modeler.formats.completion import compute_distance
-from modeler.formats.linkage import SAME_GRAVITY, compute_gravity
+from modeler.formats.linkage import compute_gravity
 from modeler.formats.original import TENSOR
+from modeler.formats.thresholds import THRESHOLDS
 from modeler.robot import Joint
 
 Torques = Callable[[np.ndarray], tuple[np.ndarray, tuple[str, ...]]]
 """From base parameters to the (rows, n) torques of the fit, and the names of their joints."""
 
-_NOTHING = 1e-6  # of a torque: prints as 0 %
 _USUAL = 9.81  # m/s2, of programs that are told no gravity
 
 
@@ -73,7 +73,7 @@ def find_lost_effects(
     """
     robot, lost_effects = physics.robot, list[LostEffect]()
     g = float(np.linalg.norm(compute_gravity(robot)))
-    if to != "mjcf" and abs(g - _USUAL) > SAME_GRAVITY * _USUAL:
+    if to != "mjcf" and abs(g - _USUAL) > THRESHOLDS.max_gravity_difference * _USUAL:
         lost_effects.append(LostEffect("size of gravity", "", {"g": g}))
     stated_names = {
         name
@@ -91,7 +91,7 @@ def find_lost_effects(
             }
             if any(values.values()):
                 share, of = _compute_torque_share(physics, list(values), joint.name, torques)
-                if share is None or share >= _NOTHING:
+                if share is None or share >= THRESHOLDS.min_lost_share:
                     lost_effects.append(LostEffect(effect.id, joint.name, values, share, of))
     return tuple(sorted(lost_effects, key=lambda one: -(one.share or float(not one.joint))))
 
@@ -134,7 +134,6 @@ _DRIVE_UNITS = {
     "armature": ("kg m2", "kg"),
     "stiffness": ("N m/rad", "N/m"),
 }
-_SAME = 1e-9  # of the size of its kind: what is nearer has not changed
 
 
 @dataclass(frozen=True)
@@ -216,7 +215,9 @@ def keep_unchanged(now: np.ndarray, was: np.ndarray | None) -> np.ndarray:
     if was is None:
         return now
     return np.where(
-        np.abs(now - was) <= _SAME * np.maximum(compute_magnitudes(now), compute_magnitudes(was)),
+        np.abs(now - was)
+        <= THRESHOLDS.max_unchanged_difference
+        * np.maximum(compute_magnitudes(now), compute_magnitudes(was)),
         was,
         now,
     )
@@ -272,7 +273,9 @@ def build_drive_values(
     for quantity, terms in physics.collect_drive_terms(joint.name, to).items():
         now, sigma = physics.evaluate_sum(terms)
         unit, before = _DRIVE_UNITS[quantity][0 if joint.is_revolute else 1], was.get(quantity)
-        changed = before is None or abs(now - before) > _SAME * abs(now)
+        changed = before is None or abs(now - before) > THRESHOLDS.max_unchanged_difference * abs(
+            now
+        )
         deviation = sigma if physics.fit else None
         yield Value(part, quantity, unit, before, now, deviation, changed)
 

@@ -32,9 +32,9 @@ from modeler.formats.result import (
     format_numbers,
     keep_unchanged,
 )
+from modeler.formats.thresholds import THRESHOLDS
 from modeler.formats.xml_source import Element, replace_spans
 
-_UNCHANGED = 1e-10  # of a body's scale: what is nearer has not changed
 _TURNED = ("diaginertia", "quat", "axisangle", "xyaxes", "zaxis", "euler")
 _RESCALED = ("settotalmass", "boundmass", "boundinertia")
 _RESISTS = ("damping", "friction", "armature", "stiffness")
@@ -344,5 +344,8 @@ def _is_same_body(one: np.ndarray, other: np.ndarray) -> bool:
     size, mass = max(np.abs([one[:6], other[:6]]).max(), 1e-300), max(abs(one[9]), abs(other[9]))
     moment = max(np.sqrt(size * mass), np.abs(other[6:9]).max())
     return bool(
-        np.all(np.abs(one - other) <= _UNCHANGED * np.repeat([size, moment, mass], [6, 3, 1]))
+        np.all(
+            np.abs(one - other)
+            <= THRESHOLDS.max_same_body_difference * np.repeat([size, moment, mass], [6, 3, 1])
+        )
     )

@@ -29,6 +29,7 @@ from modeler.formats.mdh_rows import (
     snap_length,
 )
 from modeler.formats.par_table import LETTER, Symbols, convert_gravity
+from modeler.formats.thresholds import THRESHOLDS
 from modeler.robot import (
     ANGLES,
     FRAME_COLUMNS,
@@ -53,8 +54,6 @@ from modeler.robot import (
     quote_cell,
 )
 
-_STEP = 1e-6  # rad, m, of central differences
-_RANK = 1e-7  # of the largest singular value: differences are good to 1e-10
 _TIES = {
     "rigid": (0, 1, 2, 3, 4, 5),
     "revolute": (0, 1, 2, 3, 4),
@@ -86,10 +85,11 @@ def choose_independent_joints(tree: BodyTree) -> set[str]:
             [_compute_closure_error(meeting, poses) for meeting in tree.loop_closures]
         )
 
-    steps = _STEP * np.eye(len(q))
+    steps = THRESHOLDS.closure_difference_step * np.eye(len(q))
     J = np.column_stack(
         [
-            (compute_closure_errors(q + h) - compute_closure_errors(q - h)) / (2 * _STEP)
+            (compute_closure_errors(q + h) - compute_closure_errors(q - h))
+            / (2 * THRESHOLDS.closure_difference_step)
             for h in steps
         ]
     )
@@ -112,14 +112,12 @@ def _compute_closure_error(meeting: LoopClosure, poses: dict[str, Pose]) -> np.n
 
 def _compute_rank(matrix: np.ndarray) -> int:
     values = np.linalg.svd(matrix, compute_uv=False) if matrix.size else np.zeros(1)
-    return int(np.sum(values > _RANK * max(values[0], 1e-3)))
+    return int(np.sum(values > THRESHOLDS.min_closure_singular_value * max(values[0], 1e-3)))
 
 
 # A tree of bodies as the text of a robot file, with what had to be decided or left out.
 
 
-UNCERTAINTY = 0.3
-"""How sure masses, centres and inertias of another program's file are, over their scale."""
 _EFFECTS = {
     "rotor_inertia": ("armature", "Ia"),
     "viscous": ("damping", "Fv"),
@@ -127,12 +125,8 @@ _EFFECTS = {
     "spring": ("stiffness", "Ks"),
 }
 """Effect -> attribute of a joint, and its parameter."""
-_SMALLEST = 1e-3
-"""m; where masses are nearer to an origin, digits below the rounding of that distance are none."""
 _SPEED = {JointKind.REVOLUTE: 2.0, JointKind.PRISMATIC: 0.5}
 """rad/s, m/s where a file states none."""
-_ACCELERATION = 4.0
-"""Over the speed, 1/s, where a file states none."""
 _LIMITS = "[limits]                              # lower, upper, speed, acceleration"
 
 
@@ -351,7 +345,9 @@ class _TreeWriter:
                 continue
             if self._is_measured(link):
                 ten = compute_standard_parameters(whole.express_in(self.table.places[k]))
-                inertia = max(*np.abs(ten[:6]).tolist(), abs(whole.mass) * _SMALLEST**2)
+                inertia = max(
+                    *np.abs(ten[:6]).tolist(), abs(whole.mass) * THRESHOLDS.min_mass_distance**2
+                )
                 scales = [inertia] * 6 + [math.sqrt(abs(whole.mass) * inertia)] * 3 + [0.0]
                 lines += [
                     f"{prefix}{k} = {format_number(*number_and_scale)}"
@@ -361,7 +357,7 @@ class _TreeWriter:
                 ]
             else:
                 unreliable_bodies.extend(link.bodies)
-        prior = [f"inertial = {UNCERTAINTY}"] if lines else []
+        prior = [f"inertial = {THRESHOLDS.read_body_deviation}"] if lines else []
         lines += self._format_joint_parameters()
         if unreliable_bodies:
             notes.append(
@@ -370,7 +366,8 @@ class _TreeWriter:
             )
         if prior:
             notes.append(
-                f"masses, centres and inertias are a prior, sure to {UNCERTAINTY:.0%} of their "
+                f"masses, centres and inertias are a prior, sure to "
+                f"{THRESHOLDS.read_body_deviation:.0%} of their "
                 "scale; all other values are nominal only"
             )
         return [
@@ -439,8 +436,10 @@ class _TreeWriter:
                 assumptions.append(f"speed {speed:g} {unit}/s")
             acceleration = joint.acceleration
             if acceleration is None:
-                acceleration = _ACCELERATION * speed
-                assumptions.append(f"acceleration {_ACCELERATION:g}/s times the speed")
+                acceleration = THRESHOLDS.default_acceleration_ratio * speed
+                assumptions.append(
+                    f"acceleration {THRESHOLDS.default_acceleration_ratio:g}/s times the speed"
+                )
             for what in assumptions:
                 assumed.setdefault(what, []).append(joint.name)
             cells = ", ".join(format_number(x) for x in (lower, upper, speed, acceleration))

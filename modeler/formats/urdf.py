@@ -27,6 +27,7 @@ from modeler.formats.body_tree import (
     find_inertia_defect,
     summarise_names,
 )
+from modeler.formats.thresholds import THRESHOLDS
 from modeler.formats.tree_cuts import resolve_leaders
 from modeler.formats.xml_source import (
     LocatedElement,
@@ -329,7 +330,6 @@ _KINDS = {
 }
 _UNREAD = ("floating", "planar", "ball", "spherical", "universal", "screw")
 _ACCELERATIONS = ("acceleration", "deceleration", "drake:acceleration")
-_MOST_LINKS = 5000
 
 
 def read_urdf_tree(data: bytes, where: str, exact_decimals: bool = False) -> BodyTree:
@@ -419,8 +419,10 @@ class _UrdfReader:
                 first = f"the first is in line {spots[name].element.line}"
                 raise spot.place.make_error(f"a second {tag} of that name; {first}: rename one")
             spots[name] = spot
-            if len(spots) > _MOST_LINKS:
-                raise spot.place.make_error(f"more than {_MOST_LINKS} of them; is this a robot?")
+            if len(spots) > THRESHOLDS.max_links:
+                raise spot.place.make_error(
+                    f"more than {THRESHOLDS.max_links} of them; is this a robot?"
+                )
         return spots
 
     def _add_note(self, what: str, name: str) -> None:

@@ -22,7 +22,6 @@ import numpy as np
 from modeler.core.errors import RobotError, flatten_message
 from modeler.core.toml_cells import LARGEST, TomlCell, quote_value
 from modeler.formats.body_tree import (
-    NOUGHT,
     Pose,
     Roundings,
     compute_axis_rotation,
@@ -30,16 +29,13 @@ from modeler.formats.body_tree import (
     snap_quaternion,
     summarise_names,
 )
+from modeler.formats.thresholds import THRESHOLDS
 from modeler.robot import LARGEST_LENGTH
 
 Span = tuple[int, int]
 """First byte, and that behind the last, in the bytes that were read."""
 
 LARGEST_FILE = 64 * 2**20  # bytes
-LARGEST_TAG = 8 * 2**20  # bytes of one tag, comment or declaration
-DEEPEST = 256
-MOST_ELEMENTS = 200_000
-_PIECE = 2**20  # bytes that expat gets at a time
 _ENCODINGS = ("utf-8", "iso-8859-1", "latin1", "iso-8859-15", "windows-1252", "cp1252")
 _DECLARATION = re.compile(rb"(?:\xef\xbb\xbf)?\s*(<\?xml\s[^<>]*\?>)")
 _STATED_ENCODING = re.compile(rb"\sencoding\s*=\s*[\"']([^\"']*)[\"']")
@@ -171,10 +167,10 @@ class _XmlReader:
     def read_root(self) -> Element:
         text = _erase_comments(self._data)
         try:
-            for start in range(0, len(text), _PIECE):
-                self._expat.Parse(text[start : start + _PIECE], False)
-                if start - self._expat.CurrentByteIndex > LARGEST_TAG:
-                    most = f"{LARGEST_TAG // 2**20} MiB"
+            for start in range(0, len(text), THRESHOLDS.parsed_bytes):
+                self._expat.Parse(text[start : start + THRESHOLDS.parsed_bytes], False)
+                if start - self._expat.CurrentByteIndex > THRESHOLDS.max_tag_bytes:
+                    most = f"{THRESHOLDS.max_tag_bytes // 2**20} MiB"
                     raise self._build_error(f"a tag or comment of more than {most}; shorten it")
             self._expat.Parse(b"", True)
         except expat.ExpatError as error:
@@ -208,8 +204,11 @@ class _XmlReader:
 
     def _open_element(self, tag: str, pairs: list[str]) -> None:
         self._count += 1
-        if self._count > MOST_ELEMENTS or len(self._open) > DEEPEST:
-            most = f"{MOST_ELEMENTS} elements, or than {DEEPEST} inside each other"
+        if self._count > THRESHOLDS.max_elements or len(self._open) > THRESHOLDS.max_element_depth:
+            most = (
+                f"{THRESHOLDS.max_elements} elements, or than {THRESHOLDS.max_element_depth} "
+                f"inside each other"
+            )
             raise self._build_error(f"more than {most}; is this a robot?")
         begin = self._expat.CurrentByteIndex
         at, spans = begin + 1 + len(tag.encode(self._encoding)), {}
@@ -258,7 +257,6 @@ def replace_spans(data: bytes, changes: Mapping[Span, str]) -> bytes:
 
 _NOTHING = ("", "false", "no", "none")
 _UNKNOWN = "{} is not known here and is passed over: {{}}"
-_MOST_NOTES = 40
 
 
 @dataclass(frozen=True)
@@ -315,7 +313,10 @@ class ElementTable:
                 if key in self.refused:
                     line = f"{where}: line {element.line}: {sentence}"
                     raise RobotError(flatten_message(line.format(called)))
-                if sentence not in names_by_sentence and len(names_by_sentence) >= _MOST_NOTES:
+                if (
+                    sentence not in names_by_sentence
+                    and len(names_by_sentence) >= THRESHOLDS.max_element_notes
+                ):
                     sentence = "other elements are not known here and are passed over: {}"
                 names_by_sentence.setdefault(sentence, []).append(called)
         return [
@@ -478,7 +479,7 @@ class LocatedElement:
         """Returns (3,) a direction, of length one."""
         axis = self.read_numbers(attribute, default)
         length = float(np.linalg.norm(axis))
-        if length < NOUGHT:
+        if length < THRESHOLDS.max_rounded_zero:
             place = self.place.enter(attribute, self.element.attributes.get(attribute, ""))
             raise place.make_mismatch('a direction such as "0 0 1"')
         return axis / length
@@ -502,7 +503,7 @@ def read_pose(origin: LocatedElement, rounded: Roundings) -> Pose:
     if "rpy" in origin.element.attributes:
         raise origin.place.make_error("states rpy and quat_xyzw; keep the one that is meant")
     turn = np.roll(origin.read_numbers("quat_xyzw", "0 0 0 1"), 1)
-    if float(np.linalg.norm(turn)) < NOUGHT:
+    if float(np.linalg.norm(turn)) < THRESHOLDS.max_rounded_zero:
         place = origin.place.enter("quat_xyzw", origin.element.attributes["quat_xyzw"])
         raise place.make_mismatch('a quaternion such as "0 0 0 1"')
     return Pose(

@@ -14,10 +14,7 @@ from typing import Any
 from modeler.core import rounded
 from modeler.core.expression import FUNCTIONS, LARGEST_EXPONENT, Expression, parse_expression
 from modeler.core.toml_cells import LARGEST, TomlCell, join_names, quote_value, suggest_name
-
-FINE, COARSE = 3, 2
-"""Decimals that an angle must have to be taken for a multiple of pi/12, and of pi/2: with fewer,
-a measured angle is near one by chance too often."""
+from modeler.robot.thresholds import THRESHOLDS
 
 _SINES = (
     0.0,
@@ -55,7 +52,11 @@ def count_twelfths(digits: str) -> int | None:
     count = round(float(number) / (math.pi / 12))
     if count == 0 or count > 24:
         return None
-    least = COARSE if count % 6 == 0 else FINE
+    least = (
+        THRESHOLDS.min_coarse_angle_decimals
+        if count % 6 == 0
+        else THRESHOLDS.min_fine_angle_decimals
+    )
     decimals = _count_decimals(number.normalize())
     if decimals < least:
         decimals = _count_decimals(number)
@@ -236,14 +237,9 @@ _LIFTED = {name: _lift_function(name) for name in FUNCTIONS}
 
 LARGEST_LENGTH = 1e4
 """m, and of an acceleration of gravity, m/s2. Beside it a link of a few cm is lost in rounding."""
-LARGEST_RATIO = 1e4
-"""Of the motion of a joint or motor and that of a joint which it follows."""
-MOST_NAME_LETTERS = 63
-"""Of a name that goes into C, which tells names apart by as many letters (C99, 5.2.4.1)."""
 
 _MEASURED = {"rad": "an angle", "m": "a length"}
 _QUARTER = math.pi / 2
-_EXACT = 1e-9  # rad; nearer to a multiple of pi/2 than this is that multiple
 
 
 def read_linear_form(
@@ -294,11 +290,11 @@ def read_joint_sum(
         only: what to say of a constant in it; empty where there may be one.
 
     Raises:
-        RobotError: an unknown name, not linear, a coefficient beyond `LARGEST_RATIO`, a constant.
+        RobotError: an unknown name, not linear, too large a coefficient, a constant.
     """
     check_declared(expression, {**symbols, **dict.fromkeys(variables, 0.0)}, place)
     form = read_linear_form(expression, symbols, place, example)
-    check_size(expression, form.coefficients.values(), LARGEST_RATIO, place)
+    check_size(expression, form.coefficients.values(), THRESHOLDS.max_joint_ratio, place)
     if only and form.constant != 0.0:
         raise place.make_error(
             f"got {quote_value(expression.text)}, with the constant {form.constant:g}; expected a "
@@ -417,15 +413,15 @@ def choose_robot_name(*candidates: str) -> str:
 
 
 def check_name_length(name: str, place: TomlCell) -> None:
-    """Refuses a name of more than `MOST_NAME_LETTERS`.
+    """Refuses a name of more than `THRESHOLDS.max_name_length`.
 
     Raises:
         RobotError: says how long it is.
     """
-    if len(name) > MOST_NAME_LETTERS:
+    if len(name) > THRESHOLDS.max_name_length:
         raise place.make_error(
             f"got the name {quote_value(name)} of {len(name)} letters; expected at most "
-            f"{MOST_NAME_LETTERS} (it becomes part of names in the C code)"
+            f"{THRESHOLDS.max_name_length} (it becomes part of names in the C code)"
         )
 
 
@@ -448,14 +444,17 @@ def read_exact_angle(
     """
     if not expression.names - {variable}:
         form = read_linear_form(expression, {}, place)
-        if abs(form.constant) > 4 * _QUARTER + _EXACT:
+        if abs(form.constant) > 4 * _QUARTER + THRESHOLDS.max_right_angle_rounding:
             raise place.make_error(
                 f"got {quote_value(expression.text)}: {form.constant:g} rad is more than a turn; "
                 "angles "
                 'are in radians, write "90 deg" or "pi/2" for 90 degrees'
             )
         turns = round(form.constant / _QUARTER)
-        if not expression.uses_pi and abs(form.constant - turns * _QUARTER) <= _EXACT:
+        if (
+            not expression.uses_pi
+            and abs(form.constant - turns * _QUARTER) <= THRESHOLDS.max_right_angle_rounding
+        ):
             multiple = format_pi_multiple(Fraction(turns, 2))
             if not form.coefficients:
                 return parse_expression(multiple)

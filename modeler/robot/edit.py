@@ -28,6 +28,7 @@ from modeler.robot.effects import collect_parameter_owners, read_own_effects
 from modeler.robot.mechanism import MARK, expand_legs, read_leg_names
 from modeler.robot.read import parse_robot_text, parse_toml_document, read_file_text
 from modeler.robot.robot import INERTIAL, Robot
+from modeler.robot.thresholds import THRESHOLDS
 
 Effects = Mapping[str, str | list]
 """Effect id or alias -> "all", the names of the joints that have it, or tables with shapes."""
@@ -424,8 +425,6 @@ _ENTRY = re.compile(
     r"(?P<value>\"[^\"]*\"|'[^']*'|[^#\s\"']+)(?P<rest>\s*(?:#.*)?)"
 )
 _WHERE = TomlCell("robot file").enter("[home]")
-_KEPT = 1e-6
-"""Values that differ by less are left as they are written: -pi/2 stays -pi/2."""
 
 
 def replace_home(text: str, stated: Mapping[str, float], home: Mapping[str, float]) -> str:
@@ -514,7 +513,10 @@ def _edit_home_entries(
         filled = [pattern.replace(MARK, leg) for leg in legs] if MARK in pattern else [pattern]
         names = [name.removeprefix("q") for name in filled]
         values = {name: left.pop(name) for name in names if name in left}
-        if all(abs(stated.get(name, math.inf) - value) < _KEPT for name, value in values.items()):
+        if all(
+            abs(stated.get(name, math.inf) - value) < THRESHOLDS.max_home_change
+            for name, value in values.items()
+        ):
             body.append(line)
         elif len(values) == len(names) and len({_format_number(v) for v in values.values()}) == 1:
             body.append(entry["key"] + _format_number(values[names[0]]) + entry["rest"])
@@ -528,7 +530,11 @@ def _format_number(value: float) -> str:
     """As short as it may be; multiples of pi/6 and pi/4 as such."""
     twelfths = value / (math.pi / 12)
     whole = round(twelfths)
-    if whole and (whole % 2 == 0 or whole % 3 == 0) and abs(value - whole * math.pi / 12) < _KEPT:
+    if (
+        whole
+        and (whole % 2 == 0 or whole % 3 == 0)
+        and abs(value - whole * math.pi / 12) < THRESHOLDS.max_home_change
+    ):
         return json.dumps(format_pi_multiple(Fraction(whole, 12)))
     return repr(float(f"{value:.12g}") + 0.0)
 

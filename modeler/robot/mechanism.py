@@ -6,13 +6,13 @@ import re
 import tomllib
 from collections.abc import Mapping, Sequence
 from fractions import Fraction
+from graphlib import CycleError, TopologicalSorter
 from pathlib import Path
 from typing import Any
 
 from modeler.core.expression import Expression, format_decimal
 from modeler.core.toml_cells import TomlCell, join_names, quote_value, suggest_name
 from modeler.robot.cells import (
-    LARGEST_RATIO,
     check_count,
     check_name_length,
     normalise_row_name,
@@ -23,16 +23,11 @@ from modeler.robot.cells import (
 from modeler.robot.robot import INERTIAL, LOOP_KINDS, Joint, JointKind, Loop, Robot, SharedParameter
 from modeler.robot.sections import find_joint
 from modeler.robot.table import HOME, ROW_NAME, Row, RowPlace, Rows, read_row_kind
+from modeler.robot.thresholds import THRESHOLDS
 
-MOST_LOOPS = 50
-"""As many as legs."""
 OTHER_JOINTS = Path(__file__).with_name("other_joints.toml")
 _COLUMNS = ("loop", "frame", "meets", "joint")
 _EXAMPLE = 'columns = ["loop", "frame", "meets", "joint"], rows = [["A", "9", "10", "rigid"]]'
-
-
-_ROUNDING = 1e-3
-"""rad by which a full turn may be rounded up."""
 
 
 def read_loops(place: TomlCell, joints: Sequence[Joint]) -> tuple[Loop, ...]:
@@ -53,7 +48,7 @@ def read_loops(place: TomlCell, joints: Sequence[Joint]) -> tuple[Loop, ...]:
         raise place.make_error(f"rows is missing; {advice}")
     rows = place.enter("rows", table["rows"]).read_list(_EXAMPLE)
     description = "loops, those of all legs counted"
-    check_count(len(rows), MOST_LOOPS, description, place.enter("rows"))
+    check_count(len(rows), THRESHOLDS.max_loops, description, place.enter("rows"))
     loops = []
     for number, cells in enumerate(rows, start=1):
         here = place.enter(f"row {number}", cells)
@@ -134,7 +129,10 @@ def read_home(
                 f"{join_names(list(variables)[:12])}"
             )
         angle = read_number(here, symbols, moving[variables[key]].unit)
-        if moving[variables[key]].is_revolute and abs(angle) > 2 * math.pi + _ROUNDING:
+        if (
+            moving[variables[key]].is_revolute
+            and abs(angle) > 2 * math.pi + THRESHOLDS.max_full_turn_excess
+        ):
             raise here.make_error(
                 f"got {angle:g} rad, which is more than a turn; angles are in radians: write "
                 f'"{angle:g} deg" for degrees'
@@ -184,21 +182,7 @@ def read_relations(
     kinds = {row["j"]: read_row_kind(row, spot) for row, spot in rows}
     variables = {f"q{name}": name for name, kind in kinds.items() if kind in HOME}
     by_name = {row["j"]: (row, spot) for row, spot in rows}
-    stated_relations: dict[str, tuple[Expression, TomlCell]] = {}
-    for row, spot in rows:  # a cell that is a relation is taken out of its row
-        column, row_variable = HOME.get(kinds[row["j"]]), f"q{row['j']}"
-        if column is None or not isinstance(row.get(column), str):
-            continue
-        here = spot.locate_column(column, row[column])
-        expression = here.read_expression()
-        others = {
-            n
-            for n in expression.names
-            if n.startswith("q") and n[1:] in kinds and n != row_variable
-        }
-        if others and row_variable not in expression.names:
-            stated_relations[row["j"]] = (expression, here)
-            row[column] = row_variable
+    stated_relations = _take_relations(rows, kinds)
     for key, here in place.with_value({**driven, **stated}).read_items(_RELATION_EXAMPLE):
         if key not in variables:
             raise here.make_error(
@@ -219,8 +203,7 @@ def read_relations(
         if row.get("mu", 0) == 1:
             raise spot.locate_column("mu").make_error(
                 f"got 1, and q{name} follows other joints ({here.location}); write 0, or remove "
-                "the "
-                "relation"
+                "the relation"
             )
         [(other, factor), *more] = form.coefficients.items()
         if "mu" not in row and f"q{name}" not in {**driven, **stated} and factor == 1 and not more:
@@ -235,17 +218,32 @@ def read_relations(
         else expression
         for name, (expression, _) in stated_relations.items()
     }
-    left = dict(relations)
-    while left:
-        names = {f"q{name}" for name in left}
-        ready = [name for name, expression in left.items() if not expression.names & names]
-        if not ready:
-            raise place.make_error(
-                f"{', '.join(f'q{name}' for name in left)} follow each other in a circle; leave "
-                "one of them free"
-            )
-        for name in ready:
-            del left[name]
+    order = TopologicalSorter({f"q{name}": cell.names for name, cell in relations.items()})
+    try:
+        order.prepare()
+    except CycleError as error:
+        circle = ", ".join(sorted(set(error.args[1])))
+        raise place.make_error(
+            f"{circle} follow each other in a circle; leave one of them free"
+        ) from None
+    return relations
+
+
+def _take_relations(
+    rows: Rows, kinds: Mapping[str, JointKind]
+) -> dict[str, tuple[Expression, TomlCell]]:
+    """Takes the cells that are relations out of their rows, by row."""
+    relations = {}
+    for row, spot in rows:
+        column, variable = HOME.get(kinds[row["j"]]), f"q{row['j']}"
+        if column is None or not isinstance(row.get(column), str):
+            continue
+        here = spot.locate_column(column, row[column])
+        expression = here.read_expression()
+        joints = {n for n in expression.names if n.startswith("q") and n[1:] in kinds}
+        if joints and variable not in expression.names:
+            relations[row["j"]] = (expression, here)
+            row[column] = variable
     return relations
 
 
@@ -253,8 +251,6 @@ def read_relations(
 
 
 MARK = "{i}"
-MOST_LEGS = 50
-"""Legs of three rows fill the longest table."""
 _UNTOUCHED = ("legs", "shared", "notes", "title", "name", "log")
 
 
@@ -283,7 +279,7 @@ def read_leg_names(place: TomlCell) -> tuple[str, ...]:
     if place.value is None:
         return ()
     legs = [normalise_row_name(leg) for leg in place.read_list('["1", "2", "3"]')]
-    check_count(len(legs), MOST_LEGS, "legs", place)
+    check_count(len(legs), THRESHOLDS.max_legs, "legs", place)
     for leg in legs:
         if not isinstance(leg, str) or not ROW_NAME.fullmatch(leg):
             raise place.make_error(
@@ -423,7 +419,6 @@ def read_platform(place: TomlCell) -> tuple[list[tuple[Row, RowPlace]], tuple[st
 
 
 _MOTOR_EXAMPLE = '[motors] m1 = "q1", m2 = "q2 - 0.4*q1"'
-_SIMPLE = 10**6  # largest denominator of a ratio that is taken as a fraction, such as 1/3
 
 Ratios = Mapping[str, Mapping[str, Fraction]]
 """{motor: {joint: coefficient}}, the rows of G."""
@@ -539,7 +534,7 @@ def compute_joint_directions(robot: Robot) -> dict[str, tuple[float, ...]]:
 
 def _recover_fraction(value: float) -> Fraction:
     """1/3 as it was meant, 0.4 as it was written."""
-    simple = Fraction(value).limit_denominator(_SIMPLE)
+    simple = Fraction(value).limit_denominator(THRESHOLDS.max_ratio_denominator)
     return simple if float(simple) == value else Fraction(repr(value))
 
 
@@ -560,11 +555,11 @@ def _compute_checked_inverse(
             "expected motors whose positions tell those of all joints; correct the coefficients"
         )
     largest = max(abs(c) for row in inverse for c in row)
-    if largest > LARGEST_RATIO:
+    if largest > THRESHOLDS.max_joint_ratio:
         raise place.make_error(
             f"{_format_ratios(ratios)}: nearly singular, a joint moves {float(largest):.3g} times "
             "as far "
-            f"as a motor; expected at most {LARGEST_RATIO:g}; correct the coefficients"
+            f"as a motor; expected at most {THRESHOLDS.max_joint_ratio:g}; correct the coefficients"
         )
     return inverse
 

@@ -19,10 +19,7 @@ from modeler.robot.edit import replace_limits
 from modeler.robot.read import fill_template
 from modeler.robot.robot_text import replace_table
 from modeler.robot.table import ANGLES, CONVENTIONS, GREEK
-
-_FULL_TURN = 6.3  # rad: a larger angle is in degrees
-_LONGEST = 20.0  # m: a larger length is in mm
-_PLACEHOLDER = 0.1  # m, of a length whose value the table does not tell
+from modeler.robot.thresholds import THRESHOLDS
 
 _SIGNS = str.maketrans(
     "\u2212\u2013\u2014\u00a0\u2009\u202f\u00d7\u00b7\u22c5\u2217\u00ba\u2032"
@@ -30,7 +27,7 @@ _SIGNS = str.maketrans(
     "---   ****\u00b0'0123456789",
     "\ufeff",
 )
-_GREEK = {"\u03c0": "pi", "\u03d1": "theta", **GREEK}
+_GREEK: dict[str, str | int | None] = {"\u03c0": "pi", "\u03d1": "theta", **GREEK}
 _WORDS = {
     "j": "j i k joint link axis n no nr row frame # gelenk achse",
     "a": "a ant antecedent",
@@ -271,10 +268,10 @@ def _infer_unit(kind: str, letter: str, rows: Sequence[dict[str, str]], notes: l
         return ""
     numbers = r"(?<![\w.])\d+(?:\.\d*)?(?:[eE][+-]?\d+)?(?![\w.])"
     most = max((float(n) for cell in cells for n in re.findall(numbers, cell)), default=0.0)
-    if kind in ANGLES and most > _FULL_TURN:
+    if kind in ANGLES and most > THRESHOLDS.max_angle_in_rad:
         notes.append(f"column {letter}: taken in degrees, for {most:g} rad is more than a turn")
         return "deg"
-    if kind not in ANGLES and most > _LONGEST:
+    if kind not in ANGLES and most > THRESHOLDS.max_length_in_m:
         notes.append(f"column {letter}: taken in mm, for {most:g} m is long")
         return "mm"
     return ""
@@ -307,7 +304,10 @@ def format_symbol_line(name: str) -> str:
     """Returns a line of `[symbols]` for a name whose value is to be written yet."""
     angle = name.lower().startswith(("alpha", "theta", "gamma", "beta", "phi", "th"))
     unit = "rad" if angle else "m"
-    return f"{name} = {_PLACEHOLDER}".ljust(38) + f"# {unit}: a placeholder, write the value"
+    return (
+        f"{name} = {THRESHOLDS.placeholder_length}".ljust(38)
+        + f"# {unit}: a placeholder, write the value"
+    )
 
 
 def insert_pasted_table(text: str, table: PastedTable) -> str:

@@ -65,6 +65,7 @@ from modeler.robot.table import (
     read_convention,
     read_table_rows,
 )
+from modeler.robot.thresholds import THRESHOLDS
 
 _KEYS = """
     name title notes gravity priority legs shared symbols mdh relations platform loops home
@@ -393,7 +394,6 @@ def _read_priority(place: TomlCell, known: tuple[str, ...], robot: Robot) -> tup
 # Robot files to start from: templates that derive as they are, and files of other programs.
 
 
-MOST_JOINTS = 20
 SERIAL = "serial"
 _TITLES = {
     SERIAL: "a serial robot",
@@ -467,10 +467,10 @@ def fill_template(
     if convention not in CONVENTIONS:
         raise RobotError(f"convention: got {convention}; expected one of {', '.join(CONVENTIONS)}")
     kinds = joints.upper()
-    if not re.fullmatch(rf"[RP]{{1,{MOST_JOINTS}}}", kinds):
+    if not re.fullmatch(rf"[RP]{{1,{THRESHOLDS.max_template_joints}}}", kinds):
         raise RobotError(
             f"joints: got {joints!r}; expected R (revolute) or P (prismatic) for each joint from "
-            f"the base, {MOST_JOINTS} at most, such as RRPRRR"
+            f"the base, {THRESHOLDS.max_template_joints} at most, such as RRPRRR"
         )
     if template != SERIAL and (kinds != "RRR" or convention != "khalil"):
         raise RobotError(

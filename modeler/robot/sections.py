@@ -10,6 +10,7 @@ from modeler.core.manifest import DriveSpec
 from modeler.core.toml_cells import TomlCell, join_names, quote_value, suggest_name
 from modeler.robot.cells import normalise_row_name, read_joint_sum, read_number
 from modeler.robot.robot import Joint, Limits, LinkCapsule, LinkFrame, PhysicalLink, Robot
+from modeler.robot.thresholds import THRESHOLDS
 
 Coupling = dict[str, dict[str, float]]
 _Three = tuple[Expression, Expression, Expression]
@@ -189,7 +190,6 @@ def _read_gain(place: TomlCell) -> float:
 
 
 _DRIVE = "1 = {voltage = 12, resistance = 4.4, k_e = 2.4, gain = 1.1}"
-_EFFICIENT = 1.1  # gain over k_e; the same number of a motor without losses
 
 
 def read_drives(
@@ -241,7 +241,7 @@ def read_drives(
             raise here.enter("k_e", table["k_e"]).make_mismatch(
                 f"the sign of gain ({gain:g}): what a motor induces brakes it"
             )
-        if abs(gain) > _EFFICIENT * abs(drive.k_e) > 0.0:
+        if abs(gain) > THRESHOLDS.max_gain_over_k_e * abs(drive.k_e) > 0.0:
             readings.append(
                 f"{here.location}: a gain of {gain:g} is {gain / drive.k_e:.3g} times k_e; without "
                 "losses both are one number: is k_e that of the joint (times the gear ratio)?"

@@ -21,6 +21,7 @@ from modeler.robot.cells import (
     read_linear_form,
 )
 from modeler.robot.robot import Joint, JointKind, Robot
+from modeler.robot.thresholds import THRESHOLDS
 
 COLUMNS = ("j", "a", "mu", "sigma", "gamma", "b", "alpha", "d", "theta", "r")
 GEOMETRY = COLUMNS[4:]
@@ -314,10 +315,6 @@ def build_written_table(robot: Robot) -> WrittenTable:
 
 Rows = tuple[tuple[Row, RowPlace], ...]
 
-MOST_ROWS = 150
-"""Rows of a table. Deriving and the C grow with their square (docs/explanation/theory.md)."""
-LONGEST_LINK = 20.0
-"""m, of a robot; longer ones are told, for they may be mm."""
 _IN_MM = (
     'lengths are in m: {0}, is {1:g} m; write "{1:g} mm" if it is in mm, there or in [symbols], '
     'and "{1:g} m" if it is in m'
@@ -352,7 +349,7 @@ def read_table_rows(
     listed_rows = place.enter("rows", table["rows"]).read_list(example)
     count = len(listed_rows) + len(platform)
     description = "rows, those of all legs and of the platform counted"
-    check_count(count, MOST_ROWS, description, place.enter("rows"))
+    check_count(count, THRESHOLDS.max_rows, description, place.enter("rows"))
     if not listed_rows:
         raise place.enter("rows").make_error(
             f"the table is empty; write one row per joint, as in {example}"
@@ -428,7 +425,7 @@ def check_units(robot: Robot, values: Mapping[str, float], place: TomlCell) -> l
     units: dict[str, Collection[str]] = {}
     for name, expression in robot.symbols.items():
         units[name] = expression.infer_units(units) or {""}
-    longest, notes = LONGEST_LINK, list[str]()
+    longest, notes = THRESHOLDS.max_silent_length, list[str]()
     for joint in robot.joints:
         for column in GEOMETRY:
             cell, at = (

@@ -20,13 +20,13 @@ from modeler.simulation.physics import HIDDEN, HiddenKind, ShaftScale, Site
 from modeler.simulation.plant import build_torque_function, find_last_link
 from modeler.simulation.portable_math import round_to_ten_digits
 from modeler.simulation.rigid import compute_gravity_vector, compute_world_frames
+from modeler.simulation.thresholds import THRESHOLDS
 from modeler.simulation.trajectory import build_exciting_reference
 
 # How large a torque on a joint of a robot with loops is for the motors, which carry them.
 
 
 _DURATION, _RATE = 6.0, 50.0  # s and Hz of the motion that is looked at
-_TOP = 0.98
 
 
 def compute_motor_amplitudes(
@@ -72,12 +72,11 @@ def compute_motor_amplitudes(
         slope = compute_rates(constraints, v, motor_speeds, np.zeros_like(qd))[0][:, row]
         if torque_m > 0.0:
             shares.append(float(np.sqrt(np.mean(slope**2))) / torque_m)
-    speed = float(np.quantile(np.abs(vd[:, row]), _TOP))
+    speed = float(np.quantile(np.abs(vd[:, row]), THRESHOLDS.top_speed_quantile))
     return (1.0 / max(shares) if any(shares) else 1.0), speed or limits[row].speed
 
 
 _OWN = ("Fv", "Fs", "Ia")
-_LIVELY = 0.29  # of the limits: rms of what the scale of the links is drawn from
 _WHY_NONE = {
     "pair": "a joint with a motor, and another one after it",
     "geared": "a joint with a rotor inertia (effect rotor_inertia in the robot file)",
@@ -199,8 +198,8 @@ def _build_site(
     # With what the robot file knows of friction and rotor, in the same motion.
     parts = (
         scale.torque,
-        joint_parameters.get("Ia", 0.0) * _LIVELY * limit.acceleration,
-        joint_parameters.get("Fv", 0.0) * _LIVELY * limit.speed,
+        joint_parameters.get("Ia", 0.0) * THRESHOLDS.lively_rms_share * limit.acceleration,
+        joint_parameters.get("Fv", 0.0) * THRESHOLDS.lively_rms_share * limit.speed,
         joint_parameters.get("Fs", 0.0),
     )
     torque, speed, inertia = float(np.linalg.norm(parts)), scale.speed, scale.inertia

@@ -3,6 +3,7 @@
 import dataclasses
 from collections.abc import Mapping
 from dataclasses import dataclass
+from typing import Any
 
 import casadi as ca
 import numpy as np
@@ -24,18 +25,11 @@ from modeler.simulation.rigid import (
     convert_pseudo_inertia,
     is_physical,
 )
+from modeler.simulation.thresholds import THRESHOLDS
 
 _SUMS = {"XX": (1, 2), "YY": (0, 2), "ZZ": (0, 1)}  # XX = int y2 dm + int z2 dm, ...
 _OUTSIDE = {"XY": (0, 1), "XZ": (0, 2), "YZ": (1, 2), "MX": (0, 3), "MY": (1, 3), "MZ": (2, 3)}
-_ROUNDING = 1e-13  # relative; differences of stated numbers below it are 0
-_STRICT = 1e-7  # least eigenvalue, of a matrix near ones on its diagonal, of a body with an inside
-_EDGE = 1e-8  # below 0 by so little is the rounding of a plate, a rod or a point
-_EXACT = 1e-10  # below 0 by less is no matter
-_THIN = 1e-5  # eigenvalues below it are those of a plate, a rod or a point
-_STEPS = 5  # of Newton, each of which doubles the digits
-_DAMPED = 500  # steps before those at most
-_PULL = 1e-3  # weight of the trace beside the least eigenvalue
-_TOLERANCES = {f"tol_{what}": 1e-11 for what in ("gap_abs", "gap_rel", "feas")}
+_TOLERANCES: dict[str, Any] = {f"tol_{what}": 1e-11 for what in ("gap_abs", "gap_rel", "feas")}
 
 
 @dataclass(frozen=True)
@@ -86,11 +80,15 @@ def complete_body(stated: Mapping[str, float], reference: Mapping[str, float]) -
     x = _find_feasible(problem)
     if x is None:
         return Completion(None)
-    if x.size and _compute_smallest_eigenvalue(_build_matrix(problem, x)) > _STRICT:
+    if (
+        x.size
+        and _compute_smallest_eigenvalue(_build_matrix(problem, x))
+        > THRESHOLDS.min_strict_eigenvalue
+    ):
         x = _find_nearest(problem, near, x)
     elif x.size:
         x = _flatten_solution(problem, x)
-    if _compute_smallest_eigenvalue(_build_matrix(problem, x)) < -_EDGE:
+    if _compute_smallest_eigenvalue(_build_matrix(problem, x)) < -THRESHOLDS.max_edge_violation:
         return Completion(None, is_impossible=True)
     scale = problem.scale[problem.rows]
     completed_matrix = np.zeros((4, 4))
@@ -98,7 +96,7 @@ def complete_body(stated: Mapping[str, float], reference: Mapping[str, float]) -
         scale, scale
     )
     values = {**convert_pseudo_inertia(completed_matrix), **stated}
-    return Completion(values if is_physical(values, _EDGE) else None)
+    return Completion(values if is_physical(values, THRESHOLDS.max_edge_violation) else None)
 
 
 def _build_problem(stated: Mapping[str, float], near: np.ndarray) -> _BodyProblem | None:
@@ -118,7 +116,7 @@ def _build_problem(stated: Mapping[str, float], near: np.ndarray) -> _BodyProble
         row = np.array([p[prefix] for p in parameters])
         size = float(np.linalg.norm(row))
         if size == 0.0:
-            if abs(value) > _ROUNDING * max(map(abs, stated.values())):
+            if abs(value) > THRESHOLDS.max_stated_rounding * max(map(abs, stated.values())):
                 return None
             continue
         equations.append(row / size)
@@ -149,7 +147,10 @@ def _compute_known_diagonal(stated: Mapping[str, float]) -> dict[int, float]:
             for one, other in ((i, j), (j, i)):
                 if one in known and other not in known:
                     known[other] = value - known[one]
-    return {i: 0.0 if i < 3 and abs(v) <= _ROUNDING * size else v for i, v in known.items()}
+    return {
+        i: 0.0 if i < 3 and abs(v) <= THRESHOLDS.max_stated_rounding * size else v
+        for i, v in known.items()
+    }
 
 
 def _is_contradictory(stated: Mapping[str, float], known: Mapping[int, float]) -> bool:
@@ -199,7 +200,7 @@ def _find_feasible(problem: _BodyProblem) -> np.ndarray | None:
     if not count:
         return np.zeros(0)
     # The trace keeps free elements from running away.
-    pull = _PULL * np.trace(problem.directions, axis1=1, axis2=2)
+    pull = THRESHOLDS.trace_weight * np.trace(problem.directions, axis1=1, axis2=2)
     x = minimize_over_cones(
         (np.zeros((0, count + 1)), np.zeros(0)),
         (-np.eye(count + 1)[count:], np.ones(1)),
@@ -212,9 +213,9 @@ def _find_feasible(problem: _BodyProblem) -> np.ndarray | None:
 
 def _flatten_solution(problem: _BodyProblem, x: np.ndarray) -> np.ndarray:
     """The same plate, rod or point with exact zeros: S(x) times what it nearly vanishes on."""
-    for _ in range(_STEPS):
+    for _ in range(THRESHOLDS.newton_steps):
         values, vectors = np.linalg.eigh(_build_matrix(problem, x))
-        thin = vectors[:, values < _THIN]
+        thin = vectors[:, values < THRESHOLDS.max_thin_eigenvalue]
         slope = (problem.directions @ thin).reshape(len(x), -1).T
         rest = (_build_matrix(problem, x) @ thin).ravel()
         flat = x - np.linalg.lstsq(slope, rest, rcond=1e-9)[0]
@@ -222,7 +223,10 @@ def _flatten_solution(problem: _BodyProblem, x: np.ndarray) -> np.ndarray:
             (x, flat),
             key=lambda choice: _compute_smallest_eigenvalue(_build_matrix(problem, choice)),
         )
-        if _compute_smallest_eigenvalue(_build_matrix(problem, x)) > -_EXACT:
+        if (
+            _compute_smallest_eigenvalue(_build_matrix(problem, x))
+            > -THRESHOLDS.max_final_violation
+        ):
             break
     return x
 
@@ -236,8 +240,8 @@ def _find_nearest(problem: _BodyProblem, near: np.ndarray, x: np.ndarray) -> np.
     reference = (near / np.outer(problem.scale, problem.scale))[np.ix_(problem.rows, problem.rows)]
     weight = np.linalg.inv(reference)
     pull = np.tensordot(problem.directions, weight, 2)
-    left = _STEPS
-    for _ in range(_DAMPED):
+    left = THRESHOLDS.newton_steps
+    for _ in range(THRESHOLDS.max_damped_steps):
         turned = np.linalg.inv(_build_matrix(problem, x)) @ problem.directions
         slope = pull - np.trace(turned, axis1=1, axis2=2)
         curvature = np.einsum("kij,lji->kl", turned, turned)
@@ -263,11 +267,6 @@ def _compute_smallest_eigenvalue(matrix: np.ndarray) -> float:
 
 
 # The true parameters of a simulated robot: as the robot file states them, the rest drawn.
-
-
-_STATES = 64  # random states from which the typical torque of a joint is taken
-_IDLE = 1e-9  # of the largest torque: joints below it move no mass
-_OF_LARGEST = 0.02  # their scale instead
 
 
 @dataclass(frozen=True)
@@ -364,16 +363,16 @@ def estimate_joint_scales(
     diagonal = ca.Function("diagonal", [q], [ca.diag(dynamics.inertia)])
     low, high = (np.array([[getattr(li, k)] for li in limits]) for k in ("lower", "upper"))
     speed, lift = (np.array([[getattr(li, k)] for li in limits]) for k in ("speed", "acceleration"))
-    shape = (len(limits), _STATES)
+    shape = (len(limits), THRESHOLDS.random_states)
     poses = rng.uniform(low, high, shape)
-    torques = torque.map(_STATES)(
+    torques = torque.map(THRESHOLDS.random_states)(
         poses, 0.5 * speed * rng.uniform(-1, 1, shape), 0.5 * lift * rng.uniform(-1, 1, shape)
     ).full()
-    inertias = diagonal.map(_STATES)(poses).full()
+    inertias = diagonal.map(THRESHOLDS.random_states)(poses).full()
     rms, inertia = np.sqrt(np.mean(torques**2, axis=1)), np.median(inertias, axis=1)
     # A motor that stands on the base and turns joints by gears moves no link of its own.
-    idle = rms <= _IDLE * rms.max()
-    rms[idle] = _OF_LARGEST * rms.max()
+    idle = rms <= THRESHOLDS.max_idle_torque_share * rms.max()
+    rms[idle] = THRESHOLDS.idle_torque_share * rms.max()
     inertia[idle] = rms[idle] / lift[idle, 0]
     return [
         ShaftScale(float(torque), limit.speed, float(mass))
@@ -382,12 +381,6 @@ def estimate_joint_scales(
 
 
 # The links: as stated, the rest drawn.
-
-
-_DENSITY = 30.0  # kg per squared metre of reach: an arm of 1 m weighs 30 kg
-_THINNING = 0.7  # mass per length of a link, relative to the link before it
-_SHORTEST = 0.15  # m, where the table holds no length at all
-_OF_MEAN = 0.35  # length of a link without extent, relative to the mean of the others
 
 
 def collect_stated_inertia(robot: Robot, joint: str) -> dict[str, float]:
@@ -471,12 +464,17 @@ def _draw_bodies(robot: Robot, pose: np.ndarray, rng: np.random.Generator) -> di
         reach[name] = reach[before] + lengths.get(name, 0.0)
         path[name] = path[before] | ({name} if joint.is_moving else set())
     length = np.array([*lengths.values()])
-    thinner = _THINNING ** np.array([depth[name] for name in tips])
+    thinner = THRESHOLDS.link_mass_reduction ** np.array([depth[name] for name in tips])
     weights = (length + 0.2 * length.mean()) * thinner
     # The longest chain weighs what an arm of its reach weighs; other branches as this one.
     chain = path[max(reach, key=lambda name: reach[name])]
     on_it = np.array([name in chain for name in tips])
-    masses = _DENSITY * length[on_it].sum() ** 2 * weights / weights[on_it].sum()
+    masses = (
+        THRESHOLDS.mass_per_squared_reach
+        * length[on_it].sum() ** 2
+        * weights
+        / weights[on_it].sum()
+    )
     return {
         name: _draw_box(mass * rng.uniform(0.8, 1.2), tip, rng)
         for (name, tip), mass in zip(tips.items(), masses, strict=True)
@@ -514,7 +512,9 @@ def _find_tips(robot: Robot, pose: np.ndarray) -> dict[str, np.ndarray]:
             tips[link] = end
     lengths = np.array([np.linalg.norm(tip) for tip in tips.values()])
     real = lengths[lengths > 1e-6]
-    short = _OF_MEAN * real.mean() if real.size else _SHORTEST
+    short = (
+        THRESHOLDS.short_link_share * real.mean() if real.size else THRESHOLDS.default_link_length
+    )
     return {
         name: tip if np.linalg.norm(tip) >= short else np.array([0.0, 0.0, short])
         for name, tip in tips.items()

@@ -14,6 +14,7 @@ import numpy as np
 
 from modeler.core.errors import RobotError
 from modeler.simulation.rigid import Body
+from modeler.simulation.thresholds import THRESHOLDS
 
 Values = Mapping[str, float]
 
@@ -300,11 +301,7 @@ def _compute_single_order(rng: np.random.Generator, site: Site) -> float:
 # Friction with memory: bristles, cables, heat.
 
 
-_OVERSHOOT = 1.3  # of the top speed, that inner states must follow
 _AMBIENT = 25.0  # degC
-_BRISTLE_DAMPING = 0.5  # of the oscillation of a joint on its bristles, of the critical one
-_SHAPE = 0.7  # Bouc and Wen's beta of beta + gamma = 1
-_HALVED = 30.0  # K, by which friction falls to a half
 
 
 def _compute_presliding(shaft: Shaft, value: Values) -> Contribution:
@@ -312,7 +309,7 @@ def _compute_presliding(shaft: Shaft, value: Values) -> Contribution:
     z = ca.SX.sym(f"bristle_{shaft.name}")
     rate = shaft.speed - ca.fabs(shaft.speed) * z / value["distance"]
     torque = value["level"] / value["distance"] * z + value["damping"] * rate
-    fastest = _OVERSHOOT * shaft.top / value["distance"]
+    fastest = THRESHOLDS.speed_overshoot * shaft.top / value["distance"]
     return Contribution(torque, state=z, rate=rate, fastest=fastest)
 
 
@@ -320,15 +317,20 @@ def _draw_presliding(rng: np.random.Generator, site: Site) -> dict[str, float]:
     level = site.joint_parameters.get("Fs") or rng.uniform(0.1, 0.2) * site.torque
     distance = rng.uniform(5e-4, 3e-3) * site.span
     inertia = site.inertia + site.joint_parameters.get("Ia", 0.0)
-    damping = 2 * _BRISTLE_DAMPING * np.sqrt(level / distance * inertia)
+    damping = 2 * THRESHOLDS.bristle_damping_ratio * np.sqrt(level / distance * inertia)
     return {"level": level, "distance": distance, "damping": float(damping)}
 
 
 def _compute_cable_hysteresis(shaft: Shaft, value: Values) -> Contribution:
     """Bouc and Wen's loop: F = level z, z' = (v - (b |v| z + (1 - b) v |z|) ) / width."""
     z, v = ca.SX.sym(f"cable_{shaft.name}"), shaft.speed
-    back = _SHAPE * ca.fabs(v) * z + (1 - _SHAPE) * v * ca.fabs(z)
-    rate, fastest = (v - back) / value["width"], _OVERSHOOT * shaft.top / value["width"]
+    back = THRESHOLDS.bouc_wen_beta * ca.fabs(v) * z + (1 - THRESHOLDS.bouc_wen_beta) * v * ca.fabs(
+        z
+    )
+    rate, fastest = (
+        (v - back) / value["width"],
+        THRESHOLDS.speed_overshoot * shaft.top / value["width"],
+    )
     return Contribution(value["level"] * z, state=z, rate=rate, fastest=fastest)
 
 
@@ -336,7 +338,7 @@ def _compute_warming(shaft: Shaft, value: Values) -> Contribution:
     """Friction that heats its joint and falls by half per 30 K: time T' = R P - (T - ambient)."""
     warmer = ca.SX.sym(f"heat_{shaft.name}")  # than at the start, K
     above = warmer + value["start"]
-    fallen = 2 ** (-above / _HALVED)
+    fallen = 2 ** (-above / THRESHOLDS.friction_halving_temperature)
     torque = fallen * (value["Fv"] * shaft.speed + compute_dry_friction(shaft, value["Fs"]))
     rate = (value["heating"] * torque * shaft.speed - above) / value["time"]
     return Contribution(torque, state=warmer, rate=rate, temperature=_AMBIENT + above)
@@ -357,10 +359,6 @@ def _draw_warming(rng: np.random.Generator, site: Site) -> dict[str, float]:
 
 
 # Torques that follow the position: springs, ripples, transmissions that give way.
-
-
-_SHARPNESS = 0.005  # of the gap: width of the edge where gear teeth come to bear
-_SEEN = 0.2  # of the sampling rate: faster ripples are not hidden, no log would show them
 
 
 def _compute_lever(shaft: Shaft, value: Values) -> tuple[ca.SX, ca.SX]:
@@ -402,7 +400,7 @@ def _compute_ripple(shaft: Shaft, value: Values) -> Contribution:
 
 def _draw_motor_ripple(rng: np.random.Generator, site: Site) -> dict[str, float]:
     order = float(rng.choice([1.0, 2.0]))
-    most = _SEEN * site.rate * 2 * np.pi / (order * site.speed)
+    most = THRESHOLDS.max_ripple_share_of_rate * site.rate * 2 * np.pi / (order * site.speed)
     gear = rng.uniform(50, 160) if site.angular else rng.uniform(300, 700)
     return {
         "amplitude": rng.uniform(0.04, 0.09) * site.torque,
@@ -418,7 +416,7 @@ def _compute_elastic(ahead: ca.SX, rate: ca.SX, value: Values) -> ca.SX:
 
 def _compute_backlash(ahead: ca.SX, rate: ca.SX, value: Values) -> ca.SX:
     """Teeth that bear half a gap from the middle, on either side; none push when they part."""
-    width = _SHARPNESS * value["gap"]
+    width = THRESHOLDS.backlash_edge_share * value["gap"]
     sides = []
     for side in (1.0, -1.0):
         into = side * ahead - value["gap"] / 2

@@ -36,8 +36,7 @@ from modeler.simulation.shafts import (
     combine_shaft_effects,
     find_transmissions,
 )
-
-_LOAD_PASSES = 3  # friction of a share mu of the load is then exact to about mu^4
+from modeler.simulation.thresholds import THRESHOLDS
 
 
 def apply_hidden_loads(
@@ -243,7 +242,9 @@ def _solve_accelerations(
 
     solved = solve_with_load(links.bias)
     if ca.depends_on(effects.torque, effects.load):
-        for _ in range(_LOAD_PASSES):  # friction slows the links, whose load makes the friction
+        for _ in range(
+            THRESHOLDS.load_friction_passes
+        ):  # friction slows the links, whose load makes the friction
             solved = solve_with_load(links.inertia @ solved + links.bias)
     return solved
 
@@ -375,11 +376,6 @@ def generate_poses(limits: tuple[Limits, ...], count: int = 16) -> np.ndarray:
 # Fixed-step integration of the plant over one control tick.
 
 
-_SLOWEST_STEP = 5e-4  # s: rigid motion of an arm is then exact to some 1e-10
-_STABLE = 1.5  # of a step times the fastest mode; Runge-Kutta 4 is stable up to 2.78
-_MOST_STEPS = 400  # per tick
-
-
 def choose_steps_per_tick(
     plant: Plant,
     limits: tuple[Limits, ...],
@@ -405,18 +401,22 @@ def choose_steps_per_tick(
         if abs(values[worst]) > fastest:
             n = pose.size
             fastest, joint = abs(values[worst]), int(np.argmax(np.abs(vectors[n : 2 * n, worst])))
-    if plant.fastest * tick / _STABLE > _MOST_STEPS:
+    if plant.fastest * tick / THRESHOLDS.max_step_times_rate > THRESHOLDS.max_steps_per_tick:
         raise DataError(
             f"simulation: the state of a hidden effect follows at {plant.fastest:.1e} 1/s at top "
-            f"speed; expected at most {_MOST_STEPS * _STABLE / tick:.1e}; give it a larger "
+            f"speed; expected at most "
+            f"{THRESHOLDS.max_steps_per_tick * THRESHOLDS.max_step_times_rate / tick:.1e}; give "
+            f"it a larger "
             "distance or width, or sample faster"
         )
-    needed = tick * max(fastest, plant.fastest) / _STABLE
-    steps = int(np.ceil(max(tick / _SLOWEST_STEP, needed)))
-    if steps > _MOST_STEPS:
+    needed = tick * max(fastest, plant.fastest) / THRESHOLDS.max_step_times_rate
+    steps = int(np.ceil(max(tick / THRESHOLDS.max_step, needed)))
+    if steps > THRESHOLDS.max_steps_per_tick:
         raise DataError(
             f"simulation, joint {plant.joints[joint]}: friction stops it within "
-            f"{1 / fastest:.1e} s; expected {tick / _STABLE / _MOST_STEPS:.1e} s or more; state a "
+            f"{1 / fastest:.1e} s; expected "
+            f"{tick / THRESHOLDS.max_step_times_rate / THRESHOLDS.max_steps_per_tick:.1e} s or "
+            f"more; state a "
             "larger inertia (Ia) or a smaller Fs, or sample faster"
         )
     return steps

@@ -13,6 +13,8 @@ from typing import Any, NamedTuple
 import casadi as ca
 import numpy as np
 
+from modeler.simulation.thresholds import THRESHOLDS
+
 # pi/2 and ln 2 in parts of 33 and 32 bits: a product with a count of quarter turns or halvings
 # below 2**20 is exact.
 _QUARTER = (1.5707963267341256, 6.077100506303966e-11, 2.0222662487111665e-21)
@@ -21,8 +23,6 @@ _SINE = tuple((-1) ** k / math.factorial(2 * k + 1) for k in range(8))
 _COSINE = tuple((-1) ** k / math.factorial(2 * k) for k in range(9))
 _EXP = tuple(1 / math.factorial(k) for k in range(15))
 _ATANH = tuple(1 / (2 * k + 1) for k in range(12))
-_HIGHEST = 700.0  # argument of exp
-_ROOTS = 6  # square roots that bring 1e-12 to 1e12 near to 1, where the series of atanh is short
 
 
 class _PortableAlgebra(NamedTuple):
@@ -66,7 +66,7 @@ def compute_sine_and_cosine(x: Any) -> tuple[Any, Any]:
 def compute_exponential(x: Any) -> Any:
     """Returns exp(x) to 1e-16 of itself; beyond |x| = 700 that of 700."""
     to = _choose_algebra(x)
-    exponent = to.clip(x, -_HIGHEST, _HIGHEST)
+    exponent = to.clip(x, -THRESHOLDS.max_exponent, THRESHOLDS.max_exponent)
     halvings = to.floor(exponent / math.log(2.0) + 0.5)
     r = exponent - halvings * _LN2[0] - halvings * _LN2[1]
     return _evaluate_series(_EXP, r) * to.two_to(halvings)
@@ -80,11 +80,11 @@ def compute_hyperbolic_tangent(x: Any) -> Any:
 def compute_power(x: Any, exponent: Any) -> Any:
     """Returns x**exponent = exp(exponent log x) to 1e-14 of itself, x between 1e-12 and 1e12."""
     root = x
-    for _ in range(_ROOTS):
+    for _ in range(THRESHOLDS.logarithm_roots):
         root = _choose_algebra(root).sqrt(root)
     t = (root - 1) / (root + 1)
     return compute_exponential(
-        exponent * (2.0 ** (_ROOTS + 1) * t * _evaluate_series(_ATANH, t * t))
+        exponent * (2.0 ** (THRESHOLDS.logarithm_roots + 1) * t * _evaluate_series(_ATANH, t * t))
     )
 
 

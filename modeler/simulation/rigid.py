@@ -12,6 +12,7 @@ import numpy as np
 
 from modeler.robot import INERTIAL, Robot
 from modeler.simulation.portable_math import compute_sine_and_cosine
+from modeler.simulation.thresholds import THRESHOLDS
 
 # Where the links are: frames of a modified Denavit-Hartenberg table in the world frame.
 
@@ -115,7 +116,6 @@ class Body:
     inertia: np.ndarray
 
 
-_ROUNDING = 1e-11  # of the moments of inertia
 _PLACE = {"XX": (0, 0), "XY": (0, 1), "XZ": (0, 2), "YY": (1, 1), "YZ": (1, 2), "ZZ": (2, 2)}
 
 
@@ -164,7 +164,7 @@ def is_physical(values: Mapping[str, float], tolerance: float = 1e-9) -> bool:
     """Returns True if some distribution of mass has these parameters; rods and plates too."""
     matrix = compute_pseudo_inertia(values)
     # A plate of which XX = YY + ZZ holds but for rounding is one.
-    matrix[:3, :3] += _ROUNDING * abs(np.trace(matrix[:3, :3])) * np.eye(3)
+    matrix[:3, :3] += THRESHOLDS.max_inertia_rounding * abs(np.trace(matrix[:3, :3])) * np.eye(3)
     # Rows scaled to ones on the diagonal: kilograms and kilogram square metres become comparable.
     diagonal = np.diag(matrix)
     if np.any(diagonal < 0):

@@ -41,6 +41,7 @@ from modeler.simulation.plant import (
 )
 from modeler.simulation.portable_math import compute_exponential, compute_sine_and_cosine
 from modeler.simulation.shafts import compute_rest_states
+from modeler.simulation.thresholds import THRESHOLDS
 from modeler.simulation.trajectory import (
     Reference,
     build_exciting_reference,
@@ -49,8 +50,6 @@ from modeler.simulation.trajectory import (
     collect_motion_limits,
     widen_limits,
 )
-
-_PASSES = 30  # of the fixed point that inverts an eccentric encoder; contracts to a hundredth
 
 
 def compute_encoder_resolution(joints: Sequence[Joint], settings: SimulationSettings) -> np.ndarray:
@@ -123,7 +122,9 @@ def read_encoders(faults: SensorFaults, position: np.ndarray) -> np.ndarray:
 def invert_encoders(faults: SensorFaults, reading: np.ndarray) -> np.ndarray:
     """Returns (joints,) positions at which such encoders read that."""
     position = np.array(reading, dtype=float)
-    for _ in range(_PASSES if faults.waves or np.any(faults.offset) else 0):
+    for _ in range(
+        THRESHOLDS.encoder_inversion_passes if faults.waves or np.any(faults.offset) else 0
+    ):
         position = position - (read_encoders(faults, position) - reading)
     return position
 
@@ -155,12 +156,8 @@ def compute_sampled_torques(
 # A cascaded position and velocity controller, as drives have it, scheduled with the inertia.
 
 
-_SPEED_FILTER = 150.0  # Hz, on the differenced encoder position
 # Zero-order hold (0.5 tick), latency (1), difference (0.5), and the speed filter delay the velocity
 # loop; where that takes more than 0.6 rad of phase at the bandwidth, the bandwidth is lowered.
-_DELAY_TICKS = 2.0
-_PHASE = 0.6
-_LOWER_LOOPS = 0.25  # position loop and integral action, relative to the velocity loop
 
 
 @dataclass(frozen=True, eq=False)
@@ -205,15 +202,15 @@ def tune_gains(
     rate: float, bandwidth: float, feedforward: bool, highest: np.ndarray
 ) -> ControllerGains:
     """Returns gains of a velocity loop of `bandwidth` [Hz], lowered where the delay asks for it."""
-    delay = _DELAY_TICKS / rate + 1 / (2 * np.pi * _SPEED_FILTER)
-    omega = min(2 * np.pi * bandwidth, _PHASE / delay)
+    delay = THRESHOLDS.loop_delay_ticks / rate + 1 / (2 * np.pi * THRESHOLDS.speed_filter_hz)
+    omega = min(2 * np.pi * bandwidth, THRESHOLDS.max_delay_phase / delay)
     return ControllerGains(
-        position=_LOWER_LOOPS * omega,
+        position=THRESHOLDS.outer_loop_share * omega,
         speed=omega,
-        integral=_LOWER_LOOPS * omega**2,
+        integral=THRESHOLDS.outer_loop_share * omega**2,
         forward=float(feedforward),
         highest=highest,
-        filter_share=1 - float(compute_exponential(-2 * np.pi * _SPEED_FILTER / rate)),
+        filter_share=1 - float(compute_exponential(-2 * np.pi * THRESHOLDS.speed_filter_hz / rate)),
         tick=1 / rate,
     )
 
@@ -261,9 +258,6 @@ def _multiply_in_order(matrix: np.ndarray, vector: np.ndarray) -> np.ndarray:
 # A random torque on the machine itself, as from seals, cables and the air.
 
 
-_CORRELATION = 0.03  # s
-
-
 def draw_process_torques(settings: SimulationSettings, ticks: int, rms: np.ndarray) -> np.ndarray:
     """Draws (ticks, joints) a stationary Ornstein-Uhlenbeck process on each joint.
 
@@ -278,19 +272,13 @@ def draw_process_torques(settings: SimulationSettings, ticks: int, rms: np.ndarr
     from scipy.signal import lfilter  # it takes long to load
 
     white = np.random.default_rng([settings.seed, 5]).normal(size=shape)
-    decay = float(compute_exponential(-1 / (settings.rate * _CORRELATION)))
+    decay = float(compute_exponential(-1 / (settings.rate * THRESHOLDS.process_noise_time)))
     white[1:] *= np.sqrt(1 - decay**2)  # the first sample has the variance of all
     noise = lfilter([1.0], [1.0, -decay], white, axis=0)
     return settings.process_noise * rms * np.round(noise, 10)  # the same on every machine
 
 
 # The simulated measurement: plant, controller and sensors in closed loop, or the exact command.
-
-
-_REPORT_EVERY = 500  # ticks between looks at the tracking error, and calls of the callback
-_THERMOMETER = 0.01  # K, resolution
-_LOOKED_AT = 8  # postures of a closed robot, for the stiffest of its motions
-_LOST = 0.5  # tracking error, in ranges of motion, at which the controller has lost the robot
 
 
 @dataclass(frozen=True, eq=False)
@@ -514,9 +502,9 @@ def _run_closed_loop(
         np.empty((ticks, n)),
         np.empty((ticks, n)),
     )
-    for begin in range(0, ticks, _REPORT_EVERY):
+    for begin in range(0, ticks, THRESHOLDS.ticks_per_report):
         with np.errstate(over="ignore", invalid="ignore"):  # a lost robot is reported below
-            for k in range(begin, min(begin + _REPORT_EVERY, ticks)):
+            for k in range(begin, min(begin + THRESHOLDS.ticks_per_report, ticks)):
                 states[k], torques[k] = x, torque
                 measured[k] = quantise_position(read_encoders(faults, x[:n]), resolution)
                 inertia = mass(measured[k], x[2 * n :]).reshape(n, n)
@@ -533,7 +521,7 @@ def select_postures(task: PlantTask) -> tuple[np.ndarray, np.ndarray] | None:
     """Returns some of the commanded ones, where not all that the limits hold can be reached."""
     if task.plant.closer is None:
         return None
-    some = np.linspace(0, len(task.states_along) - 1, _LOOKED_AT).astype(int)
+    some = np.linspace(0, len(task.states_along) - 1, THRESHOLDS.checked_postures).astype(int)
     return task.reference.q[some], task.states_along[some]
 
 
@@ -542,7 +530,7 @@ def _check_tracking(task: PlantTask, begin: int, q: np.ndarray) -> None:
     plant, reference = task.plant, task.reference
     widths = np.array([limit.upper - limit.lower for limit in task.limits])
     error = np.abs(q - reference.q[begin : begin + len(q)]) / widths
-    is_lost = ~(error <= _LOST) & plant.driven | ~np.isfinite(q)
+    is_lost = ~(error <= THRESHOLDS.max_tracking_error_share) & plant.driven | ~np.isfinite(q)
     if np.any(is_lost):
         sample, joint = np.argwhere(is_lost)[0]
         raise DataError(
@@ -586,6 +574,7 @@ def _read_thermometers(plant: Plant, z: np.ndarray) -> dict[str, np.ndarray]:
         return {}
     readings = plant.temperatures.map(len(z))(z.T).full()
     return {
-        f"temperature{joint}": np.round(values / _THERMOMETER) * _THERMOMETER
+        f"temperature{joint}": np.round(values / THRESHOLDS.thermometer_resolution)
+        * THRESHOLDS.thermometer_resolution
         for joint, values in zip(plant.thermometer_joints, readings, strict=True)
     }
