@@ -45,7 +45,7 @@ _ONE_ROW = {
     "craig": '["j", "alpha", "a", "d", "theta"], rows = [["1", 0, 0, 0, "q1"]]',
     "classical": '["j", "theta", "d", "a", "alpha"], rows = [["1", "q1", 0, 0, 0]]',
 }
-GREEK_LETTERS = "\u03b1\u03b3\u03b8\u03c3\u03bc\u00b5"
+GREEK_LETTERS = "\u03b3\u03b1\u03b8\u03c3\u03bc\u00b5"
 GREEK = dict(zip(GREEK_LETTERS, [*ANGLES, "sigma", "mu", "mu"], strict=True))
 """Greek letter -> its name."""
 _SERIAL = (
