@@ -7,7 +7,6 @@ import numpy as np
 import pytest
 
 from modeler.core.errors import RobotError
-from modeler.formats import mdh_rows
 from modeler.formats.body_tree import BodyTree, Inertial, Pose, TreeJoint, collect_moving_links
 from modeler.formats.mdh_rows import (
     build_mdh_table,
@@ -15,6 +14,7 @@ from modeler.formats.mdh_rows import (
     snap_angle,
     snap_length,
 )
+from modeler.formats.thresholds import THRESHOLDS
 from modeler.formats.tree_text import convert_tree
 from modeler.robot.read import parse_robot_text
 from modeler.robot.robot import JointKind as Kind, Robot
@@ -174,7 +174,7 @@ def test_nearly_parallel_axes_keep_their_accuracy(tilt):
             build_mdh_table(collect_moving_links(tree)),
             [np.abs(j.pose.position) for j in tree.joints],
         )
-        most = mdh_rows.FAR * 3 * (max(map(np.max, ways)) or 1.0)
+        most = THRESHOLDS.max_foot_distance_ratio * 3 * (max(map(np.max, ways)) or 1.0)
         for row in table.rows:
             assert max(abs(row.cells.get(c, 0.0)) for c in "bdr") < most
 
