@@ -265,22 +265,22 @@ class ElementTable:
 
     Attributes:
         read, idle: path -> attributes.
-        told, refused: path, or path@attribute -> sentence.
+        reported, refused: path, or path@attribute -> sentence.
         default: the same -> values that change nothing.
         same: tag -> that under which it stands in paths.
     """
 
     read: Mapping[str, str]
     idle: Mapping[str, str]
-    told: Mapping[str, str]
+    reported: Mapping[str, str]
     refused: Mapping[str, str]
     default: Mapping[str, str]
     same: Mapping[str, str]
 
     def classify_path(self, path: str, attribute: str = "") -> str:
-        """Returns read, idle, told or refused; "" for what the table does not know."""
+        """Returns read, idle, reported or refused; "" for what the table does not know."""
         name = f"{path}@{attribute}" if attribute else path
-        for part in ("refused", "told"):
+        for part in ("refused", "reported"):
             if name in getattr(self, part):
                 return part
         if self.idle.get(path) == "*":
@@ -324,7 +324,7 @@ class ElementTable:
         ]
 
     def _find_reported(self, root: Element) -> Iterator[tuple[Element, str, str, str]]:
-        """What is told or refused: element, what it belongs to, key in the table, sentence."""
+        """What is reported or refused: element, what it belongs to, key in the table, sentence."""
         waiting = [(root, self.same.get(root.tag, root.tag), "")]
         while waiting:
             element, path, name = waiting.pop()
@@ -336,7 +336,7 @@ class ElementTable:
                 if not verdict and not attribute.startswith("xmlns"):
                     unknown = f"{attribute[:60]} of " * bool(attribute) + f"<{element.tag[:60]}>"
                     yield element, name, "", _UNKNOWN.format(unknown)
-                elif verdict in ("told", "refused") and not self._is_default(key, value):
+                elif verdict in ("reported", "refused") and not self._is_default(key, value):
                     yield element, name, key, getattr(self, verdict)[key]
                 if not attribute and (verdict != "read" or self.read[path] == "**"):
                     break

@@ -212,6 +212,6 @@ def test_links_without_values_get_capsules_and_it_is_told() -> None:
     left = tuple(
         {p.name.rstrip("0123456789") for p in model.spec.standard if p.kind == "offset"} | {"Fs"}
     )
-    names = [f"joint_{joint.name}" for joint in robot.moving]
+    names = [f"joint_{joint.name}" for joint in robot.moving_joints]
     ours = torques_without(model, q, qd, qdd, left)
     assert close(mujoco_torques(found.data, names, q, qd, qdd), ours)

@@ -15,7 +15,7 @@ from modeler.formats.xml_source import load_element_table
 from modeler.robot.robot import JointKind
 from tests.robot.public_robots import public_urdfs
 
-MECHANICS = ("read", "told", "refused")
+MECHANICS = ("read", "reported", "refused")
 
 
 def test_the_schema_of_urdf_is_known() -> None:
