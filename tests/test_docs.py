@@ -22,9 +22,9 @@ from modeler.core.errors import RobotError
 from modeler.effects.catalogue import CATALOGUE
 from modeler.effects.effect import MOTION, EffectTarget
 from modeler.regression.motion import Processing
-from modeler.robot.conventions import COLUMNS
 from modeler.robot.read import _KEYS, parse_robot_text
-from modeler.simulation.hidden import HIDDEN
+from modeler.robot.table import COLUMNS
+from modeler.simulation.physics import HIDDEN
 from tests.rotation import ROTATING
 
 ROOT = Path(__file__).resolve().parents[1]

@@ -6,7 +6,7 @@ import math
 
 import numpy as np
 
-from modeler import excitation, exports, simulation
+from modeler import excitation, formats, simulation
 from modeler.core.errors import DataError
 from modeler.robot import Robot
 from modeler.runtime import CompiledModel
@@ -47,7 +47,7 @@ def _collect_solids(robot: Robot, compiled: CompiledModel) -> excitation.Collisi
     """All capsules, and all pairs of links that share no joint."""
     moving, closure = [joint.name for joint in robot.moving_joints], compiled.spec.closure
     at = {} if closure is None else dict(zip(closure.variables, closure.home, strict=True))
-    shapes = exports.locate_capsules(robot, at)
+    shapes = formats.locate_capsules(robot, at)
     on, links = {row: carrier for row, carrier, _ in shapes}, [carrier for _, carrier, _ in shapes]
     joined = {frozenset((on.get(j.name), on.get(j.antecedent))) for j in robot.joints}
     joined |= {frozenset((on.get(loop.frame), on.get(loop.meets))) for loop in robot.loops}

@@ -12,7 +12,7 @@ from modeler.codegen import Derivation, derive, generate
 from modeler.core.errors import BuildError, DataError
 from modeler.core.manifest import ModuleSpec
 from modeler.estimation import IdentifiedModel, model_file
-from modeler.exports import Exported, Value
+from modeler.formats import Exported, Value
 from modeler.robot import Robot
 from modeler.runtime import build_portable_library
 

@@ -13,7 +13,7 @@ from modeler.core.errors import DataError
 from modeler.core.files import write_without_overwriting
 from modeler.derivation import complete_home
 from modeler.estimation import IdentifiedModel
-from modeler.exports import Equations, Exported, Torques, choose_format, export_robot
+from modeler.formats import Equations, Exported, Torques, choose_format, export_robot
 from modeler.robot import Robot
 
 _STATES, _SEED = 200, 1

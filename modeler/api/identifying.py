@@ -16,8 +16,9 @@ from modeler.codegen import Derivation
 from modeler.core.errors import GAIN_METHOD, DataError, FitWarning, Method
 from modeler.core.manifest import EmittedModule
 from modeler.derivation import complete_home
+from modeler.formats import read_robot
 from modeler.regression import Log, Observation, Processing, check_no_overlap, observe
-from modeler.robot import Robot, read_robot, replace_robot_effects
+from modeler.robot import Robot, replace_robot_effects
 from modeler.runtime import CompiledModel
 
 Effects = str | Sequence[str] | Mapping[str, Any]

@@ -23,9 +23,9 @@ from modeler.core.files import read_file
 from modeler.core.manifest import EmittedModule
 from modeler.core.table import label_values
 from modeler.estimation import IdentifiedModel, ParameterEstimate, model_file
-from modeler.exports import Exported
+from modeler.formats import Exported, read_robot
 from modeler.regression import Log, Observation
-from modeler.robot import Robot, read_robot, suggest_name
+from modeler.robot import Robot, suggest_name
 
 _SURE = NormalDist().inv_cdf(0.975)  # of a 95 % interval
 

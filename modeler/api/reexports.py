@@ -9,8 +9,8 @@ from modeler.estimation import (
     IdentifiedModel as IdentifiedModel,
     Payload as Payload,
 )
-from modeler.exports import Exported as Exported
 from modeler.fleet import Fleet as Fleet
+from modeler.formats import Exported as Exported
 from modeler.regression import Log as Log, Observation as Observation, Processing as Processing
 from modeler.robot import Robot as Robot
 from modeler.runtime import CompiledModel as CompiledModel, GpuModel as GpuModel

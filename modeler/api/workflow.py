@@ -29,10 +29,10 @@ from modeler.estimation import (
     model_file,
     set_unit_gains,
 )
+from modeler.formats import convert as convert
 from modeler.logs import Frame, LogMap, open_blocks
 from modeler.robot import (
     Robot,
-    convert as convert,
     insert_own_effect,
     new_robot as new_robot,
     parse_robot_text,

@@ -30,8 +30,9 @@ from modeler.core.files import write_atomically
 from modeler.core.jobs import Workers, open_workers
 from modeler.core.table import align_columns
 from modeler.estimation import OF_TRIANGLES, IdentifiedModel, compare_methods, save_model
+from modeler.formats import read_robot
 from modeler.regression import Log, Observation, Processing, check_no_overlap
-from modeler.robot import read_robot, replace_fitted_values
+from modeler.robot import replace_fitted_values
 from modeler.views import (
     build_estimators_page,
     collect_remarks,

@@ -16,11 +16,11 @@ from modeler.core.files import check_writable, write_all_without_overwriting
 from modeler.core.json import select_attributes
 from modeler.core.toml_cells import quote_value
 from modeler.effects import CATALOGUE, Effect, Form, find_effect
+from modeler.formats import read_robot
 from modeler.robot import (
     Robot,
     export_effect,
     parse_robot_text,
-    read_robot,
     replace_robot_effects as with_given_effects,
     suggest_name,
 )

@@ -7,14 +7,8 @@ from pathlib import Path
 from modeler.cli.console import Json, print_error, print_lines, print_result, show_next
 from modeler.core.builtin import CONVENTIONS, TEMPLATES
 from modeler.core.errors import RobotError
-from modeler.robot import (
-    Robot,
-    check_new_robot,
-    convert,
-    fill_template,
-    new_robot,
-    parse_lock_values,
-)
+from modeler.formats import convert, parse_lock_values
+from modeler.robot import Robot, check_new_robot, fill_template, new_robot
 
 _FILES = (
     "a URDF, MJCF or SYMORO file needs no new one: every command reads it, or `modeler convert`"

@@ -1,20 +1,17 @@
 from .catalogue import (
     CATALOGUE as CATALOGUE,
     ENCODERS as ENCODERS,
+    EXAMPLE as EXAMPLE,
     PASSIVE_FRICTION as PASSIVE_FRICTION,
     PASSIVE_FRICTION_IS as PASSIVE_FRICTION_IS,
-    find_effect as find_effect,
-)
-from .definition import (
-    EXAMPLE as EXAMPLE,
     check_finite as check_finite,
+    find_effect as find_effect,
     read_definition as read_definition,
 )
 from .effect import (
     MOTION as MOTION,
     NOISE as NOISE,
     TURN as TURN,
-    VARIABLES as VARIABLES,
     Effect as Effect,
     EffectColumn as EffectColumn,
     EffectTarget as EffectTarget,

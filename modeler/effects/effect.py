@@ -97,11 +97,11 @@ class NonlinearParameter(ShortRepr):
 
     @property
     def is_continuous(self) -> bool:
-        """True if values between those of the grid make sense."""
+        """Returns True if values between those of the grid make sense."""
         return self.limits[0] < self.limits[1]
 
     def get_unit(self, linear: bool) -> str:
-        """On a prismatic joint or on one that turns; "1" for a number, or if nobody knows."""
+        """Returns the unit on a prismatic or a revolute joint; "1" for a number."""
         return SCALES[self.scale][linear]
 
 
@@ -190,12 +190,12 @@ class Form(ShortRepr):
 
     @property
     def free_parameters(self) -> tuple[NonlinearParameter, ...]:
-        """Shapes that a robot file must state: those whose grid does not fix them."""
+        """Returns shapes that a robot file must state: those whose grid does not fix them."""
         return tuple(shape for shape in self.nonlinear_parameters if len(shape.grid) != 1)
 
     @cached_property
     def names(self) -> frozenset[str]:
-        """Variables that its equations use: of `VARIABLES`, and as `v3` of other joints."""
+        """Returns variables that its equations use: of `VARIABLES`, and as `v3` of other joints."""
         equations = [column.equation for column in self.columns]
         if self.internal_state is not None and self.internal_state.lagged_input is not None:
             equations.append(self.internal_state.lagged_input)
@@ -204,11 +204,11 @@ class Form(ShortRepr):
 
     @cached_property
     def other_joint_names(self) -> frozenset[str]:
-        """Those of other joints."""
+        """Returns those of other joints."""
         return self.names - VARIABLES.keys()
 
     def find_references_to(self, joint: str) -> list[str]:
-        """Those that name that joint, on which the effect cannot act therefore."""
+        """Returns those that name that joint, on which the effect cannot act therefore."""
         return sorted(name for name in self.other_joint_names if name[1:] == joint)
 
 
@@ -277,28 +277,28 @@ class Effect(ShortRepr):
 
     @property
     def columns(self) -> tuple[EffectColumn, ...]:
-        """Of its usual form."""
+        """Returns the columns of the first form."""
         return self.forms[0].columns
 
     @property
     def is_learned(self) -> bool:
-        """True of a law that was learned, which is no physics."""
+        """Returns True of a law that was learned, which is no physics."""
         return any(column.equation.law is not None for column in self.columns)
 
     def refines_model_term(self, value: float) -> bool:
-        """True if that value of its first parameter mends the form of a law in the model."""
+        """Returns True if that value of its first parameter refines a term of the model."""
         return self.negative != "" and value < 0.0
 
     @property
     def is_oscillator(self) -> bool:
-        """True if it is an oscillator."""
+        """Returns True if it is an oscillator."""
         return any(
             form.internal_state and form.internal_state.kind == "resonance" for form in self.forms
         )
 
     @property
     def can_be_stated(self) -> bool:
-        """True if a robot file may name it: its columns are functions of the joints' motion."""
+        """Returns True if a robot file may name it: its columns depend on the joints' motion."""
         acts = self.acts in (
             EffectTarget.JOINT,
             EffectTarget.MOTOR,
@@ -309,5 +309,5 @@ class Effect(ShortRepr):
 
     @property
     def is_coupled(self) -> bool:
-        """True if it acts on the shaft of a motor that turns with several joints."""
+        """Returns True if it acts on the shaft of a motor that turns with several joints."""
         return self.acts is EffectTarget.MOTOR

@@ -1,19 +1,19 @@
-from .body_tree import (
-    BodyTree as BodyTree,
-    Inertial as Inertial,
-    Pose as Pose,
-    collect_moving_links as collect_moving_links,
-    combine_inertials as combine_inertials,
-    compute_axis_rotation as compute_axis_rotation,
-    compute_standard_parameters as compute_standard_parameters,
-)
-from .cells import extract_linear_form as extract_linear_form
-from .conventions import (
-    build_written_table as build_written_table,
-    get_written_letter as get_written_letter,
-    locate_written_cell as locate_written_cell,
+from .cells import (
+    C_WORDS as C_WORDS,
+    LARGEST_LENGTH as LARGEST_LENGTH,
+    choose_robot_name as choose_robot_name,
+    compute_cosine_sine as compute_cosine_sine,
+    count_twelfths as count_twelfths,
+    describe_rounded_angles as describe_rounded_angles,
+    extract_linear_form as extract_linear_form,
+    format_pi_multiple as format_pi_multiple,
+    recognise_angle as recognise_angle,
+    recognise_angle_terms as recognise_angle_terms,
 )
 from .edit import (
+    SharedEffects as SharedEffects,
+    collect_shared_effects as collect_shared_effects,
+    export_effect as export_effect,
     format_home_lines as format_home_lines,
     insert_coupling as insert_coupling,
     insert_effect as insert_effect,
@@ -32,23 +32,22 @@ from .edit import (
     replace_symbol as replace_symbol,
     set_joint_effect as set_joint_effect,
 )
-from .loops import read_home as read_home
-from .mdh_rows import compute_roll_pitch_yaw as compute_roll_pitch_yaw
-from .mjcf import read_mjcf_tree as read_mjcf_tree
-from .motors import compute_joint_directions as compute_joint_directions
-from .parameter_words import (
-    ParameterDescription as ParameterDescription,
-    describe_parameters as describe_parameters,
-)
+from .effects import collect_parameter_owners as collect_parameter_owners
+from .mechanism import compute_joint_directions as compute_joint_directions, read_home as read_home
 from .pasted import (
-    PastedTable as PastedTable,
     build_pasted_robot as build_pasted_robot,
     insert_pasted_table as insert_pasted_table,
     parse_pasted_cells as parse_pasted_cells,
     parse_pasted_table as parse_pasted_table,
 )
-from .quaternions import compute_quaternion_rotation as compute_quaternion_rotation
-from .read import parse_robot_text as parse_robot_text, read_robot as read_robot
+from .read import (
+    check_new_robot as check_new_robot,
+    fill_template as fill_template,
+    new_robot as new_robot,
+    parse_robot_text as parse_robot_text,
+    read_file_text as read_file_text,
+    read_robot as read_robot,
+)
 from .robot import (
     INERTIAL as INERTIAL,
     LOOP_KINDS as LOOP_KINDS,
@@ -56,36 +55,44 @@ from .robot import (
     Joint as Joint,
     JointKind as JointKind,
     Limits as Limits,
-    LinkCapsule as LinkCapsule,
     LinkFrame as LinkFrame,
     Loop as Loop,
     PhysicalLink as PhysicalLink,
     Robot as Robot,
-    SharedParameter as SharedParameter,
     TomlCell as TomlCell,
+    describe_parameters as describe_parameters,
     join_names as join_names,
     suggest_name as suggest_name,
 )
-from .shared_effects import (
-    SharedEffects as SharedEffects,
-    collect_shared_effects as collect_shared_effects,
-    export_effect as export_effect,
-)
-from .start import (
-    check_new_robot as check_new_robot,
-    convert as convert,
-    fill_template as fill_template,
-    new_robot as new_robot,
-)
-from .table_text import (
+from .robot_text import (
+    LINKS as LINKS,
+    PARAMETERS as PARAMETERS,
+    ConvertedRobot as ConvertedRobot,
     TableText as TableText,
+    TextRow as TextRow,
     find_table_text as find_table_text,
+    format_columns_and_rows as format_columns_and_rows,
+    format_effects as format_effects,
+    format_head as format_head,
+    format_loops as format_loops,
+    format_mdh as format_mdh,
+    format_name_list as format_name_list,
+    format_number as format_number,
+    format_section as format_section,
+    format_symbols as format_symbols,
     insert_row as insert_row,
+    join_lines as join_lines,
     locate_error_cell as locate_error_cell,
+    quote_cell as quote_cell,
     read_table_convention as read_table_convention,
     remove_row as remove_row,
     replace_cell as replace_cell,
 )
-from .tree_cuts import parse_lock_values as parse_lock_values
-from .urdf import read_urdf_tree as read_urdf_tree
-from .xml_source import Element as Element, parse_xml as parse_xml, replace_spans as replace_spans
+from .sections import FRAME_COLUMNS as FRAME_COLUMNS
+from .table import (
+    ANGLES as ANGLES,
+    GEOMETRY as GEOMETRY,
+    build_written_table as build_written_table,
+    get_written_letter as get_written_letter,
+    locate_written_cell as locate_written_cell,
+)

@@ -1,18 +1,137 @@
 """Single values of a robot file: expressions, numbers, names, lists."""
 
+import ast
 import keyword
 import math
 import re
 import unicodedata
 from collections.abc import Callable, Collection, Iterable, Mapping
 from dataclasses import dataclass, field
+from decimal import Decimal
 from fractions import Fraction
 from typing import Any
 
 from modeler.core import rounded
 from modeler.core.expression import FUNCTIONS, LARGEST_EXPONENT, Expression, parse_expression
 from modeler.core.toml_cells import LARGEST, TomlCell, join_names, quote_value, suggest_name
-from modeler.robot.angles import format_pi_multiple, recognise_angle_terms
+from modeler.robot.thresholds import THRESHOLDS
+
+_SINES = (
+    0.0,
+    math.sin(math.pi / 12),
+    0.5,
+    math.sqrt(0.5),
+    math.sqrt(0.75),
+    math.cos(math.pi / 12),
+    1.0,
+)
+"""Of 0, pi/12, .. pi/2, each the double next to it."""
+
+
+def recognise_angle(digits: str) -> str | None:
+    """Returns multiple of pi/12 that the printed number is a rounding of; None if it is of none.
+
+    Args:
+        digits: a decimal number, rad.
+    """
+    count = count_twelfths(digits)
+    return None if count is None else format_pi_multiple(Fraction(count, 12))
+
+
+def count_twelfths(digits: str) -> int | None:
+    """Returns how many twelfths of pi the printed number rounds; None if no whole number.
+
+    `1.5708`, `1.571`, `1.57080` and the cut-off `3.1415` are: from the multiple to the number it
+    is half a unit of its last digit, or towards 0 a whole one. Zeros at the end are taken for
+    padding as long as enough decimals are left without them.
+
+    Args:
+        digits: a decimal number, rad.
+    """
+    number = abs(Decimal(digits))
+    count = round(float(number) / (math.pi / 12))
+    if count == 0 or count > 24:
+        return None
+    least = (
+        THRESHOLDS.min_coarse_angle_decimals
+        if count % 6 == 0
+        else THRESHOLDS.min_fine_angle_decimals
+    )
+    decimals = _count_decimals(number.normalize())
+    if decimals < least:
+        decimals = _count_decimals(number)
+    if decimals < least:
+        return None
+    unit = 10.0 ** -min(decimals, 15)
+    if not -unit <= float(number) - count * math.pi / 12 <= unit / 2:
+        return None
+    return -count if digits.startswith("-") else count
+
+
+def compute_cosine_sine(angle: float) -> tuple[float, float]:
+    """Returns cosine and sine, exact for multiples of pi/12: cos pi/2 is 0."""
+    count = round(angle * 12 / math.pi)
+    if abs(angle - count * math.pi / 12) > 2 * math.ulp(max(1.0, abs(angle))):
+        return math.cos(angle), math.sin(angle)
+    return _compute_twelfth_sine(count + 6), _compute_twelfth_sine(count)
+
+
+def _compute_twelfth_sine(count: int) -> float:
+    half, place = divmod(count % 24, 12)
+    return (-1.0 if half and place else 1.0) * _SINES[min(place, 12 - place)]
+
+
+def _count_decimals(number: Decimal) -> int:
+    exponent = number.as_tuple().exponent
+    assert isinstance(exponent, int)
+    return -exponent
+
+
+def recognise_angle_terms(tree: ast.expr, rounded: dict[str, str]) -> ast.expr:
+    """Returns the angle with its decimal terms, and whole multiples of such, put as what they mean.
+
+    Args:
+        tree: of Python's arithmetic.
+        rounded: grows by digits -> multiple, for what was put.
+    """
+    if isinstance(tree, ast.BinOp):
+        sides = (tree.left, tree.right)
+        whole = [isinstance(s, ast.Constant) and isinstance(s.value, int) for s in sides]
+        if isinstance(tree.op, ast.Add | ast.Sub) or any(whole):
+            return ast.BinOp(
+                recognise_angle_terms(sides[0], rounded),
+                tree.op,
+                recognise_angle_terms(sides[1], rounded),
+            )
+    minus = isinstance(tree, ast.UnaryOp) and isinstance(tree.op, ast.USub)
+    number = tree.operand if isinstance(tree, ast.UnaryOp) else tree
+    if isinstance(number, ast.Constant) and isinstance(number.value, float):
+        digits = f"{'-' if minus else ''}{number.value!r}"
+        angle = recognise_angle(digits)
+        if angle is not None:
+            rounded[digits] = angle
+            return ast.parse(angle, mode="eval").body
+    elif isinstance(tree, ast.UnaryOp):
+        return ast.UnaryOp(tree.op, recognise_angle_terms(tree.operand, rounded))
+    return tree
+
+
+def describe_rounded_angles(rounded: dict[str, str]) -> str:
+    """Returns what to tell of them."""
+    return "rounded angles are exact here: " + ", ".join(f"{d} is {a}" for d, a in rounded.items())
+
+
+def format_pi_multiple(turns: Fraction) -> str:
+    """Returns `turns` times pi as text: `pi/2`, `-pi`, `3*pi/4`, `0`."""
+    if turns == 0:
+        return "0"
+    head = "" if abs(turns.numerator) == 1 else f"{abs(turns.numerator)}*"
+    tail = "" if turns.denominator == 1 else f"/{turns.denominator}"
+    return f"{'-' if turns < 0 else ''}{head}pi{tail}"
+
+
+# Single values of a robot file: expressions, numbers, names, lists.
+
 
 # Expressions that are linear in the joint variables, taken apart.
 
@@ -81,7 +200,7 @@ class Linear:
 
 
 def extract_linear_form(expression: Expression, symbols: Mapping[str, float]) -> Linear:
-    """The expression as constant + sum of coefficient * variable; zero coefficients left out.
+    """Returns expression as constant + sum of coefficient * variable; zero coefficients left out.
 
     Every name that is not among `symbols` is a variable.
 
@@ -118,20 +237,15 @@ _LIFTED = {name: _lift_function(name) for name in FUNCTIONS}
 
 LARGEST_LENGTH = 1e4
 """m, and of an acceleration of gravity, m/s2. Beside it a link of a few cm is lost in rounding."""
-LARGEST_RATIO = 1e4
-"""Of the motion of a joint or motor and that of a joint which it follows."""
-MOST_NAME_LETTERS = 63
-"""Of a name that goes into C, which tells names apart by as many letters (C99, 5.2.4.1)."""
 
 _MEASURED = {"rad": "an angle", "m": "a length"}
 _QUARTER = math.pi / 2
-_EXACT = 1e-9  # rad; nearer to a multiple of pi/2 than this is that multiple
 
 
 def read_linear_form(
     expression: Expression, symbols: Mapping[str, float], place: TomlCell, example: str = "q5 + q6"
 ) -> Linear:
-    """The expression as a linear form in the names that are not among `symbols`.
+    """Returns the expression as a linear form in the names that are not among `symbols`.
 
     Raises:
         RobotError: not linear, or without a value (division by zero, overflow).
@@ -165,7 +279,7 @@ def read_joint_sum(
     example: str,
     only: str = "",
 ) -> Linear:
-    """The expression as a sum of joint variables, none of which is turned far up or down.
+    """Returns the expression as a sum of joint variables, none of which is turned far up or down.
 
     Args:
         expression: of symbols and variables.
@@ -176,11 +290,11 @@ def read_joint_sum(
         only: what to say of a constant in it; empty where there may be one.
 
     Raises:
-        RobotError: an unknown name, not linear, a coefficient beyond `LARGEST_RATIO`, a constant.
+        RobotError: an unknown name, not linear, too large a coefficient, a constant.
     """
     check_declared(expression, {**symbols, **dict.fromkeys(variables, 0.0)}, place)
     form = read_linear_form(expression, symbols, place, example)
-    check_size(expression, form.coefficients.values(), LARGEST_RATIO, place)
+    check_size(expression, form.coefficients.values(), THRESHOLDS.max_joint_ratio, place)
     if only and form.constant != 0.0:
         raise place.make_error(
             f"got {quote_value(expression.text)}, with the constant {form.constant:g}; expected a "
@@ -191,7 +305,7 @@ def read_joint_sum(
 
 
 def read_length(expression: Expression, symbols: Mapping[str, float], place: TomlCell) -> float:
-    """Value of a constant that is a length, m, or an acceleration of gravity, m/s2.
+    """Returns value of a constant that is a length, m, or an acceleration of gravity, m/s2.
 
     Raises:
         RobotError: no finite value, or one beyond `LARGEST_LENGTH`.
@@ -204,7 +318,7 @@ def read_length(expression: Expression, symbols: Mapping[str, float], place: Tom
 def check_size(
     expression: Expression, values: Iterable[float], most: float, place: TomlCell
 ) -> None:
-    """Refuse values beyond `most`.
+    """Refuses values beyond `most`.
 
     Raises:
         RobotError: names the expression and its value.
@@ -219,7 +333,7 @@ def check_size(
 
 
 def check_count(count: int, most: int, what: str, place: TomlCell) -> None:
-    """Refuse more of them than a table may have.
+    """Refuses more of them than a table may have.
 
     Raises:
         RobotError: says how many there are.
@@ -232,7 +346,7 @@ def check_count(count: int, most: int, what: str, place: TomlCell) -> None:
 
 
 def check_declared(expression: Expression, known: Mapping[str, Any], place: TomlCell) -> None:
-    """Refuse names that are not known: declared symbols, and joint variables where they may stand.
+    """Refuses names that are not known: declared symbols, and joint variables where they may stand.
 
     Raises:
         RobotError: names the first undeclared one and those it looks like.
@@ -250,7 +364,7 @@ def check_declared(expression: Expression, known: Mapping[str, Any], place: Toml
 def check_unit(
     expression: Expression, of: Mapping[str, Collection[str]], unit: str, place: TomlCell
 ) -> None:
-    """Refuse a length where an angle stands, and an angle where a length stands.
+    """Refuses a length where an angle stands, and an angle where a length stands.
 
     Args:
         expression: what stands there.
@@ -270,7 +384,7 @@ def check_unit(
 
 
 def read_number(place: TomlCell, symbols: Mapping[str, float], unit: str = "") -> float:
-    """The cell as a number, in `unit`; it may be an expression of the declared symbols.
+    """Returns the cell as a number, in `unit`; it may be an expression of the declared symbols.
 
     Raises:
         RobotError: not a number, or a name that is not declared.
@@ -282,14 +396,14 @@ def read_number(place: TomlCell, symbols: Mapping[str, float], unit: str = "") -
 
 
 def normalise_row_name(value: Any) -> Any:
-    """A row number that stands without quotes as its name: 1 as "1"; anything else as it is."""
+    """Returns a row number without quotes as its name, 1 as "1"; anything else as it is."""
     if isinstance(value, int) and not isinstance(value, bool) and 0 <= value < 10**6:
         return str(value)
     return value
 
 
 def choose_robot_name(*candidates: str) -> str:
-    """The first of these with the letters that names may have; `robot` if none has any."""
+    """Returns the first of these with the letters that names may have; `robot` if none has any."""
     for candidate in candidates:
         plain = unicodedata.normalize("NFKD", candidate).encode("ascii", "ignore").decode()
         name = re.sub(r"[^A-Za-z0-9_-]+", "-", plain).strip("-_")
@@ -299,22 +413,22 @@ def choose_robot_name(*candidates: str) -> str:
 
 
 def check_name_length(name: str, place: TomlCell) -> None:
-    """Refuse a name of more than `MOST_NAME_LETTERS`.
+    """Refuses a name of more than `THRESHOLDS.max_name_length`.
 
     Raises:
         RobotError: says how long it is.
     """
-    if len(name) > MOST_NAME_LETTERS:
+    if len(name) > THRESHOLDS.max_name_length:
         raise place.make_error(
             f"got the name {quote_value(name)} of {len(name)} letters; expected at most "
-            f"{MOST_NAME_LETTERS} (it becomes part of names in the C code)"
+            f"{THRESHOLDS.max_name_length} (it becomes part of names in the C code)"
         )
 
 
 def read_exact_angle(
     expression: Expression, variable: str | None, place: TomlCell, rounded: dict[str, str]
 ) -> Expression:
-    """The angle with decimals that are multiples of pi put as exactly these.
+    """Returns the angle with decimals that are multiples of pi put as exactly these.
 
     `1.5707963267948966` becomes `pi/2`; so does `1.57`, which is told. Rounding of the sine and
     cosine would otherwise hide relations between parameters. Symbols keep their values.
@@ -330,14 +444,17 @@ def read_exact_angle(
     """
     if not expression.names - {variable}:
         form = read_linear_form(expression, {}, place)
-        if abs(form.constant) > 4 * _QUARTER + _EXACT:
+        if abs(form.constant) > 4 * _QUARTER + THRESHOLDS.max_right_angle_rounding:
             raise place.make_error(
                 f"got {quote_value(expression.text)}: {form.constant:g} rad is more than a turn; "
                 "angles "
                 'are in radians, write "90 deg" or "pi/2" for 90 degrees'
             )
         turns = round(form.constant / _QUARTER)
-        if not expression.uses_pi and abs(form.constant - turns * _QUARTER) <= _EXACT:
+        if (
+            not expression.uses_pi
+            and abs(form.constant - turns * _QUARTER) <= THRESHOLDS.max_right_angle_rounding
+        ):
             multiple = format_pi_multiple(Fraction(turns, 2))
             if not form.coefficients:
                 return parse_expression(multiple)
@@ -363,7 +480,7 @@ C_WORDS = """
 def read_symbols(
     place: TomlCell, variables: Collection[str]
 ) -> tuple[dict[str, Expression], dict[str, float]]:
-    """Symbols, so ordered that each stands after those its value uses, and what they are worth.
+    """Reads symbols and their values, each after those that its value uses.
 
     Args:
         place: the table.
@@ -402,7 +519,7 @@ def read_symbols(
 def read_gravity(
     place: TomlCell, variables: Collection[str], symbols: Mapping[str, float]
 ) -> tuple[Expression, Expression, Expression]:
-    """Acceleration of gravity in frame 0, m/s2.
+    """Returns acceleration of gravity in frame 0, m/s2.
 
     Raises:
         RobotError: not three entries, or entries that are not constants.

@@ -5,17 +5,30 @@ import math
 import re
 import tomllib
 from collections.abc import Collection, Iterator, Mapping, Sequence
+from dataclasses import dataclass, field
 from fractions import Fraction
+from itertools import pairwise
+from pathlib import Path
 from typing import Any
 
+from modeler.core.brief import ShortRepr
 from modeler.core.errors import RobotError
-from modeler.core.toml_cells import TomlCell, format_toml, format_toml_key, suggest_name
-from modeler.effects import CATALOGUE, PASSIVE_FRICTION, PASSIVE_FRICTION_IS, Effect, find_effect
-from modeler.robot.angles import format_pi_multiple
+from modeler.core.toml_cells import TomlCell, format_toml, format_toml_key, join_names, suggest_name
+from modeler.effects import (
+    CATALOGUE,
+    EXAMPLE,
+    PASSIVE_FRICTION,
+    PASSIVE_FRICTION_IS,
+    Effect,
+    NonlinearParameter,
+    find_effect,
+)
+from modeler.robot.cells import format_pi_multiple
 from modeler.robot.effects import collect_parameter_owners, read_own_effects
-from modeler.robot.loops import MARK, expand_legs, read_leg_names
-from modeler.robot.read import parse_robot_text
+from modeler.robot.mechanism import MARK, expand_legs, read_leg_names
+from modeler.robot.read import parse_robot_text, parse_toml_document, read_file_text
 from modeler.robot.robot import INERTIAL, Robot
+from modeler.robot.thresholds import THRESHOLDS
 
 Effects = Mapping[str, str | list]
 """Effect id or alias -> "all", the names of the joints that have it, or tables with shapes."""
@@ -24,7 +37,7 @@ Effects = Mapping[str, str | list]
 def insert_effect(
     text: str, effect: str, joint: str, shapes: Mapping[str, float], everyone: Sequence[str] = ()
 ) -> str:
-    """The robot file with an effect on one joint more.
+    """Returns the robot file with an effect on one joint more.
 
     Args:
         text: of the file.
@@ -56,7 +69,7 @@ def insert_effect(
 
 
 def insert_own_effect(text: str, name: str, definition: Mapping[str, Any]) -> str:
-    """The robot file with the definition of one effect more.
+    """Returns the robot file with the definition of one effect more.
 
     Args:
         text: of the file.
@@ -79,7 +92,7 @@ def _read_catalogue(text: str) -> tuple[Effect, ...]:
 
 
 def replace_parameters(text: str, values: Mapping[str, float]) -> str:
-    """The robot file with these nominal values, and others only for what they leave open."""
+    """Returns robot file with these nominal values, and others only for what they leave open."""
     before = dict(tomllib.loads(text).get("parameters", {}))
     uncertainty = before.pop("uncertainty", None)
     if uncertainty is not None:
@@ -88,7 +101,7 @@ def replace_parameters(text: str, values: Mapping[str, float]) -> str:
 
 
 def replace_fitted_values(text: str, values: Mapping[str, float]) -> str:
-    """The robot file with fitted values, of inertial parameters only those that it may state."""
+    """Returns the robot file with fitted values; inertial ones only where it may state them."""
     robot = parse_robot_text(text, "robot of the model")
     stateable = {
         f"{prefix}{joint.name}": prefix in robot.get_inertial_prefixes(joint.name)
@@ -100,12 +113,12 @@ def replace_fitted_values(text: str, values: Mapping[str, float]) -> str:
 
 
 def replace_reference(text: str, values: Mapping[str, float]) -> str:
-    """The robot file with another table [reference]."""
+    """Returns the robot file with another table [reference]."""
     return _replace_numbers(text, "reference", values)
 
 
 def replace_drive_gains(text: str, gains: Mapping[str, float]) -> str:
-    """The robot file with other gains: in [drives] where they stand there, else in [drive_gains].
+    """Returns the robot file with other gains, in [drives] or [drive_gains] as it has them.
 
     Raises:
         RobotError: the file's own table is written in a way that cannot be replaced line by line.
@@ -124,7 +137,7 @@ def replace_drive_gains(text: str, gains: Mapping[str, float]) -> str:
 
 
 def replace_log_table(text: str, table: Mapping[str, Any]) -> str:
-    """The robot file with another table [log], where the old one stood, or at the end.
+    """Returns the robot file with another table [log], where the old one stood, or at the end.
 
     Raises:
         RobotError: the file's own table is written in a way that cannot be replaced line by line.
@@ -189,7 +202,7 @@ def _parse_document(text: str) -> dict[str, Any] | None:
 
 
 def replace_gravity(text: str, gravity: Sequence[float]) -> str:
-    """The robot file with another gravity, m/s^2 in frame 0.
+    """Returns the robot file with another gravity, m/s^2 in frame 0.
 
     Raises:
         RobotError: the file's own entry does not stand on one line.
@@ -202,7 +215,7 @@ def replace_gravity(text: str, gravity: Sequence[float]) -> str:
 
 
 def insert_coupling(text: str, joint: str, speed: str) -> str:
-    """The robot file with one motor more that turns with several joints."""
+    """Returns the robot file with one motor more that turns with several joints."""
     lines = text.splitlines()
     entry = f'"{joint}" = "{speed}"'
     for place, line in enumerate(lines):
@@ -212,7 +225,7 @@ def insert_coupling(text: str, joint: str, speed: str) -> str:
 
 
 def replace_effects(text: str, effects: Effects) -> str:
-    """The robot file with another `[effects]` table.
+    """Returns the robot file with another `[effects]` table.
 
     Nominal values of effects that are gone leave `[parameters]` with them: they would be values
     of parameters that the robot does not have.
@@ -251,7 +264,7 @@ def replace_effects(text: str, effects: Effects) -> str:
 def replace_robot_effects(
     robot: Robot, effects: str | Sequence[str] | Mapping[str, Any], where: str
 ) -> Robot:
-    """The robot with other effects.
+    """Returns the robot with other effects.
 
     Args:
         robot: as it is.
@@ -301,7 +314,7 @@ def _has_owner(
 def set_joint_effect(
     text: str, effect: str, joint: str, is_present: bool, everyone: Sequence[str]
 ) -> str:
-    """The robot file where a joint has a plain effect, or has it no more.
+    """Returns the robot file where a joint has a plain effect, or has it no more.
 
     Args:
         text: of the file.
@@ -322,14 +335,16 @@ def set_joint_effect(
     entries = [e for e in has if (e["joint"] if isinstance(e, dict) else e) != joint]
     entries += [joint] if is_present else []
     is_everywhere = sorted(map(str, entries)) == sorted(everyone)
-    effects[name] = "all" if is_everywhere else [e for e in everyone if e in entries] + [
-        e for e in entries if e not in everyone
-    ]  # fmt: skip
+    effects[name] = (
+        "all"
+        if is_everywhere
+        else [e for e in everyone if e in entries] + [e for e in entries if e not in everyone]
+    )
     return replace_effects(text, {n: joints for n, joints in effects.items() if joints})
 
 
 def replace_limits(text: str, joint: str, cells: Sequence[str]) -> str:
-    """The robot file with other limits of a joint; without them where all cells are empty.
+    """Returns the robot file with other limits of a joint; without them where all cells are empty.
 
     Args:
         text: of the file.
@@ -347,7 +362,7 @@ def replace_limits(text: str, joint: str, cells: Sequence[str]) -> str:
 
 
 def replace_symbol(text: str, name: str, value: str) -> str:
-    """The robot file with another value of a letter; its comment stays.
+    """Returns the robot file with another value of a letter; its comment stays.
 
     Args:
         text: of the file.
@@ -371,13 +386,13 @@ def replace_symbol(text: str, name: str, value: str) -> str:
 
 
 def read_symbol_texts(text: str) -> dict[str, str]:
-    """The letters of a robot file and their values, as it has them."""
+    """Returns the letters of a robot file and their values, as it has them."""
     stated = tomllib.loads(text).get("symbols", {})
     return {name: v if isinstance(v, str) else f"{v:.15g}" for name, v in stated.items()}
 
 
 def read_limit_texts(text: str) -> dict[str, tuple[str, ...]]:
-    """Lower, upper, speed, acceleration by joint, as a robot file has them."""
+    """Returns lower, upper, speed, acceleration by joint, as a robot file has them."""
     stated = _read_expanded_table(text, "limits")
     return {
         joint: tuple(e if isinstance(e, str) else f"{e:.15g}" for e in cells)
@@ -410,12 +425,10 @@ _ENTRY = re.compile(
     r"(?P<value>\"[^\"]*\"|'[^']*'|[^#\s\"']+)(?P<rest>\s*(?:#.*)?)"
 )
 _WHERE = TomlCell("robot file").enter("[home]")
-_KEPT = 1e-6
-"""Values that differ by less are left as they are written: -pi/2 stays -pi/2."""
 
 
 def replace_home(text: str, stated: Mapping[str, float], home: Mapping[str, float]) -> str:
-    """The robot file with that `[home]`; comments, and values that stay, as they were written.
+    """Returns robot file with that `[home]`; comments, and values that stay, as they were written.
 
     Args:
         text: of the file.
@@ -437,7 +450,7 @@ def replace_home(text: str, stated: Mapping[str, float], home: Mapping[str, floa
 
 
 def format_home_lines(home: Mapping[str, float]) -> list[str]:
-    """`q2 = -1.2` for every row."""
+    """Returns `q2 = -1.2` for every row."""
     return [
         f"{format_toml_key(f'q{name}')} = {_format_number(value)}" for name, value in home.items()
     ]
@@ -500,7 +513,10 @@ def _edit_home_entries(
         filled = [pattern.replace(MARK, leg) for leg in legs] if MARK in pattern else [pattern]
         names = [name.removeprefix("q") for name in filled]
         values = {name: left.pop(name) for name in names if name in left}
-        if all(abs(stated.get(name, math.inf) - value) < _KEPT for name, value in values.items()):
+        if all(
+            abs(stated.get(name, math.inf) - value) < THRESHOLDS.max_home_change
+            for name, value in values.items()
+        ):
             body.append(line)
         elif len(values) == len(names) and len({_format_number(v) for v in values.values()}) == 1:
             body.append(entry["key"] + _format_number(values[names[0]]) + entry["rest"])
@@ -514,7 +530,11 @@ def _format_number(value: float) -> str:
     """As short as it may be; multiples of pi/6 and pi/4 as such."""
     twelfths = value / (math.pi / 12)
     whole = round(twelfths)
-    if whole and (whole % 2 == 0 or whole % 3 == 0) and abs(value - whole * math.pi / 12) < _KEPT:
+    if (
+        whole
+        and (whole % 2 == 0 or whole % 3 == 0)
+        and abs(value - whole * math.pi / 12) < THRESHOLDS.max_home_change
+    ):
         return json.dumps(format_pi_multiple(Fraction(whole, 12)))
     return repr(float(f"{value:.12g}") + 0.0)
 
@@ -529,3 +549,126 @@ def _is_home_stated(changed: str, text: str, home: Mapping[str, float]) -> bool:
     others = [{k: v for k, v in document.items() if k != "home"} for document in (after, before)]
     same = json.dumps(others[0], default=str) == json.dumps(others[1], default=str)
     return same and {f"q{name}" for name in home} <= stated.keys()
+
+
+# Effects of robot files that go from one robot to the next: each in a file, read by the folder.
+
+
+def export_effect(robot: Robot, name: str) -> str:
+    """Returns a file that defines an effect of the robot, and nothing else.
+
+    Its shapes are first tried at the values that they have in the robot, and beside these.
+
+    Args:
+        robot: it; `[effects]` says where it has the effect.
+        name: id of the effect.
+
+    Raises:
+        RobotError: the robot defines no such effect.
+    """
+    names = [effect.id for effect in robot.own_effects]
+    if name not in names:
+        known = find_effect(name)
+        why = "every robot may have it" if known else f"no such effect{suggest_name(name, names)}"
+        raise RobotError(
+            f"{name}: {why}; expected one that {robot.name} defines: {join_names(names)}"
+        )
+    definition = tomllib.loads(robot.text)["own_effects"][name]
+    used_values = [
+        at.nonlinear_parameters
+        for use in robot.effects
+        if use.effect == name
+        for at in use.instances
+    ]
+    shapes = robot.own_effects[names.index(name)].forms[0].nonlinear_parameters
+    about = {s.name: _build_grid(s, [at[s.name] for at in used_values]) for s in shapes}
+    try:
+        text = insert_own_effect("", name, definition | ({"shapes": about} if about else {}))
+        read_own_effects(tomllib.loads(text)["own_effects"], TomlCell("file"))
+    except RobotError:  # too many values, or one at which an equation has none
+        text = insert_own_effect("", name, definition)
+    return text.lstrip()
+
+
+def _build_grid(shape: NonlinearParameter, used_values: Sequence[float]) -> list[float]:
+    """First values of a shape about those that were found, four digits; one value stays fixed."""
+    if not used_values or not shape.is_continuous:
+        return list(shape.grid)
+    low, high = min(used_values), max(used_values)
+    step = min(b - a for a, b in pairwise(shape.grid))
+    ends = (low / 2.0, high * 2.0) if shape.grid[0] > 0.0 else (low - step, high + step)
+    return sorted({float(f"{x:.4g}") for x in (*ends, *used_values)})
+
+
+@dataclass(frozen=True)
+class SharedEffects(ShortRepr):
+    """Effects of a folder that a robot may have too.
+
+    Attributes:
+        effects: those that it does not define itself.
+        definitions: of each, its table of `[own_effects]` by id.
+        left_out: id of an effect that it cannot have -> in which file it is, and why.
+    """
+
+    effects: tuple[Effect, ...] = ()
+    definitions: Mapping[str, Mapping[str, Any]] = field(default_factory=dict)
+    left_out: Mapping[str, str] = field(default_factory=dict)
+
+    def insert_definitions(self, text: str, names: Collection[str]) -> str:
+        """Returns a robot file with the definitions of those among the names."""
+        for name in [effect_id for effect_id in self.definitions if effect_id in names]:
+            text = insert_own_effect(text, name, self.definitions[name])
+        return text
+
+
+def collect_shared_effects(robot: Robot, folder: str | Path) -> SharedEffects:
+    """Returns own effects of every *.toml file of a folder, as far as the robot has what they read.
+
+    What the robot, or a file before, defines alike counts once.
+
+    Args:
+        robot: that may have them.
+        folder: of files as `export_effect` gives them, or of robot files.
+
+    Raises:
+        RobotError: a file that cannot be read, a mistake in it, a name or a parameter that another
+            effect has; or the folder has no effect.
+    """
+    known = {effect.id: (effect, f"the file of {robot.name}") for effect in robot.own_effects}
+    joints = [joint.name for joint in robot.moving_joints]
+    definitions, left_out, some = dict[str, Mapping[str, Any]](), dict[str, str](), False
+    for path in sorted(Path(folder).glob("*.toml")):
+        place = TomlCell(str(path))
+        table = parse_toml_document(read_file_text(path), place).get("own_effects", {})
+        for name, cell in place.enter("[own_effects]", table).read_table(EXAMPLE).items():
+            some, others = True, [effect for effect, _ in known.values() if effect.id != name]
+            (effect,) = read_own_effects({name: cell}, place, before=others)
+            before, owner = known.get(name, (effect, ""))
+            if _build_law_key(before) != _build_law_key(effect):
+                raise place.enter(f"[own_effects.{name}]").make_error(
+                    f"defined otherwise in {owner}; rename one of the two"
+                )
+            if lacks := [
+                n for n in sorted(effect.forms[0].other_joint_names) if n[1:] not in joints
+            ]:
+                left_out[name] = f"{path}: it reads {join_names(lacks)}, no joint of {robot.name}"
+            elif name not in known:
+                read_own_effects({name: cell}, place, joints, others)
+                known[name], definitions[name] = (effect, str(path)), cell
+    if not some:
+        raise RobotError(
+            f"{folder}: no effects there; expected a folder with files that `modeler effects "
+            "--export` wrote, or with robot files that have [own_effects]"
+        )
+    return SharedEffects(tuple(known[name][0] for name in definitions), definitions, left_out)
+
+
+def _build_law_key(effect: Effect) -> tuple[object, ...]:
+    """All that a joint could tell; where its shapes are tried first is no part of it."""
+    form = effect.forms[0]
+    return (
+        effect.acts,
+        form.columns,
+        form.internal_state,
+        {shape.name for shape in form.nonlinear_parameters},
+    )

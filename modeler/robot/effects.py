@@ -32,7 +32,7 @@ def read_own_effects(
     joints: Collection[str] | None = None,
     before: Sequence[Effect] = (),
 ) -> tuple[Effect, ...]:
-    """The effects that the file defines, in its order.
+    """Returns the effects that the file defines, in its order.
 
     Args:
         value: the table `own_effects`: id -> title, columns, shapes, unit, nonnegative, acts.
@@ -67,7 +67,7 @@ def read_own_effects(
 
 
 def collect_parameter_owners(effects: Sequence[Effect]) -> dict[str, str]:
-    """Name of a parameter without its joint -> the effect that has it."""
+    """Returns name of a parameter without its joint -> the effect that has it."""
     return {c.prefix: e.id for e in effects for form in e.forms for c in form.columns}
 
 
@@ -85,7 +85,7 @@ def read_effects(
     catalogue: Sequence[Effect],
     platform: Sequence[str] = (),
 ) -> tuple[EffectUse, ...]:
-    """Effects and their joints, in catalogue order.
+    """Returns effects and their joints, in catalogue order.
 
     "all" means every actuated joint, and every motor of `[coupling]` for effects of coupled
     motors; passive joints have an effect only if they are named. `passive_friction` is viscous and
@@ -148,7 +148,7 @@ def read_effects(
 
 
 def needs_reference(effect: Effect, instance: EffectInstance) -> bool:
-    """True if the effect depends on the torques of the links."""
+    """Returns True if the effect depends on the torques of the links."""
     loads = {"load", "static", "torque"}
     named = not effect.forms[instance.form].names.isdisjoint(loads)
     return named or effect.acts is EffectTarget.POSITION

@@ -15,43 +15,53 @@ from dataclasses import dataclass
 from modeler.core.errors import RobotError
 from modeler.core.expression import FUNCTIONS
 from modeler.core.toml_cells import join_names
-from modeler.robot.conventions import ANGLES, CONVENTIONS
 from modeler.robot.edit import replace_limits
-from modeler.robot.start import fill_template
-from modeler.robot.table_text import replace_table
+from modeler.robot.read import fill_template
+from modeler.robot.robot_text import replace_table
+from modeler.robot.table import ANGLES, CONVENTIONS, GREEK
+from modeler.robot.thresholds import THRESHOLDS
 
-_FULL_TURN = 6.3  # rad: a larger angle is in degrees
-_LONGEST = 20.0  # m: a larger length is in mm
-_PLACEHOLDER = 0.1  # m, of a length whose value the table does not tell
-
-_SIGNS = str.maketrans({
-    "\u2212": "-", "\u2013": "-", "\u2014": "-", "\u00a0": " ", "\u2009": " ", "\u202f": " ",
-    "\u00d7": "*", "\u00b7": "*", "\u22c5": "*", "\u03c0": "pi", "\u03b8": "theta",
-    "\u03d1": "theta", "\u03b1": "alpha", "\u03b3": "gamma", "\u03c3": "sigma", "\u03bc": "mu",
-    "\u00b5": "mu", "\ufeff": "", "\u00ba": "\u00b0", "\u2032": "'", "\u2217": "*",
-    **{chr(0x2080 + k): str(k) for k in range(10)},
-})  # fmt: skip
+_SIGNS = str.maketrans(
+    "\u2212\u2013\u2014\u00a0\u2009\u202f\u00d7\u00b7\u22c5\u2217\u00ba\u2032"
+    "\u2080\u2081\u2082\u2083\u2084\u2085\u2086\u2087\u2088\u2089",
+    "---   ****\u00b0'0123456789",
+    "\ufeff",
+)
+_GREEK: dict[str, str | int | None] = {"\u03c0": "pi", "\u03d1": "theta", **GREEK}
 _WORDS = {
-    "j": "j i k joint link axis n no nr row frame # gelenk achse", "a": "a ant antecedent",
-    "parent": "parent", "mu": "mu", "sigma": "sigma type kind", "gamma": "gamma", "b": "b",
-    "alpha": "alpha twist", "d": "d", "theta": "theta th angle", "r": "r",
-}  # fmt: skip
+    "j": "j i k joint link axis n no nr row frame # gelenk achse",
+    "a": "a ant antecedent",
+    "parent": "parent",
+    "mu": "mu",
+    "sigma": "sigma type kind",
+    "gamma": "gamma",
+    "b": "b",
+    "alpha": "alpha twist",
+    "d": "d",
+    "theta": "theta th angle",
+    "r": "r",
+}
 _LETTER = {word: letter for letter, words in _WORDS.items() for word in words.split()}
-_UNITS = {
-    "deg": "deg", "degree": "deg", "degrees": "deg", "grad": "deg", "\u00b0": "deg", "rad": "rad",
-    "radians": "rad", "mm": "mm", "cm": "cm", "m": "m", "in": "in", "inch": "in",
-}  # fmt: skip
+_SPELLINGS = {"deg": "deg degree degrees grad \u00b0", "rad": "rad radians", "in": "in inch"}
+_UNITS = {"mm": "mm", "cm": "cm", "m": "m"} | {
+    spelling: unit for unit, spellings in _SPELLINGS.items() for spelling in spellings.split()
+}
 _MEASURE = re.compile(r"(?:\s*[\[(/,]\s*|\s+)(?:in\s+)?([a-z\u00b0]+)\s*[\])]?$")
 _HEADING = re.compile(rf"({'|'.join(sorted(_LETTER, key=len, reverse=True))})([ijk](?:-1)?)?")
 _SIGMAS = {"r": "0", "revolute": "0", "p": "1", "prismatic": "1", "t": "1", "f": "2", "fixed": "2"}
 _GUESSED = {
-    "khalil": {4: "alpha d theta r", 5: "j alpha d theta r", 7: "j a sigma alpha d theta r",
-               6: "j sigma alpha d theta r", 8: "j a mu sigma alpha d theta r",
-               9: "j a sigma gamma b alpha d theta r",
-               10: "j a mu sigma gamma b alpha d theta r"},
+    "khalil": {
+        4: "alpha d theta r",
+        5: "j alpha d theta r",
+        7: "j a sigma alpha d theta r",
+        6: "j sigma alpha d theta r",
+        8: "j a mu sigma alpha d theta r",
+        9: "j a sigma gamma b alpha d theta r",
+        10: "j a mu sigma gamma b alpha d theta r",
+    },
     "craig": {4: "alpha a d theta", 5: "j alpha a d theta", 6: "j sigma alpha a d theta"},
     "classical": {4: "theta d a alpha", 5: "j theta d a alpha", 6: "j sigma theta d a alpha"},
-}  # fmt: skip
+}
 """Columns of a table without headings, by how many it has."""
 _GEOMETRY = ("gamma", "b", "alpha", "d", "theta", "r")
 _UNIT = re.compile(r"\d\s*(deg|mm|cm|m|in)\b|pi\b")
@@ -79,7 +89,7 @@ class PastedTable:
 
 
 def parse_pasted_table(text: str, convention: str = "") -> PastedTable:
-    """The table in a text from the clipboard.
+    """Returns the table in a text from the clipboard.
 
     Args:
         text: lines of cells.
@@ -88,7 +98,7 @@ def parse_pasted_table(text: str, convention: str = "") -> PastedTable:
     Raises:
         RobotError: it has no cells, or columns that nobody can name.
     """
-    lines = _parse_cells(text.translate(_SIGNS))
+    lines = _parse_cells(_replace_signs(text))
     if not lines or max(map(len, lines)) < 2:
         raise RobotError(
             "pasted table: got no cells; expected lines of cells, as a spreadsheet copies them, "
@@ -131,6 +141,11 @@ def parse_pasted_table(text: str, convention: str = "") -> PastedTable:
             f"convention {convention}: {join_names(allowed)}; {wrong[0]} is wrong or stands twice"
         )
     return _build_table(columns, units, body, convention, notes, named)
+
+
+def _replace_signs(text: str) -> str:
+    """Returns the text with ASCII signs and spelt Greek letters."""
+    return text.translate(_SIGNS).translate(str.maketrans(_GREEK))
 
 
 def _parse_cells(text: str) -> list[list[str]]:
@@ -177,9 +192,13 @@ def _infer_convention(heads: Sequence[tuple[str, str, str]], body: Sequence[Sequ
 
 
 def _build_table(
-    columns: list[str], units: list[str], body: Sequence[Sequence[str]], convention: str,
-    notes: list[str], headed: bool,
-) -> PastedTable:  # fmt: skip
+    columns: list[str],
+    units: list[str],
+    body: Sequence[Sequence[str]],
+    convention: str,
+    notes: list[str],
+    headed: bool,
+) -> PastedTable:
     khalil = {letter: column for column, letter in CONVENTIONS[convention].items()}
     kinds = [khalil[column] for column in columns]
     rows = [
@@ -249,10 +268,10 @@ def _infer_unit(kind: str, letter: str, rows: Sequence[dict[str, str]], notes: l
         return ""
     numbers = r"(?<![\w.])\d+(?:\.\d*)?(?:[eE][+-]?\d+)?(?![\w.])"
     most = max((float(n) for cell in cells for n in re.findall(numbers, cell)), default=0.0)
-    if kind in ANGLES and most > _FULL_TURN:
+    if kind in ANGLES and most > THRESHOLDS.max_angle_in_rad:
         notes.append(f"column {letter}: taken in degrees, for {most:g} rad is more than a turn")
         return "deg"
-    if kind not in ANGLES and most > _LONGEST:
+    if kind not in ANGLES and most > THRESHOLDS.max_length_in_m:
         notes.append(f"column {letter}: taken in mm, for {most:g} m is long")
         return "mm"
     return ""
@@ -271,7 +290,7 @@ def _append_unit(cell: str, unit: str) -> str:
 
 
 def build_pasted_robot(table: PastedTable, name: str) -> str:
-    """A robot file with that table, which derives as it is.
+    """Returns a robot file with that table, which derives as it is.
 
     Args:
         table: pasted.
@@ -282,14 +301,17 @@ def build_pasted_robot(table: PastedTable, name: str) -> str:
 
 
 def format_symbol_line(name: str) -> str:
-    """A line of `[symbols]` for a name whose value is to be written yet."""
+    """Returns a line of `[symbols]` for a name whose value is to be written yet."""
     angle = name.lower().startswith(("alpha", "theta", "gamma", "beta", "phi", "th"))
     unit = "rad" if angle else "m"
-    return f"{name} = {_PLACEHOLDER}".ljust(38) + f"# {unit}: a placeholder, write the value"
+    return (
+        f"{name} = {THRESHOLDS.placeholder_length}".ljust(38)
+        + f"# {unit}: a placeholder, write the value"
+    )
 
 
 def insert_pasted_table(text: str, table: PastedTable) -> str:
-    """A robot file with another table, and lines for the symbols that it lacks.
+    """Returns a robot file with another table, and lines for the symbols that it lacks.
 
     Raises:
         RobotError: the file has no table that can be replaced.
@@ -308,6 +330,6 @@ def insert_pasted_table(text: str, table: PastedTable) -> str:
 
 
 def parse_pasted_cells(text: str) -> list[list[str]]:
-    """A block of cells from the clipboard, for a part of a table: as they are, but readable."""
-    lines = io.StringIO(text.translate(_SIGNS).strip("\r\n"))
+    """Returns a block of cells from the clipboard, with readable signs."""
+    lines = io.StringIO(_replace_signs(text).strip("\r\n"))
     return [[_clean_cell(cell) for cell in row] for row in csv.reader(lines, delimiter="\t")]

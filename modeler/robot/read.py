@@ -7,38 +7,40 @@ do. Nothing is guessed except what the format says may be left out.
 import dataclasses
 import fnmatch
 import re
+import string
 from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
-from modeler.core.builtin import OTHER_PROGRAMS, list_builtin_robots, read_builtin_robot
-from modeler.core.errors import RobotError
-from modeler.core.files import read_text
+from modeler.core.builtin import TEMPLATES, list_builtin_robots, read_builtin_robot, read_template
+from modeler.core.errors import DataError, RobotError
+from modeler.core.files import DestinationKind, read_text, resolve_destination, write_atomically
 from modeler.core.json import TomlError, parse_toml
 from modeler.core.toml_cells import TomlCell, join_names, quote_value, suggest_name
-from modeler.robot.angles import describe_rounded_angles
-from modeler.robot.cells import check_name_length, read_gravity, read_symbols
-from modeler.robot.conventions import read_convention
-from modeler.robot.conversion import convert_robot_file, is_robot_xml
-from modeler.robot.effects import needs_reference, read_effects, read_own_effects
-from modeler.robot.loops import (
-    expand_legs,
-    read_home,
-    read_leg_names,
-    read_loops,
-    read_platform,
-    read_relations,
+from modeler.robot.cells import (
+    check_name_length,
+    choose_robot_name,
+    describe_rounded_angles,
+    read_gravity,
+    read_symbols,
 )
-from modeler.robot.motors import (
+from modeler.robot.effects import needs_reference, read_effects, read_own_effects
+from modeler.robot.mechanism import (
     build_motor_rows,
     check_driven,
+    expand_legs,
     merge_shared_names,
+    read_home,
+    read_leg_names,
     read_links,
+    read_loops,
     read_motors,
+    read_platform,
+    read_relations,
     read_shared,
 )
 from modeler.robot.robot import Joint, Robot
-from modeler.robot.robot_text import ConvertedRobot
+from modeler.robot.robot_text import align_cells
 from modeler.robot.sections import (
     read_capsules,
     read_coupling,
@@ -53,14 +55,23 @@ from modeler.robot.sections import (
     read_physical,
     read_tool,
 )
-from modeler.robot.table import Rows, build_joints, check_units, read_table_rows
+from modeler.robot.table import (
+    CONVENTIONS,
+    GEOMETRY,
+    STEPS,
+    Rows,
+    build_joints,
+    check_units,
+    read_convention,
+    read_table_rows,
+)
+from modeler.robot.thresholds import THRESHOLDS
 
-_KEYS = (
-    "name", "title", "notes", "gravity", "priority", "legs", "shared", "symbols", "mdh",
-    "relations", "platform", "loops", "home", "frames", "tool", "links", "effects", "own_effects",
-    "coupling", "motors", "parameters", "reference", "drive_gains", "drives", "limits",
-    "physical", "terms", "log", "fit", "diagnose", "capsules",
-)  # fmt: skip
+_KEYS = """
+    name title notes gravity priority legs shared symbols mdh relations platform loops home
+    frames tool links effects own_effects coupling motors parameters reference drive_gains
+    drives limits physical terms log fit diagnose capsules
+"""
 _NEEDED = {
     "name": 'write a first line such as name = "arm"',
     "gravity": 'write the acceleration of gravity in frame 0, such as [0, 0, "-g"] with g among '
@@ -72,7 +83,7 @@ _ROBOT_NAME = re.compile(r"[A-Za-z0-9][A-Za-z0-9_-]*")
 
 
 def read_robot(robot: str | Path) -> Robot:
-    """The robot of a file, or the built-in one of that name.
+    """Reads the robot of a robot file (TOML), or the built-in one of that name.
 
     A text that is the name of a built-in robot means that one; write `./wrist` for a file `wrist`.
 
@@ -87,11 +98,7 @@ def read_robot(robot: str | Path) -> Robot:
             f"({join_names(list_builtin_robots())})"
         )
     path = Path(robot)
-    if path.suffix.lower() in OTHER_PROGRAMS:
-        return build_converted_robot(convert_robot_file(path), path)
     text = read_file_text(path)
-    if is_robot_xml(text.encode()):  # under another name
-        return build_converted_robot(convert_robot_file(path), path)
     if text.lstrip().startswith("{"):  # as JSON does and a robot file never
         what = "a model file" if '"modeler model"' in text else "JSON"
         raise RobotError(
@@ -102,7 +109,7 @@ def read_robot(robot: str | Path) -> Robot:
 
 
 def read_file_text(path: Path) -> str:
-    """What a file says.
+    """Returns what a file says.
 
     Raises:
         RobotError: it is not there, cannot be read, or is no text.
@@ -119,14 +126,8 @@ def read_file_text(path: Path) -> str:
     raise RobotError(_describe_missing_file(path))
 
 
-def build_converted_robot(converted: ConvertedRobot, path: str | Path) -> Robot:
-    """The robot of another program's file; its readings say what was decided."""
-    read = parse_robot_text(converted.text, f"{path}, as a robot file")
-    return dataclasses.replace(read, readings=(*converted.notes, *read.readings))
-
-
 def parse_robot_text(text: str, where: str) -> Robot:
-    """The robot that the TOML text describes.
+    """Returns the robot that the TOML text describes.
 
     Args:
         text: contents of a robot file.
@@ -276,7 +277,7 @@ def _describe_missing_file(path: Path) -> str:
 
 
 def parse_toml_document(text: str, place: TomlCell) -> dict[str, Any]:
-    """What a TOML text says.
+    """Returns what a TOML text says.
 
     Raises:
         RobotError: it is no TOML; says in which line.
@@ -302,7 +303,7 @@ def parse_toml_document(text: str, place: TomlCell) -> dict[str, Any]:
 
 def _read_document(text: str, place: TomlCell) -> dict[str, Any]:
     document = parse_toml_document(text, place)
-    place.with_value(document).read_checked_table(_KEYS, "")
+    place.with_value(document).read_checked_table(_KEYS.split(), "")
     for key, advice in _NEEDED.items():
         if key not in document:
             raise place.enter(key).make_error(f"is missing; {advice}")
@@ -388,3 +389,136 @@ def _read_priority(place: TomlCell, known: tuple[str, ...], robot: Robot) -> tup
                 f"patterns of {join_names(known[:12])} ..."
             )
     return tuple(p for p in patterns if any(fnmatch.fnmatchcase(name, p) for name in known))
+
+
+# Robot files to start from: templates that derive as they are, and files of other programs.
+
+
+SERIAL = "serial"
+_TITLES = {
+    SERIAL: "a serial robot",
+    "parallelogram": "an arm with a parallelogram",
+    "parallel": "a planar parallel robot of three legs",
+}
+_WORDS = str.maketrans({"\u03b1": "alpha", "\u03b3": "gamma", "\u03b8": "theta", "\u2192": "->"})
+_ALPHA = ("0", "-pi/2", "0", "pi/2", "-pi/2", "pi/2")  # shoulder, elbow, wrist
+
+
+def new_robot(
+    path: str | Path,
+    template: str = "serial",
+    joints: str = "RRR",
+    convention: str = "khalil",
+    force: bool = False,
+) -> Robot:
+    """Writes a commented robot file to start from, which derives as it is.
+
+    >>> derive(new_robot("six.toml", joints="RRP")).base.proof.kind
+    'exact'
+
+    Args:
+        path: of the file, ending in .toml; the robot is called as it is.
+        template: `serial`, `parallelogram` or `parallel`.
+        joints: of a serial robot, from the base: R revolute, P prismatic.
+        convention: whose table a serial robot gets: `khalil`, `craig` or `classical`.
+        force: write over a file that is there.
+
+    Raises:
+        RobotError: an unknown template or convention, or other letters for joints.
+        DataError: another ending, or a file that is there.
+    """
+    place = Path(path)
+    check_new_robot(place, force)
+    text = fill_template(choose_robot_name(place.stem), template, joints, convention)
+    robot = parse_robot_text(text, str(place))
+    write_atomically(place, text)
+    return robot
+
+
+def check_new_robot(place: Path, force: bool) -> None:
+    """Refuses what `new_robot` would: another ending, or a file that is there."""
+    if place.suffix.lower() != ".toml":
+        raise DataError(
+            f"{place}: got {place.suffix or 'no ending'}; expected a name such as arm.toml"
+        )
+    if resolve_destination(place).kind is DestinationKind.FILE and not force:
+        raise DataError(
+            f"{place}: there is such a file; choose another name, or write over it with --force "
+            "(force=True)"
+        )
+
+
+def fill_template(
+    name: str, template: str = SERIAL, joints: str = "RRR", convention: str = "khalil"
+) -> str:
+    """Returns the text of a robot file that derives as it is, with comments on what to change.
+
+    Args:
+        name: of the robot.
+        template: one of `TEMPLATES`.
+        joints: of a serial robot, from the base: R revolute, P prismatic.
+        convention: in whose letters the table of a serial robot is.
+
+    Raises:
+        RobotError: an unknown template or convention, or other letters for joints.
+    """
+    if template not in TEMPLATES:
+        raise RobotError(f"template: got {template}; expected one of {', '.join(TEMPLATES)}")
+    if convention not in CONVENTIONS:
+        raise RobotError(f"convention: got {convention}; expected one of {', '.join(CONVENTIONS)}")
+    kinds = joints.upper()
+    if not re.fullmatch(rf"[RP]{{1,{THRESHOLDS.max_template_joints}}}", kinds):
+        raise RobotError(
+            f"joints: got {joints!r}; expected R (revolute) or P (prismatic) for each joint from "
+            f"the base, {THRESHOLDS.max_template_joints} at most, such as RRPRRR"
+        )
+    if template != SERIAL and (kinds != "RRR" or convention != "khalil"):
+        raise RobotError(
+            f"joints, convention: got {joints}, {convention} with the template {template}, which "
+            "has its own; leave them out, or take the template serial"
+        )
+    values = {"name": name, "title": f"{name}, {_TITLES[template]}"}
+    return string.Template(read_template(template)).substitute(
+        values | _build_serial_values(kinds, convention)
+    )
+
+
+def _build_serial_values(kinds: str, convention: str) -> dict[str, str]:
+    """What stands in the template of a serial robot."""
+    rows, lengths = [], dict[str, str]()
+    for j, kind in enumerate(kinds, start=1):
+        row = dict.fromkeys(GEOMETRY, "0") | {"alpha": _ALPHA[(j - 1) % len(_ALPHA)]}
+        row |= {"j": f"{j}", "sigma": "1" if kind == "P" else "0"}
+        if j > 1 and row["alpha"] == "0":
+            row["d"], lengths[f"D{j}"] = f"D{j}", f"{0.25 + 0.03 * j:.2f}"
+        if kind == "R" and j % 3 == 1:
+            row["r"], lengths[f"R{j}"] = f"R{j}", f"{0.2 + 0.03 * j:.2f}"
+        row["r" if kind == "P" else "theta"] = f"q{j}"
+        rows.append(row)
+    if convention == "classical":  # alpha and d stand in the row before
+        for row, after in zip(rows, [*rows[1:], {"alpha": "0", "d": "0"}], strict=True):
+            row |= {"alpha": after["alpha"], "d": after["d"]}
+    letters = CONVENTIONS[convention]
+    columns = [c for c in letters if c in ("j", "sigma", "alpha", "d", "theta", "r")]
+    cells = [[f'"{letters[c]}"' for c in columns]]
+    cells += [
+        [row[c] if c != "j" and row[c] in "01" else f'"{row[c]}"' for c in columns] for row in rows
+    ]
+    head, *lines = align_cells(cells)
+    stated = f'convention = "{convention}"\n' if convention != "khalil" else ""
+    body = "".join(f"          [{line}],\n" for line in lines)
+    symbols = [f"{name} = {length}".ljust(38) + "# m" for name, length in lengths.items()]
+    ranges = {
+        "R": ('["-90 deg", "90 deg", 2, 8]', "rad, rad/s, rad/s^2"),
+        "P": ("[-0.3, 0.3, 0.5, 3]", "m, m/s, m/s^2"),
+    }
+    limits = [
+        f"{j} = {ranges[kind][0]}".ljust(38) + f"# {ranges[kind][1]}"
+        for j, kind in enumerate(kinds, 1)
+    ]
+    return {
+        "symbols": "\n".join(symbols),
+        "limits": "\n".join(limits),
+        "table": f"{stated}columns = [{head}]\nrows = [\n{body}]",
+        "step": STEPS[convention].translate(_WORDS).replace("; ", "\n# "),
+    }

@@ -1,7 +1,7 @@
 """The robot as the user states it: data, no derivation."""
 
 import enum
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field, replace
 from typing import Any
 
@@ -14,7 +14,7 @@ from modeler.core.toml_cells import (
     join_names as join_names,
     suggest_name as suggest_name,
 )
-from modeler.effects import CATALOGUE, Effect, Form, find_effect
+from modeler.effects import CATALOGUE, Effect, EffectColumn, Form, find_effect
 
 # One row of a modified Denavit-Hartenberg table.
 
@@ -53,27 +53,27 @@ class Joint(ShortRepr):
 
     @property
     def variable(self) -> str:
-        """Name of the joint variable."""
+        """Returns name of the joint variable."""
         return f"q{self.name}"
 
     @property
     def is_moving(self) -> bool:
-        """False for a frame fixed on its antecedent (sigma = 2), which carries no link."""
+        """Returns False for a frame fixed on its antecedent (sigma = 2), which carries no link."""
         return self.kind is not JointKind.FIXED
 
     @property
     def is_revolute(self) -> bool:
-        """True for a revolute joint."""
+        """Returns True for a revolute joint."""
         return self.kind is JointKind.REVOLUTE
 
     @property
     def unit(self) -> str:
-        """Unit of the joint variable."""
+        """Returns unit of the joint variable."""
         return "rad" if self.is_revolute else "m"
 
     @property
     def effort_unit(self) -> str:
-        """Unit of the joint torque or force."""
+        """Returns unit of the joint torque or force."""
         return "N m" if self.is_revolute else "N"
 
 
@@ -115,7 +115,7 @@ class EffectUse:
 
     @property
     def instances(self) -> tuple[EffectInstance, ...]:
-        """The effect on every joint, as often as it stands there."""
+        """Returns the effect on every joint, as often as it stands there."""
         return self.stated_instances or tuple(EffectInstance(joint) for joint in self.joints)
 
 
@@ -182,8 +182,15 @@ class LinkCapsule:
 
 
 LOOP_KINDS = (
-    "rigid", "revolute", "prismatic", "cylindrical", "universal", "spherical", "position", "planar",
-)  # fmt: skip
+    "rigid",
+    "revolute",
+    "prismatic",
+    "cylindrical",
+    "universal",
+    "spherical",
+    "position",
+    "planar",
+)
 """What the joint that closes a loop lets free; see `Loop`."""
 
 
@@ -231,8 +238,8 @@ class Robot(Result):
         coupling: motor rows that turn with several joints: name of the joint whose motor it is ->
             {joint: coefficient}; motor speed = sum of coefficient * qd (gear ratio taken out).
         motors: rows of motors that drive the joints through a coupling, in table order: motor ->
-            {joint: coefficient}, q_m = G q_a (see `modeler.robot.motors`); empty where each joint
-            has its own.
+            {joint: coefficient}, q_m = G q_a (see `modeler.robot.mechanism`); empty where each
+            joint has its own.
         priority: names or patterns (`ZZ*`, `Ia?`) of parameters that are kept first when
             parameters group; the others follow in table order.
         parameters: nominal values of standard parameters, SI units.
@@ -303,27 +310,27 @@ class Robot(Result):
 
     @property
     def heading(self) -> str:
-        """Name and title as a line."""
+        """Returns name and title as a line."""
         return self.name if self.title == self.name else f"{self.name}: {self.title}"
 
     def open_loops(self) -> "Robot":
-        """The virtual tree: no loops, no relations, every joint of the table actuated."""
+        """Returns the virtual tree: no loops, no relations, every joint of the table actuated."""
         joints = tuple(replace(joint, actuated=joint.is_moving) for joint in self.joints)
         return replace(self, joints=joints, loops=(), relations={})
 
     @property
     def moving_joints(self) -> tuple[Joint, ...]:
-        """Rows with a joint variable, in table order."""
+        """Returns rows with a joint variable, in table order."""
         return tuple(joint for joint in self.joints if joint.is_moving)
 
     @property
     def free_joints(self) -> tuple[Joint, ...]:
-        """Moving rows whose variable does not follow others, in table order."""
+        """Returns moving rows whose variable does not follow others, in table order."""
         return tuple(joint for joint in self.moving_joints if joint.name not in self.relations)
 
     @property
     def coordinates(self) -> tuple[Joint, ...]:
-        """Rows whose variables are q, qd, qdd, tau, in that order.
+        """Returns rows whose variables are q, qd, qdd, tau, in that order.
 
         The free rows of a tree; the actuated ones among them once loops tie the others to them.
         """
@@ -331,13 +338,13 @@ class Robot(Result):
 
     @property
     def log_mapping(self) -> Mapping[str, object]:
-        """[log]; where it is silent on names, logs call joints as the file that they are from."""
+        """Returns [log]; without names there, columns are named as the source file's joints."""
         names = {frame.row: frame.joint for frame in self.frames.values() if frame.joint}
         return {"names": names, **self.log} if names else self.log
 
     @property
     def has_binary_fractions(self) -> bool:
-        """True if lengths and angles of the file hold decimals such as 0.5, 0.75 or 1.125."""
+        """Returns True if lengths and angles of the file hold decimals such as 0.5 or 0.75."""
         cells = [
             getattr(j, c) for j in self.joints for c in ("gamma", "b", "alpha", "d", "theta", "r")
         ]
@@ -349,7 +356,7 @@ class Robot(Result):
 
     @property
     def priority_parameters(self) -> tuple[str, ...]:
-        """`priority`; where none is stated, the platform's parameters.
+        """Returns `priority`; where none is stated, the platform's parameters.
 
         What moves the platform is what people look for, and legs group into it more simply than
         it into legs.
@@ -361,19 +368,19 @@ class Robot(Result):
 
     @property
     def catalogue(self) -> tuple[Effect, ...]:
-        """The effects that the robot may have: those of the catalogue, then its own."""
+        """Returns the effects that the robot may have: those of the catalogue, then its own."""
         return (*CATALOGUE, *self.own_effects)
 
     def get_inertial_prefixes(self, name: str) -> tuple[str, ...]:
-        """Prefixes of the inertial parameters of the link of that row."""
+        """Returns prefixes of the inertial parameters of the link of that row."""
         return self.links.get(name, INERTIAL)
 
     def get_joint(self, name: str) -> Joint:
-        """Row of that name."""
+        """Returns row of that name."""
         return next(joint for joint in self.joints if joint.name == name)
 
     def find_joint_effects(self, joint: str) -> list[tuple[Effect, Form, EffectInstance]]:
-        """The effects of a joint, in catalogue order."""
+        """Returns the effects of a joint, in catalogue order."""
         joint_effects = []
         for use in self.effects:
             effect = find_effect(use.effect, self.catalogue)
@@ -385,12 +392,76 @@ class Robot(Result):
         return joint_effects
 
     def has_effect(self, effect: str, joint: str) -> bool:
-        """True if that joint carries that effect."""
+        """Returns True if that joint carries that effect."""
         return any(use.effect == effect and joint in use.joints for use in self.effects)
 
     def evaluate_symbols(self) -> dict[str, float]:
-        """Numbers of all declared symbols."""
+        """Returns numbers of all declared symbols."""
         values: dict[str, float] = {}
         for name, expression in self.symbols.items():
             values[name] = expression.evaluate(values)
         return values
+
+
+# What the standard parameters of a robot are, in plain words, and which rows they belong to.
+
+
+@dataclass(frozen=True)
+class ParameterDescription:
+    """A standard parameter.
+
+    Attributes:
+        words: what it is.
+        unit: SI.
+        rows: of the table, that it belongs to.
+    """
+
+    words: str
+    unit: str
+    rows: tuple[str, ...]
+
+
+def describe_parameters(robot: Robot) -> dict[str, ParameterDescription]:
+    """Describes every standard parameter of the robot, by name; shared ones too."""
+    descriptions = dict(_iterate_descriptions(robot))
+    for shared in robot.shared:
+        members = [descriptions[name] for name in shared.members if name in descriptions]
+        if members:
+            rows = tuple(row for member in members for row in member.rows)
+            same = f"of the links {', '.join(rows)} alike"
+            words = members[0].words.replace(f"of link {rows[0]}", same)
+            descriptions[shared.name] = ParameterDescription(words, members[0].unit, rows)
+    return descriptions
+
+
+def _iterate_descriptions(robot: Robot) -> Iterator[tuple[str, ParameterDescription]]:
+    for joint in robot.moving_joints:
+        for prefix in robot.get_inertial_prefixes(joint.name):
+            yield prefix + joint.name, _describe_inertial(prefix, joint.name)
+        for effect, form, instance in robot.find_joint_effects(joint.name):
+            for column in form.columns:
+                name = f"{column.prefix}{joint.name}{instance.label}"
+                yield name, _describe_effect_parameter(effect, column, joint)
+
+
+def _describe_inertial(prefix: str, link: str) -> ParameterDescription:
+    where = f"of link {link}"
+    if prefix == "M":
+        return ParameterDescription(f"mass {where}", "kg", (link,))
+    axes = [letter.lower() + link for letter in prefix.removeprefix("M")]
+    if prefix.startswith("M"):
+        words = f"first moment {where} along {axes[0]}: mass times centre"
+        return ParameterDescription(words, "kg m", (link,))
+    if axes[0] == axes[1]:
+        words = f"moment of inertia {where} about {axes[0]}, at the origin of frame {link}"
+    else:
+        words = f"product of inertia {where}, of {axes[0]} and {axes[1]}"
+    return ParameterDescription(words, "kg m\u00b2", (link,))
+
+
+def _describe_effect_parameter(
+    effect: Effect, column: EffectColumn, joint: Joint
+) -> ParameterDescription:
+    unit = column.unit_revolute if joint.is_revolute else column.unit_prismatic
+    unit = unit.replace("^2", "\u00b2").replace("*", " ")
+    return ParameterDescription(f"{effect.title}, joint {joint.name}", unit, (joint.name,))

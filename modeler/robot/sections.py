@@ -10,6 +10,7 @@ from modeler.core.manifest import DriveSpec
 from modeler.core.toml_cells import TomlCell, join_names, quote_value, suggest_name
 from modeler.robot.cells import normalise_row_name, read_joint_sum, read_number
 from modeler.robot.robot import Joint, Limits, LinkCapsule, LinkFrame, PhysicalLink, Robot
+from modeler.robot.thresholds import THRESHOLDS
 
 Coupling = dict[str, dict[str, float]]
 _Three = tuple[Expression, Expression, Expression]
@@ -19,7 +20,7 @@ INERTIAL_UNCERTAINTY = "inertial"
 
 
 def find_joint(name: Any, moving: Mapping[str, Joint], place: TomlCell) -> Joint:
-    """The moving joint of that name.
+    """Returns the moving joint of that name.
 
     Raises:
         RobotError: no such joint; lists those there are.
@@ -49,7 +50,7 @@ def _iterate_joints(
 def read_coupling(
     place: TomlCell, moving: Mapping[str, Joint], symbols: Mapping[str, float]
 ) -> Coupling:
-    """Motors that turn with several joints: {joint of the motor: {joint: coefficient}}.
+    """Returns motors that turn with several joints: {joint of the motor: {joint: coefficient}}.
 
     Raises:
         RobotError: unknown joints, or a speed that is not a sum of joint variables.
@@ -76,7 +77,7 @@ def read_coupling(
 def read_numbers(
     place: TomlCell, known: Collection[str], table: str, expected: str
 ) -> dict[str, float]:
-    """Values of standard parameters: `[parameters]` or `[reference]`.
+    """Returns values of standard parameters: `[parameters]` or `[reference]`.
 
     Args:
         place: the table.
@@ -101,7 +102,7 @@ def read_numbers(
 def read_parameters(
     place: TomlCell, known: Collection[str], expected: str
 ) -> tuple[dict[str, float], dict[str, float]]:
-    """Values of standard parameters, and how sure they are: `[parameters]`.
+    """Returns values of standard parameters, and how sure they are: `[parameters]`.
 
     Args:
         place: the table.
@@ -167,7 +168,7 @@ def _check_stated(
 
 
 def read_drive_gains(place: TomlCell, moving: Mapping[str, Joint]) -> dict[str, float]:
-    """Joint torque per unit of the logged current, by joint.
+    """Returns joint torque per unit of the logged current, by joint.
 
     Raises:
         RobotError: unknown joint, or a gain that is no number or zero.
@@ -189,13 +190,12 @@ def _read_gain(place: TomlCell) -> float:
 
 
 _DRIVE = "1 = {voltage = 12, resistance = 4.4, k_e = 2.4, gain = 1.1}"
-_EFFICIENT = 1.1  # gain over k_e; the same number of a motor without losses
 
 
 def read_drives(
     place: TomlCell, moving: Mapping[str, Joint], gains: Mapping[str, float], readings: list[str]
 ) -> tuple[dict[str, float], dict[str, DriveSpec]]:
-    """Gains and voltage models: `[drives]`.
+    """Returns gains and voltage models: `[drives]`.
 
     Args:
         place: the table.
@@ -241,7 +241,7 @@ def read_drives(
             raise here.enter("k_e", table["k_e"]).make_mismatch(
                 f"the sign of gain ({gain:g}): what a motor induces brakes it"
             )
-        if abs(gain) > _EFFICIENT * abs(drive.k_e) > 0.0:
+        if abs(gain) > THRESHOLDS.max_gain_over_k_e * abs(drive.k_e) > 0.0:
             readings.append(
                 f"{here.location}: a gain of {gain:g} is {gain / drive.k_e:.3g} times k_e; without "
                 "losses both are one number: is k_e that of the joint (times the gear ratio)?"
@@ -251,17 +251,24 @@ def read_drives(
 
 _SHARE, _POSITIVE = "a share from 0 to 1, such as 0.05", "a number of 0 or more, such as 20"
 FIT_OPTIONS: Mapping[str, str | tuple[str, ...]] = {
-    "cutoff": _POSITIVE, "parallel_cutoff": _POSITIVE, "decimate": "a whole number from 1",
-    "derivatives": get_args(Derivatives), "low_speed": _SHARE,
-    "method": (*get_args(Method), GAIN_METHOD, TWO_STEPS), "model": ("torque", "energy"),
-    "window": _POSITIVE, "essential_below": _POSITIVE, "keep_saturated": "true or false",
-    "keep_contradicted": "true or false", "keep_damaged": "true or false",
-}  # fmt: skip
+    "cutoff": _POSITIVE,
+    "parallel_cutoff": _POSITIVE,
+    "decimate": "a whole number from 1",
+    "derivatives": get_args(Derivatives),
+    "low_speed": _SHARE,
+    "method": (*get_args(Method), GAIN_METHOD, TWO_STEPS),
+    "model": ("torque", "energy"),
+    "window": _POSITIVE,
+    "essential_below": _POSITIVE,
+    "keep_saturated": "true or false",
+    "keep_contradicted": "true or false",
+    "keep_damaged": "true or false",
+}
 """What `[fit]` may hold, by names of options of `modeler fit`: words, or what is expected."""
 
 
 def read_fit(place: TomlCell) -> dict[str, Any]:
-    """Options of `modeler fit` that this robot needs always: `[fit]`.
+    """Returns options of `modeler fit` that this robot needs always: `[fit]`.
 
     Raises:
         RobotError: an unknown option, or a value that it cannot have.
@@ -284,7 +291,7 @@ def read_fit(place: TomlCell) -> dict[str, Any]:
 
 
 def read_diagnose(place: TomlCell) -> dict[str, Any]:
-    """Options of `modeler diagnose` that this robot needs always: `[diagnose]`.
+    """Returns options of `modeler diagnose` that this robot needs always: `[diagnose]`.
 
     Raises:
         RobotError: an unknown option, or no list of effects.
@@ -299,7 +306,7 @@ def read_diagnose(place: TomlCell) -> dict[str, Any]:
 def read_limits(
     place: TomlCell, moving: Mapping[str, Joint], symbols: Mapping[str, float]
 ) -> dict[str, Limits]:
-    """Range of motion by joint.
+    """Returns range of motion by joint.
 
     Raises:
         RobotError: unknown joint, wrong entries, an empty range.
@@ -324,7 +331,7 @@ def read_limits(
 
 
 def read_physical(place: TomlCell, moving: Mapping[str, Joint]) -> dict[str, PhysicalLink]:
-    """The letters of a paper for the links, by joint; letters need not be declared.
+    """Returns the letters of a paper for the links, by joint; letters need not be declared.
 
     Raises:
         RobotError: unknown joint, missing or unknown keys, joint variables in an entry.
@@ -364,7 +371,7 @@ _FRAMES = 'columns = ["link", "row", "x"], rows = [["hand", "6", 0.1]]'
 def read_frames(
     place: TomlCell, rows: Collection[str], symbols: Mapping[str, float]
 ) -> dict[str, LinkFrame]:
-    """Links of another program's file on the rows of the table: `[frames]`.
+    """Returns links of another program's file on the rows of the table: `[frames]`.
 
     Raises:
         RobotError: columns, names of links or rows, or numbers are wrong.
@@ -390,9 +397,12 @@ def read_frames(
 
 
 def _iterate_rows(
-    place: TomlCell, table: Mapping[str, Any], needed: tuple[str, ...], known: tuple[str, ...],
+    place: TomlCell,
+    table: Mapping[str, Any],
+    needed: tuple[str, ...],
+    known: tuple[str, ...],
     example: str,
-) -> Iterator[tuple[TomlCell, dict[str, Any]]]:  # fmt: skip
+) -> Iterator[tuple[TomlCell, dict[str, Any]]]:
     """The rows of a table with columns, each with its cells by column."""
     here = place.enter("columns", table["columns"])
     columns = here.read_list(example)
@@ -421,7 +431,7 @@ _CAPSULES = 'columns = ["row", "radius"], rows = [["1", 0.05]]'
 def read_capsules(
     place: TomlCell, rows: Collection[str], symbols: Mapping[str, float]
 ) -> tuple[tuple[LinkCapsule, ...], dict[str, tuple[float, ...]]]:
-    """What links fill, and planes of the surroundings: `[capsules]`.
+    """Returns what links fill, and planes of the surroundings: `[capsules]`.
 
     Raises:
         RobotError: columns, names of rows, or numbers are wrong.
@@ -475,7 +485,7 @@ _TOOL = '[tool] with x, y, z, roll, pitch, yaw, and row = "6" or link = "flange"
 
 
 def read_tool(place: TomlCell, robot: Robot, symbols: Mapping[str, float]) -> LinkFrame | None:
-    """The frame whose motion a controller commands: `[tool]`.
+    """Returns the frame whose motion a controller commands: `[tool]`.
 
     It stands on a row of the table, or on a link of `[frames]`, in whose frame it is placed; on the
     last moving row where it names neither and the robot has one end.

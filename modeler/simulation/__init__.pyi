@@ -1,9 +1,12 @@
 from .closing import KEPT as KEPT
-from .hidden import HIDDEN as HIDDEN
 from .log import (
+    HiddenEffect as HiddenEffect,
     SimulatedLog as SimulatedLog,
-    Truth as Truth,
+    SimulationSettings as SimulationSettings,
+    check_settings as check_settings,
     check_suffix as check_suffix,
+    parse_drive_gains as parse_drive_gains,
+    parse_hidden_effect as parse_hidden_effect,
     serialise_hidden_effects as serialise_hidden_effects,
     write_log as write_log,
     write_truth as write_truth,
@@ -12,14 +15,8 @@ from .parameters import (
     PlantParameters as PlantParameters,
     draw_plant_parameters as draw_plant_parameters,
 )
+from .physics import HIDDEN as HIDDEN
 from .run import simulate as simulate
-from .settings import (
-    HiddenEffect as HiddenEffect,
-    SimulationSettings as SimulationSettings,
-    check_settings as check_settings,
-    parse_drive_gains as parse_drive_gains,
-    parse_hidden_effect as parse_hidden_effect,
-)
 from .trajectory import (
     Reference as Reference,
     build_curve as build_curve,

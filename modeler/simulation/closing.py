@@ -11,6 +11,7 @@ import numpy as np
 from modeler.core.errors import DataError, RobotError
 from modeler.robot import Limits, Robot
 from modeler.simulation.rigid import FUNCTIONS, Frame, compute_world_frames
+from modeler.simulation.thresholds import THRESHOLDS
 from modeler.simulation.trajectory import Reference
 
 # What ties the joints of a simulated robot: relations and loops, as equations in all joints.
@@ -41,7 +42,7 @@ class Constraints:
 
 
 def build_constraints(robot: Robot) -> Constraints:
-    """The equations of a robot's relations and loops; lengths in sizes of the robot."""
+    """Returns the equations of a robot's relations and loops; lengths in sizes of the robot."""
     moving = robot.moving_joints
     v, vd = ca.SX.sym("v", len(moving)), ca.SX.sym("vd", len(moving))
     names = [joint.name for joint in moving]
@@ -75,7 +76,7 @@ def build_constraints(robot: Robot) -> Constraints:
 
 
 def evaluate_samples(function: ca.Function, *samples: np.ndarray) -> np.ndarray:
-    """(n, rows, columns) of a function of vectors, for samples (n, its length) of each."""
+    """Returns (n, rows, columns) of a function of vectors, for samples (n, its length) of each."""
     rows, columns = function.size_out(0)
     count = len(samples[0])
     mapped: Any = function.map(count)
@@ -124,24 +125,13 @@ _KINDS: Mapping[str, Callable[[Frame, Frame], list[ca.SX]]] = {
 }
 
 
-_CLOSED = 1e-11  # sizes of the robot, and of direction cosines
-_ITERATIONS = 40
-_LONGEST = 0.2  # rad or m, of one Newton step
-_JUMP = 0.8  # rad or m: a joint that moves so far at once is in another assembly mode
-_APART = 0.02  # rad or m, between postures found one after the other; those between, all at once
-_STRIDE = 0.1  # rad or m, of the coordinates between two postures found one after the other
-_RANK = 1e-10  # of singular values
-_SINGULAR = 1e-6  # of the sizes of the passive joints' columns, one after the other
-_CHUNK = 2000  # samples
-
-
 def compute_closed_postures(
     robot: Robot,
     constraints: Constraints,
     q: np.ndarray,
     progress: Callable[[float], None] | None = None,
 ) -> np.ndarray:
-    """(n, moving rows) closed postures along (n, coordinates) positions, led there from `home`.
+    """Computes (n, moving rows) closed postures along (n, coordinates), from `home` on.
 
     Raises:
         RobotError: `home` does not close, or leaves joints undetermined.
@@ -161,7 +151,7 @@ def compute_closed_postures(
 def compute_rates(
     constraints: Constraints, v: np.ndarray, qd: np.ndarray, qdd: np.ndarray
 ) -> tuple[np.ndarray, np.ndarray]:
-    """(n, moving rows) speeds and accelerations that the constraints allow.
+    """Returns (n, moving rows) speeds and accelerations that the constraints allow.
 
     J vd = 0 and J vdd + J' vd = 0 at closed postures v, for those of the coordinates.
     """
@@ -181,7 +171,7 @@ def compute_rates(
 
 
 def compute_motor_torques(constraints: Constraints, v: np.ndarray, load: np.ndarray) -> np.ndarray:
-    """(n, coordinates) motor torques that, with the constraint forces, make up the joints' load.
+    """Computes (n, coordinates) motor torques that balance the joints' load.
 
     load = S tau + J^T lambda: the rows of joints without motor give the multipliers lambda (the
     smallest ones where equations are redundant), the others then tau.
@@ -205,7 +195,7 @@ def compute_motor_torques(constraints: Constraints, v: np.ndarray, load: np.ndar
 
 
 def compute_singularity_distances(constraints: Constraints, v: np.ndarray) -> np.ndarray:
-    """(n,) least singular value of J in the joints that follow; 0 in a singular posture.
+    """Returns (n,) least singular value of J in the joints that follow; 0 in a singular posture.
 
     Lengths count in sizes of the robot.
     """
@@ -218,7 +208,10 @@ def compute_singularity_distances(constraints: Constraints, v: np.ndarray) -> np
 
 
 def _iterate_chunks(count: int) -> Iterator[slice]:
-    return (slice(begin, min(begin + _CHUNK, count)) for begin in range(0, count, _CHUNK))
+    return (
+        slice(begin, min(begin + THRESHOLDS.samples_per_chunk, count))
+        for begin in range(0, count, THRESHOLDS.samples_per_chunk)
+    )
 
 
 def _solve_least_squares(Q: np.ndarray, R: np.ndarray, right: np.ndarray) -> np.ndarray:
@@ -237,10 +230,10 @@ def _close_at_home(robot: Robot, constraints: Constraints) -> np.ndarray:
         )
     J = constraints.jacobian(home).full()[:, constraints.passive_rows]
     _, sizes, turned = np.linalg.svd(J)
-    free = turned[np.sum(sizes > _SINGULAR * sizes[0]) :]
+    free = turned[np.sum(sizes > THRESHOLDS.min_independent_share * sizes[0]) :]
     if len(free):
         undetermined_joints = np.array(names)[constraints.passive_rows][
-            np.max(np.abs(free), axis=0) > _SINGULAR
+            np.max(np.abs(free), axis=0) > THRESHOLDS.min_independent_share
         ]
         raise RobotError(
             f"simulation: joints {', '.join(undetermined_joints)} of {robot.name} can move at "
@@ -256,7 +249,7 @@ def _close_stepwise(
 ) -> np.ndarray:
     """The closed posture at q, from the closed posture v, straight and in small steps."""
     begin = v[constraints.coordinate_rows]
-    steps = max(1, int(np.ceil(np.max(np.abs(q - begin)) / _STRIDE)))
+    steps = max(1, int(np.ceil(np.max(np.abs(q - begin)) / THRESHOLDS.posture_stride)))
     for share in np.arange(1, steps + 1) / steps:
         start = v.copy()
         start[constraints.coordinate_rows] = begin + share * (q - begin)
@@ -273,12 +266,15 @@ def _is_same_mode(constraints: Constraints, before: np.ndarray, after: np.ndarra
     Of square Jacobians, the ratio of the determinants is above 0; of redundant equations, that of
     what one Jacobian is in the columns of the other.
     """
-    if np.max(np.abs(after - before)) > _JUMP:
+    if np.max(np.abs(after - before)) > THRESHOLDS.max_joint_jump:
         return False
     old, new = (
         constraints.jacobian(v).full()[:, constraints.passive_rows] for v in (before, after)
     )
-    return bool(np.linalg.det(np.linalg.lstsq(old, new, rcond=_RANK)[0]) > 0)
+    return bool(
+        np.linalg.det(np.linalg.lstsq(old, new, rcond=THRESHOLDS.min_relative_singular_value)[0])
+        > 0
+    )
 
 
 def _interpolate_postures(
@@ -286,17 +282,19 @@ def _interpolate_postures(
 ) -> np.ndarray:
     """Closed postures at q: some one after the other, those between them all at once."""
     travel = np.cumsum(np.max(np.abs(np.diff(q, axis=0, prepend=q[:1])), axis=1))
-    anchors = np.unique([0, *np.flatnonzero(np.diff(travel // _APART)), len(q) - 1])
+    anchors = np.unique(
+        [0, *np.flatnonzero(np.diff(travel // THRESHOLDS.anchor_spacing)), len(q) - 1]
+    )
     anchor_postures = []
     for k in anchors:
         before = _close_stepwise(robot, constraints, before, q[k], f"at sample {first + k + 1}")
         anchor_postures.append(before)
-    start = np.column_stack([
-        np.interp(np.arange(len(q)), anchors, column) for column in np.array(anchor_postures).T
-    ])  # fmt: skip
+    start = np.column_stack(
+        [np.interp(np.arange(len(q)), anchors, column) for column in np.array(anchor_postures).T]
+    )
     start[:, constraints.coordinate_rows] = q
     v, closed = _refine_postures(constraints, start)
-    wrong = ~closed | (np.max(np.abs(v - start), axis=1) > _JUMP)
+    wrong = ~closed | (np.max(np.abs(v - start), axis=1) > THRESHOLDS.max_joint_jump)
     if np.any(wrong):
         k = int(np.argmax(wrong))
         raise _build_closure_error(robot, q[k], f"at sample {first + k + 1}")
@@ -306,33 +304,41 @@ def _interpolate_postures(
 def _refine_postures(constraints: Constraints, v: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """Newton for all samples at once; (n, moving rows), and (n,) True where loops are closed."""
     v = v.copy()
-    for _ in range(_ITERATIONS):
+    for _ in range(THRESHOLDS.max_newton_iterations):
         c = evaluate_samples(constraints.residual, v)[:, :, 0]
-        open_ = np.flatnonzero(np.max(np.abs(c), axis=1) >= _CLOSED)
+        open_ = np.flatnonzero(np.max(np.abs(c), axis=1) >= THRESHOLDS.max_closure_error)
         if not open_.size:
             break
         Q, R = np.linalg.qr(
             evaluate_samples(constraints.jacobian, v[open_])[:, :, constraints.passive_rows]
         )
         diagonal = np.abs(np.diagonal(R, axis1=1, axis2=2))
-        if not np.all(diagonal.min(axis=1) > _SINGULAR * diagonal.max(axis=1)):
+        if not np.all(
+            diagonal.min(axis=1) > THRESHOLDS.min_independent_share * diagonal.max(axis=1)
+        ):
             break  # joints that are not given are not determined
         step = _solve_least_squares(Q, R, c[open_])
         longest = np.max(np.abs(step), axis=1, keepdims=True)
-        v[open_[:, None], constraints.passive_rows] -= step * np.minimum(1.0, _LONGEST / longest)
-    return v, np.max(np.abs(evaluate_samples(constraints.residual, v)[:, :, 0]), axis=1) < _CLOSED
+        v[open_[:, None], constraints.passive_rows] -= step * np.minimum(
+            1.0, THRESHOLDS.max_newton_step / longest
+        )
+    return v, np.max(
+        np.abs(evaluate_samples(constraints.residual, v)[:, :, 0]), axis=1
+    ) < THRESHOLDS.max_closure_error
 
 
 def _solve_posture(constraints: Constraints, v: np.ndarray) -> np.ndarray | None:
     """Newton on the rows that are not given, by least squares; None if it does not converge."""
     v = v.copy()
-    for _ in range(_ITERATIONS):
+    for _ in range(THRESHOLDS.max_newton_iterations):
         c = constraints.residual(v).full().ravel()
-        if np.max(np.abs(c)) < _CLOSED:
+        if np.max(np.abs(c)) < THRESHOLDS.max_closure_error:
             return v
         J = constraints.jacobian(v).full()[:, constraints.passive_rows]
-        step = np.linalg.lstsq(J, -c, rcond=_RANK)[0]
-        v[constraints.passive_rows] += step * min(1.0, _LONGEST / np.max(np.abs(step)))
+        step = np.linalg.lstsq(J, -c, rcond=THRESHOLDS.min_relative_singular_value)[0]
+        v[constraints.passive_rows] += step * min(
+            1.0, THRESHOLDS.max_newton_step / np.max(np.abs(step))
+        )
     return None
 
 
@@ -349,7 +355,7 @@ def _build_closure_error(robot: Robot, q: np.ndarray, where: str) -> DataError:
 
 
 def compute_tree_map(robot: Robot) -> tuple[np.ndarray, np.ndarray]:
-    """F (moving rows, free rows) and c (moving rows,) of v = F u + c.
+    """Returns F (moving rows, free rows) and c (moving rows,) of v = F u + c.
 
     Args:
         robot: u are the variables of `robot.free`, v those of `robot.moving`.
@@ -372,7 +378,7 @@ def compute_tree_map(robot: Robot) -> tuple[np.ndarray, np.ndarray]:
 
 
 def build_identity_map(robot: Robot) -> tuple[np.ndarray, np.ndarray]:
-    """The same matrix and constants with every moving row free."""
+    """Returns the same matrix and constants with every moving row free."""
     count = len(robot.moving_joints)
     return np.eye(count), np.zeros(count)
 
@@ -383,10 +389,6 @@ def build_identity_map(robot: Robot) -> tuple[np.ndarray, np.ndarray]:
 KEPT = 0.5
 """Share of home's distance to a singular posture that a simulated motion keeps."""
 
-_NARROWER = 0.85  # of the range, from one attempt to the next
-_NARROWEST = 0.03
-_NEAR = 0.02  # rad or m, between postures looked at on the way from home to the first one
-_LOOKS = 100.0  # Hz, at which a motion is tried
 
 Motion = Callable[[tuple[Limits, ...]], Reference]
 """A commanded motion within limits, in the order of `robot.coordinates`."""
@@ -414,7 +416,7 @@ def find_closed_motion(
     motion: Motion,
     progress: Callable[[float], None] | None = None,
 ) -> ClosedMotion:
-    """The motion over the largest share of the range that keeps away from singular postures.
+    """Returns motion over the largest share of the range that keeps away from singular postures.
 
     The loops close all along, and every posture keeps half of home's distance to a singular one
     (see `compute_singularity_distances`). Near one the motors' torques grow without bound, and so
@@ -442,8 +444,12 @@ def find_closed_motion(
     def is_clear_of_singularities(reference: Reference) -> bool:
         """True if the loops close from home on, nowhere nearer than `least` to a singularity."""
         first = reference.q[0] - home
-        fractions = np.linspace(0.0, 1.0, 1 + int(np.ceil(np.max(np.abs(first)) / _NEAR)))
-        stride = max(1, round(1 / (_LOOKS * (reference.time[1] - reference.time[0]))))
+        fractions = np.linspace(
+            0.0, 1.0, 1 + int(np.ceil(np.max(np.abs(first)) / THRESHOLDS.home_path_spacing))
+        )
+        stride = max(
+            1, round(1 / (THRESHOLDS.checked_rate * (reference.time[1] - reference.time[0])))
+        )
         q = np.vstack([home + fractions[:, None] * first, reference.q[::stride]])
         try:
             return bool(
@@ -456,7 +462,7 @@ def find_closed_motion(
             return False
 
     share = 1.0
-    while share > _NARROWEST:
+    while share > THRESHOLDS.min_range_share:
         near = []
         for limit, at in zip(limits, home, strict=True):  # the same share of the way to both
             middle = min(max(at, limit.lower), limit.upper)
@@ -467,7 +473,7 @@ def find_closed_motion(
         if is_clear_of_singularities(reference):
             v = compute_closed_postures(robot, constraints, reference.q, progress)
             return ClosedMotion(reference, v, share)
-        share *= _NARROWER
+        share *= THRESHOLDS.range_reduction
     joints = ", ".join(joint.name for joint in robot.coordinates)
     raise DataError(
         f"simulation: no motion of joints {joints} of {robot.name} keeps its loops closed and away "

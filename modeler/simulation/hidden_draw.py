@@ -14,26 +14,25 @@ from modeler.simulation.closing import (
     evaluate_samples,
     find_closed_motion,
 )
-from modeler.simulation.hidden import HIDDEN
+from modeler.simulation.log import HiddenEffect, SimulationSettings
 from modeler.simulation.parameters import PlantParameters, estimate_joint_scales
-from modeler.simulation.physics import HiddenKind, ShaftScale, Site
+from modeler.simulation.physics import HIDDEN, HiddenKind, ShaftScale, Site
 from modeler.simulation.plant import build_torque_function, find_last_link
 from modeler.simulation.portable_math import round_to_ten_digits
 from modeler.simulation.rigid import compute_gravity_vector, compute_world_frames
-from modeler.simulation.settings import HiddenEffect, SimulationSettings
+from modeler.simulation.thresholds import THRESHOLDS
 from modeler.simulation.trajectory import build_exciting_reference
 
 # How large a torque on a joint of a robot with loops is for the motors, which carry them.
 
 
 _DURATION, _RATE = 6.0, 50.0  # s and Hz of the motion that is looked at
-_TOP = 0.98
 
 
 def compute_motor_amplitudes(
     robot: Robot, parameters: PlantParameters, limits: Sequence[Limits], joint: str, seed: int
 ) -> tuple[float, float]:
-    """(torque, speed) of a joint that are large for the closed machine around it.
+    """Returns (torque, speed) of a joint that are large for the closed machine around it.
 
     The torque is the one that asks of some motor as much as its rms torque tau_m, and of none
     more: 1 / max_m(rms(G_m) / tau_m), with G_m = d speed / d speed of motor m; of a joint with a
@@ -73,12 +72,11 @@ def compute_motor_amplitudes(
         slope = compute_rates(constraints, v, motor_speeds, np.zeros_like(qd))[0][:, row]
         if torque_m > 0.0:
             shares.append(float(np.sqrt(np.mean(slope**2))) / torque_m)
-    speed = float(np.quantile(np.abs(vd[:, row]), _TOP))
+    speed = float(np.quantile(np.abs(vd[:, row]), THRESHOLDS.top_speed_quantile))
     return (1.0 / max(shares) if any(shares) else 1.0), speed or limits[row].speed
 
 
 _OWN = ("Fv", "Fs", "Ia")
-_LIVELY = 0.29  # of the limits: rms of what the scale of the links is drawn from
 _WHY_NONE = {
     "pair": "a joint with a motor, and another one after it",
     "geared": "a joint with a rotor inertia (effect rotor_inertia in the robot file)",
@@ -94,7 +92,7 @@ def complete_effects(
     limits: tuple[Limits, ...],
     settings: SimulationSettings,
 ) -> tuple[HiddenEffect, ...]:
-    """The hidden effects of the settings with a joint and all values.
+    """Returns the hidden effects of the settings with a joint and all values.
 
     What is drawn depends on `parameter_seed`, and not on the other effects that are hidden; the
     time at which an external force pushes also on the duration.
@@ -200,8 +198,8 @@ def _build_site(
     # With what the robot file knows of friction and rotor, in the same motion.
     parts = (
         scale.torque,
-        joint_parameters.get("Ia", 0.0) * _LIVELY * limit.acceleration,
-        joint_parameters.get("Fv", 0.0) * _LIVELY * limit.speed,
+        joint_parameters.get("Ia", 0.0) * THRESHOLDS.lively_rms_share * limit.acceleration,
+        joint_parameters.get("Fv", 0.0) * THRESHOLDS.lively_rms_share * limit.speed,
         joint_parameters.get("Fs", 0.0),
     )
     torque, speed, inertia = float(np.linalg.norm(parts)), scale.speed, scale.inertia

@@ -3,14 +3,15 @@
 import dataclasses
 from collections.abc import Mapping
 from dataclasses import dataclass
+from typing import Any
 
 import casadi as ca
 import numpy as np
 from scipy.spatial.transform import Rotation
 
 from modeler.core.errors import RobotError
+from modeler.numerics.cones import minimize_over_cones
 from modeler.robot import INERTIAL, Limits, Robot
-from modeler.simulation.completion import complete_body
 from modeler.simulation.physics import PHYSICS, EffectPhysics, ShaftScale
 from modeler.simulation.portable_math import round_to_ten_digits
 from modeler.simulation.rigid import (
@@ -18,13 +19,254 @@ from modeler.simulation.rigid import (
     Body,
     build_rigid_dynamics,
     compute_body,
+    compute_pseudo_inertia,
     compute_standard_parameters,
     compute_world_frames,
+    convert_pseudo_inertia,
+    is_physical,
 )
+from modeler.simulation.thresholds import THRESHOLDS
 
-_STATES = 64  # random states from which the typical torque of a joint is taken
-_IDLE = 1e-9  # of the largest torque: joints below it move no mass
-_OF_LARGEST = 0.02  # their scale instead
+_SUMS = {"XX": (1, 2), "YY": (0, 2), "ZZ": (0, 1)}  # XX = int y2 dm + int z2 dm, ...
+_OUTSIDE = {"XY": (0, 1), "XZ": (0, 2), "YZ": (1, 2), "MX": (0, 3), "MY": (1, 3), "MZ": (2, 3)}
+_TOLERANCES: dict[str, Any] = {f"tol_{what}": 1e-11 for what in ("gap_abs", "gap_rel", "feas")}
+
+
+@dataclass(frozen=True)
+class Completion:
+    """Outcome of a search for a body.
+
+    Attributes:
+        values: all ten parameters by prefix, the stated ones as stated; None if none were found.
+        impossible: True if it is proved that no body has the stated values.
+    """
+
+    values: dict[str, float] | None
+    is_impossible: bool = False
+
+
+@dataclass(frozen=True)
+class _BodyProblem:
+    """S(x) = origin + sum x_k directions[k], the scaled pseudo-inertia without its zero rows."""
+
+    origin: np.ndarray  # (m, m)
+    directions: np.ndarray  # (k, m, m), orthonormal as vectors
+    scale: np.ndarray  # (4,) S_ij = P_ij / (scale_i scale_j)
+    rows: np.ndarray  # (m,) those of the pseudo-inertia that are not zero
+
+
+def complete_body(stated: Mapping[str, float], reference: Mapping[str, float]) -> Completion:
+    """Returns the stated parameters, and for the others those of the nearest possible body.
+
+    Nearest: least log-determinant divergence tr(P R^-1) - log det(P R^-1) from the reference R,
+    brought to the stated mass; a body with an inside is preferred to plates, rods and points.
+
+    Args:
+        stated: some of the ten, by prefix.
+        reference: all ten, of a body with an inside.
+    """
+    if not stated:
+        return Completion(dict(reference))
+    if len(stated) == len(INERTIAL):
+        return Completion(dict(stated)) if is_physical(stated) else Completion(None, True)
+    near = compute_pseudo_inertia(reference) * (
+        stated["M"] / reference["M"] if stated.get("M", 0.0) > 0 else 1.0
+    )
+    problem = _build_problem(stated, near)
+    if problem is None:
+        return Completion(None, is_impossible=True)
+    if not problem.rows.size:
+        return Completion(dict.fromkeys(INERTIAL, 0.0) | dict(stated))
+    x = _find_feasible(problem)
+    if x is None:
+        return Completion(None)
+    if (
+        x.size
+        and _compute_smallest_eigenvalue(_build_matrix(problem, x))
+        > THRESHOLDS.min_strict_eigenvalue
+    ):
+        x = _find_nearest(problem, near, x)
+    elif x.size:
+        x = _flatten_solution(problem, x)
+    if _compute_smallest_eigenvalue(_build_matrix(problem, x)) < -THRESHOLDS.max_edge_violation:
+        return Completion(None, is_impossible=True)
+    scale = problem.scale[problem.rows]
+    completed_matrix = np.zeros((4, 4))
+    completed_matrix[np.ix_(problem.rows, problem.rows)] = _build_matrix(problem, x) * np.outer(
+        scale, scale
+    )
+    values = {**convert_pseudo_inertia(completed_matrix), **stated}
+    return Completion(values if is_physical(values, THRESHOLDS.max_edge_violation) else None)
+
+
+def _build_problem(stated: Mapping[str, float], near: np.ndarray) -> _BodyProblem | None:
+    """The stated values as constraints; None if two of them exclude each other."""
+    known = _compute_known_diagonal(stated)
+    if _is_contradictory(stated, known):
+        return None
+    rows = np.array([i for i in range(4) if known.get(i) != 0.0], dtype=int)
+    scale = _compute_scale(stated, known, near)
+    pairs = [(i, j) for a, i in enumerate(rows) for j in rows[a:]]
+    basis = np.zeros((len(pairs), 4, 4))
+    for element, (i, j) in zip(basis, pairs, strict=True):
+        element[i, j] = element[j, i] = 1.0 if i == j else np.sqrt(0.5)
+    parameters = [convert_pseudo_inertia(e * np.outer(scale, scale)) for e in basis]
+    equations, targets = [], []
+    for prefix, value in stated.items():
+        row = np.array([p[prefix] for p in parameters])
+        size = float(np.linalg.norm(row))
+        if size == 0.0:
+            if abs(value) > THRESHOLDS.max_stated_rounding * max(map(abs, stated.values())):
+                return None
+            continue
+        equations.append(row / size)
+        targets.append(value / size)
+    matrix = np.array(equations).reshape(-1, len(pairs))
+    point = np.linalg.lstsq(matrix, np.array(targets), rcond=None)[0]
+    _, singular, right = np.linalg.svd(matrix, full_matrices=True)
+    free = right[int(np.sum(singular > 1e-12)) :]
+    small = basis[:, rows][:, :, rows]
+    return _BodyProblem(
+        np.tensordot(point, small, 1), np.tensordot(free, small, 1), scale=scale, rows=rows
+    )
+
+
+def _compute_known_diagonal(stated: Mapping[str, float]) -> dict[int, float]:
+    """Diagonal elements of the pseudo-inertia that the stated values fix; exactly 0 if so."""
+    known = {3: float(stated["M"])} if "M" in stated else {}
+    sums = {pair: stated[p] for p, pair in _SUMS.items() if p in stated}
+    size = max(map(abs, sums.values()), default=0.0)
+    if len(sums) == 3:
+        half = sum(sums.values()) / 2
+        known |= {i: half - stated[p] for i, p in enumerate(_SUMS)}
+    for (i, j), value in sums.items():
+        if value == 0.0:  # both are 0, as none is negative
+            known |= {i: 0.0, j: 0.0}
+    for _ in range(2):
+        for (i, j), value in sums.items():
+            for one, other in ((i, j), (j, i)):
+                if one in known and other not in known:
+                    known[other] = value - known[one]
+    return {
+        i: 0.0 if i < 3 and abs(v) <= THRESHOLDS.max_stated_rounding * size else v
+        for i, v in known.items()
+    }
+
+
+def _is_contradictory(stated: Mapping[str, float], known: Mapping[int, float]) -> bool:
+    """True if a diagonal element is negative, or P_ii P_jj >= P_ij^2 cannot hold for a stated one.
+
+    Says at once what is wrong by far; the multiplier of the search proves the rest.
+    """
+    most = {i: np.inf for i in range(4)}
+    for prefix, pair in _SUMS.items():
+        most |= {i: min(most[i], stated[prefix]) for i in pair if prefix in stated}
+    most |= known
+    if min(most.values()) < 0:
+        return True
+    for prefix, (i, j) in _OUTSIDE.items():
+        product = most[i] * most[j] if most[i] and most[j] else 0.0
+        for total in (stated[p] for p, pair in _SUMS.items() if pair == (i, j) and p in stated):
+            product = min(product, total**2 / 4)  # the largest a b of a + b
+        if stated.get(prefix, 0.0) ** 2 > product * (1 + 1e-9):
+            return True
+    return False
+
+
+def _compute_scale(
+    stated: Mapping[str, float], known: Mapping[int, float], near: np.ndarray
+) -> np.ndarray:
+    """(4,) roots of what the diagonal elements are about, so that S is of order 1."""
+    size, unbounded = np.diag(near).copy(), []
+    for i in range(4):
+        sums = [abs(stated[p]) for p, pair in _SUMS.items() if p in stated and i in pair]
+        bound = abs(known.get(i, 0.0)) or min(sums, default=0.0)
+        size[i] = bound or size[i]
+        unbounded += [] if bound else [i]
+    for _ in range(3):  # P_ii P_jj > P_ij^2
+        for prefix, (i, j) in _OUTSIDE.items():
+            for one, other in ((i, j), (j, i)):
+                if one in unbounded:
+                    size[one] = max(size[one], 2 * stated.get(prefix, 0.0) ** 2 / size[other])
+    return np.sqrt(size)
+
+
+def _find_feasible(problem: _BodyProblem) -> np.ndarray | None:
+    """The x of the largest t up to 1 with S(x) - t 1 >= 0; None if the solver finds none.
+
+    Least S(x) below 0 then means that none is above.
+    """
+    count, rows = len(problem.directions), np.eye(len(problem.rows))
+    if not count:
+        return np.zeros(0)
+    # The trace keeps free elements from running away.
+    pull = THRESHOLDS.trace_weight * np.trace(problem.directions, axis1=1, axis2=2)
+    x = minimize_over_cones(
+        (np.zeros((0, count + 1)), np.zeros(0)),
+        (-np.eye(count + 1)[count:], np.ones(1)),
+        [(problem.origin, np.concatenate([problem.directions, -rows[None]]))],
+        linear=np.append(pull, -1.0),
+        **_TOLERANCES,
+    )
+    return None if x is None else x[:count]
+
+
+def _flatten_solution(problem: _BodyProblem, x: np.ndarray) -> np.ndarray:
+    """The same plate, rod or point with exact zeros: S(x) times what it nearly vanishes on."""
+    for _ in range(THRESHOLDS.newton_steps):
+        values, vectors = np.linalg.eigh(_build_matrix(problem, x))
+        thin = vectors[:, values < THRESHOLDS.max_thin_eigenvalue]
+        slope = (problem.directions @ thin).reshape(len(x), -1).T
+        rest = (_build_matrix(problem, x) @ thin).ravel()
+        flat = x - np.linalg.lstsq(slope, rest, rcond=1e-9)[0]
+        x = max(
+            (x, flat),
+            key=lambda choice: _compute_smallest_eigenvalue(_build_matrix(problem, choice)),
+        )
+        if (
+            _compute_smallest_eigenvalue(_build_matrix(problem, x))
+            > -THRESHOLDS.max_final_violation
+        ):
+            break
+    return x
+
+
+def _find_nearest(problem: _BodyProblem, near: np.ndarray, x: np.ndarray) -> np.ndarray:
+    """The x with S(x) > 0 of least divergence from the reference, to all digits.
+
+    Damped Newton: tr(W S) - log det S is self-concordant, so that it gets there from any x inside
+    (Boyd and Vandenberghe 2004, section 9.6).
+    """
+    reference = (near / np.outer(problem.scale, problem.scale))[np.ix_(problem.rows, problem.rows)]
+    weight = np.linalg.inv(reference)
+    pull = np.tensordot(problem.directions, weight, 2)
+    left = THRESHOLDS.newton_steps
+    for _ in range(THRESHOLDS.max_damped_steps):
+        turned = np.linalg.inv(_build_matrix(problem, x)) @ problem.directions
+        slope = pull - np.trace(turned, axis1=1, axis2=2)
+        curvature = np.einsum("kij,lji->kl", turned, turned)
+        step = np.linalg.lstsq(curvature, slope, rcond=None)[0]
+        decrement = np.sqrt(max(float(slope @ step), 0.0))
+        at_the_end = decrement < 0.25
+        step /= 1.0 if at_the_end else 1.0 + decrement
+        left -= at_the_end
+        if not _compute_smallest_eigenvalue(_build_matrix(problem, x - step)) > 0.0:
+            break
+        x = x - step
+        if not left:
+            break
+    return x
+
+
+def _build_matrix(problem: _BodyProblem, x: np.ndarray) -> np.ndarray:
+    return np.asarray(problem.origin + np.tensordot(x, problem.directions, 1))
+
+
+def _compute_smallest_eigenvalue(matrix: np.ndarray) -> float:
+    return float(np.linalg.eigvalsh(matrix)[0])
+
+
+# The true parameters of a simulated robot: as the robot file states them, the rest drawn.
 
 
 @dataclass(frozen=True)
@@ -46,7 +288,7 @@ class PlantParameters:
 def draw_plant_parameters(
     robot: Robot, limits: tuple[Limits, ...], seed: int = 0
 ) -> PlantParameters:
-    """Parameters of the robot file, completed by plausible ones from the seed.
+    """Returns parameters of the robot file, completed by plausible ones from the seed.
 
     Friction, offsets and rotor inertias are drawn as shares of the torque and inertia which the
     links themselves need within `limits` (order of `robot.moving`).
@@ -93,7 +335,7 @@ def draw_plant_parameters(
 
 
 def find_joint_physics(robot: Robot, joint: str) -> list[EffectPhysics]:
-    """The physics of the effects of that joint, in the order of the robot's effects.
+    """Returns the physics of the effects of that joint, in the order of the robot's effects.
 
     Raises:
         RobotError: an effect without physics here.
@@ -113,7 +355,7 @@ def find_joint_physics(robot: Robot, joint: str) -> list[EffectPhysics]:
 def estimate_joint_scales(
     robot: Robot, bodies: Mapping[str, Body], limits: tuple[Limits, ...], rng: np.random.Generator
 ) -> list[ShaftScale]:
-    """What is large and small on each moving row, by the torques of the links in random states."""
+    """Estimates the scales of every moving row, by torques of the links in random states."""
     dynamics = build_rigid_dynamics(robot, bodies)
     q, qd = dynamics.q, dynamics.qd
     qdd = ca.SX.sym("qdd", q.shape[0])
@@ -121,16 +363,16 @@ def estimate_joint_scales(
     diagonal = ca.Function("diagonal", [q], [ca.diag(dynamics.inertia)])
     low, high = (np.array([[getattr(li, k)] for li in limits]) for k in ("lower", "upper"))
     speed, lift = (np.array([[getattr(li, k)] for li in limits]) for k in ("speed", "acceleration"))
-    shape = (len(limits), _STATES)
+    shape = (len(limits), THRESHOLDS.random_states)
     poses = rng.uniform(low, high, shape)
-    torques = torque.map(_STATES)(
+    torques = torque.map(THRESHOLDS.random_states)(
         poses, 0.5 * speed * rng.uniform(-1, 1, shape), 0.5 * lift * rng.uniform(-1, 1, shape)
     ).full()
-    inertias = diagonal.map(_STATES)(poses).full()
+    inertias = diagonal.map(THRESHOLDS.random_states)(poses).full()
     rms, inertia = np.sqrt(np.mean(torques**2, axis=1)), np.median(inertias, axis=1)
     # A motor that stands on the base and turns joints by gears moves no link of its own.
-    idle = rms <= _IDLE * rms.max()
-    rms[idle] = _OF_LARGEST * rms.max()
+    idle = rms <= THRESHOLDS.max_idle_torque_share * rms.max()
+    rms[idle] = THRESHOLDS.idle_torque_share * rms.max()
     inertia[idle] = rms[idle] / lift[idle, 0]
     return [
         ShaftScale(float(torque), limit.speed, float(mass))
@@ -141,14 +383,8 @@ def estimate_joint_scales(
 # The links: as stated, the rest drawn.
 
 
-_DENSITY = 30.0  # kg per squared metre of reach: an arm of 1 m weighs 30 kg
-_THINNING = 0.7  # mass per length of a link, relative to the link before it
-_SHORTEST = 0.15  # m, where the table holds no length at all
-_OF_MEAN = 0.35  # length of a link without extent, relative to the mean of the others
-
-
 def collect_stated_inertia(robot: Robot, joint: str) -> dict[str, float]:
-    """Inertial parameters of that link that the robot file gives a number for, by prefix.
+    """Returns inertial parameters of that link that the robot file gives a number for, by prefix.
 
     A standard parameter under `[parameters]` wins over the letters of a paper.
     """
@@ -170,7 +406,7 @@ def collect_stated_inertia(robot: Robot, joint: str) -> dict[str, float]:
 def complete_link_parameters(
     robot: Robot, pose: np.ndarray, rng: np.random.Generator
 ) -> tuple[dict[str, dict[str, float]], tuple[str, ...]]:
-    """Ten parameters of each moving link by joint and prefix, and the names that were drawn.
+    """Completes the ten parameters of each moving link; returns the drawn names too.
 
     Sizes follow from the lengths of the table at `pose`, masses from the reach; a box of uneven
     density stands for each link, so that the ten parameters are those of a real body.
@@ -228,12 +464,17 @@ def _draw_bodies(robot: Robot, pose: np.ndarray, rng: np.random.Generator) -> di
         reach[name] = reach[before] + lengths.get(name, 0.0)
         path[name] = path[before] | ({name} if joint.is_moving else set())
     length = np.array([*lengths.values()])
-    thinner = _THINNING ** np.array([depth[name] for name in tips])
+    thinner = THRESHOLDS.link_mass_reduction ** np.array([depth[name] for name in tips])
     weights = (length + 0.2 * length.mean()) * thinner
     # The longest chain weighs what an arm of its reach weighs; other branches as this one.
     chain = path[max(reach, key=lambda name: reach[name])]
     on_it = np.array([name in chain for name in tips])
-    masses = _DENSITY * length[on_it].sum() ** 2 * weights / weights[on_it].sum()
+    masses = (
+        THRESHOLDS.mass_per_squared_reach
+        * length[on_it].sum() ** 2
+        * weights
+        / weights[on_it].sum()
+    )
     return {
         name: _draw_box(mass * rng.uniform(0.8, 1.2), tip, rng)
         for (name, tip), mass in zip(tips.items(), masses, strict=True)
@@ -271,7 +512,9 @@ def _find_tips(robot: Robot, pose: np.ndarray) -> dict[str, np.ndarray]:
             tips[link] = end
     lengths = np.array([np.linalg.norm(tip) for tip in tips.values()])
     real = lengths[lengths > 1e-6]
-    short = _OF_MEAN * real.mean() if real.size else _SHORTEST
+    short = (
+        THRESHOLDS.short_link_share * real.mean() if real.size else THRESHOLDS.default_link_length
+    )
     return {
         name: tip if np.linalg.norm(tip) >= short else np.array([0.0, 0.0, short])
         for name, tip in tips.items()
@@ -281,7 +524,7 @@ def _find_tips(robot: Robot, pose: np.ndarray) -> dict[str, np.ndarray]:
 def merge_shared_names(
     robot: Robot, parameters: PlantParameters
 ) -> tuple[dict[str, float], tuple[str, ...]]:
-    """Values and drawn ones by the robot's own names: XX2 where legs share XX21, XX22, XX23."""
+    """Returns values and drawn names by the robot's own names: XX2 for XX21, XX22, XX23."""
     first = {shared.members[0]: shared.name for shared in robot.shared}
     merged_names = {member for shared in robot.shared for member in shared.members[1:]}
     return (

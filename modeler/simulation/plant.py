@@ -17,8 +17,9 @@ from modeler.core.errors import DataError, RobotError
 from modeler.core.expression import parse_expression
 from modeler.robot import Joint, Limits, Robot
 from modeler.simulation.closing import Constraints, build_identity_map, compute_tree_map
-from modeler.simulation.hidden import HIDDEN
+from modeler.simulation.log import HiddenEffect
 from modeler.simulation.parameters import PlantParameters
+from modeler.simulation.physics import HIDDEN
 from modeler.simulation.portable_math import make_portable, round_to_ten_digits
 from modeler.simulation.rigid import (
     Body,
@@ -29,21 +30,19 @@ from modeler.simulation.rigid import (
     compute_standard_parameters,
     reduce_dynamics,
 )
-from modeler.simulation.settings import HiddenEffect
 from modeler.simulation.shafts import (
     ShaftEffects,
     Transmissions,
     combine_shaft_effects,
     find_transmissions,
 )
-
-_LOAD_PASSES = 3  # friction of a share mu of the load is then exact to about mu^4
+from modeler.simulation.thresholds import THRESHOLDS
 
 
 def apply_hidden_loads(
     robot: Robot, parameters: PlantParameters, effects: Sequence[HiddenEffect]
 ) -> tuple[Robot, PlantParameters]:
-    """The robot with hidden loads on its links, on a base that stands askew."""
+    """Returns the robot with hidden loads on its links, on a base that stands askew."""
     bodies = dict(parameters.bodies)
     for effect in effects:
         role, values = HIDDEN[effect.effect].role, effect.values
@@ -62,7 +61,7 @@ def apply_hidden_loads(
 
 
 def find_last_link(robot: Robot) -> str:
-    """The row that carries a load: the platform, or the last one that moves."""
+    """Returns the row that carries a load: the platform, or the last one that moves."""
     return robot.platform[-1] if robot.platform else robot.moving_joints[-1].name
 
 
@@ -130,7 +129,7 @@ def build_plant(
     hidden: tuple[HiddenEffect, ...] = (),
     constraints: Constraints | None = None,
 ) -> Plant:
-    """The plant with these parameters, in the coordinates.
+    """Returns the plant with these parameters, in the coordinates.
 
     Args:
         robot: its table and effects.
@@ -243,7 +242,9 @@ def _solve_accelerations(
 
     solved = solve_with_load(links.bias)
     if ca.depends_on(effects.torque, effects.load):
-        for _ in range(_LOAD_PASSES):  # friction slows the links, whose load makes the friction
+        for _ in range(
+            THRESHOLDS.load_friction_passes
+        ):  # friction slows the links, whose load makes the friction
             solved = solve_with_load(links.inertia @ solved + links.bias)
     return solved
 
@@ -314,7 +315,7 @@ def _expand_function(function: ca.Function, *arguments: ca.SX) -> ca.SX:
 
 
 def compute_inner_states(plant: Plant, constraints: Constraints, v: np.ndarray) -> np.ndarray:
-    """(n, plant.states) of a plant with loops at rest in postures v (n, moving rows)."""
+    """Returns (n, plant.states) of a plant with loops at rest in postures v (n, moving rows)."""
     z = np.zeros((len(v), plant.states))
     z[:, : len(constraints.passive_rows)] = v[:, constraints.passive_rows]
     return z
@@ -326,7 +327,7 @@ def build_torque_function(
     limits: tuple[Limits, ...],
     hidden: tuple[HiddenEffect, ...] = (),
 ) -> tuple[ca.Function, int]:
-    """(q, qd, qdd, z) -> tau of all moving rows, untied, and the number of states z."""
+    """Returns (q, qd, qdd, z) -> tau of all moving rows, untied, and the number of states z."""
     links = build_rigid_dynamics(robot, parameters.bodies)
     effects = combine_shaft_effects(
         robot, parameters, limits, links, build_identity_map(robot), hidden
@@ -338,7 +339,7 @@ def build_torque_function(
 
 
 def build_motor_inertia(plant: Plant) -> ca.Function:
-    """(q, z) -> (joints, joints) inertia that motors feel, joints without motor swinging freely.
+    """Builds (q, z) -> (joints, joints) inertia that motors accelerate.
 
     The Schur complement of the passive joints in M; rows and columns of passive joints are 0.
     """
@@ -359,13 +360,13 @@ def build_motor_inertia(plant: Plant) -> ca.Function:
 
 
 def select_free_limits(robot: Robot, limits: tuple[Limits, ...]) -> tuple[Limits, ...]:
-    """Those of `robot.free` among limits in the order of `robot.moving`."""
+    """Returns those of `robot.free` among limits in the order of `robot.moving`."""
     pairs = zip(robot.moving_joints, limits, strict=True)
     return tuple(limit for joint, limit in pairs if joint.name not in robot.relations)
 
 
 def generate_poses(limits: tuple[Limits, ...], count: int = 16) -> np.ndarray:
-    """(count, joints) poses spread over the range of motion, the middle first; always the same."""
+    """Returns (count, joints) fixed poses over the range of motion, the middle first."""
     lower, upper = (np.array([getattr(li, k) for li in limits]) for k in ("lower", "upper"))
     share = np.random.default_rng(0).uniform(size=(count, len(limits)))
     share[0] = 0.5
@@ -375,18 +376,13 @@ def generate_poses(limits: tuple[Limits, ...], count: int = 16) -> np.ndarray:
 # Fixed-step integration of the plant over one control tick.
 
 
-_SLOWEST_STEP = 5e-4  # s: rigid motion of an arm is then exact to some 1e-10
-_STABLE = 1.5  # of a step times the fastest mode; Runge-Kutta 4 is stable up to 2.78
-_MOST_STEPS = 400  # per tick
-
-
 def choose_steps_per_tick(
     plant: Plant,
     limits: tuple[Limits, ...],
     tick: float,
     postures: tuple[np.ndarray, np.ndarray] | None = None,
 ) -> int:
-    """Runge-Kutta steps inside one control tick of `tick` seconds.
+    """Returns Runge-Kutta steps inside one control tick of `tick` seconds.
 
     The fastest mode is the spectral radius of d(x')/dx at rest, where dry friction is stiffest,
     over poses of the whole range, or over `postures`: (k, joints) positions, (k, states) states.
@@ -405,25 +401,29 @@ def choose_steps_per_tick(
         if abs(values[worst]) > fastest:
             n = pose.size
             fastest, joint = abs(values[worst]), int(np.argmax(np.abs(vectors[n : 2 * n, worst])))
-    if plant.fastest * tick / _STABLE > _MOST_STEPS:
+    if plant.fastest * tick / THRESHOLDS.max_step_times_rate > THRESHOLDS.max_steps_per_tick:
         raise DataError(
             f"simulation: the state of a hidden effect follows at {plant.fastest:.1e} 1/s at top "
-            f"speed; expected at most {_MOST_STEPS * _STABLE / tick:.1e}; give it a larger "
+            f"speed; expected at most "
+            f"{THRESHOLDS.max_steps_per_tick * THRESHOLDS.max_step_times_rate / tick:.1e}; give "
+            f"it a larger "
             "distance or width, or sample faster"
         )
-    needed = tick * max(fastest, plant.fastest) / _STABLE
-    steps = int(np.ceil(max(tick / _SLOWEST_STEP, needed)))
-    if steps > _MOST_STEPS:
+    needed = tick * max(fastest, plant.fastest) / THRESHOLDS.max_step_times_rate
+    steps = int(np.ceil(max(tick / THRESHOLDS.max_step, needed)))
+    if steps > THRESHOLDS.max_steps_per_tick:
         raise DataError(
             f"simulation, joint {plant.joints[joint]}: friction stops it within "
-            f"{1 / fastest:.1e} s; expected {tick / _STABLE / _MOST_STEPS:.1e} s or more; state a "
+            f"{1 / fastest:.1e} s; expected "
+            f"{tick / THRESHOLDS.max_step_times_rate / THRESHOLDS.max_steps_per_tick:.1e} s or "
+            f"more; state a "
             "larger inertia (Ia) or a smaller Fs, or sample faster"
         )
     return steps
 
 
 def build_tick_function(plant: Plant, tick: float, steps: int) -> ca.Function:
-    """x, tau -> x one tick later under constant torque; x = (q, qd, z), Runge-Kutta of order 4.
+    """Builds x, tau -> x one tick later at constant torque; x = (q, qd, z), Runge-Kutta 4.
 
     What is left open in loops, 1e-10 of the robot's size, is closed at the end of every tick.
     """
@@ -506,7 +506,7 @@ class FastFunction:
 
 
 def compile_if_possible(function: ca.Function) -> ca.Function:
-    """The same function, about ten times faster if a C compiler is found; else as it is."""
+    """Returns the same function, about ten times faster if a C compiler is found; else as it is."""
     compiler = shutil.which("cc") or shutil.which("gcc") or shutil.which("clang")
     if compiler is None:
         return function

@@ -13,6 +13,8 @@ from typing import Any, NamedTuple
 import casadi as ca
 import numpy as np
 
+from modeler.simulation.thresholds import THRESHOLDS
+
 # pi/2 and ln 2 in parts of 33 and 32 bits: a product with a count of quarter turns or halvings
 # below 2**20 is exact.
 _QUARTER = (1.5707963267341256, 6.077100506303966e-11, 2.0222662487111665e-21)
@@ -21,8 +23,6 @@ _SINE = tuple((-1) ** k / math.factorial(2 * k + 1) for k in range(8))
 _COSINE = tuple((-1) ** k / math.factorial(2 * k) for k in range(9))
 _EXP = tuple(1 / math.factorial(k) for k in range(15))
 _ATANH = tuple(1 / (2 * k + 1) for k in range(12))
-_HIGHEST = 700.0  # argument of exp
-_ROOTS = 6  # square roots that bring 1e-12 to 1e12 near to 1, where the series of atanh is short
 
 
 class _PortableAlgebra(NamedTuple):
@@ -48,7 +48,7 @@ _EXPRESSIONS = _PortableAlgebra(
 
 
 def compute_sine_and_cosine(x: Any) -> tuple[Any, Any]:
-    """sin(x), cos(x) to 1e-16; x number, array or CasADi expression, rad, |x| below 1e6."""
+    """Returns sin(x), cos(x) to 1e-16; x number, array or CasADi expression, rad, |x| below 1e6."""
     to = _choose_algebra(x)
     turns = to.floor(x * (2 / math.pi) + 0.5)
     r = x - turns * _QUARTER[0] - turns * _QUARTER[1] - turns * _QUARTER[2]
@@ -64,32 +64,32 @@ def compute_sine_and_cosine(x: Any) -> tuple[Any, Any]:
 
 
 def compute_exponential(x: Any) -> Any:
-    """exp(x) to 1e-16 of itself; beyond |x| = 700 that of 700."""
+    """Returns exp(x) to 1e-16 of itself; beyond |x| = 700 that of 700."""
     to = _choose_algebra(x)
-    exponent = to.clip(x, -_HIGHEST, _HIGHEST)
+    exponent = to.clip(x, -THRESHOLDS.max_exponent, THRESHOLDS.max_exponent)
     halvings = to.floor(exponent / math.log(2.0) + 0.5)
     r = exponent - halvings * _LN2[0] - halvings * _LN2[1]
     return _evaluate_series(_EXP, r) * to.two_to(halvings)
 
 
 def compute_hyperbolic_tangent(x: Any) -> Any:
-    """tanh(x) to 1e-16."""
+    """Returns tanh(x) to 1e-16."""
     return 1 - 2 / (compute_exponential(2 * x) + 1)
 
 
 def compute_power(x: Any, exponent: Any) -> Any:
-    """x**exponent = exp(exponent log x) to 1e-14 of itself, x between 1e-12 and 1e12."""
+    """Returns x**exponent = exp(exponent log x) to 1e-14 of itself, x between 1e-12 and 1e12."""
     root = x
-    for _ in range(_ROOTS):
+    for _ in range(THRESHOLDS.logarithm_roots):
         root = _choose_algebra(root).sqrt(root)
     t = (root - 1) / (root + 1)
     return compute_exponential(
-        exponent * (2.0 ** (_ROOTS + 1) * t * _evaluate_series(_ATANH, t * t))
+        exponent * (2.0 ** (THRESHOLDS.logarithm_roots + 1) * t * _evaluate_series(_ATANH, t * t))
     )
 
 
 def round_to_ten_digits(value: float) -> float:
-    """A number that linear algebra or a generator drew, without the digits that machines differ in.
+    """Rounds a number to ten digits, in which all machines agree.
 
     What is left differs where a digit is on the edge, for one number in a million.
     """
@@ -97,7 +97,7 @@ def round_to_ten_digits(value: float) -> float:
 
 
 def make_portable(function: ca.Function) -> ca.Function:
-    """The same function of CasADi scalars, with the functions above in place of the library's."""
+    """Returns the same function of CasADi scalars, with the functions of this module."""
     arguments = [ca.SX.sym(name, *function.size_in(name)) for name in function.name_in()]
     elements = [argument.nz for argument in arguments]
     results = [[ca.SX(0)] * function.nnz_out(k) for k in range(function.n_out())]

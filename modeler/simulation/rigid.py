@@ -12,14 +12,21 @@ import numpy as np
 
 from modeler.robot import INERTIAL, Robot
 from modeler.simulation.portable_math import compute_sine_and_cosine
+from modeler.simulation.thresholds import THRESHOLDS
 
 # Where the links are: frames of a modified Denavit-Hartenberg table in the world frame.
 
 
 FUNCTIONS = {
-    "sin": ca.sin, "cos": ca.cos, "tan": ca.tan, "sqrt": ca.sqrt, "exp": ca.exp,
-    "abs": ca.fabs, "sign": ca.sign, "tanh": ca.tanh,
-}  # fmt: skip
+    "sin": ca.sin,
+    "cos": ca.cos,
+    "tan": ca.tan,
+    "sqrt": ca.sqrt,
+    "exp": ca.exp,
+    "abs": ca.fabs,
+    "sign": ca.sign,
+    "tanh": ca.tanh,
+}
 
 
 @dataclass(frozen=True)
@@ -43,7 +50,7 @@ BASE = "0"
 
 
 def compute_world_frames(robot: Robot, q: ca.SX) -> dict[str, Frame]:
-    """Every frame of the table by row name, and frame "0", in table order.
+    """Returns every frame of the table by row name, and frame "0", in table order.
 
     0_T_j = 0_T_a Rz(gamma) Tz(b) Rx(alpha) Tx(d) Rz(theta) Tz(r) (Khalil and Kleinfinger 1986).
 
@@ -73,7 +80,7 @@ def compute_world_frames(robot: Robot, q: ca.SX) -> dict[str, Frame]:
 
 
 def compute_gravity_vector(robot: Robot) -> np.ndarray:
-    """(3,) acceleration of gravity in the world frame, m/s2."""
+    """Returns (3,) acceleration of gravity in the world frame, m/s2."""
     symbols = robot.evaluate_symbols()
     return np.array([component.evaluate(symbols) for component in robot.gravity])
 
@@ -109,12 +116,11 @@ class Body:
     inertia: np.ndarray
 
 
-_ROUNDING = 1e-11  # of the moments of inertia
 _PLACE = {"XX": (0, 0), "XY": (0, 1), "XZ": (0, 2), "YY": (1, 1), "YZ": (1, 2), "ZZ": (2, 2)}
 
 
 def compute_body(values: Mapping[str, float]) -> Body:
-    """The body whose ten standard parameters (keys of `INERTIAL`) are `values`.
+    """Returns the body whose ten standard parameters (keys of `INERTIAL`) are `values`.
 
     J_centre = J_origin - M (c.c 1 - c c'), c = (MX, MY, MZ) / M (Huygens and Steiner).
     """
@@ -127,13 +133,13 @@ def compute_body(values: Mapping[str, float]) -> Body:
 
 
 def compute_standard_parameters(body: Body) -> dict[str, float]:
-    """The ten standard parameters at the origin of frame j, in the order of `INERTIAL`."""
+    """Returns the ten standard parameters at the origin of frame j, in the order of `INERTIAL`."""
     origin = body.inertia + body.mass * _compute_parallel_axis_term(body.centre)
     return _build_standard_parameters(origin, body.mass * body.centre, body.mass)
 
 
 def compute_pseudo_inertia(values: Mapping[str, float]) -> np.ndarray:
-    """(4, 4) second moments of the mass, [[int x x' dm, int x dm], [., M]], at the frame's origin.
+    """Computes (4, 4) [[int x x' dm, int x dm], [., M]], at the frame's origin.
 
     A set of ten parameters is that of some distribution of mass if and only if this matrix is
     positive semi-definite (Wensing, Kim and Slotine 2018, IEEE RA-L 3(1)).
@@ -147,7 +153,7 @@ def compute_pseudo_inertia(values: Mapping[str, float]) -> np.ndarray:
 
 
 def convert_pseudo_inertia(matrix: np.ndarray) -> dict[str, float]:
-    """Inverse of `compute_pseudo_inertia`."""
+    """Returns inverse of `compute_pseudo_inertia`."""
     second = matrix[:3, :3]
     return _build_standard_parameters(
         np.trace(second) * np.eye(3) - second, matrix[:3, 3], matrix[3, 3]
@@ -155,10 +161,10 @@ def convert_pseudo_inertia(matrix: np.ndarray) -> dict[str, float]:
 
 
 def is_physical(values: Mapping[str, float], tolerance: float = 1e-9) -> bool:
-    """True if some distribution of mass has these parameters; rods, plates and no mass included."""
+    """Returns True if some distribution of mass has these parameters; rods and plates too."""
     matrix = compute_pseudo_inertia(values)
     # A plate of which XX = YY + ZZ holds but for rounding is one.
-    matrix[:3, :3] += _ROUNDING * abs(np.trace(matrix[:3, :3])) * np.eye(3)
+    matrix[:3, :3] += THRESHOLDS.max_inertia_rounding * abs(np.trace(matrix[:3, :3])) * np.eye(3)
     # Rows scaled to ones on the diagonal: kilograms and kilogram square metres become comparable.
     diagonal = np.diag(matrix)
     if np.any(diagonal < 0):
@@ -213,7 +219,7 @@ class _Motion:
 
 
 def build_rigid_dynamics(robot: Robot, bodies: Mapping[str, Body]) -> RigidDynamics:
-    """Equations of motion of a serial or tree robot.
+    """Returns equations of motion of a serial or tree robot.
 
     Args:
         robot: geometry, gravity.
@@ -229,7 +235,7 @@ def build_rigid_dynamics(robot: Robot, bodies: Mapping[str, Body]) -> RigidDynam
 
 
 def reduce_dynamics(links: RigidDynamics, turns: np.ndarray, offset: np.ndarray) -> RigidDynamics:
-    """The same in fewer coordinates u of which all joints follow: q = turns u + offset.
+    """Returns the same in fewer coordinates u of which all joints follow: q = turns u + offset.
 
     M_u = turns^T M turns, h_u = turns^T h (the principle of virtual work).
     """

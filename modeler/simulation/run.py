@@ -1,13 +1,13 @@
 """The simulated measurement: plant, controller and sensors in closed loop, or the exact command."""
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import partial
 
 import numpy as np
 
 from modeler.core.errors import DataError
-from modeler.robot import Limits, Robot, compute_joint_directions
+from modeler.robot import Joint, Limits, Robot, compute_joint_directions
 from modeler.simulation.closing import (
     ClosedMotion,
     Constraints,
@@ -18,23 +18,14 @@ from modeler.simulation.closing import (
     evaluate_samples,
     find_closed_motion,
 )
-from modeler.simulation.control import (
-    ControllerGains,
-    ControllerState,
-    SensorFaults,
-    collect_sensor_faults,
-    compute_encoder_resolution,
-    compute_logged_torques,
-    compute_sampled_torques,
-    draw_process_torques,
-    invert_encoders,
-    quantise_position,
-    read_encoders,
-    tune_gains,
-    update_controller,
-)
 from modeler.simulation.hidden_draw import complete_effects
-from modeler.simulation.log import SimulatedLog, Truth
+from modeler.simulation.log import (
+    HiddenEffect,
+    SimulatedLog,
+    SimulationSettings,
+    Truth,
+    check_settings,
+)
 from modeler.simulation.parameters import PlantParameters, draw_plant_parameters, merge_shared_names
 from modeler.simulation.plant import (
     FastFunction,
@@ -48,8 +39,9 @@ from modeler.simulation.plant import (
     compute_inner_states,
     select_free_limits,
 )
-from modeler.simulation.settings import HiddenEffect, SimulationSettings, check_settings
+from modeler.simulation.portable_math import compute_exponential, compute_sine_and_cosine
 from modeler.simulation.shafts import compute_rest_states
+from modeler.simulation.thresholds import THRESHOLDS
 from modeler.simulation.trajectory import (
     Reference,
     build_exciting_reference,
@@ -59,10 +51,234 @@ from modeler.simulation.trajectory import (
     widen_limits,
 )
 
-_REPORT_EVERY = 500  # ticks between looks at the tracking error, and calls of the callback
-_THERMOMETER = 0.01  # K, resolution
-_LOOKED_AT = 8  # postures of a closed robot, for the stiffest of its motions
-_LOST = 0.5  # tracking error, in ranges of motion, at which the controller has lost the robot
+
+def compute_encoder_resolution(joints: Sequence[Joint], settings: SimulationSettings) -> np.ndarray:
+    """Returns (joints,) rad or m per count; 0 for an ideal encoder."""
+    return np.array(
+        [
+            2 * np.pi / settings.encoder_counts
+            if joint.is_revolute and settings.encoder_counts
+            else 0.0
+            if joint.is_revolute
+            else settings.linear_resolution
+            for joint in joints
+        ]
+    )
+
+
+def quantise_position(position: np.ndarray, resolution: np.ndarray) -> np.ndarray:
+    """Returns what an encoder of that resolution reads; 0: the position itself."""
+    step = np.where(resolution > 0, resolution, 1.0)
+    return np.where(resolution > 0, np.round(position / step) * step, position)
+
+
+@dataclass(frozen=True, eq=False)
+class SensorFaults:
+    """What the sensors of a machine do wrong, beside resolution and noise.
+
+    Attributes:
+        offset: (joints,) encoders read so much more, rad or m.
+        waves: place, amplitude [rad, m], order [1/rad, 1/m] and phase of eccentric encoders.
+        delay: of logged torques, s.
+        ratio: (joints,) logged torque per torque.
+        drift: (joints,) of logged torques, N m/s or N/s.
+    """
+
+    offset: np.ndarray
+    waves: tuple[tuple[int, float, float, float], ...]
+    delay: float
+    ratio: np.ndarray
+    drift: np.ndarray
+
+
+def collect_sensor_faults(joints: Sequence[str], hidden: Sequence[HiddenEffect]) -> SensorFaults:
+    """Returns the faults among hidden effects."""
+    offset, ratio, drift = np.zeros(len(joints)), np.ones(len(joints)), np.zeros(len(joints))
+    waves, delay = [], 0.0
+    for effect in hidden:
+        i = joints.index(effect.joint) if effect.joint in joints else -1
+        values = effect.values
+        if effect.effect == "encoder_offset":
+            offset[i] += values["angle"]
+        elif effect.effect == "encoder_eccentricity":
+            waves.append((i, values["amplitude"], values["order"], values["phase"]))
+        elif effect.effect == "time_delay":
+            delay += values["delay"]
+        elif effect.effect == "drive_gain":
+            ratio[i] *= values["ratio"]
+        elif effect.effect == "drift":
+            drift[i] += values["per_minute"] / 60
+    return SensorFaults(offset, tuple(waves), delay, ratio, drift)
+
+
+def read_encoders(faults: SensorFaults, position: np.ndarray) -> np.ndarray:
+    """Returns (joints,) what encoders of endless resolution read at these positions."""
+    read = position + faults.offset
+    for i, amplitude, order, phase in faults.waves:
+        read[i] += amplitude * compute_sine_and_cosine(order * position[i] + phase)[0]
+    return read
+
+
+def invert_encoders(faults: SensorFaults, reading: np.ndarray) -> np.ndarray:
+    """Returns (joints,) positions at which such encoders read that."""
+    position = np.array(reading, dtype=float)
+    for _ in range(
+        THRESHOLDS.encoder_inversion_passes if faults.waves or np.any(faults.offset) else 0
+    ):
+        position = position - (read_encoders(faults, position) - reading)
+    return position
+
+
+def compute_logged_torques(faults: SensorFaults, time: np.ndarray, held: np.ndarray) -> np.ndarray:
+    """Computes (n, joints) torques before noise: means over intervals about the samples.
+
+    Args:
+        faults: of the sensors.
+        time: (n,) s.
+        held: (n, joints) torques, each held from its sample to the next.
+    """
+    if not faults.delay:
+        return compute_sampled_torques(faults, time, (np.vstack([held[:1], held[:-1]]) + held) / 2)
+    # The mean over one interval runs straight between the middles of the ticks.
+    return compute_sampled_torques(faults, time, held, known=time + (time[1] - time[0]) / 2)
+
+
+def compute_sampled_torques(
+    faults: SensorFaults, time: np.ndarray, tau: np.ndarray, known: np.ndarray | None = None
+) -> np.ndarray:
+    """Computes (n, joints) torques before noise, from torques at the samples or times known."""
+    if faults.delay:
+        at, late = time if known is None else known, time - faults.delay
+        tau = np.column_stack([np.interp(late, at, column) for column in tau.T])
+    return tau * faults.ratio + faults.drift * time[:, None]
+
+
+# A cascaded position and velocity controller, as drives have it, scheduled with the inertia.
+
+
+# Zero-order hold (0.5 tick), latency (1), difference (0.5), and the speed filter delay the velocity
+# loop; where that takes more than 0.6 rad of phase at the bandwidth, the bandwidth is lowered.
+
+
+@dataclass(frozen=True, eq=False)
+class ControllerGains:
+    """Of the P-PI cascade, for unit inertia.
+
+    Attributes:
+        position: rad/s of speed per rad of position error, 1/s.
+        speed: acceleration per speed error, 1/s.
+        integral: acceleration per integrated speed error, 1/s2.
+        forward: 1 if commanded speed and acceleration are fed forward, else 0.
+        highest: (joints,) saturation, N m or N; 0 for a joint without motor.
+        filter_share: of the new difference in the filtered speed, per tick.
+        tick: s.
+    """
+
+    position: float
+    speed: float
+    integral: float
+    forward: float
+    highest: np.ndarray
+    filter_share: float
+    tick: float
+
+
+@dataclass(frozen=True, eq=False)
+class ControllerState:
+    """What the controller remembers from one tick to the next; (joints,) each.
+
+    Attributes:
+        measured: encoder position at the last tick.
+        speed: filtered.
+        effort: torque of the integral action.
+    """
+
+    measured: np.ndarray
+    speed: np.ndarray
+    effort: np.ndarray
+
+
+def tune_gains(
+    rate: float, bandwidth: float, feedforward: bool, highest: np.ndarray
+) -> ControllerGains:
+    """Returns gains of a velocity loop of `bandwidth` [Hz], lowered where the delay asks for it."""
+    delay = THRESHOLDS.loop_delay_ticks / rate + 1 / (2 * np.pi * THRESHOLDS.speed_filter_hz)
+    omega = min(2 * np.pi * bandwidth, THRESHOLDS.max_delay_phase / delay)
+    return ControllerGains(
+        position=THRESHOLDS.outer_loop_share * omega,
+        speed=omega,
+        integral=THRESHOLDS.outer_loop_share * omega**2,
+        forward=float(feedforward),
+        highest=highest,
+        filter_share=1 - float(compute_exponential(-2 * np.pi * THRESHOLDS.speed_filter_hz / rate)),
+        tick=1 / rate,
+    )
+
+
+def update_controller(
+    gains: ControllerGains,
+    state: ControllerState,
+    inertia: np.ndarray,
+    measured: np.ndarray,
+    command: tuple[np.ndarray, np.ndarray, np.ndarray],
+) -> tuple[ControllerState, np.ndarray]:
+    """Returns the next state, and the torque the controller asks for; (joints,).
+
+    tau = sat(M (kv (kp (qc - q) + qdc - v) + qddc) + effort), effort' = M ki (the same error). With
+    fixed gains an arm without rotor inertias loses its wrist: its inertia varies a hundredfold.
+    Gravity, Coriolis torques and friction are left to the integral action. The integral of a joint
+    stands still while its torque is saturated and the error would drive it further.
+
+    Args:
+        gains: of the cascade.
+        state: after the last tick.
+        inertia: (joints, joints) M that the motors feel at the measured position.
+        measured: encoder position now.
+        command: commanded q, qd, qdd now.
+    """
+    q, qd, qdd = command
+    difference = (measured - state.measured) / gains.tick
+    speed = state.speed + gains.filter_share * (difference - state.speed)
+    error = gains.position * (q - measured) + gains.forward * qd - speed
+    rise = _multiply_in_order(inertia, gains.integral * gains.tick * error)
+    effort = state.effort + rise
+    unlimited_torque = (
+        _multiply_in_order(inertia, gains.speed * error + gains.forward * qdd) + effort
+    )
+    torque = np.minimum(np.maximum(unlimited_torque, -gains.highest), gains.highest)
+    winding = (unlimited_torque != torque) & (unlimited_torque * rise > 0)
+    return ControllerState(measured, speed, np.where(winding, state.effort, effort)), torque
+
+
+def _multiply_in_order(matrix: np.ndarray, vector: np.ndarray) -> np.ndarray:
+    """matrix vector, by sums in a fixed order: libraries of linear algebra round as they like."""
+    return np.asarray(np.sum(matrix * vector, axis=1))
+
+
+# A random torque on the machine itself, as from seals, cables and the air.
+
+
+def draw_process_torques(settings: SimulationSettings, ticks: int, rms: np.ndarray) -> np.ndarray:
+    """Draws (ticks, joints) a stationary Ornstein-Uhlenbeck process on each joint.
+
+    Args:
+        settings: share, rate and seed.
+        ticks: number of samples.
+        rms: (joints,) torque of which it is a share, N m or N.
+    """
+    shape = (ticks, rms.size)
+    if not settings.process_noise:
+        return np.zeros(shape)
+    from scipy.signal import lfilter  # it takes long to load
+
+    white = np.random.default_rng([settings.seed, 5]).normal(size=shape)
+    decay = float(compute_exponential(-1 / (settings.rate * THRESHOLDS.process_noise_time)))
+    white[1:] *= np.sqrt(1 - decay**2)  # the first sample has the variance of all
+    noise = lfilter([1.0], [1.0, -decay], white, axis=0)
+    return settings.process_noise * rms * np.round(noise, 10)  # the same on every machine
+
+
+# The simulated measurement: plant, controller and sensors in closed loop, or the exact command.
 
 
 @dataclass(frozen=True, eq=False)
@@ -89,7 +305,7 @@ def simulate(
     settings: SimulationSettings | None = None,
     progress: Callable[[float], None] | None = None,
 ) -> SimulatedLog:
-    """A measurement of `robot` under closed-loop control.
+    """Returns a measurement of `robot` under closed-loop control.
 
     With loops the commanded motion is carried out exactly, unless the settings ask for the
     controller.
@@ -214,7 +430,7 @@ def build_task(
     settings: SimulationSettings,
     hidden: tuple[HiddenEffect, ...],
 ) -> PlantTask:
-    """The machine under a controller, with these parameters and limits of `robot.moving`."""
+    """Returns machine under a controller, with these parameters and limits of `robot.moving`."""
     real = apply_hidden_loads(robot, parameters, hidden)
     if robot.loops:
         constraints = build_constraints(robot)
@@ -236,7 +452,7 @@ def build_task(
 
 
 def compute_needed_torques(task: PlantTask) -> np.ndarray:
-    """(about 500, joints) torques of the commanded motion."""
+    """Returns (about 500, joints) torques of the commanded motion."""
     reference = task.reference
     thinned = slice(None, None, max(1, reference.time.size // 500))
     motion = (reference.q, reference.qd, reference.qdd, task.states_along)
@@ -286,9 +502,9 @@ def _run_closed_loop(
         np.empty((ticks, n)),
         np.empty((ticks, n)),
     )
-    for begin in range(0, ticks, _REPORT_EVERY):
+    for begin in range(0, ticks, THRESHOLDS.ticks_per_report):
         with np.errstate(over="ignore", invalid="ignore"):  # a lost robot is reported below
-            for k in range(begin, min(begin + _REPORT_EVERY, ticks)):
+            for k in range(begin, min(begin + THRESHOLDS.ticks_per_report, ticks)):
                 states[k], torques[k] = x, torque
                 measured[k] = quantise_position(read_encoders(faults, x[:n]), resolution)
                 inertia = mass(measured[k], x[2 * n :]).reshape(n, n)
@@ -302,10 +518,10 @@ def _run_closed_loop(
 
 
 def select_postures(task: PlantTask) -> tuple[np.ndarray, np.ndarray] | None:
-    """Some of the commanded ones, where not all that the limits hold can be reached."""
+    """Returns some of the commanded ones, where not all that the limits hold can be reached."""
     if task.plant.closer is None:
         return None
-    some = np.linspace(0, len(task.states_along) - 1, _LOOKED_AT).astype(int)
+    some = np.linspace(0, len(task.states_along) - 1, THRESHOLDS.checked_postures).astype(int)
     return task.reference.q[some], task.states_along[some]
 
 
@@ -314,7 +530,7 @@ def _check_tracking(task: PlantTask, begin: int, q: np.ndarray) -> None:
     plant, reference = task.plant, task.reference
     widths = np.array([limit.upper - limit.lower for limit in task.limits])
     error = np.abs(q - reference.q[begin : begin + len(q)]) / widths
-    is_lost = ~(error <= _LOST) & plant.driven | ~np.isfinite(q)
+    is_lost = ~(error <= THRESHOLDS.max_tracking_error_share) & plant.driven | ~np.isfinite(q)
     if np.any(is_lost):
         sample, joint = np.argwhere(is_lost)[0]
         raise DataError(
@@ -358,6 +574,7 @@ def _read_thermometers(plant: Plant, z: np.ndarray) -> dict[str, np.ndarray]:
         return {}
     readings = plant.temperatures.map(len(z))(z.T).full()
     return {
-        f"temperature{joint}": np.round(values / _THERMOMETER) * _THERMOMETER
+        f"temperature{joint}": np.round(values / THRESHOLDS.thermometer_resolution)
+        * THRESHOLDS.thermometer_resolution
         for joint, values in zip(plant.thermometer_joints, readings, strict=True)
     }

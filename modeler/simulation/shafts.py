@@ -8,14 +8,11 @@ import numpy as np
 
 from modeler.core.errors import RobotError
 from modeler.robot import Limits, Robot
-from modeler.simulation.hidden import HIDDEN
+from modeler.simulation.log import HiddenEffect
 from modeler.simulation.parameters import PlantParameters, find_joint_physics
-from modeler.simulation.physics import Act, Contribution, Shaft, Values
+from modeler.simulation.physics import HIDDEN, Act, Contribution, Shaft, Values
 from modeler.simulation.rigid import RigidDynamics, compute_world_frames
-from modeler.simulation.settings import HiddenEffect
-
-_CORE = 1e-3  # width of the smooth core of dry friction, relative to the top speed
-_RISE = 5e-3  # s, in which a push sets in
+from modeler.simulation.thresholds import THRESHOLDS
 
 
 @dataclass(frozen=True)
@@ -48,7 +45,7 @@ def combine_shaft_effects(
     tie: tuple[np.ndarray, np.ndarray],
     hidden: tuple[HiddenEffect, ...] = (),
 ) -> ShaftEffects:
-    """The effects in the coordinates of `links`.
+    """Returns the effects in the coordinates of `links`.
 
     Args:
         robot: with the effects of its file.
@@ -69,7 +66,7 @@ def combine_shaft_effects(
         shaft = Shaft(
             position=ca.dot(ca.SX(turn), links.q) + float(row @ offset),
             speed=ca.dot(ca.SX(turn), links.qd),
-            settling=_CORE * speeds[joint],
+            settling=THRESHOLDS.dry_friction_core_share * speeds[joint],
             name=name,
             load=ca.dot(ca.SX(turn), load),
             top=speeds[joint],
@@ -140,18 +137,13 @@ def _compute_push(
     point = frame.position + frame.rotation @ ca.SX([values[k] for k in "xyz"])
     work = ca.dot(ca.SX([values[k] for k in ("fx", "fy", "fz")]), point)
     clock = ca.SX.sym("clock")
-    begun = ca.tanh((clock - values["start"]) / _RISE)
-    ended = ca.tanh((clock - values["start"] - values["length"]) / _RISE)
+    begun = ca.tanh((clock - values["start"]) / THRESHOLDS.push_rise_time)
+    ended = ca.tanh((clock - values["start"] - values["length"]) / THRESHOLDS.push_rise_time)
     torque = -ca.jacobian(work, links.q).T * (begun - ended) / 2
     return Contribution(torque=torque, state=clock, rate=ca.SX(1.0))
 
 
 # Transmissions that give way: motor and link as two bodies with a spring between them.
-
-
-_FARTHEST = 0.3  # rad or m, that a link may be ahead of its motor at rest
-_HALVINGS = 60
-_SWEEPS = 4  # gravity couples what lies behind several transmissions, weakly
 
 
 @dataclass(frozen=True)
@@ -170,7 +162,7 @@ class Transmissions:
     effects: tuple[HiddenEffect, ...]
 
     def compute_torque(self, ahead: ca.SX, rate: ca.SX) -> ca.SX:
-        """(transmissions, 1) torques that pull the links back to their motors, N m or N."""
+        """Returns (transmissions, 1) torques that pull the links back to their motors, N m or N."""
         torques = [ca.SX(0, 1)]
         for i, effect in enumerate(self.effects):
             spring = HIDDEN[effect.effect].spring
@@ -180,7 +172,7 @@ class Transmissions:
 
 
 def find_transmissions(robot: Robot, hidden: tuple[HiddenEffect, ...]) -> Transmissions:
-    """The hidden effects that lie between motors and links."""
+    """Returns the hidden effects that lie between motors and links."""
     names = [joint.name for joint in robot.free_joints]
     effects = tuple(h for h in hidden if HIDDEN[h.effect].role == "transmission")
     rows = tuple(names.index(effect.joint) for effect in effects if effect.joint)
@@ -189,7 +181,7 @@ def find_transmissions(robot: Robot, hidden: tuple[HiddenEffect, ...]) -> Transm
 
 
 def compute_rest_states(strain: ca.Function, q: np.ndarray, z: np.ndarray) -> np.ndarray:
-    """(states,) inner states of a robot at rest: links sag until their springs carry them.
+    """Returns (states,) inner states of a robot at rest: links sag until their springs carry them.
 
     Args:
         strain: (q, z) -> torque on each such link, rising with how far it is ahead.
@@ -197,10 +189,10 @@ def compute_rest_states(strain: ca.Function, q: np.ndarray, z: np.ndarray) -> np
         z: (states,) of a robot whose links do not sag, those of the transmissions first.
     """
     z = z.copy()
-    for _ in range(_SWEEPS if strain.size1_out(0) else 0):
+    for _ in range(THRESHOLDS.sag_sweeps if strain.size1_out(0) else 0):
         for i in range(strain.size1_out(0)):
-            low, high = -_FARTHEST, _FARTHEST
-            for _ in range(_HALVINGS):
+            low, high = -THRESHOLDS.max_sag, THRESHOLDS.max_sag
+            for _ in range(THRESHOLDS.sag_halvings):
                 z[i] = (low + high) / 2
                 pull = float(strain(q, z).full()[i, 0])
                 low, high = (low, z[i]) if pull > 0 else (z[i], high)

@@ -17,16 +17,9 @@ from modeler.core.errors import DataError, RobotError
 from modeler.core.files import check_unpacked_size, read_file
 from modeler.robot import Limits, Robot
 from modeler.simulation.portable_math import compute_sine_and_cosine, round_to_ten_digits
+from modeler.simulation.thresholds import THRESHOLDS
 
-_MARGIN = 0.92  # of the limits: the joints overshoot the command a little
-_SPEEDS = (1.0, 0.6, 0.25, 1.0, 0.4, 0.1)  # of the top speed, taken in turn
-_LONGEST = 1.4  # s, of one move: slow moves are short ones
-_PAUSE = 0.05  # s, between moves
-_HARMONICS = 6
-_LOWEST = 0.1  # Hz, fundamental of the series
 _AS_FAST_AS_CAN_BE = (1.0,)
-_REST = 0.2  # s, before and after a joint moves alone
-_ALONE = (1.0, 0.5)  # of the top speed, of a joint that moves alone
 _PEAK_SPEED = 15 / 8  # of a quintic move of unit length and duration
 _PEAK_ACCELERATION = 10 / np.sqrt(3)
 
@@ -51,7 +44,7 @@ class Reference:
 
 
 def widen_limits(limits: tuple[Limits, ...], motion: Reference) -> tuple[Limits, ...]:
-    """Limits that hold the motion."""
+    """Returns limits that hold the motion."""
     peaks = (motion.q.min(0), motion.q.max(0), np.abs(motion.qd).max(0), np.abs(motion.qdd).max(0))
     return tuple(
         Limits(min(li.lower, low), max(li.upper, high), max(li.speed, v), max(li.acceleration, a))
@@ -62,7 +55,7 @@ def widen_limits(limits: tuple[Limits, ...], motion: Reference) -> tuple[Limits,
 def build_point_to_point_reference(
     limits: tuple[Limits, ...], duration: float, rate: float, seed: int
 ) -> Reference:
-    """Quintic moves of all joints between random points, as fast as the limits allow.
+    """Returns quintic moves of all joints between random points, as fast as the limits allow.
 
     The motion of Guegan, Khalil and Lemoine 2003 (ICRA, section 5). Arguments as those of
     `build_exciting_reference`.
@@ -87,7 +80,7 @@ def build_one_joint_reference(
     seed: int,
     directions: np.ndarray | None = None,
 ) -> Reference:
-    """One joint after the other moves alone, at ever new configurations of the others.
+    """Returns one joint after the other moves alone, at ever new configurations of the others.
 
     For a two-step identification (Hanssen, Hovland and Brogardh 2000, section 5): all coordinates
     go to a random place, and one joint goes there and back over its range at several speeds.
@@ -105,7 +98,7 @@ def build_one_joint_reference(
     directions = np.eye(len(limits)) if directions is None else directions
     path, rng = _ReferenceBuilder(limits, duration, rate), np.random.default_rng([seed, 6])
     lower, upper = path.middle - path.reach, path.middle + path.reach
-    now, here, turn = _PAUSE, path.middle, 0
+    now, here, turn = THRESHOLDS.pause_time, path.middle, 0
     while True:
         direction = directions[turn % len(directions)]
         place = path.draw_position(rng)
@@ -116,14 +109,22 @@ def build_one_joint_reference(
         last = float(np.min(np.max(sides, axis=0)))
         start_point, along = place + first * direction, (last - first) * direction
         steps = [(start_point - here, 1.0)]
-        steps += [(sign * along, level) for level in _ALONE for sign in (1, -1)]
+        steps += [
+            (sign * along, level) for level in THRESHOLDS.single_joint_speeds for sign in (1, -1)
+        ]
         moves = [(step, path.compute_move_time(step, level)) for step, level in steps]
         home = path.compute_move_time(path.middle - start_point)
-        if now + sum(lasts + _REST for _, lasts in moves) + home + _PAUSE > path.time[-1]:
+        if (
+            now
+            + sum(lasts + THRESHOLDS.rest_time for _, lasts in moves)
+            + home
+            + THRESHOLDS.pause_time
+            > path.time[-1]
+        ):
             break
         for step, lasts in moves:
             path.add_move(now, lasts, step)
-            now += lasts + _REST
+            now += lasts + THRESHOLDS.rest_time
         here, turn = start_point, turn + 1
     if not turn:
         raise DataError(
@@ -137,7 +138,7 @@ def build_one_joint_reference(
 def build_exciting_reference(
     limits: tuple[Limits, ...], duration: float, rate: float, seed: int
 ) -> Reference:
-    """Point-to-point moves for the first half, a Fourier series for the rest, within the limits.
+    """Builds moves for the first half and a Fourier series for the rest, within the limits.
 
     The moves are quintic polynomials at 10 to 100 % of the top speed, of all joints or of some of
     them, so that friction is seen at several speeds and joints also move alone. The series
@@ -179,7 +180,9 @@ class _ReferenceBuilder:
             )
         self.limits, self.time = limits, np.arange(count) / rate
         self.middle = np.array([(limit.lower + limit.upper) / 2 for limit in limits])
-        self.reach = _MARGIN * np.array([(limit.upper - limit.lower) / 2 for limit in limits])
+        self.reach = THRESHOLDS.range_margin * np.array(
+            [(limit.upper - limit.lower) / 2 for limit in limits]
+        )
         self.values = np.zeros((3, count, len(limits)))
         self.values[0] = self.middle
 
@@ -187,13 +190,13 @@ class _ReferenceBuilder:
         return Reference(self.time, *self.values)
 
     def draw_position(self, rng: np.random.Generator) -> np.ndarray:
-        """(joints,) positions within reach."""
+        """Returns (joints,) positions within reach."""
         return self.middle + self.reach * np.round(rng.uniform(-1, 1, len(self.limits)), 10)
 
     def compute_move_time(self, distance: np.ndarray, level: float = 1.0) -> float:
-        """Duration of a quintic move of all joints together, none above level * top speed, s."""
-        speed = _MARGIN * level * np.array([limit.speed for limit in self.limits])
-        lift = _MARGIN * np.array([limit.acceleration for limit in self.limits])
+        """Computes the duration of a quintic move of all joints, below level * top speed, s."""
+        speed = THRESHOLDS.range_margin * level * np.array([limit.speed for limit in self.limits])
+        lift = THRESHOLDS.range_margin * np.array([limit.acceleration for limit in self.limits])
         length = np.abs(distance)
         times = [_PEAK_SPEED * length / speed, np.sqrt(_PEAK_ACCELERATION * length / lift)]
         return float(np.max(times))
@@ -209,8 +212,12 @@ class _ReferenceBuilder:
 
         Exciting ones are of several speeds, some of only some joints, and none takes long.
         """
-        speeds, longest = (_SPEEDS, _LONGEST) if exciting else (_AS_FAST_AS_CAN_BE, np.inf)
-        now, here, turn = _PAUSE, self.middle, 0
+        speeds, longest = (
+            (THRESHOLDS.move_speeds, THRESHOLDS.max_move_time)
+            if exciting
+            else (_AS_FAST_AS_CAN_BE, np.inf)
+        )
+        now, here, turn = THRESHOLDS.pause_time, self.middle, 0
         while True:
             level = speeds[turn % len(speeds)]
             joins = rng.random(len(here)) < (0.5 if exciting and turn % 3 == 2 else 1.1)
@@ -220,40 +227,42 @@ class _ReferenceBuilder:
             target = here + (target - here) * min(1.0, longest / max(needed, 1e-9))
             lasts = self.compute_move_time(target - here, level)
             home = self.compute_move_time(self.middle - target)
-            if now + lasts + home + 2 * _PAUSE > until:
+            if now + lasts + home + 2 * THRESHOLDS.pause_time > until:
                 break
             self.add_move(now, lasts, target - here)
-            now, here, turn = now + lasts + _PAUSE, target, turn + 1
+            now, here, turn = now + lasts + THRESHOLDS.pause_time, target, turn + 1
         back = self.compute_move_time(self.middle - here)
         self.add_move(now, back, self.middle - here)
-        return now + back + _PAUSE if turn else 0.0
+        return now + back + THRESHOLDS.pause_time if turn else 0.0
 
     def add_series(self, begin: float, rng: np.random.Generator) -> None:
-        """A sum of harmonics for each joint, faded in from `begin` and out to the end."""
+        """Returns a sum of harmonics for each joint, faded in from `begin` and out to the end."""
         time, end = self.time, float(self.time[-1])
         lasts = end - begin
         fade = min(1.0, lasts / 3)
-        lowest = max(_LOWEST, 1.0 / lasts)
+        lowest = max(THRESHOLDS.min_fundamental_hz, 1.0 / lasts)
         rise = _evaluate_quintic_step((time - begin) / fade)
         fall = _evaluate_quintic_step((time - (end - fade)) / fade)
         window = [(rise[k] - fall[k]) / fade**k for k in range(3)]
         for i, limit in enumerate(self.limits):
             series = np.zeros((3, time.size))
-            for harmonic in range(1, _HARMONICS + 1):
+            for harmonic in range(1, THRESHOLDS.harmonics + 1):
                 omega = 2 * np.pi * lowest * harmonic * round_to_ten_digits(rng.uniform(0.9, 1.1))
                 phase = omega * (time - begin) + round_to_ten_digits(rng.uniform(0, 2 * np.pi))
                 size = round_to_ten_digits(rng.uniform(0.5, 1.0)) / harmonic
                 sine, cosine = compute_sine_and_cosine(phase)
                 series += size * np.array([sine, omega * cosine, -(omega**2) * sine])
-            shaped = np.array([
-                window[0] * series[0],
-                window[1] * series[0] + window[0] * series[1],
-                window[2] * series[0] + 2 * window[1] * series[1] + window[0] * series[2],
-            ])  # fmt: skip
+            shaped = np.array(
+                [
+                    window[0] * series[0],
+                    window[1] * series[0] + window[0] * series[1],
+                    window[2] * series[0] + 2 * window[1] * series[1] + window[0] * series[2],
+                ]
+            )
             bounds = ((limit.upper - limit.lower) / 2, limit.speed, limit.acceleration)
             peaks = np.max(np.abs(shaped), axis=1)
             shares = [bound / peak for bound, peak in zip(bounds, peaks, strict=True) if peak > 0]
-            self.values[:, :, i] += shaped * _MARGIN * min(shares, default=0.0)
+            self.values[:, :, i] += shaped * THRESHOLDS.range_margin * min(shares, default=0.0)
 
 
 def _evaluate_quintic_step(s: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
@@ -269,13 +278,11 @@ def _evaluate_quintic_step(s: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.nd
 
 
 _DEGREE = 5  # of the spline through positions where derivatives are not given
-_LARGEST = 2**30  # bytes
 _FEWEST = _DEGREE + 1  # samples
-_BEYOND = 1e12  # of s, rad, m and their rates: squares of squares of it are numbers still
 
 
 def read_motion(path: str | Path, joints: Sequence[str]) -> Reference:
-    """The motion of a CSV or Parquet file, with its own samples.
+    """Returns the motion of a CSV or Parquet file, with its own samples.
 
     Columns by name: time, positions qc1.. (commanded) or else q1.., and qd1.., qdd1.. where all
     joints have them; else the derivatives of a spline of degree five through the positions.
@@ -312,13 +319,13 @@ def read_motion(path: str | Path, joints: Sequence[str]) -> Reference:
 
 
 def build_curve(motion: Reference) -> BPoly:
-    """Polynomials of degree five that meet all that is given: q of times from 0 to the last."""
+    """Builds polynomials of degree five through all that is given, from time 0."""
     ends = np.stack([motion.q, motion.qd, motion.qdd], axis=1)
     return BPoly.from_derivatives(motion.time, ends)
 
 
 def resample_motion(motion: Reference, rate: float) -> Reference:
-    """The motion at other samples: polynomials of degree five that meet all that is given."""
+    """Returns motion at other samples: polynomials of degree five that meet all that is given."""
     curve = build_curve(motion)
     if motion.time[-1] * rate > MOST_SAMPLES:
         raise DataError(
@@ -333,7 +340,7 @@ def resample_motion(motion: Reference, rate: float) -> Reference:
 
 def _read_table(path: Path) -> pa.Table:
     try:
-        content = read_file(path, _LARGEST)
+        content = read_file(path, THRESHOLDS.max_motion_bytes)
     except OSError as error:
         raise DataError(
             f"{path}: cannot be read ({error.strerror}); expected the file of a motion, or "
@@ -384,10 +391,11 @@ def _read_column(table: pa.Table, path: Path, name: str) -> np.ndarray:
     if not (pa.types.is_floating(column.type) or pa.types.is_integer(column.type)):
         raise DataError(f"{path}, column {name}: got {column.type}; expected numbers")
     values = column.cast(pa.float64()).to_numpy(zero_copy_only=False)
-    if not np.all(np.abs(values) < _BEYOND):
-        row = int(np.argmax(~(np.abs(values) < _BEYOND))) + 2
+    if not np.all(np.abs(values) < THRESHOLDS.max_motion_number):
+        row = int(np.argmax(~(np.abs(values) < THRESHOLDS.max_motion_number))) + 2
         raise DataError(
-            f"{path}, row {row}: {name} is empty, or not below {_BEYOND:g}; expected a number"
+            f"{path}, row {row}: {name} is empty, or not below "
+            f"{THRESHOLDS.max_motion_number:g}; expected a number"
         )
     return values
 
@@ -402,13 +410,10 @@ PRISMATIC = Limits(lower=-0.3, upper=0.3, speed=0.5, acceleration=3.0)
 """Where the robot file says nothing: m, m/s, m/s2."""
 
 
-_AROUND_HOME = 0.2  # of the defaults' range, for robots with loops
-
-
 def collect_motion_limits(
     robot: Robot, changes: Mapping[str, Limits] | None = None
 ) -> tuple[Limits, ...]:
-    """Limits in the order of `robot.moving`: `changes`, else the robot file, else the defaults.
+    """Collects limits in the order of `robot.moving_joints`: `changes`, file, defaults.
 
     A robot with loops moves around its home by default, and less: it could not close far away.
 
@@ -437,7 +442,7 @@ def collect_motion_limits(
     for joint in robot.moving_joints:
         usual = REVOLUTE if joint.is_revolute else PRISMATIC
         if robot.loops:
-            home, reach = robot.home.get(joint.name, 0.0), _AROUND_HOME * usual.upper
+            home, reach = robot.home.get(joint.name, 0.0), THRESHOLDS.loop_range_share * usual.upper
             usual = Limits(home - reach, home + reach, usual.speed, usual.acceleration)
         joint_limits.append(stated.get(joint.name, usual))
     return tuple(joint_limits)

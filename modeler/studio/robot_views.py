@@ -17,6 +17,7 @@ from modeler.core.figure import Curve, Panel, Picture
 from modeler.core.files import read_file
 from modeler.core.json import parse_json
 from modeler.core.style import COLORS, GREY, Style
+from modeler.formats import read_robot
 from modeler.robot import (
     Robot,
     TableText,
@@ -24,7 +25,6 @@ from modeler.robot import (
     locate_error_cell,
     parse_robot_text,
     read_limit_texts,
-    read_robot,
     read_symbol_texts,
 )
 from modeler.views import build_page_content, render_relations, render_robot_page, show

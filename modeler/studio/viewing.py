@@ -21,6 +21,7 @@ from modeler.core.style import BLACK, BLUE, GREEN, GREY, ORANGE, PINK, SKY, VERM
 from modeler.core.table import WORDS
 from modeler.core.thinning import thin_curves, thin_points
 from modeler.estimation import IdentifiedModel, load_model
+from modeler.formats import read_robot
 from modeler.logs import (
     Columns,
     LogMap,
@@ -32,7 +33,7 @@ from modeler.logs import (
     read_windows,
 )
 from modeler.regression import FINGER, LONG
-from modeler.robot import Robot, read_robot
+from modeler.robot import Robot
 from modeler.runtime import CompiledModel
 from modeler.studio import places
 from modeler.studio.log_mapping import LogGuess, build_default_joints, parse_guess

@@ -14,7 +14,7 @@ import pyarrow as pa
 import pyarrow.parquet as pq
 
 from modeler.cli import main
-from modeler.robot.read import read_robot
+from modeler.formats import read_robot
 from tests.forked import Forks
 from tests.robot.par_files import par_of
 

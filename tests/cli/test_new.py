@@ -11,8 +11,8 @@ from modeler import api
 from modeler.api import new_robot
 from modeler.core.builtin import CONVENTIONS, TEMPLATES
 from modeler.core.errors import RobotError
-from modeler.robot.conventions import CONVENTIONS as LETTERS
 from modeler.robot.read import read_robot
+from modeler.robot.table import CONVENTIONS as LETTERS
 from tests.cli.running import answer, refusal, run
 from tests.modules import unoptimised
 

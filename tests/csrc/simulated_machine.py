@@ -14,11 +14,16 @@ from modeler.codegen.package import write_emitted
 from modeler.core.manifest import FittedParameter, FittedSpec
 from modeler.robot.robot import Robot
 from modeler.simulation import SimulationSettings, simulate, write_log
-from modeler.simulation.control import compute_encoder_resolution, quantise_position
 from modeler.simulation.hidden_draw import complete_effects
 from modeler.simulation.parameters import draw_plant_parameters
 from modeler.simulation.plant import FastFunction, build_tick_function, choose_steps_per_tick
-from modeler.simulation.run import build_task, compute_needed_torques, select_postures
+from modeler.simulation.run import (
+    build_task,
+    compute_encoder_resolution,
+    compute_needed_torques,
+    quantise_position,
+    select_postures,
+)
 from modeler.simulation.trajectory import collect_motion_limits
 from tests.modules import loaded
 

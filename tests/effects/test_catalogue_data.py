@@ -6,8 +6,7 @@ from typing import get_args
 import pytest
 
 from modeler.core.toml_cells import TomlCell
-from modeler.effects.catalogue import CATALOGUE, find_effect
-from modeler.effects.definition import check_finite
+from modeler.effects.catalogue import CATALOGUE, check_finite, find_effect
 from modeler.effects.effect import SCALES, Effect, SignatureAxis
 from modeler.robot.robot import INERTIAL
 

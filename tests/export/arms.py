@@ -8,7 +8,8 @@ import numpy as np
 
 from modeler.api import derive, generate
 from modeler.estimation import PREFIXES
-from modeler.robot import Robot, read_robot
+from modeler.formats import read_robot
+from modeler.robot import Robot
 from modeler.runtime.model import CompiledModel
 from tests.modules import loaded
 

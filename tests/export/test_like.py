@@ -11,7 +11,8 @@ from modeler.api import export
 from modeler.cli import main
 from modeler.core.errors import DataError, ModelerError, RobotError
 from modeler.estimation import PREFIXES
-from modeler.robot import Robot, convert, parse_robot_text, read_robot, replace_gravity
+from modeler.formats import convert, read_robot
+from modeler.robot import Robot, parse_robot_text, replace_gravity
 from tests.export.arms import (
     MJCF,
     SDF,

@@ -12,9 +12,10 @@ from modeler.estimation import (
     compute_pseudo_inertia,
     extract_parameters,
 )
-from modeler.exports.bodies import Original, build_export_parameters
-from modeler.exports.completion import Prior, compute_completion, find_nearest_physical
-from modeler.robot import parse_robot_text, read_robot
+from modeler.formats import read_robot
+from modeler.formats.bodies import Original, build_export_parameters
+from modeler.formats.completion import Prior, compute_completion, find_nearest_physical
+from modeler.robot import parse_robot_text
 from tests.export.arms import URDF, changed, written
 from tests.export.test_fresh_files import close, mujoco_torques, pinocchio_torques
 
@@ -211,6 +212,6 @@ def test_links_without_values_get_capsules_and_it_is_told() -> None:
     left = tuple(
         {p.name.rstrip("0123456789") for p in model.spec.standard if p.kind == "offset"} | {"Fs"}
     )
-    names = [f"joint_{joint.name}" for joint in robot.moving]
+    names = [f"joint_{joint.name}" for joint in robot.moving_joints]
     ours = torques_without(model, q, qd, qdd, left)
     assert close(mujoco_torques(found.data, names, q, qd, qdd), ours)

@@ -9,8 +9,8 @@ from modeler import api
 from modeler.core.errors import DataError, RobotError
 from modeler.estimation.model_file import save_model
 from modeler.regression.log import Log
+from modeler.robot.edit import collect_shared_effects, export_effect
 from modeler.robot.read import parse_robot_text
-from modeler.robot.shared_effects import collect_shared_effects, export_effect
 from tests.chain import chain_of
 from tests.diagnose.conftest import Case, Run, motion, on_joint
 from tests.diagnose.test_diagnose_discover import two_links

@@ -11,9 +11,9 @@ import numpy as np
 import pytest
 
 from modeler.codegen.workflow import derive
-from modeler.robot.mjcf import read_mjcf_tree
+from modeler.formats.mjcf import read_mjcf_tree
+from modeler.formats.tree_text import convert_tree
 from modeler.robot.read import parse_robot_text
-from modeler.robot.tree_text import convert_tree
 from tests.loops.derived import compiled_plainly
 
 mujoco = pytest.importorskip("mujoco", reason="NOT CHECKED: mujoco-core is not installed")

@@ -7,7 +7,7 @@ import time
 from pathlib import Path
 
 from modeler.core.errors import LONGEST, ModelerError
-from modeler.robot import read_robot
+from modeler.formats import read_robot
 
 NUMBERS = [*b"1e300 -1e16 nan -inf 0 -1 1e-320 1e308 0x10 1_0 1,5 x".split(), b"", b"9" * 200]
 

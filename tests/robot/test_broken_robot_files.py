@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 
 from modeler.core.errors import RobotError
-from modeler.robot import read_robot
+from modeler.formats import read_robot
 from tests.robot.public_robots import public_urdf
 from tests.robot.spoilt_files import check_spoilt
 from tests.robot.test_urdf import INERTIA
@@ -105,7 +105,7 @@ CHILD = """
 import resource, sys
 resource.setrlimit(resource.RLIMIT_AS, (int(sys.argv[1]), int(sys.argv[1])))
 from modeler.core.errors import RobotError
-from modeler.robot import read_robot
+from modeler.formats import read_robot
 for path in sys.argv[2:]:
     try:
         read_robot(path)

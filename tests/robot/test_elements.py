@@ -8,14 +8,14 @@ import numpy as np
 import pytest
 
 from modeler.core.errors import RobotError
-from modeler.robot.body_tree import BodyTree, compute_body_poses
-from modeler.robot.conversion import convert_robot_file
-from modeler.robot.elements import load_element_table
+from modeler.formats.body_tree import BodyTree, compute_body_poses
+from modeler.formats.read import convert_robot_file
+from modeler.formats.urdf import read_urdf_tree
+from modeler.formats.xml_source import load_element_table
 from modeler.robot.robot import JointKind
-from modeler.robot.urdf import read_urdf_tree
 from tests.robot.public_robots import public_urdfs
 
-MECHANICS = ("read", "told", "refused")
+MECHANICS = ("read", "reported", "refused")
 
 
 def test_the_schema_of_urdf_is_known() -> None:

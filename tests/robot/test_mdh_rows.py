@@ -7,12 +7,17 @@ import numpy as np
 import pytest
 
 from modeler.core.errors import RobotError
-from modeler.robot import mdh_rows
-from modeler.robot.body_tree import BodyTree, Inertial, Pose, TreeJoint, collect_moving_links
-from modeler.robot.mdh_rows import build_mdh_table, compute_roll_pitch_yaw, snap_angle, snap_length
+from modeler.formats.body_tree import BodyTree, Inertial, Pose, TreeJoint, collect_moving_links
+from modeler.formats.mdh_rows import (
+    build_mdh_table,
+    compute_roll_pitch_yaw,
+    snap_angle,
+    snap_length,
+)
+from modeler.formats.thresholds import THRESHOLDS
+from modeler.formats.tree_text import convert_tree
 from modeler.robot.read import parse_robot_text
 from modeler.robot.robot import JointKind as Kind, Robot
-from modeler.robot.tree_text import convert_tree
 from tests.oracles.pinocchio_dynamics import pin, places_of
 from tests.robot.poses import link_poses
 
@@ -169,7 +174,7 @@ def test_nearly_parallel_axes_keep_their_accuracy(tilt):
             build_mdh_table(collect_moving_links(tree)),
             [np.abs(j.pose.position) for j in tree.joints],
         )
-        most = mdh_rows.FAR * 3 * (max(map(np.max, ways)) or 1.0)
+        most = THRESHOLDS.max_foot_distance_ratio * 3 * (max(map(np.max, ways)) or 1.0)
         for row in table.rows:
             assert max(abs(row.cells.get(c, 0.0)) for c in "bdr") < most
 
@@ -262,8 +267,8 @@ def test_bodies_without_values_have_no_prior():
             "a_link": None, "b_link": None, "c_link": Inertial(1.0, np.zeros(3), np.eye(3)),
             "flange": nothing, "marker": Inertial(1.0, np.zeros(3), np.eye(3)),
         },
-        hidden=frozenset({"b_link"}),
-        doubted={name: "the identity as inertia" for name in ("c_link", "marker")}
+        auxiliary_bodies=frozenset({"b_link"}),
+        unreliable_bodies={name: "the identity as inertia" for name in ("c_link", "marker")}
         | {"flange": "mass 0"},
     )  # fmt: skip
     made = convert_tree(tree, "drawn.xml")

@@ -9,12 +9,12 @@ import numpy as np
 import pytest
 
 from modeler.core.errors import RobotError
-from modeler.robot.body_tree import BodyTree, Pose, TreeJoint
-from modeler.robot.mjcf import read_mjcf_tree
+from modeler.formats.body_tree import BodyTree, Pose, TreeJoint
+from modeler.formats.mjcf import read_mjcf_tree
+from modeler.formats.tree_cuts import cut_tree
+from modeler.formats.tree_text import convert_tree
 from modeler.robot.read import parse_robot_text
 from modeler.robot.robot import JointKind
-from modeler.robot.tree_cuts import cut_tree
-from modeler.robot.tree_text import convert_tree
 from tests.elementary_motions import turn
 from tests.robot.spoilt_files import check_spoilt, most_memory
 from tests.robot.texts import ARM_XML as ARM, edited

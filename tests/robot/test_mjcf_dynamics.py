@@ -17,12 +17,12 @@ from modeler.codegen.emit import emit
 from modeler.derivation.base_parameters import derive_base_parameters
 from modeler.derivation.derive import derive_model
 from modeler.derivation.numeric_rank import evaluate_regressor
-from modeler.robot.body_tree import compute_body_poses
-from modeler.robot.mjcf import read_mjcf_tree
+from modeler.formats.body_tree import compute_body_poses
+from modeler.formats.mjcf import read_mjcf_tree
+from modeler.formats.tree_cuts import cut_tree
+from modeler.formats.tree_text import convert_tree
 from modeler.robot.read import parse_robot_text
 from modeler.robot.robot import INERTIAL, JointKind
-from modeler.robot.tree_cuts import cut_tree
-from modeler.robot.tree_text import convert_tree
 from tests.elementary_motions import frames
 from tests.modules import loaded
 from tests.robot.poses import place_on_row

@@ -6,8 +6,9 @@ import pytest
 
 from modeler.core.builtin import list_builtin_robots, read_builtin_robot
 from modeler.core.errors import RobotError
-from modeler.robot.par_convert import convert_par_file
-from modeler.robot.read import parse_robot_text, read_robot
+from modeler.formats import read_robot
+from modeler.formats.par_convert import convert_par_file
+from modeler.robot.read import parse_robot_text
 from tests.robot.par_files import BOOM, par_text
 from tests.robot.texts import (
     ARM,

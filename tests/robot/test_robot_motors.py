@@ -8,7 +8,7 @@ from modeler.derivation.base_parameters import derive_base_parameters
 from modeler.derivation.derive import derive_model
 from modeler.derivation.numeric_rank import evaluate_regressor
 from modeler.robot.edit import insert_effect
-from modeler.robot.motors import compute_joint_directions
+from modeler.robot.mechanism import compute_joint_directions
 from modeler.robot.read import parse_robot_text, read_robot
 from tests.modules import module
 from tests.robot.texts import COUPLED, MOTORS

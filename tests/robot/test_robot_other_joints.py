@@ -6,7 +6,7 @@ import tomllib
 import pytest
 
 from modeler.core.errors import RobotError
-from modeler.robot.loops import OTHER_JOINTS
+from modeler.robot.mechanism import OTHER_JOINTS
 from modeler.robot.read import parse_robot_text
 from modeler.robot.robot import LOOP_KINDS
 from tests.robot_texts import CRANK

@@ -11,10 +11,11 @@ import pytest
 from modeler.codegen.workflow import derive
 from modeler.core.errors import RobotError
 from modeler.derivation.relations import serialise_base_parameters
-from modeler.robot.angles import recognise_angle
-from modeler.robot.par_convert import convert_par_file
-from modeler.robot.par_text import KEYS
-from modeler.robot.read import parse_robot_text, read_robot
+from modeler.formats import read_robot
+from modeler.formats.par_convert import convert_par_file
+from modeler.formats.par_text import KEYS
+from modeler.robot.cells import recognise_angle
+from modeler.robot.read import parse_robot_text
 from tests.elementary_motions import frames
 from tests.robot.par_files import BOOM, INERTIA, par_of, par_text
 

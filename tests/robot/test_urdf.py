@@ -9,17 +9,17 @@ import numpy as np
 import pytest
 
 from modeler.core.errors import RobotError
-from modeler.robot.body_tree import (
+from modeler.formats.body_tree import (
     BodyTree,
     collect_moving_links,
     compute_body_poses,
     compute_standard_parameters,
 )
+from modeler.formats.tree_cuts import cut_tree, parse_lock_values
+from modeler.formats.tree_text import convert_tree
+from modeler.formats.urdf import read_urdf_tree
 from modeler.robot.read import parse_robot_text
 from modeler.robot.robot import JointKind
-from modeler.robot.tree_cuts import cut_tree, parse_lock_values
-from modeler.robot.tree_text import convert_tree
-from modeler.robot.urdf import read_urdf_tree
 from tests.robot.public_robots import each_public_urdf
 from tests.robot.texts import ARM_URDF as ARM, edited
 

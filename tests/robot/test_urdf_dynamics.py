@@ -15,7 +15,7 @@ from modeler.core.errors import RobotError
 from modeler.derivation.base_parameters import derive_base_parameters
 from modeler.derivation.derive import derive_model
 from modeler.derivation.numeric_rank import evaluate_regressor
-from modeler.robot.conversion import convert_robot_file
+from modeler.formats.read import convert_robot_file
 from modeler.robot.read import parse_robot_text
 from modeler.robot.robot import Robot
 from tests.modules import loaded

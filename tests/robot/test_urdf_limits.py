@@ -6,10 +6,10 @@ import pytest
 
 import modeler.api as md
 from modeler.core.errors import RobotError
+from modeler.formats.tree_cuts import cut_tree
+from modeler.formats.tree_text import convert_tree
+from modeler.formats.urdf import read_urdf_tree
 from modeler.robot.read import parse_robot_text
-from modeler.robot.tree_cuts import cut_tree
-from modeler.robot.tree_text import convert_tree
-from modeler.robot.urdf import read_urdf_tree
 
 ARM = """<robot name="arm"><link name="base"/><link name="a"><inertial><origin xyz="0.1 0 0.02"/>
 <mass value="1"/><inertia ixx="0.02" ixy="0" ixz="0" iyy="0.03" iyz="0" izz="0.02"/></inertial>

@@ -6,11 +6,11 @@ import numpy as np
 import pytest
 
 from modeler.core.errors import RobotError
-from modeler.robot.body_tree import BodyTree, Pose, compute_body_poses
+from modeler.formats.body_tree import BodyTree, Pose, compute_body_poses
+from modeler.formats.tree_cuts import cut_tree
+from modeler.formats.tree_text import convert_tree
+from modeler.formats.urdf import read_urdf_tree
 from modeler.robot.read import parse_robot_text
-from modeler.robot.tree_cuts import cut_tree
-from modeler.robot.tree_text import convert_tree
-from modeler.robot.urdf import read_urdf_tree
 from tests.elementary_motions import frames
 from tests.robot.poses import origin_pose
 
@@ -178,7 +178,7 @@ def parts(text: str) -> str:
 
 def test_loops_of_all_tools_are_one_loop(tmp_path) -> None:
     """A point that meets a point is what MuJoCo's connect is; a pin has an axis besides."""
-    mjcf = pytest.importorskip("modeler.robot.mjcf")
+    mjcf = pytest.importorskip("modeler.formats.mjcf")
     pytest.importorskip("mujoco", reason="NOT CHECKED: mujoco-core is not installed")
     path = tmp_path / "arm.xml"
     inner = body("b", "0 0 0.2")

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from modeler.core.errors import RobotError
-from modeler.robot.xml_source import parse_xml, replace_spans
+from modeler.formats.xml_source import parse_xml, replace_spans
 from tests.robot.public_robots import each_public_urdf
 
 ODD = (

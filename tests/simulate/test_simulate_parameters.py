@@ -10,7 +10,7 @@ from modeler.core.errors import RobotError
 from modeler.robot.read import read_robot
 from modeler.robot.robot import INERTIAL, Limits
 from modeler.simulation import collect_motion_limits, draw_plant_parameters
-from modeler.simulation.completion import Completion, complete_body
+from modeler.simulation.parameters import Completion, complete_body
 from modeler.simulation.rigid import (
     Body,
     compute_body,
