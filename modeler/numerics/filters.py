@@ -43,9 +43,12 @@ class RowFilter(ShortRepr):
     centres: np.ndarray
 
     def average_samples(
-        self, values: np.ndarray, usable: np.ndarray,
-        used: np.ndarray | None = None, whole: np.ndarray | None = None,
-    ) -> np.ndarray:  # fmt: skip
+        self,
+        values: np.ndarray,
+        usable: np.ndarray,
+        used: np.ndarray | None = None,
+        whole: np.ndarray | None = None,
+    ) -> np.ndarray:
         """(rows, ...) of values (samples, ...) over usable (samples,); 0 where none is.
 
         Rows that are not used (rows,), if that is given, are means over whole (samples,).
@@ -72,9 +75,11 @@ class RowFilter(ShortRepr):
 
 
 def restrict_weights(
-    weights: csr_array, usable: np.ndarray,
-    used: np.ndarray | None = None, whole: np.ndarray | None = None,
-) -> csr_array:  # fmt: skip
+    weights: csr_array,
+    usable: np.ndarray,
+    used: np.ndarray | None = None,
+    whole: np.ndarray | None = None,
+) -> csr_array:
     """The weights (rows, samples) with 0 for samples that are not usable (samples,).
 
     In rows that are not used (rows,) with 0 for samples that are not whole (samples,).

@@ -71,10 +71,15 @@ def reproduce_briot(paper: Paper, report: Callable[[float], None]) -> list[Metho
     runs = []
     for seed, load in enumerate((0.0, mass, second), 1):
         settings = SimulationSettings(
-            duration=SECONDS, rate=RATE, seed=seed, torque_noise=0.0, linear_resolution=1e-6,
-            motion="point-to-point", limits=dict.fromkeys(JOINTS, LIMITS),
+            duration=SECONDS,
+            rate=RATE,
+            seed=seed,
+            torque_noise=0.0,
+            linear_resolution=1e-6,
+            motion="point-to-point",
+            limits=dict.fromkeys(JOINTS, LIMITS),
             hidden=(parse_hidden_effect(f"payload:mass={load}"),) if load else (),
-        )  # fmt: skip
+        )
         runs.append(simulate(machine, settings))
         report(seed / 3)
     rng = np.random.default_rng(2012)
@@ -183,12 +188,19 @@ def _build_figure_3(
     ]
     shown = observation.time < SHOWN
     panels = [
-        (Panel(f"Motor {joint}", "time, s", "force, N", tuple(
-            Curve(name, observation.time[shown], tau[shown, j], style)
-            for (name, tau), style in zip(efforts.items(), _STYLES, strict=True)
-        )),)
+        (
+            Panel(
+                f"Motor {joint}",
+                "time, s",
+                "force, N",
+                tuple(
+                    Curve(name, observation.time[shown], tau[shown, j], style)
+                    for (name, tau), style in zip(efforts.items(), _STYLES, strict=True)
+                ),
+            ),
+        )
         for j, joint in enumerate(JOINTS)
-    ]  # fmt: skip
+    ]
     title = f"Figure 3: efforts with the load of {mass:g} kg, what the model leaves"
     drawn = f"Figure 3 of the simulated Orthoglide: efforts with the load of {mass:g} kg"
     picture = Picture("figure_3", drawn, _CAPTION, tuple(panels), 600, shared_time=True)

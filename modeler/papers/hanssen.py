@@ -65,9 +65,14 @@ def reproduce_hanssen(paper: Paper, report: Callable[[float], None]) -> list[Met
     derivation = derive(robot)
     compiled = load_cached_model(generate(derivation))
     settings = SimulationSettings(
-        duration=SECONDS, rate=RATE, seed=SEED, bandwidth=BANDWIDTH, torque_noise=NOISE,
-        motion="one-joint", limits=dict.fromkeys("123", LIMITS),
-    )  # fmt: skip
+        duration=SECONDS,
+        rate=RATE,
+        seed=SEED,
+        bandwidth=BANDWIDTH,
+        torque_noise=NOISE,
+        motion="one-joint",
+        limits=dict.fromkeys("123", LIMITS),
+    )
     run = simulate(_build_machine(robot, derivation, truth), settings)
     report(0.5)
     observation = observe(compiled, [build_log(run, run.joints, run.tau)])
@@ -188,9 +193,13 @@ def _build_one_step_table(steps: TwoStepFit) -> MethodTable:
 def _build_figure_2(machine: Robot, compiled: CompiledModel, steps: TwoStepFit) -> MethodTable:
     """A ramp of joint 1 at a configuration that no step has seen: measured and modelled torque."""
     settings = SimulationSettings(
-        rate=RATE, seed=2, bandwidth=BANDWIDTH, torque_noise=NOISE, commanded=_build_ramp(),
+        rate=RATE,
+        seed=2,
+        bandwidth=BANDWIDTH,
+        torque_noise=NOISE,
+        commanded=_build_ramp(),
         limits=dict.fromkeys("123", LIMITS),
-    )  # fmt: skip
+    )
     run = simulate(machine, settings)
     beta = np.array([parameter.value for parameter in steps.result.parameters])
     (part,) = observe(compiled, [build_log(run, run.joints, run.tau)]).stretches

@@ -311,13 +311,20 @@ def eliminate_squared_sines(expression: sympy.Expr) -> sympy.Expr:
 
 
 _BINARY: Mapping[type, Callable[[Any, Any], Any]] = {
-    ast.Add: operator.add, ast.Sub: operator.sub, ast.Mult: operator.mul,
-    ast.Div: operator.truediv, ast.Pow: operator.pow, ast.Mod: operator.mod,
-}  # fmt: skip
+    ast.Add: operator.add,
+    ast.Sub: operator.sub,
+    ast.Mult: operator.mul,
+    ast.Div: operator.truediv,
+    ast.Pow: operator.pow,
+    ast.Mod: operator.mod,
+}
 _COMPARED: Mapping[type, Callable[[Any, Any], bool]] = {
-    ast.Lt: operator.lt, ast.LtE: operator.le, ast.Gt: operator.gt, ast.GtE: operator.ge,
+    ast.Lt: operator.lt,
+    ast.LtE: operator.le,
+    ast.Gt: operator.gt,
+    ast.GtE: operator.ge,
     ast.Eq: operator.eq,
-}  # fmt: skip
+}
 
 
 def evaluate_expression(text: str, values: Mapping[str, Any]) -> Any:
@@ -354,10 +361,12 @@ def _evaluate_node(node: ast.expr, values: Mapping[str, Any], text: str) -> Any:
 
 
 _ARITHMETIC: Mapping[str, Any] = {
-    "abs": abs, "pi": math.pi, "count": len,
+    "abs": abs,
+    "pi": math.pi,
+    "count": len,
     "mean": lambda *x: sum(x) / len(x),
     "falling": lambda *x: all(a >= b for a, b in itertools.pairwise(x)),
-}  # fmt: skip
+}
 
 
 def collect_quantities(derived: DerivedRobot) -> dict[str, Any]:
@@ -379,10 +388,8 @@ def collect_quantities(derived: DerivedRobot) -> dict[str, Any]:
         "joints": frozenset(joint.name for joint in joints),
         "actuated": frozenset(joint.name for joint in joints if joint.actuated),
         "passive": frozenset(joint.name for joint in joints if not joint.actuated),
-        "links": frozenset(
-            robot.joints[c.row].name for c in base.columns if c.kind == "inertial"
-        ),
-    }  # fmt: skip
+        "links": frozenset(robot.joints[c.row].name for c in base.columns if c.kind == "inertial"),
+    }
     known = {**_ARITHMETIC, **{name: _build_matcher(members) for name, members in sets.items()}}
     known["prefix"] = lambda names: frozenset(
         column.prefix for column in base.columns if column.name in names

@@ -18,21 +18,19 @@ from modeler.formulas import (
     find_wrong_functions,
     format_monomial,
 )
-from modeler.papers.compared import (
-    LineComparison,
-    Reading,
-    Robots,
-    join_in_order,
-    join_numbers,
-    join_sums,
-)
 from modeler.papers.paper import DerivedRobot, Paper, PrintedLine
 from modeler.papers.quotation import (
     Amount,
+    LineComparison,
     QuotationError,
+    Reading,
+    Robots,
     Sum,
     add_sums,
     format_sum,
+    join_in_order,
+    join_numbers,
+    join_sums,
     read_amount,
     read_sum,
     replace_names,
@@ -147,9 +145,7 @@ def _compare_values(paper: Paper, line: PrintedLine, robots: Robots) -> LineComp
     terms = _collect_terms(robots[line.robot], name)
     if {key for key, _ in terms} != set(values):
         raise QuotationError(f"the list names others than the coefficients of {name}")
-    derived = {
-        monomial: Amount(values[key].value) for key, at in terms for monomial in at
-    }  # fmt: skip
+    derived = {monomial: Amount(values[key].value) for key, at in terms for monomial in at}
     return LineComparison(read_sum(text, str), derived, f"{name} = {format_sum(derived)}")
 
 
@@ -221,9 +217,10 @@ def _compare_friction(paper: Paper, line: PrintedLine, robots: Robots) -> LineCo
     derived = check_friction(coupling).derived
     text = ", ".join(f"{float(value):g}" for value in derived)
     return LineComparison(
-        join_numbers(map(Amount, printed.values())), join_numbers(map(Amount, derived)),
+        join_numbers(map(Amount, printed.values())),
+        join_numbers(map(Amount, derived)),
         f"G' C sgn(G qd); at the motion of docs/robots/wrist.md {text} N m",
-    )  # fmt: skip
+    )
 
 
 WRIST_READINGS: Mapping[str, Reading] = {

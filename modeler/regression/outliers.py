@@ -11,26 +11,24 @@ from scipy.ndimage import maximum_filter
 from modeler.core.manifest import ModuleSpec
 from modeler.core.table import format_percent
 from modeler.logs import describe_repeats
-from modeler.numerics.held import (
-    RESTS,
-    Clip,
-    estimate_hold_length,
-    find_clips,
-    find_frozen_runs,
-    find_longest_usual_run,
-    find_repeated_rows,
-    interpolate_held_channel,
-)
 from modeler.numerics.noise import (
     LEAST,
     NEAR,
+    RESTS,
     STEPS,
+    Clip,
     compute_local_threshold,
     compute_nearby_level,
     compute_outlier_threshold,
     compute_running_median,
+    estimate_hold_length,
     estimate_lattice_step,
+    find_clips,
+    find_frozen_runs,
     find_isolated_outliers,
+    find_longest_usual_run,
+    find_repeated_rows,
+    interpolate_held_channel,
 )
 from modeler.regression.log import Log
 from modeler.regression.read import cut_rows

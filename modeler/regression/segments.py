@@ -6,8 +6,11 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from modeler.numerics.held import estimate_channel_noise, estimate_hold_length
-from modeler.numerics.noise import estimate_lattice_step
+from modeler.numerics.noise import (
+    estimate_channel_noise,
+    estimate_hold_length,
+    estimate_lattice_step,
+)
 from modeler.regression.log import Log
 
 JITTER = 0.01

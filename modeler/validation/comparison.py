@@ -1,41 +1,60 @@
 """Measured against predicted: numbers of each joint, regions, logs, scale; table and JSON."""
 
+import dataclasses
 import math
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
+from functools import partial
 from itertools import pairwise
 from typing import Any
 
 import numpy as np
 
 from modeler.core.brief import ShortRepr
+from modeler.core.errors import DataError
 from modeler.core.json import convert_to_plain, select_attributes
 from modeler.core.result import Result
 from modeler.core.table import POOLED, WORDS, align_columns, format_percent
+from modeler.estimation import IdentifiedModel, read_all_rows, reduce_by_threads
+from modeler.numerics.filters import choose_row_spacing
 from modeler.numerics.spectra import (
     OrderSpectrum,
     ResidualSpectrum,
     estimate_residual_spectrum,
     find_segment_slices,
 )
+from modeler.regression import (
+    FINGER,
+    Chunk,
+    DataReport,
+    LogChoices,
+    LogFacts,
+    Observation,
+    Source,
+    assemble_observation,
+    build_chunk_rows,
+    build_streamed_report,
+)
+from modeler.runtime import CompiledModel
 from modeler.validation.prediction import (
     JointInfo,
     Prediction,
+    build_prediction,
+    compute_full_rate,
     compute_relative_error,
     compute_residual,
     compute_unit_errors,
-)
-from modeler.validation.repeatability import (
-    Repetition,
-    VarianceShares,
-    find_repetitions,
-    split_variance,
+    predict_rows,
 )
 from modeler.validation.residual_structure import (
+    Repetition,
     ResidualStructure,
+    VarianceShares,
     analyse_structure,
     compute_ripple_spectrum,
     find_order_peaks,
+    find_repetitions,
+    split_variance,
 )
 
 # The comparison as a table of plain text.
@@ -398,9 +417,12 @@ def compare(prediction: Prediction, ripple_windows: Prediction | None = None) ->
 
 
 def _compare_joint(
-    prediction: Prediction, index: int, e: np.ndarray, repeated: tuple[Repetition, ...],
+    prediction: Prediction,
+    index: int,
+    e: np.ndarray,
+    repeated: tuple[Repetition, ...],
     ripple_windows: Prediction | None,
-) -> JointComparison:  # fmt: skip
+) -> JointComparison:
     rows = prediction.used[:, index]
     counted, measured = e[rows], prediction.measured[rows, index]
     top = int(np.nanargmax(np.abs(e)))
@@ -464,3 +486,104 @@ def _serialise_joint(item: JointComparison) -> dict[str, Any]:
         "scale": item.scale,
         "orders": item.orders and find_order_peaks(item.orders, item.joint.unit),
     }
+
+
+# Comparisons of logs of any length.
+
+
+MOST = 400_000
+"""Rows of a comparison, after decimation; of longer logs fewer rows are taken."""
+
+
+@dataclass(frozen=True, eq=False)
+class _ChunkPrediction:
+    """Some consecutive rows of a log: what is compared of each chunk, and what they say of it."""
+
+    rows: tuple[Prediction, ...]
+    facts: LogFacts
+
+    def merged_with(self, later: "_ChunkPrediction") -> "_ChunkPrediction":
+        """Of these rows, and of those that follow them."""
+        return _ChunkPrediction(self.rows + later.rows, self.facts.merged_with(later.facts))
+
+
+def compare_long_logs(
+    model: IdentifiedModel,
+    sources: Sequence[Source],
+    compiled: CompiledModel,
+    progress: Callable[[float], None] = lambda share: None,
+    rows: int = FINGER,
+) -> tuple[Comparison, Observation]:
+    """As `compare` of what `predict` makes of logs, of any length in flat memory.
+
+    Args:
+        model: fitted.
+        sources: of the logs.
+        compiled: its robot.
+        progress: is told the share of the rows that are done.
+        rows: of a chunk, at least.
+
+    Raises:
+        DataError: as `estimation.long_logs.stream`.
+    """
+    processing = model.processing
+    least = -(-sum(source.rows for source in sources) // MOST)
+    step = sources[0].read_window(0.5, 1000).step
+    if least > choose_row_spacing(step, processing.parallel_cutoff or 0.0, processing.decimation):
+        processing = dataclasses.replace(processing, decimation=least)
+    reducer = partial(reduce_by_threads, reduce_by=partial(_predict_chunk, model))
+    passes, parts = read_all_rows(compiled, sources, processing, progress, rows, reducer)
+    ripple_windows = passes.survey.observation
+    steps = [log_part.step * log_part.decimation for log_part in passes.survey.chosen]
+    prediction = _join_chunks(
+        [source.name for source in sources], [log_part.rows for log_part in parts], steps
+    )
+    full = compute_full_rate(ripple_windows, compiled, model.beta)
+    ripples = dataclasses.replace(
+        build_prediction(ripple_windows, ripple_windows.torque), full=full
+    )
+    report = build_streamed_report(compiled, sources, passes)
+    return compare(prediction, ripples), dataclasses.replace(ripple_windows, report=report)
+
+
+def _predict_chunk(
+    model: IdentifiedModel, compiled: CompiledModel, chunk: Chunk, chosen: LogChoices
+) -> _ChunkPrediction:
+    stretches, facts = build_chunk_rows(compiled, chunk, chosen)
+    some = tuple(part for part in stretches if len(part.rows.centres))
+    if not some:
+        return _ChunkPrediction((), facts)
+    report = DataReport(chosen.processing, (), (), ())
+    return _ChunkPrediction(
+        (
+            predict_rows(
+                model, assemble_observation(compiled, (chunk.log.name,), some, report), compiled
+            ),
+        ),
+        facts,
+    )
+
+
+def _join_chunks(
+    names: Sequence[str], logs: Sequence[Sequence[Prediction]], steps: Sequence[float]
+) -> Prediction:
+    """The rows of all logs, `steps` s apart; what goes on in the next chunk is one segment."""
+    number, chunks = -1, list[Prediction]()
+    for run, (parts, step) in enumerate(zip(logs, steps, strict=True)):
+        last = -np.inf
+        for part in parts:
+            number += not 0.5 < (part.time[0] - last) / step < 1.5
+            segment, runs = part.segment + number, np.full(len(part.time), run)
+            chunks.append(dataclasses.replace(part, segment=segment, run=runs))
+            number, last = int(segment[-1]), float(part.time[-1])
+    if not chunks:
+        raise DataError(f"{', '.join(names)}: no row is left; record longer motion")
+    columns = [
+        name
+        for name in vars(chunks[0])
+        if all(isinstance(getattr(part, name), np.ndarray) for part in chunks)
+    ]
+    every: dict[str, Any] = {"temperature": None} | {
+        name: np.concatenate([getattr(part, name) for part in chunks]) for name in columns
+    }
+    return dataclasses.replace(chunks[0], logs=tuple(names), **every)

@@ -12,9 +12,9 @@ from modeler.core.table import format_percent
 from modeler.estimation import ControlLoop, DirectModel, IdentifiedModel
 from modeler.regression import Log, Observation, Segment, compute_signals, observe
 from modeler.runtime import CompiledModel
-from modeler.validation.forward_dynamics import FittedPlant, Forces
-from modeler.validation.free_run_result import ControlledRun, FreeRun, JointFreeRun, Path
-from modeler.validation.stability import (
+from modeler.validation.forward_dynamics import (
+    FittedPlant,
+    Forces,
     LoggedMotion,
     Stability,
     analyse_stability,
@@ -22,6 +22,7 @@ from modeler.validation.stability import (
     compute_horizons,
     compute_ranges,
 )
+from modeler.validation.free_run_result import ControlledRun, FreeRun, JointFreeRun, Path
 
 # The fitted robot under a controller that follows the logged commands.
 
@@ -105,9 +106,15 @@ def _evaluate_controlled_run(
             compute_fit_percentage(observation.y[mask], torque[mask]) if mask.any() else None
         )
     return ControlledRun(
-        loop.speed / (2 * np.pi), loop.ratio, loop.integral, loop.forward, has_given_gains,
-        fit, tracking, effort,
-    )  # fmt: skip
+        loop.speed / (2 * np.pi),
+        loop.ratio,
+        loop.integral,
+        loop.forward,
+        has_given_gains,
+        fit,
+        tracking,
+        effort,
+    )
 
 
 # Robots side by side under given torques: Adams and Bashforth, and dry friction that can hold.
@@ -164,9 +171,13 @@ def simulate_batch(
     samples, b, n = batch.tau.shape
     path = np.full((samples, b, n), np.nan)
     state = _BatchState(
-        batch.q.copy(), batch.qd.copy(), np.zeros((b, n)), np.full((b, n), np.nan),
-        np.zeros((b, plant.shafts)), None if batch.signals is None else batch.signals[0].copy(),
-    )  # fmt: skip
+        batch.q.copy(),
+        batch.qd.copy(),
+        np.zeros((b, n)),
+        np.full((b, n), np.nan),
+        np.zeros((b, plant.shafts)),
+        None if batch.signals is None else batch.signals[0].copy(),
+    )
     last_samples = np.full(b, samples - 1) if last_samples is None else last_samples
     live = np.arange(b)
     for k in range(samples):
@@ -486,9 +497,14 @@ class _RunSetup:
         around = gather_samples(lambda i: self.segments[i].q)
         speeds = np.stack([self.segments[s.segment].qd[s.first] for s in starts])
         return RobotBatch(
-            around[0], speeds, gather_samples(lambda i: self.segments[i].tau), signals, step,
-            _LOST * np.where(np.isfinite(self.ranges), self.ranges, np.inf), around,
-        )  # fmt: skip
+            around[0],
+            speeds,
+            gather_samples(lambda i: self.segments[i].tau),
+            signals,
+            step,
+            _LOST * np.where(np.isfinite(self.ranges), self.ranges, np.inf),
+            around,
+        )
 
 
 @dataclass(frozen=True, eq=False)

@@ -13,7 +13,7 @@ from modeler.core.result import Result
 from modeler.core.style import BLACK, GREY, ORANGE, VERMILLION, Style
 from modeler.core.table import DIGITS, format_percent
 from modeler.core.thinning import thin_curves
-from modeler.validation.stability import Stability
+from modeler.validation.forward_dynamics import Stability
 
 
 @dataclass(frozen=True)
@@ -246,10 +246,13 @@ def _build_panels(result: FreeRun, j: int) -> tuple[Panel, Panel]:
     return (
         Panel("Position", label, f"position [{unit}]", curves),
         Panel(
-            "Error", label, f"error [{unit}]",
-            (Curve("error", time[plot_rows], error[plot_rows], _ERROR), *bounds), zero=True,
+            "Error",
+            label,
+            f"error [{unit}]",
+            (Curve("error", time[plot_rows], error[plot_rows], _ERROR), *bounds),
+            zero=True,
         ),
-    )  # fmt: skip
+    )
 
 
 def _concatenate_windows(result: FreeRun, j: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:

@@ -17,12 +17,12 @@ from modeler.core.table import align_columns, format_percent
 from modeler.estimation import IdentifiedModel
 from modeler.regression import Log, Observation
 from modeler.runtime import CompiledModel
-from modeler.validation.predict import predict
 from modeler.validation.prediction import (
     JointInfo,
     Prediction,
     compute_relative_error,
     compute_unit_errors,
+    predict,
 )
 
 DOUBT = 0.0027
@@ -91,22 +91,26 @@ class ModelComparison(Result):
     def as_dicts(self) -> list[dict[str, Any]]:
         """The `models` of `compare --json`: errors of each, and where it is the best."""
         return [
-            convert_to_plain({
-                "model": name,
-                "relative_error": self.pooled[k],
-                "by_unit": self.by_unit[k],
-                "joints": {
-                    item.joint.name: {
-                        "relative_error": item.errors[k], "rms": item.rms[k],
-                        "unit": item.joint.effort_unit, "best": item.best == k,
-                        "chance": item.p_value,
-                    }
-                    for item in self.joints
-                },
-                "best_on": self.find_best_joints(k),
-            })
+            convert_to_plain(
+                {
+                    "model": name,
+                    "relative_error": self.pooled[k],
+                    "by_unit": self.by_unit[k],
+                    "joints": {
+                        item.joint.name: {
+                            "relative_error": item.errors[k],
+                            "rms": item.rms[k],
+                            "unit": item.joint.effort_unit,
+                            "best": item.best == k,
+                            "chance": item.p_value,
+                        }
+                        for item in self.joints
+                    },
+                    "best_on": self.find_best_joints(k),
+                }
+            )
             for k, name in enumerate(self.names)
-        ]  # fmt: skip
+        ]
 
 
 def compare_models(names: Sequence[str], predictions: Sequence[Prediction]) -> ModelComparison:

@@ -1,12 +1,21 @@
 """Does a residual still have structure: is it a repeatable function of something?"""
 
+import dataclasses
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from itertools import chain
+from typing import Literal
 
 import numpy as np
 
-from modeler.numerics.spectra import OrderSpectrum, compute_order_spectrum
+from modeler.numerics.noise import interpolate_between_gaps
+from modeler.numerics.spectra import (
+    ALIKE,
+    OrderSpectrum,
+    compute_order_spectrum,
+    estimate_lap_period,
+    find_longest_stretch,
+)
 from modeler.numerics.splines import (
     OWN,
     SLIPS,
@@ -68,8 +77,12 @@ def select_coordinates(prediction: Prediction, joint: int) -> tuple[Coordinate, 
 def evaluate_coordinate(prediction: Prediction, joint: int, coordinate: str) -> np.ndarray:
     """Values of a coordinate of one joint, all rows, (n,); time counts from the log's start."""
     qd = prediction.qd[:, joint]
-    plain = {"position": prediction.q, "velocity": prediction.qd, "acceleration": prediction.qdd,
-             "temperature": prediction.temperature}  # fmt: skip
+    plain = {
+        "position": prediction.q,
+        "velocity": prediction.qd,
+        "acceleration": prediction.qdd,
+        "temperature": prediction.temperature,
+    }
     turned = {"load": np.abs(prediction.predicted), "travel": prediction.travel}
     if coordinate == "direction":
         return np.sign(qd)
@@ -180,9 +193,12 @@ def analyse_structure(prediction: Prediction, joint: int) -> ResidualStructure |
 
 
 def _find_best_predictor(
-    baseline: NonparametricBaseline, best: Mapping[int, float], by: Mapping[int, Sequence[str]],
-    prediction: Prediction, joint: int,
-) -> BestPredictor:  # fmt: skip
+    baseline: NonparametricBaseline,
+    best: Mapping[int, float],
+    by: Mapping[int, Sequence[str]],
+    prediction: Prediction,
+    joint: int,
+) -> BestPredictor:
     """The joint, and its coordinate, that does as well as everything."""
     enough = NEARLY * baseline.share
     if not baseline.is_significant:
@@ -294,3 +310,279 @@ def find_order_peaks(orders: OrderSpectrum | None, unit: str) -> tuple[SpectralL
         )
         for k in places
     )
+
+
+# What the variance of a joint's torque is made of: explained, repeatable, noise.
+
+
+_MOVES = 0.01  # of the largest stroke: joints that move less are held, and wobble as they like
+_SAME = 0.05  # of the largest stroke: logs whose strokes differ by more are of other motion
+_OVERLAP = 0.75  # of the shorter log
+_SHIFTS = 400  # rows, to either side: how far the starts of two logs may be apart
+_MOST_LAPS = 20
+_POINTS = 4000  # of a log, looked at to find how far two motions are apart in time
+_GRID = 20  # shifts to either side of the best one so far
+
+Method = Literal["laps", "logs", "smooth"]
+_ENOUGH = 0.5  # of the rows must have been repeated
+_FEWEST = 50  # rows
+_NEIGHBOURS = 6  # rows
+
+
+@dataclass(frozen=True)
+class Partner:
+    """At t in log `run` and at t + shift in log `other` the robot did the same."""
+
+    run: int
+    other: int
+    shift: float  # s
+
+
+@dataclass(frozen=True)
+class Repetition:
+    """All partners of all logs."""
+
+    kind: Literal["laps", "logs"]
+    partners: tuple[Partner, ...]
+    periods: tuple[float, ...]  # s, of the logs that have laps
+
+
+def find_repetitions(prediction: Prediction) -> tuple[Repetition, ...]:
+    """Laps, then logs of the same motion; empty if no motion was made twice."""
+    motions = _collect_motions(prediction)
+    candidates = [_find_laps(motions), _find_same_motions(motions)]
+    return tuple(item for item in candidates if item.partners)
+
+
+@dataclass(frozen=True, eq=False)
+class _RepeatedMotion:
+    run: int
+    step: float  # s, between rows
+    time: np.ndarray  # (m,) s, full rate
+    q: np.ndarray  # (m, moving joints) rad or m
+    size: np.ndarray  # (moving joints,) standard deviations of q
+    ends: np.ndarray  # (2, joints) lowest and highest position
+
+
+def _collect_motions(prediction: Prediction) -> list[_RepeatedMotion]:
+    full, motions = select_full_rate(prediction), []
+    strokes = np.nanmax(prediction.q, axis=0) - np.nanmin(prediction.q, axis=0)
+    moving = strokes > _MOVES * strokes.max()
+    for run in range(len(prediction.logs)):
+        rows, times = full.run == run, prediction.time[prediction.run == run]
+        rows &= np.isfinite(full.q).all(axis=1)
+        if times.size > 2 and rows.sum() > 2 and moving.any():
+            q, time = full.q[rows], full.time[rows]
+            every = max(1, time.size // (10 * _POINTS))
+            size = np.maximum(q[:, moving].std(axis=0), 1e-12)
+            ends = np.array([q.min(axis=0), q.max(axis=0)])
+            step = float(np.median(np.diff(times)))
+            motions.append(
+                _RepeatedMotion(run, step, time[::every], q[::every, moving], size, ends)
+            )
+    return motions
+
+
+def _find_laps(motions: list[_RepeatedMotion]) -> Repetition:
+    partners, periods = [], []
+    for whole in motions:
+        rows = find_longest_stretch(whole.time, whole.step)
+        motion = dataclasses.replace(whole, time=whole.time[rows], q=whole.q[rows])
+        length = float(np.ptp(motion.time))
+        even = np.arange(0.0, length, motion.step)
+        rough = estimate_lap_period(even, _interpolate_positions(motion, motion.time[0] + even))
+        if rough == 0.0:
+            continue
+        period = _refine_period(motion, rough)
+        periods.append(period)
+        for k in range(1, min(_MOST_LAPS, int(length / period)) + 1):
+            partners += [
+                Partner(motion.run, motion.run, k * period),
+                Partner(motion.run, motion.run, -k * period),
+            ]
+    return Repetition("laps", tuple(partners), tuple(periods))
+
+
+def _refine_period(motion: _RepeatedMotion, period: float) -> float:
+    """The period from laps farther and farther apart: an error of it grows with their number."""
+    half, laps = motion.step, 1
+    most = max(1, int(np.ptp(motion.time) / period) - 1)
+    while True:
+        period = _refine_shift(motion, motion, laps * period, laps * half) / laps
+        if laps == most:
+            return period
+        laps, half = min(2 * laps, most), half / 10
+
+
+def _find_same_motions(motions: list[_RepeatedMotion]) -> Repetition:
+    """Each log beside the first one of the same motion, in groups."""
+    groups: list[list[tuple[_RepeatedMotion, float]]] = []
+    for motion in motions:
+        for group in groups:
+            shift = _estimate_shift(group[0][0], motion)
+            if shift is not None:
+                group.append((motion, shift))
+                break
+        else:
+            groups.append([(motion, 0.0)])
+    partners = [
+        Partner(a.run, b.run, later - sooner)
+        for group in groups
+        for a, sooner in group
+        for b, later in group
+        if a is not b
+    ]
+    return Repetition("logs", tuple(partners), ())
+
+
+def _estimate_shift(first: _RepeatedMotion, other: _RepeatedMotion) -> float | None:
+    """s by which the clock of `other` is ahead for the same motion; None for another motion."""
+    stroke = float(np.ptp(first.ends, axis=0).max())
+    if np.abs(first.ends - other.ends).max() > _SAME * stroke:
+        return None
+    lengths = [float(np.ptp(m.time)) for m in (first, other)]
+    if min(lengths) < 4 * first.step:
+        return None
+    start = other.time[0] - first.time[0]
+    reach = min(int(0.25 * min(lengths) / first.step), _SHIFTS)
+    candidates = start + first.step * np.arange(-reach, reach + 1)
+    apart = [
+        _compute_distance(first, other, shift, _OVERLAP * min(lengths)) for shift in candidates
+    ]
+    best = _refine_shift(first, other, float(candidates[int(np.argmin(apart))]), first.step)
+    # twice the variance, which is one: the mean squared difference of motions that are not alike
+    alike = 1.0 - _compute_distance(first, other, best, 0.9 * _OVERLAP * min(lengths)) / 2.0
+    return best if alike > ALIKE else None
+
+
+def _refine_shift(
+    first: _RepeatedMotion, other: _RepeatedMotion, around: float, half: float
+) -> float:
+    """The shift near `around` at which the motions are least apart; a parabola between the grid."""
+    grid = around + half * np.linspace(-1.0, 1.0, 2 * _GRID + 1)
+    apart = np.array([_compute_distance(first, other, shift, 0.0) for shift in grid])
+    best = int(np.argmin(apart))
+    if not 0 < best < grid.size - 1:
+        return float(grid[best])
+    before, here, after = apart[best - 1 : best + 2]
+    bend = before - 2.0 * here + after
+    part = 0.5 * (before - after) / bend if bend > 0.0 else 0.0
+    return float(grid[best] + part * (grid[1] - grid[0]))
+
+
+def _compute_distance(
+    first: _RepeatedMotion, other: _RepeatedMotion, shift: float, overlap: float
+) -> float:
+    """Mean squared difference of the joint that differs most; infinite with less overlap."""
+    begin = max(first.time[0], other.time[0] - shift)
+    end = min(first.time[-1], other.time[-1] - shift)
+    if end - begin < max(overlap, 2 * first.step):
+        return float("inf")
+    times = np.linspace(begin, end, int(min(_POINTS, (end - begin) / first.step + 2)))
+    apart = (
+        _interpolate_positions(first, times) - _interpolate_positions(other, times + shift)
+    ) / first.size
+    return float(np.mean(apart**2, axis=0).max())
+
+
+def _interpolate_positions(motion: _RepeatedMotion, times: np.ndarray) -> np.ndarray:
+    return np.column_stack([np.interp(times, motion.time, column) for column in motion.q.T])
+
+
+@dataclass(frozen=True)
+class VarianceShares:
+    """Of sum (measured - mean)^2; the three sum to one.
+
+    Explained is R^2, and negative for a prediction that is worse than the best constant.
+    """
+
+    explained: float
+    systematic: float  # repeatable, and not in the model
+    floor: float  # noise, as far as these logs can tell
+    method: Method  # how the last two were told apart
+    sigma: float | None  # standard error of both; None by the method "smooth"
+
+    @property
+    def repeatable_share(self) -> float:
+        """Repeatable share of what is not explained; 0 if nothing is left."""
+        left = self.systematic + self.floor
+        return self.systematic / left if left > 0.0 else 0.0
+
+
+def split_variance(
+    prediction: Prediction,
+    joint: int,
+    e: np.ndarray,
+    repeated: tuple[Repetition, ...],
+    structure: ResidualStructure | None,
+) -> VarianceShares | None:
+    """Shares of one joint; None for a constant torque, or too few samples to tell.
+
+    Where the motion was repeated, the repeatable part is the mean product of the residual and that
+    of the same moment in another lap (or log): noise of different laps has mean product zero.
+    Otherwise it is the squared mean and what smooth functions of the motion predict of the rest on
+    blocks of time that were held out.
+
+    Args:
+        prediction: the rows.
+        joint: which one.
+        e: (n,) its residual, NaN where a row does not count.
+        repeated: laps, logs of one motion.
+        structure: structure of the residual.
+    """
+    rows = np.flatnonzero(prediction.used[:, joint])
+    y = prediction.measured[rows, joint]
+    spread, energy = float(np.sum((y - y.mean()) ** 2)), float(e[rows] @ e[rows])
+    if spread <= 0.0:
+        return None
+    left = energy / spread
+    for repetition in repeated:
+        returning = _estimate_recurring_share(prediction, joint, e, repetition)
+        if returning is not None:
+            again, error = returning
+            kind = repetition.kind
+            return VarianceShares(
+                1.0 - left, again * left, (1.0 - again) * left, kind, error * left
+            )
+    if structure is None or energy == 0.0:
+        return None if energy else VarianceShares(1.0, 0.0, 0.0, "smooth", None)
+    offset = rows.size * float(e[rows].mean()) ** 2 / energy
+    smooth = max(structure.together, structure.follows.share)
+    again = offset + (1.0 - offset) * smooth
+    return VarianceShares(1.0 - left, again * left, (1.0 - again) * left, "smooth", None)
+
+
+def _estimate_recurring_share(
+    prediction: Prediction, joint: int, e: np.ndarray, repetition: Repetition
+) -> tuple[float, float] | None:
+    """Share of the squared residual that laps have in common, and its standard error.
+
+    The error comes from sums over half a dozen neighbouring rows, which may share their noise.
+    None with too few rows repeated.
+    """
+    full = select_full_rate(prediction)
+    products, squares, scatter = 0.0, 0.0, 0.0
+    repeated = np.zeros(e.size, dtype=bool)
+    for partner in repetition.partners:
+        rows = np.flatnonzero((prediction.run == partner.run) & np.isfinite(e))
+        there = full.run == partner.other
+        then = prediction.time[rows] + partner.shift
+        other = interpolate_between_gaps(full.time[there], full.filtered[there, joint], then)
+        there = np.isfinite(other)
+        if not there.any():
+            continue
+        residuals, other = e[rows][there], other[there]
+        if np.median(np.abs(residuals - other) > 1e-3 * np.abs(residuals)) < 0.5:
+            continue  # the same measurements given twice: their noise is alike, too
+        product = residuals * other
+        parts = np.add.reduceat(product, np.arange(0, residuals.size, _NEIGHBOURS))
+        products += float(product.sum())
+        squares += float(residuals @ residuals)
+        # every pair of moments stands here twice, once from either side
+        scatter += 2.0 * float(parts @ parts)
+        repeated[rows[there]] = True
+    if repeated.sum() < max(_FEWEST, _ENOUGH * np.isfinite(e).sum()):
+        return None
+    if squares == 0.0:
+        return 0.0, 0.0
+    return float(np.clip(products / squares, 0.0, 1.0)), float(np.sqrt(scatter)) / squares

@@ -3,21 +3,28 @@
 import math
 import statistics
 from collections.abc import Sequence
+from functools import partial
+
+import numpy as np
 
 from modeler import validation
 from modeler.core.figure import Picture
-from modeler.core.table import format_percent
-from modeler.views.blocks import (
+from modeler.core.result import Figures, Presentation, Tables
+from modeler.core.table import Cell, Table, format_percent
+from modeler.views.figures import collect_figures
+from modeler.views.page import (
     Code,
     Figure,
     Items,
     JudgedLine,
+    Origin,
+    Page,
     PageCell,
     PageTable,
     Paragraph,
+    Section,
     Verdict,
 )
-from modeler.views.page import Origin, Page, Section
 
 # The page of a free run.
 
@@ -172,9 +179,19 @@ _REGION_PHRASES = {
     "fast +": "fast in the positive direction",
 }
 _HEAD = (
-    "joint", "relative error", "rms residual", "sigma", "rms measured", "largest residual", "at",
-    "R\u00b2", "repeatable", "noise", "mean residual", "samples",
-)  # fmt: skip
+    "joint",
+    "relative error",
+    "rms residual",
+    "sigma",
+    "rms measured",
+    "largest residual",
+    "at",
+    "R\u00b2",
+    "repeatable",
+    "noise",
+    "mean residual",
+    "samples",
+)
 
 
 def build_comparison_page(
@@ -331,3 +348,165 @@ def _tabulate_logs(comparison: validation.Comparison) -> list[PageTable]:
     head, *rows = validation.tabulate_logs(comparison, "all")
     caption = "Relative error by log: of all joints together (rows stacked), and of each by itself."
     return [PageTable(head, rows, caption)]
+
+
+# Comparisons and free runs as tables and figures of a notebook.
+
+
+def _summarise_model_comparison(comparison: validation.ModelComparison) -> str:
+    first = (
+        f"{comparison.predictions[0].robot}: {len(comparison.names)} models on "
+        f"{comparison.samples} samples"
+    )
+    return "\n".join([first, *validation.format_model_comparison(comparison)])
+
+
+def _collect_model_comparison_tables(comparison: validation.ModelComparison) -> Tables:
+    head = ["joint", *comparison.names, "best beyond doubt", "chance"]
+    rows = [
+        (
+            item.joint.name,
+            *item.errors,
+            None if item.best is None else comparison.names[item.best],
+            item.p_value,
+        )
+        for item in comparison.joints
+    ]
+    return {"errors": lambda: Table.build("relative error of each model", head, rows)}
+
+
+def _summarise_comparison(comparison: validation.Comparison) -> str:
+    first = f"{comparison.prediction.robot}: {validation.write_headline(comparison)}"
+    return "\n".join([first, comparison.summary(), *validation.write_verdict(comparison)])
+
+
+def _collect_comparison_tables(comparison: validation.Comparison) -> Tables:
+    return {
+        "errors": lambda: _build_error_table(comparison),
+        "logs": lambda: _build_log_table(comparison),
+        "residuals": lambda: _build_residual_table(comparison),
+        "torques": lambda: _tabulate_torques(comparison),
+    }
+
+
+def _build_error_table(comparison: validation.Comparison) -> Table:
+    rows = [
+        (
+            item.joint.name,
+            item.relative_error,
+            item.rms,
+            item.joint.effort_unit,
+            item.largest.value,
+            item.largest.time,
+            item.largest.log,
+            item.r2,
+            None if item.shares is None else item.shares.systematic,
+            None if item.shares is None else item.shares.floor,
+            item.bias,
+        )
+        for item in comparison.joints
+    ]
+    return Table.build(
+        f"{comparison.prediction.robot}: measured against predicted",
+        "joint, relative error, rms, unit, largest, at [s], of, R2, repeatable, noise, bias",
+        rows,
+        " ".join(f"{line}." for line in validation.describe_methods(comparison)),
+    )
+
+
+def _build_log_table(comparison: validation.Comparison) -> Table:
+    joints = [f"joint {name}" for name, _ in comparison.logs[0].joints]
+    rows = [
+        (log.log, log.samples, log.relative_error, *(e for _, e in log.joints))
+        for log in comparison.logs
+    ]
+    head = ["log", "samples", "all joints", *joints]
+    return Table.build("relative error of each log", head, rows)
+
+
+def _build_residual_table(comparison: validation.Comparison) -> Table:
+    """Measured minus predicted torque, one row a sample; rows that do not count are NaN."""
+    prediction = comparison.prediction
+    head = [f"{joint.name} [{joint.effort_unit}]" for joint in prediction.joints]
+    return Table.build(
+        "measured minus predicted torque of each joint",
+        ["log", "time [s]", *head],
+        _build_rows(prediction, validation.compute_residual(prediction)),
+        "rows that do not count for a joint have no value",
+    )
+
+
+def _tabulate_torques(comparison: validation.Comparison) -> Table:
+    """Measured and predicted torque side by side."""
+    prediction = comparison.prediction
+    both = np.concatenate([prediction.measured, prediction.predicted], axis=1)
+    head = [
+        f"{what} {joint.name} [{joint.effort_unit}]"
+        for what in ("measured", "predicted")
+        for joint in prediction.joints
+    ]
+    return Table.build(
+        "torques of each joint", ["log", "time [s]", *head], _build_rows(prediction, both)
+    )
+
+
+def _build_rows(prediction: validation.Prediction, values: np.ndarray) -> list[tuple[Cell, ...]]:
+    triples = zip(prediction.run.tolist(), prediction.time.tolist(), values.tolist(), strict=True)
+    return [(prediction.logs[run], time, *row) for run, time, row in triples]
+
+
+def _collect_comparison_figures(comparison: validation.Comparison) -> Figures:
+    drawn = {"overview": partial(validation.draw_overview_picture, comparison)}
+    for item in comparison.joints:
+        for kind, picture in (
+            ("time", validation.draw_time_picture),
+            ("residual", validation.draw_residual_picture),
+        ):
+            drawn[f"{kind} {item.joint.name}"] = partial(picture, comparison.prediction, item)
+    return collect_figures(drawn)
+
+
+def _collect_free_run_tables(free_run: validation.FreeRun) -> Tables:
+    return {
+        "joints": lambda: Table.build(
+            f"{free_run.robot}: free run in windows of {free_run.window:g} s",
+            "joint, position [%], constant speed [%], whole run [%], horizon [s], "
+            "largest error, unit",
+            [
+                (j.name, j.fit, j.constant_speed, j.whole, j.horizon, j.largest, j.unit)
+                for j in free_run.joints
+            ],
+            "position: 100 % is the logged one, 0 % its mean",
+        )
+    }
+
+
+def _collect_free_run_figures(free_run: validation.FreeRun) -> Figures:
+    drawn = [
+        partial(validation.draw_free_run_picture, free_run, j) for j in range(len(free_run.joints))
+    ]
+    names = [f"joint {joint.name}" for joint in free_run.joints]
+    return collect_figures(dict(zip(names, drawn, strict=True)))
+
+
+PRESENTATIONS = {
+    validation.FreeRun: Presentation(
+        "a free run",
+        validation.FreeRun.summary,
+        _collect_free_run_tables,
+        _collect_free_run_figures,
+    ),
+    validation.ModelComparison: Presentation(
+        "a comparison of models",
+        _summarise_model_comparison,
+        _collect_model_comparison_tables,
+        document=build_model_comparison_page,
+    ),
+    validation.Comparison: Presentation(
+        "a comparison",
+        _summarise_comparison,
+        _collect_comparison_tables,
+        _collect_comparison_figures,
+        document=build_comparison_page,
+    ),
+}

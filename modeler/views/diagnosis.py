@@ -1,8 +1,11 @@
 """The page of a diagnosis: one HTML file, no network."""
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
+from functools import partial
 
-from modeler.core.table import format_error_pair, format_percent
+from modeler.core.figure import Picture
+from modeler.core.result import Figures, Presentation, Tables
+from modeler.core.table import Cell, Table, format_error_pair, format_percent
 from modeler.diagnosis import (
     Diagnosis,
     Finding,
@@ -10,15 +13,33 @@ from modeler.diagnosis import (
     describe_equivalents,
     describe_undetectable,
     format_equivalents,
+    format_lines,
     format_location,
     format_unit,
 )
 from modeler.effects import find_effect
-from modeler.views.blocks import Block, Code, Figure, Items, PageCell, PageTable, Paragraph
 from modeler.views.effect_evidence import collect_evidence, describe_residuals
-from modeler.views.evidence import draw_evidence_picture, select_alternatives, tabulate_alternatives
-from modeler.views.page import Origin, Page, Section
-from modeler.views.torque_picture import draw_play_picture, draw_push_picture, draw_torque_picture
+from modeler.views.evidence import (
+    draw_evidence_picture,
+    draw_play_picture,
+    draw_push_picture,
+    draw_torque_picture,
+    select_alternatives,
+    tabulate_alternatives,
+)
+from modeler.views.figures import collect_figures, draw_errors_picture
+from modeler.views.page import (
+    Block,
+    Code,
+    Figure,
+    Items,
+    Origin,
+    Page,
+    PageCell,
+    PageTable,
+    Paragraph,
+    Section,
+)
 
 
 def build_diagnosis_page(
@@ -179,10 +200,18 @@ def _build_proposal_sections(diagnosis: Diagnosis) -> list[Section]:
             sections.append(Section(name, [Paragraph(f"{discovery.why}.")]))
         for proposal in discovery.proposals:
             item = collect_evidence(proposal.final_search, proposal.final_search.steps[-1])
-            sections.append(Section(f"{proposal.equation}, {format_location(discovery.joint)}", [
-                *(Paragraph(line) for line in proposal.summary_lines), Code(proposal.text),
-                Figure(draw_torque_picture(item)), Figure(draw_evidence_picture(item)),
-            ], _build_section_id(proposal.finding.effect, discovery.joint)))  # fmt: skip
+            sections.append(
+                Section(
+                    f"{proposal.equation}, {format_location(discovery.joint)}",
+                    [
+                        *(Paragraph(line) for line in proposal.summary_lines),
+                        Code(proposal.text),
+                        Figure(draw_torque_picture(item)),
+                        Figure(draw_evidence_picture(item)),
+                    ],
+                    _build_section_id(proposal.finding.effect, discovery.joint),
+                )
+            )
     return sections
 
 
@@ -251,3 +280,89 @@ def _tabulate_joints(diagnosis: Diagnosis) -> PageTable:
         "the effects in. Systematic is what smooth functions "
         "of the motion predict, what returns in the next lap, what lasts, and outbursts.",
     )
+
+
+# Diagnoses as tables and figures of a notebook.
+
+
+def _collect_diagnosis_tables(diagnosis: Diagnosis) -> Tables:
+    blind = "what these logs cannot show", "effect, why"
+    return {
+        "effects": lambda: _tabulate_effects(diagnosis),
+        "joints": lambda: _build_joint_table(diagnosis),
+        "rivals": lambda: Table.build(
+            "rivals of the first effect", "effect, joint, gain", diagnosis.rivals
+        ),
+        "blind spots": lambda: Table.build(*blind, describe_undetectable(diagnosis)),
+    }
+
+
+def _tabulate_effects(diagnosis: Diagnosis) -> Table:
+    rows = [
+        _build_effect_row(f, "missing" if f.status == "fact" else f.status)
+        for f in diagnosis.effects
+    ]
+    rows += [_build_effect_row(f, "refines the model") for f in diagnosis.refinements]
+    return Table.build(
+        f"{diagnosis.robot}: {diagnosis.verdict}",
+        "effect, joint, error before, error after, gain, values [SI], what, evidence",
+        rows,
+        diagnosis.sentences[0],
+    )
+
+
+def _build_effect_row(finding: Finding, what: str) -> tuple[Cell, ...]:
+    values = ", ".join(
+        f"{name} = {value:.4g} {finding.units.get(name, '')}".rstrip()
+        for name, value in finding.parameters.items()
+    )
+    errors = finding.error_before, finding.error_after
+    return finding.effect, finding.joint, *errors, finding.gain, values, what, finding.evidence
+
+
+def _build_joint_table(diagnosis: Diagnosis) -> Table:
+    rows = [
+        (
+            name,
+            j.error_before,
+            j.error_after,
+            j.rms_before,
+            j.rms_after,
+            j.unit,
+            j.explained,
+            j.systematic,
+            j.noise,
+        )
+        for name, j in diagnosis.joints.items()
+    ]
+    return Table.build(
+        "errors without and with the effects",
+        "joint, error, with effects, rms, rms with effects, unit, explained, systematic, noise",
+        rows,
+    )
+
+
+def _collect_diagnosis_figures(diagnosis: Diagnosis) -> Figures:
+    drawn: dict[str, Callable[[], Picture]] = {}
+    for step in diagnosis.search.steps:
+        name = step.candidate.effect.id + (
+            f"@{step.candidate.joint}" if step.candidate.joint else ""
+        )
+        drawn[name] = partial(_draw_evidence, diagnosis, step)
+    return collect_figures(drawn | {"errors": partial(draw_errors_picture, diagnosis)})
+
+
+def _draw_evidence(diagnosis: Diagnosis, step: SearchStep) -> Picture:
+    return draw_evidence_picture(collect_evidence(diagnosis.search, step))
+
+
+PRESENTATIONS = {
+    Diagnosis: Presentation(
+        "a diagnosis",
+        lambda diagnosis: "\n".join(format_lines(diagnosis)),
+        _collect_diagnosis_tables,
+        _collect_diagnosis_figures,
+        ("effects", "joints"),
+        build_diagnosis_page,
+    )
+}

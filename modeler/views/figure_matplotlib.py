@@ -133,9 +133,14 @@ def _draw_series(axes: Any, series: Series) -> None:
     elif isinstance(series, Band):
         style = series.style
         axes.fill_between(
-            series.x, series.low, series.high, color=style.color, alpha=style.opacity, lw=0,
+            series.x,
+            series.low,
+            series.high,
+            color=style.color,
+            alpha=style.opacity,
+            lw=0,
             label=series.label,
-        )  # fmt: skip
+        )
     elif isinstance(series, Means):
         axes.errorbar(
             series.x,

@@ -63,20 +63,30 @@ def draw_parameters(fit: FitResult) -> "Drawing":
     names = tuple(p.name for p in known)
     bars = Bars("relative sigma", names, shares, texts, Style(BLUE))
     label = "sigma [% of the value], at most 100 drawn"
-    return draw_picture(Picture(
-        name="parameters", title=f"{fit.robot}: how sure the parameters are", caption="",
-        panels=((Panel(f"{len(known)} of {len(fit.parameters)} base parameters", "", label,
-                       (bars,)),),),
-        height=380,
-    ))  # fmt: skip
+    return draw_picture(
+        Picture(
+            name="parameters",
+            title=f"{fit.robot}: how sure the parameters are",
+            caption="",
+            panels=(
+                (
+                    Panel(
+                        f"{len(known)} of {len(fit.parameters)} base parameters", "", label, (bars,)
+                    ),
+                ),
+            ),
+            height=380,
+        )
+    )
 
 
 def draw_errors_picture(diagnosis: "Diagnosis") -> Picture:
     """Relative error of every joint, without and with the effects."""
     panels, names = [], tuple(diagnosis.joints)
     for title, entry, color in (
-        ("as fitted", "error_before", BLUE), ("with the effects", "error_after", ORANGE),
-    ):  # fmt: skip
+        ("as fitted", "error_before", BLUE),
+        ("with the effects", "error_after", ORANGE),
+    ):
         values = np.array([100.0 * getattr(joint, entry) for joint in diagnosis.joints.values()])
         texts = tuple("" if np.isnan(value) else f"{value:.2f}" for value in values)
         bars = Bars("error", names, values, texts, Style(color))
@@ -96,9 +106,11 @@ def draw_log(
             ("torques", "tau [N m, N]", tau),
         )
     )
-    return draw_picture(Picture(
-        name="channels", title=title, caption="", panels=panels, height=620, shared_time=True,
-    ))  # fmt: skip
+    return draw_picture(
+        Picture(
+            name="channels", title=title, caption="", panels=panels, height=620, shared_time=True
+        )
+    )
 
 
 def build_curves(

@@ -1,4 +1,4 @@
-"""Fits and models: the page of a fit, tables and figures of a notebook."""
+"""Fits and models: the page of a fit and of all estimators, tables and figures of a notebook."""
 
 from collections.abc import Sequence
 from functools import partial
@@ -14,25 +14,116 @@ from modeler.estimation import (
     FitResult,
     IdentifiedModel,
     MethodComparison,
+    MethodResult,
     ParameterEstimate,
 )
-from modeler.views.blocks import Items, JudgedLine, PageTable, Verdict
-from modeler.views.estimators import (
-    build_estimators_page,
-    collect_remarks,
-    tabulate_estimates,
-    tabulate_estimators,
-)
 from modeler.views.figures import draw_parameters, draw_picture
-from modeler.views.history import build_history_page, draw_waterfall_picture, format_step_name
-from modeler.views.noise import build_noise_blocks, draw_noise_picture
-from modeler.views.page import Origin, Page, Section, suggest_after_fit
-from modeler.views.values import tabulate_joint_errors, tabulate_values
+from modeler.views.history import (
+    build_history_page,
+    draw_waterfall_picture,
+    format_step_name,
+    tabulate_joint_errors,
+    tabulate_values,
+)
+from modeler.views.log import build_noise_blocks, draw_noise_picture
+from modeler.views.page import (
+    Items,
+    JudgedLine,
+    Origin,
+    Page,
+    PageTable,
+    Section,
+    Verdict,
+    suggest_after_fit,
+)
+
+# The page of all estimators on the same logs.
+
+
+def build_estimators_page(
+    robot: str, trials: Sequence[MethodResult], provenance: Sequence[str]
+) -> Page:
+    """The page of all estimators on the logs of a robot of that name.
+
+    Args:
+        robot: its name.
+        trials: from `estimation.side_by_side`.
+        provenance: lines on how the data came about.
+    """
+    (head, *errors), (names, *values) = tabulate_estimators(trials), tabulate_estimates(trials)
+    sections = [
+        Section("Errors and effort", [PageTable(head, errors)]),
+        Section("Values and standard deviations", [PageTable(names, values)]),
+        Section("What each says", [Items(collect_remarks(trials))]),
+    ]
+    done = sum(trial.fit is not None for trial in trials)
+    return Page(
+        f"Estimators on {robot}",
+        (str(done), f"of {len(trials)} estimators fit these logs"),
+        sections,
+        Origin(robot),
+        provenance=provenance,
+        command="estimators",
+    )
+
+
+def tabulate_estimators(trials: Sequence[MethodResult]) -> list[list[str]]:
+    """Header and one row a method: errors, conditioning, seconds."""
+    rows = [["method", "training %", "held out %", "condition", "essential", "farthest", "seconds"]]
+    for trial in trials:
+        fit = trial.fit
+        if fit is None:
+            rows.append([trial.method, "refused", "", "", "", "", f"{trial.seconds:.2f}"])
+            continue
+        far = (
+            "-" if trial.farthest is None else f"{trial.farthest[0]} {trial.farthest[1]:.1f} sigma"
+        )
+        rows.append(
+            [
+                trial.method,
+                f"{100 * fit.relative_error:.3f}",
+                "-" if trial.held_out_error is None else f"{100 * trial.held_out_error:.3f}",
+                f"{fit.condition_scaled:.3g}",
+                f"{sum(p.essential for p in fit.parameters)} of {len(fit.parameters)}",
+                far,
+                f"{trial.seconds:.2f}",
+            ]
+        )
+    return rows
+
+
+def tabulate_estimates(trials: Sequence[MethodResult]) -> list[list[str]]:
+    """Header and one row a parameter: value +- sigma by each method that fitted."""
+    fits = [trial.fit for trial in trials if trial.fit is not None]
+    rows = [["parameter", "unit", *(fit.method for fit in fits)]]
+    for column in zip(*(fit.parameters for fit in fits), strict=True):
+        rows.append([column[0].name, column[0].unit, *map(_format_value, column)])
+    return rows
+
+
+def _format_value(parameter: ParameterEstimate) -> str:
+    if parameter.sigma is None:
+        return "set aside"
+    return f"{parameter.value:.4g} +- {parameter.sigma:.2g}"
+
+
+def collect_remarks(trials: Sequence[MethodResult]) -> list[tuple[str, str]]:
+    """Method and remark, or why it refused."""
+    return [
+        (trial.method, remark)
+        for trial in trials
+        for remark in ((trial.refusal,) if trial.refusal else trial.remarks)
+    ]
+
+
+# Fits and models: the page of a fit, tables and figures of a notebook.
 
 
 def _summarise_fit(fit: FitResult) -> str:
-    first = (f"{fit.robot}: {len(fit.parameters)} base parameters by {fit.method}, relative error "
-             f"{format_percent(fit.relative_error)}{_describe_refusal(fit)}")  # fmt: skip
+    first = (
+        f"{fit.robot}: {len(fit.parameters)} base parameters by {fit.method}, relative error "
+        f"{format_percent(fit.relative_error)}{_describe_refusal(fit)}"
+    )
     return "\n".join([first, *fit.format_lines()])
 
 
@@ -45,8 +136,11 @@ def _describe_refusal(fit: FitResult) -> str:
 def collect_fit_tables(fit: FitResult) -> Tables:
     """The tables of a fit; those of loads, gains and the reduced model where there are any."""
     reduced = () if fit.essential is None else fit.essential.parameters
-    named = {"essential": ("reduced model", reduced), "loads": ("loads", fit.loads),
-             "gains": ("drive gains", fit.gains)}  # fmt: skip
+    named = {
+        "essential": ("reduced model", reduced),
+        "loads": ("loads", fit.loads),
+        "gains": ("drive gains", fit.gains),
+    }
     return {
         "parameters": lambda: _build_estimates_table(
             f"{fit.robot}: base parameters", fit.parameters
@@ -63,10 +157,17 @@ def collect_fit_tables(fit: FitResult) -> Tables:
 def _build_estimates_table(title: str, parameters: Sequence[ParameterEstimate]) -> Table:
     known = any(p.prior is not None for p in parameters)
     rows = [
-        (p.name, p.value if p.sigma is not None else None, p.sigma, p.relative_sigma_percent,
-         p.unit, p.essential if p.sigma is not None else p.status, *([p.prior] if known else []))
+        (
+            p.name,
+            p.value if p.sigma is not None else None,
+            p.sigma,
+            p.relative_sigma_percent,
+            p.unit,
+            p.essential if p.sigma is not None else p.status,
+            *([p.prior] if known else []),
+        )
         for p in parameters
-    ]  # fmt: skip
+    ]
     head = "parameter, value, sigma, relative_sigma_percent, unit, essential"
     return Table.build(title, f"{head}, prior share" if known else head, rows)
 
@@ -77,7 +178,7 @@ def _tabulate_errors(fit: FitResult) -> Table:
         "joint, relative error, rms, unit, rows",
         [(j.name, j.relative_error, j.rms, j.unit, j.rows) for j in fit.joints],
         f"all rows together: {format_percent(fit.relative_error)}, on the logs of the fit",
-    )  # fmt: skip
+    )
 
 
 def _collect_fit_figures(fit: FitResult) -> Figures:
@@ -88,8 +189,10 @@ def _collect_fit_figures(fit: FitResult) -> Figures:
 
 def _summarise_model(model: IdentifiedModel) -> str:
     logs = ", ".join(log.name for log in model.logs)
-    lines = [f"model of {model.spec.robot}: {len(model.beta)} base parameters by "
-             f"{model.fit.method}, fitted on {logs}{_describe_refusal(model.fit)}"]  # fmt: skip
+    lines = [
+        f"model of {model.spec.robot}: {len(model.beta)} base parameters by "
+        f"{model.fit.method}, fitted on {logs}{_describe_refusal(model.fit)}"
+    ]
     lines += [_describe_step(step) for step in model.history]
     return "\n".join([*lines, *model.fit.format_lines()])
 
@@ -99,9 +202,10 @@ def _collect_model_tables(model: IdentifiedModel) -> Tables:
     if model.history:
         tables["waterfall"] = lambda: _tabulate_history(model)
     tables["logs"] = lambda: Table.build(
-        "logs of the fit", "log, rows, samples, from [s], to [s]",
+        "logs of the fit",
+        "log, rows, samples, from [s], to [s]",
         [(log.name, log.rows, log.samples, log.start, log.end) for log in model.logs],
-    )  # fmt: skip
+    )
     return tables
 
 
@@ -110,10 +214,12 @@ def _tabulate_history(model: IdentifiedModel) -> Table:
     return Table.build(
         f"{model.spec.robot}: error after every effect",
         "effect, joint, error, on the fitted logs",
-        [(step.effect or "as fitted", step.joint, step.error, step.training_error)
-         for step in model.history],
+        [
+            (step.effect or "as fitted", step.joint, step.error, step.training_error)
+            for step in model.history
+        ],
         f"error: on {held}" if held else "error: on parts of the fitted logs, left out in turn",
-    )  # fmt: skip
+    )
 
 
 def _collect_model_figures(model: IdentifiedModel) -> Figures:
@@ -178,9 +284,11 @@ _MOST = 12  # pairs that are told
 
 
 def build_fit_page(
-    model: IdentifiedModel, provenance: Sequence[str] = (), place: str = "MODEL",
+    model: IdentifiedModel,
+    provenance: Sequence[str] = (),
+    place: str = "MODEL",
     following: Sequence[str] = (),
-) -> Page:  # fmt: skip
+) -> Page:
     """The page of a fit.
 
     Args:
@@ -207,12 +315,18 @@ def _collect_facts(fit: FitResult) -> list[tuple[str, str]]:
     sure = [p for p in fit.parameters if (p.relative_sigma_percent or np.inf) < 10.0]
     aside = [p.name for p in fit.parameters if p.sigma is None]
     facts = [
-        ("How sure?", f"{len(sure)} of {len(fit.parameters)} parameters within 10 % (one sigma); "
-         f"{sum(p.essential for p in fit.parameters)} are essential"),
-        ("Condition number", f"{fit.condition_number:.4g}; {fit.condition_scaled:.4g} with columns "
-         f"of length one; {fit.rows} rows of {fit.samples} samples"),
+        (
+            "How sure?",
+            f"{len(sure)} of {len(fit.parameters)} parameters within 10 % (one sigma); "
+            f"{sum(p.essential for p in fit.parameters)} are essential",
+        ),
+        (
+            "Condition number",
+            f"{fit.condition_number:.4g}; {fit.condition_scaled:.4g} with columns "
+            f"of length one; {fit.rows} rows of {fit.samples} samples",
+        ),
         ("Estimator", find_estimator_title(fit.method)),
-    ]  # fmt: skip
+    ]
     if aside:
         facts.append(("Set aside", ", ".join(aside)))
     return facts
@@ -252,8 +366,10 @@ def _build_verdict_blocks(fit: FitResult) -> list[Verdict | Items]:
     if fit.verdict is not None:
         kind, tag = ("noise", "valid") if fit.verdict.usable else ("pattern", "not valid")
         lines = [JudgedLine(kind, tag, "This fit", fit.verdict.line)]
-        lines += [JudgedLine("other", "doubt", f"Doubt {k}", text)
-                  for k, text in enumerate(fit.verdict.doubts, start=1)]  # fmt: skip
+        lines += [
+            JudgedLine("other", "doubt", f"Doubt {k}", text)
+            for k, text in enumerate(fit.verdict.doubts, start=1)
+        ]
         blocks.append(Verdict(lines))
     if fit.sentences:
         blocks.append(Items([("", line) for line in fit.sentences]))

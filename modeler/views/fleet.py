@@ -10,9 +10,18 @@ from modeler.core.result import Figures, Presentation, Tables
 from modeler.core.style import BLUE, COLORS, GREY, Style
 from modeler.core.table import Table, format_percent
 from modeler.fleet import Fleet, FleetFinding, QuantityHistory, QuantityValues, result
-from modeler.views.blocks import Figure, Items, JudgedLine, PageTable, Paragraph, Verdict
 from modeler.views.figures import collect_figures
-from modeler.views.page import Origin, Page, Section
+from modeler.views.page import (
+    Figure,
+    Items,
+    JudgedLine,
+    Origin,
+    Page,
+    PageTable,
+    Paragraph,
+    Section,
+    Verdict,
+)
 
 _PICTURES = 12  # findings that are drawn
 _COLUMNS = 24  # machines of one map
@@ -193,15 +202,28 @@ def _collect_tables(fleet: Fleet) -> Tables:
 
 def _tabulate_findings(fleet: Fleet) -> Table:
     rows = [
-        (f.machine, f.quantity.joint, f.quantity.effect, f.shape, f.begin, f.end, f.before,
-         f.change, f.quantity.unit, f.change_percent, f.score, f.chance)
+        (
+            f.machine,
+            f.quantity.joint,
+            f.quantity.effect,
+            f.shape,
+            f.begin,
+            f.end,
+            f.before,
+            f.change,
+            f.quantity.unit,
+            f.change_percent,
+            f.score,
+            f.chance,
+        )
         for f in fleet.findings
-    ]  # fmt: skip
+    ]
     return Table.build(
         f"{fleet.robot}: {fleet.verdict}",
         "machine, joint, effect, shape, from, to, before, change, unit, change of it [%], sigmas, "
-        "chance", rows,
-    )  # fmt: skip
+        "chance",
+        rows,
+    )
 
 
 def _tabulate_values(fleet: Fleet) -> Table:
@@ -223,10 +245,17 @@ def _tabulate_values(fleet: Fleet) -> Table:
 
 def _tabulate_quantities(fleet: Fleet) -> Table:
     rows = [
-        (each.quantity.joint, result.format_effect_title(each.quantity), each.quantity.parameter,
-         each.level, each.quantity.unit, each.factor, each.smallest_detectable)
+        (
+            each.quantity.joint,
+            result.format_effect_title(each.quantity),
+            each.quantity.parameter,
+            each.level,
+            each.quantity.unit,
+            each.factor,
+            each.smallest_detectable,
+        )
         for each in fleet.histories
-    ]  # fmt: skip
+    ]
     return Table.build("what may drift", result.HEAD, rows)
 
 

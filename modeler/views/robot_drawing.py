@@ -1,4 +1,4 @@
-"""Parts of a scene painted on paper, from far to near, by matplotlib without a window."""
+"""Where names stand in a picture: beside what they name, on nothing else."""
 
 import io
 import itertools
@@ -13,10 +13,137 @@ from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 from matplotlib.patches import Circle, FancyArrowPatch, Patch, Polygon
 
-from modeler.views.robot_closing import Posture
-from modeler.views.robot_labels import NameLabel, choose_view, place_names
-from modeler.views.robot_scene import BASE, Point, Scene, SceneLine, build_gap_lines, build_scene
-from modeler.views.robot_skeleton import Skeleton, compute_poses
+from modeler.views.robot_scene import (
+    BASE,
+    Point,
+    Scene,
+    SceneLine,
+    build_gap_lines,
+    build_scene,
+    choose_view,
+)
+from modeler.views.robot_skeleton import Posture, Skeleton, compute_poses
+
+_SIZE, _HIGH, _BLANK = 7.0, 7.5, 4.0  # points
+_SAME = 4.0  # points: names nearer to each other are written together
+
+
+@dataclass(frozen=True)
+class NameLabel:
+    """A text, and what it names.
+
+    Attributes:
+        text: as it is written.
+        color: of the text.
+        at: (2,) what it names, points.
+        bulk: radius of what it names, points.
+    """
+
+    text: str
+    color: str
+    at: np.ndarray
+    bulk: float = 0.0
+
+
+def place_names(
+    names: Sequence[NameLabel],
+    lines: Sequence[np.ndarray],
+    sleeves: Sequence[np.ndarray],
+    paper: tuple[float, float],
+) -> list[NameLabel]:
+    """The names where they are written: `at` is the left end of the text, at half its height.
+
+    Names at one place come one after the other in one line. Each such line takes, of 36 places
+    around it, the one that covers fewest names and lines.
+
+    Args:
+        names: with what they name.
+        lines: (2, 2) straight lines in the picture, points.
+        sleeves: the same of bars that are as thick as what is named.
+        paper: width and height, points.
+    """
+    groups: list[list[NameLabel]] = []
+    for name in names:
+        near = next((g for g in groups if np.hypot(*(g[0].at - name.at)) < _SAME), None)
+        if near is None:
+            groups.append([name])
+        else:
+            near.append(name)
+    steps = np.linspace(0.0, 1.0, 60)[:, None]
+    dense, bars = (
+        [line[0] + steps * (line[1] - line[0]) for line in these] for these in (lines, sleeves)
+    )
+    taken: list[np.ndarray] = []
+    labels = []
+    for group in groups:
+        widths = [_compute_text_width(name.text) for name in group]
+        width = sum(widths) + _BLANK * (len(group) - 1)
+        others = [each[0] for each in groups if each is not group]
+        box = _choose_box(group, np.array([width, _HIGH]), taken, dense, bars, others, paper)
+        taken.append(box)
+        x = box[0, 0]
+        for name, wide in zip(group, widths, strict=True):
+            labels.append(NameLabel(name.text, name.color, np.array([x, box[:, 1].mean()])))
+            x += wide + _BLANK
+    return labels
+
+
+def _compute_text_width(text: str) -> float:
+    from matplotlib.font_manager import FontProperties  # matplotlib takes long to load
+    from matplotlib.textpath import TextPath
+
+    font = FontProperties(weight="bold", size=_SIZE)
+    return float(TextPath((0, 0), text, prop=font).get_extents().width)
+
+
+def _choose_box(
+    group: Sequence[NameLabel],
+    size: np.ndarray,
+    taken: Sequence[np.ndarray],
+    lines: Sequence[np.ndarray],
+    bars: Sequence[np.ndarray],
+    others: Sequence[NameLabel],
+    paper: tuple[float, float],
+) -> np.ndarray:
+    """(2, 2) lower left and upper right corner of a text of that size.
+
+    It should not cover names that stand, points of lines and bars, and what others name.
+    """
+    bulk = max(name.bulk for name in group)
+    best, best_cost = None, np.inf
+    for ring in range(3):
+        for k in range(12):
+            angle = np.pi * (k - 1) / 6.0
+            reach = 4.0 + 5.0 * ring + bulk
+            way = np.array([np.cos(angle) * (reach + size[0] / 2), np.sin(angle) * (reach + 2.0)])
+            low = group[0].at + way - size / 2
+            box = np.array([low, low + size])
+            cost = 8.0 * sum(_is_overlapping(box, other) for other in taken) + 0.7 * ring
+            cost += min(4, sum(_has_point_inside(points, box) for points in lines))
+            cost += 2.0 * sum(_is_covering(box, name) for name in others)
+            wide = box + np.array([[-0.7], [0.7]]) * bulk
+            cost += 2.0 * sum(_has_point_inside(points, wide) for points in bars)
+            cost += 20.0 * (np.any(box[0] < 3.0) or np.any(box[1] > np.array(paper) - 3.0))
+            if best is None or cost < best_cost - 1e-9:
+                best, best_cost = box, cost
+    assert best is not None
+    return best
+
+
+def _is_covering(box: np.ndarray, name: NameLabel) -> bool:
+    return bool(np.hypot(*(name.at - np.clip(name.at, box[0], box[1]))) < 0.7 * name.bulk)
+
+
+def _is_overlapping(a: np.ndarray, b: np.ndarray) -> bool:
+    return bool(np.all(a[0] < b[1] + 0.8) and np.all(b[0] < a[1] + 0.8))
+
+
+def _has_point_inside(points: np.ndarray, box: np.ndarray) -> bool:
+    return bool(np.any(np.all((points > box[0]) & (points < box[1]), axis=1)))
+
+
+# Parts of a scene painted on paper, from far to near, by matplotlib without a window.
+
 
 SETTINGS: Any = {"svg.hashsalt": "modeler", "svg.fonttype": "none", "font.size": 7}
 """Of matplotlib, while it draws."""
@@ -120,8 +247,9 @@ def _collect_faces(scene: Scene, sheet: PaperSheet) -> list[Any]:
             continue
         bright = 0.74 + 0.42 * max(0.0, float(normal @ light)) if face.opacity == 1.0 else 1.0
         points, color = sheet.project_points(corners), _shade_color(face.color, bright)
-        patch = Polygon(points[:, :2], facecolor=color, edgecolor=color, linewidth=0.3,
-                        alpha=face.opacity)  # fmt: skip
+        patch = Polygon(
+            points[:, :2], facecolor=color, edgecolor=color, linewidth=0.3, alpha=face.opacity
+        )
         faces.append((float(points[:, 2].mean()), partial(_add_patch, patch)))
     return faces
 
@@ -162,8 +290,9 @@ def _build_line_drawer(line: SceneLine, a: np.ndarray, b: np.ndarray) -> Any:
 
     def draw_line(axes: Any, order: float) -> None:
         if line.layer != "platform":  # which lies in a face
-            axes.plot(x, y, color="white", linewidth=width + 1.3, solid_capstyle="butt",
-                      zorder=order)  # fmt: skip
+            axes.plot(
+                x, y, color="white", linewidth=width + 1.3, solid_capstyle="butt", zorder=order
+            )
         if line.dashed:
             axes.plot(x, y, color=line.color, linewidth=width, dashes=(2.2, 1.8), zorder=order)
         elif not line.arrow:
@@ -179,17 +308,26 @@ def build_arrow(a: np.ndarray, b: np.ndarray, color: str, width: float, order: f
     head = min(2.2 + 1.6 * width, 0.7 * float(np.hypot(*(b - a))))
     style = f"-|>,head_length={head},head_width={0.4 * head}"
     return FancyArrowPatch(
-        tuple(a), tuple(b), arrowstyle=style, mutation_scale=1.0, color=color, linewidth=width,
-        shrinkA=0.0, shrinkB=0.0, joinstyle="miter", zorder=order,
-    )  # fmt: skip
+        tuple(a),
+        tuple(b),
+        arrowstyle=style,
+        mutation_scale=1.0,
+        color=color,
+        linewidth=width,
+        shrinkA=0.0,
+        shrinkB=0.0,
+        joinstyle="miter",
+        zorder=order,
+    )
 
 
 def _collect_dots(scene: Scene, sheet: PaperSheet) -> list[Any]:
     dots = []
     for dot in scene.dots:
         at = sheet.project_point(dot.at)
-        patch = Circle(tuple(at[:2]), dot.radius * _UNIT, facecolor=dot.color, edgecolor="white",
-                       linewidth=0.4)  # fmt: skip
+        patch = Circle(
+            tuple(at[:2]), dot.radius * _UNIT, facecolor=dot.color, edgecolor="white", linewidth=0.4
+        )
         dots.append((float(at[2]), partial(_add_patch, patch)))
     return dots
 
@@ -250,18 +388,31 @@ def _arrange_sheet(skeleton: Skeleton, posture: Posture, scene: Scene) -> PaperS
 
 def _draw_names(axes: Any, scene: Scene, sheet: PaperSheet) -> None:
     names = [
-        NameLabel(label.text, label.color, sheet.project_point(label.at)[:2],
-             0.0 if label.layer == "base" else 1.2 * scene.radius * sheet.scale)
+        NameLabel(
+            label.text,
+            label.color,
+            sheet.project_point(label.at)[:2],
+            0.0 if label.layer == "base" else 1.2 * scene.radius * sheet.scale,
+        )
         for label in scene.labels
-    ]  # fmt: skip
+    ]
     crossed, sleeves = (
         [np.array([sheet.project_point(end)[:2] for end in part.ends]) for part in parts]
         for parts in (scene.lines, scene.sleeves)
     )
     behind = {"facecolor": "white", "alpha": 0.6, "pad": 0.2, "linewidth": 0.0}
     for placed in place_names(names, crossed, sleeves, sheet.size):
-        axes.text(*placed.at, placed.text, color=placed.color, fontsize=7, fontweight="bold",
-                  va="center", ha="left", zorder=8.0, bbox=behind)  # fmt: skip
+        axes.text(
+            *placed.at,
+            placed.text,
+            color=placed.color,
+            fontsize=7,
+            fontweight="bold",
+            va="center",
+            ha="left",
+            zorder=8.0,
+            bbox=behind,
+        )
 
 
 def _draw_gravity(axes: Any, gravity: np.ndarray, sheet: PaperSheet) -> None:
@@ -277,8 +428,16 @@ def _draw_gravity(axes: Any, gravity: np.ndarray, sheet: PaperSheet) -> None:
     else:
         half = 11.0 * way[:2]
         axes.add_patch(build_arrow(middle - half, middle + half, _GRAVITY, 1.2, 8.0))
-    axes.text(middle[0] + 5.0, middle[1], "g", color=_GRAVITY, fontsize=8, style="italic",
-              va="center", zorder=8.0)  # fmt: skip
+    axes.text(
+        middle[0] + 5.0,
+        middle[1],
+        "g",
+        color=_GRAVITY,
+        fontsize=8,
+        style="italic",
+        va="center",
+        zorder=8.0,
+    )
 
 
 def _draw_ruler(axes: Any, sheet: PaperSheet) -> None:

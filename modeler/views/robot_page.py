@@ -2,7 +2,7 @@
 
 import dataclasses
 import re
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -14,16 +14,35 @@ from modeler.core.errors import DataError, DerivationError, LoopError
 from modeler.core.files import write_atomically
 from modeler.core.json import select_attributes
 from modeler.core.table import align_columns
+from modeler.excitation import BASE as STILL, ClosestApproach, CollisionGeometry, MotionBounds
 from modeler.robot import JointKind, Robot, build_written_table, get_written_letter
 from modeler.views.page import encode_script_json, render_template
-from modeler.views.robot_closing import CLOSED, LoopGap, Posture, compute_gaps, find_home_posture
-from modeler.views.robot_labels import choose_view
-from modeler.views.robot_scene import Part, Point, Scene, build_scene
+from modeler.views.robot_scene import (
+    BODIES,
+    OPEN,
+    Face,
+    Label,
+    Part,
+    Point,
+    Scene,
+    SceneLine,
+    build_ball,
+    build_cylinder,
+    build_scene,
+    choose_view,
+)
 from modeler.views.robot_skeleton import (
+    BASE,
+    CLOSED,
+    LoopGap,
+    Posture,
     Skeleton,
     SkeletonRow,
     build_skeleton,
+    compute_gaps,
     compute_poses,
+    estimate_robot_size,
+    find_home_posture,
     format_joint_kind,
 )
 
@@ -212,8 +231,14 @@ def _format_frame_row(row: SkeletonRow, frame: np.ndarray, posture: Posture) -> 
     if joint.is_moving:
         kind += ", actuated" if joint.actuated else ", platform" if row.virtual else ", passive"
     q = _format_number(row.constant + row.coefficients @ posture.u) if joint.is_moving else ""
-    return (joint.name, joint.antecedent, kind, q, *map(_format_number, frame[:3, 3]),
-            _format_direction(frame[:3, 2]))  # fmt: skip
+    return (
+        joint.name,
+        joint.antecedent,
+        kind,
+        q,
+        *map(_format_number, frame[:3, 3]),
+        _format_direction(frame[:3, 2]),
+    )
 
 
 def _describe_loops(skeleton: Skeleton, posture: Posture) -> list[str]:
@@ -415,3 +440,62 @@ def _prepare_robot(robot: Robot) -> ShownRobot:
             note = str(error)
     skeleton = build_skeleton(robot)
     return ShownRobot(skeleton, dataclasses.replace(find_home_posture(skeleton), note=note))
+
+
+# The page of a robot where two of its links come nearest: its capsules, and these two in red.
+
+
+_CLEAR = 0.22  # opacity
+
+
+def render_nearest_page(robot: Robot, bounds: MotionBounds, near: ClosestApproach) -> str:
+    """The page as text, the joints as they stand there.
+
+    Args:
+        robot: as read.
+        bounds: with a clearance.
+        near: where two come nearest.
+    """
+    assert bounds.clearance is not None
+    skeleton = build_skeleton(robot)
+    stated = zip(skeleton.free, skeleton.stated.tolist(), strict=True)
+    u = np.array([near.posture.get(name, otherwise) for name, otherwise in stated])
+    line = bounds.clearance.format_line(near)
+    posture = Posture(
+        u, estimate_robot_size(skeleton, u), True, True, note=f"{line[0].upper()}{line[1:]}."
+    )
+    parts = [*_build_capsules(skeleton, bounds.clearance.solids, near.pair), *_mark_gap(near)]
+    return render_robot_page(skeleton, posture, parts)
+
+
+def _mark_gap(near: ClosestApproach) -> Iterator[Part]:
+    """The way between the two."""
+    one, other = ((BASE, (float(p[0]), float(p[1]), float(p[2]))) for p in near.points)
+    yield SceneLine(BASE, (one, other), OPEN, 3.0, "gap")
+    yield Label(BASE, one, f"{1e3 * near.distance:.1f} mm", OPEN, "names")
+
+
+def _build_capsules(
+    skeleton: Skeleton, solids: CollisionGeometry, pair: tuple[str, str]
+) -> Iterator[Face]:
+    """All capsules, each on its link; planes are not drawn."""
+    moving = [i for i, row in enumerate(skeleton.rows) if row.joint.is_moving]
+    for k, name in enumerate(solids.names[: len(solids.ends)]):
+        carrier = int(solids.carriers[k])
+        frame = BASE if carrier == STILL else moving[carrier]
+        color = OPEN if name in pair else BODIES[k % len(BODIES)]
+        for points in _build_capsule(solids.ends[k], float(solids.radius[k])):
+            yield Face(frame, frame, points, color, "capsules", _CLEAR)
+
+
+def _build_capsule(ends: np.ndarray, radius: float) -> Iterator[np.ndarray]:
+    """Polygons of it."""
+    way = ends[1] - ends[0]
+    length = float(np.linalg.norm(way))
+    for end in ends if length else ends[:1]:
+        yield from (points + end for points in build_ball(radius))
+    if length:
+        # A turn that takes z along the way: columns of a QR factorisation that begins with it.
+        turn = np.linalg.qr(np.column_stack([way, np.eye(3)]))[0][:, [1, 2, 0]]
+        for points in build_cylinder(radius, length)[:-2]:
+            yield points @ turn.T + ends.mean(axis=0)

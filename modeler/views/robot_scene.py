@@ -6,13 +6,14 @@ from typing import Any
 
 import numpy as np
 
-from modeler.views.robot_closing import Posture, compute_gaps
 from modeler.views.robot_skeleton import (
     BASE,
+    Posture,
     Skeleton,
     SkeletonRow,
     compute_corner,
     compute_foot_pose,
+    compute_gaps,
     compute_poses,
 )
 
@@ -417,3 +418,123 @@ def _compute_travel(row: SkeletonRow, u: np.ndarray) -> float:
 
 def _convert_to_tuple(point: Sequence[float] | np.ndarray) -> tuple[float, float, float]:
     return (float(point[0]), float(point[1]), float(point[2]))
+
+
+# Views of a robot, gravity down, and where its names are written.
+
+
+_AZIMUTHS = (-60.0, -30.0, -45.0, 30.0, 45.0, 60.0, 120.0, 135.0, 150.0, -120.0, -135.0, -150.0)
+_ELEVATION = 24.0
+_BETTER = 1.02  # by which another azimuth has to be better than those before it
+_ASIDE, _ABOVE = np.radians(25.0), np.radians(16.0)
+_FLAT = 1e-4  # of the robot's size
+
+
+@dataclass(frozen=True)
+class ViewDirection:
+    """How a robot is seen.
+
+    Attributes:
+        rotation: (3, 3) rows are right, up and towards the viewer, in frame 0.
+        up: (3,) what is up: against gravity; z0 without gravity.
+    """
+
+    rotation: np.ndarray
+    up: np.ndarray
+
+
+def choose_view(skeleton: Skeleton, posture: Posture) -> ViewDirection:
+    """A view in which few frames hide each other.
+
+    Straight on for planar mechanisms; nearly so for others that stand in a plane.
+    """
+    pull = float(np.linalg.norm(skeleton.gravity))
+    up = -skeleton.gravity / pull if pull > 0.0 else np.array([0.0, 0.0, 1.0])
+    points = collect_joint_points(skeleton, posture.u)
+    frames = compute_poses(skeleton, posture.u)
+    turning = [
+        i for i, row in enumerate(skeleton.rows) if row.joint.is_moving and row.joint.is_revolute
+    ]
+    axes = np.array([frames[i][:3, 2] for i in turning]).reshape(-1, 3)
+    normal = _fit_plane_normal(points, axes, posture.size)
+    if normal is not None:
+        return ViewDirection(_compute_plane_view(normal, axes, up), up)
+    best, best_score = None, -np.inf
+    for azimuth in _AZIMUTHS:
+        rotation = compute_view_rotation(up, np.radians(azimuth), np.radians(_ELEVATION))
+        score = _compute_spread(points @ rotation[:2].T, posture.size)
+        if best is None or score > best_score * _BETTER:
+            best, best_score = rotation, score
+    assert best is not None
+    return ViewDirection(best, up)
+
+
+def _compute_plane_view(normal: np.ndarray, axes: np.ndarray, up: np.ndarray) -> np.ndarray:
+    """(3, 3) a view of a robot that stands in a plane."""
+    across = abs(normal @ up) > 0.99  # gravity across the plane: up says nothing in it
+    vertical = next(a for a in np.eye(3)[[1, 2, 0]] if abs(a @ normal) < 0.1) if across else up
+    vertical = vertical - (vertical @ normal) * normal
+    vertical /= np.linalg.norm(vertical)
+    right = np.cross(vertical, normal)
+    if right[np.argmax(np.abs(right) > 0.3)] < 0 and not across:
+        right, normal = -right, -normal
+    straight = np.array([right, vertical, normal])
+    if _are_parallel(axes, normal):
+        return straight
+    c, s = np.cos(_ASIDE), np.sin(_ASIDE)
+    level = c * straight[2] - s * straight[0]
+    towards = np.cos(_ABOVE) * level + np.sin(_ABOVE) * straight[1]
+    right = c * straight[0] + s * straight[2]
+    return np.array([right, np.cross(towards, right), towards])
+
+
+def compute_view_rotation(up: np.ndarray, azimuth: float, elevation: float) -> np.ndarray:
+    """(3, 3) rows right, up, towards the viewer, who stands at these angles [rad] about `up`."""
+    start = next(axis for axis in np.eye(3) if abs(axis @ up) < 0.6)
+    east = start - (start @ up) * up
+    east /= np.linalg.norm(east)
+    north = np.cross(up, east)
+    level = np.cos(azimuth) * east + np.sin(azimuth) * north
+    towards = np.cos(elevation) * level + np.sin(elevation) * up
+    right = np.cos(azimuth) * north - np.sin(azimuth) * east
+    return np.array([right, np.cross(towards, right), towards])
+
+
+def collect_joint_points(skeleton: Skeleton, u: np.ndarray) -> np.ndarray:
+    """(n, 3) origins of frames and feet of axes, platform motions apart, each place once."""
+    frames = compute_poses(skeleton, u)
+    points = [np.zeros(3)]
+    for i, row in enumerate(skeleton.rows):
+        if row.virtual and row.joint.name != skeleton.robot.platform[-1]:
+            continue
+        points.append(frames[i][:3, 3])
+        if not row.virtual:
+            before = np.eye(4) if row.parent == BASE else frames[row.parent]
+            points.append((before @ compute_foot_pose(row))[:3, 3])
+    return np.unique(np.round(np.array(points), 9), axis=0)
+
+
+def _are_parallel(axes: np.ndarray, normal: np.ndarray) -> bool:
+    return bool(np.all(np.abs(axes @ normal) > 1.0 - 1e-6))
+
+
+def _fit_plane_normal(points: np.ndarray, axes: np.ndarray, size: float) -> np.ndarray | None:
+    """Of the plane that all points lie in; None if there is none.
+
+    Where points are a line, the plane that the joints turn in.
+    """
+    if len(axes) and _are_parallel(axes, axes[0]) and np.ptp(points @ axes[0]) < _FLAT * size:
+        return np.asarray(axes[0] if axes[0][np.argmax(np.abs(axes[0]))] > 0 else -axes[0])
+    if len(points) < 3:
+        return None
+    _, lengths, directions = np.linalg.svd(points - points.mean(axis=0))
+    if lengths[1] < _FLAT * size or lengths[2] > _FLAT * size:
+        return None
+    normal = directions[2]
+    return np.asarray(normal if normal[np.argmax(np.abs(normal))] > 0 else -normal)
+
+
+def _compute_spread(flat: np.ndarray, size: float) -> float:
+    """How well points are told apart on the paper: mean distance, near pairs count most."""
+    away = np.linalg.norm(flat[:, None] - flat[None], axis=2)[np.triu_indices(len(flat), 1)]
+    return float(np.mean(np.minimum(away / size, 0.15))) if away.size else 0.0

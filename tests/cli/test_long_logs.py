@@ -178,7 +178,7 @@ def test_rows_of_a_comparison_are_no_more_than_fit_in_memory(
     words = ["compare", place / "chunked.json", place / "run.parquet"]
     every, out = told_of(words, tmp_path / "every", capsys)
     assert "training only: the model was fitted on run.parquet" in out
-    monkeypatch.setattr(sys.modules["modeler.validation.predict"], "MOST", 150)
+    monkeypatch.setattr(sys.modules["modeler.validation.comparison"], "MOST", 150)
     some, _ = told_of(words, tmp_path / "some", capsys)
     assert 120 < some["samples"] <= 151 < every["samples"]
     assert some["relative_error"] == pytest.approx(every["relative_error"], rel=0.3)

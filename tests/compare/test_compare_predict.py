@@ -10,7 +10,7 @@ from modeler.regression.log import Log
 from modeler.regression.motion import compute_travel_since_reversal
 from modeler.regression.settings import Processing
 from modeler.validation.comparison import Comparison, compare
-from modeler.validation.predict import predict
+from modeler.validation.prediction import predict
 from modeler.validation.verdict import classify_residual, write_joint_verdict
 
 RATE, CUTOFF, NOISE = 400.0, 8.0, 0.8  # Hz, Hz, N m
