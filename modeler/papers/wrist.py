@@ -18,19 +18,23 @@ from modeler.formulas import (
     find_wrong_functions,
     format_monomial,
 )
-from modeler.papers.paper import DerivedRobot, Paper, PrintedLine
-from modeler.papers.quotation import (
-    Amount,
+from modeler.papers.paper import (
+    DerivedRobot,
     LineComparison,
-    QuotationError,
+    Paper,
+    PrintedLine,
     Reading,
     Robots,
-    Sum,
-    add_sums,
-    format_sum,
     join_in_order,
     join_numbers,
     join_sums,
+)
+from modeler.papers.quotation import (
+    Amount,
+    QuotationError,
+    Sum,
+    add_sums,
+    format_sum,
     read_amount,
     read_sum,
     replace_names,

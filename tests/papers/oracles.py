@@ -10,8 +10,8 @@ from math import prod
 
 import numpy as np
 
-from modeler.papers.paper import read_paper
-from modeler.papers.quotation import build_renamer, read_numbers, read_sum
+from modeler.papers.paper import build_renamer, read_paper
+from modeler.papers.quotation import read_numbers, read_sum
 from tests.papers import mechanisms as m
 from tests.papers.derived_papers import robots_of
 
