@@ -12,6 +12,7 @@ from pathlib import Path
 
 import numpy as np
 
+from modeler import simulation
 from modeler.codegen import Derivation, derive, generate, load
 from modeler.derivation import draw_random_states
 from modeler.estimation import FitResult, identify
@@ -30,12 +31,6 @@ from modeler.papers.paper import Paper
 from modeler.regression import Observation, observe, read_log
 from modeler.robot import Limits, Robot
 from modeler.runtime import CompiledModel, load_cached_model
-from modeler.simulation import (
-    SimulationSettings,
-    build_point_to_point_reference,
-    simulate,
-    write_log,
-)
 
 STATES, SEED = 20, 2003
 SAME, WRONG = 1e-12, 1e-2
@@ -193,7 +188,7 @@ def compute_condition_numbers(
     """
     grams = []
     for seed in range(TRIED):
-        motion = build_point_to_point_reference(
+        motion = simulation.build_point_to_point_reference(
             (limits,) * len(compiled.spec.joints), lasts, MOTION_RATE, seed
         )
         if not compiled.closing_status(motion.q).any():
@@ -390,7 +385,7 @@ def _simulate_logs(
     machine, logs, exact = _build_machine(robot, truth), [], []
     with tempfile.TemporaryDirectory() as folder:
         for seed in range(RUNS):
-            settings = SimulationSettings(
+            settings = simulation.SimulationSettings(
                 duration=SECONDS,
                 rate=RATE,
                 seed=seed,
@@ -399,9 +394,9 @@ def _simulate_logs(
                 motion="point-to-point",
                 limits={f"1{leg}": LIMITS for leg in "123"},
             )
-            log = simulate(machine, settings)
+            log = simulation.simulate(machine, settings)
             place = Path(folder) / f"run{seed}.parquet"
-            write_log(place, log)
+            simulation.write_log(place, log)
             logs.append(read_log(place, compiled.spec))
             exact.append(compiled.observation(log.truth.q, log.truth.qd, log.truth.qdd))
             report((seed + 1) / RUNS)

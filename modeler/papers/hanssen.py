@@ -10,6 +10,7 @@ from dataclasses import replace
 
 import numpy as np
 
+from modeler import formulas
 from modeler.codegen import Derivation, derive, generate
 from modeler.core.builtin import read_builtin_robot
 from modeler.core.expression import parse_expression
@@ -17,12 +18,6 @@ from modeler.core.figure import Curve, Panel, Picture
 from modeler.core.style import BLUE, GREEN, GREY, VERMILLION, Style
 from modeler.core.table import format_percent
 from modeler.estimation import JointDirections, TwoStepFit, identify_in_two_steps
-from modeler.formulas import (
-    build_physical_system,
-    count_smallest_set,
-    find_determined,
-    find_known_sets,
-)
 from modeler.papers.methods import (
     MethodRow,
     MethodTable,
@@ -261,15 +256,15 @@ def _build_ramp() -> Reference:
 
 def _build_known_table(paper: Paper, derivation: Derivation) -> MethodTable:
     """Which physical parameters follow: the paper's claim, and the count of all choices."""
-    system = build_physical_system(derivation.model, derivation.base, "coefficients")
+    system = formulas.build_physical_system(derivation.model, derivation.base, "coefficients")
     claim, rest = read_quotation(paper, "From these, 18")
-    determined_parameters, _ = find_determined(system, KNOWN)
+    determined_parameters, _ = formulas.find_determined(system, KNOWN)
     what = "parameters that follow from " + ", ".join(KNOWN)
     why = "the statement is wrong: " + ", ".join(determined_parameters) + " alone"
     outcome = judge_outcome(len(determined_parameters) == FOLLOW, Outcome.DERIVED)
     rows = [MethodRow(what, f"{claim:g}", str(len(determined_parameters)), outcome, why)]
-    for size, expected in ((int(rest), 0), (count_smallest_set(system), 61_879)):
-        sets = find_known_sets(system, size)
+    for size, expected in ((int(rest), 0), (formulas.count_smallest_set(system), 61_879)):
+        sets = formulas.find_known_sets(system, size)
         what, counted = f"sets of {size} from which all others follow", sets.count == expected
         outcome = judge_outcome(counted, Outcome.DERIVED)
         rows.append(

@@ -24,25 +24,11 @@ from typing import Any
 import numpy as np
 import sympy
 
+from modeler import derivation, formulas
 from modeler.core.builtin import list_papers
 from modeler.core.errors import RobotError
 from modeler.core.expression import parse_expression
 from modeler.core.json import build_instance
-from modeler.derivation import (
-    BaseParameters,
-    SymbolicModel,
-    derive_base_parameters,
-    derive_model,
-    draw_random_states,
-)
-from modeler.formulas import (
-    CoefficientTable,
-    Equation,
-    build_coefficient_table,
-    energy_functions,
-    function_sheet,
-    kane_form,
-)
 from modeler.papers.quotation import (
     Amount,
     Monomial,
@@ -207,8 +193,8 @@ class DerivedRobot:
     """A robot with its model and base parameters."""
 
     robot: Robot
-    model: SymbolicModel
-    base: BaseParameters
+    model: derivation.SymbolicModel
+    base: derivation.BaseParameters
 
     @property
     def values(self) -> Mapping[str, float]:
@@ -248,23 +234,25 @@ class DerivedRobot:
         return shares
 
     @cached_property
-    def table(self) -> CoefficientTable:
+    def table(self) -> formulas.CoefficientTable:
         """Coefficients of the closed form."""
-        return build_coefficient_table(self.model, self.base)
+        return formulas.build_coefficient_table(self.model, self.base)
 
     @cached_property
     def kane(self) -> Mapping[str, str]:
         """Formulas of Kane's form, by name."""
-        sheet = function_sheet.serialise_sheet(self.forms["kane"][0].sheet)
+        sheet = formulas.function_sheet.serialise_sheet(self.forms["kane"][0].sheet)
         return {each["name"]: each["formula"] for each in sheet["definitions"]}
 
     @cached_property
-    def forms(self) -> Mapping[str, tuple[Equation, float]]:
+    def forms(self) -> Mapping[str, tuple[formulas.Equation, float]]:
         """Energy functions, and without loops Kane's form, with how far each is from the model."""
-        states = draw_random_states(self.model, 20, np.random.default_rng(2000))
-        equations = {"energy": energy_functions(self.model, states)}
+        states = derivation.draw_random_states(self.model, 20, np.random.default_rng(2000))
+        equations = {"energy": formulas.energy_functions(self.model, states)}
         return (
-            equations if self.robot.loops else equations | {"kane": kane_form(self.model, states)}
+            equations
+            if self.robot.loops
+            else equations | {"kane": formulas.kane_form(self.model, states)}
         )
 
     @cached_property
@@ -283,8 +271,8 @@ def derive_robot(name: str, variant: Variant | None = None) -> DerivedRobot:
         if variant.gravity:
             x, y, z = (parse_expression(text) for text in variant.gravity)
             robot = replace(robot, gravity=(x, y, z))
-    model = derive_model(robot)
-    return DerivedRobot(robot, model, derive_base_parameters(model))
+    model = derivation.derive_model(robot)
+    return DerivedRobot(robot, model, derivation.derive_base_parameters(model))
 
 
 def expand_to_sum(expression: sympy.Expr) -> Sum:

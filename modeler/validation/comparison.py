@@ -10,32 +10,17 @@ from typing import Any
 
 import numpy as np
 
+from modeler import regression
 from modeler.core.brief import ShortRepr
 from modeler.core.errors import DataError
 from modeler.core.json import convert_to_plain, select_attributes
 from modeler.core.result import Result
 from modeler.core.table import POOLED, WORDS, align_columns, format_percent
 from modeler.estimation import IdentifiedModel, read_all_rows, reduce_by_threads
+from modeler.numerics import spectra
 from modeler.numerics.filters import choose_row_spacing
-from modeler.numerics.spectra import (
-    OrderSpectrum,
-    ResidualSpectrum,
-    estimate_residual_spectrum,
-    find_segment_slices,
-)
-from modeler.regression import (
-    FINGER,
-    Chunk,
-    DataReport,
-    LogChoices,
-    LogFacts,
-    Observation,
-    Source,
-    assemble_observation,
-    build_chunk_rows,
-    build_streamed_report,
-)
 from modeler.runtime import CompiledModel
+from modeler.validation import residual_structure
 from modeler.validation.prediction import (
     JointInfo,
     Prediction,
@@ -45,16 +30,6 @@ from modeler.validation.prediction import (
     compute_residual,
     compute_unit_errors,
     predict_rows,
-)
-from modeler.validation.residual_structure import (
-    Repetition,
-    ResidualStructure,
-    VarianceShares,
-    analyse_structure,
-    compute_ripple_spectrum,
-    find_order_peaks,
-    find_repetitions,
-    split_variance,
 )
 
 # The comparison as a table of plain text.
@@ -193,7 +168,7 @@ def find_worst_window(prediction: Prediction, e: np.ndarray, width: float = WIND
     energy = np.concatenate(([0.0], np.cumsum(square)))
     counted = np.concatenate(([0], np.cumsum(np.isfinite(e))))
     best, first, last = -1.0, 0, 0
-    for span in find_segment_slices(prediction.segment):
+    for span in spectra.find_segment_slices(prediction.segment):
         time = prediction.time[span]
         # half a sample of slack, so that rounding of the time stamps does not cost a row
         slack = 0.5 * float(np.median(np.diff(time))) if time.size > 1 else 0.0
@@ -315,11 +290,11 @@ class JointComparison(ShortRepr):
     largest: Moment
     regions: tuple[Region, ...]
     worst: WorstWindow
-    structure: ResidualStructure | None  # None: too few samples to tell
-    spectrum: ResidualSpectrum | None  # None: no segment long enough
-    shares: VarianceShares | None  # None: too few samples to tell
+    structure: residual_structure.ResidualStructure | None  # None: too few samples to tell
+    spectrum: spectra.ResidualSpectrum | None  # None: no segment long enough
+    shares: residual_structure.VarianceShares | None  # None: too few samples to tell
     scale: Scale | None  # None: too few samples, or a constant
-    orders: OrderSpectrum | None  # None: too few samples, or the joint rests
+    orders: spectra.OrderSpectrum | None  # None: too few samples, or the joint rests
     predicted_sigma: float | None  # rms standard deviation of the prediction; None: not known
 
 
@@ -333,7 +308,7 @@ class Comparison(Result):
     joints: tuple[JointComparison, ...]
     unjudged: tuple[tuple[str, str], ...]  # joint name, why
     logs: tuple[LogError, ...]
-    repeated: tuple[Repetition, ...]  # empty: no motion was made twice
+    repeated: tuple[residual_structure.Repetition, ...]  # empty: no motion was made twice
     by_unit: Mapping[str, float]  # relative error over the joints of one unit; NaN: no torque
 
     def to_json(self) -> dict[str, Any]:
@@ -393,7 +368,7 @@ def compare(prediction: Prediction, ripple_windows: Prediction | None = None) ->
             looked for.
     """
     e = compute_residual(prediction)
-    repeated = find_repetitions(prediction)
+    repeated = residual_structure.find_repetitions(prediction)
     judged, unjudged = [], []
     for index, info in enumerate(prediction.joints):
         rows = prediction.used[:, index]
@@ -420,7 +395,7 @@ def _compare_joint(
     prediction: Prediction,
     index: int,
     e: np.ndarray,
-    repeated: tuple[Repetition, ...],
+    repeated: tuple[residual_structure.Repetition, ...],
     ripple_windows: Prediction | None,
 ) -> JointComparison:
     rows = prediction.used[:, index]
@@ -428,7 +403,7 @@ def _compare_joint(
     top = int(np.nanargmax(np.abs(e)))
     spread = float(np.sum((measured - measured.mean()) ** 2))
     energy = float(counted @ counted)
-    joint_structure, sigma = analyse_structure(prediction, index), None
+    joint_structure, sigma = residual_structure.analyse_structure(prediction, index), None
     if prediction.sigma is not None:
         sigma = float(np.sqrt(np.mean(prediction.sigma[rows, index] ** 2)))
     return JointComparison(
@@ -446,10 +421,10 @@ def _compare_joint(
         regions=compute_velocity_regions(prediction.qd[rows, index], counted),
         worst=find_worst_window(prediction, e),
         structure=joint_structure,
-        spectrum=estimate_residual_spectrum(prediction.time, prediction.segment, e),
-        shares=split_variance(prediction, index, e, repeated, joint_structure),
+        spectrum=spectra.estimate_residual_spectrum(prediction.time, prediction.segment, e),
+        shares=residual_structure.split_variance(prediction, index, e, repeated, joint_structure),
         scale=estimate_scale(measured, prediction.predicted[rows, index]),
-        orders=compute_ripple_spectrum(ripple_windows or prediction, index),
+        orders=residual_structure.compute_ripple_spectrum(ripple_windows or prediction, index),
         predicted_sigma=sigma,
     )
 
@@ -484,7 +459,7 @@ def _serialise_joint(item: JointComparison) -> dict[str, Any]:
         "method": parts and parts.method,
         "systematic_sigma": parts and parts.sigma,
         "scale": item.scale,
-        "orders": item.orders and find_order_peaks(item.orders, item.joint.unit),
+        "orders": item.orders and residual_structure.find_order_peaks(item.orders, item.joint.unit),
     }
 
 
@@ -500,7 +475,7 @@ class _ChunkPrediction:
     """Some consecutive rows of a log: what is compared of each chunk, and what they say of it."""
 
     rows: tuple[Prediction, ...]
-    facts: LogFacts
+    facts: regression.LogFacts
 
     def merged_with(self, later: "_ChunkPrediction") -> "_ChunkPrediction":
         """Of these rows, and of those that follow them."""
@@ -509,11 +484,11 @@ class _ChunkPrediction:
 
 def compare_long_logs(
     model: IdentifiedModel,
-    sources: Sequence[Source],
+    sources: Sequence[regression.Source],
     compiled: CompiledModel,
     progress: Callable[[float], None] = lambda share: None,
-    rows: int = FINGER,
-) -> tuple[Comparison, Observation]:
+    rows: int = regression.FINGER,
+) -> tuple[Comparison, regression.Observation]:
     """As `compare` of what `predict` makes of logs, of any length in flat memory.
 
     Args:
@@ -542,22 +517,27 @@ def compare_long_logs(
     ripples = dataclasses.replace(
         build_prediction(ripple_windows, ripple_windows.torque), full=full
     )
-    report = build_streamed_report(compiled, sources, passes)
+    report = regression.build_streamed_report(compiled, sources, passes)
     return compare(prediction, ripples), dataclasses.replace(ripple_windows, report=report)
 
 
 def _predict_chunk(
-    model: IdentifiedModel, compiled: CompiledModel, chunk: Chunk, chosen: LogChoices
+    model: IdentifiedModel,
+    compiled: CompiledModel,
+    chunk: regression.Chunk,
+    chosen: regression.LogChoices,
 ) -> _ChunkPrediction:
-    stretches, facts = build_chunk_rows(compiled, chunk, chosen)
+    stretches, facts = regression.build_chunk_rows(compiled, chunk, chosen)
     some = tuple(part for part in stretches if len(part.rows.centres))
     if not some:
         return _ChunkPrediction((), facts)
-    report = DataReport(chosen.processing, (), (), ())
+    report = regression.DataReport(chosen.processing, (), (), ())
     return _ChunkPrediction(
         (
             predict_rows(
-                model, assemble_observation(compiled, (chunk.log.name,), some, report), compiled
+                model,
+                regression.assemble_observation(compiled, (chunk.log.name,), some, report),
+                compiled,
             ),
         ),
         facts,

@@ -8,24 +8,12 @@ from typing import Any, Literal
 
 import numpy as np
 
+from modeler import regression
 from modeler.core.brief import ShortRepr
 from modeler.core.json import select_attributes
 from modeler.core.table import pool_errors_by_unit
 from modeler.estimation import IdentifiedModel
 from modeler.numerics.filters import LEAST_WEIGHT, compute_moving_means
-from modeler.regression import (
-    FilteredSegment,
-    Log,
-    Observation,
-    classify_rows,
-    close_segments,
-    compute_signals,
-    compute_travel_since_reversal,
-    find_shafts,
-    iterate_blocks,
-    observe,
-    prepare_logs,
-)
 from modeler.runtime import CompiledModel
 
 
@@ -156,8 +144,8 @@ _TURN = 1e-3  # of the stroke in all logs: a shorter way back is no reversal, bu
 
 
 def predict(
-    model: IdentifiedModel, logs: Sequence[Log], compiled: CompiledModel
-) -> tuple[Prediction, Observation]:
+    model: IdentifiedModel, logs: Sequence[regression.Log], compiled: CompiledModel
+) -> tuple[Prediction, regression.Observation]:
     """What the model says of logs, processed as the logs it was fitted on.
 
     Args:
@@ -168,13 +156,13 @@ def predict(
     Raises:
         DataError: no usable row.
     """
-    observation = observe(compiled, logs, model.processing)
+    observation = regression.observe(compiled, logs, model.processing)
     full = compute_full_rate(observation, compiled, model.beta)
     return dataclasses.replace(predict_rows(model, observation, compiled), full=full), observation
 
 
 def predict_every_row(
-    model: IdentifiedModel, log: Log, compiled: CompiledModel
+    model: IdentifiedModel, log: regression.Log, compiled: CompiledModel
 ) -> tuple[np.ndarray, np.ndarray]:
     """What the model says of every row of a log, behind the filter of the positions alone.
 
@@ -189,12 +177,14 @@ def predict_every_row(
         (rows, joints) torque, N m or N, NaN in gaps; (rows,) True where that filter had started up.
     """
     processing = dataclasses.replace(model.processing, keep_damaged=True)
-    prepared = prepare_logs(compiled.spec, [log], processing)
-    segments, _ = close_segments(compiled, [log], prepared.segments)
+    prepared = regression.prepare_logs(compiled.spec, [log], processing)
+    segments, _ = regression.close_segments(compiled, [log], prepared.segments)
     torque, sure = np.full(log.q.shape, np.nan), np.zeros(log.rows, dtype=bool)
     at = log.time + model.processing.delay  # the torque of a row belongs to the motion there
     for s in segments:
-        tau = compiled.inverse_dynamics(s.q, s.qd, s.qdd, model.beta, compute_signals(compiled, s))
+        tau = compiled.inverse_dynamics(
+            s.q, s.qd, s.qdd, model.beta, regression.compute_signals(compiled, s)
+        )
         rows = np.flatnonzero((at >= s.time[0] - 0.5 * s.step) & (at <= s.time[-1] + 0.5 * s.step))
         torque[rows] = np.column_stack(
             [np.interp(at[rows], s.time, joint_torque) for joint_torque in tau.T]
@@ -204,12 +194,12 @@ def predict_every_row(
 
 
 def predict_rows(
-    model: IdentifiedModel, observation: Observation, compiled: CompiledModel
+    model: IdentifiedModel, observation: regression.Observation, compiled: CompiledModel
 ) -> Prediction:
     """What the model says of rows, without the samples behind them."""
     made = [
         (x @ model.beta, propagate_covariance(x, model.covariance))
-        for _, x in iterate_blocks(observation)
+        for _, x in regression.iterate_blocks(observation)
     ]
     predicted, sigma = (np.concatenate(parts) for parts in zip(*made, strict=True))
     return dataclasses.replace(
@@ -218,11 +208,11 @@ def predict_rows(
         temperature=_collect_temperature(observation),
         motors=_find_coupled_motors(compiled),
         sigma=sigma,
-        masks=classify_rows(observation),
+        masks=regression.classify_rows(observation),
     )
 
 
-def build_prediction(observation: Observation, predicted: np.ndarray) -> Prediction:
+def build_prediction(observation: regression.Observation, predicted: np.ndarray) -> Prediction:
     """Measured and predicted torque (s, joints) on the rows, and nothing besides."""
     joints: list[Any] = [(j.name, j.unit, j.effort_unit) for j in observation.joints]
     return Prediction(
@@ -233,7 +223,7 @@ def build_prediction(observation: Observation, predicted: np.ndarray) -> Predict
     )
 
 
-def _compute_travel(observation: Observation) -> np.ndarray:
+def _compute_travel(observation: regression.Observation) -> np.ndarray:
     """(s, joints) since the last reversal of each joint, seen at full rate."""
     parts = observation.stretches
     every = np.concatenate([part.segment.q[part.segment.whole] for part in parts])
@@ -241,12 +231,14 @@ def _compute_travel(observation: Observation) -> np.ndarray:
     travel_parts = []
     for part in parts:
         pairs = zip(part.segment.q.T, least, strict=True)
-        travel = np.column_stack([compute_travel_since_reversal(q, turn) for q, turn in pairs])
+        travel = np.column_stack(
+            [regression.compute_travel_since_reversal(q, turn) for q, turn in pairs]
+        )
         travel_parts.append(travel[part.rows.centres])
     return np.concatenate(travel_parts)
 
 
-def _collect_temperature(observation: Observation) -> np.ndarray | None:
+def _collect_temperature(observation: regression.Observation) -> np.ndarray | None:
     """(s, joints) of `temperature<j>`, else of `temperature`; None if no log has either."""
     columns = []
     for part in observation.stretches:
@@ -261,7 +253,7 @@ def _collect_temperature(observation: Observation) -> np.ndarray | None:
 
 
 def compute_full_rate(
-    observation: Observation, compiled: CompiledModel, beta: np.ndarray
+    observation: regression.Observation, compiled: CompiledModel, beta: np.ndarray
 ) -> FullRate:
     """The samples behind the rows of an observation."""
     parts = observation.stretches
@@ -282,11 +274,13 @@ def compute_full_rate(
 
 
 def _compute_residual(
-    part: FilteredSegment, compiled: CompiledModel, beta: np.ndarray
+    part: regression.FilteredSegment, compiled: CompiledModel, beta: np.ndarray
 ) -> np.ndarray:
     """(samples, joints) measured minus predicted torque, NaN where a sample does not count."""
     s = part.segment
-    model = compiled.inverse_dynamics(s.q, s.qd, s.qdd, beta, compute_signals(compiled, s))
+    model = compiled.inverse_dynamics(
+        s.q, s.qd, s.qdd, beta, regression.compute_signals(compiled, s)
+    )
     return np.where(part.usable, s.tau - model, np.nan)
 
 
@@ -303,6 +297,6 @@ def _find_coupled_motors(compiled: CompiledModel) -> tuple[Motor, ...]:
     if compiled.spec.closure is not None:
         return ()
     coupled_shafts = [
-        part for part in find_shafts(compiled) if np.count_nonzero(part.coefficients) > 1
+        part for part in regression.find_shafts(compiled) if np.count_nonzero(part.coefficients) > 1
     ]
     return tuple(Motor(part.name, part.coefficients) for part in coupled_shafts)

@@ -8,26 +8,8 @@ from typing import Literal
 
 import numpy as np
 
+from modeler.numerics import spectra, splines
 from modeler.numerics.noise import interpolate_between_gaps
-from modeler.numerics.spectra import (
-    ALIKE,
-    OrderSpectrum,
-    compute_order_spectrum,
-    estimate_lap_period,
-    find_longest_stretch,
-)
-from modeler.numerics.splines import (
-    OWN,
-    SLIPS,
-    Measurements,
-    NonparametricBaseline,
-    assign_folds,
-    build_drift_functions,
-    build_friction_functions,
-    build_hat_functions,
-    fit_nonparametric_baseline,
-    generate_function_sets,
-)
 from modeler.validation.prediction import Prediction, select_full_rate
 
 # The coordinates against which a residual is looked at.
@@ -160,20 +142,22 @@ def analyse_structure(prediction: Prediction, joint: int) -> ResidualStructure |
     sets = {
         name: _build_curve(prediction, joint, name, rows) for name in names if name not in DRIFTS
     }
-    by = {joint: (*sets, *OWN)}
+    by = {joint: (*sets, *splines.OWN)}
     for k in range(m.q.shape[1]):
         if k != joint:
             curves = (
-                build_hat_functions(m.q[:, k]),
-                build_friction_functions(m.v[:, k]),
-                build_hat_functions(m.a[:, k]),
+                splines.build_hat_functions(m.q[:, k]),
+                splines.build_friction_functions(m.v[:, k]),
+                splines.build_hat_functions(m.a[:, k]),
             )
             sets |= {f"{name} {k}": x for name, x in zip(_ELSEWHERE, curves, strict=True)}
             by[k] = (str(k), *(f"{name} {k}" for name in _ELSEWHERE))
     for motor in prediction.motors:
-        sets[motor.name] = build_friction_functions(m.v @ np.asarray(motor.coefficients))
-    baseline = fit_nonparametric_baseline(
-        chain(sets.items(), generate_function_sets(m)), e, assign_folds(prediction.run[rows])
+        sets[motor.name] = splines.build_friction_functions(m.v @ np.asarray(motor.coefficients))
+    baseline = splines.fit_nonparametric_baseline(
+        chain(sets.items(), splines.generate_function_sets(m)),
+        e,
+        splines.assign_folds(prediction.run[rows]),
     )
     alone = {name: baseline.share_by_set.get(name, 0.0) for name in sets} | baseline.share_by_set
     drifts = {
@@ -193,7 +177,7 @@ def analyse_structure(prediction: Prediction, joint: int) -> ResidualStructure |
 
 
 def _find_best_predictor(
-    baseline: NonparametricBaseline,
+    baseline: splines.NonparametricBaseline,
     best: Mapping[int, float],
     by: Mapping[int, Sequence[str]],
     prediction: Prediction,
@@ -211,7 +195,9 @@ def _find_best_predictor(
     return BestPredictor(baseline.share, prediction.joints[place].name, next(iter(coordinates), ""))
 
 
-def _collect_measurements(prediction: Prediction, joint: int, rows: np.ndarray) -> Measurements:
+def _collect_measurements(
+    prediction: Prediction, joint: int, rows: np.ndarray
+) -> splines.Measurements:
     """What was measured on some rows; 0 throughout for joints that may hold anything there."""
     every = [
         np.where(np.isfinite(x[rows]).all(axis=0), x[rows], 0.0)
@@ -221,9 +207,9 @@ def _collect_measurements(prediction: Prediction, joint: int, rows: np.ndarray) 
     way, slips = np.sign(v[:, joint]), np.zeros((rows.size, 0))
     if prediction.travel is not None:
         stroke = max(float(np.ptp(q[:, joint])), 1e-12)
-        turned = [np.exp(-prediction.travel[rows, joint] / (d * stroke)) for d in SLIPS]
+        turned = [np.exp(-prediction.travel[rows, joint] / (d * stroke)) for d in splines.SLIPS]
         slips = way[:, None] * (1.0 - 2.0 * np.column_stack(turned))
-    return Measurements(joint, q, v, a, torque, torque, way, slips, {})
+    return splines.Measurements(joint, q, v, a, torque, torque, way, slips, {})
 
 
 def _estimate_drift_share(
@@ -237,12 +223,12 @@ def _estimate_drift_share(
     fold = (np.arange(e.size) * blocks // e.size) % folds
     values = evaluate_coordinate(prediction, joint, name)[rows]
     if name == "time":
-        columns = build_drift_functions(values, prediction.run[rows])
-        return fit_nonparametric_baseline([(name, columns)], e, fold).share
+        columns = splines.build_drift_functions(values, prediction.run[rows])
+        return splines.fit_nonparametric_baseline([(name, columns)], e, fold).share
     way = np.sign(prediction.qd[rows, joint])[:, None]
-    slow = build_hat_functions(values, 5)
+    slow = splines.build_hat_functions(values, 5)
     both = (name, np.hstack((slow, slow * way))), ("direction", way)
-    share_by_set = fit_nonparametric_baseline(both, e, fold).share_by_set
+    share_by_set = splines.fit_nonparametric_baseline(both, e, fold).share_by_set
     return max(0.0, share_by_set.get(name, 0.0) - share_by_set.get("direction", 0.0))
 
 
@@ -253,9 +239,9 @@ def _build_curve(
     if coordinate == "direction":
         return values[:, None]
     return (
-        build_friction_functions(values)
+        splines.build_friction_functions(values)
         if coordinate in ("velocity", "travel")
-        else build_hat_functions(values)
+        else splines.build_hat_functions(values)
     )
 
 
@@ -271,7 +257,7 @@ class SpectralLine:
     share: float  # of the squared residual before filtering
 
 
-def compute_ripple_spectrum(prediction: Prediction, joint: int) -> OrderSpectrum | None:
+def compute_ripple_spectrum(prediction: Prediction, joint: int) -> spectra.OrderSpectrum | None:
     """Of the samples that count, at full rate; None if they are few, or the joint rests."""
     full = select_full_rate(prediction)
     r, q = full.residual[:, joint], full.q[:, joint]
@@ -279,12 +265,12 @@ def compute_ripple_spectrum(prediction: Prediction, joint: int) -> OrderSpectrum
     if not counts.any():
         return None
     left = r[counts]
-    return compute_order_spectrum(
+    return spectra.compute_order_spectrum(
         q[counts], left - left.mean(), prediction.joints[joint].unit, float("inf")
     )
 
 
-def convert_orders(orders: OrderSpectrum, unit: str) -> tuple[np.ndarray, str]:
+def convert_orders(orders: spectra.OrderSpectrum, unit: str) -> tuple[np.ndarray, str]:
     """Orders of a spectrum as a user counts them, and per what.
 
     Args:
@@ -296,7 +282,7 @@ def convert_orders(orders: OrderSpectrum, unit: str) -> tuple[np.ndarray, str]:
     return orders.order / (2.0 * np.pi), "m"
 
 
-def find_order_peaks(orders: OrderSpectrum | None, unit: str) -> tuple[SpectralLine, ...]:
+def find_order_peaks(orders: spectra.OrderSpectrum | None, unit: str) -> tuple[SpectralLine, ...]:
     """What stands out in an order spectrum, the strongest first; see `convert_orders`."""
     if orders is None:
         return ()
@@ -386,11 +372,13 @@ def _collect_motions(prediction: Prediction) -> list[_RepeatedMotion]:
 def _find_laps(motions: list[_RepeatedMotion]) -> Repetition:
     partners, periods = [], []
     for whole in motions:
-        rows = find_longest_stretch(whole.time, whole.step)
+        rows = spectra.find_longest_stretch(whole.time, whole.step)
         motion = dataclasses.replace(whole, time=whole.time[rows], q=whole.q[rows])
         length = float(np.ptp(motion.time))
         even = np.arange(0.0, length, motion.step)
-        rough = estimate_lap_period(even, _interpolate_positions(motion, motion.time[0] + even))
+        rough = spectra.estimate_lap_period(
+            even, _interpolate_positions(motion, motion.time[0] + even)
+        )
         if rough == 0.0:
             continue
         period = _refine_period(motion, rough)
@@ -452,7 +440,7 @@ def _estimate_shift(first: _RepeatedMotion, other: _RepeatedMotion) -> float | N
     best = _refine_shift(first, other, float(candidates[int(np.argmin(apart))]), first.step)
     # twice the variance, which is one: the mean squared difference of motions that are not alike
     alike = 1.0 - _compute_distance(first, other, best, 0.9 * _OVERLAP * min(lengths)) / 2.0
-    return best if alike > ALIKE else None
+    return best if alike > spectra.ALIKE else None
 
 
 def _refine_shift(

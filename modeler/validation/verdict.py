@@ -1,14 +1,8 @@
 """The comparison in plain sentences."""
 
 from modeler.core.table import WORDS, format_percent
+from modeler.validation import residual_structure
 from modeler.validation.comparison import Comparison, JointComparison, Region
-from modeler.validation.residual_structure import (
-    COORDINATES,
-    NEARLY,
-    Coordinate,
-    convert_orders,
-    find_order_peaks,
-)
 
 NOTICEABLE = 0.05  # share of the residual variance below which a pattern is not mentioned
 _STANDS_OUT = 3.0  # energy share over time share of a region or window worth a remark
@@ -112,16 +106,16 @@ def compute_repeatable_share(item: JointComparison) -> float:
     return shares.repeatable_share
 
 
-def find_best_pattern(item: JointComparison) -> tuple[Coordinate, float] | None:
+def find_best_pattern(item: JointComparison) -> tuple[residual_structure.Coordinate, float] | None:
     """The coordinate that explains most, or a simpler one nearly as good, and its share."""
     if item.structure is None:
         return None
     top = max(share for _, share in item.structure.shares)
     if top < NOTICEABLE:
         return None
-    for coordinate in COORDINATES:
+    for coordinate in residual_structure.COORDINATES:
         share = item.structure.get_share(coordinate.id)
-        if share >= NEARLY * top:
+        if share >= residual_structure.NEARLY * top:
             return coordinate, share
     raise AssertionError("the best share is at least 0.9 of itself")
 
@@ -225,9 +219,9 @@ def _describe_other_joint(item: JointComparison) -> str | None:
 def _describe_ripple(item: JointComparison) -> str | None:
     if item.orders is None:
         return None
-    orders, per = convert_orders(item.orders, item.joint.unit)
+    orders, per = residual_structure.convert_orders(item.orders, item.joint.unit)
     # the slowest waves of the spectrum are patterns over position, named elsewhere
-    drawn = find_order_peaks(item.orders, item.joint.unit)
+    drawn = residual_structure.find_order_peaks(item.orders, item.joint.unit)
     fast = [line for line in drawn if line.waves > 2.0 * orders[0]]
     strong = [line for line in fast if line.share >= NOTICEABLE]
     if not strong:

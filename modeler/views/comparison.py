@@ -11,35 +11,23 @@ from modeler import validation
 from modeler.core.figure import Picture
 from modeler.core.result import Figures, Presentation, Tables
 from modeler.core.table import Cell, Table, format_percent
+from modeler.views import page
 from modeler.views.figures import collect_figures
-from modeler.views.page import (
-    Code,
-    Figure,
-    Items,
-    JudgedLine,
-    Origin,
-    Page,
-    PageCell,
-    PageTable,
-    Paragraph,
-    Section,
-    Verdict,
-)
 
 # The page of a free run.
 
 
-def build_free_run_page(free_run: validation.FreeRun, origin: Origin) -> Page:
+def build_free_run_page(free_run: validation.FreeRun, origin: page.Origin) -> page.Page:
     """The table of a free run, what is said of it, measured and simulated positions by joint."""
     fits = [joint.fit for joint in free_run.joints if joint.fit is not None]
     worst = f"{min(fits):.3g} %" if fits and min(fits) > 0.0 else "nothing"
-    return Page(
+    return page.Page(
         title=f"{free_run.robot}: free run in windows of {free_run.window:g} s",
         headline=(worst, "of the position is simulated right, on the joint that is worst"),
         sections=[
-            Section("Positions", [Code(free_run.summary())]),
+            page.Section("Positions", [page.Code(free_run.summary())]),
             *(
-                Section(p.title, [Figure(p, False)])
+                page.Section(p.title, [page.Figure(p, False)])
                 for p in validation.draw_free_run_pictures(free_run)
             ),
         ],
@@ -55,7 +43,7 @@ def build_model_comparison_page(
     comparison: validation.ModelComparison,
     provenance: Sequence[str] = (),
     held_out: bool | None = None,
-) -> Page:
+) -> page.Page:
     """The page of models side by side.
 
     Args:
@@ -64,11 +52,11 @@ def build_model_comparison_page(
         held_out: False if a model was fitted on rows of these logs.
     """
     first = comparison.predictions[0]
-    return Page(
+    return page.Page(
         title=f"{first.robot}: {len(comparison.names)} models side by side",
         headline=validation.describe_winner(comparison),
         sections=_build_model_sections(comparison),
-        origin=Origin(", ".join(comparison.names), first.logs, held_out),
+        origin=page.Origin(", ".join(comparison.names), first.logs, held_out),
         facts=[(name, _describe_model(comparison, k)) for k, name in enumerate(comparison.names)],
         provenance=provenance,
         command="compare",
@@ -92,14 +80,16 @@ def _describe_model(comparison: validation.ModelComparison, k: int) -> str:
     return f"error {errors}; best beyond doubt on {best}"
 
 
-def _build_model_sections(comparison: validation.ModelComparison) -> list[Section]:
-    said = Items([("", line) for line in validation.describe_model_comparison(comparison)])
+def _build_model_sections(comparison: validation.ModelComparison) -> list[page.Section]:
+    said = page.Items([("", line) for line in validation.describe_model_comparison(comparison)])
     return [
-        Section("Verdict", [said, _tabulate_errors(comparison), _tabulate_residuals(comparison)])
+        page.Section(
+            "Verdict", [said, _tabulate_errors(comparison), _tabulate_residuals(comparison)]
+        )
     ] + [
-        Section(
+        page.Section(
             f"Joint {item.joint.name}",
-            [Figure(_draw_model_picture(comparison, item), titled=False)],
+            [page.Figure(_draw_model_picture(comparison, item), titled=False)],
             f"joint-{item.joint.name}",
         )
         for item in comparison.joints
@@ -115,18 +105,18 @@ def _draw_model_picture(
     )
 
 
-def _tabulate_errors(comparison: validation.ModelComparison) -> PageTable:
+def _tabulate_errors(comparison: validation.ModelComparison) -> page.PageTable:
     top = max((e for item in comparison.joints for e in item.errors), default=0.0) or 1.0
-    rows: list[list[str | PageCell]] = [
+    rows: list[list[str | page.PageCell]] = [
         [
-            PageCell(item.joint.name, link=f"joint-{item.joint.name}"),
-            *(PageCell(format_percent(e), e / top) for e in item.errors),
+            page.PageCell(item.joint.name, link=f"joint-{item.joint.name}"),
+            *(page.PageCell(format_percent(e), e / top) for e in item.errors),
             "-" if item.best is None else comparison.names[item.best],
             f"{item.p_value:.2g}" if item.p_value >= 1e-6 else "under 1e-6",
         ]
         for item in comparison.joints
     ]
-    return PageTable(
+    return page.PageTable(
         ["joint", *comparison.names, "best beyond doubt", "chance"],
         rows,
         "Relative error: norm of measured minus predicted torque (force) over the norm of what was "
@@ -139,12 +129,12 @@ def _tabulate_errors(comparison: validation.ModelComparison) -> PageTable:
     )
 
 
-def _tabulate_residuals(comparison: validation.ModelComparison) -> PageTable:
+def _tabulate_residuals(comparison: validation.ModelComparison) -> page.PageTable:
     rows = [
         [item.joint.name, *(f"{rms:.3g} {item.joint.effort_unit}" for rms in item.rms)]
         for item in comparison.joints
     ]
-    return PageTable(
+    return page.PageTable(
         ["joint", *comparison.names], rows, "Root mean square of what each model leaves."
     )
 
@@ -195,8 +185,10 @@ _HEAD = (
 
 
 def build_comparison_page(
-    comparison: validation.Comparison, provenance: Sequence[str] = (), origin: Origin | None = None
-) -> Page:
+    comparison: validation.Comparison,
+    provenance: Sequence[str] = (),
+    origin: page.Origin | None = None,
+) -> page.Page:
     """The page of a comparison.
 
     Args:
@@ -206,11 +198,11 @@ def build_comparison_page(
     """
     prediction = comparison.prediction
     figure, _, rest = validation.write_headline(comparison).partition(" of ")
-    return Page(
+    return page.Page(
         title=f"{prediction.robot}: measured against predicted torque",
         headline=(figure, f"of {rest}" if rest else ""),
         sections=_build_sections(comparison),
-        origin=origin or Origin(prediction.robot, prediction.logs),
+        origin=origin or page.Origin(prediction.robot, prediction.logs),
         facts=_collect_facts(comparison),
         provenance=(
             f"Robot: {prediction.robot}.",
@@ -223,9 +215,9 @@ def build_comparison_page(
     )
 
 
-def _build_sections(comparison: validation.Comparison) -> list[Section]:
+def _build_sections(comparison: validation.Comparison) -> list[page.Section]:
     method = " ".join(f"{line}." for line in validation.describe_methods(comparison))
-    table = PageTable(
+    table = page.PageTable(
         _HEAD,
         [_build_table_row(item, comparison) for item in comparison.joints],
         "Relative error is the norm of measured minus predicted torque (force) over the norm of "
@@ -235,18 +227,21 @@ def _build_sections(comparison: validation.Comparison) -> list[Section]:
         {"relative error": "bar", "at": "text"},
     )
     sections = [
-        Section("Verdict", [Verdict(_judge_joints(comparison)), table, *_tabulate_logs(comparison)])
+        page.Section(
+            "Verdict", [page.Verdict(_judge_joints(comparison)), table, *_tabulate_logs(comparison)]
+        )
     ]
     if comparison.joints:
         sections.append(
-            Section(
-                "All joints", [Figure(validation.draw_overview_picture(comparison), titled=False)]
+            page.Section(
+                "All joints",
+                [page.Figure(validation.draw_overview_picture(comparison), titled=False)],
             )
         )
     for item in comparison.joints:
-        pictures = [Figure(picture) for picture in draw_joint_pictures(comparison, item)]
-        name, said = item.joint.name, Paragraph(validation.write_joint_verdict(item))
-        sections.append(Section(f"Joint {name}", [said, *pictures], f"joint-{name}"))
+        pictures = [page.Figure(picture) for picture in draw_joint_pictures(comparison, item)]
+        name, said = item.joint.name, page.Paragraph(validation.write_joint_verdict(item))
+        sections.append(page.Section(f"Joint {name}", [said, *pictures], f"joint-{name}"))
     return sections
 
 
@@ -306,14 +301,14 @@ def _describe_remaining_structure(joints: tuple[validation.JointComparison, ...]
     return "No pattern in the joints' motion, but not all of it is noise: see below."
 
 
-def _judge_joints(comparison: validation.Comparison) -> list[JudgedLine]:
+def _judge_joints(comparison: validation.Comparison) -> list[page.JudgedLine]:
     lines = []
     for item in comparison.joints:
         kind, text = validation.classify_residual(item), validation.write_joint_verdict(item)
         first, _, rest = text.partition(": ")
-        lines.append(JudgedLine(kind, _TAGS[kind], first, rest, f"joint-{item.joint.name}"))
+        lines.append(page.JudgedLine(kind, _TAGS[kind], first, rest, f"joint-{item.joint.name}"))
     lines += [
-        JudgedLine("", "not judged", f"Joint {name}", f"{reason}.")
+        page.JudgedLine("", "not judged", f"Joint {name}", f"{reason}.")
         for name, reason in comparison.unjudged
     ]
     return lines
@@ -321,13 +316,13 @@ def _judge_joints(comparison: validation.Comparison) -> list[JudgedLine]:
 
 def _build_table_row(
     item: validation.JointComparison, comparison: validation.Comparison
-) -> list[str | PageCell]:
+) -> list[str | page.PageCell]:
     unit = item.joint.effort_unit
     top = max(other.relative_error for other in comparison.joints)
     share = item.relative_error / top if top else 0.0
     return [
-        PageCell(item.joint.name, link=f"joint-{item.joint.name}"),
-        PageCell(format_percent(item.relative_error), share),
+        page.PageCell(item.joint.name, link=f"joint-{item.joint.name}"),
+        page.PageCell(format_percent(item.relative_error), share),
         f"{item.rms:.3g} {unit}",
         "-" if item.predicted_sigma is None else f"{item.predicted_sigma:.2g} {unit}",
         f"{item.measured_rms:.3g} {unit}",
@@ -341,13 +336,13 @@ def _build_table_row(
     ]
 
 
-def _tabulate_logs(comparison: validation.Comparison) -> list[PageTable]:
+def _tabulate_logs(comparison: validation.Comparison) -> list[page.PageTable]:
     """Relative error of each log and joint; nothing for a single log."""
     if len(comparison.logs) < 2:
         return []
     head, *rows = validation.tabulate_logs(comparison, "all")
     caption = "Relative error by log: of all joints together (rows stacked), and of each by itself."
-    return [PageTable(head, rows, caption)]
+    return [page.PageTable(head, rows, caption)]
 
 
 # Comparisons and free runs as tables and figures of a notebook.

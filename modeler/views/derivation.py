@@ -12,17 +12,8 @@ from modeler.core.table import MathCell, Table
 from modeler.derivation import HomeModes, express_as_home, relations
 from modeler.robot import JointKind, Robot, build_written_table, describe_parameters
 from modeler.runtime import CompiledModel
+from modeler.views import page
 from modeler.views.figures import draw_robot
-from modeler.views.page import (
-    Block,
-    FormulaBlock,
-    Origin,
-    Page,
-    PageTable,
-    Paragraph,
-    Section,
-    render_template,
-)
 from modeler.views.robot_page import build_table_head, build_table_rows, render_robot
 
 
@@ -231,7 +222,7 @@ PRESENTATIONS = {
 
 def build_derivation_page(
     derivation: Derivation, relation_lines: Sequence[str], agreement: str, source: str
-) -> Page:
+) -> page.Page:
     """The page of a derivation.
 
     Args:
@@ -247,19 +238,19 @@ def build_derivation_page(
         for parameter in base.parameters
     ]
     proof = [*relations.format_proof_paragraphs(base.proof), agreement]
-    return Page(
+    return page.Page(
         title=robot.heading,
         headline=(
             str(len(formulas)),
             f"base parameters of {len(base.columns)} standard parameters; proof: {base.proof.kind}",
         ),
         sections=[
-            Section("Table", _build_table_blocks(robot, relation_lines)),
-            Section("Base parameters", [FormulaBlock(formulas)]),
-            Section("Parameters without effect", [Paragraph(f"{none}.")]),
-            Section("Proof", [Paragraph(line) for line in proof]),
+            page.Section("Table", _build_table_blocks(robot, relation_lines)),
+            page.Section("Base parameters", [page.FormulaBlock(formulas)]),
+            page.Section("Parameters without effect", [page.Paragraph(f"{none}.")]),
+            page.Section("Proof", [page.Paragraph(line) for line in proof]),
         ],
-        origin=Origin(source, next=[f"modeler generate {source} --out {robot.name}_c"]),
+        origin=page.Origin(source, next=[f"modeler generate {source} --out {robot.name}_c"]),
         facts=[
             ("Base parameters", _count_kinds(derivation)),
             ("Without effect", f"{len(base.unidentifiable)}"),
@@ -273,15 +264,15 @@ def _count_kinds(derivation: Derivation) -> str:
     return ", ".join(f"{n} {kind}" for kind, n in derivation.base.count_by_kind().items() if n)
 
 
-def _build_table_blocks(robot: Robot, relation_lines: Sequence[str]) -> list[Block]:
+def _build_table_blocks(robot: Robot, relation_lines: Sequence[str]) -> list[page.Block]:
     head = build_table_head(robot)[:-1]
     rows = [(*row.cells, *(text for _, text, _ in row.entries)) for row in build_table_rows(robot)]
     note = (
         f"{build_written_table(robot).step}. Lengths in m, angles in rad. \u03bc 1: actuated. "
         "\u03c3 0 revolute, 1 prismatic, 2 fixed."
     )
-    blocks: list[Block] = [PageTable(head, rows, note, dict.fromkeys(head, "number"))]
-    return blocks + [Paragraph(line) for line in relation_lines]
+    blocks: list[page.Block] = [page.PageTable(head, rows, note, dict.fromkeys(head, "number"))]
+    return blocks + [page.Paragraph(line) for line in relation_lines]
 
 
 def render_relations(result: Mapping[str, Any], robot: Robot) -> str:
@@ -312,4 +303,4 @@ def render_relations(result: Mapping[str, Any], robot: Robot) -> str:
             }
         )
     without = [(name, words.get(name)) for name in result["unidentifiable"]]
-    return render_template("relations", entries=entries, without=without)
+    return page.render_template("relations", entries=entries, without=without)

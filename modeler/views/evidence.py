@@ -7,6 +7,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from modeler import diagnosis
 from modeler.core.figure import Band, Curve, Means, Panel, Picture, Points, Series
 from modeler.core.style import (
     BLACK,
@@ -21,16 +22,6 @@ from modeler.core.style import (
     Style,
 )
 from modeler.core.table import WORDS, format_percent
-from modeler.diagnosis import (
-    AFTER,
-    MARGIN,
-    PushWindow,
-    ScoredCandidate,
-    SearchStep,
-    State,
-    compute_joint_order_spectrum,
-    find_load_reversals,
-)
 from modeler.validation import DEVIATIONS, WINDOW, break_at_gaps
 from modeler.views.effect_evidence import Evidence, build_bins
 from modeler.views.page import PageCell, PageTable
@@ -234,7 +225,7 @@ def _build_order_panel(item: Evidence) -> Panel:
         ("without", item.without, LINES),
         ("with the effect", item.full, LINES_AFTER),
     ):
-        spectrum = compute_joint_order_spectrum(state, item.j)
+        spectrum = diagnosis.compute_joint_order_spectrum(state, item.j)
         if spectrum is not None:
             near = (spectrum.order > 0.5 * order) & (spectrum.order < 1.5 * order)
             series.append(Curve(label, spectrum.order[near], spectrum.amplitude[near], style))
@@ -290,12 +281,12 @@ def _write_caption(item: Evidence, view: AxisRanges) -> list[str]:
     return [*lines, *view.outside]
 
 
-def select_alternatives(step: SearchStep) -> list[ScoredCandidate]:
+def select_alternatives(step: diagnosis.SearchStep) -> list[diagnosis.ScoredCandidate]:
     """The effects that could stand for it: those of the same joint, or of the whole robot."""
     return [rival for rival in step.alternatives if rival.candidate.joint == step.candidate.joint]
 
 
-def tabulate_alternatives(step: SearchStep) -> PageTable:
+def tabulate_alternatives(step: diagnosis.SearchStep) -> PageTable:
     """What the best effects on the same joint explain within the logs, below one another."""
     gains = [
         (item.candidate.effect.id, max(0.0, item.variance_reduction))
@@ -443,7 +434,7 @@ _AROUND = 0.5  # s before and after a change of sign that are drawn
 _BESIDE = 3.0  # s before and after a push
 
 
-def draw_play_picture(state: State, j: int) -> Picture:
+def draw_play_picture(state: diagnosis.State, j: int) -> Picture:
     """Size of the residual of joint j against the time to the nearest change of its load's sign.
 
     Args:
@@ -461,7 +452,7 @@ def draw_play_picture(state: State, j: int) -> Picture:
         np.abs(state.residual[j][near]),
         state.gram_blocks.block[j][near],
     )
-    panel = replace(panel, shade=(0.0, AFTER))
+    panel = replace(panel, shade=(0.0, diagnosis.AFTER))
     return Picture(
         f"evidence_backlash_{joint.name}",
         f"Play in the gear: joint {joint.name}",
@@ -474,11 +465,11 @@ def draw_play_picture(state: State, j: int) -> Picture:
     )
 
 
-def _compute_time_since_reversal(state: State, j: int) -> np.ndarray:
+def _compute_time_since_reversal(state: diagnosis.State, j: int) -> np.ndarray:
     """(rows_j,) s since the nearest change of sign, negative before it; infinite without any."""
     since = np.full(len(state.residual[j]), np.inf)
     for number, (signals, turns) in enumerate(
-        zip(state.rows.signals, find_load_reversals(state, j), strict=True)
+        zip(state.rows.signals, diagnosis.find_load_reversals(state, j), strict=True)
     ):
         at = signals.segment.time[turns]
         is_of_segment = state.rows.segment[j] == number
@@ -490,7 +481,7 @@ def _compute_time_since_reversal(state: State, j: int) -> np.ndarray:
     return since
 
 
-def draw_push_picture(state: State, window: PushWindow) -> Picture:
+def draw_push_picture(state: diagnosis.State, window: diagnosis.PushWindow) -> Picture:
     """Residuals of all joints around a push, each in parts of the joint's rms torque.
 
     Args:
@@ -501,7 +492,9 @@ def draw_push_picture(state: State, window: PushWindow) -> Picture:
     left = seen.torque - seen.predict(state.beta)
     shown = (seen.run == window.log) & (seen.time > window.start - _BESIDE)
     shown &= seen.time < window.end + _BESIDE
-    masked = (seen.time > window.start - MARGIN) & (seen.time < window.end + MARGIN)
+    masked = (seen.time > window.start - diagnosis.MARGIN) & (
+        seen.time < window.end + diagnosis.MARGIN
+    )
     left[~(seen.used | masked[:, None])] = np.nan  # reversals of a joint: nobody looks at them
     size = np.sqrt(np.mean(seen.torque**2, axis=0))
     curves = tuple(

@@ -17,32 +17,16 @@ from modeler.estimation import (
     MethodResult,
     ParameterEstimate,
 )
+from modeler.views import history, page
 from modeler.views.figures import draw_parameters, draw_picture
-from modeler.views.history import (
-    build_history_page,
-    draw_waterfall_picture,
-    format_step_name,
-    tabulate_joint_errors,
-    tabulate_values,
-)
 from modeler.views.log import build_noise_blocks, draw_noise_picture
-from modeler.views.page import (
-    Items,
-    JudgedLine,
-    Origin,
-    Page,
-    PageTable,
-    Section,
-    Verdict,
-    suggest_after_fit,
-)
 
 # The page of all estimators on the same logs.
 
 
 def build_estimators_page(
     robot: str, trials: Sequence[MethodResult], provenance: Sequence[str]
-) -> Page:
+) -> page.Page:
     """The page of all estimators on the logs of a robot of that name.
 
     Args:
@@ -52,16 +36,16 @@ def build_estimators_page(
     """
     (head, *errors), (names, *values) = tabulate_estimators(trials), tabulate_estimates(trials)
     sections = [
-        Section("Errors and effort", [PageTable(head, errors)]),
-        Section("Values and standard deviations", [PageTable(names, values)]),
-        Section("What each says", [Items(collect_remarks(trials))]),
+        page.Section("Errors and effort", [page.PageTable(head, errors)]),
+        page.Section("Values and standard deviations", [page.PageTable(names, values)]),
+        page.Section("What each says", [page.Items(collect_remarks(trials))]),
     ]
     done = sum(trial.fit is not None for trial in trials)
-    return Page(
+    return page.Page(
         f"Estimators on {robot}",
         (str(done), f"of {len(trials)} estimators fit these logs"),
         sections,
-        Origin(robot),
+        page.Origin(robot),
         provenance=provenance,
         command="estimators",
     )
@@ -225,7 +209,7 @@ def _tabulate_history(model: IdentifiedModel) -> Table:
 def _collect_model_figures(model: IdentifiedModel) -> Figures:
     figures = dict(_collect_fit_figures(model.fit))
     if model.history:
-        picture = draw_waterfall_picture(model.history)
+        picture = history.draw_waterfall_picture(model.history)
         figures["waterfall"] = lambda: draw_picture(picture)
     return figures
 
@@ -233,7 +217,7 @@ def _collect_model_figures(model: IdentifiedModel) -> Figures:
 def _describe_step(step: Addition) -> str:
     fitted = format_percent(step.training_error)
     return (
-        f"{format_step_name(step)}: error {format_percent(step.error)} ({fitted} on the "
+        f"{history.format_step_name(step)}: error {format_percent(step.error)} ({fitted} on the "
         "fitted logs)"
     )
 
@@ -263,7 +247,7 @@ PRESENTATIONS = {
         _collect_model_tables,
         _collect_model_figures,
         ("parameters", "errors", "waterfall"),
-        lambda m, notes: (build_history_page if m.history else build_fit_page)(m, notes),
+        lambda m, notes: (history.build_history_page if m.history else build_fit_page)(m, notes),
         dict.fromkeys(("", ".json"), estimation.save_model),
     ),
     Addition: Presentation("an addition", _describe_step),
@@ -288,7 +272,7 @@ def build_fit_page(
     provenance: Sequence[str] = (),
     place: str = "MODEL",
     following: Sequence[str] = (),
-) -> Page:
+) -> page.Page:
     """The page of a fit.
 
     Args:
@@ -299,12 +283,12 @@ def build_fit_page(
     """
     fit = model.fit
     judged = "nobody has judged it" if fit.verdict is None else fit.verdict.line
-    following = following or suggest_after_fit(place, ["LOG"], fit.robot, fit)
-    return Page(
+    following = following or page.suggest_after_fit(place, ["LOG"], fit.robot, fit)
+    return page.Page(
         title=f"{fit.robot}: fitted values",
         headline=(fit.format_error(), f"left on the fitted logs: {judged}"),
         sections=_build_sections(model),
-        origin=Origin(place, [log.name for log in model.logs], False, following),
+        origin=page.Origin(place, [log.name for log in model.logs], False, following),
         facts=_collect_facts(fit),
         provenance=provenance,
         command="fit",
@@ -332,47 +316,49 @@ def _collect_facts(fit: FitResult) -> list[tuple[str, str]]:
     return facts
 
 
-def _build_sections(model: IdentifiedModel) -> list[Section]:
+def _build_sections(model: IdentifiedModel) -> list[page.Section]:
     fit = model.fit
     sections = [
-        Section("Verdict", _build_verdict_blocks(fit)),
-        Section("Joints", [tabulate_joint_errors(fit)]),
+        page.Section("Verdict", _build_verdict_blocks(fit)),
+        page.Section("Joints", [history.tabulate_joint_errors(fit)]),
     ]
     caption = (
         "SI units. Sigma is one standard deviation from the scatter of the residuals; the bar is "
         "full at 30 %. A parameter without a sum is a standard parameter by itself."
     )
-    sections.append(Section("Values", [tabulate_values(fit.parameters, model.spec.base, caption)]))
+    sections.append(
+        page.Section("Values", [history.tabulate_values(fit.parameters, model.spec.base, caption)])
+    )
     for title, others in (("Loads", fit.loads), ("Drive gains", fit.gains)):
         if others:
-            sections.append(Section(title, [tabulate_values(others)]))
+            sections.append(page.Section(title, [history.tabulate_values(others)]))
     if noise := build_noise_blocks(fit.bands):
-        sections.append(Section("Noise of the motion", noise))
+        sections.append(page.Section("Noise of the motion", noise))
     pairs = find_correlated_pairs(model)
     if pairs:
-        table = PageTable(
+        table = page.PageTable(
             ("parameter", "and", "correlation"),
             [(a, b, f"{value:+.3f}") for a, b, value in pairs],
             "The torques of these logs tell the sum (-1) or the difference (+1) of such a pair "
             "better than either; more exciting motion parts them.",
             {"and": "text"},
         )
-        sections.append(Section("What the data hardly tell apart", [table]))
+        sections.append(page.Section("What the data hardly tell apart", [table]))
     return sections
 
 
-def _build_verdict_blocks(fit: FitResult) -> list[Verdict | Items]:
-    blocks: list[Verdict | Items] = []
+def _build_verdict_blocks(fit: FitResult) -> list[page.Verdict | page.Items]:
+    blocks: list[page.Verdict | page.Items] = []
     if fit.verdict is not None:
         kind, tag = ("noise", "valid") if fit.verdict.usable else ("pattern", "not valid")
-        lines = [JudgedLine(kind, tag, "This fit", fit.verdict.line)]
+        lines = [page.JudgedLine(kind, tag, "This fit", fit.verdict.line)]
         lines += [
-            JudgedLine("other", "doubt", f"Doubt {k}", text)
+            page.JudgedLine("other", "doubt", f"Doubt {k}", text)
             for k, text in enumerate(fit.verdict.doubts, start=1)
         ]
-        blocks.append(Verdict(lines))
+        blocks.append(page.Verdict(lines))
     if fit.sentences:
-        blocks.append(Items([("", line) for line in fit.sentences]))
+        blocks.append(page.Items([("", line) for line in fit.sentences]))
     return blocks
 
 

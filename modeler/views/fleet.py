@@ -10,31 +10,23 @@ from modeler.core.result import Figures, Presentation, Tables
 from modeler.core.style import BLUE, COLORS, GREY, Style
 from modeler.core.table import Table, format_percent
 from modeler.fleet import Fleet, FleetFinding, QuantityHistory, QuantityValues, result
+from modeler.views import page
 from modeler.views.figures import collect_figures
-from modeler.views.page import (
-    Figure,
-    Items,
-    JudgedLine,
-    Origin,
-    Page,
-    PageTable,
-    Paragraph,
-    Section,
-    Verdict,
-)
 
 _PICTURES = 12  # findings that are drawn
 _COLUMNS = 24  # machines of one map
 _TOP = 10.0  # sigmas at which cells are darkest
 
 
-def build_fleet_page(fleet: Fleet, provenance: Sequence[str] = ()) -> Page:
+def build_fleet_page(fleet: Fleet, provenance: Sequence[str] = ()) -> page.Page:
     """The page of a fleet; `provenance` are lines on how the data came about."""
-    return Page(
+    return page.Page(
         title=f"{fleet.robot}: what drifts where",
         headline=result.format_headline(fleet),
         sections=_build_sections(fleet),
-        origin=Origin(fleet.robot, [f"{name}: {len(p)}" for name, p in fleet.machines.items()]),
+        origin=page.Origin(
+            fleet.robot, [f"{name}: {len(p)}" for name, p in fleet.machines.items()]
+        ),
         facts=[
             ("machines", str(len(fleet.machines))),
             ("logs", str(fleet.logs)),
@@ -45,15 +37,15 @@ def build_fleet_page(fleet: Fleet, provenance: Sequence[str] = ()) -> Page:
     )
 
 
-def _build_sections(fleet: Fleet) -> list[Section]:
+def _build_sections(fleet: Fleet) -> list[page.Section]:
     drawn = fleet.findings[:_PICTURES]
-    sections = [Section("Verdict", [_build_verdict(fleet)])]
+    sections = [page.Section("Verdict", [_build_verdict(fleet)])]
     sections += [
-        Section(
+        page.Section(
             f"Machine {one.machine}, {one.quantity.parameter}",
             [
-                Paragraph(f"{result.describe_finding(one, fleet.unit)}."),
-                Figure(draw_finding_picture(fleet, one), False),
+                page.Paragraph(f"{result.describe_finding(one, fleet.unit)}."),
+                page.Figure(draw_finding_picture(fleet, one), False),
             ],
             _build_section_id(k),
         )
@@ -61,11 +53,11 @@ def _build_sections(fleet: Fleet) -> list[Section]:
     ]
     if any(each.scores for each in fleet.histories):
         sections.append(
-            Section("All machines", [Figure(map_) for map_ in draw_map_pictures(fleet)])
+            page.Section("All machines", [page.Figure(map_) for map_ in draw_map_pictures(fleet)])
         )
-    sections.append(Section("What was looked at", [_tabulate_followed(fleet)]))
+    sections.append(page.Section("What was looked at", [_tabulate_followed(fleet)]))
     if fleet.doubts:
-        sections.append(Section("Doubts", [Items([("", line) for line in fleet.doubts])]))
+        sections.append(page.Section("Doubts", [page.Items([("", line) for line in fleet.doubts])]))
     return sections
 
 
@@ -73,18 +65,20 @@ def _build_section_id(k: int) -> str:
     return f"finding-{k + 1}"
 
 
-def _build_verdict(fleet: Fleet) -> Verdict | Paragraph:
+def _build_verdict(fleet: Fleet) -> page.Verdict | page.Paragraph:
     if not fleet.findings:
-        return Paragraph("No machine drifts and none is apart from the others, beyond doubt.")
+        return page.Paragraph("No machine drifts and none is apart from the others, beyond doubt.")
     lines = []
     for k, one in enumerate(fleet.findings):
         joint = "" if one.quantity.joint is None else f"joint {one.quantity.joint}, "
         head = f"{one.machine}, {joint}{result.format_effect_title(one.quantity)}"
         link = _build_section_id(k) if k < _PICTURES else ""
         lines.append(
-            JudgedLine("pattern", one.shape, head, result.describe_finding(one, fleet.unit), link)
+            page.JudgedLine(
+                "pattern", one.shape, head, result.describe_finding(one, fleet.unit), link
+            )
         )
-    return Verdict(lines)
+    return page.Verdict(lines)
 
 
 def draw_finding_picture(fleet: Fleet, one: FleetFinding) -> Picture:
@@ -177,9 +171,9 @@ def _draw_map(fleet: Fleet, machines: Sequence[str], number: int) -> Picture:
     return Picture(f"map_{number}", "Changes", caption, ((panel,),), height)
 
 
-def _tabulate_followed(fleet: Fleet) -> PageTable:
+def _tabulate_followed(fleet: Fleet) -> page.PageTable:
     head, *rows = result.build_table_rows(fleet)
-    return PageTable(
+    return page.PageTable(
         head,
         rows,
         "Level: median of all machines and periods. Scatter: by which values change from one "

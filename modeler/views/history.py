@@ -19,18 +19,7 @@ from modeler.estimation import (
     format_spread,
 )
 from modeler.robot import Robot, parse_robot_text
-from modeler.views.page import (
-    Block,
-    Code,
-    Figure,
-    Items,
-    Origin,
-    Page,
-    PageCell,
-    PageTable,
-    Paragraph,
-    Section,
-)
+from modeler.views import page
 
 # Tables of fitted values: parameters with sigma, what each is the sum of, errors by joint.
 
@@ -40,7 +29,7 @@ _UNSURE = 30.0  # % of the value from which on the bar of a sigma is full
 
 def tabulate_values(
     parameters: Sequence[ParameterEstimate], base: Sequence[BaseSpec] = (), caption: str = ""
-) -> PageTable:
+) -> page.PageTable:
     """Value, sigma, %sigma, unit, and what each parameter is the sum of.
 
     Args:
@@ -50,7 +39,7 @@ def tabulate_values(
     """
     sums = {b.name: format_relation(b) for b in base}
     known = any(p.prior is not None for p in parameters)
-    rows: list[list[str | PageCell]] = [
+    rows: list[list[str | page.PageCell]] = [
         [
             p.name,
             "set aside" if p.sigma is None else f"{p.value:.5g}",
@@ -64,7 +53,7 @@ def tabulate_values(
     ]
     prior = ("from the prior",) if known else ()
     head = ("parameter", "value", "sigma", "% sigma", *prior, "unit", "is the sum of")
-    return PageTable(head, rows, caption, _KINDS)
+    return page.PageTable(head, rows, caption, _KINDS)
 
 
 def format_relation(base: BaseSpec) -> str:
@@ -91,28 +80,30 @@ def _format_term(term: TermSpec) -> str:
     return f"+ {outside}*{term.parameter}"
 
 
-def _build_sigma_cell(parameter: ParameterEstimate) -> PageCell:
+def _build_sigma_cell(parameter: ParameterEstimate) -> page.PageCell:
     share = parameter.relative_sigma_percent
     if share is None:
-        return PageCell("-")
+        return page.PageCell("-")
     text = f"{share:.3g}" if share < 1e4 else ">10000"
     mark = "" if parameter.essential else " not essential"
-    return PageCell(f"{text}{mark}", min(1.0, share / _UNSURE))
+    return page.PageCell(f"{text}{mark}", min(1.0, share / _UNSURE))
 
 
-def tabulate_joint_errors(fit: FitResult) -> PageTable:
+def tabulate_joint_errors(fit: FitResult) -> page.PageTable:
     """Errors by joint on the logs that were fitted, each in parts of the joint's own torque."""
     top = max((joint.relative_error or 0.0 for joint in fit.joints), default=0.0) or 1.0
     rows = [
         (
             joint.name,
-            PageCell(format_percent(joint.relative_error), (joint.relative_error or 0.0) / top),
+            page.PageCell(
+                format_percent(joint.relative_error), (joint.relative_error or 0.0) / top
+            ),
             f"{joint.rms:.3g} {joint.unit}",
             f"{joint.rows}",
         )
         for joint in fit.joints
     ]
-    return PageTable(
+    return page.PageTable(
         ("joint", "relative error", "rms residual", "rows"),
         rows,
         "On the logs that were fitted. Relative error: norm of the residual over the norm of the "
@@ -130,7 +121,7 @@ def find_added_names(model: IdentifiedModel) -> set[str]:
 
 def tabulate_nonlinear_parameters(
     steps: Sequence[tuple[Addition, Mapping[str, str]]],
-) -> PageTable | None:
+) -> page.PageTable | None:
     """Shapes of the effects that were added; None if they have none.
 
     Args:
@@ -150,7 +141,7 @@ def tabulate_nonlinear_parameters(
     ]
     if not rows:
         return None
-    return PageTable(
+    return page.PageTable(
         ("effect", "joint", "shape", "value", "sigma", "unit"),
         rows,
         "Shapes enter the torque not as factors; they were searched for.",
@@ -175,8 +166,8 @@ _ACROSS = 3  # panels side by side
 
 
 def build_history_page(
-    model: IdentifiedModel, left_out: Sequence[str] = (), origin: Origin | None = None
-) -> Page:
+    model: IdentifiedModel, left_out: Sequence[str] = (), origin: page.Origin | None = None
+) -> page.Page:
     """The page of a model's history: the error after every effect, joint by joint; values.
 
     Args:
@@ -188,7 +179,7 @@ def build_history_page(
     held, last = history[-1].held_out, history[-1].error
     fact = f"judged on {', '.join(held)}" if held else "training only: nothing was held out"
     several = len(history[-1].joints) > 1
-    return Page(
+    return page.Page(
         title=f"{robot}: effects added",
         headline=(
             format_percent(last, DIGITS),
@@ -196,7 +187,7 @@ def build_history_page(
             + (", rms over the joints" if several else ""),
         ),
         sections=_build_sections(model, left_out),
-        origin=origin or Origin(robot, held, bool(held)),
+        origin=origin or page.Origin(robot, held, bool(held)),
         facts=_collect_facts(model, fact, left_out),
         provenance=[*model.warning, f"fitted on {', '.join(log.name for log in model.logs)}"],
         command="add",
@@ -209,7 +200,7 @@ def build_effect_page(
     robot: Robot,
     model: IdentifiedModel | None,
     drawn: tuple[str, Sequence[float], Sequence[float]],
-) -> Page:
+) -> page.Page:
     """The page of an effect that a robot file defines: its equation, where it was found, values.
 
     Args:
@@ -225,7 +216,7 @@ def build_effect_page(
     rows += [
         (f"{n}, joint {i.joint}", f"{x:.5g}") for i in at for n, x in i.nonlinear_parameters.items()
     ]
-    values = [PageTable(("of the robot file", "value, SI"), rows)]
+    values = [page.PageTable(("of the robot file", "value, SI"), rows)]
     if model is not None:
         steps = [
             (s, _collect_units(s, effect, model)) for s in model.history if s.effect == effect.id
@@ -251,15 +242,15 @@ def build_effect_page(
         caption=f"The torque against {label}; what else it depends on stands at 1.",
         panels=((Panel(effect.equation, label, torque, (curve,), zero=True),),),
     )
-    return Page(
+    return page.Page(
         title=f"{robot.name}: {effect.id}",
         headline=(effect.id, effect.title),
         sections=[
-            Section("Its torque", [Figure(picture)]),
-            Section("Its values", values if names else [Paragraph("No joint has it.")]),
-            Section("To be found on other robots", [Code(definition)]),
+            page.Section("Its torque", [page.Figure(picture)]),
+            page.Section("Its values", values if names else [page.Paragraph("No joint has it.")]),
+            page.Section("To be found on other robots", [page.Code(definition)]),
         ],
-        origin=Origin(robot.name),
+        origin=page.Origin(robot.name),
         facts=[("Equation", effect.equation), ("Unit", units), ("Joints", joints)],
         command="effects",
     )
@@ -291,25 +282,25 @@ def _collect_errors(step: Addition) -> dict[str, float]:
     return {name: after for name, (_, after) in step.joints.items()}
 
 
-def _build_sections(model: IdentifiedModel, left_out: Sequence[str]) -> list[Section]:
+def _build_sections(model: IdentifiedModel, left_out: Sequence[str]) -> list[page.Section]:
     history = model.history
-    sections = [Section("The error falls", [Figure(draw_waterfall_picture(history))])]
+    sections = [page.Section("The error falls", [page.Figure(draw_waterfall_picture(history))])]
     if history[-1].joints:
         units = {joint.name: joint.effort_unit for joint in model.spec.joints}
         sections.append(
-            Section(
+            page.Section(
                 "Joint by joint",
                 [
                     _tabulate_joints(history),
-                    Figure(draw_joints_picture(history, units), titled=False),
+                    page.Figure(draw_joints_picture(history, units), titled=False),
                 ],
             )
         )
-    sections.append(Section("What was added", _build_added_blocks(model)))
+    sections.append(page.Section("What was added", _build_added_blocks(model)))
     if left_out:
-        sections.append(Section("What was refused, and why", [_build_refusal_items(left_out)]))
+        sections.append(page.Section("What was refused, and why", [_build_refusal_items(left_out)]))
     sections.append(
-        Section(
+        page.Section(
             "All values",
             [
                 tabulate_joint_errors(model.fit),
@@ -328,13 +319,15 @@ def _build_sections(model: IdentifiedModel, left_out: Sequence[str]) -> list[Sec
             + " LOG... --out MODEL"
             for step in history[1:]
         ]
-        sections.append(Section("To do this again, in this order", [Code(line) for line in again]))
+        sections.append(
+            page.Section("To do this again, in this order", [page.Code(line) for line in again])
+        )
     return sections
 
 
-def _tabulate_joints(history: Sequence[Addition]) -> PageTable:
+def _tabulate_joints(history: Sequence[Addition]) -> page.PageTable:
     """Errors before, and after each addition."""
-    rows: list[list[str | PageCell]] = []
+    rows: list[list[str | page.PageCell]] = []
     for name in history[-1].joints:
         errors = [_collect_errors(step).get(name) for step in history]
         top = max((e for e in errors if e is not None), default=0.0) or 1.0
@@ -343,7 +336,9 @@ def _tabulate_joints(history: Sequence[Addition]) -> PageTable:
             [
                 name,
                 *(
-                    PageCell("-") if e is None else PageCell(format_percent(e) + mark, e / top)
+                    page.PageCell("-")
+                    if e is None
+                    else page.PageCell(format_percent(e) + mark, e / top)
                     for e, mark in zip(errors, changed, strict=True)
                 ),
             ]
@@ -352,7 +347,7 @@ def _tabulate_joints(history: Sequence[Addition]) -> PageTable:
     judged = (
         f"the held-out logs {held}" if held else "parts of the fitted logs, each left out in turn"
     )
-    return PageTable(
+    return page.PageTable(
         ["joint", *steps],
         rows,
         "Relative error of each joint, in parts of its own rms torque or force, on "
@@ -361,14 +356,14 @@ def _tabulate_joints(history: Sequence[Addition]) -> PageTable:
     )
 
 
-def _build_added_blocks(model: IdentifiedModel) -> list[Block]:
+def _build_added_blocks(model: IdentifiedModel) -> list[page.Block]:
     catalogue = parse_robot_text(model.robot_text, "robot").catalogue
     steps = [step for step in model.history if step.effect]
     if not steps:
-        return [Paragraph("Nothing: the model is as it was fitted.")]
+        return [page.Paragraph("Nothing: the model is as it was fitted.")]
     effects = {step.effect: find_effect(step.effect, catalogue) for step in steps}
-    blocks: list[Block] = [
-        Items(
+    blocks: list[page.Block] = [
+        page.Items(
             [
                 (f"{format_step_name(step)[2:]}:", effect.title)
                 for step in steps
@@ -384,7 +379,7 @@ def _build_added_blocks(model: IdentifiedModel) -> list[Block]:
         )
         blocks.append(tabulate_values(added_parameters, model.spec.base, caption))
     blocks += [
-        Paragraph(
+        page.Paragraph(
             f"{format_step_name(step)[2:]} moved, in their sigmas: "
             + ", ".join(f"{name} {by:.2g}" for name, by in step.moved.items())
             + "."
@@ -410,13 +405,13 @@ def _collect_units(step: Addition, effect: Effect | None, model: IdentifiedModel
     return {name: "" if units.get(name, "1") == "1" else units[name] for name in step.shapes}
 
 
-def _build_refusal_items(left_out: Sequence[str]) -> Items:
+def _build_refusal_items(left_out: Sequence[str]) -> page.Items:
     """The effect bold, the reason behind it."""
     lines = []
     for line in left_out:
         what, _, why = line.removeprefix("left out: ").partition(" (")
         lines.append((f"{what}:", why.removesuffix(")")) if why else ("", line))
-    return Items(lines)
+    return page.Items(lines)
 
 
 def format_step_name(step: Addition) -> str:

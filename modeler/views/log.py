@@ -22,18 +22,8 @@ from modeler.regression import (
     estimate_position_noise,
 )
 from modeler.simulation import SimulatedLog, write_log
+from modeler.views import page
 from modeler.views.figures import build_curves, draw_log, draw_picture
-from modeler.views.page import (
-    Block,
-    Code,
-    Figure,
-    Items,
-    Origin,
-    Page,
-    PageTable,
-    Paragraph,
-    Section,
-)
 
 _ROW = 210  # pixels
 _DECADES = 3.0  # of a line of noise on either side of where it crosses the torque's
@@ -45,13 +35,13 @@ _TORQUE, _OF_NOISE = Style(GREEN, 1.6), Style(VERMILLION, 1.6)
 _POSITION, _PARALLEL = Style(PINK, 1.4), Style(BLACK, 1.4)
 
 
-def build_noise_blocks(bands: Bands | None) -> list[Block]:
+def build_noise_blocks(bands: Bands | None) -> list[page.Block]:
     """What chose the cut-offs, and the picture; nothing where nothing moves."""
     picture = draw_noise_picture(bands)
     if bands is None or picture is None:
         return []
-    said = [Items([("", line) for line in bands.chosen_by])] if bands.chosen_by else []
-    return [*said, Figure(picture, titled=False)]
+    said = [page.Items([("", line) for line in bands.chosen_by])] if bands.chosen_by else []
+    return [*said, page.Figure(picture, titled=False)]
 
 
 def draw_noise_picture(bands: Bands | None) -> Picture | None:
@@ -158,7 +148,7 @@ def build_log_page(
     doubts: Sequence[str],
     provenance: Sequence[str],
     bands: Bands | None = None,
-) -> Page:
+) -> page.Page:
     """The page of a log.
 
     Args:
@@ -168,27 +158,29 @@ def build_log_page(
         bands: of its fit; None: the noise of its positions alone.
     """
     head, *rows = tabulate_channels(inspection)
-    table = PageTable(head, rows, kinds=dict.fromkeys(("unit", "remarks"), "text"))
-    listed = Items([("", line) for line in doubts]) if doubts else Paragraph("None.")
+    table = page.PageTable(head, rows, kinds=dict.fromkeys(("unit", "remarks"), "text"))
+    listed = page.Items([("", line) for line in doubts]) if doubts else page.Paragraph("None.")
     sections = [
-        Section("Doubts", [listed]),
-        Section("Channels", [table, *map(Figure, draw_channel_pictures(inspection))]),
+        page.Section("Doubts", [listed]),
+        page.Section("Channels", [table, *map(page.Figure, draw_channel_pictures(inspection))]),
     ]
     noise = build_noise_blocks(bands or build_bands(estimate_position_noise(inspection.positions)))
     if noise:
-        sections.append(Section("Noise of the motion", noise))
+        sections.append(page.Section("Noise of the motion", noise))
     picture = draw_clock_picture(inspection)
     if inspection.clock is not None and picture is not None:
         sections.append(
-            Section("Clock", [Paragraph(describe_clock(inspection.clock)), Figure(picture)])
+            page.Section(
+                "Clock", [page.Paragraph(describe_clock(inspection.clock)), page.Figure(picture)]
+            )
         )
     if inspection.suggested:
-        sections.append(Section("A [log] to start from", [Code(inspection.suggested)]))
-    return Page(
+        sections.append(page.Section("A [log] to start from", [page.Code(inspection.suggested)]))
+    return page.Page(
         f"What is in {inspection.name}",
         (str(len(doubts)), "doubts" if len(doubts) != 1 else "doubt"),
         sections,
-        Origin(logs=(inspection.name,)),
+        page.Origin(logs=(inspection.name,)),
         [
             ("rows", str(inspection.rows)),
             ("clock", describe_clock(inspection.clock) if inspection.clock else "none"),

@@ -15,14 +15,7 @@ import jinja2
 from modeler.core.figure import Picture
 from modeler.core.files import locate_resources, resolve_page_path, write_atomically
 from modeler.core.formula import Formula
-from modeler.views.figure_page import (
-    ArrayStore,
-    arrange_panels,
-    collect_legend,
-    compress_base64,
-    describe_picture,
-    find_heat_maps,
-)
+from modeler.views import figure_page
 
 
 @dataclass(frozen=True)
@@ -149,13 +142,13 @@ class Drawings:
     """The pictures of one page, as its template asks for them."""
 
     def __init__(self) -> None:
-        self.numbers = ArrayStore()
+        self.numbers = figure_page.ArrayStore()
         self.any = False
 
     def content(self, picture: Picture) -> str:
         """What the script draws it from."""
         self.any = True
-        return encode_script_json(describe_picture(picture, self.numbers))
+        return encode_script_json(figure_page.describe_picture(picture, self.numbers))
 
     def block(self) -> str:
         """The numbers of all pictures so far."""
@@ -186,9 +179,9 @@ def _build_environment() -> jinja2.Environment:
     made.globals.update(
         asset=_read_asset,
         plotly=_read_plotly,
-        plotted=arrange_panels,
-        cells=find_heat_maps,
-        keys=collect_legend,
+        plotted=figure_page.arrange_panels,
+        cells=figure_page.find_heat_maps,
+        keys=figure_page.collect_legend,
         json=encode_script_json,
         about=None,
     )
@@ -204,7 +197,7 @@ def _read_asset(name: str) -> str:
 
 @functools.cache
 def _read_plotly() -> str:
-    return compress_base64((locate_resources("templates") / PLOTLY).read_bytes())
+    return figure_page.compress_base64((locate_resources("templates") / PLOTLY).read_bytes())
 
 
 def _format_share(value: float, top: float) -> str:

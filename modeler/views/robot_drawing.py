@@ -13,15 +13,7 @@ from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 from matplotlib.patches import Circle, FancyArrowPatch, Patch, Polygon
 
-from modeler.views.robot_scene import (
-    BASE,
-    Point,
-    Scene,
-    SceneLine,
-    build_gap_lines,
-    build_scene,
-    choose_view,
-)
+from modeler.views import robot_scene
 from modeler.views.robot_skeleton import Posture, Skeleton, compute_poses
 
 _SIZE, _HIGH, _BLANK = 7.0, 7.5, 4.0  # points
@@ -179,7 +171,7 @@ class PaperSheet:
 
     def convert_to_world(self, frame: int, points: np.ndarray) -> np.ndarray:
         """(n, 3) in frame 0."""
-        if frame == BASE:
+        if frame == robot_scene.BASE:
             return points
         pose = self.frames[frame]
         return np.asarray(points @ pose[:3, :3].T + pose[:3, 3])
@@ -189,7 +181,7 @@ class PaperSheet:
         turned = points @ self.rotation.T
         return np.column_stack([turned[:, :2] * self.scale + self.shift, turned[:, 2]])
 
-    def project_point(self, point: Point) -> np.ndarray:
+    def project_point(self, point: robot_scene.Point) -> np.ndarray:
         """(3,) of a point that hangs on a frame."""
         return np.asarray(
             self.project_points(self.convert_to_world(point[0], np.array([point[1]])))[0]
@@ -214,7 +206,7 @@ def save_sheet(axes: Any, suffix: str) -> bytes:
     return stream.getvalue()
 
 
-def draw_parts(axes: Any, scene: Scene, sheet: PaperSheet, size: float) -> None:
+def draw_parts(axes: Any, scene: robot_scene.Scene, sheet: PaperSheet, size: float) -> None:
     """All parts but the names; `size` is a length of the robot, m."""
     parts = [
         *_collect_faces(scene, sheet),
@@ -225,7 +217,7 @@ def draw_parts(axes: Any, scene: Scene, sheet: PaperSheet, size: float) -> None:
         draw(axes, 2.0 + 1e-3 * order)
 
 
-def compute_outline(scene: Scene, sheet: PaperSheet) -> np.ndarray:
+def compute_outline(scene: robot_scene.Scene, sheet: PaperSheet) -> np.ndarray:
     """(n, 2) corners of the parts on the paper."""
     points = [sheet.project_point(end)[:2] for line in scene.lines for end in line.ends]
     points += [
@@ -236,7 +228,7 @@ def compute_outline(scene: Scene, sheet: PaperSheet) -> np.ndarray:
     return np.array(points)
 
 
-def _collect_faces(scene: Scene, sheet: PaperSheet) -> list[Any]:
+def _collect_faces(scene: robot_scene.Scene, sheet: PaperSheet) -> list[Any]:
     light = np.array([0.35, 0.6, 0.72]) @ sheet.rotation
     faces = []
     for face in scene.faces:
@@ -266,7 +258,7 @@ def _shade_color(color: str, bright: float) -> tuple[float, ...]:
     return tuple(part + (1.0 - part) * (bright - 1.0) for part in parts)
 
 
-def _collect_lines(scene: Scene, sheet: PaperSheet, size: float) -> list[Any]:
+def _collect_lines(scene: robot_scene.Scene, sheet: PaperSheet, size: float) -> list[Any]:
     segments = []
     for line in scene.lines:
         start, end = (sheet.convert_to_world(e[0], np.array([e[1]]))[0] for e in line.ends)
@@ -284,7 +276,7 @@ def _collect_lines(scene: Scene, sheet: PaperSheet, size: float) -> list[Any]:
     return segments
 
 
-def _build_line_drawer(line: SceneLine, a: np.ndarray, b: np.ndarray) -> Any:
+def _build_line_drawer(line: robot_scene.SceneLine, a: np.ndarray, b: np.ndarray) -> Any:
     width = line.width * _UNIT
     x, y = [a[0], b[0]], [a[1], b[1]]
 
@@ -321,7 +313,7 @@ def build_arrow(a: np.ndarray, b: np.ndarray, color: str, width: float, order: f
     )
 
 
-def _collect_dots(scene: Scene, sheet: PaperSheet) -> list[Any]:
+def _collect_dots(scene: robot_scene.Scene, sheet: PaperSheet) -> list[Any]:
     dots = []
     for dot in scene.dots:
         at = sheet.project_point(dot.at)
@@ -361,10 +353,10 @@ def draw_skeleton(skeleton: Skeleton, posture: Posture, kind: type[Figure] = Fig
 
 def _draw_skeleton_axes(skeleton: Skeleton, posture: Posture, kind: type[Figure] = Figure) -> Any:
     """The axes with the picture."""
-    scene = build_scene(skeleton, posture)
-    scene = replace(scene, lines=(*scene.lines, *build_gap_lines(skeleton, posture.u))).drop_layers(
-        _HIDDEN
-    )
+    scene = robot_scene.build_scene(skeleton, posture)
+    scene = replace(
+        scene, lines=(*scene.lines, *robot_scene.build_gap_lines(skeleton, posture.u))
+    ).drop_layers(_HIDDEN)
     sheet = _arrange_sheet(skeleton, posture, scene)
     axes = create_paper(sheet.size, kind)
     draw_parts(axes, scene, sheet, posture.size)
@@ -374,9 +366,9 @@ def _draw_skeleton_axes(skeleton: Skeleton, posture: Posture, kind: type[Figure]
     return axes
 
 
-def _arrange_sheet(skeleton: Skeleton, posture: Posture, scene: Scene) -> PaperSheet:
+def _arrange_sheet(skeleton: Skeleton, posture: Posture, scene: robot_scene.Scene) -> PaperSheet:
     """The paper: as wide as a column, as high as the robot needs."""
-    view, frames = choose_view(skeleton, posture), compute_poses(skeleton, posture.u)
+    view, frames = robot_scene.choose_view(skeleton, posture), compute_poses(skeleton, posture.u)
     points = compute_outline(scene, PaperSheet(frames, view.rotation, 1.0, np.zeros(2), (0.0, 0.0)))
     low, high = np.min(points, axis=0), np.max(points, axis=0)
     span = np.maximum(high - low, 1e-6 * posture.size)
@@ -386,7 +378,7 @@ def _arrange_sheet(skeleton: Skeleton, posture: Posture, scene: Scene) -> PaperS
     return PaperSheet(frames, view.rotation, scale, shift, (_WIDTH, height))
 
 
-def _draw_names(axes: Any, scene: Scene, sheet: PaperSheet) -> None:
+def _draw_names(axes: Any, scene: robot_scene.Scene, sheet: PaperSheet) -> None:
     names = [
         NameLabel(
             label.text,
@@ -474,8 +466,11 @@ def render_modes(
         titles: what stands above each.
         suffix: one of `PICTURE_KINDS`; ".png" has 400 dots per inch.
     """
-    rotation = choose_view(skeleton, postures[0]).rotation
-    scenes = [build_scene(skeleton, posture).drop_layers(_HIDDEN_IN_MODES) for posture in postures]
+    rotation = robot_scene.choose_view(skeleton, postures[0]).rotation
+    scenes = [
+        robot_scene.build_scene(skeleton, posture).drop_layers(_HIDDEN_IN_MODES)
+        for posture in postures
+    ]
     frames = [compute_poses(skeleton, posture.u) for posture in postures]
     plain = [PaperSheet(each, rotation, 1.0, np.zeros(2), (0.0, 0.0)) for each in frames]
     points = np.concatenate([compute_outline(*pair) for pair in zip(scenes, plain, strict=True)])

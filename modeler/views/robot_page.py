@@ -16,21 +16,8 @@ from modeler.core.json import select_attributes
 from modeler.core.table import align_columns
 from modeler.excitation import BASE as STILL, ClosestApproach, CollisionGeometry, MotionBounds
 from modeler.robot import JointKind, Robot, build_written_table, get_written_letter
+from modeler.views import robot_scene
 from modeler.views.page import encode_script_json, render_template
-from modeler.views.robot_scene import (
-    BODIES,
-    OPEN,
-    Face,
-    Label,
-    Part,
-    Point,
-    Scene,
-    SceneLine,
-    build_ball,
-    build_cylinder,
-    build_scene,
-    choose_view,
-)
 from modeler.views.robot_skeleton import (
     BASE,
     CLOSED,
@@ -50,10 +37,10 @@ _DIGITS = 7  # of coordinates of drawn points: finer than any screen
 
 
 def build_page_content(
-    skeleton: Skeleton, posture: Posture, further: Sequence[Part] = ()
+    skeleton: Skeleton, posture: Posture, further: Sequence[robot_scene.Part] = ()
 ) -> dict[str, Any]:
     """What the scripts of the page work on: the table in numbers, loops, ranges, drawn parts."""
-    view = choose_view(skeleton, posture)
+    view = robot_scene.choose_view(skeleton, posture)
     ranges = [_choose_slider_range(skeleton, posture, k) for k in range(len(skeleton.free))]
     return {
         "name": skeleton.robot.name,
@@ -79,7 +66,7 @@ def build_page_content(
         "gravity": skeleton.gravity.tolist(),
         "view": view.rotation.tolist(),
         "up": view.up.tolist(),
-        **_describe_parts(build_scene(skeleton, posture, further)),
+        **_describe_parts(robot_scene.build_scene(skeleton, posture, further)),
     }
 
 
@@ -111,7 +98,7 @@ def _choose_slider_range(skeleton: Skeleton, posture: Posture, k: int) -> list[f
     return [home - reach, home + reach]
 
 
-def _describe_parts(scene: Scene) -> dict[str, Any]:
+def _describe_parts(scene: robot_scene.Scene) -> dict[str, Any]:
     """Every part as an object with its fields; points are lists [frame, x, y, z]."""
     return {
         "bulk": scene.radius,
@@ -125,11 +112,11 @@ def _describe_parts(scene: Scene) -> dict[str, Any]:
     }
 
 
-def _convert_ends(ends: tuple[Point, Point]) -> list[list[float]]:
+def _convert_ends(ends: tuple[robot_scene.Point, robot_scene.Point]) -> list[list[float]]:
     return [_convert_point(end) for end in ends]
 
 
-def _convert_point(point: Point) -> list[float]:
+def _convert_point(point: robot_scene.Point) -> list[float]:
     return [point[0], *(round(x, _DIGITS) for x in point[1])]
 
 
@@ -329,7 +316,9 @@ def _format_direction(z: np.ndarray) -> str:
     return " ".join(f"{0.0 if abs(x) < 5e-4 else x:.3f}" for x in z)
 
 
-def render_robot_page(skeleton: Skeleton, posture: Posture, further: Sequence[Part] = ()) -> str:
+def render_robot_page(
+    skeleton: Skeleton, posture: Posture, further: Sequence[robot_scene.Part] = ()
+) -> str:
     """The page as text, with further parts; its security policy forbids any network access."""
     robot = skeleton.robot
     return render_template(
@@ -468,24 +457,26 @@ def render_nearest_page(robot: Robot, bounds: MotionBounds, near: ClosestApproac
     return render_robot_page(skeleton, posture, parts)
 
 
-def _mark_gap(near: ClosestApproach) -> Iterator[Part]:
+def _mark_gap(near: ClosestApproach) -> Iterator[robot_scene.Part]:
     """The way between the two."""
     one, other = ((BASE, (float(p[0]), float(p[1]), float(p[2]))) for p in near.points)
-    yield SceneLine(BASE, (one, other), OPEN, 3.0, "gap")
-    yield Label(BASE, one, f"{1e3 * near.distance:.1f} mm", OPEN, "names")
+    yield robot_scene.SceneLine(BASE, (one, other), robot_scene.OPEN, 3.0, "gap")
+    yield robot_scene.Label(BASE, one, f"{1e3 * near.distance:.1f} mm", robot_scene.OPEN, "names")
 
 
 def _build_capsules(
     skeleton: Skeleton, solids: CollisionGeometry, pair: tuple[str, str]
-) -> Iterator[Face]:
+) -> Iterator[robot_scene.Face]:
     """All capsules, each on its link; planes are not drawn."""
     moving = [i for i, row in enumerate(skeleton.rows) if row.joint.is_moving]
     for k, name in enumerate(solids.names[: len(solids.ends)]):
         carrier = int(solids.carriers[k])
         frame = BASE if carrier == STILL else moving[carrier]
-        color = OPEN if name in pair else BODIES[k % len(BODIES)]
+        color = (
+            robot_scene.OPEN if name in pair else robot_scene.BODIES[k % len(robot_scene.BODIES)]
+        )
         for points in _build_capsule(solids.ends[k], float(solids.radius[k])):
-            yield Face(frame, frame, points, color, "capsules", _CLEAR)
+            yield robot_scene.Face(frame, frame, points, color, "capsules", _CLEAR)
 
 
 def _build_capsule(ends: np.ndarray, radius: float) -> Iterator[np.ndarray]:
@@ -493,9 +484,9 @@ def _build_capsule(ends: np.ndarray, radius: float) -> Iterator[np.ndarray]:
     way = ends[1] - ends[0]
     length = float(np.linalg.norm(way))
     for end in ends if length else ends[:1]:
-        yield from (points + end for points in build_ball(radius))
+        yield from (points + end for points in robot_scene.build_ball(radius))
     if length:
         # A turn that takes z along the way: columns of a QR factorisation that begins with it.
         turn = np.linalg.qr(np.column_stack([way, np.eye(3)]))[0][:, [1, 2, 0]]
-        for points in build_cylinder(radius, length)[:-2]:
+        for points in robot_scene.build_cylinder(radius, length)[:-2]:
             yield points @ turn.T + ends.mean(axis=0)
