@@ -9,6 +9,7 @@ from scipy.ndimage import gaussian_filter1d
 from scipy.sparse import csr_array
 
 from modeler.core.brief import ShortRepr
+from modeler.numerics.thresholds import THRESHOLDS
 
 SPREAD = 0.1325
 """Standard deviation of the Gaussian weights times the cut-off: its gain is -3 dB there."""
@@ -16,12 +17,7 @@ SPREAD = 0.1325
 BANDWIDTH = 1.0645
 """Noise bandwidth for white noise, sqrt(pi) / (4 pi SPREAD), over the cut-off."""
 
-RATE = 2.5
-"""Rows per period of the cut-off: neighbours then correlate by 0.1."""
 
-_REACH = 3.0  # standard deviations
-_UP = 1.0 + 1e-6  # a step may be off by so much where its clock counts from 1970
-_NONE = 0.02  # samples; neighbours' weights are 0 in double precision below
 LEAST_WEIGHT = 0.5
 """A row is used if at least this share of its weights falls on usable samples."""
 
@@ -98,17 +94,30 @@ def choose_row_spacing(step: float, cutoff: float, decimation: int | None) -> in
     Args:
         step: s.
         cutoff: Hz at -3 dB; 0 for none.
-        decimation: samples per row; None: `RATE` rows per period of the cut-off.
+        decimation: samples per row; None: `rows_per_cutoff_period` rows per period.
     """
     if decimation is None:
-        return max(1, round(_UP / (RATE * cutoff * step))) if cutoff > 0.0 else 1
+        return (
+            max(
+                1,
+                round(
+                    THRESHOLDS.clock_rounding / (THRESHOLDS.rows_per_cutoff_period * cutoff * step)
+                ),
+            )
+            if cutoff > 0.0
+            else 1
+        )
     return decimation
 
 
 def compute_reach(step: float, cutoff: float) -> int:
     """Samples to both sides of a row's centre that it is a mean over."""
     spread = SPREAD / (cutoff * step) if cutoff > 0.0 else 0.0
-    return int(np.ceil(_REACH * spread)) if spread > _NONE else 0
+    return (
+        int(np.ceil(THRESHOLDS.kernel_reach * spread))
+        if spread > THRESHOLDS.min_kernel_samples
+        else 0
+    )
 
 
 def build_row_filter(centres: np.ndarray, samples: int, step: float, cutoff: float) -> RowFilter:
@@ -136,9 +145,9 @@ def compute_moving_means(values: np.ndarray, step: float, cutoff: float) -> np.n
         cutoff: Hz at -3 dB; 0 for none.
     """
     spread = SPREAD / (cutoff * step) if cutoff > 0.0 else 0.0
-    if spread <= _NONE:
+    if spread <= THRESHOLDS.min_kernel_samples:
         return values
-    reach = int(np.ceil(_REACH * spread))
+    reach = int(np.ceil(THRESHOLDS.kernel_reach * spread))
     return np.asarray(gaussian_filter1d(values, spread, axis=0, mode="constant", radius=reach))
 
 

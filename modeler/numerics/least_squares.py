@@ -7,14 +7,7 @@ import numpy as np
 from scipy.linalg import qr, solve_triangular
 
 from modeler.core.brief import ShortRepr
-
-TOLERANCE = 1e-8
-"""Pivots below this share of the first, columns scaled to length one, count as zero. Dependencies
-by structure or by a joint that stands still come out near 1e-15, weakly excited parameters on
-real logs above 1e-4."""
-
-_IDLE = 1e-12  # a column this short beside the longest one is zero
-_TOLD = 1e-3  # share of a column's length that another must carry to be named
+from modeler.numerics.thresholds import THRESHOLDS
 
 
 @dataclass(frozen=True)
@@ -40,8 +33,8 @@ class DroppedColumn:
             )
         return (
             f"{self.name} cannot be told from {', '.join(self.into)} on these data (pivot "
-            f"{self.pivot:.1g}, tolerance {TOLERANCE:g}): it is set to 0 and they carry its "
-            "effect; record a motion that moves all joints over a wide range"
+            f"{self.pivot:.1g}, tolerance {THRESHOLDS.min_pivot:g}): it is set to 0 and they carry "
+            "its effect; record a motion that moves all joints over a wide range"
         )
 
 
@@ -70,7 +63,7 @@ def find_independent_columns(R: np.ndarray, names: Sequence[str]) -> Rank:
         names: (c,).
     """
     lengths = np.linalg.norm(R, axis=0)
-    active = np.flatnonzero(lengths > _IDLE * lengths.max(initial=0.0))
+    active = np.flatnonzero(lengths > THRESHOLDS.min_column_norm * lengths.max(initial=0.0))
     dropped_columns = [
         DroppedColumn(names[i], (), 0.0) for i in range(len(names)) if i not in set(active)
     ]
@@ -78,14 +71,16 @@ def find_independent_columns(R: np.ndarray, names: Sequence[str]) -> Rank:
         return Rank((), tuple(dropped_columns), 0.0, 0.0)
     triangle, order = qr(R[:, active] / lengths[active], mode="r", pivoting=True)
     pivots = np.abs(np.diag(triangle)) / abs(triangle[0, 0])
-    rank = int(np.sum(pivots > TOLERANCE))
+    rank = int(np.sum(pivots > THRESHOLDS.min_pivot))
     kept_columns, dropped = active[order[:rank]], active[order[rank:]]
     if len(dropped):
         shares = solve_triangular(triangle[:rank, :rank], triangle[:rank, rank:])
         for position, column in enumerate(dropped):
             share = shares[:, position]
             into = tuple(
-                names[kept_columns[i]] for i in np.argsort(-np.abs(share)) if abs(share[i]) > _TOLD
+                names[kept_columns[i]]
+                for i in np.argsort(-np.abs(share))
+                if abs(share[i]) > THRESHOLDS.min_named_share
             )
             pivot = pivots[rank + position] if rank + position < len(pivots) else 0.0
             dropped_columns.append(DroppedColumn(names[column], into[:6], float(pivot)))
@@ -316,10 +311,6 @@ def _append_joint_columns(
     return np.vstack([inside, below])
 
 
-_PARALLEL = 1e-11
-"""Eigenvalue of their Gram matrix, over the largest, below which columns are dependent."""
-
-
 def compute_joint_whitening(W: Sequence[np.ndarray], sigma: np.ndarray) -> np.ndarray:
     """(c, r) that makes weighted columns orthonormal over the rows of all joints at once.
 
@@ -328,19 +319,16 @@ def compute_joint_whitening(W: Sequence[np.ndarray], sigma: np.ndarray) -> np.nd
         sigma: (J,) of each joint; the weights are its inverse.
     """
     gram = np.asarray(sum((w.T @ w) / s**2 for w, s in zip(W, sigma, strict=True)))
-    return compute_whitening(gram, _PARALLEL)
+    return compute_whitening(gram, THRESHOLDS.min_joint_eigenvalue)
 
 
 # The median of weighted values.
 
 
-_SAME = 1e-6  # of all weight; less is rounding
-
-
 def compute_weighted_median(values: np.ndarray, weights: np.ndarray) -> float:
     """The smallest value up to which at least half of the weight lies.
 
-    Half but for `_SAME`: of equal weights whose last digits differ, every choice of these digits
+    Half but for rounding: of equal weights whose last digits differ, every choice of these digits
     (as that of a clock's zero) gives the same median.
 
     Args:
@@ -349,16 +337,12 @@ def compute_weighted_median(values: np.ndarray, weights: np.ndarray) -> float:
     """
     order = np.argsort(values)
     total = np.cumsum(weights[order])
-    return float(values[order][np.searchsorted(total, (0.5 - _SAME) * total[-1])])
+    return float(
+        values[order][np.searchsorted(total, (0.5 - THRESHOLDS.weight_rounding) * total[-1])]
+    )
 
 
 # Quasi-Newton descent inside an open set; evolution, a search that needs values only.
-
-
-_ENOUGH = 1e-4  # share of the promised fall that a step must bring (Armijo)
-_SHORTEST = 1e-6
-_NEAR = 0.95  # of the way to the boundary
-_LOOK = 10  # steps that are to bring something
 
 
 @dataclass(frozen=True)
@@ -413,7 +397,10 @@ def minimise_bfgs(
         curve, fresh = _update_inverse_hessian(curve, ahead - x, after - slope, fresh), False
         x, value, slope = ahead, new, after
         values.append(value)
-        if len(values) > _LOOK and values[-1 - _LOOK] - value < tolerance:
+        if (
+            len(values) > THRESHOLDS.stall_steps
+            and values[-1 - THRESHOLDS.stall_steps] - value < tolerance
+        ):
             break
     return x
 
@@ -431,11 +418,11 @@ def _search_line(
     proceed: Callable[[], bool],
 ) -> tuple[np.ndarray, float] | None:
     """A point along `way` that is lower than promised in part, and its value."""
-    share = min(1.0, _NEAR * landscape.boundary_distance(x, way))
-    while fall < 0.0 and share > _SHORTEST and proceed():
+    share = min(1.0, THRESHOLDS.max_boundary_share * landscape.boundary_distance(x, way))
+    while fall < 0.0 and share > THRESHOLDS.min_step_share and proceed():
         ahead = x + share * way
         new = landscape.value(ahead)
-        if new <= value + _ENOUGH * share * fall:
+        if new <= value + THRESHOLDS.armijo_share * share * fall:
             return ahead, new
         share *= 0.4
     return None

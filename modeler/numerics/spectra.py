@@ -6,10 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from modeler.core.brief import ShortRepr
-
-_LONGEST = 1024  # samples of one Welch window
-_LAG = 2.0  # s, longest lag of the autocorrelation
-_FORGOTTEN = 0.2  # autocorrelation below which the past is called forgotten
+from modeler.numerics.thresholds import THRESHOLDS
 
 
 @dataclass(frozen=True, eq=False)
@@ -42,9 +39,9 @@ def estimate_residual_spectrum(
     pieces, period = _collect_segments(time, segment, e)
     if not pieces:
         return None
-    correlation = _estimate_autocorrelation(pieces, round(_LAG / period))
+    correlation = _estimate_autocorrelation(pieces, round(THRESHOLDS.max_lag / period))
     frequency, density = _average_welch_density(pieces, period)
-    below = np.flatnonzero(correlation < _FORGOTTEN)
+    below = np.flatnonzero(correlation < THRESHOLDS.uncorrelated_below)
     lags_until_decay = int(below[0]) if below.size else correlation.size
     top = int(np.argmax(density))
     around = slice(max(top - 2, 0), top + 3)
@@ -108,7 +105,7 @@ def _average_welch_density(
 ) -> tuple[np.ndarray, np.ndarray]:
     """Welch densities (Hann, half overlap) of the segments, averaged by samples that count."""
     # a quarter of the longest segment: about seven windows to average over
-    window = min(_LONGEST, max(16, max(piece.size for piece in pieces) // 4))
+    window = min(THRESHOLDS.max_welch_samples, max(16, max(piece.size for piece in pieces) // 4))
     total, weight = np.zeros(window // 2 + 1), 0.0
     for piece in pieces:
         counts = float(np.isfinite(piece).sum())
@@ -164,16 +161,6 @@ def estimate_coherence(x: np.ndarray, y: np.ndarray, frequency: float) -> float:
 # The order spectrum: waves of a residual per turn of a joint.
 
 
-LEAST_WAVES = 3.0
-"""In the stroke: slower waves cannot be told from gravity and springs."""
-
-_HIGHEST = 1200.0  # waves per unit of position
-_CELLS = 4  # per wave of the highest order
-_STANDS_OUT = 12.0  # power over the median around it
-_MOST = 3  # lines per joint
-_FEWEST = 100  # samples
-
-
 @dataclass(frozen=True, eq=False)
 class OrderSpectrum(ShortRepr):
     """Of one joint.
@@ -208,10 +195,14 @@ def compute_order_spectrum(
         reached: highest order to look at; infinite for no limit.
     """
     stroke = float(np.ptp(q)) if q.size else 0.0
-    if stroke <= 0.0 or q.size < _FEWEST:
+    if stroke <= 0.0 or q.size < THRESHOLDS.min_order_samples:
         return None
-    highest = _HIGHEST if unit == "rad" else _HIGHEST * 2.0 * np.pi / max(stroke, 1e-6)
-    cells = int(min(2**19, max(1024, stroke * highest / (2 * np.pi) * _CELLS)))
+    highest = (
+        THRESHOLDS.max_order
+        if unit == "rad"
+        else THRESHOLDS.max_order * 2.0 * np.pi / max(stroke, 1e-6)
+    )
+    cells = int(min(2**19, max(1024, stroke * highest / (2 * np.pi) * THRESHOLDS.cells_per_wave)))
     place = np.minimum(((q - q.min()) / stroke * cells).astype(int), cells - 1)
     total = np.bincount(place, r, cells)
     length = 1 << int(np.ceil(np.log2(cells * 4)))
@@ -219,7 +210,9 @@ def compute_order_spectrum(
     order = np.arange(len(spectrum)) * (2.0 * np.pi / stroke) * cells / length
     amplitude = np.abs(spectrum)
     resolution = 2.0 * np.pi / stroke
-    is_in_range = (order >= LEAST_WAVES * resolution) & (order <= highest) & (order <= reached)
+    is_in_range = (
+        (order >= THRESHOLDS.min_waves * resolution) & (order <= highest) & (order <= reached)
+    )
     order, amplitude = order[is_in_range], amplitude[is_in_range]
     if order.size < 32:
         return None
@@ -230,8 +223,8 @@ def compute_order_spectrum(
     floor = np.interp(np.arange(len(amplitude)), centres, medians)
     power = (amplitude / np.maximum(floor, 1e-300)) ** 2
     peaks: list[float] = []
-    for place in np.argsort(-amplitude * (power > _STANDS_OUT)):
-        if power[place] < _STANDS_OUT or len(peaks) == _MOST:
+    for place in np.argsort(-amplitude * (power > THRESHOLDS.min_peak_power)):
+        if power[place] < THRESHOLDS.min_peak_power or len(peaks) == THRESHOLDS.max_peaks:
             break
         if all(abs(order[place] - other) > 2.0 * resolution for other in peaks):
             peaks.append(float(order[place]))
@@ -241,16 +234,6 @@ def compute_order_spectrum(
 # Motion that repeats itself within one log.
 
 
-ALIKE = 0.98
-"""Correlation of the motion with itself one period later from which on it repeats."""
-
-SHORTEST = 2.0
-"""s, of a lap."""
-
-
-_SPARSE = 10  # steps in the time of a log for each of its rows, from which on pauses fill it
-
-
 def find_longest_stretch(time: np.ndarray, step: float) -> slice:
     """All rows; where pauses fill the time of a log, the longest stretch between them.
 
@@ -258,9 +241,11 @@ def find_longest_stretch(time: np.ndarray, step: float) -> slice:
         time: (n,) s, increasing.
         step: s, between rows.
     """
-    if len(time) < 2 or time[-1] - time[0] < _SPARSE * step * len(time):
+    if len(time) < 2 or time[-1] - time[0] < THRESHOLDS.min_pause_steps * step * len(time):
         return slice(0, len(time))
-    ends = np.concatenate([[0], np.flatnonzero(np.diff(time) > _SPARSE * step) + 1, [len(time)]])
+    ends = np.concatenate(
+        [[0], np.flatnonzero(np.diff(time) > THRESHOLDS.min_pause_steps * step) + 1, [len(time)]]
+    )
     longest = int(np.argmax(np.diff(ends)))
     return slice(int(ends[longest]), int(ends[longest + 1]))
 
@@ -276,7 +261,7 @@ def estimate_lap_period(since: np.ndarray, q: np.ndarray) -> float:
     rows = find_longest_stretch(since, step)
     since, q = since[rows] - since[rows][:1], q[rows]
     count = int(since[-1] / step) + 1 if step > 0.0 and len(since) else 0
-    if count < 8 or since[-1] < 2 * SHORTEST:
+    if count < 8 or since[-1] < 2 * THRESHOLDS.min_lap_seconds:
         return 0.0
     even = np.arange(count) * step
     moved = [np.interp(even, since, q[:, j]) for j in range(q.shape[1]) if np.ptp(q[:, j]) > 0.0]
@@ -287,8 +272,8 @@ def estimate_lap_period(since: np.ndarray, q: np.ndarray) -> float:
         likeness = np.minimum(
             likeness, _compute_self_similarity((x - x.mean()) / x.std(), count // 2 + 1)
         )
-    first = int(SHORTEST / step)
-    high = np.flatnonzero(likeness[first:] > ALIKE) + first
+    first = int(THRESHOLDS.min_lap_seconds / step)
+    high = np.flatnonzero(likeness[first:] > THRESHOLDS.min_repeat_correlation) + first
     low = np.flatnonzero(likeness < 0.8)
     if not high.size or not low.size:
         return 0.0
@@ -314,9 +299,6 @@ def _compute_self_similarity(x: np.ndarray, lags: int) -> np.ndarray:
 # How the positions of a piece are spread over frequencies.
 
 
-_NEVER = 5.0  # noise exceeds ln(n) + 5 means at none of n frequencies, in 99 of 100 spectra
-
-
 @dataclass(frozen=True, eq=False)
 class MotionSpectrum:
     """Of positions; n frequencies, J joints.
@@ -334,7 +316,7 @@ class MotionSpectrum:
     @property
     def power_above_noise(self) -> np.ndarray:
         """(n, J) power less the largest value that the white noise takes: 0 where it may be it."""
-        largest = self.noise_power * (np.log(len(self.frequency)) + _NEVER)
+        largest = self.noise_power * (np.log(len(self.frequency)) + THRESHOLDS.noise_exceedance)
         return np.maximum(self.power - largest, 0.0)
 
 
@@ -356,10 +338,6 @@ def compute_motion_spectrum(positions: np.ndarray, step: float) -> MotionSpectru
 
 
 # The power density of a signal that falls steeply: by third octaves, differentiated first.
-
-
-WINDOW_SECONDS = 4.0
-_THIRDS = 3  # of an octave
 
 
 @dataclass(frozen=True, eq=False)
@@ -388,14 +366,17 @@ def compute_band_spectrum(
         steps: s, of each.
         order: of the differences that make them level.
     """
-    longest = max(WINDOW_SECONDS, *(2.0 * step for step in steps))
+    longest = max(THRESHOLDS.band_window, *(2.0 * step for step in steps))
     low, high = 1.0 / longest, 0.5 / min(steps)
-    edges = low * 2.0 ** (np.arange(np.ceil(np.log2(high / low) * _THIRDS) + 1) / _THIRDS)
+    edges = low * 2.0 ** (
+        np.arange(np.ceil(np.log2(high / low) * THRESHOLDS.bands_per_octave) + 1)
+        / THRESHOLDS.bands_per_octave
+    )
     total = np.zeros((len(edges) - 1, channels[0].shape[1]))
     count = np.zeros(len(edges) - 1)
     for values, step in zip(channels, steps, strict=True):
         level = np.diff(values, order, axis=0)
-        length = min(len(level), max(8, round(WINDOW_SECONDS / step)))
+        length = min(len(level), max(8, round(THRESHOLDS.band_window / step)))
         if length < 8:
             continue
         power, frames = _estimate_blackman_density(level, length, step)

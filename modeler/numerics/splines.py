@@ -11,16 +11,13 @@ from scipy.optimize import nnls
 from scipy.sparse import csr_array, diags_array
 
 from modeler.core.law import BESIDE, Law
+from modeler.numerics.thresholds import THRESHOLDS
 
 LEAST = 100
 """Rows below which nothing is predicted."""
 
-MIN_T_RATIO = 2.0
-"""Share over its standard error that is more than chance."""
 
 _RIDGES = (0.1, 2.0)  # times the number of columns: noise over signal, variances
-_FOLDS = 8
-_PARTS = 40  # of the rows in order: what noise makes of one has nothing to do with the next
 
 
 @dataclass(frozen=True, eq=False)
@@ -42,7 +39,7 @@ class NonparametricBaseline:
     @property
     def is_significant(self) -> bool:
         """True if the share is more than chance, also in noise that has a colour."""
-        return self.share > MIN_T_RATIO * self.sigma
+        return self.share > THRESHOLDS.min_share_t_ratio * self.sigma
 
 
 def fit_nonparametric_baseline(
@@ -79,8 +76,10 @@ def fit_nonparametric_baseline(
     alone = {name: max(0.0, 1.0 - e / energy) for name, e in zip(predictions, left, strict=True)}
     predicted = _combine_predictions(np.concatenate([*predictions.values()], axis=2), y, rows)
     gain = y**2 - (y - predicted) ** 2
-    parts = np.add.reduceat(gain, np.arange(_PARTS) * y.size // _PARTS)
-    share, sigma = float(gain.sum()), float(np.sqrt(_PARTS) * parts.std(ddof=1))
+    parts = np.add.reduceat(
+        gain, np.arange(THRESHOLDS.share_parts) * y.size // THRESHOLDS.share_parts
+    )
+    share, sigma = float(gain.sum()), float(np.sqrt(THRESHOLDS.share_parts) * parts.std(ddof=1))
     return NonparametricBaseline(predicted + mean, max(0.0, share / energy), sigma / energy, alone)
 
 
@@ -89,7 +88,9 @@ def assign_folds(run: np.ndarray) -> np.ndarray:
     fold = np.zeros(run.size, dtype=int)
     for log in np.unique(run):
         log_rows = np.flatnonzero(run == log)
-        fold[log_rows] = (np.arange(log_rows.size) * _FOLDS // log_rows.size + log) % _FOLDS
+        fold[log_rows] = (
+            np.arange(log_rows.size) * THRESHOLDS.fold_count // log_rows.size + log
+        ) % THRESHOLDS.fold_count
     return fold
 
 
@@ -238,7 +239,6 @@ OWN = ("own", "surface")
 
 _KNOTS = {"q": 16, "v": 20, "a": 10, "load": 12, "torque": 12}
 _OTHER = {"q": 14, "v": 12, "a": 6}
-_SUM = 7  # knots
 _OWN, _BENT, _PAIR, _WIDE, _PAIRS = 60, 30, 30, 60, 150  # random features
 
 
@@ -288,7 +288,7 @@ def generate_function_sets(measured: Measurements) -> Iterator[tuple[str, np.nda
         if k != j:
             yield str(k), _build_other_joint_functions(m, k, way, generator)
     near = np.column_stack([m.q, m.v])
-    yield "sum", np.hstack([build_hat_functions(x, _SUM) for x in (*m.q.T, *m.v.T)])
+    yield "sum", np.hstack([build_hat_functions(x, THRESHOLDS.sum_knots) for x in (*m.q.T, *m.v.T)])
     yield (
         "wide",
         np.column_stack(

@@ -20,7 +20,6 @@ from .free_run_result import (
     draw_free_run_pictures as draw_free_run_pictures,
 )
 from .models import (
-    DOUBT as DOUBT,
     JointModelComparison as JointModelComparison,
     ModelComparison as ModelComparison,
     check_joints as check_joints,
@@ -42,7 +41,6 @@ from .pictures import (
     find_masked_spans as find_masked_spans,
 )
 from .prediction import (
-    DEVIATIONS as DEVIATIONS,
     JointInfo as JointInfo,
     Prediction as Prediction,
     compute_residual as compute_residual,
@@ -54,6 +52,7 @@ from .residual_structure import (
     format_coordinate_unit as format_coordinate_unit,
     select_coordinates as select_coordinates,
 )
+from .thresholds import THRESHOLDS as THRESHOLDS
 from .verdict import (
     classify_residual as classify_residual,
     describe_wrong_scale as describe_wrong_scale,

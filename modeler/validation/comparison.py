@@ -31,6 +31,7 @@ from modeler.validation.prediction import (
     compute_unit_errors,
     predict_rows,
 )
+from modeler.validation.thresholds import THRESHOLDS
 
 # The comparison as a table of plain text.
 
@@ -93,8 +94,6 @@ def tabulate_logs(comparison: "Comparison", error: str = "error") -> list[list[s
 # Where a joint fails: velocity regions and the worst moment.
 
 
-AROUND_ZERO = 0.05  # of the joint's own largest speed
-FAST = 0.4
 WINDOW = 0.5  # s
 
 REGIONS = ("fast -", "slow -", "around zero", "slow +", "fast +")
@@ -135,9 +134,19 @@ def compute_velocity_regions(qd: np.ndarray, e: np.ndarray) -> tuple[Region, ...
         e: residual of the same rows, (n,).
     """
     top = float(np.abs(qd).max())
-    edges = np.array([-FAST, -AROUND_ZERO, AROUND_ZERO, FAST]) * top
+    edges = (
+        np.array(
+            [
+                -THRESHOLDS.fast_share,
+                -THRESHOLDS.zero_speed_share,
+                THRESHOLDS.zero_speed_share,
+                THRESHOLDS.fast_share,
+            ]
+        )
+        * top
+    )
     which = np.searchsorted(edges, qd, side="right")
-    which[np.abs(qd) <= AROUND_ZERO * top] = 2  # also a joint that never moves
+    which[np.abs(qd) <= THRESHOLDS.zero_speed_share * top] = 2  # also a joint that never moves
     limits = np.array([-top, *edges, top])
     total = float(e @ e)
     return tuple(
@@ -190,13 +199,6 @@ def find_worst_window(prediction: Prediction, e: np.ndarray, width: float = WIND
     )
 
 
-_OPPOSITE = -0.5  # factor below which the sign is wrong, if turning it helps
-_OFF = 0.1  # a scale nearer to one is no wrong scale
-_EXPLAINS = 0.75  # of the squared residual, by the scale alone
-_FEWEST = 20  # samples
-_BLOCKS = 5  # in time; the factor for each comes from the others
-
-
 @dataclass(frozen=True)
 class Scale:
     """measured = factor * predicted, by least squares: no constant, which nobody could apply."""
@@ -207,19 +209,27 @@ class Scale:
     @property
     def has_opposite_sign(self) -> bool:
         """True if the prediction has the wrong sign."""
-        return self.factor < _OPPOSITE and self.mended > _EXPLAINS
+        return (
+            self.factor < THRESHOLDS.max_opposite_factor
+            and self.mended > THRESHOLDS.min_scale_reduction
+        )
 
     @property
     def has_wrong_factor(self) -> bool:
         """True if the prediction is right but for a factor."""
-        return abs(self.factor - 1.0) > _OFF and self.mended > _EXPLAINS
+        return (
+            abs(self.factor - 1.0) > THRESHOLDS.min_scale_error
+            and self.mended > THRESHOLDS.min_scale_reduction
+        )
 
 
 def estimate_scale(measured: np.ndarray, predicted: np.ndarray) -> Scale | None:
     """The factor between two torques, (n,) each in order of time; None for too few samples."""
-    blocks = np.arange(measured.size) * _BLOCKS // max(1, measured.size)
-    squares, cross = (np.bincount(blocks, predicted * x, _BLOCKS) for x in (predicted, measured))
-    if measured.size < _FEWEST or not np.all(squares.sum() - squares > 0.0):
+    blocks = np.arange(measured.size) * THRESHOLDS.scale_blocks // max(1, measured.size)
+    squares, cross = (
+        np.bincount(blocks, predicted * x, THRESHOLDS.scale_blocks) for x in (predicted, measured)
+    )
+    if measured.size < THRESHOLDS.min_scale_samples or not np.all(squares.sum() - squares > 0.0):
         return None
     elsewhere = (cross.sum() - cross) / (squares.sum() - squares)
     before = float(np.sum((measured - predicted) ** 2))
@@ -466,10 +476,6 @@ def _serialise_joint(item: JointComparison) -> dict[str, Any]:
 # Comparisons of logs of any length.
 
 
-MOST = 400_000
-"""Rows of a comparison, after decimation; of longer logs fewer rows are taken."""
-
-
 @dataclass(frozen=True, eq=False)
 class _ChunkPrediction:
     """Some consecutive rows of a log: what is compared of each chunk, and what they say of it."""
@@ -502,7 +508,7 @@ def compare_long_logs(
         DataError: as `estimation.long_logs.stream`.
     """
     processing = model.processing
-    least = -(-sum(source.rows for source in sources) // MOST)
+    least = -(-sum(source.rows for source in sources) // THRESHOLDS.max_rows)
     step = sources[0].read_window(0.5, 1000).step
     if least > choose_row_spacing(step, processing.parallel_cutoff or 0.0, processing.decimation):
         processing = dataclasses.replace(processing, decimation=least)

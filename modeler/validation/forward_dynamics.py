@@ -18,10 +18,7 @@ from modeler.core.table import format_percent
 from modeler.estimation import scale_inertia
 from modeler.regression import find_shafts
 from modeler.runtime import CompiledModel
-
-_CREEP = 1e-9  # rad/s or m/s, to both sides of standstill
-_STILL = 1e-12  # below, a shaft stands
-_FLOOR = 1e-6  # least eigenvalue of M with unit diagonal, below which it is no inertia matrix
+from modeler.validation.thresholds import THRESHOLDS
 
 
 @dataclass(frozen=True, eq=False)
@@ -82,7 +79,7 @@ class FittedPlant:
             DataError: says how often, and which joint is lightest.
         """
         _, least, light = scale_inertia(self.model.inertia_matrix(q, self.beta))
-        if (bad := least < _FLOOR).any():
+        if (bad := least < THRESHOLDS.min_inertia_eigenvalue).any():
             raise DataError(
                 f"{self.model.spec.robot}: with the fitted values the inertia matrix is not "
                 f"positive definite in {format_percent(float(np.mean(bad)))} of the postures, most "
@@ -167,7 +164,7 @@ class FittedPlant:
         shaft_compliance = np.einsum("bkn,bnk->bk", C, way)
         way = way / np.where(shaft_compliance > 0.0, shaft_compliance, 1.0)[:, None, :]
         still = qd[:, None, :] - (way * _compute_shaft_speeds(C, qd)[:, None, :]).transpose(0, 2, 1)
-        apart = _CREEP * way.transpose(0, 2, 1)
+        apart = THRESHOLDS.creep_speed * way.transpose(0, 2, 1)
         states = np.stack([still + apart, still - apart]).reshape(-1, n)  # (2 b k, n)
 
         def repeat_for_shafts(values: np.ndarray) -> np.ndarray:
@@ -194,11 +191,11 @@ def _compute_shaft_speeds(C: np.ndarray, qd: np.ndarray) -> np.ndarray:
 def _add_creep(C: np.ndarray, qd: np.ndarray) -> np.ndarray:
     """qd with shafts that stand made to creep, so that the C and we see the same sign."""
     speeds = _compute_shaft_speeds(C, qd)
-    standing = np.abs(speeds) < _STILL
+    standing = np.abs(speeds) < THRESHOLDS.max_still_speed
     if not standing.any():
         return qd
     there = standing.any(axis=1)
-    pushed = np.where(standing[there], _CREEP, 0.0)
+    pushed = np.where(standing[there], THRESHOLDS.creep_speed, 0.0)
     moved = qd.copy()
     moved[there] += np.einsum("bnk,bk->bn", np.linalg.pinv(C[there]), pushed)
     return moved
@@ -217,7 +214,6 @@ def _add_creep(C: np.ndarray, qd: np.ndarray) -> np.ndarray:
 # error of its torque is integrated twice.
 
 
-_STEP = 1e-5  # of a difference quotient, rad or m, and rad/s or m/s
 _GROWN = np.log(10.0)  # an error that becomes tenfold in the run is told
 _FADED = np.log(2.0)  # and one that becomes half
 
@@ -342,10 +338,13 @@ def compute_jacobians(plant: FittedPlant, run: LoggedMotion) -> np.ndarray:
     A[:, :n, n:] = np.eye(n)
     for j in range(n):
         e = np.zeros(n)
-        e[j] = _STEP
+        e[j] = THRESHOLDS.difference_step
         by_q = compute_acceleration(run.q + e, run.qd) - compute_acceleration(run.q - e, run.qd)
         by_qd = compute_acceleration(run.q, run.qd + e) - compute_acceleration(run.q, run.qd - e)
-        A[:, n:, j], A[:, n:, n + j] = by_q / (2 * _STEP), by_qd / (2 * _STEP)
+        A[:, n:, j], A[:, n:, n + j] = (
+            by_q / (2 * THRESHOLDS.difference_step),
+            by_qd / (2 * THRESHOLDS.difference_step),
+        )
     return A
 
 

@@ -23,6 +23,7 @@ from modeler.validation.forward_dynamics import (
     compute_ranges,
 )
 from modeler.validation.free_run_result import ControlledRun, FreeRun, JointFreeRun, Path
+from modeler.validation.thresholds import THRESHOLDS
 
 # The fitted robot under a controller that follows the logged commands.
 
@@ -124,10 +125,6 @@ def _evaluate_controlled_run(
 # of a shaft at the end of a step is its bound against its speed there, or any value within the
 # bounds if it stands. So a shaft that friction holds stays where it is, without chatter at any
 # step.
-
-
-_SWEEPS = 60  # of the relaxation over shafts that stick or turn
-_SETTLED = 1e-10  # of the speed that dry friction takes in a step
 
 
 @dataclass(frozen=True, eq=False)
@@ -293,28 +290,16 @@ def _relax_friction(
     p = np.where(rubs, pull, 0.0)
     diagonal = np.einsum("bkk->bk", taken)
     diagonal = np.where(diagonal > 0.0, diagonal, 1.0)
-    for _ in range(_SWEEPS):
+    for _ in range(THRESHOLDS.max_friction_sweeps):
         change = 0.0
         for k in range(p.shape[1]):
             left = speeds[:, k] - np.einsum("bl,bl->b", taken[:, k], p)
             new = np.where(rubs[:, k], np.clip(p[:, k] + left / diagonal[:, k], -1.0, 1.0), 0.0)
             change = max(change, float(np.abs(new - p[:, k]).max(initial=0.0)))
             p[:, k] = new
-        if change < _SETTLED:
+        if change < THRESHOLDS.friction_tolerance:
             break
     return p
-
-
-_LONGEST = 2e-3  # s, of a step
-_STABLE = 0.4  # of a step times the fastest mode
-_MOST_INNER = 200  # steps between two samples
-_FOLLOWED = 5.0  # windows that a start is followed for the horizon
-_MOST_WINDOWS = 100
-_WHOLE = 60.0  # s of a log that are followed from its start
-_LOST = 10.0  # ranges of motion from the log
-_POINTS = 2000  # at which the motion is linearised, over all logs
-_HALVED = 5  # windows that are run again at half the step
-_DOUBTFUL = 0.01  # of the range: a numerical error that is told
 
 
 @dataclass(frozen=True)
@@ -375,7 +360,10 @@ def simulate_free_run(
     motion_stability = analyse_stability(plant, _collect_motions(observation, segments, signals))
     ranges = compute_ranges(every, [joint.unit for joint in observation.joints])
     finest = min(
-        _LONGEST, _STABLE / motion_stability.fastest if motion_stability.fastest > 0.0 else _LONGEST
+        THRESHOLDS.max_step,
+        THRESHOLDS.max_stiffness / motion_stability.fastest
+        if motion_stability.fastest > 0.0
+        else THRESHOLDS.max_step,
     )
     field = _RunSetup(plant, segments, signals, ranges, finest, settings)
     report_progress(0.1)
@@ -393,7 +381,7 @@ def simulate_free_run(
         bound=settings.bound,
         ranges=ranges,
         windows=len(runs.paths),
-        longest=_FOLLOWED * settings.window,
+        longest=THRESHOLDS.followed_windows * settings.window,
         joints=tuple(
             _evaluate_joint(field, j, joint, runs, whole)
             for j, joint in enumerate(observation.joints)
@@ -431,7 +419,9 @@ def _choose_starts(segments: Sequence[Segment], window: float) -> list[_RunStart
             f"--window {window:g}: the longest uninterrupted motion of these logs is "
             f"{longest:.3g} s; expected a window that fits into it"
         )
-    places = np.unique(np.linspace(0, len(starts) - 1, min(len(starts), _MOST_WINDOWS)).astype(int))
+    places = np.unique(
+        np.linspace(0, len(starts) - 1, min(len(starts), THRESHOLDS.max_windows)).astype(int)
+    )
     return [starts[k] for k in places]
 
 
@@ -442,7 +432,7 @@ def _collect_motions(
     motions = []
     for segment, read in zip(segments, signals, strict=True):
         first, stop = _find_whole_range(segment)
-        thinned = slice(first, stop, max(1, samples // _POINTS))
+        thinned = slice(first, stop, max(1, samples // THRESHOLDS.linearisation_points))
         q, qd, tau = (values[thinned] for values in (segment.q, segment.qd, segment.tau))
         if len(time := segment.time[thinned]) > 1:
             log, s = observation.logs[segment.run], None if read is None else read[thinned]
@@ -478,7 +468,9 @@ class _RunSetup:
             chosen = [starts[i] for i in group]
             counts = np.array([min(length, start.stop - start.first) for start in chosen])
             batch = self._build_batch(chosen, int(counts.max()), step)
-            inner = min(_MOST_INNER, math.ceil(step / self.finest)) * (2 if halved else 1)
+            inner = min(THRESHOLDS.max_inner_steps, math.ceil(step / self.finest)) * (
+                2 if halved else 1
+            )
             path = simulate_batch(self.plant, batch, inner, counts - 1, report_progress)
             for place, i in enumerate(group):
                 simulated[i] = path[: counts[place], place]
@@ -502,7 +494,8 @@ class _RunSetup:
             gather_samples(lambda i: self.segments[i].tau),
             signals,
             step,
-            _LOST * np.where(np.isfinite(self.ranges), self.ranges, np.inf),
+            THRESHOLDS.max_distance_ranges
+            * np.where(np.isfinite(self.ranges), self.ranges, np.inf),
             around,
         )
 
@@ -523,10 +516,15 @@ def _simulate_windows(
 ) -> _RunWindows:
     window = field.settings.window
     simulated, measured = field.simulate(
-        starts, _FOLLOWED * window, report_progress=lambda share: report_progress(0.1 + 0.4 * share)
+        starts,
+        THRESHOLDS.followed_windows * window,
+        report_progress=lambda share: report_progress(0.1 + 0.4 * share),
     )
     report_progress(0.5)
-    few = [starts[i] for i in np.unique(np.linspace(0, len(starts) - 1, _HALVED).astype(int))]
+    few = [
+        starts[i]
+        for i in np.unique(np.linspace(0, len(starts) - 1, THRESHOLDS.halved_windows).astype(int))
+    ]
     coarse, aside = field.simulate(few, window)
     fine, _ = field.simulate(few, window, halved=True)
     paths, straight = [], []
@@ -564,7 +562,9 @@ def _simulate_whole_logs(
     """Simulated and measured positions of each segment from its start, one after the other."""
     starts = [_RunStart(i, *_find_whole_range(segment)) for i, segment in enumerate(field.segments)]
     simulated, measured = field.simulate(
-        [s for s in starts if s.stop - s.first > 1], _WHOLE, report_progress=report_progress
+        [s for s in starts if s.stop - s.first > 1],
+        THRESHOLDS.max_whole_seconds,
+        report_progress=report_progress,
     )
     return np.concatenate(simulated), np.concatenate(measured)
 
@@ -604,7 +604,7 @@ def _collect_warnings(
     controller_warning: str,
 ) -> list[str]:
     warnings, window = [controller_warning] if controller_warning else [], field.settings.window
-    if numerical > _DOUBTFUL:
+    if numerical > THRESHOLDS.max_numerical_error:
         warnings.append(
             "the integration is not exact: halving its step moves a joint by "
             f"{format_percent(numerical)} of its range within a window"
@@ -615,8 +615,8 @@ def _collect_warnings(
             f"within a window of {window:g} s an error grows tenfold and more by nature; "
             f"`--window {shorter:g}` judges the model"
         )
-    if any(_compute_duration(segment) > _WHOLE for segment in field.segments):
-        warnings.append(f"whole runs: the first {_WHOLE:g} s of each log")
-    if len(starts) == _MOST_WINDOWS:
-        warnings.append(f"{_MOST_WINDOWS} windows, evenly spread over the logs")
+    if any(_compute_duration(segment) > THRESHOLDS.max_whole_seconds for segment in field.segments):
+        warnings.append(f"whole runs: the first {THRESHOLDS.max_whole_seconds:g} s of each log")
+    if len(starts) == THRESHOLDS.max_windows:
+        warnings.append(f"{THRESHOLDS.max_windows} windows, evenly spread over the logs")
     return warnings

@@ -24,20 +24,7 @@ from modeler.validation.prediction import (
     compute_unit_errors,
     predict,
 )
-
-DOUBT = 0.0027
-"""Chance that two models that are equally good are told apart on one joint: three deviations."""
-
-BLOCKS = 24
-"""Of time, at most: long enough that what models leave has forgotten itself at their ends."""
-
-SHORTEST = 1.0
-"""s, of a block; where there are fewer than `LEAST` of them nothing is beyond doubt."""
-
-LEAST = 6
-
-FELT = 0.01
-"""Share of an error by which it must change to be worth a word."""
+from modeler.validation.thresholds import THRESHOLDS
 
 
 @dataclass(frozen=True)
@@ -159,12 +146,12 @@ def _compare_joint(
     sums = [np.bincount(block[used], (e / whole) ** 2) for e, whole in zip(left, size, strict=True)]
     rivals = [k for k in range(len(predictions)) if k != top]
     p_values = [_compute_p_value(sums[k], sums[top]) for k in rivals]
-    worth = all(errors[top] < (1.0 - FELT) * errors[k] for k in rivals)
+    worth = all(errors[top] < (1.0 - THRESHOLDS.min_error_change) * errors[k] for k in rivals)
     return JointModelComparison(
         joint=info,
         errors=errors,
         rms=tuple(norm / math.sqrt(len(left[0])) for norm in norms),
-        best=top if worth and max(p_values) < DOUBT / len(rivals) else None,
+        best=top if worth and max(p_values) < THRESHOLDS.max_p_value / len(rivals) else None,
         p_value=max(p_values),
     )
 
@@ -178,8 +165,8 @@ def _compute_p_value(other: np.ndarray, best: np.ndarray) -> float:
     """
     seen = (other > 0.0) | (best > 0.0)
     count, sums = int(seen.sum()), (float(other.sum()), float(best.sum()))
-    if count < LEAST or min(sums) <= 0.0:
-        return 1.0 if sums[0] <= 0.0 or count < LEAST else 0.0
+    if count < THRESHOLDS.min_blocks or min(sums) <= 0.0:
+        return 1.0 if sums[0] <= 0.0 or count < THRESHOLDS.min_blocks else 0.0
     shares = other[seen] / sums[0] - best[seen] / sums[1]
     spread = math.sqrt(float(shares @ shares) * count / (count - 1))
     if spread <= 0.0:
@@ -191,7 +178,10 @@ def _assign_blocks(prediction: Prediction) -> np.ndarray:
     """(n,) number of the block of time of each row, none in two logs."""
     runs = np.unique(prediction.run)
     spans = {r: prediction.time[prediction.run == r] for r in runs}
-    length = max(SHORTEST, sum(float(np.ptp(time)) for time in spans.values()) / BLOCKS)
+    length = max(
+        THRESHOLDS.min_block_seconds,
+        sum(float(np.ptp(time)) for time in spans.values()) / THRESHOLDS.max_blocks,
+    )
     number, count = np.zeros(prediction.time.size, dtype=int), 0
     for r, time in spans.items():
         pieces = max(1, round(float(np.ptp(time)) / length))

@@ -24,7 +24,7 @@ from modeler.core.table import WORDS, format_percent
 from modeler.core.thinning import thin_curves, thin_points
 from modeler.regression import MASKS, WHY, find_runs
 from modeler.validation.comparison import METHODS, REGIONS, WINDOW, Comparison, JointComparison
-from modeler.validation.prediction import DEVIATIONS, Prediction, compute_residual
+from modeler.validation.prediction import Prediction, compute_residual
 from modeler.validation.residual_structure import (
     COORDINATES,
     ResidualStructure,
@@ -34,6 +34,7 @@ from modeler.validation.residual_structure import (
     format_coordinate_unit,
     select_coordinates,
 )
+from modeler.validation.thresholds import THRESHOLDS
 
 # Rows that do not count, and gaps between rows, as shaded stretches of time.
 
@@ -276,7 +277,7 @@ def _build_bands(
     """About the prediction, and about zero."""
     if prediction.sigma is None:
         return ()
-    half = DEVIATIONS * prediction.sigma[rows, joint]
+    half = THRESHOLDS.band_deviations * prediction.sigma[rows, joint]
     bands = []
     for middle in (prediction.predicted[rows, joint], np.zeros(rows.size)):
         x, low = break_at_gaps(prediction.segment[rows], time[rows], middle - half)
@@ -290,7 +291,6 @@ def _build_bands(
 
 _DOTS = 700
 _BINS = 24
-_FEWEST = 8  # samples of a bin whose mean is drawn
 _CLOUD = Style(GREY, width=2.6, opacity=0.45)
 _MEAN = Style(BLUE, width=1.6)
 _BACK = Style(VERMILLION, width=1.6)
@@ -364,7 +364,7 @@ def compute_binned_means(x: np.ndarray, e: np.ndarray) -> tuple[np.ndarray, np.n
     edges = np.unique(np.concatenate((even, dense)))
     which = np.clip(np.searchsorted(edges, x, side="right") - 1, 0, max(edges.size - 2, 0))
     count = np.bincount(which)
-    filled = np.flatnonzero(count >= _FEWEST)
+    filled = np.flatnonzero(count >= THRESHOLDS.min_bin_samples)
     count = np.maximum(count, 1)
     mean = np.bincount(which, e) / count
     starts = np.concatenate(([0], np.flatnonzero(np.diff(which)) + 1))

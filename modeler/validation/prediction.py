@@ -15,6 +15,7 @@ from modeler.core.table import pool_errors_by_unit
 from modeler.estimation import IdentifiedModel
 from modeler.numerics.filters import LEAST_WEIGHT, compute_moving_means
 from modeler.runtime import CompiledModel
+from modeler.validation.thresholds import THRESHOLDS
 
 
 @dataclass(frozen=True)
@@ -114,10 +115,6 @@ def compute_unit_errors(prediction: Prediction, rows: np.ndarray | None = None) 
 # How sure a predicted torque is, as far as the parameters of the model are.
 
 
-DEVIATIONS = 2.0
-"""Half width of a band in standard deviations: 95 % of normal errors."""
-
-
 def propagate_covariance(columns: np.ndarray, covariance: np.ndarray) -> np.ndarray:
     """(s, n) standard deviation of the predicted torque, N m or N.
 
@@ -138,9 +135,6 @@ def propagate_covariance(columns: np.ndarray, covariance: np.ndarray) -> np.ndar
 
 
 # From a fitted model and logs, of any length, to measured and predicted torque.
-
-
-_TURN = 1e-3  # of the stroke in all logs: a shorter way back is no reversal, but noise
 
 
 def predict(
@@ -227,7 +221,7 @@ def _compute_travel(observation: regression.Observation) -> np.ndarray:
     """(s, joints) since the last reversal of each joint, seen at full rate."""
     parts = observation.stretches
     every = np.concatenate([part.segment.q[part.segment.whole] for part in parts])
-    least = _TURN * np.ptp(every, axis=0)
+    least = THRESHOLDS.min_reversal * np.ptp(every, axis=0)
     travel_parts = []
     for part in parts:
         pairs = zip(part.segment.q.T, least, strict=True)

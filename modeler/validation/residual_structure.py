@@ -11,6 +11,7 @@ import numpy as np
 from modeler.numerics import spectra, splines
 from modeler.numerics.noise import interpolate_between_gaps
 from modeler.validation.prediction import Prediction, select_full_rate
+from modeler.validation.thresholds import THRESHOLDS
 
 # The coordinates against which a residual is looked at.
 
@@ -85,12 +86,6 @@ def format_coordinate_unit(prediction: Prediction, joint: int, coordinate: str) 
     return unit.format(unit=info.unit, effort=info.effort_unit)
 
 
-ENOUGH = 200  # samples below which nothing is said about structure
-
-NEARLY = 0.9  # a simpler function that explains this much of the best is named instead
-
-_MOST = 3000  # samples beyond which every second, third, ... is looked at
-
 # Drift: many short blocks, because a slow function of time can only be judged between its knots.
 _DRIFT = (40, 5)  # blocks, folds
 
@@ -133,9 +128,9 @@ class ResidualStructure:
 def analyse_structure(prediction: Prediction, joint: int) -> ResidualStructure | None:
     """Structure of one joint's residual; None with fewer than ENOUGH samples."""
     rows = np.flatnonzero(prediction.used[:, joint])
-    if rows.size < ENOUGH:
+    if rows.size < THRESHOLDS.min_samples:
         return None
-    rows = rows[:: -(-rows.size // _MOST)]
+    rows = rows[:: -(-rows.size // THRESHOLDS.max_structure_samples)]
     e = prediction.measured[rows, joint] - prediction.predicted[rows, joint]
     names = [coordinate.id for coordinate in select_coordinates(prediction, joint)]
     m = _collect_measurements(prediction, joint, rows)
@@ -184,7 +179,7 @@ def _find_best_predictor(
     joint: int,
 ) -> BestPredictor:
     """The joint, and its coordinate, that does as well as everything."""
-    enough = NEARLY * baseline.share
+    enough = THRESHOLDS.parsimony_share * baseline.share
     if not baseline.is_significant:
         return BestPredictor(0.0)
     place = max(best, key=lambda k: best[k])
@@ -301,18 +296,7 @@ def find_order_peaks(orders: spectra.OrderSpectrum | None, unit: str) -> tuple[S
 # What the variance of a joint's torque is made of: explained, repeatable, noise.
 
 
-_MOVES = 0.01  # of the largest stroke: joints that move less are held, and wobble as they like
-_SAME = 0.05  # of the largest stroke: logs whose strokes differ by more are of other motion
-_OVERLAP = 0.75  # of the shorter log
-_SHIFTS = 400  # rows, to either side: how far the starts of two logs may be apart
-_MOST_LAPS = 20
-_POINTS = 4000  # of a log, looked at to find how far two motions are apart in time
-_GRID = 20  # shifts to either side of the best one so far
-
 Method = Literal["laps", "logs", "smooth"]
-_ENOUGH = 0.5  # of the rows must have been repeated
-_FEWEST = 50  # rows
-_NEIGHBOURS = 6  # rows
 
 
 @dataclass(frozen=True)
@@ -353,13 +337,13 @@ class _RepeatedMotion:
 def _collect_motions(prediction: Prediction) -> list[_RepeatedMotion]:
     full, motions = select_full_rate(prediction), []
     strokes = np.nanmax(prediction.q, axis=0) - np.nanmin(prediction.q, axis=0)
-    moving = strokes > _MOVES * strokes.max()
+    moving = strokes > THRESHOLDS.min_stroke * strokes.max()
     for run in range(len(prediction.logs)):
         rows, times = full.run == run, prediction.time[prediction.run == run]
         rows &= np.isfinite(full.q).all(axis=1)
         if times.size > 2 and rows.sum() > 2 and moving.any():
             q, time = full.q[rows], full.time[rows]
-            every = max(1, time.size // (10 * _POINTS))
+            every = max(1, time.size // (10 * THRESHOLDS.motion_points))
             size = np.maximum(q[:, moving].std(axis=0), 1e-12)
             ends = np.array([q.min(axis=0), q.max(axis=0)])
             step = float(np.median(np.diff(times)))
@@ -383,7 +367,7 @@ def _find_laps(motions: list[_RepeatedMotion]) -> Repetition:
             continue
         period = _refine_period(motion, rough)
         periods.append(period)
-        for k in range(1, min(_MOST_LAPS, int(length / period)) + 1):
+        for k in range(1, min(THRESHOLDS.max_laps, int(length / period)) + 1):
             partners += [
                 Partner(motion.run, motion.run, k * period),
                 Partner(motion.run, motion.run, -k * period),
@@ -426,28 +410,32 @@ def _find_same_motions(motions: list[_RepeatedMotion]) -> Repetition:
 def _estimate_shift(first: _RepeatedMotion, other: _RepeatedMotion) -> float | None:
     """s by which the clock of `other` is ahead for the same motion; None for another motion."""
     stroke = float(np.ptp(first.ends, axis=0).max())
-    if np.abs(first.ends - other.ends).max() > _SAME * stroke:
+    if np.abs(first.ends - other.ends).max() > THRESHOLDS.max_stroke_difference * stroke:
         return None
     lengths = [float(np.ptp(m.time)) for m in (first, other)]
     if min(lengths) < 4 * first.step:
         return None
     start = other.time[0] - first.time[0]
-    reach = min(int(0.25 * min(lengths) / first.step), _SHIFTS)
+    reach = min(int(0.25 * min(lengths) / first.step), THRESHOLDS.max_shift_rows)
     candidates = start + first.step * np.arange(-reach, reach + 1)
     apart = [
-        _compute_distance(first, other, shift, _OVERLAP * min(lengths)) for shift in candidates
+        _compute_distance(first, other, shift, THRESHOLDS.min_overlap * min(lengths))
+        for shift in candidates
     ]
     best = _refine_shift(first, other, float(candidates[int(np.argmin(apart))]), first.step)
     # twice the variance, which is one: the mean squared difference of motions that are not alike
-    alike = 1.0 - _compute_distance(first, other, best, 0.9 * _OVERLAP * min(lengths)) / 2.0
-    return best if alike > spectra.ALIKE else None
+    alike = (
+        1.0
+        - _compute_distance(first, other, best, 0.9 * THRESHOLDS.min_overlap * min(lengths)) / 2.0
+    )
+    return best if alike > spectra.THRESHOLDS.min_repeat_correlation else None
 
 
 def _refine_shift(
     first: _RepeatedMotion, other: _RepeatedMotion, around: float, half: float
 ) -> float:
     """The shift near `around` at which the motions are least apart; a parabola between the grid."""
-    grid = around + half * np.linspace(-1.0, 1.0, 2 * _GRID + 1)
+    grid = around + half * np.linspace(-1.0, 1.0, 2 * THRESHOLDS.shift_grid + 1)
     apart = np.array([_compute_distance(first, other, shift, 0.0) for shift in grid])
     best = int(np.argmin(apart))
     if not 0 < best < grid.size - 1:
@@ -466,7 +454,9 @@ def _compute_distance(
     end = min(first.time[-1], other.time[-1] - shift)
     if end - begin < max(overlap, 2 * first.step):
         return float("inf")
-    times = np.linspace(begin, end, int(min(_POINTS, (end - begin) / first.step + 2)))
+    times = np.linspace(
+        begin, end, int(min(THRESHOLDS.motion_points, (end - begin) / first.step + 2))
+    )
     apart = (
         _interpolate_positions(first, times) - _interpolate_positions(other, times + shift)
     ) / first.size
@@ -563,13 +553,15 @@ def _estimate_recurring_share(
         if np.median(np.abs(residuals - other) > 1e-3 * np.abs(residuals)) < 0.5:
             continue  # the same measurements given twice: their noise is alike, too
         product = residuals * other
-        parts = np.add.reduceat(product, np.arange(0, residuals.size, _NEIGHBOURS))
+        parts = np.add.reduceat(product, np.arange(0, residuals.size, THRESHOLDS.neighbour_rows))
         products += float(product.sum())
         squares += float(residuals @ residuals)
         # every pair of moments stands here twice, once from either side
         scatter += 2.0 * float(parts @ parts)
         repeated[rows[there]] = True
-    if repeated.sum() < max(_FEWEST, _ENOUGH * np.isfinite(e).sum()):
+    if repeated.sum() < max(
+        THRESHOLDS.min_repeated_rows, THRESHOLDS.min_repeated_share * np.isfinite(e).sum()
+    ):
         return None
     if squares == 0.0:
         return 0.0, 0.0

@@ -122,9 +122,8 @@ def _tabulate_errors(comparison: validation.ModelComparison) -> page.PageTable:
         "Relative error: norm of measured minus predicted torque (force) over the norm of what was "
         "measured, each joint by itself, on the rows that count for every model. Chance: that the "
         "best and its nearest rival are equally good, from the spread of the difference between "
-        f"blocks of time; beyond doubt is less than {format_percent(validation.DOUBT)}, shared "
-        "among the "
-        "rivals.",
+        "blocks of time; beyond doubt is less than "
+        f"{format_percent(validation.THRESHOLDS.max_p_value)}, shared among the rivals.",
         dict.fromkeys(comparison.names, "bar") | {"best beyond doubt": "text"},
     )
 

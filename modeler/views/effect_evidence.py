@@ -20,6 +20,7 @@ from modeler.diagnosis import (
 )
 from modeler.effects import NOISE, TURN, EffectTarget, SignatureAxis
 from modeler.regression import compute_travel_since_reversal
+from modeler.views.thresholds import THRESHOLDS
 
 
 @dataclass(frozen=True, eq=False)
@@ -142,15 +143,6 @@ def _write_label(shows: SignatureAxis, pick: Candidate, unit: str, effort: str, 
 # Means of a residual along an axis, with errors that count what neighbouring rows share.
 
 
-COUNT = 40
-"""Bins at most."""
-
-_ROWS = 8  # in a bin, at least
-_BLOCKS = 4  # of time in a bin, at least: fewer say nothing of its error
-_WILD = 8.0  # robust standard deviations from which on a row may be wild
-_FEW = 0.05  # share of the blocks that may hold wild rows: what returns everywhere is no accident
-
-
 @dataclass(frozen=True, eq=False)
 class Bins:
     """Which rows stand in which bin; b bins, side by side in x.
@@ -232,19 +224,31 @@ def build_bins(x: np.ndarray, weight: np.ndarray, block: np.ndarray, is_inlier: 
 
 def _cut_bins(order: np.ndarray, mass: np.ndarray, block: np.ndarray) -> list[np.ndarray]:
     """The rows cut into bins, in this order; what is left over at the end joins the last."""
-    full = 2.0 / COUNT
+    full = 2.0 / THRESHOLDS.max_bins
     parts: list[np.ndarray] = []
     start, held, blocks = 0, 0.0, set[int]()
     for at, row in enumerate(order.tolist()):
         held += float(mass[row])
         blocks.add(int(block[row]))
-        if held >= full and at + 1 - start >= _ROWS and len(blocks) >= _BLOCKS:
+        if (
+            held >= full
+            and at + 1 - start >= THRESHOLDS.min_bin_rows
+            and len(blocks) >= THRESHOLDS.min_bin_blocks
+        ):
             parts.append(order[start : at + 1])
             start, held, blocks = at + 1, 0.0, set()
     rest = order[start:]
-    if rest.size and parts and (held < 0.5 * full or len(blocks) < _BLOCKS or rest.size < _ROWS):
+    if (
+        rest.size
+        and parts
+        and (
+            held < 0.5 * full
+            or len(blocks) < THRESHOLDS.min_bin_blocks
+            or rest.size < THRESHOLDS.min_bin_rows
+        )
+    ):
         parts[-1] = np.concatenate([parts[-1], rest])
-    elif rest.size >= _ROWS:
+    elif rest.size >= THRESHOLDS.min_bin_rows:
         parts.append(rest)
     return parts
 
@@ -257,8 +261,8 @@ def find_inliers(left: np.ndarray, block: np.ndarray) -> np.ndarray:
         block: (rows,) block of time of each row.
     """
     away = np.abs(left - np.median(left))
-    wild = away > _WILD * 1.4826 * np.median(away)
-    if np.unique(block[wild]).size > max(1.0, _FEW * np.unique(block).size):
+    wild = away > THRESHOLDS.min_wild_deviations * 1.4826 * np.median(away)
+    if np.unique(block[wild]).size > max(1.0, THRESHOLDS.max_wild_blocks * np.unique(block).size):
         return np.ones(len(left), dtype=bool)
     return np.asarray(~wild)
 

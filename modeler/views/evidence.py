@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from modeler import diagnosis
+from modeler import diagnosis, validation
 from modeler.core.figure import Band, Curve, Means, Panel, Picture, Points, Series
 from modeler.core.style import (
     BLACK,
@@ -22,17 +22,12 @@ from modeler.core.style import (
     Style,
 )
 from modeler.core.table import WORDS, format_percent
-from modeler.validation import DEVIATIONS, WINDOW, break_at_gaps
+from modeler.validation import WINDOW, break_at_gaps
 from modeler.views.effect_evidence import Evidence, build_bins
 from modeler.views.page import PageCell, PageTable
+from modeler.views.thresholds import THRESHOLDS
 
 # How much of the axes a picture shows: where the effect acts and most means are.
-
-
-_TAIL = 0.005  # of the rows, and of the square of the effect, beyond either end of the x axis
-_LEAST = 0.25  # of the rows that are shown, however small the place is where the effect acts
-_MEANS = 0.05  # of the ends of all intervals beyond either end of the y axis
-_PAD = 0.08  # of a range, on either side
 
 
 @dataclass(frozen=True)
@@ -64,22 +59,27 @@ def _choose_x_range(item: Evidence) -> tuple[float, float]:
         item.axis.x[item.is_inlier],
         (item.contribution if item.effect_torque is None else item.effect_torque)[item.is_inlier],
     )
-    low, high = np.quantile(x, (_TAIL, 1.0 - _TAIL))
+    low, high = np.quantile(x, (THRESHOLDS.tail_share, 1.0 - THRESHOLDS.tail_share))
     order = np.argsort(x)
     share = np.cumsum(adds[order] ** 2)
     if share[-1] > 0.0 and item.axis.shows not in ("t", "waves"):
-        ends = np.searchsorted(share, np.array((_TAIL, 1.0 - _TAIL)) * share[-1])
+        ends = np.searchsorted(
+            share, np.array((THRESHOLDS.tail_share, 1.0 - THRESHOLDS.tail_share)) * share[-1]
+        )
         near, far = x[order[np.minimum(ends, len(x) - 1)]]
         first, last = _widen_range(x, near, far)
         low, high = max(low, first), min(high, last)
-    pad = 0.5 * _PAD * (high - low) or 1.0
+    pad = 0.5 * THRESHOLDS.axis_padding * (high - low) or 1.0
     return float(low - pad), float(high + pad)
 
 
 def _widen_range(x: np.ndarray, near: float, far: float) -> tuple[float, float]:
     """As wide on either side of a place as the place itself, or wider: many rows are inside."""
     beside = far - near
-    while beside > 0.0 and np.mean((x >= near - beside) & (x <= far + beside)) < _LEAST:
+    while (
+        beside > 0.0
+        and np.mean((x >= near - beside) & (x <= far + beside)) < THRESHOLDS.min_shown_rows
+    ):
         beside *= 2.0
     return near - beside, far + beside
 
@@ -95,9 +95,11 @@ def _choose_y_range(
         ends += [(means - error)[inside], (means + error)[inside]]
     curve = item.bins.compute_means(item.axis.apply_direction(effect))[inside]
     every = np.concatenate(ends)
-    low = min(float(np.quantile(every, _MEANS)), float(curve.min()), 0.0)
-    high = max(float(np.quantile(every, 1.0 - _MEANS)), float(curve.max()), 0.0)
-    pad = _PAD * (high - low) or 1.0
+    low = min(float(np.quantile(every, THRESHOLDS.cut_interval_share)), float(curve.min()), 0.0)
+    high = max(
+        float(np.quantile(every, 1.0 - THRESHOLDS.cut_interval_share)), float(curve.max()), 0.0
+    )
+    pad = THRESHOLDS.axis_padding * (high - low) or 1.0
     return low - pad, high + pad
 
 
@@ -134,7 +136,6 @@ EFFECT = Style(VERMILLION, 2.2)
 RIVAL = Style(BLUE, 1.4, dash=True)
 LAW_BAND = Style(SKY, opacity=0.45)
 LINES, LINES_AFTER = Style(BLACK, 1.0), Style(GREEN, 1.4)
-_DOTS = 1500
 
 
 def draw_evidence_picture(item: Evidence) -> Picture:
@@ -178,7 +179,7 @@ def _build_law_panel(item: Evidence, effect_torque: np.ndarray, view: AxisRanges
     y = item.bins.compute_means(item.axis.apply_direction(effect_torque))
     series = [*_build_cloud(item, view, effect_torque + item.after)]
     if item.effect_torque_sigma is not None:
-        half = DEVIATIONS * item.effect_torque_sigma
+        half = validation.THRESHOLDS.band_deviations * item.effect_torque_sigma
         x, low = _break_at_zero(item, y - half)
         series.append(
             Band("95 % band of its law", x, low, _break_at_zero(item, y + half)[1], LAW_BAND)
@@ -197,7 +198,7 @@ def _build_panel(title: str, item: Evidence, view: AxisRanges, series: tuple[Ser
 def _build_cloud(item: Evidence, view: AxisRanges, y: np.ndarray) -> tuple[Series, ...]:
     x, turned = item.axis.x, item.axis.apply_direction(y)
     inside = np.flatnonzero((x >= view.x[0]) & (x <= view.x[1]))
-    plot_rows = inside[:: max(1, len(inside) // _DOTS)]
+    plot_rows = inside[:: max(1, len(inside) // THRESHOLDS.max_dots)]
     return (
         Points("rows", x[plot_rows], turned[plot_rows], ROWS),
         Means(
@@ -307,7 +308,7 @@ def build_scatter_panel(
 ) -> Panel:
     """Rows as dots, and the means of bins with 95 % intervals."""
     bins = build_bins(x, np.zeros(len(x)), block, np.ones(len(x), dtype=bool))
-    every = max(1, len(x) // _DOTS)
+    every = max(1, len(x) // THRESHOLDS.max_dots)
     series: Sequence[Series] = (
         Points("rows", x[::every], y[::every], ROWS),
         Means(
@@ -329,7 +330,6 @@ BEFORE = Style(VERMILLION, width=1.6, dash=True)
 AFTER_STYLE = Style(GREEN, width=1.6)
 LEFT = Style(VERMILLION, width=1.2, dash=True)
 STAYS = Style(GREEN, width=1.2)
-_DRAWN_BESIDE = 1.5  # s on either side that are drawn too
 
 
 def draw_torque_picture(item: Evidence) -> Picture:
@@ -339,7 +339,9 @@ def draw_torque_picture(item: Evidence) -> Picture:
     log, start, end = find_worst_window(item)
     time, pieces = rows.time[item.j], _find_pieces(item)
     near = (
-        (rows.run[item.j] == log) & (time >= start - _DRAWN_BESIDE) & (time <= end + _DRAWN_BESIDE)
+        (rows.run[item.j] == log)
+        & (time >= start - THRESHOLDS.torque_margin)
+        & (time <= end + THRESHOLDS.torque_margin)
     )
     measured, what = rows.y[item.j], WORDS[joint.effort_unit]
 
@@ -430,10 +432,6 @@ def _write_torque_caption(item: Evidence, what: str, window: tuple[float, float]
 # Pictures of what is no column: knocks of play around the moments they follow, a push in time.
 
 
-_AROUND = 0.5  # s before and after a change of sign that are drawn
-_BESIDE = 3.0  # s before and after a push
-
-
 def draw_play_picture(state: diagnosis.State, j: int) -> Picture:
     """Size of the residual of joint j against the time to the nearest change of its load's sign.
 
@@ -443,7 +441,7 @@ def draw_play_picture(state: diagnosis.State, j: int) -> Picture:
     """
     joint = state.data.compiled.spec.joints[j]
     since = _compute_time_since_reversal(state, j)
-    near = np.abs(since) < _AROUND
+    near = np.abs(since) < THRESHOLDS.reversal_margin
     panel = build_scatter_panel(
         "",
         "time since the load changed its sign [s]",
@@ -490,8 +488,8 @@ def draw_push_picture(state: diagnosis.State, window: diagnosis.PushWindow) -> P
     """
     seen = state.data.observation
     left = seen.torque - seen.predict(state.beta)
-    shown = (seen.run == window.log) & (seen.time > window.start - _BESIDE)
-    shown &= seen.time < window.end + _BESIDE
+    shown = (seen.run == window.log) & (seen.time > window.start - THRESHOLDS.push_margin)
+    shown &= seen.time < window.end + THRESHOLDS.push_margin
     masked = (seen.time > window.start - diagnosis.MARGIN) & (
         seen.time < window.end + diagnosis.MARGIN
     )

@@ -11,12 +11,12 @@ import numpy as np
 from modeler.core.figure import Band, Bars, Curve, Heat, Means, Panel, Picture, Points, Series
 from modeler.core.files import write_atomically
 from modeler.core.json import select_attributes
+from modeler.views.thresholds import THRESHOLDS
 
 # The numbers of all pictures of a page in one compressed block, each array once.
 
 
 _LEVELS = 65534  # between the smallest and the largest value; one more level is NaN
-_SINGLE = 1e-6  # of the range of x: less than a pixel of any screen
 
 
 class ArrayStore:
@@ -50,7 +50,11 @@ class ArrayStore:
         with np.errstate(over="ignore"):
             single = whole.astype(np.float32)
         away = np.abs(held - held.astype(np.float32)).max() if held.size else 0.0
-        enough = not held.size or away <= _SINGLE * np.ptp(held) or np.ptp(held) == 0.0
+        enough = (
+            not held.size
+            or away <= THRESHOLDS.single_precision_share * np.ptp(held)
+            or np.ptp(held) == 0.0
+        )
         return self._add_array(single if enough else whole, [])
 
     def _add_array(self, values: np.ndarray, scale: list[float]) -> int:

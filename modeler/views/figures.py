@@ -17,13 +17,11 @@ from modeler.core.thinning import LIMIT, thin_curves
 from modeler.estimation import FitResult
 from modeler.robot import Robot
 from modeler.views.robot_page import show
+from modeler.views.thresholds import THRESHOLDS
 
 if TYPE_CHECKING:
     from modeler.diagnosis import Diagnosis
     from modeler.views.figure_matplotlib import Drawing
-
-
-_MOST_BARS = 40
 
 
 def draw_picture(picture: Picture) -> "Drawing":
@@ -53,7 +51,9 @@ def draw_robot(robot: Robot) -> "Drawing":
 
 def draw_parameters(fit: FitResult) -> "Drawing":
     """How sure each parameter is: its sigma in percent of its value."""
-    known = [p for p in fit.parameters if p.relative_sigma_percent is not None][:_MOST_BARS]
+    known = [p for p in fit.parameters if p.relative_sigma_percent is not None][
+        : THRESHOLDS.max_bars
+    ]
     shares = np.array([min(p.relative_sigma_percent or 0.0, 100.0) for p in known])
     # two digits, all of those before the point
     texts = tuple(

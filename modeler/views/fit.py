@@ -20,6 +20,7 @@ from modeler.estimation import (
 from modeler.views import history, page
 from modeler.views.figures import draw_parameters, draw_picture
 from modeler.views.log import build_noise_blocks, draw_noise_picture
+from modeler.views.thresholds import THRESHOLDS
 
 # The page of all estimators on the same logs.
 
@@ -263,10 +264,6 @@ PRESENTATIONS = {
 # The page of a fit: values with sigma, what each is the sum of, condition, doubts.
 
 
-_TANGLED = 0.95  # correlation of two estimates from which on they are told
-_MOST = 12  # pairs that are told
-
-
 def build_fit_page(
     model: IdentifiedModel,
     provenance: Sequence[str] = (),
@@ -372,6 +369,6 @@ def find_correlated_pairs(model: IdentifiedModel) -> list[tuple[str, str, float]
     strong = [
         (names[i], names[j], float(correlation[i, j]))
         for i, j in zip(rows, columns, strict=True)
-        if abs(correlation[i, j]) > _TANGLED
+        if abs(correlation[i, j]) > THRESHOLDS.min_correlation
     ]
-    return sorted(strong, key=lambda pair: -abs(pair[2]))[:_MOST]
+    return sorted(strong, key=lambda pair: -abs(pair[2]))[: THRESHOLDS.max_pairs]

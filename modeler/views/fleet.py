@@ -12,10 +12,7 @@ from modeler.core.table import Table, format_percent
 from modeler.fleet import Fleet, FleetFinding, QuantityHistory, QuantityValues, result
 from modeler.views import page
 from modeler.views.figures import collect_figures
-
-_PICTURES = 12  # findings that are drawn
-_COLUMNS = 24  # machines of one map
-_TOP = 10.0  # sigmas at which cells are darkest
+from modeler.views.thresholds import THRESHOLDS
 
 
 def build_fleet_page(fleet: Fleet, provenance: Sequence[str] = ()) -> page.Page:
@@ -38,7 +35,7 @@ def build_fleet_page(fleet: Fleet, provenance: Sequence[str] = ()) -> page.Page:
 
 
 def _build_sections(fleet: Fleet) -> list[page.Section]:
-    drawn = fleet.findings[:_PICTURES]
+    drawn = fleet.findings[: THRESHOLDS.max_findings]
     sections = [page.Section("Verdict", [_build_verdict(fleet)])]
     sections += [
         page.Section(
@@ -72,7 +69,7 @@ def _build_verdict(fleet: Fleet) -> page.Verdict | page.Paragraph:
     for k, one in enumerate(fleet.findings):
         joint = "" if one.quantity.joint is None else f"joint {one.quantity.joint}, "
         head = f"{one.machine}, {joint}{result.format_effect_title(one.quantity)}"
-        link = _build_section_id(k) if k < _PICTURES else ""
+        link = _build_section_id(k) if k < THRESHOLDS.max_findings else ""
         lines.append(
             page.JudgedLine(
                 "pattern", one.shape, head, result.describe_finding(one, fleet.unit), link
@@ -151,7 +148,10 @@ def draw_map_pictures(fleet: Fleet) -> list[Picture]:
 def _group_machines(fleet: Fleet) -> list[list[str]]:
     """Machines that may drift, as many at a time as one map shows."""
     names = [name for name, periods in fleet.machines.items() if len(periods) > 1]
-    return [names[k : k + _COLUMNS] for k in range(0, len(names), _COLUMNS)]
+    return [
+        names[k : k + THRESHOLDS.max_map_machines]
+        for k in range(0, len(names), THRESHOLDS.max_map_machines)
+    ]
 
 
 def _draw_map(fleet: Fleet, machines: Sequence[str], number: int) -> Picture:
@@ -161,7 +161,9 @@ def _draw_map(fleet: Fleet, machines: Sequence[str], number: int) -> Picture:
         tuple("" if np.isnan(value) else f"{value:.1f}" for value in row) for row in values
     )
     rows = tuple(each.quantity.parameter for each in followed)
-    heat = Heat("greatest change [sigma]", tuple(machines), rows, values, texts, _TOP)
+    heat = Heat(
+        "greatest change [sigma]", tuple(machines), rows, values, texts, THRESHOLDS.darkest_sigmas
+    )
     caption = (
         "The greatest change of each quantity in each machine, in sigmas: a straight line, a leap, "
         "or one period apart, whichever is surest. The greatest of many is 2 to 4 by chance."

@@ -20,11 +20,11 @@ from modeler.estimation import (
 )
 from modeler.robot import Robot, parse_robot_text
 from modeler.views import page
+from modeler.views.thresholds import THRESHOLDS
 
 # Tables of fitted values: parameters with sigma, what each is the sum of, errors by joint.
 
 _KINDS = {"% sigma": "bar", "unit": "unit", "is the sum of": "why"}
-_UNSURE = 30.0  # % of the value from which on the bar of a sigma is full
 
 
 def tabulate_values(
@@ -86,7 +86,7 @@ def _build_sigma_cell(parameter: ParameterEstimate) -> page.PageCell:
         return page.PageCell("-")
     text = f"{share:.3g}" if share < 1e4 else ">10000"
     mark = "" if parameter.essential else " not essential"
-    return page.PageCell(f"{text}{mark}", min(1.0, share / _UNSURE))
+    return page.PageCell(f"{text}{mark}", min(1.0, share / THRESHOLDS.full_bar_percent))
 
 
 def tabulate_joint_errors(fit: FitResult) -> page.PageTable:

@@ -24,10 +24,9 @@ from modeler.regression import (
 from modeler.simulation import SimulatedLog, write_log
 from modeler.views import page
 from modeler.views.figures import build_curves, draw_log, draw_picture
+from modeler.views.thresholds import THRESHOLDS
 
 _ROW = 210  # pixels
-_DECADES = 3.0  # of a line of noise on either side of where it crosses the torque's
-_BEYOND = 10.0  # times a floor or a level that is drawn below or above it
 
 _POWER = {"positions": 4, "speeds": 2, "accelerations": 0}
 _SPECTRUM, _FLOOR, _MEETS = Style(BLUE, 1.6), Style(ORANGE, 1.6), Style(SLATE, 1.2, dash=True)
@@ -85,11 +84,18 @@ def _build_torque_panel(one: ChannelNoise, bands: Bands) -> Panel:
     A, T, power = one.torque_of_noise, one.torque_noise, _POWER[one.of]
     if not A or not T or not power:  # without a motor or rows, or with exact accelerations
         return Panel("", "", "", ())
-    f, cross, factor = one.frequency, (T / A) ** (1.0 / power), 10.0 ** (_DECADES / power)
+    f, cross, factor = (
+        one.frequency,
+        (T / A) ** (1.0 / power),
+        10.0 ** (THRESHOLDS.noise_line_decades / power),
+    )
     high = min(f[-1], cross * factor)
     along = np.geomspace(max(f[0], min(cross, high) / factor), high, 20)
     noise = A * along**power
-    ends = min(noise[0], T / _BEYOND), max(noise[-1], T * _BEYOND)
+    ends = (
+        min(noise[0], T / THRESHOLDS.noise_level_factor),
+        max(noise[-1], T * THRESHOLDS.noise_level_factor),
+    )
     label = f"density [({'N' if one.unit == 'm' else 'N m'})^2/Hz]"
     title = f"Joint {one.joint}: torques{', which limits' * (one.joint == bands.limited_by)}"
     level = Curve("noise of the torque", np.array([f[0], f[-1]]), np.full(2, T), _TORQUE)
@@ -140,7 +146,6 @@ def _write_caption(bands: Bands, of: str, fitted: bool) -> str:
 
 
 _HEAD = ("channel", "unit", "least", "greatest", "resolution", "missing", "remarks")
-_LIMIT = 600  # points of one curve
 
 
 def build_log_page(
@@ -261,7 +266,10 @@ def _draw_channels(
     unit = next((c.unit for c in inspection.channels if c.unit and names[0] in c.name), "")
     label = f"{title} [{unit}]" if unit else title
     drawn = build_curves(
-        names, inspection.time, [inspection.values[name] for name in names], _LIMIT
+        names,
+        inspection.time,
+        [inspection.values[name] for name in names],
+        THRESHOLDS.max_curve_points,
     )
     panel = Panel("", _choose_time_label(inspection), label, drawn)
     caption = (

@@ -15,9 +15,9 @@ from matplotlib.patches import Circle, FancyArrowPatch, Patch, Polygon
 
 from modeler.views import robot_scene
 from modeler.views.robot_skeleton import Posture, Skeleton, compute_poses
+from modeler.views.thresholds import THRESHOLDS
 
 _SIZE, _HIGH, _BLANK = 7.0, 7.5, 4.0  # points
-_SAME = 4.0  # points: names nearer to each other are written together
 
 
 @dataclass(frozen=True)
@@ -56,7 +56,10 @@ def place_names(
     """
     groups: list[list[NameLabel]] = []
     for name in names:
-        near = next((g for g in groups if np.hypot(*(g[0].at - name.at)) < _SAME), None)
+        near = next(
+            (g for g in groups if np.hypot(*(g[0].at - name.at)) < THRESHOLDS.same_place_points),
+            None,
+        )
         if near is None:
             groups.append([name])
         else:

@@ -20,7 +20,6 @@ from modeler.views import robot_scene
 from modeler.views.page import encode_script_json, render_template
 from modeler.views.robot_skeleton import (
     BASE,
-    CLOSED,
     LoopGap,
     Posture,
     Skeleton,
@@ -32,6 +31,7 @@ from modeler.views.robot_skeleton import (
     find_home_posture,
     format_joint_kind,
 )
+from modeler.views.thresholds import THRESHOLDS
 
 _DIGITS = 7  # of coordinates of drawn points: finer than any screen
 
@@ -234,7 +234,11 @@ def _describe_loops(skeleton: Skeleton, posture: Posture) -> list[str]:
         loop = gap.loop
         state = "closed"
         if not _is_closed(gap, posture):
-            angle = f" and {np.degrees(gap.angle):.3g} degrees" if gap.angle > CLOSED else ""
+            angle = (
+                f" and {np.degrees(gap.angle):.3g} degrees"
+                if gap.angle > THRESHOLDS.max_loop_residual
+                else ""
+            )
             state = f"OPEN by {gap.distance:.3g} m{angle}"
         lines.append(f'loop "{loop.name}": {loop.frame} meets {loop.meets} ({loop.kind}): {state}')
     if not posture.closed:
@@ -301,7 +305,10 @@ def serialise_posture(skeleton: Skeleton, posture: Posture) -> dict[str, Any]:
 
 
 def _is_closed(gap: LoopGap, posture: Posture) -> bool:
-    return gap.distance < 10.0 * CLOSED * posture.size and gap.angle < 10.0 * CLOSED
+    return (
+        gap.distance < 10.0 * THRESHOLDS.max_loop_residual * posture.size
+        and gap.angle < 10.0 * THRESHOLDS.max_loop_residual
+    )
 
 
 def _format_number(x: float) -> str:

@@ -16,6 +16,7 @@ from modeler.views.robot_skeleton import (
     compute_gaps,
     compute_poses,
 )
+from modeler.views.thresholds import THRESHOLDS
 
 # Shapes of joints: lists of flat polygons, (corners, 3) each, around the origin, axis along z.
 
@@ -425,9 +426,7 @@ def _convert_to_tuple(point: Sequence[float] | np.ndarray) -> tuple[float, float
 
 _AZIMUTHS = (-60.0, -30.0, -45.0, 30.0, 45.0, 60.0, 120.0, 135.0, 150.0, -120.0, -135.0, -150.0)
 _ELEVATION = 24.0
-_BETTER = 1.02  # by which another azimuth has to be better than those before it
 _ASIDE, _ABOVE = np.radians(25.0), np.radians(16.0)
-_FLAT = 1e-4  # of the robot's size
 
 
 @dataclass(frozen=True)
@@ -463,7 +462,7 @@ def choose_view(skeleton: Skeleton, posture: Posture) -> ViewDirection:
     for azimuth in _AZIMUTHS:
         rotation = compute_view_rotation(up, np.radians(azimuth), np.radians(_ELEVATION))
         score = _compute_spread(points @ rotation[:2].T, posture.size)
-        if best is None or score > best_score * _BETTER:
+        if best is None or score > best_score * THRESHOLDS.min_view_gain:
             best, best_score = rotation, score
     assert best is not None
     return ViewDirection(best, up)
@@ -523,12 +522,16 @@ def _fit_plane_normal(points: np.ndarray, axes: np.ndarray, size: float) -> np.n
 
     Where points are a line, the plane that the joints turn in.
     """
-    if len(axes) and _are_parallel(axes, axes[0]) and np.ptp(points @ axes[0]) < _FLAT * size:
+    if (
+        len(axes)
+        and _are_parallel(axes, axes[0])
+        and np.ptp(points @ axes[0]) < THRESHOLDS.max_flatness * size
+    ):
         return np.asarray(axes[0] if axes[0][np.argmax(np.abs(axes[0]))] > 0 else -axes[0])
     if len(points) < 3:
         return None
     _, lengths, directions = np.linalg.svd(points - points.mean(axis=0))
-    if lengths[1] < _FLAT * size or lengths[2] > _FLAT * size:
+    if lengths[1] < THRESHOLDS.max_flatness * size or lengths[2] > THRESHOLDS.max_flatness * size:
         return None
     normal = directions[2]
     return np.asarray(normal if normal[np.argmax(np.abs(normal))] > 0 else -normal)

@@ -7,6 +7,7 @@ import numpy as np
 
 from modeler.core.brief import ShortRepr
 from modeler.robot import Joint, JointKind, Loop, Robot, extract_linear_form
+from modeler.views.thresholds import THRESHOLDS
 
 BASE = -1
 """Number of the base among the rows."""
@@ -197,17 +198,6 @@ def estimate_robot_size(skeleton: Skeleton, u: np.ndarray) -> float:
 # the sense of least squares, derivatives by complex steps; the page does the same (closing.js).
 
 
-CLOSED = 1e-9
-"""Largest residual of a closed loop: of the robot's size, and of direction cosines."""
-
-_ENOUGH = 1e-13
-_ITERATIONS = 100
-_LONGEST = 0.3  # rad or robot sizes, of one step
-_RANK = 1e-9
-_SINGULAR = 1e-6  # of the largest singular value; a residual of 1e-13 leaves its square root
-_COMPLEX_STEP = 1e-30
-
-
 @dataclass(frozen=True)
 class LoopGap:
     """How far a loop is open.
@@ -276,7 +266,7 @@ def _find_loose_joints(skeleton: Skeleton, u: np.ndarray) -> tuple[str, ...]:
         * np.where(skeleton.is_travel, size, 1.0)[list(places)]
     )
     _, sizes, turned = np.linalg.svd(J)
-    idle = turned[int(np.sum(sizes > _SINGULAR * sizes[0])) :]
+    idle = turned[int(np.sum(sizes > THRESHOLDS.min_loose_value * sizes[0])) :]
     if not len(idle):
         return ()
     share = np.max(np.abs(idle), axis=0)
@@ -298,18 +288,18 @@ def solve_closure(
     """
     u = np.array(start, dtype=float)
     scale = np.where(skeleton.is_travel, size, 1.0)[list(places)]
-    for _ in range(_ITERATIONS):
+    for _ in range(THRESHOLDS.newton_iterations):
         f = compute_residuals(skeleton, u, size)
-        if np.max(np.abs(f), initial=0.0) < _ENOUGH or not places:
+        if np.max(np.abs(f), initial=0.0) < THRESHOLDS.newton_tolerance or not places:
             break
         J = compute_jacobian(skeleton, u, size, places) * scale
-        step = np.linalg.lstsq(J, -f, rcond=_RANK)[0]
-        step *= min(1.0, _LONGEST / max(float(np.max(np.abs(step))), 1e-300))
+        step = np.linalg.lstsq(J, -f, rcond=THRESHOLDS.min_closure_pivot)[0]
+        step *= min(1.0, THRESHOLDS.max_newton_step / max(float(np.max(np.abs(step))), 1e-300))
         u[list(places)] += step * scale
         if np.max(np.abs(step)) < 1e-15:
             break
     f = compute_residuals(skeleton, u, size)
-    return u if np.max(np.abs(f), initial=0.0) < CLOSED else None
+    return u if np.max(np.abs(f), initial=0.0) < THRESHOLDS.max_loop_residual else None
 
 
 def compute_jacobian(
@@ -319,8 +309,8 @@ def compute_jacobian(
     columns = []
     for k in places:
         moved = u.astype(complex)
-        moved[k] += 1j * _COMPLEX_STEP
-        columns.append(compute_residuals(skeleton, moved, size).imag / _COMPLEX_STEP)
+        moved[k] += 1j * THRESHOLDS.complex_step
+        columns.append(compute_residuals(skeleton, moved, size).imag / THRESHOLDS.complex_step)
     return np.array(columns).T
 
 
