@@ -45,7 +45,7 @@ class RowFilter(ShortRepr):
         used: np.ndarray | None = None,
         whole: np.ndarray | None = None,
     ) -> np.ndarray:
-        """(rows, ...) of values (samples, ...) over usable (samples,); 0 where none is.
+        """Averages values (samples, ...) over usable (samples,) by row: (rows, ...), 0 without any.
 
         Rows that are not used (rows,), if that is given, are means over whole (samples,).
         """
@@ -56,17 +56,17 @@ class RowFilter(ShortRepr):
         return flat.reshape(len(self.centres), *values.shape[1:])
 
     def find_sample_range(self, rows: slice) -> slice:
-        """Samples that those rows reach."""
+        """Finds the range of samples that those rows average."""
         start, stop = self.weights.indptr[rows.start], self.weights.indptr[rows.stop]
         reached = self.weights.indices[start:stop]
         return slice(int(reached.min()), int(reached.max()) + 1)
 
     def extract_rows(self, rows: slice, window: slice) -> "RowFilter":
-        """The same filter for a few rows, over a window of the samples."""
+        """Returns the same filter for some rows, over a window of the samples."""
         return RowFilter(self.weights[rows, window], self.centres[rows] - window.start)
 
     def compute_usable_share(self, usable: np.ndarray) -> np.ndarray:
-        """(rows, joints) share of each row's weight on usable samples (samples, joints)."""
+        """Returns (rows, joints) share of each row's weight on usable samples (samples, joints)."""
         return (self.weights @ usable.astype(float)) / self.weights.sum(axis=1)[:, None]
 
 
@@ -76,7 +76,7 @@ def restrict_weights(
     used: np.ndarray | None = None,
     whole: np.ndarray | None = None,
 ) -> csr_array:
-    """The weights (rows, samples) with 0 for samples that are not usable (samples,).
+    """Returns the weights (rows, samples) with 0 for samples that are not usable (samples,).
 
     In rows that are not used (rows,) with 0 for samples that are not whole (samples,).
     """
@@ -89,7 +89,7 @@ def restrict_weights(
 
 
 def choose_row_spacing(step: float, cutoff: float, decimation: int | None) -> int:
-    """Samples from one row to the next; halves go up, whatever their rounding.
+    """Chooses the samples from one row to the next; halves are rounded up.
 
     Args:
         step: s.
@@ -111,7 +111,7 @@ def choose_row_spacing(step: float, cutoff: float, decimation: int | None) -> in
 
 
 def compute_reach(step: float, cutoff: float) -> int:
-    """Samples to both sides of a row's centre that it is a mean over."""
+    """Returns the samples on either side of a row's centre that have a weight."""
     spread = SPREAD / (cutoff * step) if cutoff > 0.0 else 0.0
     return (
         int(np.ceil(THRESHOLDS.kernel_reach * spread))
@@ -121,7 +121,7 @@ def compute_reach(step: float, cutoff: float) -> int:
 
 
 def build_row_filter(centres: np.ndarray, samples: int, step: float, cutoff: float) -> RowFilter:
-    """The filter of a segment of so many samples, with rows centred on some of them (rows,)."""
+    """Builds the filter of a segment of `samples` samples, rows centred on some of them (rows,)."""
     spread = SPREAD / (cutoff * step) if cutoff > 0.0 else 0.0  # samples
     reach = compute_reach(step, cutoff)
     offsets = np.arange(-reach, reach + 1)
@@ -135,7 +135,7 @@ def build_row_filter(centres: np.ndarray, samples: int, step: float, cutoff: flo
 
 
 def compute_moving_means(values: np.ndarray, step: float, cutoff: float) -> np.ndarray:
-    """(samples, ...) what the rows of `build_row_filter` would hold, centred on every sample.
+    """Computes (samples, ...) the rows of `build_row_filter` centred on every sample.
 
     Outside the segment values count as 0: divide by the same means of ones.
 
@@ -169,7 +169,7 @@ _ANGLES = (np.pi / 8.0, 3.0 * np.pi / 8.0)
 def apply_zero_phase_lowpass(
     values: np.ndarray, step: float, cutoff: float, padding: int
 ) -> np.ndarray:
-    """`values` (n, k) through the low-pass in time and then against it: twice 3 dB at the cut-off.
+    """Filters `values` (n, k) by the low-pass forwards and backwards: twice 3 dB at the cut-off.
 
     As scipy.signal.sosfiltfilt of butter(4, ...): both ends are extended, turned about the last
     value, and the filter starts as if the first value of that had been there for ever.
@@ -203,7 +203,7 @@ def _apply_lowpass(values: np.ndarray, step: float, cutoff: float) -> np.ndarray
 
 
 def apply_biquad(x: np.ndarray, b: np.ndarray, a: np.ndarray) -> np.ndarray:
-    """y (n,) of y(n) + a1 y(n-1) + a2 y(n-2) = b0 x(n) + b1 x(n-1) + b2 x(n-2), 0 before x (n,)."""
+    """Solves y(n) + a1 y(n-1) + a2 y(n-2) = b0 x(n) + b1 x(n-1) + b2 x(n-2), 0 before x (n,)."""
     return np.asarray(_solve_recursion(_compute_forward_terms(x[:, None], b), a[1], a[2])[:, 0])
 
 

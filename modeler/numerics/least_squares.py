@@ -25,7 +25,7 @@ class DroppedColumn:
     pivot: float
 
     def describe(self) -> str:
-        """What happened and what to do."""
+        """Describes what happened to the parameter and what to do."""
         if not self.into:
             return (
                 f"{self.name} is not excited: its column is zero on these data; it is set to 0; "
@@ -56,7 +56,7 @@ class Rank:
 
 
 def find_independent_columns(R: np.ndarray, names: Sequence[str]) -> Rank:
-    """Independent columns of R (or W), by QR with column pivoting of the scaled columns.
+    """Finds independent columns of R (or W) by QR with column pivoting of the scaled columns.
 
     Args:
         R: (rows, c).
@@ -96,7 +96,7 @@ def find_independent_columns(R: np.ndarray, names: Sequence[str]) -> Rank:
 
 
 def compute_column_norms(matrix: np.ndarray) -> np.ndarray:
-    """(c,) norms of the columns; 1 for a column of zeros."""
+    """Computes (c,) norms of the columns; 1 for a column of zeros."""
     length = np.linalg.norm(matrix, axis=0)
     return np.where(length > 0.0, length, 1.0)
 
@@ -104,7 +104,7 @@ def compute_column_norms(matrix: np.ndarray) -> np.ndarray:
 def solve_scaled_least_squares(
     W: np.ndarray, y: np.ndarray, cutoff: float | None = None
 ) -> np.ndarray:
-    """(c, ...) of least ||y - W beta||; 0 along directions that W does not see.
+    """Returns (c, ...) of least ||y - W beta||; 0 along directions in the null space of W.
 
     Args:
         W: (rows, c), its columns scaled to length one.
@@ -117,7 +117,7 @@ def solve_scaled_least_squares(
 
 
 def compute_whitening(gram: np.ndarray, cutoff: float) -> np.ndarray:
-    """(c, r) T with T^T G T = 1 where G sees anything; T T^T is its pseudo-inverse.
+    """Computes (c, r) T with T^T G T = 1 on the range of G; T T^T is its pseudo-inverse.
 
     Args:
         gram: (c, c) G, symmetric, positive semi-definite; scaled to unit diagonal.
@@ -153,24 +153,24 @@ class CompressedRegression:
     free: np.ndarray
 
     def compute_residual_norms(self, beta: np.ndarray) -> np.ndarray:
-        """(n,) ||y_j - W_j beta||, N m or N."""
+        """Computes (n,) ||y_j - W_j beta||, N m or N."""
         return np.linalg.norm(self.triangles @ np.append(-beta, 1.0), axis=1)
 
     def compute_torque_norms(self) -> np.ndarray:
-        """(n,) ||y_j||."""
+        """Computes (n,) ||y_j||."""
         return np.linalg.norm(self.triangles[:, :, -1], axis=1)
 
     def compute_torque_rms(self) -> np.ndarray:
-        """(n,) root mean square of y_j."""
+        """Computes (n,) root mean square of y_j."""
         return self.compute_torque_norms() / np.sqrt(np.maximum(self.rows, 1))
 
     def combine_joints(self, sigma: np.ndarray) -> np.ndarray:
-        """Triangle (c + 1, c + 1) of all rows, those of joint j divided by sigma_j."""
+        """Returns the triangle (c + 1, c + 1) of all rows, those of joint j divided by sigma_j."""
         weighted = self.triangles / sigma[:, None, None]
         return compute_triangle(weighted.reshape(-1, weighted.shape[2]))
 
     def drop_columns(self, names: Sequence[str]) -> "CompressedRegression":
-        """The same data without some columns."""
+        """Returns the same data without some columns."""
         kept_indices = [i for i, name in enumerate(self.names) if name not in set(names)]
         return CompressedRegression(
             tuple(self.names[i] for i in kept_indices),
@@ -181,14 +181,14 @@ class CompressedRegression:
 
 
 def compute_triangle(matrix: np.ndarray) -> np.ndarray:
-    """R of matrix = Q R, (min(rows, columns), columns)."""
+    """Computes R of matrix = Q R, (min(rows, columns), columns)."""
     return np.asarray(np.linalg.qr(matrix, mode="r"))
 
 
 def merge_compressed(
     first: CompressedRegression, second: CompressedRegression
 ) -> CompressedRegression:
-    """The rows of both: R of [R1; R2] per joint, as [W1 y1; W2 y2] has the same R^T R.
+    """Merges the rows of both: R of [R1; R2] per joint, as [W1 y1; W2 y2] has the same R^T R.
 
     Each triangle errs backwards by rounding of its own rows only, so any order of merging is as
     exact as one factorisation (Demmel, Grigori, Hoemmen and Langou 2012, SIAM J. Sci. Comput.
@@ -212,7 +212,7 @@ def compress_rows(
     names: Sequence[str],
     free: Sequence[int] = (),
 ) -> CompressedRegression:
-    """Compress y = W beta.
+    """Compresses y = W beta to a triangle of each joint.
 
     Args:
         W: (rows, c).
@@ -265,7 +265,7 @@ class Reduction(ShortRepr):
     R: tuple[np.ndarray, ...]
 
     def append_columns(self, extra: Sequence[Sequence[np.ndarray | None]]) -> ReducedRows:
-        """The rows with further columns, (rows_j, k) each by joint; None where they are zero."""
+        """Appends further columns, (rows_j, k) each by joint; None where they are zero."""
         sizes = [next(c.shape[1] for c in columns if c is not None) for columns in extra]
         W, y = [], []
         for j, (Q, R) in enumerate(zip(self.Q, self.R, strict=True)):
@@ -279,7 +279,7 @@ class Reduction(ShortRepr):
 
 
 def reduce_rows(W: Sequence[np.ndarray], y: Sequence[np.ndarray]) -> Reduction:
-    """Of the rows of every joint."""
+    """Reduces the rows of every joint by a QR decomposition."""
     every = [_reduce_joint_rows(w, t) for w, t in zip(W, y, strict=True)]
     return Reduction(tuple(Q for Q, _ in every), tuple(R for _, R in every))
 
@@ -312,7 +312,7 @@ def _append_joint_columns(
 
 
 def compute_joint_whitening(W: Sequence[np.ndarray], sigma: np.ndarray) -> np.ndarray:
-    """(c, r) that makes weighted columns orthonormal over the rows of all joints at once.
+    """Computes (c, r) T that makes weighted columns orthonormal over the rows of all joints.
 
     Args:
         W: (rows_j, c) by joint.
@@ -326,7 +326,7 @@ def compute_joint_whitening(W: Sequence[np.ndarray], sigma: np.ndarray) -> np.nd
 
 
 def compute_weighted_median(values: np.ndarray, weights: np.ndarray) -> float:
-    """The smallest value up to which at least half of the weight lies.
+    """Returns the smallest value up to which at least half of the weight lies.
 
     Half but for rounding: of equal weights whose last digits differ, every choice of these digits
     (as that of a clock's zero) gives the same median.
@@ -367,7 +367,7 @@ def minimise_bfgs(
     tolerance: float,
     proceed: Callable[[], bool],
 ) -> np.ndarray:
-    """The lowest point that BFGS comes to from x, (d,).
+    """Returns the lowest point (d,) that BFGS reaches from x.
 
     Args:
         landscape: the function.
@@ -453,7 +453,7 @@ def minimise_cma_es(
     rng: np.random.Generator,
     proceed: Callable[[int], bool],
 ) -> np.ndarray:
-    """The lowest point found from x, (d,), by CMA-ES.
+    """Returns the lowest point (d,) that CMA-ES reaches from x.
 
     N. Hansen, The CMA Evolution Strategy: A Tutorial, arXiv:1604.00772, appendix A.
 

@@ -24,27 +24,27 @@ LEAST = 4 * THRESHOLDS.median_half_width
 
 
 def estimate_robust_deviation(values: np.ndarray) -> float:
-    """1.4826 median |values|: their standard deviation about 0 if most of them are Gaussian."""
+    """Returns 1.4826 median |values|: their standard deviation about 0 if most are Gaussian."""
     return 1.4826 * float(np.median(np.abs(values)))
 
 
 def estimate_white_noise(values: np.ndarray) -> float:
-    """Standard deviation of white noise on a smooth signal, from its third differences."""
+    """Estimates the standard deviation of white noise on a smooth signal by third differences."""
     return estimate_robust_deviation(np.diff(values, 3)) / float(np.sqrt(20.0))
 
 
 def subtract_running_median(values: np.ndarray) -> np.ndarray:
-    """(n,) values less their running median over 11 samples: of a smooth signal all but nothing."""
+    """Returns (n,) values less their running median over 11 samples: near 0 for a smooth signal."""
     return np.asarray(values - compute_running_median(values))
 
 
 def compute_running_median(values: np.ndarray) -> np.ndarray:
-    """(n,) median over 11 samples; at the ends over those that there are, mirrored."""
+    """Computes (n,) the median over 11 samples, mirrored at the ends."""
     return np.asarray(median_filter(values, 2 * THRESHOLDS.median_half_width + 1, mode="reflect"))
 
 
 def compute_outlier_threshold(departed: np.ndarray, resolution: float, share: float) -> float:
-    """Departure below which no value of a channel is lone.
+    """Returns the departure below which no value of a channel is an isolated outlier.
 
     The largest of `min_outlier_deviations` robust standard deviations, `min_outlier_over_rare`
     times what a share of the values exceeds, and `STEPS` resolution steps.
@@ -67,7 +67,7 @@ def compute_outlier_threshold(departed: np.ndarray, resolution: float, share: fl
 
 
 def compute_local_threshold(departed: Sequence[np.ndarray], floor: float, share: float) -> float:
-    """The floor of a whole channel, or that of a part of it where many values exceed it.
+    """Returns the threshold of a channel, or that of a part where many values exceed it.
 
     What happens again and again in a part is no lone value there, however quiet the rest is.
 
@@ -85,7 +85,7 @@ def compute_local_threshold(departed: Sequence[np.ndarray], floor: float, share:
 
 
 def find_isolated_outliers(departed: np.ndarray, floor: float) -> np.ndarray:
-    """Places of the lone values of one stretch, increasing.
+    """Finds the places of isolated outliers of one segment, increasing.
 
     Args:
         departed: (n,) `subtract_running_median` of the stretch.
@@ -104,7 +104,7 @@ def find_isolated_outliers(departed: np.ndarray, floor: float) -> np.ndarray:
 
 
 def compute_nearby_level(size: np.ndarray, place: int) -> float:
-    """The fourth largest of size (n,) within 30 samples of a place, the place included."""
+    """Returns the fourth largest of size (n,) within 30 samples of a place, the place included."""
     window = size[max(0, place - REACH) : place + REACH + 1]
     order = max(0, len(window) - 1 - THRESHOLDS.max_outliers_nearby)
     return float(np.partition(window, order)[order])
@@ -114,7 +114,7 @@ def compute_nearby_level(size: np.ndarray, place: int) -> float:
 
 
 def compute_noise_memory(cutoff: float) -> float:
-    """s after which noise behind a parallel filter of a cut-off (Hz, 0: none) is forgotten.
+    """Returns the correlation time, s, of noise behind a parallel filter (cut-off in Hz, 0: none).
 
     Torque noise and quantisation are forgotten within a tenth of a second; a brake that drags, a
     cable that pulls, a temperature are not. Rows of a narrow band remember longer by themselves.
@@ -129,7 +129,7 @@ def compute_noise_memory(cutoff: float) -> float:
 def estimate_recurring_share(
     time: np.ndarray, r: np.ndarray, run: np.ndarray, later: Sequence[float]
 ) -> float | None:
-    """Share of a residual's variance that is there some time later: it lasts, or comes back.
+    """Estimates the share of a residual's variance that persists or recurs some time later.
 
     0 where it is no more than two standard errors, from sums over parts of the rows: by chance.
 
@@ -162,7 +162,7 @@ def estimate_recurring_share(
 
 
 def interpolate_between_gaps(time: np.ndarray, values: np.ndarray, then: np.ndarray) -> np.ndarray:
-    """(m,) values at other times, straight between neighbours; NaN outside, and in gaps.
+    """Interpolates (m,) values at other times linearly; NaN outside, and in gaps.
 
     Args:
         time: (n,) s, increasing.
@@ -178,7 +178,7 @@ def interpolate_between_gaps(time: np.ndarray, values: np.ndarray, then: np.ndar
 
 
 def estimate_burst_share(r: np.ndarray, block: np.ndarray) -> float:
-    """Share of a residual's energy in outbursts: 0 for noise that is even over time.
+    """Estimates the share of a residual's energy in bursts: 0 for stationary noise.
 
     What exceeds the median energy of the blocks, if their mean is several times that. Blocks with
     few rows do not count.
@@ -205,7 +205,7 @@ _DECIMAL = 1e-9  # of the largest value: rounding of the text or the arithmetic
 
 
 def estimate_lattice_step(values: np.ndarray) -> float:
-    """Step of the lattice that the values (n,) lie on; 0 if they lie on none.
+    """Estimates the step of the lattice that the values (n,) lie on; 0 without one.
 
     Least squares over small differences of neighbours, or of levels where neighbours are too far
     apart. Differences at the level of single precision are arithmetic.
@@ -250,13 +250,13 @@ RESTS = 10.0
 
 
 def find_equal_rows(values: np.ndarray) -> np.ndarray:
-    """(n,) True where a row of values (n, k) is, to the bit, the one before it; NaN is NaN."""
+    """Returns (n,) True where a row of values (n, k) equals the one before; NaN is NaN."""
     same = (values[1:] == values[:-1]) | (np.isnan(values[1:]) & np.isnan(values[:-1]))
     return np.concatenate([[False], same.all(axis=1)])
 
 
 def find_run_lengths(new: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Starts and lengths of the runs that begin where new (n,) is True; the first always does."""
+    """Returns starts and lengths of the runs that begin where new (n,) is True, and at 0."""
     starts = np.flatnonzero(np.concatenate([[True], new[1:]]))
     return starts, np.diff(starts, append=len(new))
 
@@ -264,7 +264,7 @@ def find_run_lengths(new: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
 def find_repeated_rows(
     positions: np.ndarray, others: np.ndarray, always: bool = False
 ) -> np.ndarray:
-    """(n,) True at the rows that a recorder wrote again, as it was faster than the robot.
+    """Returns (n,) True at rows that a recorder faster than the robot wrote again.
 
     Then all channels repeat together, again and again, a few rows each time. One channel repeats
     alone where it is coarse; all of them do for long where the robot rests.
@@ -292,7 +292,7 @@ def find_repeated_rows(
 
 
 def find_longest_usual_run(values: np.ndarray) -> int:
-    """Samples of the longest run of equal values (n,) but for the three longest of all."""
+    """Returns the samples of the longest run of equal values (n,), the three longest left out."""
     _, length = find_run_lengths(np.concatenate([[True], np.diff(values) != 0.0]))
     return (
         int(np.sort(length)[-THRESHOLDS.ignored_long_runs - 1])
@@ -302,7 +302,7 @@ def find_longest_usual_run(values: np.ndarray) -> int:
 
 
 def find_frozen_runs(values: np.ndarray, position: np.ndarray, usual: int) -> list[tuple[int, int]]:
-    """[start, stop) where a channel repeats a value far longer than it does else, in motion.
+    """Finds [start, stop) where a channel repeats a value unusually long during motion.
 
     Not at its largest and smallest value, where it may be at a limit, and not at 0: switched off.
 
@@ -328,14 +328,14 @@ def find_frozen_runs(values: np.ndarray, position: np.ndarray, usual: int) -> li
 
 
 def estimate_channel_noise(values: np.ndarray) -> float:
-    """Standard deviation of a channel's noise (n,), or of its steps, the larger; 0 of a few."""
+    """Returns noise or quantisation of a channel (n,), the larger, 1 sigma; 0 of a few samples."""
     if len(values) < THRESHOLDS.min_channel_samples:
         return 0.0
     return max(estimate_lattice_step(values) / float(np.sqrt(12.0)), estimate_white_noise(values))
 
 
 def estimate_hold_length(values: np.ndarray) -> int:
-    """Rows for which a channel (n,) repeats each value, as it is sampled more slowly; 1: none.
+    """Estimates for how many rows a slower channel (n,) repeats each value; 1: none.
 
     Only runs between two changes of more than `COARSE` lattice steps count: a slow motion stays on
     a count of its encoder too.
@@ -363,7 +363,7 @@ def estimate_hold_length(values: np.ndarray) -> int:
 def interpolate_held_channel(
     time: np.ndarray, values: np.ndarray, rows: int, smooth: bool
 ) -> np.ndarray:
-    """(n,) a held channel, straight or smoothly from each new value to the next.
+    """Interpolates (n,) a held channel, linearly or smoothly between its new values.
 
     Args:
         time: (n,) s.
@@ -403,7 +403,7 @@ class Clip:
 
 
 def find_clips(values: np.ndarray) -> tuple[Clip, ...]:
-    """The ends of the range at which a position (n,) is cut off.
+    """Finds the ends of the range at which a position (n,) is clipped.
 
     A motion that is cut off reaches the end without slowing down, stays there to the bit, and
     leaves it as fast.

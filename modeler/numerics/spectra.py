@@ -25,7 +25,7 @@ class ResidualSpectrum(ShortRepr):
 def estimate_residual_spectrum(
     time: np.ndarray, segment: np.ndarray, e: np.ndarray
 ) -> ResidualSpectrum | None:
-    """Spectrum of one joint's residual; None when no segment is long enough (16 samples).
+    """Estimates the spectrum of one joint's residual; None if no segment has 16 samples.
 
     Rows that do not count enter as zeros and the result is scaled by the share that counts:
     this keeps the power and blurs lines a little. Segments sampled at another rate than most
@@ -59,7 +59,7 @@ def estimate_residual_spectrum(
 
 
 def find_segment_slices(segment: np.ndarray) -> list[slice]:
-    """The stretches of equal segment number, in row order."""
+    """Finds the slices of equal segment number, in row order."""
     if segment.size == 0:
         return []
     edges = np.flatnonzero(np.diff(segment)) + 1
@@ -118,7 +118,7 @@ def _average_welch_density(
 
 
 def estimate_welch_density(values: np.ndarray, length: int, size: int, period: float) -> np.ndarray:
-    """(size // 2 + 1,) one-sided power density, mean over half overlapping Hann windows.
+    """Returns (size // 2 + 1,) one-sided power density, mean over half overlapping Hann windows.
 
     That of scipy.signal.welch without detrending; scipy.signal takes long to load.
 
@@ -139,7 +139,7 @@ def estimate_welch_density(values: np.ndarray, length: int, size: int, period: f
 
 
 def estimate_coherence(x: np.ndarray, y: np.ndarray, frequency: float) -> float:
-    """Share of y's power (n,) that follows x (n,), around a frequency in periods a sample."""
+    """Estimates the coherence of y (n,) with x (n,) around a frequency in periods a sample."""
     length = max(16, min(256, len(x) // 8))
     if len(x) < 2 * length:
         return 0.0
@@ -183,7 +183,7 @@ class OrderSpectrum(ShortRepr):
 def compute_order_spectrum(
     q: np.ndarray, r: np.ndarray, unit: str, reached: float
 ) -> OrderSpectrum | None:
-    """(2/n) |sum r exp(-i m q)| by order m; None if the joint rests.
+    """Computes (2/n) |sum r exp(-i m q)| by order m; None if the joint rests.
 
     A wave A cos(m q + phase) that is passed often gives A at m. Positions are sorted into cells,
     four for each wave of the highest order, so one fast Fourier transform gives all orders.
@@ -235,7 +235,7 @@ def compute_order_spectrum(
 
 
 def find_longest_stretch(time: np.ndarray, step: float) -> slice:
-    """All rows; where pauses fill the time of a log, the longest stretch between them.
+    """Finds the longest segment between pauses where they fill the time of a log; else all rows.
 
     Args:
         time: (n,) s, increasing.
@@ -251,7 +251,7 @@ def find_longest_stretch(time: np.ndarray, step: float) -> slice:
 
 
 def estimate_lap_period(since: np.ndarray, q: np.ndarray) -> float:
-    """Period of a motion that repeats at least once, s; 0 if it does not.
+    """Estimates the period, s, of a motion that repeats at least once; 0 if it does not.
 
     Args:
         since: (s,) s, from 0.
@@ -315,13 +315,13 @@ class MotionSpectrum:
 
     @property
     def power_above_noise(self) -> np.ndarray:
-        """(n, J) power less the largest value that the white noise takes: 0 where it may be it."""
+        """Returns (n, J) power above the largest value of white noise, 0 within it."""
         largest = self.noise_power * (np.log(len(self.frequency)) + THRESHOLDS.noise_exceedance)
         return np.maximum(self.power - largest, 0.0)
 
 
 def compute_motion_spectrum(positions: np.ndarray, step: float) -> MotionSpectrum:
-    """The periodogram of positions (samples, J): Hann window, trend removed.
+    """Computes the periodogram of positions (samples, J): Hann window, trend removed.
 
     The white noise is the median over the upper half of the frequencies, where measured positions
     hold noise only, over ln 2: values of a periodogram of noise are exponentially distributed.
@@ -356,7 +356,7 @@ class BandSpectrum(ShortRepr):
 def compute_band_spectrum(
     channels: Sequence[np.ndarray], steps: Sequence[float], order: int
 ) -> BandSpectrum:
-    """Power densities of signals whose low frequencies would leak over all others.
+    """Computes power densities by third octaves of signals with dominant low frequencies.
 
     Differences of the given order are transformed in Blackman windows of 4 s, half overlapping, and
     their density is divided by (2 sin(pi f h))^(2 order): that of the signal itself.

@@ -49,7 +49,7 @@ SETTING = (
 
 
 def reproduce_briot(paper: Paper, report: Callable[[float], None]) -> list[MethodTable]:
-    """Gains, slides and motors of Table 3, and the second load with both sets of gains."""
+    """Reproduces gains, slides and motors of Table 3, and the second load by both sets of gains."""
     table = read_table(paper, "Table 3")
     gains = {f"1{k}": table[f"gtau{k}"][0] for k in "123"}
     (maker,) = read_quotation(paper, "637pi")[1:]

@@ -45,7 +45,7 @@ _SETTING = (
 
 
 def build_block_table(*robots: tuple[Derivation, CompiledModel]) -> MethodTable:
-    """The blocks of robots with three legs as printed, as derived, and in the emitted C.
+    """Builds the blocks of robots with three legs as printed, as derived, and in the emitted C.
 
     Args:
         robots: with legs of their own, and with legs alike.
@@ -157,7 +157,7 @@ _BETTER = 1e-4
 
 
 def compute_cube_range(length: float, straight: float) -> tuple[float, float]:
-    """Range of the motors over the cube where the platform is 1/2 to 2 times as fast as they.
+    """Returns the motors' range over the cube where the platform is 1/2 to 2 times as fast.
 
     On its diagonal p = t (1, 1, 1), from where the bars of length D are straight, rows of J_p^-1
     are 1 and twice e = t / sqrt(D^2 - 2 t^2), with singular values 1 + 2 e, 1 - e and 1 - e. They
@@ -175,7 +175,7 @@ def compute_cube_range(length: float, straight: float) -> tuple[float, float]:
 def compute_condition_numbers(
     compiled: CompiledModel, limits: Limits, lasts: float
 ) -> tuple[np.ndarray, float, float]:
-    """Condition numbers of W without noise, columns as they are, in SI units.
+    """Computes condition numbers of W without noise, unscaled columns, SI units.
 
     Args:
         compiled: the robot.
@@ -228,7 +228,7 @@ def _compute_condition_number(gram: np.ndarray) -> float:
 def build_motion_table(
     compiled: CompiledModel, robot_limits: Limits, rows: float, printed: Sequence[float]
 ) -> MethodTable:
-    """What motions within several limits reach, beside the printed numbers.
+    """Builds the table of what motions within several limits reach, beside the print.
 
     Args:
         compiled: with legs alike, 23 columns.
@@ -333,7 +333,7 @@ LETTERS = {
 
 
 def reproduce_guegan(paper: Paper, report: Callable[[float], None]) -> list[MethodTable]:
-    """Tables 2 and 3, the condition numbers, and the direction along which Table 2 is noise."""
+    """Reproduces Tables 2 and 3, the condition numbers, and the weak direction of Table 2."""
     table_2, table_3 = (
         {
             LETTERS.get(word, word.replace("FV", "Fv").replace("FS", "Fs")): values

@@ -51,7 +51,7 @@ SETTING = (
 
 
 def reproduce_hanssen(paper: Paper, report: Callable[[float], None]) -> list[MethodTable]:
-    """J11 in two steps; the singular values of Phi; which parameters follow from which."""
+    """Reproduces J11 in two steps, the singular values of Phi, and which parameters follow."""
     names = tuple(f"PJ{k}" for k in range(1, 8))
     truth = dict(zip(names, read_quotation(paper, "J11 = 0.0398")[-7:], strict=True))
     robot = parse_robot_text(

@@ -98,7 +98,7 @@ class PrintedLine:
 
     @property
     def text(self) -> str:
-        """What is stated."""
+        """Returns what is stated."""
         return self.quote or self.ours
 
 
@@ -139,7 +139,7 @@ class Paper:
 
 
 def read_paper(name: str) -> Paper:
-    """The paper of that name, or that derives the robot of that name.
+    """Reads the paper of that name, or that derives the robot of that name.
 
     Raises:
         RobotError: there is none; lists those there are.
@@ -198,12 +198,12 @@ class DerivedRobot:
 
     @property
     def values(self) -> Mapping[str, float]:
-        """Nominal values of the geometric symbols."""
+        """Returns nominal values of the geometric symbols."""
         return self.model.geometry.values
 
     @cached_property
     def relations(self) -> Mapping[str, Sum]:
-        """Every base parameter as a sum of standard parameters."""
+        """Returns every base parameter as a sum of standard parameters."""
         return {
             p.name: {
                 multiply_monomials(monomial, ((term.parameter, 1),)): value
@@ -215,17 +215,17 @@ class DerivedRobot:
 
     @cached_property
     def standard(self) -> tuple[str, ...]:
-        """Names of the standard parameters."""
+        """Returns names of the standard parameters."""
         return tuple(column.name for column in self.base.columns)
 
     @cached_property
     def independent_parameters(self) -> frozenset[str]:
-        """Standard parameters whose columns are those of base parameters."""
+        """Returns standard parameters whose columns are those of base parameters."""
         return frozenset(self.base.columns[p.column].name for p in self.base.parameters)
 
     @cached_property
     def grouping(self) -> Mapping[str, list[sympy.Rational]]:
-        """By standard parameter: how much of it is in each base parameter, at nominal values."""
+        """Returns how much of each standard parameter is in each base parameter, nominally."""
         shares = {name: [sympy.S.Zero] * self.base.rank for name in self.standard}
         for k, parameter in enumerate(self.base.parameters):
             for term in parameter.terms:
@@ -235,18 +235,18 @@ class DerivedRobot:
 
     @cached_property
     def table(self) -> formulas.CoefficientTable:
-        """Coefficients of the closed form."""
+        """Returns coefficients of the closed form."""
         return formulas.build_coefficient_table(self.model, self.base)
 
     @cached_property
     def kane(self) -> Mapping[str, str]:
-        """Formulas of Kane's form, by name."""
+        """Returns formulas of Kane's form, by name."""
         sheet = formulas.function_sheet.serialise_sheet(self.forms["kane"][0].sheet)
         return {each["name"]: each["formula"] for each in sheet["definitions"]}
 
     @cached_property
     def forms(self) -> Mapping[str, tuple[formulas.Equation, float]]:
-        """Energy functions, and without loops Kane's form, with how far each is from the model."""
+        """Returns energy functions, without loops Kane's form too, and their errors."""
         states = derivation.draw_random_states(self.model, 20, np.random.default_rng(2000))
         equations = {"energy": formulas.energy_functions(self.model, states)}
         return (
@@ -257,14 +257,14 @@ class DerivedRobot:
 
     @cached_property
     def dependent_variables(self) -> Mapping[str, Sum]:
-        """Joint variables that follow others, and those that follow themselves."""
+        """Returns joint variables that follow others, and those that follow themselves."""
         free = {j.variable: read_sum(j.variable, str) for j in self.robot.moving_joints}
         tied = {f"q{name}": read_sum(text.text, str) for name, text in self.robot.relations.items()}
         return free | tied
 
 
 def derive_robot(name: str, variant: Variant | None = None) -> DerivedRobot:
-    """A built-in robot, or one of that name that differs from a built-in one as `variant` says."""
+    """Derives a built-in robot, or a new one that differs from it as `variant` says."""
     robot = read_robot(name if variant is None else variant.of)
     if variant is not None:
         robot = replace(robot.open_loops() if variant.open else robot, name=name)
@@ -276,7 +276,7 @@ def derive_robot(name: str, variant: Variant | None = None) -> DerivedRobot:
 
 
 def expand_to_sum(expression: sympy.Expr) -> Sum:
-    """An expression of symbols, sines and cosines as a sum."""
+    """Expands an expression of symbols, sines and cosines to a sum."""
     monomials: dict[Monomial, Amount] = {}
     for term in sympy.Add.make_args(sympy.expand(expression)):
         number, rest = term.as_coeff_Mul()
@@ -288,12 +288,12 @@ def expand_to_sum(expression: sympy.Expr) -> Sum:
 
 
 def build_expression(whole: Sum, symbols: Mapping[str, sympy.Expr]) -> sympy.Expr:
-    """A sum as an expression, with these for its names where they are given."""
+    """Builds an expression of a sum, with these for its names where they are given."""
     return sympy.sympify(format_sum(whole).replace("^", "**"), symbols)
 
 
 def eliminate_squared_sines(expression: sympy.Expr) -> sympy.Expr:
-    """The normal form in which an expression that is zero for all angles is 0."""
+    """Returns the normal form in which an expression that is zero for all angles is 0."""
     reduced = sympy.expand(expression)
     for sine in reduced.atoms(sympy.sin):
         s, square = sympy.Dummy(), 1 - sympy.cos(sine.args[0]) ** 2
@@ -319,7 +319,7 @@ _COMPARED: Mapping[type, Callable[[Any, Any], bool]] = {
 
 
 def evaluate_expression(text: str, values: Mapping[str, Any]) -> Any:
-    """The value of an expression.
+    """Evaluates an expression of the language above.
 
     Args:
         text: of the language above.
@@ -361,7 +361,7 @@ _ARITHMETIC: Mapping[str, Any] = {
 
 
 def collect_quantities(derived: DerivedRobot) -> dict[str, Any]:
-    """What can be asked of a robot: sets of names, by pattern, and what counts them.
+    """Collects the quantities of a robot: sets of names, by pattern, and their counts.
 
     `standard`, `base`, `zero` (without effect), `grouped` (neither base nor zero), `joints`,
     `actuated`, `passive` (of the table, the platform's left out), `links`; `within(a, b)`: what of
@@ -468,7 +468,7 @@ Reading = Callable[[Paper, PrintedLine, Robots], LineComparison]
 
 
 def join_sums(parts: Mapping[str, Sum]) -> Sum:
-    """Sums of several places as one: every term carries its place as a factor `in<place>`."""
+    """Joins sums of several places: every term has its place as a factor `in<place>`."""
     return {
         multiply_monomials(monomial, ((f"in{place}", 1),)): value
         for place, part in parts.items()
@@ -477,18 +477,18 @@ def join_sums(parts: Mapping[str, Sum]) -> Sum:
 
 
 def join_in_order(parts: Iterable[Sum]) -> Sum:
-    """Sums by their place: each term of the second has the factor `in2`."""
+    """Joins sums by their order: each term of the second has the factor `in2`."""
     return join_sums({str(k): part for k, part in enumerate(parts, 1)})
 
 
 def join_numbers(values: Iterable[Amount | int]) -> Sum:
-    """Numbers by their place: the second is called `in2`."""
+    """Joins numbers by their order: the second is called `in2`."""
     amounts = (v if isinstance(v, Amount) else Amount(Fraction(v)) for v in values)
     return add_sums(join_in_order({(): value} for value in amounts))
 
 
 def compare_line(comparison: LineComparison, line: PrintedLine) -> tuple[bool, bool]:
-    """(printed + known difference is what is derived, all of it exactly and not only as rounded).
+    """Returns whether printed + known difference is what is derived, and whether exactly.
 
     A coefficient that is printed with a point is compared as a number, to half a unit of its last
     digit; all others exactly.
@@ -539,7 +539,7 @@ def _evaluate_amount(parts: Mapping[Monomial, Amount], values: Mapping[str, floa
 
 
 def build_renamer(paper: Paper, line: PrintedLine, leg: str = "") -> Callable[[str], str]:
-    """The function from a printed name to ours.
+    """Builds the function from a printed name to ours.
 
     `i` at the end is the leg; the index of a leg that follows R goes in front of it
     (`ZZ2R1` is our `ZZ21R`); letters that the paper's file names are exchanged, in quotations.

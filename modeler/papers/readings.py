@@ -579,7 +579,7 @@ class CheckedLine:
 
 
 def check_paper(paper: Paper, derived: Robots) -> list[CheckedLine]:
-    """All lines with their verdicts.
+    """Returns all lines with their verdicts.
 
     Args:
         paper: as read.
@@ -594,13 +594,13 @@ def check_paper(paper: Paper, derived: Robots) -> list[CheckedLine]:
 
 
 def expand_legs(line: PrintedLine) -> list[PrintedLine]:
-    """One line for each leg, but for what speaks of all legs together."""
+    """Returns one line for each leg, except for statements about all legs together."""
     together = line.check in ("names", "closure")
     return [line] if together else [replace(line, legs=(leg,)) for leg in line.legs]
 
 
 def check_line(paper: Paper, line: PrintedLine, derived: Robots) -> CheckedLine:
-    """The verdict on one line of one leg."""
+    """Checks one line of one leg."""
     try:
         if line.seal and compute_checksum(line) != line.seal:
             raise QuotationError("the numbers are not those that were read from the paper")
@@ -641,6 +641,6 @@ def _build_checked_line(line: PrintedLine, derived: str, verdict: LineVerdict) -
 
 
 def compute_checksum(line: PrintedLine) -> str:
-    """Fingerprint of the quotation, spaces left out."""
+    """Returns the checksum of the quotation without spaces."""
     text = "".join("".join((line.quote, *line.given)).split())
     return f"{zlib.crc32(text.encode()):08x}"

@@ -44,7 +44,7 @@ _PLACES = {"definition": "section 2.2", "function": "section 2.2", "solution": "
 
 
 def collect_coefficient_quotations(paper: Paper, robots: Robots) -> list[PrintedLine]:
-    """The quotations of the robot file, with what the paper's file says is wrong in them."""
+    """Collects the quotations of the robot file, with the known slips of the paper's file."""
     if not paper.coefficients:
         return []
     printed = robots[paper.coefficients].table.printed

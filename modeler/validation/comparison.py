@@ -49,14 +49,14 @@ METHODS = {
 
 
 def describe_methods(comparison: "Comparison") -> list[str]:
-    """What the shares are of, and how they were found, by method."""
+    """Describes how the variance shares are estimated, by method."""
     methods = {item.shares.method for item in comparison.joints if item.shares is not None}
     text = "R2, repeatable, noise: shares of the torque's variance; repeatable is "
     return [f"{text}{METHODS[name]}" for name in METHODS if name in methods]
 
 
 def format_or_dash(value: float, form: str) -> str:
-    """A number, or a dash where it is not defined."""
+    """Formats a number, or a dash where it is not defined."""
     return format(value, form) if math.isfinite(value) else "-"
 
 
@@ -76,7 +76,7 @@ def _format_row(item: "JointComparison") -> tuple[str, ...]:
 
 
 def tabulate_logs(comparison: "Comparison", error: str = "error") -> list[list[str]]:
-    """A head, and a row of each log; `error` is that of all joints together, by unit."""
+    """Returns a head and a row of each log; `error` names that of all joints, by unit."""
     units = comparison.by_unit
     errors = [error] if len(units) == 1 else [f"{error} {unit}" for unit in units]
     names = [f"joint {name}" for name, _ in comparison.logs[0].joints]
@@ -127,7 +127,7 @@ class WorstWindow:
 
 
 def compute_velocity_regions(qd: np.ndarray, e: np.ndarray) -> tuple[Region, ...]:
-    """The five regions of REGIONS, thresholds as fractions of the largest speed.
+    """Computes the five regions of REGIONS, limits as fractions of the largest speed.
 
     Args:
         qd: velocity of the rows that count, (n,).
@@ -166,7 +166,7 @@ def compute_velocity_regions(qd: np.ndarray, e: np.ndarray) -> tuple[Region, ...
 
 
 def find_worst_window(prediction: Prediction, e: np.ndarray, width: float = WINDOW) -> WorstWindow:
-    """The window of `width` seconds, inside one segment, with the largest residual energy.
+    """Finds the window of `width` seconds in one segment with the largest residual energy.
 
     Args:
         prediction: for log, segment and time of the rows.
@@ -208,7 +208,7 @@ class Scale:
 
     @property
     def has_opposite_sign(self) -> bool:
-        """True if the prediction has the wrong sign."""
+        """Returns True if the prediction has the wrong sign."""
         return (
             self.factor < THRESHOLDS.max_opposite_factor
             and self.mended > THRESHOLDS.min_scale_reduction
@@ -216,7 +216,7 @@ class Scale:
 
     @property
     def has_wrong_factor(self) -> bool:
-        """True if the prediction is right but for a factor."""
+        """Returns True if the prediction is right but for a factor."""
         return (
             abs(self.factor - 1.0) > THRESHOLDS.min_scale_error
             and self.mended > THRESHOLDS.min_scale_reduction
@@ -224,7 +224,7 @@ class Scale:
 
 
 def estimate_scale(measured: np.ndarray, predicted: np.ndarray) -> Scale | None:
-    """The factor between two torques, (n,) each in order of time; None for too few samples."""
+    """Estimates the factor between torques, (n,) in order of time; None for too few samples."""
     blocks = np.arange(measured.size) * THRESHOLDS.scale_blocks // max(1, measured.size)
     squares, cross = (
         np.bincount(blocks, predicted * x, THRESHOLDS.scale_blocks) for x in (predicted, measured)
@@ -252,7 +252,7 @@ class LogError(ShortRepr):
 
 
 def compute_errors_by_log(prediction: Prediction) -> tuple[LogError, ...]:
-    """In the order of the logs."""
+    """Computes the relative errors of each log, in their order."""
     e = np.nan_to_num(compute_residual(prediction))
     measured = np.where(prediction.used, prediction.measured, 0.0)
     log_errors = []
@@ -322,7 +322,7 @@ class Comparison(Result):
     by_unit: Mapping[str, float]  # relative error over the joints of one unit; NaN: no torque
 
     def to_json(self) -> dict[str, Any]:
-        """What scripts read: plain numbers and text; undefined numbers are None."""
+        """Returns plain numbers and text; undefined numbers are None."""
         return convert_to_plain(
             {
                 "robot": self.prediction.robot,
@@ -344,7 +344,7 @@ class Comparison(Result):
         )
 
     def summary(self) -> str:
-        """Plain text: one line per joint, units in the table; what the shares mean; each log."""
+        """Returns plain text: one line per joint, what the shares mean, one line per log."""
         rows = [_HEAD, *(_format_row(item) for item in self.joints)]
         lines = align_columns(rows, _LEFT)
         names = max((len(name) for name, _ in self.unjudged), default=0)
@@ -367,7 +367,7 @@ class Comparison(Result):
 
 
 def compare(prediction: Prediction, ripple_windows: Prediction | None = None) -> Comparison:
-    """How well the torque is predicted, where it fails, and whether the residual has structure.
+    """Evaluates how well torques are predicted, where they fail, and the residual's structure.
 
     A joint none of whose rows count, or whose measured torque is zero in all of them, is listed
     in `unjudged` with the reason.
@@ -484,7 +484,7 @@ class _ChunkPrediction:
     facts: regression.LogFacts
 
     def merged_with(self, later: "_ChunkPrediction") -> "_ChunkPrediction":
-        """Of these rows, and of those that follow them."""
+        """Returns these rows and those that follow them."""
         return _ChunkPrediction(self.rows + later.rows, self.facts.merged_with(later.facts))
 
 
@@ -495,7 +495,7 @@ def compare_long_logs(
     progress: Callable[[float], None] = lambda share: None,
     rows: int = regression.FINGER,
 ) -> tuple[Comparison, regression.Observation]:
-    """As `compare` of what `predict` makes of logs, of any length in flat memory.
+    """Compares logs of any length in bounded memory, as `compare` does what `predict` returns.
 
     Args:
         model: fitted.

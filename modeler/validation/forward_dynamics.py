@@ -67,7 +67,7 @@ class FittedPlant:
         """Places in s of what is part of the state."""
 
     def can_close(self, q: np.ndarray) -> np.ndarray:
-        """(b,) True where the loops close; everywhere without loops."""
+        """Returns (b,) True where the loops close; everywhere without loops."""
         if self.model.spec.closure is None:
             return np.ones(len(q), dtype=bool)
         return np.asarray(self.model.closing_status(q) == 0)
@@ -97,7 +97,7 @@ class FittedPlant:
         s: np.ndarray | None,
         dry: np.ndarray | None = None,
     ) -> Forces:
-        """What acts in states.
+        """Computes the forces that act in states.
 
         Args:
             q: (b, n) positions.
@@ -119,7 +119,7 @@ class FittedPlant:
     def compute_smooth_forces(
         self, forces: Forces, q: np.ndarray, qd: np.ndarray, s: np.ndarray | None
     ) -> tuple[np.ndarray, np.ndarray]:
-        """M (b, n, n) and h (b, n) beside a state whose forces are known: its dry friction holds.
+        """Computes M (b, n, n) and h (b, n) beside a state of known forces, dry friction unchanged.
 
         For difference quotients: steps that are small beside the state, or cross standstill.
         """
@@ -132,7 +132,7 @@ class FittedPlant:
         return M, rest - dry_friction
 
     def compute_shaft_directions(self, q: np.ndarray) -> np.ndarray:
-        """(b, k, n) rows of C."""
+        """Returns (b, k, n) rows of C."""
         if self.model.spec.closure is None:
             return np.broadcast_to(self._rows, (len(q), *self._rows.shape))
         return self.model.coupling(q)[:, self._places]
@@ -140,7 +140,7 @@ class FittedPlant:
     def advance_signals(
         self, s: np.ndarray, step: np.ndarray, dt: float, motion: Sequence[np.ndarray]
     ) -> np.ndarray:
-        """(b, m) signals dt s later: joints have moved by `step`, q, qd, qdd are now `motion`."""
+        """Returns (b, m) signals dt s later: joints moved by `step` to `motion` (q, qd, qdd)."""
         return self.model.advance(step, dt, s, *motion) if self.inner else s
 
     def _compute_smooth_part(
@@ -259,16 +259,16 @@ class Stability(ShortRepr):
 
     @property
     def doubling_time(self) -> float | None:
-        """S in which an error doubles; None if none does."""
+        """Returns the time, s, in which an error doubles; None if none does."""
         return float(np.log(2.0) / self.rate) if self.rate > 0.0 else None
 
     @property
     def unstable(self) -> bool:
-        """True if an error becomes tenfold and more in that run."""
+        """Returns True if an error grows at least tenfold in that run."""
         return bool(self.rate * self.seconds > _GROWN)
 
     def describe(self) -> str:
-        """In words."""
+        """Describes the growth of errors in a sentence."""
         growth = self.rate * self.seconds
         if self.unstable:
             tens = f"1e{growth / np.log(10.0):.0f}"
@@ -292,7 +292,7 @@ class Stability(ShortRepr):
 
 
 def analyse_stability(plant: FittedPlant, runs: Sequence[LoggedMotion]) -> Stability:
-    """Of the linearised robot along logged motions."""
+    """Analyses the stability of the robot linearised along logged motions."""
     results: list[Stability] = []
     for run in runs:
         A = compute_jacobians(plant, run)
@@ -324,7 +324,7 @@ def analyse_stability(plant: FittedPlant, runs: Sequence[LoggedMotion]) -> Stabi
 
 
 def compute_jacobians(plant: FittedPlant, run: LoggedMotion) -> np.ndarray:
-    """(p, 2n, 2n) A, by central differences."""
+    """Computes (p, 2n, 2n) A by central differences."""
     p, n = run.q.shape
     forces = plant.compute_forces(run.q, run.qd, np.zeros_like(run.q), run.signals)
     speeds = np.einsum("bkn,bn->bk", forces.C, run.qd)
@@ -366,7 +366,7 @@ _IDLE = {"rad": 1e-3, "m": 1e-4}  # a joint that moves less stands still
 
 
 def compute_fit_percentage(measured: np.ndarray, simulated: np.ndarray) -> float | None:
-    """100 (1 - |q - q_s| / |q - mean q|), %, of samples (p,), as MATLAB's `compare` has it.
+    """Returns 100 (1 - |q - q_s| / |q - mean q|), %, of samples (p,), as MATLAB's `compare` does.
 
     None if nothing moves. A simulated value that is not finite, of a robot that was lost, counts as
     far away as the farthest that is.
@@ -382,7 +382,7 @@ def compute_fit_percentage(measured: np.ndarray, simulated: np.ndarray) -> float
 
 
 def compute_horizons(error: np.ndarray, bound: np.ndarray, step: float) -> np.ndarray:
-    """(b, n) s until |error| (samples, b, n) first passes `bound` (n,); infinite: it never does.
+    """Returns (b, n) s until |error| (samples, b, n) first exceeds `bound` (n,); else infinite.
 
     What is not finite has passed it; samples after the end of a start are 0.
     """
@@ -392,7 +392,7 @@ def compute_horizons(error: np.ndarray, bound: np.ndarray, step: float) -> np.nd
 
 
 def compute_ranges(q: np.ndarray, units: list[str]) -> np.ndarray:
-    """(n,) ranges of positions (p, n); NaN for a joint that hardly moves."""
+    """Returns (n,) ranges of positions (p, n); NaN for a joint that hardly moves."""
     ranges = np.ptp(q, axis=0)
     least = np.array([_IDLE[unit] for unit in units])
     return np.where(ranges > least, ranges, np.nan)

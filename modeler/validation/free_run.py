@@ -35,7 +35,7 @@ Gains = tuple[float, float, float, float]
 def simulate_controlled_run(
     model: CompiledModel, beta: np.ndarray, observation: Observation, gains: Gains | None
 ) -> tuple[ControlledRun | None, str]:
-    """The robot under the given controller, or under one that comes nearest to the log.
+    """Simulates the robot under the given controller, or under the one nearest to the log.
 
     The controller of a log is not known; it is estimated as for `didim`, see `direct_model`.
 
@@ -156,7 +156,7 @@ def simulate_batch(
     last_samples: np.ndarray | None = None,
     report_progress: Callable[[float], None] | None = None,
 ) -> np.ndarray:
-    """(samples, b, n) positions; NaN from where a robot is lost or its loops no longer close.
+    """Returns (samples, b, n) positions; NaN from where a robot is lost or its loops do not close.
 
     Args:
         plant: the robot.
@@ -211,7 +211,7 @@ class _BatchState:
     s: np.ndarray | None
 
     def update_signals(self, plant: FittedPlant, signals: np.ndarray | None, k: int) -> None:
-        """Signals of sample k; inner states are part of the state and stay."""
+        """Reads the signals of sample k; inner states are part of the state and stay."""
         if self.s is not None and signals is not None:
             held = self.s[:, plant.inner].copy()
             self.s = signals[k].copy()
@@ -225,7 +225,7 @@ class _BatchState:
         h: float,
         dry: np.ndarray | None,
     ) -> np.ndarray:
-        """One step of h s for those that live; the bounds of their dry friction."""
+        """Advances the remaining robots by h s; returns the bounds of their dry friction."""
         q, qd = self.q[live], self.qd[live]
         signals = None if self.s is None else self.s[live]
         forces = plant.compute_forces(q, qd, self.qdd[live], signals, dry)
@@ -333,7 +333,7 @@ def simulate_free_run(
     settings: FreeRunSettings | None = None,
     progress: Callable[[float], None] | None = None,
 ) -> FreeRun:
-    """Positions that the fitted robot takes under the logged torques, beside the measured ones.
+    """Simulates the positions of the fitted robot under the logged torques.
 
     Args:
         model: fitted.
@@ -458,7 +458,7 @@ class _RunSetup:
         halved: bool = False,
         report_progress: Callable[[float], None] | None = None,
     ) -> tuple[list[np.ndarray], list[np.ndarray]]:
-        """Simulated and measured positions (p, n) of each start, p until its end or `seconds`."""
+        """Returns simulated and measured positions (p, n) of each start, p at most `seconds`."""
         simulated: list[np.ndarray] = [np.empty(0)] * len(starts)
         measured: list[np.ndarray] = [np.empty(0)] * len(starts)
         steps = [float(f"{self.segments[start.segment].step:.6g}") for start in starts]

@@ -68,15 +68,15 @@ class ModelComparison(Result):
     joints: tuple[JointModelComparison, ...]
 
     def find_best_joints(self, model: int) -> list[str]:
-        """Joints that the model predicts best, beyond doubt."""
+        """Finds the joints that the model predicts significantly better than every other."""
         return [item.joint.name for item in self.joints if item.best == model]
 
     def to_json(self) -> dict[str, Any]:
-        """What scripts read: every model by its name."""
+        """Returns plain data, every model by its name."""
         return {"robot": self.predictions[0].robot, "models": self.as_dicts()}
 
     def as_dicts(self) -> list[dict[str, Any]]:
-        """The `models` of `compare --json`: errors of each, and where it is the best."""
+        """Returns the `models` of `compare --json`: errors of each, and where it is the best."""
         return [
             convert_to_plain(
                 {
@@ -101,7 +101,7 @@ class ModelComparison(Result):
 
 
 def compare_models(names: Sequence[str], predictions: Sequence[Prediction]) -> ModelComparison:
-    """Who is better on which joint.
+    """Compares models joint by joint, with a significance test.
 
     S_b and T_b are the summed squared residuals of two models on one joint over block b of time, S
     and T those over all B blocks. log(S / T) is judged by Student's t with B - 1 degrees of
@@ -200,7 +200,7 @@ def predict_together(
     logs: Sequence[Sequence[Log]],
     names: Sequence[str],
 ) -> tuple[list[Prediction], list[Observation]]:
-    """What each model says of the same rows.
+    """Predicts the same rows with each model.
 
     All are processed as the first model's logs were, but for a delay, which belongs to its model; a
     row counts if it counts for every model.
@@ -251,7 +251,7 @@ def _has_same_rows(one: Prediction, other: Prediction) -> bool:
 
 
 def check_joints(models: Sequence[IdentifiedModel], names: Sequence[str]) -> None:
-    """Refuse models of robots whose joints differ.
+    """Refuses models of robots whose joints differ.
 
     Raises:
         DataError: names the first of them.
@@ -278,7 +278,7 @@ MARK = "*"
 
 
 def format_model_comparison(comparison: ModelComparison) -> list[str]:
-    """Errors by joint and model, the best beyond doubt marked; then who is better where."""
+    """Formats errors by joint and model, the significantly best one marked, and conclusions."""
     names = [name.removesuffix(".json").removesuffix(".model") for name in comparison.names]
     rows = [["joint", *names, "unit", "rms", *[""] * (len(names) - 1)]]
     for item in comparison.joints:
@@ -297,7 +297,7 @@ def format_model_comparison(comparison: ModelComparison) -> list[str]:
 
 
 def describe_model_comparison(comparison: ModelComparison) -> list[str]:
-    """Who predicts which joints best; what remains open."""
+    """Describes which model predicts which joints best, and what remains open."""
     said = []
     for k, name in enumerate(comparison.names):
         won = comparison.find_best_joints(k)
@@ -315,7 +315,7 @@ def describe_model_comparison(comparison: ModelComparison) -> list[str]:
 
 
 def describe_winner(comparison: ModelComparison) -> tuple[str, str]:
-    """Who wins on how many joints."""
+    """Returns on how many joints the best model wins, and a sentence."""
     wins = [len(comparison.find_best_joints(k)) for k in range(len(comparison.names))]
     top = max(range(len(wins)), key=wins.__getitem__)
     if not wins[top]:

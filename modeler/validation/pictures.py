@@ -61,7 +61,7 @@ _CLOSE = 1.0 / 1500.0  # of the axis: stretches that no screen shows apart are d
 def find_masked_spans(
     prediction: Prediction, j: int, time: np.ndarray, rows: np.ndarray
 ) -> tuple[Span, ...]:
-    """The stretches of time of joint j that do not count, by reason.
+    """Finds the time spans of joint j that do not count, by reason.
 
     Args:
         prediction: with its masks.
@@ -92,7 +92,7 @@ def find_masked_spans(
 
 
 def describe_masks(prediction: Prediction, j: int) -> str:
-    """Which colour means what, and how many rows it takes; "" where every row counts."""
+    """Describes the reason of each colour and its number of rows; "" where every row counts."""
     reasons, rows = _find_mask_reasons(prediction, j), prediction.time.size
     sentences = [
         f"{COLOR_NAMES[color]}, {name}: {_WHY[name]} ({int(np.sum(reasons == name))} of {rows} "
@@ -147,7 +147,7 @@ _BAND = Style(SKY, opacity=0.45)
 
 
 def draw_time_picture(prediction: Prediction, item: JointComparison) -> Picture:
-    """Two rows sharing time: torques above, residual below; all logs left, worst window right."""
+    """Draws torques above, residual below; all logs left, worst window right."""
     window, time = item.worst, prediction.time
     is_in_segment = prediction.segment == window.segment
     margin = 0.5 * WINDOW
@@ -206,7 +206,7 @@ def _write_caption(prediction: Prediction, item: JointComparison) -> list[str]:
 def concatenate_time(
     prediction: Prediction,
 ) -> tuple[np.ndarray, str, tuple[tuple[float, str], ...]]:
-    """Time of all rows on one axis, (n,) s, its label, and where each log begins.
+    """Returns the time of all rows on one axis, (n,) s, its label, and where each log begins.
 
     One log keeps its own time; several are put one after the other, each starting where the
     one before ended.
@@ -227,7 +227,7 @@ def concatenate_time(
 def break_at_gaps(
     segment: np.ndarray, x: np.ndarray, y: np.ndarray
 ) -> tuple[np.ndarray, np.ndarray]:
-    """The curve with a NaN between segments, so that no line is drawn across a gap."""
+    """Returns the curve with a NaN between segments, so that no line crosses a gap."""
     places = np.flatnonzero(np.diff(segment)) + 1
     return np.insert(x, places, x[places]), np.insert(y, places, np.nan)
 
@@ -300,7 +300,7 @@ _ACROSS = 3  # panels side by side
 
 
 def draw_residual_picture(prediction: Prediction, item: JointComparison) -> Picture:
-    """A panel for each coordinate that the logs hold, then both spectra."""
+    """Draws a panel for each coordinate of the logs, then both spectra."""
     drawn = [
         _build_coordinate_panel(prediction, item, coordinate.id, coordinate.label)
         for coordinate in select_coordinates(prediction, item.index)
@@ -349,7 +349,7 @@ _LAST = (
 
 
 def compute_binned_means(x: np.ndarray, e: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Mean of x, mean of e and two standard errors in up to 24 bins of x, half of them by count.
+    """Computes means of x and e and two standard errors in up to 24 bins of x.
 
     Consecutive samples share their noise, so the standard error comes from the spread between
     separate passes through the bin: s^2 = G/(G-1) sum_g (sum_{i in g} (e_i - mean))^2 / n^2 with
@@ -463,7 +463,7 @@ _READABLE = 8.0  # percent: a shorter stretch of a bar has no room for its numbe
 
 
 def draw_overview_picture(comparison: Comparison) -> Picture:
-    """Relative error, regions of velocity; stacked shares; coordinates, other joints."""
+    """Draws relative errors, velocity regions, variance shares, coordinates and other joints."""
     names = tuple(item.joint.name for item in comparison.joints)
     errors = np.array([100.0 * item.relative_error for item in comparison.joints])
     bars = Bars("relative error", names, errors, tuple(f"{e:.1f}" for e in errors), Style(BLUE))
@@ -583,7 +583,7 @@ def _build_heatmap(
 
 
 def build_share_panels(comparison: Comparison) -> tuple[Panel, Panel]:
-    """Shares of the torque's variance, and the same of what is not explained."""
+    """Builds the shares of the torque's variance, and those of the residual's."""
     items = [item for item in comparison.joints if item.shares is not None]
     names = tuple(item.joint.name for item in items)
     variance_shares = [item.shares for item in items if item.shares is not None]
@@ -641,7 +641,7 @@ _MOST = 2500  # points of a curve
 def draw_overlay_picture(
     names: Sequence[str], predictions: Sequence[Prediction], j: int
 ) -> Picture:
-    """One joint: residuals of all models against time, and their sums of squares so far.
+    """Draws residuals of all models against time for one joint, and their sums of squares so far.
 
     Args:
         names: of the models.

@@ -75,13 +75,13 @@ class Prediction(ShortRepr):
 
 
 def compute_residual(prediction: Prediction) -> np.ndarray:
-    """Measured minus predicted torque, NaN where the row does not count, (n, joints)."""
+    """Returns measured minus predicted torque (n, joints), NaN where a row does not count."""
     difference = np.asarray(prediction.measured - prediction.predicted, dtype=float)
     return np.where(prediction.used, difference, np.nan)
 
 
 def select_full_rate(prediction: Prediction) -> FullRate:
-    """The samples behind the rows, or the rows themselves."""
+    """Returns the samples behind the rows, or the rows themselves."""
     if prediction.full is not None:
         return prediction.full
     e = compute_residual(prediction)
@@ -89,7 +89,7 @@ def select_full_rate(prediction: Prediction) -> FullRate:
 
 
 def compute_relative_error(prediction: Prediction) -> float:
-    """||measured - predicted|| / ||measured|| over all rows that count; NaN without a torque."""
+    """Returns ||measured - predicted|| / ||measured|| over rows that count; NaN without torque."""
     used = prediction.used
     size = float(np.linalg.norm(prediction.measured[used]))
     error = float(np.linalg.norm(compute_residual(prediction)[used]))
@@ -97,7 +97,7 @@ def compute_relative_error(prediction: Prediction) -> float:
 
 
 def compute_unit_errors(prediction: Prediction, rows: np.ndarray | None = None) -> dict[str, float]:
-    """Relative error over all joints of one unit, by unit.
+    """Computes the relative error over all joints of one unit, by unit.
 
     Args:
         prediction: measured and predicted.
@@ -116,7 +116,7 @@ def compute_unit_errors(prediction: Prediction, rows: np.ndarray | None = None) 
 
 
 def propagate_covariance(columns: np.ndarray, covariance: np.ndarray) -> np.ndarray:
-    """(s, n) standard deviation of the predicted torque, N m or N.
+    """Returns (s, n) standard deviation of the predicted torque, N m or N.
 
     For a row phi of the filtered regressor, tau = phi beta, so var(tau) = phi C phi^T with the
     covariance C of beta (propagation of errors; Gautier and Khalil 1991 give C). It says nothing
@@ -140,7 +140,7 @@ def propagate_covariance(columns: np.ndarray, covariance: np.ndarray) -> np.ndar
 def predict(
     model: IdentifiedModel, logs: Sequence[regression.Log], compiled: CompiledModel
 ) -> tuple[Prediction, regression.Observation]:
-    """What the model says of logs, processed as the logs it was fitted on.
+    """Predicts the torques of logs, processed as the logs of the fit.
 
     Args:
         model: fitted.
@@ -158,7 +158,7 @@ def predict(
 def predict_every_row(
     model: IdentifiedModel, log: regression.Log, compiled: CompiledModel
 ) -> tuple[np.ndarray, np.ndarray]:
-    """What the model says of every row of a log, behind the filter of the positions alone.
+    """Predicts the torques of every row of a log, behind the filter of the positions alone.
 
     The positions are taken as they are: at rest without torques, rows that repeat are no damage.
 
@@ -190,7 +190,7 @@ def predict_every_row(
 def predict_rows(
     model: IdentifiedModel, observation: regression.Observation, compiled: CompiledModel
 ) -> Prediction:
-    """What the model says of rows, without the samples behind them."""
+    """Predicts the torques of rows, without the samples behind them."""
     made = [
         (x @ model.beta, propagate_covariance(x, model.covariance))
         for _, x in regression.iterate_blocks(observation)
@@ -207,7 +207,7 @@ def predict_rows(
 
 
 def build_prediction(observation: regression.Observation, predicted: np.ndarray) -> Prediction:
-    """Measured and predicted torque (s, joints) on the rows, and nothing besides."""
+    """Builds a prediction of the rows from predicted torque (s, joints) alone."""
     joints: list[Any] = [(j.name, j.unit, j.effort_unit) for j in observation.joints]
     return Prediction(
         joints=tuple(JointInfo(*joint) for joint in joints),
@@ -249,7 +249,7 @@ def _collect_temperature(observation: regression.Observation) -> np.ndarray | No
 def compute_full_rate(
     observation: regression.Observation, compiled: CompiledModel, beta: np.ndarray
 ) -> FullRate:
-    """The samples behind the rows of an observation."""
+    """Computes the samples behind the rows of an observation."""
     parts = observation.stretches
     cutoff = observation.report.processing.parallel_cutoff
     left = [_compute_residual(part, compiled, beta) for part in parts]

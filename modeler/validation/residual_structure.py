@@ -47,7 +47,7 @@ DRIFTS = ("temperature", "time")
 
 
 def select_coordinates(prediction: Prediction, joint: int) -> tuple[Coordinate, ...]:
-    """Those that the logs hold of one joint; temperature only where every used row has it."""
+    """Selects the logged coordinates of one joint; temperature only where every used row has it."""
     used = prediction.used[:, joint]
     missing = set()
     if prediction.travel is None:
@@ -58,7 +58,7 @@ def select_coordinates(prediction: Prediction, joint: int) -> tuple[Coordinate, 
 
 
 def evaluate_coordinate(prediction: Prediction, joint: int, coordinate: str) -> np.ndarray:
-    """Values of a coordinate of one joint, all rows, (n,); time counts from the log's start."""
+    """Returns a coordinate of one joint, all rows, (n,); time counts from the log's start."""
     qd = prediction.qd[:, joint]
     plain = {
         "position": prediction.q,
@@ -80,7 +80,7 @@ def evaluate_coordinate(prediction: Prediction, joint: int, coordinate: str) -> 
 
 
 def format_coordinate_unit(prediction: Prediction, joint: int, coordinate: str) -> str:
-    """Unit of a coordinate as it stands on an axis."""
+    """Formats the unit of a coordinate for an axis."""
     info = prediction.joints[joint]
     unit = next(entry.unit for entry in COORDINATES if entry.id == coordinate)
     return unit.format(unit=info.unit, effort=info.effort_unit)
@@ -121,12 +121,12 @@ class ResidualStructure:
     motors: tuple[tuple[str, float], ...] = ()  # coupled motor, "5+6" -> share, of its velocity
 
     def get_share(self, coordinate: str) -> float:
-        """Share of one coordinate; NaN where the logs do not hold it."""
+        """Returns the share of one coordinate; NaN where the logs do not hold it."""
         return dict(self.shares).get(coordinate, float("nan"))
 
 
 def analyse_structure(prediction: Prediction, joint: int) -> ResidualStructure | None:
-    """Structure of one joint's residual; None with fewer than ENOUGH samples."""
+    """Analyses the structure of one joint's residual; None with too few samples."""
     rows = np.flatnonzero(prediction.used[:, joint])
     if rows.size < THRESHOLDS.min_samples:
         return None
@@ -253,7 +253,7 @@ class SpectralLine:
 
 
 def compute_ripple_spectrum(prediction: Prediction, joint: int) -> spectra.OrderSpectrum | None:
-    """Of the samples that count, at full rate; None if they are few, or the joint rests."""
+    """Computes the order spectrum of the samples that count; None of few, or if the joint rests."""
     full = select_full_rate(prediction)
     r, q = full.residual[:, joint], full.q[:, joint]
     counts = np.isfinite(r) & np.isfinite(q)
@@ -266,7 +266,7 @@ def compute_ripple_spectrum(prediction: Prediction, joint: int) -> spectra.Order
 
 
 def convert_orders(orders: spectra.OrderSpectrum, unit: str) -> tuple[np.ndarray, str]:
-    """Orders of a spectrum as a user counts them, and per what.
+    """Returns the orders of a spectrum per turn or per m, and which.
 
     Args:
         orders: the spectrum.
@@ -278,7 +278,7 @@ def convert_orders(orders: spectra.OrderSpectrum, unit: str) -> tuple[np.ndarray
 
 
 def find_order_peaks(orders: spectra.OrderSpectrum | None, unit: str) -> tuple[SpectralLine, ...]:
-    """What stands out in an order spectrum, the strongest first; see `convert_orders`."""
+    """Finds the peaks of an order spectrum, the strongest first; see `convert_orders`."""
     if orders is None:
         return ()
     spectrum, (counted, _) = orders, convert_orders(orders, unit)
@@ -318,7 +318,7 @@ class Repetition:
 
 
 def find_repetitions(prediction: Prediction) -> tuple[Repetition, ...]:
-    """Laps, then logs of the same motion; empty if no motion was made twice."""
+    """Finds laps, then logs of the same motion; empty if no motion was repeated."""
     motions = _collect_motions(prediction)
     candidates = [_find_laps(motions), _find_same_motions(motions)]
     return tuple(item for item in candidates if item.partners)
@@ -482,7 +482,7 @@ class VarianceShares:
 
     @property
     def repeatable_share(self) -> float:
-        """Repeatable share of what is not explained; 0 if nothing is left."""
+        """Returns the repeatable share of what is not explained; 0 if nothing is left."""
         left = self.systematic + self.floor
         return self.systematic / left if left > 0.0 else 0.0
 
@@ -494,7 +494,7 @@ def split_variance(
     repeated: tuple[Repetition, ...],
     structure: ResidualStructure | None,
 ) -> VarianceShares | None:
-    """Shares of one joint; None for a constant torque, or too few samples to tell.
+    """Splits the variance of one joint; None for a constant torque, or too few samples.
 
     Where the motion was repeated, the repeatable part is the mean product of the residual and that
     of the same moment in another lap (or log): noise of different laps has mean product zero.

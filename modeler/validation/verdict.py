@@ -7,7 +7,7 @@ from modeler.validation.thresholds import THRESHOLDS
 
 
 def write_headline(comparison: Comparison) -> str:
-    """One sentence on the whole robot."""
+    """Writes one sentence on the whole robot."""
     if not comparison.joints:
         return f"{comparison.prediction.robot}: no joint could be judged."
     ranked = sorted(comparison.joints, key=lambda item: item.relative_error)
@@ -26,20 +26,20 @@ def write_headline(comparison: Comparison) -> str:
 
 
 def collect_unit_errors(comparison: Comparison) -> list[tuple[str, float]]:
-    """Units of the judged joints, and the error over the joints of each."""
+    """Returns the units of the judged joints, and the error over the joints of each."""
     judged = {item.joint.effort_unit for item in comparison.joints}
     return [(unit, error) for unit, error in comparison.by_unit.items() if unit in judged]
 
 
 def write_verdict(comparison: Comparison) -> tuple[str, ...]:
-    """One line per joint: how good, what is left, when it is worst."""
+    """Writes one line per joint: how good, what is left, when it is worst."""
     lines = [write_joint_verdict(item) for item in comparison.joints]
     lines += [f"Joint {name} is not judged: {reason}." for name, reason in comparison.unjudged]
     return tuple(lines)
 
 
 def write_joint_verdict(item: JointComparison) -> str:
-    """The line of one joint."""
+    """Writes the line of one joint."""
     return (
         f"Joint {item.joint.name}: {format_percent(item.relative_error)} of the "
         f"{WORDS[item.joint.effort_unit]} is unexplained "
@@ -48,7 +48,7 @@ def write_joint_verdict(item: JointComparison) -> str:
 
 
 def describe_findings(item: JointComparison) -> list[str]:
-    """What is left in the residual of a joint, most useful first; never empty."""
+    """Describes what is left in the residual of a joint, most useful first; never empty."""
     if item.rms <= 1e-12 * item.measured_rms:
         return ["prediction and measurement agree to rounding"]
     wrong = describe_wrong_scale(item)
@@ -73,7 +73,7 @@ def _describe_patterns(item: JointComparison) -> list[str]:
 
 
 def describe_wrong_scale(item: JointComparison) -> str | None:
-    """What to check where the prediction is right but for its sign or a factor."""
+    """Describes what to check where the prediction is right but for its sign or a factor."""
     scale, name = item.scale, item.joint.name
     if scale is None:
         return None
@@ -92,7 +92,7 @@ def describe_wrong_scale(item: JointComparison) -> str | None:
 
 
 def compute_repeatable_share(item: JointComparison) -> float:
-    """Repeatable share of what is not explained; 0 if it is within three standard errors of 0."""
+    """Returns the repeatable share of the residual; 0 within three standard errors of 0."""
     shares = item.shares
     if shares is None or (shares.sigma is not None and shares.systematic < 3.0 * shares.sigma):
         return 0.0
@@ -100,7 +100,7 @@ def compute_repeatable_share(item: JointComparison) -> float:
 
 
 def find_best_pattern(item: JointComparison) -> tuple[residual_structure.Coordinate, float] | None:
-    """The coordinate that explains most, or a simpler one nearly as good, and its share."""
+    """Finds the coordinate that explains most, or a simpler one nearly as good, and its share."""
     if item.structure is None:
         return None
     top = max(share for _, share in item.structure.shares)
@@ -114,7 +114,7 @@ def find_best_pattern(item: JointComparison) -> tuple[residual_structure.Coordin
 
 
 def find_best_other(item: JointComparison) -> tuple[str, float] | None:
-    """What explains clearly more by its velocity than the joint itself, and its share.
+    """Finds what explains clearly more by its velocity than the joint itself, and its share.
 
     "joint 3", or "the motor that turns with joints 5 and 6" where the model has friction there.
     """
@@ -132,7 +132,7 @@ def find_best_other(item: JointComparison) -> tuple[str, float] | None:
 
 
 def classify_residual(item: JointComparison) -> str:
-    """`pattern`, `noise` or `other`: what a reader should see first."""
+    """Returns `pattern`, `noise` or `other`, the class of the residual."""
     patterns = (
         describe_wrong_scale,
         _describe_ripple,
@@ -147,12 +147,12 @@ def classify_residual(item: JointComparison) -> str:
 
 
 def is_too_large(item: JointComparison) -> bool:
-    """Whether so much is left that noise is no excuse."""
+    """Returns whether the error is too large to be noise."""
     return item.relative_error >= THRESHOLDS.max_noise_error
 
 
 def is_noise_like(item: JointComparison) -> bool:
-    """No pattern, no memory, no line: as far as this page can see, noise."""
+    """Returns True without a pattern, autocorrelation or narrow line."""
     return (
         item.structure is not None
         and not _describe_patterns(item)

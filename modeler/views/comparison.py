@@ -18,7 +18,7 @@ from modeler.views.figures import collect_figures
 
 
 def build_free_run_page(free_run: validation.FreeRun, origin: page.Origin) -> page.Page:
-    """The table of a free run, what is said of it, measured and simulated positions by joint."""
+    """Builds the page of a free run: table, sentences, positions by joint."""
     fits = [joint.fit for joint in free_run.joints if joint.fit is not None]
     worst = f"{min(fits):.3g} %" if fits and min(fits) > 0.0 else "nothing"
     return page.Page(
@@ -44,7 +44,7 @@ def build_model_comparison_page(
     provenance: Sequence[str] = (),
     held_out: bool | None = None,
 ) -> page.Page:
-    """The page of models side by side.
+    """Builds the page of models side by side.
 
     Args:
         comparison: from `contest`.
@@ -64,7 +64,7 @@ def build_model_comparison_page(
 
 
 def draw_model_pictures(comparison: validation.ModelComparison) -> list[Picture]:
-    """Measured torque and that of every model, joint by joint."""
+    """Draws the residuals of every model, joint by joint."""
     return [_draw_model_picture(comparison, item) for item in comparison.joints]
 
 
@@ -144,7 +144,7 @@ def _tabulate_residuals(comparison: validation.ModelComparison) -> page.PageTabl
 def draw_joint_pictures(
     comparison: validation.Comparison, item: validation.JointComparison
 ) -> tuple[Picture, ...]:
-    """The pictures of one joint: against time, then against each coordinate."""
+    """Draws the pictures of one joint: against time, then against each coordinate."""
     prediction = comparison.prediction
     return validation.draw_time_picture(prediction, item), validation.draw_residual_picture(
         prediction, item
@@ -152,7 +152,7 @@ def draw_joint_pictures(
 
 
 def draw_all_pictures(comparison: validation.Comparison) -> tuple[Picture, ...]:
-    """The overview, then the pictures of each judged joint."""
+    """Draws the overview, then the pictures of each judged joint."""
     drawn = [
         picture for item in comparison.joints for picture in draw_joint_pictures(comparison, item)
     ]
@@ -188,7 +188,7 @@ def build_comparison_page(
     provenance: Sequence[str] = (),
     origin: page.Origin | None = None,
 ) -> page.Page:
-    """The page of a comparison.
+    """Builds the page of a comparison.
 
     Args:
         comparison: from `compare`.

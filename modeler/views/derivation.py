@@ -223,7 +223,7 @@ PRESENTATIONS = {
 def build_derivation_page(
     derivation: Derivation, relation_lines: Sequence[str], agreement: str, source: str
 ) -> page.Page:
-    """The page of a derivation.
+    """Builds the page of a derivation.
 
     Args:
         derivation: of the robot.
@@ -276,7 +276,7 @@ def _build_table_blocks(robot: Robot, relation_lines: Sequence[str]) -> list[pag
 
 
 def render_relations(result: Mapping[str, Any], robot: Robot) -> str:
-    """The base parameters of a result of `modeler derive --json`, typeset, as a part of a page.
+    """Renders the base parameters of a result of `modeler derive --json`, as part of a page.
 
     Each names the rows that it is about, and says what every term is.
 

@@ -26,7 +26,7 @@ from modeler.views.figures import collect_figures, draw_errors_picture
 def build_diagnosis_page(
     diagnosis: Diagnosis, provenance: Sequence[str] = (), origin: page.Origin | None = None
 ) -> page.Page:
-    """The page of a diagnosis.
+    """Builds the page of a diagnosis.
 
     Args:
         diagnosis: what it shows.
@@ -98,7 +98,7 @@ def _describe_runner_up(diagnosis: Diagnosis) -> str:
 
 
 def sort_by_error(diagnosis: Diagnosis) -> list[Finding]:
-    """All that was found, refinements too, the largest error before first."""
+    """Returns all findings, refinements too, the largest error before first."""
     findings = [*diagnosis.effects, *diagnosis.refinements]
     return sorted(findings, key=lambda finding: -finding.error_before)
 

@@ -42,16 +42,16 @@ class Axis:
 
     @property
     def label_suffix(self) -> str:
-        """Behind the word residual."""
+        """Returns what follows the word residual on an axis."""
         return "" if self.direction is None else " x sign of velocity"
 
     def apply_direction(self, y: np.ndarray) -> np.ndarray:
-        """(rows_j,) y, times the direction of motion where that matters."""
+        """Returns (rows_j,) y times the direction of motion where that matters."""
         return y if self.direction is None else y * self.direction
 
 
 def build_axis(state: State, pick: Candidate, j: int, effect_torque: np.ndarray) -> Axis:
-    """The axis of an effect on joint j.
+    """Builds the axis of an effect on joint j.
 
     Args:
         state: rows and model.
@@ -159,17 +159,17 @@ class Bins:
 
     @property
     def count(self) -> int:
-        """Number of bins."""
+        """Returns the number of bins."""
         return len(self.centre)
 
     def compute_means(self, y: np.ndarray) -> np.ndarray:
-        """(b,) means of y (rows,)."""
+        """Computes (b,) means of y (rows,)."""
         held = self.place >= 0
         total = np.bincount(self.place[held], y[held], self.count)
         return np.asarray(total / np.bincount(self.place[held], minlength=self.count))
 
     def compute_errors(self, y: np.ndarray, block: np.ndarray) -> np.ndarray:
-        """(b,) half widths of the 95 % intervals of the means; NaN where one block fills a bin.
+        """Returns (b,) half widths of 95 % intervals of the means; NaN for bins of one block.
 
         Rows of one block of time share their noise: the spread between blocks counts,
         s^2 = G/(G-1) sum_g (sum_{i in g} (y_i - mean))^2 / n^2 with G blocks g, and Student's t.
@@ -193,7 +193,7 @@ class Bins:
 
 
 def build_bins(x: np.ndarray, weight: np.ndarray, block: np.ndarray, is_inlier: np.ndarray) -> Bins:
-    """About 40 bins of x: half of them share the rows evenly, half the square of an effect.
+    """Builds about 40 bins of x, half of equal rows, half of equal squared effect.
 
     So an effect that acts in a narrow place is seen there. No bin has rows of both signs, and
     none fewer than four blocks of time: there are fewer bins then.
@@ -254,7 +254,7 @@ def _cut_bins(order: np.ndarray, mass: np.ndarray, block: np.ndarray) -> list[np
 
 
 def find_inliers(left: np.ndarray, block: np.ndarray) -> np.ndarray:
-    """(rows,) False for the wild ones: far out with everything in the model, and in few blocks.
+    """Returns (rows,) False for outliers of the full model that occur in few blocks of time.
 
     Args:
         left: (rows,) residual with the effect.
@@ -302,36 +302,36 @@ class Evidence:
 
     @property
     def before(self) -> np.ndarray:
-        """(rows_j,) residual without the effect, N m or N."""
+        """Returns (rows_j,) residual without the effect, N m or N."""
         return self.without.residual[self.j]
 
     @property
     def contribution(self) -> np.ndarray:
-        """(rows_j,) what the effect takes out of the residual."""
+        """Returns (rows_j,) what the effect removes from the residual."""
         return self.before - self.after
 
     @property
     def after(self) -> np.ndarray:
-        """(rows_j,) residual with it."""
+        """Returns (rows_j,) residual with the effect, N m or N."""
         return self.full.residual[self.j]
 
     def compute_errors(self) -> np.ndarray:
-        """(b,) half widths of 95 % intervals of the bins' means about the effect."""
+        """Computes (b,) half widths of 95 % intervals of the bins' means about the effect."""
         return self.bins.compute_errors(self.axis.apply_direction(self.after), self.block)
 
     @property
     def block(self) -> np.ndarray:
-        """(rows_j,) block of time."""
+        """Returns (rows_j,) block of time."""
         return self.without.gram_blocks.block[self.j]
 
     @property
     def unit(self) -> str:
-        """Of the residual."""
+        """Returns the unit of the residual."""
         return self.without.data.compiled.spec.joints[self.j].effort_unit
 
 
 def collect_evidence(search: Search, step: SearchStep) -> Evidence:
-    """What there is to draw of an effect.
+    """Collects what is drawn of an effect.
 
     Args:
         search: the search.
@@ -388,7 +388,7 @@ def _compute_effect_torque(search: Search, step: SearchStep, j: int) -> np.ndarr
 
 
 def describe_residuals(item: Evidence) -> str:
-    """What is left on blocks of time that were left out of the fit, N m or N, and in percent."""
+    """Describes the rms residuals on left-out blocks of time, N m or N, and in percent."""
     size = float(np.sqrt(np.mean(item.without.rows.y[item.j] ** 2)))
 
     def format_rms(left: np.ndarray) -> str:
@@ -414,7 +414,7 @@ def describe_residuals(item: Evidence) -> str:
 
 
 def compute_cross_validated_residual(state: State, j: int) -> np.ndarray:
-    """(rows_j,) residual of joint j, every row by the fit to all other folds, N m or N."""
+    """Returns (rows_j,) residual of joint j, N m or N, every row by the fit to all other folds."""
     base = state.gram_blocks
     beta = base.fold_fits.beta[base.fold_fits.fold_index[base.block[j]]]
     return np.asarray(
@@ -425,7 +425,7 @@ def compute_cross_validated_residual(state: State, j: int) -> np.ndarray:
 def compute_law_sigma(
     search: Search, step: SearchStep, j: int, axis: Axis, bins: Bins
 ) -> np.ndarray | None:
-    """(b,) standard deviations of the mean torque of an effect in each bin, N m or N.
+    """Computes (b,) standard deviations of an effect's mean torque in each bin, N m or N.
 
     The torque is m beta_e with the means m of the effect's columns, so its variance is m C m^T.
     C is the part of the effect in the covariance of all parameters of the model with all effects,
@@ -457,7 +457,7 @@ def compute_law_sigma(
 
 
 def compute_covariance(base: GramBlocks) -> np.ndarray:
-    """(f + extra, f + extra) C of all parameters of a state, as `compute_law_sigma` states it."""
+    """Computes (f + extra, f + extra) C of all parameters as `compute_law_sigma` defines it."""
     G, u = base.G.sum(axis=0), base.u.sum(axis=0)
     inverse = np.linalg.pinv(G)
     theta, scores = inverse @ u, np.zeros((base.block_count, len(u)))

@@ -41,7 +41,7 @@ class AxisRanges:
 
 
 def choose_axis_ranges(item: Evidence) -> AxisRanges:
-    """Of both panels, alike, so that they can be compared.
+    """Chooses the same axis ranges for both panels, so that they can be compared.
 
     The ends are quantiles: neither one spike nor a few rows may flatten everything else. The curve
     of the effect is always inside.
@@ -139,7 +139,7 @@ LINES, LINES_AFTER = Style(BLACK, 1.0), Style(GREEN, 1.4)
 
 
 def draw_evidence_picture(item: Evidence) -> Picture:
-    """Residual on the axis where the effect shows itself, without the effect and with it."""
+    """Draws the residual on the axis of the effect, without the effect and with it."""
     pick, view = item.step.candidate, choose_axis_ranges(item)
     panels = [
         _build_residual_panel(item, view),
@@ -283,12 +283,12 @@ def _write_caption(item: Evidence, view: AxisRanges) -> list[str]:
 
 
 def select_alternatives(step: diagnosis.SearchStep) -> list[diagnosis.ScoredCandidate]:
-    """The effects that could stand for it: those of the same joint, or of the whole robot."""
+    """Selects the alternative effects on the same joint, or of the whole robot."""
     return [rival for rival in step.alternatives if rival.candidate.joint == step.candidate.joint]
 
 
 def tabulate_alternatives(step: diagnosis.SearchStep) -> PageTable:
-    """What the best effects on the same joint explain within the logs, below one another."""
+    """Tabulates what the best effects on the same joint explain within the logs."""
     gains = [
         (item.candidate.effect.id, max(0.0, item.variance_reduction))
         for item in (step.score, *select_alternatives(step)[:7])
@@ -306,7 +306,7 @@ def tabulate_alternatives(step: diagnosis.SearchStep) -> PageTable:
 def build_scatter_panel(
     title: str, x_label: str, y_label: str, x: np.ndarray, y: np.ndarray, block: np.ndarray
 ) -> Panel:
-    """Rows as dots, and the means of bins with 95 % intervals."""
+    """Builds a panel of rows as dots, and means of bins with 95 % intervals."""
     bins = build_bins(x, np.zeros(len(x)), block, np.ones(len(x), dtype=bool))
     every = max(1, len(x) // THRESHOLDS.max_dots)
     series: Sequence[Series] = (
@@ -333,7 +333,7 @@ STAYS = Style(GREEN, width=1.2)
 
 
 def draw_torque_picture(item: Evidence) -> Picture:
-    """Measured, model without and with the effect; below, what either leaves."""
+    """Draws measured torque, the model without and with the effect; below, the residuals."""
     rows = item.without.rows
     joint = item.without.data.compiled.spec.joints[item.j]
     log, start, end = find_worst_window(item)
@@ -384,7 +384,7 @@ def draw_torque_picture(item: Evidence) -> Picture:
 
 
 def find_worst_window(item: Evidence) -> tuple[int, float, float]:
-    """Index of the log, start and end in s of the half second where the model is worst.
+    """Returns log, start and end in s of the half second where the model is worst.
 
     By its squared residual without the effect, on the joint where the effect is seen.
     """
@@ -433,7 +433,7 @@ def _write_torque_caption(item: Evidence, what: str, window: tuple[float, float]
 
 
 def draw_play_picture(state: diagnosis.State, j: int) -> Picture:
-    """Size of the residual of joint j against the time to the nearest change of its load's sign.
+    """Draws |residual| of joint j against the time to the nearest change of its load's sign.
 
     Args:
         state: with the effects that are columns.
@@ -480,7 +480,7 @@ def _compute_time_since_reversal(state: diagnosis.State, j: int) -> np.ndarray:
 
 
 def draw_push_picture(state: diagnosis.State, window: diagnosis.PushWindow) -> Picture:
-    """Residuals of all joints around a push, each in parts of the joint's rms torque.
+    """Draws residuals of all joints around a push, in parts of the joint's rms torque.
 
     Args:
         state: without the rows of the push.

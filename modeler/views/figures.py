@@ -25,14 +25,14 @@ if TYPE_CHECKING:
 
 
 def draw_picture(picture: Picture) -> "Drawing":
-    """The picture as a figure."""
+    """Draws the picture as a figure."""
     from modeler.views.figure_matplotlib import draw_figure  # it takes long to load
 
     return draw_figure(picture)
 
 
 def collect_figures(drawn: Mapping[str, Callable[[], Picture]]) -> Figures:
-    """Figures by name, each drawn when it is asked for."""
+    """Returns figures by name, each drawn when it is requested."""
     return {name: partial(_draw_deferred, draw) for name, draw in drawn.items()}
 
 
@@ -41,7 +41,7 @@ def _draw_deferred(draw: Callable[[], Picture]) -> "Drawing":
 
 
 def draw_robot(robot: Robot) -> "Drawing":
-    """The robot at its [home], as wide as a column of a paper."""
+    """Draws the robot at its [home], as wide as a column of a paper."""
     from modeler.views.figure_matplotlib import Drawing
     from modeler.views.robot_drawing import draw_skeleton as skeleton_figure
 
@@ -50,7 +50,7 @@ def draw_robot(robot: Robot) -> "Drawing":
 
 
 def draw_parameters(fit: FitResult) -> "Drawing":
-    """How sure each parameter is: its sigma in percent of its value."""
+    """Draws the standard deviation of each parameter in percent of its value."""
     known = [p for p in fit.parameters if p.relative_sigma_percent is not None][
         : THRESHOLDS.max_bars
     ]
@@ -81,7 +81,7 @@ def draw_parameters(fit: FitResult) -> "Drawing":
 
 
 def draw_errors_picture(diagnosis: "Diagnosis") -> Picture:
-    """Relative error of every joint, without and with the effects."""
+    """Draws the relative error of every joint, without and with the effects."""
     panels, names = [], tuple(diagnosis.joints)
     for title, entry, color in (
         ("as fitted", "error_before", BLUE),
@@ -98,7 +98,7 @@ def draw_errors_picture(diagnosis: "Diagnosis") -> Picture:
 def draw_log(
     title: str, joints: Sequence[str], time: np.ndarray, q: np.ndarray, tau: np.ndarray
 ) -> "Drawing":
-    """Positions and torques of all joints against time."""
+    """Draws positions and torques of all joints against time."""
     panels = tuple(
         (Panel(what, "time [s]", label, build_curves(joints, time, list(values.T)), zero=True),)
         for what, label, values in (
@@ -116,7 +116,7 @@ def draw_log(
 def build_curves(
     names: Sequence[str], time: np.ndarray, columns: Sequence[np.ndarray], limit: int = LIMIT
 ) -> tuple[Curve, ...]:
-    """Columns against time, each in a colour of its own and of at most `limit` points."""
+    """Builds columns against time, each in a colour of its own, of at most `limit` points."""
     curves = []
     for k, (name, values) in enumerate(zip(names, columns, strict=True)):
         rows = thin_curves((values,), limit)

@@ -28,7 +28,7 @@ from modeler.views.thresholds import THRESHOLDS
 def build_estimators_page(
     robot: str, trials: Sequence[MethodResult], provenance: Sequence[str]
 ) -> page.Page:
-    """The page of all estimators on the logs of a robot of that name.
+    """Builds the page of all estimators on the logs of a robot of that name.
 
     Args:
         robot: its name.
@@ -53,7 +53,7 @@ def build_estimators_page(
 
 
 def tabulate_estimators(trials: Sequence[MethodResult]) -> list[list[str]]:
-    """Header and one row a method: errors, conditioning, seconds."""
+    """Returns a head and one row a method: errors, conditioning, seconds."""
     rows = [["method", "training %", "held out %", "condition", "essential", "farthest", "seconds"]]
     for trial in trials:
         fit = trial.fit
@@ -78,7 +78,7 @@ def tabulate_estimators(trials: Sequence[MethodResult]) -> list[list[str]]:
 
 
 def tabulate_estimates(trials: Sequence[MethodResult]) -> list[list[str]]:
-    """Header and one row a parameter: value +- sigma by each method that fitted."""
+    """Returns a head and one row a parameter: value +- sigma by each method that fitted."""
     fits = [trial.fit for trial in trials if trial.fit is not None]
     rows = [["parameter", "unit", *(fit.method for fit in fits)]]
     for column in zip(*(fit.parameters for fit in fits), strict=True):
@@ -93,7 +93,7 @@ def _format_value(parameter: ParameterEstimate) -> str:
 
 
 def collect_remarks(trials: Sequence[MethodResult]) -> list[tuple[str, str]]:
-    """Method and remark, or why it refused."""
+    """Returns method and remark, or the reason of its refusal."""
     return [
         (trial.method, remark)
         for trial in trials
@@ -119,7 +119,7 @@ def _describe_refusal(fit: FitResult) -> str:
 
 
 def collect_fit_tables(fit: FitResult) -> Tables:
-    """The tables of a fit; those of loads, gains and the reduced model where there are any."""
+    """Collects the tables of a fit, with those of loads, gains and the reduced model."""
     reduced = () if fit.essential is None else fit.essential.parameters
     named = {
         "essential": ("reduced model", reduced),
@@ -270,7 +270,7 @@ def build_fit_page(
     place: str = "MODEL",
     following: Sequence[str] = (),
 ) -> page.Page:
-    """The page of a fit.
+    """Builds the page of a fit.
 
     Args:
         model: fitted.
@@ -360,7 +360,7 @@ def _build_verdict_blocks(fit: FitResult) -> list[page.Verdict | page.Items]:
 
 
 def find_correlated_pairs(model: IdentifiedModel) -> list[tuple[str, str, float]]:
-    """Pairs of parameters whose estimates correlate by more than 0.95, worst first."""
+    """Finds pairs of estimates that correlate by more than 0.95, worst first."""
     deviation = np.sqrt(np.diag(model.covariance))
     size = np.where(deviation > 0.0, deviation, np.inf)
     correlation = model.covariance / np.outer(size, size)

@@ -16,7 +16,7 @@ from modeler.views.thresholds import THRESHOLDS
 
 
 def build_fleet_page(fleet: Fleet, provenance: Sequence[str] = ()) -> page.Page:
-    """The page of a fleet; `provenance` are lines on how the data came about."""
+    """Builds the page of a fleet; `provenance` are lines on how the data came about."""
     return page.Page(
         title=f"{fleet.robot}: what drifts where",
         headline=result.format_headline(fleet),
@@ -79,7 +79,7 @@ def _build_verdict(fleet: Fleet) -> page.Verdict | page.Paragraph:
 
 
 def draw_finding_picture(fleet: Fleet, one: FleetFinding) -> Picture:
-    """The values of that machine over its periods, before those of all others."""
+    """Draws the values of the finding's machine over its periods, before those of all others."""
     each = next(each for each in fleet.histories if each.quantity == one.quantity)
     others = [
         machine_values for name, machine_values in each.machines.items() if name != one.machine
@@ -110,7 +110,7 @@ def draw_finding_picture(fleet: Fleet, one: FleetFinding) -> Picture:
 
 
 def draw_quantity_picture(fleet: Fleet, each: QuantityHistory) -> Picture:
-    """One quantity of all machines over their periods."""
+    """Draws one quantity of all machines over their periods."""
     series = tuple(
         Means(
             name,
@@ -139,7 +139,7 @@ def _build_background(others: Sequence[QuantityValues]) -> Curve:
 
 
 def draw_map_pictures(fleet: Fleet) -> list[Picture]:
-    """The greatest change of every quantity and machine, in sigmas; machines in portions."""
+    """Draws the greatest change of every quantity and machine, in sigmas."""
     return [
         _draw_map(fleet, machines, k) for k, machines in enumerate(_group_machines(fleet), start=1)
     ]

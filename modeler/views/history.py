@@ -30,7 +30,7 @@ _KINDS = {"% sigma": "bar", "unit": "unit", "is the sum of": "why"}
 def tabulate_values(
     parameters: Sequence[ParameterEstimate], base: Sequence[BaseSpec] = (), caption: str = ""
 ) -> page.PageTable:
-    """Value, sigma, %sigma, unit, and what each parameter is the sum of.
+    """Tabulates value, sigma, %sigma, unit, and the sum that each parameter is.
 
     Args:
         parameters: estimated ones.
@@ -57,7 +57,7 @@ def tabulate_values(
 
 
 def format_relation(base: BaseSpec) -> str:
-    """The sum behind a base parameter: "ZZ1 + Ia1 + D2**2*M2"; "" where it is one term alone."""
+    """Formats the sum of a base parameter: "ZZ1 + Ia1 + D2**2*M2"; "" for a single term."""
     if len(base.terms) == 1 and base.terms[0].coefficient == "1":
         return ""
     text = " ".join(_format_term(term) for term in base.terms)
@@ -90,7 +90,7 @@ def _build_sigma_cell(parameter: ParameterEstimate) -> page.PageCell:
 
 
 def tabulate_joint_errors(fit: FitResult) -> page.PageTable:
-    """Errors by joint on the logs that were fitted, each in parts of the joint's own torque."""
+    """Tabulates errors by joint on the fitted logs, in parts of the joint's own torque."""
     top = max((joint.relative_error or 0.0 for joint in fit.joints), default=0.0) or 1.0
     rows = [
         (
@@ -113,7 +113,7 @@ def tabulate_joint_errors(fit: FitResult) -> page.PageTable:
 
 
 def find_added_names(model: IdentifiedModel) -> set[str]:
-    """Base parameters that the effects of a model's history brought."""
+    """Finds the base parameters that the effects of a model's history added."""
     steps = {(step.effect, step.joint) for step in model.history if step.effect}
     effect_parameters = {p.name for p in model.spec.standard if (p.effect, p.joint) in steps}
     return {b.name for b in model.spec.base if b.column_of in effect_parameters}
@@ -122,7 +122,7 @@ def find_added_names(model: IdentifiedModel) -> set[str]:
 def tabulate_nonlinear_parameters(
     steps: Sequence[tuple[Addition, Mapping[str, str]]],
 ) -> page.PageTable | None:
-    """Shapes of the effects that were added; None if they have none.
+    """Tabulates nonlinear parameters of the added effects; None without any.
 
     Args:
         steps: of a model's history, each with the units of its shapes by name.
@@ -168,7 +168,7 @@ _ACROSS = 3  # panels side by side
 def build_history_page(
     model: IdentifiedModel, left_out: Sequence[str] = (), origin: page.Origin | None = None
 ) -> page.Page:
-    """The page of a model's history: the error after every effect, joint by joint; values.
+    """Builds the page of a model's history: error after every effect, by joint, and values.
 
     Args:
         model: with its history.
@@ -201,7 +201,7 @@ def build_effect_page(
     model: IdentifiedModel | None,
     drawn: tuple[str, Sequence[float], Sequence[float]],
 ) -> page.Page:
-    """The page of an effect that a robot file defines: its equation, where it was found, values.
+    """Builds the page of an effect of a robot file: equation, origin, values.
 
     Args:
         effect: it.
@@ -415,7 +415,7 @@ def _build_refusal_items(left_out: Sequence[str]) -> page.Items:
 
 
 def format_step_name(step: Addition) -> str:
-    """What a step is called: "as fitted", "+ spring @2"."""
+    """Formats the name of a step: "as fitted", "+ spring @2"."""
     if not step.effect:
         return "as fitted"
     return f"+ {step.effect}" + (f" @{step.joint}" if step.joint else "")
@@ -427,7 +427,7 @@ def _break_step_name(step: Addition) -> str:
 
 
 def draw_waterfall_picture(history: Sequence[Addition]) -> Picture:
-    """Error over the joints after every effect, on held-out and on fitted logs."""
+    """Draws the error over the joints after every effect, on held-out and on fitted logs."""
     names = tuple(_break_step_name(step) for step in history)
     held, fitted = 100.0 * np.array([(s.error, s.training_error) for s in history]).T
     first = (
@@ -469,7 +469,7 @@ def draw_waterfall_picture(history: Sequence[Addition]) -> Picture:
 
 
 def draw_joints_picture(history: Sequence[Addition], units: Mapping[str, str]) -> Picture:
-    """The same for every joint by itself.
+    """Draws the error of every joint after every effect.
 
     Args:
         history: of a model.

@@ -35,7 +35,7 @@ _POSITION, _PARALLEL = Style(PINK, 1.4), Style(BLACK, 1.4)
 
 
 def build_noise_blocks(bands: Bands | None) -> list[page.Block]:
-    """What chose the cut-offs, and the picture; nothing where nothing moves."""
+    """Returns how the cut-offs were chosen, and the picture; nothing where nothing moves."""
     picture = draw_noise_picture(bands)
     if bands is None or picture is None:
         return []
@@ -44,7 +44,7 @@ def build_noise_blocks(bands: Bands | None) -> list[page.Block]:
 
 
 def draw_noise_picture(bands: Bands | None) -> Picture | None:
-    """Spectrum and floor of each joint that moves; beside them its torque, if a fit said it."""
+    """Draws spectrum and noise floor of each moving joint, and its torque noise if fitted."""
     moving = [one for one in bands.noise if one.moves and any(one.spectrum)] if bands else []
     if bands is None or not moving:
         return None
@@ -154,7 +154,7 @@ def build_log_page(
     provenance: Sequence[str],
     bands: Bands | None = None,
 ) -> page.Page:
-    """The page of a log.
+    """Builds the page of a log.
 
     Args:
         inspection: what is in the log.
@@ -196,7 +196,7 @@ def build_log_page(
 
 
 def describe_clock(clock: Clock) -> str:
-    """The clock in words."""
+    """Describes the clock of a log in a line."""
     rate = f"{clock.rate:.6g} Hz" if clock.rate > 0.0 else "unknown rate"
     parts = [f"{clock.column}: {rate} over {clock.duration:.4g} s"]
     uneven = f"jitter {format_percent(clock.jitter)} of a step"
@@ -215,7 +215,7 @@ def describe_clock(clock: Clock) -> str:
 
 
 def tabulate_channels(inspection: LogInspection) -> list[list[str]]:
-    """Header and one row a channel, as text."""
+    """Returns a head and one row a channel, as text."""
     rows = [list(_HEAD)]
     for channel in inspection.channels:
         remarks = ["never changes"] if channel.constant else []
@@ -238,7 +238,7 @@ def tabulate_channels(inspection: LogInspection) -> list[list[str]]:
 
 
 def draw_log_pictures(inspection: LogInspection, bands: Bands | None = None) -> list[Picture]:
-    """All pictures of a log; `bands` as of `build_log_page`."""
+    """Draws all pictures of a log; `bands` as of `build_log_page`."""
     noise = draw_noise_picture(bands or build_bands(estimate_position_noise(inspection.positions)))
     return [
         *draw_channel_pictures(inspection),
@@ -247,7 +247,7 @@ def draw_log_pictures(inspection: LogInspection, bands: Bands | None = None) -> 
 
 
 def draw_channel_pictures(inspection: LogInspection) -> list[Picture]:
-    """One picture for the columns of each kind, against time."""
+    """Draws one picture for the columns of each kind, against time."""
     groups: dict[str, list[str]] = {}
     for name in inspection.values:
         groups.setdefault(split_label(name)[0], []).append(name)
@@ -280,7 +280,7 @@ def _draw_channels(
 
 
 def draw_clock_picture(inspection: LogInspection) -> Picture | None:
-    """The steps of the clock against time; None without a clock."""
+    """Draws the steps of the clock against time; None without a clock."""
     time, steps = inspection.steps[0], 1e3 * inspection.steps[1]
     if inspection.clock is None or not np.isfinite(steps).any():
         return None

@@ -146,23 +146,23 @@ class Drawings:
         self.any = False
 
     def content(self, picture: Picture) -> str:
-        """What the script draws it from."""
+        """Returns the data from which the script draws a picture."""
         self.any = True
         return encode_script_json(figure_page.describe_picture(picture, self.numbers))
 
     def block(self) -> str:
-        """The numbers of all pictures so far."""
+        """Returns the numbers of all pictures so far."""
         return encode_script_json(self.numbers.encode_block())
 
 
 def render_template(template: str, **values: Any) -> str:
-    """Text of `templates/pages/<template>.html.jinja` with these values."""
+    """Renders `templates/pages/<template>.html.jinja` with these values."""
     made = _build_environment().get_template(f"{template}.html.jinja")
     return made.render(drawings=Drawings(), **values)
 
 
 def encode_script_json(content: Any) -> str:
-    """JSON that may stand inside a script element."""
+    """Encodes JSON that may stand inside a script element."""
     text = json.dumps(content, allow_nan=False, separators=(",", ":"), ensure_ascii=False)
     return text.replace("<", "\\u003c")
 
@@ -241,18 +241,18 @@ class PageEntry:
 
     @property
     def folder(self) -> str:
-        """Of the page; "" for the folder itself."""
+        """Returns the folder of the page; "" for the index's own folder."""
         return self.place.rpartition("/")[0]
 
     @property
     def rank(self) -> tuple[int, str]:
-        """Where it stands among the pages of its folder."""
+        """Returns the sort key of the page within its folder."""
         known = _ORDER.index(self.command) if self.command in _ORDER else len(_ORDER)
         return known, self.place
 
 
 def write_index(folder: Path, title: str = "") -> Path | None:
-    """Write `index.html` of a folder and its own folders; the path, None if it is not ours.
+    """Writes `index.html` of a folder and its folders; returns its path, None if it is not ours.
 
     An `index.html` that no earlier call wrote is left alone.
 
@@ -276,7 +276,7 @@ def write_index(folder: Path, title: str = "") -> Path | None:
 
 
 def find_pages(folder: Path) -> list[PageEntry]:
-    """Our pages in a folder and in its folders, in the order in which one reads them."""
+    """Finds our pages in a folder and its folders, in reading order."""
     pages = [*folder.glob("*.html"), *folder.glob("*/*.html")]
     page_entries = []
     for path in pages:
@@ -361,7 +361,7 @@ class Page:
         return render_page(self)
 
     def collect_pictures(self) -> list[Picture]:
-        """All that it shows, in order, each under a name of its own."""
+        """Collects all pictures in order, each under a name of its own."""
         blocks = (block for section in self.sections for block in section.blocks)
         pictures: dict[str, Picture] = {}
         for picture in (block.picture for block in blocks if isinstance(block, Figure)):
@@ -373,7 +373,7 @@ class Page:
 
 
 def render_page(sheet: Page) -> str:
-    """The page as text; its security policy forbids any network access."""
+    """Renders the page as text; its security policy forbids any network access."""
     return render_template("sheet", sheet=sheet, about=_collect_page_facts(sheet))
 
 
@@ -389,7 +389,7 @@ _FILES = {"diagnose": "diagnosis.html", "add": "improved.html"}
 
 
 def write_page(path: Path, sheet: Page) -> Path:
-    """Write the page; returns the path of the file written.
+    """Writes the page; returns the path of the file written.
 
     Args:
         path: an `.html` file, or a folder, which then gets the page and an index of its pages.
@@ -411,7 +411,7 @@ def write_page(path: Path, sheet: Page) -> Path:
 def suggest_after_fit(
     model: str, logs: Sequence[str], robot: str, fit: "FitResult", mapped: Sequence[str] = ()
 ) -> list[str]:
-    """Compare the model with logs, and look for what it lacks; first what the fit asks for.
+    """Suggests to compare the model with logs, and to diagnose it; first what the fit requires.
 
     Args:
         model: its file.
@@ -442,7 +442,7 @@ def _is_effect_missing(fit: "FitResult") -> bool:
 def suggest_after_compare(
     model: str, fitted: Sequence[str], logs: Sequence[str], held_out: bool, noise: bool = False
 ) -> str:
-    """Look for what is missing; if nothing is, go to the controller.
+    """Suggests to diagnose the model; if nothing is missing, to generate the controller.
 
     Args:
         model: file of the model.
@@ -459,7 +459,7 @@ def suggest_after_compare(
 
 
 def suggest_after_stated(robot: str, logs: Sequence[str], mapped: Sequence[str] = ()) -> str:
-    """Fit what a robot file states otherwise."""
+    """Suggests to fit what a robot file states."""
     words = "".join(f" --map {_quote_words([word])}" for word in mapped)
     stem = Path(robot).name.partition(".")[0]
     return (
@@ -475,7 +475,7 @@ def suggest_after_diagnosis(
     diagnosis: "Diagnosis",
     effects_from: str | None = None,
 ) -> list[str]:
-    """Add the effects that have columns; without any, see what is left, or take the model."""
+    """Suggests to add the effects that have columns; else to compare or to generate."""
     named = diagnosis.addable_findings
     if not named and diagnosis.verdict == "nothing significant":
         return [_suggest_generate(model)]
@@ -501,7 +501,7 @@ def suggest_after_diagnosis(
 def suggest_after_add(
     model: str, logs: Sequence[str], holdout: Sequence[str], fit: "FitResult"
 ) -> list[str]:
-    """Compare the new model with what was never fitted, if given; take it to the controller.
+    """Suggests to compare the new model with held-out logs, and to generate the controller.
 
     First see what it lacks still, if it does.
     """

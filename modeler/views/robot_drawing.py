@@ -43,7 +43,7 @@ def place_names(
     sleeves: Sequence[np.ndarray],
     paper: tuple[float, float],
 ) -> list[NameLabel]:
-    """The names where they are written: `at` is the left end of the text, at half its height.
+    """Places the names: `at` is the left end of the text, at half its height.
 
     Names at one place come one after the other in one line. Each such line takes, of 36 places
     around it, the one that covers fewest names and lines.
@@ -173,26 +173,26 @@ class PaperSheet:
     size: tuple[float, float]
 
     def convert_to_world(self, frame: int, points: np.ndarray) -> np.ndarray:
-        """(n, 3) in frame 0."""
+        """Returns points (n, 3) in frame 0."""
         if frame == robot_scene.BASE:
             return points
         pose = self.frames[frame]
         return np.asarray(points @ pose[:3, :3].T + pose[:3, 3])
 
     def project_points(self, points: np.ndarray) -> np.ndarray:
-        """(n, 3) x and y on the paper, and depth in m, of points in frame 0."""
+        """Returns (n, 3) x and y on the paper, and depth in m, of points in frame 0."""
         turned = points @ self.rotation.T
         return np.column_stack([turned[:, :2] * self.scale + self.shift, turned[:, 2]])
 
     def project_point(self, point: robot_scene.Point) -> np.ndarray:
-        """(3,) of a point that hangs on a frame."""
+        """Returns (3,) of a point that is fixed to a frame."""
         return np.asarray(
             self.project_points(self.convert_to_world(point[0], np.array([point[1]])))[0]
         )
 
 
 def create_paper(size: tuple[float, float], kind: type[Figure] = Figure) -> Any:
-    """Axes over a whole sheet of that size, a figure of that kind; their units are points."""
+    """Creates axes over a whole sheet of that size and kind of figure; units are points."""
     figure = kind(figsize=(size[0] / 72.0, size[1] / 72.0))
     FigureCanvasAgg(figure)
     axes = figure.add_axes((0.0, 0.0, 1.0, 1.0))
@@ -203,14 +203,14 @@ def create_paper(size: tuple[float, float], kind: type[Figure] = Figure) -> Any:
 
 
 def save_sheet(axes: Any, suffix: str) -> bytes:
-    """The sheet as a file, without a date or version; ".png" has 400 dots per inch."""
+    """Returns the sheet as a file, without a date or version; ".png" has 400 dots per inch."""
     stream = io.BytesIO()
     axes.figure.savefig(stream, format=suffix[1:], dpi=400, metadata=_METADATA[suffix])
     return stream.getvalue()
 
 
 def draw_parts(axes: Any, scene: robot_scene.Scene, sheet: PaperSheet, size: float) -> None:
-    """All parts but the names; `size` is a length of the robot, m."""
+    """Draws all parts but the names; `size` is a length of the robot, m."""
     parts = [
         *_collect_faces(scene, sheet),
         *_collect_lines(scene, sheet, size),
@@ -221,7 +221,7 @@ def draw_parts(axes: Any, scene: robot_scene.Scene, sheet: PaperSheet, size: flo
 
 
 def compute_outline(scene: robot_scene.Scene, sheet: PaperSheet) -> np.ndarray:
-    """(n, 2) corners of the parts on the paper."""
+    """Returns (n, 2) corners of the parts on the paper."""
     points = [sheet.project_point(end)[:2] for line in scene.lines for end in line.ends]
     points += [
         xy
@@ -299,7 +299,7 @@ def _build_line_drawer(line: robot_scene.SceneLine, a: np.ndarray, b: np.ndarray
 
 
 def build_arrow(a: np.ndarray, b: np.ndarray, color: str, width: float, order: float) -> Any:
-    """From a to b, points."""
+    """Builds an arrow from a to b, points."""
     head = min(2.2 + 1.6 * width, 0.7 * float(np.hypot(*(b - a))))
     style = f"-|>,head_length={head},head_width={0.4 * head}"
     return FancyArrowPatch(
@@ -337,7 +337,7 @@ _GREY, _GRAVITY = "#5c5c62", "#6b4fa0"
 
 
 def render_picture(skeleton: Skeleton, posture: Posture, suffix: str) -> bytes:
-    """The picture as a file of that kind, 3.5 inches wide, without a date or version.
+    """Renders the picture as a file of that kind, 3.5 inches wide, without a date or version.
 
     Args:
         skeleton: the robot.
@@ -349,7 +349,7 @@ def render_picture(skeleton: Skeleton, posture: Posture, suffix: str) -> bytes:
 
 
 def draw_skeleton(skeleton: Skeleton, posture: Posture, kind: type[Figure] = Figure) -> Any:
-    """The picture as a figure of that kind, 3.5 inches wide."""
+    """Draws the picture as a figure of that kind, 3.5 inches wide."""
     with matplotlib.rc_context(SETTINGS):
         return _draw_skeleton_axes(skeleton, posture, kind).figure
 
@@ -459,7 +459,7 @@ _HIDDEN_IN_MODES = ("frames", "masses", "names", "fixed names", "loop names")
 def render_modes(
     skeleton: Skeleton, postures: Sequence[Posture], titles: Sequence[str], suffix: str
 ) -> bytes:
-    """The postures as one picture, all seen from one place and to one scale.
+    """Renders the postures as one picture, of one view and one scale.
 
     Two are as wide as a column of a paper (3.5 inches), four as wide as its page.
 

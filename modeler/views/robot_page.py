@@ -39,7 +39,7 @@ _DIGITS = 7  # of coordinates of drawn points: finer than any screen
 def build_page_content(
     skeleton: Skeleton, posture: Posture, further: Sequence[robot_scene.Part] = ()
 ) -> dict[str, Any]:
-    """What the scripts of the page work on: the table in numbers, loops, ranges, drawn parts."""
+    """Builds the data of the page's scripts: the table in numbers, loops, ranges, drawn parts."""
     view = robot_scene.choose_view(skeleton, posture)
     ranges = [_choose_slider_range(skeleton, posture, k) for k in range(len(skeleton.free))]
     return {
@@ -147,14 +147,14 @@ class TableRow:
 
 
 def build_table_head(robot: Robot) -> tuple[str, ...]:
-    """The names of the columns; those that are zero everywhere are left out."""
+    """Returns the names of the columns; those that are zero everywhere are left out."""
     table = build_written_table(robot)
     letters = (_LETTERS.get(letter, letter) for letter in table.units)
     return ("j", *([table.antecedent] if table.antecedent else []), "μ", "σ", *letters, "q")
 
 
 def build_table_rows(robot: Robot) -> tuple[TableRow, ...]:
-    """The rows in table order, the platform's last."""
+    """Returns the rows in table order, the platform's last."""
     table, rows = build_written_table(robot), []
     numbers = {joint.name: str(i) for i, joint in enumerate(robot.joints)}
     for i, (joint, row_cells) in enumerate(table.rows):
@@ -175,7 +175,7 @@ def _typeset_cell(cell: str) -> str:
 
 
 def describe_gravity(skeleton: Skeleton) -> str:
-    """`gravity 9.81 m/s² along −z0`."""
+    """Describes gravity: `gravity 9.81 m/s² along −z0`."""
     length = float(np.linalg.norm(skeleton.gravity))
     if length == 0.0:
         return "no gravity"
@@ -187,7 +187,7 @@ def describe_gravity(skeleton: Skeleton) -> str:
 
 
 def format_relations(robot: Robot) -> str:
-    """`q4 = -q3, q7 = q3`; nothing without relations."""
+    """Formats the relations: `q4 = -q3, q7 = q3`; nothing without any."""
     return ", ".join(f"q{name} = {relation.text}" for name, relation in robot.relations.items())
 
 
@@ -198,7 +198,7 @@ _HEAD = ("j", "a", "joint", "q", "x", "y", "z", "axis")
 
 
 def describe_posture(skeleton: Skeleton, posture: Posture) -> list[str]:
-    """Lines for people: where every frame stands at home, and whether the loops close."""
+    """Describes where every frame stands at home, and whether the loops close."""
     robot = skeleton.robot
     frames = compute_poses(skeleton, posture.u)
     cells = [
@@ -264,7 +264,7 @@ def _describe_loops(skeleton: Skeleton, posture: Posture) -> list[str]:
 
 
 def serialise_posture(skeleton: Skeleton, posture: Posture) -> dict[str, Any]:
-    """The same for machines: poses are 4x4 matrices, rows first, in frame 0, m."""
+    """Returns the posture as plain data: poses are 4x4 matrices, rows first, in frame 0, m."""
     frames = compute_poses(skeleton, posture.u)
     return {
         "robot": skeleton.robot.name,
@@ -326,7 +326,7 @@ def _format_direction(z: np.ndarray) -> str:
 def render_robot_page(
     skeleton: Skeleton, posture: Posture, further: Sequence[robot_scene.Part] = ()
 ) -> str:
-    """The page as text, with further parts; its security policy forbids any network access."""
+    """Renders the page with further parts; its security policy forbids any network access."""
     robot = skeleton.robot
     return render_template(
         "robot",
@@ -345,7 +345,7 @@ def render_robot_page(
 
 
 def render_modes_page(name: str, title: str, count: int, svg: str) -> str:
-    """The page of a robot's assembly modes.
+    """Renders the page of a robot's assembly modes.
 
     Args:
         name: of the robot.
@@ -377,7 +377,7 @@ class ShownRobot(ShortRepr):
 def show(
     robot: Robot, page: str | Path | None = None, picture: str | Path | None = None
 ) -> ShownRobot:
-    """Draw a robot at its [home], found where that is missing or poor.
+    """Draws a robot at its [home], which is solved where it is missing or poor.
 
     >>> show(robot, "arm.html").skeleton.robot.name
     'two-link'
@@ -409,7 +409,7 @@ def show(
 
 
 def render_robot(robot: Robot) -> str:
-    """The page of a robot."""
+    """Renders the page of a robot."""
     shown_robot = _prepare_robot(robot)
     return render_robot_page(shown_robot.skeleton, shown_robot.posture)
 
@@ -445,7 +445,7 @@ _CLEAR = 0.22  # opacity
 
 
 def render_nearest_page(robot: Robot, bounds: MotionBounds, near: ClosestApproach) -> str:
-    """The page as text, the joints as they stand there.
+    """Renders the page of the posture where two links are nearest.
 
     Args:
         robot: as read.

@@ -25,7 +25,7 @@ _SIDES = 14
 
 
 def build_cylinder(radius: float, length: float) -> list[np.ndarray]:
-    """A cylinder."""
+    """Builds a cylinder."""
     angle = np.linspace(0.0, 2.0 * np.pi, _SIDES + 1)
     ring = np.stack([radius * np.cos(angle), radius * np.sin(angle), 0.0 * angle], axis=1)
     half = np.array([0.0, 0.0, 0.5 * length])
@@ -35,7 +35,7 @@ def build_cylinder(radius: float, length: float) -> list[np.ndarray]:
 
 
 def build_box(half: float, low: float, high: float) -> list[np.ndarray]:
-    """A square prism from z = low to high, 2 half wide."""
+    """Builds a square prism from z = low to high, 2 half wide."""
     ring = half * np.array([[1.0, 1.0], [-1.0, 1.0], [-1.0, -1.0], [1.0, -1.0]])
     top = np.column_stack([ring, np.full(4, high)])
     bottom = np.column_stack([ring, np.full(4, low)])
@@ -44,7 +44,7 @@ def build_box(half: float, low: float, high: float) -> list[np.ndarray]:
 
 
 def build_ball(radius: float) -> list[np.ndarray]:
-    """A ball, as rings of polygons."""
+    """Builds a ball, as rings of polygons."""
     rings, turns = 5, 10
     polar = np.pi * np.arange(rings + 1) / rings
     angle = 2.0 * np.pi * np.arange(turns + 1) / turns
@@ -68,7 +68,7 @@ def build_ball(radius: float) -> list[np.ndarray]:
 
 
 def order_polygon(points: np.ndarray, size: float) -> np.ndarray | None:
-    """The points in the order around their middle, in their best plane; None if they are a line."""
+    """Orders the points around their middle, in their best plane; None if they are a line."""
     if len(points) < 3:
         return None
     middle = points - points.mean(axis=0)
@@ -166,7 +166,7 @@ class Scene:
     sleeves: tuple[Sleeve, ...]
 
     def drop_layers(self, layers: Sequence[str]) -> "Scene":
-        """The scene without what is shown and hidden with these layers."""
+        """Returns the scene without these layers."""
         parts: Any = {
             kind: tuple(part for part in getattr(self, kind) if part.layer not in layers)
             for kind in ("lines", "faces", "dots", "labels")
@@ -181,7 +181,7 @@ Part = SceneLine | Face | Dot | Label | Sleeve
 
 
 def build_scene(skeleton: Skeleton, posture: Posture, further: Sequence[Part] = ()) -> Scene:
-    """The parts of a robot, their sizes chosen for the posture, and further ones."""
+    """Builds the parts of a robot, their sizes chosen for the posture, and further ones."""
     maker = _SceneBuilder(skeleton, posture)
     parts = [*further, *maker.build_base(), *maker.build_platform(), *maker.build_loops()]
     for i, row in enumerate(skeleton.rows):
@@ -215,7 +215,7 @@ class _SceneBuilder:
         self.radius = float(np.clip(0.3 * typical, 0.010 * self.size, 0.021 * self.size))
 
     def choose_color(self, body: int) -> str:
-        """Of a link."""
+        """Returns the colour of a link."""
         if body == BASE:
             return GROUND
         if self.skeleton.rows[body].virtual:
@@ -223,7 +223,7 @@ class _SceneBuilder:
         return BODIES[(self.skeleton.count_depth(body) - 1) % len(BODIES)]
 
     def build_base(self) -> Iterator[Part]:
-        """Frame 0."""
+        """Builds the axes of frame 0."""
         yield from self._build_triad(BASE, 0.13 * self.size, 1.6, "base")
         for axis, name in enumerate("xyz"):
             tip = 0.15 * self.size * np.eye(3)[axis]
@@ -231,7 +231,7 @@ class _SceneBuilder:
         yield Dot(BASE, (BASE, ORIGIN), "#222222", 3.0, "base")
 
     def build_link(self, i: int, row: SkeletonRow) -> Iterator[Part]:
-        """The common normal from the antecedent, and the way along the joint's axis."""
+        """Builds the common normal from the antecedent, and the way along the joint's axis."""
         a, carrier = row.parent, self.skeleton.find_body_row(row.parent)
         turn, ankle = compute_corner(row), compute_foot_pose(row)[:3, 3]
         of = i if a == BASE else a
@@ -277,7 +277,7 @@ class _SceneBuilder:
         return (row.parent, _convert_to_tuple((place @ [0.0, 0.0, z, 1.0])[:3]))
 
     def build_joint(self, i: int, row: SkeletonRow) -> Iterator[Part]:
-        """A cylinder along a revolute axis, a sleeve along a prismatic one, else a dot."""
+        """Builds a cylinder along a revolute axis, a sleeve along a prismatic one, else a dot."""
         joint, name = row.joint, row.joint.name
         if not joint.is_moving:
             yield Dot(i, (i, ORIGIN), FIXED, 2.5, "joints")
@@ -309,7 +309,7 @@ class _SceneBuilder:
         return 0.5 * r - half, 0.5 * r + half
 
     def build_frame(self, i: int) -> Iterator[Part]:
-        """The axes of frame j."""
+        """Builds the axes of frame j."""
         length = min(0.075 * self.size, 4.5 * self.radius)
         yield from self._build_triad(i, length, 1.1, "frames")
 
@@ -319,7 +319,7 @@ class _SceneBuilder:
             yield SceneLine(frame, ends, color, width, layer, arrow=True)
 
     def build_end(self, i: int, row: SkeletonRow) -> Iterator[Part]:
-        """A dashed stub where the table ends: it does not say how long the last link is."""
+        """Builds a dashed stub at a last link, whose length the table does not state."""
         skeleton = self.skeleton
         followed = any(other.parent == i for other in skeleton.rows)
         met = any(row.joint.name in (loop.frame, loop.meets) for loop in skeleton.robot.loops)
@@ -341,7 +341,7 @@ class _SceneBuilder:
         return np.eye(3)[0 if parallel else 2]
 
     def build_mass(self, i: int, row: SkeletonRow) -> Iterator[Part]:
-        """The centre of mass, where the file states it."""
+        """Builds a dot at the centre of mass, where the file states it."""
         centre = self._find_centre_of_mass(row)
         if centre is not None:
             yield Dot(i, (i, _convert_to_tuple(centre)), MASS, 3.4, "masses")
@@ -355,7 +355,7 @@ class _SceneBuilder:
         return np.array([values.get(moment, 0.0) for moment in moments]) / mass
 
     def build_platform(self) -> Iterator[Part]:
-        """The body between the points where legs meet it; a block where that is one point."""
+        """Builds the body between the points where legs meet it; a block at one point."""
         skeleton = self.skeleton
         if not skeleton.robot.platform:
             return
@@ -381,7 +381,7 @@ class _SceneBuilder:
         yield from self.build_frame(i)
 
     def build_loops(self) -> Iterator[Part]:
-        """The joints that close loops."""
+        """Builds the joints that close loops."""
         skeleton = self.skeleton
         for loop in skeleton.robot.loops:
             one, other = skeleton.find_row(loop.frame), skeleton.find_row(loop.meets)
@@ -399,7 +399,7 @@ class _SceneBuilder:
 
 
 def build_gap_lines(skeleton: Skeleton, u: np.ndarray) -> list[SceneLine]:
-    """Between the frames of every loop: the travel that its joint lets free, and in red the gap."""
+    """Builds the free travel and, in red, the gap between the frames of every loop."""
     lines = []
     for gap in compute_gaps(skeleton, u):
         row = skeleton.find_row(gap.loop.frame)
@@ -443,7 +443,7 @@ class ViewDirection:
 
 
 def choose_view(skeleton: Skeleton, posture: Posture) -> ViewDirection:
-    """A view in which few frames hide each other.
+    """Chooses a view in which few frames hide each other.
 
     Straight on for planar mechanisms; nearly so for others that stand in a plane.
     """
@@ -488,7 +488,7 @@ def _compute_plane_view(normal: np.ndarray, axes: np.ndarray, up: np.ndarray) ->
 
 
 def compute_view_rotation(up: np.ndarray, azimuth: float, elevation: float) -> np.ndarray:
-    """(3, 3) rows right, up, towards the viewer, who stands at these angles [rad] about `up`."""
+    """Returns (3, 3) rows right, up, towards the viewer at these angles [rad] about `up`."""
     start = next(axis for axis in np.eye(3) if abs(axis @ up) < 0.6)
     east = start - (start @ up) * up
     east /= np.linalg.norm(east)
@@ -500,7 +500,7 @@ def compute_view_rotation(up: np.ndarray, azimuth: float, elevation: float) -> n
 
 
 def collect_joint_points(skeleton: Skeleton, u: np.ndarray) -> np.ndarray:
-    """(n, 3) origins of frames and feet of axes, platform motions apart, each place once."""
+    """Returns (n, 3) origins of frames and feet of axes without platform motions, unique."""
     frames = compute_poses(skeleton, u)
     points = [np.zeros(3)]
     for i, row in enumerate(skeleton.rows):

@@ -60,28 +60,28 @@ class Skeleton(ShortRepr):
 
     @property
     def dependent_places(self) -> tuple[int, ...]:
-        """Places in u of the variables that the loops determine."""
+        """Returns the places in u of the variables that the loops determine."""
         return tuple(k for k in range(len(self.free)) if k not in self.independent_places)
 
     @property
     def is_travel(self) -> np.ndarray:
-        """(free,) True where u is a travel in m."""
+        """Returns (free,) True where u is a travel in m."""
         return np.array(
             [not self.robot.get_joint(name).is_revolute for name in self.free], dtype=bool
         )
 
     def find_row(self, name: str) -> int:
-        """Place of the row of that name; `BASE` for "0"."""
+        """Returns the place of the row of that name; `BASE` for "0"."""
         return next((i for i, row in enumerate(self.rows) if row.joint.name == name), BASE)
 
     def find_body_row(self, row: int) -> int:
-        """The moving row that carries the frame of that row; `BASE` for the base."""
+        """Returns the moving row that carries the frame of that row; `BASE` for the base."""
         while row != BASE and not self.rows[row].joint.is_moving:
             row = self.rows[row].parent
         return row
 
     def count_depth(self, row: int) -> int:
-        """How many moving joints, those of the platform apart, lie between the row and the base."""
+        """Counts the moving joints between the row and the base, those of the platform apart."""
         count = 0
         while row != BASE:
             count += self.rows[row].joint.is_moving and not self.rows[row].virtual
@@ -90,7 +90,7 @@ class Skeleton(ShortRepr):
 
 
 def build_skeleton(robot: Robot) -> Skeleton:
-    """The numbers of a robot's table, at the values of its symbols."""
+    """Builds the numbers of a robot's table, at the values of its symbols."""
     values = robot.evaluate_symbols()
     free = tuple(joint.name for joint in robot.free_joints)
     places = {joint.name: i for i, joint in enumerate(robot.joints)}
@@ -134,7 +134,7 @@ def _build_joint_forms(
 
 
 def format_joint_kind(joint: Joint) -> str:
-    """`revolute`, `prismatic`, `fixed`."""
+    """Returns `revolute`, `prismatic` or `fixed`."""
     return JointKind(joint.kind).name.lower()
 
 
@@ -142,7 +142,7 @@ def format_joint_kind(joint: Joint) -> str:
 
 
 def compute_poses(skeleton: Skeleton, u: np.ndarray) -> np.ndarray:
-    """(rows, 4, 4) poses of all frames in frame 0.
+    """Computes (rows, 4, 4) poses of all frames in frame 0.
 
     T(a -> j) = Rz(gamma) Tz(b) Rx(alpha) Tx(d) Rz(theta) Tz(r) (Khalil and Kleinfinger 1986).
 
@@ -161,7 +161,7 @@ def compute_poses(skeleton: Skeleton, u: np.ndarray) -> np.ndarray:
 
 
 def compute_foot_pose(row: SkeletonRow) -> np.ndarray:
-    """(4, 4) pose of the foot of the joint axis in the antecedent frame: before theta and r."""
+    """Returns (4, 4) pose of the joint axis' foot in the antecedent frame: before theta and r."""
     cells = row.cells
     tilt = np.eye(4)
     c, s = np.cos(cells["alpha"]), np.sin(cells["alpha"])
@@ -171,7 +171,7 @@ def compute_foot_pose(row: SkeletonRow) -> np.ndarray:
 
 
 def compute_corner(row: SkeletonRow) -> np.ndarray:
-    """(3,) where the common normal leaves the antecedent's z axis, in the antecedent frame."""
+    """Returns (3,) where the common normal leaves the antecedent's z axis, in its frame."""
     return np.array([0.0, 0.0, row.cells["b"]])
 
 
@@ -181,7 +181,7 @@ def _compute_screw(angle: complex | float, travel: complex | float) -> np.ndarra
 
 
 def estimate_robot_size(skeleton: Skeleton, u: np.ndarray) -> float:
-    """A length of the robot, m: the diagonal of the box around its frames; 1 without any extent."""
+    """Returns the diagonal, m, of the box around the robot's frames; 1 without any extent."""
     frames = compute_poses(skeleton, u)
     points = [np.zeros(3)]
     for i, row in enumerate(skeleton.rows):
@@ -239,7 +239,7 @@ class Posture:
 
 
 def find_home_posture(skeleton: Skeleton) -> Posture:
-    """[home] with its loops closed by the passive joints, else by all; else as it is stated."""
+    """Closes [home] by the passive joints, else by all joints; else returns it as stated."""
     stated = skeleton.stated
     size = estimate_robot_size(skeleton, stated)
     for places, held in ((skeleton.dependent_places, True), (tuple(range(len(stated))), False)):
@@ -278,7 +278,7 @@ def _find_loose_joints(skeleton: Skeleton, u: np.ndarray) -> tuple[str, ...]:
 def solve_closure(
     skeleton: Skeleton, start: np.ndarray, places: Sequence[int], size: float
 ) -> np.ndarray | None:
-    """The closed posture that is found from `start` by moving `places`; None if none is.
+    """Solves the closed posture from `start` by moving `places`; None if there is none.
 
     Args:
         skeleton: the robot.
@@ -305,7 +305,7 @@ def solve_closure(
 def compute_jacobian(
     skeleton: Skeleton, u: np.ndarray, size: float, places: Sequence[int]
 ) -> np.ndarray:
-    """(equations, places) derivatives of `compute_residuals`."""
+    """Computes (equations, places) derivatives of `compute_residuals`."""
     columns = []
     for k in places:
         moved = u.astype(complex)
@@ -315,7 +315,7 @@ def compute_jacobian(
 
 
 def compute_residuals(skeleton: Skeleton, u: np.ndarray, size: float) -> np.ndarray:
-    """What vanishes where the loops are closed: lengths in robot sizes, direction cosines."""
+    """Returns the residuals of closed loops: lengths in robot sizes, direction cosines."""
     frames = compute_poses(skeleton, u)
     parts = [
         np.atleast_1d(value)
@@ -372,7 +372,7 @@ _KINDS: Mapping[str, Callable[[np.ndarray, np.ndarray, float], list[np.ndarray]]
 
 
 def compute_gaps(skeleton: Skeleton, u: np.ndarray) -> tuple[LoopGap, ...]:
-    """How far every loop is open at u."""
+    """Computes how far every loop is open at u."""
     frames = compute_poses(skeleton, u)
     gaps = []
     for loop in skeleton.robot.loops:
