@@ -45,7 +45,7 @@ def evaluated(parts, known):
 
 @cache
 def groupings(robot):
-    return m.grouping(robot, robots_of_robot(robot).kept)
+    return m.grouping(robot, robots_of_robot(robot).independent_parameters)
 
 
 def robots_of_robot(robot):
