@@ -132,57 +132,31 @@ def _compute_trigonometry(pose: np.ndarray) -> dict[str, float]:
 
 
 def _build_singular_values_table(printed: tuple[float, ...], ours: np.ndarray) -> MethodTable:
-    rows = [
-        MethodRow(
-            "singular values",
-            _format_values(printed),
-            _format_values(tuple(ours)),
-            Outcome.SHOWN,
-            "of other configurations",
-        ),
-        MethodRow(
-            "last over first",
-            f"{printed[-1] / printed[0]:.3f}",
-            f"{ours[-1] / ours[0]:.3f}",
-            Outcome.SHOWN,
-            "the paper asks for about 0.1",
-        ),
-        MethodRow(
-            "rank of Phi",
-            str(len(printed)),
-            str(int(np.sum(ours > 1e-8 * ours[0]))),
-            judge_outcome(len(printed) == int(np.sum(ours > 1e-8 * ours[0]))),
-        ),
-    ]
-    return MethodTable("Persistent excitation of J11", (), tuple(rows))
-
-
-def _format_values(values: tuple[float, ...]) -> str:
-    return " ".join(f"{value:.2f}" for value in values)
+    values = [" ".join(f"{value:.2f}" for value in row) for row in (printed, ours)]
+    ratios = [f"{row[-1] / row[0]:.3f}" for row in (printed, ours)]
+    rank, why = int(np.sum(ours > 1e-8 * ours[0])), "the paper asks for about 0.1"
+    rows = (
+        MethodRow("singular values", *values, Outcome.SHOWN, "of other configurations"),
+        MethodRow("last over first", *ratios, Outcome.SHOWN, why),
+        MethodRow("rank of Phi", f"{len(printed)}", f"{rank}", judge_outcome(len(printed) == rank)),
+    )
+    return MethodTable("Persistent excitation of J11", (), rows)
 
 
 def _build_one_step_table(steps: TwoStepFit) -> MethodTable:
     """What the paper does not print: both ways on the same data."""
     two, one = steps.result, steps.one_step
     known = [sum(p.sigma is not None for p in fit.parameters) for fit in (two, one)]
-    rows = [
-        MethodRow(
-            "parameters found",
-            "-",
-            f"{known[0]} in two steps, {known[1]} in one",
-            Outcome.SHOWN,
-            "joints that stand with dry friction tell nothing of J12",
-        ),
-        MethodRow(
-            "relative error of the torques",
-            "-",
-            f"{format_percent(two.relative_error)} in two steps, "
-            f"{format_percent(one.relative_error)} in "
-            "one",
-            Outcome.SHOWN,
-        ),
-    ]
-    return MethodTable("Two steps beside one step", (), tuple(rows))
+    errors = [format_percent(fit.relative_error) for fit in (two, one)]
+    text, why = (
+        "{} in two steps, {} in one",
+        "joints that stand with dry friction tell nothing of J12",
+    )
+    rows = (
+        MethodRow("parameters found", "-", text.format(*known), Outcome.SHOWN, why),
+        MethodRow("relative error of the torques", "-", text.format(*errors), Outcome.SHOWN),
+    )
+    return MethodTable("Two steps beside one step", (), rows)
 
 
 def _build_figure_2(machine: Robot, compiled: CompiledModel, steps: TwoStepFit) -> MethodTable:

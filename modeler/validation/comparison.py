@@ -134,19 +134,10 @@ def compute_velocity_regions(qd: np.ndarray, e: np.ndarray) -> tuple[Region, ...
         e: residual of the same rows, (n,).
     """
     top = float(np.abs(qd).max())
-    edges = (
-        np.array(
-            [
-                -THRESHOLDS.fast_share,
-                -THRESHOLDS.zero_speed_share,
-                THRESHOLDS.zero_speed_share,
-                THRESHOLDS.fast_share,
-            ]
-        )
-        * top
-    )
+    slow, fast = THRESHOLDS.zero_speed_share, THRESHOLDS.fast_share
+    edges = np.array([-fast, -slow, slow, fast]) * top
     which = np.searchsorted(edges, qd, side="right")
-    which[np.abs(qd) <= THRESHOLDS.zero_speed_share * top] = 2  # also a joint that never moves
+    which[np.abs(qd) <= slow * top] = 2  # also a joint that never moves
     limits = np.array([-top, *edges, top])
     total = float(e @ e)
     return tuple(
@@ -450,23 +441,13 @@ def _serialise_joint(item: JointComparison) -> dict[str, Any]:
         **select_attributes(item, "samples bias predicted_sigma regions"),
         "worst_window": item.worst,
         "structure": joint_structure
-        and {
-            "shares": dict(joint_structure.shares),
-            "together": joint_structure.together,
-            "across": dict(joint_structure.across),
-            "motors": dict(joint_structure.motors),
-            "follows": joint_structure.follows,
-        },
+        and {name: dict(getattr(joint_structure, name)) for name in ("shares", "across", "motors")}
+        | select_attributes(joint_structure, "together follows"),
         "spectrum": spectrum
-        and {
-            "memory": spectrum.correlation_time,
-            "lag_one": spectrum.correlation[1],
-            **select_attributes(spectrum, "peak peak_share"),
-        },
+        and {"memory": spectrum.correlation_time, "lag_one": spectrum.correlation[1]}
+        | select_attributes(spectrum, "peak peak_share"),
         "explained": item.r2,
-        "systematic": parts and parts.systematic,
-        "floor": parts and parts.floor,
-        "method": parts and parts.method,
+        **{name: parts and getattr(parts, name) for name in ("systematic", "floor", "method")},
         "systematic_sigma": parts and parts.sigma,
         "scale": item.scale,
         "orders": item.orders and residual_structure.find_order_peaks(item.orders, item.joint.unit),

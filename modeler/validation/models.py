@@ -84,13 +84,9 @@ class ModelComparison(Result):
                     "relative_error": self.pooled[k],
                     "by_unit": self.by_unit[k],
                     "joints": {
-                        item.joint.name: {
-                            "relative_error": item.errors[k],
-                            "rms": item.rms[k],
-                            "unit": item.joint.effort_unit,
-                            "best": item.best == k,
-                            "chance": item.p_value,
-                        }
+                        item.joint.name: {"relative_error": item.errors[k], "rms": item.rms[k]}
+                        | {"unit": item.joint.effort_unit, "best": item.best == k}
+                        | {"chance": item.p_value}
                         for item in self.joints
                     },
                     "best_on": self.find_best_joints(k),

@@ -467,36 +467,16 @@ def draw_overview_picture(comparison: Comparison) -> Picture:
     names = tuple(item.joint.name for item in comparison.joints)
     errors = np.array([100.0 * item.relative_error for item in comparison.joints])
     bars = Bars("relative error", names, errors, tuple(f"{e:.1f}" for e in errors), Style(BLUE))
-    panels = [
-        (
-            Panel("Relative error", "joint", "||residual|| / ||torque|| [%]", (bars,)),
-            Panel(
-                "Where: share of squared residual [%]",
-                "velocity",
-                "joint",
-                (_build_region_heatmap(comparison),),
-            ),
-        )
-    ]
+    where, regions = "Where: share of squared residual [%]", (_build_region_heatmap(comparison),)
+    error = Panel("Relative error", "joint", "||residual|| / ||torque|| [%]", (bars,))
+    panels = [(error, Panel(where, "velocity", "joint", regions))]
     if any(item.shares is not None for item in comparison.joints):
         panels.append(build_share_panels(comparison))
     if any(item.structure is not None for item in comparison.joints):
-        panels.append(
-            (
-                Panel(
-                    "Follows its own ... [%]",
-                    "coordinate",
-                    "joint",
-                    (_build_share_heatmap(comparison),),
-                ),
-                Panel(
-                    "Follows the velocity of ... [%]",
-                    "joint or motor moving",
-                    "joint",
-                    (_build_cross_joint_heatmap(comparison),),
-                ),
-            )
-        )
+        single, across = _build_share_heatmap(comparison), _build_cross_joint_heatmap(comparison)
+        title = "Follows the velocity of ... [%]"
+        first = Panel("Follows its own ... [%]", "coordinate", "joint", (single,))
+        panels.append((first, Panel(title, "joint or motor moving", "joint", (across,))))
     return Picture(
         name="overview",
         title="All joints",
@@ -592,31 +572,17 @@ def build_share_panels(comparison: Comparison) -> tuple[Panel, Panel]:
     explained = np.array([100.0 * max(0.0, each.explained) for each in variance_shares])
     left = 100.0 - explained
     systematic = left * repeats / 100.0
+    repeatable, first = "repeatable, not explained", [("explained", explained, BLUE)]
+    whole = [(repeatable, systematic, VERMILLION), ("noise", left - systematic, SLATE)]
+    rest = [(repeatable, repeats, VERMILLION), ("noise", 100.0 - repeats, SLATE)]
+    title, label = "Variance of the torque [%]", "share of the variance [%]"
     return (
-        Panel(
-            "Variance of the torque [%]",
-            "joint",
-            "share of the variance [%]",
-            _build_stacked_bars(
-                names,
-                [
-                    ("explained", explained, BLUE),
-                    ("repeatable, not explained", systematic, VERMILLION),
-                    ("noise", left - systematic, SLATE),
-                ],
-            ),
-        ),
+        Panel(title, "joint", label, _build_stacked_bars(names, first + whole)),
         Panel(
             "Variance that is not explained [%]",
             "joint",
             "share of the residual [%]",
-            _build_stacked_bars(
-                names,
-                [
-                    ("repeatable, not explained", repeats, VERMILLION),
-                    ("noise", 100.0 - repeats, SLATE),
-                ],
-            ),
+            _build_stacked_bars(names, rest),
         ),
     )
 
@@ -658,31 +624,22 @@ def draw_overlay_picture(
     styles = [Style(COLORS[k % len(COLORS)], width=1.1, opacity=0.8) for k in range(len(names))]
     residuals, gains = [], []
     for name, style, e, total in zip(names, styles, left, sums, strict=True):
-        residuals.append(
-            Curve(name, *break_at_gaps(segment[plot_rows], time[plot_rows], e[plot_rows]), style)
-        )
+        curve = break_at_gaps(segment[plot_rows], time[plot_rows], e[plot_rows])
+        residuals.append(Curve(name, *curve, style))
         gains.append(Curve(name, time[even], 100.0 * total[even] / whole, style))
     spans = find_masked_spans(first, j, time, np.arange(time.size))
+    unit = f"residual [{joint.effort_unit}]"
+    above = Panel("Residual", label, unit, tuple(residuals), marks=marks, zero=True, spans=spans)
+    below = Panel("Squared residual so far", label, "sum [%]", tuple(gains), marks=marks)
+    caption = _write_overlay_caption(names, styles, describe_masks(first, j))
+    title = f"Joint {joint.name}: what each model leaves"
     return Picture(
-        name=f"joint_{joint.name}_models",
-        title=f"Joint {joint.name}: what each model leaves",
-        caption=_write_overlay_caption(names, styles, describe_masks(first, j)),
-        panels=(
-            (
-                Panel(
-                    "Residual",
-                    label,
-                    f"residual [{joint.effort_unit}]",
-                    tuple(residuals),
-                    marks=marks,
-                    zero=True,
-                    spans=spans,
-                ),
-            ),
-            (Panel("Squared residual so far", label, "sum [%]", tuple(gains), marks=marks),),
-        ),
+        f"joint_{joint.name}_models",
+        title,
+        caption,
+        ((above,), (below,)),
+        430,
         heights=(0.6, 0.4),
-        height=430,
         shared_time=True,
     )
 

@@ -168,18 +168,8 @@ _REGION_PHRASES = {
     "fast +": "fast in the positive direction",
 }
 _HEAD = (
-    "joint",
-    "relative error",
-    "rms residual",
-    "sigma",
-    "rms measured",
-    "largest residual",
-    "at",
-    "R\u00b2",
-    "repeatable",
-    "noise",
-    "mean residual",
-    "samples",
+    *("joint", "relative error", "rms residual", "sigma", "rms measured", "largest residual"),
+    *("at", "R\u00b2", "repeatable", "noise", "mean residual", "samples"),
 )
 
 

@@ -175,17 +175,10 @@ def _summarise_modes(home_modes: HomeModes) -> str:
 def _collect_modes_tables(home_modes: HomeModes) -> Tables:
     free = home_modes.linkage.free
     rows = [
-        (
-            mode.letter,
-            mode.singularity_distance,
-            mode.is_within_limits,
-            mode.copy_count,
-            *(
-                float(express_as_home(home_modes.linkage, mode.posture).get(joint.name, 0.0))
-                for joint in free
-            ),
-        )
+        (mode.letter, mode.singularity_distance, mode.is_within_limits, mode.copy_count, *angles)
         for mode in home_modes.modes
+        for home in [express_as_home(home_modes.linkage, mode.posture)]
+        for angles in [[float(home.get(joint.name, 0.0)) for joint in free]]
     ]
     head = ["mode", "singular value", "within limits", "copies"]
     head += [f"q{joint.name} [{joint.unit}]" for joint in free]

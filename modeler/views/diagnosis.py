@@ -2,6 +2,7 @@
 
 from collections.abc import Callable, Sequence
 from functools import partial
+from operator import attrgetter
 
 from modeler.core.figure import Picture
 from modeler.core.result import Figures, Presentation, Tables
@@ -308,20 +309,9 @@ def _build_effect_row(finding: Finding, what: str) -> tuple[Cell, ...]:
 
 
 def _build_joint_table(diagnosis: Diagnosis) -> Table:
-    rows = [
-        (
-            name,
-            j.error_before,
-            j.error_after,
-            j.rms_before,
-            j.rms_after,
-            j.unit,
-            j.explained,
-            j.systematic,
-            j.noise,
-        )
-        for name, j in diagnosis.joints.items()
-    ]
+    names = "error_before error_after rms_before rms_after unit explained systematic noise"
+    read = attrgetter(*names.split())
+    rows = [(name, *read(joint)) for name, joint in diagnosis.joints.items()]
     return Table.build(
         "errors without and with the effects",
         "joint, error, with effects, rms, rms with effects, unit, explained, systematic, noise",

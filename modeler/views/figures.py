@@ -63,21 +63,9 @@ def draw_parameters(fit: FitResult) -> "Drawing":
     names = tuple(p.name for p in known)
     bars = Bars("relative sigma", names, shares, texts, Style(BLUE))
     label = "sigma [% of the value], at most 100 drawn"
-    return draw_picture(
-        Picture(
-            name="parameters",
-            title=f"{fit.robot}: how sure the parameters are",
-            caption="",
-            panels=(
-                (
-                    Panel(
-                        f"{len(known)} of {len(fit.parameters)} base parameters", "", label, (bars,)
-                    ),
-                ),
-            ),
-            height=380,
-        )
-    )
+    panel = Panel(f"{len(known)} of {len(fit.parameters)} base parameters", "", label, (bars,))
+    title = f"{fit.robot}: how sure the parameters are"
+    return draw_picture(Picture("parameters", title, "", ((panel,),), 380))
 
 
 def draw_errors_picture(diagnosis: "Diagnosis") -> Picture:

@@ -142,16 +142,11 @@ def collect_fit_tables(fit: FitResult) -> Tables:
 def _build_estimates_table(title: str, parameters: Sequence[ParameterEstimate]) -> Table:
     known = any(p.prior is not None for p in parameters)
     rows = [
-        (
-            p.name,
-            p.value if p.sigma is not None else None,
-            p.sigma,
-            p.relative_sigma_percent,
-            p.unit,
-            p.essential if p.sigma is not None else p.status,
-            *([p.prior] if known else []),
-        )
+        (p.name, p.value, p.sigma, p.relative_sigma_percent, p.unit, p.essential, *prior)
+        if p.sigma is not None
+        else (p.name, None, None, p.relative_sigma_percent, p.unit, p.status, *prior)
         for p in parameters
+        for prior in [[p.prior] if known else []]
     ]
     head = "parameter, value, sigma, relative_sigma_percent, unit, essential"
     return Table.build(title, f"{head}, prior share" if known else head, rows)

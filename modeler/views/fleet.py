@@ -2,6 +2,7 @@
 
 from collections.abc import Callable, Sequence
 from functools import partial
+from operator import attrgetter
 
 import numpy as np
 
@@ -189,51 +190,40 @@ def _tabulate_followed(fleet: Fleet) -> page.PageTable:
 
 
 def _collect_tables(fleet: Fleet) -> Tables:
-    return {
-        "findings": lambda: _tabulate_findings(fleet),
-        "values": lambda: _tabulate_values(fleet),
-        "quantities": lambda: _tabulate_quantities(fleet),
-    }
+    tables = (_tabulate_findings, _tabulate_values, _tabulate_quantities)
+    names = ("findings", "values", "quantities")
+    return {name: partial(table, fleet) for name, table in zip(names, tables, strict=True)}
 
 
 def _tabulate_findings(fleet: Fleet) -> Table:
-    rows = [
-        (
-            f.machine,
-            f.quantity.joint,
-            f.quantity.effect,
-            f.shape,
-            f.begin,
-            f.end,
-            f.before,
-            f.change,
-            f.quantity.unit,
-            f.change_percent,
-            f.score,
-            f.chance,
-        )
-        for f in fleet.findings
-    ]
+    read = attrgetter(
+        *[
+            "machine",
+            "quantity.joint",
+            "quantity.effect",
+            "shape",
+            "begin",
+            "end",
+            "before",
+            "change",
+        ],
+        *["quantity.unit", "change_percent", "score", "chance"],
+    )
     return Table.build(
         f"{fleet.robot}: {fleet.verdict}",
         "machine, joint, effect, shape, from, to, before, change, unit, change of it [%], sigmas, "
         "chance",
-        rows,
+        [read(finding) for finding in fleet.findings],
     )
 
 
 def _tabulate_values(fleet: Fleet) -> Table:
+    read = attrgetter("periods", "at", "values", "sigmas")
     rows = [
         (name, period, at, each.quantity.parameter, value, sigma, each.quantity.unit)
         for each in fleet.histories
         for name, machine_values in each.machines.items()
-        for period, at, value, sigma in zip(
-            machine_values.periods,
-            machine_values.at,
-            machine_values.values,
-            machine_values.sigmas,
-            strict=True,
-        )
+        for period, at, value, sigma in zip(*read(machine_values), strict=True)
     ]
     head = f"machine, period, at [{fleet.unit}], parameter, value, sigma, unit"
     return Table.build("what was followed, log by log", head, rows)
@@ -242,15 +232,16 @@ def _tabulate_values(fleet: Fleet) -> Table:
 def _tabulate_quantities(fleet: Fleet) -> Table:
     rows = [
         (
-            each.quantity.joint,
-            result.format_effect_title(each.quantity),
-            each.quantity.parameter,
+            q.joint,
+            result.format_effect_title(q),
+            q.parameter,
             each.level,
-            each.quantity.unit,
+            q.unit,
             each.factor,
             each.smallest_detectable,
         )
         for each in fleet.histories
+        for q in [each.quantity]
     ]
     return Table.build("what may drift", result.HEAD, rows)
 

@@ -299,19 +299,9 @@ def _build_sections(model: IdentifiedModel, left_out: Sequence[str]) -> list[pag
     sections.append(page.Section("What was added", _build_added_blocks(model)))
     if left_out:
         sections.append(page.Section("What was refused, and why", [_build_refusal_items(left_out)]))
-    sections.append(
-        page.Section(
-            "All values",
-            [
-                tabulate_joint_errors(model.fit),
-                tabulate_values(
-                    model.fit.parameters,
-                    model.spec.base,
-                    "SI units; sigma is one standard deviation. The bar is full at 30 %.",
-                ),
-            ],
-        )
-    )
+    caption = "SI units; sigma is one standard deviation. The bar is full at 30 %."
+    values = tabulate_values(model.fit.parameters, model.spec.base, caption)
+    sections.append(page.Section("All values", [tabulate_joint_errors(model.fit), values]))
     if len(history) > 1:
         again = [
             f"modeler add MODEL {'learned' if step.learned else step.effect}"
@@ -332,17 +322,11 @@ def _tabulate_joints(history: Sequence[Addition]) -> page.PageTable:
         errors = [_collect_errors(step).get(name) for step in history]
         top = max((e for e in errors if e is not None), default=0.0) or 1.0
         changed = [" *" if name in step.changed else "" for step in history]
-        rows.append(
-            [
-                name,
-                *(
-                    page.PageCell("-")
-                    if e is None
-                    else page.PageCell(format_percent(e) + mark, e / top)
-                    for e, mark in zip(errors, changed, strict=True)
-                ),
-            ]
-        )
+        cells = [
+            page.PageCell("-") if e is None else page.PageCell(format_percent(e) + mark, e / top)
+            for e, mark in zip(errors, changed, strict=True)
+        ]
+        rows.append([name, *cells])
     steps, held = [format_step_name(step) for step in history], ", ".join(history[-1].held_out)
     judged = (
         f"the held-out logs {held}" if held else "parts of the fitted logs, each left out in turn"
@@ -452,15 +436,10 @@ def draw_waterfall_picture(history: Sequence[Addition]) -> Picture:
             f"{HELD.description.capitalize()}: the error that counts, on {first}; "
             f"{FITTED.description}: on the "
             "logs that were fitted. Each joint's error is in parts of its own rms torque or force"
-            + (
-                ", and the bar is their root mean square: N m and N are not added. "
-                if several
-                else ". "
-            )
-            + (
-                f"{LEARNED.description.capitalize()}: a learned law, not physics. "
-                * bool(learned.any())
-            )
+            + ", and the bar is their root mean square: N m and N are not added" * several
+            + ". "
+            + f"{LEARNED.description.capitalize()}: a learned law, not physics. "
+            * bool(learned.any())
             + "`modeler add MODEL undo LOG... --out MODEL` takes the last effect back."
         ),
         panels=(panels,),

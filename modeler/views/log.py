@@ -451,11 +451,11 @@ def _tabulate_limits(motion: ExcitingMotion) -> Table:
 
 PRESENTATIONS = {
     LogInspection: Presentation(
-        "a look at a log",
+        "an inspection of a log",
         _summarise_inspection,
         _collect_inspection_tables,
         _collect_inspection_figures,
-        document=lambda look, notes: build_log_page(look, look.warnings, notes),
+        document=lambda inspection, notes: build_log_page(inspection, inspection.warnings, notes),
     ),
     Log: Presentation("a log", _summarise_log, _collect_log_tables, _collect_log_figures),
     SimulatedLog: Presentation(
@@ -468,7 +468,9 @@ PRESENTATIONS = {
     Observation: Presentation(
         "an observation", _summarise_observation, lambda o: _collect_report_tables(o.report)
     ),
-    DataReport: Presentation("a report", lambda r: "\n".join(r.lines()), _collect_report_tables),
+    DataReport: Presentation(
+        "a report", lambda r: "\n".join(r.format_lines()), _collect_report_tables
+    ),
     ExcitingMotion: Presentation(
         "a motion", _summarise_motion, lambda m: {"limits": partial(_tabulate_limits, m)}
     ),

@@ -276,24 +276,15 @@ def serialise_posture(skeleton: Skeleton, posture: Posture) -> dict[str, Any]:
             if row.joint.is_moving
         },
         "frames": [
-            {
-                **select_attributes(row.joint, "name antecedent"),
-                "joint": format_joint_kind(row.joint),
-                "actuated": row.joint.actuated,
-                "pose": frames[i].tolist(),
-            }
-            for i, row in enumerate(skeleton.rows)
+            {**select_attributes(row.joint, "name antecedent")}
+            | {"joint": format_joint_kind(row.joint), "actuated": row.joint.actuated}
+            | {"pose": frame.tolist()}
+            for row, frame in zip(skeleton.rows, frames, strict=True)
         ],
         "loops": [
-            {
-                "loop": gap.loop.name,
-                "frame": gap.loop.frame,
-                "meets": gap.loop.meets,
-                "joint": gap.loop.kind,
-                "gap": gap.distance,
-                "angle": gap.angle,
-                "closed": _is_closed(gap, posture),
-            }
+            {"loop": gap.loop.name, **select_attributes(gap.loop, "frame meets")}
+            | {"joint": gap.loop.kind, "gap": gap.distance, "angle": gap.angle}
+            | {"closed": _is_closed(gap, posture)}
             for gap in compute_gaps(skeleton, posture.u)
         ],
         "closed": posture.closed,

@@ -53,15 +53,9 @@ def build_ball(radius: float) -> list[np.ndarray]:
         s, c = np.sin(polar[i]), np.cos(polar[i])
         return radius * np.array([s * np.cos(angle[k]), s * np.sin(angle[k]), c])
 
+    corners = ((0, 0), (1, 0), (1, 1), (0, 1))
     return [
-        np.array(
-            [
-                compute_point(i, k),
-                compute_point(i + 1, k),
-                compute_point(i + 1, k + 1),
-                compute_point(i, k + 1),
-            ]
-        )
+        np.array([compute_point(i + a, k + b) for a, b in corners])
         for i in range(rings)
         for k in range(turns)
     ]

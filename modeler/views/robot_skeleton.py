@@ -337,10 +337,6 @@ def _compute_offset(a: np.ndarray, b: np.ndarray, size: float) -> np.ndarray:
     return np.asarray((b[:3, 3] - a[:3, 3]) / size)
 
 
-def _compute_axis_difference(a: np.ndarray, b: np.ndarray, number: int) -> np.ndarray:
-    return np.asarray(a[:3, number] - b[:3, number])
-
-
 def _compute_lateral_offset(a: np.ndarray, b: np.ndarray, size: float) -> np.ndarray:
     return np.cross(a[:3, 2], _compute_offset(a, b, size))
 
@@ -349,25 +345,11 @@ _KINDS: Mapping[str, Callable[[np.ndarray, np.ndarray, float], list[np.ndarray]]
     "position": lambda a, b, s: [_compute_offset(a, b, s)],
     "spherical": lambda a, b, s: [_compute_offset(a, b, s)],
     "universal": lambda a, b, s: [_compute_offset(a, b, s), a[:3, 2] @ b[:3, 2]],
-    "revolute": lambda a, b, s: [_compute_offset(a, b, s), _compute_axis_difference(a, b, 2)],
-    "cylindrical": lambda a, b, s: [
-        _compute_lateral_offset(a, b, s),
-        _compute_axis_difference(a, b, 2),
-    ],
-    "prismatic": lambda a, b, s: [
-        _compute_lateral_offset(a, b, s),
-        _compute_axis_difference(a, b, 2),
-        _compute_axis_difference(a, b, 0),
-    ],
-    "planar": lambda a, b, s: [
-        a[:3, 2] @ _compute_offset(a, b, s),
-        _compute_axis_difference(a, b, 2),
-    ],
-    "rigid": lambda a, b, s: [
-        _compute_offset(a, b, s),
-        _compute_axis_difference(a, b, 2),
-        _compute_axis_difference(a, b, 0),
-    ],
+    "revolute": lambda a, b, s: [_compute_offset(a, b, s), a[:3, 2] - b[:3, 2]],
+    "cylindrical": lambda a, b, s: [_compute_lateral_offset(a, b, s), a[:3, 2] - b[:3, 2]],
+    "prismatic": lambda a, b, s: [_compute_lateral_offset(a, b, s), *(a - b)[:3, [2, 0]].T],
+    "planar": lambda a, b, s: [a[:3, 2] @ _compute_offset(a, b, s), a[:3, 2] - b[:3, 2]],
+    "rigid": lambda a, b, s: [_compute_offset(a, b, s), *(a - b)[:3, [2, 0]].T],
 }
 
 
@@ -396,5 +378,5 @@ def _compute_gap_angle(kind: str, a: np.ndarray, b: np.ndarray) -> float:
     if kind == "universal":
         return float(abs(np.arcsin(np.clip(a[:3, 2] @ b[:3, 2], -1.0, 1.0))))
     axes = (0, 2) if kind in ("rigid", "prismatic") else (2,)
-    chords = [float(np.linalg.norm(_compute_axis_difference(a, b, k))) for k in axes]
+    chords = [float(np.linalg.norm(a[:3, k] - b[:3, k])) for k in axes]
     return 2.0 * float(np.arcsin(min(1.0, max(chords) / 2.0)))
