@@ -97,16 +97,8 @@ def choose_row_spacing(step: float, cutoff: float, decimation: int | None) -> in
         decimation: samples per row; None: `rows_per_cutoff_period` rows per period.
     """
     if decimation is None:
-        return (
-            max(
-                1,
-                round(
-                    THRESHOLDS.clock_rounding / (THRESHOLDS.rows_per_cutoff_period * cutoff * step)
-                ),
-            )
-            if cutoff > 0.0
-            else 1
-        )
+        rate = THRESHOLDS.rows_per_cutoff_period * cutoff * step
+        return max(1, round(THRESHOLDS.clock_rounding / rate)) if rate > 0.0 else 1
     return decimation
 
 

@@ -313,16 +313,9 @@ def _build_other_joint_functions(
     curves = [build_hat_functions(getattr(m, name)[:, k], knots) for name, knots in _OTHER.items()]
     plain = np.column_stack([x[:, k] for x in (m.v, m.a, m.load, m.torque)])
     both = np.column_stack([m.q[:, k], m.v[:, k]])
-    return np.hstack(
-        [
-            *curves,
-            curves[0][:, ::2] * way,
-            plain,
-            np.abs(plain) * way,
-            np.sign(m.v[:, [k]]),
-            _draw_fourier_features(both, _PAIR, generator),
-        ]
-    )
+    features = _draw_fourier_features(both, _PAIR, generator)
+    turned = [curves[0][:, ::2] * way, plain, np.abs(plain) * way, np.sign(m.v[:, [k]])]
+    return np.hstack([*curves, *turned, features])
 
 
 def _draw_fourier_features(

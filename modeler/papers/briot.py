@@ -176,16 +176,11 @@ def _build_figure_3(
         / np.linalg.norm(np.where(used, measured, 0.0), axis=0)
         for model in list(efforts.values())[:2]
     )
-    rows = [
-        MethodRow(
-            f"motor {joint}",
-            '"well simulated"',
-            f"{format_percent(a)}; without load {format_percent(b)}",
-            judge_outcome(FELT * a < b, Outcome.HOLDS),
-            f"{FELT:g} times as much without",
-        )
-        for joint, a, b in zip(JOINTS, loaded, bare, strict=True)
-    ]
+    why, rows = f"{FELT:g} times as much without", []
+    for joint, a, b in zip(JOINTS, loaded, bare, strict=True):
+        text = f"{format_percent(a)}; without load {format_percent(b)}"
+        outcome = judge_outcome(FELT * a < b, Outcome.HOLDS)
+        rows.append(MethodRow(f"motor {joint}", '"well simulated"', text, outcome, why))
     shown = observation.time < SHOWN
     panels = [
         (

@@ -319,16 +319,8 @@ SETTING = (
 SLIDE = 0.8
 """kg, of the slide of leg 3: M1R3, which gravity makes a part of Off3."""
 
-LETTERS = {
-    "MRP": "MPR",
-    "Ma1R1": "Ia11R",
-    "Ma1R2": "Ia12R",
-    "Ma13": "Ia13R",
-    "Off1": "Off11",
-    "Off2": "Off12",
-    "Off3": "Off13R",
-    "MX4R": "MX4",
-}
+LETTERS = {"MRP": "MPR", "Ma1R1": "Ia11R", "Ma1R2": "Ia12R", "Ma13": "Ia13R", "MX4R": "MX4"}
+LETTERS |= {"Off1": "Off11", "Off2": "Off12", "Off3": "Off13R"}
 """Names of Tables 2 and 3 that are not ours with small letters."""
 
 
@@ -449,17 +441,13 @@ def _build_weak_direction_table(
     weakest = np.linalg.svd(exact, full_matrices=False)[2][-1]
     ours = {name: weakest[i] / weakest[names.index("MX2")] for i, name in enumerate(names)}
     theirs = {name: printed[name][0] / printed["MX2"][0] for name in WEAK}
-    rows = [
-        MethodRow(
-            f"{name}/MX2",
-            f"{theirs[name]:.3f}",
-            f"{ours[name]:.3f}",
-            judge_outcome(abs(theirs[name] - ours[name]) < 0.05),
-            f"within 0.05; derived {DIRECTION[name]:.3g}",
-        )
-        for name in WEAK
-        if name != "MX2"
-    ]
+    rows = []
+    for name in WEAK:
+        if name != "MX2":
+            texts = f"{name}/MX2", f"{theirs[name]:.3f}", f"{ours[name]:.3f}"
+            outcome = judge_outcome(abs(theirs[name] - ours[name]) < 0.05)
+            why = f"within 0.05; derived {DIRECTION[name]:.3g}"
+            rows.append(MethodRow(*texts, outcome, why))
     rest = max(abs(value) for name, value in ours.items() if name not in WEAK)
     outcome = judge_outcome(rest < 0.1, Outcome.DERIVED)
     rows.append(MethodRow("all others", "-", f"{rest:.2g}", outcome, "less than 0.1"))

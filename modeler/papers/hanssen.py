@@ -178,15 +178,10 @@ def _build_figure_2(machine: Robot, compiled: CompiledModel, steps: TwoStepFit) 
     exact = np.interp(time, run.time + 0.5 / RATE, run.truth.tau[:, 0])
     missed, noise, size = (float(np.std(x[known])) for x in (model - exact, torque - exact, exact))
     why = "less than the noise; joint 1 at a configuration that the fit has not seen"
+    outcome = judge_outcome(missed < noise)
     rows = (
         MethodRow("noise of the measured torque", "-", format_percent(noise / size), Outcome.SHOWN),
-        MethodRow(
-            "the model's error",
-            "-",
-            format_percent(missed / size),
-            judge_outcome(missed < noise),
-            why,
-        ),
+        MethodRow("the model's error", "-", format_percent(missed / size), outcome, why),
     )
     left = (
         Curve("measured", time, torque, Style(GREY, 0.7)),

@@ -515,24 +515,15 @@ def _find_slope(whole: Sum, name: str) -> Sum:
     return {(): whole[key]} if key in whole else {}
 
 
+_COMPARED: tuple[Any, ...] = (
+    *(_compare_relation, _compare_numbers, _compare_names, _compare_arithmetic, _compare_row),
+    *(_compare_tied, _compare_rotation, _compare_element, _compare_column, _compare_energy),
+    *(_compare_body, _compare_recursion, _compare_digits, _compare_effort, _compare_closure),
+    _compare_platform,
+)
 READINGS: Mapping[str, Reading] = {
-    "relation": _compare_relation,
-    "numbers": _compare_numbers,
-    "names": _compare_names,
-    "arithmetic": _compare_arithmetic,
-    "row": _compare_row,
-    "tied": _compare_tied,
-    "rows": _compare_matrix,
-    "rotation": _compare_rotation,
-    "element": _compare_element,
-    "column": _compare_column,
-    "energy": _compare_energy,
-    "body": _compare_body,
-    "recursion": _compare_recursion,
-    "digits": _compare_digits,
-    "effort": _compare_effort,
-    "closure": _compare_closure,
-    "platform": _compare_platform,
+    **{compare.__name__.removeprefix("_compare_"): compare for compare in _COMPARED},
+    **{"rows": _compare_matrix},
     **WRIST_READINGS,
 }
 

@@ -314,6 +314,8 @@ class Comparison(Result):
 
     def to_json(self) -> dict[str, Any]:
         """Returns plain numbers and text; undefined numbers are None."""
+        names = "log samples relative_error by_unit"
+        logs = [select_attributes(log, names) | {"joints": dict(log.joints)} for log in self.logs]
         return convert_to_plain(
             {
                 "robot": self.prediction.robot,
@@ -323,14 +325,8 @@ class Comparison(Result):
                 "by_unit": self.by_unit,
                 "joints": {joint.joint.name: _serialise_joint(joint) for joint in self.joints},
                 "unjudged": dict(self.unjudged),
-                "by_log": [
-                    select_attributes(log, "log samples relative_error by_unit")
-                    | {"joints": dict(log.joints)}
-                    for log in self.logs
-                ],
-                "repeated": [
-                    {"method": item.kind, "periods": item.periods} for item in self.repeated
-                ],
+                "by_log": logs,
+                "repeated": [{"method": r.kind, "periods": r.periods} for r in self.repeated],
             }
         )
 
@@ -519,16 +515,8 @@ def _predict_chunk(
     if not some:
         return _ChunkPrediction((), facts)
     report = regression.DataReport(chosen.processing, (), (), ())
-    return _ChunkPrediction(
-        (
-            predict_rows(
-                model,
-                regression.assemble_observation(compiled, (chunk.log.name,), some, report),
-                compiled,
-            ),
-        ),
-        facts,
-    )
+    observation = regression.assemble_observation(compiled, (chunk.log.name,), some, report)
+    return _ChunkPrediction((predict_rows(model, observation, compiled),), facts)
 
 
 def _join_chunks(

@@ -374,6 +374,9 @@ def simulate_free_run(
         compiled, model.beta, observation, settings.gains
     )
     report_progress(1.0)
+    numbered = enumerate(observation.joints)
+    joints = tuple(_evaluate_joint(field, j, joint, runs, whole) for j, joint in numbered)
+    doubts = _collect_warnings(field, runs.numerical, starts, motion_stability, controller_warning)
     return FreeRun(
         robot=observation.robot,
         logs=observation.logs,
@@ -382,17 +385,12 @@ def simulate_free_run(
         ranges=ranges,
         windows=len(runs.paths),
         longest=THRESHOLDS.followed_windows * settings.window,
-        joints=tuple(
-            _evaluate_joint(field, j, joint, runs, whole)
-            for j, joint in enumerate(observation.joints)
-        ),
+        joints=joints,
         stability=motion_stability,
         numerical=runs.numerical,
         controlled=controlled_run,
         paths=runs.paths,
-        doubts=tuple(
-            _collect_warnings(field, runs.numerical, starts, motion_stability, controller_warning)
-        ),
+        doubts=tuple(doubts),
     )
 
 

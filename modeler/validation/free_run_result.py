@@ -167,17 +167,11 @@ class FreeRun(Result):
             {
                 **select_attributes(self, "robot logs window windows bound"),
                 "joints": {
-                    joint.name: {
-                        name: value for name, value in vars(joint).items() if name != "name"
-                    }
+                    joint.name: {name: x for name, x in vars(joint).items() if name != "name"}
                     for joint in self.joints
                 },
-                "stability": {
-                    **select_attributes(s, "unstable rate"),
-                    "doubling_time": s.doubling_time,
-                    "seconds": s.seconds,
-                    "steepest": {"rate": s.steepest, "log": s.log, "time": s.steepest_time},
-                },
+                "stability": select_attributes(s, "unstable rate doubling_time seconds")
+                | {"steepest": {"rate": s.steepest, "log": s.log, "time": s.steepest_time}},
                 "numerical_error": self.numerical,
                 "controller": self.controlled,
                 "doubts": self.doubts,

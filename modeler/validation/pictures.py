@@ -258,16 +258,10 @@ def _build_column(
         series.append(Curve(text, x, y, style))
     spans = find_masked_spans(prediction, joint, time, rows)
     bands = _build_bands(prediction, joint, rows[plot_rows], time) if banded else ()
+    left = (*bands[1:], series[2])
     return (
         Panel(title, label, f"{WORDS[unit]} [{unit}]", (*bands[:1], *series[:2]), spans=spans),
-        Panel(
-            f"{title}: residual",
-            label,
-            f"residual [{unit}]",
-            (*bands[1:], series[2]),
-            zero=True,
-            spans=spans,
-        ),
+        Panel(f"{title}: residual", label, f"residual [{unit}]", left, zero=True, spans=spans),
     )
 
 
