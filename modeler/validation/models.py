@@ -1,4 +1,4 @@
-"""Several models on the same rows: which predicts each joint best, and is that beyond doubt?"""
+"""Several models on the same rows: which predicts each joint best, and is that significant?"""
 
 import dataclasses
 import math
@@ -35,7 +35,7 @@ class JointModelComparison(ShortRepr):
         joint: it.
         errors: (m,) ||measured - predicted|| / ||measured||.
         rms: (m,) of the residual, N m or N.
-        best: index of the model that is better than every other beyond doubt; None: nobody is.
+        best: index of the model that is significantly better than every other; None: nobody is.
         chance: two-sided, that the best and its nearest rival are equally good; 1 where nothing
             can be told.
     """
@@ -288,7 +288,7 @@ def format_model_comparison(comparison: ModelComparison) -> list[str]:
         errors = [format_percent(model_errors[unit]) + " " for model_errors in comparison.by_unit]
         rows.append(["all", *errors, unit, *[""] * len(names)])
     lines = [line.rstrip() for line in align_columns(rows, (0, len(names) + 1))]
-    lines.append(f"{comparison.samples} samples; {MARK} better than every other beyond doubt")
+    lines.append(f"{comparison.samples} samples; {MARK} significantly better than every other")
     return [*lines, "", *describe_model_comparison(comparison)]
 
 
@@ -299,14 +299,16 @@ def describe_model_comparison(comparison: ModelComparison) -> list[str]:
         won = comparison.find_best_joints(k)
         if won:
             which = " and ".join(filter(None, (", ".join(won[:-1]), won[-1])))
-            said.append(f"{name} predicts joint{'s' * (len(won) > 1)} {which} best, beyond doubt.")
+            said.append(
+                f"{name} predicts joint{'s' * (len(won) > 1)} {which} significantly better."
+            )
     doubtful = [
         f"joint {i.joint.name} ({_describe_uncertainty(i)})"
         for i in comparison.joints
         if i.best is None
     ]
     if doubtful:
-        said.append(f"No model is the best beyond doubt on {', '.join(doubtful)}.")
+        said.append(f"No model is significantly better on {', '.join(doubtful)}.")
     return said
 
 
@@ -315,19 +317,19 @@ def describe_winner(comparison: ModelComparison) -> tuple[str, str]:
     wins = [len(comparison.find_best_joints(k)) for k in range(len(comparison.names))]
     top = max(range(len(wins)), key=wins.__getitem__)
     if not wins[top]:
-        return "no winner", "no model is better than the others beyond doubt on any joint"
+        return "no winner", "no model is significantly better than the others on any joint"
     count = f"{wins[top]} of {len(comparison.joints)}"
     if wins.count(wins[top]) > 1:
         tied = " and ".join(
             n for n, w in zip(comparison.names, wins, strict=True) if w == wins[top]
         )
-        return f"{count} each", f"joints that {tied} predict best, beyond doubt"
+        return f"{count} each", f"joints that {tied} predict significantly better"
     lost = sum(wins) - wins[top]
     rest = f"; others on {lost}" if lost else "; no other on any"
-    return count, f"joints that {comparison.names[top]} predicts best, beyond doubt{rest}"
+    return count, f"joints that {comparison.names[top]} predicts significantly better{rest}"
 
 
 def _describe_uncertainty(item: JointModelComparison) -> str:
     if item.p_value >= 1.0 or item.p_value < 1e-3:  # too short, or too small a difference
-        return "as good as alike" if item.p_value < 1e-3 else "cannot be told"
+        return "practically equal" if item.p_value < 1e-3 else "too few blocks of time"
     return f"chance alone makes such a difference in {format_percent(item.p_value)} of cases"

@@ -221,7 +221,7 @@ def _describe_ripple(item: JointComparison) -> str | None:
         return None
     line = strong[0]
     return (
-        f"it ripples with {line.waves:.4g} waves per {per}, {line.amplitude:.2g} "
+        f"ripple of {line.waves:.4g} waves per {per}, {line.amplitude:.2g} "
         f"{item.joint.effort_unit} high"
     )
 

@@ -279,7 +279,7 @@ class Evidence:
         without, full: the model without the effect and with it, parameters fitted each time.
         j: index of the joint.
         axis: on which the effect shows itself.
-        rival: (rows_j,) the flexible rival's prediction of the residual without the effect, on
+        baseline: (rows_j,) nonparametric prediction of the residual without the effect, on
             rows it was not fitted to; None for too few rows.
         own: (rows_j,) torque of the effect there, also what the model could imitate, N m or N; None
             where the axis is the effect itself.
@@ -406,9 +406,8 @@ def describe_residuals(item: Evidence) -> str:
     if item.baseline is None:
         return f"{text}."
     return (
-        f"{text}, {format_rms(before - item.baseline)} with the flexible rival, which stands for "
-        "any "
-        f"smooth law of what was measured. Percent of the joint's rms {WORDS[item.unit]}, "
+        f"{text}, {format_rms(before - item.baseline)} with the nonparametric fit, which is "
+        f"any smooth law of what was measured. Percent of the joint's rms {WORDS[item.unit]}, "
         f"{size:.3g} {item.unit}."
     )
 

@@ -165,7 +165,7 @@ def _build_residual_panel(item: Evidence, view: AxisRanges) -> Panel:
     axis, bins = item.axis, item.bins
     curves = [(item.step.candidate.effect.id, item.contribution, EFFECT)]
     if item.baseline is not None:
-        curves.append(("flexible rival", item.baseline, RIVAL))
+        curves.append(("nonparametric fit", item.baseline, RIVAL))
     lines = [
         Curve(name, *_break_at_zero(item, bins.compute_means(axis.apply_direction(y))), style)
         for name, y, style in curves
@@ -182,11 +182,11 @@ def _build_law_panel(item: Evidence, effect_torque: np.ndarray, view: AxisRanges
         half = validation.THRESHOLDS.band_deviations * item.effect_torque_sigma
         x, low = _break_at_zero(item, y - half)
         series.append(
-            Band("95 % band of its law", x, low, _break_at_zero(item, y + half)[1], LAW_BAND)
+            Band("95 % band of the model", x, low, _break_at_zero(item, y + half)[1], LAW_BAND)
         )
     series.append(Curve(item.step.candidate.effect.id, *_break_at_zero(item, y), EFFECT))
-    panel = _build_panel("its law", item, view, tuple(series))
-    label = panel.y_label.replace("residual", "torque laid to it")
+    panel = _build_panel("model of the effect", item, view, tuple(series))
+    label = panel.y_label.replace("residual", "torque attributed to it")
     return dataclasses.replace(panel, y_label=label, y_range=view.law)
 
 
@@ -270,7 +270,7 @@ def _write_caption(item: Evidence, view: AxisRanges) -> list[str]:
             )
     if item.baseline is not None:
         lines.append(
-            f"{RIVAL.description.capitalize()}: the flexible rival, any smooth law of what was "
+            f"{RIVAL.description.capitalize()}: the nonparametric fit, any smooth law of what was "
             "measured, fitted to other blocks."
         )
     if item.axis.direction is not None:

@@ -105,7 +105,7 @@ def test_the_picture_convinces(case: Case, effect: str) -> None:
     assert_all_named(picture)
     assert_all_named(draw_play_picture(search.end, 0))
     if effect == "spring":  # the model imitates it, so that residuals do not show all of it
-        means = series(drawn["its law"], Means, "mean")
+        means = series(drawn["model of the effect"], Means, "mean")
         slope, rest = np.polyfit(means.x, means.y, 1)
         assert slope == pytest.approx(1.5, rel=0.02)
         assert np.abs(means.y - slope * means.x - rest).max() < 0.02
