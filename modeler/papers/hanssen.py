@@ -132,12 +132,12 @@ def _compute_trigonometry(pose: np.ndarray) -> dict[str, float]:
 
 
 def _build_singular_values_table(printed: tuple[float, ...], ours: np.ndarray) -> MethodTable:
-    values = [" ".join(f"{value:.2f}" for value in row) for row in (printed, ours)]
-    ratios = [f"{row[-1] / row[0]:.3f}" for row in (printed, ours)]
+    theirs, computed = (" ".join(f"{value:.2f}" for value in row) for row in (printed, ours))
+    first, second = (f"{row[-1] / row[0]:.3f}" for row in (printed, ours))
     rank, why = int(np.sum(ours > 1e-8 * ours[0])), "the paper asks for about 0.1"
     rows = (
-        MethodRow("singular values", *values, Outcome.SHOWN, "of other configurations"),
-        MethodRow("last over first", *ratios, Outcome.SHOWN, why),
+        MethodRow("singular values", theirs, computed, Outcome.SHOWN, "of other configurations"),
+        MethodRow("last over first", first, second, Outcome.SHOWN, why),
         MethodRow("rank of Phi", f"{len(printed)}", f"{rank}", judge_outcome(len(printed) == rank)),
     )
     return MethodTable("Persistent excitation of J11", (), rows)
