@@ -25,7 +25,7 @@ from modeler.excitation.families import DENSE, FAMILIES, build_series
 from modeler.excitation.motion import MotionBounds, build_posture_limits, check_bounds
 from modeler.excitation.result import ExcitingMotion, LimitUsage, MotionQuality
 from modeler.excitation.task import BarrierProblem, ExcitationTask
-from modeler.numerics.optimize import ObjectiveFunction, minimise_bfgs
+from modeler.numerics.least_squares import ObjectiveFunction, minimise_bfgs
 from modeler.runtime import CompiledModel
 
 RANDOM = 50

@@ -30,7 +30,7 @@ from modeler.excitation.search import (
     draw_motions,
 )
 from modeler.excitation.task import ExcitationTask
-from modeler.numerics.optimize import minimise_cma_es
+from modeler.numerics.least_squares import minimise_cma_es
 from modeler.regression import Segment
 from modeler.runtime import CompiledModel
 

@@ -9,7 +9,7 @@ from modeler.core.errors import DataError, LoopError
 from modeler.excitation.criterion import NEAR_REST, Criterion, MotionColumns
 from modeler.excitation.families import MotionSeries
 from modeler.excitation.motion import MotionBounds, PostureLimits
-from modeler.numerics.optimize import minimise_cma_es
+from modeler.numerics.least_squares import minimise_cma_es
 
 _POSTURES = 200  # drawn, to rest in
 _GENERATIONS = 40  # of evolution from the best of them

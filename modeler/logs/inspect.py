@@ -27,8 +27,7 @@ from modeler.logs.log_table import LogTable
 from modeler.logs.mapping import LENGTH, LogMap, find_unit, parse_unit
 from modeler.logs.rates import check_rates, describe_repeats, is_moving, is_on_grid
 from modeler.logs.stamps import describe_coarse_clock
-from modeler.numerics.held import estimate_hold_length, find_repeated_rows
-from modeler.numerics.noise import estimate_lattice_step
+from modeler.numerics.noise import estimate_hold_length, estimate_lattice_step, find_repeated_rows
 
 GAP = 1.5  # of a usual step
 _USUAL = 0.95  # quantile of the steps of an uneven clock

@@ -7,7 +7,7 @@ from itertools import permutations
 import numpy as np
 
 from modeler.core.table import format_percent
-from modeler.numerics.held import estimate_channel_noise
+from modeler.numerics.noise import estimate_channel_noise
 
 RATES: Mapping[str, float] = {
     "rad/s": 1.0, "deg/s": np.pi / 180.0, "rpm": np.pi / 30.0, "rev/s": 2.0 * np.pi,

@@ -9,6 +9,7 @@ from scipy.ndimage import gaussian_filter1d
 from scipy.sparse import csr_array
 
 from modeler.core.brief import ShortRepr
+from modeler.numerics.thresholds import THRESHOLDS
 
 SPREAD = 0.1325
 """Standard deviation of the Gaussian weights times the cut-off: its gain is -3 dB there."""
@@ -16,12 +17,7 @@ SPREAD = 0.1325
 BANDWIDTH = 1.0645
 """Noise bandwidth for white noise, sqrt(pi) / (4 pi SPREAD), over the cut-off."""
 
-RATE = 2.5
-"""Rows per period of the cut-off: neighbours then correlate by 0.1."""
 
-_REACH = 3.0  # standard deviations
-_UP = 1.0 + 1e-6  # a step may be off by so much where its clock counts from 1970
-_NONE = 0.02  # samples; neighbours' weights are 0 in double precision below
 LEAST_WEIGHT = 0.5
 """A row is used if at least this share of its weights falls on usable samples."""
 
@@ -43,10 +39,13 @@ class RowFilter(ShortRepr):
     centres: np.ndarray
 
     def average_samples(
-        self, values: np.ndarray, usable: np.ndarray,
-        used: np.ndarray | None = None, whole: np.ndarray | None = None,
-    ) -> np.ndarray:  # fmt: skip
-        """(rows, ...) of values (samples, ...) over usable (samples,); 0 where none is.
+        self,
+        values: np.ndarray,
+        usable: np.ndarray,
+        used: np.ndarray | None = None,
+        whole: np.ndarray | None = None,
+    ) -> np.ndarray:
+        """Averages values (samples, ...) over usable (samples,) by row: (rows, ...), 0 without any.
 
         Rows that are not used (rows,), if that is given, are means over whole (samples,).
         """
@@ -57,25 +56,27 @@ class RowFilter(ShortRepr):
         return flat.reshape(len(self.centres), *values.shape[1:])
 
     def find_sample_range(self, rows: slice) -> slice:
-        """Samples that those rows reach."""
+        """Finds the range of samples that those rows average."""
         start, stop = self.weights.indptr[rows.start], self.weights.indptr[rows.stop]
         reached = self.weights.indices[start:stop]
         return slice(int(reached.min()), int(reached.max()) + 1)
 
     def extract_rows(self, rows: slice, window: slice) -> "RowFilter":
-        """The same filter for a few rows, over a window of the samples."""
+        """Returns the same filter for some rows, over a window of the samples."""
         return RowFilter(self.weights[rows, window], self.centres[rows] - window.start)
 
     def compute_usable_share(self, usable: np.ndarray) -> np.ndarray:
-        """(rows, joints) share of each row's weight on usable samples (samples, joints)."""
+        """Returns (rows, joints) share of each row's weight on usable samples (samples, joints)."""
         return (self.weights @ usable.astype(float)) / self.weights.sum(axis=1)[:, None]
 
 
 def restrict_weights(
-    weights: csr_array, usable: np.ndarray,
-    used: np.ndarray | None = None, whole: np.ndarray | None = None,
-) -> csr_array:  # fmt: skip
-    """The weights (rows, samples) with 0 for samples that are not usable (samples,).
+    weights: csr_array,
+    usable: np.ndarray,
+    used: np.ndarray | None = None,
+    whole: np.ndarray | None = None,
+) -> csr_array:
+    """Returns the weights (rows, samples) with 0 for samples that are not usable (samples,).
 
     In rows that are not used (rows,) with 0 for samples that are not whole (samples,).
     """
@@ -88,26 +89,31 @@ def restrict_weights(
 
 
 def choose_row_spacing(step: float, cutoff: float, decimation: int | None) -> int:
-    """Samples from one row to the next; halves go up, whatever their rounding.
+    """Chooses the samples from one row to the next; halves are rounded up.
 
     Args:
         step: s.
         cutoff: Hz at -3 dB; 0 for none.
-        decimation: samples per row; None: `RATE` rows per period of the cut-off.
+        decimation: samples per row; None: `rows_per_cutoff_period` rows per period.
     """
     if decimation is None:
-        return max(1, round(_UP / (RATE * cutoff * step))) if cutoff > 0.0 else 1
+        rate = THRESHOLDS.rows_per_cutoff_period * cutoff * step
+        return max(1, round(THRESHOLDS.clock_rounding / rate)) if rate > 0.0 else 1
     return decimation
 
 
 def compute_reach(step: float, cutoff: float) -> int:
-    """Samples to both sides of a row's centre that it is a mean over."""
+    """Returns the samples on either side of a row's centre that have a weight."""
     spread = SPREAD / (cutoff * step) if cutoff > 0.0 else 0.0
-    return int(np.ceil(_REACH * spread)) if spread > _NONE else 0
+    return (
+        int(np.ceil(THRESHOLDS.kernel_reach * spread))
+        if spread > THRESHOLDS.min_kernel_samples
+        else 0
+    )
 
 
 def build_row_filter(centres: np.ndarray, samples: int, step: float, cutoff: float) -> RowFilter:
-    """The filter of a segment of so many samples, with rows centred on some of them (rows,)."""
+    """Builds the filter of a segment of `samples` samples, rows centred on some of them (rows,)."""
     spread = SPREAD / (cutoff * step) if cutoff > 0.0 else 0.0  # samples
     reach = compute_reach(step, cutoff)
     offsets = np.arange(-reach, reach + 1)
@@ -121,7 +127,7 @@ def build_row_filter(centres: np.ndarray, samples: int, step: float, cutoff: flo
 
 
 def compute_moving_means(values: np.ndarray, step: float, cutoff: float) -> np.ndarray:
-    """(samples, ...) what the rows of `build_row_filter` would hold, centred on every sample.
+    """Computes (samples, ...) the rows of `build_row_filter` centred on every sample.
 
     Outside the segment values count as 0: divide by the same means of ones.
 
@@ -131,9 +137,9 @@ def compute_moving_means(values: np.ndarray, step: float, cutoff: float) -> np.n
         cutoff: Hz at -3 dB; 0 for none.
     """
     spread = SPREAD / (cutoff * step) if cutoff > 0.0 else 0.0
-    if spread <= _NONE:
+    if spread <= THRESHOLDS.min_kernel_samples:
         return values
-    reach = int(np.ceil(_REACH * spread))
+    reach = int(np.ceil(THRESHOLDS.kernel_reach * spread))
     return np.asarray(gaussian_filter1d(values, spread, axis=0, mode="constant", radius=reach))
 
 
@@ -155,7 +161,7 @@ _ANGLES = (np.pi / 8.0, 3.0 * np.pi / 8.0)
 def apply_zero_phase_lowpass(
     values: np.ndarray, step: float, cutoff: float, padding: int
 ) -> np.ndarray:
-    """`values` (n, k) through the low-pass in time and then against it: twice 3 dB at the cut-off.
+    """Filters `values` (n, k) by the low-pass forwards and backwards: twice 3 dB at the cut-off.
 
     As scipy.signal.sosfiltfilt of butter(4, ...): both ends are extended, turned about the last
     value, and the filter starts as if the first value of that had been there for ever.
@@ -189,7 +195,7 @@ def _apply_lowpass(values: np.ndarray, step: float, cutoff: float) -> np.ndarray
 
 
 def apply_biquad(x: np.ndarray, b: np.ndarray, a: np.ndarray) -> np.ndarray:
-    """y (n,) of y(n) + a1 y(n-1) + a2 y(n-2) = b0 x(n) + b1 x(n-1) + b2 x(n-2), 0 before x (n,)."""
+    """Solves y(n) + a1 y(n-1) + a2 y(n-2) = b0 x(n) + b1 x(n-1) + b2 x(n-2), 0 before x (n,)."""
     return np.asarray(_solve_recursion(_compute_forward_terms(x[:, None], b), a[1], a[2])[:, 0])
 
 

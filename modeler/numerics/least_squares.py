@@ -1,20 +1,13 @@
 """Ranks, triangles and weighted medians: what every least squares here is made of."""
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
 from scipy.linalg import qr, solve_triangular
 
 from modeler.core.brief import ShortRepr
-
-TOLERANCE = 1e-8
-"""Pivots below this share of the first, columns scaled to length one, count as zero. Dependencies
-by structure or by a joint that stands still come out near 1e-15, weakly excited parameters on
-real logs above 1e-4."""
-
-_IDLE = 1e-12  # a column this short beside the longest one is zero
-_TOLD = 1e-3  # share of a column's length that another must carry to be named
+from modeler.numerics.thresholds import THRESHOLDS
 
 
 @dataclass(frozen=True)
@@ -32,7 +25,7 @@ class DroppedColumn:
     pivot: float
 
     def describe(self) -> str:
-        """What happened and what to do."""
+        """Describes what happened to the parameter and what to do."""
         if not self.into:
             return (
                 f"{self.name} is not excited: its column is zero on these data; it is set to 0; "
@@ -40,8 +33,8 @@ class DroppedColumn:
             )
         return (
             f"{self.name} cannot be told from {', '.join(self.into)} on these data (pivot "
-            f"{self.pivot:.1g}, tolerance {TOLERANCE:g}): it is set to 0 and they carry its "
-            "effect; record a motion that moves all joints over a wide range"
+            f"{self.pivot:.1g}, tolerance {THRESHOLDS.min_pivot:g}): it is set to 0 and they carry "
+            "its effect; record a motion that moves all joints over a wide range"
         )
 
 
@@ -63,14 +56,14 @@ class Rank:
 
 
 def find_independent_columns(R: np.ndarray, names: Sequence[str]) -> Rank:
-    """Independent columns of R (or W), by QR with column pivoting of the scaled columns.
+    """Finds independent columns of R (or W) by QR with column pivoting of the scaled columns.
 
     Args:
         R: (rows, c).
         names: (c,).
     """
     lengths = np.linalg.norm(R, axis=0)
-    active = np.flatnonzero(lengths > _IDLE * lengths.max(initial=0.0))
+    active = np.flatnonzero(lengths > THRESHOLDS.min_column_norm * lengths.max(initial=0.0))
     dropped_columns = [
         DroppedColumn(names[i], (), 0.0) for i in range(len(names)) if i not in set(active)
     ]
@@ -78,14 +71,17 @@ def find_independent_columns(R: np.ndarray, names: Sequence[str]) -> Rank:
         return Rank((), tuple(dropped_columns), 0.0, 0.0)
     triangle, order = qr(R[:, active] / lengths[active], mode="r", pivoting=True)
     pivots = np.abs(np.diag(triangle)) / abs(triangle[0, 0])
-    rank = int(np.sum(pivots > TOLERANCE))
+    rank = int(np.sum(pivots > THRESHOLDS.min_pivot))
     kept_columns, dropped = active[order[:rank]], active[order[rank:]]
     if len(dropped):
         shares = solve_triangular(triangle[:rank, :rank], triangle[:rank, rank:])
         for position, column in enumerate(dropped):
             share = shares[:, position]
-            into = tuple(names[kept_columns[i]] for i in np.argsort(-np.abs(share))
-                         if abs(share[i]) > _TOLD)  # fmt: skip
+            into = tuple(
+                names[kept_columns[i]]
+                for i in np.argsort(-np.abs(share))
+                if abs(share[i]) > THRESHOLDS.min_named_share
+            )
             pivot = pivots[rank + position] if rank + position < len(pivots) else 0.0
             dropped_columns.append(DroppedColumn(names[column], into[:6], float(pivot)))
     return Rank(
@@ -100,7 +96,7 @@ def find_independent_columns(R: np.ndarray, names: Sequence[str]) -> Rank:
 
 
 def compute_column_norms(matrix: np.ndarray) -> np.ndarray:
-    """(c,) norms of the columns; 1 for a column of zeros."""
+    """Computes (c,) norms of the columns; 1 for a column of zeros."""
     length = np.linalg.norm(matrix, axis=0)
     return np.where(length > 0.0, length, 1.0)
 
@@ -108,7 +104,7 @@ def compute_column_norms(matrix: np.ndarray) -> np.ndarray:
 def solve_scaled_least_squares(
     W: np.ndarray, y: np.ndarray, cutoff: float | None = None
 ) -> np.ndarray:
-    """(c, ...) of least ||y - W beta||; 0 along directions that W does not see.
+    """Returns (c, ...) of least ||y - W beta||; 0 along directions in the null space of W.
 
     Args:
         W: (rows, c), its columns scaled to length one.
@@ -121,7 +117,7 @@ def solve_scaled_least_squares(
 
 
 def compute_whitening(gram: np.ndarray, cutoff: float) -> np.ndarray:
-    """(c, r) T with T^T G T = 1 where G sees anything; T T^T is its pseudo-inverse.
+    """Computes (c, r) T with T^T G T = 1 on the range of G; T T^T is its pseudo-inverse.
 
     Args:
         gram: (c, c) G, symmetric, positive semi-definite; scaled to unit diagonal.
@@ -157,24 +153,24 @@ class CompressedRegression:
     free: np.ndarray
 
     def compute_residual_norms(self, beta: np.ndarray) -> np.ndarray:
-        """(n,) ||y_j - W_j beta||, N m or N."""
+        """Computes (n,) ||y_j - W_j beta||, N m or N."""
         return np.linalg.norm(self.triangles @ np.append(-beta, 1.0), axis=1)
 
     def compute_torque_norms(self) -> np.ndarray:
-        """(n,) ||y_j||."""
+        """Computes (n,) ||y_j||."""
         return np.linalg.norm(self.triangles[:, :, -1], axis=1)
 
     def compute_torque_rms(self) -> np.ndarray:
-        """(n,) root mean square of y_j."""
+        """Computes (n,) root mean square of y_j."""
         return self.compute_torque_norms() / np.sqrt(np.maximum(self.rows, 1))
 
     def combine_joints(self, sigma: np.ndarray) -> np.ndarray:
-        """Triangle (c + 1, c + 1) of all rows, those of joint j divided by sigma_j."""
+        """Returns the triangle (c + 1, c + 1) of all rows, those of joint j divided by sigma_j."""
         weighted = self.triangles / sigma[:, None, None]
         return compute_triangle(weighted.reshape(-1, weighted.shape[2]))
 
     def drop_columns(self, names: Sequence[str]) -> "CompressedRegression":
-        """The same data without some columns."""
+        """Returns the same data without some columns."""
         kept_indices = [i for i, name in enumerate(self.names) if name not in set(names)]
         return CompressedRegression(
             tuple(self.names[i] for i in kept_indices),
@@ -185,14 +181,14 @@ class CompressedRegression:
 
 
 def compute_triangle(matrix: np.ndarray) -> np.ndarray:
-    """R of matrix = Q R, (min(rows, columns), columns)."""
+    """Computes R of matrix = Q R, (min(rows, columns), columns)."""
     return np.asarray(np.linalg.qr(matrix, mode="r"))
 
 
 def merge_compressed(
     first: CompressedRegression, second: CompressedRegression
 ) -> CompressedRegression:
-    """The rows of both: R of [R1; R2] per joint, as [W1 y1; W2 y2] has the same R^T R.
+    """Merges the rows of both: R of [R1; R2] per joint, as [W1 y1; W2 y2] has the same R^T R.
 
     Each triangle errs backwards by rounding of its own rows only, so any order of merging is as
     exact as one factorisation (Demmel, Grigori, Hoemmen and Langou 2012, SIAM J. Sci. Comput.
@@ -216,7 +212,7 @@ def compress_rows(
     names: Sequence[str],
     free: Sequence[int] = (),
 ) -> CompressedRegression:
-    """Compress y = W beta.
+    """Compresses y = W beta to a triangle of each joint.
 
     Args:
         W: (rows, c).
@@ -269,7 +265,7 @@ class Reduction(ShortRepr):
     R: tuple[np.ndarray, ...]
 
     def append_columns(self, extra: Sequence[Sequence[np.ndarray | None]]) -> ReducedRows:
-        """The rows with further columns, (rows_j, k) each by joint; None where they are zero."""
+        """Appends further columns, (rows_j, k) each by joint; None where they are zero."""
         sizes = [next(c.shape[1] for c in columns if c is not None) for columns in extra]
         W, y = [], []
         for j, (Q, R) in enumerate(zip(self.Q, self.R, strict=True)):
@@ -283,7 +279,7 @@ class Reduction(ShortRepr):
 
 
 def reduce_rows(W: Sequence[np.ndarray], y: Sequence[np.ndarray]) -> Reduction:
-    """Of the rows of every joint."""
+    """Reduces the rows of every joint by a QR decomposition."""
     every = [_reduce_joint_rows(w, t) for w, t in zip(W, y, strict=True)]
     return Reduction(tuple(Q for Q, _ in every), tuple(R for _, R in every))
 
@@ -315,31 +311,24 @@ def _append_joint_columns(
     return np.vstack([inside, below])
 
 
-_PARALLEL = 1e-11
-"""Eigenvalue of their Gram matrix, over the largest, below which columns are dependent."""
-
-
 def compute_joint_whitening(W: Sequence[np.ndarray], sigma: np.ndarray) -> np.ndarray:
-    """(c, r) that makes weighted columns orthonormal over the rows of all joints at once.
+    """Computes (c, r) T that makes weighted columns orthonormal over the rows of all joints.
 
     Args:
         W: (rows_j, c) by joint.
         sigma: (J,) of each joint; the weights are its inverse.
     """
     gram = np.asarray(sum((w.T @ w) / s**2 for w, s in zip(W, sigma, strict=True)))
-    return compute_whitening(gram, _PARALLEL)
+    return compute_whitening(gram, THRESHOLDS.min_joint_eigenvalue)
 
 
 # The median of weighted values.
 
 
-_SAME = 1e-6  # of all weight; less is rounding
-
-
 def compute_weighted_median(values: np.ndarray, weights: np.ndarray) -> float:
-    """The smallest value up to which at least half of the weight lies.
+    """Returns the smallest value up to which at least half of the weight lies.
 
-    Half but for `_SAME`: of equal weights whose last digits differ, every choice of these digits
+    Half but for rounding: of equal weights whose last digits differ, every choice of these digits
     (as that of a clock's zero) gives the same median.
 
     Args:
@@ -348,4 +337,169 @@ def compute_weighted_median(values: np.ndarray, weights: np.ndarray) -> float:
     """
     order = np.argsort(values)
     total = np.cumsum(weights[order])
-    return float(values[order][np.searchsorted(total, (0.5 - _SAME) * total[-1])])
+    return float(
+        values[order][np.searchsorted(total, (0.5 - THRESHOLDS.weight_rounding) * total[-1])]
+    )
+
+
+# Quasi-Newton descent inside an open set; evolution, a search that needs values only.
+
+
+@dataclass(frozen=True)
+class ObjectiveFunction:
+    """A function on an open set.
+
+    Attributes:
+        value: f(x), infinite outside of the set.
+        slope: its gradient where it is finite; called at the point last asked for.
+        reach: how far from x along d the set's flat walls stand, in lengths of d.
+    """
+
+    value: Callable[[np.ndarray], float]
+    gradient: Callable[[np.ndarray], np.ndarray]
+    boundary_distance: Callable[[np.ndarray, np.ndarray], float]
+
+
+def minimise_bfgs(
+    landscape: ObjectiveFunction,
+    x: np.ndarray,
+    steps: int,
+    tolerance: float,
+    proceed: Callable[[], bool],
+) -> np.ndarray:
+    """Returns the lowest point (d,) that BFGS reaches from x.
+
+    Args:
+        landscape: the function.
+        x: inside of the set.
+        steps: at most so many.
+        tolerance: it ends where ten steps together bring less than this.
+        proceed: asked before each value; False ends it.
+    """
+    value = landscape.value(x)
+    slope = landscape.gradient(x)
+    curve, fresh, values = _build_initial_inverse_hessian(slope), True, [value]
+    for _ in range(steps):
+        if not proceed():
+            break
+        way = -curve @ slope
+        lower_point = _search_line(landscape, x, value, way, float(way @ slope), proceed)
+        if lower_point is None:
+            if fresh:
+                break
+            curve, fresh = (
+                _build_initial_inverse_hessian(slope),
+                True,
+            )  # a kink: what was learnt of curvature misleads
+            continue
+        ahead, new = lower_point
+        after = landscape.gradient(ahead)
+        curve, fresh = _update_inverse_hessian(curve, ahead - x, after - slope, fresh), False
+        x, value, slope = ahead, new, after
+        values.append(value)
+        if (
+            len(values) > THRESHOLDS.stall_steps
+            and values[-1 - THRESHOLDS.stall_steps] - value < tolerance
+        ):
+            break
+    return x
+
+
+def _build_initial_inverse_hessian(slope: np.ndarray) -> np.ndarray:
+    return np.eye(len(slope)) / max(float(np.linalg.norm(slope)), 1e-12)
+
+
+def _search_line(
+    landscape: ObjectiveFunction,
+    x: np.ndarray,
+    value: float,
+    way: np.ndarray,
+    fall: float,
+    proceed: Callable[[], bool],
+) -> tuple[np.ndarray, float] | None:
+    """A point along `way` that is lower than promised in part, and its value."""
+    share = min(1.0, THRESHOLDS.max_boundary_share * landscape.boundary_distance(x, way))
+    while fall < 0.0 and share > THRESHOLDS.min_step_share and proceed():
+        ahead = x + share * way
+        new = landscape.value(ahead)
+        if new <= value + THRESHOLDS.armijo_share * share * fall:
+            return ahead, new
+        share *= 0.4
+    return None
+
+
+def _update_inverse_hessian(
+    curve: np.ndarray, step: np.ndarray, change: np.ndarray, first: bool
+) -> np.ndarray:
+    """The inverse of the second derivative, with what one step taught of it (BFGS)."""
+    along = float(step @ change)
+    if not along > 1e-10 * float(np.linalg.norm(step) * np.linalg.norm(change)):
+        return curve
+    if first:
+        curve = np.eye(len(step)) * (along / float(change @ change))
+    turned = curve @ change
+    return (
+        curve
+        + np.outer(step, step) * ((along + change @ turned) / along**2)
+        - (np.outer(turned, step) + np.outer(step, turned)) / along
+    )
+
+
+def minimise_cma_es(
+    value: Callable[[np.ndarray], float],
+    x: np.ndarray,
+    size: float,
+    generations: int,
+    rng: np.random.Generator,
+    proceed: Callable[[int], bool],
+) -> np.ndarray:
+    """Returns the lowest point (d,) that CMA-ES reaches from x.
+
+    N. Hansen, The CMA Evolution Strategy: A Tutorial, arXiv:1604.00772, appendix A.
+
+    Args:
+        value: to be made small; any point may be asked for.
+        x: where it begins.
+        size: standard deviation of the first points.
+        generations: at most so many.
+        rng: draws the points.
+        proceed: asked before each point, with the number of its generation; False ends it.
+    """
+    d = len(x)
+    count = 8 + int(3 * np.log(d))
+    parents = count // 2
+    share = np.log(parents + 0.5) - np.log(np.arange(1, parents + 1))
+    share /= share.sum()
+    mu = 1.0 / np.sum(share**2)
+    c_size, c_path = (mu + 2) / (d + mu + 5), (4 + mu / d) / (d + 4 + 2 * mu / d)
+    damp = 1 + 2 * max(0.0, np.sqrt((mu - 1) / (d + 1)) - 1) + c_size
+    c_one = 2 / ((d + 1.3) ** 2 + mu)
+    c_many = min(1 - c_one, 2 * (mu - 2 + 1 / mu) / ((d + 2) ** 2 + mu))
+    usual = np.sqrt(d) * (1 - 1 / (4 * d) + 1 / (21 * d**2))
+    covariance, path, size_path = np.eye(d), np.zeros(d), np.zeros(d)
+    best, lowest = x, value(x)
+    for generation in range(generations):
+        spread, turn = np.linalg.eigh(covariance)
+        spread = np.sqrt(np.maximum(spread, 1e-20))
+        steps = (rng.normal(size=(count, d)) * spread) @ turn.T
+        values = np.full(count, np.inf)
+        for k, step in enumerate(steps):
+            if not proceed(generation):
+                return best
+            values[k] = value(x + size * step)
+            if values[k] < lowest:
+                best, lowest = x + size * step, values[k]
+        order = np.argsort(values, kind="stable")
+        chosen = steps[order[:parents]]
+        mean = share @ chosen
+        x = x + size * mean
+        whitened = turn @ ((turn.T @ mean) / spread)
+        size_path = (1 - c_size) * size_path + np.sqrt(c_size * (2 - c_size) * mu) * whitened
+        path = (1 - c_path) * path + np.sqrt(c_path * (2 - c_path) * mu) * mean
+        covariance = (
+            (1 - c_one - c_many) * covariance
+            + c_one * np.outer(path, path)
+            + c_many * (chosen.T * share) @ chosen
+        )
+        size *= float(np.exp(c_size / damp * (np.linalg.norm(size_path) / usual - 1)))
+    return best

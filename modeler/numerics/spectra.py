@@ -6,10 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from modeler.core.brief import ShortRepr
-
-_LONGEST = 1024  # samples of one Welch window
-_LAG = 2.0  # s, longest lag of the autocorrelation
-_FORGOTTEN = 0.2  # autocorrelation below which the past is called forgotten
+from modeler.numerics.thresholds import THRESHOLDS
 
 
 @dataclass(frozen=True, eq=False)
@@ -28,7 +25,7 @@ class ResidualSpectrum(ShortRepr):
 def estimate_residual_spectrum(
     time: np.ndarray, segment: np.ndarray, e: np.ndarray
 ) -> ResidualSpectrum | None:
-    """Spectrum of one joint's residual; None when no segment is long enough (16 samples).
+    """Estimates the spectrum of one joint's residual; None if no segment has 16 samples.
 
     Rows that do not count enter as zeros and the result is scaled by the share that counts:
     this keeps the power and blurs lines a little. Segments sampled at another rate than most
@@ -42,9 +39,9 @@ def estimate_residual_spectrum(
     pieces, period = _collect_segments(time, segment, e)
     if not pieces:
         return None
-    correlation = _estimate_autocorrelation(pieces, round(_LAG / period))
+    correlation = _estimate_autocorrelation(pieces, round(THRESHOLDS.max_lag / period))
     frequency, density = _average_welch_density(pieces, period)
-    below = np.flatnonzero(correlation < _FORGOTTEN)
+    below = np.flatnonzero(correlation < THRESHOLDS.uncorrelated_below)
     lags_until_decay = int(below[0]) if below.size else correlation.size
     top = int(np.argmax(density))
     around = slice(max(top - 2, 0), top + 3)
@@ -62,7 +59,7 @@ def estimate_residual_spectrum(
 
 
 def find_segment_slices(segment: np.ndarray) -> list[slice]:
-    """The stretches of equal segment number, in row order."""
+    """Finds the slices of equal segment number, in row order."""
     if segment.size == 0:
         return []
     edges = np.flatnonzero(np.diff(segment)) + 1
@@ -108,7 +105,7 @@ def _average_welch_density(
 ) -> tuple[np.ndarray, np.ndarray]:
     """Welch densities (Hann, half overlap) of the segments, averaged by samples that count."""
     # a quarter of the longest segment: about seven windows to average over
-    window = min(_LONGEST, max(16, max(piece.size for piece in pieces) // 4))
+    window = min(THRESHOLDS.max_welch_samples, max(16, max(piece.size for piece in pieces) // 4))
     total, weight = np.zeros(window // 2 + 1), 0.0
     for piece in pieces:
         counts = float(np.isfinite(piece).sum())
@@ -121,7 +118,7 @@ def _average_welch_density(
 
 
 def estimate_welch_density(values: np.ndarray, length: int, size: int, period: float) -> np.ndarray:
-    """(size // 2 + 1,) one-sided power density, mean over half overlapping Hann windows.
+    """Returns (size // 2 + 1,) one-sided power density, mean over half overlapping Hann windows.
 
     That of scipy.signal.welch without detrending; scipy.signal takes long to load.
 
@@ -142,7 +139,7 @@ def estimate_welch_density(values: np.ndarray, length: int, size: int, period: f
 
 
 def estimate_coherence(x: np.ndarray, y: np.ndarray, frequency: float) -> float:
-    """Share of y's power (n,) that follows x (n,), around a frequency in periods a sample."""
+    """Estimates the coherence of y (n,) with x (n,) around a frequency in periods a sample."""
     length = max(16, min(256, len(x) // 8))
     if len(x) < 2 * length:
         return 0.0
@@ -162,16 +159,6 @@ def estimate_coherence(x: np.ndarray, y: np.ndarray, frequency: float) -> float:
 
 
 # The order spectrum: waves of a residual per turn of a joint.
-
-
-LEAST_WAVES = 3.0
-"""In the stroke: slower waves cannot be told from gravity and springs."""
-
-_HIGHEST = 1200.0  # waves per unit of position
-_CELLS = 4  # per wave of the highest order
-_STANDS_OUT = 12.0  # power over the median around it
-_MOST = 3  # lines per joint
-_FEWEST = 100  # samples
 
 
 @dataclass(frozen=True, eq=False)
@@ -196,7 +183,7 @@ class OrderSpectrum(ShortRepr):
 def compute_order_spectrum(
     q: np.ndarray, r: np.ndarray, unit: str, reached: float
 ) -> OrderSpectrum | None:
-    """(2/n) |sum r exp(-i m q)| by order m; None if the joint rests.
+    """Computes (2/n) |sum r exp(-i m q)| by order m; None if the joint rests.
 
     A wave A cos(m q + phase) that is passed often gives A at m. Positions are sorted into cells,
     four for each wave of the highest order, so one fast Fourier transform gives all orders.
@@ -208,10 +195,14 @@ def compute_order_spectrum(
         reached: highest order to look at; infinite for no limit.
     """
     stroke = float(np.ptp(q)) if q.size else 0.0
-    if stroke <= 0.0 or q.size < _FEWEST:
+    if stroke <= 0.0 or q.size < THRESHOLDS.min_order_samples:
         return None
-    highest = _HIGHEST if unit == "rad" else _HIGHEST * 2.0 * np.pi / max(stroke, 1e-6)
-    cells = int(min(2**19, max(1024, stroke * highest / (2 * np.pi) * _CELLS)))
+    highest = (
+        THRESHOLDS.max_order
+        if unit == "rad"
+        else THRESHOLDS.max_order * 2.0 * np.pi / max(stroke, 1e-6)
+    )
+    cells = int(min(2**19, max(1024, stroke * highest / (2 * np.pi) * THRESHOLDS.cells_per_wave)))
     place = np.minimum(((q - q.min()) / stroke * cells).astype(int), cells - 1)
     total = np.bincount(place, r, cells)
     length = 1 << int(np.ceil(np.log2(cells * 4)))
@@ -219,7 +210,9 @@ def compute_order_spectrum(
     order = np.arange(len(spectrum)) * (2.0 * np.pi / stroke) * cells / length
     amplitude = np.abs(spectrum)
     resolution = 2.0 * np.pi / stroke
-    is_in_range = (order >= LEAST_WAVES * resolution) & (order <= highest) & (order <= reached)
+    is_in_range = (
+        (order >= THRESHOLDS.min_waves * resolution) & (order <= highest) & (order <= reached)
+    )
     order, amplitude = order[is_in_range], amplitude[is_in_range]
     if order.size < 32:
         return None
@@ -230,8 +223,8 @@ def compute_order_spectrum(
     floor = np.interp(np.arange(len(amplitude)), centres, medians)
     power = (amplitude / np.maximum(floor, 1e-300)) ** 2
     peaks: list[float] = []
-    for place in np.argsort(-amplitude * (power > _STANDS_OUT)):
-        if power[place] < _STANDS_OUT or len(peaks) == _MOST:
+    for place in np.argsort(-amplitude * (power > THRESHOLDS.min_peak_power)):
+        if power[place] < THRESHOLDS.min_peak_power or len(peaks) == THRESHOLDS.max_peaks:
             break
         if all(abs(order[place] - other) > 2.0 * resolution for other in peaks):
             peaks.append(float(order[place]))
@@ -241,32 +234,24 @@ def compute_order_spectrum(
 # Motion that repeats itself within one log.
 
 
-ALIKE = 0.98
-"""Correlation of the motion with itself one period later from which on it repeats."""
-
-SHORTEST = 2.0
-"""s, of a lap."""
-
-
-_SPARSE = 10  # steps in the time of a log for each of its rows, from which on pauses fill it
-
-
 def find_longest_stretch(time: np.ndarray, step: float) -> slice:
-    """All rows; where pauses fill the time of a log, the longest stretch between them.
+    """Finds the longest segment between pauses where they fill the time of a log; else all rows.
 
     Args:
         time: (n,) s, increasing.
         step: s, between rows.
     """
-    if len(time) < 2 or time[-1] - time[0] < _SPARSE * step * len(time):
+    if len(time) < 2 or time[-1] - time[0] < THRESHOLDS.min_pause_steps * step * len(time):
         return slice(0, len(time))
-    ends = np.concatenate([[0], np.flatnonzero(np.diff(time) > _SPARSE * step) + 1, [len(time)]])
+    ends = np.concatenate(
+        [[0], np.flatnonzero(np.diff(time) > THRESHOLDS.min_pause_steps * step) + 1, [len(time)]]
+    )
     longest = int(np.argmax(np.diff(ends)))
     return slice(int(ends[longest]), int(ends[longest + 1]))
 
 
 def estimate_lap_period(since: np.ndarray, q: np.ndarray) -> float:
-    """Period of a motion that repeats at least once, s; 0 if it does not.
+    """Estimates the period, s, of a motion that repeats at least once; 0 if it does not.
 
     Args:
         since: (s,) s, from 0.
@@ -276,7 +261,7 @@ def estimate_lap_period(since: np.ndarray, q: np.ndarray) -> float:
     rows = find_longest_stretch(since, step)
     since, q = since[rows] - since[rows][:1], q[rows]
     count = int(since[-1] / step) + 1 if step > 0.0 and len(since) else 0
-    if count < 8 or since[-1] < 2 * SHORTEST:
+    if count < 8 or since[-1] < 2 * THRESHOLDS.min_lap_seconds:
         return 0.0
     even = np.arange(count) * step
     moved = [np.interp(even, since, q[:, j]) for j in range(q.shape[1]) if np.ptp(q[:, j]) > 0.0]
@@ -287,8 +272,8 @@ def estimate_lap_period(since: np.ndarray, q: np.ndarray) -> float:
         likeness = np.minimum(
             likeness, _compute_self_similarity((x - x.mean()) / x.std(), count // 2 + 1)
         )
-    first = int(SHORTEST / step)
-    high = np.flatnonzero(likeness[first:] > ALIKE) + first
+    first = int(THRESHOLDS.min_lap_seconds / step)
+    high = np.flatnonzero(likeness[first:] > THRESHOLDS.min_repeat_correlation) + first
     low = np.flatnonzero(likeness < 0.8)
     if not high.size or not low.size:
         return 0.0
@@ -314,9 +299,6 @@ def _compute_self_similarity(x: np.ndarray, lags: int) -> np.ndarray:
 # How the positions of a piece are spread over frequencies.
 
 
-_NEVER = 5.0  # noise exceeds ln(n) + 5 means at none of n frequencies, in 99 of 100 spectra
-
-
 @dataclass(frozen=True, eq=False)
 class MotionSpectrum:
     """Of positions; n frequencies, J joints.
@@ -333,13 +315,13 @@ class MotionSpectrum:
 
     @property
     def power_above_noise(self) -> np.ndarray:
-        """(n, J) power less the largest value that the white noise takes: 0 where it may be it."""
-        largest = self.noise_power * (np.log(len(self.frequency)) + _NEVER)
+        """Returns (n, J) power above the largest value of white noise, 0 within it."""
+        largest = self.noise_power * (np.log(len(self.frequency)) + THRESHOLDS.noise_exceedance)
         return np.maximum(self.power - largest, 0.0)
 
 
 def compute_motion_spectrum(positions: np.ndarray, step: float) -> MotionSpectrum:
-    """The periodogram of positions (samples, J): Hann window, trend removed.
+    """Computes the periodogram of positions (samples, J): Hann window, trend removed.
 
     The white noise is the median over the upper half of the frequencies, where measured positions
     hold noise only, over ln 2: values of a periodogram of noise are exponentially distributed.
@@ -358,10 +340,6 @@ def compute_motion_spectrum(positions: np.ndarray, step: float) -> MotionSpectru
 # The power density of a signal that falls steeply: by third octaves, differentiated first.
 
 
-WINDOW_SECONDS = 4.0
-_THIRDS = 3  # of an octave
-
-
 @dataclass(frozen=True, eq=False)
 class BandSpectrum(ShortRepr):
     """Means over third octaves; m of them, J channels.
@@ -378,7 +356,7 @@ class BandSpectrum(ShortRepr):
 def compute_band_spectrum(
     channels: Sequence[np.ndarray], steps: Sequence[float], order: int
 ) -> BandSpectrum:
-    """Power densities of signals whose low frequencies would leak over all others.
+    """Computes power densities by third octaves of signals with dominant low frequencies.
 
     Differences of the given order are transformed in Blackman windows of 4 s, half overlapping, and
     their density is divided by (2 sin(pi f h))^(2 order): that of the signal itself.
@@ -388,14 +366,17 @@ def compute_band_spectrum(
         steps: s, of each.
         order: of the differences that make them level.
     """
-    longest = max(WINDOW_SECONDS, *(2.0 * step for step in steps))
+    longest = max(THRESHOLDS.band_window, *(2.0 * step for step in steps))
     low, high = 1.0 / longest, 0.5 / min(steps)
-    edges = low * 2.0 ** (np.arange(np.ceil(np.log2(high / low) * _THIRDS) + 1) / _THIRDS)
+    edges = low * 2.0 ** (
+        np.arange(np.ceil(np.log2(high / low) * THRESHOLDS.bands_per_octave) + 1)
+        / THRESHOLDS.bands_per_octave
+    )
     total = np.zeros((len(edges) - 1, channels[0].shape[1]))
     count = np.zeros(len(edges) - 1)
     for values, step in zip(channels, steps, strict=True):
         level = np.diff(values, order, axis=0)
-        length = min(len(level), max(8, round(WINDOW_SECONDS / step)))
+        length = min(len(level), max(8, round(THRESHOLDS.band_window / step)))
         if length < 8:
             continue
         power, frames = _estimate_blackman_density(level, length, step)

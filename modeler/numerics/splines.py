@@ -11,16 +11,13 @@ from scipy.optimize import nnls
 from scipy.sparse import csr_array, diags_array
 
 from modeler.core.law import BESIDE, Law
+from modeler.numerics.thresholds import THRESHOLDS
 
 LEAST = 100
 """Rows below which nothing is predicted."""
 
-MIN_T_RATIO = 2.0
-"""Share over its standard error that is more than chance."""
 
 _RIDGES = (0.1, 2.0)  # times the number of columns: noise over signal, variances
-_FOLDS = 8
-_PARTS = 40  # of the rows in order: what noise makes of one has nothing to do with the next
 
 
 @dataclass(frozen=True, eq=False)
@@ -41,14 +38,14 @@ class NonparametricBaseline:
 
     @property
     def is_significant(self) -> bool:
-        """True if the share is more than chance, also in noise that has a colour."""
-        return self.share > MIN_T_RATIO * self.sigma
+        """Returns True if the share is significant, also in coloured noise."""
+        return self.share > THRESHOLDS.min_share_t_ratio * self.sigma
 
 
 def fit_nonparametric_baseline(
     sets: Iterable[tuple[str, np.ndarray]], residual: np.ndarray, fold: np.ndarray
 ) -> NonparametricBaseline:
-    """The residual as predicted by sets of functions where they were not fitted.
+    """Predicts the residual by sets of functions on folds that they were not fitted to.
 
     Each set is fitted by ridge regression; the sets and their ridges are added with weights that
     are not negative (stacking, Wolpert 1992; Breiman 1996). Rows of one fold are predicted by what
@@ -79,17 +76,21 @@ def fit_nonparametric_baseline(
     alone = {name: max(0.0, 1.0 - e / energy) for name, e in zip(predictions, left, strict=True)}
     predicted = _combine_predictions(np.concatenate([*predictions.values()], axis=2), y, rows)
     gain = y**2 - (y - predicted) ** 2
-    parts = np.add.reduceat(gain, np.arange(_PARTS) * y.size // _PARTS)
-    share, sigma = float(gain.sum()), float(np.sqrt(_PARTS) * parts.std(ddof=1))
+    parts = np.add.reduceat(
+        gain, np.arange(THRESHOLDS.share_parts) * y.size // THRESHOLDS.share_parts
+    )
+    share, sigma = float(gain.sum()), float(np.sqrt(THRESHOLDS.share_parts) * parts.std(ddof=1))
     return NonparametricBaseline(predicted + mean, max(0.0, share / energy), sigma / energy, alone)
 
 
 def assign_folds(run: np.ndarray) -> np.ndarray:
-    """(n,) folds for rows in order of time, their log by number: each log in eight stretches."""
+    """Assigns (n,) folds to rows in order of time: each log in eight parts."""
     fold = np.zeros(run.size, dtype=int)
     for log in np.unique(run):
         log_rows = np.flatnonzero(run == log)
-        fold[log_rows] = (np.arange(log_rows.size) * _FOLDS // log_rows.size + log) % _FOLDS
+        fold[log_rows] = (
+            np.arange(log_rows.size) * THRESHOLDS.fold_count // log_rows.size + log
+        ) % THRESHOLDS.fold_count
     return fold
 
 
@@ -154,20 +155,20 @@ def _standardise_columns(values: np.ndarray) -> np.ndarray:
 
 
 def extend_axis(low: float, high: float, cells: int) -> tuple[float, float]:
-    """The ends of an axis, with a cell on either side of what was seen to come to rest in."""
+    """Returns the ends of an axis, a cell beyond what was measured on either side."""
     cell = (high - low) / (cells - 2)
     digits = 3 - math.floor(math.log10(cell))  # of the ends: a robot file shows them
     return round(low - cell, digits), round(high + cell, digits)
 
 
 def build_flat_ends(cells: int) -> csr_array:
-    """(cells + 3, cells - 1) coefficients of which three are one at either end: it is held."""
+    """Builds (cells + 3, cells - 1) coefficients that hold the curve constant at either end."""
     place = np.clip(np.arange(cells + BESIDE) - 2, 0, cells - 2)
     return csr_array((np.ones(place.size), (np.arange(place.size), place)))
 
 
 def build_second_differences(free: csr_array) -> csr_array:
-    """(p - 2, f) of the coefficients (p, f) of one axis: how rough a curve is."""
+    """Builds (p - 2, f) second differences of the coefficients (p, f) of one axis: roughness."""
     size = free.shape[0]
     return diags_array([1.0, -2.0, 1.0], offsets=[0, 1, 2], shape=(size - 2, size)).tocsr() @ free
 
@@ -175,7 +176,7 @@ def build_second_differences(free: csr_array) -> csr_array:
 def compute_spline_products(
     values: np.ndarray, ends: Sequence[tuple[float, float]], cells: Sequence[int]
 ) -> csr_array:
-    """(n, p) products of the splines of each axis, times the last of the values (n, axes + 1)."""
+    """Returns (n, p) products of the axes' splines, times the last of values (n, axes + 1)."""
     low, high = zip(*ends, strict=True)
     law, size = Law(low, high, tuple(cells), ()), 1
     columns, weights = np.zeros((len(values), 1), dtype=int), values[:, -1:]
@@ -194,7 +195,7 @@ def compute_spline_products(
 
 
 def build_hat_functions(x: np.ndarray, knots: int = 16) -> np.ndarray:
-    """(n, p) hats over x (n,): straight between knots, half at quantiles, half evenly spread.
+    """Builds (n, p) hat functions over x (n,), half of the knots at quantiles, half even.
 
     Quantiles put resolution where the data are (around zero velocity), even spacing covers the
     sparse ends. The hats sum to one.
@@ -217,12 +218,12 @@ def build_hat_functions(x: np.ndarray, knots: int = 16) -> np.ndarray:
 
 
 def build_friction_functions(v: np.ndarray) -> np.ndarray:
-    """(n, p) of a speed: smooth on either side of zero, with a step there."""
+    """Builds (n, p) functions of a speed: smooth on either side of zero, with a step there."""
     return np.column_stack((build_hat_functions(v), np.sign(v)))
 
 
 def build_drift_functions(time: np.ndarray, run: np.ndarray, knots: int = 5) -> np.ndarray:
-    """(n, knots * logs) slow functions of time, each log its own."""
+    """Builds (n, knots * logs) slow functions of time, separate for each log."""
     is_of_log = run[:, None] == np.unique(run)
     return np.hstack([build_hat_functions(time, knots) * rows[:, None] for rows in is_of_log.T])
 
@@ -238,7 +239,6 @@ OWN = ("own", "surface")
 
 _KNOTS = {"q": 16, "v": 20, "a": 10, "load": 12, "torque": 12}
 _OTHER = {"q": 14, "v": 12, "a": 6}
-_SUM = 7  # knots
 _OWN, _BENT, _PAIR, _WIDE, _PAIRS = 60, 30, 30, 60, 150  # random features
 
 
@@ -268,7 +268,7 @@ class Measurements:
 
 
 def generate_function_sets(measured: Measurements) -> Iterator[tuple[str, np.ndarray]]:
-    """Sets of functions with names: "own", "surface" of the joint, "0", ... of others, "wide".
+    """Yields sets of functions by name: "own", "surface" of the joint, "0", ... of others, "wide".
 
     Curves are sums of hats over one coordinate, with and without the direction of the joint:
     friction and other torques of any shape. Surfaces are random Fourier features (Rahimi and Recht
@@ -288,7 +288,7 @@ def generate_function_sets(measured: Measurements) -> Iterator[tuple[str, np.nda
         if k != j:
             yield str(k), _build_other_joint_functions(m, k, way, generator)
     near = np.column_stack([m.q, m.v])
-    yield "sum", np.hstack([build_hat_functions(x, _SUM) for x in (*m.q.T, *m.v.T)])
+    yield "sum", np.hstack([build_hat_functions(x, THRESHOLDS.sum_knots) for x in (*m.q.T, *m.v.T)])
     yield (
         "wide",
         np.column_stack(
@@ -313,16 +313,9 @@ def _build_other_joint_functions(
     curves = [build_hat_functions(getattr(m, name)[:, k], knots) for name, knots in _OTHER.items()]
     plain = np.column_stack([x[:, k] for x in (m.v, m.a, m.load, m.torque)])
     both = np.column_stack([m.q[:, k], m.v[:, k]])
-    return np.hstack(
-        [
-            *curves,
-            curves[0][:, ::2] * way,
-            plain,
-            np.abs(plain) * way,
-            np.sign(m.v[:, [k]]),
-            _draw_fourier_features(both, _PAIR, generator),
-        ]
-    )
+    features = _draw_fourier_features(both, _PAIR, generator)
+    turned = [curves[0][:, ::2] * way, plain, np.abs(plain) * way, np.sign(m.v[:, [k]])]
+    return np.hstack([*curves, *turned, features])
 
 
 def _draw_fourier_features(

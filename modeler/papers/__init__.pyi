@@ -1,9 +1,4 @@
 from .briot import reproduce_briot as reproduce_briot
-from .check import (
-    CheckedLine as CheckedLine,
-    LineVerdict as LineVerdict,
-    check_paper as check_paper,
-)
 from .guegan import reproduce_guegan as reproduce_guegan
 from .hanssen import reproduce_hanssen as reproduce_hanssen
 from .houda import reproduce_houda as reproduce_houda
@@ -14,4 +9,9 @@ from .paper import (
     Paper as Paper,
     derive_robot as derive_robot,
     read_paper as read_paper,
+)
+from .readings import (
+    CheckedLine as CheckedLine,
+    LineVerdict as LineVerdict,
+    check_paper as check_paper,
 )

@@ -49,7 +49,7 @@ SETTING = (
 
 
 def reproduce_briot(paper: Paper, report: Callable[[float], None]) -> list[MethodTable]:
-    """Gains, slides and motors of Table 3, and the second load with both sets of gains."""
+    """Reproduces gains, slides and motors of Table 3, and the second load by both sets of gains."""
     table = read_table(paper, "Table 3")
     gains = {f"1{k}": table[f"gtau{k}"][0] for k in "123"}
     (maker,) = read_quotation(paper, "637pi")[1:]
@@ -71,10 +71,15 @@ def reproduce_briot(paper: Paper, report: Callable[[float], None]) -> list[Metho
     runs = []
     for seed, load in enumerate((0.0, mass, second), 1):
         settings = SimulationSettings(
-            duration=SECONDS, rate=RATE, seed=seed, torque_noise=0.0, linear_resolution=1e-6,
-            motion="point-to-point", limits=dict.fromkeys(JOINTS, LIMITS),
+            duration=SECONDS,
+            rate=RATE,
+            seed=seed,
+            torque_noise=0.0,
+            linear_resolution=1e-6,
+            motion="point-to-point",
+            limits=dict.fromkeys(JOINTS, LIMITS),
             hidden=(parse_hidden_effect(f"payload:mass={load}"),) if load else (),
-        )  # fmt: skip
+        )
         runs.append(simulate(machine, settings))
         report(seed / 3)
     rng = np.random.default_rng(2012)
@@ -171,24 +176,26 @@ def _build_figure_3(
         / np.linalg.norm(np.where(used, measured, 0.0), axis=0)
         for model in list(efforts.values())[:2]
     )
-    rows = [
-        MethodRow(
-            f"motor {joint}",
-            '"well simulated"',
-            f"{format_percent(a)}; without load {format_percent(b)}",
-            judge_outcome(FELT * a < b, Outcome.HOLDS),
-            f"{FELT:g} times as much without",
-        )
-        for joint, a, b in zip(JOINTS, loaded, bare, strict=True)
-    ]
+    why, rows = f"{FELT:g} times as much without", []
+    for joint, a, b in zip(JOINTS, loaded, bare, strict=True):
+        text = f"{format_percent(a)}; without load {format_percent(b)}"
+        outcome = judge_outcome(FELT * a < b, Outcome.HOLDS)
+        rows.append(MethodRow(f"motor {joint}", '"well simulated"', text, outcome, why))
     shown = observation.time < SHOWN
     panels = [
-        (Panel(f"Motor {joint}", "time, s", "force, N", tuple(
-            Curve(name, observation.time[shown], tau[shown, j], style)
-            for (name, tau), style in zip(efforts.items(), _STYLES, strict=True)
-        )),)
+        (
+            Panel(
+                f"Motor {joint}",
+                "time, s",
+                "force, N",
+                tuple(
+                    Curve(name, observation.time[shown], tau[shown, j], style)
+                    for (name, tau), style in zip(efforts.items(), _STYLES, strict=True)
+                ),
+            ),
+        )
         for j, joint in enumerate(JOINTS)
-    ]  # fmt: skip
+    ]
     title = f"Figure 3: efforts with the load of {mass:g} kg, what the model leaves"
     drawn = f"Figure 3 of the simulated Orthoglide: efforts with the load of {mass:g} kg"
     picture = Picture("figure_3", drawn, _CAPTION, tuple(panels), 600, shared_time=True)

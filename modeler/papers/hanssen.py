@@ -10,6 +10,7 @@ from dataclasses import replace
 
 import numpy as np
 
+from modeler import formulas
 from modeler.codegen import Derivation, derive, generate
 from modeler.core.builtin import read_builtin_robot
 from modeler.core.expression import parse_expression
@@ -17,12 +18,6 @@ from modeler.core.figure import Curve, Panel, Picture
 from modeler.core.style import BLUE, GREEN, GREY, VERMILLION, Style
 from modeler.core.table import format_percent
 from modeler.estimation import JointDirections, TwoStepFit, identify_in_two_steps
-from modeler.formulas import (
-    build_physical_system,
-    count_smallest_set,
-    find_determined,
-    find_known_sets,
-)
 from modeler.papers.methods import (
     MethodRow,
     MethodTable,
@@ -56,7 +51,7 @@ SETTING = (
 
 
 def reproduce_hanssen(paper: Paper, report: Callable[[float], None]) -> list[MethodTable]:
-    """J11 in two steps; the singular values of Phi; which parameters follow from which."""
+    """Reproduces J11 in two steps, the singular values of Phi, and which parameters follow."""
     names = tuple(f"PJ{k}" for k in range(1, 8))
     truth = dict(zip(names, read_quotation(paper, "J11 = 0.0398")[-7:], strict=True))
     robot = parse_robot_text(
@@ -65,9 +60,14 @@ def reproduce_hanssen(paper: Paper, report: Callable[[float], None]) -> list[Met
     derivation = derive(robot)
     compiled = load_cached_model(generate(derivation))
     settings = SimulationSettings(
-        duration=SECONDS, rate=RATE, seed=SEED, bandwidth=BANDWIDTH, torque_noise=NOISE,
-        motion="one-joint", limits=dict.fromkeys("123", LIMITS),
-    )  # fmt: skip
+        duration=SECONDS,
+        rate=RATE,
+        seed=SEED,
+        bandwidth=BANDWIDTH,
+        torque_noise=NOISE,
+        motion="one-joint",
+        limits=dict.fromkeys("123", LIMITS),
+    )
     run = simulate(_build_machine(robot, derivation, truth), settings)
     report(0.5)
     observation = observe(compiled, [build_log(run, run.joints, run.tau)])
@@ -132,65 +132,43 @@ def _compute_trigonometry(pose: np.ndarray) -> dict[str, float]:
 
 
 def _build_singular_values_table(printed: tuple[float, ...], ours: np.ndarray) -> MethodTable:
-    rows = [
-        MethodRow(
-            "singular values",
-            _format_values(printed),
-            _format_values(tuple(ours)),
-            Outcome.SHOWN,
-            "of other configurations",
-        ),
-        MethodRow(
-            "last over first",
-            f"{printed[-1] / printed[0]:.3f}",
-            f"{ours[-1] / ours[0]:.3f}",
-            Outcome.SHOWN,
-            "the paper asks for about 0.1",
-        ),
-        MethodRow(
-            "rank of Phi",
-            str(len(printed)),
-            str(int(np.sum(ours > 1e-8 * ours[0]))),
-            judge_outcome(len(printed) == int(np.sum(ours > 1e-8 * ours[0]))),
-        ),
-    ]
-    return MethodTable("Persistent excitation of J11", (), tuple(rows))
-
-
-def _format_values(values: tuple[float, ...]) -> str:
-    return " ".join(f"{value:.2f}" for value in values)
+    theirs, computed = (" ".join(f"{value:.2f}" for value in row) for row in (printed, ours))
+    first, second = (f"{row[-1] / row[0]:.3f}" for row in (printed, ours))
+    rank, why = int(np.sum(ours > 1e-8 * ours[0])), "the paper asks for about 0.1"
+    rows = (
+        MethodRow("singular values", theirs, computed, Outcome.SHOWN, "of other configurations"),
+        MethodRow("last over first", first, second, Outcome.SHOWN, why),
+        MethodRow("rank of Phi", f"{len(printed)}", f"{rank}", judge_outcome(len(printed) == rank)),
+    )
+    return MethodTable("Persistent excitation of J11", (), rows)
 
 
 def _build_one_step_table(steps: TwoStepFit) -> MethodTable:
     """What the paper does not print: both ways on the same data."""
     two, one = steps.result, steps.one_step
     known = [sum(p.sigma is not None for p in fit.parameters) for fit in (two, one)]
-    rows = [
-        MethodRow(
-            "parameters found",
-            "-",
-            f"{known[0]} in two steps, {known[1]} in one",
-            Outcome.SHOWN,
-            "joints that stand with dry friction tell nothing of J12",
-        ),
-        MethodRow(
-            "relative error of the torques",
-            "-",
-            f"{format_percent(two.relative_error)} in two steps, "
-            f"{format_percent(one.relative_error)} in "
-            "one",
-            Outcome.SHOWN,
-        ),
-    ]
-    return MethodTable("Two steps beside one step", (), tuple(rows))
+    errors = [format_percent(fit.relative_error) for fit in (two, one)]
+    text, why = (
+        "{} in two steps, {} in one",
+        "joints that stand with dry friction tell nothing of J12",
+    )
+    rows = (
+        MethodRow("parameters found", "-", text.format(*known), Outcome.SHOWN, why),
+        MethodRow("relative error of the torques", "-", text.format(*errors), Outcome.SHOWN),
+    )
+    return MethodTable("Two steps beside one step", (), rows)
 
 
 def _build_figure_2(machine: Robot, compiled: CompiledModel, steps: TwoStepFit) -> MethodTable:
     """A ramp of joint 1 at a configuration that no step has seen: measured and modelled torque."""
     settings = SimulationSettings(
-        rate=RATE, seed=2, bandwidth=BANDWIDTH, torque_noise=NOISE, commanded=_build_ramp(),
+        rate=RATE,
+        seed=2,
+        bandwidth=BANDWIDTH,
+        torque_noise=NOISE,
+        commanded=_build_ramp(),
         limits=dict.fromkeys("123", LIMITS),
-    )  # fmt: skip
+    )
     run = simulate(machine, settings)
     beta = np.array([parameter.value for parameter in steps.result.parameters])
     (part,) = observe(compiled, [build_log(run, run.joints, run.tau)]).stretches
@@ -200,15 +178,10 @@ def _build_figure_2(machine: Robot, compiled: CompiledModel, steps: TwoStepFit) 
     exact = np.interp(time, run.time + 0.5 / RATE, run.truth.tau[:, 0])
     missed, noise, size = (float(np.std(x[known])) for x in (model - exact, torque - exact, exact))
     why = "less than the noise; joint 1 at a configuration that the fit has not seen"
+    outcome = judge_outcome(missed < noise)
     rows = (
         MethodRow("noise of the measured torque", "-", format_percent(noise / size), Outcome.SHOWN),
-        MethodRow(
-            "the model's error",
-            "-",
-            format_percent(missed / size),
-            judge_outcome(missed < noise),
-            why,
-        ),
+        MethodRow("the model's error", "-", format_percent(missed / size), outcome, why),
     )
     left = (
         Curve("measured", time, torque, Style(GREY, 0.7)),
@@ -252,15 +225,15 @@ def _build_ramp() -> Reference:
 
 def _build_known_table(paper: Paper, derivation: Derivation) -> MethodTable:
     """Which physical parameters follow: the paper's claim, and the count of all choices."""
-    system = build_physical_system(derivation.model, derivation.base, "coefficients")
+    system = formulas.build_physical_system(derivation.model, derivation.base, "coefficients")
     claim, rest = read_quotation(paper, "From these, 18")
-    determined_parameters, _ = find_determined(system, KNOWN)
+    determined_parameters, _ = formulas.find_determined(system, KNOWN)
     what = "parameters that follow from " + ", ".join(KNOWN)
     why = "the statement is wrong: " + ", ".join(determined_parameters) + " alone"
     outcome = judge_outcome(len(determined_parameters) == FOLLOW, Outcome.DERIVED)
     rows = [MethodRow(what, f"{claim:g}", str(len(determined_parameters)), outcome, why)]
-    for size, expected in ((int(rest), 0), (count_smallest_set(system), 61_879)):
-        sets = find_known_sets(system, size)
+    for size, expected in ((int(rest), 0), (formulas.count_smallest_set(system), 61_879)):
+        sets = formulas.find_known_sets(system, size)
         what, counted = f"sets of {size} from which all others follow", sets.count == expected
         outcome = judge_outcome(counted, Outcome.DERIVED)
         rows.append(

@@ -40,7 +40,7 @@ SETTING = (
 
 
 def reproduce_houda(paper: Paper, report: Callable[[float], None]) -> list[MethodTable]:
-    """Masses and friction by direction from both models, and how sure each of them is."""
+    """Reproduces masses and friction by direction from both models, and their sigmas."""
     first, second = read_quotation(paper, "First"), read_quotation(paper, "Second")
     axis = read_quotation(paper, "Fs1 = 1,39")
     fs1, fv1, fs2, fv2 = axis

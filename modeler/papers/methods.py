@@ -75,12 +75,12 @@ class MethodTable:
 
 
 def judge_outcome(holds: bool, well: Outcome = Outcome.REPRODUCED) -> Outcome:
-    """Reproduced, or not."""
+    """Returns the outcome `success` if it holds, else FAILED."""
     return well if holds else Outcome.FAILED
 
 
 def judge_recovery(name: str, printed: str, truth: float, value: float, sigma: float) -> MethodRow:
-    """A parameter whose truth the simulated robot has: within `ZMAX` of its sigmas.
+    """Judges a parameter of known truth: recovered within `ZMAX` of its sigmas.
 
     It is found only if its sigma is no more than `LARGEST` of the value: with a larger one nearly
     every truth would agree.
@@ -99,7 +99,7 @@ def judge_recovery(name: str, printed: str, truth: float, value: float, sigma: f
 
 
 def read_table(paper: Paper, place: str) -> Mapping[str, tuple[float, ...]]:
-    """The numbers of a printed table: {first word of a quotation: the numbers that follow}.
+    """Reads a printed table: {first word of a quotation: the numbers that follow}.
 
     Raises:
         RobotError: the paper's file quotes no such table.
@@ -115,7 +115,7 @@ def read_table(paper: Paper, place: str) -> Mapping[str, tuple[float, ...]]:
 
 
 def read_quotation(paper: Paper, start: str) -> tuple[float, ...]:
-    """The numbers of the quotation that starts so, and of those given with it.
+    """Reads the numbers of the quotation with this start, and of its assumptions.
 
     Raises:
         RobotError: the paper's file has none.
@@ -132,7 +132,7 @@ def read_quotation(paper: Paper, start: str) -> tuple[float, ...]:
 def build_log(
     run: SimulatedLog, joints: tuple[str, ...], tau: np.ndarray, source: str = "tau{}"
 ) -> Log:
-    """A simulated run as a log of some joints, with torques (samples, joints) of its own."""
+    """Builds a log of some joints of a simulated run, with torques (samples, joints)."""
     at = [run.joints.index(joint) for joint in joints]
     sources = tuple(source.format(joint) for joint in joints)
     name = f"run{run.settings.seed}"

@@ -10,8 +10,10 @@ import ast
 import itertools
 import math
 import operator
+import re
+import string
 import tomllib
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, field, replace
 from fnmatch import fnmatchcase
 from fractions import Fraction
@@ -22,30 +24,17 @@ from typing import Any
 import numpy as np
 import sympy
 
+from modeler import derivation, formulas
 from modeler.core.builtin import list_papers
 from modeler.core.errors import RobotError
 from modeler.core.expression import parse_expression
 from modeler.core.json import build_instance
-from modeler.derivation import (
-    BaseParameters,
-    SymbolicModel,
-    derive_base_parameters,
-    derive_model,
-    draw_random_states,
-)
-from modeler.formulas import (
-    CoefficientTable,
-    Equation,
-    build_coefficient_table,
-    energy_functions,
-    function_sheet,
-    kane_form,
-)
 from modeler.papers.quotation import (
     Amount,
     Monomial,
     QuotationError,
     Sum,
+    add_sums,
     format_sum,
     multiply_monomials,
     read_sum,
@@ -109,7 +98,7 @@ class PrintedLine:
 
     @property
     def text(self) -> str:
-        """What is stated."""
+        """Returns what is stated."""
         return self.quote or self.ours
 
 
@@ -150,7 +139,7 @@ class Paper:
 
 
 def read_paper(name: str) -> Paper:
-    """The paper of that name, or that derives the robot of that name.
+    """Reads the paper of that name, or that derives the robot of that name.
 
     Raises:
         RobotError: there is none; lists those there are.
@@ -204,17 +193,17 @@ class DerivedRobot:
     """A robot with its model and base parameters."""
 
     robot: Robot
-    model: SymbolicModel
-    base: BaseParameters
+    model: derivation.SymbolicModel
+    base: derivation.BaseParameters
 
     @property
     def values(self) -> Mapping[str, float]:
-        """Nominal values of the geometric symbols."""
+        """Returns nominal values of the geometric symbols."""
         return self.model.geometry.values
 
     @cached_property
     def relations(self) -> Mapping[str, Sum]:
-        """Every base parameter as a sum of standard parameters."""
+        """Returns every base parameter as a sum of standard parameters."""
         return {
             p.name: {
                 multiply_monomials(monomial, ((term.parameter, 1),)): value
@@ -226,17 +215,17 @@ class DerivedRobot:
 
     @cached_property
     def standard(self) -> tuple[str, ...]:
-        """Names of the standard parameters."""
+        """Returns names of the standard parameters."""
         return tuple(column.name for column in self.base.columns)
 
     @cached_property
     def independent_parameters(self) -> frozenset[str]:
-        """Standard parameters whose columns are those of base parameters."""
+        """Returns standard parameters whose columns are those of base parameters."""
         return frozenset(self.base.columns[p.column].name for p in self.base.parameters)
 
     @cached_property
     def grouping(self) -> Mapping[str, list[sympy.Rational]]:
-        """By standard parameter: how much of it is in each base parameter, at nominal values."""
+        """Returns how much of each standard parameter is in each base parameter, nominally."""
         shares = {name: [sympy.S.Zero] * self.base.rank for name in self.standard}
         for k, parameter in enumerate(self.base.parameters):
             for term in parameter.terms:
@@ -245,47 +234,49 @@ class DerivedRobot:
         return shares
 
     @cached_property
-    def table(self) -> CoefficientTable:
-        """Coefficients of the closed form."""
-        return build_coefficient_table(self.model, self.base)
+    def table(self) -> formulas.CoefficientTable:
+        """Returns coefficients of the closed form."""
+        return formulas.build_coefficient_table(self.model, self.base)
 
     @cached_property
     def kane(self) -> Mapping[str, str]:
-        """Formulas of Kane's form, by name."""
-        sheet = function_sheet.serialise_sheet(self.forms["kane"][0].sheet)
+        """Returns formulas of Kane's form, by name."""
+        sheet = formulas.function_sheet.serialise_sheet(self.forms["kane"][0].sheet)
         return {each["name"]: each["formula"] for each in sheet["definitions"]}
 
     @cached_property
-    def forms(self) -> Mapping[str, tuple[Equation, float]]:
-        """Energy functions, and without loops Kane's form, with how far each is from the model."""
-        states = draw_random_states(self.model, 20, np.random.default_rng(2000))
-        equations = {"energy": energy_functions(self.model, states)}
+    def forms(self) -> Mapping[str, tuple[formulas.Equation, float]]:
+        """Returns energy functions, without loops Kane's form too, and their errors."""
+        states = derivation.draw_random_states(self.model, 20, np.random.default_rng(2000))
+        equations = {"energy": formulas.energy_functions(self.model, states)}
         return (
-            equations if self.robot.loops else equations | {"kane": kane_form(self.model, states)}
+            equations
+            if self.robot.loops
+            else equations | {"kane": formulas.kane_form(self.model, states)}
         )
 
     @cached_property
     def dependent_variables(self) -> Mapping[str, Sum]:
-        """Joint variables that follow others, and those that follow themselves."""
+        """Returns joint variables that follow others, and those that follow themselves."""
         free = {j.variable: read_sum(j.variable, str) for j in self.robot.moving_joints}
         tied = {f"q{name}": read_sum(text.text, str) for name, text in self.robot.relations.items()}
         return free | tied
 
 
 def derive_robot(name: str, variant: Variant | None = None) -> DerivedRobot:
-    """A built-in robot, or one of that name that differs from a built-in one as `variant` says."""
+    """Derives a built-in robot, or a new one that differs from it as `variant` says."""
     robot = read_robot(name if variant is None else variant.of)
     if variant is not None:
         robot = replace(robot.open_loops() if variant.open else robot, name=name)
         if variant.gravity:
             x, y, z = (parse_expression(text) for text in variant.gravity)
             robot = replace(robot, gravity=(x, y, z))
-    model = derive_model(robot)
-    return DerivedRobot(robot, model, derive_base_parameters(model))
+    model = derivation.derive_model(robot)
+    return DerivedRobot(robot, model, derivation.derive_base_parameters(model))
 
 
 def expand_to_sum(expression: sympy.Expr) -> Sum:
-    """An expression of symbols, sines and cosines as a sum."""
+    """Expands an expression of symbols, sines and cosines to a sum."""
     monomials: dict[Monomial, Amount] = {}
     for term in sympy.Add.make_args(sympy.expand(expression)):
         number, rest = term.as_coeff_Mul()
@@ -297,12 +288,12 @@ def expand_to_sum(expression: sympy.Expr) -> Sum:
 
 
 def build_expression(whole: Sum, symbols: Mapping[str, sympy.Expr]) -> sympy.Expr:
-    """A sum as an expression, with these for its names where they are given."""
+    """Builds an expression of a sum, with these for its names where they are given."""
     return sympy.sympify(format_sum(whole).replace("^", "**"), symbols)
 
 
 def eliminate_squared_sines(expression: sympy.Expr) -> sympy.Expr:
-    """The normal form in which an expression that is zero for all angles is 0."""
+    """Returns the normal form in which an expression that is zero for all angles is 0."""
     reduced = sympy.expand(expression)
     for sine in reduced.atoms(sympy.sin):
         s, square = sympy.Dummy(), 1 - sympy.cos(sine.args[0]) ** 2
@@ -311,17 +302,24 @@ def eliminate_squared_sines(expression: sympy.Expr) -> sympy.Expr:
 
 
 _BINARY: Mapping[type, Callable[[Any, Any], Any]] = {
-    ast.Add: operator.add, ast.Sub: operator.sub, ast.Mult: operator.mul,
-    ast.Div: operator.truediv, ast.Pow: operator.pow, ast.Mod: operator.mod,
-}  # fmt: skip
+    ast.Add: operator.add,
+    ast.Sub: operator.sub,
+    ast.Mult: operator.mul,
+    ast.Div: operator.truediv,
+    ast.Pow: operator.pow,
+    ast.Mod: operator.mod,
+}
 _COMPARED: Mapping[type, Callable[[Any, Any], bool]] = {
-    ast.Lt: operator.lt, ast.LtE: operator.le, ast.Gt: operator.gt, ast.GtE: operator.ge,
+    ast.Lt: operator.lt,
+    ast.LtE: operator.le,
+    ast.Gt: operator.gt,
+    ast.GtE: operator.ge,
     ast.Eq: operator.eq,
-}  # fmt: skip
+}
 
 
 def evaluate_expression(text: str, values: Mapping[str, Any]) -> Any:
-    """The value of an expression.
+    """Evaluates an expression of the language above.
 
     Args:
         text: of the language above.
@@ -354,14 +352,16 @@ def _evaluate_node(node: ast.expr, values: Mapping[str, Any], text: str) -> Any:
 
 
 _ARITHMETIC: Mapping[str, Any] = {
-    "abs": abs, "pi": math.pi, "count": len,
+    "abs": abs,
+    "pi": math.pi,
+    "count": len,
     "mean": lambda *x: sum(x) / len(x),
     "falling": lambda *x: all(a >= b for a, b in itertools.pairwise(x)),
-}  # fmt: skip
+}
 
 
 def collect_quantities(derived: DerivedRobot) -> dict[str, Any]:
-    """What can be asked of a robot: sets of names, by pattern, and what counts them.
+    """Collects the quantities of a robot: sets of names, by pattern, and their counts.
 
     `standard`, `base`, `zero` (without effect), `grouped` (neither base nor zero), `joints`,
     `actuated`, `passive` (of the table, the platform's left out), `links`; `within(a, b)`: what of
@@ -379,10 +379,8 @@ def collect_quantities(derived: DerivedRobot) -> dict[str, Any]:
         "joints": frozenset(joint.name for joint in joints),
         "actuated": frozenset(joint.name for joint in joints if joint.actuated),
         "passive": frozenset(joint.name for joint in joints if not joint.actuated),
-        "links": frozenset(
-            robot.joints[c.row].name for c in base.columns if c.kind == "inertial"
-        ),
-    }  # fmt: skip
+        "links": frozenset(robot.joints[c.row].name for c in base.columns if c.kind == "inertial"),
+    }
     known = {**_ARITHMETIC, **{name: _build_matcher(members) for name, members in sets.items()}}
     known["prefix"] = lambda names: frozenset(
         column.prefix for column in base.columns if column.name in names
@@ -436,3 +434,126 @@ def _collect_coefficients(derived: DerivedRobot) -> dict[str, Any]:
         ),
         "monomials": lambda name: sum(c.function == name for c in table.coefficients),
     }
+
+
+# Two sums, printed and derived, in our names, and the difference that is known between them.
+
+
+_SLACK = 1 + 1e-9
+
+
+@dataclass(frozen=True)
+class LineComparison:
+    """What a line prints and what is derived.
+
+    Attributes:
+        printed: as read from the quotation, our names.
+        derived: the same, derived.
+        text: the derived one as people read it.
+        values: of the names that stand in coefficients, for decimals.
+        settled: the difference that the paper's file states is taken into account already.
+        weak: something is only larger or smaller, nothing says that it is equal.
+    """
+
+    printed: Sum
+    derived: Sum
+    text: str
+    values: Mapping[str, float] = field(default_factory=dict)
+    is_difference_included: bool = False
+    is_inequality: bool = False
+
+
+Robots = Mapping[str, DerivedRobot]
+Reading = Callable[[Paper, PrintedLine, Robots], LineComparison]
+
+
+def join_sums(parts: Mapping[str, Sum]) -> Sum:
+    """Joins sums of several places: every term has its place as a factor `in<place>`."""
+    return {
+        multiply_monomials(monomial, ((f"in{place}", 1),)): value
+        for place, part in parts.items()
+        for monomial, value in part.items()
+    }
+
+
+def join_in_order(parts: Iterable[Sum]) -> Sum:
+    """Joins sums by their order: each term of the second has the factor `in2`."""
+    return join_sums({str(k): part for k, part in enumerate(parts, 1)})
+
+
+def join_numbers(values: Iterable[Amount | int]) -> Sum:
+    """Joins numbers by their order: the second is called `in2`."""
+    amounts = (v if isinstance(v, Amount) else Amount(Fraction(v)) for v in values)
+    return add_sums(join_in_order({(): value} for value in amounts))
+
+
+def compare_line(comparison: LineComparison, line: PrintedLine) -> tuple[bool, bool]:
+    """Returns whether printed + known difference is what is derived, and whether exactly.
+
+    A coefficient that is printed with a point is compared as a number, to half a unit of its last
+    digit; all others exactly.
+    """
+    # Derived minus printed, as the paper's file states it in our names.
+    difference = (
+        "" if comparison.is_difference_included else line.difference.replace("{i}", line.legs[0])
+    )
+    known = read_sum(difference, str) if difference else {}
+    printed = _group_by_name(add_sums(comparison.printed, known), comparison.values)
+    derived = _group_by_name(comparison.derived, comparison.values)
+    if printed.keys() != derived.keys():
+        return False, False
+    exact = True
+    for name, parts in printed.items():
+        if any(value.half for value in parts.values()):
+            exact = False
+            wanted, left = (_evaluate_amount(p, comparison.values) for p in (derived[name], parts))
+            if abs(wanted.value - left.value) > left.half * Fraction(_SLACK):
+                return False, False
+        elif {m: v.value for m, v in parts.items()} != {
+            m: v.value for m, v in derived[name].items()
+        }:
+            return False, False
+    return True, exact
+
+
+def _group_by_name(
+    whole: Sum, values: Mapping[str, float]
+) -> dict[Monomial, dict[Monomial, Amount]]:
+    """{names that are no symbols: {symbols: coefficient}}."""
+    groups: dict[Monomial, dict[Monomial, Amount]] = {}
+    for monomial, value in whole.items():
+        name = tuple(part for part in monomial if part[0] not in values)
+        rest = tuple(part for part in monomial if part[0] in values)
+        groups.setdefault(name, {})[rest] = value
+    return groups
+
+
+def _evaluate_amount(parts: Mapping[Monomial, Amount], values: Mapping[str, float]) -> Amount:
+    total = Amount(Fraction(0))
+    for monomial, value in parts.items():
+        factor = 1.0
+        for name, power in monomial:
+            factor *= values[name] ** power
+        total = total + value * Amount(Fraction(factor))
+    return total
+
+
+def build_renamer(paper: Paper, line: PrintedLine, leg: str = "") -> Callable[[str], str]:
+    """Builds the function from a printed name to ours.
+
+    `i` at the end is the leg; the index of a leg that follows R goes in front of it
+    (`ZZ2R1` is our `ZZ21R`); letters that the paper's file names are exchanged, in quotations.
+    """
+
+    def rename(name: str) -> str:
+        if name.endswith("i") and name != "pi":
+            name = name[:-1] + leg
+        if not line.ours:
+            letters = name[: len(name) - len(name.lstrip(string.ascii_letters))]
+            name = paper.names.get(name) or paper.names.get(letters, letters) + name[len(letters) :]
+        name = re.sub(r"^([A-Za-z]+\d+)R(\d)$", r"\1\2R", name)
+        if line.strip:
+            name = re.sub(rf"^([A-Za-z]+\d){line.strip}(R?)$", r"\1\2", name)
+        return name
+
+    return rename

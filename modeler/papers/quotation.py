@@ -49,7 +49,7 @@ Sum = Mapping[Monomial, Amount]
 
 
 def read_amount(text: str) -> Amount:
-    """`3.23`: with half a unit of its last digit; `3`: exact; a decimal comma is a point."""
+    """Reads `3.23` with half a unit of its last digit, `3` exactly; a comma is a point."""
     text = text.replace(",", ".")
     digits = len(text.partition(".")[2])
     half = Fraction(1, 2 * 10**digits) if digits else Fraction(0)
@@ -57,13 +57,13 @@ def read_amount(text: str) -> Amount:
 
 
 def read_numbers(text: str) -> list[Amount]:
-    """The numbers of a quotation in their order; digits of names such as `M7` do not count."""
+    """Reads the numbers of a quotation in order; digits of names such as `M7` are no numbers."""
     joined = re.sub(r"(?<=\d) (?=\d{3}(?!\d))", "", text)
     return [read_amount(number) for number in _NUMBER.findall(joined)]
 
 
 def separate_sides(text: str) -> tuple[str, str]:
-    """The two sides of an equation."""
+    """Separates the two sides of an equation."""
     left, equal, right = text.partition("=")
     if not equal:
         raise QuotationError(f'"{text}" is no equation')
@@ -71,7 +71,7 @@ def separate_sides(text: str) -> tuple[str, str]:
 
 
 def read_sum(text: str, rename: Callable[[str], str], legs: Iterable[str] = ()) -> Sum:
-    """The sum, its names changed by `rename`.
+    """Reads a sum, its names changed by `rename`.
 
     Args:
         text: as printed; `sum_i [ ... ]` runs over `legs`.
@@ -190,7 +190,7 @@ def _invert_monomial(a: Sum) -> dict[Monomial, Amount]:
 
 
 def multiply_monomials(left: Monomial, right: Monomial) -> Monomial:
-    """The product of two monomials."""
+    """Multiplies two monomials."""
     powers = dict(left)
     for name, power in right:
         powers[name] = powers.get(name, 0) + power
@@ -198,7 +198,7 @@ def multiply_monomials(left: Monomial, right: Monomial) -> Monomial:
 
 
 def add_sums(*sums: Sum) -> dict[Monomial, Amount]:
-    """The sum of sums."""
+    """Adds sums."""
     total: dict[Monomial, Amount] = {}
     for part in sums:
         for monomial, value in part.items():
@@ -207,7 +207,7 @@ def add_sums(*sums: Sum) -> dict[Monomial, Amount]:
 
 
 def replace_names(a: Sum, values: Mapping[str, Sum]) -> dict[Monomial, Amount]:
-    """The sum with sums put in for names."""
+    """Replaces names in a sum by sums."""
     total: dict[Monomial, Amount] = {}
     for monomial, value in a.items():
         part: dict[Monomial, Amount] = {(): value}
@@ -222,7 +222,7 @@ def replace_names(a: Sum, values: Mapping[str, Sum]) -> dict[Monomial, Amount]:
 
 
 def format_sum(a: Sum) -> str:
-    """`ZZ2 + D4^2*M4`: as people read it."""
+    """Formats a sum as people read it: `ZZ2 + D4^2*M4`."""
     text = ""
     for monomial, value in a.items():
         above = [_format_power(name, power) for name, power in monomial if power > 0]

@@ -1,33 +1,36 @@
 """How the statements of a paper are read and compared: one function for each kind."""
 
+import enum
 import re
+import zlib
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from fractions import Fraction
 from typing import Any
 
 import numpy as np
 import sympy
 
+from modeler.core.errors import RobotError
+from modeler.core.expression import ExpressionError
 from modeler.derivation import GeometryRow, compute_base_poses, compute_pose, compute_poses
-from modeler.papers.compared import (
-    LineComparison,
-    Reading,
-    Robots,
-    build_renamer,
-    join_in_order,
-    join_numbers,
-    join_sums,
-)
 from modeler.papers.paper import (
     DerivedRobot,
+    LineComparison,
     Paper,
     PrintedLine,
+    Reading,
+    Robots,
     build_expression,
+    build_renamer,
     collect_quantities,
+    compare_line,
     eliminate_squared_sines,
     evaluate_expression,
     expand_to_sum,
+    join_in_order,
+    join_numbers,
+    join_sums,
 )
 from modeler.papers.quotation import (
     Amount,
@@ -41,7 +44,7 @@ from modeler.papers.quotation import (
     replace_names,
     separate_sides,
 )
-from modeler.papers.wrist import WRIST_READINGS
+from modeler.papers.wrist import WRIST_READINGS, collect_coefficient_quotations
 
 _LEGS = "123456"
 _ONE = Amount(Fraction(1))
@@ -67,9 +70,11 @@ def _compare_relation(paper: Paper, line: PrintedLine, robots: Robots) -> LineCo
         return LineComparison(printed, {}, f"{target} is no base parameter")
     derived = replace_names(wanted, robot.relations)
     return LineComparison(
-        replace_names(printed, puts), replace_names(derived, puts),
-        f"{target} = {format_sum(derived)}", robot.values,
-    )  # fmt: skip
+        replace_names(printed, puts),
+        replace_names(derived, puts),
+        f"{target} = {format_sum(derived)}",
+        robot.values,
+    )
 
 
 def _read_assumptions(paper: Paper, line: PrintedLine) -> dict[str, Sum]:
@@ -461,10 +466,12 @@ def _compute_place(
     geometry = derived.model.geometry
     free = [sympy.Symbol(joint.variable) for joint in geometry.robot.free_joints]
     moving = [row for row in geometry.rows if row.index is not None]
-    moved = _SympyAlgebra({
-        row.joint.name: row.rate * sum(sympy.Rational(v) * free[u] for u, v in form.items())
-        for row, form in zip(moving, geometry.forms, strict=True)
-    })  # fmt: skip
+    moved = _SympyAlgebra(
+        {
+            row.joint.name: row.rate * sum(sympy.Rational(v) * free[u] for u, v in form.items())
+            for row, form in zip(moving, geometry.forms, strict=True)
+        }
+    )
     frame_poses = compute_base_poses(geometry, compute_poses(geometry, moved), moved)
     places = {row.joint.name: place for row, place in zip(geometry.rows, frame_poses, strict=True)}
     return sympy.Matrix(places[first][0]).T, sympy.Matrix(places[name][1])
@@ -508,23 +515,123 @@ def _find_slope(whole: Sum, name: str) -> Sum:
     return {(): whole[key]} if key in whole else {}
 
 
+_COMPARED: tuple[Any, ...] = (
+    *(_compare_relation, _compare_numbers, _compare_names, _compare_arithmetic, _compare_row),
+    *(_compare_tied, _compare_rotation, _compare_element, _compare_column, _compare_energy),
+    *(_compare_body, _compare_recursion, _compare_digits, _compare_effort, _compare_closure),
+    _compare_platform,
+)
 READINGS: Mapping[str, Reading] = {
-    "relation": _compare_relation,
-    "numbers": _compare_numbers,
-    "names": _compare_names,
-    "arithmetic": _compare_arithmetic,
-    "row": _compare_row,
-    "tied": _compare_tied,
-    "rows": _compare_matrix,
-    "rotation": _compare_rotation,
-    "element": _compare_element,
-    "column": _compare_column,
-    "energy": _compare_energy,
-    "body": _compare_body,
-    "recursion": _compare_recursion,
-    "digits": _compare_digits,
-    "effort": _compare_effort,
-    "closure": _compare_closure,
-    "platform": _compare_platform,
+    **{compare.__name__.removeprefix("_compare_"): compare for compare in _COMPARED},
+    **{"rows": _compare_matrix},
     **WRIST_READINGS,
 }
+
+
+# Derived against printed, line by line.
+
+
+class LineVerdict(enum.Enum):
+    """How a line stands to what is derived."""
+
+    EQUAL = "printed and equal"
+    ROUNDED = "printed and equal to the printed digits"
+    MISPRINT = "printed and different"
+    CONSISTENT = "printed and consistent, no equality"
+    MEASURED = "printed, measured: nothing derives it"
+    OURS = "our consequence, not printed"
+    UNCHECKED = "not checked"
+    DIFFERENT = "DIFFERENT"
+
+
+@dataclass(frozen=True)
+class CheckedLine:
+    """One statement and its verdict.
+
+    Attributes:
+        robot: that it is about.
+        place: in the paper.
+        printed: the quotation, or our consequence.
+        derived: what is derived.
+        verdict: how they stand to each other.
+        slip: one of `modeler.papers.paper.SLIPS` where the print is known to differ, or "".
+        why: reason of a difference, or a remark.
+        corrected: how it should read, which holds; "" if nothing is stated.
+    """
+
+    robot: str
+    place: str
+    printed: str
+    derived: str
+    verdict: LineVerdict
+    slip: str
+    why: str
+    corrected: str = ""
+
+
+def check_paper(paper: Paper, derived: Robots) -> list[CheckedLine]:
+    """Returns all lines with their verdicts.
+
+    Args:
+        paper: as read.
+        derived: its robots, by name.
+    """
+    lines = [*paper.lines, *collect_coefficient_quotations(paper, derived)]
+    checked = [check_line(paper, one, derived) for line in lines for one in expand_legs(line)]
+    return checked + [
+        CheckedLine("", place, "", "", LineVerdict.UNCHECKED, "", why)
+        for place, why in paper.unchecked.items()
+    ]
+
+
+def expand_legs(line: PrintedLine) -> list[PrintedLine]:
+    """Returns one line for each leg, except for statements about all legs together."""
+    together = line.check in ("names", "closure")
+    return [line] if together else [replace(line, legs=(leg,)) for leg in line.legs]
+
+
+def check_line(paper: Paper, line: PrintedLine, derived: Robots) -> CheckedLine:
+    """Checks one line of one leg."""
+    try:
+        if line.seal and compute_checksum(line) != line.seal:
+            raise QuotationError("the numbers are not those that were read from the paper")
+        comparison = READINGS[line.check](paper, line, derived)
+        equal, exact = compare_line(comparison, line)
+        if equal and line.corrected:
+            right = replace(line, quote=line.corrected, difference="")
+            if not compare_line(READINGS[line.check](paper, right, derived), right)[0]:
+                raise QuotationError(f"the corrected form does not hold: {line.corrected}")
+    except (QuotationError, ExpressionError, RobotError) as error:
+        return _build_checked_line(line, str(error), LineVerdict.DIFFERENT)
+    return _build_checked_line(
+        line, comparison.text, _classify_line(line, equal, exact, comparison.is_inequality)
+    )
+
+
+def _classify_line(line: PrintedLine, equal: bool, exact: bool, weak: bool) -> LineVerdict:
+    if not equal:
+        return LineVerdict.DIFFERENT
+    if line.ours:
+        return LineVerdict.OURS
+    if line.slip:
+        return LineVerdict.MISPRINT
+    if line.measured:
+        return LineVerdict.MEASURED
+    if weak:
+        return LineVerdict.CONSISTENT
+    return LineVerdict.EQUAL if exact else LineVerdict.ROUNDED
+
+
+def _build_checked_line(line: PrintedLine, derived: str, verdict: LineVerdict) -> CheckedLine:
+    leg = line.legs[0] if len(line.legs) == 1 else ""
+    place = line.place + (f", i = {leg}" if leg else "")
+    printed = "; ".join((line.text, *line.given))
+    return CheckedLine(
+        line.robot, place, printed, derived, verdict, line.slip, line.why, line.corrected
+    )
+
+
+def compute_checksum(line: PrintedLine) -> str:
+    """Returns the checksum of the quotation without spaces."""
+    text = "".join("".join((line.quote, *line.given)).split())
+    return f"{zlib.crc32(text.encode()):08x}"

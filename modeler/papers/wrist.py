@@ -18,15 +18,17 @@ from modeler.formulas import (
     find_wrong_functions,
     format_monomial,
 )
-from modeler.papers.compared import (
+from modeler.papers.paper import (
+    DerivedRobot,
     LineComparison,
+    Paper,
+    PrintedLine,
     Reading,
     Robots,
     join_in_order,
     join_numbers,
     join_sums,
 )
-from modeler.papers.paper import DerivedRobot, Paper, PrintedLine
 from modeler.papers.quotation import (
     Amount,
     QuotationError,
@@ -42,7 +44,7 @@ _PLACES = {"definition": "section 2.2", "function": "section 2.2", "solution": "
 
 
 def collect_coefficient_quotations(paper: Paper, robots: Robots) -> list[PrintedLine]:
-    """The quotations of the robot file, with what the paper's file says is wrong in them."""
+    """Collects the quotations of the robot file, with the known slips of the paper's file."""
     if not paper.coefficients:
         return []
     printed = robots[paper.coefficients].table.printed
@@ -147,9 +149,7 @@ def _compare_values(paper: Paper, line: PrintedLine, robots: Robots) -> LineComp
     terms = _collect_terms(robots[line.robot], name)
     if {key for key, _ in terms} != set(values):
         raise QuotationError(f"the list names others than the coefficients of {name}")
-    derived = {
-        monomial: Amount(values[key].value) for key, at in terms for monomial in at
-    }  # fmt: skip
+    derived = {monomial: Amount(values[key].value) for key, at in terms for monomial in at}
     return LineComparison(read_sum(text, str), derived, f"{name} = {format_sum(derived)}")
 
 
@@ -221,9 +221,10 @@ def _compare_friction(paper: Paper, line: PrintedLine, robots: Robots) -> LineCo
     derived = check_friction(coupling).derived
     text = ", ".join(f"{float(value):g}" for value in derived)
     return LineComparison(
-        join_numbers(map(Amount, printed.values())), join_numbers(map(Amount, derived)),
+        join_numbers(map(Amount, printed.values())),
+        join_numbers(map(Amount, derived)),
         f"G' C sgn(G qd); at the motion of docs/robots/wrist.md {text} N m",
-    )  # fmt: skip
+    )
 
 
 WRIST_READINGS: Mapping[str, Reading] = {

@@ -8,9 +8,9 @@ import numpy as np
 
 from modeler.core.errors import DataError
 from modeler.logs import describe_clock_factor, find_common_factor, is_derivative, is_moving
-from modeler.numerics.held import estimate_channel_noise
 from modeler.numerics.least_squares import compute_weighted_median
 from modeler.numerics.noise import (
+    estimate_channel_noise,
     estimate_lattice_step,
     estimate_robust_deviation,
     estimate_white_noise,

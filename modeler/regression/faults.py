@@ -9,27 +9,25 @@ import numpy as np
 from scipy.ndimage import maximum_filter
 
 from modeler.core.manifest import ModuleSpec
-from modeler.numerics.held import (
-    RESTS,
-    Clip,
-    estimate_hold_length,
-    find_clips,
-    find_frozen_runs,
-    find_longest_usual_run,
-    find_repeated_rows,
-    interpolate_held_channel,
-)
 from modeler.numerics.noise import (
     LEAST,
     NEAR,
     REACH,
+    RESTS,
     STEPS,
+    Clip,
     compute_local_threshold,
     compute_nearby_level,
     compute_outlier_threshold,
     compute_running_median,
+    estimate_hold_length,
     estimate_lattice_step,
+    find_clips,
+    find_frozen_runs,
     find_isolated_outliers,
+    find_longest_usual_run,
+    find_repeated_rows,
+    interpolate_held_channel,
     subtract_running_median,
 )
 from modeler.regression.log import Log, find_runs

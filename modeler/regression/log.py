@@ -10,8 +10,11 @@ import numpy as np
 
 from modeler.core.errors import DataError
 from modeler.core.result import Result
-from modeler.numerics.held import estimate_channel_noise, estimate_hold_length
-from modeler.numerics.noise import estimate_lattice_step
+from modeler.numerics.noise import (
+    estimate_channel_noise,
+    estimate_hold_length,
+    estimate_lattice_step,
+)
 from modeler.regression.thresholds import THRESHOLDS
 
 

@@ -11,8 +11,8 @@ from modeler.core.brief import ShortRepr
 from modeler.core.errors import DataError, LoopError
 from modeler.core.manifest import JointSpec, ModuleSpec
 from modeler.logs import Positions, is_derivative
-from modeler.numerics.held import COARSE
 from modeler.numerics.least_squares import compute_weighted_median
+from modeler.numerics.noise import COARSE
 from modeler.numerics.spectra import MotionSpectrum, compute_motion_spectrum, estimate_coherence
 from modeler.regression.consistency import (
     DerivativeCheck,

@@ -3,6 +3,7 @@ from .comparison import (
     Comparison as Comparison,
     JointComparison as JointComparison,
     compare as compare,
+    compare_long_logs as compare_long_logs,
     describe_methods as describe_methods,
     format_or_dash as format_or_dash,
     tabulate_logs as tabulate_logs,
@@ -19,7 +20,6 @@ from .free_run_result import (
     draw_free_run_pictures as draw_free_run_pictures,
 )
 from .models import (
-    DOUBT as DOUBT,
     JointModelComparison as JointModelComparison,
     ModelComparison as ModelComparison,
     check_joints as check_joints,
@@ -30,34 +30,29 @@ from .models import (
     predict_together as predict_together,
 )
 from .pictures import (
+    break_at_gaps as break_at_gaps,
     compute_binned_means as compute_binned_means,
+    concatenate_time as concatenate_time,
+    describe_masks as describe_masks,
     draw_overlay_picture as draw_overlay_picture,
     draw_overview_picture as draw_overview_picture,
     draw_residual_picture as draw_residual_picture,
-)
-from .predict import (
-    compare_long_logs as compare_long_logs,
-    predict as predict,
-    predict_every_row as predict_every_row,
+    draw_time_picture as draw_time_picture,
+    find_masked_spans as find_masked_spans,
 )
 from .prediction import (
-    DEVIATIONS as DEVIATIONS,
     JointInfo as JointInfo,
     Prediction as Prediction,
     compute_residual as compute_residual,
+    predict as predict,
+    predict_every_row as predict_every_row,
 )
 from .residual_structure import (
     evaluate_coordinate as evaluate_coordinate,
     format_coordinate_unit as format_coordinate_unit,
     select_coordinates as select_coordinates,
 )
-from .time_picture import (
-    break_at_gaps as break_at_gaps,
-    concatenate_time as concatenate_time,
-    describe_masks as describe_masks,
-    draw_time_picture as draw_time_picture,
-    find_masked_spans as find_masked_spans,
-)
+from .thresholds import THRESHOLDS as THRESHOLDS
 from .verdict import (
     classify_residual as classify_residual,
     describe_wrong_scale as describe_wrong_scale,

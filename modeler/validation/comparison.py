@@ -1,42 +1,37 @@
 """Measured against predicted: numbers of each joint, regions, logs, scale; table and JSON."""
 
+import dataclasses
 import math
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
+from functools import partial
 from itertools import pairwise
 from typing import Any
 
 import numpy as np
 
+from modeler import regression
 from modeler.core.brief import ShortRepr
+from modeler.core.errors import DataError
 from modeler.core.json import convert_to_plain, select_attributes
 from modeler.core.result import Result
 from modeler.core.table import POOLED, WORDS, align_columns, format_percent
-from modeler.numerics.spectra import (
-    OrderSpectrum,
-    ResidualSpectrum,
-    estimate_residual_spectrum,
-    find_segment_slices,
-)
+from modeler.estimation import IdentifiedModel, read_all_rows, reduce_by_threads
+from modeler.numerics import spectra
+from modeler.numerics.filters import choose_row_spacing
+from modeler.runtime import CompiledModel
+from modeler.validation import residual_structure
 from modeler.validation.prediction import (
     JointInfo,
     Prediction,
+    build_prediction,
+    compute_full_rate,
     compute_relative_error,
     compute_residual,
     compute_unit_errors,
+    predict_rows,
 )
-from modeler.validation.repeatability import (
-    Repetition,
-    VarianceShares,
-    find_repetitions,
-    split_variance,
-)
-from modeler.validation.residual_structure import (
-    ResidualStructure,
-    analyse_structure,
-    compute_ripple_spectrum,
-    find_order_peaks,
-)
+from modeler.validation.thresholds import THRESHOLDS
 
 # The comparison as a table of plain text.
 
@@ -54,14 +49,14 @@ METHODS = {
 
 
 def describe_methods(comparison: "Comparison") -> list[str]:
-    """What the shares are of, and how they were found, by method."""
+    """Describes how the variance shares are estimated, by method."""
     methods = {item.shares.method for item in comparison.joints if item.shares is not None}
     text = "R2, repeatable, noise: shares of the torque's variance; repeatable is "
     return [f"{text}{METHODS[name]}" for name in METHODS if name in methods]
 
 
 def format_or_dash(value: float, form: str) -> str:
-    """A number, or a dash where it is not defined."""
+    """Formats a number, or a dash where it is not defined."""
     return format(value, form) if math.isfinite(value) else "-"
 
 
@@ -81,7 +76,7 @@ def _format_row(item: "JointComparison") -> tuple[str, ...]:
 
 
 def tabulate_logs(comparison: "Comparison", error: str = "error") -> list[list[str]]:
-    """A head, and a row of each log; `error` is that of all joints together, by unit."""
+    """Returns a head and a row of each log; `error` names that of all joints, by unit."""
     units = comparison.by_unit
     errors = [error] if len(units) == 1 else [f"{error} {unit}" for unit in units]
     names = [f"joint {name}" for name, _ in comparison.logs[0].joints]
@@ -99,8 +94,6 @@ def tabulate_logs(comparison: "Comparison", error: str = "error") -> list[list[s
 # Where a joint fails: velocity regions and the worst moment.
 
 
-AROUND_ZERO = 0.05  # of the joint's own largest speed
-FAST = 0.4
 WINDOW = 0.5  # s
 
 REGIONS = ("fast -", "slow -", "around zero", "slow +", "fast +")
@@ -134,16 +127,17 @@ class WorstWindow:
 
 
 def compute_velocity_regions(qd: np.ndarray, e: np.ndarray) -> tuple[Region, ...]:
-    """The five regions of REGIONS, thresholds as fractions of the largest speed.
+    """Computes the five regions of REGIONS, limits as fractions of the largest speed.
 
     Args:
         qd: velocity of the rows that count, (n,).
         e: residual of the same rows, (n,).
     """
     top = float(np.abs(qd).max())
-    edges = np.array([-FAST, -AROUND_ZERO, AROUND_ZERO, FAST]) * top
+    slow, fast = THRESHOLDS.zero_speed_share, THRESHOLDS.fast_share
+    edges = np.array([-fast, -slow, slow, fast]) * top
     which = np.searchsorted(edges, qd, side="right")
-    which[np.abs(qd) <= AROUND_ZERO * top] = 2  # also a joint that never moves
+    which[np.abs(qd) <= slow * top] = 2  # also a joint that never moves
     limits = np.array([-top, *edges, top])
     total = float(e @ e)
     return tuple(
@@ -163,7 +157,7 @@ def compute_velocity_regions(qd: np.ndarray, e: np.ndarray) -> tuple[Region, ...
 
 
 def find_worst_window(prediction: Prediction, e: np.ndarray, width: float = WINDOW) -> WorstWindow:
-    """The window of `width` seconds, inside one segment, with the largest residual energy.
+    """Finds the window of `width` seconds in one segment with the largest residual energy.
 
     Args:
         prediction: for log, segment and time of the rows.
@@ -174,7 +168,7 @@ def find_worst_window(prediction: Prediction, e: np.ndarray, width: float = WIND
     energy = np.concatenate(([0.0], np.cumsum(square)))
     counted = np.concatenate(([0], np.cumsum(np.isfinite(e))))
     best, first, last = -1.0, 0, 0
-    for span in find_segment_slices(prediction.segment):
+    for span in spectra.find_segment_slices(prediction.segment):
         time = prediction.time[span]
         # half a sample of slack, so that rounding of the time stamps does not cost a row
         slack = 0.5 * float(np.median(np.diff(time))) if time.size > 1 else 0.0
@@ -196,13 +190,6 @@ def find_worst_window(prediction: Prediction, e: np.ndarray, width: float = WIND
     )
 
 
-_OPPOSITE = -0.5  # factor below which the sign is wrong, if turning it helps
-_OFF = 0.1  # a scale nearer to one is no wrong scale
-_EXPLAINS = 0.75  # of the squared residual, by the scale alone
-_FEWEST = 20  # samples
-_BLOCKS = 5  # in time; the factor for each comes from the others
-
-
 @dataclass(frozen=True)
 class Scale:
     """measured = factor * predicted, by least squares: no constant, which nobody could apply."""
@@ -212,20 +199,28 @@ class Scale:
 
     @property
     def has_opposite_sign(self) -> bool:
-        """True if the prediction has the wrong sign."""
-        return self.factor < _OPPOSITE and self.mended > _EXPLAINS
+        """Returns True if the prediction has the wrong sign."""
+        return (
+            self.factor < THRESHOLDS.max_opposite_factor
+            and self.mended > THRESHOLDS.min_scale_reduction
+        )
 
     @property
     def has_wrong_factor(self) -> bool:
-        """True if the prediction is right but for a factor."""
-        return abs(self.factor - 1.0) > _OFF and self.mended > _EXPLAINS
+        """Returns True if the prediction is right but for a factor."""
+        return (
+            abs(self.factor - 1.0) > THRESHOLDS.min_scale_error
+            and self.mended > THRESHOLDS.min_scale_reduction
+        )
 
 
 def estimate_scale(measured: np.ndarray, predicted: np.ndarray) -> Scale | None:
-    """The factor between two torques, (n,) each in order of time; None for too few samples."""
-    blocks = np.arange(measured.size) * _BLOCKS // max(1, measured.size)
-    squares, cross = (np.bincount(blocks, predicted * x, _BLOCKS) for x in (predicted, measured))
-    if measured.size < _FEWEST or not np.all(squares.sum() - squares > 0.0):
+    """Estimates the factor between torques, (n,) in order of time; None for too few samples."""
+    blocks = np.arange(measured.size) * THRESHOLDS.scale_blocks // max(1, measured.size)
+    squares, cross = (
+        np.bincount(blocks, predicted * x, THRESHOLDS.scale_blocks) for x in (predicted, measured)
+    )
+    if measured.size < THRESHOLDS.min_scale_samples or not np.all(squares.sum() - squares > 0.0):
         return None
     elsewhere = (cross.sum() - cross) / (squares.sum() - squares)
     before = float(np.sum((measured - predicted) ** 2))
@@ -248,7 +243,7 @@ class LogError(ShortRepr):
 
 
 def compute_errors_by_log(prediction: Prediction) -> tuple[LogError, ...]:
-    """In the order of the logs."""
+    """Computes the relative errors of each log, in their order."""
     e = np.nan_to_num(compute_residual(prediction))
     measured = np.where(prediction.used, prediction.measured, 0.0)
     log_errors = []
@@ -296,11 +291,11 @@ class JointComparison(ShortRepr):
     largest: Moment
     regions: tuple[Region, ...]
     worst: WorstWindow
-    structure: ResidualStructure | None  # None: too few samples to tell
-    spectrum: ResidualSpectrum | None  # None: no segment long enough
-    shares: VarianceShares | None  # None: too few samples to tell
+    structure: residual_structure.ResidualStructure | None  # None: too few samples to tell
+    spectrum: spectra.ResidualSpectrum | None  # None: no segment long enough
+    shares: residual_structure.VarianceShares | None  # None: too few samples to tell
     scale: Scale | None  # None: too few samples, or a constant
-    orders: OrderSpectrum | None  # None: too few samples, or the joint rests
+    orders: spectra.OrderSpectrum | None  # None: too few samples, or the joint rests
     predicted_sigma: float | None  # rms standard deviation of the prediction; None: not known
 
 
@@ -314,11 +309,13 @@ class Comparison(Result):
     joints: tuple[JointComparison, ...]
     unjudged: tuple[tuple[str, str], ...]  # joint name, why
     logs: tuple[LogError, ...]
-    repeated: tuple[Repetition, ...]  # empty: no motion was made twice
+    repeated: tuple[residual_structure.Repetition, ...]  # empty: no motion was made twice
     by_unit: Mapping[str, float]  # relative error over the joints of one unit; NaN: no torque
 
     def to_json(self) -> dict[str, Any]:
-        """What scripts read: plain numbers and text; undefined numbers are None."""
+        """Returns plain numbers and text; undefined numbers are None."""
+        names = "log samples relative_error by_unit"
+        logs = [select_attributes(log, names) | {"joints": dict(log.joints)} for log in self.logs]
         return convert_to_plain(
             {
                 "robot": self.prediction.robot,
@@ -328,19 +325,13 @@ class Comparison(Result):
                 "by_unit": self.by_unit,
                 "joints": {joint.joint.name: _serialise_joint(joint) for joint in self.joints},
                 "unjudged": dict(self.unjudged),
-                "by_log": [
-                    select_attributes(log, "log samples relative_error by_unit")
-                    | {"joints": dict(log.joints)}
-                    for log in self.logs
-                ],
-                "repeated": [
-                    {"method": item.kind, "periods": item.periods} for item in self.repeated
-                ],
+                "by_log": logs,
+                "repeated": [{"method": r.kind, "periods": r.periods} for r in self.repeated],
             }
         )
 
     def summary(self) -> str:
-        """Plain text: one line per joint, units in the table; what the shares mean; each log."""
+        """Returns plain text: one line per joint, what the shares mean, one line per log."""
         rows = [_HEAD, *(_format_row(item) for item in self.joints)]
         lines = align_columns(rows, _LEFT)
         names = max((len(name) for name, _ in self.unjudged), default=0)
@@ -363,7 +354,7 @@ class Comparison(Result):
 
 
 def compare(prediction: Prediction, ripple_windows: Prediction | None = None) -> Comparison:
-    """How well the torque is predicted, where it fails, and whether the residual has structure.
+    """Evaluates how well torques are predicted, where they fail, and the residual's structure.
 
     A joint none of whose rows count, or whose measured torque is zero in all of them, is listed
     in `unjudged` with the reason.
@@ -374,7 +365,7 @@ def compare(prediction: Prediction, ripple_windows: Prediction | None = None) ->
             looked for.
     """
     e = compute_residual(prediction)
-    repeated = find_repetitions(prediction)
+    repeated = residual_structure.find_repetitions(prediction)
     judged, unjudged = [], []
     for index, info in enumerate(prediction.joints):
         rows = prediction.used[:, index]
@@ -398,15 +389,18 @@ def compare(prediction: Prediction, ripple_windows: Prediction | None = None) ->
 
 
 def _compare_joint(
-    prediction: Prediction, index: int, e: np.ndarray, repeated: tuple[Repetition, ...],
+    prediction: Prediction,
+    index: int,
+    e: np.ndarray,
+    repeated: tuple[residual_structure.Repetition, ...],
     ripple_windows: Prediction | None,
-) -> JointComparison:  # fmt: skip
+) -> JointComparison:
     rows = prediction.used[:, index]
     counted, measured = e[rows], prediction.measured[rows, index]
     top = int(np.nanargmax(np.abs(e)))
     spread = float(np.sum((measured - measured.mean()) ** 2))
     energy = float(counted @ counted)
-    joint_structure, sigma = analyse_structure(prediction, index), None
+    joint_structure, sigma = residual_structure.analyse_structure(prediction, index), None
     if prediction.sigma is not None:
         sigma = float(np.sqrt(np.mean(prediction.sigma[rows, index] ** 2)))
     return JointComparison(
@@ -424,10 +418,10 @@ def _compare_joint(
         regions=compute_velocity_regions(prediction.qd[rows, index], counted),
         worst=find_worst_window(prediction, e),
         structure=joint_structure,
-        spectrum=estimate_residual_spectrum(prediction.time, prediction.segment, e),
-        shares=split_variance(prediction, index, e, repeated, joint_structure),
+        spectrum=spectra.estimate_residual_spectrum(prediction.time, prediction.segment, e),
+        shares=residual_structure.split_variance(prediction, index, e, repeated, joint_structure),
         scale=estimate_scale(measured, prediction.predicted[rows, index]),
-        orders=compute_ripple_spectrum(ripple_windows or prediction, index),
+        orders=residual_structure.compute_ripple_spectrum(ripple_windows or prediction, index),
         predicted_sigma=sigma,
     )
 
@@ -443,24 +437,108 @@ def _serialise_joint(item: JointComparison) -> dict[str, Any]:
         **select_attributes(item, "samples bias predicted_sigma regions"),
         "worst_window": item.worst,
         "structure": joint_structure
-        and {
-            "shares": dict(joint_structure.shares),
-            "together": joint_structure.together,
-            "across": dict(joint_structure.across),
-            "motors": dict(joint_structure.motors),
-            "follows": joint_structure.follows,
-        },
+        and {name: dict(getattr(joint_structure, name)) for name in ("shares", "across", "motors")}
+        | select_attributes(joint_structure, "together follows"),
         "spectrum": spectrum
-        and {
-            "memory": spectrum.correlation_time,
-            "lag_one": spectrum.correlation[1],
-            **select_attributes(spectrum, "peak peak_share"),
-        },
+        and {"memory": spectrum.correlation_time, "lag_one": spectrum.correlation[1]}
+        | select_attributes(spectrum, "peak peak_share"),
         "explained": item.r2,
-        "systematic": parts and parts.systematic,
-        "floor": parts and parts.floor,
-        "method": parts and parts.method,
+        **{name: parts and getattr(parts, name) for name in ("systematic", "floor", "method")},
         "systematic_sigma": parts and parts.sigma,
         "scale": item.scale,
-        "orders": item.orders and find_order_peaks(item.orders, item.joint.unit),
+        "orders": item.orders and residual_structure.find_order_peaks(item.orders, item.joint.unit),
     }
+
+
+# Comparisons of logs of any length.
+
+
+@dataclass(frozen=True, eq=False)
+class _ChunkPrediction:
+    """Some consecutive rows of a log: what is compared of each chunk, and what they say of it."""
+
+    rows: tuple[Prediction, ...]
+    facts: regression.LogFacts
+
+    def merged_with(self, later: "_ChunkPrediction") -> "_ChunkPrediction":
+        """Returns these rows and those that follow them."""
+        return _ChunkPrediction(self.rows + later.rows, self.facts.merged_with(later.facts))
+
+
+def compare_long_logs(
+    model: IdentifiedModel,
+    sources: Sequence[regression.Source],
+    compiled: CompiledModel,
+    progress: Callable[[float], None] = lambda share: None,
+    rows: int = regression.FINGER,
+) -> tuple[Comparison, regression.Observation]:
+    """Compares logs of any length in bounded memory, as `compare` does what `predict` returns.
+
+    Args:
+        model: fitted.
+        sources: of the logs.
+        compiled: its robot.
+        progress: is told the share of the rows that are done.
+        rows: of a chunk, at least.
+
+    Raises:
+        DataError: as `estimation.long_logs.stream`.
+    """
+    processing = model.processing
+    least = -(-sum(source.rows for source in sources) // THRESHOLDS.max_rows)
+    step = sources[0].read_window(0.5, 1000).step
+    if least > choose_row_spacing(step, processing.parallel_cutoff or 0.0, processing.decimation):
+        processing = dataclasses.replace(processing, decimation=least)
+    reducer = partial(reduce_by_threads, reduce_by=partial(_predict_chunk, model))
+    passes, parts = read_all_rows(compiled, sources, processing, progress, rows, reducer)
+    ripple_windows = passes.survey.observation
+    steps = [log_part.step * log_part.decimation for log_part in passes.survey.chosen]
+    prediction = _join_chunks(
+        [source.name for source in sources], [log_part.rows for log_part in parts], steps
+    )
+    full = compute_full_rate(ripple_windows, compiled, model.beta)
+    ripples = dataclasses.replace(
+        build_prediction(ripple_windows, ripple_windows.torque), full=full
+    )
+    report = regression.build_streamed_report(compiled, sources, passes)
+    return compare(prediction, ripples), dataclasses.replace(ripple_windows, report=report)
+
+
+def _predict_chunk(
+    model: IdentifiedModel,
+    compiled: CompiledModel,
+    chunk: regression.Chunk,
+    chosen: regression.LogChoices,
+) -> _ChunkPrediction:
+    stretches, facts = regression.build_chunk_rows(compiled, chunk, chosen)
+    some = tuple(part for part in stretches if len(part.rows.centres))
+    if not some:
+        return _ChunkPrediction((), facts)
+    report = regression.DataReport(chosen.processing, (), (), ())
+    observation = regression.assemble_observation(compiled, (chunk.log.name,), some, report)
+    return _ChunkPrediction((predict_rows(model, observation, compiled),), facts)
+
+
+def _join_chunks(
+    names: Sequence[str], logs: Sequence[Sequence[Prediction]], steps: Sequence[float]
+) -> Prediction:
+    """The rows of all logs, `steps` s apart; what goes on in the next chunk is one segment."""
+    number, chunks = -1, list[Prediction]()
+    for run, (parts, step) in enumerate(zip(logs, steps, strict=True)):
+        last = -np.inf
+        for part in parts:
+            number += not 0.5 < (part.time[0] - last) / step < 1.5
+            segment, runs = part.segment + number, np.full(len(part.time), run)
+            chunks.append(dataclasses.replace(part, segment=segment, run=runs))
+            number, last = int(segment[-1]), float(part.time[-1])
+    if not chunks:
+        raise DataError(f"{', '.join(names)}: no row is left; record longer motion")
+    columns = [
+        name
+        for name in vars(chunks[0])
+        if all(isinstance(getattr(part, name), np.ndarray) for part in chunks)
+    ]
+    every: dict[str, Any] = {"temperature": None} | {
+        name: np.concatenate([getattr(part, name) for part in chunks]) for name in columns
+    }
+    return dataclasses.replace(chunks[0], logs=tuple(names), **every)

@@ -10,16 +10,15 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
+from scipy.linalg import expm
 
+from modeler.core.brief import ShortRepr
 from modeler.core.errors import DataError
 from modeler.core.table import format_percent
 from modeler.estimation import scale_inertia
 from modeler.regression import find_shafts
 from modeler.runtime import CompiledModel
-
-_CREEP = 1e-9  # rad/s or m/s, to both sides of standstill
-_STILL = 1e-12  # below, a shaft stands
-_FLOOR = 1e-6  # least eigenvalue of M with unit diagonal, below which it is no inertia matrix
+from modeler.validation.thresholds import THRESHOLDS
 
 
 @dataclass(frozen=True, eq=False)
@@ -68,7 +67,7 @@ class FittedPlant:
         """Places in s of what is part of the state."""
 
     def can_close(self, q: np.ndarray) -> np.ndarray:
-        """(b,) True where the loops close; everywhere without loops."""
+        """Returns (b,) True where the loops close; everywhere without loops."""
         if self.model.spec.closure is None:
             return np.ones(len(q), dtype=bool)
         return np.asarray(self.model.closing_status(q) == 0)
@@ -80,7 +79,7 @@ class FittedPlant:
             DataError: says how often, and which joint is lightest.
         """
         _, least, light = scale_inertia(self.model.inertia_matrix(q, self.beta))
-        if (bad := least < _FLOOR).any():
+        if (bad := least < THRESHOLDS.min_inertia_eigenvalue).any():
             raise DataError(
                 f"{self.model.spec.robot}: with the fitted values the inertia matrix is not "
                 f"positive definite in {format_percent(float(np.mean(bad)))} of the postures, most "
@@ -98,7 +97,7 @@ class FittedPlant:
         s: np.ndarray | None,
         dry: np.ndarray | None = None,
     ) -> Forces:
-        """What acts in states.
+        """Computes the forces that act in states.
 
         Args:
             q: (b, n) positions.
@@ -120,7 +119,7 @@ class FittedPlant:
     def compute_smooth_forces(
         self, forces: Forces, q: np.ndarray, qd: np.ndarray, s: np.ndarray | None
     ) -> tuple[np.ndarray, np.ndarray]:
-        """M (b, n, n) and h (b, n) beside a state whose forces are known: its dry friction holds.
+        """Computes M (b, n, n) and h (b, n) beside a state of known forces, dry friction unchanged.
 
         For difference quotients: steps that are small beside the state, or cross standstill.
         """
@@ -133,7 +132,7 @@ class FittedPlant:
         return M, rest - dry_friction
 
     def compute_shaft_directions(self, q: np.ndarray) -> np.ndarray:
-        """(b, k, n) rows of C."""
+        """Returns (b, k, n) rows of C."""
         if self.model.spec.closure is None:
             return np.broadcast_to(self._rows, (len(q), *self._rows.shape))
         return self.model.coupling(q)[:, self._places]
@@ -141,7 +140,7 @@ class FittedPlant:
     def advance_signals(
         self, s: np.ndarray, step: np.ndarray, dt: float, motion: Sequence[np.ndarray]
     ) -> np.ndarray:
-        """(b, m) signals dt s later: joints have moved by `step`, q, qd, qdd are now `motion`."""
+        """Returns (b, m) signals dt s later: joints moved by `step` to `motion` (q, qd, qdd)."""
         return self.model.advance(step, dt, s, *motion) if self.inner else s
 
     def _compute_smooth_part(
@@ -165,7 +164,7 @@ class FittedPlant:
         shaft_compliance = np.einsum("bkn,bnk->bk", C, way)
         way = way / np.where(shaft_compliance > 0.0, shaft_compliance, 1.0)[:, None, :]
         still = qd[:, None, :] - (way * _compute_shaft_speeds(C, qd)[:, None, :]).transpose(0, 2, 1)
-        apart = _CREEP * way.transpose(0, 2, 1)
+        apart = THRESHOLDS.creep_speed * way.transpose(0, 2, 1)
         states = np.stack([still + apart, still - apart]).reshape(-1, n)  # (2 b k, n)
 
         def repeat_for_shafts(values: np.ndarray) -> np.ndarray:
@@ -192,11 +191,208 @@ def _compute_shaft_speeds(C: np.ndarray, qd: np.ndarray) -> np.ndarray:
 def _add_creep(C: np.ndarray, qd: np.ndarray) -> np.ndarray:
     """qd with shafts that stand made to creep, so that the C and we see the same sign."""
     speeds = _compute_shaft_speeds(C, qd)
-    standing = np.abs(speeds) < _STILL
+    standing = np.abs(speeds) < THRESHOLDS.max_still_speed
     if not standing.any():
         return qd
     there = standing.any(axis=1)
-    pushed = np.where(standing[there], _CREEP, 0.0)
+    pushed = np.where(standing[there], THRESHOLDS.creep_speed, 0.0)
     moved = qd.copy()
     moved[there] += np.einsum("bnk,bk->bn", np.linalg.pinv(C[there]), pushed)
     return moved
+
+
+# Whether errors of a free run grow by the robot's nature, whatever the model.
+#
+# Along the logged motion a small error x = (dq, dqd) obeys x' = A(t) x, A the derivative of
+#
+#     (qd, M(q)^-1 (tau - h(q, qd) - C^T a sigma))
+#
+# with the torques as logged and dry friction as it is (it can only hold). Over a run of T seconds x
+# becomes Phi x. Its rate is ln(spectral radius of Phi) / T, 1/s: Lyapunov's first exponent if T is
+# long, the largest real part of an eigenvalue if A is constant; it does not hang on units. Errors
+# double in ln 2 / rate. A joint that nothing pulls back to a place has a rate of 0 at best, and an
+# error of its torque is integrated twice.
+
+
+_GROWN = np.log(10.0)  # an error that becomes tenfold in the run is told
+_FADED = np.log(2.0)  # and one that becomes half
+
+
+@dataclass(frozen=True, eq=False)
+class LoggedMotion:
+    """States of one uninterrupted motion, p of them at equal times.
+
+    Attributes:
+        name: of the log.
+        time: (p,) s.
+        q, qd, tau: (p, n).
+        signals: (p, m) or None.
+    """
+
+    name: str
+    time: np.ndarray
+    q: np.ndarray
+    qd: np.ndarray
+    tau: np.ndarray
+    signals: np.ndarray | None
+
+
+@dataclass(frozen=True)
+class Stability(ShortRepr):
+    """What becomes of small errors along the motion.
+
+    Attributes:
+        rate: 1/s, of the run in which it is largest; below 0 they fade.
+        seconds: of that run.
+        steepest: 1/s, largest real part of an eigenvalue of A at one time of all runs.
+        log: where that was.
+        at: s, when.
+        fastest: 1/s, largest absolute value of an eigenvalue: how fine a step must be.
+    """
+
+    rate: float
+    seconds: float
+    steepest: float
+    log: str
+    steepest_time: float
+    fastest: float
+
+    @property
+    def doubling_time(self) -> float | None:
+        """Returns the time, s, in which an error doubles; None if none does."""
+        return float(np.log(2.0) / self.rate) if self.rate > 0.0 else None
+
+    @property
+    def unstable(self) -> bool:
+        """Returns True if an error grows at least tenfold in that run."""
+        return bool(self.rate * self.seconds > _GROWN)
+
+    def describe(self) -> str:
+        """Describes the growth of errors in a sentence."""
+        growth = self.rate * self.seconds
+        if self.unstable:
+            tens = f"1e{growth / np.log(10.0):.0f}"
+            times = f"{np.exp(growth):.2g}" if growth < 25.0 else tens
+            return (
+                "unstable by nature: along this motion any error doubles every "
+                f"{self.doubling_time:.2g} s, {times} times in "
+                f"{self.seconds:.3g} s, whatever the model; steepest at {self.steepest_time:.4g} s "
+                "of "
+                f"{self.log}. A long free run says nothing here: judge by the windows"
+            )
+        if growth < -_FADED:
+            return (
+                "stable by nature: along this motion errors of the start fade, to a half in "
+                f"{np.log(2.0) / -self.rate:.2g} s"
+            )
+        return (
+            "neither unstable nor stable by nature: nothing pulls the robot back to its path, so "
+            "an error of the torque is integrated twice, and a long free run drifts with any model"
+        )
+
+
+def analyse_stability(plant: FittedPlant, runs: Sequence[LoggedMotion]) -> Stability:
+    """Analyses the stability of the robot linearised along logged motions."""
+    results: list[Stability] = []
+    for run in runs:
+        A = compute_jacobians(plant, run)
+        values = np.linalg.eigvals(A)
+        steep = values.real.max(axis=1)
+        worst = int(np.argmax(steep))
+        growth = _compute_growth(A, float(run.time[1] - run.time[0]))
+        seconds = float(run.time[-1] - run.time[0])
+        results.append(
+            Stability(
+                growth / seconds,
+                seconds,
+                float(steep[worst]),
+                run.name,
+                float(run.time[worst]),
+                float(np.abs(values).max()),
+            )
+        )
+    grown = max(results, key=lambda result: result.rate * result.seconds)
+    steepest = max(results, key=lambda result: result.steepest)
+    return Stability(
+        grown.rate,
+        grown.seconds,
+        steepest.steepest,
+        steepest.log,
+        steepest.steepest_time,
+        max(result.fastest for result in results),
+    )
+
+
+def compute_jacobians(plant: FittedPlant, run: LoggedMotion) -> np.ndarray:
+    """Computes (p, 2n, 2n) A by central differences."""
+    p, n = run.q.shape
+    forces = plant.compute_forces(run.q, run.qd, np.zeros_like(run.q), run.signals)
+    speeds = np.einsum("bkn,bn->bk", forces.C, run.qd)
+    held = np.einsum("bkn,bk->bn", forces.C, forces.dry * np.sign(speeds))
+
+    def compute_acceleration(q: np.ndarray, qd: np.ndarray) -> np.ndarray:
+        M, h = plant.compute_smooth_forces(forces, q, qd, run.signals)
+        return np.asarray(np.linalg.solve(M, (run.tau - h - held)[:, :, None])[:, :, 0])
+
+    A = np.zeros((p, 2 * n, 2 * n))
+    A[:, :n, n:] = np.eye(n)
+    for j in range(n):
+        e = np.zeros(n)
+        e[j] = THRESHOLDS.difference_step
+        by_q = compute_acceleration(run.q + e, run.qd) - compute_acceleration(run.q - e, run.qd)
+        by_qd = compute_acceleration(run.q, run.qd + e) - compute_acceleration(run.q, run.qd - e)
+        A[:, n:, j], A[:, n:, n + j] = (
+            by_q / (2 * THRESHOLDS.difference_step),
+            by_qd / (2 * THRESHOLDS.difference_step),
+        )
+    return A
+
+
+def _compute_growth(A: np.ndarray, step: float) -> float:
+    """ln of the spectral radius of the product of exp(A step), first to last but one."""
+    product, log = np.eye(A.shape[1]), 0.0
+    for each in expm(step * 0.5 * (A[1:] + A[:-1])):
+        product = each @ product
+        size = float(np.abs(product).max())
+        product, log = product / size, log + np.log(size)
+    radius = float(np.abs(np.linalg.eigvals(product)).max())
+    return float(log) + float(np.log(max(radius, 1e-300)))
+
+
+# How far simulated positions are from measured ones.
+
+
+_IDLE = {"rad": 1e-3, "m": 1e-4}  # a joint that moves less stands still
+
+
+def compute_fit_percentage(measured: np.ndarray, simulated: np.ndarray) -> float | None:
+    """Returns 100 (1 - |q - q_s| / |q - mean q|), %, of samples (p,), as MATLAB's `compare` does.
+
+    None if nothing moves. A simulated value that is not finite, of a robot that was lost, counts as
+    far away as the farthest that is.
+    """
+    spread = float(np.linalg.norm(measured - measured.mean()))
+    if spread == 0.0:
+        return None
+    error = np.abs(measured - simulated)
+    lost = ~np.isfinite(error)
+    if lost.any():
+        error[lost] = max(float(error[~lost].max(initial=0.0)), float(np.ptp(measured)))
+    return 100.0 * (1.0 - float(np.linalg.norm(error)) / spread)
+
+
+def compute_horizons(error: np.ndarray, bound: np.ndarray, step: float) -> np.ndarray:
+    """Returns (b, n) s until |error| (samples, b, n) first exceeds `bound` (n,); else infinite.
+
+    What is not finite has passed it; samples after the end of a start are 0.
+    """
+    passed = ~(np.abs(error) <= bound)
+    first = np.argmax(passed, axis=0).astype(float) * step
+    return np.where(passed.any(axis=0), first, np.inf)
+
+
+def compute_ranges(q: np.ndarray, units: list[str]) -> np.ndarray:
+    """Returns (n,) ranges of positions (p, n); NaN for a joint that hardly moves."""
+    ranges = np.ptp(q, axis=0)
+    least = np.array([_IDLE[unit] for unit in units])
+    return np.where(ranges > least, ranges, np.nan)

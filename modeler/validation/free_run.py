@@ -12,9 +12,9 @@ from modeler.core.table import format_percent
 from modeler.estimation import ControlLoop, DirectModel, IdentifiedModel
 from modeler.regression import Log, Observation, Segment, compute_signals, observe
 from modeler.runtime import CompiledModel
-from modeler.validation.forward_dynamics import FittedPlant, Forces
-from modeler.validation.free_run_result import ControlledRun, FreeRun, JointFreeRun, Path
-from modeler.validation.stability import (
+from modeler.validation.forward_dynamics import (
+    FittedPlant,
+    Forces,
     LoggedMotion,
     Stability,
     analyse_stability,
@@ -22,6 +22,8 @@ from modeler.validation.stability import (
     compute_horizons,
     compute_ranges,
 )
+from modeler.validation.free_run_result import ControlledRun, FreeRun, JointFreeRun, Path
+from modeler.validation.thresholds import THRESHOLDS
 
 # The fitted robot under a controller that follows the logged commands.
 
@@ -33,7 +35,7 @@ Gains = tuple[float, float, float, float]
 def simulate_controlled_run(
     model: CompiledModel, beta: np.ndarray, observation: Observation, gains: Gains | None
 ) -> tuple[ControlledRun | None, str]:
-    """The robot under the given controller, or under one that comes nearest to the log.
+    """Simulates the robot under the given controller, or under the one nearest to the log.
 
     The controller of a log is not known; it is estimated as for `didim`, see `direct_model`.
 
@@ -105,9 +107,15 @@ def _evaluate_controlled_run(
             compute_fit_percentage(observation.y[mask], torque[mask]) if mask.any() else None
         )
     return ControlledRun(
-        loop.speed / (2 * np.pi), loop.ratio, loop.integral, loop.forward, has_given_gains,
-        fit, tracking, effort,
-    )  # fmt: skip
+        loop.speed / (2 * np.pi),
+        loop.ratio,
+        loop.integral,
+        loop.forward,
+        has_given_gains,
+        fit,
+        tracking,
+        effort,
+    )
 
 
 # Robots side by side under given torques: Adams and Bashforth, and dry friction that can hold.
@@ -117,10 +125,6 @@ def _evaluate_controlled_run(
 # of a shaft at the end of a step is its bound against its speed there, or any value within the
 # bounds if it stands. So a shaft that friction holds stays where it is, without chatter at any
 # step.
-
-
-_SWEEPS = 60  # of the relaxation over shafts that stick or turn
-_SETTLED = 1e-10  # of the speed that dry friction takes in a step
 
 
 @dataclass(frozen=True, eq=False)
@@ -152,7 +156,7 @@ def simulate_batch(
     last_samples: np.ndarray | None = None,
     report_progress: Callable[[float], None] | None = None,
 ) -> np.ndarray:
-    """(samples, b, n) positions; NaN from where a robot is lost or its loops no longer close.
+    """Returns (samples, b, n) positions; NaN from where a robot is lost or its loops do not close.
 
     Args:
         plant: the robot.
@@ -164,9 +168,13 @@ def simulate_batch(
     samples, b, n = batch.tau.shape
     path = np.full((samples, b, n), np.nan)
     state = _BatchState(
-        batch.q.copy(), batch.qd.copy(), np.zeros((b, n)), np.full((b, n), np.nan),
-        np.zeros((b, plant.shafts)), None if batch.signals is None else batch.signals[0].copy(),
-    )  # fmt: skip
+        batch.q.copy(),
+        batch.qd.copy(),
+        np.zeros((b, n)),
+        np.full((b, n), np.nan),
+        np.zeros((b, plant.shafts)),
+        None if batch.signals is None else batch.signals[0].copy(),
+    )
     last_samples = np.full(b, samples - 1) if last_samples is None else last_samples
     live = np.arange(b)
     for k in range(samples):
@@ -203,7 +211,7 @@ class _BatchState:
     s: np.ndarray | None
 
     def update_signals(self, plant: FittedPlant, signals: np.ndarray | None, k: int) -> None:
-        """Signals of sample k; inner states are part of the state and stay."""
+        """Reads the signals of sample k; inner states are part of the state and stay."""
         if self.s is not None and signals is not None:
             held = self.s[:, plant.inner].copy()
             self.s = signals[k].copy()
@@ -217,7 +225,7 @@ class _BatchState:
         h: float,
         dry: np.ndarray | None,
     ) -> np.ndarray:
-        """One step of h s for those that live; the bounds of their dry friction."""
+        """Advances the remaining robots by h s; returns the bounds of their dry friction."""
         q, qd = self.q[live], self.qd[live]
         signals = None if self.s is None else self.s[live]
         forces = plant.compute_forces(q, qd, self.qdd[live], signals, dry)
@@ -282,28 +290,16 @@ def _relax_friction(
     p = np.where(rubs, pull, 0.0)
     diagonal = np.einsum("bkk->bk", taken)
     diagonal = np.where(diagonal > 0.0, diagonal, 1.0)
-    for _ in range(_SWEEPS):
+    for _ in range(THRESHOLDS.max_friction_sweeps):
         change = 0.0
         for k in range(p.shape[1]):
             left = speeds[:, k] - np.einsum("bl,bl->b", taken[:, k], p)
             new = np.where(rubs[:, k], np.clip(p[:, k] + left / diagonal[:, k], -1.0, 1.0), 0.0)
             change = max(change, float(np.abs(new - p[:, k]).max(initial=0.0)))
             p[:, k] = new
-        if change < _SETTLED:
+        if change < THRESHOLDS.friction_tolerance:
             break
     return p
-
-
-_LONGEST = 2e-3  # s, of a step
-_STABLE = 0.4  # of a step times the fastest mode
-_MOST_INNER = 200  # steps between two samples
-_FOLLOWED = 5.0  # windows that a start is followed for the horizon
-_MOST_WINDOWS = 100
-_WHOLE = 60.0  # s of a log that are followed from its start
-_LOST = 10.0  # ranges of motion from the log
-_POINTS = 2000  # at which the motion is linearised, over all logs
-_HALVED = 5  # windows that are run again at half the step
-_DOUBTFUL = 0.01  # of the range: a numerical error that is told
 
 
 @dataclass(frozen=True)
@@ -337,7 +333,7 @@ def simulate_free_run(
     settings: FreeRunSettings | None = None,
     progress: Callable[[float], None] | None = None,
 ) -> FreeRun:
-    """Positions that the fitted robot takes under the logged torques, beside the measured ones.
+    """Simulates the positions of the fitted robot under the logged torques.
 
     Args:
         model: fitted.
@@ -364,7 +360,10 @@ def simulate_free_run(
     motion_stability = analyse_stability(plant, _collect_motions(observation, segments, signals))
     ranges = compute_ranges(every, [joint.unit for joint in observation.joints])
     finest = min(
-        _LONGEST, _STABLE / motion_stability.fastest if motion_stability.fastest > 0.0 else _LONGEST
+        THRESHOLDS.max_step,
+        THRESHOLDS.max_stiffness / motion_stability.fastest
+        if motion_stability.fastest > 0.0
+        else THRESHOLDS.max_step,
     )
     field = _RunSetup(plant, segments, signals, ranges, finest, settings)
     report_progress(0.1)
@@ -375,6 +374,9 @@ def simulate_free_run(
         compiled, model.beta, observation, settings.gains
     )
     report_progress(1.0)
+    numbered = enumerate(observation.joints)
+    joints = tuple(_evaluate_joint(field, j, joint, runs, whole) for j, joint in numbered)
+    doubts = _collect_warnings(field, runs.numerical, starts, motion_stability, controller_warning)
     return FreeRun(
         robot=observation.robot,
         logs=observation.logs,
@@ -382,18 +384,13 @@ def simulate_free_run(
         bound=settings.bound,
         ranges=ranges,
         windows=len(runs.paths),
-        longest=_FOLLOWED * settings.window,
-        joints=tuple(
-            _evaluate_joint(field, j, joint, runs, whole)
-            for j, joint in enumerate(observation.joints)
-        ),
+        longest=THRESHOLDS.followed_windows * settings.window,
+        joints=joints,
         stability=motion_stability,
         numerical=runs.numerical,
         controlled=controlled_run,
         paths=runs.paths,
-        doubts=tuple(
-            _collect_warnings(field, runs.numerical, starts, motion_stability, controller_warning)
-        ),
+        doubts=tuple(doubts),
     )
 
 
@@ -420,7 +417,9 @@ def _choose_starts(segments: Sequence[Segment], window: float) -> list[_RunStart
             f"--window {window:g}: the longest uninterrupted motion of these logs is "
             f"{longest:.3g} s; expected a window that fits into it"
         )
-    places = np.unique(np.linspace(0, len(starts) - 1, min(len(starts), _MOST_WINDOWS)).astype(int))
+    places = np.unique(
+        np.linspace(0, len(starts) - 1, min(len(starts), THRESHOLDS.max_windows)).astype(int)
+    )
     return [starts[k] for k in places]
 
 
@@ -431,7 +430,7 @@ def _collect_motions(
     motions = []
     for segment, read in zip(segments, signals, strict=True):
         first, stop = _find_whole_range(segment)
-        thinned = slice(first, stop, max(1, samples // _POINTS))
+        thinned = slice(first, stop, max(1, samples // THRESHOLDS.linearisation_points))
         q, qd, tau = (values[thinned] for values in (segment.q, segment.qd, segment.tau))
         if len(time := segment.time[thinned]) > 1:
             log, s = observation.logs[segment.run], None if read is None else read[thinned]
@@ -457,7 +456,7 @@ class _RunSetup:
         halved: bool = False,
         report_progress: Callable[[float], None] | None = None,
     ) -> tuple[list[np.ndarray], list[np.ndarray]]:
-        """Simulated and measured positions (p, n) of each start, p until its end or `seconds`."""
+        """Returns simulated and measured positions (p, n) of each start, p at most `seconds`."""
         simulated: list[np.ndarray] = [np.empty(0)] * len(starts)
         measured: list[np.ndarray] = [np.empty(0)] * len(starts)
         steps = [float(f"{self.segments[start.segment].step:.6g}") for start in starts]
@@ -467,7 +466,9 @@ class _RunSetup:
             chosen = [starts[i] for i in group]
             counts = np.array([min(length, start.stop - start.first) for start in chosen])
             batch = self._build_batch(chosen, int(counts.max()), step)
-            inner = min(_MOST_INNER, math.ceil(step / self.finest)) * (2 if halved else 1)
+            inner = min(THRESHOLDS.max_inner_steps, math.ceil(step / self.finest)) * (
+                2 if halved else 1
+            )
             path = simulate_batch(self.plant, batch, inner, counts - 1, report_progress)
             for place, i in enumerate(group):
                 simulated[i] = path[: counts[place], place]
@@ -486,9 +487,15 @@ class _RunSetup:
         around = gather_samples(lambda i: self.segments[i].q)
         speeds = np.stack([self.segments[s.segment].qd[s.first] for s in starts])
         return RobotBatch(
-            around[0], speeds, gather_samples(lambda i: self.segments[i].tau), signals, step,
-            _LOST * np.where(np.isfinite(self.ranges), self.ranges, np.inf), around,
-        )  # fmt: skip
+            around[0],
+            speeds,
+            gather_samples(lambda i: self.segments[i].tau),
+            signals,
+            step,
+            THRESHOLDS.max_distance_ranges
+            * np.where(np.isfinite(self.ranges), self.ranges, np.inf),
+            around,
+        )
 
 
 @dataclass(frozen=True, eq=False)
@@ -507,10 +514,15 @@ def _simulate_windows(
 ) -> _RunWindows:
     window = field.settings.window
     simulated, measured = field.simulate(
-        starts, _FOLLOWED * window, report_progress=lambda share: report_progress(0.1 + 0.4 * share)
+        starts,
+        THRESHOLDS.followed_windows * window,
+        report_progress=lambda share: report_progress(0.1 + 0.4 * share),
     )
     report_progress(0.5)
-    few = [starts[i] for i in np.unique(np.linspace(0, len(starts) - 1, _HALVED).astype(int))]
+    few = [
+        starts[i]
+        for i in np.unique(np.linspace(0, len(starts) - 1, THRESHOLDS.halved_windows).astype(int))
+    ]
     coarse, aside = field.simulate(few, window)
     fine, _ = field.simulate(few, window, halved=True)
     paths, straight = [], []
@@ -548,7 +560,9 @@ def _simulate_whole_logs(
     """Simulated and measured positions of each segment from its start, one after the other."""
     starts = [_RunStart(i, *_find_whole_range(segment)) for i, segment in enumerate(field.segments)]
     simulated, measured = field.simulate(
-        [s for s in starts if s.stop - s.first > 1], _WHOLE, report_progress=report_progress
+        [s for s in starts if s.stop - s.first > 1],
+        THRESHOLDS.max_whole_seconds,
+        report_progress=report_progress,
     )
     return np.concatenate(simulated), np.concatenate(measured)
 
@@ -588,7 +602,7 @@ def _collect_warnings(
     controller_warning: str,
 ) -> list[str]:
     warnings, window = [controller_warning] if controller_warning else [], field.settings.window
-    if numerical > _DOUBTFUL:
+    if numerical > THRESHOLDS.max_numerical_error:
         warnings.append(
             "the integration is not exact: halving its step moves a joint by "
             f"{format_percent(numerical)} of its range within a window"
@@ -599,8 +613,8 @@ def _collect_warnings(
             f"within a window of {window:g} s an error grows tenfold and more by nature; "
             f"`--window {shorter:g}` judges the model"
         )
-    if any(_compute_duration(segment) > _WHOLE for segment in field.segments):
-        warnings.append(f"whole runs: the first {_WHOLE:g} s of each log")
-    if len(starts) == _MOST_WINDOWS:
-        warnings.append(f"{_MOST_WINDOWS} windows, evenly spread over the logs")
+    if any(_compute_duration(segment) > THRESHOLDS.max_whole_seconds for segment in field.segments):
+        warnings.append(f"whole runs: the first {THRESHOLDS.max_whole_seconds:g} s of each log")
+    if len(starts) == THRESHOLDS.max_windows:
+        warnings.append(f"{THRESHOLDS.max_windows} windows, evenly spread over the logs")
     return warnings

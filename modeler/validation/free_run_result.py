@@ -13,7 +13,7 @@ from modeler.core.result import Result
 from modeler.core.style import BLACK, GREY, ORANGE, VERMILLION, Style
 from modeler.core.table import DIGITS, format_percent
 from modeler.core.thinning import thin_curves
-from modeler.validation.stability import Stability
+from modeler.validation.forward_dynamics import Stability
 
 
 @dataclass(frozen=True)
@@ -66,7 +66,7 @@ class ControlledRun(ShortRepr):
     torque: Mapping[str, float | None]
 
     def format_lines(self) -> list[str]:
-        """As text."""
+        """Formats the run as lines of text."""
         parts = [("integral action", self.integral), ("feedforward", self.forward)]
         fed = " and ".join(f"{'with' if there else 'no'} {name}" for name, there in parts)
         how = "given" if self.given else "nearest to the log of those tried; it is not known"
@@ -139,7 +139,7 @@ class FreeRun(Result):
         return f"<FreeRun of {self.robot}, {self.windows} windows of {self.window:g} s, {fits}>"
 
     def summary(self) -> str:
-        """As text."""
+        """Returns the run as text."""
         lines = [
             f"{self.robot}: free run under the logged torques on {', '.join(self.logs)}: "
             f"{self.windows} windows of {self.window:g} s, each from the measured state",
@@ -161,23 +161,17 @@ class FreeRun(Result):
         return "\n".join([*lines, *([""] if self.doubts else []), *self.doubts])
 
     def to_json(self) -> dict[str, Any]:
-        """Plain data."""
+        """Returns the run as plain data."""
         s = self.stability
         return convert_to_plain(
             {
                 **select_attributes(self, "robot logs window windows bound"),
                 "joints": {
-                    joint.name: {
-                        name: value for name, value in vars(joint).items() if name != "name"
-                    }
+                    joint.name: {name: x for name, x in vars(joint).items() if name != "name"}
                     for joint in self.joints
                 },
-                "stability": {
-                    **select_attributes(s, "unstable rate"),
-                    "doubling_time": s.doubling_time,
-                    "seconds": s.seconds,
-                    "steepest": {"rate": s.steepest, "log": s.log, "time": s.steepest_time},
-                },
+                "stability": select_attributes(s, "unstable rate doubling_time seconds")
+                | {"steepest": {"rate": s.steepest, "log": s.log, "time": s.steepest_time}},
                 "numerical_error": self.numerical,
                 "controller": self.controlled,
                 "doubts": self.doubts,
@@ -201,12 +195,12 @@ _BOUND = Style(GREY, width=1.0, dash=True)
 
 
 def draw_free_run_pictures(result: FreeRun) -> tuple[Picture, ...]:
-    """Positions above, their error below, window after window."""
+    """Draws positions above, their error below, window after window, of every joint."""
     return tuple(draw_free_run_picture(result, j) for j in range(len(result.joints)))
 
 
 def draw_free_run_picture(result: FreeRun, j: int) -> Picture:
-    """Position of joint `j` above, its error below."""
+    """Draws the position of joint `j` above, its error below."""
     joint = result.joints[j]
     above, below = _build_panels(result, j)
     return Picture(
@@ -246,10 +240,13 @@ def _build_panels(result: FreeRun, j: int) -> tuple[Panel, Panel]:
     return (
         Panel("Position", label, f"position [{unit}]", curves),
         Panel(
-            "Error", label, f"error [{unit}]",
-            (Curve("error", time[plot_rows], error[plot_rows], _ERROR), *bounds), zero=True,
+            "Error",
+            label,
+            f"error [{unit}]",
+            (Curve("error", time[plot_rows], error[plot_rows], _ERROR), *bounds),
+            zero=True,
         ),
-    )  # fmt: skip
+    )
 
 
 def _concatenate_windows(result: FreeRun, j: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:

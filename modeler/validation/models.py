@@ -1,4 +1,4 @@
-"""Several models on the same rows: which predicts each joint best, and is that beyond doubt?"""
+"""Several models on the same rows: which predicts each joint best, and is that significant?"""
 
 import dataclasses
 import math
@@ -17,27 +17,14 @@ from modeler.core.table import align_columns, format_percent
 from modeler.estimation import IdentifiedModel
 from modeler.regression import Log, Observation
 from modeler.runtime import CompiledModel
-from modeler.validation.predict import predict
 from modeler.validation.prediction import (
     JointInfo,
     Prediction,
     compute_relative_error,
     compute_unit_errors,
+    predict,
 )
-
-DOUBT = 0.0027
-"""Chance that two models that are equally good are told apart on one joint: three deviations."""
-
-BLOCKS = 24
-"""Of time, at most: long enough that what models leave has forgotten itself at their ends."""
-
-SHORTEST = 1.0
-"""s, of a block; where there are fewer than `LEAST` of them nothing is beyond doubt."""
-
-LEAST = 6
-
-FELT = 0.01
-"""Share of an error by which it must change to be worth a word."""
+from modeler.validation.thresholds import THRESHOLDS
 
 
 @dataclass(frozen=True)
@@ -48,7 +35,7 @@ class JointModelComparison(ShortRepr):
         joint: it.
         errors: (m,) ||measured - predicted|| / ||measured||.
         rms: (m,) of the residual, N m or N.
-        best: index of the model that is better than every other beyond doubt; None: nobody is.
+        best: index of the model that is significantly better than every other; None: nobody is.
         chance: two-sided, that the best and its nearest rival are equally good; 1 where nothing
             can be told.
     """
@@ -81,36 +68,36 @@ class ModelComparison(Result):
     joints: tuple[JointModelComparison, ...]
 
     def find_best_joints(self, model: int) -> list[str]:
-        """Joints that the model predicts best, beyond doubt."""
+        """Finds the joints that the model predicts significantly better than every other."""
         return [item.joint.name for item in self.joints if item.best == model]
 
     def to_json(self) -> dict[str, Any]:
-        """What scripts read: every model by its name."""
+        """Returns plain data, every model by its name."""
         return {"robot": self.predictions[0].robot, "models": self.as_dicts()}
 
     def as_dicts(self) -> list[dict[str, Any]]:
-        """The `models` of `compare --json`: errors of each, and where it is the best."""
+        """Returns the `models` of `compare --json`: errors of each, and where it is the best."""
         return [
-            convert_to_plain({
-                "model": name,
-                "relative_error": self.pooled[k],
-                "by_unit": self.by_unit[k],
-                "joints": {
-                    item.joint.name: {
-                        "relative_error": item.errors[k], "rms": item.rms[k],
-                        "unit": item.joint.effort_unit, "best": item.best == k,
-                        "chance": item.p_value,
-                    }
-                    for item in self.joints
-                },
-                "best_on": self.find_best_joints(k),
-            })
+            convert_to_plain(
+                {
+                    "model": name,
+                    "relative_error": self.pooled[k],
+                    "by_unit": self.by_unit[k],
+                    "joints": {
+                        item.joint.name: {"relative_error": item.errors[k], "rms": item.rms[k]}
+                        | {"unit": item.joint.effort_unit, "best": item.best == k}
+                        | {"chance": item.p_value}
+                        for item in self.joints
+                    },
+                    "best_on": self.find_best_joints(k),
+                }
+            )
             for k, name in enumerate(self.names)
-        ]  # fmt: skip
+        ]
 
 
 def compare_models(names: Sequence[str], predictions: Sequence[Prediction]) -> ModelComparison:
-    """Who is better on which joint.
+    """Compares models joint by joint, with a significance test.
 
     S_b and T_b are the summed squared residuals of two models on one joint over block b of time, S
     and T those over all B blocks. log(S / T) is judged by Student's t with B - 1 degrees of
@@ -155,12 +142,12 @@ def _compare_joint(
     sums = [np.bincount(block[used], (e / whole) ** 2) for e, whole in zip(left, size, strict=True)]
     rivals = [k for k in range(len(predictions)) if k != top]
     p_values = [_compute_p_value(sums[k], sums[top]) for k in rivals]
-    worth = all(errors[top] < (1.0 - FELT) * errors[k] for k in rivals)
+    worth = all(errors[top] < (1.0 - THRESHOLDS.min_error_change) * errors[k] for k in rivals)
     return JointModelComparison(
         joint=info,
         errors=errors,
         rms=tuple(norm / math.sqrt(len(left[0])) for norm in norms),
-        best=top if worth and max(p_values) < DOUBT / len(rivals) else None,
+        best=top if worth and max(p_values) < THRESHOLDS.max_p_value / len(rivals) else None,
         p_value=max(p_values),
     )
 
@@ -174,8 +161,8 @@ def _compute_p_value(other: np.ndarray, best: np.ndarray) -> float:
     """
     seen = (other > 0.0) | (best > 0.0)
     count, sums = int(seen.sum()), (float(other.sum()), float(best.sum()))
-    if count < LEAST or min(sums) <= 0.0:
-        return 1.0 if sums[0] <= 0.0 or count < LEAST else 0.0
+    if count < THRESHOLDS.min_blocks or min(sums) <= 0.0:
+        return 1.0 if sums[0] <= 0.0 or count < THRESHOLDS.min_blocks else 0.0
     shares = other[seen] / sums[0] - best[seen] / sums[1]
     spread = math.sqrt(float(shares @ shares) * count / (count - 1))
     if spread <= 0.0:
@@ -187,7 +174,10 @@ def _assign_blocks(prediction: Prediction) -> np.ndarray:
     """(n,) number of the block of time of each row, none in two logs."""
     runs = np.unique(prediction.run)
     spans = {r: prediction.time[prediction.run == r] for r in runs}
-    length = max(SHORTEST, sum(float(np.ptp(time)) for time in spans.values()) / BLOCKS)
+    length = max(
+        THRESHOLDS.min_block_seconds,
+        sum(float(np.ptp(time)) for time in spans.values()) / THRESHOLDS.max_blocks,
+    )
     number, count = np.zeros(prediction.time.size, dtype=int), 0
     for r, time in spans.items():
         pieces = max(1, round(float(np.ptp(time)) / length))
@@ -206,7 +196,7 @@ def predict_together(
     logs: Sequence[Sequence[Log]],
     names: Sequence[str],
 ) -> tuple[list[Prediction], list[Observation]]:
-    """What each model says of the same rows.
+    """Predicts the same rows with each model.
 
     All are processed as the first model's logs were, but for a delay, which belongs to its model; a
     row counts if it counts for every model.
@@ -257,7 +247,7 @@ def _has_same_rows(one: Prediction, other: Prediction) -> bool:
 
 
 def check_joints(models: Sequence[IdentifiedModel], names: Sequence[str]) -> None:
-    """Refuse models of robots whose joints differ.
+    """Refuses models of robots whose joints differ.
 
     Raises:
         DataError: names the first of them.
@@ -284,7 +274,7 @@ MARK = "*"
 
 
 def format_model_comparison(comparison: ModelComparison) -> list[str]:
-    """Errors by joint and model, the best beyond doubt marked; then who is better where."""
+    """Formats errors by joint and model, the significantly best one marked, and conclusions."""
     names = [name.removesuffix(".json").removesuffix(".model") for name in comparison.names]
     rows = [["joint", *names, "unit", "rms", *[""] * (len(names) - 1)]]
     for item in comparison.joints:
@@ -298,46 +288,48 @@ def format_model_comparison(comparison: ModelComparison) -> list[str]:
         errors = [format_percent(model_errors[unit]) + " " for model_errors in comparison.by_unit]
         rows.append(["all", *errors, unit, *[""] * len(names)])
     lines = [line.rstrip() for line in align_columns(rows, (0, len(names) + 1))]
-    lines.append(f"{comparison.samples} samples; {MARK} better than every other beyond doubt")
+    lines.append(f"{comparison.samples} samples; {MARK} significantly better than every other")
     return [*lines, "", *describe_model_comparison(comparison)]
 
 
 def describe_model_comparison(comparison: ModelComparison) -> list[str]:
-    """Who predicts which joints best; what remains open."""
+    """Describes which model predicts which joints best, and what remains open."""
     said = []
     for k, name in enumerate(comparison.names):
         won = comparison.find_best_joints(k)
         if won:
             which = " and ".join(filter(None, (", ".join(won[:-1]), won[-1])))
-            said.append(f"{name} predicts joint{'s' * (len(won) > 1)} {which} best, beyond doubt.")
+            said.append(
+                f"{name} predicts joint{'s' * (len(won) > 1)} {which} significantly better."
+            )
     doubtful = [
         f"joint {i.joint.name} ({_describe_uncertainty(i)})"
         for i in comparison.joints
         if i.best is None
     ]
     if doubtful:
-        said.append(f"No model is the best beyond doubt on {', '.join(doubtful)}.")
+        said.append(f"No model is significantly better on {', '.join(doubtful)}.")
     return said
 
 
 def describe_winner(comparison: ModelComparison) -> tuple[str, str]:
-    """Who wins on how many joints."""
+    """Returns on how many joints the best model wins, and a sentence."""
     wins = [len(comparison.find_best_joints(k)) for k in range(len(comparison.names))]
     top = max(range(len(wins)), key=wins.__getitem__)
     if not wins[top]:
-        return "no winner", "no model is better than the others beyond doubt on any joint"
+        return "no winner", "no model is significantly better than the others on any joint"
     count = f"{wins[top]} of {len(comparison.joints)}"
     if wins.count(wins[top]) > 1:
         tied = " and ".join(
             n for n, w in zip(comparison.names, wins, strict=True) if w == wins[top]
         )
-        return f"{count} each", f"joints that {tied} predict best, beyond doubt"
+        return f"{count} each", f"joints that {tied} predict significantly better"
     lost = sum(wins) - wins[top]
     rest = f"; others on {lost}" if lost else "; no other on any"
-    return count, f"joints that {comparison.names[top]} predicts best, beyond doubt{rest}"
+    return count, f"joints that {comparison.names[top]} predicts significantly better{rest}"
 
 
 def _describe_uncertainty(item: JointModelComparison) -> str:
     if item.p_value >= 1.0 or item.p_value < 1e-3:  # too short, or too small a difference
-        return "as good as alike" if item.p_value < 1e-3 else "cannot be told"
+        return "practically equal" if item.p_value < 1e-3 else "too few blocks of time"
     return f"chance alone makes such a difference in {format_percent(item.p_value)} of cases"

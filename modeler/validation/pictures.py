@@ -1,14 +1,29 @@
-"""Pictures of a comparison: residuals against coordinates, overview, overlay, shares."""
+"""One joint against time: measured, predicted, residual, and a close look at the worst window."""
 
 from collections.abc import Callable, Sequence
+from dataclasses import replace
 
 import numpy as np
 
-from modeler.core.figure import Bars, Curve, Heat, Means, Panel, Picture, Points
-from modeler.core.style import BLUE, COLORS, GREY, ORANGE, SLATE, VERMILLION, Style
-from modeler.core.table import format_percent
+from modeler.core.figure import Band, Bars, Curve, Heat, Means, Panel, Picture, Points, Series, Span
+from modeler.core.style import (
+    BLACK,
+    BLUE,
+    COLOR_NAMES,
+    COLORS,
+    GREY,
+    ORANGE,
+    PALE,
+    SHADE,
+    SKY,
+    SLATE,
+    VERMILLION,
+    Style,
+)
+from modeler.core.table import WORDS, format_percent
 from modeler.core.thinning import thin_curves, thin_points
-from modeler.validation.comparison import METHODS, REGIONS, Comparison, JointComparison
+from modeler.regression import MASKS, WHY, find_runs
+from modeler.validation.comparison import METHODS, REGIONS, WINDOW, Comparison, JointComparison
 from modeler.validation.prediction import Prediction, compute_residual
 from modeler.validation.residual_structure import (
     COORDINATES,
@@ -19,16 +34,257 @@ from modeler.validation.residual_structure import (
     format_coordinate_unit,
     select_coordinates,
 )
-from modeler.validation.time_picture import (
-    break_at_gaps,
-    concatenate_time,
-    describe_masks,
-    find_masked_spans,
-)
+from modeler.validation.thresholds import THRESHOLDS
+
+# Rows that do not count, and gaps between rows, as shaded stretches of time.
+
+
+GAP = "no rows"
+OTHER = "left out"
+_COLORS = {
+    "low speed": PALE["blue"],
+    "torque at its limit": PALE["orange"],
+    "no good value": PALE["pink"],
+    "impossible derivative": PALE["green"],
+    "filter end": PALE["yellow"],
+    "loops open": PALE["pink"],
+    GAP: PALE["yellow"],
+    OTHER: PALE["brown"],
+}
+_WHY = WHY | {
+    GAP: "a gap in the log, with the start-up of the filter on either side",
+    OTHER: "left out of this comparison",
+}
+_CLOSE = 1.0 / 1500.0  # of the axis: stretches that no screen shows apart are drawn as one
+
+
+def find_masked_spans(
+    prediction: Prediction, j: int, time: np.ndarray, rows: np.ndarray
+) -> tuple[Span, ...]:
+    """Finds the time spans of joint j that do not count, by reason.
+
+    Args:
+        prediction: with its masks.
+        j: index of the joint.
+        time: (n,) s, of all rows on the axis that is drawn.
+        rows: numbers of the rows that are drawn, ascending.
+    """
+    if rows.size < 2:
+        return ()
+    steps = np.diff(time)[np.diff(prediction.segment) == 0]
+    half = 0.5 * float(np.median(steps)) if steps.size else 0.0
+    close = _CLOSE * float(np.ptp(time[rows]))
+    reasons = _find_mask_reasons(prediction, j)[rows]
+    whole = prediction.segment[rows]
+    spans = []
+    for name in _COLORS:
+        ends = (
+            _find_gaps(prediction, time, rows, half)
+            if name == GAP
+            else [
+                (time[rows[first]] - half, time[rows[last]] + half)
+                for first, last in _find_runs(reasons == name, whole)
+            ]
+        )
+        if ends:
+            spans.append(Span(name, _join_intervals(np.array(ends), close), _COLORS[name]))
+    return tuple(spans)
+
+
+def describe_masks(prediction: Prediction, j: int) -> str:
+    """Describes the reason of each colour and its number of rows; "" where every row counts."""
+    reasons, rows = _find_mask_reasons(prediction, j), prediction.time.size
+    sentences = [
+        f"{COLOR_NAMES[color]}, {name}: {_WHY[name]} ({int(np.sum(reasons == name))} of {rows} "
+        "rows)"
+        for name, color in _COLORS.items()
+        if np.any(reasons == name)
+    ]
+    if _find_gaps(prediction, prediction.time, np.arange(rows), 0.0):
+        sentences.append(f"{COLOR_NAMES[_COLORS[GAP]]}, {GAP}: {_WHY[GAP]}")
+    return f"Shaded rows do not count: {'; '.join(sentences)}." if sentences else ""
+
+
+def _find_mask_reasons(prediction: Prediction, j: int) -> np.ndarray:
+    """(n,) names; "" where a row counts."""
+    used, masks = prediction.used[:, j], prediction.masks
+    if masks is None:
+        return np.where(used, "", OTHER)
+    names = np.array([*MASKS, OTHER])  # -1, a row that counts for its model, is the last
+    return np.where(used, "", names[masks[:, j]])
+
+
+def _find_runs(flags: np.ndarray, whole: np.ndarray) -> list[tuple[int, int]]:
+    """First and last of each run of True within one segment."""
+    pieces = np.split(np.arange(len(flags)), np.flatnonzero(np.diff(whole)) + 1)
+    return [
+        (int(piece[a]), int(piece[b - 1])) for piece in pieces for a, b in find_runs(flags[piece])
+    ]
+
+
+def _find_gaps(
+    prediction: Prediction, time: np.ndarray, rows: np.ndarray, half: float
+) -> list[tuple[float, float]]:
+    """Between segments of one log."""
+    segment, run = prediction.segment[rows], prediction.run[rows]
+    at = np.flatnonzero((np.diff(segment) != 0) & (np.diff(run) == 0))
+    ends = [(time[rows[k]] + half, time[rows[k + 1]] - half) for k in at]
+    return [(start, end) for start, end in ends if end > start]
+
+
+def _join_intervals(ends: np.ndarray, close: float) -> np.ndarray:
+    """(k, 2) intervals, those nearer than `close` made one."""
+    apart = np.flatnonzero(ends[1:, 0] - ends[:-1, 1] > close) + 1
+    first = np.concatenate([[0], apart])
+    last = np.concatenate([apart - 1, [len(ends) - 1]])
+    return np.column_stack([ends[first, 0], ends[last, 1]])
+
+
+_MEASURED = Style(BLACK, width=1.1)
+_PREDICTED = Style(ORANGE, width=1.6, opacity=0.9)
+_RESIDUAL = Style(VERMILLION, width=1.0)
+_BAND = Style(SKY, opacity=0.45)
+
+
+def draw_time_picture(prediction: Prediction, item: JointComparison) -> Picture:
+    """Draws torques above, residual below; all logs left, worst window right."""
+    window, time = item.worst, prediction.time
+    is_in_segment = prediction.segment == window.segment
+    margin = 0.5 * WINDOW
+    near = is_in_segment & (time >= window.start - margin) & (time <= window.end + margin)
+    running, label, marks = concatenate_time(prediction)
+    start = float(running[is_in_segment & (time == window.start)][0])
+    title = "All logs" if len(np.unique(prediction.run)) > 1 else "Whole log"
+    left = _build_column(prediction, item, np.arange(time.size), running, title, label)
+    right = _build_column(
+        prediction,
+        item,
+        np.flatnonzero(near),
+        time,
+        f"Worst {WINDOW} s",
+        f"time in {window.log} [s]",
+        banded=True,
+    )
+    here, close = (start, start + window.end - window.start), (window.start, window.end)
+    name = item.joint.name
+    return Picture(
+        name=f"joint_{name}_time",
+        title=f"Joint {name}: measured and predicted torque",
+        caption=" ".join(_write_caption(prediction, item)),
+        panels=tuple(
+            (replace(all_logs, marks=marks, shade=here), replace(worst, shade=close))
+            for all_logs, worst in zip(left, right, strict=True)
+        ),
+        heights=(0.58, 0.42),
+        widths=(0.68, 0.32),
+        height=440,
+        shared_time=True,
+    )
+
+
+def _write_caption(prediction: Prediction, item: JointComparison) -> list[str]:
+    what = WORDS[item.joint.effort_unit]
+    lines = [
+        f"Above: measured ({_MEASURED.description}) and predicted ({_PREDICTED.description}) "
+        f"{what}; where you "
+        f"see no {_MEASURED.description}, they agree. Below ({_RESIDUAL.description}): the "
+        "difference, on its "
+        f"own, finer scale. Shaded {COLOR_NAMES[SHADE]} from top to bottom: the {WINDOW} s "
+        "with the largest squared residual, enlarged on the right."
+    ]
+    if prediction.sigma is not None:
+        lines.append(
+            f"Broad {_BAND.description} there: two standard deviations of the predicted {what} on "
+            "either "
+            "side, from the covariance of the fitted parameters alone: 95 % where the model is "
+            "right; it knows nothing of effects that the model lacks."
+        )
+    masks = describe_masks(prediction, item.index)
+    return [*lines, masks] if masks else lines
+
+
+def concatenate_time(
+    prediction: Prediction,
+) -> tuple[np.ndarray, str, tuple[tuple[float, str], ...]]:
+    """Returns the time of all rows on one axis, (n,) s, its label, and where each log begins.
+
+    One log keeps its own time; several are put one after the other, each starting where the
+    one before ended.
+    """
+    if len(np.unique(prediction.run)) == 1:
+        return prediction.time, f"time in {prediction.logs[prediction.run[0]]} [s]", ()
+    whole = np.empty_like(prediction.time, dtype=float)
+    marks, offset = [], 0.0
+    for run in np.unique(prediction.run):
+        rows = prediction.run == run
+        log_time = prediction.time[rows]
+        whole[rows] = log_time - log_time.min() + offset
+        marks.append((offset, prediction.logs[run]))
+        offset += float(log_time.max() - log_time.min())
+    return whole, "time, logs one after the other [s]", tuple(marks)
+
+
+def break_at_gaps(
+    segment: np.ndarray, x: np.ndarray, y: np.ndarray
+) -> tuple[np.ndarray, np.ndarray]:
+    """Returns the curve with a NaN between segments, so that no line crosses a gap."""
+    places = np.flatnonzero(np.diff(segment)) + 1
+    return np.insert(x, places, x[places]), np.insert(y, places, np.nan)
+
+
+def _build_column(
+    prediction: Prediction,
+    item: JointComparison,
+    rows: np.ndarray,
+    time: np.ndarray,
+    title: str,
+    label: str,
+    banded: bool = False,
+) -> tuple[Panel, Panel]:
+    unit, joint = item.joint.effort_unit, item.index
+    curves = (
+        prediction.measured[rows, joint].astype(float),
+        prediction.predicted[rows, joint].astype(float),
+        compute_residual(prediction)[rows, joint],
+    )
+    plot_rows = thin_curves(curves)
+    labels = ("measured", "predicted", "residual")
+    styles = (_MEASURED, _PREDICTED, _RESIDUAL)
+    series: list[Series] = []
+    for text, values, style in zip(labels, curves, styles, strict=True):
+        x, y = break_at_gaps(
+            prediction.segment[rows][plot_rows], time[rows][plot_rows], values[plot_rows]
+        )
+        series.append(Curve(text, x, y, style))
+    spans = find_masked_spans(prediction, joint, time, rows)
+    bands = _build_bands(prediction, joint, rows[plot_rows], time) if banded else ()
+    left = (*bands[1:], series[2])
+    return (
+        Panel(title, label, f"{WORDS[unit]} [{unit}]", (*bands[:1], *series[:2]), spans=spans),
+        Panel(f"{title}: residual", label, f"residual [{unit}]", left, zero=True, spans=spans),
+    )
+
+
+def _build_bands(
+    prediction: Prediction, joint: int, rows: np.ndarray, time: np.ndarray
+) -> tuple[Band, ...]:
+    """About the prediction, and about zero."""
+    if prediction.sigma is None:
+        return ()
+    half = THRESHOLDS.band_deviations * prediction.sigma[rows, joint]
+    bands = []
+    for middle in (prediction.predicted[rows, joint], np.zeros(rows.size)):
+        x, low = break_at_gaps(prediction.segment[rows], time[rows], middle - half)
+        _, high = break_at_gaps(prediction.segment[rows], time[rows], middle + half)
+        bands.append(Band("95 % band of the prediction", x, low, high, _BAND))
+    return tuple(bands)
+
+
+# Pictures of a comparison: residuals against coordinates, overview, overlay, shares.
+
 
 _DOTS = 700
 _BINS = 24
-_FEWEST = 8  # samples of a bin whose mean is drawn
 _CLOUD = Style(GREY, width=2.6, opacity=0.45)
 _MEAN = Style(BLUE, width=1.6)
 _BACK = Style(VERMILLION, width=1.6)
@@ -38,7 +294,7 @@ _ACROSS = 3  # panels side by side
 
 
 def draw_residual_picture(prediction: Prediction, item: JointComparison) -> Picture:
-    """A panel for each coordinate that the logs hold, then both spectra."""
+    """Draws a panel for each coordinate of the logs, then both spectra."""
     drawn = [
         _build_coordinate_panel(prediction, item, coordinate.id, coordinate.label)
         for coordinate in select_coordinates(prediction, item.index)
@@ -87,7 +343,7 @@ _LAST = (
 
 
 def compute_binned_means(x: np.ndarray, e: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Mean of x, mean of e and two standard errors in up to 24 bins of x, half of them by count.
+    """Computes means of x and e and two standard errors in up to 24 bins of x.
 
     Consecutive samples share their noise, so the standard error comes from the spread between
     separate passes through the bin: s^2 = G/(G-1) sum_g (sum_{i in g} (e_i - mean))^2 / n^2 with
@@ -102,7 +358,7 @@ def compute_binned_means(x: np.ndarray, e: np.ndarray) -> tuple[np.ndarray, np.n
     edges = np.unique(np.concatenate((even, dense)))
     which = np.clip(np.searchsorted(edges, x, side="right") - 1, 0, max(edges.size - 2, 0))
     count = np.bincount(which)
-    filled = np.flatnonzero(count >= _FEWEST)
+    filled = np.flatnonzero(count >= THRESHOLDS.min_bin_samples)
     count = np.maximum(count, 1)
     mean = np.bincount(which, e) / count
     starts = np.concatenate(([0], np.flatnonzero(np.diff(which)) + 1))
@@ -145,8 +401,10 @@ def _build_coordinate_panel(
 
 def _average_by_direction(x: np.ndarray, e: np.ndarray, qd: np.ndarray) -> tuple[Means, ...]:
     """A line of means for either direction of motion that occurs."""
-    ways = (("moving in the positive direction", qd > 0.0, _MEAN),
-            ("moving in the negative direction", qd < 0.0, _BACK))  # fmt: skip
+    ways = (
+        ("moving in the positive direction", qd > 0.0, _MEAN),
+        ("moving in the negative direction", qd < 0.0, _BACK),
+    )
     return tuple(
         Means(text, *compute_binned_means(x[direction_rows], e[direction_rows]), style)
         for text, direction_rows, style in ways
@@ -199,36 +457,20 @@ _READABLE = 8.0  # percent: a shorter stretch of a bar has no room for its numbe
 
 
 def draw_overview_picture(comparison: Comparison) -> Picture:
-    """Relative error, regions of velocity; stacked shares; coordinates, other joints."""
+    """Draws relative errors, velocity regions, variance shares, coordinates and other joints."""
     names = tuple(item.joint.name for item in comparison.joints)
     errors = np.array([100.0 * item.relative_error for item in comparison.joints])
     bars = Bars("relative error", names, errors, tuple(f"{e:.1f}" for e in errors), Style(BLUE))
-    panels = [
-        (
-            Panel("Relative error", "joint", "||residual|| / ||torque|| [%]", (bars,)),
-            Panel("Where: share of squared residual [%]", "velocity", "joint",
-                  (_build_region_heatmap(comparison),)),
-        ),
-    ]  # fmt: skip
+    where, regions = "Where: share of squared residual [%]", (_build_region_heatmap(comparison),)
+    error = Panel("Relative error", "joint", "||residual|| / ||torque|| [%]", (bars,))
+    panels = [(error, Panel(where, "velocity", "joint", regions))]
     if any(item.shares is not None for item in comparison.joints):
         panels.append(build_share_panels(comparison))
     if any(item.structure is not None for item in comparison.joints):
-        panels.append(
-            (
-                Panel(
-                    "Follows its own ... [%]",
-                    "coordinate",
-                    "joint",
-                    (_build_share_heatmap(comparison),),
-                ),
-                Panel(
-                    "Follows the velocity of ... [%]",
-                    "joint or motor moving",
-                    "joint",
-                    (_build_cross_joint_heatmap(comparison),),
-                ),
-            )
-        )
+        single, across = _build_share_heatmap(comparison), _build_cross_joint_heatmap(comparison)
+        title = "Follows the velocity of ... [%]"
+        first = Panel("Follows its own ... [%]", "coordinate", "joint", (single,))
+        panels.append((first, Panel(title, "joint or motor moving", "joint", (across,))))
     return Picture(
         name="overview",
         title="All joints",
@@ -303,17 +545,19 @@ def _build_heatmap(
 ) -> Heat:
     """Shares of each joint's residual; nothing where too few samples tell."""
     joints = comparison.joints
-    values = np.array([
-        [np.nan] * len(columns) if item.structure is None else shares(item.structure)
-        for item in joints
-    ])  # fmt: skip
+    values = np.array(
+        [
+            [np.nan] * len(columns) if item.structure is None else shares(item.structure)
+            for item in joints
+        ]
+    )
     texts = tuple(tuple("" if np.isnan(v) else f"{100 * v:.0f}" for v in row) for row in values)
     names = tuple(item.joint.name for item in joints)
     return Heat("explained share", columns, names, 100.0 * values, texts, top=100.0)
 
 
 def build_share_panels(comparison: Comparison) -> tuple[Panel, Panel]:
-    """Shares of the torque's variance, and the same of what is not explained."""
+    """Builds the shares of the torque's variance, and those of the residual's."""
     items = [item for item in comparison.joints if item.shares is not None]
     names = tuple(item.joint.name for item in items)
     variance_shares = [item.shares for item in items if item.shares is not None]
@@ -322,19 +566,19 @@ def build_share_panels(comparison: Comparison) -> tuple[Panel, Panel]:
     explained = np.array([100.0 * max(0.0, each.explained) for each in variance_shares])
     left = 100.0 - explained
     systematic = left * repeats / 100.0
+    repeatable, first = "repeatable, not explained", [("explained", explained, BLUE)]
+    whole = [(repeatable, systematic, VERMILLION), ("noise", left - systematic, SLATE)]
+    rest = [(repeatable, repeats, VERMILLION), ("noise", 100.0 - repeats, SLATE)]
+    title, label = "Variance of the torque [%]", "share of the variance [%]"
     return (
+        Panel(title, "joint", label, _build_stacked_bars(names, first + whole)),
         Panel(
-            "Variance of the torque [%]", "joint", "share of the variance [%]",
-            _build_stacked_bars(names, [("explained", explained, BLUE),
-                             ("repeatable, not explained", systematic, VERMILLION),
-                             ("noise", left - systematic, SLATE)]),
+            "Variance that is not explained [%]",
+            "joint",
+            "share of the residual [%]",
+            _build_stacked_bars(names, rest),
         ),
-        Panel(
-            "Variance that is not explained [%]", "joint", "share of the residual [%]",
-            _build_stacked_bars(names, [("repeatable, not explained", repeats, VERMILLION),
-                             ("noise", 100.0 - repeats, SLATE)]),
-        ),
-    )  # fmt: skip
+    )
 
 
 def _build_stacked_bars(
@@ -357,7 +601,7 @@ _MOST = 2500  # points of a curve
 def draw_overlay_picture(
     names: Sequence[str], predictions: Sequence[Prediction], j: int
 ) -> Picture:
-    """One joint: residuals of all models against time, and their sums of squares so far.
+    """Draws residuals of all models against time for one joint, and their sums of squares so far.
 
     Args:
         names: of the models.
@@ -374,24 +618,24 @@ def draw_overlay_picture(
     styles = [Style(COLORS[k % len(COLORS)], width=1.1, opacity=0.8) for k in range(len(names))]
     residuals, gains = [], []
     for name, style, e, total in zip(names, styles, left, sums, strict=True):
-        residuals.append(
-            Curve(name, *break_at_gaps(segment[plot_rows], time[plot_rows], e[plot_rows]), style)
-        )
+        curve = break_at_gaps(segment[plot_rows], time[plot_rows], e[plot_rows])
+        residuals.append(Curve(name, *curve, style))
         gains.append(Curve(name, time[even], 100.0 * total[even] / whole, style))
     spans = find_masked_spans(first, j, time, np.arange(time.size))
+    unit = f"residual [{joint.effort_unit}]"
+    above = Panel("Residual", label, unit, tuple(residuals), marks=marks, zero=True, spans=spans)
+    below = Panel("Squared residual so far", label, "sum [%]", tuple(gains), marks=marks)
+    caption = _write_overlay_caption(names, styles, describe_masks(first, j))
+    title = f"Joint {joint.name}: what each model leaves"
     return Picture(
-        name=f"joint_{joint.name}_models",
-        title=f"Joint {joint.name}: what each model leaves",
-        caption=_write_overlay_caption(names, styles, describe_masks(first, j)),
-        panels=(
-            (Panel("Residual", label, f"residual [{joint.effort_unit}]", tuple(residuals),
-                   marks=marks, zero=True, spans=spans),),
-            (Panel("Squared residual so far", label, "sum [%]", tuple(gains), marks=marks),),
-        ),
+        f"joint_{joint.name}_models",
+        title,
+        caption,
+        ((above,), (below,)),
+        430,
         heights=(0.6, 0.4),
-        height=430,
         shared_time=True,
-    )  # fmt: skip
+    )
 
 
 def _write_overlay_caption(names: Sequence[str], styles: Sequence[Style], masks: str) -> str:

@@ -1,25 +1,17 @@
 """Does a residual still have structure: is it a repeatable function of something?"""
 
+import dataclasses
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from itertools import chain
+from typing import Literal
 
 import numpy as np
 
-from modeler.numerics.spectra import OrderSpectrum, compute_order_spectrum
-from modeler.numerics.splines import (
-    OWN,
-    SLIPS,
-    Measurements,
-    NonparametricBaseline,
-    assign_folds,
-    build_drift_functions,
-    build_friction_functions,
-    build_hat_functions,
-    fit_nonparametric_baseline,
-    generate_function_sets,
-)
+from modeler.numerics import spectra, splines
+from modeler.numerics.noise import interpolate_between_gaps
 from modeler.validation.prediction import Prediction, select_full_rate
+from modeler.validation.thresholds import THRESHOLDS
 
 # The coordinates against which a residual is looked at.
 
@@ -55,7 +47,7 @@ DRIFTS = ("temperature", "time")
 
 
 def select_coordinates(prediction: Prediction, joint: int) -> tuple[Coordinate, ...]:
-    """Those that the logs hold of one joint; temperature only where every used row has it."""
+    """Selects the logged coordinates of one joint; temperature only where every used row has it."""
     used = prediction.used[:, joint]
     missing = set()
     if prediction.travel is None:
@@ -66,10 +58,14 @@ def select_coordinates(prediction: Prediction, joint: int) -> tuple[Coordinate, 
 
 
 def evaluate_coordinate(prediction: Prediction, joint: int, coordinate: str) -> np.ndarray:
-    """Values of a coordinate of one joint, all rows, (n,); time counts from the log's start."""
+    """Returns a coordinate of one joint, all rows, (n,); time counts from the log's start."""
     qd = prediction.qd[:, joint]
-    plain = {"position": prediction.q, "velocity": prediction.qd, "acceleration": prediction.qdd,
-             "temperature": prediction.temperature}  # fmt: skip
+    plain = {
+        "position": prediction.q,
+        "velocity": prediction.qd,
+        "acceleration": prediction.qdd,
+        "temperature": prediction.temperature,
+    }
     turned = {"load": np.abs(prediction.predicted), "travel": prediction.travel}
     if coordinate == "direction":
         return np.sign(qd)
@@ -84,17 +80,11 @@ def evaluate_coordinate(prediction: Prediction, joint: int, coordinate: str) -> 
 
 
 def format_coordinate_unit(prediction: Prediction, joint: int, coordinate: str) -> str:
-    """Unit of a coordinate as it stands on an axis."""
+    """Formats the unit of a coordinate for an axis."""
     info = prediction.joints[joint]
     unit = next(entry.unit for entry in COORDINATES if entry.id == coordinate)
     return unit.format(unit=info.unit, effort=info.effort_unit)
 
-
-ENOUGH = 200  # samples below which nothing is said about structure
-
-NEARLY = 0.9  # a simpler function that explains this much of the best is named instead
-
-_MOST = 3000  # samples beyond which every second, third, ... is looked at
 
 # Drift: many short blocks, because a slow function of time can only be judged between its knots.
 _DRIFT = (40, 5)  # blocks, folds
@@ -131,36 +121,38 @@ class ResidualStructure:
     motors: tuple[tuple[str, float], ...] = ()  # coupled motor, "5+6" -> share, of its velocity
 
     def get_share(self, coordinate: str) -> float:
-        """Share of one coordinate; NaN where the logs do not hold it."""
+        """Returns the share of one coordinate; NaN where the logs do not hold it."""
         return dict(self.shares).get(coordinate, float("nan"))
 
 
 def analyse_structure(prediction: Prediction, joint: int) -> ResidualStructure | None:
-    """Structure of one joint's residual; None with fewer than ENOUGH samples."""
+    """Analyses the structure of one joint's residual; None with too few samples."""
     rows = np.flatnonzero(prediction.used[:, joint])
-    if rows.size < ENOUGH:
+    if rows.size < THRESHOLDS.min_samples:
         return None
-    rows = rows[:: -(-rows.size // _MOST)]
+    rows = rows[:: -(-rows.size // THRESHOLDS.max_structure_samples)]
     e = prediction.measured[rows, joint] - prediction.predicted[rows, joint]
     names = [coordinate.id for coordinate in select_coordinates(prediction, joint)]
     m = _collect_measurements(prediction, joint, rows)
     sets = {
         name: _build_curve(prediction, joint, name, rows) for name in names if name not in DRIFTS
     }
-    by = {joint: (*sets, *OWN)}
+    by = {joint: (*sets, *splines.OWN)}
     for k in range(m.q.shape[1]):
         if k != joint:
             curves = (
-                build_hat_functions(m.q[:, k]),
-                build_friction_functions(m.v[:, k]),
-                build_hat_functions(m.a[:, k]),
+                splines.build_hat_functions(m.q[:, k]),
+                splines.build_friction_functions(m.v[:, k]),
+                splines.build_hat_functions(m.a[:, k]),
             )
             sets |= {f"{name} {k}": x for name, x in zip(_ELSEWHERE, curves, strict=True)}
             by[k] = (str(k), *(f"{name} {k}" for name in _ELSEWHERE))
     for motor in prediction.motors:
-        sets[motor.name] = build_friction_functions(m.v @ np.asarray(motor.coefficients))
-    baseline = fit_nonparametric_baseline(
-        chain(sets.items(), generate_function_sets(m)), e, assign_folds(prediction.run[rows])
+        sets[motor.name] = splines.build_friction_functions(m.v @ np.asarray(motor.coefficients))
+    baseline = splines.fit_nonparametric_baseline(
+        chain(sets.items(), splines.generate_function_sets(m)),
+        e,
+        splines.assign_folds(prediction.run[rows]),
     )
     alone = {name: baseline.share_by_set.get(name, 0.0) for name in sets} | baseline.share_by_set
     drifts = {
@@ -180,11 +172,14 @@ def analyse_structure(prediction: Prediction, joint: int) -> ResidualStructure |
 
 
 def _find_best_predictor(
-    baseline: NonparametricBaseline, best: Mapping[int, float], by: Mapping[int, Sequence[str]],
-    prediction: Prediction, joint: int,
-) -> BestPredictor:  # fmt: skip
+    baseline: splines.NonparametricBaseline,
+    best: Mapping[int, float],
+    by: Mapping[int, Sequence[str]],
+    prediction: Prediction,
+    joint: int,
+) -> BestPredictor:
     """The joint, and its coordinate, that does as well as everything."""
-    enough = NEARLY * baseline.share
+    enough = THRESHOLDS.parsimony_share * baseline.share
     if not baseline.is_significant:
         return BestPredictor(0.0)
     place = max(best, key=lambda k: best[k])
@@ -195,7 +190,9 @@ def _find_best_predictor(
     return BestPredictor(baseline.share, prediction.joints[place].name, next(iter(coordinates), ""))
 
 
-def _collect_measurements(prediction: Prediction, joint: int, rows: np.ndarray) -> Measurements:
+def _collect_measurements(
+    prediction: Prediction, joint: int, rows: np.ndarray
+) -> splines.Measurements:
     """What was measured on some rows; 0 throughout for joints that may hold anything there."""
     every = [
         np.where(np.isfinite(x[rows]).all(axis=0), x[rows], 0.0)
@@ -205,9 +202,9 @@ def _collect_measurements(prediction: Prediction, joint: int, rows: np.ndarray) 
     way, slips = np.sign(v[:, joint]), np.zeros((rows.size, 0))
     if prediction.travel is not None:
         stroke = max(float(np.ptp(q[:, joint])), 1e-12)
-        turned = [np.exp(-prediction.travel[rows, joint] / (d * stroke)) for d in SLIPS]
+        turned = [np.exp(-prediction.travel[rows, joint] / (d * stroke)) for d in splines.SLIPS]
         slips = way[:, None] * (1.0 - 2.0 * np.column_stack(turned))
-    return Measurements(joint, q, v, a, torque, torque, way, slips, {})
+    return splines.Measurements(joint, q, v, a, torque, torque, way, slips, {})
 
 
 def _estimate_drift_share(
@@ -221,12 +218,12 @@ def _estimate_drift_share(
     fold = (np.arange(e.size) * blocks // e.size) % folds
     values = evaluate_coordinate(prediction, joint, name)[rows]
     if name == "time":
-        columns = build_drift_functions(values, prediction.run[rows])
-        return fit_nonparametric_baseline([(name, columns)], e, fold).share
+        columns = splines.build_drift_functions(values, prediction.run[rows])
+        return splines.fit_nonparametric_baseline([(name, columns)], e, fold).share
     way = np.sign(prediction.qd[rows, joint])[:, None]
-    slow = build_hat_functions(values, 5)
+    slow = splines.build_hat_functions(values, 5)
     both = (name, np.hstack((slow, slow * way))), ("direction", way)
-    share_by_set = fit_nonparametric_baseline(both, e, fold).share_by_set
+    share_by_set = splines.fit_nonparametric_baseline(both, e, fold).share_by_set
     return max(0.0, share_by_set.get(name, 0.0) - share_by_set.get("direction", 0.0))
 
 
@@ -237,9 +234,9 @@ def _build_curve(
     if coordinate == "direction":
         return values[:, None]
     return (
-        build_friction_functions(values)
+        splines.build_friction_functions(values)
         if coordinate in ("velocity", "travel")
-        else build_hat_functions(values)
+        else splines.build_hat_functions(values)
     )
 
 
@@ -255,21 +252,21 @@ class SpectralLine:
     share: float  # of the squared residual before filtering
 
 
-def compute_ripple_spectrum(prediction: Prediction, joint: int) -> OrderSpectrum | None:
-    """Of the samples that count, at full rate; None if they are few, or the joint rests."""
+def compute_ripple_spectrum(prediction: Prediction, joint: int) -> spectra.OrderSpectrum | None:
+    """Computes the order spectrum of the samples that count; None of few, or if the joint rests."""
     full = select_full_rate(prediction)
     r, q = full.residual[:, joint], full.q[:, joint]
     counts = np.isfinite(r) & np.isfinite(q)
     if not counts.any():
         return None
     left = r[counts]
-    return compute_order_spectrum(
+    return spectra.compute_order_spectrum(
         q[counts], left - left.mean(), prediction.joints[joint].unit, float("inf")
     )
 
 
-def convert_orders(orders: OrderSpectrum, unit: str) -> tuple[np.ndarray, str]:
-    """Orders of a spectrum as a user counts them, and per what.
+def convert_orders(orders: spectra.OrderSpectrum, unit: str) -> tuple[np.ndarray, str]:
+    """Returns the orders of a spectrum per turn or per m, and which.
 
     Args:
         orders: the spectrum.
@@ -280,8 +277,8 @@ def convert_orders(orders: OrderSpectrum, unit: str) -> tuple[np.ndarray, str]:
     return orders.order / (2.0 * np.pi), "m"
 
 
-def find_order_peaks(orders: OrderSpectrum | None, unit: str) -> tuple[SpectralLine, ...]:
-    """What stands out in an order spectrum, the strongest first; see `convert_orders`."""
+def find_order_peaks(orders: spectra.OrderSpectrum | None, unit: str) -> tuple[SpectralLine, ...]:
+    """Finds the peaks of an order spectrum, the strongest first; see `convert_orders`."""
     if orders is None:
         return ()
     spectrum, (counted, _) = orders, convert_orders(orders, unit)
@@ -294,3 +291,278 @@ def find_order_peaks(orders: OrderSpectrum | None, unit: str) -> tuple[SpectralL
         )
         for k in places
     )
+
+
+# What the variance of a joint's torque is made of: explained, repeatable, noise.
+
+
+Method = Literal["laps", "logs", "smooth"]
+
+
+@dataclass(frozen=True)
+class Partner:
+    """At t in log `run` and at t + shift in log `other` the robot did the same."""
+
+    run: int
+    other: int
+    shift: float  # s
+
+
+@dataclass(frozen=True)
+class Repetition:
+    """All partners of all logs."""
+
+    kind: Literal["laps", "logs"]
+    partners: tuple[Partner, ...]
+    periods: tuple[float, ...]  # s, of the logs that have laps
+
+
+def find_repetitions(prediction: Prediction) -> tuple[Repetition, ...]:
+    """Finds laps, then logs of the same motion; empty if no motion was repeated."""
+    motions = _collect_motions(prediction)
+    candidates = [_find_laps(motions), _find_same_motions(motions)]
+    return tuple(item for item in candidates if item.partners)
+
+
+@dataclass(frozen=True, eq=False)
+class _RepeatedMotion:
+    run: int
+    step: float  # s, between rows
+    time: np.ndarray  # (m,) s, full rate
+    q: np.ndarray  # (m, moving joints) rad or m
+    size: np.ndarray  # (moving joints,) standard deviations of q
+    ends: np.ndarray  # (2, joints) lowest and highest position
+
+
+def _collect_motions(prediction: Prediction) -> list[_RepeatedMotion]:
+    full, motions = select_full_rate(prediction), []
+    strokes = np.nanmax(prediction.q, axis=0) - np.nanmin(prediction.q, axis=0)
+    moving = strokes > THRESHOLDS.min_stroke * strokes.max()
+    for run in range(len(prediction.logs)):
+        rows, times = full.run == run, prediction.time[prediction.run == run]
+        rows &= np.isfinite(full.q).all(axis=1)
+        if times.size > 2 and rows.sum() > 2 and moving.any():
+            q, time = full.q[rows], full.time[rows]
+            every = max(1, time.size // (10 * THRESHOLDS.motion_points))
+            size = np.maximum(q[:, moving].std(axis=0), 1e-12)
+            ends = np.array([q.min(axis=0), q.max(axis=0)])
+            step = float(np.median(np.diff(times)))
+            motions.append(
+                _RepeatedMotion(run, step, time[::every], q[::every, moving], size, ends)
+            )
+    return motions
+
+
+def _find_laps(motions: list[_RepeatedMotion]) -> Repetition:
+    partners, periods = [], []
+    for whole in motions:
+        rows = spectra.find_longest_stretch(whole.time, whole.step)
+        motion = dataclasses.replace(whole, time=whole.time[rows], q=whole.q[rows])
+        length = float(np.ptp(motion.time))
+        even = np.arange(0.0, length, motion.step)
+        rough = spectra.estimate_lap_period(
+            even, _interpolate_positions(motion, motion.time[0] + even)
+        )
+        if rough == 0.0:
+            continue
+        period = _refine_period(motion, rough)
+        periods.append(period)
+        for k in range(1, min(THRESHOLDS.max_laps, int(length / period)) + 1):
+            partners += [
+                Partner(motion.run, motion.run, k * period),
+                Partner(motion.run, motion.run, -k * period),
+            ]
+    return Repetition("laps", tuple(partners), tuple(periods))
+
+
+def _refine_period(motion: _RepeatedMotion, period: float) -> float:
+    """The period from laps farther and farther apart: an error of it grows with their number."""
+    half, laps = motion.step, 1
+    most = max(1, int(np.ptp(motion.time) / period) - 1)
+    while True:
+        period = _refine_shift(motion, motion, laps * period, laps * half) / laps
+        if laps == most:
+            return period
+        laps, half = min(2 * laps, most), half / 10
+
+
+def _find_same_motions(motions: list[_RepeatedMotion]) -> Repetition:
+    """Each log beside the first one of the same motion, in groups."""
+    groups: list[list[tuple[_RepeatedMotion, float]]] = []
+    for motion in motions:
+        for group in groups:
+            shift = _estimate_shift(group[0][0], motion)
+            if shift is not None:
+                group.append((motion, shift))
+                break
+        else:
+            groups.append([(motion, 0.0)])
+    partners = [
+        Partner(a.run, b.run, later - sooner)
+        for group in groups
+        for a, sooner in group
+        for b, later in group
+        if a is not b
+    ]
+    return Repetition("logs", tuple(partners), ())
+
+
+def _estimate_shift(first: _RepeatedMotion, other: _RepeatedMotion) -> float | None:
+    """s by which the clock of `other` is ahead for the same motion; None for another motion."""
+    stroke = float(np.ptp(first.ends, axis=0).max())
+    if np.abs(first.ends - other.ends).max() > THRESHOLDS.max_stroke_difference * stroke:
+        return None
+    lengths = [float(np.ptp(m.time)) for m in (first, other)]
+    if min(lengths) < 4 * first.step:
+        return None
+    start = other.time[0] - first.time[0]
+    reach = min(int(0.25 * min(lengths) / first.step), THRESHOLDS.max_shift_rows)
+    candidates = start + first.step * np.arange(-reach, reach + 1)
+    apart = [
+        _compute_distance(first, other, shift, THRESHOLDS.min_overlap * min(lengths))
+        for shift in candidates
+    ]
+    best = _refine_shift(first, other, float(candidates[int(np.argmin(apart))]), first.step)
+    # twice the variance, which is one: the mean squared difference of motions that are not alike
+    alike = (
+        1.0
+        - _compute_distance(first, other, best, 0.9 * THRESHOLDS.min_overlap * min(lengths)) / 2.0
+    )
+    return best if alike > spectra.THRESHOLDS.min_repeat_correlation else None
+
+
+def _refine_shift(
+    first: _RepeatedMotion, other: _RepeatedMotion, around: float, half: float
+) -> float:
+    """The shift near `around` at which the motions are least apart; a parabola between the grid."""
+    grid = around + half * np.linspace(-1.0, 1.0, 2 * THRESHOLDS.shift_grid + 1)
+    apart = np.array([_compute_distance(first, other, shift, 0.0) for shift in grid])
+    best = int(np.argmin(apart))
+    if not 0 < best < grid.size - 1:
+        return float(grid[best])
+    before, here, after = apart[best - 1 : best + 2]
+    bend = before - 2.0 * here + after
+    part = 0.5 * (before - after) / bend if bend > 0.0 else 0.0
+    return float(grid[best] + part * (grid[1] - grid[0]))
+
+
+def _compute_distance(
+    first: _RepeatedMotion, other: _RepeatedMotion, shift: float, overlap: float
+) -> float:
+    """Mean squared difference of the joint that differs most; infinite with less overlap."""
+    begin = max(first.time[0], other.time[0] - shift)
+    end = min(first.time[-1], other.time[-1] - shift)
+    if end - begin < max(overlap, 2 * first.step):
+        return float("inf")
+    times = np.linspace(
+        begin, end, int(min(THRESHOLDS.motion_points, (end - begin) / first.step + 2))
+    )
+    apart = (
+        _interpolate_positions(first, times) - _interpolate_positions(other, times + shift)
+    ) / first.size
+    return float(np.mean(apart**2, axis=0).max())
+
+
+def _interpolate_positions(motion: _RepeatedMotion, times: np.ndarray) -> np.ndarray:
+    return np.column_stack([np.interp(times, motion.time, column) for column in motion.q.T])
+
+
+@dataclass(frozen=True)
+class VarianceShares:
+    """Of sum (measured - mean)^2; the three sum to one.
+
+    Explained is R^2, and negative for a prediction that is worse than the best constant.
+    """
+
+    explained: float
+    systematic: float  # repeatable, and not in the model
+    floor: float  # noise, as far as these logs can tell
+    method: Method  # how the last two were told apart
+    sigma: float | None  # standard error of both; None by the method "smooth"
+
+    @property
+    def repeatable_share(self) -> float:
+        """Returns the repeatable share of what is not explained; 0 if nothing is left."""
+        left = self.systematic + self.floor
+        return self.systematic / left if left > 0.0 else 0.0
+
+
+def split_variance(
+    prediction: Prediction,
+    joint: int,
+    e: np.ndarray,
+    repeated: tuple[Repetition, ...],
+    structure: ResidualStructure | None,
+) -> VarianceShares | None:
+    """Splits the variance of one joint; None for a constant torque, or too few samples.
+
+    Where the motion was repeated, the repeatable part is the mean product of the residual and that
+    of the same moment in another lap (or log): noise of different laps has mean product zero.
+    Otherwise it is the squared mean and what smooth functions of the motion predict of the rest on
+    blocks of time that were held out.
+
+    Args:
+        prediction: the rows.
+        joint: which one.
+        e: (n,) its residual, NaN where a row does not count.
+        repeated: laps, logs of one motion.
+        structure: structure of the residual.
+    """
+    rows = np.flatnonzero(prediction.used[:, joint])
+    y = prediction.measured[rows, joint]
+    spread, energy = float(np.sum((y - y.mean()) ** 2)), float(e[rows] @ e[rows])
+    if spread <= 0.0:
+        return None
+    left = energy / spread
+    for repetition in repeated:
+        returning = _estimate_recurring_share(prediction, joint, e, repetition)
+        if returning is not None:
+            again, error = returning
+            kind = repetition.kind
+            return VarianceShares(
+                1.0 - left, again * left, (1.0 - again) * left, kind, error * left
+            )
+    if structure is None or energy == 0.0:
+        return None if energy else VarianceShares(1.0, 0.0, 0.0, "smooth", None)
+    offset = rows.size * float(e[rows].mean()) ** 2 / energy
+    smooth = max(structure.together, structure.follows.share)
+    again = offset + (1.0 - offset) * smooth
+    return VarianceShares(1.0 - left, again * left, (1.0 - again) * left, "smooth", None)
+
+
+def _estimate_recurring_share(
+    prediction: Prediction, joint: int, e: np.ndarray, repetition: Repetition
+) -> tuple[float, float] | None:
+    """Share of the squared residual that laps have in common, and its standard error.
+
+    The error comes from sums over half a dozen neighbouring rows, which may share their noise.
+    None with too few rows repeated.
+    """
+    full = select_full_rate(prediction)
+    products, squares, scatter = 0.0, 0.0, 0.0
+    repeated = np.zeros(e.size, dtype=bool)
+    for partner in repetition.partners:
+        rows = np.flatnonzero((prediction.run == partner.run) & np.isfinite(e))
+        there = full.run == partner.other
+        then = prediction.time[rows] + partner.shift
+        other = interpolate_between_gaps(full.time[there], full.filtered[there, joint], then)
+        there = np.isfinite(other)
+        if not there.any():
+            continue
+        residuals, other = e[rows][there], other[there]
+        if np.median(np.abs(residuals - other) > 1e-3 * np.abs(residuals)) < 0.5:
+            continue  # the same measurements given twice: their noise is alike, too
+        product = residuals * other
+        parts = np.add.reduceat(product, np.arange(0, residuals.size, THRESHOLDS.neighbour_rows))
+        products += float(product.sum())
+        squares += float(residuals @ residuals)
+        # every pair of moments stands here twice, once from either side
+        scatter += 2.0 * float(parts @ parts)
+        repeated[rows[there]] = True
+    if repeated.sum() < max(
+        THRESHOLDS.min_repeated_rows, THRESHOLDS.min_repeated_share * np.isfinite(e).sum()
+    ):
+        return None
+    if squares == 0.0:
+        return 0.0, 0.0
+    return float(np.clip(products / squares, 0.0, 1.0)), float(np.sqrt(scatter)) / squares

@@ -1,26 +1,13 @@
 """The comparison in plain sentences."""
 
 from modeler.core.table import WORDS, format_percent
+from modeler.validation import residual_structure
 from modeler.validation.comparison import Comparison, JointComparison, Region
-from modeler.validation.residual_structure import (
-    COORDINATES,
-    NEARLY,
-    Coordinate,
-    convert_orders,
-    find_order_peaks,
-)
-
-NOTICEABLE = 0.05  # share of the residual variance below which a pattern is not mentioned
-_STANDS_OUT = 3.0  # energy share over time share of a region or window worth a remark
-_MORE = 0.1  # share beyond what simpler functions explain from which on it is told
-_MEMORY = 3.5  # samples; filtering and decimation alone leave two or three
-_TOO_LARGE = 0.2  # relative error of which noise is no excuse
-_BURST = 0.5  # share of the squared residual in one short window: an event, not noise
-_LINE = 0.3  # share of the power in one narrow line
+from modeler.validation.thresholds import THRESHOLDS
 
 
 def write_headline(comparison: Comparison) -> str:
-    """One sentence on the whole robot."""
+    """Writes one sentence on the whole robot."""
     if not comparison.joints:
         return f"{comparison.prediction.robot}: no joint could be judged."
     ranked = sorted(comparison.joints, key=lambda item: item.relative_error)
@@ -39,20 +26,20 @@ def write_headline(comparison: Comparison) -> str:
 
 
 def collect_unit_errors(comparison: Comparison) -> list[tuple[str, float]]:
-    """Units of the judged joints, and the error over the joints of each."""
+    """Returns the units of the judged joints, and the error over the joints of each."""
     judged = {item.joint.effort_unit for item in comparison.joints}
     return [(unit, error) for unit, error in comparison.by_unit.items() if unit in judged]
 
 
 def write_verdict(comparison: Comparison) -> tuple[str, ...]:
-    """One line per joint: how good, what is left, when it is worst."""
+    """Writes one line per joint: how good, what is left, when it is worst."""
     lines = [write_joint_verdict(item) for item in comparison.joints]
     lines += [f"Joint {name} is not judged: {reason}." for name, reason in comparison.unjudged]
     return tuple(lines)
 
 
 def write_joint_verdict(item: JointComparison) -> str:
-    """The line of one joint."""
+    """Writes the line of one joint."""
     return (
         f"Joint {item.joint.name}: {format_percent(item.relative_error)} of the "
         f"{WORDS[item.joint.effort_unit]} is unexplained "
@@ -61,7 +48,7 @@ def write_joint_verdict(item: JointComparison) -> str:
 
 
 def describe_findings(item: JointComparison) -> list[str]:
-    """What is left in the residual of a joint, most useful first; never empty."""
+    """Describes what is left in the residual of a joint, most useful first; never empty."""
     if item.rms <= 1e-12 * item.measured_rms:
         return ["prediction and measurement agree to rounding"]
     wrong = describe_wrong_scale(item)
@@ -86,7 +73,7 @@ def _describe_patterns(item: JointComparison) -> list[str]:
 
 
 def describe_wrong_scale(item: JointComparison) -> str | None:
-    """What to check where the prediction is right but for its sign or a factor."""
+    """Describes what to check where the prediction is right but for its sign or a factor."""
     scale, name = item.scale, item.joint.name
     if scale is None:
         return None
@@ -105,29 +92,29 @@ def describe_wrong_scale(item: JointComparison) -> str | None:
 
 
 def compute_repeatable_share(item: JointComparison) -> float:
-    """Repeatable share of what is not explained; 0 if it is within three standard errors of 0."""
+    """Returns the repeatable share of the residual; 0 within three standard errors of 0."""
     shares = item.shares
     if shares is None or (shares.sigma is not None and shares.systematic < 3.0 * shares.sigma):
         return 0.0
     return shares.repeatable_share
 
 
-def find_best_pattern(item: JointComparison) -> tuple[Coordinate, float] | None:
-    """The coordinate that explains most, or a simpler one nearly as good, and its share."""
+def find_best_pattern(item: JointComparison) -> tuple[residual_structure.Coordinate, float] | None:
+    """Finds the coordinate that explains most, or a simpler one nearly as good, and its share."""
     if item.structure is None:
         return None
     top = max(share for _, share in item.structure.shares)
-    if top < NOTICEABLE:
+    if top < THRESHOLDS.min_pattern_share:
         return None
-    for coordinate in COORDINATES:
+    for coordinate in residual_structure.COORDINATES:
         share = item.structure.get_share(coordinate.id)
-        if share >= NEARLY * top:
+        if share >= THRESHOLDS.parsimony_share * top:
             return coordinate, share
     raise AssertionError("the best share is at least 0.9 of itself")
 
 
 def find_best_other(item: JointComparison) -> tuple[str, float] | None:
-    """What explains clearly more by its velocity than the joint itself, and its share.
+    """Finds what explains clearly more by its velocity than the joint itself, and its share.
 
     "joint 3", or "the motor that turns with joints 5 and 6" where the model has friction there.
     """
@@ -141,11 +128,11 @@ def find_best_other(item: JointComparison) -> tuple[str, float] | None:
         return None
     name, share = max(others, key=lambda entry: entry[1])
     joint_share = max(item.structure.get_share("velocity"), item.structure.get_share("direction"))
-    return (name, share) if share >= joint_share + NOTICEABLE else None
+    return (name, share) if share >= joint_share + THRESHOLDS.min_pattern_share else None
 
 
 def classify_residual(item: JointComparison) -> str:
-    """`pattern`, `noise` or `other`: what a reader should see first."""
+    """Returns `pattern`, `noise` or `other`, the class of the residual."""
     patterns = (
         describe_wrong_scale,
         _describe_ripple,
@@ -160,19 +147,19 @@ def classify_residual(item: JointComparison) -> str:
 
 
 def is_too_large(item: JointComparison) -> bool:
-    """Whether so much is left that noise is no excuse."""
-    return item.relative_error >= _TOO_LARGE
+    """Returns whether the error is too large to be noise."""
+    return item.relative_error >= THRESHOLDS.max_noise_error
 
 
 def is_noise_like(item: JointComparison) -> bool:
-    """No pattern, no memory, no line: as far as this page can see, noise."""
+    """Returns True without a pattern, autocorrelation or narrow line."""
     return (
         item.structure is not None
         and not _describe_patterns(item)
         and not _is_autocorrelated(item)
         and _describe_oscillation(item) is None
         and not is_too_large(item)
-        and item.worst.energy_share < _BURST
+        and item.worst.energy_share < THRESHOLDS.max_burst_share
     )
 
 
@@ -181,7 +168,7 @@ def _describe_pattern(item: JointComparison) -> str | None:
     if structure is None:
         return None
     if best is None:
-        if structure.together < NOTICEABLE:
+        if structure.together < THRESHOLDS.min_pattern_share:
             return None
         return (
             f"{format_percent(structure.together)} of that is a repeatable function of the "
@@ -225,16 +212,16 @@ def _describe_other_joint(item: JointComparison) -> str | None:
 def _describe_ripple(item: JointComparison) -> str | None:
     if item.orders is None:
         return None
-    orders, per = convert_orders(item.orders, item.joint.unit)
+    orders, per = residual_structure.convert_orders(item.orders, item.joint.unit)
     # the slowest waves of the spectrum are patterns over position, named elsewhere
-    drawn = find_order_peaks(item.orders, item.joint.unit)
+    drawn = residual_structure.find_order_peaks(item.orders, item.joint.unit)
     fast = [line for line in drawn if line.waves > 2.0 * orders[0]]
-    strong = [line for line in fast if line.share >= NOTICEABLE]
+    strong = [line for line in fast if line.share >= THRESHOLDS.min_pattern_share]
     if not strong:
         return None
     line = strong[0]
     return (
-        f"it ripples with {line.waves:.4g} waves per {per}, {line.amplitude:.2g} "
+        f"ripple of {line.waves:.4g} waves per {per}, {line.amplitude:.2g} "
         f"{item.joint.effort_unit} high"
     )
 
@@ -242,11 +229,14 @@ def _describe_ripple(item: JointComparison) -> str | None:
 def _describe_predictor(item: JointComparison) -> str | None:
     """What all that was measured predicts, where it is clearly more than single coordinates do."""
     structure = item.structure
-    if structure is None or structure.follows.share < NOTICEABLE:
+    if structure is None or structure.follows.share < THRESHOLDS.min_pattern_share:
         return None
     single = (*structure.shares, *structure.across, *structure.motors)
     explained_share = max(structure.together, *(share for _, share in single))
-    if explained_share > NOTICEABLE and structure.follows.share < explained_share + _MORE:
+    if (
+        explained_share > THRESHOLDS.min_pattern_share
+        and structure.follows.share < explained_share + THRESHOLDS.min_further_share
+    ):
         return None
     name, coordinate = structure.follows.joint, structure.follows.coordinate or "motion"
     whose = f"joint {name}" if name else "the joints together"
@@ -262,7 +252,11 @@ def _describe_repeatable(item: JointComparison) -> str | None:
     if (
         item.shares is None
         or item.shares.method == "smooth"
-        or share < max(NOTICEABLE, explained_share + 0.1 if explained_share > NOTICEABLE else 0.0)
+        or share
+        < max(
+            THRESHOLDS.min_pattern_share,
+            explained_share + 0.1 if explained_share > THRESHOLDS.min_pattern_share else 0.0,
+        )
     ):
         return None
     return {
@@ -272,14 +266,14 @@ def _describe_repeatable(item: JointComparison) -> str | None:
 
 
 def _describe_bias(item: JointComparison) -> str | None:
-    if item.bias**2 < 2 * NOTICEABLE * item.rms**2:
+    if item.bias**2 < 2 * THRESHOLDS.min_pattern_share * item.rms**2:
         return None
     return f"the prediction is off by {item.bias:+.2g} {item.joint.effort_unit} on average"
 
 
 def _describe_oscillation(item: JointComparison) -> str | None:
     spectrum = item.spectrum
-    if spectrum is None or spectrum.peak_share < _LINE:
+    if spectrum is None or spectrum.peak_share < THRESHOLDS.min_line_share:
         return None
     # the lowest frequencies are slow patterns, named elsewhere, not oscillations
     if spectrum.peak <= 4 * spectrum.frequency[0] or 5 / spectrum.frequency.size > 0.1:
@@ -289,7 +283,10 @@ def _describe_oscillation(item: JointComparison) -> str | None:
 
 def _is_autocorrelated(item: JointComparison) -> bool:
     spectrum = item.spectrum
-    return spectrum is not None and spectrum.correlation_time > _MEMORY * spectrum.period
+    return (
+        spectrum is not None
+        and spectrum.correlation_time > THRESHOLDS.max_noise_samples * spectrum.period
+    )
 
 
 def _describe_no_pattern(item: JointComparison) -> str:
@@ -307,7 +304,10 @@ def _describe_no_pattern(item: JointComparison) -> str:
 def _describe_worst(item: JointComparison) -> str:
     window = item.worst
     text = f"the worst moment is {window.start:.2f}-{window.end:.2f} s of {window.log}"
-    if window.energy_share > _STANDS_OUT * window.time_share and window.energy_share > 0.1:
+    if (
+        window.energy_share > THRESHOLDS.min_concentration * window.time_share
+        and window.energy_share > 0.1
+    ):
         text += (
             f", {format_percent(window.energy_share)} of the squared residual in "
             f"{format_percent(window.time_share)} of the time"

@@ -9,18 +9,19 @@ from .derivation import (
     render_relations as render_relations,
 )
 from .diagnosis import build_diagnosis_page as build_diagnosis_page
-from .estimators import (
+from .figure_page import write_files as write_files
+from .fit import (
     build_estimators_page as build_estimators_page,
+    build_fit_page as build_fit_page,
     collect_remarks as collect_remarks,
     tabulate_estimates as tabulate_estimates,
     tabulate_estimators as tabulate_estimators,
 )
-from .figure_page import write_files as write_files
-from .fit import build_fit_page as build_fit_page
 from .fleet import build_fleet_page as build_fleet_page
 from .history import (
     build_effect_page as build_effect_page,
     build_history_page as build_history_page,
+    format_relation as format_relation,
     format_step_name as format_step_name,
 )
 from .log import (
@@ -29,7 +30,6 @@ from .log import (
     draw_log_pictures as draw_log_pictures,
     tabulate_channels as tabulate_channels,
 )
-from .nearest_page import render_nearest_page as render_nearest_page
 from .page import (
     Origin as Origin,
     Page as Page,
@@ -40,19 +40,19 @@ from .page import (
     suggest_after_stated as suggest_after_stated,
     write_page as write_page,
 )
-from .robot_closing import Posture as Posture
 from .robot_drawing import render_modes as render_modes, render_picture as render_picture
 from .robot_page import (
     PICTURE_KINDS as PICTURE_KINDS,
     build_page_content as build_page_content,
     describe_posture as describe_posture,
     render_modes_page as render_modes_page,
+    render_nearest_page as render_nearest_page,
     render_robot_page as render_robot_page,
     serialise_posture as serialise_posture,
     show as show,
 )
 from .robot_skeleton import (
+    Posture as Posture,
     build_skeleton as build_skeleton,
     estimate_robot_size as estimate_robot_size,
 )
-from .values import format_relation as format_relation

@@ -3,36 +3,31 @@
 import math
 import statistics
 from collections.abc import Sequence
+from functools import partial
+
+import numpy as np
 
 from modeler import validation
 from modeler.core.figure import Picture
-from modeler.core.table import format_percent
-from modeler.views.blocks import (
-    Code,
-    Figure,
-    Items,
-    JudgedLine,
-    PageCell,
-    PageTable,
-    Paragraph,
-    Verdict,
-)
-from modeler.views.page import Origin, Page, Section
+from modeler.core.result import Figures, Presentation, Tables
+from modeler.core.table import Cell, Table, format_percent
+from modeler.views import page
+from modeler.views.figures import collect_figures
 
 # The page of a free run.
 
 
-def build_free_run_page(free_run: validation.FreeRun, origin: Origin) -> Page:
-    """The table of a free run, what is said of it, measured and simulated positions by joint."""
+def build_free_run_page(free_run: validation.FreeRun, origin: page.Origin) -> page.Page:
+    """Builds the page of a free run: table, sentences, positions by joint."""
     fits = [joint.fit for joint in free_run.joints if joint.fit is not None]
     worst = f"{min(fits):.3g} %" if fits and min(fits) > 0.0 else "nothing"
-    return Page(
+    return page.Page(
         title=f"{free_run.robot}: free run in windows of {free_run.window:g} s",
         headline=(worst, "of the position is simulated right, on the joint that is worst"),
         sections=[
-            Section("Positions", [Code(free_run.summary())]),
+            page.Section("Positions", [page.Code(free_run.summary())]),
             *(
-                Section(p.title, [Figure(p, False)])
+                page.Section(p.title, [page.Figure(p, False)])
                 for p in validation.draw_free_run_pictures(free_run)
             ),
         ],
@@ -48,8 +43,8 @@ def build_model_comparison_page(
     comparison: validation.ModelComparison,
     provenance: Sequence[str] = (),
     held_out: bool | None = None,
-) -> Page:
-    """The page of models side by side.
+) -> page.Page:
+    """Builds the page of models side by side.
 
     Args:
         comparison: from `contest`.
@@ -57,11 +52,11 @@ def build_model_comparison_page(
         held_out: False if a model was fitted on rows of these logs.
     """
     first = comparison.predictions[0]
-    return Page(
+    return page.Page(
         title=f"{first.robot}: {len(comparison.names)} models side by side",
         headline=validation.describe_winner(comparison),
         sections=_build_model_sections(comparison),
-        origin=Origin(", ".join(comparison.names), first.logs, held_out),
+        origin=page.Origin(", ".join(comparison.names), first.logs, held_out),
         facts=[(name, _describe_model(comparison, k)) for k, name in enumerate(comparison.names)],
         provenance=provenance,
         command="compare",
@@ -69,7 +64,7 @@ def build_model_comparison_page(
 
 
 def draw_model_pictures(comparison: validation.ModelComparison) -> list[Picture]:
-    """Measured torque and that of every model, joint by joint."""
+    """Draws the residuals of every model, joint by joint."""
     return [_draw_model_picture(comparison, item) for item in comparison.joints]
 
 
@@ -85,14 +80,16 @@ def _describe_model(comparison: validation.ModelComparison, k: int) -> str:
     return f"error {errors}; best beyond doubt on {best}"
 
 
-def _build_model_sections(comparison: validation.ModelComparison) -> list[Section]:
-    said = Items([("", line) for line in validation.describe_model_comparison(comparison)])
+def _build_model_sections(comparison: validation.ModelComparison) -> list[page.Section]:
+    said = page.Items([("", line) for line in validation.describe_model_comparison(comparison)])
     return [
-        Section("Verdict", [said, _tabulate_errors(comparison), _tabulate_residuals(comparison)])
+        page.Section(
+            "Verdict", [said, _tabulate_errors(comparison), _tabulate_residuals(comparison)]
+        )
     ] + [
-        Section(
+        page.Section(
             f"Joint {item.joint.name}",
-            [Figure(_draw_model_picture(comparison, item), titled=False)],
+            [page.Figure(_draw_model_picture(comparison, item), titled=False)],
             f"joint-{item.joint.name}",
         )
         for item in comparison.joints
@@ -108,36 +105,35 @@ def _draw_model_picture(
     )
 
 
-def _tabulate_errors(comparison: validation.ModelComparison) -> PageTable:
+def _tabulate_errors(comparison: validation.ModelComparison) -> page.PageTable:
     top = max((e for item in comparison.joints for e in item.errors), default=0.0) or 1.0
-    rows: list[list[str | PageCell]] = [
+    rows: list[list[str | page.PageCell]] = [
         [
-            PageCell(item.joint.name, link=f"joint-{item.joint.name}"),
-            *(PageCell(format_percent(e), e / top) for e in item.errors),
+            page.PageCell(item.joint.name, link=f"joint-{item.joint.name}"),
+            *(page.PageCell(format_percent(e), e / top) for e in item.errors),
             "-" if item.best is None else comparison.names[item.best],
             f"{item.p_value:.2g}" if item.p_value >= 1e-6 else "under 1e-6",
         ]
         for item in comparison.joints
     ]
-    return PageTable(
+    return page.PageTable(
         ["joint", *comparison.names, "best beyond doubt", "chance"],
         rows,
         "Relative error: norm of measured minus predicted torque (force) over the norm of what was "
         "measured, each joint by itself, on the rows that count for every model. Chance: that the "
         "best and its nearest rival are equally good, from the spread of the difference between "
-        f"blocks of time; beyond doubt is less than {format_percent(validation.DOUBT)}, shared "
-        "among the "
-        "rivals.",
+        "blocks of time; beyond doubt is less than "
+        f"{format_percent(validation.THRESHOLDS.max_p_value)}, shared among the rivals.",
         dict.fromkeys(comparison.names, "bar") | {"best beyond doubt": "text"},
     )
 
 
-def _tabulate_residuals(comparison: validation.ModelComparison) -> PageTable:
+def _tabulate_residuals(comparison: validation.ModelComparison) -> page.PageTable:
     rows = [
         [item.joint.name, *(f"{rms:.3g} {item.joint.effort_unit}" for rms in item.rms)]
         for item in comparison.joints
     ]
-    return PageTable(
+    return page.PageTable(
         ["joint", *comparison.names], rows, "Root mean square of what each model leaves."
     )
 
@@ -148,7 +144,7 @@ def _tabulate_residuals(comparison: validation.ModelComparison) -> PageTable:
 def draw_joint_pictures(
     comparison: validation.Comparison, item: validation.JointComparison
 ) -> tuple[Picture, ...]:
-    """The pictures of one joint: against time, then against each coordinate."""
+    """Draws the pictures of one joint: against time, then against each coordinate."""
     prediction = comparison.prediction
     return validation.draw_time_picture(prediction, item), validation.draw_residual_picture(
         prediction, item
@@ -156,7 +152,7 @@ def draw_joint_pictures(
 
 
 def draw_all_pictures(comparison: validation.Comparison) -> tuple[Picture, ...]:
-    """The overview, then the pictures of each judged joint."""
+    """Draws the overview, then the pictures of each judged joint."""
     drawn = [
         picture for item in comparison.joints for picture in draw_joint_pictures(comparison, item)
     ]
@@ -172,15 +168,17 @@ _REGION_PHRASES = {
     "fast +": "fast in the positive direction",
 }
 _HEAD = (
-    "joint", "relative error", "rms residual", "sigma", "rms measured", "largest residual", "at",
-    "R\u00b2", "repeatable", "noise", "mean residual", "samples",
-)  # fmt: skip
+    *("joint", "relative error", "rms residual", "sigma", "rms measured", "largest residual"),
+    *("at", "R\u00b2", "repeatable", "noise", "mean residual", "samples"),
+)
 
 
 def build_comparison_page(
-    comparison: validation.Comparison, provenance: Sequence[str] = (), origin: Origin | None = None
-) -> Page:
-    """The page of a comparison.
+    comparison: validation.Comparison,
+    provenance: Sequence[str] = (),
+    origin: page.Origin | None = None,
+) -> page.Page:
+    """Builds the page of a comparison.
 
     Args:
         comparison: from `compare`.
@@ -189,11 +187,11 @@ def build_comparison_page(
     """
     prediction = comparison.prediction
     figure, _, rest = validation.write_headline(comparison).partition(" of ")
-    return Page(
+    return page.Page(
         title=f"{prediction.robot}: measured against predicted torque",
         headline=(figure, f"of {rest}" if rest else ""),
         sections=_build_sections(comparison),
-        origin=origin or Origin(prediction.robot, prediction.logs),
+        origin=origin or page.Origin(prediction.robot, prediction.logs),
         facts=_collect_facts(comparison),
         provenance=(
             f"Robot: {prediction.robot}.",
@@ -206,9 +204,9 @@ def build_comparison_page(
     )
 
 
-def _build_sections(comparison: validation.Comparison) -> list[Section]:
+def _build_sections(comparison: validation.Comparison) -> list[page.Section]:
     method = " ".join(f"{line}." for line in validation.describe_methods(comparison))
-    table = PageTable(
+    table = page.PageTable(
         _HEAD,
         [_build_table_row(item, comparison) for item in comparison.joints],
         "Relative error is the norm of measured minus predicted torque (force) over the norm of "
@@ -218,18 +216,21 @@ def _build_sections(comparison: validation.Comparison) -> list[Section]:
         {"relative error": "bar", "at": "text"},
     )
     sections = [
-        Section("Verdict", [Verdict(_judge_joints(comparison)), table, *_tabulate_logs(comparison)])
+        page.Section(
+            "Verdict", [page.Verdict(_judge_joints(comparison)), table, *_tabulate_logs(comparison)]
+        )
     ]
     if comparison.joints:
         sections.append(
-            Section(
-                "All joints", [Figure(validation.draw_overview_picture(comparison), titled=False)]
+            page.Section(
+                "All joints",
+                [page.Figure(validation.draw_overview_picture(comparison), titled=False)],
             )
         )
     for item in comparison.joints:
-        pictures = [Figure(picture) for picture in draw_joint_pictures(comparison, item)]
-        name, said = item.joint.name, Paragraph(validation.write_joint_verdict(item))
-        sections.append(Section(f"Joint {name}", [said, *pictures], f"joint-{name}"))
+        pictures = [page.Figure(picture) for picture in draw_joint_pictures(comparison, item)]
+        name, said = item.joint.name, page.Paragraph(validation.write_joint_verdict(item))
+        sections.append(page.Section(f"Joint {name}", [said, *pictures], f"joint-{name}"))
     return sections
 
 
@@ -289,14 +290,14 @@ def _describe_remaining_structure(joints: tuple[validation.JointComparison, ...]
     return "No pattern in the joints' motion, but not all of it is noise: see below."
 
 
-def _judge_joints(comparison: validation.Comparison) -> list[JudgedLine]:
+def _judge_joints(comparison: validation.Comparison) -> list[page.JudgedLine]:
     lines = []
     for item in comparison.joints:
         kind, text = validation.classify_residual(item), validation.write_joint_verdict(item)
         first, _, rest = text.partition(": ")
-        lines.append(JudgedLine(kind, _TAGS[kind], first, rest, f"joint-{item.joint.name}"))
+        lines.append(page.JudgedLine(kind, _TAGS[kind], first, rest, f"joint-{item.joint.name}"))
     lines += [
-        JudgedLine("", "not judged", f"Joint {name}", f"{reason}.")
+        page.JudgedLine("", "not judged", f"Joint {name}", f"{reason}.")
         for name, reason in comparison.unjudged
     ]
     return lines
@@ -304,13 +305,13 @@ def _judge_joints(comparison: validation.Comparison) -> list[JudgedLine]:
 
 def _build_table_row(
     item: validation.JointComparison, comparison: validation.Comparison
-) -> list[str | PageCell]:
+) -> list[str | page.PageCell]:
     unit = item.joint.effort_unit
     top = max(other.relative_error for other in comparison.joints)
     share = item.relative_error / top if top else 0.0
     return [
-        PageCell(item.joint.name, link=f"joint-{item.joint.name}"),
-        PageCell(format_percent(item.relative_error), share),
+        page.PageCell(item.joint.name, link=f"joint-{item.joint.name}"),
+        page.PageCell(format_percent(item.relative_error), share),
         f"{item.rms:.3g} {unit}",
         "-" if item.predicted_sigma is None else f"{item.predicted_sigma:.2g} {unit}",
         f"{item.measured_rms:.3g} {unit}",
@@ -324,10 +325,172 @@ def _build_table_row(
     ]
 
 
-def _tabulate_logs(comparison: validation.Comparison) -> list[PageTable]:
+def _tabulate_logs(comparison: validation.Comparison) -> list[page.PageTable]:
     """Relative error of each log and joint; nothing for a single log."""
     if len(comparison.logs) < 2:
         return []
     head, *rows = validation.tabulate_logs(comparison, "all")
     caption = "Relative error by log: of all joints together (rows stacked), and of each by itself."
-    return [PageTable(head, rows, caption)]
+    return [page.PageTable(head, rows, caption)]
+
+
+# Comparisons and free runs as tables and figures of a notebook.
+
+
+def _summarise_model_comparison(comparison: validation.ModelComparison) -> str:
+    first = (
+        f"{comparison.predictions[0].robot}: {len(comparison.names)} models on "
+        f"{comparison.samples} samples"
+    )
+    return "\n".join([first, *validation.format_model_comparison(comparison)])
+
+
+def _collect_model_comparison_tables(comparison: validation.ModelComparison) -> Tables:
+    head = ["joint", *comparison.names, "best beyond doubt", "chance"]
+    rows = [
+        (
+            item.joint.name,
+            *item.errors,
+            None if item.best is None else comparison.names[item.best],
+            item.p_value,
+        )
+        for item in comparison.joints
+    ]
+    return {"errors": lambda: Table.build("relative error of each model", head, rows)}
+
+
+def _summarise_comparison(comparison: validation.Comparison) -> str:
+    first = f"{comparison.prediction.robot}: {validation.write_headline(comparison)}"
+    return "\n".join([first, comparison.summary(), *validation.write_verdict(comparison)])
+
+
+def _collect_comparison_tables(comparison: validation.Comparison) -> Tables:
+    return {
+        "errors": lambda: _build_error_table(comparison),
+        "logs": lambda: _build_log_table(comparison),
+        "residuals": lambda: _build_residual_table(comparison),
+        "torques": lambda: _tabulate_torques(comparison),
+    }
+
+
+def _build_error_table(comparison: validation.Comparison) -> Table:
+    rows = [
+        (
+            item.joint.name,
+            item.relative_error,
+            item.rms,
+            item.joint.effort_unit,
+            item.largest.value,
+            item.largest.time,
+            item.largest.log,
+            item.r2,
+            None if item.shares is None else item.shares.systematic,
+            None if item.shares is None else item.shares.floor,
+            item.bias,
+        )
+        for item in comparison.joints
+    ]
+    return Table.build(
+        f"{comparison.prediction.robot}: measured against predicted",
+        "joint, relative error, rms, unit, largest, at [s], of, R2, repeatable, noise, bias",
+        rows,
+        " ".join(f"{line}." for line in validation.describe_methods(comparison)),
+    )
+
+
+def _build_log_table(comparison: validation.Comparison) -> Table:
+    joints = [f"joint {name}" for name, _ in comparison.logs[0].joints]
+    rows = [
+        (log.log, log.samples, log.relative_error, *(e for _, e in log.joints))
+        for log in comparison.logs
+    ]
+    head = ["log", "samples", "all joints", *joints]
+    return Table.build("relative error of each log", head, rows)
+
+
+def _build_residual_table(comparison: validation.Comparison) -> Table:
+    """Measured minus predicted torque, one row a sample; rows that do not count are NaN."""
+    prediction = comparison.prediction
+    head = [f"{joint.name} [{joint.effort_unit}]" for joint in prediction.joints]
+    return Table.build(
+        "measured minus predicted torque of each joint",
+        ["log", "time [s]", *head],
+        _build_rows(prediction, validation.compute_residual(prediction)),
+        "rows that do not count for a joint have no value",
+    )
+
+
+def _tabulate_torques(comparison: validation.Comparison) -> Table:
+    """Measured and predicted torque side by side."""
+    prediction = comparison.prediction
+    both = np.concatenate([prediction.measured, prediction.predicted], axis=1)
+    head = [
+        f"{what} {joint.name} [{joint.effort_unit}]"
+        for what in ("measured", "predicted")
+        for joint in prediction.joints
+    ]
+    return Table.build(
+        "torques of each joint", ["log", "time [s]", *head], _build_rows(prediction, both)
+    )
+
+
+def _build_rows(prediction: validation.Prediction, values: np.ndarray) -> list[tuple[Cell, ...]]:
+    triples = zip(prediction.run.tolist(), prediction.time.tolist(), values.tolist(), strict=True)
+    return [(prediction.logs[run], time, *row) for run, time, row in triples]
+
+
+def _collect_comparison_figures(comparison: validation.Comparison) -> Figures:
+    drawn = {"overview": partial(validation.draw_overview_picture, comparison)}
+    for item in comparison.joints:
+        for kind, picture in (
+            ("time", validation.draw_time_picture),
+            ("residual", validation.draw_residual_picture),
+        ):
+            drawn[f"{kind} {item.joint.name}"] = partial(picture, comparison.prediction, item)
+    return collect_figures(drawn)
+
+
+def _collect_free_run_tables(free_run: validation.FreeRun) -> Tables:
+    return {
+        "joints": lambda: Table.build(
+            f"{free_run.robot}: free run in windows of {free_run.window:g} s",
+            "joint, position [%], constant speed [%], whole run [%], horizon [s], "
+            "largest error, unit",
+            [
+                (j.name, j.fit, j.constant_speed, j.whole, j.horizon, j.largest, j.unit)
+                for j in free_run.joints
+            ],
+            "position: 100 % is the logged one, 0 % its mean",
+        )
+    }
+
+
+def _collect_free_run_figures(free_run: validation.FreeRun) -> Figures:
+    drawn = [
+        partial(validation.draw_free_run_picture, free_run, j) for j in range(len(free_run.joints))
+    ]
+    names = [f"joint {joint.name}" for joint in free_run.joints]
+    return collect_figures(dict(zip(names, drawn, strict=True)))
+
+
+PRESENTATIONS = {
+    validation.FreeRun: Presentation(
+        "a free run",
+        validation.FreeRun.summary,
+        _collect_free_run_tables,
+        _collect_free_run_figures,
+    ),
+    validation.ModelComparison: Presentation(
+        "a comparison of models",
+        _summarise_model_comparison,
+        _collect_model_comparison_tables,
+        document=build_model_comparison_page,
+    ),
+    validation.Comparison: Presentation(
+        "a comparison",
+        _summarise_comparison,
+        _collect_comparison_tables,
+        _collect_comparison_figures,
+        document=build_comparison_page,
+    ),
+}

@@ -1,8 +1,12 @@
 """The page of a diagnosis: one HTML file, no network."""
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
+from functools import partial
+from operator import attrgetter
 
-from modeler.core.table import format_error_pair, format_percent
+from modeler.core.figure import Picture
+from modeler.core.result import Figures, Presentation, Tables
+from modeler.core.table import Cell, Table, format_error_pair, format_percent
 from modeler.diagnosis import (
     Diagnosis,
     Finding,
@@ -10,21 +14,20 @@ from modeler.diagnosis import (
     describe_equivalents,
     describe_undetectable,
     format_equivalents,
+    format_lines,
     format_location,
     format_unit,
 )
 from modeler.effects import find_effect
-from modeler.views.blocks import Block, Code, Figure, Items, PageCell, PageTable, Paragraph
+from modeler.views import evidence, page
 from modeler.views.effect_evidence import collect_evidence, describe_residuals
-from modeler.views.evidence import draw_evidence_picture, select_alternatives, tabulate_alternatives
-from modeler.views.page import Origin, Page, Section
-from modeler.views.torque_picture import draw_play_picture, draw_push_picture, draw_torque_picture
+from modeler.views.figures import collect_figures, draw_errors_picture
 
 
 def build_diagnosis_page(
-    diagnosis: Diagnosis, provenance: Sequence[str] = (), origin: Origin | None = None
-) -> Page:
-    """The page of a diagnosis.
+    diagnosis: Diagnosis, provenance: Sequence[str] = (), origin: page.Origin | None = None
+) -> page.Page:
+    """Builds the page of a diagnosis.
 
     Args:
         diagnosis: what it shows.
@@ -32,11 +35,11 @@ def build_diagnosis_page(
         origin: model, logs, and whether some were held out; what the diagnosis knows of them if it
             is left out.
     """
-    return Page(
+    return page.Page(
         title=f"{diagnosis.robot}: which effect is missing",
         headline=_write_headline(diagnosis),
         sections=_build_sections(diagnosis),
-        origin=origin or Origin(diagnosis.robot, diagnosis.held_out, bool(diagnosis.held_out)),
+        origin=origin or page.Origin(diagnosis.robot, diagnosis.held_out, bool(diagnosis.held_out)),
         facts=_collect_facts(diagnosis),
         provenance=[*diagnosis.sentences, *provenance],
         command="diagnose",
@@ -96,15 +99,15 @@ def _describe_runner_up(diagnosis: Diagnosis) -> str:
 
 
 def sort_by_error(diagnosis: Diagnosis) -> list[Finding]:
-    """All that was found, refinements too, the largest error before first."""
+    """Returns all findings, refinements too, the largest error before first."""
     findings = [*diagnosis.effects, *diagnosis.refinements]
     return sorted(findings, key=lambda finding: -finding.error_before)
 
 
-def _build_sections(diagnosis: Diagnosis) -> list[Section]:
+def _build_sections(diagnosis: Diagnosis) -> list[page.Section]:
     sections = [
-        Section("Effects", _tabulate_findings(diagnosis)),
-        Section("Joints", [_tabulate_joints(diagnosis)]),
+        page.Section("Effects", _tabulate_findings(diagnosis)),
+        page.Section("Joints", [_tabulate_joints(diagnosis)]),
     ]
     order = [(finding.effect, finding.joint) for finding in sort_by_error(diagnosis)]
     steps = sorted(
@@ -125,25 +128,27 @@ def _build_sections(diagnosis: Diagnosis) -> list[Section]:
         )
     sections += [*_build_event_sections(diagnosis), *_build_proposal_sections(diagnosis)]
     blind = [(f"{what}:", why) for what, why in describe_undetectable(diagnosis)]
-    nothing = Paragraph("Nothing of the catalogue.")
-    sections.append(Section("What these logs cannot show", [Items(blind) if blind else nothing]))
+    nothing = page.Paragraph("Nothing of the catalogue.")
+    sections.append(
+        page.Section("What these logs cannot show", [page.Items(blind) if blind else nothing])
+    )
     return sections
 
 
-def _build_effect_section(diagnosis: Diagnosis, step: SearchStep, section_id: str) -> Section:
+def _build_effect_section(diagnosis: Diagnosis, step: SearchStep, section_id: str) -> page.Section:
     """One effect: what it explains, before and after, and what else could stand for it."""
     item = collect_evidence(diagnosis.search, step)
     effect, joint = step.candidate.effect.id, step.candidate.joint
-    alone = Paragraph(
+    alone = page.Paragraph(
         f"No other effect of the catalogue explains anything of {format_location(joint)}."
     )
-    return Section(
+    return page.Section(
         _format_effect_name(effect, joint),
         [
-            Paragraph(describe_residuals(item)),
-            Figure(draw_torque_picture(item)),
-            Figure(draw_evidence_picture(item)),
-            tabulate_alternatives(step) if select_alternatives(step) else alone,
+            page.Paragraph(describe_residuals(item)),
+            page.Figure(evidence.draw_torque_picture(item)),
+            page.Figure(evidence.draw_evidence_picture(item)),
+            evidence.tabulate_alternatives(step) if evidence.select_alternatives(step) else alone,
         ],
         section_id,
     )
@@ -153,36 +158,48 @@ def _build_section_id(effect: str, joint: str | None) -> str:
     return f"effect-{effect}-{joint or 'robot'}"
 
 
-def _build_event_sections(diagnosis: Diagnosis) -> list[Section]:
+def _build_event_sections(diagnosis: Diagnosis) -> list[page.Section]:
     """Play and pushes, which are no columns."""
     end = diagnosis.search.end
     names = [joint.name for joint in end.data.compiled.spec.joints]
     sections = []
     for finding in diagnosis.effects:
         if finding.pick is None and finding.joint is not None:
-            picture = draw_play_picture(end, names.index(finding.joint))
+            picture = evidence.draw_play_picture(end, names.index(finding.joint))
             sections.append(
-                Section(_format_effect_name(finding.effect, finding.joint), [Figure(picture)])
+                page.Section(
+                    _format_effect_name(finding.effect, finding.joint), [page.Figure(picture)]
+                )
             )
     if diagnosis.window is not None:
-        picture = draw_push_picture(end, diagnosis.window)
-        sections += [Section(f.effect, [Figure(picture)]) for f in diagnosis.effects if f.is_event]
+        picture = evidence.draw_push_picture(end, diagnosis.window)
+        sections += [
+            page.Section(f.effect, [page.Figure(picture)]) for f in diagnosis.effects if f.is_event
+        ]
     return sections
 
 
-def _build_proposal_sections(diagnosis: Diagnosis) -> list[Section]:
+def _build_proposal_sections(diagnosis: Diagnosis) -> list[page.Section]:
     """Equations for what has no name."""
     sections = []
     for discovery in diagnosis.discoveries or ():
         name = f"Equations proposed, {format_location(discovery.joint)}"
         if not discovery.proposals:
-            sections.append(Section(name, [Paragraph(f"{discovery.why}.")]))
+            sections.append(page.Section(name, [page.Paragraph(f"{discovery.why}.")]))
         for proposal in discovery.proposals:
             item = collect_evidence(proposal.final_search, proposal.final_search.steps[-1])
-            sections.append(Section(f"{proposal.equation}, {format_location(discovery.joint)}", [
-                *(Paragraph(line) for line in proposal.summary_lines), Code(proposal.text),
-                Figure(draw_torque_picture(item)), Figure(draw_evidence_picture(item)),
-            ], _build_section_id(proposal.finding.effect, discovery.joint)))  # fmt: skip
+            sections.append(
+                page.Section(
+                    f"{proposal.equation}, {format_location(discovery.joint)}",
+                    [
+                        *(page.Paragraph(line) for line in proposal.summary_lines),
+                        page.Code(proposal.text),
+                        page.Figure(evidence.draw_torque_picture(item)),
+                        page.Figure(evidence.draw_evidence_picture(item)),
+                    ],
+                    _build_section_id(proposal.finding.effect, discovery.joint),
+                )
+            )
     return sections
 
 
@@ -190,10 +207,10 @@ def _format_effect_name(effect: str, joint: str | None) -> str:
     return f"{effect}, {format_location(joint)}"
 
 
-def _tabulate_findings(diagnosis: Diagnosis) -> list[Block]:
+def _tabulate_findings(diagnosis: Diagnosis) -> list[page.Block]:
     findings = sort_by_error(diagnosis)
     if not findings:
-        return [Paragraph(diagnosis.sentences[0])]
+        return [page.Paragraph(diagnosis.sentences[0])]
     head = ("effect", "joint", "values", "error before", "error after", "gain", "why")
     kinds = {"joint": "text", "values": "values", "gain": "bar", "why": "why"}
     drawn = {step.candidate.key for step in diagnosis.search.steps}
@@ -201,7 +218,7 @@ def _tabulate_findings(diagnosis: Diagnosis) -> list[Block]:
         _build_finding_row(finding, (finding.effect, finding.joint) in drawn)
         for finding in findings
     ]
-    return [PageTable(head, rows, _ERRORS, kinds)]
+    return [page.PageTable(head, rows, _ERRORS, kinds)]
 
 
 _ERRORS = (
@@ -213,7 +230,7 @@ _ERRORS = (
 )
 
 
-def _build_finding_row(finding: Finding, drawn: bool) -> list[str | PageCell]:
+def _build_finding_row(finding: Finding, drawn: bool) -> list[str | page.PageCell]:
     values = "; ".join(
         f"{name} = {value:.4g}"
         + (f" \u00b1 {finding.sigmas[name]:.2g}" if name in finding.sigmas else "")
@@ -222,19 +239,19 @@ def _build_finding_row(finding: Finding, drawn: bool) -> list[str | PageCell]:
     )
     status = "refinement" if finding.is_refinement else finding.status
     return [
-        PageCell(
+        page.PageCell(
             f"{finding.effect} ({status})",
             link=_build_section_id(finding.effect, finding.joint) if drawn else "",
         ),
         finding.joint or "all",
         values,
         *format_error_pair(finding.error_before, finding.error_after),
-        PageCell(format_percent(finding.gain), max(0.0, finding.gain)),
+        page.PageCell(format_percent(finding.gain), max(0.0, finding.gain)),
         "; ".join(text for text in (finding.evidence, finding.doubt) if text),
     ]
 
 
-def _tabulate_joints(diagnosis: Diagnosis) -> PageTable:
+def _tabulate_joints(diagnosis: Diagnosis) -> page.PageTable:
     """Share of each joint's torque: explained, systematic, noise."""
     rows = [
         [
@@ -244,10 +261,85 @@ def _tabulate_joints(diagnosis: Diagnosis) -> PageTable:
         ]
         for name, j in diagnosis.joints.items()
     ]
-    return PageTable(
+    return page.PageTable(
         ("joint", "error", "with the effects", "explained", "systematic, unexplained", "noise"),
         rows,
         "Errors of each joint in parts of its own rms torque or force. Shares of its variance with "
         "the effects in. Systematic is what smooth functions "
         "of the motion predict, what returns in the next lap, what lasts, and outbursts.",
     )
+
+
+# Diagnoses as tables and figures of a notebook.
+
+
+def _collect_diagnosis_tables(diagnosis: Diagnosis) -> Tables:
+    blind = "what these logs cannot show", "effect, why"
+    return {
+        "effects": lambda: _tabulate_effects(diagnosis),
+        "joints": lambda: _build_joint_table(diagnosis),
+        "rivals": lambda: Table.build(
+            "rivals of the first effect", "effect, joint, gain", diagnosis.rivals
+        ),
+        "blind spots": lambda: Table.build(*blind, describe_undetectable(diagnosis)),
+    }
+
+
+def _tabulate_effects(diagnosis: Diagnosis) -> Table:
+    rows = [
+        _build_effect_row(f, "missing" if f.status == "fact" else f.status)
+        for f in diagnosis.effects
+    ]
+    rows += [_build_effect_row(f, "refines the model") for f in diagnosis.refinements]
+    return Table.build(
+        f"{diagnosis.robot}: {diagnosis.verdict}",
+        "effect, joint, error before, error after, gain, values [SI], what, evidence",
+        rows,
+        diagnosis.sentences[0],
+    )
+
+
+def _build_effect_row(finding: Finding, what: str) -> tuple[Cell, ...]:
+    values = ", ".join(
+        f"{name} = {value:.4g} {finding.units.get(name, '')}".rstrip()
+        for name, value in finding.parameters.items()
+    )
+    errors = finding.error_before, finding.error_after
+    return finding.effect, finding.joint, *errors, finding.gain, values, what, finding.evidence
+
+
+def _build_joint_table(diagnosis: Diagnosis) -> Table:
+    names = "error_before error_after rms_before rms_after unit explained systematic noise"
+    read = attrgetter(*names.split())
+    rows = [(name, *read(joint)) for name, joint in diagnosis.joints.items()]
+    return Table.build(
+        "errors without and with the effects",
+        "joint, error, with effects, rms, rms with effects, unit, explained, systematic, noise",
+        rows,
+    )
+
+
+def _collect_diagnosis_figures(diagnosis: Diagnosis) -> Figures:
+    drawn: dict[str, Callable[[], Picture]] = {}
+    for step in diagnosis.search.steps:
+        name = step.candidate.effect.id + (
+            f"@{step.candidate.joint}" if step.candidate.joint else ""
+        )
+        drawn[name] = partial(_draw_evidence, diagnosis, step)
+    return collect_figures(drawn | {"errors": partial(draw_errors_picture, diagnosis)})
+
+
+def _draw_evidence(diagnosis: Diagnosis, step: SearchStep) -> Picture:
+    return evidence.draw_evidence_picture(collect_evidence(diagnosis.search, step))
+
+
+PRESENTATIONS = {
+    Diagnosis: Presentation(
+        "a diagnosis",
+        lambda diagnosis: "\n".join(format_lines(diagnosis)),
+        _collect_diagnosis_tables,
+        _collect_diagnosis_figures,
+        ("effects", "joints"),
+        build_diagnosis_page,
+    )
+}

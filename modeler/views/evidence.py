@@ -1,27 +1,33 @@
 """The picture of an effect: the residual without it, the effect's curve, and what is left."""
 
 import dataclasses
+import itertools
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
+from modeler import diagnosis, validation
 from modeler.core.figure import Band, Curve, Means, Panel, Picture, Points, Series
-from modeler.core.style import BLACK, BLUE, GREEN, GREY, SKY, VERMILLION, Style
-from modeler.core.table import format_percent
-from modeler.diagnosis import ScoredCandidate, SearchStep, compute_joint_order_spectrum
-from modeler.validation import DEVIATIONS
-from modeler.views.blocks import PageCell, PageTable
-from modeler.views.effect_evidence import Evidence
-from modeler.views.evidence_axes import build_bins
+from modeler.core.style import (
+    BLACK,
+    BLUE,
+    COLOR_NAMES,
+    COLORS,
+    GREEN,
+    GREY,
+    SHADE,
+    SKY,
+    VERMILLION,
+    Style,
+)
+from modeler.core.table import WORDS, format_percent
+from modeler.validation import WINDOW, break_at_gaps
+from modeler.views.effect_evidence import Evidence, build_bins
+from modeler.views.page import PageCell, PageTable
+from modeler.views.thresholds import THRESHOLDS
 
 # How much of the axes a picture shows: where the effect acts and most means are.
-
-
-_TAIL = 0.005  # of the rows, and of the square of the effect, beyond either end of the x axis
-_LEAST = 0.25  # of the rows that are shown, however small the place is where the effect acts
-_MEANS = 0.05  # of the ends of all intervals beyond either end of the y axis
-_PAD = 0.08  # of a range, on either side
 
 
 @dataclass(frozen=True)
@@ -35,7 +41,7 @@ class AxisRanges:
 
 
 def choose_axis_ranges(item: Evidence) -> AxisRanges:
-    """Of both panels, alike, so that they can be compared.
+    """Chooses the same axis ranges for both panels, so that they can be compared.
 
     The ends are quantiles: neither one spike nor a few rows may flatten everything else. The curve
     of the effect is always inside.
@@ -53,22 +59,27 @@ def _choose_x_range(item: Evidence) -> tuple[float, float]:
         item.axis.x[item.is_inlier],
         (item.contribution if item.effect_torque is None else item.effect_torque)[item.is_inlier],
     )
-    low, high = np.quantile(x, (_TAIL, 1.0 - _TAIL))
+    low, high = np.quantile(x, (THRESHOLDS.tail_share, 1.0 - THRESHOLDS.tail_share))
     order = np.argsort(x)
     share = np.cumsum(adds[order] ** 2)
     if share[-1] > 0.0 and item.axis.shows not in ("t", "waves"):
-        ends = np.searchsorted(share, np.array((_TAIL, 1.0 - _TAIL)) * share[-1])
+        ends = np.searchsorted(
+            share, np.array((THRESHOLDS.tail_share, 1.0 - THRESHOLDS.tail_share)) * share[-1]
+        )
         near, far = x[order[np.minimum(ends, len(x) - 1)]]
         first, last = _widen_range(x, near, far)
         low, high = max(low, first), min(high, last)
-    pad = 0.5 * _PAD * (high - low) or 1.0
+    pad = 0.5 * THRESHOLDS.axis_padding * (high - low) or 1.0
     return float(low - pad), float(high + pad)
 
 
 def _widen_range(x: np.ndarray, near: float, far: float) -> tuple[float, float]:
     """As wide on either side of a place as the place itself, or wider: many rows are inside."""
     beside = far - near
-    while beside > 0.0 and np.mean((x >= near - beside) & (x <= far + beside)) < _LEAST:
+    while (
+        beside > 0.0
+        and np.mean((x >= near - beside) & (x <= far + beside)) < THRESHOLDS.min_shown_rows
+    ):
         beside *= 2.0
     return near - beside, far + beside
 
@@ -84,9 +95,11 @@ def _choose_y_range(
         ends += [(means - error)[inside], (means + error)[inside]]
     curve = item.bins.compute_means(item.axis.apply_direction(effect))[inside]
     every = np.concatenate(ends)
-    low = min(float(np.quantile(every, _MEANS)), float(curve.min()), 0.0)
-    high = max(float(np.quantile(every, 1.0 - _MEANS)), float(curve.max()), 0.0)
-    pad = _PAD * (high - low) or 1.0
+    low = min(float(np.quantile(every, THRESHOLDS.cut_interval_share)), float(curve.min()), 0.0)
+    high = max(
+        float(np.quantile(every, 1.0 - THRESHOLDS.cut_interval_share)), float(curve.max()), 0.0
+    )
+    pad = THRESHOLDS.axis_padding * (high - low) or 1.0
     return low - pad, high + pad
 
 
@@ -123,11 +136,10 @@ EFFECT = Style(VERMILLION, 2.2)
 RIVAL = Style(BLUE, 1.4, dash=True)
 LAW_BAND = Style(SKY, opacity=0.45)
 LINES, LINES_AFTER = Style(BLACK, 1.0), Style(GREEN, 1.4)
-_DOTS = 1500
 
 
 def draw_evidence_picture(item: Evidence) -> Picture:
-    """Residual on the axis where the effect shows itself, without the effect and with it."""
+    """Draws the residual on the axis of the effect, without the effect and with it."""
     pick, view = item.step.candidate, choose_axis_ranges(item)
     panels = [
         _build_residual_panel(item, view),
@@ -153,7 +165,7 @@ def _build_residual_panel(item: Evidence, view: AxisRanges) -> Panel:
     axis, bins = item.axis, item.bins
     curves = [(item.step.candidate.effect.id, item.contribution, EFFECT)]
     if item.baseline is not None:
-        curves.append(("flexible rival", item.baseline, RIVAL))
+        curves.append(("nonparametric fit", item.baseline, RIVAL))
     lines = [
         Curve(name, *_break_at_zero(item, bins.compute_means(axis.apply_direction(y))), style)
         for name, y, style in curves
@@ -167,14 +179,14 @@ def _build_law_panel(item: Evidence, effect_torque: np.ndarray, view: AxisRanges
     y = item.bins.compute_means(item.axis.apply_direction(effect_torque))
     series = [*_build_cloud(item, view, effect_torque + item.after)]
     if item.effect_torque_sigma is not None:
-        half = DEVIATIONS * item.effect_torque_sigma
+        half = validation.THRESHOLDS.band_deviations * item.effect_torque_sigma
         x, low = _break_at_zero(item, y - half)
         series.append(
-            Band("95 % band of its law", x, low, _break_at_zero(item, y + half)[1], LAW_BAND)
+            Band("95 % band of the model", x, low, _break_at_zero(item, y + half)[1], LAW_BAND)
         )
     series.append(Curve(item.step.candidate.effect.id, *_break_at_zero(item, y), EFFECT))
-    panel = _build_panel("its law", item, view, tuple(series))
-    label = panel.y_label.replace("residual", "torque laid to it")
+    panel = _build_panel("model of the effect", item, view, tuple(series))
+    label = panel.y_label.replace("residual", "torque attributed to it")
     return dataclasses.replace(panel, y_label=label, y_range=view.law)
 
 
@@ -186,7 +198,7 @@ def _build_panel(title: str, item: Evidence, view: AxisRanges, series: tuple[Ser
 def _build_cloud(item: Evidence, view: AxisRanges, y: np.ndarray) -> tuple[Series, ...]:
     x, turned = item.axis.x, item.axis.apply_direction(y)
     inside = np.flatnonzero((x >= view.x[0]) & (x <= view.x[1]))
-    plot_rows = inside[:: max(1, len(inside) // _DOTS)]
+    plot_rows = inside[:: max(1, len(inside) // THRESHOLDS.max_dots)]
     return (
         Points("rows", x[plot_rows], turned[plot_rows], ROWS),
         Means(
@@ -211,16 +223,20 @@ def _build_order_panel(item: Evidence) -> Panel:
     order = item.step.candidate.nonlinear_parameters["m"]
     series = []
     for label, state, style in (
-        ("without", item.without, LINES), ("with the effect", item.full, LINES_AFTER),
-    ):  # fmt: skip
-        spectrum = compute_joint_order_spectrum(state, item.j)
+        ("without", item.without, LINES),
+        ("with the effect", item.full, LINES_AFTER),
+    ):
+        spectrum = diagnosis.compute_joint_order_spectrum(state, item.j)
         if spectrum is not None:
             near = (spectrum.order > 0.5 * order) & (spectrum.order < 1.5 * order)
             series.append(Curve(label, spectrum.order[near], spectrum.amplitude[near], style))
     return Panel(
-        "order spectrum", "waves per turn", f"amplitude [{item.unit}]", tuple(series),
+        "order spectrum",
+        "waves per turn",
+        f"amplitude [{item.unit}]",
+        tuple(series),
         marks=((order, f"{order:.4g}"),),
-    )  # fmt: skip
+    )
 
 
 def _write_caption(item: Evidence, view: AxisRanges) -> list[str]:
@@ -254,7 +270,7 @@ def _write_caption(item: Evidence, view: AxisRanges) -> list[str]:
             )
     if item.baseline is not None:
         lines.append(
-            f"{RIVAL.description.capitalize()}: the flexible rival, any smooth law of what was "
+            f"{RIVAL.description.capitalize()}: the nonparametric fit, any smooth law of what was "
             "measured, fitted to other blocks."
         )
     if item.axis.direction is not None:
@@ -266,15 +282,17 @@ def _write_caption(item: Evidence, view: AxisRanges) -> list[str]:
     return [*lines, *view.outside]
 
 
-def select_alternatives(step: SearchStep) -> list[ScoredCandidate]:
-    """The effects that could stand for it: those of the same joint, or of the whole robot."""
+def select_alternatives(step: diagnosis.SearchStep) -> list[diagnosis.ScoredCandidate]:
+    """Selects the alternative effects on the same joint, or of the whole robot."""
     return [rival for rival in step.alternatives if rival.candidate.joint == step.candidate.joint]
 
 
-def tabulate_alternatives(step: SearchStep) -> PageTable:
-    """What the best effects on the same joint explain within the logs, below one another."""
-    gains = [(item.candidate.effect.id, max(0.0, item.variance_reduction))
-             for item in (step.score, *select_alternatives(step)[:7])]  # fmt: skip
+def tabulate_alternatives(step: diagnosis.SearchStep) -> PageTable:
+    """Tabulates what the best effects on the same joint explain within the logs."""
+    gains = [
+        (item.candidate.effect.id, max(0.0, item.variance_reduction))
+        for item in (step.score, *select_alternatives(step)[:7])
+    ]
     return PageTable(
         ("Why not another effect", "explains"),
         [(name, PageCell(format_percent(gain), gain)) for name, gain in gains],
@@ -288,9 +306,9 @@ def tabulate_alternatives(step: SearchStep) -> PageTable:
 def build_scatter_panel(
     title: str, x_label: str, y_label: str, x: np.ndarray, y: np.ndarray, block: np.ndarray
 ) -> Panel:
-    """Rows as dots, and the means of bins with 95 % intervals."""
+    """Builds a panel of rows as dots, and means of bins with 95 % intervals."""
     bins = build_bins(x, np.zeros(len(x)), block, np.ones(len(x), dtype=bool))
-    every = max(1, len(x) // _DOTS)
+    every = max(1, len(x) // THRESHOLDS.max_dots)
     series: Sequence[Series] = (
         Points("rows", x[::every], y[::every], ROWS),
         Means(
@@ -302,3 +320,200 @@ def build_scatter_panel(
         ),
     )
     return Panel(title, x_label, y_label, tuple(series), zero=True)
+
+
+# Torque and residual before and after an effect, where the model without it is worst.
+
+
+MEASURED = Style(BLACK, width=1.2)
+BEFORE = Style(VERMILLION, width=1.6, dash=True)
+AFTER_STYLE = Style(GREEN, width=1.6)
+LEFT = Style(VERMILLION, width=1.2, dash=True)
+STAYS = Style(GREEN, width=1.2)
+
+
+def draw_torque_picture(item: Evidence) -> Picture:
+    """Draws measured torque, the model without and with the effect; below, the residuals."""
+    rows = item.without.rows
+    joint = item.without.data.compiled.spec.joints[item.j]
+    log, start, end = find_worst_window(item)
+    time, pieces = rows.time[item.j], _find_pieces(item)
+    near = (
+        (rows.run[item.j] == log)
+        & (time >= start - THRESHOLDS.torque_margin)
+        & (time <= end + THRESHOLDS.torque_margin)
+    )
+    measured, what = rows.y[item.j], WORDS[joint.effort_unit]
+
+    def build_curve(label: str, y: np.ndarray, style: Style) -> Curve:
+        return Curve(label, *break_at_gaps(pieces[near], time[near], y[near]), style)
+
+    name = item.without.data.observation.logs[log]
+    x_label, pick = f"time in {name} [s]", item.step.candidate
+    above = Panel(
+        "Torque" if what == "torque" else "Force",
+        x_label,
+        f"{what} [{joint.effort_unit}]",
+        (
+            build_curve("measured", measured, MEASURED),
+            build_curve("model before", measured - item.before, BEFORE),
+            build_curve("model after", measured - item.after, AFTER_STYLE),
+        ),
+        shade=(start, end),
+    )
+    below = Panel(
+        "Residual",
+        x_label,
+        f"residual [{joint.effort_unit}]",
+        (
+            build_curve("residual before", item.before, LEFT),
+            build_curve("residual after", item.after, STAYS),
+        ),
+        shade=(start, end),
+        zero=True,
+    )
+    return Picture(
+        name=f"torque_{pick.effect.id}_{pick.joint or 'robot'}",
+        title=f"Joint {joint.name} where it is worst: before and after",
+        caption=_write_torque_caption(item, what, (start, end), name),
+        panels=((above,), (below,)),
+        heights=(0.58, 0.42),
+        height=430,
+        shared_time=True,
+    )
+
+
+def find_worst_window(item: Evidence) -> tuple[int, float, float]:
+    """Returns log, start and end in s of the half second where the model is worst.
+
+    By its squared residual without the effect, on the joint where the effect is seen.
+    """
+    rows, j = item.without.rows, item.j
+    time, run, square = rows.time[j], rows.run[j], np.where(item.is_inlier, item.before, 0.0) ** 2
+    best = (-1.0, 0, 0.0, 0.0)
+    for log in np.unique(run):
+        is_of_log = run == log
+        t, energy = time[is_of_log], np.concatenate([[0.0], np.cumsum(square[is_of_log])])
+        stop = np.searchsorted(t, t + WINDOW, side="right")
+        inside = energy[stop] - energy[:-1]
+        k = int(np.argmax(inside))
+        if inside[k] > best[0]:
+            best = (float(inside[k]), int(log), float(t[k]), float(t[stop[k] - 1]))
+    return best[1], best[2], best[3]
+
+
+def _find_pieces(item: Evidence) -> np.ndarray:
+    """(rows_j,) number of the piece of each row: no line is drawn over rows that do not count."""
+    time, segment = item.without.rows.time[item.j], item.without.rows.segment[item.j]
+    steps = np.diff(time)
+    inside = steps[np.diff(segment) == 0]
+    longest = 1.5 * float(np.median(inside)) if inside.size else np.inf
+    return np.concatenate([[0], np.cumsum((np.diff(segment) != 0) | (steps > longest))])
+
+
+def _write_torque_caption(item: Evidence, what: str, window: tuple[float, float], log: str) -> str:
+    rows, j = item.without.rows, item.j
+    time = rows.time[j]
+    number = item.without.data.observation.logs.index(log)
+    inside = (rows.run[j] == number) & (time >= window[0]) & (time <= window[1])
+    before, after = (float(np.sqrt(np.mean(e[inside] ** 2))) for e in (item.before, item.after))
+    return (
+        f"Above, {MEASURED.description}: measured {what}; {BEFORE.description}: the model without "
+        "the effect, "
+        f"fitted to the same rows; {AFTER_STYLE.description}: with it. Below, what they leave: "
+        f"{LEFT.description} before, {STAYS.description} after. Shaded {COLOR_NAMES[SHADE]}: the "
+        f"{WINDOW} s "
+        f"with the largest squared residual before, {window[0]:.2f} to {window[1]:.2f} s; the rms "
+        f"residual there falls from {before:.3g} to {after:.3g} {item.unit}. Filtered rows of the "
+        "logs that are explained; rows that do not count are left out."
+    )
+
+
+# Pictures of what is no column: knocks of play around the moments they follow, a push in time.
+
+
+def draw_play_picture(state: diagnosis.State, j: int) -> Picture:
+    """Draws |residual| of joint j against the time to the nearest change of its load's sign.
+
+    Args:
+        state: with the effects that are columns.
+        j: index of the joint.
+    """
+    joint = state.data.compiled.spec.joints[j]
+    since = _compute_time_since_reversal(state, j)
+    near = np.abs(since) < THRESHOLDS.reversal_margin
+    panel = build_scatter_panel(
+        "",
+        "time since the load changed its sign [s]",
+        f"|residual| [{joint.effort_unit}]",
+        since[near],
+        np.abs(state.residual[j][near]),
+        state.gram_blocks.block[j][near],
+    )
+    panel = replace(panel, shade=(0.0, diagnosis.AFTER))
+    return Picture(
+        f"evidence_backlash_{joint.name}",
+        f"Play in the gear: joint {joint.name}",
+        "The teeth knock when the load pushes them to the other side. "
+        f"{ROWS.description.capitalize()}: rows; {MEANS.description}: means of bins with 95 % "
+        "intervals; "
+        "shaded: where the knocks are looked for. Friction and springs do not know these moments.",
+        ((panel,),),
+        380,
+    )
+
+
+def _compute_time_since_reversal(state: diagnosis.State, j: int) -> np.ndarray:
+    """(rows_j,) s since the nearest change of sign, negative before it; infinite without any."""
+    since = np.full(len(state.residual[j]), np.inf)
+    for number, (signals, turns) in enumerate(
+        zip(state.rows.signals, diagnosis.find_load_reversals(state, j), strict=True)
+    ):
+        at = signals.segment.time[turns]
+        is_of_segment = state.rows.segment[j] == number
+        if at.size and is_of_segment.any():
+            time = state.rows.time[j][is_of_segment]
+            after = np.clip(np.searchsorted(at, time), 1, max(1, len(at) - 1))
+            pairs = time[:, None] - at[np.column_stack([after - 1, np.minimum(after, len(at) - 1)])]
+            since[is_of_segment] = pairs[np.arange(len(time)), np.argmin(np.abs(pairs), axis=1)]
+    return since
+
+
+def draw_push_picture(state: diagnosis.State, window: diagnosis.PushWindow) -> Picture:
+    """Draws residuals of all joints around a push, in parts of the joint's rms torque.
+
+    Args:
+        state: without the rows of the push.
+        window: when it pushed.
+    """
+    seen = state.data.observation
+    left = seen.torque - seen.predict(state.beta)
+    shown = (seen.run == window.log) & (seen.time > window.start - THRESHOLDS.push_margin)
+    shown &= seen.time < window.end + THRESHOLDS.push_margin
+    masked = (seen.time > window.start - diagnosis.MARGIN) & (
+        seen.time < window.end + diagnosis.MARGIN
+    )
+    left[~(seen.used | masked[:, None])] = np.nan  # reversals of a joint: nobody looks at them
+    size = np.sqrt(np.mean(seen.torque**2, axis=0))
+    curves = tuple(
+        Curve(f"joint {joint.name}", seen.time[shown], left[shown, j] / size[j], Style(color))
+        for j, (joint, color) in enumerate(zip(seen.joints, itertools.cycle(COLORS), strict=False))
+        if size[j] > 0.0
+    )
+    name = seen.logs[window.log]
+    panel = Panel(
+        name,
+        "time [s]",
+        "residual over rms torque",
+        curves,
+        shade=(window.start, window.end),
+        zero=True,
+    )
+    return Picture(
+        "evidence_external_force",
+        "Something pushed",
+        "What the model leaves of the torques; shaded: while it pushed. These rows are left out of "
+        "everything else.",
+        ((panel,),),
+        380,
+    )

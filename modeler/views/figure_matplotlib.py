@@ -25,7 +25,7 @@ _SETTINGS: Any = {
 
 
 def render_images(picture: Picture) -> dict[str, bytes]:
-    """The picture as PNG (150 dpi) and SVG files, 12 inches wide, without a date or version."""
+    """Renders the picture as PNG (150 dpi) and SVG, 12 inches wide, without a date or version."""
     with matplotlib.rc_context(_SETTINGS):
         figure = _build_figure(picture)
         png = _save_figure(figure, "png", {"Software": None})
@@ -43,7 +43,7 @@ class Drawing(Figure):
 
 
 def draw_figure(picture: Picture) -> Drawing:
-    """The picture as a figure of matplotlib, 12 inches wide."""
+    """Draws the picture as a figure of matplotlib, 12 inches wide."""
     with matplotlib.rc_context(_SETTINGS):
         return _build_figure(picture)
 
@@ -133,9 +133,14 @@ def _draw_series(axes: Any, series: Series) -> None:
     elif isinstance(series, Band):
         style = series.style
         axes.fill_between(
-            series.x, series.low, series.high, color=style.color, alpha=style.opacity, lw=0,
+            series.x,
+            series.low,
+            series.high,
+            color=style.color,
+            alpha=style.opacity,
+            lw=0,
             label=series.label,
-        )  # fmt: skip
+        )
     elif isinstance(series, Means):
         axes.errorbar(
             series.x,

@@ -11,12 +11,12 @@ import numpy as np
 from modeler.core.figure import Band, Bars, Curve, Heat, Means, Panel, Picture, Points, Series
 from modeler.core.files import write_atomically
 from modeler.core.json import select_attributes
+from modeler.views.thresholds import THRESHOLDS
 
 # The numbers of all pictures of a page in one compressed block, each array once.
 
 
 _LEVELS = 65534  # between the smallest and the largest value; one more level is NaN
-_SINGLE = 1e-6  # of the range of x: less than a pixel of any screen
 
 
 class ArrayStore:
@@ -34,7 +34,7 @@ class ArrayStore:
         self._bytes: list[bytes] = []
 
     def add_coarse(self, values: np.ndarray) -> int:
-        """The number of an array that a linear axis shows; what is not finite becomes NaN."""
+        """Returns the number of an array for a linear axis; what is not finite becomes NaN."""
         exact = np.asarray(values, dtype=np.float64)
         held = np.isfinite(exact)
         low, span = (float(exact[held].min()), float(np.ptp(exact[held]))) if held.any() else (0, 0)
@@ -44,13 +44,17 @@ class ArrayStore:
         return self._add_array(levels, [float(low), float(step)])
 
     def add_exact(self, values: np.ndarray) -> int:
-        """The number of an array in single or double precision."""
+        """Returns the number of an array in single or double precision."""
         whole = np.asarray(values, dtype=np.float64)
         held = whole[np.isfinite(whole)]
         with np.errstate(over="ignore"):
             single = whole.astype(np.float32)
         away = np.abs(held - held.astype(np.float32)).max() if held.size else 0.0
-        enough = not held.size or away <= _SINGLE * np.ptp(held) or np.ptp(held) == 0.0
+        enough = (
+            not held.size
+            or away <= THRESHOLDS.single_precision_share * np.ptp(held)
+            or np.ptp(held) == 0.0
+        )
         return self._add_array(single if enough else whole, [])
 
     def _add_array(self, values: np.ndarray, scale: list[float]) -> int:
@@ -65,7 +69,7 @@ class ArrayStore:
         return self._places[key]
 
     def encode_block(self) -> dict[str, Any]:
-        """What the page holds.
+        """Returns the arrays that the page holds.
 
         `arrays`: of each its count, the bytes of a value, and of two-byte levels the lowest value
         and the step. `data`: gzip of them all, as base64.
@@ -74,12 +78,12 @@ class ArrayStore:
 
 
 def compress_base64(content: bytes) -> str:
-    """gzip as base64, the same for the same content."""
+    """Compresses by gzip and encodes as base64, reproducibly."""
     return base64.b64encode(gzip.compress(content, 9, mtime=0)).decode("ascii")
 
 
 def describe_picture(picture: Picture, numbers: ArrayStore) -> dict[str, Any]:
-    """Panels and series of a picture; arrays by their number.
+    """Describes panels and series of a picture; arrays by their number.
 
     Maps of cells (`Heat`) are left out: a page shows them as tables.
 
@@ -101,7 +105,7 @@ def describe_picture(picture: Picture, numbers: ArrayStore) -> dict[str, Any]:
 def arrange_panels(
     picture: Picture,
 ) -> tuple[Sequence[Sequence[Panel]], Sequence[float], Sequence[float]]:
-    """Rows of panels with axes, their heights and the widths of the columns.
+    """Returns rows of panels with axes, their heights and the widths of the columns.
 
     Where maps of cells stand between them, the others are put side by side.
     """
@@ -122,13 +126,13 @@ def arrange_panels(
 
 
 def find_heat_maps(picture: Picture) -> list[tuple[Panel, Heat]]:
-    """The maps of cells of a picture, each with its panel."""
+    """Finds the maps of cells of a picture, each with its panel."""
     panels = [panel for row in picture.panels for panel in row]
     return [(panel, s) for panel in panels for s in panel.series if isinstance(s, Heat)]
 
 
 def collect_legend(picture: Picture) -> list[tuple[str, str, str]]:
-    """The legend, of panels with several series: label, colour, kind of mark; each label once."""
+    """Collects the legend of panels with several series: label, colour, kind of mark."""
     legend: dict[str, tuple[str, str, str]] = {}
     for panel in (panel for row in arrange_panels(picture)[0] for panel in row):
         for series in panel.series if len(panel.series) > 1 else ():
@@ -212,7 +216,7 @@ def _describe_series(
 def write_files(
     folder: Path, pictures: Sequence[Picture], progress: Callable[[float], None] | None = None
 ) -> tuple[Path, ...]:
-    """Write every picture; returns the paths written.
+    """Writes every picture; returns the paths written.
 
     Args:
         folder: made if it is not there.
@@ -237,7 +241,7 @@ def write_files(
 
 
 def format_csv(picture: Picture) -> str:
-    """The numbers behind a picture: panel, series, x, y, error; five significant digits."""
+    """Formats the numbers of a picture: panel, series, x, y, error; five significant digits."""
     lines = ["panel,series,x,y,error"]
     for panel in (panel for row in picture.panels for panel in row):
         for series in panel.series:

@@ -17,24 +17,22 @@ from modeler.core.thinning import LIMIT, thin_curves
 from modeler.estimation import FitResult
 from modeler.robot import Robot
 from modeler.views.robot_page import show
+from modeler.views.thresholds import THRESHOLDS
 
 if TYPE_CHECKING:
     from modeler.diagnosis import Diagnosis
     from modeler.views.figure_matplotlib import Drawing
 
 
-_MOST_BARS = 40
-
-
 def draw_picture(picture: Picture) -> "Drawing":
-    """The picture as a figure."""
+    """Draws the picture as a figure."""
     from modeler.views.figure_matplotlib import draw_figure  # it takes long to load
 
     return draw_figure(picture)
 
 
 def collect_figures(drawn: Mapping[str, Callable[[], Picture]]) -> Figures:
-    """Figures by name, each drawn when it is asked for."""
+    """Returns figures by name, each drawn when it is requested."""
     return {name: partial(_draw_deferred, draw) for name, draw in drawn.items()}
 
 
@@ -43,7 +41,7 @@ def _draw_deferred(draw: Callable[[], Picture]) -> "Drawing":
 
 
 def draw_robot(robot: Robot) -> "Drawing":
-    """The robot at its [home], as wide as a column of a paper."""
+    """Draws the robot at its [home], as wide as a column of a paper."""
     from modeler.views.figure_matplotlib import Drawing
     from modeler.views.robot_drawing import draw_skeleton as skeleton_figure
 
@@ -52,8 +50,10 @@ def draw_robot(robot: Robot) -> "Drawing":
 
 
 def draw_parameters(fit: FitResult) -> "Drawing":
-    """How sure each parameter is: its sigma in percent of its value."""
-    known = [p for p in fit.parameters if p.relative_sigma_percent is not None][:_MOST_BARS]
+    """Draws the standard deviation of each parameter in percent of its value."""
+    known = [p for p in fit.parameters if p.relative_sigma_percent is not None][
+        : THRESHOLDS.max_bars
+    ]
     shares = np.array([min(p.relative_sigma_percent or 0.0, 100.0) for p in known])
     # two digits, all of those before the point
     texts = tuple(
@@ -63,20 +63,18 @@ def draw_parameters(fit: FitResult) -> "Drawing":
     names = tuple(p.name for p in known)
     bars = Bars("relative sigma", names, shares, texts, Style(BLUE))
     label = "sigma [% of the value], at most 100 drawn"
-    return draw_picture(Picture(
-        name="parameters", title=f"{fit.robot}: how sure the parameters are", caption="",
-        panels=((Panel(f"{len(known)} of {len(fit.parameters)} base parameters", "", label,
-                       (bars,)),),),
-        height=380,
-    ))  # fmt: skip
+    panel = Panel(f"{len(known)} of {len(fit.parameters)} base parameters", "", label, (bars,))
+    title = f"{fit.robot}: how sure the parameters are"
+    return draw_picture(Picture("parameters", title, "", ((panel,),), 380))
 
 
 def draw_errors_picture(diagnosis: "Diagnosis") -> Picture:
-    """Relative error of every joint, without and with the effects."""
+    """Draws the relative error of every joint, without and with the effects."""
     panels, names = [], tuple(diagnosis.joints)
     for title, entry, color in (
-        ("as fitted", "error_before", BLUE), ("with the effects", "error_after", ORANGE),
-    ):  # fmt: skip
+        ("as fitted", "error_before", BLUE),
+        ("with the effects", "error_after", ORANGE),
+    ):
         values = np.array([100.0 * getattr(joint, entry) for joint in diagnosis.joints.values()])
         texts = tuple("" if np.isnan(value) else f"{value:.2f}" for value in values)
         bars = Bars("error", names, values, texts, Style(color))
@@ -88,7 +86,7 @@ def draw_errors_picture(diagnosis: "Diagnosis") -> Picture:
 def draw_log(
     title: str, joints: Sequence[str], time: np.ndarray, q: np.ndarray, tau: np.ndarray
 ) -> "Drawing":
-    """Positions and torques of all joints against time."""
+    """Draws positions and torques of all joints against time."""
     panels = tuple(
         (Panel(what, "time [s]", label, build_curves(joints, time, list(values.T)), zero=True),)
         for what, label, values in (
@@ -96,15 +94,17 @@ def draw_log(
             ("torques", "tau [N m, N]", tau),
         )
     )
-    return draw_picture(Picture(
-        name="channels", title=title, caption="", panels=panels, height=620, shared_time=True,
-    ))  # fmt: skip
+    return draw_picture(
+        Picture(
+            name="channels", title=title, caption="", panels=panels, height=620, shared_time=True
+        )
+    )
 
 
 def build_curves(
     names: Sequence[str], time: np.ndarray, columns: Sequence[np.ndarray], limit: int = LIMIT
 ) -> tuple[Curve, ...]:
-    """Columns against time, each in a colour of its own and of at most `limit` points."""
+    """Builds columns against time, each in a colour of its own, of at most `limit` points."""
     curves = []
     for k, (name, values) in enumerate(zip(names, columns, strict=True)):
         rows = thin_curves((values,), limit)

@@ -1,4 +1,4 @@
-"""Fits and models: the page of a fit, tables and figures of a notebook."""
+"""Fits and models: the page of a fit and of all estimators, tables and figures of a notebook."""
 
 from collections.abc import Sequence
 from functools import partial
@@ -14,25 +14,101 @@ from modeler.estimation import (
     FitResult,
     IdentifiedModel,
     MethodComparison,
+    MethodResult,
     ParameterEstimate,
 )
-from modeler.views.blocks import Items, JudgedLine, PageTable, Verdict
-from modeler.views.estimators import (
-    build_estimators_page,
-    collect_remarks,
-    tabulate_estimates,
-    tabulate_estimators,
-)
+from modeler.views import history, page
 from modeler.views.figures import draw_parameters, draw_picture
-from modeler.views.history import build_history_page, draw_waterfall_picture, format_step_name
-from modeler.views.noise import build_noise_blocks, draw_noise_picture
-from modeler.views.page import Origin, Page, Section, suggest_after_fit
-from modeler.views.values import tabulate_joint_errors, tabulate_values
+from modeler.views.log import build_noise_blocks, draw_noise_picture
+from modeler.views.thresholds import THRESHOLDS
+
+# The page of all estimators on the same logs.
+
+
+def build_estimators_page(
+    robot: str, trials: Sequence[MethodResult], provenance: Sequence[str]
+) -> page.Page:
+    """Builds the page of all estimators on the logs of a robot of that name.
+
+    Args:
+        robot: its name.
+        trials: from `estimation.side_by_side`.
+        provenance: lines on how the data came about.
+    """
+    (head, *errors), (names, *values) = tabulate_estimators(trials), tabulate_estimates(trials)
+    sections = [
+        page.Section("Errors and effort", [page.PageTable(head, errors)]),
+        page.Section("Values and standard deviations", [page.PageTable(names, values)]),
+        page.Section("What each says", [page.Items(collect_remarks(trials))]),
+    ]
+    done = sum(trial.fit is not None for trial in trials)
+    return page.Page(
+        f"Estimators on {robot}",
+        (str(done), f"of {len(trials)} estimators fit these logs"),
+        sections,
+        page.Origin(robot),
+        provenance=provenance,
+        command="estimators",
+    )
+
+
+def tabulate_estimators(trials: Sequence[MethodResult]) -> list[list[str]]:
+    """Returns a head and one row a method: errors, conditioning, seconds."""
+    rows = [["method", "training %", "held out %", "condition", "essential", "farthest", "seconds"]]
+    for trial in trials:
+        fit = trial.fit
+        if fit is None:
+            rows.append([trial.method, "refused", "", "", "", "", f"{trial.seconds:.2f}"])
+            continue
+        far = (
+            "-" if trial.farthest is None else f"{trial.farthest[0]} {trial.farthest[1]:.1f} sigma"
+        )
+        rows.append(
+            [
+                trial.method,
+                f"{100 * fit.relative_error:.3f}",
+                "-" if trial.held_out_error is None else f"{100 * trial.held_out_error:.3f}",
+                f"{fit.condition_scaled:.3g}",
+                f"{sum(p.essential for p in fit.parameters)} of {len(fit.parameters)}",
+                far,
+                f"{trial.seconds:.2f}",
+            ]
+        )
+    return rows
+
+
+def tabulate_estimates(trials: Sequence[MethodResult]) -> list[list[str]]:
+    """Returns a head and one row a parameter: value +- sigma by each method that fitted."""
+    fits = [trial.fit for trial in trials if trial.fit is not None]
+    rows = [["parameter", "unit", *(fit.method for fit in fits)]]
+    for column in zip(*(fit.parameters for fit in fits), strict=True):
+        rows.append([column[0].name, column[0].unit, *map(_format_value, column)])
+    return rows
+
+
+def _format_value(parameter: ParameterEstimate) -> str:
+    if parameter.sigma is None:
+        return "set aside"
+    return f"{parameter.value:.4g} +- {parameter.sigma:.2g}"
+
+
+def collect_remarks(trials: Sequence[MethodResult]) -> list[tuple[str, str]]:
+    """Returns method and remark, or the reason of its refusal."""
+    return [
+        (trial.method, remark)
+        for trial in trials
+        for remark in ((trial.refusal,) if trial.refusal else trial.remarks)
+    ]
+
+
+# Fits and models: the page of a fit, tables and figures of a notebook.
 
 
 def _summarise_fit(fit: FitResult) -> str:
-    first = (f"{fit.robot}: {len(fit.parameters)} base parameters by {fit.method}, relative error "
-             f"{format_percent(fit.relative_error)}{_describe_refusal(fit)}")  # fmt: skip
+    first = (
+        f"{fit.robot}: {len(fit.parameters)} base parameters by {fit.method}, relative error "
+        f"{format_percent(fit.relative_error)}{_describe_refusal(fit)}"
+    )
     return "\n".join([first, *fit.format_lines()])
 
 
@@ -43,10 +119,13 @@ def _describe_refusal(fit: FitResult) -> str:
 
 
 def collect_fit_tables(fit: FitResult) -> Tables:
-    """The tables of a fit; those of loads, gains and the reduced model where there are any."""
+    """Collects the tables of a fit, with those of loads, gains and the reduced model."""
     reduced = () if fit.essential is None else fit.essential.parameters
-    named = {"essential": ("reduced model", reduced), "loads": ("loads", fit.loads),
-             "gains": ("drive gains", fit.gains)}  # fmt: skip
+    named = {
+        "essential": ("reduced model", reduced),
+        "loads": ("loads", fit.loads),
+        "gains": ("drive gains", fit.gains),
+    }
     return {
         "parameters": lambda: _build_estimates_table(
             f"{fit.robot}: base parameters", fit.parameters
@@ -63,10 +142,12 @@ def collect_fit_tables(fit: FitResult) -> Tables:
 def _build_estimates_table(title: str, parameters: Sequence[ParameterEstimate]) -> Table:
     known = any(p.prior is not None for p in parameters)
     rows = [
-        (p.name, p.value if p.sigma is not None else None, p.sigma, p.relative_sigma_percent,
-         p.unit, p.essential if p.sigma is not None else p.status, *([p.prior] if known else []))
+        (p.name, p.value, p.sigma, p.relative_sigma_percent, p.unit, p.essential, *prior)
+        if p.sigma is not None
+        else (p.name, None, None, p.relative_sigma_percent, p.unit, p.status, *prior)
         for p in parameters
-    ]  # fmt: skip
+        for prior in [[p.prior] if known else []]
+    ]
     head = "parameter, value, sigma, relative_sigma_percent, unit, essential"
     return Table.build(title, f"{head}, prior share" if known else head, rows)
 
@@ -77,7 +158,7 @@ def _tabulate_errors(fit: FitResult) -> Table:
         "joint, relative error, rms, unit, rows",
         [(j.name, j.relative_error, j.rms, j.unit, j.rows) for j in fit.joints],
         f"all rows together: {format_percent(fit.relative_error)}, on the logs of the fit",
-    )  # fmt: skip
+    )
 
 
 def _collect_fit_figures(fit: FitResult) -> Figures:
@@ -88,8 +169,10 @@ def _collect_fit_figures(fit: FitResult) -> Figures:
 
 def _summarise_model(model: IdentifiedModel) -> str:
     logs = ", ".join(log.name for log in model.logs)
-    lines = [f"model of {model.spec.robot}: {len(model.beta)} base parameters by "
-             f"{model.fit.method}, fitted on {logs}{_describe_refusal(model.fit)}"]  # fmt: skip
+    lines = [
+        f"model of {model.spec.robot}: {len(model.beta)} base parameters by "
+        f"{model.fit.method}, fitted on {logs}{_describe_refusal(model.fit)}"
+    ]
     lines += [_describe_step(step) for step in model.history]
     return "\n".join([*lines, *model.fit.format_lines()])
 
@@ -99,9 +182,10 @@ def _collect_model_tables(model: IdentifiedModel) -> Tables:
     if model.history:
         tables["waterfall"] = lambda: _tabulate_history(model)
     tables["logs"] = lambda: Table.build(
-        "logs of the fit", "log, rows, samples, from [s], to [s]",
+        "logs of the fit",
+        "log, rows, samples, from [s], to [s]",
         [(log.name, log.rows, log.samples, log.start, log.end) for log in model.logs],
-    )  # fmt: skip
+    )
     return tables
 
 
@@ -110,16 +194,18 @@ def _tabulate_history(model: IdentifiedModel) -> Table:
     return Table.build(
         f"{model.spec.robot}: error after every effect",
         "effect, joint, error, on the fitted logs",
-        [(step.effect or "as fitted", step.joint, step.error, step.training_error)
-         for step in model.history],
+        [
+            (step.effect or "as fitted", step.joint, step.error, step.training_error)
+            for step in model.history
+        ],
         f"error: on {held}" if held else "error: on parts of the fitted logs, left out in turn",
-    )  # fmt: skip
+    )
 
 
 def _collect_model_figures(model: IdentifiedModel) -> Figures:
     figures = dict(_collect_fit_figures(model.fit))
     if model.history:
-        picture = draw_waterfall_picture(model.history)
+        picture = history.draw_waterfall_picture(model.history)
         figures["waterfall"] = lambda: draw_picture(picture)
     return figures
 
@@ -127,7 +213,7 @@ def _collect_model_figures(model: IdentifiedModel) -> Figures:
 def _describe_step(step: Addition) -> str:
     fitted = format_percent(step.training_error)
     return (
-        f"{format_step_name(step)}: error {format_percent(step.error)} ({fitted} on the "
+        f"{history.format_step_name(step)}: error {format_percent(step.error)} ({fitted} on the "
         "fitted logs)"
     )
 
@@ -157,7 +243,7 @@ PRESENTATIONS = {
         _collect_model_tables,
         _collect_model_figures,
         ("parameters", "errors", "waterfall"),
-        lambda m, notes: (build_history_page if m.history else build_fit_page)(m, notes),
+        lambda m, notes: (history.build_history_page if m.history else build_fit_page)(m, notes),
         dict.fromkeys(("", ".json"), estimation.save_model),
     ),
     Addition: Presentation("an addition", _describe_step),
@@ -173,15 +259,13 @@ PRESENTATIONS = {
 # The page of a fit: values with sigma, what each is the sum of, condition, doubts.
 
 
-_TANGLED = 0.95  # correlation of two estimates from which on they are told
-_MOST = 12  # pairs that are told
-
-
 def build_fit_page(
-    model: IdentifiedModel, provenance: Sequence[str] = (), place: str = "MODEL",
+    model: IdentifiedModel,
+    provenance: Sequence[str] = (),
+    place: str = "MODEL",
     following: Sequence[str] = (),
-) -> Page:  # fmt: skip
-    """The page of a fit.
+) -> page.Page:
+    """Builds the page of a fit.
 
     Args:
         model: fitted.
@@ -191,12 +275,12 @@ def build_fit_page(
     """
     fit = model.fit
     judged = "nobody has judged it" if fit.verdict is None else fit.verdict.line
-    following = following or suggest_after_fit(place, ["LOG"], fit.robot, fit)
-    return Page(
+    following = following or page.suggest_after_fit(place, ["LOG"], fit.robot, fit)
+    return page.Page(
         title=f"{fit.robot}: fitted values",
         headline=(fit.format_error(), f"left on the fitted logs: {judged}"),
         sections=_build_sections(model),
-        origin=Origin(place, [log.name for log in model.logs], False, following),
+        origin=page.Origin(place, [log.name for log in model.logs], False, following),
         facts=_collect_facts(fit),
         provenance=provenance,
         command="fit",
@@ -207,61 +291,71 @@ def _collect_facts(fit: FitResult) -> list[tuple[str, str]]:
     sure = [p for p in fit.parameters if (p.relative_sigma_percent or np.inf) < 10.0]
     aside = [p.name for p in fit.parameters if p.sigma is None]
     facts = [
-        ("How sure?", f"{len(sure)} of {len(fit.parameters)} parameters within 10 % (one sigma); "
-         f"{sum(p.essential for p in fit.parameters)} are essential"),
-        ("Condition number", f"{fit.condition_number:.4g}; {fit.condition_scaled:.4g} with columns "
-         f"of length one; {fit.rows} rows of {fit.samples} samples"),
+        (
+            "How sure?",
+            f"{len(sure)} of {len(fit.parameters)} parameters within 10 % (one sigma); "
+            f"{sum(p.essential for p in fit.parameters)} are essential",
+        ),
+        (
+            "Condition number",
+            f"{fit.condition_number:.4g}; {fit.condition_scaled:.4g} with columns "
+            f"of length one; {fit.rows} rows of {fit.samples} samples",
+        ),
         ("Estimator", find_estimator_title(fit.method)),
-    ]  # fmt: skip
+    ]
     if aside:
         facts.append(("Set aside", ", ".join(aside)))
     return facts
 
 
-def _build_sections(model: IdentifiedModel) -> list[Section]:
+def _build_sections(model: IdentifiedModel) -> list[page.Section]:
     fit = model.fit
     sections = [
-        Section("Verdict", _build_verdict_blocks(fit)),
-        Section("Joints", [tabulate_joint_errors(fit)]),
+        page.Section("Verdict", _build_verdict_blocks(fit)),
+        page.Section("Joints", [history.tabulate_joint_errors(fit)]),
     ]
     caption = (
         "SI units. Sigma is one standard deviation from the scatter of the residuals; the bar is "
         "full at 30 %. A parameter without a sum is a standard parameter by itself."
     )
-    sections.append(Section("Values", [tabulate_values(fit.parameters, model.spec.base, caption)]))
+    sections.append(
+        page.Section("Values", [history.tabulate_values(fit.parameters, model.spec.base, caption)])
+    )
     for title, others in (("Loads", fit.loads), ("Drive gains", fit.gains)):
         if others:
-            sections.append(Section(title, [tabulate_values(others)]))
+            sections.append(page.Section(title, [history.tabulate_values(others)]))
     if noise := build_noise_blocks(fit.bands):
-        sections.append(Section("Noise of the motion", noise))
+        sections.append(page.Section("Noise of the motion", noise))
     pairs = find_correlated_pairs(model)
     if pairs:
-        table = PageTable(
+        table = page.PageTable(
             ("parameter", "and", "correlation"),
             [(a, b, f"{value:+.3f}") for a, b, value in pairs],
             "The torques of these logs tell the sum (-1) or the difference (+1) of such a pair "
             "better than either; more exciting motion parts them.",
             {"and": "text"},
         )
-        sections.append(Section("What the data hardly tell apart", [table]))
+        sections.append(page.Section("What the data hardly tell apart", [table]))
     return sections
 
 
-def _build_verdict_blocks(fit: FitResult) -> list[Verdict | Items]:
-    blocks: list[Verdict | Items] = []
+def _build_verdict_blocks(fit: FitResult) -> list[page.Verdict | page.Items]:
+    blocks: list[page.Verdict | page.Items] = []
     if fit.verdict is not None:
         kind, tag = ("noise", "valid") if fit.verdict.usable else ("pattern", "not valid")
-        lines = [JudgedLine(kind, tag, "This fit", fit.verdict.line)]
-        lines += [JudgedLine("other", "doubt", f"Doubt {k}", text)
-                  for k, text in enumerate(fit.verdict.doubts, start=1)]  # fmt: skip
-        blocks.append(Verdict(lines))
+        lines = [page.JudgedLine(kind, tag, "This fit", fit.verdict.line)]
+        lines += [
+            page.JudgedLine("other", "doubt", f"Doubt {k}", text)
+            for k, text in enumerate(fit.verdict.doubts, start=1)
+        ]
+        blocks.append(page.Verdict(lines))
     if fit.sentences:
-        blocks.append(Items([("", line) for line in fit.sentences]))
+        blocks.append(page.Items([("", line) for line in fit.sentences]))
     return blocks
 
 
 def find_correlated_pairs(model: IdentifiedModel) -> list[tuple[str, str, float]]:
-    """Pairs of parameters whose estimates correlate by more than 0.95, worst first."""
+    """Finds pairs of estimates that correlate by more than 0.95, worst first."""
     deviation = np.sqrt(np.diag(model.covariance))
     size = np.where(deviation > 0.0, deviation, np.inf)
     correlation = model.covariance / np.outer(size, size)
@@ -270,6 +364,6 @@ def find_correlated_pairs(model: IdentifiedModel) -> list[tuple[str, str, float]
     strong = [
         (names[i], names[j], float(correlation[i, j]))
         for i, j in zip(rows, columns, strict=True)
-        if abs(correlation[i, j]) > _TANGLED
+        if abs(correlation[i, j]) > THRESHOLDS.min_correlation
     ]
-    return sorted(strong, key=lambda pair: -abs(pair[2]))[:_MOST]
+    return sorted(strong, key=lambda pair: -abs(pair[2]))[: THRESHOLDS.max_pairs]

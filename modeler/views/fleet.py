@@ -2,6 +2,7 @@
 
 from collections.abc import Callable, Sequence
 from functools import partial
+from operator import attrgetter
 
 import numpy as np
 
@@ -10,22 +11,20 @@ from modeler.core.result import Figures, Presentation, Tables
 from modeler.core.style import BLUE, COLORS, GREY, Style
 from modeler.core.table import Table, format_percent
 from modeler.fleet import Fleet, FleetFinding, QuantityHistory, QuantityValues, result
-from modeler.views.blocks import Figure, Items, JudgedLine, PageTable, Paragraph, Verdict
+from modeler.views import page
 from modeler.views.figures import collect_figures
-from modeler.views.page import Origin, Page, Section
-
-_PICTURES = 12  # findings that are drawn
-_COLUMNS = 24  # machines of one map
-_TOP = 10.0  # sigmas at which cells are darkest
+from modeler.views.thresholds import THRESHOLDS
 
 
-def build_fleet_page(fleet: Fleet, provenance: Sequence[str] = ()) -> Page:
-    """The page of a fleet; `provenance` are lines on how the data came about."""
-    return Page(
+def build_fleet_page(fleet: Fleet, provenance: Sequence[str] = ()) -> page.Page:
+    """Builds the page of a fleet; `provenance` are lines on how the data came about."""
+    return page.Page(
         title=f"{fleet.robot}: what drifts where",
         headline=result.format_headline(fleet),
         sections=_build_sections(fleet),
-        origin=Origin(fleet.robot, [f"{name}: {len(p)}" for name, p in fleet.machines.items()]),
+        origin=page.Origin(
+            fleet.robot, [f"{name}: {len(p)}" for name, p in fleet.machines.items()]
+        ),
         facts=[
             ("machines", str(len(fleet.machines))),
             ("logs", str(fleet.logs)),
@@ -36,15 +35,15 @@ def build_fleet_page(fleet: Fleet, provenance: Sequence[str] = ()) -> Page:
     )
 
 
-def _build_sections(fleet: Fleet) -> list[Section]:
-    drawn = fleet.findings[:_PICTURES]
-    sections = [Section("Verdict", [_build_verdict(fleet)])]
+def _build_sections(fleet: Fleet) -> list[page.Section]:
+    drawn = fleet.findings[: THRESHOLDS.max_findings]
+    sections = [page.Section("Verdict", [_build_verdict(fleet)])]
     sections += [
-        Section(
+        page.Section(
             f"Machine {one.machine}, {one.quantity.parameter}",
             [
-                Paragraph(f"{result.describe_finding(one, fleet.unit)}."),
-                Figure(draw_finding_picture(fleet, one), False),
+                page.Paragraph(f"{result.describe_finding(one, fleet.unit)}."),
+                page.Figure(draw_finding_picture(fleet, one), False),
             ],
             _build_section_id(k),
         )
@@ -52,11 +51,11 @@ def _build_sections(fleet: Fleet) -> list[Section]:
     ]
     if any(each.scores for each in fleet.histories):
         sections.append(
-            Section("All machines", [Figure(map_) for map_ in draw_map_pictures(fleet)])
+            page.Section("All machines", [page.Figure(map_) for map_ in draw_map_pictures(fleet)])
         )
-    sections.append(Section("What was looked at", [_tabulate_followed(fleet)]))
+    sections.append(page.Section("What was looked at", [_tabulate_followed(fleet)]))
     if fleet.doubts:
-        sections.append(Section("Doubts", [Items([("", line) for line in fleet.doubts])]))
+        sections.append(page.Section("Doubts", [page.Items([("", line) for line in fleet.doubts])]))
     return sections
 
 
@@ -64,22 +63,24 @@ def _build_section_id(k: int) -> str:
     return f"finding-{k + 1}"
 
 
-def _build_verdict(fleet: Fleet) -> Verdict | Paragraph:
+def _build_verdict(fleet: Fleet) -> page.Verdict | page.Paragraph:
     if not fleet.findings:
-        return Paragraph("No machine drifts and none is apart from the others, beyond doubt.")
+        return page.Paragraph("No machine drifts and none is apart from the others, beyond doubt.")
     lines = []
     for k, one in enumerate(fleet.findings):
         joint = "" if one.quantity.joint is None else f"joint {one.quantity.joint}, "
         head = f"{one.machine}, {joint}{result.format_effect_title(one.quantity)}"
-        link = _build_section_id(k) if k < _PICTURES else ""
+        link = _build_section_id(k) if k < THRESHOLDS.max_findings else ""
         lines.append(
-            JudgedLine("pattern", one.shape, head, result.describe_finding(one, fleet.unit), link)
+            page.JudgedLine(
+                "pattern", one.shape, head, result.describe_finding(one, fleet.unit), link
+            )
         )
-    return Verdict(lines)
+    return page.Verdict(lines)
 
 
 def draw_finding_picture(fleet: Fleet, one: FleetFinding) -> Picture:
-    """The values of that machine over its periods, before those of all others."""
+    """Draws the values of the finding's machine over its periods, before those of all others."""
     each = next(each for each in fleet.histories if each.quantity == one.quantity)
     others = [
         machine_values for name, machine_values in each.machines.items() if name != one.machine
@@ -110,7 +111,7 @@ def draw_finding_picture(fleet: Fleet, one: FleetFinding) -> Picture:
 
 
 def draw_quantity_picture(fleet: Fleet, each: QuantityHistory) -> Picture:
-    """One quantity of all machines over their periods."""
+    """Draws one quantity of all machines over their periods."""
     series = tuple(
         Means(
             name,
@@ -139,7 +140,7 @@ def _build_background(others: Sequence[QuantityValues]) -> Curve:
 
 
 def draw_map_pictures(fleet: Fleet) -> list[Picture]:
-    """The greatest change of every quantity and machine, in sigmas; machines in portions."""
+    """Draws the greatest change of every quantity and machine, in sigmas."""
     return [
         _draw_map(fleet, machines, k) for k, machines in enumerate(_group_machines(fleet), start=1)
     ]
@@ -148,7 +149,10 @@ def draw_map_pictures(fleet: Fleet) -> list[Picture]:
 def _group_machines(fleet: Fleet) -> list[list[str]]:
     """Machines that may drift, as many at a time as one map shows."""
     names = [name for name, periods in fleet.machines.items() if len(periods) > 1]
-    return [names[k : k + _COLUMNS] for k in range(0, len(names), _COLUMNS)]
+    return [
+        names[k : k + THRESHOLDS.max_map_machines]
+        for k in range(0, len(names), THRESHOLDS.max_map_machines)
+    ]
 
 
 def _draw_map(fleet: Fleet, machines: Sequence[str], number: int) -> Picture:
@@ -158,7 +162,9 @@ def _draw_map(fleet: Fleet, machines: Sequence[str], number: int) -> Picture:
         tuple("" if np.isnan(value) else f"{value:.1f}" for value in row) for row in values
     )
     rows = tuple(each.quantity.parameter for each in followed)
-    heat = Heat("greatest change [sigma]", tuple(machines), rows, values, texts, _TOP)
+    heat = Heat(
+        "greatest change [sigma]", tuple(machines), rows, values, texts, THRESHOLDS.darkest_sigmas
+    )
     caption = (
         "The greatest change of each quantity in each machine, in sigmas: a straight line, a leap, "
         "or one period apart, whichever is surest. The greatest of many is 2 to 4 by chance."
@@ -168,9 +174,9 @@ def _draw_map(fleet: Fleet, machines: Sequence[str], number: int) -> Picture:
     return Picture(f"map_{number}", "Changes", caption, ((panel,),), height)
 
 
-def _tabulate_followed(fleet: Fleet) -> PageTable:
+def _tabulate_followed(fleet: Fleet) -> page.PageTable:
     head, *rows = result.build_table_rows(fleet)
-    return PageTable(
+    return page.PageTable(
         head,
         rows,
         "Level: median of all machines and periods. Scatter: by which values change from one "
@@ -184,38 +190,40 @@ def _tabulate_followed(fleet: Fleet) -> PageTable:
 
 
 def _collect_tables(fleet: Fleet) -> Tables:
-    return {
-        "findings": lambda: _tabulate_findings(fleet),
-        "values": lambda: _tabulate_values(fleet),
-        "quantities": lambda: _tabulate_quantities(fleet),
-    }
+    tables = (_tabulate_findings, _tabulate_values, _tabulate_quantities)
+    names = ("findings", "values", "quantities")
+    return {name: partial(table, fleet) for name, table in zip(names, tables, strict=True)}
 
 
 def _tabulate_findings(fleet: Fleet) -> Table:
-    rows = [
-        (f.machine, f.quantity.joint, f.quantity.effect, f.shape, f.begin, f.end, f.before,
-         f.change, f.quantity.unit, f.change_percent, f.score, f.chance)
-        for f in fleet.findings
-    ]  # fmt: skip
+    read = attrgetter(
+        *[
+            "machine",
+            "quantity.joint",
+            "quantity.effect",
+            "shape",
+            "begin",
+            "end",
+            "before",
+            "change",
+        ],
+        *["quantity.unit", "change_percent", "score", "chance"],
+    )
     return Table.build(
         f"{fleet.robot}: {fleet.verdict}",
         "machine, joint, effect, shape, from, to, before, change, unit, change of it [%], sigmas, "
-        "chance", rows,
-    )  # fmt: skip
+        "chance",
+        [read(finding) for finding in fleet.findings],
+    )
 
 
 def _tabulate_values(fleet: Fleet) -> Table:
+    read = attrgetter("periods", "at", "values", "sigmas")
     rows = [
         (name, period, at, each.quantity.parameter, value, sigma, each.quantity.unit)
         for each in fleet.histories
         for name, machine_values in each.machines.items()
-        for period, at, value, sigma in zip(
-            machine_values.periods,
-            machine_values.at,
-            machine_values.values,
-            machine_values.sigmas,
-            strict=True,
-        )
+        for period, at, value, sigma in zip(*read(machine_values), strict=True)
     ]
     head = f"machine, period, at [{fleet.unit}], parameter, value, sigma, unit"
     return Table.build("what was followed, log by log", head, rows)
@@ -223,10 +231,18 @@ def _tabulate_values(fleet: Fleet) -> Table:
 
 def _tabulate_quantities(fleet: Fleet) -> Table:
     rows = [
-        (each.quantity.joint, result.format_effect_title(each.quantity), each.quantity.parameter,
-         each.level, each.quantity.unit, each.factor, each.smallest_detectable)
+        (
+            q.joint,
+            result.format_effect_title(q),
+            q.parameter,
+            each.level,
+            q.unit,
+            each.factor,
+            each.smallest_detectable,
+        )
         for each in fleet.histories
-    ]  # fmt: skip
+        for q in [each.quantity]
+    ]
     return Table.build("what may drift", result.HEAD, rows)
 
 

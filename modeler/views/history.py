@@ -6,19 +6,159 @@ from collections.abc import Mapping, Sequence
 import numpy as np
 
 from modeler.core.figure import Bars, Curve, Panel, Picture
+from modeler.core.manifest import BaseSpec, TermSpec
 from modeler.core.style import BLUE, GREEN, ORANGE, PINK, SKY, VERMILLION, Style
 from modeler.core.table import DIGITS, WORDS, format_error_pair, format_percent
 from modeler.effects import Effect, find_effect
-from modeler.estimation import Addition, IdentifiedModel
-from modeler.robot import Robot, parse_robot_text
-from modeler.views.blocks import Block, Code, Figure, Items, PageCell, PageTable, Paragraph
-from modeler.views.page import Origin, Page, Section
-from modeler.views.values import (
-    find_added_names,
-    tabulate_joint_errors,
-    tabulate_nonlinear_parameters,
-    tabulate_values,
+from modeler.estimation import (
+    Addition,
+    FitResult,
+    IdentifiedModel,
+    ParameterEstimate,
+    format_prior,
+    format_spread,
 )
+from modeler.robot import Robot, parse_robot_text
+from modeler.views import page
+from modeler.views.thresholds import THRESHOLDS
+
+# Tables of fitted values: parameters with sigma, what each is the sum of, errors by joint.
+
+_KINDS = {"% sigma": "bar", "unit": "unit", "is the sum of": "why"}
+
+
+def tabulate_values(
+    parameters: Sequence[ParameterEstimate], base: Sequence[BaseSpec] = (), caption: str = ""
+) -> page.PageTable:
+    """Tabulates value, sigma, %sigma, unit, and the sum that each parameter is.
+
+    Args:
+        parameters: estimated ones.
+        base: the base parameters of the robot, for the sums; parameters without one have none.
+        caption: below the table.
+    """
+    sums = {b.name: format_relation(b) for b in base}
+    known = any(p.prior is not None for p in parameters)
+    rows: list[list[str | page.PageCell]] = [
+        [
+            p.name,
+            "set aside" if p.sigma is None else f"{p.value:.5g}",
+            "" if p.sigma is None else _format_spread(p.value, p.sigma, p.interval) or "0",
+            _build_sigma_cell(p),
+            *([format_prior(p)] if known else []),
+            p.unit,
+            sums.get(p.name, ""),
+        ]
+        for p in parameters
+    ]
+    prior = ("from the prior",) if known else ()
+    head = ("parameter", "value", "sigma", "% sigma", *prior, "unit", "is the sum of")
+    return page.PageTable(head, rows, caption, _KINDS)
+
+
+def format_relation(base: BaseSpec) -> str:
+    """Formats the sum of a base parameter: "ZZ1 + Ia1 + D2**2*M2"; "" for a single term."""
+    if len(base.terms) == 1 and base.terms[0].coefficient == "1":
+        return ""
+    text = " ".join(_format_term(term) for term in base.terms)
+    return text.removeprefix("+ ")
+
+
+def _format_term(term: TermSpec) -> str:
+    coefficient = term.coefficient
+    if coefficient in ("1", "-1"):
+        return f"{'-' if coefficient == '-1' else '+'} {term.parameter}"
+    outside = coefficient
+    depth = 0
+    for k, letter in enumerate(coefficient):
+        depth += (letter == "(") - (letter == ")")
+        if letter in "+-" and k and depth == 0 and coefficient[k - 1] not in "*/(e":
+            outside = f"({coefficient})"
+            break
+    if outside.startswith("-"):
+        return f"- {outside[1:]}*{term.parameter}"
+    return f"+ {outside}*{term.parameter}"
+
+
+def _build_sigma_cell(parameter: ParameterEstimate) -> page.PageCell:
+    share = parameter.relative_sigma_percent
+    if share is None:
+        return page.PageCell("-")
+    text = f"{share:.3g}" if share < 1e4 else ">10000"
+    mark = "" if parameter.essential else " not essential"
+    return page.PageCell(f"{text}{mark}", min(1.0, share / THRESHOLDS.full_bar_percent))
+
+
+def tabulate_joint_errors(fit: FitResult) -> page.PageTable:
+    """Tabulates errors by joint on the fitted logs, in parts of the joint's own torque."""
+    top = max((joint.relative_error or 0.0 for joint in fit.joints), default=0.0) or 1.0
+    rows = [
+        (
+            joint.name,
+            page.PageCell(
+                format_percent(joint.relative_error), (joint.relative_error or 0.0) / top
+            ),
+            f"{joint.rms:.3g} {joint.unit}",
+            f"{joint.rows}",
+        )
+        for joint in fit.joints
+    ]
+    return page.PageTable(
+        ("joint", "relative error", "rms residual", "rows"),
+        rows,
+        "On the logs that were fitted. Relative error: norm of the residual over the norm of the "
+        "joint's own torque or force.",
+        {"relative error": "bar"},
+    )
+
+
+def find_added_names(model: IdentifiedModel) -> set[str]:
+    """Finds the base parameters that the effects of a model's history added."""
+    steps = {(step.effect, step.joint) for step in model.history if step.effect}
+    effect_parameters = {p.name for p in model.spec.standard if (p.effect, p.joint) in steps}
+    return {b.name for b in model.spec.base if b.column_of in effect_parameters}
+
+
+def tabulate_nonlinear_parameters(
+    steps: Sequence[tuple[Addition, Mapping[str, str]]],
+) -> page.PageTable | None:
+    """Tabulates nonlinear parameters of the added effects; None without any.
+
+    Args:
+        steps: of a model's history, each with the units of its shapes by name.
+    """
+    rows = [
+        (
+            step.effect,
+            step.joint or "all",
+            name,
+            f"{value:.5g}",
+            _format_step_spread(step, name),
+            units[name],
+        )
+        for step, units in steps
+        for name, value in step.shapes.items()
+    ]
+    if not rows:
+        return None
+    return page.PageTable(
+        ("effect", "joint", "shape", "value", "sigma", "unit"),
+        rows,
+        "Shapes enter the torque not as factors; they were searched for.",
+        dict.fromkeys(("joint", "shape", "unit"), "text"),
+    )
+
+
+def _format_step_spread(step: Addition, name: str) -> str:
+    sigma, interval = step.shape_sigmas.get(name, 0.0), step.shape_intervals.get(name)
+    return _format_spread(step.shapes[name], sigma, interval) or "-"
+
+
+def _format_spread(value: float, sigma: float, interval: tuple[float, float] | None) -> str:
+    """As behind a value, without the signs that part it from that."""
+    spread = format_spread(value, sigma, interval).strip()
+    return spread.removeprefix("+- ").removeprefix("(").removesuffix(")")
+
 
 HELD, FITTED, LEARNED = Style(BLUE), Style(ORANGE), Style(PINK)
 SAME, BETTER, WORSE = Style(SKY), Style(GREEN), Style(VERMILLION)
@@ -26,9 +166,9 @@ _ACROSS = 3  # panels side by side
 
 
 def build_history_page(
-    model: IdentifiedModel, left_out: Sequence[str] = (), origin: Origin | None = None
-) -> Page:
-    """The page of a model's history: the error after every effect, joint by joint; values.
+    model: IdentifiedModel, left_out: Sequence[str] = (), origin: page.Origin | None = None
+) -> page.Page:
+    """Builds the page of a model's history: error after every effect, by joint, and values.
 
     Args:
         model: with its history.
@@ -39,7 +179,7 @@ def build_history_page(
     held, last = history[-1].held_out, history[-1].error
     fact = f"judged on {', '.join(held)}" if held else "training only: nothing was held out"
     several = len(history[-1].joints) > 1
-    return Page(
+    return page.Page(
         title=f"{robot}: effects added",
         headline=(
             format_percent(last, DIGITS),
@@ -47,7 +187,7 @@ def build_history_page(
             + (", rms over the joints" if several else ""),
         ),
         sections=_build_sections(model, left_out),
-        origin=origin or Origin(robot, held, bool(held)),
+        origin=origin or page.Origin(robot, held, bool(held)),
         facts=_collect_facts(model, fact, left_out),
         provenance=[*model.warning, f"fitted on {', '.join(log.name for log in model.logs)}"],
         command="add",
@@ -55,10 +195,13 @@ def build_history_page(
 
 
 def build_effect_page(
-    effect: Effect, definition: str, robot: Robot, model: IdentifiedModel | None,
+    effect: Effect,
+    definition: str,
+    robot: Robot,
+    model: IdentifiedModel | None,
     drawn: tuple[str, Sequence[float], Sequence[float]],
-) -> Page:  # fmt: skip
-    """The page of an effect that a robot file defines: its equation, where it was found, values.
+) -> page.Page:
+    """Builds the page of an effect of a robot file: equation, origin, values.
 
     Args:
         effect: it.
@@ -73,7 +216,7 @@ def build_effect_page(
     rows += [
         (f"{n}, joint {i.joint}", f"{x:.5g}") for i in at for n, x in i.nonlinear_parameters.items()
     ]
-    values = [PageTable(("of the robot file", "value, SI"), rows)]
+    values = [page.PageTable(("of the robot file", "value, SI"), rows)]
     if model is not None:
         steps = [
             (s, _collect_units(s, effect, model)) for s in model.history if s.effect == effect.id
@@ -93,25 +236,29 @@ def build_effect_page(
     curve = Curve(effect.id, np.array(x), np.array(y), LEARNED if effect.is_learned else HELD)
     torque = f"torque per unit of {effect.columns[0].prefix}"
     picture = Picture(
-        name=effect.id, title=effect.title, height=380,
+        name=effect.id,
+        title=effect.title,
+        height=380,
         caption=f"The torque against {label}; what else it depends on stands at 1.",
         panels=((Panel(effect.equation, label, torque, (curve,), zero=True),),),
-    )  # fmt: skip
-    return Page(
+    )
+    return page.Page(
         title=f"{robot.name}: {effect.id}",
         headline=(effect.id, effect.title),
-        sections=[Section("Its torque", [Figure(picture)]),
-                  Section("Its values", values if names else [Paragraph("No joint has it.")]),
-                  Section("To be found on other robots", [Code(definition)])],
-        origin=Origin(robot.name),
+        sections=[
+            page.Section("Its torque", [page.Figure(picture)]),
+            page.Section("Its values", values if names else [page.Paragraph("No joint has it.")]),
+            page.Section("To be found on other robots", [page.Code(definition)]),
+        ],
+        origin=page.Origin(robot.name),
         facts=[("Equation", effect.equation), ("Unit", units), ("Joints", joints)],
         command="effects",
-    )  # fmt: skip
+    )
 
 
 def _collect_facts(
     model: IdentifiedModel, data: str, left_out: Sequence[str]
-) -> list[tuple[str, str]]:  # fmt: skip
+) -> list[tuple[str, str]]:
     history = model.history
     facts = [("Effects", ", ".join(s.effect for s in history[1:]) or "none"), ("Data", data)]
     if len(history) > 1:
@@ -135,22 +282,26 @@ def _collect_errors(step: Addition) -> dict[str, float]:
     return {name: after for name, (_, after) in step.joints.items()}
 
 
-def _build_sections(model: IdentifiedModel, left_out: Sequence[str]) -> list[Section]:
+def _build_sections(model: IdentifiedModel, left_out: Sequence[str]) -> list[page.Section]:
     history = model.history
-    sections = [Section("The error falls", [Figure(draw_waterfall_picture(history))])]
+    sections = [page.Section("The error falls", [page.Figure(draw_waterfall_picture(history))])]
     if history[-1].joints:
         units = {joint.name: joint.effort_unit for joint in model.spec.joints}
-        sections.append(Section("Joint by joint", [
-            _tabulate_joints(history), Figure(draw_joints_picture(history, units), titled=False),
-        ]))  # fmt: skip
-    sections.append(Section("What was added", _build_added_blocks(model)))
+        sections.append(
+            page.Section(
+                "Joint by joint",
+                [
+                    _tabulate_joints(history),
+                    page.Figure(draw_joints_picture(history, units), titled=False),
+                ],
+            )
+        )
+    sections.append(page.Section("What was added", _build_added_blocks(model)))
     if left_out:
-        sections.append(Section("What was refused, and why", [_build_refusal_items(left_out)]))
-    sections.append(Section("All values", [
-        tabulate_joint_errors(model.fit),
-        tabulate_values(model.fit.parameters, model.spec.base,
-                     "SI units; sigma is one standard deviation. The bar is full at 30 %."),
-    ]))  # fmt: skip
+        sections.append(page.Section("What was refused, and why", [_build_refusal_items(left_out)]))
+    caption = "SI units; sigma is one standard deviation. The bar is full at 30 %."
+    values = tabulate_values(model.fit.parameters, model.spec.base, caption)
+    sections.append(page.Section("All values", [tabulate_joint_errors(model.fit), values]))
     if len(history) > 1:
         again = [
             f"modeler add MODEL {'learned' if step.learned else step.effect}"
@@ -158,43 +309,52 @@ def _build_sections(model: IdentifiedModel, left_out: Sequence[str]) -> list[Sec
             + " LOG... --out MODEL"
             for step in history[1:]
         ]
-        sections.append(Section("To do this again, in this order", [Code(line) for line in again]))
+        sections.append(
+            page.Section("To do this again, in this order", [page.Code(line) for line in again])
+        )
     return sections
 
 
-def _tabulate_joints(history: Sequence[Addition]) -> PageTable:
+def _tabulate_joints(history: Sequence[Addition]) -> page.PageTable:
     """Errors before, and after each addition."""
-    rows: list[list[str | PageCell]] = []
+    rows: list[list[str | page.PageCell]] = []
     for name in history[-1].joints:
         errors = [_collect_errors(step).get(name) for step in history]
         top = max((e for e in errors if e is not None), default=0.0) or 1.0
         changed = [" *" if name in step.changed else "" for step in history]
-        rows.append([name, *(
-            PageCell("-") if e is None else PageCell(format_percent(e) + mark, e / top)
+        cells = [
+            page.PageCell("-") if e is None else page.PageCell(format_percent(e) + mark, e / top)
             for e, mark in zip(errors, changed, strict=True)
-        )])  # fmt: skip
+        ]
+        rows.append([name, *cells])
     steps, held = [format_step_name(step) for step in history], ", ".join(history[-1].held_out)
     judged = (
         f"the held-out logs {held}" if held else "parts of the fitted logs, each left out in turn"
     )
-    return PageTable(
-        ["joint", *steps], rows,
+    return page.PageTable(
+        ["joint", *steps],
+        rows,
         "Relative error of each joint, in parts of its own rms torque or force, on "
         f"{judged}. * a change beyond chance, paired over blocks of time.",
         dict.fromkeys(steps, "bar"),
-    )  # fmt: skip
+    )
 
 
-def _build_added_blocks(model: IdentifiedModel) -> list[Block]:
+def _build_added_blocks(model: IdentifiedModel) -> list[page.Block]:
     catalogue = parse_robot_text(model.robot_text, "robot").catalogue
     steps = [step for step in model.history if step.effect]
     if not steps:
-        return [Paragraph("Nothing: the model is as it was fitted.")]
+        return [page.Paragraph("Nothing: the model is as it was fitted.")]
     effects = {step.effect: find_effect(step.effect, catalogue) for step in steps}
-    blocks: list[Block] = [
-        Items([(f"{format_step_name(step)[2:]}:", effect.title)
-               for step in steps if (effect := effects[step.effect]) is not None])
-    ]  # fmt: skip
+    blocks: list[page.Block] = [
+        page.Items(
+            [
+                (f"{format_step_name(step)[2:]}:", effect.title)
+                for step in steps
+                if (effect := effects[step.effect]) is not None
+            ]
+        )
+    ]
     added = find_added_names(model)
     added_parameters = [parameter for parameter in model.fit.parameters if parameter.name in added]
     if added_parameters:
@@ -203,10 +363,14 @@ def _build_added_blocks(model: IdentifiedModel) -> list[Block]:
         )
         blocks.append(tabulate_values(added_parameters, model.spec.base, caption))
     blocks += [
-        Paragraph(f"{format_step_name(step)[2:]} moved, in their sigmas: "
-                  + ", ".join(f"{name} {by:.2g}" for name, by in step.moved.items()) + ".")
-        for step in steps if step.learned
-    ]  # fmt: skip
+        page.Paragraph(
+            f"{format_step_name(step)[2:]} moved, in their sigmas: "
+            + ", ".join(f"{name} {by:.2g}" for name, by in step.moved.items())
+            + "."
+        )
+        for step in steps
+        if step.learned
+    ]
     shapes = tabulate_nonlinear_parameters(
         [(s, _collect_units(s, effects[s.effect], model)) for s in steps]
     )
@@ -225,17 +389,17 @@ def _collect_units(step: Addition, effect: Effect | None, model: IdentifiedModel
     return {name: "" if units.get(name, "1") == "1" else units[name] for name in step.shapes}
 
 
-def _build_refusal_items(left_out: Sequence[str]) -> Items:
+def _build_refusal_items(left_out: Sequence[str]) -> page.Items:
     """The effect bold, the reason behind it."""
     lines = []
     for line in left_out:
         what, _, why = line.removeprefix("left out: ").partition(" (")
         lines.append((f"{what}:", why.removesuffix(")")) if why else ("", line))
-    return Items(lines)
+    return page.Items(lines)
 
 
 def format_step_name(step: Addition) -> str:
-    """What a step is called: "as fitted", "+ spring @2"."""
+    """Formats the name of a step: "as fitted", "+ spring @2"."""
     if not step.effect:
         return "as fitted"
     return f"+ {step.effect}" + (f" @{step.joint}" if step.joint else "")
@@ -247,7 +411,7 @@ def _break_step_name(step: Addition) -> str:
 
 
 def draw_waterfall_picture(history: Sequence[Addition]) -> Picture:
-    """Error over the joints after every effect, on held-out and on fitted logs."""
+    """Draws the error over the joints after every effect, on held-out and on fitted logs."""
     names = tuple(_break_step_name(step) for step in history)
     held, fitted = 100.0 * np.array([(s.error, s.training_error) for s in history]).T
     first = (
@@ -272,15 +436,10 @@ def draw_waterfall_picture(history: Sequence[Addition]) -> Picture:
             f"{HELD.description.capitalize()}: the error that counts, on {first}; "
             f"{FITTED.description}: on the "
             "logs that were fitted. Each joint's error is in parts of its own rms torque or force"
-            + (
-                ", and the bar is their root mean square: N m and N are not added. "
-                if several
-                else ". "
-            )
-            + (
-                f"{LEARNED.description.capitalize()}: a learned law, not physics. "
-                * bool(learned.any())
-            )
+            + ", and the bar is their root mean square: N m and N are not added" * several
+            + ". "
+            + f"{LEARNED.description.capitalize()}: a learned law, not physics. "
+            * bool(learned.any())
             + "`modeler add MODEL undo LOG... --out MODEL` takes the last effect back."
         ),
         panels=(panels,),
@@ -289,7 +448,7 @@ def draw_waterfall_picture(history: Sequence[Addition]) -> Picture:
 
 
 def draw_joints_picture(history: Sequence[Addition], units: Mapping[str, str]) -> Picture:
-    """The same for every joint by itself.
+    """Draws the error of every joint after every effect.
 
     Args:
         history: of a model.

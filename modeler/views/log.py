@@ -1,19 +1,20 @@
-"""What is in a log, as pictures and as a page."""
+"""The noise of the motion as a picture: where it hides the motion, and outweighs the torques."""
 
 from collections.abc import Sequence
 from functools import partial
 
 import numpy as np
 
-from modeler.core.figure import Panel, Picture, Points
+from modeler.core.figure import Curve, Panel, Picture, Points, Series, Span
 from modeler.core.result import Figures, Presentation, Tables
-from modeler.core.style import SLATE, Style
+from modeler.core.style import BLACK, BLUE, GREEN, ORANGE, PALE, PINK, SLATE, VERMILLION, Style
 from modeler.core.table import Cell, Table, format_percent
 from modeler.core.thinning import thin_points
 from modeler.excitation import ExcitingMotion
 from modeler.logs import Clock, LogInspection, split_label
 from modeler.regression import (
     Bands,
+    ChannelNoise,
     DataReport,
     Log,
     Observation,
@@ -21,20 +22,139 @@ from modeler.regression import (
     estimate_position_noise,
 )
 from modeler.simulation import SimulatedLog, write_log
-from modeler.views.blocks import Code, Figure, Items, PageTable, Paragraph
+from modeler.views import page
 from modeler.views.figures import build_curves, draw_log, draw_picture
-from modeler.views.noise import build_noise_blocks, draw_noise_picture
-from modeler.views.page import Origin, Page, Section
+from modeler.views.thresholds import THRESHOLDS
+
+_ROW = 210  # pixels
+
+_POWER = {"positions": 4, "speeds": 2, "accelerations": 0}
+_SPECTRUM, _FLOOR, _MEETS = Style(BLUE, 1.6), Style(ORANGE, 1.6), Style(SLATE, 1.2, dash=True)
+_TORQUE, _OF_NOISE = Style(GREEN, 1.6), Style(VERMILLION, 1.6)
+_POSITION, _PARALLEL = Style(PINK, 1.4), Style(BLACK, 1.4)
+
+
+def build_noise_blocks(bands: Bands | None) -> list[page.Block]:
+    """Returns how the cut-offs were chosen, and the picture; nothing where nothing moves."""
+    picture = draw_noise_picture(bands)
+    if bands is None or picture is None:
+        return []
+    said = [page.Items([("", line) for line in bands.chosen_by])] if bands.chosen_by else []
+    return [*said, page.Figure(picture, titled=False)]
+
+
+def draw_noise_picture(bands: Bands | None) -> Picture | None:
+    """Draws spectrum and noise floor of each moving joint, and its torque noise if fitted."""
+    moving = [one for one in bands.noise if one.moves and any(one.spectrum)] if bands else []
+    if bands is None or not moving:
+        return None
+    fitted = any(one.torque_noise for one in moving)
+    rows = tuple(
+        (_build_motion_panel(one, bands), *[_build_torque_panel(one, bands)] * fitted)
+        for one in moving
+    )
+    caption = _write_caption(bands, moving[0].of, fitted)
+    height = 60 + _ROW * len(rows)
+    return Picture("noise_of_the_motion", "Noise of the motion", caption, rows, height)
+
+
+def _build_motion_panel(one: ChannelNoise, bands: Bands) -> Panel:
+    """Its spectrum, and the floor that it meets."""
+    f, S = np.array(one.frequency), np.array(one.spectrum)
+    f, S = f[S > 0.0], S[S > 0.0]
+    ends = min(S.min(initial=np.inf), one.density or np.inf), S.max(initial=one.density)
+    series: list[Series] = [Curve(f"spectrum of the {one.of}", f, S, _SPECTRUM)]
+    if one.density and one.hides_above_hz:
+        along = np.array([one.hides_above_hz, f[-1]])
+        series.append(Curve("floor: its noise", along, np.full(2, one.density), _FLOOR))
+        series.append(
+            _build_vertical_curve("the noise hides the motion", one.hides_above_hz, ends, _MEETS)
+        )
+    band = np.array([[min(f[0], one.band_hz) / 2.0, one.band_hz]])
+    colour = f", noise of f^-{one.colour:.1f}" if one.colour else ""
+    unit = {4: one.unit, 2: f"({one.unit}/s)", 0: f"({one.unit}/s2)"}[_POWER[one.of]]
+    title, label = f"Joint {one.joint}: {one.of}{colour}", f"density [{unit}^2/Hz]"
+    spans = (Span("motion band", band, PALE["blue"]),) if one.band_hz else ()
+    every = (*series, *_build_cutoff_curves(bands, ends))
+    return Panel(title, "frequency [Hz]", label, every, "log", spans=spans)
+
+
+def _build_torque_panel(one: ChannelNoise, bands: Bands) -> Panel:
+    """A f^p, p = 4 of positions, against the level of the torque."""
+    A, T, power = one.torque_of_noise, one.torque_noise, _POWER[one.of]
+    if not A or not T or not power:  # without a motor or rows, or with exact accelerations
+        return Panel("", "", "", ())
+    f, cross, factor = (
+        one.frequency,
+        (T / A) ** (1.0 / power),
+        10.0 ** (THRESHOLDS.noise_line_decades / power),
+    )
+    high = min(f[-1], cross * factor)
+    along = np.geomspace(max(f[0], min(cross, high) / factor), high, 20)
+    noise = A * along**power
+    ends = (
+        min(noise[0], T / THRESHOLDS.noise_level_factor),
+        max(noise[-1], T * THRESHOLDS.noise_level_factor),
+    )
+    label = f"density [({'N' if one.unit == 'm' else 'N m'})^2/Hz]"
+    title = f"Joint {one.joint}: torques{', which limits' * (one.joint == bands.limited_by)}"
+    level = Curve("noise of the torque", np.array([f[0], f[-1]]), np.full(2, T), _TORQUE)
+    curves = (
+        Curve("torque of that noise", along, noise, _OF_NOISE),
+        level,
+        *_build_cutoff_curves(bands, ends),
+    )
+    return Panel(title, "frequency [Hz]", label, curves, "log")
+
+
+def _build_cutoff_curves(bands: Bands, ends: tuple[float, float]) -> list[Curve]:
+    both = (
+        ("position filter", bands.position_cutoff, _POSITION),
+        ("parallel filter", bands.parallel_cutoff, _PARALLEL),
+    )
+    return [_build_vertical_curve(label, at, ends, style) for label, at, style in both if at]
+
+
+def _build_vertical_curve(label: str, at: float, ends: tuple[float, float], style: Style) -> Curve:
+    return Curve(label, np.full(2, at), np.array(ends), style)
+
+
+def _write_caption(bands: Bands, of: str, fitted: bool) -> str:
+    text = (
+        f"Power density of the {of} (blue, means over third octaves) and the floor that it meets, "
+        "the noise of the sensor (orange); from the dashed line on, it hides the motion. The band "
+        "of the motion, with 99 % of the velocity's energy, is pale blue."
+    )
+    if bands.position_cutoff:
+        text += " Cut-off of the position filter: pink; of the parallel filter: black."
+    if fitted:
+        text += (
+            f" On the right the same noise as torque, A f^{_POWER[of]} through the inertia matrix "
+            "(dark orange), and the noise of the torque itself (green): above their crossing the "
+            "sensor is what is seen. The parallel filter lies no higher than the first crossing of "
+            "all joints, unless that is below twice the motion band; the lines above say why."
+        )
+    if bands.trembling:
+        text += (
+            " Here it was lowered further: behind wider filters the model's torque trembles "
+            f"{bands.trembling:.2g} times as much as the measured one."
+        )
+    return text
+
+
+# What is in a log, as pictures and as a page.
+
 
 _HEAD = ("channel", "unit", "least", "greatest", "resolution", "missing", "remarks")
-_LIMIT = 600  # points of one curve
 
 
 def build_log_page(
-    inspection: LogInspection, doubts: Sequence[str], provenance: Sequence[str],
+    inspection: LogInspection,
+    doubts: Sequence[str],
+    provenance: Sequence[str],
     bands: Bands | None = None,
-) -> Page:  # fmt: skip
-    """The page of a log.
+) -> page.Page:
+    """Builds the page of a log.
 
     Args:
         inspection: what is in the log.
@@ -43,27 +163,29 @@ def build_log_page(
         bands: of its fit; None: the noise of its positions alone.
     """
     head, *rows = tabulate_channels(inspection)
-    table = PageTable(head, rows, kinds=dict.fromkeys(("unit", "remarks"), "text"))
-    listed = Items([("", line) for line in doubts]) if doubts else Paragraph("None.")
+    table = page.PageTable(head, rows, kinds=dict.fromkeys(("unit", "remarks"), "text"))
+    listed = page.Items([("", line) for line in doubts]) if doubts else page.Paragraph("None.")
     sections = [
-        Section("Doubts", [listed]),
-        Section("Channels", [table, *map(Figure, draw_channel_pictures(inspection))]),
+        page.Section("Doubts", [listed]),
+        page.Section("Channels", [table, *map(page.Figure, draw_channel_pictures(inspection))]),
     ]
     noise = build_noise_blocks(bands or build_bands(estimate_position_noise(inspection.positions)))
     if noise:
-        sections.append(Section("Noise of the motion", noise))
+        sections.append(page.Section("Noise of the motion", noise))
     picture = draw_clock_picture(inspection)
     if inspection.clock is not None and picture is not None:
         sections.append(
-            Section("Clock", [Paragraph(describe_clock(inspection.clock)), Figure(picture)])
+            page.Section(
+                "Clock", [page.Paragraph(describe_clock(inspection.clock)), page.Figure(picture)]
+            )
         )
     if inspection.suggested:
-        sections.append(Section("A [log] to start from", [Code(inspection.suggested)]))
-    return Page(
+        sections.append(page.Section("A [log] to start from", [page.Code(inspection.suggested)]))
+    return page.Page(
         f"What is in {inspection.name}",
         (str(len(doubts)), "doubts" if len(doubts) != 1 else "doubt"),
         sections,
-        Origin(logs=(inspection.name,)),
+        page.Origin(logs=(inspection.name,)),
         [
             ("rows", str(inspection.rows)),
             ("clock", describe_clock(inspection.clock) if inspection.clock else "none"),
@@ -74,7 +196,7 @@ def build_log_page(
 
 
 def describe_clock(clock: Clock) -> str:
-    """The clock in words."""
+    """Describes the clock of a log in a line."""
     rate = f"{clock.rate:.6g} Hz" if clock.rate > 0.0 else "unknown rate"
     parts = [f"{clock.column}: {rate} over {clock.duration:.4g} s"]
     uneven = f"jitter {format_percent(clock.jitter)} of a step"
@@ -93,7 +215,7 @@ def describe_clock(clock: Clock) -> str:
 
 
 def tabulate_channels(inspection: LogInspection) -> list[list[str]]:
-    """Header and one row a channel, as text."""
+    """Returns a head and one row a channel, as text."""
     rows = [list(_HEAD)]
     for channel in inspection.channels:
         remarks = ["never changes"] if channel.constant else []
@@ -101,20 +223,22 @@ def tabulate_channels(inspection: LogInspection) -> list[list[str]]:
             f"stays at {x:.4g} in {format_percent(share)} of the rows"
             for x, share in channel.limits
         ]
-        rows.append([
-            channel.name,
-            f"{channel.unit}?" if channel.guessed else channel.unit or "-",
-            f"{channel.low:.5g}",
-            f"{channel.high:.5g}",
-            f"{channel.resolution:.3g}" if channel.resolution else "-",
-            str(channel.missing or "-"),
-            "; ".join(remarks),
-        ])  # fmt: skip
+        rows.append(
+            [
+                channel.name,
+                f"{channel.unit}?" if channel.guessed else channel.unit or "-",
+                f"{channel.low:.5g}",
+                f"{channel.high:.5g}",
+                f"{channel.resolution:.3g}" if channel.resolution else "-",
+                str(channel.missing or "-"),
+                "; ".join(remarks),
+            ]
+        )
     return rows
 
 
 def draw_log_pictures(inspection: LogInspection, bands: Bands | None = None) -> list[Picture]:
-    """All pictures of a log; `bands` as of `build_log_page`."""
+    """Draws all pictures of a log; `bands` as of `build_log_page`."""
     noise = draw_noise_picture(bands or build_bands(estimate_position_noise(inspection.positions)))
     return [
         *draw_channel_pictures(inspection),
@@ -123,7 +247,7 @@ def draw_log_pictures(inspection: LogInspection, bands: Bands | None = None) -> 
 
 
 def draw_channel_pictures(inspection: LogInspection) -> list[Picture]:
-    """One picture for the columns of each kind, against time."""
+    """Draws one picture for the columns of each kind, against time."""
     groups: dict[str, list[str]] = {}
     for name in inspection.values:
         groups.setdefault(split_label(name)[0], []).append(name)
@@ -142,7 +266,10 @@ def _draw_channels(
     unit = next((c.unit for c in inspection.channels if c.unit and names[0] in c.name), "")
     label = f"{title} [{unit}]" if unit else title
     drawn = build_curves(
-        names, inspection.time, [inspection.values[name] for name in names], _LIMIT
+        names,
+        inspection.time,
+        [inspection.values[name] for name in names],
+        THRESHOLDS.max_curve_points,
     )
     panel = Panel("", _choose_time_label(inspection), label, drawn)
     caption = (
@@ -153,7 +280,7 @@ def _draw_channels(
 
 
 def draw_clock_picture(inspection: LogInspection) -> Picture | None:
-    """The steps of the clock against time; None without a clock."""
+    """Draws the steps of the clock against time; None without a clock."""
     time, steps = inspection.steps[0], 1e3 * inspection.steps[1]
     if inspection.clock is None or not np.isfinite(steps).any():
         return None
@@ -204,8 +331,10 @@ def _collect_inspection_figures(inspection: LogInspection) -> Figures:
 def _summarise_log(log: Log) -> str:
     span = float(log.time[-1] - log.time[0])
     channels = [name for name in ("qd", "qdd", "commanded") if getattr(log, name) is not None]
-    lines = [f"{log.name}: {log.rows} rows, {span:.4g} s at {1.0 / log.step:.4g} Hz, joints "
-             f"{', '.join(log.joints)}"]  # fmt: skip
+    lines = [
+        f"{log.name}: {log.rows} rows, {span:.4g} s at {1.0 / log.step:.4g} Hz, joints "
+        f"{', '.join(log.joints)}"
+    ]
     lines.append("channels: " + ", ".join(["q", "tau", *channels, *log.extra]))
     lines += [f"{column}: {count} rows without a value" for column, count in log.missing.items()]
     return "\n".join([*lines, *log.notes])
@@ -243,8 +372,13 @@ def _build_channel_row(name: str, values: np.ndarray) -> tuple[Cell, ...]:
     there = values[np.isfinite(values)]
     if not there.size:
         return name, None, None, None, int(values.size)
-    return (name, float(there.min()), float(there.max()), float(np.sqrt(np.mean(there**2))),
-            int(values.size - there.size))  # fmt: skip
+    return (
+        name,
+        float(there.min()),
+        float(there.max()),
+        float(np.sqrt(np.mean(there**2))),
+        int(values.size - there.size),
+    )
 
 
 def _collect_log_figures(log: Log | SimulatedLog) -> Figures:
@@ -253,8 +387,10 @@ def _collect_log_figures(log: Log | SimulatedLog) -> Figures:
 
 
 def _summarise_simulated_log(log: SimulatedLog) -> str:
-    lines = [f"{log.robot}, simulated: {len(log.time)} samples of {len(log.joints)} joints, "
-             f"{float(log.time[-1] - log.time[0]):.4g} s, seed {log.settings.seed}"]  # fmt: skip
+    lines = [
+        f"{log.robot}, simulated: {len(log.time)} samples of {len(log.joints)} joints, "
+        f"{float(log.time[-1] - log.time[0]):.4g} s, seed {log.settings.seed}"
+    ]
     for effect in log.truth.hidden:
         where = f" on {effect.joint}" if effect.joint else ""
         values = ", ".join(f"{name} = {value:.4g}" for name, value in effect.values.items())
@@ -271,15 +407,19 @@ def _collect_simulated_tables(log: SimulatedLog) -> Tables:
 
 def _summarise_observation(observation: Observation) -> str:
     rows, columns = int(observation.used.sum()), len(observation.names)
-    first = (f"{observation.robot}: {rows} rows of {len(observation.time)} samples, {columns} "
-             f"columns, from {', '.join(observation.logs)}")  # fmt: skip
+    first = (
+        f"{observation.robot}: {rows} rows of {len(observation.time)} samples, {columns} "
+        f"columns, from {', '.join(observation.logs)}"
+    )
     return "\n".join([first, *observation.report.format_lines()])
 
 
 def _collect_report_tables(report: DataReport) -> Tables:
     joints = [(j.name, j.used, j.samples, j.slow, j.speed_floor, j.unit) for j in report.joints]
-    logs = [(log.name, log.rows, log.rate, log.samples, log.decimation, log.pieces, log.derivatives)
-            for log in report.logs]  # fmt: skip
+    logs = [
+        (log.name, log.rows, log.rate, log.samples, log.decimation, log.pieces, log.derivatives)
+        for log in report.logs
+    ]
     of_joint = "joint, rows, samples, share slow, speed floor, unit"
     of_log = "log, rows, rate [Hz], samples, one of, pieces, derivatives"
     return {
@@ -289,8 +429,13 @@ def _collect_report_tables(report: DataReport) -> Tables:
 
 
 def _summarise_motion(motion: ExcitingMotion) -> str:
-    return "\n".join([f"{motion.robot}: a motion of {motion.series.duration:g} s, condition number "
-                      f"{motion.quality.condition:.4g}", *motion.format_lines()])  # fmt: skip
+    return "\n".join(
+        [
+            f"{motion.robot}: a motion of {motion.series.duration:g} s, condition number "
+            f"{motion.quality.condition:.4g}",
+            *motion.format_lines(),
+        ]
+    )
 
 
 def _tabulate_limits(motion: ExcitingMotion) -> Table:
@@ -306,11 +451,11 @@ def _tabulate_limits(motion: ExcitingMotion) -> Table:
 
 PRESENTATIONS = {
     LogInspection: Presentation(
-        "a look at a log",
+        "an inspection of a log",
         _summarise_inspection,
         _collect_inspection_tables,
         _collect_inspection_figures,
-        document=lambda look, notes: build_log_page(look, look.warnings, notes),
+        document=lambda inspection, notes: build_log_page(inspection, inspection.warnings, notes),
     ),
     Log: Presentation("a log", _summarise_log, _collect_log_tables, _collect_log_figures),
     SimulatedLog: Presentation(
@@ -323,7 +468,9 @@ PRESENTATIONS = {
     Observation: Presentation(
         "an observation", _summarise_observation, lambda o: _collect_report_tables(o.report)
     ),
-    DataReport: Presentation("a report", lambda r: "\n".join(r.lines()), _collect_report_tables),
+    DataReport: Presentation(
+        "a report", lambda r: "\n".join(r.format_lines()), _collect_report_tables
+    ),
     ExcitingMotion: Presentation(
         "a motion", _summarise_motion, lambda m: {"limits": partial(_tabulate_limits, m)}
     ),

@@ -13,7 +13,8 @@ _SHOWN = {
     "derivation": "Robot Derivation EmittedModule CompiledModel HomeModes",
     "log": "LogInspection Log SimulatedLog Observation DataReport ExcitingMotion",
     "fit": "FitResult IdentifiedModel Addition MethodComparison",
-    "judgements": "ModelComparison Comparison Diagnosis FreeRun",
+    "comparison": "ModelComparison Comparison FreeRun",
+    "diagnosis": "Diagnosis",
     "fleet": "Fleet",
 }
 """Classes of results, by the file of this package whose `PRESENTATIONS` say how they are shown."""

@@ -1,12 +1,12 @@
-"""What a page says, as plain data: first screen, sections, how it was made."""
+"""What stands on a page, block after block, as plain data."""
 
 import dataclasses
 import functools
 import json
 import re
 import shlex
-from collections.abc import Sequence
-from dataclasses import dataclass
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -14,15 +14,117 @@ import jinja2
 
 from modeler.core.figure import Picture
 from modeler.core.files import locate_resources, resolve_page_path, write_atomically
-from modeler.views.blocks import Block, Figure
-from modeler.views.figure_page import (
-    ArrayStore,
-    arrange_panels,
-    collect_legend,
-    compress_base64,
-    describe_picture,
-    find_heat_maps,
-)
+from modeler.core.formula import Formula
+from modeler.views import figure_page
+
+
+@dataclass(frozen=True)
+class PageCell:
+    """Of a table, where a text alone is not enough.
+
+    Attributes:
+        text: what stands there.
+        share: length of the bar of a column of bars, 0 to 1.
+        link: id of a section of this page.
+    """
+
+    text: str
+    share: float = 0.0
+    link: str = ""
+
+
+@dataclass(frozen=True)
+class PageTable:
+    """Head and rows.
+
+    Attributes:
+        head: names of the columns.
+        rows: texts, or cells.
+        caption: below it.
+        kinds: by column: "text" to the left and wrapped, as the first one is without a kind; "bar"
+            with a bar before it; others for widths of their own. Without one: numbers.
+    """
+
+    head: Sequence[str]
+    rows: Sequence[Sequence[str | PageCell]]
+    caption: str = ""
+    kinds: Mapping[str, str] = field(default_factory=dict)
+    block: str = "table"
+
+
+@dataclass(frozen=True)
+class Paragraph:
+    """A paragraph."""
+
+    text: str
+    block: str = "lead"
+
+
+@dataclass(frozen=True)
+class Items:
+    """A list; each line with a word before it that is set bold, or none."""
+
+    lines: Sequence[tuple[str, str]]
+    block: str = "items"
+
+
+@dataclass(frozen=True)
+class JudgedLine:
+    """One line of a verdict.
+
+    Attributes:
+        kind: "noise" (good), "pattern" (bad), "other" (unclear), "" (none of them).
+        tag: a word or two.
+        head: what it is about.
+        text: what is said of it.
+        link: id of a section of this page, or nothing.
+    """
+
+    kind: str
+    tag: str
+    head: str
+    text: str
+    link: str = ""
+
+
+@dataclass(frozen=True)
+class Verdict:
+    """Judgements below one another."""
+
+    lines: Sequence[JudgedLine]
+    block: str = "verdicts"
+
+
+@dataclass(frozen=True)
+class Figure:
+    """A picture with its caption, legend, maps of cells as tables, and its numbers to download."""
+
+    picture: Picture
+    titled: bool = True
+    block: str = "figure"
+
+
+@dataclass(frozen=True)
+class FormulaBlock:
+    """Formulas below one another, each in pieces between which a line may break, and its unit."""
+
+    rows: Sequence[tuple[Sequence[Formula], str]]
+    block: str = "formulas"
+
+
+@dataclass(frozen=True)
+class Code:
+    """Commands or text to copy, as it is."""
+
+    text: str
+    block: str = "code"
+
+
+Block = PageTable | Paragraph | Items | Verdict | Figure | FormulaBlock | Code
+
+
+# What a page says, as plain data: first screen, sections, how it was made.
+
 
 if TYPE_CHECKING:
     from modeler.diagnosis import Diagnosis
@@ -40,27 +142,27 @@ class Drawings:
     """The pictures of one page, as its template asks for them."""
 
     def __init__(self) -> None:
-        self.numbers = ArrayStore()
+        self.numbers = figure_page.ArrayStore()
         self.any = False
 
     def content(self, picture: Picture) -> str:
-        """What the script draws it from."""
+        """Returns the data from which the script draws a picture."""
         self.any = True
-        return encode_script_json(describe_picture(picture, self.numbers))
+        return encode_script_json(figure_page.describe_picture(picture, self.numbers))
 
     def block(self) -> str:
-        """The numbers of all pictures so far."""
+        """Returns the numbers of all pictures so far."""
         return encode_script_json(self.numbers.encode_block())
 
 
 def render_template(template: str, **values: Any) -> str:
-    """Text of `templates/pages/<template>.html.jinja` with these values."""
+    """Renders `templates/pages/<template>.html.jinja` with these values."""
     made = _build_environment().get_template(f"{template}.html.jinja")
     return made.render(drawings=Drawings(), **values)
 
 
 def encode_script_json(content: Any) -> str:
-    """JSON that may stand inside a script element."""
+    """Encodes JSON that may stand inside a script element."""
     text = json.dumps(content, allow_nan=False, separators=(",", ":"), ensure_ascii=False)
     return text.replace("<", "\\u003c")
 
@@ -77,9 +179,9 @@ def _build_environment() -> jinja2.Environment:
     made.globals.update(
         asset=_read_asset,
         plotly=_read_plotly,
-        plotted=arrange_panels,
-        cells=find_heat_maps,
-        keys=collect_legend,
+        plotted=figure_page.arrange_panels,
+        cells=figure_page.find_heat_maps,
+        keys=figure_page.collect_legend,
         json=encode_script_json,
         about=None,
     )
@@ -95,7 +197,7 @@ def _read_asset(name: str) -> str:
 
 @functools.cache
 def _read_plotly() -> str:
-    return compress_base64((locate_resources("templates") / PLOTLY).read_bytes())
+    return figure_page.compress_base64((locate_resources("templates") / PLOTLY).read_bytes())
 
 
 def _format_share(value: float, top: float) -> str:
@@ -139,18 +241,18 @@ class PageEntry:
 
     @property
     def folder(self) -> str:
-        """Of the page; "" for the folder itself."""
+        """Returns the folder of the page; "" for the index's own folder."""
         return self.place.rpartition("/")[0]
 
     @property
     def rank(self) -> tuple[int, str]:
-        """Where it stands among the pages of its folder."""
+        """Returns the sort key of the page within its folder."""
         known = _ORDER.index(self.command) if self.command in _ORDER else len(_ORDER)
         return known, self.place
 
 
 def write_index(folder: Path, title: str = "") -> Path | None:
-    """Write `index.html` of a folder and its own folders; the path, None if it is not ours.
+    """Writes `index.html` of a folder and its folders; returns its path, None if it is not ours.
 
     An `index.html` that no earlier call wrote is left alone.
 
@@ -174,7 +276,7 @@ def write_index(folder: Path, title: str = "") -> Path | None:
 
 
 def find_pages(folder: Path) -> list[PageEntry]:
-    """Our pages in a folder and in its folders, in the order in which one reads them."""
+    """Finds our pages in a folder and its folders, in reading order."""
     pages = [*folder.glob("*.html"), *folder.glob("*/*.html")]
     page_entries = []
     for path in pages:
@@ -259,7 +361,7 @@ class Page:
         return render_page(self)
 
     def collect_pictures(self) -> list[Picture]:
-        """All that it shows, in order, each under a name of its own."""
+        """Collects all pictures in order, each under a name of its own."""
         blocks = (block for section in self.sections for block in section.blocks)
         pictures: dict[str, Picture] = {}
         for picture in (block.picture for block in blocks if isinstance(block, Figure)):
@@ -271,7 +373,7 @@ class Page:
 
 
 def render_page(sheet: Page) -> str:
-    """The page as text; its security policy forbids any network access."""
+    """Renders the page as text; its security policy forbids any network access."""
     return render_template("sheet", sheet=sheet, about=_collect_page_facts(sheet))
 
 
@@ -287,7 +389,7 @@ _FILES = {"diagnose": "diagnosis.html", "add": "improved.html"}
 
 
 def write_page(path: Path, sheet: Page) -> Path:
-    """Write the page; returns the path of the file written.
+    """Writes the page; returns the path of the file written.
 
     Args:
         path: an `.html` file, or a folder, which then gets the page and an index of its pages.
@@ -309,7 +411,7 @@ def write_page(path: Path, sheet: Page) -> Path:
 def suggest_after_fit(
     model: str, logs: Sequence[str], robot: str, fit: "FitResult", mapped: Sequence[str] = ()
 ) -> list[str]:
-    """Compare the model with logs, and look for what it lacks; first what the fit asks for.
+    """Suggests to compare the model with logs, and to diagnose it; first what the fit requires.
 
     Args:
         model: its file.
@@ -340,7 +442,7 @@ def _is_effect_missing(fit: "FitResult") -> bool:
 def suggest_after_compare(
     model: str, fitted: Sequence[str], logs: Sequence[str], held_out: bool, noise: bool = False
 ) -> str:
-    """Look for what is missing; if nothing is, go to the controller.
+    """Suggests to diagnose the model; if nothing is missing, to generate the controller.
 
     Args:
         model: file of the model.
@@ -357,7 +459,7 @@ def suggest_after_compare(
 
 
 def suggest_after_stated(robot: str, logs: Sequence[str], mapped: Sequence[str] = ()) -> str:
-    """Fit what a robot file states otherwise."""
+    """Suggests to fit what a robot file states."""
     words = "".join(f" --map {_quote_words([word])}" for word in mapped)
     stem = Path(robot).name.partition(".")[0]
     return (
@@ -367,10 +469,13 @@ def suggest_after_stated(robot: str, logs: Sequence[str], mapped: Sequence[str] 
 
 
 def suggest_after_diagnosis(
-    model: str, logs: Sequence[str], holdout: Sequence[str], diagnosis: "Diagnosis",
+    model: str,
+    logs: Sequence[str],
+    holdout: Sequence[str],
+    diagnosis: "Diagnosis",
     effects_from: str | None = None,
-) -> list[str]:  # fmt: skip
-    """Add the effects that have columns; without any, see what is left, or take the model."""
+) -> list[str]:
+    """Suggests to add the effects that have columns; else to compare or to generate."""
     named = diagnosis.addable_findings
     if not named and diagnosis.verdict == "nothing significant":
         return [_suggest_generate(model)]
@@ -396,7 +501,7 @@ def suggest_after_diagnosis(
 def suggest_after_add(
     model: str, logs: Sequence[str], holdout: Sequence[str], fit: "FitResult"
 ) -> list[str]:
-    """Compare the new model with what was never fitted, if given; take it to the controller.
+    """Suggests to compare the new model with held-out logs, and to generate the controller.
 
     First see what it lacks still, if it does.
     """

@@ -2,7 +2,7 @@
 
 import dataclasses
 import re
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -14,27 +14,33 @@ from modeler.core.errors import DataError, DerivationError, LoopError
 from modeler.core.files import write_atomically
 from modeler.core.json import select_attributes
 from modeler.core.table import align_columns
+from modeler.excitation import BASE as STILL, ClosestApproach, CollisionGeometry, MotionBounds
 from modeler.robot import JointKind, Robot, build_written_table, get_written_letter
+from modeler.views import robot_scene
 from modeler.views.page import encode_script_json, render_template
-from modeler.views.robot_closing import CLOSED, LoopGap, Posture, compute_gaps, find_home_posture
-from modeler.views.robot_labels import choose_view
-from modeler.views.robot_scene import Part, Point, Scene, build_scene
 from modeler.views.robot_skeleton import (
+    BASE,
+    LoopGap,
+    Posture,
     Skeleton,
     SkeletonRow,
     build_skeleton,
+    compute_gaps,
     compute_poses,
+    estimate_robot_size,
+    find_home_posture,
     format_joint_kind,
 )
+from modeler.views.thresholds import THRESHOLDS
 
 _DIGITS = 7  # of coordinates of drawn points: finer than any screen
 
 
 def build_page_content(
-    skeleton: Skeleton, posture: Posture, further: Sequence[Part] = ()
+    skeleton: Skeleton, posture: Posture, further: Sequence[robot_scene.Part] = ()
 ) -> dict[str, Any]:
-    """What the scripts of the page work on: the table in numbers, loops, ranges, drawn parts."""
-    view = choose_view(skeleton, posture)
+    """Builds the data of the page's scripts: the table in numbers, loops, ranges, drawn parts."""
+    view = robot_scene.choose_view(skeleton, posture)
     ranges = [_choose_slider_range(skeleton, posture, k) for k in range(len(skeleton.free))]
     return {
         "name": skeleton.robot.name,
@@ -60,7 +66,7 @@ def build_page_content(
         "gravity": skeleton.gravity.tolist(),
         "view": view.rotation.tolist(),
         "up": view.up.tolist(),
-        **_describe_parts(build_scene(skeleton, posture, further)),
+        **_describe_parts(robot_scene.build_scene(skeleton, posture, further)),
     }
 
 
@@ -92,7 +98,7 @@ def _choose_slider_range(skeleton: Skeleton, posture: Posture, k: int) -> list[f
     return [home - reach, home + reach]
 
 
-def _describe_parts(scene: Scene) -> dict[str, Any]:
+def _describe_parts(scene: robot_scene.Scene) -> dict[str, Any]:
     """Every part as an object with its fields; points are lists [frame, x, y, z]."""
     return {
         "bulk": scene.radius,
@@ -106,11 +112,11 @@ def _describe_parts(scene: Scene) -> dict[str, Any]:
     }
 
 
-def _convert_ends(ends: tuple[Point, Point]) -> list[list[float]]:
+def _convert_ends(ends: tuple[robot_scene.Point, robot_scene.Point]) -> list[list[float]]:
     return [_convert_point(end) for end in ends]
 
 
-def _convert_point(point: Point) -> list[float]:
+def _convert_point(point: robot_scene.Point) -> list[float]:
     return [point[0], *(round(x, _DIGITS) for x in point[1])]
 
 
@@ -141,14 +147,14 @@ class TableRow:
 
 
 def build_table_head(robot: Robot) -> tuple[str, ...]:
-    """The names of the columns; those that are zero everywhere are left out."""
+    """Returns the names of the columns; those that are zero everywhere are left out."""
     table = build_written_table(robot)
     letters = (_LETTERS.get(letter, letter) for letter in table.units)
     return ("j", *([table.antecedent] if table.antecedent else []), "μ", "σ", *letters, "q")
 
 
 def build_table_rows(robot: Robot) -> tuple[TableRow, ...]:
-    """The rows in table order, the platform's last."""
+    """Returns the rows in table order, the platform's last."""
     table, rows = build_written_table(robot), []
     numbers = {joint.name: str(i) for i, joint in enumerate(robot.joints)}
     for i, (joint, row_cells) in enumerate(table.rows):
@@ -169,7 +175,7 @@ def _typeset_cell(cell: str) -> str:
 
 
 def describe_gravity(skeleton: Skeleton) -> str:
-    """`gravity 9.81 m/s² along −z0`."""
+    """Describes gravity: `gravity 9.81 m/s² along −z0`."""
     length = float(np.linalg.norm(skeleton.gravity))
     if length == 0.0:
         return "no gravity"
@@ -181,7 +187,7 @@ def describe_gravity(skeleton: Skeleton) -> str:
 
 
 def format_relations(robot: Robot) -> str:
-    """`q4 = -q3, q7 = q3`; nothing without relations."""
+    """Formats the relations: `q4 = -q3, q7 = q3`; nothing without any."""
     return ", ".join(f"q{name} = {relation.text}" for name, relation in robot.relations.items())
 
 
@@ -192,7 +198,7 @@ _HEAD = ("j", "a", "joint", "q", "x", "y", "z", "axis")
 
 
 def describe_posture(skeleton: Skeleton, posture: Posture) -> list[str]:
-    """Lines for people: where every frame stands at home, and whether the loops close."""
+    """Describes where every frame stands at home, and whether the loops close."""
     robot = skeleton.robot
     frames = compute_poses(skeleton, posture.u)
     cells = [
@@ -212,8 +218,14 @@ def _format_frame_row(row: SkeletonRow, frame: np.ndarray, posture: Posture) -> 
     if joint.is_moving:
         kind += ", actuated" if joint.actuated else ", platform" if row.virtual else ", passive"
     q = _format_number(row.constant + row.coefficients @ posture.u) if joint.is_moving else ""
-    return (joint.name, joint.antecedent, kind, q, *map(_format_number, frame[:3, 3]),
-            _format_direction(frame[:3, 2]))  # fmt: skip
+    return (
+        joint.name,
+        joint.antecedent,
+        kind,
+        q,
+        *map(_format_number, frame[:3, 3]),
+        _format_direction(frame[:3, 2]),
+    )
 
 
 def _describe_loops(skeleton: Skeleton, posture: Posture) -> list[str]:
@@ -222,7 +234,11 @@ def _describe_loops(skeleton: Skeleton, posture: Posture) -> list[str]:
         loop = gap.loop
         state = "closed"
         if not _is_closed(gap, posture):
-            angle = f" and {np.degrees(gap.angle):.3g} degrees" if gap.angle > CLOSED else ""
+            angle = (
+                f" and {np.degrees(gap.angle):.3g} degrees"
+                if gap.angle > THRESHOLDS.max_loop_residual
+                else ""
+            )
             state = f"OPEN by {gap.distance:.3g} m{angle}"
         lines.append(f'loop "{loop.name}": {loop.frame} meets {loop.meets} ({loop.kind}): {state}')
     if not posture.closed:
@@ -248,7 +264,7 @@ def _describe_loops(skeleton: Skeleton, posture: Posture) -> list[str]:
 
 
 def serialise_posture(skeleton: Skeleton, posture: Posture) -> dict[str, Any]:
-    """The same for machines: poses are 4x4 matrices, rows first, in frame 0, m."""
+    """Returns the posture as plain data: poses are 4x4 matrices, rows first, in frame 0, m."""
     frames = compute_poses(skeleton, posture.u)
     return {
         "robot": skeleton.robot.name,
@@ -260,24 +276,15 @@ def serialise_posture(skeleton: Skeleton, posture: Posture) -> dict[str, Any]:
             if row.joint.is_moving
         },
         "frames": [
-            {
-                **select_attributes(row.joint, "name antecedent"),
-                "joint": format_joint_kind(row.joint),
-                "actuated": row.joint.actuated,
-                "pose": frames[i].tolist(),
-            }
-            for i, row in enumerate(skeleton.rows)
+            {**select_attributes(row.joint, "name antecedent")}
+            | {"joint": format_joint_kind(row.joint), "actuated": row.joint.actuated}
+            | {"pose": frame.tolist()}
+            for row, frame in zip(skeleton.rows, frames, strict=True)
         ],
         "loops": [
-            {
-                "loop": gap.loop.name,
-                "frame": gap.loop.frame,
-                "meets": gap.loop.meets,
-                "joint": gap.loop.kind,
-                "gap": gap.distance,
-                "angle": gap.angle,
-                "closed": _is_closed(gap, posture),
-            }
+            {"loop": gap.loop.name, **select_attributes(gap.loop, "frame meets")}
+            | {"joint": gap.loop.kind, "gap": gap.distance, "angle": gap.angle}
+            | {"closed": _is_closed(gap, posture)}
             for gap in compute_gaps(skeleton, posture.u)
         ],
         "closed": posture.closed,
@@ -289,7 +296,10 @@ def serialise_posture(skeleton: Skeleton, posture: Posture) -> dict[str, Any]:
 
 
 def _is_closed(gap: LoopGap, posture: Posture) -> bool:
-    return gap.distance < 10.0 * CLOSED * posture.size and gap.angle < 10.0 * CLOSED
+    return (
+        gap.distance < 10.0 * THRESHOLDS.max_loop_residual * posture.size
+        and gap.angle < 10.0 * THRESHOLDS.max_loop_residual
+    )
 
 
 def _format_number(x: float) -> str:
@@ -304,8 +314,10 @@ def _format_direction(z: np.ndarray) -> str:
     return " ".join(f"{0.0 if abs(x) < 5e-4 else x:.3f}" for x in z)
 
 
-def render_robot_page(skeleton: Skeleton, posture: Posture, further: Sequence[Part] = ()) -> str:
-    """The page as text, with further parts; its security policy forbids any network access."""
+def render_robot_page(
+    skeleton: Skeleton, posture: Posture, further: Sequence[robot_scene.Part] = ()
+) -> str:
+    """Renders the page with further parts; its security policy forbids any network access."""
     robot = skeleton.robot
     return render_template(
         "robot",
@@ -324,7 +336,7 @@ def render_robot_page(skeleton: Skeleton, posture: Posture, further: Sequence[Pa
 
 
 def render_modes_page(name: str, title: str, count: int, svg: str) -> str:
-    """The page of a robot's assembly modes.
+    """Renders the page of a robot's assembly modes.
 
     Args:
         name: of the robot.
@@ -356,7 +368,7 @@ class ShownRobot(ShortRepr):
 def show(
     robot: Robot, page: str | Path | None = None, picture: str | Path | None = None
 ) -> ShownRobot:
-    """Draw a robot at its [home], found where that is missing or poor.
+    """Draws a robot at its [home], which is solved where it is missing or poor.
 
     >>> show(robot, "arm.html").skeleton.robot.name
     'two-link'
@@ -388,7 +400,7 @@ def show(
 
 
 def render_robot(robot: Robot) -> str:
-    """The page of a robot."""
+    """Renders the page of a robot."""
     shown_robot = _prepare_robot(robot)
     return render_robot_page(shown_robot.skeleton, shown_robot.posture)
 
@@ -415,3 +427,64 @@ def _prepare_robot(robot: Robot) -> ShownRobot:
             note = str(error)
     skeleton = build_skeleton(robot)
     return ShownRobot(skeleton, dataclasses.replace(find_home_posture(skeleton), note=note))
+
+
+# The page of a robot where two of its links come nearest: its capsules, and these two in red.
+
+
+_CLEAR = 0.22  # opacity
+
+
+def render_nearest_page(robot: Robot, bounds: MotionBounds, near: ClosestApproach) -> str:
+    """Renders the page of the posture where two links are nearest.
+
+    Args:
+        robot: as read.
+        bounds: with a clearance.
+        near: where two come nearest.
+    """
+    assert bounds.clearance is not None
+    skeleton = build_skeleton(robot)
+    stated = zip(skeleton.free, skeleton.stated.tolist(), strict=True)
+    u = np.array([near.posture.get(name, otherwise) for name, otherwise in stated])
+    line = bounds.clearance.format_line(near)
+    posture = Posture(
+        u, estimate_robot_size(skeleton, u), True, True, note=f"{line[0].upper()}{line[1:]}."
+    )
+    parts = [*_build_capsules(skeleton, bounds.clearance.solids, near.pair), *_mark_gap(near)]
+    return render_robot_page(skeleton, posture, parts)
+
+
+def _mark_gap(near: ClosestApproach) -> Iterator[robot_scene.Part]:
+    """The way between the two."""
+    one, other = ((BASE, (float(p[0]), float(p[1]), float(p[2]))) for p in near.points)
+    yield robot_scene.SceneLine(BASE, (one, other), robot_scene.OPEN, 3.0, "gap")
+    yield robot_scene.Label(BASE, one, f"{1e3 * near.distance:.1f} mm", robot_scene.OPEN, "names")
+
+
+def _build_capsules(
+    skeleton: Skeleton, solids: CollisionGeometry, pair: tuple[str, str]
+) -> Iterator[robot_scene.Face]:
+    """All capsules, each on its link; planes are not drawn."""
+    moving = [i for i, row in enumerate(skeleton.rows) if row.joint.is_moving]
+    for k, name in enumerate(solids.names[: len(solids.ends)]):
+        carrier = int(solids.carriers[k])
+        frame = BASE if carrier == STILL else moving[carrier]
+        color = (
+            robot_scene.OPEN if name in pair else robot_scene.BODIES[k % len(robot_scene.BODIES)]
+        )
+        for points in _build_capsule(solids.ends[k], float(solids.radius[k])):
+            yield robot_scene.Face(frame, frame, points, color, "capsules", _CLEAR)
+
+
+def _build_capsule(ends: np.ndarray, radius: float) -> Iterator[np.ndarray]:
+    """Polygons of it."""
+    way = ends[1] - ends[0]
+    length = float(np.linalg.norm(way))
+    for end in ends if length else ends[:1]:
+        yield from (points + end for points in robot_scene.build_ball(radius))
+    if length:
+        # A turn that takes z along the way: columns of a QR factorisation that begins with it.
+        turn = np.linalg.qr(np.column_stack([way, np.eye(3)]))[0][:, [1, 2, 0]]
+        for points in robot_scene.build_cylinder(radius, length)[:-2]:
+            yield points @ turn.T + ends.mean(axis=0)

@@ -6,15 +6,17 @@ from typing import Any
 
 import numpy as np
 
-from modeler.views.robot_closing import Posture, compute_gaps
 from modeler.views.robot_skeleton import (
     BASE,
+    Posture,
     Skeleton,
     SkeletonRow,
     compute_corner,
     compute_foot_pose,
+    compute_gaps,
     compute_poses,
 )
+from modeler.views.thresholds import THRESHOLDS
 
 # Shapes of joints: lists of flat polygons, (corners, 3) each, around the origin, axis along z.
 
@@ -23,7 +25,7 @@ _SIDES = 14
 
 
 def build_cylinder(radius: float, length: float) -> list[np.ndarray]:
-    """A cylinder."""
+    """Builds a cylinder."""
     angle = np.linspace(0.0, 2.0 * np.pi, _SIDES + 1)
     ring = np.stack([radius * np.cos(angle), radius * np.sin(angle), 0.0 * angle], axis=1)
     half = np.array([0.0, 0.0, 0.5 * length])
@@ -33,7 +35,7 @@ def build_cylinder(radius: float, length: float) -> list[np.ndarray]:
 
 
 def build_box(half: float, low: float, high: float) -> list[np.ndarray]:
-    """A square prism from z = low to high, 2 half wide."""
+    """Builds a square prism from z = low to high, 2 half wide."""
     ring = half * np.array([[1.0, 1.0], [-1.0, 1.0], [-1.0, -1.0], [1.0, -1.0]])
     top = np.column_stack([ring, np.full(4, high)])
     bottom = np.column_stack([ring, np.full(4, low)])
@@ -42,7 +44,7 @@ def build_box(half: float, low: float, high: float) -> list[np.ndarray]:
 
 
 def build_ball(radius: float) -> list[np.ndarray]:
-    """A ball, as rings of polygons."""
+    """Builds a ball, as rings of polygons."""
     rings, turns = 5, 10
     polar = np.pi * np.arange(rings + 1) / rings
     angle = 2.0 * np.pi * np.arange(turns + 1) / turns
@@ -51,22 +53,16 @@ def build_ball(radius: float) -> list[np.ndarray]:
         s, c = np.sin(polar[i]), np.cos(polar[i])
         return radius * np.array([s * np.cos(angle[k]), s * np.sin(angle[k]), c])
 
+    corners = ((0, 0), (1, 0), (1, 1), (0, 1))
     return [
-        np.array(
-            [
-                compute_point(i, k),
-                compute_point(i + 1, k),
-                compute_point(i + 1, k + 1),
-                compute_point(i, k + 1),
-            ]
-        )
+        np.array([compute_point(i + a, k + b) for a, b in corners])
         for i in range(rings)
         for k in range(turns)
     ]
 
 
 def order_polygon(points: np.ndarray, size: float) -> np.ndarray | None:
-    """The points in the order around their middle, in their best plane; None if they are a line."""
+    """Orders the points around their middle, in their best plane; None if they are a line."""
     if len(points) < 3:
         return None
     middle = points - points.mean(axis=0)
@@ -164,7 +160,7 @@ class Scene:
     sleeves: tuple[Sleeve, ...]
 
     def drop_layers(self, layers: Sequence[str]) -> "Scene":
-        """The scene without what is shown and hidden with these layers."""
+        """Returns the scene without these layers."""
         parts: Any = {
             kind: tuple(part for part in getattr(self, kind) if part.layer not in layers)
             for kind in ("lines", "faces", "dots", "labels")
@@ -179,7 +175,7 @@ Part = SceneLine | Face | Dot | Label | Sleeve
 
 
 def build_scene(skeleton: Skeleton, posture: Posture, further: Sequence[Part] = ()) -> Scene:
-    """The parts of a robot, their sizes chosen for the posture, and further ones."""
+    """Builds the parts of a robot, their sizes chosen for the posture, and further ones."""
     maker = _SceneBuilder(skeleton, posture)
     parts = [*further, *maker.build_base(), *maker.build_platform(), *maker.build_loops()]
     for i, row in enumerate(skeleton.rows):
@@ -213,7 +209,7 @@ class _SceneBuilder:
         self.radius = float(np.clip(0.3 * typical, 0.010 * self.size, 0.021 * self.size))
 
     def choose_color(self, body: int) -> str:
-        """Of a link."""
+        """Returns the colour of a link."""
         if body == BASE:
             return GROUND
         if self.skeleton.rows[body].virtual:
@@ -221,7 +217,7 @@ class _SceneBuilder:
         return BODIES[(self.skeleton.count_depth(body) - 1) % len(BODIES)]
 
     def build_base(self) -> Iterator[Part]:
-        """Frame 0."""
+        """Builds the axes of frame 0."""
         yield from self._build_triad(BASE, 0.13 * self.size, 1.6, "base")
         for axis, name in enumerate("xyz"):
             tip = 0.15 * self.size * np.eye(3)[axis]
@@ -229,7 +225,7 @@ class _SceneBuilder:
         yield Dot(BASE, (BASE, ORIGIN), "#222222", 3.0, "base")
 
     def build_link(self, i: int, row: SkeletonRow) -> Iterator[Part]:
-        """The common normal from the antecedent, and the way along the joint's axis."""
+        """Builds the common normal from the antecedent, and the way along the joint's axis."""
         a, carrier = row.parent, self.skeleton.find_body_row(row.parent)
         turn, ankle = compute_corner(row), compute_foot_pose(row)[:3, 3]
         of = i if a == BASE else a
@@ -275,7 +271,7 @@ class _SceneBuilder:
         return (row.parent, _convert_to_tuple((place @ [0.0, 0.0, z, 1.0])[:3]))
 
     def build_joint(self, i: int, row: SkeletonRow) -> Iterator[Part]:
-        """A cylinder along a revolute axis, a sleeve along a prismatic one, else a dot."""
+        """Builds a cylinder along a revolute axis, a sleeve along a prismatic one, else a dot."""
         joint, name = row.joint, row.joint.name
         if not joint.is_moving:
             yield Dot(i, (i, ORIGIN), FIXED, 2.5, "joints")
@@ -307,7 +303,7 @@ class _SceneBuilder:
         return 0.5 * r - half, 0.5 * r + half
 
     def build_frame(self, i: int) -> Iterator[Part]:
-        """The axes of frame j."""
+        """Builds the axes of frame j."""
         length = min(0.075 * self.size, 4.5 * self.radius)
         yield from self._build_triad(i, length, 1.1, "frames")
 
@@ -317,7 +313,7 @@ class _SceneBuilder:
             yield SceneLine(frame, ends, color, width, layer, arrow=True)
 
     def build_end(self, i: int, row: SkeletonRow) -> Iterator[Part]:
-        """A dashed stub where the table ends: it does not say how long the last link is."""
+        """Builds a dashed stub at a last link, whose length the table does not state."""
         skeleton = self.skeleton
         followed = any(other.parent == i for other in skeleton.rows)
         met = any(row.joint.name in (loop.frame, loop.meets) for loop in skeleton.robot.loops)
@@ -339,7 +335,7 @@ class _SceneBuilder:
         return np.eye(3)[0 if parallel else 2]
 
     def build_mass(self, i: int, row: SkeletonRow) -> Iterator[Part]:
-        """The centre of mass, where the file states it."""
+        """Builds a dot at the centre of mass, where the file states it."""
         centre = self._find_centre_of_mass(row)
         if centre is not None:
             yield Dot(i, (i, _convert_to_tuple(centre)), MASS, 3.4, "masses")
@@ -353,7 +349,7 @@ class _SceneBuilder:
         return np.array([values.get(moment, 0.0) for moment in moments]) / mass
 
     def build_platform(self) -> Iterator[Part]:
-        """The body between the points where legs meet it; a block where that is one point."""
+        """Builds the body between the points where legs meet it; a block at one point."""
         skeleton = self.skeleton
         if not skeleton.robot.platform:
             return
@@ -379,7 +375,7 @@ class _SceneBuilder:
         yield from self.build_frame(i)
 
     def build_loops(self) -> Iterator[Part]:
-        """The joints that close loops."""
+        """Builds the joints that close loops."""
         skeleton = self.skeleton
         for loop in skeleton.robot.loops:
             one, other = skeleton.find_row(loop.frame), skeleton.find_row(loop.meets)
@@ -397,7 +393,7 @@ class _SceneBuilder:
 
 
 def build_gap_lines(skeleton: Skeleton, u: np.ndarray) -> list[SceneLine]:
-    """Between the frames of every loop: the travel that its joint lets free, and in red the gap."""
+    """Builds the free travel and, in red, the gap between the frames of every loop."""
     lines = []
     for gap in compute_gaps(skeleton, u):
         row = skeleton.find_row(gap.loop.frame)
@@ -417,3 +413,125 @@ def _compute_travel(row: SkeletonRow, u: np.ndarray) -> float:
 
 def _convert_to_tuple(point: Sequence[float] | np.ndarray) -> tuple[float, float, float]:
     return (float(point[0]), float(point[1]), float(point[2]))
+
+
+# Views of a robot, gravity down, and where its names are written.
+
+
+_AZIMUTHS = (-60.0, -30.0, -45.0, 30.0, 45.0, 60.0, 120.0, 135.0, 150.0, -120.0, -135.0, -150.0)
+_ELEVATION = 24.0
+_ASIDE, _ABOVE = np.radians(25.0), np.radians(16.0)
+
+
+@dataclass(frozen=True)
+class ViewDirection:
+    """How a robot is seen.
+
+    Attributes:
+        rotation: (3, 3) rows are right, up and towards the viewer, in frame 0.
+        up: (3,) what is up: against gravity; z0 without gravity.
+    """
+
+    rotation: np.ndarray
+    up: np.ndarray
+
+
+def choose_view(skeleton: Skeleton, posture: Posture) -> ViewDirection:
+    """Chooses a view in which few frames hide each other.
+
+    Straight on for planar mechanisms; nearly so for others that stand in a plane.
+    """
+    pull = float(np.linalg.norm(skeleton.gravity))
+    up = -skeleton.gravity / pull if pull > 0.0 else np.array([0.0, 0.0, 1.0])
+    points = collect_joint_points(skeleton, posture.u)
+    frames = compute_poses(skeleton, posture.u)
+    turning = [
+        i for i, row in enumerate(skeleton.rows) if row.joint.is_moving and row.joint.is_revolute
+    ]
+    axes = np.array([frames[i][:3, 2] for i in turning]).reshape(-1, 3)
+    normal = _fit_plane_normal(points, axes, posture.size)
+    if normal is not None:
+        return ViewDirection(_compute_plane_view(normal, axes, up), up)
+    best, best_score = None, -np.inf
+    for azimuth in _AZIMUTHS:
+        rotation = compute_view_rotation(up, np.radians(azimuth), np.radians(_ELEVATION))
+        score = _compute_spread(points @ rotation[:2].T, posture.size)
+        if best is None or score > best_score * THRESHOLDS.min_view_gain:
+            best, best_score = rotation, score
+    assert best is not None
+    return ViewDirection(best, up)
+
+
+def _compute_plane_view(normal: np.ndarray, axes: np.ndarray, up: np.ndarray) -> np.ndarray:
+    """(3, 3) a view of a robot that stands in a plane."""
+    across = abs(normal @ up) > 0.99  # gravity across the plane: up says nothing in it
+    vertical = next(a for a in np.eye(3)[[1, 2, 0]] if abs(a @ normal) < 0.1) if across else up
+    vertical = vertical - (vertical @ normal) * normal
+    vertical /= np.linalg.norm(vertical)
+    right = np.cross(vertical, normal)
+    if right[np.argmax(np.abs(right) > 0.3)] < 0 and not across:
+        right, normal = -right, -normal
+    straight = np.array([right, vertical, normal])
+    if _are_parallel(axes, normal):
+        return straight
+    c, s = np.cos(_ASIDE), np.sin(_ASIDE)
+    level = c * straight[2] - s * straight[0]
+    towards = np.cos(_ABOVE) * level + np.sin(_ABOVE) * straight[1]
+    right = c * straight[0] + s * straight[2]
+    return np.array([right, np.cross(towards, right), towards])
+
+
+def compute_view_rotation(up: np.ndarray, azimuth: float, elevation: float) -> np.ndarray:
+    """Returns (3, 3) rows right, up, towards the viewer at these angles [rad] about `up`."""
+    start = next(axis for axis in np.eye(3) if abs(axis @ up) < 0.6)
+    east = start - (start @ up) * up
+    east /= np.linalg.norm(east)
+    north = np.cross(up, east)
+    level = np.cos(azimuth) * east + np.sin(azimuth) * north
+    towards = np.cos(elevation) * level + np.sin(elevation) * up
+    right = np.cos(azimuth) * north - np.sin(azimuth) * east
+    return np.array([right, np.cross(towards, right), towards])
+
+
+def collect_joint_points(skeleton: Skeleton, u: np.ndarray) -> np.ndarray:
+    """Returns (n, 3) origins of frames and feet of axes without platform motions, unique."""
+    frames = compute_poses(skeleton, u)
+    points = [np.zeros(3)]
+    for i, row in enumerate(skeleton.rows):
+        if row.virtual and row.joint.name != skeleton.robot.platform[-1]:
+            continue
+        points.append(frames[i][:3, 3])
+        if not row.virtual:
+            before = np.eye(4) if row.parent == BASE else frames[row.parent]
+            points.append((before @ compute_foot_pose(row))[:3, 3])
+    return np.unique(np.round(np.array(points), 9), axis=0)
+
+
+def _are_parallel(axes: np.ndarray, normal: np.ndarray) -> bool:
+    return bool(np.all(np.abs(axes @ normal) > 1.0 - 1e-6))
+
+
+def _fit_plane_normal(points: np.ndarray, axes: np.ndarray, size: float) -> np.ndarray | None:
+    """Of the plane that all points lie in; None if there is none.
+
+    Where points are a line, the plane that the joints turn in.
+    """
+    if (
+        len(axes)
+        and _are_parallel(axes, axes[0])
+        and np.ptp(points @ axes[0]) < THRESHOLDS.max_flatness * size
+    ):
+        return np.asarray(axes[0] if axes[0][np.argmax(np.abs(axes[0]))] > 0 else -axes[0])
+    if len(points) < 3:
+        return None
+    _, lengths, directions = np.linalg.svd(points - points.mean(axis=0))
+    if lengths[1] < THRESHOLDS.max_flatness * size or lengths[2] > THRESHOLDS.max_flatness * size:
+        return None
+    normal = directions[2]
+    return np.asarray(normal if normal[np.argmax(np.abs(normal))] > 0 else -normal)
+
+
+def _compute_spread(flat: np.ndarray, size: float) -> float:
+    """How well points are told apart on the paper: mean distance, near pairs count most."""
+    away = np.linalg.norm(flat[:, None] - flat[None], axis=2)[np.triu_indices(len(flat), 1)]
+    return float(np.mean(np.minimum(away / size, 0.15))) if away.size else 0.0

@@ -11,15 +11,17 @@ import pytest
 
 from modeler.core.builtin import read_builtin_robot
 from modeler.robot.read import parse_robot_text, read_robot
-from modeler.views.robot_closing import (
+from modeler.views.robot_page import build_page_content, render_robot_page, show
+from modeler.views.robot_skeleton import (
     Posture,
+    Skeleton,
+    build_skeleton,
     compute_gaps,
     compute_jacobian,
+    compute_poses,
     compute_residuals,
     find_home_posture,
 )
-from modeler.views.robot_page import build_page_content, render_robot_page, show
-from modeler.views.robot_skeleton import Skeleton, build_skeleton, compute_poses
 from tests.browser.chromium import Chromium
 from tests.robots import ROBOTS
 from tests.rotation import rotating

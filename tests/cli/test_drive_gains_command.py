@@ -76,7 +76,7 @@ def test_a_log_with_a_known_load_is_predicted_with_it(arm, tmp_path, capsys):
     loaded = json.loads(place.read_text())["joints"]
     assert all(loaded[j]["relative_error"] < 0.02 for j in loaded)
     assert loaded["2"]["rms"] < 0.25 * bare["2"]["rms"]  # along gravity
-    assert "with 1.2 kg  without the load" in printed and "beyond doubt" in printed
+    assert "with 1.2 kg  without the load" in printed and "significantly better" in printed
     names = {picture["name"] for picture in json.loads(drawn.read_text())["pictures"]}
     assert {f"joint_{j}_models" for j in "123"} < names
 

@@ -1,5 +1,6 @@
 """`modeler fit` of logs that are read in chunks: same numbers, told in lines and JSON."""
 
+import dataclasses
 import json
 import re
 import subprocess
@@ -11,7 +12,7 @@ import pyarrow.csv
 import pyarrow.parquet
 import pytest
 
-from modeler import regression
+from modeler import regression, validation
 from modeler.api import log_maps
 from modeler.cli import main
 from modeler.estimation import stream_logs
@@ -178,7 +179,8 @@ def test_rows_of_a_comparison_are_no_more_than_fit_in_memory(
     words = ["compare", place / "chunked.json", place / "run.parquet"]
     every, out = told_of(words, tmp_path / "every", capsys)
     assert "training only: the model was fitted on run.parquet" in out
-    monkeypatch.setattr(sys.modules["modeler.validation.predict"], "MOST", 150)
+    few = dataclasses.replace(validation.THRESHOLDS, max_rows=150)
+    monkeypatch.setattr(sys.modules["modeler.validation.comparison"], "THRESHOLDS", few)
     some, _ = told_of(words, tmp_path / "some", capsys)
     assert 120 < some["samples"] <= 151 < every["samples"]
     assert some["relative_error"] == pytest.approx(every["relative_error"], rel=0.3)

@@ -13,9 +13,8 @@ from modeler.core.builtin import read_builtin_robot
 from modeler.core.errors import DataError
 from modeler.derivation.assembly_modes import complete_home
 from modeler.robot.read import read_robot
-from modeler.views.robot_closing import find_home_posture
 from modeler.views.robot_drawing import render_picture
-from modeler.views.robot_skeleton import build_skeleton
+from modeler.views.robot_skeleton import build_skeleton, find_home_posture
 from tests.cli.running import answer, refusal
 from tests.robots import ROBOTS
 

@@ -9,7 +9,7 @@ from modeler.api import compile_model, derive, fit, generate, load, observe
 from modeler.regression.log import Log
 from modeler.regression.motion import Processing, compute_travel_since_reversal
 from modeler.validation.comparison import Comparison, compare
-from modeler.validation.predict import predict
+from modeler.validation.prediction import predict
 from modeler.validation.verdict import classify_residual, write_joint_verdict
 
 RATE, CUTOFF, NOISE = 400.0, 8.0, 0.8  # Hz, Hz, N m

@@ -22,9 +22,13 @@ from modeler.core.figure import Band, Bars, Heat, Panel, Picture
 from modeler.core.thinning import LIMIT, thin_curves, thin_points
 from modeler.regression.observation import MASKS
 from modeler.validation.comparison import Comparison, compare
-from modeler.validation.pictures import compute_binned_means, draw_overlay_picture
+from modeler.validation.pictures import (
+    compute_binned_means,
+    draw_overlay_picture,
+    draw_time_picture,
+    find_masked_spans,
+)
 from modeler.validation.prediction import Prediction
-from modeler.validation.time_picture import draw_time_picture, find_masked_spans
 from modeler.views.comparison import build_comparison_page, draw_all_pictures
 from modeler.views.figure_page import (
     ArrayStore,

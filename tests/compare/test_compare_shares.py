@@ -9,7 +9,7 @@ from known_defects import Defect, judged_alone, prediction
 from modeler.numerics.spectra import estimate_lap_period
 from modeler.validation.comparison import compare, estimate_scale
 from modeler.validation.prediction import JointInfo, Prediction
-from modeler.validation.repeatability import find_repetitions
+from modeler.validation.residual_structure import find_repetitions
 from modeler.validation.verdict import write_joint_verdict
 from tests.rotation import rotating
 

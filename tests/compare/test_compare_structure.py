@@ -66,7 +66,7 @@ def test_white_noise_has_no_structure() -> None:
         assert max(share for _, share in item.structure.across) < 0.01
         assert is_noise_like(item)
         assert "the residual looks like noise" in write_joint_verdict(item)
-        assert "ripples" not in write_joint_verdict(item)
+        assert "ripple of" not in write_joint_verdict(item)
 
 
 def coloured(memory: float, seed: int) -> np.ndarray:
@@ -282,7 +282,7 @@ def test_a_known_order_is_found(unit: str, per: str, shown: float) -> None:
     assert line["share"] == pytest.approx(0.18 / (0.18 + 0.25), abs=0.15)
     assert f"waves per {per}, 0." in write_joint_verdict(found.joints[1])
     assert classify_residual(found.joints[1]) == "pattern"
-    assert "ripples" not in write_joint_verdict(found.joints[0])
+    assert "ripple of" not in write_joint_verdict(found.joints[0])
     orders = draw_all_pictures(found)[4].panels[-1]
     panel = next(panel for panel in orders if panel.title.startswith("Order spectrum"))
     assert f"waves per {per}" in panel.title

@@ -10,7 +10,7 @@ from modeler.diagnosis.detected import detect_events
 from modeler.diagnosis.diagnosis import diagnose
 from modeler.diagnosis.score import ErrorChange, Score
 from modeler.effects.catalogue import CATALOGUE, find_effect
-from modeler.views.torque_picture import draw_play_picture
+from modeler.views.evidence import draw_play_picture
 from tests.diagnose.conftest import Case, motion, on_joint
 
 ERRORS = {"1": 0.05, "2": 0.05, "3": 0.05}

@@ -12,8 +12,8 @@ from modeler.diagnosis.diagnosis import diagnose
 from modeler.effects.catalogue import find_effect
 from modeler.regression.log import Log
 from modeler.views.diagnosis import build_diagnosis_page
+from modeler.views.evidence import draw_push_picture
 from modeler.views.page import write_page
-from modeler.views.torque_picture import draw_push_picture
 from tests.diagnose.conftest import Case, Torque, check_gains, motion, on_joint
 from tests.rotation import rotating
 

@@ -16,7 +16,7 @@ from modeler.excitation.criterion import (
 )
 from modeler.excitation.families import build_series
 from modeler.excitation.task import BarrierProblem
-from modeler.numerics.optimize import ObjectiveFunction, minimise_bfgs, minimise_cma_es
+from modeler.numerics.least_squares import ObjectiveFunction, minimise_bfgs, minimise_cma_es
 from tests.excite.robots_to_excite import limits_of, small_task
 
 

@@ -23,7 +23,8 @@ from modeler.estimation.parameters import select_essential_parameters
 from modeler.estimation.result import FitResult, read_fit
 from modeler.numerics.least_squares import compress_rows
 from modeler.regression import MASKS, WHY, Processing, classify_rows, observe
-from modeler.validation.prediction import DEVIATIONS, propagate_covariance
+from modeler.validation.prediction import propagate_covariance
+from modeler.validation.thresholds import THRESHOLDS
 from tests.modules import compiled
 from tests.oracles.numpy_model import planar_arm
 from tests.rotation import rotating
@@ -254,7 +255,7 @@ def repeated(memory: float) -> tuple[np.ndarray, np.ndarray, FitResult]:
         noise = 0.3 * np.sqrt(1.0 - pole**2) * lfilter([1.0], [1.0, -pole], white, axis=0)
         fit = identify(observe(arm, [dataclasses.replace(log, tau=log.tau + noise)], cut))
         errors.append((fit.beta - beta) / [parameter.sigma for parameter in fit.parameters])
-        band = DEVIATIONS * propagate_covariance(other.columns, fit.covariance)
+        band = THRESHOLDS.band_deviations * propagate_covariance(other.columns, fit.covariance)
         missed = np.abs(other.predict(fit.beta) - truth) > band
         inside.append(1.0 - np.mean(missed[other.used]))
     return np.array(errors), np.array(inside), fit

@@ -15,7 +15,11 @@ from modeler.regression.read import cut_rows
 from modeler.robot import Robot, parse_robot_text, replace_effects
 from modeler.runtime.model import CompiledModel
 from modeler.simulation import SimulationSettings, simulate
-from modeler.validation.forward_dynamics import FittedPlant
+from modeler.validation.forward_dynamics import (
+    FittedPlant,
+    compute_fit_percentage,
+    compute_horizons,
+)
 from modeler.validation.free_run import (
     FreeRunSettings,
     RobotBatch,
@@ -23,7 +27,6 @@ from modeler.validation.free_run import (
     simulate_free_run,
 )
 from modeler.validation.free_run_result import draw_free_run_pictures
-from modeler.validation.stability import compute_fit_percentage, compute_horizons
 from tests.chain import chain_of
 from tests.rotation import ROTATING, slow_rotating
 

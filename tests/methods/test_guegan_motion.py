@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from scipy.optimize import brentq
 
-from modeler.papers.guegan_motion import (
+from modeler.papers.guegan import (
     RUNS,
     _compute_condition_number,
     _exchange_motions,

@@ -11,8 +11,7 @@ import sympy
 from modeler.cli import main
 from modeler.core.formula import Formula
 from modeler.derivation.relations import build_expression_formula
-from modeler.views.blocks import FormulaBlock
-from modeler.views.page import Page, Section, render_template
+from modeler.views.page import FormulaBlock, Page, Section, render_template
 from tests.rotation import rotating
 
 _ENDS = {"\u03b1": "alpha", "\u03b2": "beta", "\u03b3": "gamma", "\u03b8": "theta", "\u03c0": "pi"}

@@ -18,14 +18,21 @@ from modeler.robot.read import parse_robot_text
 from modeler.views.diagnosis import build_diagnosis_page
 from modeler.views.effect_evidence import (
     Evidence,
+    build_bins,
     collect_evidence,
     compute_covariance,
     describe_residuals,
+    find_inliers,
 )
-from modeler.views.evidence import draw_evidence_picture, select_alternatives, tabulate_alternatives
-from modeler.views.evidence_axes import build_bins, find_inliers
+from modeler.views.evidence import (
+    draw_evidence_picture,
+    draw_play_picture,
+    draw_torque_picture,
+    find_worst_window,
+    select_alternatives,
+    tabulate_alternatives,
+)
 from modeler.views.page import write_page
-from modeler.views.torque_picture import draw_play_picture, draw_torque_picture, find_worst_window
 from tests.captions import assert_all_named
 from tests.diagnose.conftest import Case, demonstration, motion, on_joint
 from tests.diagnose.test_diagnose_effects import motor_ripple, spring, stribeck
@@ -98,7 +105,7 @@ def test_the_picture_convinces(case: Case, effect: str) -> None:
     assert_all_named(picture)
     assert_all_named(draw_play_picture(search.end, 0))
     if effect == "spring":  # the model imitates it, so that residuals do not show all of it
-        means = series(drawn["its law"], Means, "mean")
+        means = series(drawn["model of the effect"], Means, "mean")
         slope, rest = np.polyfit(means.x, means.y, 1)
         assert slope == pytest.approx(1.5, rel=0.02)
         assert np.abs(means.y - slope * means.x - rest).max() < 0.02

@@ -18,9 +18,9 @@ from modeler.views.history import (
     build_history_page,
     draw_joints_picture,
     draw_waterfall_picture,
+    format_relation,
 )
 from modeler.views.page import write_page
-from modeler.views.values import format_relation
 from tests.captions import assert_all_named
 from tests.cli.inputs import folder_after
 from tests.cli.running import answer, complaint

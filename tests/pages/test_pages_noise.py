@@ -15,8 +15,7 @@ from modeler.logs.inspect import inspect_table
 from modeler.logs.log_table import LogTable
 from modeler.logs.mapping import LogMap, parse_map_options
 from modeler.regression.prepare import estimate_position_noise
-from modeler.views.log import build_log_page, draw_log_pictures
-from modeler.views.noise import draw_noise_picture
+from modeler.views.log import build_log_page, draw_log_pictures, draw_noise_picture
 from tests.logs.writers import parquet
 
 SIZE = 1e-3  # rad, of white noise

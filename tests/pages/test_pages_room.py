@@ -6,8 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from modeler.views.blocks import Paragraph
-from modeler.views.page import Origin, Page, Section, find_pages, write_index, write_page
+from modeler.views.page import Origin, Page, Paragraph, Section, find_pages, write_index, write_page
 from tests.repository import ROOT
 
 # plotly.js-basic-dist-min of the npm registry

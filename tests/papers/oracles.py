@@ -10,8 +10,7 @@ from math import prod
 
 import numpy as np
 
-from modeler.papers.compared import build_renamer
-from modeler.papers.paper import read_paper
+from modeler.papers.paper import build_renamer, read_paper
 from modeler.papers.quotation import read_numbers, read_sum
 from tests.papers import mechanisms as m
 from tests.papers.derived_papers import robots_of
@@ -46,7 +45,7 @@ def evaluated(parts, known):
 
 @cache
 def groupings(robot):
-    return m.grouping(robot, robots_of_robot(robot).kept)
+    return m.grouping(robot, robots_of_robot(robot).independent_parameters)
 
 
 def robots_of_robot(robot):

@@ -5,8 +5,8 @@ from collections.abc import Iterator
 from dataclasses import replace
 from itertools import islice
 
-from modeler.papers.check import LineVerdict, check_line, expand_legs
 from modeler.papers.paper import read_paper
+from modeler.papers.readings import LineVerdict, check_line, expand_legs
 from modeler.papers.wrist import collect_coefficient_quotations
 from tests.papers.derived_papers import each_paper, robots_of
 

@@ -6,8 +6,8 @@ from itertools import islice
 import pytest
 
 from modeler.core.builtin import list_papers
-from modeler.papers.check import LineVerdict, check_line, expand_legs
 from modeler.papers.paper import read_paper
+from modeler.papers.readings import LineVerdict, check_line, expand_legs
 from modeler.papers.wrist import collect_coefficient_quotations
 from tests.papers.derived_papers import each_paper, robots_of
 from tests.papers.oracles import holds

@@ -9,9 +9,9 @@ import pytest
 
 from modeler.cli import main
 from modeler.core.builtin import list_papers
-from modeler.papers.check import LineVerdict, check_line, check_paper
 from modeler.papers.paper import PrintedLine, read_paper
 from modeler.papers.quotation import QuotationError, format_sum, read_numbers, read_sum
+from modeler.papers.readings import LineVerdict, check_line, check_paper
 from tests.papers.derived_papers import robots_of
 
 CLOSED = "orthoglide-2012"

@@ -6,8 +6,12 @@ import numpy as np
 import pytest
 
 from modeler.cli import main
-from modeler.numerics.held import estimate_hold_length, find_clips, find_repeated_rows
-from modeler.numerics.noise import estimate_lattice_step
+from modeler.numerics.noise import (
+    estimate_hold_length,
+    estimate_lattice_step,
+    find_clips,
+    find_repeated_rows,
+)
 from modeler.regression.log import Log
 from modeler.regression.motion import Processing
 from modeler.regression.observe import observe

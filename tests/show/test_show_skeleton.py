@@ -10,16 +10,18 @@ from modeler.core.builtin import read_builtin_robot
 from modeler.robot.read import parse_robot_text, read_robot
 from modeler.simulation.closing import build_constraints, compute_closed_postures
 from modeler.simulation.rigid import compute_world_frames
-from modeler.views.robot_closing import (
+from modeler.views.robot_scene import choose_view, collect_joint_points
+from modeler.views.robot_skeleton import (
     Posture,
+    Skeleton,
+    build_skeleton,
     compute_gaps,
     compute_jacobian,
+    compute_poses,
     compute_residuals,
     find_home_posture,
     solve_closure,
 )
-from modeler.views.robot_labels import choose_view, collect_joint_points
-from modeler.views.robot_skeleton import Skeleton, build_skeleton, compute_poses
 from tests.further_robots import FurtherRobots
 from tests.robot.texts import edited
 from tests.robots import LOOPED, ROBOTS, TIED

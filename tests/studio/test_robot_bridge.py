@@ -13,9 +13,8 @@ import pytest
 
 from modeler.core.builtin import read_builtin_robot
 from modeler.robot.read import parse_robot_text
-from modeler.views.robot_closing import compute_gaps, find_home_posture
 from modeler.views.robot_page import build_page_content, render_robot_page, serialise_posture
-from modeler.views.robot_skeleton import Skeleton, build_skeleton
+from modeler.views.robot_skeleton import Skeleton, build_skeleton, compute_gaps, find_home_posture
 from tests.browser.chromium import until
 
 PARENT = """<!DOCTYPE html><title>parent</title><link rel="icon" href="data:,">

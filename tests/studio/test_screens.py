@@ -209,7 +209,7 @@ def test_days_and_models_are_compared_and_drift_is_looked_for(arm: Path) -> None
         assert re.search(r"joint 2\s+[\d.]+ %\s+[\d.]+ %", page.texts())
         page.choose("tabs", "models")
         await page.click("Compare both")
-        await page.sees("7.json predicts joint 2 best, beyond doubt")
+        await page.sees("7.json predicts joint 2 significantly better")
         await page.sees("Joint 2: measured and predicted")
         words = ("compare", "models/5.json", "models/7.json", "logs/held_out.parquet")
         assert build_command_words(page.project, page.project.steps[-1]) == words
