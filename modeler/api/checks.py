@@ -22,7 +22,7 @@ from modeler.runtime import CompiledModel
 def compare(
     model: IdentifiedModel | Robot, logs: Logs, mapping: Mapped = ()
 ) -> validation.Comparison:
-    """Measured against predicted torque on logs, after the processing of the fit.
+    """Compares measured with predicted torque on logs, after the processing of the fit.
 
     >>> [joint.joint.name for joint in compare(model, ["tue.parquet"]).joints]
     ['1', '2']
@@ -39,7 +39,7 @@ def compare(
 
 
 def resolve_models(things: Sequence[IdentifiedModel | Robot]) -> list[IdentifiedModel]:
-    """Models as they are, robots as `build_stated_model`.
+    """Returns models; of a robot its `stated_model`, processed as the first model.
 
     With the processing of the first " "model.
     """
@@ -54,7 +54,7 @@ def resolve_models(things: Sequence[IdentifiedModel | Robot]) -> list[Identified
 
 
 def build_stated_model(robot: Robot, processing: Processing | None = None) -> IdentifiedModel:
-    """The values that the file of a robot states, as a model; those that it does not state are 0.
+    """Builds a model of the parameter values in a robot file; missing values are 0.
 
     Args:
         robot: as loaded.
@@ -119,7 +119,7 @@ def compare_logs(
     progress: Callable[[float], None] = lambda share: None,
     tell: Callable[[str], None] = lambda line: None,
 ) -> tuple[validation.Comparison, Observation]:
-    """The same, and the observation behind it; long logs are read in chunks.
+    """Compares as `compare` does, and returns the observation too; reads long logs in chunks.
 
     Args:
         model: fitted.
@@ -152,7 +152,7 @@ def compare_models(
     logs: Logs,
     mapping: Mapped = (),
 ) -> validation.ModelComparison:
-    """Models side by side: the error of each by joint, and which is better beyond doubt.
+    """Compares models on the same logs: error by joint, and significant differences.
 
     >>> compare_models({"all": model, "few": reduced_model(model)}, ["tue.parquet"]).names
     ('all', 'few')
@@ -189,7 +189,7 @@ def compare_compiled_models(
     mapping: Mapped = (),
     places: Sequence[str] = (),
 ) -> tuple[validation.ModelComparison, list[Log]]:
-    """The same of compiled models, and the logs.
+    """Compares compiled models, and returns the logs too.
 
     Args:
         models: by name.
@@ -211,7 +211,7 @@ def free_run(
     settings: validation.FreeRunSettings | None = None,
     mapping: Mapped = (),
 ) -> validation.FreeRun:
-    """Positions of the fitted robot under the logged torques, beside the logged ones.
+    """Simulates the fitted robot under the logged torques and compares the positions.
 
     >>> found = free_run(model, ["tue.parquet@0:0.5"], FreeRunSettings(window=0.2))
     >>> [joint.name for joint in found.joints]

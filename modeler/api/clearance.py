@@ -18,7 +18,7 @@ USUAL = 0.01
 def add_clearance(
     robot: Robot, compiled: CompiledModel, bounds: excitation.MotionBounds, margin: float | None
 ) -> excitation.MotionBounds:
-    """The bounds, and that links stay so far from each other.
+    """Adds the minimum distance between links to the bounds.
 
     Looked at are all links that share no joint and touch in some postures only.
 
@@ -73,7 +73,7 @@ def _collect_solids(robot: Robot, compiled: CompiledModel) -> excitation.Collisi
 def find_nearest_along(
     compiled: CompiledModel, clearance: excitation.Clearance, motion: simulation.Reference
 ) -> excitation.ClosestApproach | None:
-    """The nearest two along a motion; None if there are none to look at."""
+    """Finds the two nearest links along a motion; None without pairs to check."""
     if not len(clearance.solids.pairs):
         return None
     curve, samples = simulation.build_curve(motion), max(excitation.SAMPLES, 2 * len(motion.time))

@@ -24,7 +24,7 @@ _PROCESSORS = {"amd64": "x86_64", "arm64": "aarch64"}
 
 
 def export_code(thing: Robot | IdentifiedModel, to: str) -> Exported:
-    """The file, and what it holds.
+    """Exports a robot or a model to a format that is made of its equations.
 
     Args:
         thing: a robot, or a model.

@@ -27,7 +27,7 @@ def export(
     like: str | Path | None = None,
     force: bool = False,
 ) -> Exported:
-    """A robot or a model for another program; its `table()` lists the numbers.
+    """Exports a robot or a model for another program; `table()` of the result lists the numbers.
 
     >>> export(model, to="urdf").table("not held").column("effect")
     []

@@ -58,7 +58,7 @@ class FitRequest:
 
 
 def read_fit_request(options: Mapping[str, Any]) -> FitRequest:
-    """The fit by `[fit]` of a robot file."""
+    """Reads the request of a fit from `[fit]` of a robot file."""
     energy, below = options.get("model") == "energy", options.get("essential_below")
     return FitRequest(options.get("method", "weighted"), energy, options.get("window"), (), below)
 
@@ -87,7 +87,7 @@ class FitOutcome:
 def run_estimator(
     request: FitRequest, robot: Robot, compiled: CompiledModel, observation: Observation
 ) -> FitOutcome:
-    """The fit that is asked for.
+    """Runs the requested estimator.
 
     Raises:
         DataError: choices that do not go together, or what the estimator refuses.
@@ -140,7 +140,7 @@ def add_verdict(
     outcome: FitOutcome,
     data: CompressedRegression | None = None,
 ) -> estimation.FitResult:
-    """Its result with the verdict, to which all that is found in the logs counts.
+    """Adds the verdict to a result, with all warnings that the logs give.
 
     Args:
         compiled: the robot.
@@ -191,7 +191,7 @@ def fit(
     payloads: Sequence[estimation.Payload] = (),
     essential_below: float | None = None,
 ) -> Model:
-    """The base parameters from an observation, with all that a model file holds.
+    """Estimates the base parameters from an observation and returns the model.
 
     >>> fit(derivation, emitted, observe(compiled, ["mon.parquet"]), "robust").fit.method
     'robust'
@@ -237,7 +237,7 @@ def fit_observation(
     observation: Observation,
     report_step: Steps = ignore_step,
 ) -> tuple[Model, FitOutcome]:
-    """The same, and the way that was taken."""
+    """Estimates the base parameters and returns the model with the outcome of the estimator."""
     with report_step("estimating"):
         outcome = run_estimator(request, derivation.robot, compiled, observation)
     with report_step("judging the fit"):
@@ -251,7 +251,7 @@ def assemble_model(
     observation: Observation,
     result: estimation.FitResult,
 ) -> Model:
-    """A fit with all that a model file holds.
+    """Assembles a model from a derivation, its C, an observation and a fit.
 
     >>> seen = observe(compiled, ["mon.parquet"])
     >>> assemble_model(derivation, emitted, seen, model.fit)["ZZ1R"].unit
@@ -293,7 +293,7 @@ class Load:
         object.__setattr__(self, "logs", workflow.convert_to_list(self.logs))
 
     def build_payloads(self, loaded: Sequence[Log]) -> list[estimation.Payload]:
-        """It, as the fit knows it; one for each log if it was taken off in between."""
+        """Returns the payloads of the fit: one, or one for each log if it was remounted."""
         payload = estimation.Payload(tuple(log.name for log in loaded), self.link, self.mass)
         return estimation.separate_payload(payload) if self.moved else [payload]
 
@@ -301,7 +301,7 @@ class Load:
 def fit_gains(
     derivation: Derivation, logs: Logs, load: Load, processing: Processing | None = None
 ) -> Model:
-    """The model whose robot file has the drive gains that logs tell (docs/how-to/drive-gains.md).
+    """Estimates drive gains and returns the model with them (docs/how-to/drive-gains.md).
 
     Args:
         derivation: of the robot; its file states no gains, or starts for them.
@@ -328,7 +328,7 @@ def identify_gains(
     report_step: Steps = ignore_step,
     mapping: Mapped = (),
 ) -> tuple[Model, Observation]:
-    """The same, and the observation that the model was fitted to.
+    """Estimates drive gains, and returns the model and the observation it was fitted to.
 
     The gains are found first. Then the logs are read once more with them, as whoever uses the model
     will: all that is told of the fit is told of those torques. `check` refuses logs, bare and
@@ -384,7 +384,7 @@ def compare_methods(
     methods: Sequence[str] | None = None,
     progress: Callable[[float], None] | None = None,
 ) -> estimation.MethodComparison:
-    """Every estimator on the same logs: values, errors, seconds, and what each says of itself.
+    """Compares all estimators on the same logs: values, errors, run time, remarks.
 
     >>> found = compare_methods(compiled, ["mon.parquet"], methods=["weighted", "ridge"])
     >>> [result.method for result in found.results]
@@ -420,7 +420,7 @@ def observe_held_out(
     mapping: Mapped = (),
     processing: Processing | None = None,
 ) -> tuple[Observation, Observation | None]:
-    """Logs to fit, and held-out ones processed alike; None without any."""
+    """Builds the observations of fitted and held-out logs with the same processing."""
     training_logs, held_out_logs = (
         workflow.read_logs(compiled, some, mapping) for some in (logs, holdout)
     )
@@ -433,7 +433,7 @@ def observe_held_out(
 
 
 def select_methods(names: Sequence[str] | None, where: str = "methods") -> list[Method]:
-    """The estimators of these names, each once; all for None."""
+    """Returns the estimators of these names, each once; all for None."""
     if names is None:
         return list(ABOUT)
     chosen = [id for name in names for id in ABOUT if id == name]

@@ -36,7 +36,7 @@ def identify(
     processing: Processing | None = None,
     steps: Steps = ignore_step,
 ) -> Model:
-    """The model of a robot from its logs: all that `modeler fit` does.
+    """Identifies a robot from its logs, as `modeler fit` does, and returns the model.
 
     >>> run = simulate(open_robot("two-link"), duration=6.0, seed=1)
     >>> model = identify("two-link", {"time": run.time, "q": run.q, "tau": run.tau})
@@ -106,7 +106,7 @@ def identify(
 
 
 def prepare_robot(robot: Robot | str | Path, effects: Effects | None = None) -> Robot:
-    """A robot as fits take it: its [home] found if it has loops, with these effects.
+    """Reads a robot, sets its effects, and finds [home] if it has loops.
 
     Raises:
         RobotError: no such robot, or no such effect.
@@ -139,7 +139,7 @@ def fit_logs(
     check: Callable[[Sequence[Log], Sequence[Log]], None],
     reporter: Reporter,
 ) -> tuple[Model, Observation, fitting.FitOutcome, list[Log]]:
-    """The model of logs of any length, by any method.
+    """Fits logs of any length by any method.
 
     Args:
         request: how; the load comes to it.

@@ -58,7 +58,7 @@ def fit_long(
     progress: Callable[[float], None] = lambda share: None,
     reducer: chunked.Reducer | None = None,
 ) -> tuple[Model, chunked.StreamedLogs]:
-    """The fitted model of logs of any length, in flat memory; see `estimation.long_logs.stream`.
+    """Fits logs of any length in constant memory; see `estimation.long_logs.stream`.
 
     Args:
         derivation: of the robot.
@@ -90,7 +90,7 @@ def fit_if_long(
     mapping: Mapped,
     reporter: Reporter,
 ) -> tuple[Model, regression.Observation] | None:
-    """The model of long logs, read in chunks; None where all rows are to be in memory.
+    """Fits long logs in chunks; returns None where all rows must be in memory.
 
     Raises:
         DataError: they are more rows than a way to fit that needs all of them may have.
@@ -129,7 +129,7 @@ def fit_if_long(
 def add_long_verdict(
     compiled: CompiledModel, streamed: chunked.StreamedLogs, method: Method
 ) -> FitResult:
-    """The fit of long logs with its verdict."""
+    """Estimates the parameters of long logs and adds the verdict."""
     outcome = FitOutcome(chunked.identify_long(streamed, method, compiled))
     return add_verdict(compiled, streamed.observation, outcome, streamed.data)
 
@@ -153,7 +153,7 @@ class ChunkJobContext:
 
 
 def make_worker_reducer(workers: Workers, emitted: EmittedModule) -> chunked.Reducer:
-    """A reducer of logs by workers, who read their rows of a Parquet file themselves.
+    """Makes a reducer of logs whose workers read their rows of a Parquet file themselves.
 
     Logs of other formats are read from the beginning to the end: by this process. All logs are
     begun at once. Triangles of neighbours are merged in pairs; results differ from those of
@@ -184,12 +184,12 @@ def make_worker_reducer(workers: Workers, emitted: EmittedModule) -> chunked.Red
 
 
 def can_read_from_middle(source: regression.Source) -> TypeGuard[regression.FileSource]:
-    """True of a log whose rows a worker can read by itself, from the middle of its file."""
+    """Returns True if a worker can read rows from the middle of the file."""
     return isinstance(source, regression.FileSource) and source.exact
 
 
 def reduce_rows(shared: ChunkJobContext, numbers: range) -> chunked.PartialFit:
-    """Some chunks of a log, read and reduced by a worker.
+    """Reads and reduces some chunks of a log, in a worker.
 
     Raises:
         DataError: the worker does not see the file, or sees another.
@@ -208,7 +208,7 @@ def reduce_rows(shared: ChunkJobContext, numbers: range) -> chunked.PartialFit:
 
 
 def merge_in_time(first: chunked.PartialFit, later: chunked.PartialFit) -> chunked.PartialFit:
-    """Of rows of a log, and of those that follow them.
+    """Merges the reduction of rows with that of the rows that follow.
 
     Raises:
         DataError: time does not increase from the ones to the others.

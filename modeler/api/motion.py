@@ -64,7 +64,7 @@ class Subject:
         progress: Progress = _ignore_progress,
         known: excitation.PriorInformation | None = None,
     ) -> excitation.ExcitingMotion:
-        """The motion that tells its parameters apart."""
+        """Searches the motion along which the parameters are best determined."""
         return excitation.design_motion(
             self.compiled,
             bounds,
@@ -77,7 +77,7 @@ class Subject:
         )
 
     def check_known_noise(self, where: str = "") -> None:
-        """Refuse a robot of which too little is known; `where` begins the message."""
+        """Raises an error if parameters or torque noise are unknown; `where` begins the message."""
         if self.sigma is None or self.beta is None:
             raise DataError(
                 f"{where}{self.robot.name}: sigmas follow from the values of its parameters and "
@@ -87,14 +87,14 @@ class Subject:
     def predict_fit(
         self, motion: excitation.ExcitingMotion, rate: float, encoders: "Encoders"
     ) -> FitResult:
-        """What a fit would say of a log of a motion; see `predict_fit`."""
+        """Predicts the fit of a log of a motion; see `expected_sigmas`."""
         log = self.predict_log(motion, rate, encoders)
         return identify(observe(self.compiled, [log]), "weighted", self.compiled)
 
     def predict_log(
         self, motion: excitation.ExcitingMotion, rate: float, encoders: "Encoders"
     ) -> Log:
-        """The log of a motion that is to be expected."""
+        """Predicts the log of a motion."""
         self.check_known_noise()
         assert self.sigma is not None and self.beta is not None
         spec, moves = self.compiled.spec, motion.sample_motion(rate)
@@ -129,7 +129,7 @@ class Encoders:
     def quantise_positions(
         self, q: np.ndarray, units: Sequence[str], rng: np.random.Generator
     ) -> np.ndarray:
-        """(n, J) positions as they are logged of exact ones (n, J)."""
+        """Returns (n, J) logged positions for exact ones (n, J)."""
         noise = np.asarray(self.noise, dtype=float)
         if self.counts < 0 or not np.all((noise >= 0.0) & np.isfinite(noise)):
             raise DataError(
@@ -141,14 +141,14 @@ class Encoders:
         return np.where(step > 0.0, np.round(noisy / np.where(step > 0.0, step, 1.0)) * step, noisy)
 
     def describe(self) -> str:
-        """As "positions of 4096 counts a turn"."""
+        """Describes the encoders, as "positions of 4096 counts a turn"."""
         parts = [f"of {self.counts} counts a turn"] if self.counts else []
         parts += [f"with noise of {self.noise:g} rad (m)"] if self.noise else []
         return f"positions {' and '.join(parts) or 'exact'}"
 
 
 def build_subject(thing: Robot | IdentifiedModel) -> Subject:
-    """A robot with the values that its file states, or a model with those that were fitted."""
+    """Returns what is known of a robot, or of a model with its fitted values."""
     if isinstance(thing, Robot):
         compiled = compile_model(generate(derive(thing)))
         values = [parameter.nominal for parameter in compiled.spec.standard]
@@ -183,7 +183,7 @@ class RecordedLogs:
 
     @property
     def known_information(self) -> excitation.PriorInformation:
-        """Their information W'S^-1 W, as a triangle, and how many rows a second has."""
+        """Returns the information W'S^-1 W as a triangle, and the rows a second."""
         observation = self.observation
         sigma = np.array([joint.sigma for joint in self.fit.joints])[observation.row_joint]
         used = sigma > 0.0
@@ -194,7 +194,7 @@ class RecordedLogs:
     def predict_gain(
         self, motion: excitation.ExcitingMotion, rate: float, encoders: Encoders
     ) -> excitation.ExcitingMotion:
-        """The motion, with what its log adds: by the fit of these logs and of a forecast of it."""
+        """Predicts what the log of a motion adds to the fit of these logs."""
         compiled = self.subject.compiled
         if encoders == Encoders():  # as those of the logs
             noise_estimates = self.observation.report.bands.noise
@@ -214,7 +214,7 @@ class RecordedLogs:
 
 
 def fit_recorded_logs(subject: Subject, logs: Logs, mapping: Mapped = ()) -> RecordedLogs:
-    """The logs of a robot, fitted as `modeler fit` does by itself: all parameters, weighted.
+    """Fits existing logs as `modeler fit` does by default: all parameters, weighted.
 
     Raises:
         DataError: a log cannot be read or fitted, or rows are given twice.
@@ -247,7 +247,7 @@ def excite(
     progress: Progress = _ignore_progress,
     **wish: Any,
 ) -> excitation.ExcitingMotion:
-    """A motion within limits that tells the parameters apart (docs/how-to/excitation.md).
+    """Searches a motion within limits that determines the parameters (docs/how-to/excitation.md).
 
     >>> excite(robot, duration=4.0, harmonics=2, starts=1).sample_motion(100.0)["q1"].shape
     (401,)
@@ -290,7 +290,7 @@ def expected_sigmas(
     counts: int = 0,
     noise: float = 0.0,
 ) -> FitResult:
-    """What a fit would say of a log of a motion, before it is run: its sigmas and its cut-offs.
+    """Predicts standard deviations and cut-offs of a fit before the motion is run.
 
     >>> motion = excite(robot, duration=4.0, harmonics=2, starts=1)
     >>> forecast(model, motion, rate=200.0).parameters[0].name
@@ -322,7 +322,7 @@ def discriminating_motion(
     progress: Progress = _ignore_progress,
     **wish: Any,
 ) -> tuple[excitation.ExcitingMotion, excitation.Discrimination]:
-    """The motion along which two effects that the model lacks are least alike.
+    """Searches the motion along which two missing effects differ most.
 
     Args:
         model: fitted.
@@ -360,7 +360,7 @@ def _build_wish(
 def parse_question(
     subject: Subject, texts: str, where: str = "--between"
 ) -> excitation.DiscriminationProblem:
-    """Which two effects are to be told apart.
+    """Parses the two effects that a motion has to discriminate.
 
     Args:
         subject: with values.
@@ -408,7 +408,7 @@ def build_bounds(
     boxes: Mapping[str, Sequence[float]],
     clearance: float | None = None,
 ) -> excitation.MotionBounds:
-    """The limits of the robot file, with those that are given in their place.
+    """Returns the limits of the robot file, replaced by given ones.
 
     Args:
         robot: as loaded.
@@ -481,7 +481,7 @@ def _check_numbers(
 def check_motion(
     robot: Robot, motion: str | Path, *, clearance: float = USUAL
 ) -> excitation.ClosestApproach | None:
-    """Where a motion brings two links, or a link and a plane, closest to each other.
+    """Finds where a motion brings two links, or a link and a plane, closest together.
 
     >>> check_motion(robot, "mon.parquet").pair  # its two links share a joint
     ('base', '2')
@@ -516,7 +516,7 @@ def simulate(
     progress: Callable[[float], None] | None = None,
     **settings: Any,
 ) -> SimulatedLog:
-    """A measurement of a robot under its controller; `observe` and the others take it as a log.
+    """Simulates a measurement of a robot under its controller; the result is used as a log.
 
     >>> simulate(robot, duration=2.0, seed=1).q.shape
     (2000, 2)
@@ -546,7 +546,7 @@ def simulate(
 def build_settings(
     robot: Robot, hide: Sequence[str | HiddenEffect], motion: str | Path, options: Mapping[str, Any]
 ) -> SimulationSettings:
-    """Settings of a simulation; see `simulate`.
+    """Builds the settings of a simulation; see `simulate`.
 
     Raises:
         DataError: one that is none, or that cannot be.

@@ -27,7 +27,7 @@ Reported = (
 
 
 def write_report(thing: Reported, path: str | Path, notes: Sequence[str] = ()) -> Path:
-    """Write the page of a result; it needs no other file.
+    """Writes the page of a result; it needs no other file.
 
     >>> write_report(model, "fit.html").name
     'fit.html'

@@ -9,7 +9,7 @@ from modeler.robot import Robot, parse_robot_text, replace_home
 
 
 def home(robot: Robot, near: Mapping[str, float] | None = None, anew: bool = False) -> HomeModes:
-    """The assembly modes of a robot, the best first; its `table()` lists them.
+    """Finds the assembly modes of a robot, the best first; `table()` lists them.
 
     >>> home(load("five-bar")).table().column("mode")
     ['A', 'B']
@@ -37,7 +37,7 @@ def home(robot: Robot, near: Mapping[str, float] | None = None, anew: bool = Fal
 
 
 def select_mode(modes: HomeModes, letter: str | None, best: bool = False) -> int:
-    """The place of the mode with that letter; without one, the robot's own, unless `best`.
+    """Returns the index of the mode with that letter; by default the robot's own.
 
     Raises:
         DataError: no such mode.
@@ -53,7 +53,7 @@ def select_mode(modes: HomeModes, letter: str | None, best: bool = False) -> int
 
 
 def home_posture(robot: Robot, modes: HomeModes, letter: str | None = None) -> Robot:
-    """The robot with an assembly mode as its [home], in its file's text too.
+    """Returns the robot with an assembly mode as its [home], in its text too.
 
     >>> home_posture(load("five-bar"), home(load("five-bar")), "B").name
     'five-bar'

@@ -22,7 +22,7 @@ from modeler.simulation import SimulatedLog
 def predict_torque(
     model: IdentifiedModel, compiled: CompiledModel, log: AnyLog, mapping: Mapped
 ) -> Any:
-    """The torque at every row; see `Model.predict`."""
+    """Predicts the torque at every row; see `Model.predict`."""
     spec = compiled.spec
     if isinstance(log, SimulatedLog):
         log = {"time": log.time, "q": log.q, **log.further}

@@ -37,7 +37,7 @@ def _compile_robot(robot: Robot | str | Path) -> tuple[Derivation, EmittedModule
 
 
 def read_log_rows(robot: Robot | str | Path, logs: Logs, mapping: Mapped = ()) -> Rows:
-    """Logs as scikit-learn takes them.
+    """Reads logs as arrays for scikit-learn.
 
     Args:
         robot: as loaded; its file, or the name of a built-in one.
@@ -106,7 +106,7 @@ class TorqueRegressor(MultiOutputMixin, RegressorMixin, BaseEstimator):
         return self
 
     def predict(self, X: Any) -> np.ndarray:
-        """(n, J) torque at every row.
+        """Predicts the (n, J) torque at every row.
 
         Raises:
             DataError: rows in pieces too short to differentiate.

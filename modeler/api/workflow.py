@@ -52,7 +52,7 @@ Logs = AnyLog | Sequence[AnyLog]
 
 
 def convert_to_list(logs: Logs) -> Sequence[AnyLog]:
-    """One log alone as a list of it."""
+    """Returns logs as a list; one log stands for a list of it."""
     if isinstance(logs, str | Mapping) or hasattr(logs, "__arrow_c_stream__"):
         return [logs]
     if isinstance(logs, Sequence):
@@ -64,7 +64,7 @@ M = TypeVar("M", bound=IdentifiedModel)
 
 
 def define_effect(robot: Robot, name: str, **definition: Any) -> Robot:
-    """The robot with the definition of an effect that the catalogue lacks.
+    """Returns the robot with the definition of an effect that the catalogue lacks.
 
     >>> robot = define_effect(load("emps"), "fan", columns={"Kf": "v*abs(v)"}, nonnegative=True)
     >>> robot.own_effects[0].id
@@ -96,7 +96,7 @@ def generate(
     also: Sequence[Also] = (),
     measure: Machine | None = None,
 ) -> EmittedModule:
-    """The C module of a robot; of a model, with functions that have its fitted values.
+    """Generates the C module of a robot; of a model with functions that have its values.
 
     >>> "two_link.h" in generate(derivation).files
     True
@@ -135,7 +135,7 @@ def generate(
 
 
 def compile_model(emitted: EmittedModule) -> CompiledModel:
-    """The C module made callable; compiled once for the same content.
+    """Compiles the C module, once for the same content, and returns it callable.
 
     >>> compile_model(emitted).gravity([[0.0, 0.0]], model.beta).shape
     (1, 2)
@@ -146,7 +146,7 @@ def compile_model(emitted: EmittedModule) -> CompiledModel:
 def read_logs(
     compiled: CompiledModel, logs: Logs, mapping: Mapped = (), spread: bool = False
 ) -> list[regression.Log]:
-    """Logs by path, `path@start:end` for a piece of it in seconds, or as they are.
+    """Reads logs by path, or by `path@start:end` in seconds; parsed logs are returned as they are.
 
     >>> [log.rows for log in read_logs(compiled, ["mon.parquet", "tue.parquet@1:2"])]
     [6000, 1000]
@@ -166,7 +166,7 @@ def read_logs(
 def read_currents(
     compiled: CompiledModel, logs: Logs, mapping: Mapped = ()
 ) -> list[regression.Log]:
-    """Logs of currents; where the robot file states no drive gain, torques are in drive units.
+    """Reads logs of currents; without a drive gain torques are in drive units.
 
     >>> run = simulate(robot, duration=2.0, seed=1)
     >>> read_currents(compiled, {"time": run.time, "q": run.q, "current": run.tau})[0].rows
@@ -201,7 +201,7 @@ def _read_log(
 
 
 def count_rows(places: Sequence[AnyLog]) -> int:
-    """Rows of logs, as far as their files tell without being read; of CSV files about.
+    """Counts the rows of logs as far as their files state them; of CSV files approximately.
 
     Raises:
         DataError: a file is damaged.
@@ -218,17 +218,17 @@ def count_rows(places: Sequence[AnyLog]) -> int:
 
 
 def are_long(places: Sequence[AnyLog]) -> bool:
-    """True of logs whose fit reads them in chunks."""
+    """Returns True for logs whose fit reads them in chunks."""
     return count_rows(places) > regression.LONG
 
 
 def are_too_long(places: Sequence[AnyLog]) -> bool:
-    """True of logs that are not read at once, whatever for."""
+    """Returns True for logs that are never read at once."""
     return count_rows(places) > regression.MOST_WHOLE
 
 
 def check_fits_memory(places: Sequence[AnyLog], what: str) -> None:
-    """Refuse logs that are too long to be read at once.
+    """Raises an error for logs that are too long to be read at once.
 
     Raises:
         DataError: they have more rows than that.
@@ -242,7 +242,7 @@ def check_fits_memory(places: Sequence[AnyLog], what: str) -> None:
 
 
 def build_processing(options: Mapping[str, Any]) -> regression.Processing:
-    """The processing by options of `modeler fit`, or by `[fit]` of a robot file."""
+    """Builds the processing from options of `modeler fit` or from `[fit]` of a robot file."""
     names = {"cutoff": "position_cutoff", "decimate": "decimation"}
     field_names = {field.name for field in dataclasses.fields(regression.Processing)}
     known = {names.get(name, name): value for name, value in options.items()}
@@ -254,7 +254,7 @@ def build_processing(options: Mapping[str, Any]) -> regression.Processing:
 def open_sources(
     compiled: CompiledModel, places: Sequence[AnyLog], mapping: Mapped = ()
 ) -> list[regression.Source]:
-    """The rows of logs, in blocks where their format allows it.
+    """Opens the rows of logs, in blocks where their format allows it.
 
     Raises:
         DataError: a log cannot be read.
@@ -274,7 +274,7 @@ def observe(
     processing: regression.Processing | None = None,
     mapping: Mapped = (),
 ) -> regression.Observation:
-    """The rows y = W beta of logs.
+    """Builds the observation y = W beta of logs.
 
     >>> observe(compiled, ["mon.parquet"]).W.shape[1]
     10
@@ -285,7 +285,7 @@ def observe(
 
 
 def compile(model: IdentifiedModel) -> CompiledModel:
-    """The compiled robot of a model, its C emitted anew from the robot text in the model.
+    """Compiles the robot of a model from its robot text.
 
     >>> compile(model).spec.robot
     'two-link'
@@ -301,7 +301,7 @@ def compile(model: IdentifiedModel) -> CompiledModel:
 
 
 def emit_model(model: IdentifiedModel, otherwise: str = "") -> tuple[Derivation, EmittedModule]:
-    """What the robot text of a model gives, if that is what its values belong to."""
+    """Derives and emits the robot text of a model, and checks that its values belong to it."""
     derivation, emitted = derive_text(
         model.robot_text, f"robot {model.spec.robot} in the model file"
     )
@@ -317,7 +317,7 @@ def emit_model(model: IdentifiedModel, otherwise: str = "") -> tuple[Derivation,
 
 @lru_cache(maxsize=4)
 def derive_text(text: str, where: str) -> tuple[Derivation, EmittedModule]:
-    """Of a robot file's text; the last ones are kept, for who asks again."""
+    """Derives the text of a robot file; the last results are cached."""
     derivation = derive(parse_robot_text(text, where))
     return derivation, generate_robot(derivation)
 
@@ -327,7 +327,7 @@ def _remove_code(spec: ModuleSpec) -> ModuleSpec:
 
 
 def reduced_model(model: M) -> M:
-    """The model with its essential parameters only, estimated anew; all others are 0.
+    """Returns the model with its essential parameters only, estimated again; others are 0.
 
     >>> len(reduced_model(model).beta) == len(model.beta)
     True
@@ -340,7 +340,7 @@ def reduced_model(model: M) -> M:
 
 
 def save(thing: IdentifiedModel | Robot, path: str | Path) -> Path:
-    """Write a model file, or the file of a robot; an interrupted write leaves the old file.
+    """Writes a model or a robot file; an interrupted write leaves the old file.
 
     >>> save(robot, "arm.toml").name, save(model, "arm.json").name
     ('arm.toml', 'arm.json')
@@ -359,7 +359,7 @@ def save(thing: IdentifiedModel | Robot, path: str | Path) -> Path:
 
 
 def robots() -> Table:
-    """The built-in robots; `load(name)` gives one.
+    """Lists the built-in robots; `load(name)` reads one.
 
     >>> "ur10e" in robots().column("name")
     True
@@ -380,7 +380,7 @@ def robots() -> Table:
 
 
 def effects(robot: Robot | None = None) -> Table:
-    """The catalogue of physical effects; with a robot, its own ones too.
+    """Lists the physical effects; with a robot, those that it defines too.
 
     `modeler effects ID` says more of each.
 
@@ -397,7 +397,7 @@ def effects(robot: Robot | None = None) -> Table:
 
 
 def estimators() -> Table:
-    """The estimators that `fit` takes as `method`.
+    """Lists the estimators that `fit` takes as `method`.
 
     >>> estimators().column("method")[:2]
     ['weighted', 'ordinary']
@@ -408,7 +408,7 @@ def estimators() -> Table:
 
 
 def load_on_gpu(derivation: Derivation) -> GpuModel:
-    """The base regressor of a robot without loops on the graphics processor of this machine.
+    """Loads the base regressor of a robot without loops on the graphics processor.
 
     It needs CuPy: `pip install "modeler-robotics[gpu]"`.
 

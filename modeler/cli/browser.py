@@ -11,7 +11,7 @@ from modeler.cli.places import DemoFolder, FilePlace, Output
 
 @contextmanager
 def open_page_when_done(args: argparse.Namespace) -> Iterator[None]:
-    """What `--open` asked for is shown afterwards.
+    """Opens the page of `--open` in the browser when the command is done.
 
     A page that has no place gets one in a temporary folder, which stays if the command is done.
     """
@@ -31,7 +31,7 @@ def open_page_when_done(args: argparse.Namespace) -> Iterator[None]:
 
 
 def discard_page(args: argparse.Namespace) -> None:
-    """There is no page after all."""
+    """Removes the temporary page when the command writes none."""
     if args.page_is_temporary:
         with suppress(OSError):  # not empty: the page was written
             Path(args.report).parent.rmdir()

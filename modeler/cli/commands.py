@@ -142,7 +142,7 @@ class _Version(argparse.Action):
 
 @cache
 def build_parser() -> argparse.ArgumentParser:
-    """The parser of all commands, the same each time; nothing may be added to it."""
+    """Builds the parser of all commands; it is cached, so nothing may be added to it."""
     top: argparse.ArgumentParser = _Parser(
         prog="modeler",
         description="From the MDH table of a robot to exact base parameters, C, a fit and a "
@@ -168,7 +168,7 @@ def build_parser() -> argparse.ArgumentParser:
 
 
 def collect_command_parsers(top: argparse.ArgumentParser) -> dict[str, argparse.ArgumentParser]:
-    """The parser of each command."""
+    """Returns the parser of each command by its name."""
     (listed,) = (a for a in top._actions if isinstance(a, argparse._SubParsersAction))
     return dict(listed.choices)
 
@@ -191,7 +191,7 @@ def _add_verbosity(parser: argparse.ArgumentParser) -> argparse._ArgumentGroup:
 
 
 def parse_words(words: Sequence[str]) -> tuple[argparse.Namespace, Verbosity]:
-    """The arguments of a command, and how much it tells.
+    """Parses a command line into arguments and verbosity.
 
     Wrong usage ends the program with status 2.
     """

@@ -58,7 +58,7 @@ def run_completion(args: argparse.Namespace) -> Json:
 
 
 def complete_words(words: Sequence[str], top: argparse.ArgumentParser) -> list[str]:
-    """What the last of the words may become, the others standing before it.
+    """Completes the last word, given the words before it.
 
     Args:
         words: after the name of the program; bash cuts `--out=x` into three of them.

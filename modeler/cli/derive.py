@@ -72,17 +72,17 @@ class FormulaPrinter:
             print_result(r"\begingroup\allowdisplaybreaks")
 
     def print_title(self, text: str) -> None:
-        """What all of it is about."""
+        """Prints the title of the whole output."""
         print_result(rf"\section*{{{escape_latex(text)}}}") if self.document else self.print_text(
             text
         )
 
     def format_heading(self, text: str) -> str:
-        """The title of a group of formulas in LaTeX."""
+        """Returns the heading of a group of formulas in LaTeX."""
         return rf"\paragraph{{{_allow_breaks(text)}}}" if self.document else f"% {text}"
 
     def print_text(self, text: str = "") -> None:
-        """Lines that are no formulas; in a document one paragraph."""
+        """Prints lines that are no formulas; in a document one paragraph."""
         if self.document:
             if text:
                 print_result(
@@ -96,12 +96,12 @@ class FormulaPrinter:
             print_result(text)
 
     def print_formulas(self, text: str) -> None:
-        """What is already written in the form."""
+        """Prints formulas that are already in the output format."""
         self._paragraph = False
         print_result(text.rstrip("\n") if self.form == "latex" else text)
 
     def finish(self) -> None:
-        """Nothing more follows."""
+        """Prints the end of the output."""
         if self.form == "latex":
             print_result(r"\endgroup")
         if self.document:
@@ -248,7 +248,7 @@ def _describe_ties(model: SymbolicModel) -> list[str]:
 
 
 def compare_with_lagrange(derivation: Derivation, samples: int = 50) -> float:
-    """Largest difference of the torques of both derivations, relative to the largest torque."""
+    """Returns the largest difference of Newton-Euler and Lagrange torques, relative to the largest."""
     model = derivation.model
     rng = np.random.default_rng(derivation.base.proof.seed)
     states = draw_random_states(model, samples, rng)

@@ -42,7 +42,7 @@ from modeler.views import (
 
 
 def run_fit(args: argparse.Namespace) -> Json:
-    """Fits, prints the table, saves the model."""
+    """Fits the logs, prints the table, saves the model."""
     apply_stated_options(args, "fit", read_robot(args.robot).fit)
     args.method = Methods(args.method)
     _check_options(args)

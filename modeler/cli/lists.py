@@ -81,7 +81,7 @@ def _compute_effect_torque(form: Form, axis: str, x: float, shapes: Mapping[str,
 
 
 def resolve_robot(args: argparse.Namespace) -> Robot:
-    """The robot that the arguments mean; a [home] that is missing or poor is found, and told."""
+    """Reads the robot of the arguments; finds [home] where it is missing or poor, and prints it."""
     robot = read_robot_with_effects(args)
     if not robot.loops:
         return robot
@@ -95,7 +95,7 @@ def resolve_robot(args: argparse.Namespace) -> Robot:
 
 
 def check_own_file(robot: str, what: str) -> None:
-    """What --write cannot write into is refused before any work."""
+    """Raises an error if --write cannot write into the robot file."""
     if robot in list_builtin_robots():
         raise DataError(
             f"--write: {robot} is built in; save it with `modeler robots {robot}` "
@@ -112,7 +112,7 @@ def check_own_file(robot: str, what: str) -> None:
 
 
 def apply_stated_options(args: argparse.Namespace, head: str, stated: Mapping[str, Any]) -> None:
-    """Options that the robot file states, where they were not typed."""
+    """Applies the options of the robot file that were not typed."""
     applied = {name: value for name, value in stated.items() if name not in args.given}
     for name, value in applied.items():
         setattr(args, name, value)
@@ -122,7 +122,7 @@ def apply_stated_options(args: argparse.Namespace, head: str, stated: Mapping[st
 
 
 def read_robot_with_effects(args: argparse.Namespace) -> Robot:
-    """The robot that the arguments name, with the effects that they give it."""
+    """Reads the robot of the arguments, with the effects of --effects."""
     robot = read_robot_with_notes(args.robot)
     if args.effects is None:
         return robot
@@ -130,7 +130,7 @@ def read_robot_with_effects(args: argparse.Namespace) -> Robot:
 
 
 def read_robot_with_notes(name: str) -> Robot:
-    """The robot of that name or file; what reading it decided or left out, on stderr."""
+    """Reads a robot by name or file and prints the notes of the reader on stderr."""
     robot = read_robot(name)
     if len(robot.readings) > 1:
         print_note("\n  * ".join([f"{name}, read as a robot file:", *robot.readings]))

@@ -156,7 +156,7 @@ def describe_expected_sigmas(
     rate: float,
     encoders: motions.Encoders,
 ) -> tuple[str, Json | None]:
-    """What a log of the motion will tell, in a sentence and for machines."""
+    """Describes the expected sigmas of a motion: a sentence, and values for JSON."""
     about = (
         f"forecast of a log at {rate:g} Hz, {encoders.describe()}, torques as noisy as the model's"
     )
@@ -232,7 +232,7 @@ def parse_bounds(
     robot: Robot, compiled: CompiledModel, limits: Sequence[str], boxes: Sequence[str],
     clearance: float | None = None,
 ) -> excitation.MotionBounds:  # fmt: skip
-    """The limits of the robot file, with those of the command line in their place.
+    """Returns the limits of the robot file, replaced by those of the command line.
 
     Raises:
         DataError: a text that cannot be read, a joint or frame that is not there.

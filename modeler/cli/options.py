@@ -39,12 +39,12 @@ class Argument:
     settings: Mapping[str, Any]
 
     def add_to(self, parser: argparse._ActionsContainer) -> None:
-        """To the parser of a command, or a group in it."""
+        """Adds the argument to a parser or a group of it."""
         parser.add_argument(*self.names, **self.settings)
 
     @property
     def group_title(self) -> str | None:
-        """The group of the help that it stands in by itself; None: with all others."""
+        """Returns the title of its group in the help; None: the common group."""
         kind, name = self.settings.get("type"), self.names[0]
         if name[0] != "-":
             return None
@@ -66,7 +66,7 @@ class Group:
     options: tuple[Argument, ...]
 
     def add_to(self, parser: argparse.ArgumentParser) -> None:
-        """To the parser of a command."""
+        """Adds the argument to a parser or a group of it."""
         group = parser.add_argument_group(self.title, self.text)
         for option in self.options:
             option.add_to(group)
@@ -97,7 +97,7 @@ class Command:
     lacks: Callable[[argparse.Namespace], str] = lambda args: ""
 
     def add_to(self, commands: "argparse._SubParsersAction[argparse.ArgumentParser]") -> None:
-        """Its parser, among those of all commands."""
+        """Adds its parser to those of all commands."""
         parser = commands.add_parser(
             self.name,
             help=self.help,
@@ -130,36 +130,36 @@ def _import_run(place: str) -> Run:
 def value(
     name: str, metavar: str, kind: Callable[[str], Any], text: str, **further: Any
 ) -> Argument:
-    """An argument, or an option with a value; the help of a number tells its default, if any."""
+    """Declares an argument, or an option with a value; numbers state their default."""
     if kind in (int, float) and further.get("default") is not None:
         text += " (default %(default)s)"
     return Argument((name,), {"metavar": metavar, "type": kind, "help": text, **further})
 
 
 def repeated(name: str, metavar: str, kind: type[str], text: str, **further: Any) -> Argument:
-    """An option with one value; a list is given by repeating it."""
+    """Declares an option with one value that may be given several times."""
     text += "; may be repeated"
     return value(name, metavar, kind, text, action="append", default=[], **further)
 
 
 def choice(name: str, choices: Sequence[str], text: str, default: str | None = None) -> Argument:
-    """An option that takes one of some words."""
+    """Declares an option that takes one of some words."""
     return Argument((name,), {"choices": choices, "default": default, "help": text})
 
 
 def flag(name: str, text: str) -> Argument:
-    """An option without a value."""
+    """Declares an option without a value."""
     return Argument((name,), {"action": "store_true", "help": text})
 
 
 def suggest_name(got: str, known: Iterable[str]) -> str:
-    """` (did you mean x?)` of a misspelt name, else nothing."""
+    """Returns ` (did you mean x?)` for a misspelt name, else ""."""
     near = get_close_matches(got.lower(), known, 1)
     return f" (did you mean {near[0]}?)" if near else ""
 
 
 def describe_unknown(got: str, known: Sequence[str]) -> str:
-    """What is said of a word that is none of a few."""
+    """Describes an unknown word and the expected ones."""
     return f"got {got}{suggest_name(got, known)}; expected one of {', '.join(known)}"
 
 
@@ -177,17 +177,17 @@ class Methods(Word):
 
     @property
     def is_several(self) -> bool:
-        """Whether they are compared, and no model is written."""
+        """Returns True if methods are compared and no model is written."""
         return self == ALL or "," in self
 
 
 def collect_options(parser: argparse.ArgumentParser) -> dict[str, argparse.Action]:
-    """Every option by each of its names."""
+    """Returns every option by each of its names."""
     return {name: action for action in parser._actions for name in action.option_strings}
 
 
 def collect_arguments(parser: argparse.ArgumentParser) -> list[argparse.Action]:
-    """What a command takes beside options, in order."""
+    """Returns the positional arguments of a command, in order."""
     return [action for action in parser._actions if not action.option_strings]
 
 
@@ -207,7 +207,7 @@ _WIDTH = 96
 
 
 def format_usage(parser: argparse.ArgumentParser) -> str:
-    """`modeler COMMAND ARGUMENT... --required VALUE [--option VALUE]`, wrapped."""
+    """Returns `modeler COMMAND ARGUMENT... --required VALUE [--option VALUE]`, wrapped."""
     options = [
         action
         for action in parser._actions

@@ -25,7 +25,7 @@ Phase = Callable[[], AbstractContextManager[None]]
 
 
 def run_program(words: Sequence[str]) -> int:
-    """As a program: letters, interrupts and the end of the process are ours."""
+    """Runs as a program: encoding, interrupts and exit belong to this process."""
     with exit_on_interrupt():
         from modeler.cli.console import escape_unprintable
     escape_unprintable()
@@ -39,7 +39,7 @@ def run_program(words: Sequence[str]) -> int:
 
 
 def run_in_process(words: Sequence[str]) -> int:
-    """From Python: the process belongs to the caller."""
+    """Runs a command from Python, in the process of the caller."""
     return _run_words(words, nullcontext)
 
 
@@ -108,7 +108,7 @@ def _execute_command(args: "argparse.Namespace", phase: Phase, every_line: bool)
 
 @contextlib.contextmanager
 def exit_on_interrupt() -> Iterator[None]:
-    """While this lasts, an interrupt ends the program at once; nothing may be half done."""
+    """Exits at once on an interrupt inside the context."""
     before = signal.getsignal(signal.SIGINT)
     if before is not signal.default_int_handler:  # ignored, or somebody else's
         yield

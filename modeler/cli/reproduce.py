@@ -52,7 +52,7 @@ def run_reproduce(args: argparse.Namespace) -> Json:
 
 
 def check_reproduced(args: argparse.Namespace) -> None:
-    """Ends with status 1 if a line is different.
+    """Raises an error if a line differs from the paper.
 
     Raises:
         ModelerError: names the lines.

@@ -38,16 +38,16 @@ DRAWN = "draw it: .png, .svg or .pdf"
 
 
 def logs(text: str, nargs: str = "+") -> Argument:
-    """Logs that are read, at least one unless `nargs` says otherwise."""
+    """Declares the logs that are read, at least one by default."""
     return value("logs", "LOG", places.LogFile, text, nargs=nargs)
 
 
 def page(kind: type[places.Output] = places.Output) -> tuple[Argument, Argument]:
-    """`--report` and `--open`."""
+    """Declares `--report` and `--open`."""
     text = "write one self-contained page"
     return value("--report", "PAGE.html", kind, text), _OPEN
 
 
 def pictures(kind: type[places.Pictures] = places.Pictures) -> Argument:
-    """`--picture` of all that a command draws."""
+    """Declares `--picture`."""
     return value("--picture", "DIR|FILE.json", kind, _PICTURES)

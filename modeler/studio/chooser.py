@@ -14,7 +14,7 @@ from modeler.studio.studio import Studio
 def choose_files(
     studio: Studio, endings: Sequence[str], on_chosen: Callable[[list[str]], Any]
 ) -> None:
-    """Folders and files under those that `--allow` names.
+    """Shows a dialog of the folders and files that `--allow` names.
 
     Args:
         studio: the window.

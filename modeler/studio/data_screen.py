@@ -52,13 +52,13 @@ class DataScreen(ProjectLogs):
 
     @property
     def is_live(self) -> bool:
-        """False as soon as the screen is drawn anew, or another one is shown."""
+        """Returns False when this screen was replaced by a newer one or another."""
         studio = self.studio
         here = studio in studio.hub.studios and studio.screen == "data"
         return here and studio.state["data"] is self
 
     async def draw(self) -> None:
-        """Logs first, then the one that is looked at."""
+        """Draws the logs, then the one that is open."""
         studio = self.studio
         draw_head(
             "Data", "Drop logs, say which column is which, and what is fitted and what held out."
@@ -152,7 +152,7 @@ class DataScreen(ProjectLogs):
         self.studio.change_project(redraw=True, logs=logs)
 
     def draw_row(self, file: str) -> None:
-        """One log in the list."""
+        """Draws one log of the list."""
         known, place, result = self.logs[file], self._rows[file], self.read_result(file)
         place.clear()
         with place:
@@ -179,7 +179,7 @@ class DataScreen(ProjectLogs):
             off._props["aria-label"] = f"take {file} off the list"
 
     def replace_log(self, log: ProjectLog) -> None:
-        """Another log in place of the one of that file."""
+        """Replaces the log of the same file in the project."""
         logs = tuple(
             log if project_log.file == log.file else project_log
             for project_log in self.studio.project.logs

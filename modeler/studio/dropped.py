@@ -38,7 +38,7 @@ _SPARE = 2**20  # bytes of the disk that stay free
 
 
 def safe_name(name: str) -> str:
-    """A name of a file without folders, hidden beginnings, and letters that mean something.
+    """Returns a file name without folders, leading dots and special characters.
 
     Args:
         name: as a browser says it.
@@ -145,7 +145,7 @@ async def _merge_pieces(stream: AsyncIterator[bytes]) -> AsyncIterator[bytes]:
 
 
 def add_route(app: FastAPI, folder: Path, writable: Callable[[], bool]) -> None:
-    """Where files are sent to.
+    """Adds the route that receives uploads.
 
     Args:
         app: that answers.
@@ -172,7 +172,7 @@ def add_route(app: FastAPI, folder: Path, writable: Callable[[], bool]) -> None:
 def add_drop_zone(
     kind: str, label: str, on_received: Callable[[list[str]], Any], on_error: Callable[[str], Any]
 ) -> ui.upload:
-    """Where files are dropped or chosen.
+    """Adds the area where files are dropped or chosen.
 
     Args:
         kind: of `KINDS`.

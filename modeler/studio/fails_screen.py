@@ -255,7 +255,7 @@ class _FailureView:
 
 
 async def ask_viewer(studio: Studio, question: str, *arguments: Any, kind: str) -> Any:
-    """The answer of the viewer; None where it has none, whose line is shown then, or is stale."""
+    """Asks the viewer and shows its error; returns None without an answer."""
     try:
         return await studio.ask_viewer(question, *arguments, kind=kind)
     except ModelerError as error:
@@ -264,7 +264,7 @@ async def ask_viewer(studio: Studio, question: str, *arguments: Any, kind: str) 
 
 
 def connect_zoom(studio: Studio, plot: Plotly, load_window: Any) -> None:
-    """The picture is asked for anew, finer, when another stretch of time is looked at.
+    """Requests a finer picture when another time range is shown.
 
     Args:
         studio: the window.

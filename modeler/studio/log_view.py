@@ -68,11 +68,11 @@ class LogView:
 
     @property
     def log(self) -> ProjectLog:
-        """As the project has it."""
+        """Returns the log as the project has it."""
         return self.project_logs.get_log(self.file)
 
     async def draw(self) -> None:
-        """Pictures first; what takes longer comes after them."""
+        """Draws pictures first, then what takes longer."""
         with add_card(self.file), ui.row().classes("w-full no-wrap items-start data-log-view"):
             with ui.column().classes("data-pictures gap-2"):
                 self._plot = ui.plotly(figures.build_figure(self._build_picture({}), self.file))
@@ -319,11 +319,11 @@ class LogView:
     # The doubts.
 
     def get_marks(self) -> list[Mapping[str, Any]]:
-        """Doubts that have a place in time."""
+        """Returns the warnings that have a place in time."""
         return list(self.project_logs.read_result(self.file).get("marks", ()))
 
     def draw_findings(self) -> None:
-        """What `modeler log` says, anew."""
+        """Draws the output of `modeler log`."""
         self._update_line()
         result, marks = self.project_logs.read_result(self.file), self.get_marks()
         doubts = result.get("doubts", self.guess.doubts)

@@ -192,7 +192,7 @@ def _draw_actions(studio: Studio, effect: str, joint: str | None) -> None:
 
 
 def find_trial(project: Project, effect: str, joint: str | None) -> Step | None:
-    """The step that has added an effect to the current model, as it would be added now."""
+    """Finds the step that added an effect to the current model with the same options."""
     task = commands.add(project, effect, joint)
     child_steps = [step for step in project.steps if step.parent == project.current]
     return next((step for step in reversed(child_steps) if step.task == task), None)

@@ -59,7 +59,7 @@ async def draw(studio: Studio) -> None:
 
 
 def find_questions(result: Mapping[str, Any]) -> Iterator[tuple[str, str]]:
-    """What a diagnosis leaves open between two effects: words of `--between`, and a sentence."""
+    """Finds equivalent effects of a diagnosis: words of `--between`, and a sentence."""
     known_pairs = set()
     for effect in result.get("effects", ()):
         for tie in effect.get("ties", ()):
@@ -113,7 +113,7 @@ def _draw_request(studio: Studio) -> None:
 
 
 def find_changed_limits(studio: Studio) -> list[str]:
-    """What `--limit` says where the robot file has other limits by now than the model knows.
+    """Finds limits of the robot file that the model does not know, as `--limit` words.
 
     Raises:
         ModelerError: the robot file cannot be read as it is.

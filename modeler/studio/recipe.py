@@ -35,12 +35,12 @@ class Recipe:
     logs: frozenset[str]
 
     def has_log(self, word: str) -> bool:
-        """Whether a word names a log, or a stretch of it, that lies in the folder."""
+        """Returns True if a word names a log, or a range of it, in the folder."""
         return word.partition("@")[0] in self.logs
 
 
 def build_recipe(project: Project, folder: Path, robots: Mapping[str, str]) -> Recipe:
-    """Of the current model.
+    """Builds the recipe of the current model.
 
     Args:
         project: with one.
@@ -79,7 +79,7 @@ mkdir -p robots models results logs
 
 
 def format_script(recipe: Recipe) -> str:
-    """The recipe for sh."""
+    """Formats the recipe as a shell script."""
     lines = [_HEAD % shlex.quote(str(recipe.folder))]
     for name, text in recipe.robots.items():
         end = "END_OF_ROBOT"
@@ -105,7 +105,7 @@ def _quote_word(recipe: Recipe, word: str) -> str:
 
 
 def format_notebook(recipe: Recipe) -> str:
-    """The recipe as .ipynb, in the words of the Python interface."""
+    """Formats the recipe as a notebook with the Python interface."""
     cells = [_build_cell("markdown", "# The steps of a project of `modeler studio`\n\n"
                    "Run it in an empty folder; `LOGS` is the folder of the project."),
              _build_cell("code", "\n".join(_format_preparation(recipe)))]  # fmt: skip

@@ -23,7 +23,7 @@ class RobotFrame:
 
     @property
     def element_id(self) -> str:
-        """Of the element, for scripts: `toRobot(id, message)`."""
+        """Returns the id of the element, for scripts: `toRobot(id, message)`."""
         return self.frame.html_id
 
     def set_posture(self, q: Mapping[str, float]) -> None:
@@ -35,7 +35,7 @@ class RobotFrame:
         self._send_message(modeler="light", rows=list(rows))
 
     def replace_robot(self, content: Mapping[str, Any]) -> None:
-        """Another robot, seen from where the last one is."""
+        """Shows another robot from the same view."""
         self._send_message(modeler="robot", content=content)
 
     def connect_joint(self, handler: Callable[[str], Any]) -> None:
@@ -48,7 +48,7 @@ class RobotFrame:
 
 
 async def add_robot_frame(studio: Studio, height: str = "420px", alone: bool = False) -> RobotFrame:
-    """The robot of the project, here.
+    """Adds the frame with the robot of the project.
 
     Args:
         studio: the window.

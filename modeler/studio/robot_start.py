@@ -24,7 +24,7 @@ _EXAMPLE = "i\t\u03b1 [deg]\ta [mm]\td [mm]\t\u03b8\n1\t0\t0\t333\tq1\n2\t-90\t0
 
 
 def draw_choices(studio: Studio, before: str, on_taken: Taken) -> None:
-    """The ways to a robot.
+    """Draws the ways to a robot.
 
     Args:
         studio: the window.

@@ -46,7 +46,7 @@ class RobotText:
         return True
 
     def move_in_history(self, back: bool) -> bool:
-        """One step back, or forth again; False where there is none."""
+        """Moves one step back or forth; returns False where there is none."""
         source, other = (self._past, self._future) if back else (self._future, self._past)
         if not source:
             return False

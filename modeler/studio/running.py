@@ -49,7 +49,7 @@ class Outcome:
 
     @property
     def is_cancelled(self) -> bool:
-        """Whether the user ended it."""
+        """Returns True if the user cancelled it."""
         return self.status == INTERRUPTED
 
 
@@ -82,11 +82,11 @@ class RunningCommand:
 
     @property
     def seconds(self) -> float:
-        """Since it began."""
+        """Returns the seconds since the start."""
         return time.monotonic() - self.started
 
     async def wait(self, on_progress: Callable[[], None] = lambda: None) -> Outcome:
-        """Until it ends; that nobody waits any more does not end it.
+        """Waits until the command ends; a cancelled wait does not end it.
 
         Args:
             on_progress: is called when it is further than before, and once in a second.
@@ -100,7 +100,7 @@ class RunningCommand:
         return self._end.result()
 
     def cancel(self) -> None:
-        """As Ctrl-C does; what does not heed that is killed, with all that it started."""
+        """Interrupts the command as Ctrl-C does, and kills it if it does not end."""
         if not self._cancelled and not self._end.done():
             self._cancelled = True
             self.doing = "cancelling"
@@ -109,7 +109,7 @@ class RunningCommand:
             self._killing = asyncio.create_task(self._kill_later())
 
     def kill(self) -> None:
-        """At once."""
+        """Kills the command at once."""
         self._send_signal(getattr(signal, "SIGKILL", signal.SIGTERM))
 
     async def _kill_later(self) -> None:

@@ -48,7 +48,7 @@ def _add_start_button(title: str, icon: str, text: str, act: Callable[[], object
 
 
 async def open_demo(studio: Studio) -> None:
-    """The demonstration; what is wrong is told in the window."""
+    """Opens the demonstration; shows errors in the window."""
     try:
         if studio.is_read_only:
             raise ModelerError(studio.read_only_reason)
@@ -61,7 +61,7 @@ async def open_demo(studio: Studio) -> None:
 
 
 async def begin_demo(hub: Hub) -> None:
-    """The demonstration arm, and two measured runs of a machine with a hidden effect.
+    """Writes the demonstration arm and simulates two runs with a hidden effect.
 
     Raises:
         ModelerError: the folder has a robot already, or cannot be written.

@@ -36,7 +36,7 @@ class Viewer:
         self._asked = 0
 
     async def ask(self, function: str, *arguments: Any, kind: str = "") -> Any:
-        """What the function answers; questions are answered one after the other.
+        """Returns the answer of a function; questions are answered one after the other.
 
         Args:
             function: its name.
@@ -96,7 +96,7 @@ def _initialise_process(folder: Path, allowed: tuple[Path, ...]) -> None:
 
 
 def compute_answer(function: str, arguments: tuple[Any, ...]) -> Any:
-    """A function of `viewing` on its arguments, in the process of the viewer.
+    """Calls a function of `viewing`, in the process of the viewer.
 
     Raises:
         ModelerError: as the function, or memory ran out.

@@ -130,7 +130,7 @@ _MOST = 25_000_000  # values of a log that is held as it is: 200 MB
 
 
 def log_facts(place: str, words: Sequence[str] = (), robot: str = "") -> LogFacts:
-    """Columns, units and extent of a log.
+    """Returns columns, units and extent of a log.
 
     Args:
         place: its file.
@@ -151,7 +151,7 @@ def log_window(
     place: str, names: Sequence[str], start: float, end: float, words: Sequence[str] = (),
     robot: str = "", points: int = POINTS,
 ) -> dict[str, tuple[np.ndarray, np.ndarray]]:  # fmt: skip
-    """Time and values of columns between two times, least and largest kept of what is thinned.
+    """Returns time and values of columns in a time range, thinned to least and largest.
 
     Args:
         place: the log's file.
@@ -176,7 +176,7 @@ def log_film(
     place: str, names: Sequence[str], words: Sequence[str] = (), robot: str = "",
     start: float = -np.inf, end: float = np.inf, rate: float = 30.0,
 ) -> dict[str, np.ndarray]:  # fmt: skip
-    """Values of columns at times that are evenly apart, and those, as `time`.
+    """Returns columns at evenly spaced times, and those, as `time`.
 
     Args:
         place: the log's file.
@@ -203,7 +203,7 @@ def log_film(
 
 
 def log_guess(place: str, robot: str = "") -> LogGuess:
-    """What the columns of a log are by their names and ranges.
+    """Guesses the columns of a log by their names and ranges.
 
     Args:
         place: the log's file.
@@ -342,12 +342,12 @@ def _load_robot(place: str) -> Robot:
 
 
 def robot_logging(place: str) -> tuple[tuple[JointSpec, ...], dict[str, Any]]:
-    """Joints of a robot file, and its [log]."""
+    """Returns the joints of a robot file, and its [log]."""
     return robot_joints(place), dict(_load_robot(place).log_mapping)
 
 
 def robot_joints(place: str) -> tuple[JointSpec, ...]:
-    """Of a robot file, without deriving anything; none without one."""
+    """Returns the joints of a robot file, without deriving; none without a file."""
     if not place:
         return ()
     robot = _load_robot(place)
@@ -406,7 +406,7 @@ class Verdict:
 
 
 def verdict(model: str, logs: Sequence[str]) -> Verdict:
-    """What `modeler compare MODEL LOG...` says of every joint."""
+    """Returns the result of `modeler compare MODEL LOG...` for every joint."""
     model_on_logs = _compare_model(model, logs)
     time = concatenate_time(model_on_logs.prediction)[0]
     items = model_on_logs.comparison.joints
@@ -435,7 +435,7 @@ def torque_picture(
     models: Sequence[str], logs: Sequence[str], joint: str, start: float = -np.inf,
     end: float = np.inf,
 ) -> Picture:  # fmt: skip
-    """Measured and predicted torque of a joint between two times, and the residual below.
+    """Draws measured and predicted torque of a joint over time, and the residual below.
 
     Args:
         models: files; each is overlaid.
@@ -507,7 +507,7 @@ def _build_curve(
 def residual_picture(
     models: Sequence[str], logs: Sequence[str], joint: str, channel: str, by_log: bool = False
 ) -> Picture:
-    """The residual of a joint over a channel: samples, means with two standard errors.
+    """Draws the residual of a joint over a channel: samples, means with two standard errors.
 
     Args:
         models: files.
@@ -545,7 +545,7 @@ def residual_picture(
 
 
 def where_picture(model: str, logs: Sequence[str]) -> Picture:
-    """Joint by channel: the share of its residual's variance that follows that channel.
+    """Draws the share of each joint's residual variance that each channel explains.
 
     Of coordinates of the motion as `modeler compare` has it, of other columns as
     `compute_explained_share`.
@@ -584,7 +584,7 @@ def where_picture(model: str, logs: Sequence[str]) -> Picture:
 
 
 def compute_explained_share(x: np.ndarray, e: np.ndarray, bins: int = 24, folds: int = 8) -> float:
-    """Share of the variance of e that its mean in bins of x predicts on parts left out in turn.
+    """Computes the cross-validated share of the variance of e that bin means over x explain.
 
     1 - sum (e - m)^2 / sum (e - mean e)^2, 0 at least; m is the mean of the bin over all other
     parts of the time. Bins are alike in count, or one for each value where there are few.
@@ -613,7 +613,7 @@ def compute_explained_share(x: np.ndarray, e: np.ndarray, bins: int = 24, folds:
 
 
 def log_errors(model: str, logs: Sequence[str]) -> list[tuple[str, float, dict[str, float]]]:
-    """Relative error on each log, and by joint."""
+    """Returns the relative error on each log, and by joint."""
     log_comparisons = _compare_model(model, logs).comparison.logs
     return [(one.log, float(one.relative_error), dict(one.joints)) for one in log_comparisons]
 
@@ -621,7 +621,7 @@ def log_errors(model: str, logs: Sequence[str]) -> list[tuple[str, float, dict[s
 def poses(
     model: str, logs: Sequence[str], points: int = 6000
 ) -> tuple[np.ndarray, dict[str, np.ndarray]]:
-    """Time on the axis of the pictures and the position of every joint there, rad or m."""
+    """Returns time on the axis of the pictures and the position of every joint, rad or m."""
     p = _compare_model(model, logs).prediction
     time = concatenate_time(p)[0]
     rows = np.arange(0, time.size, -(-time.size // points))
