@@ -6,9 +6,9 @@ from .fitting import (
     compare_methods as compare_methods,
     fit as fit,
     fit_gains as fit_gains,
+    identify as identify,
 )
 from .fleets import fleet as fleet
-from .identifying import identify as identify
 from .improve import (
     add as add,
     add_all as add_all,

@@ -8,8 +8,7 @@ from pathlib import Path
 
 from modeler import diagnosis
 from modeler.api.log_maps import Mapped
-from modeler.api.steps import Steps, ignore_step
-from modeler.api.workflow import Logs, M, compile, read_logs
+from modeler.api.workflow import Logs, M, Steps, compile, ignore_step, read_logs
 from modeler.core.errors import DataError
 from modeler.estimation import IdentifiedModel
 from modeler.regression import check_no_overlap

@@ -1,7 +1,8 @@
 """The chain: from a robot to its C, from logs to a model."""
 
 import dataclasses
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from contextlib import AbstractContextManager, nullcontext
 from functools import lru_cache
 from pathlib import Path
 from tempfile import TemporaryDirectory
@@ -61,6 +62,14 @@ def convert_to_list(logs: Logs) -> Sequence[AnyLog]:
 
 
 M = TypeVar("M", bound=IdentifiedModel)
+
+Steps = Callable[[str], AbstractContextManager[None]]
+"""Called with the title of a step, which lasts as long as the context."""
+
+
+def ignore_step(title: str) -> AbstractContextManager[None]:
+    """Reports nothing."""
+    return nullcontext()
 
 
 def define_effect(robot: Robot, name: str, **definition: Any) -> Robot:
@@ -141,6 +150,22 @@ def compile_model(emitted: EmittedModule) -> CompiledModel:
     (1, 2)
     """
     return load_compiled(emitted.spec, emitted.code, emitted.log)
+
+
+@dataclasses.dataclass(frozen=True, eq=False)
+class CompiledRobot:
+    """Holds the derivation of a robot, its C, and that compiled."""
+
+    derivation: Derivation
+    emitted: EmittedModule
+    compiled: CompiledModel
+
+
+def compile_robot(robot: Robot) -> CompiledRobot:
+    """Derives a robot, emits its C and compiles it."""
+    derivation = derive(robot)
+    emitted = generate(derivation)
+    return CompiledRobot(derivation, emitted, compile_model(emitted))
 
 
 def read_logs(

@@ -14,7 +14,7 @@ if TYPE_CHECKING:
 
 def build_parser() -> "argparse.ArgumentParser":
     """Builds the parser of all commands."""
-    from modeler.cli.commands import build_parser as all_commands
+    from modeler.cli.parser import build_parser as all_commands
 
     return all_commands()
 

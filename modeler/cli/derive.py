@@ -21,7 +21,7 @@ from modeler.cli.console import (
     show_next,
 )
 from modeler.cli.lists import read_robot_with_effects, resolve_robot
-from modeler.cli.options import FEW_JOINTS, Form
+from modeler.cli.parser import FEW_JOINTS, Form
 from modeler.codegen import Derivation, derive, generate
 from modeler.core.errors import ALSO, Also, DataError, ModelerError, RobotError
 from modeler.core.files import write_atomically
@@ -248,7 +248,7 @@ def _describe_ties(model: SymbolicModel) -> list[str]:
 
 
 def compare_with_lagrange(derivation: Derivation, samples: int = 50) -> float:
-    """Returns the largest difference of Newton-Euler and Lagrange torques, relative to the largest."""
+    """Returns the largest relative difference of Newton-Euler and Lagrange torques."""
     model = derivation.model
     rng = np.random.default_rng(derivation.base.proof.seed)
     states = draw_random_states(model, samples, rng)

@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from modeler.cli.console import Json, print_lines, print_note, print_result, show_activity
-from modeler.cli.options import describe_unknown
+from modeler.cli.parser import describe_unknown
 from modeler.cli.places import Output, check_places
 from modeler.core.builtin import OTHER_PROGRAMS, list_builtin_robots
 from modeler.core.errors import DataError, RobotError
@@ -113,7 +113,7 @@ def check_own_file(robot: str, what: str) -> None:
 
 def apply_stated_options(args: argparse.Namespace, head: str, stated: Mapping[str, Any]) -> None:
     """Applies the options of the robot file that were not typed."""
-    applied = {name: value for name, value in stated.items() if name not in args.given}
+    applied = {name: value for name, value in stated.items() if name not in args.typed}
     for name, value in applied.items():
         setattr(args, name, value)
     if applied:

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from pathlib import Path
 
 import modeler.api.workflow as workflow
-from modeler.api.fitting import FitOutcome, add_verdict
+from modeler.api.fitting import FitOutcome, add_long_verdict, add_verdict
 from modeler.api.log_maps import (
     MappingFit,
     build_log_map,
@@ -17,7 +17,7 @@ from modeler.api.log_maps import (
     parse_time_range,
     read_mapped_log,
 )
-from modeler.api.long_logs import add_long_verdict, are_long, are_too_long
+from modeler.api.workflow import are_long, are_too_long
 from modeler.cli.console import Json, print_lines, print_result, show_activity, write_pictures
 from modeler.cli.lists import check_own_file, read_robot_with_notes
 from modeler.core.errors import BuildError, DataError, ModelerError, flatten_message

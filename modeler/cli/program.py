@@ -73,8 +73,8 @@ def _run_words(words: Sequence[str], phase: Phase) -> int:
 
 def _run_parsed(words: Sequence[str], phase: Phase) -> None:
     with phase():
-        from modeler.cli.commands import parse_words
         from modeler.cli.console import Verbosity, apply_verbosity, show_start, show_traceback
+        from modeler.cli.parser import parse_words
         from modeler.core.errors import ModelerError
 
         args, verbosity = parse_words(words)

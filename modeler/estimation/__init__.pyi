@@ -39,6 +39,7 @@ from .long_logs import (
     reduce_by_threads as reduce_by_threads,
     stream_logs as stream_logs,
 )
+from .methods import find_methods as find_methods
 from .model_file import (
     Addition as Addition,
     IdentifiedModel as IdentifiedModel,

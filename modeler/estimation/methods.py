@@ -42,7 +42,7 @@ class Estimator:
         about: id, title, law, source, and when not to use it.
         estimate: the function. Raises DataError where the problem gives it nothing to work on.
         works_on: "rows"; "triangles", if it needs no row again once these are there; "windows" of
-            the energy model.
+            the energy model; "loads", if some logs may carry one.
     """
 
     about: EstimatorInfo
@@ -55,7 +55,7 @@ class Estimator:
         return not (self.about.is_consistent or self.about.id == "ridge")
 
 
-_EVERYTHING, _FEW = tuple(_REFUSALS), ("weighted", "ordinary")
+_LEAST_SQUARES, _WITH_LOADS = ("weighted", "ordinary"), ("weighted", "ordinary", "robust", "ridge")
 _ESTIMATES: dict[Method, Callable[[Problem], Estimate]] = {
     "weighted": lambda problem: solve_least_squares(problem.data, "weighted"),
     "ordinary": estimate_ordinary,
@@ -71,7 +71,13 @@ _ESTIMATES: dict[Method, Callable[[Problem], Estimate]] = {
     "didim-consistent": estimate_didim_consistent,
 }
 METHODS: dict[Method, Estimator] = {
-    id: Estimator(ABOUT[id], estimate, _EVERYTHING if id in _FEW else ("rows",))
+    id: Estimator(
+        ABOUT[id],
+        estimate,
+        ("rows",)
+        + ("triangles", "windows") * (id in _LEAST_SQUARES)
+        + ("loads",) * (id in _WITH_LOADS),
+    )
     for id, estimate in _ESTIMATES.items()
 }
 """By id, in the order in which they are told."""

@@ -165,10 +165,13 @@ LOADS = [Payload(("run1.parquet",), None, 1.0)]
 REFUSED: dict[str, tuple[Callable[[Any, Any], object], str]] = {
     "method": (fit(method="best"), "got method best.*expected one of weighted"),
     "gains": (fit(method="tls"), "call fit_gains"),
-    "energy": (fit(method="ridge", energy=True), "method ridge for the energy model"),
-    "window": (fit(window=0.1), "got a window"),
-    "loads": (fit(method="iv", payloads=LOADS), "payloads with method iv"),
-    "loads and energy": (fit(energy=True, payloads=LOADS), "payloads with the energy model"),
+    "energy": (fit(method="ridge", energy=True), "energy model does not take method ridge"),
+    "window": (fit(window=0.1), "a window needs the energy model"),
+    "loads": (fit(method="iv", payloads=LOADS), "method iv takes no logs with a load"),
+    "loads and energy": (
+        fit(energy=True, payloads=LOADS),
+        "the energy model takes no logs with a load",
+    ),
     "limits": (excite(limits={"1": (1.0, 2.0)}), "limits of 1: got .*expected lower, upper, speed"),
     "joint": (excite(boxes={"9": (0,) * 6}), "boxes: no moving joint 9"),
     "wish": (excite(speed=3), "excite: got speed; expected some of duration"),

@@ -63,7 +63,7 @@ def test_every_function_has_an_example() -> None:
     assert lacking <= {"from_identified", "its_logs", "fittedvalues"} and len(methods) > 12
 
 
-ROTATE = ("modeler.api.motion", "modeler.api.checks", "modeler.api.identifying",
+ROTATE = ("modeler.api.motion", "modeler.api.checks", "modeler.api.fitting",
           "modeler.api.fleets", "modeler.api.workflow")  # fmt: skip
 MARKS = {
     **dict.fromkeys(("modeler.api.improve", "modeler.api.model"), pytest.mark.slow),  # diagnose

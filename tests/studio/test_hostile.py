@@ -15,7 +15,7 @@ import pytest
 
 from modeler import studio
 from modeler.cli import main
-from modeler.cli.commands import build_parser
+from modeler.cli.parser import build_parser
 from modeler.core.errors import DataError, ModelerError
 from modeler.estimation import load_model, save_model
 from modeler.studio.places import Roots

@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 
 from modeler.api import load, simulate
-from modeler.cli.commands import build_parser
+from modeler.cli.parser import build_parser
 from modeler.core.builtin import read_builtin_robot
 from modeler.studio import commands, recipe
 from modeler.studio.project import Project, ProjectLog, Workspace
