@@ -39,7 +39,6 @@ from .motion import (
 )
 from .pages import write_report as write_report
 from .physical_parameters import physical as physical
-from .postures import home as home, home_posture as home_posture
 from .reexports import (
     Asked as Asked,
     Comparison as Comparison,
@@ -71,6 +70,8 @@ from .workflow import (
     effects as effects,
     estimators as estimators,
     generate as generate,
+    home as home,
+    home_posture as home_posture,
     load_on_gpu as load_on_gpu,
     new_robot as new_robot,
     observe as observe,

@@ -14,9 +14,9 @@ import numpy as np
 
 from modeler import diagnosis, estimation, validation, views
 from modeler.api import checks, improve
+from modeler.api.checks import predict_torque
 from modeler.api.exporting import export
 from modeler.api.log_maps import Mapped
-from modeler.api.predicting import predict_torque
 from modeler.api.workflow import AnyLog, Logs, compile, convert_to_list, generate, observe
 from modeler.core.errors import DataError
 from modeler.core.files import read_file

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import modeler.api.motion as motions
 from modeler import excitation, simulation
-from modeler.api.clearance import USUAL, find_nearest_along
+from modeler.api.motion import USUAL, find_nearest_along
 from modeler.cli.console import Json, print_lines, print_result, show_activity, show_progress
 from modeler.cli.lists import resolve_robot
 from modeler.core.builtin import MOTIONS

@@ -10,9 +10,8 @@ from nicegui.element import Element
 from modeler.core.builtin import LOG_ENDINGS
 from modeler.core.errors import ModelerError
 from modeler.studio import commands
-from modeler.studio.chooser import choose_files
-from modeler.studio.dropped import add_drop_zone
 from modeler.studio.elements import add_card, draw_head
+from modeler.studio.file_inputs import add_drop_zone, choose_files
 from modeler.studio.log_view import LogView
 from modeler.studio.places import format_size
 from modeler.studio.project import ProjectLog

@@ -13,12 +13,12 @@ from modeler.studio import figures
 from modeler.studio.elements import (
     add_card,
     add_go_button,
+    add_robot_frame,
     add_run_button,
     draw_head,
     draw_stale_warnings,
     draw_table,
 )
-from modeler.studio.robot_frame import add_robot_frame
 from modeler.studio.robot_views import MotionPreview
 from modeler.studio.studio import Studio
 from modeler.studio.tasks import Step, Task

@@ -37,6 +37,7 @@ from modeler.studio.tasks import (
 )
 
 FILE = "project.toml"
+DRAFT = "robot.draft.toml"
 FOLDERS = ("robots", "logs", "models", "results", "motions", "pages", "taken")
 
 

@@ -22,11 +22,9 @@ from modeler.core.files import read_text, write_atomically
 from modeler.core.json import JsonError, parse_json
 from modeler.studio import commands
 from modeler.studio.places import Roots
-from modeler.studio.project import FILE, FOLDERS, FOREIGN, Project, Workspace
-from modeler.studio.robot_text import DRAFT
-from modeler.studio.running import RunningCommand
+from modeler.studio.processes import RunningCommand, Viewer
+from modeler.studio.project import DRAFT, FILE, FOLDERS, FOREIGN, Project, Workspace
 from modeler.studio.tasks import MAKING, ROBOT, Step, Task, build_bookkeeping_words
-from modeler.studio.viewer import Viewer
 
 Screen = Callable[["Studio"], Awaitable[None]]
 """Draws a screen into the element that is open."""

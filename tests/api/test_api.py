@@ -170,7 +170,7 @@ REFUSED: dict[str, tuple[Callable[[Any, Any], object], str]] = {
     "loads": (fit(method="iv", payloads=LOADS), "method iv takes no logs with a load"),
     "loads and energy": (
         fit(energy=True, payloads=LOADS),
-        "the energy model takes no logs with a load",
+        "the energy model takes no logs",
     ),
     "limits": (excite(limits={"1": (1.0, 2.0)}), "limits of 1: got .*expected lower, upper, speed"),
     "joint": (excite(boxes={"9": (0,) * 6}), "boxes: no moving joint 9"),

@@ -23,7 +23,7 @@ from modeler.core.thinning import thin_curves
 from modeler.estimation import load_model
 from modeler.regression import LONG
 from modeler.studio import viewing
-from modeler.studio.viewer import Viewer, compute_answer
+from modeler.studio.processes import Viewer, compute_answer
 from tests.coroutines import run_coroutine
 from tests.rotation import rotating
 
