@@ -1,9 +1,13 @@
-from .checks import compare as compare, compare_models as compare_models, free_run as free_run
+from .checks import (
+    compare as compare,
+    compare_methods as compare_methods,
+    compare_models as compare_models,
+    free_run as free_run,
+)
 from .exporting import export as export
 from .fitting import (
     Load as Load,
     assemble_model as assemble_model,
-    compare_methods as compare_methods,
     fit as fit,
     fit_gains as fit_gains,
     identify as identify,

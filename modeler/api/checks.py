@@ -10,17 +10,25 @@ from typing import Any
 import numpy as np
 
 import modeler.api.workflow as workflow
-from modeler import regression, validation
+from modeler import estimation, regression, validation
 from modeler.api.log_maps import Mapped, build_log_maps, parse_time_range
-from modeler.api.workflow import AnyLog, Logs, are_long, are_too_long, open_sources
-from modeler.core.errors import DataError
+from modeler.api.workflow import AnyLog, Logs, are_long, are_too_long, compile_robot, open_sources
+from modeler.core.errors import DataError, Method
+from modeler.core.estimators import ABOUT
 from modeler.core.manifest import JointSpec
 from modeler.core.table import label_values
 from modeler.derivation import complete_home
 from modeler.estimation import FitResult, IdentifiedModel, ParameterEstimate
 from modeler.logs import LogTable, split_joints
-from modeler.regression import Log, Observation, Processing, WholeLogNeeded, check_no_overlap
-from modeler.robot import Robot
+from modeler.regression import (
+    Log,
+    Observation,
+    Processing,
+    WholeLogNeeded,
+    check_no_overlap,
+    observe,
+)
+from modeler.robot import Robot, suggest_name
 from modeler.runtime import CompiledModel
 from modeler.simulation import SimulatedLog
 
@@ -312,3 +320,69 @@ def _gather_arrays(
             none = np.zeros(rows)
             arrays[name] = np.column_stack([arrays.pop(each, none) for each in column_names])
     return arrays
+
+
+def compare_methods(
+    robot: Robot | CompiledModel,
+    logs: Logs,
+    holdout: Logs = (),
+    methods: Sequence[str] | None = None,
+    progress: Callable[[float], None] | None = None,
+) -> estimation.MethodComparison:
+    """Compares all estimators on the same logs: values, errors, run time, remarks.
+
+    >>> result = compare_methods(compiled, ["mon.parquet"], methods=["weighted", "ridge"])
+    >>> [each.method for each in result.tried]
+    ['weighted', 'ridge']
+
+    Args:
+        robot: as loaded, or compiled.
+        logs: to fit.
+        holdout: logs of other motion, not fitted: their error.
+        methods: some of `estimators()`; None: all.
+        progress: called with the share done, 0 to 1.
+
+    Raises:
+        DataError: an unknown method, rows given twice, or what the weighted fit raises.
+    """
+    chosen = select_methods(methods)
+    compiled = compile_robot(robot).compiled if isinstance(robot, Robot) else robot
+    observation, held_out = observe_held_out(compiled, logs, holdout)
+    tried = estimation.compare_methods(observation, compiled, held_out, chosen, progress)
+    return estimation.MethodComparison(
+        compiled.spec.robot, tried, tuple(observation.report.format_lines())
+    )
+
+
+def observe_held_out(
+    compiled: CompiledModel,
+    logs: Logs,
+    holdout: Logs,
+    mapping: Mapped = (),
+    processing: Processing | None = None,
+) -> tuple[Observation, Observation | None]:
+    """Builds the observations of fitted and held-out logs with the same processing."""
+    training_logs, held_out_logs = (
+        workflow.read_logs(compiled, some, mapping) for some in (logs, holdout)
+    )
+    check_no_overlap(training_logs, held_out_logs)
+    observation = observe(compiled, training_logs, processing)
+    held_out = (
+        observe(compiled, held_out_logs, observation.report.processing) if held_out_logs else None
+    )
+    return observation, held_out
+
+
+def select_methods(names: Sequence[str] | None, where: str = "methods") -> list[Method]:
+    """Returns the estimators of these names, each once; all for None."""
+    if names is None:
+        return list(ABOUT)
+    chosen = [id for name in names for id in ABOUT if id == name]
+    unknown = [name for name in names if name not in chosen]
+    if unknown or not names:
+        got = unknown[0] if unknown else "nothing"
+        raise DataError(
+            f"{where}: got {got}{suggest_name(got, list(ABOUT))}; expected some of "
+            f"{', '.join(ABOUT)}, with commas between"
+        )
+    return [*dict.fromkeys(chosen)]

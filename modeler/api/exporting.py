@@ -11,6 +11,7 @@ from pathlib import Path
 
 import numpy as np
 
+from modeler.api.thresholds import THRESHOLDS
 from modeler.api.workflow import compile, compile_model, emit_model, observe
 from modeler.codegen import Derivation, derive, generate
 from modeler.core.errors import BuildError, DataError
@@ -155,10 +156,6 @@ def _collect_values(
     return tuple(values), (note,) * bool(unknown and model is None)
 
 
-_STATES, _SEED = 200, 1
-_REACH = 0.05  # rad, m: of random motion around home
-
-
 def export(
     thing: Robot | IdentifiedModel,
     out: str | Path | None = None,
@@ -214,10 +211,10 @@ def _build_equations(robot: Robot) -> Equations:
     emitted = generate(derive(robot))
 
     def compute_torques(beta: np.ndarray) -> np.ndarray:
-        compiled, rng = compile_model(emitted), np.random.default_rng(_SEED)
+        compiled, rng = compile_model(emitted), np.random.default_rng(THRESHOLDS.export_seed)
         home = [robot.home.get(joint.name, 0.0) for joint in robot.coordinates]
-        q, qd, qdd = rng.uniform(-1.0, 1.0, (3, _STATES, len(home)))
-        q = home + _REACH * q
+        q, qd, qdd = rng.uniform(-1.0, 1.0, (3, THRESHOLDS.export_states, len(home)))
+        q = home + THRESHOLDS.export_amplitude * q
         if emitted.spec.closure is not None:
             q = q[compiled.closing_status(q) == 0]
         return np.asarray(compiled.inverse_dynamics(q, qd[: len(q)], qdd[: len(q)], beta))

@@ -2,16 +2,16 @@
 
 import dataclasses
 import warnings
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from contextlib import AbstractContextManager, nullcontext
-from functools import reduce
 from pathlib import Path
-from typing import Any, Literal, TypeGuard
+from typing import Any, Literal
 
 import numpy as np
 
 from modeler import estimation, regression
 from modeler.api import workflow
+from modeler.api.chunk_workers import can_read_from_middle, make_worker_reducer
 from modeler.api.log_maps import Mapped, resolve_mapping
 from modeler.api.model import Model
 from modeler.api.workflow import (
@@ -26,13 +26,11 @@ from modeler.api.workflow import (
 )
 from modeler.codegen import Derivation
 from modeler.core.errors import GAIN_METHOD, TWO_STEPS, DataError, FitWarning, Method
-from modeler.core.estimators import ABOUT
 from modeler.core.fit_options import METHODS, FitOptions
 from modeler.core.jobs import Workers
 from modeler.core.manifest import EmittedModule
 from modeler.derivation import complete_home
 from modeler.estimation import OF_TRIANGLES, long_logs as chunked
-from modeler.logs import LogMap
 from modeler.numerics.least_squares import CompressedRegression
 from modeler.regression import DataWarning, Log, Observation, Processing, check_no_overlap, observe
 from modeler.robot import (
@@ -44,7 +42,7 @@ from modeler.robot import (
     replace_robot_effects,
     suggest_name,
 )
-from modeler.runtime import CompiledModel, load_cached_model
+from modeler.runtime import CompiledModel
 
 
 @dataclasses.dataclass(frozen=True)
@@ -539,75 +537,6 @@ def _fit_gains(
     return assemble_model(derivation, emitted, observation, result), observation
 
 
-# All estimators on the same logs.
-
-
-def compare_methods(
-    robot: Robot | CompiledModel,
-    logs: Logs,
-    holdout: Logs = (),
-    methods: Sequence[str] | None = None,
-    progress: Callable[[float], None] | None = None,
-) -> estimation.MethodComparison:
-    """Compares all estimators on the same logs: values, errors, run time, remarks.
-
-    >>> result = compare_methods(compiled, ["mon.parquet"], methods=["weighted", "ridge"])
-    >>> [each.method for each in result.tried]
-    ['weighted', 'ridge']
-
-    Args:
-        robot: as loaded, or compiled.
-        logs: to fit.
-        holdout: logs of other motion, not fitted: their error.
-        methods: some of `estimators()`; None: all.
-        progress: called with the share done, 0 to 1.
-
-    Raises:
-        DataError: an unknown method, rows given twice, or what the weighted fit raises.
-    """
-    chosen = select_methods(methods)
-    compiled = compile_robot(robot).compiled if isinstance(robot, Robot) else robot
-    observation, held_out = observe_held_out(compiled, logs, holdout)
-    tried = estimation.compare_methods(observation, compiled, held_out, chosen, progress)
-    return estimation.MethodComparison(
-        compiled.spec.robot, tried, tuple(observation.report.format_lines())
-    )
-
-
-def observe_held_out(
-    compiled: CompiledModel,
-    logs: Logs,
-    holdout: Logs,
-    mapping: Mapped = (),
-    processing: Processing | None = None,
-) -> tuple[Observation, Observation | None]:
-    """Builds the observations of fitted and held-out logs with the same processing."""
-    training_logs, held_out_logs = (
-        workflow.read_logs(compiled, some, mapping) for some in (logs, holdout)
-    )
-    check_no_overlap(training_logs, held_out_logs)
-    observation = observe(compiled, training_logs, processing)
-    held_out = (
-        observe(compiled, held_out_logs, observation.report.processing) if held_out_logs else None
-    )
-    return observation, held_out
-
-
-def select_methods(names: Sequence[str] | None, where: str = "methods") -> list[Method]:
-    """Returns the estimators of these names, each once; all for None."""
-    if names is None:
-        return list(ABOUT)
-    chosen = [id for name in names for id in ABOUT if id == name]
-    unknown = [name for name in names if name not in chosen]
-    if unknown or not names:
-        got = unknown[0] if unknown else "nothing"
-        raise DataError(
-            f"{where}: got {got}{suggest_name(got, list(ABOUT))}; expected some of "
-            f"{', '.join(ABOUT)}, with commas between"
-        )
-    return [*dict.fromkeys(chosen)]
-
-
 # Long logs, which never have all rows in memory.
 
 
@@ -705,104 +634,3 @@ def add_long_verdict(
     """Estimates the parameters of long logs and adds the verdict."""
     outcome = FitOutcome(chunked.identify_long(streamed, method, compiled))
     return add_verdict(compiled, streamed.observation, outcome, streamed.data)
-
-
-# The chunks of long logs, reduced by workers: other processes, or other machines.
-
-
-_CHUNKS = 2  # of a job: row groups are longer than chunks, and each job decodes whole pages
-_JOBS = 16  # merged where they are, before the result travels
-
-
-@dataclasses.dataclass(frozen=True, eq=False)
-class ChunkJobContext:
-    """What all jobs of a log share."""
-
-    emitted: EmittedModule
-    path: Path
-    mapping: LogMap | None
-    chosen: regression.LogChoices
-    rows: int
-
-
-def make_worker_reducer(workers: Workers, emitted: EmittedModule) -> chunked.Reducer:
-    """Makes a reducer of logs whose workers read their rows of a Parquet file themselves.
-
-    Logs of other formats are read from the beginning to the end: by this process. All logs are
-    begun at once. Triangles of neighbours are merged in pairs; results differ from those of
-    threads by the rounding of another order, about 1e-15.
-
-    Args:
-        workers: who see the files by the same paths.
-        emitted: the C of the robot, which they compile, or take from their caches.
-    """
-
-    def reduce_with_workers(
-        model: CompiledModel, source: regression.Source, chosen: regression.LogChoices
-    ) -> Iterator[chunked.PartialFit]:
-        if not can_read_from_middle(source):
-            return chunked.reduce_by_threads(model, source, chosen)
-        path, mapping = source.place
-        code = dataclasses.replace(emitted, files=emitted.code)
-        shared = ChunkJobContext(code, path.absolute(), mapping, chosen, source.rows)
-        count = -(-source.rows // chosen.chunk_rows)
-        jobs = [range(k, min(k + _CHUNKS, count)) for k in range(0, count, _CHUNKS)]
-        pending = [
-            workers.start_merge(reduce_rows, shared, jobs[k : k + _JOBS], merge_in_time)
-            for k in range(0, len(jobs), _JOBS)
-        ]
-        return _yield_in_order(pending)
-
-    return reduce_with_workers
-
-
-def can_read_from_middle(source: regression.Source) -> TypeGuard[regression.FileSource]:
-    """Returns True if a worker can read rows from the middle of the file."""
-    return isinstance(source, regression.FileSource) and source.exact
-
-
-def reduce_rows(shared: ChunkJobContext, numbers: range) -> chunked.PartialFit:
-    """Reads and reduces some chunks of a log, in a worker.
-
-    Raises:
-        DataError: the worker does not see the file, or sees another.
-    """
-    model, chosen = load_cached_model(shared.emitted), shared.chosen
-    source = regression.open_source(shared.path, model.spec, shared.mapping)
-    if source is None or source.rows != shared.rows:
-        got = "none" if source is None else f"one of {source.rows} rows"
-        raise DataError(
-            f"{shared.path}: a worker sees {got}, expected a file of {shared.rows} rows; workers "
-            "must see the logs by the same paths"
-        )
-    parts = regression.read_chunks_between(source, numbers, chosen.chunk_rows, chosen.margin_rows)
-    partials = (chunked.reduce_chunk(model, part, chosen) for part in parts)
-    return reduce(chunked.PartialFit.merged_with, partials)
-
-
-def merge_in_time(first: chunked.PartialFit, later: chunked.PartialFit) -> chunked.PartialFit:
-    """Merges the reduction of rows with that of the rows that follow.
-
-    Raises:
-        DataError: time does not increase from the ones to the others.
-    """
-    before, after = first.facts.span[1], later.facts.span[0]
-    if after <= before:
-        raise DataError(
-            f"{after:.9g} s after {before:.9g} s; expected increasing time; sort and split the "
-            "file where the clock restarts"
-        )
-    return first.merged_with(later)
-
-
-def _yield_in_order(
-    pending: Sequence[Callable[[], chunked.PartialFit]],
-) -> Iterator[chunked.PartialFit]:
-    """The results, one after the other, checked as those within each."""
-    last: chunked.PartialFit | None = None
-    for wait in pending:
-        partial = wait()
-        if last is not None:
-            merge_in_time(last, partial)
-        last = partial
-        yield partial

@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import Any
 
 from modeler import regression
+from modeler.api.thresholds import THRESHOLDS
 from modeler.core.errors import DataError, ModelerError, split_time_range
 from modeler.core.manifest import EmittedModule
 from modeler.estimation import find_log_faults, identify, judge_fit
@@ -29,8 +30,6 @@ from modeler.simulation import SimulatedLog
 
 Mapped = Mapping[str, Any] | Sequence[str] | LogMap
 """Whose column is which: a table as [log] of a robot file, or texts as `--map` takes them."""
-
-_BETTER = 0.5  # of the error, that a guess must reach to be believed
 
 
 def build_log_map(compiled: CompiledModel | EmittedModule, mapping: Mapped = ()) -> LogMap:
@@ -203,7 +202,7 @@ def choose_mapping(
         return plain_fit, plain, False
     guessed_fit = fit_mapping(guessed)
     better = (
-        guessed_fit.error < _BETTER * plain_fit.error
+        guessed_fit.error < THRESHOLDS.max_guess_error_share * plain_fit.error
         and guessed_fit.is_usable >= plain_fit.is_usable
     )
     if better or (guessed_fit.is_usable and not plain_fit.is_usable):

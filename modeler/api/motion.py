@@ -12,6 +12,7 @@ import numpy as np
 
 from modeler import excitation, exports, simulation
 from modeler.api.log_maps import Mapped
+from modeler.api.thresholds import THRESHOLDS
 from modeler.api.workflow import (
     Logs,
     build_processing,
@@ -30,9 +31,6 @@ from modeler.regression import Log, Observation, Processing, check_no_overlap, o
 from modeler.robot import Limits, Robot, parse_robot_text, suggest_name
 from modeler.runtime import CompiledModel
 from modeler.simulation import HiddenEffect, SimulatedLog, SimulationSettings
-
-USUAL = 0.01
-"""m between links of a robot whose file has [capsules]."""
 
 
 def add_clearance(
@@ -54,7 +52,7 @@ def add_clearance(
     if margin is None:
         if not (robot.capsules or robot.planes):
             return bounds
-        margin = USUAL
+        margin = THRESHOLDS.link_clearance
     if not 0.0 <= margin < math.inf:
         raise DataError(f"clearance: got {margin:g} m; expected 0 or more")
     ranges = np.stack([bounds.lower, bounds.upper])
@@ -550,7 +548,7 @@ def _check_numbers(
 
 
 def check_motion(
-    robot: Robot, motion: str | Path, *, clearance: float = USUAL
+    robot: Robot, motion: str | Path, *, clearance: float = THRESHOLDS.link_clearance
 ) -> excitation.ClosestApproach | None:
     """Finds where a motion brings two links, or a link and a plane, closest together.
 

@@ -17,6 +17,7 @@ from typing import TYPE_CHECKING, Any
 
 from modeler import __version__
 from modeler.cli.places import OutputFolder
+from modeler.cli.thresholds import THRESHOLDS
 from modeler.core.errors import ModelerError, flatten_message
 from modeler.core.files import DestinationKind, resolve_destination, write_atomically
 
@@ -40,7 +41,6 @@ _LOUDNESS: ContextVar[Verbosity] = ContextVar("loudness", default=Verbosity.NORM
 _FOR_PROGRAMS: ContextVar[bool] = ContextVar("for programs", default=False)
 """Whether progress is told in lines that a program reads, in place of a bar: `--progress lines`."""
 
-_TICK = 0.5  # s
 
 _PACKAGES = (
     "numpy", "scipy", "sympy", "python-flint", "casadi", "cffi", "pyarrow", "matplotlib", "rich",
@@ -109,7 +109,7 @@ def show_clock(title: str) -> Iterator[None]:
 
     def show_seconds() -> None:
         start_time = time.perf_counter()
-        while not ended.wait(_TICK):
+        while not ended.wait(THRESHOLDS.clock_interval):
             _write_stderr(f"\r{title} {time.perf_counter() - start_time:.1f} s")
         _write_stderr(f"\r{' ' * (len(title) + 12)}\r")  # a console that knows no codes can do that
 
@@ -372,7 +372,7 @@ def _show_progress_lines(title: str, total: float | None) -> Iterator[Callable[[
 
     def show_share(share: float) -> None:
         now = time.monotonic()
-        if share >= last_shown[1] + 0.01 and now >= last_shown[0] + _PAUSE:
+        if share >= last_shown[1] + 0.01 and now >= last_shown[0] + THRESHOLDS.progress_interval:
             last_shown[:] = now, share
             _write_progress_line(title, share)
 
@@ -382,9 +382,6 @@ def _show_progress_lines(title: str, total: float | None) -> Iterator[Callable[[
         yield show_share
     finally:
         _SHOWN.reset(before)
-
-
-_PAUSE = 0.1  # s between two lines
 
 
 def _write_progress_line(title: str, share: float | None) -> None:

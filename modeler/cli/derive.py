@@ -22,6 +22,7 @@ from modeler.cli.console import (
 )
 from modeler.cli.lists import read_robot_with_effects, resolve_robot
 from modeler.cli.parser import FEW_JOINTS, Form
+from modeler.cli.thresholds import THRESHOLDS
 from modeler.codegen import Derivation, derive, generate
 from modeler.core.errors import ALSO, Also, DataError, ModelerError, RobotError
 from modeler.core.files import write_atomically
@@ -151,11 +152,6 @@ def check_loops(args: argparse.Namespace, derivation: Derivation) -> None:
             "or add --cut-loops"
         )
 
-
-MANY = 200
-"""Coefficients up to which all are listed; of more, those from which the others follow."""
-PAGE = 40
-"""Coefficients that are listed unasked."""
 
 _SHEETS: "dict[Form, Callable[[function_sheet.Sheet, FormulaPrinter], str]]" = {
     "text": lambda sheet, _: "\n".join(formulas.function_sheet.format_sheet_lines(sheet)),
@@ -344,14 +340,14 @@ def _print_coefficients(
     unasked = args.terms is None and args.coefficients_out is None
     try:
         table = formulas.coefficients.build_coefficient_table(derivation.model, derivation.base)
-        if unasked and len(table.coefficients) > PAGE:
+        if unasked and len(table.coefficients) > THRESHOLDS.max_unrequested_coefficients:
             printer.print_text()
             printer.print_text(
                 f"{len(table.coefficients)} PG/PJ/PS coefficients: --terms lists them"
             )
             return
         shown, lines = table, _describe_coefficients(table)
-        if not args.expanded and len(table.coefficients) > MANY:
+        if not args.expanded and len(table.coefficients) > THRESHOLDS.max_listed_coefficients:
             shown = formulas.coefficients.select_independent_coefficients(table)
             lines.insert(
                 0,

@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import Any
 
 import modeler.api.fitting as fitting
+from modeler.api.checks import observe_held_out, select_methods
 from modeler.api.log_maps import resolve_mapping
 from modeler.api.workflow import build_processing, compile_robot
 from modeler.cli.console import (
@@ -161,12 +162,12 @@ def _write_model(
 
 def _compare_methods(args: argparse.Namespace, processing: Processing) -> Json:
     """Prints what each estimator makes of the logs; writes no model."""
-    methods = fitting.select_methods(None if args.method == ALL else args.method.split(","))
+    methods = select_methods(None if args.method == ALL else args.method.split(","))
     robot = resolve_robot(args)
     with show_activity(f"deriving {robot.name}"):
         compiled = compile_robot(robot).compiled
     with show_activity("building the observation matrix"):
-        observation, held_out = fitting.observe_held_out(
+        observation, held_out = observe_held_out(
             compiled, args.logs, args.holdout, args.map, processing
         )
     with show_progress("fitting") as bar:

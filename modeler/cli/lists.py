@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 from modeler.cli.console import Json, print_lines, print_note, print_result, show_activity
 from modeler.cli.parser import describe_unknown
 from modeler.cli.places import Output, check_places
+from modeler.cli.thresholds import THRESHOLDS
 from modeler.core.builtin import OTHER_PROGRAMS, list_builtin_robots
 from modeler.core.errors import DataError, RobotError
 from modeler.core.estimators import ABOUT
@@ -31,7 +32,6 @@ if TYPE_CHECKING:
 # The signature of an effect: torque against what it depends on.
 
 
-_POINTS = 366
 _FUNCTIONS: dict[str, Callable[[float], float]] = {
     "sin": math.sin, "cos": math.cos, "tan": math.tan, "sqrt": math.sqrt, "exp": math.exp,
     "abs": abs, "sign": lambda x: (x > 0) - (x < 0), "tanh": math.tanh,
@@ -52,7 +52,10 @@ def _sample_effect(form: Form, shapes: Mapping[str, float]) -> tuple[str, list[f
     laws = [column.equation.law for column in form.columns]
     ends = [abs(end) for law in laws if law is not None for end in (*law.low, *law.high)]
     reach = max(ends, default=math.pi if axis == "q" else 1.0)
-    x = [reach * (2.0 * k / (_POINTS - 1) - 1.0) for k in range(_POINTS)]
+    x = [
+        reach * (2.0 * k / (THRESHOLDS.curve_points - 1) - 1.0)
+        for k in range(THRESHOLDS.curve_points)
+    ]
     return axis, x, [_compute_effect_torque(form, axis, at, shapes) for at in x]
 
 

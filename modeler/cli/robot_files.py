@@ -20,6 +20,7 @@ from modeler.cli.console import (
 )
 from modeler.cli.lists import check_own_file, read_robot_with_notes
 from modeler.cli.places import Output, check_places
+from modeler.cli.thresholds import THRESHOLDS
 from modeler.core.builtin import CONVENTIONS, TEMPLATES
 from modeler.core.errors import DataError, RobotError
 from modeler.core.files import write_atomically
@@ -133,8 +134,6 @@ def run_show(args: argparse.Namespace) -> Json:
 
 MODE_PICTURES = (*PICTURE_KINDS, ".html")
 
-_MOST_VALUES = 6
-
 
 def run_home(args: argparse.Namespace) -> Json:
     """Prints the assembly modes, draws them, writes one into the robot file."""
@@ -235,7 +234,7 @@ def _format_table(assembly: HomeModes) -> list[str]:
     # The joints by which people tell modes apart: the platform's, else the first that follow.
     names = [joint.name for joint in linkage.free]
     shown_places = [names.index(name) for name in linkage.robot.platform if name in names]
-    shown_places = shown_places or list(linkage.loops.solved)[:_MOST_VALUES]
+    shown_places = shown_places or list(linkage.loops.solved)[: THRESHOLDS.listed_joints]
     for k, mode in enumerate(modes):
         facts = [f"singular value {mode.singularity_distance:.2g}"]
         if linkage.robot.limits:

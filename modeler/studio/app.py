@@ -33,6 +33,7 @@ from modeler.studio.places import lock_folder
 from modeler.studio.project import FOREIGN, Project, ProjectLog, Workspace
 from modeler.studio.studio import Hub, Studio
 from modeler.studio.tasks import ROBOT, Task, TimeRange, format_command
+from modeler.studio.thresholds import THRESHOLDS
 
 _RUNS = (("logs/train.parquet", 1), ("logs/held_out.parquet", 2))
 
@@ -115,13 +116,6 @@ JOBS = {
 }
 """The nine jobs, in the order in which they are done; Alt and the number goes there."""
 
-_BUSY = 30.0
-"""s: a browser that draws may leave a ping unanswered for 0.4 of it; else its page is loaded anew,
-and what was pressed meanwhile is lost."""
-
-_GONE = 3.0
-"""s after a window was closed until another one may change things."""
-
 
 def serve(
     folder: Path,
@@ -163,7 +157,7 @@ def serve(
         _add_pages(hub, demo)
         ui.run_with(
             inner, title="modeler studio", dark=None, show_welcome_message=False,
-            reconnect_timeout=_BUSY,
+            reconnect_timeout=THRESHOLDS.ping_timeout,
         )  # fmt: skip
         guard = Guard(inner, server_socket.getsockname()[1])
         config = uvicorn.Config(guard, log_level="warning", lifespan="on")
@@ -227,13 +221,13 @@ def _send_attachment(content: bytes, name: str) -> Response:
 
 
 def _add_pages(hub: Hub, demo: bool) -> None:
-    @ui.page("/", reconnect_timeout=_GONE)
+    @ui.page("/", reconnect_timeout=THRESHOLDS.reconnect_delay)
     async def show_first_screen(client: Client) -> None:
         studio = await _build_page(client, hub, "robot" if hub.project.robot else "start")
         if demo and not hub.project.robot and hub.running is None and not studio.is_read_only:
             await open_demo(studio)
 
-    @ui.page("/{screen}", reconnect_timeout=_GONE)
+    @ui.page("/{screen}", reconnect_timeout=THRESHOLDS.reconnect_delay)
     async def show_screen(client: Client, screen: str) -> None:
         await _build_page(client, hub, screen if screen in hub.screens else "start")
 

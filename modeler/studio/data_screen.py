@@ -18,9 +18,9 @@ from modeler.studio.project import ProjectLog
 from modeler.studio.project_logs import AUTO, ProjectLogs
 from modeler.studio.studio import Studio
 from modeler.studio.tasks import Task
+from modeler.studio.thresholds import THRESHOLDS
 from modeler.studio.timeline import ALL, Timeline, assign_default_roles, describe_roles, draw_legend
 
-_QUIET = 0.5  # s without another file that comes, until the screen is drawn anew
 _FORMATS = (
     "CSV, text, Excel, Parquet, MAT, HDF5, NumPy, MCAP and ROS bags, with the names and units that "
     "your logger wrote."
@@ -139,7 +139,7 @@ class DataScreen(ProjectLogs):
         state["coming"] = coming
 
         async def redraw_later() -> None:
-            await asyncio.sleep(_QUIET)
+            await asyncio.sleep(THRESHOLDS.redraw_delay)
             if state["coming"] == coming:
                 state["coming"] = ()
                 self.studio.redraw()

@@ -8,6 +8,7 @@ import numpy as np
 
 from modeler.core.figure import Band, Bars, Curve, Heat, Panel, Picture, Points, Series
 from modeler.core.style import SHADE
+from modeler.studio.thresholds import THRESHOLDS
 
 if TYPE_CHECKING:
     from nicegui import ui
@@ -15,7 +16,6 @@ if TYPE_CHECKING:
 _WIDTH = 1150  # pixels that gaps between panels are thought for
 _LEFT, _RIGHT, _TOP, _TITLE, _BOTTOM, _LEGEND = 64, 16, 12, 26, 48, 26
 _BETWEEN, _BESIDE, _SHARED = 84, 84, 42
-_MANY = 5000  # dots from which on they are drawn by the graphics processor
 _DIGITS = 6  # of the range of an axis: finer than a pixel at any zoom of thinned points
 _GRID, _FAINT = "rgba(128,128,128,0.25)", "rgba(128,128,128,0.8)"
 _NONE = "rgba(0,0,0,0)"
@@ -210,7 +210,11 @@ def _build_trace(series: Series, log: bool) -> dict[str, Any]:
             "fillcolor": style.color,
             "opacity": style.opacity,
         }
-    kind = "scattergl" if isinstance(series, Points) and series.x.size > _MANY else "scatter"
+    kind = (
+        "scattergl"
+        if isinstance(series, Points) and series.x.size > THRESHOLDS.min_webgl_points
+        else "scatter"
+    )
     drawn = {
         "type": kind,
         "x": _convert_numbers(series.x, log),

@@ -22,6 +22,7 @@ from modeler.core.builtin import LOG_ENDINGS
 from modeler.core.errors import DataError, ModelerError
 from modeler.studio.places import BEGUN, ROBOT_ENDINGS, Entry, Roots, format_size
 from modeler.studio.studio import Studio
+from modeler.studio.thresholds import THRESHOLDS
 
 KINDS = {"logs": LOG_ENDINGS, "originals": ROBOT_ENDINGS}
 """Folders of the project that files may be dropped into, and how their names end."""
@@ -30,8 +31,6 @@ NAME = "x-name"
 """Header of a request that says the name of its file, quoted as in an address."""
 
 _AT_ONCE = 2**20
-_LONGEST = 120  # bytes of a name
-_SPARE = 2**20  # bytes of the disk that stay free
 
 
 def safe_name(name: str) -> str:
@@ -45,7 +44,7 @@ def safe_name(name: str) -> str:
     stem, dot, ending = plain.rpartition(".")
     stem, ending = (stem, f".{ending.strip()}") if dot else (ending, "")
     stem = stem.lstrip(".-@ ")
-    while len((stem + ending).encode()) > _LONGEST and stem:
+    while len((stem + ending).encode()) > THRESHOLDS.max_name_bytes and stem:
         stem = stem[:-1]
     return (stem.strip() or "log") + ending
 
@@ -109,7 +108,7 @@ async def receive_file(
     try:
         place.mkdir(exist_ok=True)
         free = shutil.disk_usage(place).free
-        if size is not None and size + _SPARE > free:
+        if size is not None and size + THRESHOLDS.spare_disk_bytes > free:
             raise OSError(errno.ENOSPC, f"{format_size(size)} to come, {format_size(free)} free")
         upload = _Upload(place, safe_name(name))
         async for piece in _merge_pieces(stream):

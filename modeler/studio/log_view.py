@@ -36,9 +36,9 @@ from modeler.studio.log_mapping import (
 from modeler.studio.project import ProjectLog
 from modeler.studio.project_logs import ProjectLogs
 from modeler.studio.tasks import ROBOT, Task, TimeRange
+from modeler.studio.thresholds import THRESHOLDS
 from modeler.studio.timeline import Timeline
 
-_MOST = 400  # columns that a menu lists; others are typed
 _SIGNS = {1: "+", -1: "\u2212"}
 
 
@@ -76,7 +76,7 @@ class MappingTable:
         self._place = ui.element("div").classes("mapping-scroll")
         self._draw(shown)
         with ui.element("div").classes("mapping-chips"):
-            for name, unit in [*columns.items()][:_MOST]:
+            for name, unit in [*columns.items()][: THRESHOLDS.max_menu_columns]:
                 chip = ui.label(f"{name} [{unit}]" if unit else name).classes("mapping-chip")
                 chip.props("draggable=true")
                 chip.on("dragstart", lambda _, name=name: setattr(self, "_dragged", name), args=[])
@@ -158,7 +158,7 @@ class MappingTable:
         """The column, its unit and its sign."""
         one, cell = self.chosen.get(quantity), self._cells[quantity]
         cell.clear()
-        names = [*self.columns][:_MOST]
+        names = [*self.columns][: THRESHOLDS.max_menu_columns]
         if one is not None and one.column not in names:
             names.insert(0, one.column)
         with cell:
@@ -218,12 +218,9 @@ class MappingTable:
         await self.changed(self.chosen)
 
 
-_POINTS = 1500  # of a curve, at most
-_ALL_POINTS = 14_000  # of all curves
 _COLORS = (BLUE, VERMILLION, GREEN, ORANGE, PINK, BLACK)  # SKY is what BLUE is in the dark
 _PANELS = {"q": "position", "qd": "speed", "tau": "torque or force", "current": "current"}
 _SPEEDS = {speed: f"{speed:g} x" for speed in (0.1, 0.5, 1.0, 2.0, 5.0)}
-_ROOM = 0.02  # s beside a doubt that is left out too
 _ABSENT = (
     "this log has no column {} for {}: the mapping is that of all logs; take this one off the "
     "list, or let each be taken by its own guess"
@@ -326,8 +323,11 @@ class LogView:
     async def _draw_curves(self) -> None:
         """Asks for the window that is looked at, and draws it."""
         names = [one.column for one in self._select_columns([*_PANELS]).values()]
-        window, points = self.window or (-np.inf, np.inf), _ALL_POINTS // max(1, len(names))
-        more = (self.known.clock, "", min(points, _POINTS))
+        window, points = (
+            self.window or (-np.inf, np.inf),
+            THRESHOLDS.all_curve_points // max(1, len(names)),
+        )
+        more = (self.known.clock, "", min(points, THRESHOLDS.curve_points))
         raw = await self._ask_viewer("log_window", names, *window, *more, kind="window")
         if raw is not None:
             self._plot.update_figure(figures.build_figure(self._build_picture(raw), self.file))
@@ -549,14 +549,17 @@ class LogView:
 
     def _leave_out(self, marks: Sequence[Mapping[str, Any]]) -> None:
         log = self.log
-        for start, end in ((mark["start"] - _ROOM, mark["end"] + _ROOM) for mark in marks):
+        for start, end in (
+            (mark["start"] - THRESHOLDS.warning_margin, mark["end"] + THRESHOLDS.warning_margin)
+            for mark in marks
+        ):
             log = timeline.assign_role(log, TimeRange(round(start, 4), round(end, 4)), "out")
         self._change_log(lambda _: log)
 
     def _explain_mark(self, mark: Mapping[str, Any]) -> None:
         """The whole line, what the documentation says, and what can be done."""
         start, end = mark["start"], mark["end"]
-        near = (start - 25 * _ROOM, end + 25 * _ROOM)
+        near = (start - 25 * THRESHOLDS.warning_margin, end + 25 * THRESHOLDS.warning_margin)
         with ui.dialog(value=True) as dialog, ui.card().classes("studio-card"):
             ui.label(f"{mark['channel']}, {start:.4f} to {end:.4f} s").classes("studio-part")
             ui.label(mark["line"])

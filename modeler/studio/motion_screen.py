@@ -22,9 +22,9 @@ from modeler.studio.elements import (
 from modeler.studio.robot_views import MotionPreview
 from modeler.studio.studio import Studio
 from modeler.studio.tasks import Step, Task
+from modeler.studio.thresholds import THRESHOLDS
 from modeler.studio.timeline import Timeline
 
-_SECONDS = 10.0
 _ALL = ""  # the question that has no two effects
 _USED = ("lower", "upper", "speed", "acceleration", "torque")
 _CHOSEN = "motion"
@@ -72,7 +72,9 @@ def find_questions(result: Mapping[str, Any]) -> Iterator[tuple[str, str]]:
 
 def _draw_request(studio: Studio) -> None:
     project = studio.project
-    chosen = studio.state.setdefault(_CHOSEN, {"between": _ALL, "duration": _SECONDS})
+    chosen = studio.state.setdefault(
+        _CHOSEN, {"between": _ALL, "duration": THRESHOLDS.motion_duration}
+    )
     whose = "the current model" if project.model_file else "the robot"
     options = {_ALL: f"all parameters of {whose}"}
     step = project.find_step_about("diagnose")
@@ -105,7 +107,9 @@ def _draw_request(studio: Studio) -> None:
     )  # fmt: skip
 
     def update_request() -> None:
-        chosen.update(between=between.value, duration=float(duration.value or _SECONDS))
+        chosen.update(
+            between=between.value, duration=float(duration.value or THRESHOLDS.motion_duration)
+        )
         renew()
 
     between.on_value_change(update_request)

@@ -21,12 +21,11 @@ from typing import Any
 from modeler.core.errors import DataError, ModelerError, flatten_message, is_out_of_memory
 from modeler.core.jobs import block_interrupts, exit_with_parent
 from modeler.studio import places
+from modeler.studio.thresholds import THRESHOLDS
 
 _PROGRESS = re.compile(r"progress (-|[\d.]+) (.*)")  # as `--progress lines` writes it
 _TOLD = re.compile(r"modeler(?: [\w-]+)?: (.*)")  # a note, an error, a wrong usage
-_MOST_LINES = 20_000
 _PIECE = 2**16
-_PATIENCE = 3.0  # s from the interrupt to the end by force
 
 INTERRUPTED = 130
 """Status of a command that was cancelled."""
@@ -73,9 +72,9 @@ class RunningCommand:
         self.words, self.folder, self.title = tuple(words), folder, title
         self.share: float | None = None
         self.doing = "starting"
-        self.lines: deque[str] = deque(maxlen=_MOST_LINES)
+        self.lines: deque[str] = deque(maxlen=THRESHOLDS.max_output_lines)
         self.started = time.monotonic()
-        self._stderr_lines: deque[str] = deque(maxlen=_MOST_LINES)
+        self._stderr_lines: deque[str] = deque(maxlen=THRESHOLDS.max_output_lines)
         self._cancelled = False
         self._process: asyncio.subprocess.Process | None = None
         self._changed = asyncio.Event()
@@ -114,7 +113,7 @@ class RunningCommand:
         self._send_signal(getattr(signal, "SIGKILL", signal.SIGTERM))
 
     async def _kill_later(self) -> None:
-        await asyncio.wait([self._end], timeout=_PATIENCE)
+        await asyncio.wait([self._end], timeout=THRESHOLDS.interrupt_patience)
         if not self._end.done():
             self.kill()
 
@@ -140,7 +139,7 @@ class RunningCommand:
             self._send_signal(signal.SIGINT)
             if self._process is not None:
                 with contextlib.suppress(TimeoutError):
-                    await asyncio.wait_for(self._process.wait(), _PATIENCE)
+                    await asyncio.wait_for(self._process.wait(), THRESHOLDS.interrupt_patience)
                 self.kill()
             raise
         if status and self._cancelled:

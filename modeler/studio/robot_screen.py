@@ -36,9 +36,7 @@ from modeler.studio.project import DRAFT
 from modeler.studio.robot_views import BASIC_EFFECTS, RobotPreview
 from modeler.studio.studio import Studio
 from modeler.studio.tasks import ROBOT, Step, Task
-
-_MOST = 500  # steps back
-_STROKE = 1.0  # s within which typing is one step
+from modeler.studio.thresholds import THRESHOLDS
 
 
 class RobotText:
@@ -63,8 +61,8 @@ class RobotText:
         if text == self.text:
             return False
         now = time.monotonic()
-        if not (typing and now - self._typed < _STROKE and self._past):
-            self._past = [*self._past[-_MOST:], self.text]
+        if not (typing and now - self._typed < THRESHOLDS.typing_step and self._past):
+            self._past = [*self._past[-THRESHOLDS.max_undo_steps :], self.text]
         self._typed = now if typing else 0.0
         self._future.clear()
         self.text = text
@@ -224,7 +222,6 @@ async def _take_command_robot(studio: Studio, task: Task, on_taken: Taken) -> No
             await on_taken(studio.read_text(ROBOT), ())
 
 
-_PAUSE = 0.2  # s after the last stroke in the text
 _LIMITS = ("joint", "lower", "upper", "speed", "acceleration")
 
 
@@ -394,7 +391,7 @@ class _RobotEditor:
         text = str(event.value)
         if self.studio.is_read_only or not self.document.change_text(text, typing=True):
             return
-        await asyncio.sleep(_PAUSE)
+        await asyncio.sleep(THRESHOLDS.typing_pause)
         if self.document.text == text:
             await self.check_text()
 

@@ -25,12 +25,10 @@ from modeler.studio.places import Roots
 from modeler.studio.processes import RunningCommand, Viewer
 from modeler.studio.project import DRAFT, FILE, FOLDERS, FOREIGN, Project, Workspace
 from modeler.studio.tasks import MAKING, ROBOT, Step, Task, build_bookkeeping_words
+from modeler.studio.thresholds import THRESHOLDS
 
 Screen = Callable[["Studio"], Awaitable[None]]
 """Draws a screen into the element that is open."""
-
-_MOST_SHEETS = 60
-_MOST_DOWNLOADS = 200
 
 
 class Hub:
@@ -204,7 +202,7 @@ class Hub:
         digest = hashlib.sha256(html.encode()).hexdigest()[:20]
         self.sheets[digest] = html
         self.sheets.move_to_end(digest)
-        while len(self.sheets) > _MOST_SHEETS:
+        while len(self.sheets) > THRESHOLDS.max_sheets:
             self.sheets.popitem(last=False)
         return f"{place}{digest}.html"
 
@@ -222,7 +220,7 @@ class Hub:
             content = self._roots.resolve_inside(content)
         key = secrets.token_urlsafe(16)
         self.downloads[key] = content, name
-        while len(self.downloads) > _MOST_DOWNLOADS:
+        while len(self.downloads) > THRESHOLDS.max_downloads:
             self.downloads.popitem(last=False)
         return f"/download/{key}"
 

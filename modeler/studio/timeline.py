@@ -12,12 +12,11 @@ from nicegui.element import Element
 from modeler.core.files import locate_resources
 from modeler.studio.project import ProjectLog
 from modeler.studio.tasks import TimeRange
+from modeler.studio.thresholds import THRESHOLDS
 
 ROLES: Mapping[str, str] = {"train": "training", "test": "held out", "out": "left out"}
 """What people call them."""
 
-HELD = 0.3
-"""Share of the only log of a project that is held out at first."""
 
 ALL = (TimeRange(),)
 """Of a log."""
@@ -58,7 +57,7 @@ def build_log_changes(ends: tuple[float, float]) -> dict[str, Change]:
     Args:
         ends: of it, s.
     """
-    cut = round(ends[1] - HELD * (ends[1] - ends[0]), _DIGITS)
+    cut = round(ends[1] - THRESHOLDS.held_out_share * (ends[1] - ends[0]), _DIGITS)
     last = (TimeRange(end=cut),), (TimeRange(start=cut),)
     return {
         "All training": lambda log: dataclasses.replace(log, train=ALL, test=()),

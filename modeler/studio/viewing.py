@@ -36,15 +36,12 @@ from modeler.robot import Robot, read_robot
 from modeler.runtime import CompiledModel
 from modeler.studio import places
 from modeler.studio.log_mapping import LogGuess, build_default_joints, parse_guess
+from modeler.studio.thresholds import THRESHOLDS
 from modeler.validation import Prediction, concatenate_time
-
-POINTS = 1500
-"""Of a curve that is drawn."""
 
 # What was read stays, by what it was read from.
 
 T = TypeVar("T")
-_HELD = 6  # of one kind
 _KEPT: dict[str, OrderedDict[Any, Any]] = {}
 
 
@@ -53,7 +50,9 @@ def forget() -> None:
     _KEPT.clear()
 
 
-def _cache_result(kind: str, key: Any, make: Callable[[], T], most: int = _HELD) -> T:
+def _cache_result(
+    kind: str, key: Any, make: Callable[[], T], most: int = THRESHOLDS.cached_results
+) -> T:
     """What was made for that key, or is made now; of each kind the last ones used stay."""
     entries = _KEPT.setdefault(kind, OrderedDict())
     if key not in entries:
@@ -125,10 +124,6 @@ class _Source:
         return LogTable(self.path, self.mapping, self.joints, True, part, before)
 
 
-_PIECE = 64  # rows of a long log
-_MOST = 25_000_000  # values of a log that is held as it is: 200 MB
-
-
 def log_facts(place: str, words: Sequence[str] = (), robot: str = "") -> LogFacts:
     """Returns columns, units and extent of a log.
 
@@ -149,7 +144,7 @@ def log_facts(place: str, words: Sequence[str] = (), robot: str = "") -> LogFact
 
 def log_window(
     place: str, names: Sequence[str], start: float, end: float, words: Sequence[str] = (),
-    robot: str = "", points: int = POINTS,
+    robot: str = "", points: int = THRESHOLDS.curve_points,
 ) -> dict[str, tuple[np.ndarray, np.ndarray]]:  # fmt: skip
     """Returns time and values of columns in a time range, thinned to least and largest.
 
@@ -243,7 +238,7 @@ def _select_rows(log: _Log, start: float, end: float) -> tuple[np.ndarray, dict[
     """Time and columns between two times; of a long log all rows only of a short window."""
     low, high = np.searchsorted(log.time, [start, end])
     selection = slice(max(0, low - 1), high + 1)
-    if log.source is None or high - low > POINTS:
+    if log.source is None or high - low > THRESHOLDS.curve_points:
         return log.time[selection], {name: v[selection] for name, v in log.values.items()}
     if not log.within[0] <= start <= end <= log.within[1]:
         _read_window(log, log.source, float(log.time[selection][0]), float(log.time[selection][-1]))
@@ -293,7 +288,7 @@ def _read_mapped(place: str, mapping: LogMap, joints: tuple[JointSpec, ...]) -> 
     source, blocks = _Source(path, mapping, joints), open_blocks(path)
     if blocks is not None and blocks.rows > LONG:
         columns = len(blocks.read_window(0.0, 1).columns)
-        if blocks.rows * columns > _MOST:
+        if blocks.rows * columns > THRESHOLDS.max_whole_values:
             return _read_coarse(source, blocks)
     table = source.table()
     values = {n: table.read_numbers(n) for n in table.names if table.is_numeric(n)}
@@ -309,7 +304,7 @@ def _read_coarse(source: _Source, blocks: Any) -> _Log:
         table = source.table(part, rows)
         values = {n: table.read_numbers(n) for n in table.names if table.is_numeric(n)}
         time = _get_seconds(table, values.pop("time", None))
-        starts = np.arange(0, table.rows, _PIECE)
+        starts = np.arange(0, table.rows, THRESHOLDS.coarse_rows)
         times.append(np.column_stack([time[starts], time[np.append(starts[1:], table.rows) - 1]]))
         for name, column in values.items():
             ends = [np.fmin.reduceat(column, starts), np.fmax.reduceat(column, starts)]
@@ -496,7 +491,7 @@ def _build_curve(
     prediction: Prediction, label: str, time: np.ndarray, values: np.ndarray, rows: np.ndarray,
     style: Style,
 ) -> Curve:  # fmt: skip
-    thinned = rows[thin_curves((np.asarray(values[rows], dtype=float),), POINTS)]
+    thinned = rows[thin_curves((np.asarray(values[rows], dtype=float),), THRESHOLDS.curve_points)]
     return Curve(
         label,
         *validation.break_at_gaps(prediction.segment[thinned], time[thinned], values[thinned]),
@@ -531,7 +526,7 @@ def residual_picture(
     series: list[Series] = []
     for k, (name, x, e) in enumerate(parts):
         style = Style(_OF_MODELS[(k + 1) % len(_OF_MODELS)], width=1.6)
-        thinned = thin_points(x, e, POINTS)
+        thinned = thin_points(x, e, THRESHOLDS.curve_points)
         cloud = Style(style.color if len(parts) > 1 else GREY, width=2.6, opacity=0.35)
         series.append(Points(f"{name} samples".strip(), x[thinned], e[thinned], cloud))
         if x.size:

@@ -168,10 +168,7 @@ REFUSED: dict[str, tuple[Callable[[Any, Any], object], str]] = {
     "energy": (fit(method="ridge", energy=True), "energy model does not take method ridge"),
     "window": (fit(window=0.1), "a window needs the energy model"),
     "loads": (fit(method="iv", payloads=LOADS), "method iv takes no logs with a load"),
-    "loads and energy": (
-        fit(energy=True, payloads=LOADS),
-        "the energy model takes no logs",
-    ),
+    "loads and energy": (fit(energy=True, payloads=LOADS), "the energy model takes no logs"),
     "limits": (excite(limits={"1": (1.0, 2.0)}), "limits of 1: got .*expected lower, upper, speed"),
     "joint": (excite(boxes={"9": (0,) * 6}), "boxes: no moving joint 9"),
     "wish": (excite(speed=3), "excite: got speed; expected some of duration"),
