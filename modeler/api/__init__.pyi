@@ -4,7 +4,7 @@ from .checks import (
     compare_models as compare_models,
     free_run as free_run,
 )
-from .exporting import export as export
+from .exporting import export as export, write_report as write_report
 from .fitting import (
     Load as Load,
     assemble_model as assemble_model,
@@ -41,7 +41,6 @@ from .motion import (
     expected_sigmas as expected_sigmas,
     simulate as simulate,
 )
-from .pages import write_report as write_report
 from .physical_parameters import physical as physical
 from .reexports import (
     Asked as Asked,

@@ -5,23 +5,45 @@ import io
 import platform
 import sys
 import zipfile
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from functools import partial
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import numpy as np
 
+from modeler import views
 from modeler.api.thresholds import THRESHOLDS
 from modeler.api.workflow import compile, compile_model, emit_model, observe
 from modeler.codegen import Derivation, derive, generate
 from modeler.core.errors import BuildError, DataError
-from modeler.core.files import write_without_overwriting
+from modeler.core.files import write_atomically, write_without_overwriting
 from modeler.core.manifest import ModuleSpec
+from modeler.core.result import find_presentation
 from modeler.derivation import complete_home
 from modeler.estimation import IdentifiedModel, model_file
 from modeler.exports import Equations, Exported, Torques, Value, choose_format, export_robot
 from modeler.robot import Robot
 from modeler.runtime import build_portable_library
+
+if TYPE_CHECKING:
+    from modeler.diagnosis import Diagnosis
+    from modeler.estimation import MethodComparison
+    from modeler.fleet import Fleet
+    from modeler.logs import LogInspection
+    from modeler.validation import Comparison, ModelComparison
+
+    Reported = (
+        Robot
+        | LogInspection
+        | IdentifiedModel
+        | Comparison
+        | ModelComparison
+        | Diagnosis
+        | MethodComparison
+        | Fleet
+    )
+    """What has a page."""
 
 OF_EQUATIONS = ("casadi", "fmu", "simulink", "ros2")
 """Formats that are made of the equations."""
@@ -224,7 +246,7 @@ def _build_equations(robot: Robot) -> Equations:
 
 def _build_torque_function(model: IdentifiedModel) -> Torques | None:
     """Torques of base parameters on the rows of the fit; None where its logs are not there."""
-    find = getattr(model, "its_logs", None)  # of `api.model.Model`
+    find = getattr(model, "find_logs", None)  # of `api.model.Model`
     try:
         logs = find(None, "export") if find else []
     except DataError:
@@ -241,3 +263,29 @@ def _build_torque_function(model: IdentifiedModel) -> Torques | None:
         return rows[0](beta), names
 
     return compute_torques
+
+
+def write_report(thing: "Reported", path: str | Path, notes: Sequence[str] = ()) -> Path:
+    """Writes the page of a result; it needs no other file.
+
+    >>> write_report(model, "fit.html").name
+    'fit.html'
+
+    Args:
+        thing: a robot, a look at a log, a model (its fit; of one with additions, what they
+            gained), a comparison, models side by side, a diagnosis, estimators side by side, or a
+            fleet.
+        path: of an .html file.
+        notes: lines for the foot of the page: where the logs come from.
+
+    Raises:
+        ModelerError: the place cannot be written.
+    """
+    presentation = find_presentation(type(thing))
+    if presentation is None or presentation.document is None:
+        raise TypeError(f"write_report: got a {type(thing).__name__}, which has no page")
+    sheet = presentation.document(thing, notes)
+    if isinstance(sheet, views.Page):
+        return views.write_page(Path(path), sheet)
+    write_atomically(Path(path), sheet)
+    return Path(path)

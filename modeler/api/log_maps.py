@@ -35,7 +35,8 @@ Mapped = Mapping[str, Any] | Sequence[str] | LogMap
 def build_log_map(compiled: CompiledModel | EmittedModule, mapping: Mapped = ()) -> LogMap:
     """Builds the column mapping of logs: `mapping`, and under it [log] of the robot file.
 
-    >>> build_log_map(compiled, ["q1=position_a:deg"]).expand_entries(compiled.spec.joints)["q1"].columns
+    >>> names = build_log_map(compiled, ["q1=position_a:deg"])
+    >>> names.expand_entries(compiled.spec.joints)["q1"].columns
     ('position_a',)
     """
     if isinstance(mapping, LogMap):

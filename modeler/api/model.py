@@ -256,7 +256,7 @@ class Model(IdentifiedModel):
 
     @cached_property
     def _fit_observation(self) -> Observation:
-        return observe(compile(self), self.its_logs(None, "resid"), self.processing)
+        return observe(compile(self), self.find_logs(None, "resid"), self.processing)
 
     def predict(self, log: AnyLog, mapping: Mapped = ()) -> Any:
         """Predicts the torque at every row of a log, in its names and units.
@@ -322,7 +322,7 @@ class Model(IdentifiedModel):
             mapping: as of `read_logs`.
         """
         held_out_logs = self.held_out if held_out is None else convert_to_list(held_out)
-        fit_logs = self.its_logs(logs, "missing")
+        fit_logs = self.find_logs(logs, "missing")
         return improve.diagnose(self, fit_logs, held_out_logs, without, mapping=mapping)
 
     def add(
@@ -346,7 +346,7 @@ class Model(IdentifiedModel):
             mapping: as of `read_logs`.
         """
         held_out_logs = self.held_out if held_out is None else tuple(convert_to_list(held_out))
-        fit_logs = self.its_logs(logs, "add")
+        fit_logs = self.find_logs(logs, "add")
         if effect == "auto":
             better = improve.add_all(self, fit_logs, held_out_logs, mapping=mapping)
         else:
@@ -357,7 +357,7 @@ class Model(IdentifiedModel):
             better, in_memory_logs=memory_logs or self.in_memory_logs, held_out=held_out_logs
         )
 
-    def its_logs(self, logs: Logs | None, what: str) -> Sequence[AnyLog]:
+    def find_logs(self, logs: Logs | None, what: str) -> Sequence[AnyLog]:
         """Returns the logs as given, or those of the fit.
 
         Args:

@@ -362,7 +362,7 @@ def expected_sigmas(
     """Predicts standard deviations and cut-offs of a fit before the motion is run.
 
     >>> motion = excite(robot, duration=4.0, harmonics=2, starts=1)
-    >>> forecast(model, motion, rate=200.0).parameters[0].name
+    >>> expected_sigmas(model, motion, rate=200.0).parameters[0].name
     'ZZ1R'
 
     The log is made of the motion, the torques of the model along it, and noise of both; what

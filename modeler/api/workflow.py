@@ -182,7 +182,7 @@ def read_logs(
         compiled: the robot; its file's [log] says which columns are which.
         logs: of any format of `modeler.logs`.
         mapping: over [log]: a table like it, or texts as `--map` takes them; "auto" among them
-            takes the guess of `look_at` for what is left open.
+            takes the guess of `inspect_log` for what is left open.
         spread: True if of a log of more than a million rows evenly spread stretches will do.
     """
     log_list = convert_to_list(logs)
@@ -493,7 +493,7 @@ def select_mode(modes: HomeModes, letter: str | None, best: bool = False) -> int
 def home_posture(robot: Robot, modes: HomeModes, letter: str | None = None) -> Robot:
     """Returns the robot with an assembly mode as its [home], in its text too.
 
-    >>> at_home(load("five-bar"), home(load("five-bar")), "B").name
+    >>> home_posture(load("five-bar"), home(load("five-bar")), "B").name
     'five-bar'
 
     Raises:
