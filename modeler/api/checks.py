@@ -332,7 +332,7 @@ def compare_methods(
     """Compares all estimators on the same logs: values, errors, run time, remarks.
 
     >>> result = compare_methods(compiled, ["mon.parquet"], methods=["weighted", "ridge"])
-    >>> [each.method for each in result.tried]
+    >>> [each.method for each in result.results]
     ['weighted', 'ridge']
 
     Args:
