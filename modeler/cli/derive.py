@@ -198,7 +198,7 @@ def run_derive(args: argparse.Namespace) -> Json:
     for line in tied:
         printer.print_text(line)
     printer.print_text()
-    printer.print_formulas(getattr(relations, f"format_{args.format}")(base))
+    printer.print_formulas(getattr(relations, f"as_{args.format}")(base))
     printer.print_text()
     printer.print_text(relations.format_proof(base.proof))
     printer.print_text(agreement)
@@ -275,9 +275,7 @@ def print_closed_forms(
         closed = formulas.derive_closed_form(model, base)
         if args.format == "latex":
             printer.print_text(formulas.render.format_equation(closed))
-        printer.print_formulas(
-            getattr(formulas.render, f"format_closed_form_{args.format}")(closed)
-        )
+        printer.print_formulas(getattr(formulas.render, f"closed_form_{args.format}")(closed))
     motion = args.closed_form and not args.expanded
     is_requested = {"closed_form": motion, "regressor": args.regressor}
     if any(is_requested.values()):
@@ -361,7 +359,7 @@ def _print_coefficients(
         printer.print_text(f"no coefficients: {error}")
         return
     printer.print_text()
-    printer.print_formulas(getattr(formulas.render, f"format_coefficients_{args.format}")(shown))
+    printer.print_formulas(getattr(formulas.render, f"coefficients_{args.format}")(shown))
     printer.print_text()
     for line in lines:
         printer.print_text(line)
