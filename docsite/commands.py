@@ -3,8 +3,7 @@
 import argparse
 
 from docsite.markdown import block, cell, code, table
-from modeler.cli.command_table import FAMILIES
-from modeler.cli.commands import build_parser, collect_command_parsers
+from modeler.cli.parser import build_parser, collect_command_parsers, read_families
 from modeler.core.estimators import ABOUT
 
 
@@ -36,10 +35,10 @@ def _summaries() -> dict[str, str]:
 def _index(parsers: dict[str, argparse.ArgumentParser]) -> str:
     told = _summaries()
     parts = [f"# Commands\n\n{cell(build_parser().description or '')}\n"]
-    for family, members in FAMILIES.items():
+    for family, members in read_families().items():
         rows = [
             (f"[`modeler {name}`]({name}.md)", cell(told[name]), code(_example(parsers[name])))
-            for name in (command.name for command in members)
+            for name in members
         ]
         parts += [f"## {family.capitalize()}\n", table(("command", "does", "example"), rows)]
     return "\n".join(parts)

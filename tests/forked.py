@@ -19,7 +19,7 @@ from pathlib import Path
 from typing import Any, NoReturn
 
 from modeler.cli import main
-from modeler.cli.commands import parse_words
+from modeler.cli.parser import parse_words
 from tests.repository import ROOT
 
 COMMANDS = (

@@ -1,14 +1,18 @@
-from .checks import compare as compare, compare_models as compare_models, free_run as free_run
-from .exporting import export as export
+from .checks import (
+    compare as compare,
+    compare_methods as compare_methods,
+    compare_models as compare_models,
+    free_run as free_run,
+)
+from .exporting import export as export, write_report as write_report
 from .fitting import (
     Load as Load,
     assemble_model as assemble_model,
-    compare_methods as compare_methods,
     fit as fit,
     fit_gains as fit_gains,
+    identify as identify,
 )
 from .fleets import fleet as fleet
-from .identifying import identify as identify
 from .improve import (
     add as add,
     add_all as add_all,
@@ -37,9 +41,7 @@ from .motion import (
     expected_sigmas as expected_sigmas,
     simulate as simulate,
 )
-from .pages import write_report as write_report
 from .physical_parameters import physical as physical
-from .postures import home as home, home_posture as home_posture
 from .reexports import (
     Asked as Asked,
     Comparison as Comparison,
@@ -71,6 +73,8 @@ from .workflow import (
     effects as effects,
     estimators as estimators,
     generate as generate,
+    home as home,
+    home_posture as home_posture,
     load_on_gpu as load_on_gpu,
     new_robot as new_robot,
     observe as observe,

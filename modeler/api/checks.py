@@ -1,28 +1,42 @@
 """Is a model true? Comparisons, free runs, several models on the same rows."""
 
-from __future__ import annotations  # what a signature names need not be loaded
+from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
+from pathlib import Path
 from string import ascii_uppercase
+from typing import Any
 
 import numpy as np
 
 import modeler.api.workflow as workflow
-from modeler import validation
-from modeler.api.log_maps import Mapped
-from modeler.api.workflow import AnyLog, Logs, are_long, are_too_long, open_sources
-from modeler.core.errors import DataError
+from modeler import estimation, regression, validation
+from modeler.api.log_maps import Mapped, build_log_maps, parse_time_range
+from modeler.api.workflow import AnyLog, Logs, are_long, are_too_long, compile_robot, open_sources
+from modeler.core.errors import DataError, Method
+from modeler.core.estimators import ABOUT
+from modeler.core.manifest import JointSpec
+from modeler.core.table import label_values
 from modeler.derivation import complete_home
 from modeler.estimation import FitResult, IdentifiedModel, ParameterEstimate
-from modeler.regression import Log, Observation, Processing, WholeLogNeeded, check_no_overlap
-from modeler.robot import Robot
+from modeler.logs import LogTable, split_joints
+from modeler.regression import (
+    Log,
+    Observation,
+    Processing,
+    WholeLogNeeded,
+    check_no_overlap,
+    observe,
+)
+from modeler.robot import Robot, suggest_name
 from modeler.runtime import CompiledModel
+from modeler.simulation import SimulatedLog
 
 
 def compare(
     model: IdentifiedModel | Robot, logs: Logs, mapping: Mapped = ()
 ) -> validation.Comparison:
-    """Measured against predicted torque on logs, after the processing of the fit.
+    """Compares measured with predicted torque on logs, after the processing of the fit.
 
     >>> [joint.joint.name for joint in compare(model, ["tue.parquet"]).joints]
     ['1', '2']
@@ -39,7 +53,7 @@ def compare(
 
 
 def resolve_models(things: Sequence[IdentifiedModel | Robot]) -> list[IdentifiedModel]:
-    """Models as they are, robots as `build_stated_model`.
+    """Returns models; of a robot its `stated_model`, processed as the first model.
 
     With the processing of the first " "model.
     """
@@ -54,7 +68,7 @@ def resolve_models(things: Sequence[IdentifiedModel | Robot]) -> list[Identified
 
 
 def build_stated_model(robot: Robot, processing: Processing | None = None) -> IdentifiedModel:
-    """The values that the file of a robot states, as a model; those that it does not state are 0.
+    """Builds a model of the parameter values in a robot file; missing values are 0.
 
     Args:
         robot: as loaded.
@@ -119,7 +133,7 @@ def compare_logs(
     progress: Callable[[float], None] = lambda share: None,
     tell: Callable[[str], None] = lambda line: None,
 ) -> tuple[validation.Comparison, Observation]:
-    """The same, and the observation behind it; long logs are read in chunks.
+    """Compares as `compare` does, and returns the observation too; reads long logs in chunks.
 
     Args:
         model: fitted.
@@ -152,7 +166,7 @@ def compare_models(
     logs: Logs,
     mapping: Mapped = (),
 ) -> validation.ModelComparison:
-    """Models side by side: the error of each by joint, and which is better beyond doubt.
+    """Compares models on the same logs: error by joint, and significant differences.
 
     >>> compare_models({"all": model, "few": reduced_model(model)}, ["tue.parquet"]).names
     ('all', 'few')
@@ -189,7 +203,7 @@ def compare_compiled_models(
     mapping: Mapped = (),
     places: Sequence[str] = (),
 ) -> tuple[validation.ModelComparison, list[Log]]:
-    """The same of compiled models, and the logs.
+    """Compares compiled models, and returns the logs too.
 
     Args:
         models: by name.
@@ -211,7 +225,7 @@ def free_run(
     settings: validation.FreeRunSettings | None = None,
     mapping: Mapped = (),
 ) -> validation.FreeRun:
-    """Positions of the fitted robot under the logged torques, beside the logged ones.
+    """Simulates the fitted robot under the logged torques and compares the positions.
 
     >>> found = free_run(model, ["tue.parquet@0:0.5"], FreeRunSettings(window=0.2))
     >>> [joint.name for joint in found.joints]
@@ -233,3 +247,142 @@ def free_run(
         compiled,
         settings or validation.FreeRunSettings(),
     )
+
+
+def predict_torque(
+    model: IdentifiedModel, compiled: CompiledModel, log: AnyLog, mapping: Mapped
+) -> Any:
+    """Predicts the torque at every row; see `Model.predict`."""
+    spec = compiled.spec
+    if isinstance(log, SimulatedLog):
+        log = {"time": log.time, "q": log.q, **log.further}
+    if isinstance(log, regression.Log):
+        read, names = log, {f"tau{joint.name}": joint.name for joint in spec.joints}
+        values = _predict_reliable_rows(model, compiled, read)
+        columns = {name: values[:, k] for k, name in enumerate(names)}
+    else:
+        read, columns = _predict_table(model, compiled, log, mapping)
+    if isinstance(log, Mapping):
+        return _gather_arrays(columns, log, spec.joints)
+    if isinstance(log, str | Path | regression.Log):
+        return label_values(
+            np.column_stack([*columns.values()]), {"time": read.time}, list(columns)
+        )
+    kind: Any = type(log)
+    if kind.__module__.startswith("pandas"):
+        return kind(columns, index=log.index)  # type: ignore[attr-defined]
+    return getattr(kind, "from_pydict", kind)(columns)  # of Arrow, and of Polars
+
+
+def _predict_table(
+    model: IdentifiedModel, compiled: CompiledModel, log: Any, mapping: Mapped
+) -> tuple[regression.Log, dict[str, np.ndarray]]:
+    """The motion of a log, and the torque under the names of its columns, in their units."""
+    spec, names, span = compiled.spec, build_log_maps(compiled, [log], mapping)[0], None
+    if isinstance(log, str | Path):
+        path, span = parse_time_range(log)
+        table = LogTable(Path(path), names, spec.joints)
+    else:
+        table = regression.build_table(log, spec.joints, names, "log")
+    read = regression.build_log(table, spec, measured=False)
+    if span is not None:
+        read = regression.cut_window(read, *span)
+    values, columns = _predict_reliable_rows(model, compiled, read), {}
+    for k, joint in enumerate(spec.joints):
+        tau, current = f"tau{joint.name}", f"current{joint.name}"
+        if not joint.actuated and tau not in table:
+            continue
+        by_current = tau not in table and current in table
+        name, gain = (current, joint.drive_gain or 1.0) if by_current else (tau, 1.0)
+        torque_column = values[:, k] / gain
+        columns[table.find_file_column(name)] = (
+            table.convert_to_logged(name, torque_column) if name in table else torque_column
+        )
+    return read, columns
+
+
+def _predict_reliable_rows(
+    model: IdentifiedModel, compiled: CompiledModel, log: regression.Log
+) -> np.ndarray:
+    torque, sure = validation.predict_every_row(model, log, compiled)
+    return np.where(sure[:, None], torque, np.nan)
+
+
+def _gather_arrays(
+    columns: Mapping[str, np.ndarray], log: Mapping[str, Any], joints: tuple[JointSpec, ...]
+) -> dict[str, np.ndarray]:
+    """Columns of one array of the dict in an array of its shape; as they are if it has none."""
+    arrays = dict(columns)
+    rows = len(next(iter(columns.values())))
+    for name, like in (("tau", "tau"), ("current", "current"), ("tau", "q")):
+        column_names = split_joints(name, np.shape(log.get(like, ())), joints)
+        if column_names and set(column_names) & set(arrays):
+            none = np.zeros(rows)
+            arrays[name] = np.column_stack([arrays.pop(each, none) for each in column_names])
+    return arrays
+
+
+def compare_methods(
+    robot: Robot | CompiledModel,
+    logs: Logs,
+    holdout: Logs = (),
+    methods: Sequence[str] | None = None,
+    progress: Callable[[float], None] | None = None,
+) -> estimation.MethodComparison:
+    """Compares all estimators on the same logs: values, errors, run time, remarks.
+
+    >>> result = compare_methods(compiled, ["mon.parquet"], methods=["weighted", "ridge"])
+    >>> [each.method for each in result.results]
+    ['weighted', 'ridge']
+
+    Args:
+        robot: as loaded, or compiled.
+        logs: to fit.
+        holdout: logs of other motion, not fitted: their error.
+        methods: some of `estimators()`; None: all.
+        progress: called with the share done, 0 to 1.
+
+    Raises:
+        DataError: an unknown method, rows given twice, or what the weighted fit raises.
+    """
+    chosen = select_methods(methods)
+    compiled = compile_robot(robot).compiled if isinstance(robot, Robot) else robot
+    observation, held_out = observe_held_out(compiled, logs, holdout)
+    tried = estimation.compare_methods(observation, compiled, held_out, chosen, progress)
+    return estimation.MethodComparison(
+        compiled.spec.robot, tried, tuple(observation.report.format_lines())
+    )
+
+
+def observe_held_out(
+    compiled: CompiledModel,
+    logs: Logs,
+    holdout: Logs,
+    mapping: Mapped = (),
+    processing: Processing | None = None,
+) -> tuple[Observation, Observation | None]:
+    """Builds the observations of fitted and held-out logs with the same processing."""
+    training_logs, held_out_logs = (
+        workflow.read_logs(compiled, some, mapping) for some in (logs, holdout)
+    )
+    check_no_overlap(training_logs, held_out_logs)
+    observation = observe(compiled, training_logs, processing)
+    held_out = (
+        observe(compiled, held_out_logs, observation.report.processing) if held_out_logs else None
+    )
+    return observation, held_out
+
+
+def select_methods(names: Sequence[str] | None, where: str = "methods") -> list[Method]:
+    """Returns the estimators of these names, each once; all for None."""
+    if names is None:
+        return list(ABOUT)
+    chosen = [id for name in names for id in ABOUT if id == name]
+    unknown = [name for name in names if name not in chosen]
+    if unknown or not names:
+        got = unknown[0] if unknown else "nothing"
+        raise DataError(
+            f"{where}: got {got}{suggest_name(got, list(ABOUT))}; expected some of "
+            f"{', '.join(ABOUT)}, with commas between"
+        )
+    return [*dict.fromkeys(chosen)]

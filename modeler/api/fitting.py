@@ -1,21 +1,37 @@
-"""Fits: of either model, with loads or without, in one step or two; all estimators at once."""
+"""Fits: of either model, with loads or without, of logs of any length; all estimators at once."""
 
 import dataclasses
+import warnings
 from collections.abc import Callable, Mapping, Sequence
+from contextlib import AbstractContextManager, nullcontext
+from pathlib import Path
 from typing import Any, Literal
 
 import numpy as np
 
-import modeler.api.workflow as workflow
-from modeler import estimation
-from modeler.api.log_maps import Mapped
+from modeler import estimation, regression
+from modeler.api import workflow
+from modeler.api.chunk_workers import can_read_from_middle, make_worker_reducer
+from modeler.api.log_maps import Mapped, resolve_mapping
 from modeler.api.model import Model
-from modeler.api.steps import Steps, ignore_step
-from modeler.api.workflow import AnyLog, Logs
+from modeler.api.workflow import (
+    AnyLog,
+    CompiledRobot,
+    Logs,
+    Steps,
+    compile_robot,
+    convert_to_list,
+    ignore_step,
+    read_logs,
+)
 from modeler.codegen import Derivation
-from modeler.core.errors import GAIN_METHOD, TWO_STEPS, DataError, Method
-from modeler.core.estimators import ABOUT
+from modeler.core.errors import GAIN_METHOD, TWO_STEPS, DataError, FitWarning, Method
+from modeler.core.fit_options import METHODS, FitOptions
+from modeler.core.jobs import Workers
 from modeler.core.manifest import EmittedModule
+from modeler.derivation import complete_home
+from modeler.estimation import OF_TRIANGLES, long_logs as chunked
+from modeler.formats import read_robot
 from modeler.numerics.least_squares import CompressedRegression
 from modeler.regression import DataWarning, Log, Observation, Processing, check_no_overlap, observe
 from modeler.robot import (
@@ -23,248 +39,10 @@ from modeler.robot import (
     compute_joint_directions,
     parse_robot_text,
     replace_drive_gains,
+    replace_robot_effects,
     suggest_name,
 )
 from modeler.runtime import CompiledModel
-
-WITH_LOADS = ("weighted", "ordinary", "robust", "ridge")
-WITHOUT_LOADS = (*(m for m in ABOUT if m not in WITH_LOADS), TWO_STEPS)
-"""Methods that know no loads."""
-
-BUILDABLE = tuple(method for method, about in ABOUT.items() if about.is_consistent)
-"""Methods that end in all standard parameters."""
-
-OF_WINDOWS = ("weighted", "ordinary")
-"""Methods of the energy model."""
-
-
-@dataclasses.dataclass(frozen=True)
-class FitRequest:
-    """How a fit is to be made.
-
-    Attributes:
-        method: an id of `core.estimators`, or "two-step".
-        energy: True for the energy model, whose rows are windows.
-        window: its length, s; None: the spacing of the torque model's rows.
-        payloads: loads that some logs carry.
-        below: percent of sigma that essential parameters are below; None: an F-test finds them.
-    """
-
-    method: str = "weighted"
-    energy: bool = False
-    window: float | None = None
-    payloads: tuple[estimation.Payload, ...] = ()
-    below: float | None = None
-
-
-def read_fit_request(options: Mapping[str, Any]) -> FitRequest:
-    """The fit by `[fit]` of a robot file."""
-    energy, below = options.get("model") == "energy", options.get("essential_below")
-    return FitRequest(options.get("method", "weighted"), energy, options.get("window"), (), below)
-
-
-@dataclasses.dataclass(frozen=True, eq=False)
-class FitOutcome:
-    """What a way to fit ends in.
-
-    Attributes:
-        result: not judged yet.
-        told: doubts that it raises itself.
-        refit: how to fit again without some rows; None: least squares.
-        lines: printed above the result.
-        further: fields of the JSON.
-        equations: that were fitted; None: those of the bare robot.
-    """
-
-    result: estimation.FitResult
-    warnings: Sequence[DataWarning] = ()
-    refit: Callable[[np.ndarray], np.ndarray] | None = None
-    lines: Sequence[str] = ()
-    further: Mapping[str, Any] = dataclasses.field(default_factory=dict)
-    equations: estimation.Equations | None = None
-
-
-def run_estimator(
-    request: FitRequest, robot: Robot, compiled: CompiledModel, observation: Observation
-) -> FitOutcome:
-    """The fit that is asked for.
-
-    Raises:
-        DataError: choices that do not go together, or what the estimator refuses.
-    """
-    _check_request(request)
-    if request.energy or request.method == TWO_STEPS:
-        what = "the energy model" if request.energy else f"method {request.method}"
-        unused = estimation.describe_unused_prior(compiled.spec, what, _UNUSED)
-    method: Any = request.method
-    if request.energy:
-        energy = estimation.identify_energy(
-            compiled, observation, request.window, method, request.below
-        )
-        return FitOutcome(_append_sentences(energy.result, unused), refit=energy.fit_without)
-    if request.method == TWO_STEPS:
-        ways = estimation.JointDirections(compute_joint_directions(robot))
-        steps = estimation.identify_in_two_steps(compiled, observation, ways, request.below)
-        further = {"two_step": steps.to_json()}
-        result = _append_sentences(steps.result, unused)
-        return FitOutcome(
-            result, steps.collect_warnings(), lines=steps.format_lines(), further=further
-        )
-    if request.payloads:
-        result = estimation.identify_with_payloads(
-            compiled, observation, request.payloads, method, request.below
-        )
-        current = estimation.are_currents(observation.report.logs)
-        warnings = estimation.check_known_quantities(
-            compiled, observation, request.payloads, current
-        )
-        equations = estimation.build_loaded_equations(
-            compiled, observation, request.payloads
-        ).equations
-        return FitOutcome(result, warnings, equations=equations)
-    return FitOutcome(estimation.identify(observation, method, compiled, request.below))
-
-
-_UNUSED = ", nor the values of the robot file"
-
-
-def _append_sentences(fit: estimation.FitResult, sentences: Sequence[str]) -> estimation.FitResult:
-    return dataclasses.replace(fit, sentences=(*fit.sentences, *sentences))
-
-
-def add_verdict(
-    compiled: CompiledModel,
-    observation: Observation,
-    outcome: FitOutcome,
-    data: CompressedRegression | None = None,
-) -> estimation.FitResult:
-    """Its result with the verdict, to which all that is found in the logs counts.
-
-    Args:
-        compiled: the robot.
-        observation: that was fitted.
-        outcome: how.
-        data: all rows that were fitted, where the observation has a part of them only.
-    """
-    warnings = [*outcome.warnings, *estimation.find_log_faults(compiled, observation)]
-    return estimation.judge_fit(
-        compiled, observation, outcome.result, warnings, outcome.equations, outcome.refit, data
-    )
-
-
-def _check_request(request: FitRequest) -> None:
-    """Refuse choices that do not go together."""
-    if request.method == GAIN_METHOD:
-        raise DataError(
-            f"fit: got method {GAIN_METHOD}, which reads the logs itself; call fit_gains with "
-            "them and the mass of the load"
-        )
-    known = [*ABOUT, TWO_STEPS]
-    if request.method not in known:
-        raise DataError(
-            f"fit: got method {request.method}{suggest_name(str(request.method), known)}; expected "
-            "one of "
-            f"{', '.join(known)}"
-        )
-    if request.payloads and (request.energy or request.method in WITHOUT_LOADS):
-        what = "the energy model" if request.energy else f"method {request.method}"
-        raise DataError(f"fit: got payloads with {what}, which knows no loads; leave them out")
-    if request.energy and request.method not in OF_WINDOWS:
-        raise DataError(
-            f"fit: got method {request.method} for the energy model, whose rows are windows; "
-            f"expected {' or '.join(OF_WINDOWS)}"
-        )
-    if request.window is not None and not request.energy:
-        raise DataError("fit: got a window; only those of the energy model have a length")
-
-
-def fit(
-    derivation: Derivation,
-    emitted: EmittedModule,
-    observation: Observation,
-    method: Method | Literal["two-step"] = "weighted",
-    *,
-    energy: bool = False,
-    window: float | None = None,
-    payloads: Sequence[estimation.Payload] = (),
-    essential_below: float | None = None,
-) -> Model:
-    """The base parameters from an observation, with all that a model file holds.
-
-    >>> fit(derivation, emitted, observe(compiled, ["mon.parquet"]), "robust").fit.method
-    'robust'
-
-    Args:
-        derivation: of the robot.
-        emitted: its C.
-        observation: of its logs.
-        method: one of `estimators()`, or "two-step"; for "tls" see `fit_gains`.
-        energy: True for the energy model, whose rows are windows (docs/how-to/energy-model.md).
-        window: their length, s; None: the spacing of the torque model's rows.
-        payloads: loads, each with the names of the logs that carry it.
-        essential_below: percent; parameters whose sigma, in percent of the value, cannot be kept
-            below are left out of the reduced model; None: those that an F-test does not miss.
-
-    Raises:
-        DataError: the derivation, the C and the observation are not of one robot; or see
-            `identify`.
-    """
-    names = tuple(base.name for base in emitted.spec.base)
-    for what, other in (("derivation", derivation.robot.name), ("observation", observation.robot)):
-        if other != emitted.spec.robot:
-            raise DataError(
-                f"fit: the {what} is of {other} and the C of {emitted.spec.robot}; expected one "
-                "robot; derive, generate and observe it again"
-            )
-    if observation.names != names:
-        raise DataError(
-            f"fit: the observation has the base parameters {', '.join(observation.names)}, the C "
-            f"{', '.join(names)}; expected the same; observe with this C"
-        )
-    request = FitRequest(method, energy, window, tuple(payloads), essential_below)
-    return fit_observation(
-        request, derivation, emitted, workflow.compile_model(emitted), observation
-    )[0]
-
-
-def fit_observation(
-    request: FitRequest,
-    derivation: Derivation,
-    emitted: EmittedModule,
-    compiled: CompiledModel,
-    observation: Observation,
-    report_step: Steps = ignore_step,
-) -> tuple[Model, FitOutcome]:
-    """The same, and the way that was taken."""
-    with report_step("estimating"):
-        outcome = run_estimator(request, derivation.robot, compiled, observation)
-    with report_step("judging the fit"):
-        result = add_verdict(compiled, observation, outcome)
-    return assemble_model(derivation, emitted, observation, result), outcome
-
-
-def assemble_model(
-    derivation: Derivation,
-    emitted: EmittedModule,
-    observation: Observation,
-    result: estimation.FitResult,
-) -> Model:
-    """A fit with all that a model file holds.
-
-    >>> seen = observe(compiled, ["mon.parquet"])
-    >>> assemble_model(derivation, emitted, seen, model.fit)["ZZ1R"].unit
-    'kg m2'
-    """
-    return Model(
-        robot_text=derivation.robot.text,
-        spec=emitted.spec,
-        sources=emitted.code,
-        fit=result,
-        logs=estimation.collect_provenance(observation.report),
-    )
-
-
-# Drive gains from a weighed load.
 
 
 @dataclasses.dataclass(frozen=True)
@@ -288,18 +66,406 @@ class Load:
 
     def __post_init__(self) -> None:
         """One log alone stands for a list of it."""
-        object.__setattr__(self, "logs", workflow.convert_to_list(self.logs))
+        object.__setattr__(self, "logs", convert_to_list(self.logs))
 
     def build_payloads(self, loaded: Sequence[Log]) -> list[estimation.Payload]:
-        """It, as the fit knows it; one for each log if it was taken off in between."""
+        """Returns the payloads of the fit: one, or one for each log if it was remounted."""
         payload = estimation.Payload(tuple(log.name for log in loaded), self.link, self.mass)
         return estimation.separate_payload(payload) if self.moved else [payload]
+
+
+def check_options(options: FitOptions, load: Load | None = None) -> None:
+    """Raises an error for options of a fit that do not go together.
+
+    Args:
+        options: of the fit.
+        load: that some logs carry; None: none.
+
+    Raises:
+        DataError: names the options, and says what to do.
+    """
+    method, energy, gains = options.method, options.model == "energy", options.method == GAIN_METHOD
+    loads, windows = (", ".join(estimation.find_methods(of)) for of in ("loads", "windows"))
+    loaded, moved = bool(load and load.logs), load is not None and load.moved
+    refusals = {
+        f"got method {method}{suggest_name(str(method), METHODS)}; expected one of "
+        f"{', '.join(METHODS)}": method not in METHODS,
+        "a payload mass, link or move needs a log with the load; name it with --payload-log LOG": (
+            load is not None and not loaded and (moved or {load.mass, load.link} != {None})
+        ),
+        f"method {method} takes no logs with a load; expected {loads} or {GAIN_METHOD}": (
+            loaded and not gains and method not in loads.split(", ")
+        ),
+        f"method {method} has no reduced model; leave essential-below out": (
+            gains and options.essential_below is not None
+        ),
+        "a window needs the energy model; add --model energy, or leave the window out": (
+            options.window is not None and not energy
+        ),
+        f"the energy model does not take method {method}; expected {windows}": (
+            energy and method not in windows.split(", ")
+        ),
+        "the energy model takes no logs with a load; leave out one of them": energy and loaded,
+        f"method {method} needs a log with a load of known mass; add --payload-log LOG "
+        "--payload-mass KG": gains and not loaded,
+        f"method {method} needs the mass of the load, which fixes the scale of all gains; add "
+        "--payload-mass KG": gains and load is not None and load.mass is None,
+    }
+    for why, refused in refusals.items():
+        if refused:
+            raise DataError(f"fit: {why}")
+
+
+@dataclasses.dataclass(frozen=True, eq=False)
+class FitOutcome:
+    """Holds the result of an estimator before it is judged.
+
+    Attributes:
+        result: without verdict.
+        warnings: of the estimator itself.
+        refit: how to fit again without some rows; None: least squares.
+        lines: printed above the result.
+        further: fields of the JSON.
+        equations: that were fitted; None: those of the bare robot.
+    """
+
+    result: estimation.FitResult
+    warnings: Sequence[DataWarning] = ()
+    refit: Callable[[np.ndarray], np.ndarray] | None = None
+    lines: Sequence[str] = ()
+    further: Mapping[str, Any] = dataclasses.field(default_factory=dict)
+    equations: estimation.Equations | None = None
+
+
+def run_estimator(
+    options: FitOptions,
+    robot: Robot,
+    compiled: CompiledModel,
+    observation: Observation,
+    payloads: Sequence[estimation.Payload] = (),
+) -> FitOutcome:
+    """Runs the requested estimator.
+
+    Raises:
+        DataError: choices that do not go together, or what the estimator refuses.
+    """
+    energy = options.model == "energy"
+    if energy or options.method == TWO_STEPS:
+        what = "the energy model" if energy else f"method {options.method}"
+        unused = estimation.describe_unused_prior(compiled.spec, what, _UNUSED)
+    method: Any = options.method
+    below = options.essential_below
+    if energy:
+        fit = estimation.identify_energy(compiled, observation, options.window, method, below)
+        return FitOutcome(_append_sentences(fit.result, unused), refit=fit.fit_without)
+    if options.method == TWO_STEPS:
+        ways = estimation.JointDirections(compute_joint_directions(robot))
+        steps = estimation.identify_in_two_steps(compiled, observation, ways, below)
+        further = {"two_step": steps.to_json()}
+        result = _append_sentences(steps.result, unused)
+        return FitOutcome(
+            result, steps.collect_warnings(), lines=steps.format_lines(), further=further
+        )
+    if payloads:
+        result = estimation.identify_with_payloads(compiled, observation, payloads, method, below)
+        current = estimation.are_currents(observation.report.logs)
+        faults = estimation.check_known_quantities(compiled, observation, payloads, current)
+        equations = estimation.build_loaded_equations(compiled, observation, payloads).equations
+        return FitOutcome(result, faults, equations=equations)
+    return FitOutcome(estimation.identify(observation, method, compiled, below))
+
+
+_UNUSED = ", nor the values of the robot file"
+
+
+def _append_sentences(fit: estimation.FitResult, sentences: Sequence[str]) -> estimation.FitResult:
+    return dataclasses.replace(fit, sentences=(*fit.sentences, *sentences))
+
+
+def add_verdict(
+    compiled: CompiledModel,
+    observation: Observation,
+    outcome: FitOutcome,
+    data: CompressedRegression | None = None,
+) -> estimation.FitResult:
+    """Adds the verdict to a result, with all warnings that the logs give.
+
+    Args:
+        compiled: the robot.
+        observation: that was fitted.
+        outcome: how.
+        data: all rows that were fitted, where the observation has a part of them only.
+    """
+    faults = [*outcome.warnings, *estimation.find_log_faults(compiled, observation)]
+    return estimation.judge_fit(
+        compiled, observation, outcome.result, faults, outcome.equations, outcome.refit, data
+    )
+
+
+def fit_observation(
+    options: FitOptions,
+    robot: CompiledRobot,
+    observation: Observation,
+    payloads: Sequence[estimation.Payload] = (),
+    report_step: Steps = ignore_step,
+) -> tuple[Model, FitOutcome]:
+    """Estimates the base parameters and returns the model with the outcome of the estimator."""
+    with report_step("estimating"):
+        outcome = run_estimator(
+            options, robot.derivation.robot, robot.compiled, observation, payloads
+        )
+    with report_step("judging the fit"):
+        result = add_verdict(robot.compiled, observation, outcome)
+    return assemble_model(robot.derivation, robot.emitted, observation, result), outcome
+
+
+def assemble_model(
+    derivation: Derivation,
+    emitted: EmittedModule,
+    observation: Observation,
+    result: estimation.FitResult,
+) -> Model:
+    """Assembles a model from a derivation, its C, an observation and a fit.
+
+    >>> seen = observe(compiled, ["mon.parquet"])
+    >>> assemble_model(derivation, emitted, seen, model.fit)["ZZ1R"].unit
+    'kg m2'
+    """
+    return Model(
+        robot_text=derivation.robot.text,
+        spec=emitted.spec,
+        sources=emitted.code,
+        fit=result,
+        logs=estimation.collect_provenance(observation.report),
+    )
+
+
+# From a robot and its logs to a model.
+
+
+Effects = str | Sequence[str] | Mapping[str, Any]
+"""Effects that every joint has, by their ids; or a table as [effects] of a robot file."""
+
+
+Progress = Callable[[str], AbstractContextManager[Callable[[float], None]]]
+"""Opens a step of this title whose share of done work can be reported."""
+
+
+@dataclasses.dataclass(frozen=True)
+class Reporter:
+    """Reports the progress of a fit, and gives its workers.
+
+    Attributes:
+        report_step: is called with the title of each step, which lasts as long as the context.
+        show_progress: the same, for a step whose share of done work is known.
+        print_note: takes a line on what is done otherwise than requested.
+        cluster: gives workers for long logs; None: threads of this process.
+    """
+
+    report_step: Steps = ignore_step
+    show_progress: Progress = lambda title: nullcontext(lambda share: None)
+    print_note: Callable[[str], None] = lambda line: None
+    cluster: AbstractContextManager[Workers] | None = None
+
+
+def prepare_robot(robot: Robot | str | Path, effects: Effects | None = None) -> Robot:
+    """Reads a robot, sets its effects, and finds [home] if it has loops.
+
+    Raises:
+        RobotError: no such robot, or no such effect.
+    """
+    robot = robot if isinstance(robot, Robot) else read_robot(robot)
+    if effects is not None:
+        robot = replace_robot_effects(robot, effects, "effects")
+    return complete_home(robot).write_to_text(robot) if robot.loops else robot
+
+
+def _read_in_memory_logs(
+    compiled: CompiledModel, logs: Sequence[AnyLog], mapping: Mapped
+) -> list[AnyLog]:
+    """Paths as they are, and what else there is as it was read."""
+    paths = (str, Path)
+    others = read_logs(compiled, [log for log in logs if not isinstance(log, paths)], mapping)
+    rest = iter(others)
+    return [log if isinstance(log, paths) else next(rest) for log in logs]
+
+
+def identify(
+    robot: Robot | str | Path,
+    logs: Logs,
+    holdout: Logs = (),
+    method: Method | Literal["two-step"] | None = None,
+    *,
+    mapping: Mapped = (),
+    effects: Effects | None = None,
+    load: Load | None = None,
+    processing: Processing | None = None,
+    steps: Steps = ignore_step,
+) -> Model:
+    """Identifies a robot from its logs, as `modeler fit` does, and returns the model.
+
+    >>> run = simulate(open_robot("two-link"), duration=6.0, seed=1)
+    >>> model = identify("two-link", {"time": run.time, "q": run.q, "tau": run.tau})
+    >>> model["Fs2"].unit, model.fit.verdict.usable
+    ('N m', True)
+
+    Args:
+        robot: as loaded; its file, or the name of a built-in one.
+        logs: to fit: paths, pieces of files (`run.parquet@0:10`), frames, dicts of arrays.
+        holdout: logs of other motion that are not fitted; `error`, `missing`, `add` judge on them.
+        method: one of `estimators()`, or "two-step"; None: that of [fit] of the robot file, whose
+            other options hold too, or "weighted".
+        mapping: whose column is which, over [log] of the robot file; "auto" takes the guess. It is
+            kept in the model.
+        effects: instead of those of the robot file.
+        load: that some logs carry.
+        processing: of the logs; None: by [fit] of the robot file, or chosen from them.
+        steps: is called with the title of each step.
+
+    Warns:
+        FitWarning: the fit is not usable; says why and what to do.
+
+    Raises:
+        RobotError: a mistake in the robot file, or an effect that there is not.
+        DataError: a log cannot be read, rows are given twice, or cannot be fitted.
+    """
+    robot = prepare_robot(robot, effects)
+    training_logs, held_out_logs = convert_to_list(logs), convert_to_list(holdout)
+    stated = {**robot.fit, **({} if method is None else {"method": method})}
+    options = FitOptions.from_names(stated)
+    check_options(options, load)
+    with steps(f"deriving {robot.name}"):
+        compiled_robot = compile_robot(robot)
+    compiled = compiled_robot.compiled
+    mapping, stored_mapping = resolve_mapping(compiled, training_logs, mapping)
+    held_out_logs = _read_in_memory_logs(compiled, held_out_logs, mapping)
+    training_logs = _read_in_memory_logs(compiled, training_logs, mapping)
+
+    def check_log_sets(bare: Sequence[Log], loaded: Sequence[Log]) -> None:
+        gains = options.method == GAIN_METHOD
+        others = () if gains else read_logs(compiled, held_out_logs, mapping)
+        check_no_overlap([*bare, *loaded], others)
+
+    model, _, _, loaded = fit_logs(
+        *(options, compiled_robot, training_logs, load or Load((), None)),
+        *(processing or workflow.build_processing(stated), mapping, check_log_sets),
+        Reporter(steps),
+    )
+    for line in model.warning:
+        warnings.warn(line, FitWarning, stacklevel=2)  # of who called
+    memory = [log for log in training_logs if isinstance(log, Log)]
+    memory += [log for log in loaded if not log.path]
+    return dataclasses.replace(
+        model,
+        mapping=stored_mapping,
+        in_memory_logs=tuple(memory),
+        held_out=tuple(held_out_logs),
+        folder=str(Path.cwd()),
+    )
+
+
+def fit_logs(
+    options: FitOptions,
+    robot: CompiledRobot,
+    logs: Sequence[AnyLog],
+    load: Load,
+    processing: Processing,
+    mapping: Mapped,
+    check: Callable[[Sequence[Log], Sequence[Log]], None],
+    reporter: Reporter,
+) -> tuple[Model, Observation, FitOutcome, list[Log]]:
+    """Fits logs of any length by any method.
+
+    Args:
+        options: of the fit.
+        robot: compiled.
+        logs: without load.
+        load: and the logs that carry it, if any do.
+        processing: of the logs.
+        mapping: as of `read_logs`.
+        check: refuses logs, bare and loaded, that do not belong together.
+        reporter: of its progress.
+
+    Returns:
+        The model, the observation it was fitted to, the outcome, and the loaded logs.
+    """
+    if options.method == GAIN_METHOD:
+        gain_fit = _fit_gains(
+            *(robot.derivation, robot.compiled, logs, load, processing, check),
+            *(reporter.report_step, mapping),
+        )
+        return *gain_fit, FitOutcome(gain_fit[0].fit), []
+    long = _fit_if_long(options, robot, logs, load.logs, processing, mapping, reporter)
+    if long is not None:
+        return *long, FitOutcome(long[0].fit), []
+    with reporter.report_step("building the observation matrix"):
+        bare, loaded = (read_logs(robot.compiled, some, mapping) for some in (logs, load.logs))
+        check(bare, loaded)
+        observation = observe(robot.compiled, [*bare, *loaded], processing)
+    payloads = load.build_payloads(loaded) if loaded else ()
+    model, outcome = fit_observation(options, robot, observation, payloads, reporter.report_step)
+    return model, observation, outcome, loaded
+
+
+def fit(
+    derivation: Derivation,
+    emitted: EmittedModule,
+    observation: Observation,
+    method: Method | Literal["two-step"] = "weighted",
+    *,
+    energy: bool = False,
+    window: float | None = None,
+    payloads: Sequence[estimation.Payload] = (),
+    essential_below: float | None = None,
+) -> Model:
+    """Estimates the base parameters from an observation and returns the model.
+
+    >>> fit(derivation, emitted, observe(compiled, ["mon.parquet"]), "robust").fit.method
+    'robust'
+
+    Args:
+        derivation: of the robot.
+        emitted: its C.
+        observation: of its logs.
+        method: one of `estimators()`, or "two-step"; for "tls" see `fit_gains`.
+        energy: True for the energy model, whose rows are windows (docs/how-to/energy-model.md).
+        window: their length, s; None: the spacing of the torque model's rows.
+        payloads: loads, each with the names of the logs that carry it.
+        essential_below: percent; parameters whose sigma, in percent of the value, cannot be kept
+            below are left out of the reduced model; None: those that an F-test does not miss.
+
+    Raises:
+        DataError: the derivation, the C and the observation are not of one robot; or see
+            `identify`.
+    """
+    if method == GAIN_METHOD:  # for whoever is not told by a type checker
+        raise DataError(f"fit: method {method} reads the logs itself; call fit_gains")
+    names = tuple(base.name for base in emitted.spec.base)
+    for what, other in (("derivation", derivation.robot.name), ("observation", observation.robot)):
+        if other != emitted.spec.robot:
+            raise DataError(
+                f"fit: the {what} is of {other} and the C of {emitted.spec.robot}; expected one "
+                "robot; derive, generate and observe it again"
+            )
+    if observation.names != names:
+        raise DataError(
+            f"fit: the observation has the base parameters {', '.join(observation.names)}, the C "
+            f"{', '.join(names)}; expected the same; observe with this C"
+        )
+    options = FitOptions(method, "energy" if energy else "torque", window, essential_below)
+    loaded = [name for payload in payloads for name in payload.logs]
+    check_options(options, Load(loaded, 1.0) if loaded else None)
+    robot = CompiledRobot(derivation, emitted, workflow.compile_model(emitted))
+    return fit_observation(options, robot, observation, payloads)[0]
+
+
+# Drive gains from a weighed load.
 
 
 def fit_gains(
     derivation: Derivation, logs: Logs, load: Load, processing: Processing | None = None
 ) -> Model:
-    """The model whose robot file has the drive gains that logs tell (docs/how-to/drive-gains.md).
+    """Estimates drive gains and returns the model with them (docs/how-to/drive-gains.md).
 
     Args:
         derivation: of the robot; its file states no gains, or starts for them.
@@ -311,12 +477,11 @@ def fit_gains(
         DataError: logs of torques, rows given twice, or gains that the logs do not tell.
     """
     compiled = workflow.compile_model(workflow.generate(derivation))
-    return identify_gains(
-        derivation, compiled, workflow.convert_to_list(logs), load, processing or Processing()
-    )[0]
+    processing = processing or Processing()
+    return _fit_gains(derivation, compiled, convert_to_list(logs), load, processing)[0]
 
 
-def identify_gains(
+def _fit_gains(
     derivation: Derivation,
     compiled: CompiledModel,
     logs: Sequence[AnyLog],
@@ -326,7 +491,7 @@ def identify_gains(
     report_step: Steps = ignore_step,
     mapping: Mapped = (),
 ) -> tuple[Model, Observation]:
-    """The same, and the observation that the model was fitted to.
+    """Estimates drive gains, and returns the model and the observation it was fitted to.
 
     The gains are found first. Then the logs are read once more with them, as whoever uses the model
     will: all that is told of the fit is told of those torques. `check` refuses logs, bare and
@@ -363,83 +528,109 @@ def identify_gains(
         result = estimation.identify_gains(again, observation, payloads).result
     with report_step("judging the fit"):
         unseparated = estimation.find_heterogeneous_logs(again, observation, payloads)
-        warnings = [DataWarning(line, affects_values=True) for line in unseparated]
+        faults = [DataWarning(line, affects_values=True) for line in unseparated]
         equations = estimation.build_loaded_equations(again, observation, payloads).equations
-        result = add_verdict(again, observation, FitOutcome(result, warnings, equations=equations))
+        result = add_verdict(again, observation, FitOutcome(result, faults, equations=equations))
     if lines := estimation.describe_deviations(compiled.spec, gain_estimates):
         unused += (f"against the robot file: {'; '.join(lines)}",)
     result = _append_sentences(result, unused)
     return assemble_model(derivation, emitted, observation, result), observation
 
 
-# All estimators on the same logs, side by side.
+# Long logs, which never have all rows in memory.
 
 
-def compare_methods(
-    robot: Robot | CompiledModel,
-    logs: Logs,
-    holdout: Logs = (),
-    methods: Sequence[str] | None = None,
-    progress: Callable[[float], None] | None = None,
-) -> estimation.MethodComparison:
-    """Every estimator on the same logs: values, errors, seconds, and what each says of itself.
-
-    >>> found = compare_methods(compiled, ["mon.parquet"], methods=["weighted", "ridge"])
-    >>> [result.method for result in found.results]
-    ['weighted', 'ridge']
+def fit_long(
+    derivation: Derivation,
+    emitted: EmittedModule,
+    compiled: CompiledModel,
+    sources: Sequence[regression.Source],
+    method: Method = "weighted",
+    processing: Processing | None = None,
+    progress: Callable[[float], None] = lambda share: None,
+    reducer: chunked.Reducer | None = None,
+) -> tuple[Model, chunked.StreamedLogs]:
+    """Fits logs of any length in constant memory; see `estimation.long_logs.stream_logs`.
 
     Args:
-        robot: as loaded, or compiled.
-        logs: to fit.
-        holdout: logs of other motion, not fitted: their error.
-        methods: some of `estimators()`; None: all.
-        progress: called with the share done, 0 to 1.
+        derivation: of the robot.
+        emitted: its C.
+        compiled: that, callable.
+        sources: of the logs.
+        method: "weighted" or "ordinary".
+        processing: None: automatic.
+        progress: is told the share of the rows that are done.
+        reducer: of one log; None: threads of this process. See `make_worker_reducer`.
 
     Raises:
-        DataError: an unknown method, rows given twice, or what the weighted fit raises.
+        DataError: see `stream` and `identify_long`.
     """
-    chosen = select_methods(methods)
-    compiled = (
-        workflow.compile_model(workflow.generate(workflow.derive(robot)))
-        if isinstance(robot, Robot)
-        else robot
-    )
-    observation, held_out = observe_held_out(compiled, logs, holdout)
-    tried = estimation.compare_methods(observation, compiled, held_out, chosen, progress)
-    return estimation.MethodComparison(
-        compiled.spec.robot, tried, tuple(observation.report.format_lines())
-    )
+    streamed = chunked.stream_logs(compiled, sources, processing, progress, reducer=reducer)
+    check_no_overlap(streamed.observation.report.logs)
+    result = add_long_verdict(compiled, streamed, method)
+    return assemble_model(derivation, emitted, streamed.observation, result), streamed
 
 
-def observe_held_out(
-    compiled: CompiledModel,
-    logs: Logs,
-    holdout: Logs,
-    mapping: Mapped = (),
-    processing: Processing | None = None,
-) -> tuple[Observation, Observation | None]:
-    """Logs to fit, and held-out ones processed alike; None without any."""
-    training_logs, held_out_logs = (
-        workflow.read_logs(compiled, some, mapping) for some in (logs, holdout)
-    )
-    check_no_overlap(training_logs, held_out_logs)
-    observation = observe(compiled, training_logs, processing)
-    held_out = (
-        observe(compiled, held_out_logs, observation.report.processing) if held_out_logs else None
-    )
-    return observation, held_out
+def _fit_if_long(
+    options: FitOptions,
+    robot: CompiledRobot,
+    logs: Sequence[AnyLog],
+    loaded: Sequence[AnyLog],
+    processing: Processing,
+    mapping: Mapped,
+    reporter: "Reporter",
+) -> tuple[Model, Observation] | None:
+    """Fits long logs in chunks; returns None where all rows must be in memory.
+
+    Raises:
+        DataError: they have more rows than an estimator may have that needs all of them.
+    """
+    every = [*logs, *loaded]
+    if reporter.cluster is None and not workflow.are_long(every):
+        return None
+    if why := describe_whole_fit(options, loaded):
+        workflow.check_fits_memory(every, why)
+        return None
+    try:
+        with (
+            reporter.show_progress("reading and reducing") as bar,
+            reporter.cluster or nullcontext() as workers,
+        ):
+            sources = workflow.open_sources(robot.compiled, logs, mapping)
+            reducer = None if workers is None else make_worker_reducer(workers, robot.emitted)
+            here = [each.name for each in sources if not can_read_from_middle(each)]
+            if workers is not None and here:
+                reporter.print_note(
+                    f"--dask: {', '.join(here)}: read and reduced by this process; workers can "
+                    "begin in the middle of Parquet files only"
+                )
+            method: Any = options.method
+            model, streamed = fit_long(
+                *(robot.derivation, robot.emitted, robot.compiled, sources),
+                *(method, processing, bar, reducer),
+            )
+    except regression.WholeLogNeeded as error:
+        if workflow.are_too_long(every):
+            raise
+        reporter.print_note(f"{error}; read as a whole instead")
+        return None
+    return model, streamed.observation
 
 
-def select_methods(names: Sequence[str] | None, where: str = "methods") -> list[Method]:
-    """The estimators of these names, each once; all for None."""
-    if names is None:
-        return list(ABOUT)
-    chosen = [id for name in names for id in ABOUT if id == name]
-    unknown = [name for name in names if name not in chosen]
-    if unknown or not names:
-        got = unknown[0] if unknown else "nothing"
-        raise DataError(
-            f"{where}: got {got}{suggest_name(got, list(ABOUT))}; expected some of "
-            f"{', '.join(ABOUT)}, with commas between"
-        )
-    return [*dict.fromkeys(chosen)]
+def describe_whole_fit(options: FitOptions, loaded: Sequence[AnyLog]) -> str:
+    """Returns the option for which a fit needs all rows in memory; "" for none."""
+    if loaded:
+        return "--payload-log"
+    if options.essential_below is not None:
+        return "--essential-below"
+    if options.model == "energy":
+        return "--model energy"
+    return "" if options.method in OF_TRIANGLES else f"--method {options.method}"
+
+
+def add_long_verdict(
+    compiled: CompiledModel, streamed: chunked.StreamedLogs, method: Method
+) -> estimation.FitResult:
+    """Estimates the parameters of long logs and adds the verdict."""
+    outcome = FitOutcome(chunked.identify_long(streamed, method, compiled))
+    return add_verdict(compiled, streamed.observation, outcome, streamed.data)

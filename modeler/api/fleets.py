@@ -40,7 +40,7 @@ def fleet(
     dask: str | None = None,
     progress: Progress | None = None,
 ) -> Fleet:
-    """What drifts where: friction, offsets and gains of many machines of one kind over their days.
+    """Estimates the drift of friction, offsets and gains of many machines of one kind.
 
     >>> fleet(robot, {"one": {"mon": "mon.parquet", "tue": "tue.parquet"}}).machines
     {'one': ('mon', 'tue')}
@@ -82,7 +82,7 @@ def fleet(
 
 
 def split_window(place: str) -> tuple[str, str]:
-    """A file and the window after it, "" without."""
+    """Splits a place into the file and the time range after it, "" without."""
     path, at = split_time_range(place)
     return path, at or ""
 
@@ -96,7 +96,7 @@ def reduce_logs(
     mapping: Mapped = (),
     progress: Progress | None = None,
 ) -> list[LogSummary | SkippedLog]:
-    """The summaries of all logs, each with the cut-offs that its own noise asks for."""
+    """Reduces all logs to summaries, each with the cut-offs of its own noise."""
     jobs = []
     maps = build_log_maps(compiled, [each.place for each in named_logs], mapping)
     for each, names in zip(named_logs, maps, strict=True):

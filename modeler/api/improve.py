@@ -8,8 +8,7 @@ from pathlib import Path
 
 from modeler import diagnosis
 from modeler.api.log_maps import Mapped
-from modeler.api.steps import Steps, ignore_step
-from modeler.api.workflow import Logs, M, compile, read_logs
+from modeler.api.workflow import Logs, M, Steps, compile, ignore_step, read_logs
 from modeler.core.errors import DataError
 from modeler.estimation import IdentifiedModel
 from modeler.regression import check_no_overlap
@@ -35,7 +34,7 @@ def diagnose(
     discover: bool = False,
     effects_from: str | Path | None = None,
 ) -> diagnosis.Diagnosis:
-    """Which physical effect the model lacks on logs; errors from the held-out logs if given.
+    """Finds the physical effects that the model lacks; errors come from held-out logs if any.
 
     >>> found = diagnose(model, ["mon.parquet"], ["tue.parquet"])
     >>> found.effects[0].effect, found.effects[0].joint
@@ -65,7 +64,7 @@ def add_discoveries(
     mapping: Mapped = (),
     effects_from: str | Path | None = None,
 ) -> M:
-    """The model with the first equation proposed for each joint, where that lowers the error.
+    """Adds the first proposed equation of each joint where that lowers the error.
 
     >>> found = diagnose(model, ["mon.parquet"], ["tue.parquet"], discover=True)
     >>> better = add_discoveries(model, found, ["mon.parquet"], ["tue.parquet"])
@@ -94,7 +93,7 @@ def add_proposals(
     diagnosis_result: diagnosis.Diagnosis,
     more: SharedEffects = _NONE,
 ) -> tuple[IdentifiedModel, tuple[str, ...]]:
-    """The model with the first proposal of each joint and the effects that it stands beside.
+    """Adds the first proposal of each joint and the effects that it stands beside.
 
     And a line on what is left out.
     """
@@ -135,7 +134,7 @@ def add(
     law: diagnosis.LawRequest | None = None,
     effects_from: str | Path | None = None,
 ) -> M:
-    """The model with one effect more, fitted to the logs; `table("waterfall")` says what it gained.
+    """Adds one effect and fits again; `table("waterfall")` lists the errors.
 
     >>> better = add(model, "spring", ["mon.parquet"], ["tue.parquet"], joint="1")
     >>> better.table("waterfall").column("effect")
@@ -175,7 +174,7 @@ def add_all(
     learned: bool = False,
     effects_from: str | Path | None = None,
 ) -> M:
-    """The model with all that a diagnosis on these logs names and that lowers the error.
+    """Adds all effects that a diagnosis finds and that lower the error.
 
     >>> better = add_all(model, ["mon.parquet"], ["tue.parquet"])
     >>> [step.effect for step in better.history[1:]]
@@ -205,7 +204,7 @@ def add_all(
 
 
 def remove_last(model: M, logs: Logs, mapping: Mapped = ()) -> M:
-    """The model without the effect that was added last, fitted again to the logs.
+    """Removes the effect that was added last and fits again.
 
     >>> better = add(model, "spring", ["mon.parquet"], joint="1")
     >>> [step.effect for step in remove_last(better, ["mon.parquet"]).history[1:]]
@@ -220,7 +219,7 @@ def remove_last(model: M, logs: Logs, mapping: Mapped = ()) -> M:
 
 
 def restore_class(model: M, result: IdentifiedModel) -> M:
-    """What was made of a model, as an object of its class."""
+    """Returns the result as an object of the class of the model."""
     fields = {f.name: getattr(result, f.name) for f in dataclasses.fields(IdentifiedModel)}
     return dataclasses.replace(model, **{**fields, "mapping": model.mapping})
 
@@ -234,7 +233,7 @@ def add_all_missing(
     learned: bool = False,
     more: SharedEffects = _NONE,
 ) -> tuple[IdentifiedModel, tuple[str, ...], diagnosis.Diagnosis]:
-    """The model with what a diagnosis names, why some of it is left out, and the diagnosis.
+    """Adds what a diagnosis finds; returns the model, why some is left out, and the diagnosis.
 
     Raises:
         DataError: nothing that can be added is missing.
@@ -268,7 +267,7 @@ def find_missing(
     equations: bool = False,
     more: SharedEffects = _NONE,
 ) -> diagnosis.Diagnosis:
-    """What a diagnosis finds, which tries the effects that the robot file defines too.
+    """Runs a diagnosis that also tries the effects that the robot file defines.
 
     And those of a folder; why some of these are left out stands among its sentences.
     """
@@ -288,12 +287,12 @@ def _read_model_robot(model: IdentifiedModel) -> Robot:
 
 
 def read_shared_effects(model: IdentifiedModel, folder: str | Path | None) -> SharedEffects:
-    """Effects of a folder that the robot of the model may have too; without a folder none."""
+    """Reads the effects of a folder that the robot may have too; none without a folder."""
     return _NONE if folder is None else collect_shared_effects(_read_model_robot(model), folder)
 
 
 def define_shared_effect(model: M, more: SharedEffects, effect: str) -> M:
-    """The model whose robot file defines that effect, if it is one of a folder.
+    """Adds the definition of an effect of a folder to the robot text of a model.
 
     Raises:
         DataError: it is one that the robot cannot have.
@@ -308,7 +307,7 @@ def define_shared_effect(model: M, more: SharedEffects, effect: str) -> M:
 def read_log_sets(
     model: IdentifiedModel, logs: Logs, holdout: Logs, mapping: Mapped = (), spread: bool = False
 ) -> tuple[CompiledModel, diagnosis.LogSplit]:
-    """The robot of a model, compiled, and the logs that it is held against.
+    """Compiles the robot of a model and reads its logs.
 
     Of long logs stretches where `spread` is true, see `read_logs`.
 

@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import Any
 
 from modeler import regression
+from modeler.api.thresholds import THRESHOLDS
 from modeler.core.errors import DataError, ModelerError, split_time_range
 from modeler.core.manifest import EmittedModule
 from modeler.estimation import find_log_faults, identify, judge_fit
@@ -30,11 +31,9 @@ from modeler.simulation import SimulatedLog
 Mapped = Mapping[str, Any] | Sequence[str] | LogMap
 """Whose column is which: a table as [log] of a robot file, or texts as `--map` takes them."""
 
-_BETTER = 0.5  # of the error, that a guess must reach to be believed
-
 
 def build_log_map(compiled: CompiledModel | EmittedModule, mapping: Mapped = ()) -> LogMap:
-    """Which columns of logs are ours: [log] of the robot file, and `mapping` over it.
+    """Builds the column mapping of logs: `mapping`, and under it [log] of the robot file.
 
     >>> names = build_log_map(compiled, ["q1=position_a:deg"])
     >>> names.expand_entries(compiled.spec.joints)["q1"].columns
@@ -47,7 +46,7 @@ def build_log_map(compiled: CompiledModel | EmittedModule, mapping: Mapped = ())
 
 
 def parse_mapping(mapping: Mapped) -> LogMap:
-    """A mapping as it was given, by itself."""
+    """Parses a mapping by itself."""
     if isinstance(mapping, LogMap):
         return mapping
     if isinstance(mapping, Mapping):
@@ -58,7 +57,7 @@ def parse_mapping(mapping: Mapped) -> LogMap:
 def build_log_maps(
     compiled: CompiledModel, logs: Sequence[Any], mapping: Mapped = ()
 ) -> list[LogMap]:
-    """The map of each log: that of all, and with `auto` under it what the log itself suggests.
+    """Builds the column mapping of each log; `auto` adds what the log itself suggests.
 
     Raises:
         DataError: a wrong mapping, or a file that cannot be read.
@@ -98,7 +97,7 @@ def build_log_maps(
 def resolve_mapping(
     compiled: CompiledModel, logs: Sequence[Any], mapping: Mapped = ()
 ) -> tuple[Mapped, dict[str, Any]]:
-    """The mapping with its guesses made, and what a model keeps of it, a table like [log].
+    """Resolves the guesses of a mapping; returns it and the table that a model keeps.
 
     >>> resolve_mapping(compiled, ["mon.parquet"])
     ((), {})
@@ -194,7 +193,7 @@ class MappingFit:
 def choose_mapping(
     fit_mapping: Callable[[LogMap], MappingFit], plain: LogMap, guessed: LogMap | None
 ) -> tuple[MappingFit, LogMap, bool]:
-    """What is heard of a fit, the map that is believed, and whether the plain one will do.
+    """Chooses between the plain and the guessed mapping by a trial fit.
 
     A guess by range is believed if it halves the error of the log as it stands, or alone is
     usable; what goes wrong under a guess is never told of the log.
@@ -204,7 +203,7 @@ def choose_mapping(
         return plain_fit, plain, False
     guessed_fit = fit_mapping(guessed)
     better = (
-        guessed_fit.error < _BETTER * plain_fit.error
+        guessed_fit.error < THRESHOLDS.max_guess_error_share * plain_fit.error
         and guessed_fit.is_usable >= plain_fit.is_usable
     )
     if better or (guessed_fit.is_usable and not plain_fit.is_usable):
@@ -213,7 +212,7 @@ def choose_mapping(
 
 
 def merge_suggested_map(text: str, mapping: LogMap) -> LogMap:
-    """A suggested [log], and a map over it."""
+    """Merges a suggested [log] under a mapping."""
     return mapping.merge_over(_parse_suggested(text))
 
 
@@ -243,7 +242,7 @@ def read_mapped_log(
     place: str | Path | InMemory, spec: Any, names: LogMap, where: str = "log",
     spread: bool = False,
 ) -> regression.Log:  # fmt: skip
-    """A log, or a piece of it, with the columns of a map; `where` is a frame in messages.
+    """Reads a log, or a time range of it, with a mapping; `where` begins messages.
 
     With `spread` a log too long to be diagnosed as a whole is read as stretches of it.
     """
@@ -266,7 +265,7 @@ def read_mapped_log(
 def parse_time_range(
     place: str | Path,
 ) -> tuple[str | Path, tuple[float | None, float | None] | None]:
-    """The file of a log, and the seconds that `@start:end` after it means; None for all of it.
+    """Splits FILE@START:END into the file and the seconds; None for the whole file.
 
     >>> parse_time_range("run.parquet@0:10")
     ('run.parquet', (0.0, 10.0))

@@ -14,9 +14,9 @@ import numpy as np
 
 from modeler import diagnosis, estimation, validation, views
 from modeler.api import checks, improve
+from modeler.api.checks import predict_torque
 from modeler.api.exporting import export
 from modeler.api.log_maps import Mapped
-from modeler.api.predicting import predict_torque
 from modeler.api.workflow import AnyLog, Logs, compile, convert_to_list, generate, observe
 from modeler.core.errors import DataError
 from modeler.core.files import read_file
@@ -44,7 +44,7 @@ class Parameter(ParameterEstimate):
     relation: str = ""
 
     def conf_int(self, level: float = 0.95) -> tuple[float, float]:
-        """Between which values it lies, with that probability, if errors are normal.
+        """Returns the confidence interval, for normally distributed errors.
 
         Args:
             level: 0.95 for 95 %.
@@ -104,7 +104,7 @@ class Model(IdentifiedModel):
 
     @classmethod
     def from_identified(cls, model: IdentifiedModel, **more: Any) -> Model:
-        """The same model as one of this class."""
+        """Returns an identified model as an object of this class."""
         fields = {f.name: getattr(model, f.name) for f in dataclasses.fields(IdentifiedModel)}
         return cls(**fields, **more)
 
@@ -178,7 +178,7 @@ class Model(IdentifiedModel):
 
     @property
     def params(self) -> Any:
-        """Values of the base parameters by name, SI units: a Series.
+        """Returns the base parameters by name, SI units: a Series.
 
         >>> bool(model.params["Fv1"] == model["Fv1"].value)
         True
@@ -187,7 +187,7 @@ class Model(IdentifiedModel):
 
     @property
     def bse(self) -> Any:
-        """Their standard deviations; NaN of those that were set aside.
+        """Returns the standard deviations; NaN for parameters that are fixed.
 
         >>> bool(model.bse["Fv1"] == model["Fv1"].sigma)
         True
@@ -195,7 +195,7 @@ class Model(IdentifiedModel):
         return label_values(self._parameter_sigmas, self._parameter_names)
 
     def conf_int(self, level: float = 0.95) -> Any:
-        """Their intervals: a DataFrame with the columns `lower` and `upper`.
+        """Returns confidence intervals: a DataFrame with the columns `lower` and `upper`.
 
         >>> list(model.conf_int(0.9).columns)
         ['lower', 'upper']
@@ -210,7 +210,7 @@ class Model(IdentifiedModel):
         return label_values(sides, self._parameter_names, ["lower", "upper"])
 
     def cov_params(self) -> Any:
-        """Covariance of the base parameters: a DataFrame.
+        """Returns the covariance of the base parameters: a DataFrame.
 
         >>> model.cov_params().shape
         (10, 10)
@@ -221,7 +221,7 @@ class Model(IdentifiedModel):
 
     @property
     def nobs(self) -> int:
-        """Rows of the fit.
+        """Returns the number of rows of the fit.
 
         >>> model.nobs == model.fit.rows
         True
@@ -230,7 +230,7 @@ class Model(IdentifiedModel):
 
     @property
     def fittedvalues(self) -> Any:
-        """Predicted torque on the rows of the fit: a DataFrame, a column a joint.
+        """Returns the predicted torque on the rows of the fit: a DataFrame, a column a joint.
 
         NaN where a row does not count. It needs the logs of the fit, found unchanged.
         """
@@ -239,7 +239,7 @@ class Model(IdentifiedModel):
 
     @property
     def resid(self) -> Any:
-        """Measured minus predicted torque there.
+        """Returns measured minus predicted torque on the rows of the fit.
 
         >>> list(model.resid.columns)
         ['tau1', 'tau2']
@@ -256,10 +256,10 @@ class Model(IdentifiedModel):
 
     @cached_property
     def _fit_observation(self) -> Observation:
-        return observe(compile(self), self.its_logs(None, "resid"), self.processing)
+        return observe(compile(self), self.find_logs(None, "resid"), self.processing)
 
     def predict(self, log: AnyLog, mapping: Mapped = ()) -> Any:
-        """Torque at every row of a log, in the log's own names and units; its torques are not read.
+        """Predicts the torque at every row of a log, in its names and units.
 
         >>> run = simulate(robot, duration=2.0, seed=1)
         >>> model.predict({"time": run.time, "q": run.q})["tau"].shape
@@ -280,7 +280,7 @@ class Model(IdentifiedModel):
         return predict_torque(self, compile(self), log, mapping)
 
     def compare(self, logs: Logs | None = None, mapping: Mapped = ()) -> validation.Comparison:
-        """Measured against predicted torque; None: on the logs that were held out.
+        """Compares measured with predicted torque; None: on the held-out logs.
 
         >>> model.compare().prediction.logs
         ('tue.parquet',)
@@ -288,7 +288,7 @@ class Model(IdentifiedModel):
         return checks.compare(self, self._select_test_logs(logs, "compare"), mapping)
 
     def error(self, logs: Logs | None = None, mapping: Mapped = ()) -> float:
-        """Relative error of the torque, ||measured - predicted|| / ||measured||.
+        """Returns the relative error of the torque, ||measured - predicted|| / ||measured||.
 
         >>> model.error("tue.parquet") == model.error()
         True
@@ -309,7 +309,7 @@ class Model(IdentifiedModel):
         without: Sequence[str] = (),
         mapping: Mapped = (),
     ) -> diagnosis.Diagnosis:
-        """Which physical effects the model lacks, ranked, with their status.
+        """Finds the physical effects that the model lacks, ranked, with their status.
 
         >>> found = model.missing()
         >>> len(found), found[0].effect
@@ -322,7 +322,7 @@ class Model(IdentifiedModel):
             mapping: as of `read_logs`.
         """
         held_out_logs = self.held_out if held_out is None else convert_to_list(held_out)
-        fit_logs = self.its_logs(logs, "missing")
+        fit_logs = self.find_logs(logs, "missing")
         return improve.diagnose(self, fit_logs, held_out_logs, without, mapping=mapping)
 
     def add(
@@ -333,7 +333,7 @@ class Model(IdentifiedModel):
         held_out: Logs | None = None,
         mapping: Mapped = (),
     ) -> Model:
-        """A new model with one effect more; `table("waterfall")` says what it gained.
+        """Adds one effect and returns a new model; `table("waterfall")` lists the errors.
 
         >>> model.add("spring", joint=1).error() < model.error()
         True
@@ -346,7 +346,7 @@ class Model(IdentifiedModel):
             mapping: as of `read_logs`.
         """
         held_out_logs = self.held_out if held_out is None else tuple(convert_to_list(held_out))
-        fit_logs = self.its_logs(logs, "add")
+        fit_logs = self.find_logs(logs, "add")
         if effect == "auto":
             better = improve.add_all(self, fit_logs, held_out_logs, mapping=mapping)
         else:
@@ -357,8 +357,8 @@ class Model(IdentifiedModel):
             better, in_memory_logs=memory_logs or self.in_memory_logs, held_out=held_out_logs
         )
 
-    def its_logs(self, logs: Logs | None, what: str) -> Sequence[AnyLog]:
-        """Logs as they were given, or those of the fit.
+    def find_logs(self, logs: Logs | None, what: str) -> Sequence[AnyLog]:
+        """Returns the logs as given, or those of the fit.
 
         Args:
             logs: None for those of the fit.
@@ -397,7 +397,7 @@ class Model(IdentifiedModel):
     def with_load(
         self, mass: float, centre: Sequence[float] = (0.0, 0.0, 0.0), link: str | None = None
     ) -> Model:
-        """The model of the same robot with a load that is known: to predict, to compare, as C.
+        """Returns the model of the robot with a known load: to predict, to compare, as C.
 
         >>> compare_models({"loaded": model.with_load(0.5), "bare": model}, ["tue.parquet"]).names
         ('loaded', 'bare')
@@ -413,7 +413,7 @@ class Model(IdentifiedModel):
         return estimation.add_known_load(self, mass, centre, link)
 
     def to_c(self, folder: str | Path, force: bool = False) -> EmittedModule:
-        """Its C, with its values, written to a folder; as `generate`.
+        """Writes its C with its values into a folder, as `generate` does.
 
         >>> model.to_c("arm_c").spec.prefix
         'two_link'
@@ -427,7 +427,7 @@ class Model(IdentifiedModel):
         like: str | Path | None = None,
         force: bool = False,
     ) -> Exported:
-        """It as URDF, MJCF or SDF; as the function `export`.
+        """Exports the model, as the function `export` does.
 
         >>> model.export("two-link.urdf").format
         'urdf'
@@ -449,7 +449,7 @@ def _suggest_logs(what: str) -> str:
 
 
 def open_model(path: str | Path) -> Model:
-    """Read a model file. Robot files are read by `open_robot`, either by `load`.
+    """Reads a model file; `open_robot` reads robots, `load` either.
 
     >>> open_model(save(model, "arm.json"))["Fv1"].unit
     'N m s/rad'
@@ -462,7 +462,7 @@ def open_model(path: str | Path) -> Model:
 
 
 def open_robot(robot: str | Path) -> Robot:
-    """The robot of a file (ours, URDF, MJCF, .par), or the built-in robot of that name.
+    """Reads a robot file (TOML, URDF, MJCF, .par) or a built-in robot by its name.
 
     >>> open_robot("emps").joints[0].name
     '1'
@@ -471,7 +471,7 @@ def open_robot(robot: str | Path) -> Robot:
 
 
 def load(place: str | Path) -> Any:
-    """The robot, or the model, that a file holds, whatever it is called; or a built-in robot.
+    """Reads a robot or a model, by what the file holds; or a built-in robot by its name.
 
     >>> load("two-link").table().column("theta")
     ['q1', 'q2', '0']
@@ -486,7 +486,7 @@ def load(place: str | Path) -> Any:
 
 
 def is_model_file(place: str | Path) -> bool:
-    """True of a model file, by its ending or because it begins as JSON does; False of a robot."""
+    """Returns True for a model file, by its ending or because it begins as JSON does."""
     try:
         text = read_file(Path(place)) if Path(place).is_file() else b""
     except OSError:

@@ -1,6 +1,7 @@
-"""Motions that tell parameters, or two effects, apart; simulated measurements."""
+"""Motions that determine parameters or discriminate effects; simulated measurements; clearance."""
 
 import dataclasses
+import itertools
 import math
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
@@ -9,9 +10,9 @@ from typing import Any
 
 import numpy as np
 
-from modeler import excitation, simulation
-from modeler.api.clearance import USUAL, add_clearance, find_nearest_along
+from modeler import excitation, formats, simulation
 from modeler.api.log_maps import Mapped
+from modeler.api.thresholds import THRESHOLDS
 from modeler.api.workflow import (
     Logs,
     build_processing,
@@ -30,6 +31,74 @@ from modeler.regression import Log, Observation, Processing, check_no_overlap, o
 from modeler.robot import Limits, Robot, parse_robot_text, suggest_name
 from modeler.runtime import CompiledModel
 from modeler.simulation import HiddenEffect, SimulatedLog, SimulationSettings
+
+
+def add_clearance(
+    robot: Robot, compiled: CompiledModel, bounds: excitation.MotionBounds, margin: float | None
+) -> excitation.MotionBounds:
+    """Adds the minimum distance between links to the bounds.
+
+    Looked at are all links that share no joint and touch in some postures only.
+
+    Args:
+        robot: its [capsules]; without, as `capsules_on_links` draws them.
+        compiled: the same.
+        bounds: ranges, from which postures are drawn.
+        margin: m; None: 0.01 if the robot file has [capsules], else links are not looked at.
+
+    Raises:
+        DataError: a margin below 0.
+    """
+    if margin is None:
+        if not (robot.capsules or robot.planes):
+            return bounds
+        margin = THRESHOLDS.link_clearance
+    if not 0.0 <= margin < math.inf:
+        raise DataError(f"clearance: got {margin:g} m; expected 0 or more")
+    ranges = np.stack([bounds.lower, bounds.upper])
+    solids = _collect_solids(robot, compiled)
+    clearance = excitation.exclude_neighbours(compiled, solids, margin, ranges, bounds.home)
+    return dataclasses.replace(bounds, clearance=clearance)
+
+
+def _collect_solids(robot: Robot, compiled: CompiledModel) -> excitation.CollisionGeometry:
+    """All capsules, and all pairs of links that share no joint."""
+    moving, closure = [joint.name for joint in robot.moving_joints], compiled.spec.closure
+    at = {} if closure is None else dict(zip(closure.variables, closure.home, strict=True))
+    shapes = formats.locate_capsules(robot, at)
+    on, links = {row: carrier for row, carrier, _ in shapes}, [carrier for _, carrier, _ in shapes]
+    joined = {frozenset((on.get(j.name), on.get(j.antecedent))) for j in robot.joints}
+    joined |= {frozenset((on.get(loop.frame), on.get(loop.meets))) for loop in robot.loops}
+    pairs = [
+        (i, k)
+        for i, k in itertools.combinations(range(len(links)), 2)
+        if links[i] != links[k] and frozenset((links[i], links[k])) not in joined
+    ]
+    moves = [i for i, link in enumerate(links) if link in moving]
+    pairs += [(i, len(links) + k) for i in moves for k in range(len(robot.planes))]
+    planes = np.array([*robot.planes.values()]).reshape(-1, 4)
+    planes /= np.linalg.norm(planes[:, :3], axis=1)[:, None]
+    places = [moving.index(link) if link in moving else excitation.BASE for link in links]
+    return excitation.CollisionGeometry(
+        (*("base" if row == "0" else row for row, *_ in shapes), *robot.planes),
+        np.array(places + [excitation.BASE] * len(planes)),
+        np.array([(shape.start, shape.end) for *_, shape in shapes]),
+        np.array([shape.radius for *_, shape in shapes] + [0.0] * len(planes)),
+        planes[:, :3], planes[:, 3], np.array(pairs, dtype=int).reshape(-1, 2),
+    )  # fmt: skip
+
+
+def find_nearest_along(
+    compiled: CompiledModel, clearance: excitation.Clearance, motion: simulation.Reference
+) -> excitation.ClosestApproach | None:
+    """Finds the two nearest links along a motion; None without pairs to check."""
+    if not len(clearance.solids.pairs):
+        return None
+    curve, samples = simulation.build_curve(motion), max(excitation.SAMPLES, 2 * len(motion.time))
+    return excitation.find_closest_approach(
+        compiled, clearance.solids, curve, float(motion.time[-1]), samples
+    )
+
 
 Progress = Callable[[float], None]
 
@@ -64,7 +133,7 @@ class Subject:
         progress: Progress = _ignore_progress,
         known: excitation.PriorInformation | None = None,
     ) -> excitation.ExcitingMotion:
-        """The motion that tells its parameters apart."""
+        """Searches the motion along which the parameters are best determined."""
         return excitation.design_motion(
             self.compiled,
             bounds,
@@ -77,7 +146,7 @@ class Subject:
         )
 
     def check_known_noise(self, where: str = "") -> None:
-        """Refuse a robot of which too little is known; `where` begins the message."""
+        """Raises an error if parameters or torque noise are unknown; `where` begins the message."""
         if self.sigma is None or self.beta is None:
             raise DataError(
                 f"{where}{self.robot.name}: sigmas follow from the values of its parameters and "
@@ -87,14 +156,14 @@ class Subject:
     def predict_fit(
         self, motion: excitation.ExcitingMotion, rate: float, encoders: "Encoders"
     ) -> FitResult:
-        """What a fit would say of a log of a motion; see `predict_fit`."""
+        """Predicts the fit of a log of a motion; see `expected_sigmas`."""
         log = self.predict_log(motion, rate, encoders)
         return identify(observe(self.compiled, [log]), "weighted", self.compiled)
 
     def predict_log(
         self, motion: excitation.ExcitingMotion, rate: float, encoders: "Encoders"
     ) -> Log:
-        """The log of a motion that is to be expected."""
+        """Predicts the log of a motion."""
         self.check_known_noise()
         assert self.sigma is not None and self.beta is not None
         spec, moves = self.compiled.spec, motion.sample_motion(rate)
@@ -129,7 +198,7 @@ class Encoders:
     def quantise_positions(
         self, q: np.ndarray, units: Sequence[str], rng: np.random.Generator
     ) -> np.ndarray:
-        """(n, J) positions as they are logged of exact ones (n, J)."""
+        """Returns (n, J) logged positions for exact ones (n, J)."""
         noise = np.asarray(self.noise, dtype=float)
         if self.counts < 0 or not np.all((noise >= 0.0) & np.isfinite(noise)):
             raise DataError(
@@ -141,14 +210,14 @@ class Encoders:
         return np.where(step > 0.0, np.round(noisy / np.where(step > 0.0, step, 1.0)) * step, noisy)
 
     def describe(self) -> str:
-        """As "positions of 4096 counts a turn"."""
+        """Describes the encoders, as "positions of 4096 counts a turn"."""
         parts = [f"of {self.counts} counts a turn"] if self.counts else []
         parts += [f"with noise of {self.noise:g} rad (m)"] if self.noise else []
         return f"positions {' and '.join(parts) or 'exact'}"
 
 
 def build_subject(thing: Robot | IdentifiedModel) -> Subject:
-    """A robot with the values that its file states, or a model with those that were fitted."""
+    """Returns what is known of a robot, or of a model with its fitted values."""
     if isinstance(thing, Robot):
         compiled = compile_model(generate(derive(thing)))
         values = [parameter.nominal for parameter in compiled.spec.standard]
@@ -183,7 +252,7 @@ class RecordedLogs:
 
     @property
     def known_information(self) -> excitation.PriorInformation:
-        """Their information W'S^-1 W, as a triangle, and how many rows a second has."""
+        """Returns the information W'S^-1 W as a triangle, and the rows a second."""
         observation = self.observation
         sigma = np.array([joint.sigma for joint in self.fit.joints])[observation.row_joint]
         used = sigma > 0.0
@@ -194,7 +263,7 @@ class RecordedLogs:
     def predict_gain(
         self, motion: excitation.ExcitingMotion, rate: float, encoders: Encoders
     ) -> excitation.ExcitingMotion:
-        """The motion, with what its log adds: by the fit of these logs and of a forecast of it."""
+        """Predicts what the log of a motion adds to the fit of these logs."""
         compiled = self.subject.compiled
         if encoders == Encoders():  # as those of the logs
             noise_estimates = self.observation.report.bands.noise
@@ -214,7 +283,7 @@ class RecordedLogs:
 
 
 def fit_recorded_logs(subject: Subject, logs: Logs, mapping: Mapped = ()) -> RecordedLogs:
-    """The logs of a robot, fitted as `modeler fit` does by itself: all parameters, weighted.
+    """Fits existing logs as `modeler fit` does by default: all parameters, weighted.
 
     Raises:
         DataError: a log cannot be read or fitted, or rows are given twice.
@@ -247,7 +316,7 @@ def excite(
     progress: Progress = _ignore_progress,
     **wish: Any,
 ) -> excitation.ExcitingMotion:
-    """A motion within limits that tells the parameters apart (docs/how-to/excitation.md).
+    """Searches a motion within limits that determines the parameters (docs/how-to/excitation.md).
 
     >>> excite(robot, duration=4.0, harmonics=2, starts=1).sample_motion(100.0)["q1"].shape
     (401,)
@@ -290,10 +359,10 @@ def expected_sigmas(
     counts: int = 0,
     noise: float = 0.0,
 ) -> FitResult:
-    """What a fit would say of a log of a motion, before it is run: its sigmas and its cut-offs.
+    """Predicts standard deviations and cut-offs of a fit before the motion is run.
 
     >>> motion = excite(robot, duration=4.0, harmonics=2, starts=1)
-    >>> forecast(model, motion, rate=200.0).parameters[0].name
+    >>> expected_sigmas(model, motion, rate=200.0).parameters[0].name
     'ZZ1R'
 
     The log is made of the motion, the torques of the model along it, and noise of both; what
@@ -322,7 +391,7 @@ def discriminating_motion(
     progress: Progress = _ignore_progress,
     **wish: Any,
 ) -> tuple[excitation.ExcitingMotion, excitation.Discrimination]:
-    """The motion along which two effects that the model lacks are least alike.
+    """Searches the motion along which two missing effects differ most.
 
     Args:
         model: fitted.
@@ -360,7 +429,7 @@ def _build_wish(
 def parse_question(
     subject: Subject, texts: str, where: str = "--between"
 ) -> excitation.DiscriminationProblem:
-    """Which two effects are to be told apart.
+    """Parses the two effects that a motion has to discriminate.
 
     Args:
         subject: with values.
@@ -408,7 +477,7 @@ def build_bounds(
     boxes: Mapping[str, Sequence[float]],
     clearance: float | None = None,
 ) -> excitation.MotionBounds:
-    """The limits of the robot file, with those that are given in their place.
+    """Returns the limits of the robot file, replaced by given ones.
 
     Args:
         robot: as loaded.
@@ -479,9 +548,9 @@ def _check_numbers(
 
 
 def check_motion(
-    robot: Robot, motion: str | Path, *, clearance: float = USUAL
+    robot: Robot, motion: str | Path, *, clearance: float = THRESHOLDS.link_clearance
 ) -> excitation.ClosestApproach | None:
-    """Where a motion brings two links, or a link and a plane, closest to each other.
+    """Finds where a motion brings two links, or a link and a plane, closest together.
 
     >>> check_motion(robot, "mon.parquet").pair  # its two links share a joint
     ('base', '2')
@@ -516,7 +585,7 @@ def simulate(
     progress: Callable[[float], None] | None = None,
     **settings: Any,
 ) -> SimulatedLog:
-    """A measurement of a robot under its controller; `observe` and the others take it as a log.
+    """Simulates a measurement of a robot under its controller; the result is used as a log.
 
     >>> simulate(robot, duration=2.0, seed=1).q.shape
     (2000, 2)
@@ -546,7 +615,7 @@ def simulate(
 def build_settings(
     robot: Robot, hide: Sequence[str | HiddenEffect], motion: str | Path, options: Mapping[str, Any]
 ) -> SimulationSettings:
-    """Settings of a simulation; see `simulate`.
+    """Builds the settings of a simulation; see `simulate`.
 
     Raises:
         DataError: one that is none, or that cannot be.

@@ -84,7 +84,7 @@ class PhysicalValues(Result):
     tested: tuple[KnownAgainstFit, ...]
 
     def describe_sources(self, k: int) -> str:
-        """From which the variance of parameter k mostly comes, "ZZ2R 80 %, am 15 %"."""
+        """Describes the main sources of the variance of parameter k, "ZZ2R 80 %, am 15 %"."""
         shares = self.derived.shares[k]
         return ", ".join(
             f"{self.derived.inputs[i]} {format_percent(shares[i])}"
@@ -108,7 +108,7 @@ class Physical(Result):
     fitted: FittedSource | None
 
     def derive_formulas(self, known: str | KnownValues) -> ClosedSolution:
-        """The other parameters in closed form, checked exactly on random robots.
+        """Derives the other parameters in closed form, verified exactly on random robots.
 
         Args:
             known: names, as "am,bm".
@@ -129,7 +129,7 @@ class Physical(Result):
         return solution
 
     def compute_values(self, known: str, near: str = "") -> PhysicalValues:
-        """Values of the other parameters from the fit; their `table()` lists them.
+        """Computes the other parameters from the fit; `table()` lists them.
 
         Args:
             known: values, as "am=12,bm=6+-0.1", SI units.
@@ -151,7 +151,7 @@ class Physical(Result):
     def evaluate_solution(
         self, solution: ClosedSolution, known_values: KnownValues, near: Mapping[str, float]
     ) -> PhysicalValues:
-        """The values of formulas."""
+        """Evaluates closed-form formulas with the values of the fit."""
         fitted = self._require_fitted()
         data = fitted.data.tolist()
         derived = derive_values(
@@ -171,11 +171,11 @@ class Physical(Result):
     def find_known_sets(
         self, size: int | None = None, progress: Callable[[float], None] | None = None
     ) -> KnownSets:
-        """All sets of `size` parameters from which the others follow; None: the smallest."""
+        """Finds all sets of `size` parameters that determine the others; None: the smallest."""
         return find_known_sets(self.system, size, progress or (lambda share: None))
 
     def rank_sets(self, candidate_sets: KnownSets, cad: KnownValues) -> tuple[RatedSet, ...]:
-        """The easiest of these sets, the least error first.
+        """Ranks the easiest of these sets by their error.
 
         Raises:
             DataError: a parameter without a CAD value.
@@ -186,14 +186,14 @@ class Physical(Result):
         return rate_sets(self.system, candidate_sets.easiest, cad.values)
 
     def read_cad(self, file: str | Path = NOMINAL) -> KnownValues:
-        """CAD values from a file, or, without one, those that the robot file states."""
+        """Reads CAD values from a file; without one from the robot file."""
         if str(file) != NOMINAL:
             return read_cad_file(Path(file), self.system)
         robot = self.derivation.robot
         return read_cad_example(robot, self.system, f"--cad, robot {self.system.robot}")
 
     def compare_with_cad(self, cad: KnownValues | str | Path = NOMINAL) -> CadComparison:
-        """The identified quantities against CAD.
+        """Compares the identified quantities with CAD values.
 
         Raises:
             DataError: of a robot.
@@ -222,7 +222,7 @@ class Physical(Result):
 
 
 def physical(thing: Robot | Derivation | IdentifiedModel, of: Source | None = None) -> Physical:
-    """The physical parameters of a robot, or of a model with values.
+    """Returns the physical parameters of a robot, or of a model with values.
 
     >>> physical(load("wrist")).system.letters[:3]
     ('am', 'at2', 'at3')
@@ -271,7 +271,7 @@ def _compute_fitted_source(system: PhysicalSystem, model: IdentifiedModel) -> Fi
 
 
 def tabulate_values(values: PhysicalValues) -> Table:
-    """Value, sigma and source of every parameter that is told."""
+    """Returns the table of value, sigma and source of every parameter."""
     derived, rows = values.derived, []
     for k, letter in enumerate(derived.letters):
         unit, is_identified = UNITS[values.system.kinds[letter]], letter not in values.doubts

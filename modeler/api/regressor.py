@@ -17,12 +17,18 @@ from sklearn.utils.validation import check_is_fitted, validate_data
 
 from modeler import regression, validation
 from modeler.api import fitting
-from modeler.api.identifying import prepare_robot
+from modeler.api.fitting import prepare_robot
 from modeler.api.log_maps import Mapped
-from modeler.api.workflow import Logs, compile_model, convert_to_list, derive_text, read_logs
-from modeler.codegen import Derivation
+from modeler.api.workflow import (
+    CompiledRobot,
+    Logs,
+    compile_model,
+    convert_to_list,
+    derive_text,
+    read_logs,
+)
 from modeler.core.errors import DataError
-from modeler.core.manifest import EmittedModule
+from modeler.core.fit_options import FitOptions
 from modeler.logs import LEAST_ROWS
 from modeler.robot import Robot
 from modeler.runtime import CompiledModel
@@ -30,14 +36,14 @@ from modeler.runtime import CompiledModel
 Rows = tuple[np.ndarray, np.ndarray, np.ndarray]
 
 
-def _compile_robot(robot: Robot | str | Path) -> tuple[Derivation, EmittedModule, CompiledModel]:
+def _compile_robot(robot: Robot | str | Path) -> CompiledRobot:
     prepared_robot = prepare_robot(robot)
     derivation, emitted = derive_text(prepared_robot.text, prepared_robot.name)
-    return derivation, emitted, compile_model(emitted)
+    return CompiledRobot(derivation, emitted, compile_model(emitted))
 
 
 def read_log_rows(robot: Robot | str | Path, logs: Logs, mapping: Mapped = ()) -> Rows:
-    """Logs as scikit-learn takes them.
+    """Reads logs as arrays for scikit-learn.
 
     Args:
         robot: as loaded; its file, or the name of a built-in one.
@@ -53,7 +59,7 @@ def read_log_rows(robot: Robot | str | Path, logs: Logs, mapping: Mapped = ()) -
     Raises:
         DataError: a log cannot be read.
     """
-    read = read_logs(_compile_robot(robot)[2], convert_to_list(logs), mapping)
+    read = read_logs(_compile_robot(robot).compiled, convert_to_list(logs), mapping)
     names = ["q", *(["qd"] if all(log.qd is not None for log in read) else [])]
     names += ["qdd"] if "qd" in names and all(log.qdd is not None for log in read) else []
     row_blocks = [
@@ -98,22 +104,21 @@ class TorqueRegressor(MultiOutputMixin, RegressorMixin, BaseEstimator):
             DataError: see `identify`.
         """
         X, y = validate_data(self, X, y, multi_output=True, y_numeric=True, dtype=float)
-        derivation, emitted, compiled = _compile_robot(self.robot)
-        logs = [log for _, log in _split_logs(compiled, X, y)]
-        rows = regression.observe(compiled, logs, self.processing)
-        request = fitting.FitRequest(self.method)
-        self.model_ = fitting.fit_observation(request, derivation, emitted, compiled, rows)[0]
+        robot = _compile_robot(self.robot)
+        logs = [log for _, log in _split_logs(robot.compiled, X, y)]
+        rows = regression.observe(robot.compiled, logs, self.processing)
+        self.model_ = fitting.fit_observation(FitOptions(self.method), robot, rows)[0]
         return self
 
     def predict(self, X: Any) -> np.ndarray:
-        """(n, J) torque at every row.
+        """Predicts the (n, J) torque at every row.
 
         Raises:
             DataError: rows in pieces too short to differentiate.
         """
         check_is_fitted(self, "model_")
         X = validate_data(self, X, reset=False, dtype=float)
-        compiled = _compile_robot(self.robot)[2]
+        compiled = _compile_robot(self.robot).compiled
         torque = np.empty((len(X), len(compiled.spec.joints)))
         for rows, log in _split_logs(compiled, X):
             torque[rows], _ = validation.predict_every_row(self.model_, log, compiled)

@@ -1,7 +1,8 @@
 """The chain: from a robot to its C, from logs to a model."""
 
 import dataclasses
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from contextlib import AbstractContextManager, nullcontext
 from functools import lru_cache
 from pathlib import Path
 from tempfile import TemporaryDirectory
@@ -21,6 +22,7 @@ from modeler.core.estimators import ABOUT
 from modeler.core.files import write_atomically
 from modeler.core.manifest import EmittedModule, ModuleSpec
 from modeler.core.table import Table
+from modeler.derivation import HomeModes, express_as_home, find_modes_near
 from modeler.effects import CATALOGUE
 from modeler.estimation import (
     OF_TRIANGLES,
@@ -29,14 +31,14 @@ from modeler.estimation import (
     model_file,
     set_unit_gains,
 )
-from modeler.formats import convert as convert
+from modeler.formats import convert as convert, read_robot
 from modeler.logs import Frame, LogMap, open_blocks
 from modeler.robot import (
     Robot,
     insert_own_effect,
     new_robot as new_robot,
     parse_robot_text,
-    read_robot,
+    replace_home,
 )
 from modeler.runtime import CompiledModel, GpuModel, load_gpu, load_module as load_compiled
 from modeler.simulation import SimulatedLog, write_log
@@ -52,7 +54,7 @@ Logs = AnyLog | Sequence[AnyLog]
 
 
 def convert_to_list(logs: Logs) -> Sequence[AnyLog]:
-    """One log alone as a list of it."""
+    """Returns logs as a list; one log stands for a list of it."""
     if isinstance(logs, str | Mapping) or hasattr(logs, "__arrow_c_stream__"):
         return [logs]
     if isinstance(logs, Sequence):
@@ -62,9 +64,17 @@ def convert_to_list(logs: Logs) -> Sequence[AnyLog]:
 
 M = TypeVar("M", bound=IdentifiedModel)
 
+Steps = Callable[[str], AbstractContextManager[None]]
+"""Called with the title of a step, which lasts as long as the context."""
+
+
+def ignore_step(title: str) -> AbstractContextManager[None]:
+    """Reports nothing."""
+    return nullcontext()
+
 
 def define_effect(robot: Robot, name: str, **definition: Any) -> Robot:
-    """The robot with the definition of an effect that the catalogue lacks.
+    """Returns the robot with the definition of an effect that the catalogue lacks.
 
     >>> robot = define_effect(load("emps"), "fan", columns={"Kf": "v*abs(v)"}, nonnegative=True)
     >>> robot.own_effects[0].id
@@ -96,7 +106,7 @@ def generate(
     also: Sequence[Also] = (),
     measure: Machine | None = None,
 ) -> EmittedModule:
-    """The C module of a robot; of a model, with functions that have its fitted values.
+    """Generates the C module of a robot; of a model with functions that have its values.
 
     >>> "two_link.h" in generate(derivation).files
     True
@@ -135,7 +145,7 @@ def generate(
 
 
 def compile_model(emitted: EmittedModule) -> CompiledModel:
-    """The C module made callable; compiled once for the same content.
+    """Compiles the C module, once for the same content, and returns it callable.
 
     >>> compile_model(emitted).gravity([[0.0, 0.0]], model.beta).shape
     (1, 2)
@@ -143,10 +153,26 @@ def compile_model(emitted: EmittedModule) -> CompiledModel:
     return load_compiled(emitted.spec, emitted.code, emitted.log)
 
 
+@dataclasses.dataclass(frozen=True, eq=False)
+class CompiledRobot:
+    """Holds the derivation of a robot, its C, and that compiled."""
+
+    derivation: Derivation
+    emitted: EmittedModule
+    compiled: CompiledModel
+
+
+def compile_robot(robot: Robot) -> CompiledRobot:
+    """Derives a robot, emits its C and compiles it."""
+    derivation = derive(robot)
+    emitted = generate(derivation)
+    return CompiledRobot(derivation, emitted, compile_model(emitted))
+
+
 def read_logs(
     compiled: CompiledModel, logs: Logs, mapping: Mapped = (), spread: bool = False
 ) -> list[regression.Log]:
-    """Logs by path, `path@start:end` for a piece of it in seconds, or as they are.
+    """Reads logs by path, or by `path@start:end` in seconds; parsed logs are returned as they are.
 
     >>> [log.rows for log in read_logs(compiled, ["mon.parquet", "tue.parquet@1:2"])]
     [6000, 1000]
@@ -155,7 +181,7 @@ def read_logs(
         compiled: the robot; its file's [log] says which columns are which.
         logs: of any format of `modeler.logs`.
         mapping: over [log]: a table like it, or texts as `--map` takes them; "auto" among them
-            takes the guess of `look_at` for what is left open.
+            takes the guess of `inspect_log` for what is left open.
         spread: True if of a log of more than a million rows evenly spread stretches will do.
     """
     log_list = convert_to_list(logs)
@@ -166,7 +192,7 @@ def read_logs(
 def read_currents(
     compiled: CompiledModel, logs: Logs, mapping: Mapped = ()
 ) -> list[regression.Log]:
-    """Logs of currents; where the robot file states no drive gain, torques are in drive units.
+    """Reads logs of currents; without a drive gain torques are in drive units.
 
     >>> run = simulate(robot, duration=2.0, seed=1)
     >>> read_currents(compiled, {"time": run.time, "q": run.q, "current": run.tau})[0].rows
@@ -201,7 +227,7 @@ def _read_log(
 
 
 def count_rows(places: Sequence[AnyLog]) -> int:
-    """Rows of logs, as far as their files tell without being read; of CSV files about.
+    """Counts the rows of logs as far as their files state them; of CSV files approximately.
 
     Raises:
         DataError: a file is damaged.
@@ -218,17 +244,17 @@ def count_rows(places: Sequence[AnyLog]) -> int:
 
 
 def are_long(places: Sequence[AnyLog]) -> bool:
-    """True of logs whose fit reads them in chunks."""
+    """Returns True for logs whose fit reads them in chunks."""
     return count_rows(places) > regression.LONG
 
 
 def are_too_long(places: Sequence[AnyLog]) -> bool:
-    """True of logs that are not read at once, whatever for."""
+    """Returns True for logs that are never read at once."""
     return count_rows(places) > regression.MOST_WHOLE
 
 
 def check_fits_memory(places: Sequence[AnyLog], what: str) -> None:
-    """Refuse logs that are too long to be read at once.
+    """Raises an error for logs that are too long to be read at once.
 
     Raises:
         DataError: they have more rows than that.
@@ -242,7 +268,7 @@ def check_fits_memory(places: Sequence[AnyLog], what: str) -> None:
 
 
 def build_processing(options: Mapping[str, Any]) -> regression.Processing:
-    """The processing by options of `modeler fit`, or by `[fit]` of a robot file."""
+    """Builds the processing from options of `modeler fit` or from `[fit]` of a robot file."""
     names = {"cutoff": "position_cutoff", "decimate": "decimation"}
     field_names = {field.name for field in dataclasses.fields(regression.Processing)}
     known = {names.get(name, name): value for name, value in options.items()}
@@ -254,7 +280,7 @@ def build_processing(options: Mapping[str, Any]) -> regression.Processing:
 def open_sources(
     compiled: CompiledModel, places: Sequence[AnyLog], mapping: Mapped = ()
 ) -> list[regression.Source]:
-    """The rows of logs, in blocks where their format allows it.
+    """Opens the rows of logs, in blocks where their format allows it.
 
     Raises:
         DataError: a log cannot be read.
@@ -274,7 +300,7 @@ def observe(
     processing: regression.Processing | None = None,
     mapping: Mapped = (),
 ) -> regression.Observation:
-    """The rows y = W beta of logs.
+    """Builds the observation y = W beta of logs.
 
     >>> observe(compiled, ["mon.parquet"]).W.shape[1]
     10
@@ -285,7 +311,7 @@ def observe(
 
 
 def compile(model: IdentifiedModel) -> CompiledModel:
-    """The compiled robot of a model, its C emitted anew from the robot text in the model.
+    """Compiles the robot of a model from its robot text.
 
     >>> compile(model).spec.robot
     'two-link'
@@ -301,7 +327,7 @@ def compile(model: IdentifiedModel) -> CompiledModel:
 
 
 def emit_model(model: IdentifiedModel, otherwise: str = "") -> tuple[Derivation, EmittedModule]:
-    """What the robot text of a model gives, if that is what its values belong to."""
+    """Derives and emits the robot text of a model, and checks that its values belong to it."""
     derivation, emitted = derive_text(
         model.robot_text, f"robot {model.spec.robot} in the model file"
     )
@@ -317,7 +343,7 @@ def emit_model(model: IdentifiedModel, otherwise: str = "") -> tuple[Derivation,
 
 @lru_cache(maxsize=4)
 def derive_text(text: str, where: str) -> tuple[Derivation, EmittedModule]:
-    """Of a robot file's text; the last ones are kept, for who asks again."""
+    """Derives the text of a robot file; the last results are cached."""
     derivation = derive(parse_robot_text(text, where))
     return derivation, generate_robot(derivation)
 
@@ -327,7 +353,7 @@ def _remove_code(spec: ModuleSpec) -> ModuleSpec:
 
 
 def reduced_model(model: M) -> M:
-    """The model with its essential parameters only, estimated anew; all others are 0.
+    """Returns the model with its essential parameters only, estimated again; others are 0.
 
     >>> len(reduced_model(model).beta) == len(model.beta)
     True
@@ -340,7 +366,7 @@ def reduced_model(model: M) -> M:
 
 
 def save(thing: IdentifiedModel | Robot, path: str | Path) -> Path:
-    """Write a model file, or the file of a robot; an interrupted write leaves the old file.
+    """Writes a model or a robot file; an interrupted write leaves the old file.
 
     >>> save(robot, "arm.toml").name, save(model, "arm.json").name
     ('arm.toml', 'arm.json')
@@ -359,7 +385,7 @@ def save(thing: IdentifiedModel | Robot, path: str | Path) -> Path:
 
 
 def robots() -> Table:
-    """The built-in robots; `load(name)` gives one.
+    """Lists the built-in robots; `load(name)` reads one.
 
     >>> "ur10e" in robots().column("name")
     True
@@ -380,7 +406,7 @@ def robots() -> Table:
 
 
 def effects(robot: Robot | None = None) -> Table:
-    """The catalogue of physical effects; with a robot, its own ones too.
+    """Lists the physical effects; with a robot, those that it defines too.
 
     `modeler effects ID` says more of each.
 
@@ -397,7 +423,7 @@ def effects(robot: Robot | None = None) -> Table:
 
 
 def estimators() -> Table:
-    """The estimators that `fit` takes as `method`.
+    """Lists the estimators that `fit` takes as `method`.
 
     >>> estimators().column("method")[:2]
     ['weighted', 'ordinary']
@@ -408,7 +434,7 @@ def estimators() -> Table:
 
 
 def load_on_gpu(derivation: Derivation) -> GpuModel:
-    """The base regressor of a robot without loops on the graphics processor of this machine.
+    """Loads the base regressor of a robot without loops on the graphics processor.
 
     It needs CuPy: `pip install "modeler-robotics[gpu]"`.
 
@@ -417,3 +443,61 @@ def load_on_gpu(derivation: Derivation) -> GpuModel:
         EmitError: the robot has loops.
     """
     return load_gpu(generate(derivation, cuda=True))
+
+
+def home(robot: Robot, near: Mapping[str, float] | None = None, anew: bool = False) -> HomeModes:
+    """Finds the assembly modes of a robot, the best first; `table()` lists them.
+
+    >>> home(load("five-bar")).table().column("mode")
+    ['A', 'B']
+
+    Args:
+        robot: with loops.
+        near: values that are meant, by row, rad or m; None: [home] of the robot.
+        anew: True to search as if the robot stated no [home].
+
+    Raises:
+        LoopError: no loops, or none that can be closed.
+        DataError: a row that is not there.
+    """
+    stated = {} if anew else dict(robot.home)
+    if near is not None:
+        moving = [joint.name for joint in robot.moving_joints]
+        for name in near:
+            if name not in moving:
+                raise DataError(
+                    f"home: near names joint {name}; expected some of {', '.join(moving)}"
+                )
+        names = {joint.name for joint in robot.coordinates}
+        stated = {name: value for name, value in stated.items() if name in names} | dict(near)
+    return find_modes_near(dataclasses.replace(robot, home={}) if anew else robot, stated)
+
+
+def select_mode(modes: HomeModes, letter: str | None, best: bool = False) -> int:
+    """Returns the index of the mode with that letter; by default the robot's own.
+
+    Raises:
+        DataError: no such mode.
+    """
+    if letter is None:
+        return 0 if modes.stated_index is None or best else modes.stated_index
+    letters = [mode.letter for mode in modes.modes]
+    if letter.upper() not in letters:
+        raise DataError(
+            f"--mode {letter}: there is no such mode; expected one of {', '.join(letters)}"
+        )
+    return letters.index(letter.upper())
+
+
+def home_posture(robot: Robot, modes: HomeModes, letter: str | None = None) -> Robot:
+    """Returns the robot with an assembly mode as its [home], in its text too.
+
+    >>> home_posture(load("five-bar"), home(load("five-bar")), "B").name
+    'five-bar'
+
+    Raises:
+        DataError: no such mode.
+    """
+    posture = modes.modes[select_mode(modes, letter)].posture
+    text = replace_home(robot.text, robot.home, express_as_home(modes.linkage, posture))
+    return parse_robot_text(text, f"{robot.name} with its [home]")

@@ -13,14 +13,14 @@ if TYPE_CHECKING:
 
 
 def build_parser() -> "argparse.ArgumentParser":
-    """The parser of all commands."""
-    from modeler.cli.commands import build_parser as all_commands
+    """Builds the parser of all commands."""
+    from modeler.cli.parser import build_parser as all_commands
 
     return all_commands()
 
 
 def main(argv: Sequence[str] | None = None) -> int:
-    """Run one command; the exit status. Without `argv`, this is the program itself."""
+    """Runs one command and returns the exit status; without `argv`, as the program itself."""
     # Our matrices are small: on a busy machine, waiting for a second thread of the linear algebra
     # tripled the time of `derive panda` (0.4 s to 1.2 s). Before numpy is loaded.
     os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")

@@ -85,7 +85,7 @@ def compare_with_findings(
     model: IdentifiedModel, logs: list[str], compiled: CompiledModel, mapping: Mapped = (),
     share: Callable[[float], None] = lambda share: None,
 ) -> tuple[validation.Comparison, list[str], tuple[DataWarning, ...]]:  # fmt: skip
-    """The comparison on logs, where everything came from, in lines, and what is wrong with it."""
+    """Compares on logs; returns the comparison, its provenance in lines, and the findings."""
     comparison, observation = checks.compare_logs(model, logs, compiled, mapping, share, print_note)
     fitted = ", ".join(log.name for log in model.logs)
     what = "" if model.fit.energy is None else "energy model, "

@@ -6,11 +6,17 @@ from collections.abc import Iterable, Sequence
 from pathlib import Path
 
 from modeler.cli import places
-from modeler.cli.commands import collect_command_parsers
 from modeler.cli.console import Json, print_lines, print_result
-from modeler.cli.options import ALL, METHODS, collect_arguments, collect_options, find_option
+from modeler.cli.parser import (
+    ALL,
+    collect_arguments,
+    collect_command_parsers,
+    collect_options,
+    find_option,
+)
 from modeler.core.builtin import list_papers
 from modeler.core.estimators import ABOUT
+from modeler.core.fit_options import METHODS
 from modeler.effects import CATALOGUE as EFFECTS
 
 _BASH = """\
@@ -58,7 +64,7 @@ def run_completion(args: argparse.Namespace) -> Json:
 
 
 def complete_words(words: Sequence[str], top: argparse.ArgumentParser) -> list[str]:
-    """What the last of the words may become, the others standing before it.
+    """Completes the last word, given the words before it.
 
     Args:
         words: after the name of the program; bash cuts `--out=x` into three of them.

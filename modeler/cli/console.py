@@ -17,6 +17,7 @@ from typing import TYPE_CHECKING, Any
 
 from modeler import __version__
 from modeler.cli.places import OutputFolder
+from modeler.cli.thresholds import THRESHOLDS
 from modeler.core.errors import ModelerError, flatten_message
 from modeler.core.files import DestinationKind, resolve_destination, write_atomically
 
@@ -40,7 +41,6 @@ _LOUDNESS: ContextVar[Verbosity] = ContextVar("loudness", default=Verbosity.NORM
 _FOR_PROGRAMS: ContextVar[bool] = ContextVar("for programs", default=False)
 """Whether progress is told in lines that a program reads, in place of a bar: `--progress lines`."""
 
-_TICK = 0.5  # s
 
 _PACKAGES = (
     "numpy", "scipy", "sympy", "python-flint", "casadi", "cffi", "pyarrow", "matplotlib", "rich",
@@ -48,13 +48,13 @@ _PACKAGES = (
 
 
 def get_verbosity() -> Verbosity:
-    """Of the command that runs."""
+    """Returns the verbosity of the command that runs."""
     return _LOUDNESS.get()
 
 
 @contextmanager
 def apply_verbosity(verbosity: Verbosity, for_programs: bool = False) -> Iterator[None]:
-    """While this lasts, so much is told; warnings of libraries too.
+    """Sets the verbosity inside a context; warnings of libraries follow it.
 
     Args:
         verbosity: how much.
@@ -78,7 +78,7 @@ def apply_verbosity(verbosity: Verbosity, for_programs: bool = False) -> Iterato
 
 @contextmanager
 def announce_step(title: str) -> Iterator[None]:
-    """Told with its seconds, if every step is."""
+    """Prints a step with its seconds if the verbosity is verbose."""
     if get_verbosity() is not Verbosity.VERBOSE:
         yield
         return
@@ -94,7 +94,7 @@ def announce_step(title: str) -> Iterator[None]:
 
 @contextmanager
 def show_clock(title: str) -> Iterator[None]:
-    """Title and seconds on a terminal, while what could draw a bar is itself being loaded."""
+    """Shows title and seconds on a terminal while the progress bar is being loaded."""
     stream = sys.stderr
     if _FOR_PROGRAMS.get():
         _write_progress_line(title, None)
@@ -109,7 +109,7 @@ def show_clock(title: str) -> Iterator[None]:
 
     def show_seconds() -> None:
         start_time = time.perf_counter()
-        while not ended.wait(_TICK):
+        while not ended.wait(THRESHOLDS.clock_interval):
             _write_stderr(f"\r{title} {time.perf_counter() - start_time:.1f} s")
         _write_stderr(f"\r{' ' * (len(title) + 12)}\r")  # a console that knows no codes can do that
 
@@ -123,7 +123,7 @@ def show_clock(title: str) -> Iterator[None]:
 
 
 def show_start(words: Sequence[str]) -> None:
-    """The command as it was read, and the versions of what it runs with."""
+    """Prints the command as it was read, and the versions, if verbose."""
     if get_verbosity() is not Verbosity.VERBOSE:
         return
     from importlib.metadata import PackageNotFoundError, version
@@ -141,7 +141,7 @@ def show_start(words: Sequence[str]) -> None:
 
 
 def show_traceback() -> None:
-    """Where the error that is being handled came from."""
+    """Prints the traceback of the current error, if verbose."""
     if get_verbosity() is Verbosity.VERBOSE:
         import traceback
 
@@ -163,18 +163,18 @@ Json = Any
 
 
 def print_result(text: str = "") -> None:
-    """One result, on stdout."""
+    """Prints one result on stdout."""
     write_stdout(f"{text}\n")
 
 
 def print_lines(lines: Iterable[str], before: str = "") -> None:
-    """Results line by line, each with the same words before it."""
+    """Prints results line by line, each with the same prefix."""
     for line in lines:
         print_result(before + line)
 
 
 def show_next(commands: Sequence[str]) -> None:
-    """The command to go on with, as the last line."""
+    """Prints the suggested next command as the last line."""
     print_lines(commands[:1], "next: ")
 
 
@@ -209,7 +209,7 @@ def write_pictures(place: str, pictures: "Sequence[Picture]") -> str:
 
 
 def write_stdout(text: str) -> None:
-    """Text as it is, on stdout; nowhere if stdout was closed before we began.
+    """Writes text to stdout; nothing if stdout was closed before the start.
 
     Raises:
         ModelerError: it cannot be written, as on a full disk.
@@ -240,18 +240,18 @@ def flush_stdout() -> None:
 
 
 def print_error(text: str) -> None:
-    """One line on stderr; if that cannot be written, the exit status has to do."""
+    """Prints one line on stderr."""
     _write_stderr(f"modeler: {text}\n")
 
 
 def print_note(text: str) -> None:
-    """One line on stderr that is no error; none with --quiet."""
+    """Prints a note on stderr; none with --quiet."""
     if get_verbosity() is not Verbosity.QUIET:
         print_error(text)
 
 
 def escape_unprintable() -> None:
-    """What a terminal has no letter for is shown as its code, instead of being an error."""
+    """Shows characters that the terminal cannot encode as their codes."""
     for stream in (sys.stdout, sys.stderr):
         if isinstance(stream, io.TextIOWrapper):
             stream.reconfigure(errors="backslashreplace")
@@ -270,7 +270,7 @@ def _convert_stdout_errors() -> Iterator[None]:
 
 
 def run_command(args: argparse.Namespace, run: Callable[[argparse.Namespace], Json]) -> None:
-    """Run the command of `args`, and write what it returns to the file that `--json` names.
+    """Runs the command of `args` and writes its result to the file of `--json`.
 
     `args.after`, if the command set one, judges the result when all is written. A command that goes
     on after its result gives that to `args.tell` itself, and returns None.
@@ -308,7 +308,7 @@ SCHEMA = 1
 
 
 def add_schema(command: str, content: Json) -> Json:
-    """An object says which schema of docs/schema describes it."""
+    """Adds the identifier of its schema (docs/schema) to an object."""
     if not isinstance(content, dict):
         return content
     return {"schema": f"urn:modeler:schema:{command}:{SCHEMA}", **content}
@@ -329,14 +329,14 @@ def _is_stdout(place: str) -> bool:
 
 @contextmanager
 def show_progress(title: str) -> Iterator[Callable[[float], None]]:
-    """A bar on stderr while something runs, if stderr is a terminal; call with the share done."""
+    """Shows a progress bar on a terminal; yields the function that takes the share done."""
     with announce_step(title), _show_bar(title, 1.0) as tell:
         yield tell
 
 
 @contextmanager
 def show_activity(title: str) -> Iterator[None]:
-    """A bar that says only that something runs, and for how long, if stderr is a terminal."""
+    """Shows a bar without share, and the elapsed time, on a terminal."""
     with announce_step(title), _show_bar(title, None):
         yield
 
@@ -372,7 +372,7 @@ def _show_progress_lines(title: str, total: float | None) -> Iterator[Callable[[
 
     def show_share(share: float) -> None:
         now = time.monotonic()
-        if share >= last_shown[1] + 0.01 and now >= last_shown[0] + _PAUSE:
+        if share >= last_shown[1] + 0.01 and now >= last_shown[0] + THRESHOLDS.progress_interval:
             last_shown[:] = now, share
             _write_progress_line(title, share)
 
@@ -382,9 +382,6 @@ def _show_progress_lines(title: str, total: float | None) -> Iterator[Callable[[
         yield show_share
     finally:
         _SHOWN.reset(before)
-
-
-_PAUSE = 0.1  # s between two lines
 
 
 def _write_progress_line(title: str, share: float | None) -> None:

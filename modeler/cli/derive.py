@@ -20,7 +20,8 @@ from modeler.cli.console import (
     show_next,
 )
 from modeler.cli.lists import read_robot_with_effects, resolve_robot
-from modeler.cli.options import FEW_JOINTS, Form
+from modeler.cli.parser import FEW_JOINTS, Form
+from modeler.cli.thresholds import THRESHOLDS
 from modeler.codegen import Derivation, derive, generate
 from modeler.core.errors import ALSO, Also, DataError, ModelerError, RobotError
 from modeler.core.files import write_atomically
@@ -71,17 +72,17 @@ class FormulaPrinter:
             print_result(r"\begingroup\allowdisplaybreaks")
 
     def print_title(self, text: str) -> None:
-        """What all of it is about."""
+        """Prints the title of the whole output."""
         print_result(rf"\section*{{{escape_latex(text)}}}") if self.document else self.print_text(
             text
         )
 
     def format_heading(self, text: str) -> str:
-        """The title of a group of formulas in LaTeX."""
+        """Returns the heading of a group of formulas in LaTeX."""
         return rf"\paragraph{{{_allow_breaks(text)}}}" if self.document else f"% {text}"
 
     def print_text(self, text: str = "") -> None:
-        """Lines that are no formulas; in a document one paragraph."""
+        """Prints lines that are no formulas; in a document one paragraph."""
         if self.document:
             if text:
                 print_result(
@@ -95,12 +96,12 @@ class FormulaPrinter:
             print_result(text)
 
     def print_formulas(self, text: str) -> None:
-        """What is already written in the form."""
+        """Prints formulas that are already in the output format."""
         self._paragraph = False
         print_result(text.rstrip("\n") if self.form == "latex" else text)
 
     def finish(self) -> None:
-        """Nothing more follows."""
+        """Prints the end of the output."""
         if self.form == "latex":
             print_result(r"\endgroup")
         if self.document:
@@ -240,7 +241,7 @@ def _describe_ties(model: SymbolicModel) -> list[str]:
 
 
 def compare_with_lagrange(derivation: Derivation, samples: int = 50) -> float:
-    """Largest difference of the torques of both derivations, relative to the largest torque."""
+    """Returns the largest relative difference of Newton-Euler and Lagrange torques."""
     model = derivation.model
     rng = np.random.default_rng(derivation.base.proof.seed)
     states = draw_random_states(model, samples, rng)
@@ -336,14 +337,14 @@ def _print_coefficients(
     unasked = args.terms is None and args.coefficients_out is None
     try:
         table = formulas.coefficients.build_coefficient_table(derivation.model, derivation.base)
-        if unasked and len(table.coefficients) > PAGE:
+        if unasked and len(table.coefficients) > THRESHOLDS.max_unrequested_coefficients:
             printer.print_text()
             printer.print_text(
                 f"{len(table.coefficients)} PG/PJ/PS coefficients: --terms lists them"
             )
             return
         shown, lines = table, _describe_coefficients(table)
-        if not args.expanded and len(table.coefficients) > MANY:
+        if not args.expanded and len(table.coefficients) > THRESHOLDS.max_listed_coefficients:
             shown = formulas.coefficients.select_independent_coefficients(table)
             lines.insert(
                 0,

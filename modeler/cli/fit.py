@@ -8,10 +8,9 @@ from pathlib import Path
 from typing import Any
 
 import modeler.api.fitting as fitting
-from modeler.api.identifying import fit_logs
+from modeler.api.checks import observe_held_out, select_methods
 from modeler.api.log_maps import resolve_mapping
-from modeler.api.long_logs import Reporter
-from modeler.api.workflow import build_processing, compile_model, derive, generate
+from modeler.api.workflow import build_processing, compile_robot
 from modeler.cli.console import (
     Json,
     draw_page,
@@ -24,9 +23,11 @@ from modeler.cli.console import (
     show_progress,
 )
 from modeler.cli.lists import apply_stated_options, resolve_robot
-from modeler.cli.options import ALL, Methods
+from modeler.cli.parser import ALL, Methods
 from modeler.core.errors import GAIN_METHOD, DataError
+from modeler.core.estimators import ABOUT
 from modeler.core.files import write_atomically
+from modeler.core.fit_options import FitOptions
 from modeler.core.jobs import Workers, open_workers
 from modeler.core.table import align_columns
 from modeler.estimation import OF_TRIANGLES, IdentifiedModel, compare_methods, save_model
@@ -43,89 +44,59 @@ from modeler.views import (
 
 
 def run_fit(args: argparse.Namespace) -> Json:
-    """Fits, prints the table, saves the model."""
+    """Fits the logs, prints the table, saves the model."""
     apply_stated_options(args, "fit", read_robot(args.robot).fit)
-    args.method = Methods(args.method)
-    _check_options(args)
+    method = Methods(args.method)
+    _check_files(args, method)
     processing = build_processing(vars(args))
-    if args.method.is_several:
+    if method.is_several:
         return _compare_methods(args, processing)
+    load = fitting.Load(args.payload_log, args.payload_mass, args.payload_link, args.payload_moved)
+    options = FitOptions.from_names(vars(args))
+    fitting.check_options(options, load)
+    cluster = _open_cluster(args, options)
     robot = resolve_robot(args)
     with show_activity(f"deriving {robot.name}"):
-        derivation = derive(robot)
-        emitted = generate(derivation)
-        compiled = compile_model(emitted)
+        compiled_robot = compile_robot(robot)
     with show_activity("looking at the logs"):
-        mapping, stored_mapping = resolve_mapping(compiled, args.logs, args.map)
-    load = fitting.Load(args.payload_log, args.payload_mass, args.payload_link, args.payload_moved)
-    energy, below = args.model == "energy", args.essential_below
-    request = fitting.FitRequest(args.method, energy, args.window, (), below)
-    model, observation, outcome, _ = fit_logs(
-        request, derivation, emitted, compiled, args.logs, load, processing, mapping,
+        mapping, table = resolve_mapping(compiled_robot.compiled, args.logs, args.map)
+    model, observation, outcome, _ = fitting.fit_logs(
+        *(options, compiled_robot, args.logs, load, processing, mapping),
         lambda logs, loaded: _check_log_names(args, logs, loaded),
-        Reporter(show_activity, show_progress, print_note, _open_cluster(args)),
-    )  # fmt: skip
-    return _write_model(args, stored_mapping, model, observation, outcome.lines) | outcome.further
-
-
-def _check_options(args: argparse.Namespace) -> None:
-    """Refuses options that do not go together."""
-    for option in ("payload_mass", "payload_link", "payload_moved"):
-        value = getattr(args, option)
-        if value is not None and value is not False and not args.payload_log:  # 0 is given too
-            flag = "--" + option.replace("_", "-")
-            raise DataError(f"{flag}: no loaded log; name it with --payload-log LOG")
-    _check_several(args)
-    method, energy, gains = args.method, args.model == "energy", args.method == GAIN_METHOD
-    refusals = (
-        (args.payload_log and method in fitting.WITHOUT_LOADS,
-         f"--payload-log: got it with --method {method}, which knows no loads; expected --method "
-         "weighted, ordinary, robust, ridge or tls"),
-        (gains and args.essential_below is not None,
-         f"--essential-below: got it with --method {GAIN_METHOD}; leave it out"),
-        (not energy and args.window is not None,
-         "--window: only windows of --model energy have a length; add that option"),
-        (energy and method not in fitting.OF_WINDOWS,
-         f"--method {method}: got it with --model energy, whose rows are windows; expected "
-         "--method weighted or ordinary"),
-        (energy and args.payload_log,
-         "--payload-log: the energy model takes logs without load; leave out --model energy"),
-        (args.robot_out is not None and method not in (*fitting.BUILDABLE, GAIN_METHOD),
-         f"--robot-out: --method {method} ends in base parameters, of which many machines have "
-         "the same; use --method consistent, which ends in all standard parameters, or "
-         f"{GAIN_METHOD}, which finds drive gains"),
-        (gains and not args.payload_log,
-         "--method tls: no loaded log; the gains of drives show in what a load of known mass adds "
-         "to their currents; add --payload-log LOG --payload-mass KG"),
-        (gains and args.payload_mass is None,
-         "--method tls: no --payload-mass; without a known mass all gains and all parameters may "
-         "be larger by one factor; weigh the load and give its mass in kg"),
-    )  # fmt: skip
-    for refused, why in refusals:
-        if refused:
-            raise DataError(why)
+        fitting.Reporter(show_activity, show_progress, print_note, cluster),
+    )
+    return _write_model(args, table, model, observation, outcome.lines) | outcome.further
 
 
 _OF_ONE = ("out", "robot_out", "payload_log", "window", "essential_below", "dask")
 
 
-def _check_several(args: argparse.Namespace) -> None:
-    """Several methods are compared on the rows of the torque model; one has no use for others."""
-    if not args.method.is_several:
-        if args.holdout:
-            raise DataError(
-                f"--holdout: got it with --method {args.method}; errors on other logs are shown of "
-                f"several methods, as in --method {ALL}, and of a model by `modeler compare`"
-            )
-        return
-    unused_options = [name for name in _OF_ONE if getattr(args, name)]
-    unused_options += ["model"] * (args.model != "torque")
-    if unused_options:
-        raise DataError(
-            f"--{unused_options[0].replace('_', '-')}: got it with --method {args.method}, which "
-            "compares "
-            "methods and writes no model; leave it out, or choose one method"
-        )
+def _check_files(args: argparse.Namespace, method: Methods) -> None:
+    """Raises an error for files and options that the method, or several, have no use for."""
+    unused = [name for name in _OF_ONE if getattr(args, name)] + ["model"] * (
+        args.model != "torque"
+    )
+    consistent = [id for id, about in ABOUT.items() if about.is_consistent]
+    refusals = {
+        f"--{unused[0].replace('_', '-') if unused else ''}: got it with --method {method}, which "
+        "compares methods and writes no model; leave it out, or choose one method": (
+            method.is_several and bool(unused)
+        ),
+        f"--holdout: got it with --method {method}; errors on other logs are shown of several "
+        f"methods, as in --method {ALL}, and of a model by `modeler compare`": (
+            not method.is_several and bool(args.holdout)
+        ),
+        "--out: missing; expected the model file to write": (
+            not method.is_several and args.out is None
+        ),
+        f"--robot-out: --method {method} ends in base parameters; use --method consistent, which "
+        f"ends in all standard parameters, or {GAIN_METHOD}, which finds drive gains": (
+            args.robot_out is not None and method not in (*consistent, GAIN_METHOD)
+        ),
+    }
+    for why, refused in refusals.items():
+        if refused:
+            raise DataError(why)
 
 
 def _check_log_names(args: argparse.Namespace, logs: Sequence[Log], loaded: Sequence[Log]) -> None:
@@ -139,22 +110,17 @@ def _check_log_names(args: argparse.Namespace, logs: Sequence[Log], loaded: Sequ
             )
 
 
-def _open_cluster(args: argparse.Namespace) -> AbstractContextManager[Workers] | None:
-    """Of `--dask`; None without.
+def _open_cluster(
+    args: argparse.Namespace, options: FitOptions
+) -> AbstractContextManager[Workers] | None:
+    """Opens the workers of `--dask`; None without.
 
     Raises:
         DataError: the fit needs all rows in one memory.
     """
     if args.dask is None:
         return None
-    why = (
-        "--payload-log" if args.payload_log
-        else "--essential-below" if args.essential_below is not None
-        else "--model energy" if args.model == "energy"
-        else f"--method {args.method}" if args.method not in OF_TRIANGLES
-        else ""
-    )  # fmt: skip
-    if why:
+    if why := fitting.describe_whole_fit(options, args.payload_log):
         raise DataError(
             f"--dask {args.dask}: got {why}, which needs all rows in one memory; expected --method "
             f"{' or '.join(OF_TRIANGLES)} of the torque model; leave --dask out"
@@ -197,12 +163,12 @@ def _write_model(
 
 def _compare_methods(args: argparse.Namespace, processing: Processing) -> Json:
     """Prints what each estimator makes of the logs; writes no model."""
-    methods = fitting.select_methods(None if args.method == ALL else args.method.split(","))
+    methods = select_methods(None if args.method == ALL else args.method.split(","))
     robot = resolve_robot(args)
     with show_activity(f"deriving {robot.name}"):
-        compiled = compile_model(generate(derive(robot)))
+        compiled = compile_robot(robot).compiled
     with show_activity("building the observation matrix"):
-        observation, held_out = fitting.observe_held_out(
+        observation, held_out = observe_held_out(
             compiled, args.logs, args.holdout, args.map, processing
         )
     with show_progress("fitting") as bar:

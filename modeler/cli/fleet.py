@@ -17,13 +17,12 @@ from modeler.cli.console import (
 )
 from modeler.cli.lists import resolve_robot
 from modeler.cli.places import LOG_ENDINGS
+from modeler.cli.thresholds import THRESHOLDS
 from modeler.core.errors import DataError
 from modeler.core.jobs import open_workers
 from modeler.fleet import LogName, analyse_fleet, format_fleet, name_logs, read_log_list
 from modeler.regression import Processing
 from modeler.views import build_fleet_page
-
-_MANY = 32  # logs from which several processes are worth their start
 
 
 def run_fleet(args: argparse.Namespace) -> Json:
@@ -36,7 +35,9 @@ def run_fleet(args: argparse.Namespace) -> Json:
         emitted = generate(derive(robot))
         compiled = compile_model(emitted)
     processing = Processing(position_cutoff=args.cutoff, parallel_cutoff=args.parallel_cutoff)
-    count = args.workers or (1 if len(named_paths) < _MANY else os.cpu_count() or 1)
+    count = args.workers or (
+        1 if len(named_paths) < THRESHOLDS.min_logs_for_processes else os.cpu_count() or 1
+    )
     with (
         show_progress(f"reading {len(named_paths)} logs") as bar,
         open_workers(args.dask, min(count, len(named_paths))) as workers,

@@ -14,8 +14,7 @@ import sys
 import threading
 import time
 
-PATIENCE = 3.0
-"""Seconds from the interrupt to the end by force."""
+from modeler.cli.thresholds import THRESHOLDS
 
 
 def _wait_for_parent() -> None:
@@ -23,7 +22,7 @@ def _wait_for_parent() -> None:
     while os.read(0, 4096):
         pass
     _send_signal_to_all(signal.SIGINT)
-    time.sleep(PATIENCE)
+    time.sleep(THRESHOLDS.interrupt_patience)
     _send_signal_to_all(getattr(signal, "SIGKILL", signal.SIGTERM))
 
 

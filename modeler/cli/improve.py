@@ -192,7 +192,7 @@ def _parse_law(args: argparse.Namespace) -> LawRequest:
 
 
 def format_waterfall(model: IdentifiedModel) -> list[str]:
-    """The error after every effect that was added, as bars."""
+    """Returns the error after every added effect as lines with bars."""
     if not model.history:
         return ["nothing is added: the model stays as it was fitted"]
     last = model.history[-1]

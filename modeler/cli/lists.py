@@ -7,8 +7,9 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from modeler.cli.console import Json, print_lines, print_note, print_result, show_activity
-from modeler.cli.options import describe_unknown
+from modeler.cli.parser import describe_unknown
 from modeler.cli.places import Output, check_places
+from modeler.cli.thresholds import THRESHOLDS
 from modeler.core.builtin import OTHER_PROGRAMS, list_builtin_robots
 from modeler.core.errors import DataError, RobotError
 from modeler.core.estimators import ABOUT
@@ -31,7 +32,6 @@ if TYPE_CHECKING:
 # The signature of an effect: torque against what it depends on.
 
 
-_POINTS = 366
 _FUNCTIONS: dict[str, Callable[[float], float]] = {
     "sin": math.sin, "cos": math.cos, "tan": math.tan, "sqrt": math.sqrt, "exp": math.exp,
     "abs": abs, "sign": lambda x: (x > 0) - (x < 0), "tanh": math.tanh,
@@ -52,7 +52,10 @@ def _sample_effect(form: Form, shapes: Mapping[str, float]) -> tuple[str, list[f
     laws = [column.equation.law for column in form.columns]
     ends = [abs(end) for law in laws if law is not None for end in (*law.low, *law.high)]
     reach = max(ends, default=math.pi if axis == "q" else 1.0)
-    x = [reach * (2.0 * k / (_POINTS - 1) - 1.0) for k in range(_POINTS)]
+    x = [
+        reach * (2.0 * k / (THRESHOLDS.curve_points - 1) - 1.0)
+        for k in range(THRESHOLDS.curve_points)
+    ]
     return axis, x, [_compute_effect_torque(form, axis, at, shapes) for at in x]
 
 
@@ -81,7 +84,7 @@ def _compute_effect_torque(form: Form, axis: str, x: float, shapes: Mapping[str,
 
 
 def resolve_robot(args: argparse.Namespace) -> Robot:
-    """The robot that the arguments mean; a [home] that is missing or poor is found, and told."""
+    """Reads the robot of the arguments; finds [home] where it is missing or poor, and prints it."""
     robot = read_robot_with_effects(args)
     if not robot.loops:
         return robot
@@ -95,7 +98,7 @@ def resolve_robot(args: argparse.Namespace) -> Robot:
 
 
 def check_own_file(robot: str, what: str) -> None:
-    """What --write cannot write into is refused before any work."""
+    """Raises an error if --write cannot write into the robot file."""
     if robot in list_builtin_robots():
         raise DataError(
             f"--write: {robot} is built in; save it with `modeler robots {robot}` "
@@ -112,8 +115,8 @@ def check_own_file(robot: str, what: str) -> None:
 
 
 def apply_stated_options(args: argparse.Namespace, head: str, stated: Mapping[str, Any]) -> None:
-    """Options that the robot file states, where they were not typed."""
-    applied = {name: value for name, value in stated.items() if name not in args.given}
+    """Applies the options of the robot file that were not typed."""
+    applied = {name: value for name, value in stated.items() if name not in args.typed}
     for name, value in applied.items():
         setattr(args, name, value)
     if applied:
@@ -122,7 +125,7 @@ def apply_stated_options(args: argparse.Namespace, head: str, stated: Mapping[st
 
 
 def read_robot_with_effects(args: argparse.Namespace) -> Robot:
-    """The robot that the arguments name, with the effects that they give it."""
+    """Reads the robot of the arguments, with the effects of --effects."""
     robot = read_robot_with_notes(args.robot)
     if args.effects is None:
         return robot
@@ -130,7 +133,7 @@ def read_robot_with_effects(args: argparse.Namespace) -> Robot:
 
 
 def read_robot_with_notes(name: str) -> Robot:
-    """The robot of that name or file; what reading it decided or left out, on stderr."""
+    """Reads a robot by name or file and prints the notes of the reader on stderr."""
     robot = read_robot(name)
     if len(robot.readings) > 1:
         print_note("\n  * ".join([f"{name}, read as a robot file:", *robot.readings]))

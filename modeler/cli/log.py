@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from pathlib import Path
 
 import modeler.api.workflow as workflow
-from modeler.api.fitting import FitOutcome, add_verdict
+from modeler.api.fitting import FitOutcome, add_long_verdict, add_verdict
 from modeler.api.log_maps import (
     MappingFit,
     build_log_map,
@@ -17,9 +17,10 @@ from modeler.api.log_maps import (
     parse_time_range,
     read_mapped_log,
 )
-from modeler.api.long_logs import add_long_verdict, are_long, are_too_long
+from modeler.api.workflow import are_long, are_too_long
 from modeler.cli.console import Json, print_lines, print_result, show_activity, write_pictures
 from modeler.cli.lists import check_own_file, read_robot_with_notes
+from modeler.cli.thresholds import THRESHOLDS
 from modeler.core.errors import BuildError, DataError, ModelerError, flatten_message
 from modeler.core.files import write_atomically
 from modeler.core.json import convert_to_plain
@@ -44,8 +45,6 @@ from modeler.views import (
 )
 
 _WIDEST = 44  # letters of a cell
-
-_POOR = 0.2  # relative error of a fit that is told
 
 
 def run_log(args: argparse.Namespace) -> Json:
@@ -160,7 +159,7 @@ def _fit_mapping(
     ]
     if verdict is not None and not verdict.usable:
         lines += [*verdict.doubts, f"a fit of {observation.robot}: {verdict.line}"]
-    elif result.relative_error > _POOR:
+    elif result.relative_error > THRESHOLDS.max_unremarked_error:
         lines.append(
             f"a fit of {observation.robot} leaves {format_percent(result.relative_error)} of the "
             "torque unexplained"

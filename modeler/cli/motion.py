@@ -7,9 +7,11 @@ from pathlib import Path
 
 import modeler.api.motion as motions
 from modeler import excitation, simulation
-from modeler.api.clearance import USUAL, find_nearest_along
+from modeler.api.motion import find_nearest_along
+from modeler.api.thresholds import THRESHOLDS as API_THRESHOLDS
 from modeler.cli.console import Json, print_lines, print_result, show_activity, show_progress
 from modeler.cli.lists import resolve_robot
+from modeler.cli.thresholds import THRESHOLDS
 from modeler.core.builtin import MOTIONS
 from modeler.core.errors import DataError
 from modeler.core.expression import parse_expression
@@ -30,7 +32,7 @@ def run_excite(args: argparse.Namespace) -> Json:
         subject.check_known_noise("--encoder-counts, --position-noise: ")
     margin = args.clearance
     if margin is None and args.check is not None:
-        margin = USUAL
+        margin = API_THRESHOLDS.link_clearance
     bounds = parse_bounds(subject.robot, subject.compiled, args.limit, args.box, margin)
     if args.report is not None and not (bounds.clearance and len(bounds.clearance.solids.pairs)):
         raise DataError(
@@ -156,7 +158,7 @@ def describe_expected_sigmas(
     rate: float,
     encoders: motions.Encoders,
 ) -> tuple[str, Json | None]:
-    """What a log of the motion will tell, in a sentence and for machines."""
+    """Describes the expected sigmas of a motion: a sentence, and values for JSON."""
     about = (
         f"forecast of a log at {rate:g} Hz, {encoders.describe()}, torques as noisy as the model's"
     )
@@ -165,25 +167,28 @@ def describe_expected_sigmas(
     except DataError as error:
         return f"{about}: it cannot be fitted: {error}", None
     shares = {p.name: p.relative_sigma_percent for p in fit.parameters}
-    sure = [name for name, share in shares.items() if share is not None and share < _SURE]
+    sure = [
+        name
+        for name, share in shares.items()
+        if share is not None and share < THRESHOLDS.max_determined_sigma
+    ]
     worse = sorted(set(shares) - set(sure), key=lambda name: -(shares[name] or math.inf))
-    uncertain = [f"{name} ({'not told' if shares[name] is None else f'{shares[name]:.3g} %'})"
-             for name in worse[:_NAMED]]  # fmt: skip
+    uncertain = [
+        f"{name} ({'not determined' if shares[name] is None else f'{shares[name]:.3g} %'})"
+        for name in worse[: THRESHOLDS.named_parameters]
+    ]
     chosen = fit.processing
     sentence = (
         f"{about}: the fit filters positions at {chosen.position_cutoff:g} Hz and torques at "
-        f"{chosen.parallel_cutoff:g} Hz; sigma is below {_SURE:g} % for {len(sure)} of "
-        f"{len(shares)} parameters{'; least sure: ' * bool(uncertain)}{', '.join(uncertain)}"
+        f"{chosen.parallel_cutoff:g} Hz; sigma is below {THRESHOLDS.max_determined_sigma:g} % for "
+        f"{len(sure)} of {len(shares)} parameters"
+        f"{'; least sure: ' * bool(uncertain)}{', '.join(uncertain)}"
     )
     return sentence, {
         "rate": rate, "encoder_counts": encoders.counts, "position_noise": encoders.noise,
         "position_cutoff": chosen.position_cutoff, "parallel_cutoff": chosen.parallel_cutoff,
         "sigmas": {p.name: p.sigma for p in fit.parameters},
     }  # fmt: skip
-
-
-_SURE = 10.0  # percent, of a value that counts as known
-_NAMED = 3
 
 
 def _check_usage(args: argparse.Namespace) -> None:
@@ -232,7 +237,7 @@ def parse_bounds(
     robot: Robot, compiled: CompiledModel, limits: Sequence[str], boxes: Sequence[str],
     clearance: float | None = None,
 ) -> excitation.MotionBounds:  # fmt: skip
-    """The limits of the robot file, with those of the command line in their place.
+    """Returns the limits of the robot file, replaced by those of the command line.
 
     Raises:
         DataError: a text that cannot be read, a joint or frame that is not there.

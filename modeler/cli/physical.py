@@ -14,13 +14,13 @@ from modeler.cli.console import (
     show_progress,
 )
 from modeler.cli.lists import read_robot_with_notes
+from modeler.cli.thresholds import THRESHOLDS
 from modeler.codegen import derive
 from modeler.core.errors import DataError
 from modeler.core.json import select_attributes
 from modeler.core.table import format_percent
 from modeler.estimation import load_model
 
-_SHOWN = 10
 _KINDS = {"mass": "masses", "length": "lengths", "centre": "mass centres", "inertia": "inertias",
           "rotor inertia": "rotor inertias"}  # fmt: skip
 
@@ -239,9 +239,11 @@ def _print_sets(subject: Physical, size: int | None, cad: formulas.KnownValues |
             for r in ratings
         ]
         lines = lines or [f"  {','.join(members)}" for members in known_sets.easiest]
-        print_lines(lines[:_SHOWN])
-        if len(known_sets.easiest) > _SHOWN:
-            print_result(f"  and {len(known_sets.easiest) - _SHOWN} more (all with --json)")
+        print_lines(lines[: THRESHOLDS.listed_sets])
+        if len(known_sets.easiest) > THRESHOLDS.listed_sets:
+            print_result(
+                f"  and {len(known_sets.easiest) - THRESHOLDS.listed_sets} more (all with --json)"
+            )
     return {
         **select_attributes(known_sets, "size smallest possible count"),
         "classes": [

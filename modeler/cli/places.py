@@ -42,12 +42,12 @@ class FilePlace(str):
 
     @property
     def file(self) -> Path:
-        """Where it is."""
+        """Returns the path of the file."""
         return Path(self)
 
     @staticmethod
     def names() -> tuple[str, ...]:
-        """Words that stand for such a file."""
+        """Returns words that stand for such a file."""
         return ()
 
 
@@ -79,7 +79,7 @@ class RobotFile(Input):
 
     @property
     def file(self) -> Path:
-        """Where it is; a name of a built-in robot means that one."""
+        """Returns the path; the name of a built-in robot means its file."""
         return locate_builtin_robot(self) if self in list_builtin_robots() else Path(self)
 
 
@@ -101,7 +101,7 @@ class LogFile(Input):
 
     @property
     def file(self) -> Path:
-        """Without the window."""
+        """Returns the path without the time range."""
         return Path(split_time_range(self)[0])
 
 
@@ -112,7 +112,7 @@ class ListFile(Input):
 
 
 def parse_model_or_log(text: str) -> Input:
-    """A robot or a model, by its ending or because it begins as JSON does; else a log."""
+    """Classifies a word as a robot, a model or a log, by ending or content."""
     path = Path(text)
     if path.suffix.lower() in LOG_ENDINGS:
         return LogFile(text)
@@ -138,7 +138,7 @@ class MotionOrKind(MotionFile):
 
     @staticmethod
     def names() -> tuple[str, ...]:
-        """The kinds."""
+        """Returns the kinds of motion."""
         return MOTIONS
 
     def __new__(cls, text: str) -> "MotionOrKind":
@@ -165,7 +165,7 @@ class OtherProgramsFile(Output):
 
     @property
     def file(self) -> Path:
-        """It; of a folder that is there, the file that says what package it is."""
+        """Returns the path; of an existing folder the file package.xml in it."""
         return Path(self, "package.xml") if Path(self).is_dir() else Path(self)
 
 
@@ -185,7 +185,7 @@ class PageOrFolder(Output):
 
     @property
     def file(self) -> Path:
-        """The page."""
+        """Returns the path of the page."""
         return files.resolve_page_path(Path(self), "compare.html")
 
 
@@ -248,7 +248,7 @@ class DemoFolder(OutputFolder):
 
 
 def check_places(args: argparse.Namespace) -> None:
-    """Refuse, before any work, outputs that would replace an input or each other.
+    """Refuses outputs that would replace an input or each other, before any work.
 
     Links are followed; a window of a log is that log.
 

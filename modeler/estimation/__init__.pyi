@@ -18,6 +18,7 @@ from .identify import (
     Equations as Equations,
     compute_relative_errors as compute_relative_errors,
     find_disconnected_joints as find_disconnected_joints,
+    find_methods as find_methods,
     identify as identify,
 )
 from .instrumental import (

@@ -60,7 +60,7 @@ class Estimator:
         about: id, title, law, source, and when not to use it.
         estimate: the function. Raises DataError where the problem gives it nothing to work on.
         works_on: "rows"; "triangles", if it needs no row again once these are there; "windows" of
-            the energy model.
+            the energy model; "loads", if some logs may carry one.
     """
 
     about: EstimatorInfo
@@ -87,9 +87,15 @@ _ESTIMATES: dict[Method, Callable[[Problem], Estimate]] = {
     "iv-direct-consistent": instrumental.estimate_iv_direct_consistent,
     "didim-consistent": instrumental.estimate_didim_consistent,
 }
-_OF_TRIANGLES = ("weighted", "ordinary")
+_LEAST_SQUARES, _WITH_LOADS = ("weighted", "ordinary"), ("weighted", "ordinary", "robust", "ridge")
 METHODS: dict[Method, Estimator] = {
-    id: Estimator(ABOUT[id], estimate, tuple(_REFUSALS) if id in _OF_TRIANGLES else ("rows",))
+    id: Estimator(
+        ABOUT[id],
+        estimate,
+        ("rows",)
+        + ("triangles", "windows") * (id in _LEAST_SQUARES)
+        + ("loads",) * (id in _WITH_LOADS),
+    )
     for id, estimate in _ESTIMATES.items()
 }
 """By id, in the order in which they are listed."""

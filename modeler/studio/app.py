@@ -1,5 +1,6 @@
-"""The server: one page, nine screens, and what stands around them."""
+"""The empty page: three doors, a demonstration, a robot, a log."""
 
+import dataclasses
 import io
 import socket
 import zipfile
@@ -13,47 +14,107 @@ from fastapi import FastAPI, Response
 from fastapi.responses import FileResponse, HTMLResponse
 from nicegui import Client, app as nicegui_app, background_tasks, ui
 
+from modeler.core.builtin import read_builtin_robot
 from modeler.core.errors import ModelerError
-from modeler.core.files import locate_resources, read_text
+from modeler.core.files import locate_resources, read_text, write_atomically
 from modeler.studio import (
+    comparison_screens,
     data_screen,
-    days_screen,
-    dropped,
-    fails_screen,
-    fall_screen,
+    diagnosis_screens,
+    export_screen,
+    file_inputs,
     fit_screen,
-    missing_screen,
     motion_screen,
     robot_screen,
-    start_screen,
-    take_screen,
 )
 from modeler.studio.access import REPORTS, Guard
 from modeler.studio.commands import build_command_words
 from modeler.studio.places import lock_folder
-from modeler.studio.project import FOREIGN, Project, Workspace
+from modeler.studio.project import FOREIGN, Project, ProjectLog, Workspace
 from modeler.studio.studio import Hub, Studio
-from modeler.studio.tasks import format_command
+from modeler.studio.tasks import ROBOT, Task, TimeRange, format_command
+from modeler.studio.thresholds import THRESHOLDS
+
+_RUNS = (("logs/train.parquet", 1), ("logs/held_out.parquet", 2))
+
+
+async def draw_start(studio: Studio) -> None:
+    """Draws it."""
+    ui.label("Your robot's real dynamics").classes("studio-head")
+    ui.label(
+        "Compare a model with measurements, see where it fails, learn which physical effect is "
+        "missing, add it, and watch the error fall."
+    ).classes("studio-soft")
+    with ui.row().classes("studio-doors"):
+        _add_start_button(
+            "Try the demo", "play_circle",
+            "An arm with three joints, two measured runs, and an effect that its model lacks.",
+            lambda: open_demo(studio),
+        )  # fmt: skip
+        _add_start_button(
+            "Start from a table", "precision_manufacturing",
+            "Paste the table of a paper, open a URDF, MJCF or .par, or take a built-in robot.",
+            lambda: studio.open_screen("robot"),
+        )  # fmt: skip
+        _add_start_button(
+            "Start from a log", "show_chart",
+            "CSV, Parquet, MAT, HDF5, MCAP, ROS bags, sheets: see what is in it.",
+            lambda: studio.open_screen("data"),
+        )  # fmt: skip
+
+
+def _add_start_button(title: str, icon: str, text: str, act: Callable[[], object]) -> None:
+    with ui.button(on_click=act).props("flat no-caps").classes("studio-door"), ui.column():
+        ui.icon(icon, size="2.5rem")
+        ui.label(title).classes("studio-door-title")
+        ui.label(text).classes("studio-soft")
+
+
+async def open_demo(studio: Studio) -> None:
+    """Opens the demonstration; shows errors in the window."""
+    try:
+        if studio.is_read_only:
+            raise ModelerError(studio.read_only_reason)
+        await begin_demo(studio.hub)
+    except ModelerError as error:
+        studio.show_error(str(error))
+    else:
+        if studio.screen == "start":  # nobody has gone elsewhere meanwhile
+            studio.open_screen("data")
+
+
+async def begin_demo(hub: Hub) -> None:
+    """Writes the demonstration arm and simulates two runs with a hidden effect.
+
+    Raises:
+        ModelerError: the folder has a robot already, or cannot be written.
+    """
+    if hub.project.robot:
+        raise ModelerError(
+            f"{hub.workspace.folder}: holds a robot already; open the demonstration in a folder of "
+            "its own: modeler studio FOLDER --demo"
+        )
+    write_atomically(hub.workspace.folder / ROBOT, read_builtin_robot("demo-arm"))
+    for log, seed in _RUNS:
+        await hub.run(Task("simulate", file=log, seed=seed))
+    train, held_out_file = (log for log, _ in _RUNS)
+    logs = ProjectLog(train, train=(TimeRange(),)), ProjectLog(held_out_file, test=(TimeRange(),))
+    hub.workspace.save(dataclasses.replace(hub.project, robot=ROBOT, logs=logs))
+    hub.refresh()
+
 
 JOBS = {
     "robot": ("Robot", robot_screen.draw),
     "data": ("Data", data_screen.draw),
     "fit": ("Fit", fit_screen.draw),
-    "fails": ("Where it fails", fails_screen.draw),
-    "missing": ("What is missing", missing_screen.draw),
-    "fall": ("Watch it fall", fall_screen.draw),
-    "days": ("Days and machines", days_screen.draw),
+    "fails": ("Where it fails", comparison_screens.draw_fails),
+    "missing": ("What is missing", diagnosis_screens.draw_missing),
+    "fall": ("Watch it fall", diagnosis_screens.draw_history),
+    "days": ("Days and machines", comparison_screens.draw_days),
     "motion": ("Next motion", motion_screen.draw),
-    "take": ("Take away", take_screen.draw),
+    "take": ("Take away", export_screen.draw),
 }
 """The nine jobs, in the order in which they are done; Alt and the number goes there."""
-
-_BUSY = 30.0
-"""s: a browser that draws may leave a ping unanswered for 0.4 of it; else its page is loaded anew,
-and what was pressed meanwhile is lost."""
-
-_GONE = 3.0
-"""s after a window was closed until another one may change things."""
 
 
 def serve(
@@ -89,14 +150,14 @@ def serve(
                 f"--port {port}: cannot be opened ({error.strerror}); choose another one, or 0"
             ) from None
         screens = {name: draw for name, (_, draw) in JOBS.items()}
-        hub = Hub(workspace, (folder, *allow), {"start": start_screen.draw, **screens})
+        hub = Hub(workspace, (folder, *allow), {"start": draw_start, **screens})
         hub.acquire_folder = lambda: resources.enter_context(lock_folder(folder))
         inner = FastAPI(openapi_url=None)
         _add_routes(inner, hub)
         _add_pages(hub, demo)
         ui.run_with(
             inner, title="modeler studio", dark=None, show_welcome_message=False,
-            reconnect_timeout=_BUSY,
+            reconnect_timeout=THRESHOLDS.ping_timeout,
         )  # fmt: skip
         guard = Guard(inner, server_socket.getsockname()[1])
         config = uvicorn.Config(guard, log_level="warning", lifespan="on")
@@ -113,7 +174,7 @@ def serve(
 
 def _add_routes(app: FastAPI, hub: Hub) -> None:
     """What is no page of the studio itself."""
-    dropped.add_route(app, hub.workspace.folder, lambda: hub.workspace.can_change)
+    file_inputs.add_route(app, hub.workspace.folder, lambda: hub.workspace.can_change)
     templates_folder = locate_resources("templates") / "studio"
 
     @app.get("/studio.{kind}")
@@ -160,13 +221,13 @@ def _send_attachment(content: bytes, name: str) -> Response:
 
 
 def _add_pages(hub: Hub, demo: bool) -> None:
-    @ui.page("/", reconnect_timeout=_GONE)
+    @ui.page("/", reconnect_timeout=THRESHOLDS.reconnect_delay)
     async def show_first_screen(client: Client) -> None:
         studio = await _build_page(client, hub, "robot" if hub.project.robot else "start")
         if demo and not hub.project.robot and hub.running is None and not studio.is_read_only:
-            await start_screen.open_demo(studio)
+            await open_demo(studio)
 
-    @ui.page("/{screen}", reconnect_timeout=_GONE)
+    @ui.page("/{screen}", reconnect_timeout=THRESHOLDS.reconnect_delay)
     async def show_screen(client: Client, screen: str) -> None:
         await _build_page(client, hub, screen if screen in hub.screens else "start")
 

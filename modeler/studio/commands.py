@@ -9,7 +9,7 @@ from modeler.studio.tasks import LogPart, Step, Task, build_command_line
 
 
 def build_command_words(project: Project, work: Task | Step) -> tuple[str, ...]:
-    """The words after `modeler` of a step, or of a task as the next step.
+    """Builds the words after `modeler` of a step, or of a task as the next step.
 
     Raises:
         DataError: a value that cannot stand in a command line.
@@ -19,7 +19,7 @@ def build_command_words(project: Project, work: Task | Step) -> tuple[str, ...]:
 
 
 def fit(project: Project, options: Sequence[tuple[str, Any]] = ()) -> Task:
-    """The fit of the training stretches.
+    """Makes the task of a fit of the training ranges.
 
     Args:
         project: with a robot and logs.
@@ -30,23 +30,23 @@ def fit(project: Project, options: Sequence[tuple[str, Any]] = ()) -> Task:
 
 
 def compare(project: Project, parts: Sequence[LogPart] = ()) -> Task:
-    """Measured against predicted: on the held-out stretches, or where there are none on all."""
+    """Makes the task of a comparison: on held-out ranges, else on training ranges."""
     logs = tuple(parts) or project.collect_parts("test") or project.collect_parts("train")
     return Task("compare", logs=logs, mapping=select_guess_mapping(project))
 
 
 def compare_models(project: Project, models: tuple[int, int]) -> Task:
-    """Two models on the same logs, by the numbers of the steps that made them."""
+    """Makes the task that compares the models of two steps on the same logs."""
     return dataclasses.replace(compare(project), verb="contest", models=models)
 
 
 def diagnose(project: Project) -> Task:
-    """What the current model lacks."""
+    """Makes the task that finds what the current model lacks."""
     return dataclasses.replace(_build_diagnosis_task(project), without=project.without)
 
 
 def add(project: Project, effect: str, joint: str | None) -> Task:
-    """The current model with an effect more."""
+    """Makes the task that adds an effect to the current model."""
     return dataclasses.replace(
         _build_diagnosis_task(project), verb="add", effect=effect, joint=joint or ""
     )
@@ -60,12 +60,12 @@ def _build_diagnosis_task(project: Project) -> Task:
 
 
 def inspect_log(project: Project, file: str) -> Task:
-    """What is in a log, and with a robot what contradicts it."""
+    """Makes the task that inspects a log, with the robot if there is one."""
     return Task("log", file=file, robot=bool(project.robot), mapping=project.mapping)
 
 
 def fleet(project: Project, parts: Sequence[LogPart], names: str) -> Task:
-    """What changes from log to log.
+    """Makes the task that finds changes from log to log.
 
     Args:
         project: with a robot.
@@ -76,11 +76,11 @@ def fleet(project: Project, parts: Sequence[LogPart], names: str) -> Task:
 
 
 def select_guess_mapping(project: Project) -> tuple[str, ...]:
-    """The mapping where logs are called differently: a model keeps that of the first one."""
+    """Returns the mapping if it is "auto"; a model keeps that of the first log."""
     return project.mapping if "auto" in project.mapping else ()
 
 
 def build_viewer_words(project: Project, parts: Sequence[LogPart]) -> list[str]:
-    """Logs as the viewer is asked about them: their words, and those of the mapping."""
+    """Builds the words for the viewer: logs, then their mapping."""
     maps = [word for map_word in select_guess_mapping(project) for word in ("--map", map_word)]
     return [*(part.command_word for part in parts), *maps]

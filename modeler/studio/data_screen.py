@@ -10,18 +10,17 @@ from nicegui.element import Element
 from modeler.core.builtin import LOG_ENDINGS
 from modeler.core.errors import ModelerError
 from modeler.studio import commands
-from modeler.studio.chooser import choose_files
-from modeler.studio.dropped import add_drop_zone
 from modeler.studio.elements import add_card, draw_head
+from modeler.studio.file_inputs import add_drop_zone, choose_files
 from modeler.studio.log_view import LogView
 from modeler.studio.places import format_size
 from modeler.studio.project import ProjectLog
 from modeler.studio.project_logs import AUTO, ProjectLogs
 from modeler.studio.studio import Studio
 from modeler.studio.tasks import Task
+from modeler.studio.thresholds import THRESHOLDS
 from modeler.studio.timeline import ALL, Timeline, assign_default_roles, describe_roles, draw_legend
 
-_QUIET = 0.5  # s without another file that comes, until the screen is drawn anew
 _FORMATS = (
     "CSV, text, Excel, Parquet, MAT, HDF5, NumPy, MCAP and ROS bags, with the names and units that "
     "your logger wrote."
@@ -52,13 +51,13 @@ class DataScreen(ProjectLogs):
 
     @property
     def is_live(self) -> bool:
-        """False as soon as the screen is drawn anew, or another one is shown."""
+        """Returns False when this screen was replaced by a newer one or another."""
         studio = self.studio
         here = studio in studio.hub.studios and studio.screen == "data"
         return here and studio.state["data"] is self
 
     async def draw(self) -> None:
-        """Logs first, then the one that is looked at."""
+        """Draws the logs, then the one that is open."""
         studio = self.studio
         draw_head(
             "Data", "Drop logs, say which column is which, and what is fitted and what held out."
@@ -140,7 +139,7 @@ class DataScreen(ProjectLogs):
         state["coming"] = coming
 
         async def redraw_later() -> None:
-            await asyncio.sleep(_QUIET)
+            await asyncio.sleep(THRESHOLDS.redraw_delay)
             if state["coming"] == coming:
                 state["coming"] = ()
                 self.studio.redraw()
@@ -152,7 +151,7 @@ class DataScreen(ProjectLogs):
         self.studio.change_project(redraw=True, logs=logs)
 
     def draw_row(self, file: str) -> None:
-        """One log in the list."""
+        """Draws one log of the list."""
         known, place, result = self.logs[file], self._rows[file], self.read_result(file)
         place.clear()
         with place:
@@ -179,7 +178,7 @@ class DataScreen(ProjectLogs):
             off._props["aria-label"] = f"take {file} off the list"
 
     def replace_log(self, log: ProjectLog) -> None:
-        """Another log in place of the one of that file."""
+        """Replaces the log of the same file in the project."""
         logs = tuple(
             log if project_log.file == log.file else project_log
             for project_log in self.studio.project.logs

@@ -1,7 +1,8 @@
 """What several screens are made of: command lines, buttons that run them, lights, doubts."""
 
+import json
 from collections.abc import Callable, Iterable, Mapping, Sequence
-from typing import Literal
+from typing import Any, Literal
 
 from nicegui import ui
 from nicegui.element import Element
@@ -24,26 +25,26 @@ _SHAPES: dict[Light, str] = {"good": "\u25cf", "doubtful": "\u25b2", "bad": "\u2
 
 
 def draw_head(title: str, text: str = "") -> None:
-    """What a screen is, and what one does there."""
+    """Draws the title of a screen and what it is for."""
     ui.label(title).classes("studio-head")
     if text:
         ui.label(text).classes("studio-soft")
 
 
 def add_card(title: str) -> Element:
-    """A card with a title; what is drawn inside `with` belongs to it."""
+    """Adds a card with a title; elements inside `with` belong to it."""
     with ui.card().classes("studio-card w-full") as card:
         ui.label(title).classes("studio-part")
     return card
 
 
 def draw_step_line(studio: Studio, step: Step) -> None:
-    """The command line of a step, beside a button that copies it."""
+    """Draws the command line of a step, with a copy button."""
     draw_command_line(format_command(build_command_words(studio.project, step)))
 
 
 def draw_command_line(text: str) -> ui.label:
-    """A command line beside a button that copies it; `text` of the label makes it another one."""
+    """Draws a command line with a copy button; returns the label of the line."""
     with ui.row().classes("items-center no-wrap studio-line"):
         line = ui.label(text).classes("studio-command").props("tabindex=0")
         copy = ui.button(icon="content_copy", on_click=lambda: ui.clipboard.write(line.text))
@@ -59,7 +60,7 @@ def add_run_button(
     current: bool = True,
     small: bool = False,
 ) -> Callable[[], None]:
-    """A button that carries out a command, with its command line beside it.
+    """Adds a button that runs a command, with its command line beside it.
 
     While a command runs, and where this window only reads, it cannot be pressed.
 
@@ -104,7 +105,7 @@ def add_run_button(
 
 
 def disable_while_busy(studio: Studio, button: ui.button) -> ui.button:
-    """A button that changes the project: while a command runs, or another window may, it rests."""
+    """Disables a button while a command runs or the window is read-only."""
     hub = studio.hub
 
     def is_free(running: object) -> bool:
@@ -114,7 +115,7 @@ def disable_while_busy(studio: Studio, button: ui.button) -> ui.button:
 
 
 def draw_light(which: Light, text: str = "") -> None:
-    """A light by shape, word and colour."""
+    """Draws a light by shape, word and colour."""
     with ui.row().classes("items-center no-wrap gap-2"):
         ui.label(_SHAPES[which]).classes(f"studio-light studio-{which}").props("aria-hidden=true")
         ui.label(text or which).classes(f"studio-{which}")
@@ -129,7 +130,7 @@ _LEFT: Mapping[str, tuple[Light | None, str]] = {
 
 
 def draw_residual_state(joint: str, error: float, kind: str) -> None:
-    """Of a joint: its error, and a light for what `modeler compare` says of the residual."""
+    """Draws the error of a joint, with a light for the state of its residual."""
     which, description = _LEFT[kind]
     text = f"joint {joint}: error {format_percent(error)}, {description}"
     if which is None:
@@ -139,7 +140,7 @@ def draw_residual_state(joint: str, error: float, kind: str) -> None:
 
 
 def draw_warnings(lines: Iterable[str], which: Light = "doubtful") -> None:
-    """Sentences that warn, each with its mark."""
+    """Draws warnings, each with its mark."""
     for line in lines:
         with ui.row().classes("items-start no-wrap gap-2"):
             ui.label(_SHAPES[which]).classes(f"studio-light studio-{which}")
@@ -162,13 +163,13 @@ def draw_stale_warnings(studio: Studio) -> None:
 
 
 def draw_lines(lines: Iterable[str]) -> None:
-    """Sentences, one below the other."""
+    """Draws sentences, one below the other."""
     for line in lines:
         ui.label(line)
 
 
 def draw_folded(title: str, lines: Sequence[str] | Sequence[Sequence[str]], *heads: str) -> None:
-    """Sentences, or with heads a table, under a title that opens them; nothing of none."""
+    """Draws sentences, or a table, under a title that opens them."""
     if lines:
         with ui.expansion(f"{title} ({len(lines)})").classes("w-full studio-folded"):
             if heads:
@@ -178,7 +179,7 @@ def draw_folded(title: str, lines: Sequence[str] | Sequence[Sequence[str]], *hea
 
 
 def format_number(value: float | None) -> str:
-    """Three digits; a dash for none."""
+    """Formats a number with three digits; None as a dash."""
     return "-" if value is None else f"{value:.3g}"
 
 
@@ -189,7 +190,7 @@ class Markup(str):
 def draw_table(
     heads: Sequence[str], rows: Iterable[Sequence[str]], faint: Sequence[bool] = ()
 ) -> None:
-    """Plain texts in rows; what stands in a text after a tab is shown when the mouse is over it.
+    """Draws a table; text after a tab in a cell is its tooltip.
 
     Args:
         heads: of the columns; all empty: no line of heads.
@@ -220,7 +221,7 @@ def _draw_cell(text: str) -> None:
 
 
 def add_page_button(studio: Studio, step: Step) -> None:
-    """The page of a step, self-contained: written when it is asked for, shown in a tab."""
+    """Adds the button that writes and opens the report page of a step."""
     written = studio.project.find_step_about("page", step.number)
     if written is None or not (studio.folder / written.output).is_file():
         page = Task("page", step=step.number)
@@ -233,13 +234,66 @@ def add_page_button(studio: Studio, step: Step) -> None:
 
 
 def explain_missing_model(studio: Studio) -> None:
-    """What a screen says before there is a model, and the way to one."""
+    """Draws the hint that there is no model yet, with the way to the fit."""
     ui.label("There is no model yet: fit one first.")
     add_go_button(studio, "To the fit", "fit")
 
 
 def add_go_button(studio: Studio, title: str, screen: str) -> None:
-    """To another screen."""
+    """Adds a button that opens another screen."""
     ui.button(title, on_click=lambda: studio.open_screen(screen)).props(
         "no-caps flat icon-right=east"
     )
+
+
+class RobotFrame:
+    """The page of a robot in a frame.
+
+    Attributes:
+        frame: the element.
+    """
+
+    def __init__(self, studio: Studio, html: str, height: str, alone: bool = False) -> None:
+        address = studio.hub.register_sheet(html)
+        self.frame = ui.element("iframe").classes("studio-robot").style(f"height: {height}")
+        self.frame.props(f'src="{address}#bare{"-alone" * alone}" title="the robot in 3-D"')
+
+    @property
+    def element_id(self) -> str:
+        """Returns the id of the element, for scripts: `toRobot(id, message)`."""
+        return self.frame.html_id
+
+    def set_posture(self, q: Mapping[str, float]) -> None:
+        """Moves joints; the loops follow."""
+        self._send_message(modeler="posture", q=dict(q))
+
+    def show_clearly(self, rows: Sequence[str]) -> None:
+        """Shows links and joints clearly, the others faintly; none: all alike."""
+        self._send_message(modeler="light", rows=list(rows))
+
+    def replace_robot(self, content: Mapping[str, Any]) -> None:
+        """Shows another robot from the same view."""
+        self._send_message(modeler="robot", content=content)
+
+    def connect_joint(self, handler: Callable[[str], Any]) -> None:
+        """Calls it with the name of a joint or link that is clicked."""
+        self.frame.on("joint", lambda event: handler(str(event.args["detail"])), args=["detail"])
+
+    def _send_message(self, **message: Any) -> None:
+        words = json.dumps(message, separators=(",", ":"))
+        self.frame.client.run_javascript(f"toRobot({json.dumps(self.element_id)}, {words})")
+
+
+async def add_robot_frame(studio: Studio, height: str = "420px", alone: bool = False) -> RobotFrame:
+    """Adds the frame with the robot of the project.
+
+    Args:
+        studio: the window.
+        height: of the frame, as CSS has it.
+        alone: True for nothing but the picture: no sliders.
+
+    Raises:
+        ModelerError: the project has no robot that can be drawn; the line.
+    """
+    text = studio.read_text(studio.project.robot)
+    return RobotFrame(studio, await studio.ask_viewer("robot_page", text), height, alone)

@@ -8,6 +8,7 @@ import numpy as np
 
 from modeler.core.figure import Band, Bars, Curve, Heat, Panel, Picture, Points, Series
 from modeler.core.style import SHADE
+from modeler.studio.thresholds import THRESHOLDS
 
 if TYPE_CHECKING:
     from nicegui import ui
@@ -15,7 +16,6 @@ if TYPE_CHECKING:
 _WIDTH = 1150  # pixels that gaps between panels are thought for
 _LEFT, _RIGHT, _TOP, _TITLE, _BOTTOM, _LEGEND = 64, 16, 12, 26, 48, 26
 _BETWEEN, _BESIDE, _SHARED = 84, 84, 42
-_MANY = 5000  # dots from which on they are drawn by the graphics processor
 _DIGITS = 6  # of the range of an axis: finer than a pixel at any zoom of thinned points
 _GRID, _FAINT = "rgba(128,128,128,0.25)", "rgba(128,128,128,0.8)"
 _NONE = "rgba(0,0,0,0)"
@@ -23,7 +23,7 @@ _CLEAR_TO_BLUE = [[0.0, "rgba(0,114,178,0)"], [1.0, "rgba(0,114,178,0.75)"]]
 
 
 def build_figure(picture: Picture, time: str = "") -> dict[str, Any]:
-    """Data, layout and configuration for `ui.plotly`; title and caption stand beside it.
+    """Builds data, layout and configuration for `ui.plotly`.
 
     Grounds are transparent, texts are coloured by the style sheet of the page, which follows the
     system into the dark. Zoom survives when the figure is drawn again.
@@ -76,7 +76,7 @@ _CONFIG = {"displaylogo": False, "doubleClick": "autosize",
 
 
 def draw_picture(picture: Picture, time: str = "") -> "ui.plotly":
-    """Title, figure and caption as elements of the page; the figure can be drawn anew."""
+    """Draws title, figure and caption, and returns the plot."""
     from nicegui import ui
 
     with ui.column().classes("picture w-full gap-1"):
@@ -89,7 +89,7 @@ def draw_picture(picture: Picture, time: str = "") -> "ui.plotly":
 
 
 def read_x_range(change: dict[str, Any]) -> tuple[float, float] | Literal[False] | None:
-    """What a `plotly_relayout` says of x: both ends, None where all is shown; False: nothing."""
+    """Reads the range of x from a `plotly_relayout`; None: all, False: unchanged."""
     for key, value in change.items():
         if key.startswith("xaxis") and key.endswith("autorange") and value:
             return None
@@ -131,7 +131,7 @@ def _divide_range(shares: Sequence[float], room: float, gap: float) -> list[tupl
 
 
 def escape_text(text: str) -> str:
-    """A text in which nothing is a tag; line breaks stay."""
+    """Escapes the tags of a text; line breaks stay."""
     return text.replace("&", "&amp;").replace("<", "&lt;").replace("\n", "<br>")
 
 
@@ -210,7 +210,11 @@ def _build_trace(series: Series, log: bool) -> dict[str, Any]:
             "fillcolor": style.color,
             "opacity": style.opacity,
         }
-    kind = "scattergl" if isinstance(series, Points) and series.x.size > _MANY else "scatter"
+    kind = (
+        "scattergl"
+        if isinstance(series, Points) and series.x.size > THRESHOLDS.min_webgl_points
+        else "scatter"
+    )
     drawn = {
         "type": kind,
         "x": _convert_numbers(series.x, log),

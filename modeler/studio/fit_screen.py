@@ -68,7 +68,7 @@ async def draw(studio: Studio) -> None:
 
 
 def find_lost_effects(studio: Studio, task: Task) -> Iterator[str]:
-    """Effects that the current model has, and a fit would not have."""
+    """Finds effects of the current model that a new fit would lose."""
     if not studio.project.model_file:
         return
     known = parse_robot_text(str(studio.read_model(studio.model_step)["robot_text"]), "model")

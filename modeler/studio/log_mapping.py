@@ -83,17 +83,17 @@ class LogGuess:
 
 
 def build_default_joints(count: int) -> tuple[JointSpec, ...]:
-    """Joints of a robot that nobody has described yet."""
+    """Builds the joints of a robot that is not described yet."""
     return tuple(JointSpec(str(k + 1), "revolute", "rad", "N m", True, None) for k in range(count))
 
 
 def collect_names(joints: Sequence[JointSpec], kinds: Iterable[str]) -> list[str]:
-    """Our names of those kinds, joint after joint; `time` goes before."""
+    """Collects `time` and the quantities of these kinds, joint after joint."""
     return ["time", *(f"{kind}{joint.name}" for joint in joints for kind in kinds)]
 
 
 def split_quantity(quantity: str, joints: Sequence[JointSpec]) -> tuple[str, JointSpec | None]:
-    """`qd2` -> "qd" and joint 2; what is of no joint is a kind of its own."""
+    """Splits `qd2` into "qd" and joint 2; other names have no joint."""
     for joint in joints:
         kind = quantity.removesuffix(joint.name)
         if kind != quantity and kind in KINDS:
@@ -102,7 +102,7 @@ def split_quantity(quantity: str, joints: Sequence[JointSpec]) -> tuple[str, Joi
 
 
 def select_units(quantity: str, joints: Sequence[JointSpec]) -> tuple[str, ...]:
-    """Units that a menu offers for one of ours; SI first."""
+    """Returns the units that a menu offers for a quantity, SI first."""
     kind, joint = split_quantity(quantity, joints)
     if joint is not None and kind in ("q", "qd", "qdd", "qc"):
         return UNITS[f"{kind.replace('qc', 'q')} {joint.unit}"]
@@ -112,14 +112,14 @@ def select_units(quantity: str, joints: Sequence[JointSpec]) -> tuple[str, ...]:
 
 
 def merge_map(words: Sequence[str], stated: Mapping[str, Any], where: str) -> LogMap:
-    """Words of `--map`, and under them the [log] of a robot file."""
+    """Merges words of `--map` over the [log] of a robot file."""
     return parse_map_options(words).merge_over(build_map(stated, f"{where}: [log]"))
 
 
 def build_choices(
     names: LogMap, joints: Sequence[JointSpec], columns: Collection[str]
 ) -> dict[str, ColumnChoice]:
-    """Our name -> column, of a map, and of columns that are called as ours are."""
+    """Builds the column of each quantity from a map and from equal names."""
     every = collect_names(joints, KINDS)
     choices_by_quantity = {
         quantity: ColumnChoice(quantity) for quantity in every if quantity in columns
@@ -141,7 +141,7 @@ def build_map_words(
     under: Mapping[str, ColumnChoice],
     joints: Sequence[JointSpec],
 ) -> tuple[str, ...]:
-    """The words of `--map` that make a mapping of another one; patterns where all joints are alike.
+    """Builds the words of `--map` that change one mapping into another.
 
     Args:
         target: our name -> column.
@@ -215,7 +215,7 @@ def _format_word(quantity: str, one: ColumnChoice, joints: Sequence[JointSpec]) 
 def parse_guess(
     text: str, joints: Sequence[JointSpec], columns: Collection[str]
 ) -> tuple[dict[str, ColumnChoice], tuple[str, ...]]:
-    """The choices of a suggested [log], and our names whose unit rests on a range alone."""
+    """Parses a suggested [log]: choices, and quantities whose unit is guessed by range."""
     names = build_map(tomllib.loads(text)["log"], "guess") if text else LogMap()
     choices = build_choices(names, joints, columns)
     ranged_lines = [line.split(" =")[0].strip('"') for line in text.split("\n") if _RANGED in line]
@@ -232,7 +232,7 @@ def parse_guess(
 def apply_choice(
     values: np.ndarray, stated: str, one: ColumnChoice, quantity: str, joints: Sequence[JointSpec]
 ) -> np.ndarray:
-    """Values of a column as one of ours, SI.
+    """Converts the values of a column to a quantity in SI units.
 
     Args:
         values: in SI of the unit that the file states, as they are read without a mapping.

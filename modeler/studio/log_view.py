@@ -1,40 +1,226 @@
-"""One log on the screen "data": its pictures and its time, its columns, its doubts."""
+"""The table in which columns of a log become ours: by menu, by dragging, with unit and sign."""
 
+import dataclasses
 import re
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Awaitable, Callable, Mapping, Sequence
 from functools import cache
 from typing import Any
 
 import numpy as np
 from nicegui import ui
+from nicegui.element import Element
 
 from modeler.core.errors import ModelerError
 from modeler.core.figure import Curve, Panel, Picture
 from modeler.core.files import locate_resources, read_text
 from modeler.core.json import parse_toml
+from modeler.core.manifest import JointSpec
 from modeler.core.style import BLACK, BLUE, GREEN, ORANGE, PINK, VERMILLION, Style
 from modeler.studio import figures, timeline
 from modeler.studio.elements import (
     add_card,
+    add_robot_frame,
     draw_command_line,
     draw_folded,
     draw_table,
     draw_warnings,
 )
-from modeler.studio.log_mapping import ColumnChoice, apply_choice, build_map_words, split_quantity
-from modeler.studio.mapping_table import MappingTable
+from modeler.studio.log_mapping import (
+    KINDS,
+    ColumnChoice,
+    apply_choice,
+    build_map_words,
+    select_units,
+    split_quantity,
+)
 from modeler.studio.project import ProjectLog
 from modeler.studio.project_logs import ProjectLogs
-from modeler.studio.robot_frame import add_robot_frame
 from modeler.studio.tasks import ROBOT, Task, TimeRange
+from modeler.studio.thresholds import THRESHOLDS
 from modeler.studio.timeline import Timeline
 
-_POINTS = 1500  # of a curve, at most
-_ALL_POINTS = 14_000  # of all curves
+_SIGNS = {1: "+", -1: "\u2212"}
+
+
+class MappingTable:
+    """A row for each joint, a place for each quantity; and the file's columns, to be dragged.
+
+    Args:
+        joints: of the robot.
+        columns: of the file, and units that it states.
+        chosen: our name -> column, as it is now.
+        ranged: our names whose unit is a guess by its range.
+        changed: is called with another choice.
+    """
+
+    def __init__(
+        self,
+        joints: Sequence[JointSpec],
+        columns: Mapping[str, str],
+        chosen: Mapping[str, ColumnChoice],
+        ranged: Sequence[str],
+        changed: Callable[[Mapping[str, ColumnChoice]], Awaitable[None]],
+    ) -> None:
+        self.joints, self.columns, self.chosen = joints, columns, dict(chosen)
+        self.ranged, self.changed = ranged, changed
+        self._dragged = ""
+        self._cells: dict[str, Element] = {}
+        self._chips: dict[str, Element] = {}
+        present_kinds = {split_quantity(quantity, joints)[0] for quantity in chosen}
+        driven = [kind for kind in ("tau", "current", "duty") if kind in present_kinds][:1] or [
+            "tau"
+        ]
+        shown = [kind for kind in KINDS if kind in ("q", "qd", *driven)]
+        wide = ui.checkbox("all quantities").props("dense")
+        wide.on_value_change(lambda: self._draw([*KINDS] if wide.value else shown))
+        self._place = ui.element("div").classes("mapping-scroll")
+        self._draw(shown)
+        with ui.element("div").classes("mapping-chips"):
+            for name, unit in [*columns.items()][: THRESHOLDS.max_menu_columns]:
+                chip = ui.label(f"{name} [{unit}]" if unit else name).classes("mapping-chip")
+                chip.props("draggable=true")
+                chip.on("dragstart", lambda _, name=name: setattr(self, "_dragged", name), args=[])
+                self._chips[name] = chip
+        self._update_marks()
+
+    def update_choices(
+        self, chosen: Mapping[str, ColumnChoice], ranged: Sequence[str], anew: bool = False
+    ) -> None:
+        """Shows other choices; cells that show them already stay as they are, unless `anew`."""
+        changed = [
+            quantity
+            for quantity in self._cells
+            if anew or chosen.get(quantity) != self.chosen.get(quantity)
+        ]
+        self.chosen, self.ranged = dict(chosen), ranged
+        for quantity in changed:
+            self._fill_cell(quantity)
+        self._update_marks()
+
+    def _update_marks(self) -> None:
+        """What is a guess, and which columns are taken."""
+        used_columns = {one.column for one in self.chosen.values()}
+        for quantity, cell in self._cells.items():
+            cell.classes(**{"add" if quantity in self.ranged else "remove": "mapping-guess"})
+        for name, chip in self._chips.items():
+            chip.classes(**{"add" if name in used_columns else "remove": "mapping-taken"})
+
+    def _draw(self, kinds: Sequence[str]) -> None:
+        self._place.clear()
+        self._cells.clear()
+        with self._place, ui.element("table").classes("studio-table mapping"):
+            with ui.element("tr"):
+                ui.element("th")
+                for kind in kinds:
+                    with ui.element("th"), ui.row().classes("items-center no-wrap"):
+                        ui.label(KINDS[kind])
+                        if self.joints:
+                            self._add_common_unit_menu(kind)
+            for name in ("time", *(joint.name for joint in self.joints)):
+                with ui.element("tr"):
+                    with ui.element("th"):
+                        ui.label(name if name == "time" else f"joint {name}")
+                    for quantity in (
+                        ["time"] if name == "time" else [f"{kind}{name}" for kind in kinds]
+                    ):
+                        with ui.element("td"):
+                            self._add_cell(quantity)
+        self._update_marks()
+
+    def _add_common_unit_menu(self, kind: str) -> None:
+        """One menu for the units of all joints."""
+        every = [f"{kind}{joint.name}" for joint in self.joints]
+        units = list(
+            dict.fromkeys(
+                unit for quantity in every for unit in select_units(quantity, self.joints)
+            )
+        )
+
+        async def apply_unit(event: Any) -> None:
+            chosen = dict(self.chosen)
+            for quantity in (quantity for quantity in every if quantity in chosen):
+                chosen[quantity] = self._convert_to_unit(quantity, chosen[quantity], event.value)
+            await self.changed(chosen)
+
+        menu = ui.select(units, label="all in", on_change=apply_unit).classes("mapping-all")
+        menu.props("dense options-dense")
+
+    def _add_cell(self, quantity: str) -> None:
+        """Where one of ours is said; a column can be dropped here."""
+        self._cells[quantity] = cell = ui.element("div").classes("mapping-cell")
+        cell.props["data-own"] = quantity
+        cell.on("dragover", js_handler="(event) => event.preventDefault()")
+        let = "(event) => { event.preventDefault(); emit(); }"
+        cell.on("drop", lambda: self._assign_column(quantity, self._dragged), js_handler=let)
+        self._fill_cell(quantity)
+
+    def _fill_cell(self, quantity: str) -> None:
+        """The column, its unit and its sign."""
+        one, cell = self.chosen.get(quantity), self._cells[quantity]
+        cell.clear()
+        names = [*self.columns][: THRESHOLDS.max_menu_columns]
+        if one is not None and one.column not in names:
+            names.insert(0, one.column)
+        with cell:
+            menu = ui.select(
+                names, value=one and one.column, with_input=True, clearable=quantity != "time",
+                on_change=lambda event: self._assign_column(quantity, event.value),
+            )  # fmt: skip
+            menu.props("dense options-dense").props["aria-label"] = f"column of {quantity}"
+            menu.classes("mapping-column")
+            if one is None:
+                return
+            if one.column not in self.columns:
+                menu.props("error").tooltip("this log has no such column")
+            self._add_unit_menu(quantity, one)
+            if quantity != "time":
+                sign = ui.button(_SIGNS[one.sign]).props("dense flat")
+                sign.props["aria-label"] = f"sign of {quantity}"
+                sign.on_click(lambda: self._flip_sign(quantity, sign))
+
+    def _convert_to_unit(self, quantity: str, one: ColumnChoice, unit: str | None) -> ColumnChoice:
+        """The same column in another unit; SI need not be said where the file says nothing."""
+        plain = unit == select_units(quantity, self.joints)[0] and not self.columns.get(one.column)
+        return dataclasses.replace(one, unit="" if plain else unit or "")
+
+    def _add_unit_menu(self, quantity: str, one: ColumnChoice) -> None:
+        units = list(select_units(quantity, self.joints))
+        current_unit = one.unit or self.columns.get(one.column) or units[0]
+        if current_unit not in units:
+            units.append(current_unit)
+
+        async def apply_unit(event: Any) -> None:
+            self.chosen[quantity] = self._convert_to_unit(
+                quantity, self.chosen[quantity], event.value
+            )
+            await self.changed(self.chosen)
+
+        menu = ui.select(units, value=current_unit, with_input=True, new_value_mode="add-unique",
+                         on_change=apply_unit)  # fmt: skip
+        menu.props("dense options-dense hide-dropdown-icon").props["aria-label"] = (
+            f"unit of {quantity}"
+        )
+        menu.classes("mapping-unit")
+
+    async def _assign_column(self, quantity: str, column: str | None) -> None:
+        chosen = dict(self.chosen)
+        old = chosen.pop(quantity, None)
+        if column:
+            chosen[quantity] = (
+                ColumnChoice(column) if old is None else dataclasses.replace(old, column=column)
+            )
+        await self.changed(chosen)
+
+    async def _flip_sign(self, quantity: str, button: ui.button) -> None:
+        one = self.chosen[quantity]
+        self.chosen[quantity] = dataclasses.replace(one, sign=-one.sign)
+        button.text = _SIGNS[-one.sign]
+        await self.changed(self.chosen)
+
+
 _COLORS = (BLUE, VERMILLION, GREEN, ORANGE, PINK, BLACK)  # SKY is what BLUE is in the dark
 _PANELS = {"q": "position", "qd": "speed", "tau": "torque or force", "current": "current"}
 _SPEEDS = {speed: f"{speed:g} x" for speed in (0.1, 0.5, 1.0, 2.0, 5.0)}
-_ROOM = 0.02  # s beside a doubt that is left out too
 _ABSENT = (
     "this log has no column {} for {}: the mapping is that of all logs; take this one off the "
     "list, or let each be taken by its own guess"
@@ -68,11 +254,11 @@ class LogView:
 
     @property
     def log(self) -> ProjectLog:
-        """As the project has it."""
+        """Returns the log as the project has it."""
         return self.project_logs.get_log(self.file)
 
     async def draw(self) -> None:
-        """Pictures first; what takes longer comes after them."""
+        """Draws pictures first, then what takes longer."""
         with add_card(self.file), ui.row().classes("w-full no-wrap items-start data-log-view"):
             with ui.column().classes("data-pictures gap-2"):
                 self._plot = ui.plotly(figures.build_figure(self._build_picture({}), self.file))
@@ -137,8 +323,11 @@ class LogView:
     async def _draw_curves(self) -> None:
         """Asks for the window that is looked at, and draws it."""
         names = [one.column for one in self._select_columns([*_PANELS]).values()]
-        window, points = self.window or (-np.inf, np.inf), _ALL_POINTS // max(1, len(names))
-        more = (self.known.clock, "", min(points, _POINTS))
+        window, points = (
+            self.window or (-np.inf, np.inf),
+            THRESHOLDS.all_curve_points // max(1, len(names)),
+        )
+        more = (self.known.clock, "", min(points, THRESHOLDS.curve_points))
         raw = await self._ask_viewer("log_window", names, *window, *more, kind="window")
         if raw is not None:
             self._plot.update_figure(figures.build_figure(self._build_picture(raw), self.file))
@@ -319,11 +508,11 @@ class LogView:
     # The doubts.
 
     def get_marks(self) -> list[Mapping[str, Any]]:
-        """Doubts that have a place in time."""
+        """Returns the warnings that have a place in time."""
         return list(self.project_logs.read_result(self.file).get("marks", ()))
 
     def draw_findings(self) -> None:
-        """What `modeler log` says, anew."""
+        """Draws the output of `modeler log`."""
         self._update_line()
         result, marks = self.project_logs.read_result(self.file), self.get_marks()
         doubts = result.get("doubts", self.guess.doubts)
@@ -360,14 +549,17 @@ class LogView:
 
     def _leave_out(self, marks: Sequence[Mapping[str, Any]]) -> None:
         log = self.log
-        for start, end in ((mark["start"] - _ROOM, mark["end"] + _ROOM) for mark in marks):
+        for start, end in (
+            (mark["start"] - THRESHOLDS.warning_margin, mark["end"] + THRESHOLDS.warning_margin)
+            for mark in marks
+        ):
             log = timeline.assign_role(log, TimeRange(round(start, 4), round(end, 4)), "out")
         self._change_log(lambda _: log)
 
     def _explain_mark(self, mark: Mapping[str, Any]) -> None:
         """The whole line, what the documentation says, and what can be done."""
         start, end = mark["start"], mark["end"]
-        near = (start - 25 * _ROOM, end + 25 * _ROOM)
+        near = (start - 25 * THRESHOLDS.warning_margin, end + 25 * THRESHOLDS.warning_margin)
         with ui.dialog(value=True) as dialog, ui.card().classes("studio-card"):
             ui.label(f"{mark['channel']}, {start:.4f} to {end:.4f} s").classes("studio-part")
             ui.label(mark["line"])

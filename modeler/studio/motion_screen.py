@@ -13,18 +13,18 @@ from modeler.studio import figures
 from modeler.studio.elements import (
     add_card,
     add_go_button,
+    add_robot_frame,
     add_run_button,
     draw_head,
     draw_stale_warnings,
     draw_table,
 )
-from modeler.studio.robot_frame import add_robot_frame
 from modeler.studio.robot_views import MotionPreview
 from modeler.studio.studio import Studio
 from modeler.studio.tasks import Step, Task
+from modeler.studio.thresholds import THRESHOLDS
 from modeler.studio.timeline import Timeline
 
-_SECONDS = 10.0
 _ALL = ""  # the question that has no two effects
 _USED = ("lower", "upper", "speed", "acceleration", "torque")
 _CHOSEN = "motion"
@@ -59,7 +59,7 @@ async def draw(studio: Studio) -> None:
 
 
 def find_questions(result: Mapping[str, Any]) -> Iterator[tuple[str, str]]:
-    """What a diagnosis leaves open between two effects: words of `--between`, and a sentence."""
+    """Finds equivalent effects of a diagnosis: words of `--between`, and a sentence."""
     known_pairs = set()
     for effect in result.get("effects", ()):
         for tie in effect.get("ties", ()):
@@ -72,7 +72,9 @@ def find_questions(result: Mapping[str, Any]) -> Iterator[tuple[str, str]]:
 
 def _draw_request(studio: Studio) -> None:
     project = studio.project
-    chosen = studio.state.setdefault(_CHOSEN, {"between": _ALL, "duration": _SECONDS})
+    chosen = studio.state.setdefault(
+        _CHOSEN, {"between": _ALL, "duration": THRESHOLDS.motion_duration}
+    )
     whose = "the current model" if project.model_file else "the robot"
     options = {_ALL: f"all parameters of {whose}"}
     step = project.find_step_about("diagnose")
@@ -105,7 +107,9 @@ def _draw_request(studio: Studio) -> None:
     )  # fmt: skip
 
     def update_request() -> None:
-        chosen.update(between=between.value, duration=float(duration.value or _SECONDS))
+        chosen.update(
+            between=between.value, duration=float(duration.value or THRESHOLDS.motion_duration)
+        )
         renew()
 
     between.on_value_change(update_request)
@@ -113,7 +117,7 @@ def _draw_request(studio: Studio) -> None:
 
 
 def find_changed_limits(studio: Studio) -> list[str]:
-    """What `--limit` says where the robot file has other limits by now than the model knows.
+    """Finds limits of the robot file that the model does not know, as `--limit` words.
 
     Raises:
         ModelerError: the robot file cannot be read as it is.

@@ -26,7 +26,7 @@ _OF_STEP = re.compile(r"(\d+)\.(?:json|toml|pictures\.json)")
 
 
 def format_size(count: float) -> str:
-    """Bytes, as people say it."""
+    """Formats a number of bytes."""
     for unit in ("B", "kB", "MB", "GB"):
         if count < 1000:
             return f"{count:.3g} {unit}"
@@ -39,7 +39,7 @@ def format_size(count: float) -> str:
 
 @contextlib.contextmanager
 def lock_folder(folder: Path) -> Iterator[bool]:
-    """True while the folder is ours; False where it is another studio's, or write-protected.
+    """Locks a folder; yields False if another studio has it or it is write-protected.
 
     The system gives the lock back when a process ends, however it ends. What a killed one left
     half-written is swept away.
@@ -106,7 +106,7 @@ class Entry:
 
     @property
     def is_folder(self) -> bool:
-        """Whether it is one."""
+        """Returns True for a folder."""
         return self.size is None
 
 
@@ -121,7 +121,7 @@ class Roots:
     folders: tuple[Path, ...]
 
     def resolve_inside(self, place: Path | str) -> Path:
-        """The place, its links followed, if it is in one of the folders.
+        """Resolves a place and checks that it is in one of the folders.
 
         Raises:
             DataError: it is not, or is not there.
@@ -154,7 +154,7 @@ class Roots:
             )
 
     def check_tree(self, place: str, target: Path) -> None:
-        """The same of a place and of all links below it, or whose names begin as its own does.
+        """Checks a place and all links below it, or with the same beginning of the name.
 
         A log may be a folder, or several files of which it is the beginning of the names.
         """
@@ -167,7 +167,7 @@ class Roots:
                 self.check_inside(str(below), below)
 
     def check_words(self, folder: Path, words: Iterable[str]) -> None:
-        """Refuse a command that would read or write elsewhere, whoever wrote its words.
+        """Refuses a command that would read or write elsewhere.
 
         Words that are no files stand for names in the folder here, which are inside.
 
@@ -179,7 +179,7 @@ class Roots:
                 self.check_tree(word, folder / file)
 
     def check_links(self, folder: Path, names: Iterable[str]) -> None:
-        """Refuse a project whose own places are links that lead out: they are written over.
+        """Refuses a project whose own places are links that lead out.
 
         Args:
             folder: of the project.
@@ -193,7 +193,7 @@ class Roots:
                 self.check_tree(str(folder / name), folder / name)
 
     def read_entries(self, folder: Path | str, endings: Sequence[str] = LOG_ENDINGS) -> list[Entry]:
-        """Folders, then files that end so; what is hidden or leads out is left out.
+        """Returns the folders, then the files with these endings, of a folder.
 
         Raises:
             DataError: the folder is none, is outside, or may not be read.
@@ -228,7 +228,7 @@ READABLE = Roots(())
 
 
 def compute_disk_use(folder: Path) -> dict[str, int]:
-    """Bytes of a project by the folder that they are in; the rest is "other"."""
+    """Computes the bytes of a project by folder; the rest is "other"."""
     used = dict.fromkeys((*FOLDERS, "other"), 0)
     for top, folders, names in os.walk(folder):
         kind = Path(top).relative_to(folder).parts[:1] or ("other",)
@@ -254,14 +254,14 @@ class UnusedFiles:
     size: int
 
     def remove(self, folder: Path) -> None:
-        """The files; to be called when the project is saved."""
+        """Removes the files, after the project was saved."""
         for file in self.files:
             with contextlib.suppress(OSError):
                 (folder / file).unlink()
 
 
 def find_unused_files(folder: Path, project: Project) -> UnusedFiles:
-    """What tidying would take away; logs, pages and files of other names are not touched."""
+    """Finds the steps and files that the current model does not need."""
     path_numbers = {step.number for step in project.collect_path()}
     steps = tuple(
         step

@@ -37,6 +37,7 @@ from modeler.studio.tasks import (
 )
 
 FILE = "project.toml"
+DRAFT = "robot.draft.toml"
 FOLDERS = ("robots", "logs", "models", "results", "motions", "pages", "taken")
 
 
@@ -57,7 +58,7 @@ class ProjectLog:
     out: tuple[TimeRange, ...] = ()
 
     def get_parts(self, role: str) -> list[LogPart]:
-        """Its stretches of one role, "train" or "test"."""
+        """Returns its time ranges of one role, "train" or "test"."""
         parts: tuple[TimeRange, ...] = getattr(self, role)
         return [
             LogPart(self.file, time_range)
@@ -89,22 +90,22 @@ class Project:
     steps: tuple[Step, ...] = ()
 
     def find_step(self, number: int) -> Step | None:
-        """The step of that number."""
+        """Finds the step of that number."""
         return next((step for step in self.steps if step.number == number), None)
 
     @property
     def model_file(self) -> str:
-        """The file of the current model; "" before there is one."""
+        """Returns the file of the current model; "" without one."""
         step = self.find_step(self.current)
         return "" if step is None else step.model_file
 
     @property
     def next_number(self) -> int:
-        """Of the next step."""
+        """Returns the number of the next step."""
         return 1 + max((step.number for step in self.steps), default=0)
 
     def collect_path(self, number: int | None = None) -> list[Step]:
-        """The steps that made a model, from the first fit on; None: the current one."""
+        """Collects the steps that made a model, from the first fit on; None: the current one."""
         path: list[Step] = []
         step = self.find_step(self.current if number is None else number)
         while step is not None:
@@ -113,7 +114,7 @@ class Project:
         return path
 
     def find_step_about(self, verb: str, number: int | None = None) -> Step | None:
-        """The last step of that verb about a model; None of `number`: the current one."""
+        """Finds the last step of a verb about a model; None: the current one."""
         parent = self.current if number is None else number
         matching_steps = [
             step for step in self.steps if step.verb == verb and step.parent == parent
@@ -121,21 +122,21 @@ class Project:
         return matching_steps[-1] if matching_steps else None
 
     def collect_parts(self, role: str) -> tuple[LogPart, ...]:
-        """All stretches of one role, "train" or "test"."""
+        """Collects all time ranges of one role, "train" or "test"."""
         return tuple(part for log in self.logs for part in log.get_parts(role))
 
     def collect_words(self, role: str) -> list[str]:
-        """The same as a command takes them."""
+        """Collects the time ranges of a role as words of a command."""
         return [part.command_word for part in self.collect_parts(role)]
 
     def make_next_step(self, task: Task) -> Step:
-        """What a task would be as the next step."""
+        """Makes the next step of a task."""
         parent = self.current if task.verb in ABOUT_A_MODEL else task.step
         return Step(self.next_number, parent, task)
 
 
 def format_project(project: Project) -> str:
-    """The project as TOML."""
+    """Formats the project as TOML."""
     return "\n".join(_format_lines(project)) + "\n"
 
 
@@ -171,7 +172,7 @@ def _format_toml(value: Any) -> str:
 
 
 def parse_project(text: str, where: str) -> Project:
-    """What a `project.toml` says.
+    """Parses a `project.toml`.
 
     Raises:
         DataError: it is no such file; says what is wrong with it.
@@ -233,7 +234,7 @@ class Workspace:
 
     @property
     def can_change(self) -> bool:
-        """Whether the project can be changed here."""
+        """Returns True if the project can be changed here."""
         return self.writable and not self.foreign
 
     def save(self, project: Project) -> None:
@@ -255,7 +256,7 @@ class Workspace:
         self.project = project
 
     def accept(self) -> None:
-        """From now on the project is one of this user.
+        """Accepts a foreign project as one of this user.
 
         Raises:
             ModelerError: as `save`.
@@ -268,7 +269,7 @@ class Workspace:
             raise
 
     def reload_project(self) -> None:
-        """What the file says now, where another process writes it.
+        """Reads the file again, where another process writes it.
 
         Raises:
             DataError: it cannot be read.

@@ -69,7 +69,7 @@ class ProjectLogs:
         self.logs: dict[str, KnownLog] = {}
 
     def resolve_path(self, file: str) -> str:
-        """Of a file of the project, wherever it lies."""
+        """Returns the absolute path of a file of the project."""
         return str(self.studio.folder / file)
 
     async def learn_columns(self, file: str) -> None:
@@ -110,7 +110,7 @@ class ProjectLogs:
             self.logs[file] = KnownLog(error=str(error))
 
     def select_general_words(self, guess: LogGuess) -> tuple[str, ...]:
-        """Words of the mapping that are about no column, or about one of other logs."""
+        """Selects the words of the mapping that name no column of this log."""
         words = self.studio.project.mapping
         entries_by_word = {
             word: parse_map_options([word]).expand_entries(self.joints).values() for word in words
@@ -123,13 +123,13 @@ class ProjectLogs:
         return tuple(w for w in far if AUTO in words or w.startswith(_SETTINGS))
 
     def get_guess(self, file: str) -> LogGuess:
-        """Of a log that can be read."""
+        """Returns the guess of a log that can be read."""
         guess = self.logs[file].guess
         assert guess is not None
         return guess
 
     def resolve_columns(self, guess: LogGuess) -> dict[str, ColumnChoice]:
-        """What the columns of a log are taken as."""
+        """Returns the column of each quantity of a log."""
         words = self.studio.project.mapping
         columns = self._build_choices(words, guess)
         if AUTO not in words:
@@ -141,7 +141,7 @@ class ProjectLogs:
         return self.resolve_default_columns(guess) | {name: columns[name] for name in named}
 
     def resolve_default_columns(self, guess: LogGuess) -> dict[str, ColumnChoice]:
-        """The same without words about columns."""
+        """Returns the column of each quantity without words of the mapping."""
         columns = self._build_choices((), guess)
         return {**columns, **(guess.choices if AUTO in self.studio.project.mapping else {})}
 
@@ -150,33 +150,33 @@ class ProjectLogs:
         return build_choices(names, self.joints, guess.columns)
 
     def build_guess_words(self, guess: LogGuess) -> tuple[str, ...]:
-        """Words of what a log looks like."""
+        """Builds the mapping words of the guess of a log."""
         under = self._build_choices((), guess)
         topic = (f"topic={guess.topic}",) if guess.topic else ()
         return (*topic, *build_map_words({**under, **guess.choices}, under, self.joints))
 
     def is_guess(self, guess: LogGuess) -> bool:
-        """Whether a log is taken as what it looks like."""
+        """Returns True if the mapping of a log is its guess."""
         is_same = self.studio.project.mapping in ((AUTO,), self.build_guess_words(guess))
         return is_same and bool(guess.choices)
 
     def apply_each_guess(self) -> None:
-        """Every log by its own guess, below what was chosen."""
+        """Maps every log by its own guess, below the chosen words."""
         chosen = self.studio.project.mapping if self.studio.project.mapped else ()
         words = (AUTO, *(word for word in chosen if word != AUTO))
         self.studio.change_project(redraw=True, mapping=words)
 
     def get_log(self, file: str) -> ProjectLog:
-        """As the project has it."""
+        """Returns the log as the project has it."""
         return next(log for log in self.studio.project.logs if log.file == file)
 
     def find_last_inspection(self, file: str) -> Step | None:
-        """The last look at a log."""
+        """Finds the last inspection of a log."""
         steps = self.studio.project.steps
         return next((s for s in reversed(steps) if s.verb == "log" and s.task.file == file), None)
 
     def read_result(self, file: str) -> dict[str, Any]:
-        """What it said; nothing before there is one."""
+        """Reads the result of the last inspection; empty without one."""
         step = self.find_last_inspection(file)
         try:
             return (

@@ -1,16 +1,23 @@
-"""The screen "robot": its table, edited beside its picture, and what it can be identified by."""
+"""The screen "robot": its table, edited beside its picture, and the ways to a robot."""
 
 import asyncio
 import contextlib
+import dataclasses
 import json
+import time
+from collections.abc import Awaitable, Callable
 from functools import partial
+from pathlib import Path
 from typing import Any
 
-from nicegui import ui
+from nicegui import background_tasks, ui
 
+from modeler.core.builtin import CONVENTIONS, TEMPLATES, list_builtin_robots, read_builtin_robot
 from modeler.core.errors import ModelerError
+from modeler.core.files import write_atomically
 from modeler.robot import (
     TableText,
+    build_pasted_robot,
     find_table_text,
     insert_pasted_table,
     insert_row,
@@ -23,15 +30,198 @@ from modeler.robot import (
     replace_symbol,
     set_joint_effect,
 )
-from modeler.studio import robot_start
-from modeler.studio.elements import add_run_button, draw_head
-from modeler.studio.robot_frame import RobotFrame
-from modeler.studio.robot_text import DRAFT, RobotText, save_text
+from modeler.studio.elements import RobotFrame, add_card, add_run_button, draw_head
+from modeler.studio.file_inputs import add_drop_zone, choose_files
+from modeler.studio.project import DRAFT
 from modeler.studio.robot_views import BASIC_EFFECTS, RobotPreview
 from modeler.studio.studio import Studio
 from modeler.studio.tasks import ROBOT, Step, Task
+from modeler.studio.thresholds import THRESHOLDS
 
-_PAUSE = 0.2  # s after the last stroke in the text
+
+class RobotText:
+    """The text of a robot file and its past.
+
+    Attributes:
+        text: as it is now.
+    """
+
+    def __init__(self, text: str) -> None:
+        self.text = text
+        self._past: list[str] = []
+        self._future: list[str] = []
+        self._typed = 0.0
+
+    def change_text(self, text: str, typing: bool = False) -> bool:
+        """Makes it another text, one step further; of typing a step a second.
+
+        Returns:
+            False if it is the same.
+        """
+        if text == self.text:
+            return False
+        now = time.monotonic()
+        if not (typing and now - self._typed < THRESHOLDS.typing_step and self._past):
+            self._past = [*self._past[-THRESHOLDS.max_undo_steps :], self.text]
+        self._typed = now if typing else 0.0
+        self._future.clear()
+        self.text = text
+        return True
+
+    def move_in_history(self, back: bool) -> bool:
+        """Moves one step back or forth; returns False where there is none."""
+        source, other = (self._past, self._future) if back else (self._future, self._past)
+        if not source:
+            return False
+        other.append(self.text)
+        self.text = source.pop()
+        self._typed = 0.0
+        return True
+
+
+def save_text(folder: Path, text: str, right: bool) -> None:
+    """Writes the text where it belongs.
+
+    Args:
+        folder: of the project.
+        text: of the robot file.
+        right: True if nothing is wrong in it.
+
+    Raises:
+        ModelerError: it cannot be written.
+    """
+    write_atomically(folder / (ROBOT if right else DRAFT), text)
+    if right:
+        with contextlib.suppress(OSError):
+            (folder / DRAFT).unlink()
+
+
+Taken = Callable[[str, tuple[str, ...]], Awaitable[None]]
+"""Is called with the text of a robot file, and notes on how it was made."""
+
+_FILES = (".urdf", ".xml", ".mjcf", ".par", ".toml")
+_AS_HEADED = "as its headings say"
+_EXAMPLE = "i\t\u03b1 [deg]\ta [mm]\td [mm]\t\u03b8\n1\t0\t0\t333\tq1\n2\t-90\t0\t0\tq2"
+
+
+def draw_choices(studio: Studio, before: str, on_taken: Taken) -> None:
+    """Draws the ways to a robot.
+
+    Args:
+        studio: the window.
+        before: text of the robot that there is; "": none.
+        on_taken: is called with the new one.
+    """
+    with ui.element("div").classes("studio-ways"):
+        with add_card("Paste a table"):
+            _draw_paste(studio, before, on_taken)
+        with add_card("Begin with a template"):
+            _draw_template(studio, on_taken)
+        with add_card("Open a file"):
+            _draw_file(studio, on_taken)
+        with add_card("Take a built-in robot"):
+            _draw_builtin(on_taken)
+
+
+def _draw_paste(studio: Studio, before: str, on_taken: Taken) -> None:
+    area = ui.textarea(placeholder=_EXAMPLE).props("outlined dense rows=5 aria-label='table'")
+    area.classes("w-full")
+    ui.label(
+        "From a spreadsheet or a paper, with headings or without; degrees and mm by their headings."
+    ).classes("studio-soft")
+    with ui.row().classes("items-center"):
+        whose = ui.select(
+            [_AS_HEADED, *CONVENTIONS], value=_AS_HEADED, label="whose table"
+        ).classes("w-48")
+
+        async def take_table() -> None:
+            try:
+                table = parse_pasted_table(
+                    str(area.value or ""), "" if whose.value == _AS_HEADED else str(whose.value)
+                )
+                if not table.has_headings and whose.value == _AS_HEADED:
+                    raise ModelerError(
+                        "the table has no headings, and books order their columns differently: "
+                        "choose whose table it is, or paste the headings too"
+                    )
+                text = (
+                    insert_pasted_table(before, table)
+                    if before
+                    else build_pasted_robot(table, "robot")
+                )
+            except ModelerError as error:
+                studio.show_error(str(error))
+                return
+            notes = (f"taken as a table of convention {table.convention}", *table.notes)
+            if table.symbols:
+                notes += (f"written into [symbols]: {', '.join(table.symbols)}: give their values",)
+            await on_taken(text, notes)
+
+        ui.button("Take this table", on_click=take_table).props("no-caps unelevated")
+
+
+def _draw_template(studio: Studio, on_taken: Taken) -> None:
+    with ui.row().classes("items-center"):
+        kind = ui.select(list(TEMPLATES), value=TEMPLATES[0], label="kind").classes("w-40")
+        joints = ui.input("joints", value="RRR").classes("w-32")
+        joints.props("hint='R turns, P slides'").bind_visibility_from(kind, "value", value="serial")
+        whose = ui.select(list(CONVENTIONS), value=CONVENTIONS[0], label="whose table")
+        whose.classes("w-36").bind_visibility_from(kind, "value", value="serial")
+
+    async def create_robot() -> None:
+        task = Task("new", template=str(kind.value))
+        if kind.value == "serial":
+            task = dataclasses.replace(task, joints=str(joints.value), convention=str(whose.value))
+        await _take_command_robot(studio, task, on_taken)
+
+    ui.button("Begin", on_click=create_robot).props("no-caps unelevated")
+
+
+def _draw_file(studio: Studio, on_taken: Taken) -> None:
+    async def open_file(files: list[str]) -> None:
+        file = files[0]
+        if Path(file).suffix.lower() == ".toml":
+            try:
+                await on_taken(studio.read_text(file), ())
+            except ModelerError as error:
+                studio.show_error(str(error))
+            return
+        await _take_command_robot(studio, Task("convert", file=file), on_taken)
+
+    ui.label("URDF, MJCF, SYMORO's .par, or a robot file").classes("studio-soft")
+    zone = add_drop_zone(
+        "originals", "drop it here, or choose it",
+        lambda files: background_tasks.create(open_file(files)), studio.show_error,
+    )  # fmt: skip
+    zone.props(remove="multiple").classes("w-full")
+    ui.button(
+        "Choose where it lies", icon="folder_open",
+        on_click=lambda: choose_files(
+            studio, _FILES, lambda files: background_tasks.create(open_file(files))
+        ),
+    ).props("no-caps outline")  # fmt: skip
+
+
+def _draw_builtin(on_taken: Taken) -> None:
+    async def take_builtin() -> None:
+        await on_taken(read_builtin_robot(str(name.value)), ())
+
+    with ui.row().classes("items-center"):
+        name = ui.select(
+            list(list_builtin_robots()), value="puma560", label="robot", with_input=True
+        )
+        name.classes("w-56")
+        ui.button("Take it", on_click=take_builtin).props("no-caps unelevated")
+
+
+async def _take_command_robot(studio: Studio, task: Task, on_taken: Taken) -> None:
+    """A robot file that a command writes."""
+    room = studio.room
+    if await studio.run(task, keep=False) is not None and room is not None:
+        with room:
+            await on_taken(studio.read_text(ROBOT), ())
+
+
 _LIMITS = ("joint", "lower", "upper", "speed", "acceleration")
 
 
@@ -50,7 +240,7 @@ async def draw(studio: Studio) -> None:
         await editor.draw()
         return
     draw_head("The robot", "Its table, as a paper or a drawing has it. How does it come in?")
-    robot_start.draw_choices(studio, "", editor.take_robot)
+    draw_choices(studio, "", editor.take_robot)
 
 
 class _RobotEditor:
@@ -70,7 +260,7 @@ class _RobotEditor:
             ui.space()
             with ui.dialog() as ways, ui.card().classes("studio-card studio-dialog"):
                 ui.label("Another robot, or another table for this one").classes("studio-part")
-                robot_start.draw_choices(studio, self.document.text, self.take_robot)
+                draw_choices(studio, self.document.text, self.take_robot)
             self.changing = [
                 ui.button(icon="undo", on_click=lambda: self.move_in_history(True))
                 .props("flat round dense aria-label='undo the edit'").tooltip("undo (Ctrl+Z)"),
@@ -201,7 +391,7 @@ class _RobotEditor:
         text = str(event.value)
         if self.studio.is_read_only or not self.document.change_text(text, typing=True):
             return
-        await asyncio.sleep(_PAUSE)
+        await asyncio.sleep(THRESHOLDS.typing_pause)
         if self.document.text == text:
             await self.check_text()
 

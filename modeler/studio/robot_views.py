@@ -85,7 +85,7 @@ class RobotPreview:
 
 
 def robot_look(text: str, where: str = "robot.toml") -> RobotPreview:
-    """The picture of a robot's text, or what is wrong and in which cell."""
+    """Returns the preview of a robot text, or its error and the cell of it."""
     table = find_table_text(text)
     try:
         robot = parse_robot_text(text, where)
@@ -112,13 +112,13 @@ def robot_look(text: str, where: str = "robot.toml") -> RobotPreview:
 
 
 def robot_page(text: str) -> str:
-    """The page of `modeler show`."""
+    """Returns the page of `modeler show`."""
     shown = show(parse_robot_text(text, "robot.toml"))
     return render_robot_page(shown.skeleton, shown.posture)
 
 
 def relations_of(result: str, place: str) -> tuple[str, dict[str, Any]]:
-    """The base parameters that `modeler derive --json` wrote, as HTML, and the rest of the result.
+    """Returns the base parameters of a derivation as HTML, and its other facts.
 
     Args:
         result: file of the result.
@@ -150,7 +150,7 @@ class MotionPreview:
 
 
 def motion_look(place: str, result: str) -> MotionPreview:
-    """A motion that `modeler excite` wrote, and its limits.
+    """Returns a motion of `modeler excite` with its limits.
 
     Args:
         place: file of the motion.
@@ -184,7 +184,7 @@ def motion_look(place: str, result: str) -> MotionPreview:
 
 
 def motion_parquet(place: str, result: str) -> bytes:
-    """A motion as a Parquet file, for what does not take CSV."""
+    """Returns a motion as a Parquet file."""
     joints, motion = _read_motion(place, result)
     columns = {"time": motion.time}
     for name, of in (("q", motion.q), ("qd", motion.qd), ("qdd", motion.qdd)):

@@ -22,17 +22,13 @@ from modeler.core.files import read_text, write_atomically
 from modeler.core.json import JsonError, parse_json
 from modeler.studio import commands
 from modeler.studio.places import Roots
-from modeler.studio.project import FILE, FOLDERS, FOREIGN, Project, Workspace
-from modeler.studio.robot_text import DRAFT
-from modeler.studio.running import RunningCommand
+from modeler.studio.processes import RunningCommand, Viewer
+from modeler.studio.project import DRAFT, FILE, FOLDERS, FOREIGN, Project, Workspace
 from modeler.studio.tasks import MAKING, ROBOT, Step, Task, build_bookkeeping_words
-from modeler.studio.viewer import Viewer
+from modeler.studio.thresholds import THRESHOLDS
 
 Screen = Callable[["Studio"], Awaitable[None]]
 """Draws a screen into the element that is open."""
-
-_MOST_SHEETS = 60
-_MOST_DOWNLOADS = 200
 
 
 class Hub:
@@ -69,16 +65,16 @@ class Hub:
 
     @property
     def project(self) -> Project:
-        """As it is now."""
+        """Returns the current project."""
         return self.workspace.project
 
     def refresh(self) -> None:
-        """Every window shows the project anew."""
+        """Redraws every window."""
         for studio in self.studios:
             studio.redraw()
 
     def follow_changes(self) -> None:
-        """What another process has written since, where this one only reads."""
+        """Reads what another process has written since."""
         before = self.project
         if not self.workspace.writable:
             with contextlib.suppress(ModelerError):  # edited by hand, and not done
@@ -87,7 +83,7 @@ class Hub:
             self.refresh()
 
     def give_control(self, studio: Studio) -> None:
-        """That window may change things, all others only read.
+        """Lets that window change the project; all others only read.
 
         Raises:
             ModelerError: another process has the folder open.
@@ -105,7 +101,7 @@ class Hub:
         self.refresh()
 
     def notify_windows(self) -> None:
-        """Every window shows how far the command is."""
+        """Shows the progress of the command in every window."""
         for studio in self.studios:
             studio.notify_listeners()
 
@@ -173,7 +169,7 @@ class Hub:
         self.workspace.save(dataclasses.replace(self.project, current=step.number))
 
     def read_step_robot(self, step: Step) -> str:
-        """The robot of a model, with effects that were added; "" where its file is gone."""
+        """Reads the robot of a step, with its added effects; "" if its file is gone."""
         with contextlib.suppress(OSError, ValueError, TypeError, KeyError):
             text = read_text(self.workspace.folder / (step.robot_copy or step.model_file))
             return text if step.robot_copy else str(parse_json(text)["robot_text"])
@@ -197,7 +193,7 @@ class Hub:
             write_atomically(self.workspace.folder / step.robot_copy, text)
 
     def register_sheet(self, html: str, place: str = "/sheet/") -> str:
-        """The address of a page of its own, for a frame inside the page.
+        """Registers a page of its own and returns its address.
 
         Args:
             html: that was made here and now.
@@ -206,12 +202,12 @@ class Hub:
         digest = hashlib.sha256(html.encode()).hexdigest()[:20]
         self.sheets[digest] = html
         self.sheets.move_to_end(digest)
-        while len(self.sheets) > _MOST_SHEETS:
+        while len(self.sheets) > THRESHOLDS.max_sheets:
             self.sheets.popitem(last=False)
         return f"{place}{digest}.html"
 
     def register_download(self, content: Path | bytes, name: str) -> str:
-        """The address under which a file, a folder (as ZIP) or bytes are downloaded.
+        """Registers a file, a folder (as ZIP) or bytes and returns the download address.
 
         Args:
             content: what it is; no address leads to any other file.
@@ -224,12 +220,12 @@ class Hub:
             content = self._roots.resolve_inside(content)
         key = secrets.token_urlsafe(16)
         self.downloads[key] = content, name
-        while len(self.downloads) > _MOST_DOWNLOADS:
+        while len(self.downloads) > THRESHOLDS.max_downloads:
             self.downloads.popitem(last=False)
         return f"/download/{key}"
 
     def close(self) -> None:
-        """Ends what runs."""
+        """Ends the running processes."""
         if self.running is not None:
             self.running.cancel()
         self.viewer.end()
@@ -253,22 +249,22 @@ class Studio:
 
     @property
     def project(self) -> Project:
-        """As it is now."""
+        """Returns the current project."""
         return self.hub.project
 
     @property
     def folder(self) -> Path:
-        """Of the project."""
+        """Returns the folder of the project."""
         return self.hub.workspace.folder
 
     @property
     def is_read_only(self) -> bool:
-        """True in all windows but the first, where another process writes, in foreign projects."""
+        """Returns True for all windows but the first, and for locked or foreign projects."""
         return not self.hub.workspace.can_change or self.hub.studios[:1] != [self]
 
     @property
     def read_only_reason(self) -> str:
-        """The line that says it."""
+        """Returns the line that explains why the window only reads."""
         foreign = self.hub.workspace.foreign
         return FOREIGN.format(self.folder) if foreign else READ_ONLY
 
@@ -320,7 +316,7 @@ class Studio:
             return None
 
     async def ask_viewer(self, question: str, *arguments: Any, kind: str = "") -> Any:
-        """The answer of the viewer to a function of `studio.viewing`; see `Viewer.ask`.
+        """Asks the viewer for a function of `studio.viewing`; see `Viewer.ask`.
 
         Args:
             question: name of the function.
@@ -334,7 +330,7 @@ class Studio:
         return await self.hub.viewer.ask(question, *arguments, kind=kind_key)
 
     def read_text(self, file: str) -> str:
-        """Of a file of the project.
+        """Reads a text file of the project.
 
         Raises:
             DataError: it cannot be read; says what to do.
@@ -348,7 +344,7 @@ class Studio:
             ) from None
 
     def read_result(self, step: Step) -> dict[str, Any]:
-        """What the JSON of a step says.
+        """Reads the JSON result of a step.
 
         Raises:
             DataError: the file is gone, or no JSON.
@@ -357,7 +353,7 @@ class Studio:
 
     @property
     def model_step(self) -> Step:
-        """The step that made the current model.
+        """Returns the step that made the current model.
 
         Raises:
             DataError: there is none.
@@ -368,7 +364,7 @@ class Studio:
         return step
 
     def read_model(self, step: Step) -> dict[str, Any]:
-        """What the model file of a step says.
+        """Reads the model file of a step.
 
         Raises:
             DataError: the file is gone, or no JSON.
@@ -376,7 +372,7 @@ class Studio:
         return self._read_json(step.model_file)
 
     def is_newer(self, file: str, step: Step) -> bool:
-        """Whether a file was written after a step was done."""
+        """Returns True if a file was written after a step was done."""
         with contextlib.suppress(OSError, ValueError):
             done = datetime.fromisoformat(step.made).timestamp() + 1.0  # of whole seconds
             return (self.folder / file).stat().st_mtime > done
@@ -390,7 +386,7 @@ class Studio:
         return content
 
     def show_error(self, line: str) -> None:
-        """One line, in this window; "" takes the last one away."""
+        """Shows one error line in this window; "" removes it."""
         self.state["error"] = line
         self.notify_listeners()
 
@@ -405,7 +401,7 @@ class Studio:
         self.redraw()
 
     def redraw(self) -> None:
-        """The screen is drawn anew."""
+        """Draws the screen again."""
         if self._drawing is not None:
             self._drawing.cancel()  # what it would still draw is no longer wanted
         if self.room is not None:
@@ -428,7 +424,7 @@ class Studio:
                     waiting.delete()
 
     def notify_listeners(self) -> None:
-        """What stands around the screen is written anew."""
+        """Updates what stands around the screen."""
         for listener in self.listeners:
             listener()
 

@@ -52,12 +52,12 @@ class TimeRange:
     end: float = math.inf
 
     def format_word(self, file: str) -> str:
-        """It, as a command takes it."""
+        """Formats the range as FILE@START:END."""
         ends = [f"{side:.15g}" if math.isfinite(side) else "" for side in (self.start, self.end)]
         return f"{file}@{':'.join(ends)}" if any(ends) else file
 
     def subtract_gaps(self, gaps: Sequence["TimeRange"]) -> "list[TimeRange]":
-        """What is left of it between gaps."""
+        """Returns what is left of the range between gaps."""
         left, start = [], self.start
         for gap in sorted(gaps, key=lambda gap: gap.start):
             if gap.end <= max(start, gap.start) or gap.start >= self.end:
@@ -77,7 +77,7 @@ class LogPart:
 
     @property
     def command_word(self) -> str:
-        """It, as a command takes it."""
+        """Returns the part as FILE@START:END."""
         return self.stretch.format_word(self.file)
 
 
@@ -138,7 +138,7 @@ class Task:
 
     @property
     def title(self) -> str:
-        """For people, while it runs and in the list of steps."""
+        """Returns the title for people."""
         at = f"{self.effect}@{self.joint}" if self.joint else self.effect
         what = at or self.file or self.between or self.to or self.like
         return " ".join(filter(None, (self.verb, what, f"of step {self.step}" * bool(self.step))))
@@ -164,12 +164,12 @@ class Step:
 
     @property
     def verb(self) -> Verb:
-        """Of its task."""
+        """Returns the verb of its task."""
         return self.task.verb
 
     @property
     def output(self) -> str:
-        """What it writes: a model, a page, a folder of C, a motion; "" for its result alone."""
+        """Returns the path that it writes; "" for its result alone."""
         n, ending = self.number, self.task.like.rpartition(".")[2]
         places = {
             "fit": f"models/{n}.json", "add": f"models/{n}.json", "page": f"pages/{n}.html",
@@ -180,28 +180,28 @@ class Step:
 
     @property
     def model_file(self) -> str:
-        """The model that it made; "" for none."""
+        """Returns the model that it made; "" for none."""
         return self.output if self.verb in MAKING else ""
 
     @property
     def robot_copy(self) -> str:
-        """The robot as it was when the step began; "" where it worked on none."""
+        """Returns the robot file as it was when the step began; "" for none."""
         copied = self.verb in _COPYING or (self.verb == "excite" and not self.parent)
         return f"robots/{self.number}.toml" if copied else ""
 
     @property
     def result_file(self) -> str:
-        """Its JSON."""
+        """Returns the path of its JSON."""
         return f"results/{self.number}.json"
 
     @property
     def pictures_file(self) -> str:
-        """They, as plain data; "" if it drew none."""
+        """Returns the path of its pictures as data; "" for none."""
         return f"results/{self.number}.pictures.json" if self.verb in DRAWING else ""
 
 
 def build_command_line(step: Step, steps: Sequence[Step] = ()) -> tuple[str, ...]:
-    """The words after `modeler` that carry out a step, in the folder of the project.
+    """Builds the words after `modeler` that carry out a step, in the project folder.
 
     Args:
         step: it.
@@ -238,7 +238,7 @@ def build_command_line(step: Step, steps: Sequence[Step] = ()) -> tuple[str, ...
 
 
 def build_bookkeeping_words(step: Step) -> tuple[str, ...]:
-    """Words that come to a step when it is run, and are no part of it."""
+    """Builds the words that a step gets when it is run, and are no part of it."""
     return (
         "--json",
         step.result_file,
@@ -247,7 +247,7 @@ def build_bookkeeping_words(step: Step) -> tuple[str, ...]:
 
 
 def format_command(words: Sequence[str]) -> str:
-    """A command line, as a shell takes it."""
+    """Formats a command line for a shell."""
     return shlex.join(["modeler", *words])
 
 

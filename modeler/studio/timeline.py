@@ -12,12 +12,11 @@ from nicegui.element import Element
 from modeler.core.files import locate_resources
 from modeler.studio.project import ProjectLog
 from modeler.studio.tasks import TimeRange
+from modeler.studio.thresholds import THRESHOLDS
 
 ROLES: Mapping[str, str] = {"train": "training", "test": "held out", "out": "left out"}
 """What people call them."""
 
-HELD = 0.3
-"""Share of the only log of a project that is held out at first."""
 
 ALL = (TimeRange(),)
 """Of a log."""
@@ -26,7 +25,7 @@ _DIGITS = 4  # of a second: what a stretch begins with
 
 
 def merge_ranges(parts: Iterable[TimeRange]) -> tuple[TimeRange, ...]:
-    """The same without overlaps, in order."""
+    """Merges overlapping ranges, in order."""
     merged: list[TimeRange] = []
     for part in sorted(parts, key=lambda one: one.start):
         if merged and part.start <= merged[-1].end:
@@ -37,7 +36,7 @@ def merge_ranges(parts: Iterable[TimeRange]) -> tuple[TimeRange, ...]:
 
 
 def assign_role(log: ProjectLog, stretch: TimeRange, role: str) -> ProjectLog:
-    """The log with a stretch in a role; "in": no longer left out of what it is."""
+    """Assigns a role to a range of a log; "in": no longer left out."""
     if role == "out":
         return dataclasses.replace(log, out=merge_ranges([*log.out, stretch]))
     roles: dict[str, Any] = {
@@ -53,12 +52,12 @@ Change = Callable[[ProjectLog], ProjectLog]
 
 
 def build_log_changes(ends: tuple[float, float]) -> dict[str, Change]:
-    """What can be made of a log as a whole.
+    """Returns the changes of a whole log by their titles.
 
     Args:
         ends: of it, s.
     """
-    cut = round(ends[1] - HELD * (ends[1] - ends[0]), _DIGITS)
+    cut = round(ends[1] - THRESHOLDS.held_out_share * (ends[1] - ends[0]), _DIGITS)
     last = (TimeRange(end=cut),), (TimeRange(start=cut),)
     return {
         "All training": lambda log: dataclasses.replace(log, train=ALL, test=()),
@@ -71,7 +70,7 @@ def build_log_changes(ends: tuple[float, float]) -> dict[str, Change]:
 def assign_default_roles(
     logs: Sequence[ProjectLog], ends: Mapping[str, tuple[float, float]]
 ) -> tuple[ProjectLog, ...]:
-    """Of one log the last 30 % is held out, of several the last one.
+    """Holds out the last 30 % of one log, of several the last one.
 
     Args:
         logs: of the project.
@@ -91,7 +90,7 @@ _FIRST = {False: "Last 30 % held out", True: "All held out"}
 
 
 def build_spans(log: ProjectLog) -> list[dict[str, Any]]:
-    """The stretches as they are drawn, left-out ones on top; an end that is open is None."""
+    """Builds the ranges as they are drawn, left-out ones on top; an open end is None."""
     return [
         {"role": role}
         | {name: end if math.isfinite(end) else None for name, end in vars(part).items()}
@@ -101,7 +100,7 @@ def build_spans(log: ProjectLog) -> list[dict[str, Any]]:
 
 
 def describe_roles(log: ProjectLog) -> str:
-    """What its stretches are for, in words."""
+    """Describes the roles of the ranges of a log."""
     roles = {name: getattr(log, role) for role, name in ROLES.items()}
     parts_text = [
         f"{name}: {', '.join(map(_describe_range, parts))}"
@@ -139,7 +138,7 @@ class Timeline(
 
     @property
     def frame(self) -> str:
-        """Id of the frame of a robot that follows the cursor; "": none."""
+        """Returns the id of the robot frame that follows the cursor; "": none."""
         return str(self._props["frame"])
 
     @frame.setter
@@ -171,7 +170,7 @@ class Timeline(
         self.on("brush", handle_brush)
 
     def show_motion(self, time: np.ndarray, q: Mapping[str, np.ndarray]) -> None:
-        """What a robot does while the cursor moves.
+        """Sets the motion that the robot shows while the cursor moves.
 
         Args:
             time: (n,) s.
@@ -189,7 +188,7 @@ class Timeline(
 
 
 def draw_legend() -> None:
-    """What the colours of a timeline mean."""
+    """Draws the legend of the colours of a timeline."""
     for role, name in {**ROLES, "sign": "a doubt: click it"}.items():
         with ui.row().classes("items-center no-wrap gap-1"):
             ui.element("span").classes(f"timeline-swatch timeline-{role}")

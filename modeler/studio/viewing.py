@@ -37,15 +37,12 @@ from modeler.robot import Robot
 from modeler.runtime import CompiledModel
 from modeler.studio import places
 from modeler.studio.log_mapping import LogGuess, build_default_joints, parse_guess
+from modeler.studio.thresholds import THRESHOLDS
 from modeler.validation import Prediction, concatenate_time
-
-POINTS = 1500
-"""Of a curve that is drawn."""
 
 # What was read stays, by what it was read from.
 
 T = TypeVar("T")
-_HELD = 6  # of one kind
 _KEPT: dict[str, OrderedDict[Any, Any]] = {}
 
 
@@ -54,7 +51,9 @@ def forget() -> None:
     _KEPT.clear()
 
 
-def _cache_result(kind: str, key: Any, make: Callable[[], T], most: int = _HELD) -> T:
+def _cache_result(
+    kind: str, key: Any, make: Callable[[], T], most: int = THRESHOLDS.cached_results
+) -> T:
     """What was made for that key, or is made now; of each kind the last ones used stay."""
     entries = _KEPT.setdefault(kind, OrderedDict())
     if key not in entries:
@@ -126,12 +125,8 @@ class _Source:
         return LogTable(self.path, self.mapping, self.joints, True, part, before)
 
 
-_PIECE = 64  # rows of a long log
-_MOST = 25_000_000  # values of a log that is held as it is: 200 MB
-
-
 def log_facts(place: str, words: Sequence[str] = (), robot: str = "") -> LogFacts:
-    """Columns, units and extent of a log.
+    """Returns columns, units and extent of a log.
 
     Args:
         place: its file.
@@ -150,9 +145,9 @@ def log_facts(place: str, words: Sequence[str] = (), robot: str = "") -> LogFact
 
 def log_window(
     place: str, names: Sequence[str], start: float, end: float, words: Sequence[str] = (),
-    robot: str = "", points: int = POINTS,
+    robot: str = "", points: int = THRESHOLDS.curve_points,
 ) -> dict[str, tuple[np.ndarray, np.ndarray]]:  # fmt: skip
-    """Time and values of columns between two times, least and largest kept of what is thinned.
+    """Returns time and values of columns in a time range, thinned to least and largest.
 
     Args:
         place: the log's file.
@@ -177,7 +172,7 @@ def log_film(
     place: str, names: Sequence[str], words: Sequence[str] = (), robot: str = "",
     start: float = -np.inf, end: float = np.inf, rate: float = 30.0,
 ) -> dict[str, np.ndarray]:  # fmt: skip
-    """Values of columns at times that are evenly apart, and those, as `time`.
+    """Returns columns at evenly spaced times, and those, as `time`.
 
     Args:
         place: the log's file.
@@ -204,7 +199,7 @@ def log_film(
 
 
 def log_guess(place: str, robot: str = "") -> LogGuess:
-    """What the columns of a log are by their names and ranges.
+    """Guesses the columns of a log by their names and ranges.
 
     Args:
         place: the log's file.
@@ -244,7 +239,7 @@ def _select_rows(log: _Log, start: float, end: float) -> tuple[np.ndarray, dict[
     """Time and columns between two times; of a long log all rows only of a short window."""
     low, high = np.searchsorted(log.time, [start, end])
     selection = slice(max(0, low - 1), high + 1)
-    if log.source is None or high - low > POINTS:
+    if log.source is None or high - low > THRESHOLDS.curve_points:
         return log.time[selection], {name: v[selection] for name, v in log.values.items()}
     if not log.within[0] <= start <= end <= log.within[1]:
         _read_window(log, log.source, float(log.time[selection][0]), float(log.time[selection][-1]))
@@ -294,7 +289,7 @@ def _read_mapped(place: str, mapping: LogMap, joints: tuple[JointSpec, ...]) -> 
     source, blocks = _Source(path, mapping, joints), open_blocks(path)
     if blocks is not None and blocks.rows > LONG:
         columns = len(blocks.read_window(0.0, 1).columns)
-        if blocks.rows * columns > _MOST:
+        if blocks.rows * columns > THRESHOLDS.max_whole_values:
             return _read_coarse(source, blocks)
     table = source.table()
     values = {n: table.read_numbers(n) for n in table.names if table.is_numeric(n)}
@@ -310,7 +305,7 @@ def _read_coarse(source: _Source, blocks: Any) -> _Log:
         table = source.table(part, rows)
         values = {n: table.read_numbers(n) for n in table.names if table.is_numeric(n)}
         time = _get_seconds(table, values.pop("time", None))
-        starts = np.arange(0, table.rows, _PIECE)
+        starts = np.arange(0, table.rows, THRESHOLDS.coarse_rows)
         times.append(np.column_stack([time[starts], time[np.append(starts[1:], table.rows) - 1]]))
         for name, column in values.items():
             ends = [np.fmin.reduceat(column, starts), np.fmax.reduceat(column, starts)]
@@ -343,12 +338,12 @@ def _load_robot(place: str) -> Robot:
 
 
 def robot_logging(place: str) -> tuple[tuple[JointSpec, ...], dict[str, Any]]:
-    """Joints of a robot file, and its [log]."""
+    """Returns the joints of a robot file, and its [log]."""
     return robot_joints(place), dict(_load_robot(place).log_mapping)
 
 
 def robot_joints(place: str) -> tuple[JointSpec, ...]:
-    """Of a robot file, without deriving anything; none without one."""
+    """Returns the joints of a robot file, without deriving; none without a file."""
     if not place:
         return ()
     robot = _load_robot(place)
@@ -407,7 +402,7 @@ class Verdict:
 
 
 def verdict(model: str, logs: Sequence[str]) -> Verdict:
-    """What `modeler compare MODEL LOG...` says of every joint."""
+    """Returns the result of `modeler compare MODEL LOG...` for every joint."""
     model_on_logs = _compare_model(model, logs)
     time = concatenate_time(model_on_logs.prediction)[0]
     items = model_on_logs.comparison.joints
@@ -436,7 +431,7 @@ def torque_picture(
     models: Sequence[str], logs: Sequence[str], joint: str, start: float = -np.inf,
     end: float = np.inf,
 ) -> Picture:  # fmt: skip
-    """Measured and predicted torque of a joint between two times, and the residual below.
+    """Draws measured and predicted torque of a joint over time, and the residual below.
 
     Args:
         models: files; each is overlaid.
@@ -497,7 +492,7 @@ def _build_curve(
     prediction: Prediction, label: str, time: np.ndarray, values: np.ndarray, rows: np.ndarray,
     style: Style,
 ) -> Curve:  # fmt: skip
-    thinned = rows[thin_curves((np.asarray(values[rows], dtype=float),), POINTS)]
+    thinned = rows[thin_curves((np.asarray(values[rows], dtype=float),), THRESHOLDS.curve_points)]
     return Curve(
         label,
         *validation.break_at_gaps(prediction.segment[thinned], time[thinned], values[thinned]),
@@ -508,7 +503,7 @@ def _build_curve(
 def residual_picture(
     models: Sequence[str], logs: Sequence[str], joint: str, channel: str, by_log: bool = False
 ) -> Picture:
-    """The residual of a joint over a channel: samples, means with two standard errors.
+    """Draws the residual of a joint over a channel: samples, means with two standard errors.
 
     Args:
         models: files.
@@ -532,7 +527,7 @@ def residual_picture(
     series: list[Series] = []
     for k, (name, x, e) in enumerate(parts):
         style = Style(_OF_MODELS[(k + 1) % len(_OF_MODELS)], width=1.6)
-        thinned = thin_points(x, e, POINTS)
+        thinned = thin_points(x, e, THRESHOLDS.curve_points)
         cloud = Style(style.color if len(parts) > 1 else GREY, width=2.6, opacity=0.35)
         series.append(Points(f"{name} samples".strip(), x[thinned], e[thinned], cloud))
         if x.size:
@@ -546,7 +541,7 @@ def residual_picture(
 
 
 def where_picture(model: str, logs: Sequence[str]) -> Picture:
-    """Joint by channel: the share of its residual's variance that follows that channel.
+    """Draws the share of each joint's residual variance that each channel explains.
 
     Of coordinates of the motion as `modeler compare` has it, of other columns as
     `compute_explained_share`.
@@ -585,7 +580,7 @@ def where_picture(model: str, logs: Sequence[str]) -> Picture:
 
 
 def compute_explained_share(x: np.ndarray, e: np.ndarray, bins: int = 24, folds: int = 8) -> float:
-    """Share of the variance of e that its mean in bins of x predicts on parts left out in turn.
+    """Computes the cross-validated share of the variance of e that bin means over x explain.
 
     1 - sum (e - m)^2 / sum (e - mean e)^2, 0 at least; m is the mean of the bin over all other
     parts of the time. Bins are alike in count, or one for each value where there are few.
@@ -614,7 +609,7 @@ def compute_explained_share(x: np.ndarray, e: np.ndarray, bins: int = 24, folds:
 
 
 def log_errors(model: str, logs: Sequence[str]) -> list[tuple[str, float, dict[str, float]]]:
-    """Relative error on each log, and by joint."""
+    """Returns the relative error on each log, and by joint."""
     log_comparisons = _compare_model(model, logs).comparison.logs
     return [(one.log, float(one.relative_error), dict(one.joints)) for one in log_comparisons]
 
@@ -622,7 +617,7 @@ def log_errors(model: str, logs: Sequence[str]) -> list[tuple[str, float, dict[s
 def poses(
     model: str, logs: Sequence[str], points: int = 6000
 ) -> tuple[np.ndarray, dict[str, np.ndarray]]:
-    """Time on the axis of the pictures and the position of every joint there, rad or m."""
+    """Returns time on the axis of the pictures and the position of every joint, rad or m."""
     p = _compare_model(model, logs).prediction
     time = concatenate_time(p)[0]
     rows = np.arange(0, time.size, -(-time.size // points))

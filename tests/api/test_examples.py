@@ -60,10 +60,10 @@ def test_every_function_has_an_example() -> None:
     methods = [n for n, f in vars(api.Model).items() if not n.startswith("_") and f.__doc__
                and (inspect.isroutine(f) or isinstance(f, property))]  # fmt: skip
     lacking = {n for n in methods if f"modeler.api.model.Model.{n}" not in there}
-    assert lacking <= {"from_identified", "its_logs", "fittedvalues"} and len(methods) > 12
+    assert lacking <= {"from_identified", "find_logs", "fittedvalues"} and len(methods) > 12
 
 
-ROTATE = ("modeler.api.motion", "modeler.api.checks", "modeler.api.identifying",
+ROTATE = ("modeler.api.motion", "modeler.api.checks", "modeler.api.fitting",
           "modeler.api.fleets", "modeler.api.workflow")  # fmt: skip
 MARKS = {
     **dict.fromkeys(("modeler.api.improve", "modeler.api.model"), pytest.mark.slow),  # diagnose

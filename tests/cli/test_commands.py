@@ -146,7 +146,7 @@ def test_a_row_counts_once(capsys, two_link, tmp_path, monkeypatch):
         (("a.parquet@3:",), f"a.parquet@3:: {again}"),
         (("--payload-log", "./a.parquet"), "./a.parquet: got rows of a.parquet again"),
         (("--payload-log", loaded), "carries the load, and a.parquet has"),
-        (("--payload-mass", "2"), "--payload-mass: no loaded log"),
+        (("--payload-mass", "2"), "name it with --payload-log LOG"),
     ):
         assert message in refusal(capsys, *fit, *words)
     err = refusal(capsys, "compare", "m.json", "held.parquet", "held.parquet@2:4")

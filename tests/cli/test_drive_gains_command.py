@@ -97,11 +97,11 @@ def test_a_load_that_makes_no_sense_is_refused(arm, capsys, words, message):
 
 
 MISTAKES = {
-    "": "--method tls: no loaded log; .* add --payload-log LOG --payload-mass KG",
-    "--payload-log loaded.parquet": "--method tls: no --payload-mass; .* weigh the load",
+    "": "method tls needs a log with a load .* add --payload-log LOG --payload-mass KG",
+    "--payload-log loaded.parquet": "method tls needs the mass of the load, .* --payload-mass KG",
     "--payload-log loaded.parquet --payload-mass 0": "mass 0.0 kg; expected above 0",
     "--payload-log torque.parquet --payload-mass 2": "torque.parquet: got tau1, a torque; .* log",
-    "--payload-moved": "--payload-moved: no loaded log; name it",
+    "--payload-moved": "move needs a log with the load; name it",
     "--method weighted": "let `modeler fit --method tls` find it",
 }
 

@@ -13,6 +13,7 @@ import pytest
 
 from modeler.cli import console, main
 from modeler.cli.console import Verbosity, apply_verbosity, show_activity, show_clock, show_progress
+from modeler.cli.thresholds import Thresholds
 from modeler.robot import read_robot
 from tests.cli.running import run
 
@@ -127,7 +128,7 @@ def test_shares_and_titles_in_order(capsys, monkeypatch) -> None:
     with apply_verbosity(Verbosity.NORMAL), show_progress("not asked for") as tell:
         tell(0.5)
     assert capsys.readouterr().err == ""
-    monkeypatch.setattr(console, "_PAUSE", 0.0)
+    monkeypatch.setattr(console, "THRESHOLDS", Thresholds(progress_interval=0.0))
     with apply_verbosity(Verbosity.NORMAL, for_programs=True):
         with show_clock("loading"):
             pass

@@ -9,9 +9,14 @@ from pathlib import Path
 import pytest
 
 from modeler.cli import build_parser, main, places
-from modeler.cli.command_table import COMMANDS, FAMILIES, Methods
-from modeler.cli.commands import collect_command_parsers, parse_words
-from modeler.cli.options import collect_arguments
+from modeler.cli.parser import (
+    Methods,
+    collect_arguments,
+    collect_command_parsers,
+    parse_words,
+    read_commands,
+    read_families,
+)
 from tests.cli.running import refusal
 
 PARSERS = collect_command_parsers(build_parser())
@@ -60,10 +65,10 @@ def test_robot_or_model_first_logs_last() -> None:
 
 
 def test_each_command_has_a_family_and_an_example_that_can_be_typed() -> None:
-    assert list(FAMILIES) == [
+    assert list(read_families()) == [
         "workbench", "describe", "measure", "identify", "understand", "use", "about",
     ]  # fmt: skip
-    assert list(PARSERS) == list(COMMANDS)
+    assert list(PARSERS) == list(read_commands())
     for name, subparser in PARSERS.items():
         lines = re.findall(r"modeler ([^;>]+)", (subparser.epilog or "").replace(')"', ""))
         assert lines and any(line.startswith(f"{name} ") for line in lines), name
@@ -73,11 +78,11 @@ def test_each_command_has_a_family_and_an_example_that_can_be_typed() -> None:
 
 def test_the_help_lists_commands_by_family() -> None:
     text = build_parser().format_help()
-    places_of = [text.index(f"\n{family}:\n") for family in FAMILIES]
+    places_of = [text.index(f"\n{family}:\n") for family in read_families()]
     assert places_of == sorted(places_of)
-    for family, below in zip(FAMILIES, [*list(FAMILIES)[1:], "options"], strict=True):
+    for family, below in zip(read_families(), [*list(read_families())[1:], "options"], strict=True):
         part = text.split(f"\n{family}:\n")[1].split(f"\n{below}:\n")[0]
-        assert re.findall(r"^  (\S+)", part, re.M) == [c.name for c in FAMILIES[family]]
+        assert re.findall(r"^  (\S+)", part, re.M) == read_families()[family]
 
 
 @pytest.mark.parametrize("words", [[], ["compare"]])

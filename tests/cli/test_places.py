@@ -10,8 +10,8 @@ from pathlib import Path
 import pytest
 
 from modeler.cli import build_parser, main
-from modeler.cli.commands import collect_command_parsers
-from modeler.cli.demo import _STORIES
+from modeler.cli.demonstrations import _STORIES
+from modeler.cli.parser import collect_command_parsers
 from modeler.cli.places import (
     DemoFolder,
     Input,

@@ -7,9 +7,8 @@ from typing import get_args
 
 import pytest
 
-from modeler.cli.command_table import COMMANDS
 from modeler.cli.derive import _COMMENT, _SHEETS
-from modeler.cli.options import Form
+from modeler.cli.parser import Form, read_commands
 from modeler.effects.catalogue import CATALOGUE
 from modeler.simulation import HIDDEN
 from tests.rotation import rotating
@@ -50,7 +49,7 @@ def loaded(*commands: tuple[str, ...]) -> list[tuple[int, bool, set[str]]]:
 SHORT = [
     *(((word,), 0) for word in ("--help", "--version", "robots", "effects")),
     *((words.split(), 0) for words in ("effects load_friction", "robots wrist")),
-    *(((name, "--help"), 0) for name in COMMANDS),
+    *(((name, "--help"), 0) for name in read_commands()),
     ((), 2), (("dance",), 2), (("fit",), 2), (("fit", "emps", "--method", "x"), 2),
     (("derive", "arm", "--no-such-option"), 2), (("demo", "--duration", "long"), 2),
     (("derive", "wrist", "--json", "."), 1),

@@ -7,8 +7,12 @@ import shlex
 import pytest
 
 from modeler.cli import build_parser, main
-from modeler.cli.commands import collect_command_parsers, parse_words
-from modeler.cli.options import collect_arguments, collect_options
+from modeler.cli.parser import (
+    collect_arguments,
+    collect_command_parsers,
+    collect_options,
+    parse_words,
+)
 
 # What each argument of a command takes here; no file has to be there.
 WORDS = {
@@ -67,9 +71,9 @@ def test_the_order_does_not_matter(name: str, option: str) -> None:
 def test_a_list_is_given_by_repeating_the_option(capsys) -> None:
     found, _ = parse_words(shlex.split("diagnose --holdout b m.json a --holdout=c e"))
     assert (found.model, found.logs, found.holdout) == ("m.json", ["a", "e"], ["b", "c"])
-    assert "holdout" in found.given and "logs" not in found.given
+    assert "holdout" in found.typed and "logs" not in found.typed
     cut = parse_words(shlex.split("fit emps a --meth robust --out m"))[0]
-    assert cut.method == "robust" and cut.given == {"method", "out"}
+    assert cut.method == "robust" and cut.typed == {"method", "out"}
 
 
 @pytest.mark.parametrize(

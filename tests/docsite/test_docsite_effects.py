@@ -14,7 +14,7 @@ from docsite.effects import SCENES, Portrait, Scene, effects_index, portrait
 from docsite.gallery import exhibit, gallery_front
 from docsite.hooks import on_config
 from modeler.cli import main
-from modeler.cli.commands import build_parser
+from modeler.cli.parser import build_parser
 from modeler.core.builtin import read_builtin_robot
 from modeler.effects import CATALOGUE, Effect
 from modeler.robot import parse_robot_text, replace_effects

@@ -8,9 +8,10 @@ import pytest
 from scipy.signal import lfilter
 
 from modeler.api import Load, fit_gains
-from modeler.api.fitting import FitRequest, run_estimator
+from modeler.api.fitting import run_estimator
 from modeler.codegen import derive, generate
 from modeler.core.errors import DataError
+from modeler.core.fit_options import FitOptions
 from modeler.estimation import PREFIXES, build_prior, compute_body_covariance, solve_least_squares
 from modeler.estimation.covariance import HalvesComparison
 from modeler.estimation.identify import build_base_equations, fit_equations, identify
@@ -255,7 +256,7 @@ def test_an_estimator_without_this_prior_says_so_and_cannot_hold_single_values(
 ):
     """It takes the stated values of the bodies, or does without them."""
     robot, compiled_bodies = bodies
-    asked = FitRequest(energy=True) if method == "energy" else FitRequest(method)
+    asked = FitOptions(model="energy") if method == "energy" else FitOptions(method)
     who = "the energy model" if asked.energy else f"method {method}"
     told = f"{who} cannot hold parameters.*; got Fv1, Fv2, Fv3, Fs3"
     with pytest.raises(DataError, match=told):
@@ -277,7 +278,7 @@ def bodies():
 
 def test_other_ways_to_fit_cannot_hold_single_values(model, seen, bodies):
     with pytest.raises(DataError, match=r"cannot hold parameters .*; got Fv1, Fv2, Fv3, Fs3"):
-        run_estimator(FitRequest("two-step"), bodies[0], model, seen)
+        run_estimator(FitOptions("two-step"), bodies[0], model, seen)
     held = parse_robot_text(text(NOMINAL | FRICTION, {}, held=("Fv3",)), "stated.toml")
     with pytest.raises(DataError, match=r"method tls cannot hold parameters .*; got Fv3"):
         fit_gains(derive(held), [], Load(["none.csv"], 3.0))

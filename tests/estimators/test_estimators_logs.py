@@ -330,11 +330,14 @@ ROBUST = "fit emps a.csv --method didim-robust --out m"
         ("estimators magic", "estimators: got magic; expected one of weighted"),
         ("fit emps a.csv --method all --out m", "--out: got it with --method"),
         ("fit emps a.csv --method iv,ridge --model energy", "--model: got it"),
-        (f"{ROBUST} --model energy", "didim-robust: got it with --model energy, whose rows are wi"),
+        (f"{ROBUST} --model energy", "energy model does not take method didim-robust"),
         (f"{ROBUST} --robot-out r", "--robot-out: --method didim-robust ends in base parameters"),
         ("fit emps a.csv --out m --holdout b.csv", "--holdout: got it with"),
-        (f"{ROBUST} --payload-log a.csv", "got it with --method didim-robust, which knows no load"),
-        ("fit emps a.csv --method two-step --payload-log a.csv --out m", "which knows no loads"),
+        (f"{ROBUST} --payload-log a.csv", "method didim-robust takes no logs with a load"),
+        (
+            "fit emps a.csv --method two-step --payload-log a.csv --out m",
+            "method two-step takes no logs with a load",
+        ),
     ],
 )
 def test_bad_input_is_one_line(words, line, capsys):

@@ -134,7 +134,7 @@ def test_simulink_is_the_same_unit_and_sources_do_alone(monkeypatch) -> None:
     def no_library(sources) -> bytes:
         raise BuildError("C compiler: none of cc, gcc, clang is found")
 
-    monkeypatch.setattr("modeler.api.code_exports.build_portable_library", no_library)
+    monkeypatch.setattr("modeler.api.exporting.build_portable_library", no_library)
     unit, same = (export(load("two-link"), to=to) for to in ("fmu", "simulink"))
     assert unit.data == same.data and "Simulink" in same.notes[0]
     assert any("sources only" in note and "C compiler: none" in note for note in unit.notes)

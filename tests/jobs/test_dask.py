@@ -14,7 +14,7 @@ import pyarrow.parquet as pq
 import pytest
 
 from modeler import __version__
-from modeler.api.long_logs import make_worker_reducer, merge_in_time
+from modeler.api.chunk_workers import make_worker_reducer, merge_in_time
 from modeler.cli import main
 from modeler.core import jobs as cluster
 from modeler.core.errors import DataError

@@ -8,7 +8,7 @@ from pathlib import Path
 
 import pytest
 
-from modeler.cli.commands import build_parser
+from modeler.cli.parser import build_parser
 from tests.measured_sets.sets import DATA, PAGE
 from tests.rotation import ROTATING
 from tests.test_docs import Block, Reader, blocks

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from modeler.cli import main
-from modeler.cli.reproduce import METHODS
+from modeler.cli.demonstrations import METHODS
 from modeler.core.builtin import list_papers
 from modeler.core.errors import RobotError
 from modeler.papers.methods import (

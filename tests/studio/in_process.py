@@ -17,9 +17,9 @@ from nicegui.testing.user_interaction import UserInteraction
 from nicegui.testing.user_simulation import user_simulation
 
 from modeler.cli import main
-from modeler.studio import app, places, start_screen, studio as studio_module, viewer
+from modeler.studio import app, places, processes, studio as studio_module
+from modeler.studio.processes import Outcome
 from modeler.studio.project import Project, Workspace
-from modeler.studio.running import Outcome
 from modeler.studio.studio import Hub
 
 SHORT = ("--duration", "24", "--rate", "200")
@@ -55,13 +55,13 @@ def run_command(folder: Path, words: Sequence[str]) -> tuple[int, tuple[str, ...
     return status, tuple(out.getvalue().splitlines()), line if status else ""
 
 
-async def answer(asked: viewer.Viewer, function: str, arguments: tuple[Any, ...]) -> Any:
+async def answer(asked: processes.Viewer, function: str, arguments: tuple[Any, ...]) -> Any:
     """As the process of the viewer answers."""
     folder, allowed = asked._places
     before, places.READABLE = places.READABLE, places.Roots(allowed)
     try:
         with chdir(folder):
-            return viewer.compute_answer(function, arguments)
+            return processes.compute_answer(function, arguments)
     finally:
         places.READABLE = before
 
@@ -71,7 +71,7 @@ def without_processes() -> Iterator[None]:
     """Commands and questions of a studio start no process."""
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(studio_module, "RunningCommand", InProcess)
-        patch.setattr(viewer.Viewer, "_compute_answer", answer)
+        patch.setattr(processes.Viewer, "_compute_answer", answer)
         yield
 
 
@@ -203,7 +203,7 @@ async def windows(folder: Path, allow: Sequence[Path] = ()) -> AsyncIterator[Cal
         Client.page_routes.clear()
         async with user_simulation(lambda: None) as first:
             screens = {name: draw for name, (_, draw) in app.JOBS.items()}
-            hub = Hub(Workspace(folder), (folder, *allow), {"start": start_screen.draw, **screens})
+            hub = Hub(Workspace(folder), (folder, *allow), {"start": app.draw_start, **screens})
             app._add_routes(core.app, hub)
             app._add_pages(hub, demo=False)
 

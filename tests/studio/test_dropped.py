@@ -25,9 +25,9 @@ from tests.studio.window import Served, served
 @pytest.fixture(scope="module")
 def dropped() -> Any:
     """The module, which imports NiceGUI."""
-    from modeler.studio import dropped
+    from modeler.studio import file_inputs
 
-    return dropped
+    return file_inputs
 
 
 def drop(studio: Served, cookie: str, name: str, data: bytes, kind: str = "logs") -> Answer:

@@ -15,12 +15,12 @@ import pytest
 
 from modeler import studio
 from modeler.cli import main
-from modeler.cli.commands import build_parser
+from modeler.cli.parser import build_parser
 from modeler.core.errors import DataError, ModelerError
 from modeler.estimation import load_model, save_model
+from modeler.studio.export_screen import build_recipe, format_notebook, format_script
 from modeler.studio.places import Roots
 from modeler.studio.project import Project, ProjectLog, Workspace, format_project, parse_project
-from modeler.studio.recipe import build_recipe, format_notebook, format_script
 from modeler.studio.tasks import FIELDS, LogPart, Step, Task, TimeRange, Verb, build_command_line
 from tests.coroutines import run_coroutine
 from tests.studio.hubs import hub_of, run_tasks

@@ -11,9 +11,9 @@ import numpy as np
 import pytest
 
 from modeler.api import load, simulate
-from modeler.cli.commands import build_parser
+from modeler.cli.parser import build_parser
 from modeler.core.builtin import read_builtin_robot
-from modeler.studio import commands, recipe
+from modeler.studio import commands, export_screen
 from modeler.studio.project import Project, ProjectLog, Workspace
 from modeler.studio.tasks import LogPart, Step, Task, TimeRange, build_bookkeeping_words
 from tests.coroutines import run_coroutine
@@ -66,7 +66,7 @@ def test_what_is_typed_parses(task):
 
 
 def test_a_step_is_known_again_but_for_its_number():
-    from modeler.studio.missing_screen import find_trial
+    from modeler.studio.diagnosis_screens import find_trial
 
     one = commands.add(PROJECT, "spring", "1")
     step = Step(2, 1, one)
@@ -115,12 +115,12 @@ def worked(tmp_path_factory) -> Workspace:
     return Workspace(folder)
 
 
-def retold(workspace: Workspace) -> recipe.Recipe:
+def retold(workspace: Workspace) -> export_screen.Recipe:
     """As the screen asks for it."""
     folder, project = workspace.folder, workspace.project
     copies = {step.robot_copy for step in project.steps} - {""}
     robots = {name: (folder / name).read_text(encoding="utf-8") for name in copies}
-    return recipe.build_recipe(project, folder, robots)
+    return export_screen.build_recipe(project, folder, robots)
 
 
 def check_same(workspace: Workspace, fresh: Path) -> None:
@@ -145,7 +145,9 @@ def test_the_script_makes_the_same_in_an_empty_folder(worked, tmp_path):
     from tests.studio.in_process import run_command
 
     before = {p: p.stat().st_mtime_ns for p in worked.folder.rglob("*") if p.is_file()}
-    (tmp_path / "steps.sh").write_text(recipe.format_script(retold(worked)), encoding="utf-8")
+    (tmp_path / "steps.sh").write_text(
+        export_screen.format_script(retold(worked)), encoding="utf-8"
+    )
     fresh, recorder = tmp_path / "fresh", tmp_path / "recorder"
     fresh.mkdir()
     recorder.write_text("#!/bin/sh\nprintf '%s\\0' \"$@\" >> ../words\nprintf '\\n' >> ../words\n")
@@ -165,7 +167,7 @@ def test_the_script_makes_the_same_in_an_empty_folder(worked, tmp_path):
 
 @slow_rotating("screens of the studio")
 def test_the_notebook_makes_the_same_in_an_empty_folder(worked, tmp_path):
-    book = json.loads(recipe.format_notebook(retold(worked)))
+    book = json.loads(export_screen.format_notebook(retold(worked)))
     assert (book["nbformat"], book["nbformat_minor"]) == (4, 5)
     assert len({cell["id"] for cell in book["cells"]}) == len(book["cells"])
     code = ["".join(cell["source"]) for cell in book["cells"] if cell["cell_type"] == "code"]
@@ -218,5 +220,5 @@ def test_the_notebook_guesses_where_the_commands_guess():
     tasks = (Task("fit", a, mapping=auto), Task("add", a, b, auto, effect="spring"),
              Task("diagnose", a, mapping=auto), Task("compare", b, mapping=auto))  # fmt: skip
     steps = tuple(Step(k, k - 1, task) for k, task in enumerate(tasks, start=1))
-    told = recipe.format_notebook(recipe.Recipe(Path("here"), steps, {}, frozenset()))
+    told = export_screen.format_notebook(export_screen.Recipe(Path("here"), steps, {}, frozenset()))
     assert told.count("mapping=['auto']") == len(tasks)

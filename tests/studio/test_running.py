@@ -11,7 +11,8 @@ from pathlib import Path
 
 import pytest
 
-from modeler.studio.running import INTERRUPTED, Outcome, RunningCommand
+from modeler.studio.processes import INTERRUPTED, Outcome, RunningCommand
+from modeler.studio.thresholds import Thresholds
 from tests.coroutines import run_coroutine
 from tests.studio.texts import URDF
 
@@ -173,7 +174,7 @@ def test_what_does_not_heed_an_interrupt_is_killed(tmp_path: Path, monkeypatch, 
         "print('deaf', flush=True)\n"
         "time.sleep(60)"
     )
-    monkeypatch.setattr("modeler.studio.running._PATIENCE", 0.3)
+    monkeypatch.setattr("modeler.studio.processes.THRESHOLDS", Thresholds(interrupt_patience=0.3))
 
     async def cancelled() -> Outcome:
         running = RunningCommand(("robots",), tmp_path, "robots")

@@ -1,6 +1,7 @@
 """What the process of the viewer answers, and that process: windows, residuals, kill, memory."""
 
 import asyncio
+import dataclasses
 import os
 import re
 import signal
@@ -23,7 +24,7 @@ from modeler.core.thinning import thin_curves
 from modeler.estimation import load_model
 from modeler.regression import LONG
 from modeler.studio import viewing
-from modeler.studio.viewer import Viewer, compute_answer
+from modeler.studio.processes import Viewer, compute_answer
 from tests.coroutines import run_coroutine
 from tests.rotation import rotating
 
@@ -89,12 +90,14 @@ def test_a_window_of_a_log_has_its_rows_and_its_extremes(folder) -> None:
     assert set(clock[rows]) <= set(x)
     np.testing.assert_array_equal(y[np.isin(x, clock[rows])], q1[rows])
     x, y = viewing.log_window("a.parquet", ["q1"], -np.inf, np.inf)["q1"]
-    assert x.size <= viewing.POINTS and (y.min(), y.max()) == (q1.min(), q1.max())
+    assert x.size <= viewing.THRESHOLDS.curve_points and (y.min(), y.max()) == (q1.min(), q1.max())
 
 
 @pytest.mark.parametrize("kind", ["parquet", *rotating("csv")])
 def test_a_long_log_is_seen_coarsely_then_closely(tmp_path, monkeypatch, kind: str) -> None:
-    monkeypatch.setattr(viewing, "_MOST", 1)
+    monkeypatch.setattr(
+        viewing, "THRESHOLDS", dataclasses.replace(viewing.THRESHOLDS, max_whole_values=1)
+    )
     place, clock = tmp_path / f"long.{kind}", np.arange(LONG + 40_000) * 1e-3
     q1 = np.sin(0.3 * clock) + 1e-4 * np.random.default_rng(8).normal(size=clock.size)
     q1[clock.size // 3] = 9.0  # a single spike
@@ -108,7 +111,9 @@ def test_a_long_log_is_seen_coarsely_then_closely(tmp_path, monkeypatch, kind: s
     assert facts.coarse and facts.rows == clock.size
     assert abs(facts.end - clock[-1]) < 1e-9
     x, y = viewing.log_window(str(place), ["q1"], -np.inf, np.inf)["q1"]
-    assert x.size <= viewing.POINTS and abs(y.max() - 9.0) < 1e-6  # one row of 290 000
+    assert (
+        x.size <= viewing.THRESHOLDS.curve_points and abs(y.max() - 9.0) < 1e-6
+    )  # one row of 290 000
     at = clock[clock.size // 3]
     x, y = viewing.log_window(str(place), ["q1"], at - 0.2, at + 0.2)["q1"]
     rows = np.abs(clock - at) < 0.1905

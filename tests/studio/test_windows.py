@@ -12,8 +12,8 @@ import pytest
 from modeler.core.builtin import read_builtin_robot
 from modeler.studio import commands
 from modeler.studio.commands import build_command_words
+from modeler.studio.processes import Outcome
 from modeler.studio.project import Project, ProjectLog, Workspace
-from modeler.studio.running import Outcome
 from modeler.studio.tasks import Step, Task, TimeRange
 from tests.rotation import slow_rotating
 from tests.studio.hubs import hub_of, run_tasks

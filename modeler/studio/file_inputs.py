@@ -1,8 +1,4 @@
-"""Files that are dropped on a page: received as a stream, and there as a whole or not at all.
-
-NiceGUI's own way of receiving keeps a file twice in the temporary folder, which is memory on many
-machines; here it goes straight to the disk of the project, a megabyte at a time, beside its place.
-"""
+"""Files that come in: dropped on a page, received as a stream, or chosen in a dialog."""
 
 import asyncio
 import contextlib
@@ -12,7 +8,7 @@ import re
 import secrets
 import shutil
 import unicodedata
-from collections.abc import AsyncIterator, Callable
+from collections.abc import AsyncIterator, Callable, Sequence
 from pathlib import Path
 from typing import Any, BinaryIO
 from urllib.parse import unquote
@@ -24,7 +20,9 @@ from starlette.requests import ClientDisconnect
 
 from modeler.core.builtin import LOG_ENDINGS
 from modeler.core.errors import DataError, ModelerError
-from modeler.studio.places import BEGUN, ROBOT_ENDINGS, format_size
+from modeler.studio.places import BEGUN, ROBOT_ENDINGS, Entry, Roots, format_size
+from modeler.studio.studio import Studio
+from modeler.studio.thresholds import THRESHOLDS
 
 KINDS = {"logs": LOG_ENDINGS, "originals": ROBOT_ENDINGS}
 """Folders of the project that files may be dropped into, and how their names end."""
@@ -33,12 +31,10 @@ NAME = "x-name"
 """Header of a request that says the name of its file, quoted as in an address."""
 
 _AT_ONCE = 2**20
-_LONGEST = 120  # bytes of a name
-_SPARE = 2**20  # bytes of the disk that stay free
 
 
 def safe_name(name: str) -> str:
-    """A name of a file without folders, hidden beginnings, and letters that mean something.
+    """Returns a file name without folders, leading dots and special characters.
 
     Args:
         name: as a browser says it.
@@ -48,7 +44,7 @@ def safe_name(name: str) -> str:
     stem, dot, ending = plain.rpartition(".")
     stem, ending = (stem, f".{ending.strip()}") if dot else (ending, "")
     stem = stem.lstrip(".-@ ")
-    while len((stem + ending).encode()) > _LONGEST and stem:
+    while len((stem + ending).encode()) > THRESHOLDS.max_name_bytes and stem:
         stem = stem[:-1]
     return (stem.strip() or "log") + ending
 
@@ -112,7 +108,7 @@ async def receive_file(
     try:
         place.mkdir(exist_ok=True)
         free = shutil.disk_usage(place).free
-        if size is not None and size + _SPARE > free:
+        if size is not None and size + THRESHOLDS.spare_disk_bytes > free:
             raise OSError(errno.ENOSPC, f"{format_size(size)} to come, {format_size(free)} free")
         upload = _Upload(place, safe_name(name))
         async for piece in _merge_pieces(stream):
@@ -145,7 +141,7 @@ async def _merge_pieces(stream: AsyncIterator[bytes]) -> AsyncIterator[bytes]:
 
 
 def add_route(app: FastAPI, folder: Path, writable: Callable[[], bool]) -> None:
-    """Where files are sent to.
+    """Adds the route that receives uploads.
 
     Args:
         app: that answers.
@@ -172,7 +168,7 @@ def add_route(app: FastAPI, folder: Path, writable: Callable[[], bool]) -> None:
 def add_drop_zone(
     kind: str, label: str, on_received: Callable[[list[str]], Any], on_error: Callable[[str], Any]
 ) -> ui.upload:
-    """Where files are dropped or chosen.
+    """Adds the area where files are dropped or chosen.
 
     Args:
         kind: of `KINDS`.
@@ -199,3 +195,61 @@ def add_drop_zone(
     zone.on("failed", handle_answer, js_handler=read)
     zone.on("rejected", lambda: on_error(f"upload: cannot be taken; expected {endings}"), args=[])
     return zone
+
+
+def choose_files(
+    studio: Studio, endings: Sequence[str], on_chosen: Callable[[list[str]], Any]
+) -> None:
+    """Shows a dialog of the folders and files that `--allow` names.
+
+    Args:
+        studio: the window.
+        endings: of the files that may be chosen.
+        on_chosen: is called with those that were, relative to the folder of the project if they lie
+            in it.
+    """
+    roots, home, marked = Roots(studio.hub.allowed), studio.folder.resolve(), list[Path]()
+    tops = sorted({root.resolve() for root in roots.folders})
+
+    def show_folder(folder: Path | None) -> None:
+        """The entries of a folder; None: the folders that may be read."""
+        entries = [Entry(str(top), top, None) for top in tops]
+        places.clear()
+        with places:
+            if folder is not None:
+                ui.label(str(folder)).classes("studio-soft")
+                add_folder_button("..", None if folder in tops else folder.parent)
+                try:
+                    entries = roots.read_entries(folder, endings)
+                except DataError as error:
+                    ui.label(str(error)).classes("studio-error").props("role=alert")
+                    return
+            for entry in entries:
+                if entry.size is None:
+                    add_folder_button(entry.name, entry.place)
+                    continue
+                box = ui.checkbox(f"{entry.name}  ({format_size(entry.size)})").props("dense")
+                box.value = entry.place in marked
+                box.on_value_change(
+                    lambda event, place=entry.place: (
+                        marked.append(place) if event.value else marked.remove(place)
+                    )
+                )
+
+    def add_folder_button(name: str, place: Path | None) -> None:
+        into = ui.button(name, icon="folder", on_click=lambda: show_folder(place)).classes("w-full")
+        into.props("flat dense no-caps align=left")
+
+    def finish_choice() -> None:
+        dialog.close()
+        files = [f.relative_to(home) if f.is_relative_to(home) else f for f in marked]
+        if files:
+            on_chosen([file.as_posix() for file in files])
+
+    with ui.dialog(value=True) as dialog, ui.card().classes("studio-card chooser"):
+        ui.label("Choose files where they lie").classes("studio-part")
+        places = ui.column().classes("w-full gap-0 chooser-list")
+        with ui.row():
+            ui.button("Take", on_click=finish_choice).props("no-caps unelevated")
+            ui.button("Close", on_click=dialog.close).props("no-caps flat")
+    show_folder(None)

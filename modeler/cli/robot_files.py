@@ -1,28 +1,137 @@
-"""`modeler home ROBOT`."""
+"""Commands about robot files: `new`, `convert`, `show`, `home`, `export`."""
 
 import argparse
+import sys
 from pathlib import Path
 
 import numpy as np
 
-from modeler.api.postures import home as home_modes, select_mode
-from modeler.cli.console import Json, print_lines, print_result, show_activity
+from modeler.api.exporting import export
+from modeler.api.model import open_model
+from modeler.api.workflow import home as home_modes, select_mode
+from modeler.cli.console import (
+    Json,
+    print_error,
+    print_lines,
+    print_note,
+    print_result,
+    show_activity,
+    show_next,
+)
 from modeler.cli.lists import check_own_file, read_robot_with_notes
-from modeler.core.errors import DataError
+from modeler.cli.places import Output, check_places
+from modeler.cli.thresholds import THRESHOLDS
+from modeler.core.builtin import CONVENTIONS, TEMPLATES
+from modeler.core.errors import DataError, RobotError
 from modeler.core.files import write_atomically
 from modeler.derivation import HomeModes, Linkage, express_as_home
-from modeler.robot import Robot, TomlCell, format_home_lines, read_home, replace_home
+from modeler.formats import convert, parse_lock_values
+from modeler.robot import (
+    Robot,
+    TomlCell,
+    check_new_robot,
+    fill_template,
+    format_home_lines,
+    new_robot,
+    read_home,
+    replace_home,
+)
 from modeler.views import (
     PICTURE_KINDS,
     Posture,
     build_skeleton,
+    describe_posture,
     estimate_robot_size,
     render_modes_page,
+    serialise_posture,
+    show,
 )
 
-MODE_PICTURES = (*PICTURE_KINDS, ".html")
+_FILES = (
+    "a URDF, MJCF or SYMORO file needs no new one: every command reads it, or `modeler convert`"
+)
 
-_MOST_VALUES = 6
+
+def run_new(args: argparse.Namespace) -> Json:
+    """Writes a robot file to start from, by questions on a terminal."""
+    out = Path(args.file)
+    check_new_robot(out, args.force)
+    words = ("template", "joints", "convention")
+    answers = {key: value for key, value in vars(args).items() if key in words and value}
+    is_interactive = not answers and sys.stdin is not None and sys.stdin.isatty()
+    if is_interactive:
+        answers = _ask_robot()
+    robot = new_robot(out, force=args.force, **answers)
+    loops = ", loops that close" if robot.loops else ""
+    print_result(
+        f"{robot.title}: {len(robot.moving_joints)} joints{loops}, written to {out}; write your "
+        "lengths"
+    )
+    show_next([f"modeler derive {out}"])
+    if is_interactive:
+        print_error(_FILES)
+    return _describe_robot(robot, out)
+
+
+def _describe_robot(robot: Robot, out: Path) -> Json:
+    """What a script is told of a robot file that was written."""
+    joints, loops = ([one.name for one in many] for many in (robot.moving_joints, robot.loops))
+    return {"robot": robot.name, "out": str(out), "joints": joints, "loops": loops}
+
+
+def _ask_robot() -> dict[str, str]:
+    """What the user says of the robot; Enter takes what stands in brackets."""
+    answers = {"template": _ask_question(f"kind: {', '.join(TEMPLATES)}", TEMPLATES[0], "template")}
+    if answers["template"] == TEMPLATES[0]:
+        answers["joints"] = _ask_question("joints from the base, R or P each", "RRRRRR", "joints")
+        question = f"whose table have you: {', '.join(CONVENTIONS)}"
+        answers["convention"] = _ask_question(question, "khalil", "convention")
+    return answers
+
+
+def _ask_question(question: str, default: str, key: str) -> str:
+    """An answer that a template can be made with; asked again until it is one."""
+    while True:
+        sys.stderr.write(f"{question} [{default}]: ")
+        sys.stderr.flush()
+        answer = sys.stdin.readline().strip() or default
+        try:
+            fill_template("arm", **{key: answer})
+            return answer
+        except RobotError as error:
+            print_error(str(error))
+
+
+def run_convert(args: argparse.Namespace) -> Json:
+    """Writes the robot file, when it has been read as one; prints the notes."""
+    lock = parse_lock_values(args.lock)
+    robot = convert(args.file, args.out, args.base, args.tip, lock, args.exact_decimals, args.force)
+    loops = f", {len(robot.loops)} loops" if robot.loops else ""
+    print_result(f"{robot.name}: {len(robot.moving_joints)} joints{loops}, written to {args.out}")
+    print_lines(robot.readings, "* ")
+    return {
+        **_describe_robot(robot, Path(args.out)),
+        "file": str(args.file),
+        "notes": list(robot.readings),
+    }
+
+
+def run_show(args: argparse.Namespace) -> Json:
+    """Writes the page and the picture; prints the frames at home and whether the loops close."""
+    robot = read_robot_with_notes(args.robot)
+    if args.out is None and (args.picture is None or args.open):
+        args.out = Output(f"{robot.name}.html")
+        check_places(args)
+    with show_activity(f"drawing {robot.name}"):
+        drawing = show(robot, args.out, args.picture)
+    print_lines(describe_posture(drawing.skeleton, drawing.posture))
+    places = {"page": args.out, "picture": args.picture}
+    written = {what: str(place) for what, place in places.items() if place is not None}
+    print_lines(f"{what}: {place}" for what, place in written.items())
+    return {**serialise_posture(drawing.skeleton, drawing.posture), **written}
+
+
+MODE_PICTURES = (*PICTURE_KINDS, ".html")
 
 
 def run_home(args: argparse.Namespace) -> Json:
@@ -124,7 +233,7 @@ def _format_table(assembly: HomeModes) -> list[str]:
     # The joints by which people tell modes apart: the platform's, else the first that follow.
     names = [joint.name for joint in linkage.free]
     shown_places = [names.index(name) for name in linkage.robot.platform if name in names]
-    shown_places = shown_places or list(linkage.loops.solved)[:_MOST_VALUES]
+    shown_places = shown_places or list(linkage.loops.solved)[: THRESHOLDS.listed_joints]
     for k, mode in enumerate(modes):
         facts = [f"singular value {mode.singularity_distance:.2g}"]
         if linkage.robot.limits:
@@ -146,3 +255,28 @@ def _format_values(linkage: Linkage, u: np.ndarray, places: list[int]) -> str:
         degrees = f" ({np.degrees(value):.1f} deg)" if linkage.free[k].is_revolute else ""
         texts.append(f"q{linkage.free[k].name} = {value:g} {linkage.free[k].unit}{degrees}")
     return ", ".join(texts)
+
+
+def run_export(args: argparse.Namespace) -> Json:
+    """Writes the file; prints its numbers and what it cannot hold."""
+    model = open_model(args.source) if Path(args.source).suffix.lower() == ".json" else None
+    thing = read_robot_with_notes(args.source) if model is None else model
+    for line in () if model is None else model.warning:
+        print_note(line)
+    with show_activity(f"exporting {args.source}"):
+        exported = export(thing, args.out, args.to, args.like, args.force)
+    first, *lines = exported.summary().splitlines()
+    print_result(f"{first}, written to {args.out}")
+    changed = exported.table("changed")
+    if exported.like and len(changed):
+        same = len(exported.values) - len(changed)
+        print_lines(
+            [
+                "",
+                *changed.to_text().splitlines()[1:],
+                f"{same} others are as they were, in these digits",
+                "",
+            ]
+        )
+    print_lines(lines, "* ")
+    return {**exported.to_dict(), "out": str(args.out)}

@@ -1,12 +1,8 @@
-"""Commands that the studio runs: one at a time, each a process of its own with progress and cancel.
-
-What computes something new is a command line, `python -m modeler WORDS...` in the project
-folder; so the same words typed in a shell give the same numbers, and an error is the one line that
-the command prints.
-"""
+"""Processes of the studio: commands, one at a time, and the viewer of logs and predictions."""
 
 import asyncio
 import contextlib
+import multiprocessing
 import os
 import re
 import shlex
@@ -16,16 +12,20 @@ import sysconfig
 import time
 from collections import deque
 from collections.abc import AsyncIterator, Callable, Sequence
+from concurrent.futures import ProcessPoolExecutor
+from concurrent.futures.process import BrokenProcessPool
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
-from modeler.core.errors import flatten_message
+from modeler.core.errors import DataError, ModelerError, flatten_message, is_out_of_memory
+from modeler.core.jobs import block_interrupts, exit_with_parent
+from modeler.studio import places
+from modeler.studio.thresholds import THRESHOLDS
 
 _PROGRESS = re.compile(r"progress (-|[\d.]+) (.*)")  # as `--progress lines` writes it
 _TOLD = re.compile(r"modeler(?: [\w-]+)?: (.*)")  # a note, an error, a wrong usage
-_MOST_LINES = 20_000
 _PIECE = 2**16
-_PATIENCE = 3.0  # s from the interrupt to the end by force
 
 INTERRUPTED = 130
 """Status of a command that was cancelled."""
@@ -49,7 +49,7 @@ class Outcome:
 
     @property
     def is_cancelled(self) -> bool:
-        """Whether the user ended it."""
+        """Returns True if the user cancelled it."""
         return self.status == INTERRUPTED
 
 
@@ -72,9 +72,9 @@ class RunningCommand:
         self.words, self.folder, self.title = tuple(words), folder, title
         self.share: float | None = None
         self.doing = "starting"
-        self.lines: deque[str] = deque(maxlen=_MOST_LINES)
+        self.lines: deque[str] = deque(maxlen=THRESHOLDS.max_output_lines)
         self.started = time.monotonic()
-        self._stderr_lines: deque[str] = deque(maxlen=_MOST_LINES)
+        self._stderr_lines: deque[str] = deque(maxlen=THRESHOLDS.max_output_lines)
         self._cancelled = False
         self._process: asyncio.subprocess.Process | None = None
         self._changed = asyncio.Event()
@@ -82,11 +82,11 @@ class RunningCommand:
 
     @property
     def seconds(self) -> float:
-        """Since it began."""
+        """Returns the seconds since the start."""
         return time.monotonic() - self.started
 
     async def wait(self, on_progress: Callable[[], None] = lambda: None) -> Outcome:
-        """Until it ends; that nobody waits any more does not end it.
+        """Waits until the command ends; a cancelled wait does not end it.
 
         Args:
             on_progress: is called when it is further than before, and once in a second.
@@ -100,7 +100,7 @@ class RunningCommand:
         return self._end.result()
 
     def cancel(self) -> None:
-        """As Ctrl-C does; what does not heed that is killed, with all that it started."""
+        """Interrupts the command as Ctrl-C does, and kills it if it does not end."""
         if not self._cancelled and not self._end.done():
             self._cancelled = True
             self.doing = "cancelling"
@@ -109,11 +109,11 @@ class RunningCommand:
             self._killing = asyncio.create_task(self._kill_later())
 
     def kill(self) -> None:
-        """At once."""
+        """Kills the command at once."""
         self._send_signal(getattr(signal, "SIGKILL", signal.SIGTERM))
 
     async def _kill_later(self) -> None:
-        await asyncio.wait([self._end], timeout=_PATIENCE)
+        await asyncio.wait([self._end], timeout=THRESHOLDS.interrupt_patience)
         if not self._end.done():
             self.kill()
 
@@ -139,7 +139,7 @@ class RunningCommand:
             self._send_signal(signal.SIGINT)
             if self._process is not None:
                 with contextlib.suppress(TimeoutError):
-                    await asyncio.wait_for(self._process.wait(), _PATIENCE)
+                    await asyncio.wait_for(self._process.wait(), THRESHOLDS.interrupt_patience)
                 self.kill()
             raise
         if status and self._cancelled:
@@ -217,3 +217,109 @@ def _build_environment() -> dict[str, str]:
     if root not in (sysconfig.get_path("purelib"), sysconfig.get_path("platlib")):
         places.insert(0, root)
     return environment | {"PYTHONPATH": os.pathsep.join(places)}
+
+
+class Viewer:
+    """Functions of `modeler.studio.viewing`, called in a process of its own.
+
+    The process is started when it is first asked, anew where it has ended (as when memory runs
+    out), and ends with this one, even if that is killed. The event loop never waits.
+    """
+
+    def __init__(self, folder: Path = Path(), allowed: Sequence[Path] = ()) -> None:
+        """Names of files are relative to the folder.
+
+        Args:
+            folder: of the project.
+            allowed: folders in which files may be read; none: everywhere.
+        """
+        self._places = folder, tuple(allowed)
+        self._pool: ProcessPoolExecutor | None = None
+        self._turn = asyncio.Lock()
+        self._newest: dict[str, int] = {}
+        self._asked = 0
+
+    async def ask(self, function: str, *arguments: Any, kind: str = "") -> Any:
+        """Returns the answer of a function; questions are answered one after the other.
+
+        Args:
+            function: its name.
+            arguments: plain ones.
+            kind: of questions of which only the newest counts, as the window of one picture: one
+                that waits is dropped when the next comes, and its answer is None.
+
+        Raises:
+            ModelerError: as the function, or the process ended twice over it.
+        """
+        self._asked += 1
+        number = self._newest[kind] = self._asked
+        async with self._turn:
+            if kind and self._newest[kind] != number:
+                return None
+            for _ in range(2):
+                try:
+                    return await self._compute_answer(function, arguments)
+                except BrokenProcessPool:
+                    self.end()
+            raise DataError(
+                "the process that draws logs ended in the middle of its work, twice, as when "
+                "memory runs out; close other programs, or look at a shorter stretch"
+            )
+
+    async def launch(self) -> None:
+        """Starts the process, before it is needed."""
+        if self._pool is None:
+            with contextlib.suppress(ModelerError):
+                await self.ask("robot_joints", "")
+
+    async def _compute_answer(self, function: str, arguments: tuple[Any, ...]) -> Any:
+        if self._pool is None:
+            context = multiprocessing.get_context("spawn")
+            self._pool = ProcessPoolExecutor(
+                1, mp_context=context, initializer=_initialise_process, initargs=self._places
+            )
+        loop = asyncio.get_running_loop()
+        with block_interrupts():  # of the process that this starts
+            future = loop.run_in_executor(self._pool, compute_answer, function, arguments)
+        return await future
+
+    def end(self) -> None:
+        """Lets go of the process; the next question starts another."""
+        if self._pool is not None:
+            pool, self._pool = self._pool, None
+            for process in list((pool._processes or {}).values()):
+                process.kill()
+            pool.shutdown(wait=False, cancel_futures=True)
+
+
+def _initialise_process(folder: Path, allowed: tuple[Path, ...]) -> None:
+    """At the start of the process."""
+    exit_with_parent()
+    os.chdir(folder)
+    places.READABLE = places.Roots(allowed)
+
+
+def compute_answer(function: str, arguments: tuple[Any, ...]) -> Any:
+    """Calls a function of `viewing`, in the process of the viewer.
+
+    Raises:
+        ModelerError: as the function, or memory ran out.
+    """
+    from modeler.studio import robot_views
+
+    viewer_function: Callable[..., Any] | None = getattr(robot_views, function, None)
+    if viewer_function is not None:  # a robot needs nothing of what reads logs
+        return viewer_function(*arguments)
+    from modeler.studio import viewing
+
+    viewer_function = getattr(viewing, function)
+    try:
+        return viewer_function(*arguments)
+    except (MemoryError, OSError, RuntimeError) as error:
+        if not is_out_of_memory(error):
+            raise DataError(f"{function}: {error}") from error
+        viewing.forget()
+        raise DataError(
+            "memory ran out while a log was drawn; close other programs, or look at a shorter "
+            "stretch"
+        ) from error

@@ -1,0 +1,26 @@
+"""The numbers that decide in `modeler.api`: unit, reason and source of each."""
+
+from dataclasses import dataclass
+
+
+@dataclass(frozen=True)
+class Thresholds:
+    """Holds all limits, counts and delays of the package."""
+
+    export_states: int = 200
+    """States at which exported torques are compared; no study."""
+    export_seed: int = 1
+    """Seed of these states."""
+    export_amplitude: float = 0.05
+    """rad or m of random motion around home for them; no study."""
+    chunks_per_job: int = 2
+    """Chunks of a long log that one job reduces: each job decodes whole pages."""
+    jobs_per_merge: int = 16
+    """Jobs that are merged by the workers before results travel; no study."""
+    max_guess_error_share: float = 0.5
+    """Share of the plain mapping's error that a guess by range may have; no study."""
+    link_clearance: float = 0.01
+    """m between links of a robot with [capsules]; a convention."""
+
+
+THRESHOLDS = Thresholds()
