@@ -10,7 +10,8 @@ from collections.abc import Mapping
 import numpy as np
 
 from benchmarks.line import Key, Line, ratio
-from modeler.codegen import derive, generate, load as robot
+from modeler.api.workflow import load as robot
+from modeler.codegen import derive, generate
 from modeler.derivation import draw_random_states
 from modeler.runtime import CompiledModel, load_module
 

@@ -10,12 +10,7 @@ from typing import Any, TypeVar
 
 from modeler import regression
 from modeler.api.log_maps import Mapped, build_log_maps, parse_time_range, read_mapped_log
-from modeler.codegen import (
-    Derivation as Derivation,
-    derive as derive,
-    generate as generate_robot,
-    load as load,
-)
+from modeler.codegen import Derivation as Derivation, derive as derive, generate as generate_robot
 from modeler.core.builtin import list_builtin_robots
 from modeler.core.errors import ALSO, Also, DataError, Machine, ManifestError, Precision
 from modeler.core.estimators import ABOUT
@@ -51,6 +46,15 @@ Or columns in memory: a frame of pandas or Polars, a dict of arrays.
 
 Logs = AnyLog | Sequence[AnyLog]
 """Logs; one alone stands for a list of it."""
+
+
+def load(robot: str | Path) -> Robot:
+    """Reads the robot of a file (TOML, URDF, MJCF, .par), or the built-in robot of that name.
+
+    >>> load("two-link").table().column("theta")
+    ['q1', 'q2', '0']
+    """
+    return read_robot(robot)
 
 
 def convert_to_list(logs: Logs) -> Sequence[AnyLog]:

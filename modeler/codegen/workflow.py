@@ -16,7 +16,7 @@ from modeler.derivation import (
     derive_model,
     relations,
 )
-from modeler.robot import Robot, read_robot
+from modeler.robot import Robot
 
 if TYPE_CHECKING:
     from modeler.codegen.control import Control
@@ -67,22 +67,13 @@ class Derivation(Result):
         return derive_regressor_form(self.model, base).format_formulas()
 
 
-def load(robot: str | Path) -> Robot:
-    """The robot of that file, or the built-in robot of that name.
-
-    >>> load("two-link").table().column("theta")
-    ['q1', 'q2', '0']
-    """
-    return read_robot(robot)
-
-
 def derive(robot: Robot) -> Derivation:
     r"""The symbolic model and the base parameters with their proof.
 
-    >>> found = derive(load("two-link"))
-    >>> found.base.rank, found.base.proof.kind
+    >>> derivation = derive(read_robot("two-link"))
+    >>> derivation.base.rank, found.base.proof.kind
     (10, 'exact')
-    >>> print(found.table("base").to_markdown().splitlines()[2])
+    >>> print(derivation.table("base").to_markdown().splitlines()[2])
     | $\mathit{ZZ}_{1R}$ | $\mathit{ZZ}_{1} + L_{1}^{2} M_{2}$ | kg m2 | inertial |
     """
     model = derive_model(robot)

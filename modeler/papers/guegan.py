@@ -13,7 +13,7 @@ from pathlib import Path
 import numpy as np
 
 from modeler import simulation
-from modeler.codegen import Derivation, derive, generate, load
+from modeler.codegen import Derivation, derive, generate
 from modeler.derivation import draw_random_states
 from modeler.estimation import FitResult, identify
 from modeler.excitation import MotionBounds, MotionRequest, design_motion
@@ -29,7 +29,7 @@ from modeler.papers.methods import (
 )
 from modeler.papers.paper import Paper
 from modeler.regression import Observation, observe, read_log
-from modeler.robot import Limits, Robot
+from modeler.robot import Limits, Robot, read_robot
 from modeler.runtime import CompiledModel, load_cached_model
 
 STATES, SEED = 20, 2003
@@ -334,7 +334,7 @@ def reproduce_guegan(paper: Paper, report: Callable[[float], None]) -> list[Meth
         for place in ("Table 2", "Table 3")
     )
     truth = {name: values[0] for name, values in table_3.items()}
-    each, derivation = (derive(load(name)) for name in (WHOLE, ROBOT))
+    each, derivation = (derive(read_robot(name)) for name in (WHOLE, ROBOT))
     compiled = load_cached_model(generate(derivation))
     blocks = build_block_table((each, load_cached_model(generate(each))), (derivation, compiled))
     observation, exact = _simulate_logs(derivation.robot, truth, compiled, report)

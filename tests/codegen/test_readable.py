@@ -3,11 +3,12 @@
 import numpy as np
 import pytest
 
+from modeler.api.workflow import load
 from modeler.codegen import naming
 from modeler.codegen.control import Control
 from modeler.codegen.emit import emit
 from modeler.codegen.naming import Naming
-from modeler.codegen.workflow import derive, load
+from modeler.codegen.workflow import derive
 from modeler.derivation.derive import derive_model
 from modeler.robot import parse_robot_text
 from tests.codegen.fitted_library import SLOW, fitted_of

@@ -4,7 +4,8 @@ from functools import cache
 
 import numpy as np
 
-from modeler.codegen import Control, derive, generate, load
+from modeler.api.workflow import load
+from modeler.codegen import Control, derive, generate
 from modeler.core.manifest import EmittedModule
 from modeler.robot import Robot, parse_robot_text
 

@@ -8,7 +8,8 @@ from typing import NamedTuple
 import numpy as np
 import pytest
 
-from modeler.codegen import Control, derive, load
+from modeler.api.workflow import load
+from modeler.codegen import Control, derive
 from modeler.robot.read import parse_robot_text
 from tests.control import draw
 from tests.control.emitted_folder import Folder

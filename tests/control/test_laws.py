@@ -4,8 +4,9 @@ import numpy as np
 import pytest
 
 from modeler.api import generate as generate_robot
+from modeler.api.workflow import load
 from modeler.cli import main
-from modeler.codegen import Control, derive, generate, load
+from modeler.codegen import Control, derive, generate
 from modeler.core.errors import DerivationError, EmitError
 from modeler.robot import parse_robot_text, replace_effects
 from tests.control.draw import emitted

@@ -8,7 +8,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from modeler.codegen import derive, generate, load
+from modeler.api.workflow import load
+from modeler.codegen import derive, generate
 from modeler.codegen.control import Control
 from modeler.robot import INERTIAL
 from modeler.robot.read import read_robot

@@ -10,10 +10,11 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from modeler.api.workflow import load
 from modeler.codegen.control import Control
 from modeler.codegen.cost import add_cost
 from modeler.codegen.package import write_emitted
-from modeler.codegen.workflow import Derivation, derive, generate, load
+from modeler.codegen.workflow import Derivation, derive, generate
 from modeler.core.errors import BuildError, EmitError, ManifestError
 from modeler.core.manifest import EmittedModule, parse_manifest
 from tests.csrc.emitted_folders import CPP, built, make, run

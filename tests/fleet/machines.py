@@ -7,7 +7,8 @@ from unittest.mock import patch
 import numpy as np
 from scipy.signal import lfilter
 
-from modeler.codegen.workflow import derive, generate, load
+from modeler.api.workflow import load
+from modeler.codegen.workflow import derive, generate
 from modeler.core.manifest import EmittedModule
 from modeler.fleet.naming import LogName
 from modeler.fleet.summary import LogSummary, summarise_log

@@ -21,7 +21,6 @@ from modeler.simulation.portable_math import (
 _WRITE = """
 import sys
 import numpy as np
-from modeler.codegen.workflow import load
 from modeler.simulation import SimulationSettings, hidden_from_text, simulate
 found = {}
 for text in sys.argv[2:]:
