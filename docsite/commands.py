@@ -5,7 +5,7 @@ import argparse
 from docsite.markdown import block, cell, code, table
 from modeler.cli.command_table import FAMILIES
 from modeler.cli.commands import build_parser, collect_command_parsers
-from modeler.core.estimators import ABOUT
+from modeler.core.choices import ABOUT
 
 
 def command_pages() -> dict[str, str]:

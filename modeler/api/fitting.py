@@ -13,8 +13,8 @@ from modeler.api.model import Model
 from modeler.api.steps import Steps, ignore_step
 from modeler.api.workflow import AnyLog, Logs
 from modeler.codegen import Derivation
-from modeler.core.errors import GAIN_METHOD, TWO_STEPS, DataError, Method
-from modeler.core.estimators import ABOUT
+from modeler.core.choices import ABOUT, GAIN_METHOD, TWO_STEPS, Method
+from modeler.core.errors import DataError
 from modeler.core.manifest import EmittedModule
 from modeler.numerics.least_squares import CompressedRegression
 from modeler.regression import DataWarning, Log, Observation, Processing, check_no_overlap, observe

@@ -13,7 +13,8 @@ from modeler.api.model import Model
 from modeler.api.steps import Steps, ignore_step
 from modeler.api.workflow import AnyLog, Logs, convert_to_list, read_logs
 from modeler.codegen import Derivation
-from modeler.core.errors import GAIN_METHOD, DataError, FitWarning, Method
+from modeler.core.choices import GAIN_METHOD, Method
+from modeler.core.errors import DataError, FitWarning
 from modeler.core.manifest import EmittedModule
 from modeler.derivation import complete_home
 from modeler.regression import Log, Observation, Processing, check_no_overlap, observe

@@ -20,7 +20,8 @@ from modeler.api.workflow import (
     open_sources as open_sources,
 )
 from modeler.codegen import Derivation
-from modeler.core.errors import DataError, Method
+from modeler.core.choices import Method
+from modeler.core.errors import DataError
 from modeler.core.jobs import Workers
 from modeler.core.manifest import EmittedModule
 from modeler.estimation import OF_TRIANGLES, FitResult, long_logs as chunked

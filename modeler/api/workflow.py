@@ -15,9 +15,8 @@ from modeler.codegen import (
     generate as generate_robot,
     load as load,
 )
-from modeler.core.builtin import list_builtin_robots
-from modeler.core.errors import ALSO, Also, DataError, Machine, ManifestError, Precision
-from modeler.core.estimators import ABOUT
+from modeler.core.choices import ABOUT, ALSO, Also, Machine, Precision, list_builtin_robots
+from modeler.core.errors import DataError, ManifestError
 from modeler.core.files import write_atomically
 from modeler.core.manifest import EmittedModule, ModuleSpec
 from modeler.core.table import Table

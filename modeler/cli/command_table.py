@@ -42,8 +42,16 @@ from modeler.cli.shared_arguments import (
 )
 from modeler.cli.use_commands import EXPORT, GENERATE
 from modeler.core import errors
-from modeler.core.builtin import CONVENTIONS, EFFECTS, MOTIONS, SIMULATED, TEMPLATES, list_papers
-from modeler.core.estimators import ABOUT, APART
+from modeler.core.choices import (
+    ABOUT,
+    APART,
+    CONVENTIONS,
+    EFFECTS,
+    MOTIONS,
+    SIMULATED,
+    TEMPLATES,
+    list_papers,
+)
 
 NOMINAL = ""
 """`--cad` without a file: the values of the robot file."""

@@ -9,8 +9,7 @@ from modeler.cli import places
 from modeler.cli.commands import collect_command_parsers
 from modeler.cli.console import Json, print_lines, print_result
 from modeler.cli.options import ALL, METHODS, collect_arguments, collect_options, find_option
-from modeler.core.builtin import list_papers
-from modeler.core.estimators import ABOUT
+from modeler.core.choices import ABOUT, list_papers
 from modeler.effects import CATALOGUE as EFFECTS
 
 _BASH = """\

@@ -25,7 +25,8 @@ from modeler.cli.console import (
 )
 from modeler.cli.lists import apply_stated_options, resolve_robot
 from modeler.cli.options import ALL, Methods
-from modeler.core.errors import GAIN_METHOD, DataError
+from modeler.core.choices import GAIN_METHOD
+from modeler.core.errors import DataError
 from modeler.core.files import write_atomically
 from modeler.core.jobs import Workers, open_workers
 from modeler.core.table import align_columns

@@ -5,7 +5,7 @@ import sys
 from pathlib import Path
 
 from modeler.cli.console import Json, print_error, print_lines, print_result, show_next
-from modeler.core.builtin import CONVENTIONS, TEMPLATES
+from modeler.core.choices import CONVENTIONS, TEMPLATES
 from modeler.core.errors import RobotError
 from modeler.robot import (
     Robot,

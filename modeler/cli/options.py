@@ -10,7 +10,7 @@ from typing import Any, Literal, get_args
 
 from modeler.cli.places import JsonFile, LogFile, MapWord, Output, OutputFolder, Word
 from modeler.core import errors
-from modeler.core.estimators import ABOUT
+from modeler.core.choices import ABOUT
 
 Form = Literal["text", "latex", "markdown"]
 """How relations are printed."""

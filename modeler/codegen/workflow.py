@@ -5,7 +5,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from modeler.core.errors import Machine, Precision
+from modeler.core.choices import Machine, Precision
 from modeler.core.formula import Formulas
 from modeler.core.manifest import EmittedModule, FittedSpec
 from modeler.core.result import Result
@@ -35,16 +35,18 @@ class Derivation(Result):
 
     @property
     def relations(self) -> Formulas:
-        """The base parameters as sums of standard ones; a notebook typesets them."""
+        """Returns the base parameters as sums of standard ones; a notebook typesets them."""
         title = f"base parameters of {self.robot.name}"
         return Formulas(title, as_text(self.base), as_latex(self.base), as_markdown(self.base))
 
     def to_json(self) -> dict[str, Any]:
-        """What scripts read: base parameters, their sums, the proof."""
+        """Returns what scripts read: base parameters, their sums, the proof."""
         return relations.serialise_base_parameters(self.robot.name, self.base)
 
     def closed_form(self, nonzero: bool = False) -> Formulas:
-        """J(q), S(q), g(q) and e of tau = J qdd + S [qd qd] + g + e, e all effects but rotors.
+        """Returns j(q), S(q), g(q) and e of tau = J qdd + S [qd qd] + g + e.
+
+        E all effects but rotors.
 
         Args:
             nonzero: True to leave out parameters that the robot file states as 0.
@@ -55,7 +57,7 @@ class Derivation(Result):
         return derive_short_form(self.model, base).format_formulas()
 
     def regressor(self, nonzero: bool = False) -> Formulas:
-        """The columns phi of tau = phi beta.
+        """Returns the columns phi of tau = phi beta.
 
         Args:
             nonzero: as of `closed_form`.
@@ -67,7 +69,7 @@ class Derivation(Result):
 
 
 def load(robot: str | Path) -> Robot:
-    """The robot of that file, or the built-in robot of that name.
+    """Returns the robot of that file, or the built-in robot of that name.
 
     >>> load("two-link").table().column("theta")
     ['q1', 'q2', '0']
@@ -76,7 +78,7 @@ def load(robot: str | Path) -> Robot:
 
 
 def derive(robot: Robot) -> Derivation:
-    r"""The symbolic model and the base parameters with their proof.
+    r"""Returns the symbolic model and the base parameters with their proof.
 
     >>> found = derive(load("two-link"))
     >>> found.base.rank, found.base.proof.kind
@@ -98,7 +100,7 @@ def generate(
     control: "Control | None" = None,
     measure: Machine | None = None,
 ) -> EmittedModule:
-    """The C module; written to `folder` if one is given, with the controller's unit.
+    """Returns the C module; written to `folder` if one is given, with the controller's unit.
 
     Args:
         derivation: of the robot.

@@ -26,8 +26,7 @@ import numpy as np
 import sympy
 
 from modeler.core.errors import DerivationError
-from modeler.core.expression import FUNCTIONS, LAW
-from modeler.core.law import Law
+from modeler.core.expression import FUNCTIONS, LAW, Law
 from modeler.derivation.geometry import Geometry, GeometryRow, cos_sin, count_quarter_turns
 from modeler.derivation.labels import Label, Link
 

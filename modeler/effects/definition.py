@@ -8,8 +8,7 @@ from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from modeler.core.expression import FUNCTIONS, LAW, Expression
-from modeler.core.law import BESIDE, MOST as MOST_VALUES, Law
+from modeler.core.expression import BESIDE, FUNCTIONS, LAW, MOST as MOST_VALUES, Expression, Law
 from modeler.core.toml_cells import LARGEST, TomlCell, join_names, quote_value, suggest_name
 from modeler.effects.effect import (
     MOTION,

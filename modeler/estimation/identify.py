@@ -8,7 +8,8 @@ from typing import Any
 
 import numpy as np
 
-from modeler.core.errors import DataError, Method
+from modeler.core.choices import Method
+from modeler.core.errors import DataError
 from modeler.core.json import select_attributes
 from modeler.estimation.covariance import HalvesComparison, compare_halves, estimate_hac_covariance
 from modeler.estimation.essential import (

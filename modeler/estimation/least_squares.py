@@ -9,7 +9,8 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from modeler.core.errors import DataError, Method
+from modeler.core.choices import Method
+from modeler.core.errors import DataError
 from modeler.numerics.least_squares import CompressedRegression, Rank, find_independent_columns
 from modeler.regression import Observation, compute_fitted_torque, is_streamed, iterate_blocks
 from modeler.runtime import CompiledModel

@@ -3,8 +3,8 @@
 from collections.abc import Callable
 from dataclasses import dataclass
 
-from modeler.core.errors import DataError, Method
-from modeler.core.estimators import ABOUT, EstimatorInfo
+from modeler.core.choices import ABOUT, EstimatorInfo, Method
+from modeler.core.errors import DataError
 from modeler.estimation.consistent import estimate_consistent
 from modeler.estimation.instrumental import (
     estimate_didim,

@@ -5,7 +5,7 @@ from typing import Any
 
 import numpy as np
 
-from modeler.core.errors import TWO_STEPS
+from modeler.core.choices import TWO_STEPS
 from modeler.core.json import select_attributes
 from modeler.core.table import format_percent
 from modeler.estimation.doubts import HALF, LITTLE

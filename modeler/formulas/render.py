@@ -4,7 +4,7 @@ from collections.abc import Mapping
 from fractions import Fraction
 from typing import Any
 
-from modeler.core.latex_display import DisplayedEquation, format_display
+from modeler.core.formula import DisplayedEquation, format_display
 from modeler.derivation import convert_to_fraction
 from modeler.formulas.closed_form import ClosedForm, ConfigurationFunction
 from modeler.formulas.coefficients import CoefficientTable

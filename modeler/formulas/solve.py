@@ -11,8 +11,7 @@ from dataclasses import dataclass
 from typing import Any, Literal
 
 from modeler.core.errors import ModelerError
-from modeler.core.formula import escape_latex, format_latex_name
-from modeler.core.latex_display import DisplayedEquation, format_display
+from modeler.core.formula import DisplayedEquation, escape_latex, format_display, format_latex_name
 from modeler.derivation import collect_powers, evaluate_modulo
 from modeler.formulas.physical import SEED
 from modeler.formulas.physical_system import PhysicalSystem

@@ -11,10 +11,9 @@ from dataclasses import replace
 import numpy as np
 
 from modeler.codegen import Derivation, derive, generate
-from modeler.core.builtin import read_builtin_robot
+from modeler.core.choices import read_builtin_robot
 from modeler.core.expression import parse_expression
-from modeler.core.figure import Curve, Panel, Picture
-from modeler.core.style import BLUE, GREEN, GREY, VERMILLION, Style
+from modeler.core.figure import BLUE, GREEN, GREY, VERMILLION, Curve, Panel, Picture, Style
 from modeler.core.table import format_percent
 from modeler.estimation import JointDirections, TwoStepFit, identify_in_two_steps
 from modeler.formulas import (

@@ -6,7 +6,8 @@ from dataclasses import dataclass, field
 from typing import Any, get_args
 
 from modeler.core.brief import ShortRepr
-from modeler.core.errors import LOW_SPEED, DataError, Derivatives
+from modeler.core.choices import LOW_SPEED, Derivatives
+from modeler.core.errors import DataError
 
 
 @dataclass(frozen=True)

@@ -5,7 +5,7 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
-from modeler.core.builtin import OTHER_PROGRAMS
+from modeler.core.choices import OTHER_PROGRAMS
 from modeler.core.errors import RobotError
 from modeler.core.files import read_file
 from modeler.robot.robot_text import ConvertedRobot

@@ -11,7 +11,7 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
-from modeler.core.builtin import OTHER_PROGRAMS, list_builtin_robots, read_builtin_robot
+from modeler.core.choices import OTHER_PROGRAMS, list_builtin_robots, read_builtin_robot
 from modeler.core.errors import RobotError
 from modeler.core.files import read_text
 from modeler.core.json import TomlError, parse_toml

@@ -5,7 +5,7 @@ import string
 from collections.abc import Mapping
 from pathlib import Path
 
-from modeler.core.builtin import TEMPLATES, read_template
+from modeler.core.choices import TEMPLATES, read_template
 from modeler.core.errors import DataError, RobotError
 from modeler.core.files import (
     DestinationKind,

@@ -6,7 +6,7 @@ from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
 from modeler.core.brief import ShortRepr
-from modeler.core.builtin import MOST_SAMPLES, MOTIONS
+from modeler.core.choices import MOST_SAMPLES, MOTIONS
 from modeler.core.errors import DataError
 from modeler.robot import Limits, Robot
 

@@ -5,7 +5,7 @@ from typing import Any
 
 from nicegui import ui
 
-from modeler.core.picture_file import read_pictures
+from modeler.core.figure import read_pictures
 from modeler.core.table import format_percent
 from modeler.studio import commands, figures
 from modeler.studio.elements import add_card, add_go_button, add_run_button, draw_head, draw_table

@@ -22,7 +22,7 @@ from fastapi.responses import JSONResponse
 from nicegui import ui
 from starlette.requests import ClientDisconnect
 
-from modeler.core.builtin import LOG_ENDINGS
+from modeler.core.choices import LOG_ENDINGS
 from modeler.core.errors import DataError, ModelerError
 from modeler.studio.places import BEGUN, ROBOT_ENDINGS, format_size
 

@@ -6,7 +6,7 @@ from typing import Any
 from nicegui import ui
 
 from modeler.core.errors import ModelerError
-from modeler.core.picture_file import read_pictures
+from modeler.core.figure import read_pictures
 from modeler.core.table import format_percent
 from modeler.studio import elements, figures
 from modeler.studio.commands import build_viewer_words

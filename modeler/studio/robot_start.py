@@ -6,7 +6,7 @@ from pathlib import Path
 
 from nicegui import background_tasks, ui
 
-from modeler.core.builtin import CONVENTIONS, TEMPLATES, list_builtin_robots, read_builtin_robot
+from modeler.core.choices import CONVENTIONS, TEMPLATES, list_builtin_robots, read_builtin_robot
 from modeler.core.errors import ModelerError
 from modeler.robot import build_pasted_robot, insert_pasted_table, parse_pasted_table
 from modeler.studio.chooser import choose_files

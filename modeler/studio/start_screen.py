@@ -5,7 +5,7 @@ from collections.abc import Callable
 
 from nicegui import ui
 
-from modeler.core.builtin import read_builtin_robot
+from modeler.core.choices import read_builtin_robot
 from modeler.core.errors import ModelerError
 from modeler.core.files import write_atomically
 from modeler.studio.project import ProjectLog

@@ -4,10 +4,25 @@ from collections.abc import Callable, Sequence
 
 import numpy as np
 
-from modeler.core.figure import Bars, Curve, Heat, Means, Panel, Picture, Points
-from modeler.core.style import BLUE, COLORS, GREY, ORANGE, SLATE, VERMILLION, Style
+from modeler.core.figure import (
+    BLUE,
+    COLORS,
+    GREY,
+    ORANGE,
+    SLATE,
+    VERMILLION,
+    Bars,
+    Curve,
+    Heat,
+    Means,
+    Panel,
+    Picture,
+    Points,
+    Style,
+    thin_curves,
+    thin_points,
+)
 from modeler.core.table import format_percent
-from modeler.core.thinning import thin_curves, thin_points
 from modeler.validation.comparison import METHODS, REGIONS, Comparison, JointComparison
 from modeler.validation.prediction import Prediction, compute_residual
 from modeler.validation.residual_structure import (

@@ -4,10 +4,24 @@ from dataclasses import replace
 
 import numpy as np
 
-from modeler.core.figure import Band, Curve, Panel, Picture, Series, Span
-from modeler.core.style import BLACK, COLOR_NAMES, ORANGE, PALE, SHADE, SKY, VERMILLION, Style
+from modeler.core.figure import (
+    BLACK,
+    COLOR_NAMES,
+    ORANGE,
+    PALE,
+    SHADE,
+    SKY,
+    VERMILLION,
+    Band,
+    Curve,
+    Panel,
+    Picture,
+    Series,
+    Span,
+    Style,
+    thin_curves,
+)
 from modeler.core.table import WORDS
-from modeler.core.thinning import thin_curves
 from modeler.regression import MASKS, WHY, find_runs
 from modeler.validation.comparison import WINDOW, JointComparison
 from modeler.validation.prediction import DEVIATIONS, Prediction, compute_residual

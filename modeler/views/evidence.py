@@ -6,8 +6,22 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from modeler.core.figure import Band, Curve, Means, Panel, Picture, Points, Series
-from modeler.core.style import BLACK, BLUE, GREEN, GREY, SKY, VERMILLION, Style
+from modeler.core.figure import (
+    BLACK,
+    BLUE,
+    GREEN,
+    GREY,
+    SKY,
+    VERMILLION,
+    Band,
+    Curve,
+    Means,
+    Panel,
+    Picture,
+    Points,
+    Series,
+    Style,
+)
 from modeler.core.table import format_percent
 from modeler.diagnosis import ScoredCandidate, SearchStep, compute_joint_order_spectrum
 from modeler.validation import DEVIATIONS

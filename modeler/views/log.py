@@ -5,11 +5,9 @@ from functools import partial
 
 import numpy as np
 
-from modeler.core.figure import Panel, Picture, Points
+from modeler.core.figure import SLATE, Panel, Picture, Points, Style, thin_points
 from modeler.core.result import Figures, Presentation, Tables
-from modeler.core.style import SLATE, Style
 from modeler.core.table import Cell, Table, format_percent
-from modeler.core.thinning import thin_points
 from modeler.excitation import ExcitingMotion
 from modeler.logs import Clock, LogInspection, split_label
 from modeler.regression import (

@@ -2,8 +2,22 @@
 
 import numpy as np
 
-from modeler.core.figure import Curve, Panel, Picture, Series, Span
-from modeler.core.style import BLACK, BLUE, GREEN, ORANGE, PALE, PINK, SLATE, VERMILLION, Style
+from modeler.core.figure import (
+    BLACK,
+    BLUE,
+    GREEN,
+    ORANGE,
+    PALE,
+    PINK,
+    SLATE,
+    VERMILLION,
+    Curve,
+    Panel,
+    Picture,
+    Series,
+    Span,
+    Style,
+)
 from modeler.regression import Bands, ChannelNoise
 from modeler.views.blocks import Block, Figure, Items
 

@@ -5,8 +5,18 @@ from dataclasses import replace
 
 import numpy as np
 
-from modeler.core.figure import Curve, Panel, Picture
-from modeler.core.style import BLACK, COLOR_NAMES, COLORS, GREEN, SHADE, VERMILLION, Style
+from modeler.core.figure import (
+    BLACK,
+    COLOR_NAMES,
+    COLORS,
+    GREEN,
+    SHADE,
+    VERMILLION,
+    Curve,
+    Panel,
+    Picture,
+    Style,
+)
 from modeler.core.table import WORDS
 from modeler.diagnosis import AFTER, MARGIN, PushWindow, State, find_load_reversals
 from modeler.validation import WINDOW, break_at_gaps

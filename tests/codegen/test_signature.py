@@ -16,9 +16,8 @@ import sympy
 
 from modeler.codegen.emit import emit
 from modeler.core.errors import LoopError
-from modeler.core.expression import parse_expression
+from modeler.core.expression import FUNCTIONS, compute_power, parse_expression
 from modeler.core.manifest import EmittedModule, digest_code
-from modeler.core.rounded import FUNCTIONS, compute_power
 from modeler.derivation.base_parameters import derive_base_parameters
 from modeler.derivation.closure import LoopEquations, polish_home
 from modeler.derivation.derive import derive_model
