@@ -73,7 +73,7 @@ ONLY_IN = {
     "flint": ("derivation/field.py", "derivation/precise.py"),
     "pandas": ("core/table.py",),
     "h5py": ("logs/arrays.py",),
-    "rosbags": ("logs/bags.py", "logs/bags.py"),
+    "rosbags": ("logs/bags.py",),
     "python_calamine": ("logs/blocks.py",),
     "distributed": ("core/jobs.py",),
     "sklearn": ("api/regressor.py",),

@@ -341,7 +341,7 @@ def _describe_package(spec: ModuleSpec, code: Mapping[str, str]) -> dict[str, An
     The signature is the manifest's, with fitted values where it has any; all objects depend on the
     headers, of which those that a controller includes are public, and installed.
     """
-    signature = spec.compute_signature() if spec.fitted is None else spec.fitted.compute_signature
+    signature = spec.compute_signature() if spec.fitted is None else spec.fitted.signature
     if spec.control is not None:
         signature = digest_text(spec.to_json())
     heads = [

@@ -88,7 +88,7 @@ def test_gaps_repeats_and_steps_back(inspected, table):
     table["time"][50] = table["time"][49]
     table["time"][70:] -= 0.5
     doubts = "\n".join(inspected(table).warnings)
-    assert "time goes back in 1 rows" in doubts and "time repeats itself in 1 rows" in doubts
+    assert "time decreases in 1 rows" in doubts and "time is repeated in 1 rows" in doubts
 
 
 def test_jitter_and_a_clock_that_ticks(inspected, table, plain):
