@@ -41,7 +41,7 @@ from modeler.cli.shared_arguments import (
     pictures,
 )
 from modeler.cli.use_commands import EXPORT, GENERATE
-from modeler.core import errors
+from modeler.core import choices
 from modeler.core.choices import (
     ABOUT,
     APART,
@@ -230,11 +230,11 @@ _PROCESSING = Group(
               "low-pass of the positions (zero phase, Butterworth order 4)"),
         value("--parallel-cutoff", "HZ", float, PARALLEL),
         value("--decimate", "N", int, "keep every N-th row after it"),
-        choice("--derivatives", get_args(errors.Derivatives),
+        choice("--derivatives", get_args(choices.Derivatives),
                "logged velocities, or positions differentiated; auto: the quieter", "auto"),
         value("--low-speed", "SHARE", float,
               "leave out rows below this share of the joint's top speed, where the sign of the "
-              "speed is doubtful", default=errors.LOW_SPEED),
+              "speed is doubtful", default=choices.LOW_SPEED),
         flag("--keep-saturated", "use rows whose torque is stuck at its limit"),
         flag("--keep-contradicted",
              "use rows whose logged derivatives contradict the signals below them"),
@@ -288,7 +288,7 @@ _FIT = Command(
         value("--robot-out", "FILE.toml", places.Output,
               "write the robot file with the values found, for simulators (--method consistent), "
               "or with the drive gains found (--method tls)"),
-        choice("--model", get_args(errors.ModelKind),
+        choice("--model", get_args(choices.ModelKind),
                "one equation a joint and sample, or the energy balance of windows (default "
                "%(default)s)", "torque"),
         value("--window", "S", float,

@@ -9,7 +9,7 @@ from importlib import import_module
 from typing import Any, Literal, get_args
 
 from modeler.cli.places import JsonFile, LogFile, MapWord, Output, OutputFolder, Word
-from modeler.core import errors
+from modeler.core import choices
 from modeler.core.choices import ABOUT
 
 Form = Literal["text", "latex", "markdown"]
@@ -18,7 +18,7 @@ Form = Literal["text", "latex", "markdown"]
 FEW_JOINTS = 3
 """Robots of as many joints get their coefficients printed unasked."""
 
-METHODS = (*get_args(errors.Method), errors.GAIN_METHOD, errors.TWO_STEPS)
+METHODS = (*get_args(choices.Method), choices.GAIN_METHOD, choices.TWO_STEPS)
 ALL = "all"
 """`--method all`: every estimator of `ABOUT`, side by side."""
 

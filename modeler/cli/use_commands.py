@@ -5,7 +5,7 @@ from typing import get_args
 from modeler.cli import places
 from modeler.cli.options import Command, choice, flag, repeated, value
 from modeler.cli.shared_arguments import CHANGED, FORCE, REQUIRED, ROBOT_OR_MODEL
-from modeler.core import errors
+from modeler.core import choices
 
 GENERATE = Command(
     "generate", "derive:run_generate",
@@ -20,7 +20,7 @@ GENERATE = Command(
         value("robot", "ROBOT|MODEL", places.RobotOrModel, ROBOT_OR_MODEL),
         CHANGED,
         value("--out", "DIR", places.ModuleFolder, "folder to write", **REQUIRED),
-        choice("--precision", get_args(errors.Precision),
+        choice("--precision", get_args(choices.Precision),
                "of all numbers of the C: double, or float for a microcontroller", "double"),
         flag("--cuda", "also the base regressor for graphics processors"),
         flag("--structured-text", "also function blocks for a PLC, IEC 61131-3"),
@@ -33,7 +33,7 @@ GENERATE = Command(
         flag("--vectors",
              "also vectors.csv, 50 states with 50 digits, and a program in C that checks a port "
              "by them"),
-        choice("--measure", get_args(errors.Machine),
+        choice("--measure", get_args(choices.Machine),
                "also cost.json: stack, flash and instructions of every function there; wants gcc, "
                "for a Cortex-M arm-none-eabi-gcc"),
         FORCE,

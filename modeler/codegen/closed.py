@@ -317,9 +317,9 @@ def _build_coordinate_sets(model: SymbolicModel, base: BaseParameters) -> list[_
         words["joints"] = ", ".join(joint.name for joint in joints)
         given = layout.make_arguments(joints, model, base).extend("platform", **words)
         moved = {"q": given["x"], "qd": given["xd"], "qdd": given["xdd"], "tau": given["f"]}
-        names = {name: argument.name for name, argument in moved.items()}
-        given = dataclasses.replace(given, specs={**given.specs, **moved})
-        frames.append(_CoordinateSet(PLATFORM, given.extend("closed", **names)))
+        forces = dataclasses.replace(given, specs={**given.specs, **moved})
+        wrench = {name: argument.name for name, argument in moved.items()}
+        frames.append(_CoordinateSet(PLATFORM, forces.extend("closed", **wrench)))
     return frames
 
 

@@ -199,9 +199,10 @@ def build_closed_control_functions(
     forms = dict(sorted(layout.read_catalogue()["control"].items(), reverse=True))
     for f in tree:
         rows = (
-            row for role, row in forms.items() if f.role == role or f.role.startswith(f"{role}_")
+            form for role, form in forms.items() if f.role == role or f.role.startswith(f"{role}_")
         )
-        form = next(rows, {}).get("form")
+        row = next(rows, None)
+        form = row and row.get("form")
         if form is None:
             continue
         names |= {a.name: dataclasses.replace(a, shape=(g,)) for a in f.inputs if a.name in "va"}

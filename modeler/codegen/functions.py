@@ -244,7 +244,12 @@ def make_arguments(
         for unit in ("unit", "effort_unit")
     )
     rate, acceleration = (" or ".join(u + s for u in angle.split(" or ")) for s in ("/s", "/s2"))
-    words = {"angle": angle, "rate": rate, "acceleration": acceleration, "effort": effort}
+    words: dict[str, Any] = {
+        "angle": angle,
+        "rate": rate,
+        "acceleration": acceleration,
+        "effort": effort,
+    }
     words |= {"n": len(joints), "p": len(model.columns), "c": base.rank}
     shared = Arguments("", {}, words).extend("shared", signals=len(model.signals))
     if not model.signals:

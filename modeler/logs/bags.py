@@ -415,7 +415,7 @@ def read_bag(path: Path, wanted: ColumnRequest) -> Columns:
                     recording.unreadable.add(topic)
                     encodings.add(name)
                 else:
-                    recording.add(topic, name, received, message)
+                    recording.add_message(topic, name, received, message)
             if recording.unreadable and recording.is_empty:
                 raise DataError(
                     f"{path}: its messages are {' or '.join(sorted(encodings))}; expected ROS 1, "
@@ -432,7 +432,9 @@ def read_bag(path: Path, wanted: ColumnRequest) -> Columns:
                 if connection.id in empty:
                     continue
                 message = bag.deserialize(raw, connection.msgtype)
-                if not recording.add(connection.topic, connection.msgtype, received, message):
+                if not recording.add_message(
+                    connection.topic, connection.msgtype, received, message
+                ):
                     empty.add(connection.id)
     return recording.build_columns(path, wanted)
 

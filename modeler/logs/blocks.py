@@ -161,7 +161,9 @@ def _build_parquet_columns(
     columns = build_arrow_columns(flatten_table(table, dataset), before, counted_from)
     rate = None if dataset is None else dataset.fps
     return select_columns(
-        dataclasses.replace(columns, clock_notes=(*clock_notes, *columns.reading_notes), rate=rate),
+        dataclasses.replace(
+            columns, reading_notes=(*clock_notes, *columns.reading_notes), rate=rate
+        ),
         names,
     )
 
@@ -242,7 +244,7 @@ class _TextFile:
         if not text.strip():
             table = pa.table({name: pa.nulls(0) for name in dict.fromkeys(names)})
         else:
-            table = self._parse_rows(dialect.table(text), before, parse, convert)
+            table = self._parse_rows(dialect.normalise_rows(text), before, parse, convert)
         kinds = dict(zip(table.column_names, table.schema.types, strict=True))
         texts = {name for name, kind in kinds.items() if pa.types.is_string(kind)}
         wholes = {name: first for name, first in dialect.wholes.items() if name not in texts}
@@ -295,7 +297,7 @@ def build_arrow_columns(
     ]
     columns, units, stamp_notes = join_stamps(named)
     units = {**find_stated_units(table, origins), **units}
-    return Columns(columns, table.num_rows, units, stamp_notes=(*by_names, *stamp_notes))
+    return Columns(columns, table.num_rows, units, reading_notes=(*by_names, *stamp_notes))
 
 
 def select_columns(columns: Columns, names: Sequence[str]) -> Columns:

@@ -85,8 +85,8 @@ class LogTable:
         self.names: tuple[str, ...] = (*self._taken, *(["time"] if self._rate else []), *others)
         self._units = {name: self._find_unit(name) for name in self.names}
         self.notes: tuple[str, ...] = (*self.file_columns.notes, *self._collect_notes())
-        self.guess_notes: tuple[str, ...] = (
-            *self.file_columns.guess_notes,
+        self.reading_notes: tuple[str, ...] = (
+            *self.file_columns.reading_notes,
             *mapping.guess_notes,
             *self._describe_stated_units(),
         )

@@ -98,7 +98,7 @@ def read_files(places: Mapping[Path, str], where: Path, reader: Reader) -> Colum
     read = _collect_notes((part.path.name, part.content.reading_notes) for part in parts)
     reading_notes = (summary, *joined, *read)
     return Columns(
-        tuple(columns), first.content.rows, units, notes, rate=rate, clock_note=reading_notes
+        tuple(columns), first.content.rows, units, notes, rate=rate, reading_notes=reading_notes
     )
 
 

@@ -55,9 +55,9 @@ class Thresholds:
     """Parts of a normalised range, -100 to 100."""
     max_duty_span: float = 2.5
     """Span of a duty from -1 to 1, and a little more."""
-    max_torque: int = 1e4
+    max_torque: float = 1e4
     """N m; above, a torque is likely in mN m. No study."""
-    max_force: int = 1e6
+    max_force: float = 1e6
     """N; above, a force is likely in mN. No study."""
     max_listed_columns: int = 24
     """Columns of the file that a skeleton of [log] lists."""

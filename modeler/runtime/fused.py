@@ -208,7 +208,7 @@ def reduce_rows(
         zip(pattern.columns, pattern.split_triangles(packed), strict=True)
     ):
         flags = None if mask is None else mask[:, j]
-        added, _ = library.rows(phi[:, j], y[:, j], flags, columns, level, triangle)
+        added, _ = library.add_rows(phi[:, j], y[:, j], flags, columns, level, triangle)
         rows[j] += np.uintp(added)
     return Triangles(pattern, packed, rows, np.zeros(0, dtype=bool))
 
