@@ -45,7 +45,7 @@ class LoopSolver:
         pattern: of df/du.
         sets: {start of names: given variables}, "" of the coordinates, "platform_" of a platform.
         eliminations: of the others, by start of names.
-        turns: sines and cosines that closure and regressor share.
+        shared_sines: sines and cosines that closure and regressor share.
     """
 
     closure: Closure
@@ -214,7 +214,7 @@ class _CoordinateSet:
 
     Attributes:
         head: start of the functions' names: "" or "platform_".
-        given: their arguments; q, qd, qdd are x, xd, xdd for the platform.
+        arguments: their arguments; q, qd, qdd are x, xd, xdd for the platform.
     """
 
     head: str

@@ -23,8 +23,8 @@ class Efforts:
 
     Attributes:
         matrix: d tau/d qdd, (n, n).
-        rest: tau at qdd = 0; at the qdd that is read, where it `turns`.
-        turns: True if effects read qdd otherwise than linearly, or not by a symmetric matrix.
+        bias: tau at qdd = 0; at the qdd that is read, where it is implicit.
+        is_implicit: True if effects read qdd otherwise than linearly, or not by a symmetric matrix.
     """
 
     matrix: Sequence[Sequence[Expr]]

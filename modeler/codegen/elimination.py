@@ -60,9 +60,9 @@ class Elimination:
         solution: of J_solved x = right, from lu[k] and right[i].
         coupling: (place in u, place in the given, value) of the nonzeros of G in solved rows,
             from lu[k] and J[k].
-        turned: bounds of the sums of the absolute entries of each row of J_solved^-1 (J' - J),
+        change_bounds: of the sums of the absolute entries of each row of J_solved^-1 (J' - J),
             from lu[k], J[k] and K[k], the nonzeros of J'.
-        spread: sum of the squares of its entries.
+        change_squares: sum of the squares of its entries.
     """
 
     limits: tuple[float, ...]

@@ -40,7 +40,7 @@ class Destination:
     """The place that a path leads to.
 
     Attributes:
-        place: with all links followed.
+        path: with all links followed.
         kind: what is there.
         status: of what is there; None if it is new.
     """

@@ -70,7 +70,7 @@ class Columns:
         rows: of every column.
         units: that the file states: name -> text.
         notes: what was left out or joined, one sentence each.
-        told: how it was read, one sentence each: nothing to doubt.
+        reading_notes: how it was read, one sentence each: nothing to doubt.
         streams: topics or groups, if the file has such.
         rate: Hz, that the file states of its rows; None if it does not.
     """

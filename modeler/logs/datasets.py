@@ -30,7 +30,7 @@ class Dataset:
     """What a dataset says of its files.
 
     Attributes:
-        place: its `info.json`.
+        info_path: its `info.json`.
         fps: Hz; None if it does not say.
         names: of the entries of columns of lists.
     """

@@ -56,7 +56,7 @@ class TableHead:
         first: line of the first row, counted from 0.
         units: that a line under the names states, by column.
         rate: Hz, that a line before them states.
-        told: what was found, in words; nothing of names in the first line.
+        notes: what was found, in words; nothing of names in the first line.
     """
 
     names: tuple[str, ...]

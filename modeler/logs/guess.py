@@ -61,7 +61,7 @@ class Guess:
     """Columns that look like one quantity of all joints.
 
     Attributes:
-        own: our name of it: "time", "q", "tau", ...
+        quantity: our name of it: "time", "q", "tau", ...
         template: name of the columns, "{}" for what tells joints apart.
         labels: of the columns, in their order; ("",) without.
         units: of the columns, guessed or stated; "" for SI.

@@ -122,10 +122,10 @@ class LogInspection(Result):
         channels: in the order of the file.
         streams: topics or groups.
         notes: of reading.
-        doubts: what contradicts itself or looks like another unit.
+        warnings: what contradicts itself or looks like another unit.
         suggested: a [log] to paste, guessed; "" if a mapping is there already.
-        plain: the same without what ranges say of positions.
-        ranged: doubts about positions that rest on their range alone.
+        suggested_without_ranges: the same without what ranges say of positions.
+        range_warnings: doubts about positions that rest on their range alone.
         time: (n,) s, or row numbers without a clock; of a long log at the extremes of each block.
         steps: (2, m) times, and steps of the clock up to them, s; of a long log the extremes.
         values: (n,) of every channel, in its unit.

@@ -45,7 +45,7 @@ class LogTable:
         rated: True if time is counted from the rate, for want of a column.
         rows: of every column.
         notes: what reading left out, one sentence each.
-        told: how it was read, one sentence each: nothing to doubt.
+        reading_notes: how it was read, one sentence each: nothing to doubt.
     """
 
     def __init__(

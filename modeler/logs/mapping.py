@@ -262,7 +262,7 @@ class LogMap:
         rate: Hz, of a log without a time column.
         files: of logs in several files, our name -> how the name of the file ends.
         auto: what these leave open is to be guessed.
-        told: what was guessed, one line each.
+        guess_notes: what was guessed, one line each.
     """
 
     layers: tuple[Mapping[str, MappedColumn], ...] = ()
