@@ -315,9 +315,9 @@ def _build_coordinate_sets(model: SymbolicModel, base: BaseParameters) -> list[_
     if closure.platform is not None:
         joints = [model.robot.free_joints[k] for k in closure.platform]
         words["joints"] = ", ".join(joint.name for joint in joints)
-        given = layout.make_arguments(joints, model, base).extend("platform", **words)
+        platform = layout.make_arguments(joints, model, base).extend("platform", **words)
         moved = {"q": given["x"], "qd": given["xd"], "qdd": given["xdd"], "tau": given["f"]}
-        forces = dataclasses.replace(given, specs={**given.specs, **moved})
+        forces = dataclasses.replace(platform, specs={**platform.specs, **moved})
         wrench = {name: argument.name for name, argument in moved.items()}
         frames.append(_CoordinateSet(PLATFORM, forces.extend("closed", **wrench)))
     return frames

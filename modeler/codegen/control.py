@@ -453,7 +453,7 @@ def _build_regressors(
     if layout.needs_more_than_speed(model):
         return ()
     place = {parameter.column: i for i, parameter in enumerate(base.parameters)}
-    found = []
+    functions = []
     regressors: dict[str, Callable[[SymbolicModel], Entries]] = {
         "slotine_li_regressor": derivation.derive_slotine_li_regressor,
         "momentum_regressor": derivation.derive_momentum_regressor,
@@ -465,8 +465,8 @@ def _build_regressors(
         entries = make_regressor(model)
         based = {(row, place[k]): value for (row, k), value in entries.items() if k in place}
         places = [(row * base.rank + i, value) for (row, i), value in layout.sort_by_column(based)]
-        found.append(arguments.declare(role, entries=tuple(places)))
-    return tuple(found)
+        functions.append(arguments.declare(role, entries=tuple(places)))
+    return tuple(functions)
 
 
 # Frames that a controller steers.

@@ -25,7 +25,7 @@ _WORDS: Mapping[str, str] = {
     "qd": "qd dq qdot geschwindigkeit drehzahl vel velocity velocities speed speeds omega",
     "q": "q winkel pos position positions angle angles theta enc encoder x state",
 }
-_KIND_OF = {word: own for own, words in _WORDS.items() for word in words.split()}
+_KIND_OF = {word: quantity for quantity, words in _WORDS.items() for word in words.split()}
 _KINDS: Mapping[Powers, str] = {
     TIME: "time",
     ANGLE: "q",
