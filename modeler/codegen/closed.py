@@ -316,7 +316,12 @@ def _build_coordinate_sets(model: SymbolicModel, base: BaseParameters) -> list[_
         joints = [model.robot.free_joints[k] for k in closure.platform]
         words["joints"] = ", ".join(joint.name for joint in joints)
         platform = layout.make_arguments(joints, model, base).extend("platform", **words)
-        moved = {"q": given["x"], "qd": given["xd"], "qdd": given["xdd"], "tau": given["f"]}
+        moved = {
+            "q": platform["x"],
+            "qd": platform["xd"],
+            "qdd": platform["xdd"],
+            "tau": platform["f"],
+        }
         forces = dataclasses.replace(platform, specs={**platform.specs, **moved})
         wrench = {name: argument.name for name, argument in moved.items()}
         frames.append(_CoordinateSet(PLATFORM, forces.extend("closed", **wrench)))

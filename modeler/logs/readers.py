@@ -260,7 +260,7 @@ InMemory = Frame | Mapping[str, Any]
 def build_frame_columns(frame: InMemory, where: str, joints: Sequence[JointSpec] = ()) -> Columns:
     """Returns the columns of a frame, or of a dict of arrays.
 
-    >>> columns_given({"time": range(20), "q": np.zeros((20, 2))}, "run").rows
+    >>> build_frame_columns({"time": range(20), "q": np.zeros((20, 2))}, "run").rows
     20
 
     Args:
