@@ -43,7 +43,7 @@ class FitRequest:
     """How a fit is to be made.
 
     Attributes:
-        method: an id of `core.estimators`, or "two-step".
+        method: an id of `core.choices`, or "two-step".
         energy: True for the energy model, whose rows are windows.
         window: its length, s; None: the spacing of the torque model's rows.
         payloads: loads that some logs carry.

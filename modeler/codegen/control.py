@@ -297,8 +297,8 @@ class Control:
         frames: names of further frames whose Jacobians are wanted: rows, links of [frames].
         only: roles of the functions that are wanted, and `observation`; empty: all.
         vectors: add the table of `vectors.vector_lines` and the program that reads it.
-        structured_text: add the function blocks of `codegen.structured_text`.
-        a2l: add the description of the parameter set, of `codegen.a2l`.
+        structured_text: add the function blocks of `codegen.printers`.
+        a2l: add the description of the parameter set, of `codegen.printers`.
     """
 
     frames: tuple[str, ...] = ()

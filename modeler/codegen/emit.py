@@ -205,7 +205,7 @@ def emit(
         base: the base parameters of the same model.
         fitted: their values, of a model; the unit with them is added.
         precision: of the numbers: all `double`, or all `float`.
-        cuda: add the kernels of `codegen.cuda`, of a robot without loops.
+        cuda: add the kernels of `codegen.printers`, of a robot without loops.
         control: add the controller's unit, and what else it says.
 
     Raises:
