@@ -21,7 +21,7 @@ from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
-from modeler.core.builtin import list_builtin_robots, list_papers
+from modeler.core.choices import list_builtin_robots, list_papers
 
 TOLERANCE = 1e-9
 ROUNDING = 1e-13

@@ -4,7 +4,7 @@ import argparse
 
 from docsite.markdown import block, cell, code, table
 from modeler.cli.parser import build_parser, collect_command_parsers, read_families
-from modeler.core.estimators import ABOUT
+from modeler.core.choices import ABOUT
 
 
 def command_pages() -> dict[str, str]:

@@ -11,7 +11,7 @@ from docsite.effects import Portrait
 from docsite.markdown import block, cell, code, table
 from modeler import formulas
 from modeler.codegen import Derivation, derive, generate
-from modeler.core.builtin import list_builtin_robots, read_builtin_robot
+from modeler.core.choices import list_builtin_robots, read_builtin_robot
 from modeler.derivation import format_base_parameters
 from modeler.robot import read_robot
 from modeler.views import render_picture, show

@@ -9,7 +9,7 @@ from docsite.effects import effects_index, portraits
 from docsite.gallery import exhibits, gallery_front, gallery_index
 from docsite.interface import interface_pages
 from docsite.notebook import last_run, notebook_page
-from modeler.core.builtin import list_builtin_robots
+from modeler.core.choices import list_builtin_robots
 from modeler.effects import CATALOGUE
 
 if TYPE_CHECKING:  # tests read this file without it

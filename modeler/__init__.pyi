@@ -3,62 +3,31 @@
 Of `effects` and `fleet`, which are rooms, the functions are `modeler.api.effects` and `.fleet`.
 """
 
-from .api import (
+from modeler.api import (
     AnyLog as AnyLog,
     Asked as Asked,
-    Comparison as Comparison,
-    CompiledModel as CompiledModel,
-    Derivation as Derivation,
-    Diagnosis as Diagnosis,
-    EmittedModule as EmittedModule,
-    Exported as Exported,
-    FitResult as FitResult,
-    FitWarning as FitWarning,
-    Fleet as Fleet,
-    FreeRunSettings as FreeRunSettings,
-    GpuModel as GpuModel,
-    IdentifiedModel as IdentifiedModel,
     Load as Load,
-    Log as Log,
     Mapped as Mapped,
     Model as Model,
-    Observation as Observation,
     Parameter as Parameter,
-    Payload as Payload,
-    Processing as Processing,
-    Robot as Robot,
-    add as add,
     add_all as add_all,
     add_discoveries as add_discoveries,
     assemble_model as assemble_model,
     build_log_map as build_log_map,
     check_motion as check_motion,
-    compare as compare,
-    compare_methods as compare_methods,
-    compare_models as compare_models,
     compile as compile,
     compile_model as compile_model,
-    convert as convert,
     define_effect as define_effect,
-    derive as derive,
-    diagnose as diagnose,
     discriminating_motion as discriminating_motion,
     estimators as estimators,
     excite as excite,
     expected_sigmas as expected_sigmas,
     export as export,
-    fit as fit,
     fit_gains as fit_gains,
     free_run as free_run,
-    generate as generate,
     home as home,
     home_posture as home_posture,
-    identify as identify,
-    inspect_log as inspect_log,
-    load as load,
     load_on_gpu as load_on_gpu,
-    new_robot as new_robot,
-    observe as observe,
     open_model as open_model,
     open_robot as open_robot,
     parse_time_range as parse_time_range,
@@ -70,9 +39,38 @@ from .api import (
     resolve_mapping as resolve_mapping,
     robots as robots,
     save as save,
-    show as show,
-    simulate as simulate,
     write_report as write_report,
+)
+from modeler.codegen import Derivation as Derivation, derive as derive
+from modeler.core.errors import FitWarning as FitWarning
+from modeler.core.manifest import EmittedModule as EmittedModule
+from modeler.diagnosis import Diagnosis as Diagnosis
+from modeler.estimation import (
+    FitResult as FitResult,
+    IdentifiedModel as IdentifiedModel,
+    Payload as Payload,
+)
+from modeler.fleet import Fleet as Fleet
+from modeler.formats import Exported as Exported, convert as convert
+from modeler.regression import Log as Log, Observation as Observation, Processing as Processing
+from modeler.robot import Robot as Robot, new_robot as new_robot
+from modeler.runtime import CompiledModel as CompiledModel, GpuModel as GpuModel
+from modeler.validation import Comparison as Comparison, FreeRunSettings as FreeRunSettings
+from modeler.views import show as show
+
+from .api import (
+    add as add,
+    compare as compare,
+    compare_methods as compare_methods,
+    compare_models as compare_models,
+    diagnose as diagnose,
+    fit as fit,
+    generate as generate,
+    identify as identify,
+    inspect_log as inspect_log,
+    load as load,
+    observe as observe,
+    simulate as simulate,
 )
 
 __version__: str

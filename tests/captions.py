@@ -2,8 +2,7 @@
 
 import re
 
-from modeler.core.figure import Heat, Picture
-from modeler.core.style import COLOR_NAMES, SHADE
+from modeler.core.figure import COLOR_NAMES, SHADE, Heat, Picture
 
 
 def colours_said(picture: Picture) -> set[str]:

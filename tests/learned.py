@@ -5,8 +5,8 @@ from collections.abc import Mapping
 import numpy as np
 from scipy.interpolate import BSpline
 
-from modeler.core.builtin import read_builtin_robot
-from modeler.core.law import Law
+from modeler.core.choices import read_builtin_robot
+from modeler.core.expression import Law
 
 
 def drawn(rng: np.random.Generator, axes: int, cells: tuple[int, ...] = ()) -> Law:

@@ -9,7 +9,7 @@ from typing import Any
 
 import pytest
 
-from modeler.core.builtin import list_builtin_robots, read_builtin_robot
+from modeler.core.choices import list_builtin_robots, read_builtin_robot
 from tests.rotation import ROTATING
 
 ROBOTS = list_builtin_robots()

@@ -17,7 +17,7 @@ import pytest
 
 from modeler.cli import main
 from modeler.cli.parser import read_families
-from modeler.core.builtin import read_builtin_robot
+from modeler.core.choices import read_builtin_robot
 from modeler.core.errors import RobotError
 from modeler.effects.catalogue import CATALOGUE
 from modeler.effects.effect import MOTION, EffectTarget

@@ -7,8 +7,7 @@ from typing import Any
 from docsite.commands import commands
 from modeler import api
 from modeler.codegen.package import C_INTERFACE
-from modeler.core.builtin import EFFECTS
-from modeler.core.estimators import ABOUT
+from modeler.core.choices import ABOUT, EFFECTS
 from modeler.core.manifest import FORMAT as MANIFEST_FORMAT
 from modeler.estimation.model_file import FORMAT as MODEL_FORMAT
 from modeler.robot.read import _KEYS

@@ -13,8 +13,8 @@ import modeler.api.workflow as workflow
 from modeler import estimation, regression, validation
 from modeler.api.log_maps import Mapped, build_log_maps, parse_time_range
 from modeler.api.workflow import AnyLog, Logs, are_long, are_too_long, compile_robot, open_sources
-from modeler.core.errors import DataError, Method
-from modeler.core.estimators import ABOUT
+from modeler.core.choices import ABOUT, Method
+from modeler.core.errors import DataError
 from modeler.core.manifest import JointSpec
 from modeler.core.table import label_values
 from modeler.derivation import complete_home

@@ -25,7 +25,8 @@ from modeler.api.workflow import (
     read_logs,
 )
 from modeler.codegen import Derivation
-from modeler.core.errors import GAIN_METHOD, TWO_STEPS, DataError, FitWarning, Method
+from modeler.core.choices import GAIN_METHOD, TWO_STEPS, Method
+from modeler.core.errors import DataError, FitWarning
 from modeler.core.fit_options import METHODS, FitOptions
 from modeler.core.jobs import Workers
 from modeler.core.manifest import EmittedModule

@@ -11,9 +11,8 @@ from typing import Any, TypeVar
 from modeler import regression
 from modeler.api.log_maps import Mapped, build_log_maps, parse_time_range, read_mapped_log
 from modeler.codegen import Derivation as Derivation, derive as derive, generate as generate_robot
-from modeler.core.builtin import list_builtin_robots
-from modeler.core.errors import ALSO, Also, DataError, Machine, ManifestError, Precision
-from modeler.core.estimators import ABOUT
+from modeler.core.choices import ABOUT, ALSO, Also, Machine, Precision, list_builtin_robots
+from modeler.core.errors import DataError, ManifestError
 from modeler.core.files import write_atomically
 from modeler.core.manifest import EmittedModule, ModuleSpec
 from modeler.core.table import Table

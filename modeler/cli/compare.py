@@ -22,9 +22,8 @@ from modeler.cli.console import (
 )
 from modeler.cli.lists import read_robot_with_notes
 from modeler.cli.places import LogFile
-from modeler.core.builtin import LOG_ENDINGS
+from modeler.core.choices import LOG_ENDINGS, find_estimator_title
 from modeler.core.errors import DataError
-from modeler.core.estimators import find_estimator_title
 from modeler.estimation import (
     IdentifiedModel,
     add_known_load,

@@ -14,8 +14,7 @@ from modeler.cli.parser import (
     collect_options,
     find_option,
 )
-from modeler.core.builtin import list_papers
-from modeler.core.estimators import ABOUT
+from modeler.core.choices import ABOUT, list_papers
 from modeler.core.fit_options import METHODS
 from modeler.effects import CATALOGUE as EFFECTS
 

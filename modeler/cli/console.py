@@ -197,7 +197,7 @@ def draw_pictures(place: str | None, pictures: "Callable[[], Sequence[Picture]]"
 def write_pictures(place: str, pictures: "Sequence[Picture]") -> str:
     """Writes pictures into a folder, or as plain data into a file; says where they are."""
     if not isinstance(place, OutputFolder):
-        from modeler.core.picture_file import format_pictures
+        from modeler.core.figure import format_pictures
 
         write_atomically(Path(place), format_pictures(pictures))
         return place

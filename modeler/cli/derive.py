@@ -23,7 +23,8 @@ from modeler.cli.lists import read_robot_with_effects, resolve_robot
 from modeler.cli.parser import FEW_JOINTS, Form
 from modeler.cli.thresholds import THRESHOLDS
 from modeler.codegen import Derivation, derive, generate
-from modeler.core.errors import ALSO, Also, DataError, ModelerError, RobotError
+from modeler.core.choices import ALSO, Also
+from modeler.core.errors import DataError, ModelerError, RobotError
 from modeler.core.files import write_atomically
 from modeler.core.formula import escape_latex
 from modeler.derivation import (

@@ -24,8 +24,8 @@ from modeler.cli.console import (
 )
 from modeler.cli.lists import apply_stated_options, resolve_robot
 from modeler.cli.parser import ALL, Methods
-from modeler.core.errors import GAIN_METHOD, DataError
-from modeler.core.estimators import ABOUT
+from modeler.core.choices import ABOUT, GAIN_METHOD
+from modeler.core.errors import DataError
 from modeler.core.files import write_atomically
 from modeler.core.fit_options import FitOptions
 from modeler.core.jobs import Workers, open_workers

@@ -10,9 +10,8 @@ from modeler.cli.console import Json, print_lines, print_note, print_result, sho
 from modeler.cli.parser import describe_unknown
 from modeler.cli.places import Output, check_places
 from modeler.cli.thresholds import THRESHOLDS
-from modeler.core.builtin import OTHER_PROGRAMS, list_builtin_robots
+from modeler.core.choices import ABOUT, OTHER_PROGRAMS, list_builtin_robots
 from modeler.core.errors import DataError, RobotError
-from modeler.core.estimators import ABOUT
 from modeler.core.files import check_writable, write_all_without_overwriting
 from modeler.core.json import select_attributes
 from modeler.core.toml_cells import quote_value

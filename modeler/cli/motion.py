@@ -12,7 +12,7 @@ from modeler.api.thresholds import THRESHOLDS as API_THRESHOLDS
 from modeler.cli.console import Json, print_lines, print_result, show_activity, show_progress
 from modeler.cli.lists import resolve_robot
 from modeler.cli.thresholds import THRESHOLDS
-from modeler.core.builtin import MOTIONS
+from modeler.core.choices import MOTIONS
 from modeler.core.errors import DataError
 from modeler.core.expression import parse_expression
 from modeler.core.files import write_atomically

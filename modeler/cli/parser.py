@@ -17,9 +17,8 @@ from typing import Any, Literal, NoReturn, get_args
 from modeler import __version__
 from modeler.cli import places
 from modeler.cli.console import Verbosity, write_stdout
-from modeler.core import errors
-from modeler.core.builtin import CONVENTIONS, EFFECTS, SIMULATED, TEMPLATES, list_papers
-from modeler.core.estimators import ABOUT
+from modeler.core import choices
+from modeler.core.choices import ABOUT, CONVENTIONS, EFFECTS, SIMULATED, TEMPLATES, list_papers
 from modeler.core.files import locate_resources
 from modeler.core.fit_options import METHODS, PARALLEL_FILTER, FitOptions
 
@@ -71,11 +70,11 @@ _TYPES = {"int": int, "float": float, "Methods": Methods}
 _CHOICES = {
     "conventions": CONVENTIONS,
     "forms": sorted(get_args(Form)),
-    "machines": get_args(errors.Machine),
-    "precisions": get_args(errors.Precision),
+    "machines": get_args(choices.Machine),
+    "precisions": get_args(choices.Precision),
     "templates": TEMPLATES,
 }
-_FIT_CHOICES = {"derivatives": get_args(errors.Derivatives), "model": get_args(errors.ModelKind)}
+_FIT_CHOICES = {"derivatives": get_args(choices.Derivatives), "model": get_args(choices.ModelKind)}
 _IN_WRITTEN, _IN_LOGS = (places.Output, places.OutputFolder), (places.LogFile, places.MapWord)
 _WRITING = ("--json", "--open", "--force", "--write")
 

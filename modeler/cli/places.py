@@ -15,7 +15,7 @@ from pathlib import Path
 from typing import Any
 
 from modeler.core import files
-from modeler.core.builtin import (
+from modeler.core.choices import (
     LOG_ENDINGS,
     MOTIONS,
     OTHER_PROGRAMS,

@@ -21,7 +21,7 @@ from modeler.cli.console import (
 from modeler.cli.lists import check_own_file, read_robot_with_notes
 from modeler.cli.places import Output, check_places
 from modeler.cli.thresholds import THRESHOLDS
-from modeler.core.builtin import CONVENTIONS, TEMPLATES
+from modeler.core.choices import CONVENTIONS, TEMPLATES
 from modeler.core.errors import DataError, RobotError
 from modeler.core.files import write_atomically
 from modeler.derivation import HomeModes, Linkage, express_as_home

@@ -11,12 +11,14 @@ from collections import Counter
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from fractions import Fraction
+from types import MappingProxyType
 
 from modeler.codegen.naming import Letters, Naming
 from modeler.codegen.targets import DOUBLE, FUNCTIONS, Target
+from modeler.codegen.thresholds import THRESHOLDS
 from modeler.core.errors import EmitError
-from modeler.core.law import Law
-from modeler.derivation import Expr, Graph
+from modeler.core.expression import Law
+from modeler.derivation import Expr, Graph, Label
 
 # One operation as C99 text.
 #
@@ -37,12 +39,12 @@ class CText:
     level: int
 
     def parenthesise(self, level: int) -> str:
-        """The text, in parentheses if its outermost operation binds less than `level`."""
+        """Returns the text, in parentheses if its outermost operation binds less than `level`."""
         return self.text if self.level >= level else f"({self.text})"
 
 
 def format_number(value: Fraction, target: Target = DOUBLE) -> CText:
-    """Text of a number that is not negative: the one of the target nearest to it.
+    """Returns text of a number that is not negative: the one of the target nearest to it.
 
     A decimal literal where that is exact (`9.81`), else a quotient (`(1.0/3.0)`), which is rounded
     once as well.
@@ -59,17 +61,17 @@ def format_number(value: Fraction, target: Target = DOUBLE) -> CText:
 
 
 def format_float(value: float, target: Target = DOUBLE) -> str:
-    """Text of a number, of either sign, as what a macro stands for: `0.2`, `(-0.1)`."""
+    """Returns text of a number, of either sign, as what a macro stands for: `0.2`, `(-0.1)`."""
     return target.format_literal(value) if value >= 0 else f"({target.format_literal(value)})"
 
 
 def negate(value: CText) -> CText:
-    """-value."""
+    """Returns the text of -value."""
     return CText(f"-{value.parenthesise(PRODUCT)}", SUM)
 
 
 def format_sum(a: CText, a_positive: bool, b: CText, b_positive: bool) -> CText:
-    """(+-a) + (+-b); the positive one stands first, and a sum on the left."""
+    """Returns (+-a) + (+-b); the positive one stands first, and a sum on the left."""
     if not a_positive and b_positive:
         return format_sum(b, True, a, False)
     if a_positive and b_positive and b.level == SUM and a.level != SUM:
@@ -79,13 +81,12 @@ def format_sum(a: CText, a_positive: bool, b: CText, b_positive: bool) -> CText:
 
 
 def format_product(a: CText, b: CText) -> CText:
-    """a * b; the one that is a product itself stands first."""
+    """Returns a * b; the one that is a product itself stands first."""
     if b.level == PRODUCT and a.level != PRODUCT:
         a, b = b, a
     return CText(f"{a.parenthesise(PRODUCT)}*{b.parenthesise(ATOM)}", PRODUCT)
 
 
-_LONGEST = 74  # characters of an expression; with indent and name a line stays below 100
 _LEAVES = ("num", "pi", "sym")  # nodes without arguments of their own
 _PAIR = {"sin": "s", "cos": "c"}
 _HOISTED = (*_PAIR, "tan", "exp", "tanh", "pow")
@@ -119,16 +120,18 @@ class Block:
 def make_block(
     outputs: Sequence[tuple[str, Expr]],
     places: Mapping[str, str],
-    widths: Mapping[int, str] | None = None,
+    widths: Mapping[int, str] = MappingProxyType({}),
     target: Target = DOUBLE,
+    labels: Mapping[int, Label] | None = None,
 ) -> Block:
-    """Statements that write every output.
+    """Returns statements that write every output.
 
     Args:
         outputs: (C place, value), e.g. ("phi[3]", ...), all of one graph.
         places: C text of every symbol of the graph, e.g. {"q[0]": "q[0]", "D4": "PUMA560_GEO_D4"}.
         widths: {speed: C text of the width over which its sign turns}; other signs leap.
         target: the number type, and what its functions are called.
+        labels: what nodes are called; None: as the graph says.
 
     Raises:
         EmitError: a function or a symbol has no C form.
@@ -147,7 +150,7 @@ def make_block(
         if not node.static:
             named |= {abs(arg) for arg in node.args if graph.nodes[abs(arg)].static}
     forced = {i for i in named if graph.nodes[i].op not in _LEAVES}
-    writer = _Writer(graph, places, widths or {}, target, forced)
+    writer = _Writer(graph, places, widths, target, forced)
     writer.texts[0] = format_number(Fraction(0), target.constant_target)
     hoisted = [i for i in reachable if writer.is_call(i) and not graph.nodes[i].static]
     writer.forced |= set(hoisted)
@@ -163,7 +166,9 @@ def make_block(
     additions, multiplications = graph.count_operations(values)
     symbols = frozenset(graph.nodes[i].args[0] for i in reachable if graph.nodes[i].op == "sym")
     parts = constants, calls, writer.take_lines()
-    naming = Naming(graph, writer.temporaries, [line for part in parts for line in part])
+    lines = [line for part in parts for line in part]
+    labels = graph.labels if labels is None else labels
+    naming = Naming(graph, labels, writer.temporaries, lines)
     constants, calls, body = (naming.write_names(part, target.remark) for part in parts)
     tables = {node.op: graph.tables[node.op] for node in inner if node.op in graph.tables}
     laws = {name.partition("_")[0]: tables[name].law for name in sorted(tables)}
@@ -268,7 +273,7 @@ class _Writer:
         text = self._combine_operands(index)
         if self.graph.nodes[index].op in _LEAVES:
             return text  # nothing in it could get a name of its own
-        while len(text.text) > _LONGEST:
+        while len(text.text) > THRESHOLDS.max_expression_length:
             args = [abs(a) for a in self.graph.nodes[index].args]
             args = [a for a in args if self.texts[a].level != ATOM]
             if not args:
@@ -292,9 +297,11 @@ class _Writer:
         if node.op == "add":
             turned = [self._reverse_difference(arg) for arg in node.args]
             return format_sum(
-                turned[0] or args[0], turned[0] is not None or node.args[0] > 0,
-                turned[1] or args[1], turned[1] is not None or node.args[1] > 0,
-            )  # fmt: skip
+                turned[0] or args[0],
+                turned[0] is not None or node.args[0] > 0,
+                turned[1] or args[1],
+                turned[1] is not None or node.args[1] > 0,
+            )
         if node.op in ("mul", "div"):
             assert all(arg > 0 for arg in node.args), "the graph takes signs out of products"
             if node.op == "mul":

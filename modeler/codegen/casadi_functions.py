@@ -10,18 +10,19 @@ from typing import Any
 import casadi
 
 from modeler.codegen import functions as layout
-from modeler.codegen.control import Control, build_control_functions
-from modeler.codegen.fitted import find_widths
-from modeler.codegen.forward import build_efforts
-from modeler.codegen.functions import CFunction
-from modeler.codegen.parameter_set import (
+from modeler.codegen.control import (
     SMOOTH,
+    Control,
+    build_control_functions,
+    build_efforts,
     build_smooth_functions,
     get_turning_joint,
     list_turning_joints,
 )
-from modeler.core.expression import LAW
-from modeler.core.law import BESIDE
+from modeler.codegen.fitted import find_widths
+from modeler.codegen.functions import CFunction
+from modeler.codegen.thresholds import THRESHOLDS
+from modeler.core.expression import BESIDE, LAW
 from modeler.core.manifest import ArgumentSpec
 from modeler.derivation import (
     Arithmetic,
@@ -44,10 +45,12 @@ def _build_law(table: Table, *x: casadi.SX) -> casadi.SX:
     arguments = [casadi.SX.sym(f"x{k}") for k in range(len(x))]
     total, law = casadi.SX(0), table.law
     splines = [
-        [_evaluate_spline(casadi.fmax(0, casadi.fmin((y - low) * scale, count)) - i + 3)
-         for i in range(count + BESIDE)]
+        [
+            _evaluate_spline(casadi.fmax(0, casadi.fmin((y - low) * scale, count)) - i + 3)
+            for i in range(count + BESIDE)
+        ]
         for y, low, scale, count in zip(arguments, law.low, law.scales, law.cells, strict=True)
-    ]  # fmt: skip
+    ]
     rows = law.coefficients.reshape(law.cells[0] + BESIDE, -1)
     for first, row in zip(splines[0], rows, strict=True):
         others = zip(row.tolist(), splines[1] if len(splines) > 1 else [1], strict=True)
@@ -67,18 +70,21 @@ _SYMBOLIC = Arithmetic(
     float,
     lambda: casadi.pi,
     {
-        **_OPERATIONS, "abs": casadi.fabs, "pow": casadi.power, "add": casadi.plus,
-        "mul": casadi.times, "div": casadi.rdivide, LAW: _build_law,
+        **_OPERATIONS,
+        "abs": casadi.fabs,
+        "pow": casadi.power,
+        "add": casadi.plus,
+        "mul": casadi.times,
+        "div": casadi.rdivide,
+        LAW: _build_law,
     },
-)  # fmt: skip
-
-_DEEP = 1000  # nodes to which two speeds are compared
+)
 
 
 def write_casadi(
     model: SymbolicModel, base: BaseParameters, values: Sequence[float] | None = None
 ) -> tuple[bytes, dict[str, str], tuple[str, ...]]:
-    """What `casadi.FileDeserializer(FILE).unpack()` reads: a list of functions.
+    """Returns what `casadi.FileDeserializer(FILE).unpack()` reads: a list of functions.
 
     Args:
         model: as derived.
@@ -100,7 +106,9 @@ def write_casadi(
 def build_casadi_functions(
     model: SymbolicModel, base: BaseParameters
 ) -> tuple[list[casadi.Function], tuple[str, ...]]:
-    """The functions of a robot, and what is not among them; loops are closed by Newton from home.
+    """Returns the functions of a robot, and what is not among them.
+
+    Loops are closed by Newton from home.
 
     `forward_dynamics` and `smooth_forward_dynamics` give qdd of M qdd = tau - c - g - f, by Newton
     where f reads qdd.
@@ -134,15 +142,17 @@ def build_casadi_functions(
 def _build_function(
     model: SymbolicModel, f: CFunction, turning: Sequence[str] = ()
 ) -> casadi.Function:
-    """One of the C; `turning` says whose speed each entry of an input `find_widths` is of."""
+    """One of the C; `turning` says whose speed each entry of an input `widths` is of."""
     inputs = {a.name: casadi.SX.sym(a.name, a.size) for a in f.inputs}
     values = {f"{n}[{k}]": x[k] for n, x in inputs.items() for k in range(x.numel())}
     values |= {name: casadi.SX(x) for name, x in model.geometry.values.items()}
     graph = f.entries[0][1].graph if f.entries else model.graph
     arithmetic = _SYMBOLIC
     if "widths" in inputs:
-        over = {speed: inputs["widths"][turning.index(get_turning_joint(width))]
-                for speed, width in find_widths("", model, [f]).items()}  # fmt: skip
+        over = {
+            speed: inputs["widths"][turning.index(get_turning_joint(width))]
+            for speed, width in find_widths("", model, [f]).items()
+        }
         arithmetic = _smooth_signs(graph, values, over)
     numbers = [casadi.SX(0)] * f.output.size
     outputs = Plan(graph, [value for _, value in f.entries], arithmetic)(values)
@@ -164,8 +174,9 @@ def _close_functions(
 
     def make_tree_function(name: str, values: Sequence[Expr], *reads: str) -> casadi.Function:
         inputs = tuple(ArgumentSpec(each, (n,), "", "") for each in reads)
-        output = ArgumentSpec(name, (len(closure.equations), len(values) // len(closure.equations)),
-                              "", "")  # fmt: skip
+        output = ArgumentSpec(
+            name, (len(closure.equations), len(values) // len(closure.equations)), "", ""
+        )
         function = CFunction("", name, "", "", inputs, output, layout.list_entries(values))
         return _build_function(model, function)
 
@@ -174,8 +185,11 @@ def _close_functions(
     drift = make_tree_function("drift", closure.drift, "q", "qd")
 
     def assemble(some: Any, others: Any) -> Any:
-        rows = dict(zip([*independent, *solved], casadi.vertsplit(casadi.vertcat(some, others)),
-                        strict=True))  # fmt: skip
+        rows = dict(
+            zip(
+                [*independent, *solved], casadi.vertsplit(casadi.vertcat(some, others)), strict=True
+            )
+        )
         return casadi.vertcat(*(rows[k] for k in range(n)))
 
     q, qd, qdd = (casadi.MX.sym(name, len(independent)) for name in ("q", "qd", "qdd"))
@@ -192,8 +206,12 @@ def _close_functions(
     motion = {"q": u, "qd": ud, "qdd": G @ qdd + rest}
     functions = {"base_parameters": tree["base_parameters"]}
 
-    def add_public(name: str, values: Sequence[casadi.MX], inputs: Mapping[str, casadi.MX],
-               outputs: Sequence[str]) -> None:  # fmt: skip
+    def add_public(
+        name: str,
+        values: Sequence[casadi.MX],
+        inputs: Mapping[str, casadi.MX],
+        outputs: Sequence[str],
+    ) -> None:
         read = {"q", *(x.name() for value in values for x in casadi.symvar(value))}
         reads = {n: x for n, x in inputs.items() if n in read}
         functions[name] = casadi.Function(
@@ -226,7 +244,7 @@ def _smooth_signs(
 
     def sign(x: casadi.SX) -> casadi.SX:
         for speed, width in zip(speeds, over.values(), strict=True):
-            if casadi.is_equal(x, speed, _DEEP):
+            if casadi.is_equal(x, speed, THRESHOLDS.max_compared_depth):
                 return casadi.tanh(x / width)
         return casadi.sign(x)
 
@@ -241,10 +259,11 @@ def _split_output(output: ArgumentSpec, numbers: Sequence[casadi.SX]) -> dict[st
     rows = more.pop()
     size, count = rows * last, len(numbers) // (rows * last)
     return {
-        f"{output.name}_{k}" if more else output.name:
-            casadi.reshape(casadi.vertcat(*numbers[k * size : (k + 1) * size]), last, rows).T
+        f"{output.name}_{k}" if more else output.name: casadi.reshape(
+            casadi.vertcat(*numbers[k * size : (k + 1) * size]), last, rows
+        ).T
         for k in range(count)
-    }  # fmt: skip
+    }
 
 
 def _build_forward(head: str, functions: Mapping[str, casadi.Function]) -> casadi.Function:

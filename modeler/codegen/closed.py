@@ -6,28 +6,25 @@ tau_q = G^T tau_u.
 """
 
 import dataclasses
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
 
 from modeler.codegen import functions as layout
 from modeler.codegen.elimination import (
     Elimination,
+    SharedSines,
     SparsityPattern,
+    build_fused_regressor,
     eliminate,
     find_pattern,
-    sample_jacobians,
-)
-from modeler.codegen.functions import Arguments, CFunction, Closed, list_entries
-from modeler.codegen.fused import (
-    SharedSines,
-    build_fused_regressor,
     find_shared_sines,
     list_base_entries,
+    sample_jacobians,
 )
+from modeler.codegen.functions import Arguments, CFunction, Closed, read_catalogue
 from modeler.codegen.targets import Target
 from modeler.core.errors import EmitError
-from modeler.core.manifest import ArgumentSpec
 from modeler.derivation import BaseParameters, Closure, Expr, SymbolicModel
 
 # What the emitted code solves the loops with: functions of the opened tree, and tables.
@@ -48,7 +45,7 @@ class LoopSolver:
         pattern: of df/du.
         sets: {start of names: given variables}, "" of the coordinates, "platform_" of a platform.
         eliminations: of the others, by start of names.
-        turns: sines and cosines that closure and regressor share.
+        shared_sines: sines and cosines that closure and regressor share.
     """
 
     closure: Closure
@@ -59,26 +56,29 @@ class LoopSolver:
 
     @property
     def values(self) -> list[Expr]:
-        """What the function `closure` writes; see modeler_closure.h."""
+        """Returns what the function `closure` writes; see modeler_closure.h."""
         closure = self.closure
         return [
-            *closure.equations, *closure.others, *closure.alignments,
-            *self.pattern.entries, *self.shared_sines.values,
-        ]  # fmt: skip
+            *closure.equations,
+            *closure.others,
+            *closure.alignments,
+            *self.pattern.entries,
+            *self.shared_sines.values,
+        ]
 
     @property
     def equation_count(self) -> int:
-        """How many different ones there are."""
+        """Returns how many different ones there are."""
         return len(self.closure.equations) + len(self.closure.others)
 
     @property
     def turned_from(self) -> int:
-        """Place of the first sine or cosine there."""
+        """Returns place of the first sine or cosine there."""
         return len(self.values) - len(self.shared_sines.values)
 
     @property
     def symbols(self) -> list[str]:
-        """Names of the symbols that the functions read besides u."""
+        """Returns names of the symbols that the functions read besides u."""
         factors = max(len(e.factors) for e in self.eliminations.values())
         couplings = max(len(e.coupling) for e in self.eliminations.values())
         lengths = {
@@ -95,7 +95,7 @@ class LoopSolver:
 
 
 def build_loop_solver(model: SymbolicModel, base: BaseParameters) -> LoopSolver:
-    """How the loops of a robot are solved in C.
+    """Returns how the loops of a robot are solved in C.
 
     Args:
         model: with loops.
@@ -119,101 +119,45 @@ def build_loop_solver(model: SymbolicModel, base: BaseParameters) -> LoopSolver:
 def _build_solving_functions(
     solving: LoopSolver, model: SymbolicModel, base: BaseParameters
 ) -> list[CFunction]:
-    """Those of the opened tree that solve the loops, of the free variables as q."""
-    closure, elimination = solving.closure, solving.eliminations[""]
-    nonzeros, m, g = len(solving.pattern.entries), len(closure.equations), len(closure.actuated)
+    """Returns those of the opened tree that solve the loops, of the free variables as q."""
+    closure, turns = solving.closure, solving.shared_sines
+    sizes = {
+        "u": len(closure.home),
+        "m": len(closure.equations),
+        "g": len(closure.actuated),
+        "c": base.rank,
+        "nonzeros": len(solving.pattern.entries),
+        "turns": len(turns.values),
+        "values": len(solving.values),
+    }
 
-    def make_array(name: str, length: int, meaning: str) -> ArgumentSpec:
-        return ArgumentSpec(name, (length,), "SI", meaning)
+    def shared(each: Elimination) -> Arguments:
+        words = sizes | {"factors": len(each.factors), "couplings": len(each.coupling)}
+        return Arguments("", {}, words).extend("solving")
 
-    def make_function(
-        role: str, does: str, equation: str, inputs: Sequence[ArgumentSpec],
-        output: ArgumentSpec, entries: Sequence[Expr],
-    ) -> CFunction:  # fmt: skip
-        return CFunction("", f"tree_{role}", does, equation, tuple(inputs), output,
-                        list_entries(entries), internal=True)  # fmt: skip
-
-    u = make_array("q", len(closure.home), "free variables of the opened tree")
-    J = make_array("J", nonzeros, "nonzeros of df/du")
-    K = make_array("K", nonzeros, "the same elsewhere")
-    right, x = make_array("right", m, "right side"), make_array("x", m, "solved variables")
-    functions = [
-        make_function("closure", "All equations of all loops, cosines, nonzeros of df/du, turns.",
-                 "f(u) = 0", [u], make_array("values", len(solving.values), "as modeler_closure.h"),
-                 solving.values),
-        make_function("residual", "The independent equations.", "f(u) = 0", [u],
-                 make_array("f", m, "equations"), closure.equations),
-    ]  # fmt: skip
+    given = shared(solving.eliminations[""])
+    every = [("closure", given, solving.values), ("residual", given, closure.equations)]
     for head, each in solving.eliminations.items():
-        lu = make_array("lu", len(each.factors), "factors")
-        G = make_array("G", len(each.coupling), "nonzeros of G in solved rows")
-        functions += [
-            make_function(
-                f"{head}factor",
-                "Factors of the solved columns of J: 1/pivots, then the rest.",
-                "J = L U",
-                [J],
-                lu,
-                each.factors,
-            ),
-            make_function(
-                f"{head}solve",
-                "Solution with the factors.",
-                "J x = right",
-                [lu, right],
-                x,
-                each.solution,
-            ),
-            make_function(
-                f"{head}coupling",
-                "G from the factors.",
-                "J G = 0",
-                [J, lu],
-                G,
-                [value for _, _, value in each.coupling],
-            ),
-            make_function(
-                f"{head}turned",
-                "Bounds of the rows of J^-1 (K - J).",
-                "",
-                [J, K, lu],
-                x,
-                each.change_bounds,
-            ),
-            make_function(
-                f"{head}spread",
-                "Sum of the squares of J^-1 (K - J).",
-                "",
-                [J, K, lu],
-                make_array("x", 1, "sum"),
-                [each.change_squares],
-            ),
-        ]
-    inputs = (
-        u,
-        make_array("t", len(solving.shared_sines.values), "sines and cosines"),
-        make_array("G", len(elimination.coupling), "nonzeros of G in solved rows"),
-        make_array("lu", len(elimination.factors), "factors"),
-        make_array("v", g, "speeds of the given variables"),
-        make_array("a", g, "their accelerations"),
-    )
-    rows = CFunction(
-        "_base_regressor",
-        "tree_rows",
-        "Regressor of the base parameters, loops closed.",
-        "tau = phi beta",
-        inputs,
-        ArgumentSpec("phi", (g, base.rank), "SI", "base regressor"),
-        build_fused_regressor(model, base, closure.actuated, elimination, solving.shared_sines),
-        internal=True,
-    )
-    return [*functions, rows]
+        values = {
+            "factor": each.factors,
+            "solve": each.solution,
+            "coupling": [value for _, _, value in each.coupling],
+            "turned": each.change_bounds,
+            "spread": [each.change_squares],
+        }
+        every += [(f"{head}{role}", shared(each), numbers) for role, numbers in values.items()]
+    functions = [
+        arguments.declare(f"tree_{role}", numbers, row=role.removeprefix(PLATFORM), internal=True)
+        for role, arguments, numbers in every
+    ]
+    entries = build_fused_regressor(model, base, closure.actuated, solving.eliminations[""], turns)
+    return [*functions, given.declare("tree_rows", row="rows", entries=entries, internal=True)]
 
 
 def build_closure_tables(
     model: SymbolicModel, base: BaseParameters, solving: LoopSolver, target: Target
 ) -> dict[str, Any]:
-    """Numbers of the closures, as C initialisers.
+    """Returns numbers of the closures, as C initialisers.
 
     Args:
         model: with loops.
@@ -266,33 +210,38 @@ def build_closure_tables(
 
 @dataclass(frozen=True)
 class _CoordinateSet:
-    """What the functions of one set of given variables share.
+    """The functions of one set of given variables.
 
     Attributes:
         head: start of the functions' names: "" or "platform_".
-        given: their arguments; q, qd, qdd are x, xd, xdd for the platform.
-        unknowns: how many free variables there are.
+        arguments: their arguments; q, qd, qdd are x, xd, xdd for the platform.
     """
 
     head: str
     arguments: Arguments
-    unknowns: int
 
-    def make_function(
-        self, name: str, does: str, equation: str, inputs: Sequence[ArgumentSpec],
-        output: ArgumentSpec, kind: str, **made: Any,
-    ) -> CFunction:  # fmt: skip
-        """One that closes the loops; `made` as `Closed` says."""
-        closed = Closed(kind, f"{self.head}loops", self.arguments.q.name, **made)
-        return CFunction(
-            "_loops", self.head + name, does, equation, tuple(inputs), output, (), closed
-        )
+    def make_function(self, name: str, row: str = "", **made: Any) -> CFunction:
+        """Returns one that closes the loops; `made` as `Closed` says."""
+        entry = read_catalogue()["closed"][row or name]
+        motion = [self.arguments.words.get(name, name) for name in entry.get("motion", "").split()]
+        made = {
+            "kind": entry["kind"],
+            "reads": entry.get("reads", ""),
+            **dict(zip(("qd", "qdd"), motion, strict=False)),
+            **made,
+        }
+        if entry["kind"] not in ("posture", "coupling"):
+            made = {"role": name, **made}
+        closed = Closed(loops=f"{self.head}loops", q=self.arguments["q"].name, **made)
+        return self.arguments.declare(self.head + name, row=row or name, closed=closed)
 
 
 def build_closed_functions(
     model: SymbolicModel, base: BaseParameters, solving: LoopSolver
 ) -> tuple[CFunction, ...]:
-    """All functions of the module of a robot with loops: internal ones, then the public ones.
+    """Returns all functions of the module of a robot with loops.
+
+    Internal ones, then the public ones.
 
     Args:
         model: as derived.
@@ -306,29 +255,9 @@ def build_closed_functions(
         )
     solving_functions = _build_solving_functions(solving, model, base)
     frame, *platforms = _build_coordinate_sets(model, base)
-    names = ", ".join(joint.name for joint in model.robot.moving_joints)
-    T = ArgumentSpec(
-        "T",
-        (len(model.robot.moving_joints), 3, 4),
-        "1 | m",
-        f"poses [R | p] of rows {names} in frame 0",
-    )
-    kinematics = frame.make_function(
-        "forward_kinematics",
-        "Pose of the frame of every moving row of the table.",
-        "x0 = R x + p with T = [R | p], for a point x of the frame",
-        [frame.arguments.q],
-        T,
-        "poses",
-        role="forward_kinematics",
-    )
-    public = [
-        *_build_regressors(frame, model, base),
-        *_build_dynamics(frame, model),
-        _build_inertia_matrix(frame),
-    ]
+    public = [*_build_regressors(frame, model, base), *_build_dynamics(frame, model)]
+    public += [frame.make_function("inertia_matrix"), frame.make_function("forward_kinematics")]
     public += [
-        kinematics,
         *_build_postures(frame),
         layout.build_grouping_function(model, base, frame.arguments),
     ]
@@ -343,13 +272,11 @@ def build_closed_functions(
         layout.make_arguments(model.robot.free_joints, model, base),
         solving.closure.drift,
     )
+    opened = arguments.extend("opened", drift=len(drift))
     tree_by_role["coriolis"] = _build_tree_coriolis(
-        model, layout.make_beta_symbols(model, base), arguments
+        model, layout.make_beta_symbols(model, base), opened
     )
-    tree_by_role["drift"] = CFunction(
-        "", "drift", "d/dt(df/du) ud.", "df/du udd + drift = 0", (arguments.q, arguments.qd),
-        ArgumentSpec("values", (len(drift),), "m/s2 or 1/s2", "drift"), list_entries(drift),
-    )  # fmt: skip
+    tree_by_role["drift"] = opened.declare("drift", drift)
     tree = [
         dataclasses.replace(f, role=f"tree_{role}", internal=True)
         for role, f in tree_by_role.items()
@@ -360,7 +287,7 @@ def build_closed_functions(
 def build_closed_dynamics(
     model: SymbolicModel, base: BaseParameters, beta: Mapping[int, Expr]
 ) -> tuple[tuple[CFunction, ...], tuple[CFunction, ...]]:
-    """Those of the functions that read beta: of the opened tree, and public ones.
+    """Returns the functions that read beta: those of the opened tree, and the public ones.
 
     Args:
         model: as derived.
@@ -370,8 +297,8 @@ def build_closed_dynamics(
     frame, *platforms = _build_coordinate_sets(model, base)
     arguments = layout.make_arguments(model.robot.free_joints, model, base)
     tree = {f.role: f for f in layout.build_dynamics_functions(model, beta, arguments)}
-    tree["coriolis"] = _build_tree_coriolis(model, beta, arguments)
-    public = [*_build_dynamics(frame, model), _build_inertia_matrix(frame)]
+    tree["coriolis"] = _build_tree_coriolis(model, beta, arguments.extend("opened"))
+    public = [*_build_dynamics(frame, model), frame.make_function("inertia_matrix")]
     public += [_build_dynamics(platform, model)[0] for platform in platforms]
     return tuple(tree.values()), tuple(public)
 
@@ -380,125 +307,53 @@ def _build_coordinate_sets(model: SymbolicModel, base: BaseParameters) -> list[_
     """The coordinates, then those of the platform if there is one."""
     closure = model.closure
     assert closure is not None
-    n = len(closure.home)
-    frames = [_CoordinateSet("", layout.make_arguments(model.robot.coordinates, model, base), n)]
+    names = ", ".join(joint.name for joint in model.robot.moving_joints)
+    words = {"u": len(closure.home), "rows": len(model.robot.moving_joints), "names": names}
+    words |= {name: name for name in ("q", "qd", "qdd", "tau")}
+    coordinates = layout.make_arguments(model.robot.coordinates, model, base)
+    frames = [_CoordinateSet("", coordinates.extend("closed", **words))]
     if closure.platform is not None:
         joints = [model.robot.free_joints[k] for k in closure.platform]
-        x = layout.make_arguments(joints, model, base)
-        positions = f"positions of the platform: {', '.join(joint.name for joint in joints)}"
-        x = dataclasses.replace(
-            x,
-            q=dataclasses.replace(x.q, name="x", meaning=positions),
-            qd=dataclasses.replace(x.qd, name="xd", meaning="their velocities"),
-            qdd=dataclasses.replace(x.qdd, name="xdd", meaning="their accelerations"),
-            tau=dataclasses.replace(x.tau, name="f", meaning="forces and torques along x"),
-        )
-        frames.append(_CoordinateSet(PLATFORM, x, n))
+        words["joints"] = ", ".join(joint.name for joint in joints)
+        platform = layout.make_arguments(joints, model, base).extend("platform", **words)
+        moved = {
+            "q": platform["x"],
+            "qd": platform["xd"],
+            "qdd": platform["xdd"],
+            "tau": platform["f"],
+        }
+        forces = dataclasses.replace(platform, specs={**platform.specs, **moved})
+        wrench = {name: argument.name for name, argument in moved.items()}
+        frames.append(_CoordinateSet(PLATFORM, forces.extend("closed", **wrench)))
     return frames
 
 
 def _build_tree_coriolis(
     model: SymbolicModel, beta: Mapping[int, Expr], arguments: Arguments
 ) -> CFunction:
-    """The passive joints accelerate at qdd = 0 too: rotors on them belong to it."""
+    """Torques of the tree: the passive joints accelerate at qdd = 0 too, their rotors with them."""
     rotors = {
         k: v for k, v in beta.items() if model.columns[k].kind in ("inertial", "rotor_inertia")
     }
-    return CFunction(
-        "", "coriolis", "Torques without gravity and friction.", "M(u) udd + c(u, ud)",
-        (arguments.q, arguments.qd, arguments.qdd, arguments.beta), arguments.tau,
-        list_entries(model.derive_torque(rotors, gravity=False)),
-    )  # fmt: skip
+    return arguments.declare("coriolis", model.derive_torque(rotors, gravity=False))
 
 
 def _build_regressors(
     frame: _CoordinateSet, model: SymbolicModel, base: BaseParameters
 ) -> list[CFunction]:
-    x, functions = frame.arguments, []
-    for role, width, kind, beta in (
-        ("regressor", len(model.columns), "standard", "chi"),
-        ("base_regressor", base.rank, "base", "beta"),
-    ):
-        phi = ArgumentSpec(
-            "phi", (*x.tau.shape, width), "SI", f"torque per unit of each {kind} parameter"
-        )
-        made: dict[str, Any] = {"role": role, "reads": "u, ud, udd", "width": width}
-        if kind == "base" and not frame.head:  # in one block, where the elimination is sparse
-            made = {"role": "rows"}
-        functions.append(
-            frame.make_function(
-                role, f"Regressor of the {kind} parameters.", f"{x.tau.name} = phi {beta}",
-                [x.q, x.qd, x.qdd], phi, "projected" if "width" in made else "rows",
-                qd=x.qd.name, qdd=x.qdd.name, **made,
-            )
-        )  # fmt: skip
-    return functions
+    standard = frame.make_function("regressor", width=len(model.columns))
+    if not frame.head:  # in one block, where the elimination is sparse
+        return [standard, frame.make_function("base_regressor", kind="rows", role="rows", reads="")]
+    return [standard, frame.make_function("base_regressor", width=base.rank)]
 
 
 def _build_dynamics(frame: _CoordinateSet, model: SymbolicModel) -> list[CFunction]:
-    x = frame.arguments
-    q, qd, qdd, b, tau = x.q, x.qd, x.qdd, x.beta, x.tau
-
-    def make_torque(
-        role: str, does: str, equation: str, inputs: Sequence[ArgumentSpec], reads: str,
-        **motion: str,
-    ) -> CFunction:  # fmt: skip
-        return frame.make_function(
-            role, does, equation, inputs, tau, "projected", role=role, reads=reads, **motion
-        )
-
-    return [
-        make_torque("inverse_dynamics", "Torques that move the closed robot so.",
-               f"{tau.name} = M {qdd.name} + c + g + f", (q, qd, qdd, b), "u, ud, udd, beta",
-               qd=qd.name, qdd=qdd.name),
-        make_torque("gravity", "Torques that hold the robot still, without friction.",
-               "g(q) = tau(q, 0, 0) without effects", (q, b), "u, beta"),
-        make_torque("coriolis", "Coriolis and centripetal torques.",
-               "c(q, qd) = tau(q, qd, 0) without gravity, friction and offsets", (q, qd, b),
-               "u, ud, udd, beta", qd=qd.name, qdd="standing"),
-        make_torque("friction", "Torques of all effects but rotor inertias: friction, offsets.",
-               "f(q, qd)", (q, qd, qdd, b), "u, ud, udd, beta", qd=qd.name, qdd=qdd.name)
-        if layout.needs_more_than_speed(model) else
-        make_torque("friction", "Torques of all effects but rotor inertias: friction, offsets.",
-               "f(q, qd)", (q, qd, b), "ud, beta", qd=qd.name, qdd="standing"),
-    ]  # fmt: skip
-
-
-def _build_inertia_matrix(frame: _CoordinateSet) -> CFunction:
-    x = frame.arguments
-    M = ArgumentSpec("M", (*x.q.shape, *x.q.shape), "kg m2, kg m or kg", "inertia matrix")
-    return frame.make_function(
-        "inertia_matrix", "Inertia matrix, rotor inertias included; symmetric.",
-        "tau = M(q) qdd + ...", (x.q, x.beta), M, "inertia_matrix", role="inertia_matrix",
-        reads="u, beta",
-    )  # fmt: skip
+    friction = "friction_of_motion" if layout.needs_more_than_speed(model) else "friction"
+    roles = ("inverse_dynamics", "gravity", "coriolis")
+    return [*map(frame.make_function, roles), frame.make_function("friction", friction)]
 
 
 def _build_postures(frame: _CoordinateSet) -> list[CFunction]:
-    """Closing alone, and G."""
-    q, n = frame.arguments.q, (frame.unknowns,)
-    u = ArgumentSpec("u", n, "rad or m", "free variables of the opened tree")
-    start = ArgumentSpec("start", n, "rad or m", "a closed posture to start from")
-    G = ArgumentSpec("G", (*n, *q.shape), "SI", f"d u / d {q.name}")
-    return [
-        frame.make_function(
-            "close", "Closed posture, on a straight way from home.", "f(u) = 0", [q], u, "posture"
-        ),
-        frame.make_function(
-            "close_from",
-            "Closed posture, on a straight way from another one, such as the last.",
-            "f(u) = 0",
-            [q, start],
-            u,
-            "posture",
-            start="start",
-        ),
-        frame.make_function(
-            "coupling",
-            "Speeds of the free variables; rows of the platform are its Jacobian.",
-            f"ud = G {frame.arguments.qd.name}",
-            [q],
-            G,
-            "coupling",
-        ),
-    ]
+    """Returns closing alone, and G."""
+    start = frame.make_function("close_from", start="start")
+    return [frame.make_function("close"), start, frame.make_function("coupling")]

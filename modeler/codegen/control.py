@@ -1,23 +1,289 @@
-"""What a controller calls besides torques and regressors: functions of the unit `<prefix>_control`.
-
-Fits do without them, so they are emitted only where a folder for a controller is written.
-"""
+"""The controller's unit: forward dynamics, Coriolis matrices, momenta, regressors, frames."""
 
 import dataclasses
 import re
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
-from fractions import Fraction
 
 from modeler import derivation
 from modeler.codegen import functions as layout
-from modeler.codegen.closed_control import build_closed_control_functions, build_fitted_closed
-from modeler.codegen.forward import build_forward_functions, remove_beta
-from modeler.codegen.functions import Arguments, CFunction, Closed, list_entries
-from modeler.codegen.parameter_set import build_smooth_functions
+from modeler.codegen.fitted import Width, find_widths, fitted_constants, remove_beta
+from modeler.codegen.functions import Arguments, CFunction, Closed, Composed
 from modeler.core.errors import EmitError
-from modeler.core.manifest import ArgumentSpec, FittedSpec
-from modeler.derivation import BaseParameters, Entries, Expr, Graph, SymbolicModel
+from modeler.core.manifest import FittedSpec
+from modeler.derivation import BaseParameters, Entries, Expr, Graph, SymbolicModel, differentiate
+
+TURNS = 30
+"""Corrections of the accelerations, at most, where effects read them."""
+
+
+@dataclass(frozen=True)
+class Efforts:
+    """tau = M qdd + bias(q, qd) + f(q, qd, qdd), as matrix and right side of one equation.
+
+    Attributes:
+        matrix: d tau/d qdd, (n, n).
+        bias: tau at qdd = 0; at the qdd that is read, where it is implicit.
+        is_implicit: True if effects read qdd otherwise than linearly, or not by a symmetric matrix.
+    """
+
+    matrix: Sequence[Sequence[Expr]]
+    bias: Sequence[Expr]
+    is_implicit: bool
+
+
+def build_efforts(model: SymbolicModel, beta: Mapping[int, Expr]) -> Efforts:
+    """Returns the matrix and the rest of the torques of a robot with these parameters by column."""
+    graph, n = model.graph, model.geometry.coordinate_count
+    matrix = model.derive_inertia_matrix(beta)
+    losses = {k: v for k, v in beta.items() if model.columns[k].kind != "rotor_inertia"}
+    rest = model.derive_torque(losses, accelerations=False)
+    symbols = {graph.symbol(f"qdd[{j}]").ref: j for j in range(n)}
+    if symbols.keys().isdisjoint(graph.find_reachable(rest)):
+        return Efforts(matrix, rest, is_implicit=False)
+    one, more = graph.constant(1), model.derive_torque(losses, links=False)
+    slopes = [differentiate(more, {f"qdd[{j}]": one}, kinks=True) for j in range(n)]
+    matrix = [[entry + slopes[j][i] for j, entry in enumerate(row)] for i, row in enumerate(matrix)]
+    return Efforts(matrix, model.derive_torque(beta), is_implicit=True)
+
+
+def solve_linear(
+    matrix: Sequence[Sequence[Expr]], right: Sequence[Expr]
+) -> tuple[list[Expr], list[Expr]]:
+    """Returns x of matrix x = right, and the pivots; one that is always 0 counts as 1 in x.
+
+    Gauss's elimination from the last row to the first. Equal expressions are one node of the graph,
+    so that a symmetric matrix costs half of one that is not.
+    """
+    n, one = len(right), right[0].graph.constant(1)
+    A, x = [list(row) for row in matrix], list(right)
+    inverse = [one] * n
+    for k in reversed(range(n)):
+        inverse[k] = one if A[k][k].is_zero else 1 / A[k][k]
+        for i in range(k):
+            if not A[i][k].is_zero:
+                share = A[i][k] * inverse[k]
+                A[i][:k] = [A[i][j] - share * A[k][j] for j in range(k)]
+                x[i] = x[i] - share * x[k]
+    for k in range(n):
+        for j in range(k):
+            x[k] = x[k] - A[k][j] * x[j]
+        x[k] = x[k] * inverse[k]
+    return x, [A[k][k] for k in range(n)]
+
+
+def build_forward_functions(
+    model: SymbolicModel, beta: Mapping[int, Expr], arguments: Arguments
+) -> tuple[CFunction, ...]:
+    """Returns forward dynamics, its derivatives, inertia of the tool; internal functions first."""
+    n, arguments = model.geometry.coordinate_count, arguments.extend("control")
+    efforts = build_efforts(model, beta)
+    correction, pivots = solve_linear(
+        efforts.matrix, [-r + model.graph.symbol(f"tau[{j}]") for j, r in enumerate(efforts.bias)]
+    )
+    diagonal = [efforts.matrix[k][k] for k in range(n)]
+    words = {"step": 3 * n, "motion": "q qd qdd" if efforts.is_implicit else "q qd"}
+    numbers = [*correction, *pivots, *diagonal]
+    functions = [arguments.declare("forward_step", numbers, words, internal=True)]
+    matrix = "inertia_matrix"
+    if efforts.is_implicit:
+        matrix, numbers = "effort_slopes", [x for row in efforts.matrix for x in row]
+        functions.append(arguments.declare(matrix, numbers, internal=True))
+    step, tool = {"step": "forward_step"}, {"matrix": "inertia_matrix", "J": "jacobian"}
+    slopes = {"dynamics": "forward_dynamics", "slopes": "derivatives", "matrix": matrix}
+    calls = {"forward_dynamics": step, "forward_derivatives": step | slopes}
+    calls |= {"operational_inertia": tool, "operational_inverse": tool}
+    turns = TURNS if efforts.is_implicit else 1
+    functions += [
+        arguments.declare(role, composed=Composed(role, parts, turns))
+        for role, parts in calls.items()
+    ]
+    return tuple(functions)
+
+
+# Functions that take the widths of dry friction while they run, beside the parameters.
+#
+# With beta they are what a parameter set of a controller holds; see templates/parameter_set.jinja.
+
+
+SMOOTH = "smooth_"
+"""Start of their roles."""
+
+
+def build_smooth_functions(
+    model: SymbolicModel, beta: Mapping[int, Expr], arguments: Arguments
+) -> tuple[CFunction, ...]:
+    """Returns inverse dynamics and friction with an argument `widths`.
+
+    None where no friction leaps.
+    """
+    functions = [
+        function
+        for function in layout.build_dynamics_functions(model, beta, arguments)
+        if function.role in ("inverse_dynamics", "friction")
+    ]
+    count = len(dict.fromkeys(find_widths("", model, functions).values()))
+    spec = arguments.extend("smooth", widths=count)["widths"]
+    return tuple(
+        dataclasses.replace(
+            function, unit=UNIT, role=f"{SMOOTH}{function.role}", inputs=(*function.inputs, spec)
+        )
+        for function in functions
+        if count
+    )
+
+
+def list_turning_joints(model: SymbolicModel, base: BaseParameters) -> list[str]:
+    """Returns names of the joints, or motors, that `widths` are of, in its order."""
+    beta = layout.make_beta_symbols(model, base)
+    arguments = layout.make_arguments(model.robot.free_joints, model, base)
+    widths = find_widths("", model, build_smooth_functions(model, beta, arguments))
+    return [get_turning_joint(width) for width in dict.fromkeys(widths.values())]
+
+
+def get_turning_joint(width: Width) -> str:
+    """Returns the name of the joint, or motor, that a width is of."""
+    return width.macro.partition("_COULOMB_WIDTH_")[2]
+
+
+# The controller's functions of a robot with loops, in its coordinates: made of the opened tree's.
+#
+# With ud = G qd and udd = G qdd + G' qd, G' = dG/dt, a quantity of the tree carries over as
+#
+#     C = G^T (C_u G + M_u G'),  p = G^T p_u,  C^T qd = G^T C_u^T ud + G'^T p_u,
+#     Y(q, qd, v, a) = G^T Y_u(u, G qd, G v, G a + G' v),  J = J_u G,
+#
+# since G' is linear in qd and symmetric, as a second derivative of u(q). Every function exists at a
+# state too (`<role>_at`), of which the loops are closed already.
+
+
+_BESIDE = {
+    "coriolis_matrix": "tree_inertia_matrix",
+    "coriolis_transpose": "tree_momentum",
+    "momentum_rest": "tree_momentum_regressor",
+}
+"""What a form calls besides the tree's function of the same name."""
+
+_READS = {"q": "now->u", "qd": "now->ud", "v": "vu", "a": "au"}
+
+
+@dataclass(frozen=True, kw_only=True)
+class AtState(Composed):
+    """A function that is made at a closed posture, from a state of the robot.
+
+    Attributes:
+        form: which macro of the template makes it.
+        reads: what the tree's function reads, as C.
+        width: columns that are projected.
+    """
+
+    form: str
+    reads: str = ""
+    width: int = 1
+
+
+def build_closed_control_functions(
+    model: SymbolicModel, base: BaseParameters, tree: Iterable[CFunction]
+) -> tuple[CFunction, ...]:
+    """Returns the tree's functions that are needed, internal; then those of the closed robot.
+
+    Args:
+        model: with loops.
+        base: its base parameters.
+        tree: the controller's functions of the opened tree.
+    """
+    arguments = layout.make_arguments(model.robot.coordinates, model, base)
+    arguments = arguments.extend("control", u=len(model.robot.free_joints))
+    names, g = {name: arguments[name] for name in ("q", "qd", "beta")}, arguments.words["n"]
+    inner, public = list[CFunction](), list[CFunction]()
+    forms = dict(sorted(layout.read_catalogue()["control"].items(), reverse=True))
+    for f in tree:
+        rows = (
+            form for role, form in forms.items() if f.role == role or f.role.startswith(f"{role}_")
+        )
+        row = next(rows, None)
+        form = row and row.get("form")
+        if form is None:
+            continue
+        names |= {a.name: dataclasses.replace(a, shape=(g,)) for a in f.inputs if a.name in "va"}
+        shape = {
+            "direct": f.output.shape,
+            "coriolis_matrix": (g, g),
+            "jacobian": (6, g),
+            "jacobian_dot_qd": (6,),
+        }.get(form, (g, *f.output.shape[1:]))
+        role = f"tree_{f.role}"
+        beside = _BESIDE.get(form, role.replace("jacobian_dot_qd", "jacobian"))
+        made = AtState(
+            "at_state",
+            {"made": role, "beside": beside},
+            form=form,
+            reads=", ".join(_READS.get(a.name, a.name) for a in f.inputs),
+            width=f.output.shape[1] if len(f.output.shape) > 1 else 1,
+        )
+        inner.append(dataclasses.replace(f, role=role, internal=True))
+        public.append(
+            dataclasses.replace(
+                f,
+                inputs=tuple(names[a.name] for a in f.inputs),
+                output=dataclasses.replace(f.output, shape=shape),
+                entries=(),
+                composed=made,
+            )
+        )
+    parts = {"matrix": "inertia_matrix", "torques": "inverse_dynamics"}
+    forward = AtState("at_state", parts, TURNS, form="forward_dynamics")
+    public += [
+        arguments.declare("coupling_rate", composed=AtState("at_state", {}, form="rate")),
+        arguments.declare("forward_dynamics", row="closed_forward_dynamics", composed=forward),
+    ]
+    return (*inner, *public)
+
+
+def build_fitted_closed(functions: Sequence[CFunction]) -> tuple[CFunction, ...]:
+    """Twins of those that read beta, with the fitted values."""
+    twins = []
+    for f in functions:
+        if f.composed is None or all(a.name != "beta" for a in f.inputs):
+            continue
+        made = AtState("at_state", {"made": f.role}, form="fitted")
+        if f.role == "forward_dynamics":  # friction turns over its widths
+            parts = {word: f"fitted_{role}" for word, role in f.composed.roles.items()}
+            made = AtState("at_state", parts, TURNS, form="forward_dynamics")
+        inputs = tuple(a for a in f.inputs if a.name != "beta")
+        twins.append(dataclasses.replace(f, role=f"fitted_{f.role}", inputs=inputs, composed=made))
+    return tuple(twins)
+
+
+def format_state_prototypes(prefix: str, function: CFunction, number: str) -> tuple[str, str, str]:
+    """Returns prototypes where loops are closed: made of a posture.
+
+    Of a state, declared and defined.
+    """
+    closed = function.closed
+    if closed is None and not isinstance(function.composed, AtState):
+        return "", "", ""
+    motion = (closed.q, closed.qd, closed.start) if closed is not None else ("q", "qd")
+    reduced = dataclasses.replace(
+        function, inputs=tuple(a for a in function.inputs if a.name not in motion)
+    )
+    name = f"{prefix}_{function.role}_at"
+    plain, state = layout.format_arguments(reduced, number, prefix), f"struct {prefix}_state *state"
+    posture = [f"struct {prefix}_posture *p", f"{number} *rows"]
+    defined_arguments = layout.format_arguments(reduced, number, prefix, defined=True)
+    return (
+        layout.format_prototype(
+            f"made_{function.role}", [*posture, *defined_arguments], "static void"
+        ),
+        layout.format_prototype(name, [state, *plain], "int"),
+        layout.format_prototype(name, [state, *defined_arguments], "int"),
+    )
+
+
+# What a controller calls besides torques and regressors: functions of the unit `<prefix>_control`.
+#
+# Fits do without them, so they are emitted only where a folder for a controller is written.
+
 
 UNIT = "_control"
 """C file of these functions, without the robot's name and `.c`."""
@@ -31,8 +297,8 @@ class Control:
         frames: names of further frames whose Jacobians are wanted: rows, links of [frames].
         only: roles of the functions that are wanted, and `observation`; empty: all.
         vectors: add the table of `vectors.vector_lines` and the program that reads it.
-        structured_text: add the function blocks of `codegen.structured_text`.
-        a2l: add the description of the parameter set, of `codegen.a2l`.
+        structured_text: add the function blocks of `codegen.printers`.
+        a2l: add the description of the parameter set, of `codegen.printers`.
     """
 
     frames: tuple[str, ...] = ()
@@ -90,7 +356,7 @@ def select_roles(functions: Sequence[CFunction], only: Sequence[str], robot: str
 def build_control_functions(
     model: SymbolicModel, base: BaseParameters, control: Control
 ) -> tuple[CFunction, ...]:
-    """The functions of the unit, those that read the parameters with their argument beta.
+    """Returns the functions of the unit, those that read the parameters with their argument beta.
 
     Args:
         model: as derived.
@@ -101,7 +367,7 @@ def build_control_functions(
         EmitError: a frame is unknown, or two have one name in C.
     """
     model = _isolate_graph(model)
-    arguments = layout.make_arguments(model.robot.free_joints, model, base)
+    arguments = layout.make_arguments(model.robot.free_joints, model, base).extend("control")
     beta = layout.make_beta_symbols(model, base)
     functions = (
         *_build_dynamics(model, beta, arguments),
@@ -112,7 +378,7 @@ def build_control_functions(
         return build_closed_control_functions(model, base, functions)
     return (
         *functions,
-        _build_derivatives(model, beta, arguments),
+        arguments.declare("derivatives", _differentiate_torques(model, beta)),
         *build_forward_functions(model, beta, arguments),
         *build_smooth_functions(model, beta, arguments),
     )
@@ -132,17 +398,14 @@ def build_fitted_control_functions(
     if model.closure is not None:
         return build_fitted_closed(plain)
     model = _isolate_graph(model)
-    arguments = layout.make_arguments(model.robot.free_joints, model, base)
-    values = {
-        parameter.column: model.graph.constant(Fraction(repr(float(known.value))))
-        for parameter, known in zip(base.parameters, fitted.parameters, strict=True)
-    }
+    arguments = layout.make_arguments(model.robot.free_joints, model, base).extend("control")
+    values = fitted_constants(model, base, fitted)
     functions = (
         *_build_dynamics(model, values, arguments),
-        _build_derivatives(model, values, arguments),
+        arguments.declare("derivatives", _differentiate_torques(model, values)),
         *build_forward_functions(model, values, arguments),
     )
-    return tuple(map(remove_beta, functions))
+    return tuple(remove_beta(f, UNIT) for f in functions)
 
 
 def _isolate_graph(model: SymbolicModel) -> SymbolicModel:
@@ -156,56 +419,16 @@ def _build_dynamics(
     model: SymbolicModel, beta: Mapping[int, Expr], arguments: Arguments
 ) -> tuple[CFunction, ...]:
     """Functions that read beta, of a robot without loops."""
-    n = model.geometry.coordinate_count
     matrix = derivation.derive_coriolis_matrix(model, beta)
-    state = (arguments.q, arguments.qd, arguments.beta)
-    momenta = _format_momentum_unit(arguments.tau.unit)
-    return (
-        CFunction(
-            UNIT, "coriolis_matrix", "Coriolis matrix of Christoffel symbols: dM/dt = C + C^T.",
-            "C qd = c(q, qd)", state,
-            ArgumentSpec("C", (n, n), "kg m2/s, kg m/s or kg/s", "Coriolis matrix"),
-            list_entries([value for row in matrix for value in row]),
-        ),
-        CFunction(
-            UNIT, "coriolis_transpose",
-            "What a momentum observer adds to the torques: dp/dt = tau + C^T qd - g - f.",
-            "C^T qd = dT/dq with the kinetic energy T", state,
-            dataclasses.replace(arguments.tau, name="out", meaning="product of C^T with qd"),
-            list_entries(derivation.derive_coriolis_transpose(model, beta)),
-        ),
-        CFunction(
-            UNIT, "momentum", "Momentum along the joints, rotor inertias included.",
-            "p = M(q) qd", state, ArgumentSpec("p", (n,), momenta, "generalised momentum"),
-            list_entries(derivation.derive_momentum(model, beta)),
-        ),
-    )  # fmt: skip
-
-
-def _build_derivatives(
-    model: SymbolicModel, beta: Mapping[int, Expr], arguments: Arguments
-) -> CFunction:
-    return CFunction(
-        UNIT,
-        "derivatives",
-        layout.format_comment(
-            "Derivatives of the torques by positions and by speeds; those by qdd are M. A leap "
-            "of friction counts as level."
-        ),
-        "D = [d tau/d q, d tau/d qd]",
-        (*arguments.motion, arguments.beta),
-        ArgumentSpec(
-            "D",
-            (2, *arguments.q.shape, *arguments.q.shape),
-            "torque per unit of q, of qd",
-            "derivatives",
-        ),
-        list_entries(_differentiate_torques(model, beta)),
+    values = {
+        "coriolis_matrix": [value for row in matrix for value in row],
+        "coriolis_transpose": derivation.derive_coriolis_transpose(model, beta),
+        "momentum": derivation.derive_momentum(model, beta),
+    }
+    momenta = " or ".join(f"{unit} s" for unit in arguments["tau"].unit.split(" or "))
+    return tuple(
+        arguments.declare(role, each, {"momenta": momenta}) for role, each in values.items()
     )
-
-
-def _format_momentum_unit(effort: str) -> str:
-    return " or ".join(f"{unit} s" for unit in effort.split(" or "))
 
 
 def _differentiate_torques(model: SymbolicModel, beta: Mapping[int, Expr]) -> list[Expr]:
@@ -229,64 +452,21 @@ def _build_regressors(
 ) -> tuple[CFunction, ...]:
     if layout.needs_more_than_speed(model):
         return ()
-    n, c = model.geometry.coordinate_count, base.rank
     place = {parameter.column: i for i, parameter in enumerate(base.parameters)}
-    second = dataclasses.replace(arguments.qd, name="v", meaning="reference velocities")
-    reference = dataclasses.replace(arguments.qdd, name="a", meaning="reference accelerations")
-
-    def make_regressor(role: str, does: str, equation: str, name: str, rows: int, entries: Entries,
-                  *more: ArgumentSpec) -> CFunction:  # fmt: skip
-        base_entries = {(row, place[k]): value for (row, k), value in entries.items() if k in place}
-        return CFunction(
-            UNIT, role, does, equation, (arguments.q, arguments.qd, *more),
-            ArgumentSpec(name, (rows, c), "SI", "per unit of each base parameter"),
-            tuple((row * c + i, value) for (row, i), value in layout.sort_by_column(base_entries)),
-        )  # fmt: skip
-
-    return (
-        make_regressor(
-            "slotine_li_regressor",
-            "Regressor of adaptive control (Slotine and Li); friction takes v for qd.",
-            "Y beta = M(q) a + C(q, qd) v + g(q) + f(v)",
-            "Y",
-            n,
-            derivation.derive_slotine_li_regressor(model),
-            second,
-            reference,
-        ),
-        make_regressor(
-            "momentum_regressor",
-            "Regressor of the momentum.",
-            "M(q) qd = P beta",
-            "P",
-            n,
-            derivation.derive_momentum_regressor(model),
-        ),
-        make_regressor(
-            "momentum_rest_regressor",
-            "What the torque is besides the momentum's rate.",
-            "tau = d/dt (P beta) + R beta",
-            "R",
-            n,
-            derivation.derive_momentum_rest_regressor(model),
-        ),
-        make_regressor(
-            "energy_regressor",
-            "Regressor of the kinetic and potential energy.",
-            "T + U = h beta, but for a constant",
-            "h",
-            1,
-            derivation.derive_energy_regressor(model),
-        ),
-        make_regressor(
-            "power_regressor",
-            "Regressor of the power that friction and offsets take.",
-            "tau . qd = d/dt (h beta) + d beta",
-            "d",
-            1,
-            derivation.derive_power_regressor(model),
-        ),
-    )
+    functions = []
+    regressors: dict[str, Callable[[SymbolicModel], Entries]] = {
+        "slotine_li_regressor": derivation.derive_slotine_li_regressor,
+        "momentum_regressor": derivation.derive_momentum_regressor,
+        "momentum_rest_regressor": derivation.derive_momentum_rest_regressor,
+        "energy_regressor": derivation.derive_energy_regressor,
+        "power_regressor": derivation.derive_power_regressor,
+    }
+    for role, make_regressor in regressors.items():
+        entries = make_regressor(model)
+        based = {(row, place[k]): value for (row, k), value in entries.items() if k in place}
+        places = [(row * base.rank + i, value) for (row, i), value in layout.sort_by_column(based)]
+        functions.append(arguments.declare(role, entries=tuple(places)))
+    return tuple(functions)
 
 
 # Frames that a controller steers.
@@ -311,48 +491,15 @@ def _build_frame_functions(
     model: SymbolicModel, name: str, suffix: str, arguments: Arguments
 ) -> Sequence[CFunction]:
     frame = derivation.find_body_frame(model, name)
-    row, n = model.robot.joints[frame.row].name, model.geometry.coordinate_count
+    row = model.robot.joints[frame.row].name
     of = f"frame {name}" if name else "the tool" if model.robot.tool else f"the frame of row {row}"
-    of = layout.format_comment(of)
-    speed, turn = "rows 0-2 velocity of its origin, 3-5 angular", "in axes of frame 0"
-
-    def make_function(role: str, does: str, equation: str, reads: tuple[ArgumentSpec, ...],
-                 output: ArgumentSpec, values: Sequence[Expr]) -> CFunction:  # fmt: skip
-        return CFunction(UNIT, f"{role}{suffix}", f"{does} of {of}.", equation, reads, output,
-                         list_entries(values))  # fmt: skip
-
-    q, qd = arguments.q, arguments.qd
-    return (
-        make_function(
-            "pose",
-            "Pose",
-            "x0 = R x + p with T = [R | p], for a point x of the frame",
-            (q,),
-            ArgumentSpec("T", (3, 4), "1 | m", "pose [R | p] in frame 0"),
-            [x for line in derivation.derive_frame_pose(model, frame) for x in line],
-        ),
-        make_function(
-            "jacobian",
-            "Jacobian",
-            "[velocity; angular velocity] = J qd",
-            (q,),
-            ArgumentSpec("J", (6, n), "m or rad per unit of q", f"{speed}, {turn}"),
-            [x for line in derivation.derive_jacobian(model, frame) for x in line],
-        ),
-        make_function(
-            "jacobian_dot_qd",
-            "Product of the Jacobian's rate with qd",
-            "[acceleration; angular acceleration] = J qdd + a",
-            (q, qd),
-            ArgumentSpec("a", (6,), "m/s2 | rad/s2", f"acceleration for qdd = 0, {turn}"),
-            derivation.derive_jacobian_dot_qd(model, frame),
-        ),
-        make_function(
-            "twist",
-            "Twist",
-            "V = [R^T 0; 0 R^T] J qd",
-            (q, qd),
-            ArgumentSpec("V", (6,), "m/s | rad/s", f"{speed}, in its own axes"),
-            derivation.derive_twist(model, frame),
-        ),
-    )
+    values = {
+        "pose": [x for line in derivation.derive_frame_pose(model, frame) for x in line],
+        "jacobian": [x for line in derivation.derive_jacobian(model, frame) for x in line],
+        "jacobian_dot_qd": derivation.derive_jacobian_dot_qd(model, frame),
+        "twist": derivation.derive_twist(model, frame),
+    }
+    return [
+        arguments.declare(f"{role}{suffix}", each, {"frame": of}, row=role)
+        for role, each in values.items()
+    ]

@@ -18,7 +18,8 @@ from pathlib import Path
 from typing import Any
 
 from modeler.codegen.package import render
-from modeler.core.errors import BuildError, Machine
+from modeler.core.choices import Machine
+from modeler.core.errors import BuildError
 from modeler.core.manifest import EmittedModule
 
 COST = "cost.json"
@@ -28,9 +29,18 @@ _CORTEX = ("-mthumb", "-mfloat-abi=hard", "-Os", "-ffp-contract=fast")
 _MACHINES: Mapping[Machine, tuple[str, tuple[str, ...]]] = {
     "cortex-m7": ("arm-none-eabi-", ("-mcpu=cortex-m7", "-mfpu=fpv5-d16", *_CORTEX)),
     "cortex-m4": ("arm-none-eabi-", ("-mcpu=cortex-m4", "-mfpu=fpv4-sp-d16", *_CORTEX)),
-    "host": ("", ("-O3", "-fno-tree-slp-vectorize", "-fno-math-errno", "-fno-trapping-math",
-                  "-ffp-contract=fast", "-fno-asynchronous-unwind-tables")),
-}  # fmt: skip
+    "host": (
+        "",
+        (
+            "-O3",
+            "-fno-tree-slp-vectorize",
+            "-fno-math-errno",
+            "-fno-trapping-math",
+            "-ffp-contract=fast",
+            "-fno-asynchronous-unwind-tables",
+        ),
+    ),
+}
 """Start of the names of the tools, and the flags of the folder's Makefile."""
 
 _SECTIONS = ("-std=c99", "-ffunction-sections", "-fdata-sections", "-fcallgraph-info=su")
@@ -69,7 +79,7 @@ class _CallGraph:
 
 
 def add_cost(emitted: EmittedModule, machine: Machine) -> EmittedModule:
-    """The module with `cost.json` and a table in its README.
+    """Returns the module with `cost.json` and a table in its README.
 
     Args:
         emitted: as it will be written.
@@ -93,18 +103,27 @@ def add_cost(emitted: EmittedModule, machine: Machine) -> EmittedModule:
         rows = []
         for function in emitted.spec.every_function:
             stack, outside = calls.find_deepest(function.name)
-            rows.append({
-                "name": function.name, "stack": stack, "outside": sorted(outside),
-                "flash": _measure_flash(folder, tools, objects, function.name),
-                "instructions": counts.get(function.name.upper()),
-            })  # fmt: skip
+            rows.append(
+                {
+                    "name": function.name,
+                    "stack": stack,
+                    "outside": sorted(outside),
+                    "flash": _measure_flash(folder, tools, objects, function.name),
+                    "instructions": counts.get(function.name.upper()),
+                }
+            )
         compiler = _run_command(folder, tools["gcc"], "--version").splitlines()[0]
     spec = emitted.spec
     figures = {
-        "robot": spec.robot, "signature": spec.compute_signature(), "precision": spec.precision,
-        "machine": machine, "compiler": compiler, "flags": list(flags),
-        "evaluations": 5000 if spec.closure is not None else None, "functions": rows,
-    }  # fmt: skip
+        "robot": spec.robot,
+        "signature": spec.compute_signature(),
+        "precision": spec.precision,
+        "machine": machine,
+        "compiler": compiler,
+        "flags": list(flags),
+        "evaluations": 5000 if spec.closure is not None else None,
+        "functions": rows,
+    }
     return _add_files(emitted, figures)
 
 

@@ -18,7 +18,7 @@ from modeler.codegen.functions import CFunction
 from modeler.codegen.targets import OF_PRECISION
 from modeler.core.errors import EmitError
 from modeler.core.manifest import FittedSpec, ModuleSpec
-from modeler.derivation import BaseParameters, ShaftColumn, SymbolicModel, combine_along_shaft
+from modeler.derivation import BaseParameters, Expr, ShaftColumn, SymbolicModel, combine_along_shaft
 
 UNIT = "_fitted"
 """C file of these functions, without the robot's name and `.c`."""
@@ -42,7 +42,7 @@ class Width:
 
 
 def check_values(base: BaseParameters, fitted: FittedSpec) -> None:
-    """Nothing, if there is one finite value of every base parameter, in order.
+    """Checks that there is one finite value of every base parameter, in order.
 
     Raises:
         EmitError: says what is there instead.
@@ -65,40 +65,59 @@ def check_values(base: BaseParameters, fitted: FittedSpec) -> None:
 def build_fitted_functions(
     model: SymbolicModel, base: BaseParameters, fitted: FittedSpec
 ) -> tuple[CFunction, ...]:
-    """Internal ones first, then those of the header: the twins without their argument beta."""
-    values = {
+    """Returns the twins without their argument beta: internal ones, then those of the header."""
+    values = fitted_constants(model, base, fitted)
+    if model.closure is None:
+        arguments = layout.make_arguments(model.robot.free_joints, model, base)
+        twins = layout.build_dynamics_functions(model, values, arguments)
+        return tuple(remove_beta(f, UNIT) for f in twins)
+    tree, public = build_closed_dynamics(model, base, values)
+    inner = [
+        dataclasses.replace(remove_beta(f, UNIT), role=f"{_TREE}_{f.role}", internal=True)
+        for f in tree
+    ]
+    return (*inner, *(remove_beta(f, UNIT) for f in public))
+
+
+def fitted_constants(
+    model: SymbolicModel, base: BaseParameters, fitted: FittedSpec
+) -> dict[int, Expr]:
+    """Returns the fitted values as constants of the graph, by standard column."""
+    return {
         parameter.column: model.graph.constant(Fraction(repr(float(known.value))))
         for parameter, known in zip(base.parameters, fitted.parameters, strict=True)
     }
-    if model.closure is None:
-        arguments = layout.make_arguments(model.robot.free_joints, model, base)
-        return tuple(map(_remove_beta, layout.build_dynamics_functions(model, values, arguments)))
-    tree, public = build_closed_dynamics(model, base, values)
-    inner = [
-        dataclasses.replace(_remove_beta(f), role=f"{_TREE}_{f.role}", internal=True) for f in tree
-    ]
-    return (*inner, *map(_remove_beta, public))
 
 
-def _remove_beta(function: CFunction) -> CFunction:
-    """The function without beta."""
-    closed = function.closed
+def remove_beta(function: CFunction, unit: str) -> CFunction:
+    """Returns the twin of a function that reads beta, for the fitted values."""
+    closed, composed = function.closed, function.composed
     if closed is not None:
         reads = ", ".join(name for name in closed.reads.split(", ") if name != "beta")
         closed = dataclasses.replace(closed, tree=_TREE, reads=reads)
+    if composed is not None:
+        roles = {word: _twin(role) for word, role in composed.roles.items()}
+        composed = dataclasses.replace(composed, roles=roles)
     return dataclasses.replace(
         function,
-        unit=UNIT,
-        role=f"fitted_{function.role}",
+        unit=unit,
+        role=_twin(function.role),
         inputs=tuple(a for a in function.inputs if a.name != "beta"),
         closed=closed,
+        composed=composed,
     )
+
+
+def _twin(role: str) -> str:
+    return role if role == "jacobian" else f"fitted_{role}"  # which reads no parameters
 
 
 def find_widths(
     prefix: str, model: SymbolicModel, functions: Sequence[CFunction]
 ) -> Mapping[int, Width]:
-    """{speed: its width} of the joints and motors of whose speed the functions read the sign.
+    """Returns {speed.
+
+    Its width} of the joints and motors of whose speed the functions read the sign.
 
     Joints that always move alike have one speed, and the width of the first of them; a joint and
     its motor have one width. A sign of anything else than such a speed leaps where it did.
@@ -125,7 +144,7 @@ def find_widths(
 def format_fitted_texts(
     spec: ModuleSpec, fitted: FittedSpec, widths: Sequence[Width]
 ) -> dict[str, Any]:
-    """Finished strings for the templates of the unit."""
+    """Returns finished strings for the templates of the unit."""
     line = fitted.verdict or "one that nobody has judged"
     verdict = f"The fit of this model is {line[:1].lower()}{line[1:]}"
     doubts = [f"Doubt: {doubt}" for doubt in fitted.doubts if doubt not in fitted.verdict]

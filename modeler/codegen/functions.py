@@ -2,13 +2,19 @@
 
 import re
 import textwrap
+import tomllib
 import unicodedata
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from fractions import Fraction
+from functools import cache
+from pathlib import Path
+from types import MappingProxyType
+from typing import Any
 
 from modeler.codegen.block import Block
 from modeler.codegen.targets import Target
+from modeler.codegen.thresholds import THRESHOLDS
 from modeler.core.errors import EmitError
 from modeler.core.manifest import ArgumentSpec, ModuleSpec
 from modeler.derivation import (
@@ -57,7 +63,7 @@ class CFunction:
 
     @property
     def status(self) -> bool:
-        """True if it can fail, and returns a status."""
+        """Returns True if it can fail, and returns a status."""
         return self.closed is not None or self.composed is not None
 
 
@@ -110,12 +116,12 @@ class Closed:
 
     @property
     def at(self) -> bool:
-        """True if it exists at a state too, of which the coordinates are given."""
+        """Returns True if it exists at a state too, of which the coordinates are given."""
         return self.loops == "loops" and self.kind != "posture" and self.role != "regressor"
 
     @property
     def reads_accelerations(self) -> bool:
-        """True if it reads accelerations that are given."""
+        """Returns True if it reads accelerations that are given."""
         return "udd" in self.reads.split(", ") and self.qdd != "standing"
 
     @property
@@ -132,24 +138,83 @@ class Closed:
 
 @dataclass(frozen=True)
 class Arguments:
-    """All arguments that functions share."""
+    """The arguments that functions of a section of functions.toml share.
 
-    q: ArgumentSpec
-    qd: ArgumentSpec
-    qdd: ArgumentSpec
-    chi: ArgumentSpec
-    beta: ArgumentSpec
-    tau: ArgumentSpec
-    signals: tuple[ArgumentSpec, ...]  # s, where effects read any
+    Attributes:
+        section: of the catalogue.
+        specs: {name: argument}; "s" only where effects read signals.
+        words: of texts and of shapes: names, units, sizes.
+    """
 
-    @property
-    def motion(self) -> tuple[ArgumentSpec, ...]:
-        """All that a regressor reads."""
-        return (self.q, self.qd, self.qdd, *self.signals)
+    section: str
+    specs: Mapping[str, ArgumentSpec]
+    words: Mapping[str, Any]
+
+    def __getitem__(self, name: str) -> ArgumentSpec:
+        return self.specs[name]
+
+    def extend(self, section: str, **words: Any) -> "Arguments":
+        """Returns these arguments and those of another section."""
+        every = {**self.words, **words}
+        rows = read_catalogue()[section].get("arguments", {})
+        more = {name: _make_argument(every, name, *row) for name, row in rows.items()}
+        return Arguments(section, {**self.specs, **more}, every)
+
+    def declare(
+        self,
+        role: str,
+        values: Sequence[Expr] = (),
+        words: Mapping[str, Any] = MappingProxyType({}),
+        row: str = "",
+        **more: Any,
+    ) -> CFunction:
+        """Returns a function as the catalogue has it.
+
+        Args:
+            role: of it, and its row.
+            values: of its output, in order; or `entries` among `more`.
+            words: of this function's texts and shapes.
+            row: another row of the catalogue.
+            more: fields of `CFunction`.
+        """
+        entry, every = read_catalogue()[self.section][row or role], {**self.words, **words}
+        output, inputs = entry["output"], entry["inputs"].format(**every).split()
+        texts = {
+            "unit": entry.get("unit", _UNITS.get(self.section, "")),
+            "role": role,
+            "does": format_comment(entry["does"].format(**every)),
+            "equation": entry["equation"].format(**every),
+        }
+        fields = {
+            **texts,
+            "inputs": tuple(self.specs[name] for name in inputs if name in self.specs),
+            "output": self.specs[output]
+            if isinstance(output, str)
+            else _make_argument(every, *output),
+            "entries": list_entries(values),
+        }
+        return CFunction(**fields | more)
+
+
+_UNITS = {"closed": "_loops", "control": "_control"}
+"""C files of the functions of a section, where a row names no other."""
+
+
+@cache
+def read_catalogue() -> Mapping[str, Any]:
+    """Returns the rows of functions.toml, by section and role."""
+    return tomllib.loads(Path(__file__).with_name("functions.toml").read_text("utf-8"))
+
+
+def _make_argument(
+    words: Mapping[str, Any], name: str, shape: str, unit: str, meaning: str
+) -> ArgumentSpec:
+    sizes = tuple(int(size) if size.isdigit() else words[size] for size in shape.split())
+    return ArgumentSpec(name, sizes, unit.format(**words), meaning.format(**words))
 
 
 def make_beta_symbols(model: SymbolicModel, base: BaseParameters) -> dict[int, Expr]:
-    """{standard column: the base parameter that stands for it}."""
+    """Returns {standard column: the base parameter that stands for it}."""
     return {
         parameter.column: model.graph.symbol(f"beta[{i}]")
         for i, parameter in enumerate(base.parameters)
@@ -157,88 +222,65 @@ def make_beta_symbols(model: SymbolicModel, base: BaseParameters) -> dict[int, E
 
 
 def build_tree_functions(model: SymbolicModel, base: BaseParameters) -> tuple[CFunction, ...]:
-    """All functions of a module without loops, in the order of the header."""
+    """Returns all functions of a module without loops, in the order of the header."""
     arguments = make_arguments(model.robot.free_joints, model, base)
-    regressors = _build_regressors(model, base, arguments)
-    dynamics = build_dynamics_functions(model, make_beta_symbols(model, base), arguments)
-    grouping, poses = (
+    functions = [
+        *_build_regressors(model, base, arguments),
+        *build_dynamics_functions(model, make_beta_symbols(model, base), arguments),
         build_grouping_function(model, base, arguments),
-        model.derive_forward_kinematics(),
-    )
-    kinematics = CFunction(
-        "", "forward_kinematics", "Poses of the frames of all moving rows of the table, in order.",
-        "x0 = R x + p with T = [R | p], for a point x of the frame", (arguments.q,),
-        ArgumentSpec(
-            "T", (len(poses), 3, 4), "1 | m", "poses [R | p] of the links' frames in frame 0"
-        ),
-        list_entries([value for pose in poses for row in pose for value in row]),
-    )  # fmt: skip
-    return (*regressors, *dynamics, grouping, kinematics, *_build_advance(model, arguments))
+    ]
+    poses = model.derive_forward_kinematics()
+    numbers = [value for pose in poses for row in pose for value in row]
+    kinematics = arguments.declare("forward_kinematics", numbers, {"rows": len(poses)})
+    return (*functions, kinematics, *_build_advance(model, arguments))
 
 
 def make_arguments(
     joints: Sequence[Joint], model: SymbolicModel, base: BaseParameters
 ) -> Arguments:
-    """The arguments of functions whose positions are those of `joints`."""
-    n = (len(joints),)
-    angle = _join_units([joint.unit for joint in joints])
-    effort = _join_units([joint.effort_unit for joint in joints])
-    rate, acceleration = (" or ".join(u + s for u in angle.split(" or ")) for s in ("/s", "/s2"))
-    s = ArgumentSpec("s", (len(model.signals),), "see above", "signals of effects")
-    signals = (s,) if model.signals else ()
-    return Arguments(
-        q=ArgumentSpec("q", n, angle, "joint positions"),
-        qd=ArgumentSpec("qd", n, rate, "joint velocities"),
-        qdd=ArgumentSpec("qdd", n, acceleration, "joint accelerations"),
-        chi=ArgumentSpec("chi", (len(model.columns),), "SI", "standard parameters"),
-        beta=ArgumentSpec("beta", (base.rank,), "SI", "base parameters"),
-        tau=ArgumentSpec("tau", n, effort, "joint torques or forces"),
-        signals=signals,
+    """Returns the arguments of functions whose positions are those of `joints`."""
+    angle, effort = (
+        " or ".join(dict.fromkeys(getattr(joint, unit) for joint in joints))
+        for unit in ("unit", "effort_unit")
     )
-
-
-def _join_units(units: Sequence[str]) -> str:
-    return " or ".join(dict.fromkeys(units))
+    rate, acceleration = (" or ".join(u + s for u in angle.split(" or ")) for s in ("/s", "/s2"))
+    words: dict[str, Any] = {
+        "angle": angle,
+        "rate": rate,
+        "acceleration": acceleration,
+        "effort": effort,
+    }
+    words |= {"n": len(joints), "p": len(model.columns), "c": base.rank}
+    shared = Arguments("", {}, words).extend("shared", signals=len(model.signals))
+    if not model.signals:
+        shared = replace(shared, specs={k: x for k, x in shared.specs.items() if k != "s"})
+    return shared.extend("tree")
 
 
 def _build_regressors(
     model: SymbolicModel, base: BaseParameters, arguments: Arguments
 ) -> tuple[CFunction, ...]:
-    joints, p, c = model.geometry.coordinate_count, len(model.columns), base.rank
-    place = {parameter.column: i for i, parameter in enumerate(base.parameters)}
+    p, place = len(model.columns), {each.column: i for i, each in enumerate(base.parameters)}
     values = {
         (joint, place[k]): value for (joint, k), value in model.regressor.items() if k in place
     }
     order = {at: number for number, at in enumerate(sorted(values))}
-    standard = sort_by_column(model.regressor)
-    base_entries = sort_by_column(values)
-    inputs = arguments.motion
-    per = "torque per unit of each"
+    standard, based = sort_by_column(model.regressor), sort_by_column(values)
     return (
-        CFunction(
-            "_regressor", "regressor", "Regressor of the standard parameters.",
-            "tau = phi chi", inputs,
-            ArgumentSpec("phi", (joints, p), "SI", f"{per} standard parameter"),
-            tuple((joint * p + k, value) for (joint, k), value in standard),
+        arguments.declare("regressor", entries=tuple((j * p + k, x) for (j, k), x in standard)),
+        arguments.declare(
+            "base_regressor", entries=tuple((j * base.rank + i, x) for (j, i), x in based)
         ),
-        CFunction(
-            "_base_regressor", "base_regressor", "Regressor of the base parameters.",
-            "tau = phi beta", inputs,
-            ArgumentSpec("phi", (joints, c), "SI", f"{per} base parameter"),
-            tuple((joint * c + i, value) for (joint, i), value in base_entries),
+        arguments.declare(
+            "base_regressor_nonzeros",
+            words={"nonzeros": len(based)},
+            entries=tuple((order[at], x) for at, x in based),
         ),
-        CFunction(
-            "_base_regressor", "base_regressor_nonzeros",
-            "The entries of the base regressor that are not always 0.",
-            "values[k] = phi[nonzero_row[k]][nonzero_column[k]]", inputs,
-            ArgumentSpec("values", (len(base_entries),), "SI", "entries, row after row"),
-            tuple((order[at], value) for at, value in base_entries),
-        ),
-    )  # fmt: skip
+    )
 
 
 def sort_by_column(values: Mapping[tuple[int, int], Expr]) -> list[tuple[tuple[int, int], Expr]]:
-    """Entries of {(joint, column): value} column after column.
+    """Returns entries of {(joint, column): value} column after column.
 
     So what the columns of a link read is computed, read and done with before the next link: row
     after row it would have to be kept for all rows. Most of what does not fit into registers goes:
@@ -250,62 +292,24 @@ def sort_by_column(values: Mapping[tuple[int, int], Expr]) -> list[tuple[tuple[i
 def build_dynamics_functions(
     model: SymbolicModel, beta: Mapping[int, Expr], arguments: Arguments
 ) -> tuple[CFunction, ...]:
-    """Torques and their parts, without loops; `beta` gives the parameter of each column."""
-    joints = model.geometry.coordinate_count
-    q, qd, b = arguments.q, arguments.qd, arguments.beta
-    losing = (*arguments.motion, b) if needs_more_than_speed(model) else (qd, b)
-    matrix = [value for row in model.derive_inertia_matrix(beta) for value in row]
+    """Returns torques and their parts, without loops; `beta` has the parameter of each column."""
+    arguments, held = arguments.extend("tree"), _describe_friction_holds(model)
+    words = {
+        "also": f", {held}" * bool(held),
+        "apart": f", offsets and {held}, which the friction function holds" * bool(held),
+        "friction": f"f(q, qd) with {held}" if held else "f(qd)",
+        "losing": "q qd qdd s beta" if needs_more_than_speed(model) else "qd beta",
+    }
     losses = {k: v for k, v in beta.items() if model.columns[k].kind != "rotor_inertia"}
-    gravity = model.derive_torque(beta, speeds=False, accelerations=False, effects=False)
-    coriolis = model.derive_torque(beta, accelerations=False, gravity=False, effects=False)
-    friction = model.derive_torque(losses, links=False)
-    held = _describe_friction_holds(model)
-    also = f", {held}" * bool(held)
-    apart = f", offsets and {held}, which the friction function holds" * bool(held)
-
-    def make_function(role: str, does: str, equation: str, inputs: tuple[ArgumentSpec, ...],
-                 values: Sequence[Expr]) -> CFunction:  # fmt: skip
-        return CFunction("", role, does, equation, inputs, arguments.tau, list_entries(values))
-
-    return (
-        make_function(
-            "inverse_dynamics",
-            "Joint torques, by the Newton-Euler recursion.",
-            "tau = M(q) qdd + c(q, qd) + g(q) + f(qd)",
-            (*arguments.motion, b),
-            model.derive_torque(beta),
-        ),
-        CFunction(
-            "",
-            "inertia_matrix",
-            "Inertia matrix, rotor inertias included; symmetric.",
-            "tau = M(q) qdd + ...",
-            (q, b),
-            ArgumentSpec("M", (joints, joints), "kg m2, kg m or kg", "inertia matrix"),
-            list_entries(matrix),
-        ),
-        make_function(
-            "gravity",
-            format_comment(f"Torques that hold the robot still, without friction{apart}."),
-            "g(q) = tau(q, 0, 0) without effects",
-            (q, b),
-            gravity,
-        ),
-        make_function(
-            "coriolis",
-            "Coriolis and centripetal torques.",
-            "c(q, qd) = tau(q, qd, 0) without gravity and effects",
-            (q, qd, b),
-            coriolis,
-        ),
-        make_function(
-            "friction",
-            format_comment(f"Torques of all effects but rotor inertias: friction, offsets{also}."),
-            f"f(q, qd) with {held}" if held else "f(qd)",
-            losing,
-            friction,
-        ),
-    )
+    torque, still = model.derive_torque, {"accelerations": False, "effects": False}
+    values = {  # in this order: it is that of the names in the C
+        "inertia_matrix": [value for row in model.derive_inertia_matrix(beta) for value in row],
+        "gravity": torque(beta, speeds=False, **still),
+        "coriolis": torque(beta, gravity=False, **still),
+        "friction": torque(losses, links=False),
+    }
+    values = {"inverse_dynamics": torque(beta), **values}
+    return tuple(arguments.declare(role, each, words) for role, each in values.items())
 
 
 def _describe_friction_holds(model: SymbolicModel) -> str:
@@ -326,7 +330,7 @@ def _describe_friction_holds(model: SymbolicModel) -> str:
 
 
 def needs_more_than_speed(model: SymbolicModel) -> bool:
-    """True if an effect reads more than the speed of its joint, and is no rotor inertia."""
+    """Returns True if an effect reads more than the speed of its joint, and is no rotor inertia."""
     return any(
         part.kind != "rotor_inertia"
         and (
@@ -340,7 +344,7 @@ def needs_more_than_speed(model: SymbolicModel) -> bool:
 
 
 def needs_torques(model: SymbolicModel) -> bool:
-    """True if an effect reads more than the motion of joints."""
+    """Returns True if an effect reads more than the motion of joints."""
     return any(
         part.acts is EffectTarget.POSITION or not part.equation.names.isdisjoint(_TORQUES)
         for column in model.columns
@@ -356,25 +360,11 @@ def _build_advance(model: SymbolicModel, arguments: Arguments) -> list[CFunction
     """The signals one sample later: inner states are stepped; temperatures are measured."""
     if not model.signals:
         return []
-    n = model.geometry.coordinate_count
-    travel = ArgumentSpec(
-        "dq", (n,), arguments.q.unit, "joint positions, less those of the last sample"
-    )
-    step = ArgumentSpec("dt", (1,), "s", "time since the last sample")
     values = dict[Signal, Expr]()
     for signal in model.signals:
         values[signal] = _advance_signal(model, signal, values)
-    motion = (
-        (arguments.q, arguments.qd, arguments.qdd) if any(s.follows for s in model.signals) else ()
-    )
-    after = ArgumentSpec("after", (len(values),), "see above", "signals now")
-    return [
-        CFunction(
-            "", "advance", "The signals one sample later; write temperatures yourself.",
-            "z = sign(dq) + (z - sign(dq)) exp(-|dq|/d) for bristles",
-            (travel, step, *arguments.signals, *motion), after, list_entries(list(values.values())),
-        )
-    ]  # fmt: skip
+    motion = "q qd qdd" if any(s.follows for s in model.signals) else ""
+    return [arguments.declare("advance", list(values.values()), {"motion": motion})]
 
 
 def _advance_signal(model: SymbolicModel, signal: Signal, now: Mapping[Signal, Expr]) -> Expr:
@@ -419,7 +409,7 @@ def _advance_signal(model: SymbolicModel, signal: Signal, now: Mapping[Signal, E
 def build_grouping_function(
     model: SymbolicModel, base: BaseParameters, arguments: Arguments
 ) -> CFunction:
-    """The grouping relations as a function of the standard parameters."""
+    """Returns the grouping relations as a function of the standard parameters."""
     place = {name: model.graph.symbol(f"chi[{k}]") for k, name in enumerate(model.names)}
     values = []
     for parameter in base.parameters:
@@ -427,14 +417,11 @@ def build_grouping_function(
         for term in parameter.terms:
             total = total + model.algebra.static(term.coefficient) * place[term.parameter]
         values.append(total)
-    return CFunction(
-        "", "base_parameters", "Base parameters from standard ones: the grouping relations.",
-        "beta = K chi", (arguments.chi,), arguments.beta, list_entries(values),
-    )  # fmt: skip
+    return arguments.extend("tree").declare("base_parameters", values)
 
 
 def list_entries(values: Sequence[Expr]) -> tuple[tuple[int, Expr], ...]:
-    """(place, value) of all values that are not zero."""
+    """Returns (place, value) of all values that are not zero."""
     return tuple((k, value) for k, value in enumerate(values) if not value.is_zero)
 
 
@@ -442,23 +429,20 @@ def list_entries(values: Sequence[Expr]) -> tuple[tuple[int, Expr], ...]:
 
 
 _WIDTH = 100
-_FEW = 16  # outputs that are always 0, up to which each is written in its own line
-_RUN = 8  # of more, as many as one statement writes: a line of the cache
-_PLAIN = str.maketrans(
-    {"ä": "ae", "ö": "oe", "ü": "ue", "Ä": "Ae", "Ö": "Oe", "Ü": "Ue", "ß": "ss", "æ": "ae",
-     "Æ": "Ae", "ø": "oe", "Ø": "Oe", "œ": "oe", "ł": "l", "Ł": "L", "–": "-", "—": "-",
-     "’": "'", "„": "'", "“": "'", "”": "'", "°": " deg"}
-)  # fmt: skip
+_PLAIN = str.maketrans(read_catalogue()["names"]["letters"])
 
 
 def format_grouping_relation(parameter: BaseParameter) -> str:
-    """`ZZ2R = ZZ2 + YY3 + D4**2*M4`; a name alone where nothing is grouped."""
+    """Returns `ZZ2R = ZZ2 + YY3 + D4**2*M4`; a name alone where nothing is grouped."""
     name, text = parameter.name, format_relation(parameter)
     return name if text == f"{name} = {name}" else text
 
 
 def format_comment(text: str) -> str:
-    """`text` such that it can stand in a C comment: no end of comment, ASCII only, short lines."""
+    """Returns `text` such that it can stand in a C comment.
+
+    No end of comment, ASCII only, short lines.
+    """
     text = " ".join(text.replace("*/", "* /").replace("/*", "/ *").split())
     plain = unicodedata.normalize("NFC", text).translate(_PLAIN)
     letters = (c for c in unicodedata.normalize("NFKD", plain) if not unicodedata.combining(c))
@@ -467,18 +451,18 @@ def format_comment(text: str) -> str:
 
 
 def format_comment_lines(sentences: Iterable[str]) -> list[str]:
-    """Sentences as lines for the inside of a C comment."""
+    """Returns sentences as lines for the inside of a C comment."""
     return [line for each in sentences for line in format_comment(each).split("\n * ")]
 
 
 def format_parameter_lines(
     spec: ModuleSpec, relations: Sequence[str]
 ) -> tuple[list[str], list[str]]:
-    """Comment lines that say which column is which parameter: (standard, base).
+    """Returns comment lines that say which column is which parameter: (standard, base).
 
     Args:
         spec: of the module.
-        relations: what `format_grouping_relation` writes of each base parameter.
+        relations: what `relation` writes of each base parameter.
     """
     standard = [
         f"{i:4d}  {parameter.name:<8} {parameter.unit}" for i, parameter in enumerate(spec.standard)
@@ -486,21 +470,24 @@ def format_parameter_lines(
     base = []
     for i, (parameter, text) in enumerate(zip(spec.base, relations, strict=True)):
         base += textwrap.wrap(
-            f"{i:4d}  {text}  [{parameter.unit}]", _WIDTH - 4, subsequent_indent=" " * 8,
-            break_long_words=False, break_on_hyphens=False,
-        )  # fmt: skip
+            f"{i:4d}  {text}  [{parameter.unit}]",
+            _WIDTH - 4,
+            subsequent_indent=" " * 8,
+            break_long_words=False,
+            break_on_hyphens=False,
+        )
     return [format_comment_line(line) for line in standard], [
         line.replace("*/", "* /") for line in base
     ]
 
 
 def format_comment_line(text: str) -> str:
-    """One line for the inside of a C comment, spaces kept."""
+    """Returns one line for the inside of a C comment, spaces kept."""
     return text.rstrip().replace("*/", "* /")
 
 
 def format_argument_lines(function: CFunction) -> list[str]:
-    """Comment lines that say of every argument its length, order and unit."""
+    """Returns comment lines that say of every argument its length, order and unit."""
     arguments = (*function.inputs, function.output)
     lengths = [" x ".join(str(size) for size in argument.shape) for argument in arguments]
     width = max(9, *(len(length) + 1 for length in lengths))
@@ -511,23 +498,27 @@ def format_argument_lines(function: CFunction) -> list[str]:
         text = f"{argument.meaning}{order} [{argument.unit}]"
         start = f"{argument.name:<{name}}{length:<{width}}"
         lines += textwrap.wrap(
-            start + text, _WIDTH - 4, subsequent_indent=" " * len(start),
-            break_long_words=False, break_on_hyphens=False,
-        )  # fmt: skip
+            start + text,
+            _WIDTH - 4,
+            subsequent_indent=" " * len(start),
+            break_long_words=False,
+            break_on_hyphens=False,
+        )
     return lines
 
 
 _LENGTHS = {
-    **dict.fromkeys(("q", "qd", "qdd", "v", "a", "dq", "tau", "out", "p"), "JOINTS"),
-    "beta": "BASE_PARAMETERS", "chi": "STANDARD_PARAMETERS", "s": "SIGNALS", "after": "SIGNALS",
-}  # fmt: skip
+    name: macro
+    for macro, names in read_catalogue()["names"]["lengths"].items()
+    for name in names.split()
+}
 """Macros of the lengths of arguments, after the robot's name."""
 
 
 def format_arguments(
     function: CFunction, number: str, prefix: str, defined: bool = False
 ) -> list[str]:
-    """C parameters of that type with their bounds, inputs const.
+    """Returns C parameters of that type with their bounds, inputs const.
 
     Args:
         function: whose they are.
@@ -550,7 +541,7 @@ def format_arguments(
 
 
 def format_prototype(name: str, parameters: Sequence[str], returns: str = "void") -> str:
-    """`void name(...)`, in lines of readable length."""
+    """Returns `void name(...)`, in lines of readable length."""
     indent = " " * (len(returns) + len(name) + 2)
     if len(indent) + max(map(len, parameters)) > _WIDTH - 3:
         indent = " " * 8
@@ -566,16 +557,8 @@ def format_prototype(name: str, parameters: Sequence[str], returns: str = "void"
 
 
 def format_signal_lines(spec: ModuleSpec) -> list[str]:
-    """Comment lines that say what each entry of the input s is."""
-    meaning = {
-        "time": "time since the start",
-        "temperature": "temperature of joint {joint}",
-        "slip": "bristle of joint {joint}, which turns over {value:g}; start with 0",
-        "direction": "direction of joint {joint}, which turns after {value:g}; start with 0",
-        "followed": "what the lag in the next entry follows; start both with it",
-        "lag": "lag of joint {joint}, {value:g} s",
-        "since": "time since joint {joint} turned back, by the entry before; start with 0",
-    }
+    """Returns comment lines that say what each entry of the input s is."""
+    meaning = read_catalogue()["signals"]
     return [
         f"{k:4d}  {meaning[s.kind].format(joint=s.joint, value=s.value)} [{s.unit}]"
         for k, s in enumerate(spec.signals)
@@ -583,18 +566,18 @@ def format_signal_lines(spec: ModuleSpec) -> list[str]:
 
 
 def format_body(function: CFunction, block: Block, target: Target) -> list[str]:
-    """All statements of a function."""
+    """Returns all statements of a function."""
     name, size = function.output.name, function.output.size
     written = {index for index, _ in function.entries}
     zeros = [index for index in range(size) if index not in written]
     lines = [f"(void){name};" for name in list_unread_inputs(function, block)]
     body = list(block.body)
-    if len(zeros) > _FEW:
+    if len(zeros) > THRESHOLDS.max_single_zeros:
         lines.append(f"MODELER_ALL_ZEROS({name}, {size});")
         runs: list[tuple[int, int]] = []  # (first, length) of neighbouring places
         for place in zeros:
             first, length = runs[-1] if runs else (place, 0)
-            if place == first + length and 0 < length < _RUN:
+            if place == first + length and 0 < length < THRESHOLDS.zeros_per_statement:
                 runs[-1] = (first, length + 1)
             else:
                 runs.append((place, 1))
@@ -613,7 +596,7 @@ def format_body(function: CFunction, block: Block, target: Target) -> list[str]:
 
 
 def list_unread_inputs(function: CFunction, block: Block) -> Iterable[str]:
-    """Names of the inputs of which no entry is read."""
+    """Returns names of the inputs of which no entry is read."""
     for argument in function.inputs:
         if argument.name == "widths":  # of signs, which are no symbols
             continue
@@ -622,7 +605,7 @@ def list_unread_inputs(function: CFunction, block: Block) -> Iterable[str]:
 
 
 def wrap_names(names: Iterable[object]) -> list[str]:
-    """Words or numbers of a C table or enum, in lines of readable length."""
+    """Returns words or numbers of a C table or enum, in lines of readable length."""
     return textwrap.wrap(
         ", ".join(map(str, names)), _WIDTH - 4, break_long_words=False, break_on_hyphens=False
     )
@@ -631,16 +614,13 @@ def wrap_names(names: Iterable[object]) -> list[str]:
 # C names: of the module, of geometric symbols, of arrays.
 
 
-# Headers of C99: a file of that name beside the code would stand in their place.
-_HEADERS = (
-    "assert", "complex", "ctype", "errno", "fenv", "float", "inttypes", "iso646", "limits",
-    "locale", "math", "setjmp", "signal", "stdarg", "stdbool", "stddef", "stdint", "stdio",
-    "stdlib", "string", "tgmath", "time", "wchar", "wctype",
-)  # fmt: skip
+_HEADERS = read_catalogue()["names"]["headers"]["c99"].split()  # of C99: theirs would be ours
 
 
 def make_prefix(robot: str) -> str:
-    """Start of all C names of a robot: `sr400-tree` -> `sr400_tree`, `3rrr` -> `robot_3rrr`.
+    """Returns start of all C names of a robot.
+
+    `sr400-tree` -> `sr400_tree`, `3rrr` -> `robot_3rrr`.
 
     Raises:
         EmitError: the name would clash with the runtime's or a header of C.
@@ -656,7 +636,7 @@ def make_prefix(robot: str) -> str:
 
 
 def name_macros(prefix: str, symbols: Iterable[str]) -> dict[str, str]:
-    """{geometric symbol: macro}, spelled as in the table: D4 -> PUMA560_GEO_D4.
+    """Returns {geometric symbol: macro}, spelled as in the table: D4 -> PUMA560_GEO_D4.
 
     The `GEO` keeps them apart from macros of the header (PUMA560_JOINTS) and of <math.h>: robot
     `fp` with a symbol `NAN` would define FP_NAN.
@@ -675,7 +655,9 @@ def name_macros(prefix: str, symbols: Iterable[str]) -> dict[str, str]:
 
 
 def name_enumerators(prefix: str, kind: str, names: Iterable[str]) -> list[str]:
-    """C constants of places in a list of parameters: PUMA560_BETA_ZZ1R, spelled as it is printed.
+    """Returns C constants of places in a list of parameters.
+
+    PUMA560_BETA_ZZ1R, spelled as it is printed.
 
     `BETA` and `CHI` keep them apart from the header's other names, as GEO does symbols. The reader
     of robot files sees to it that parameters have different names of letters, digits and `_`.
@@ -689,7 +671,7 @@ def name_enumerators(prefix: str, kind: str, names: Iterable[str]) -> list[str]:
 
 
 def name_constants(prefix: str, symbols: Iterable[str]) -> dict[str, str]:
-    """{geometric symbol: C constant that the functions read}: D4 -> puma560_geo_D4.
+    """Returns {geometric symbol: C constant that the functions read}: D4 -> puma560_geo_D4.
 
     What stands in a macro is text, and may be any expression: `-0.613-0.01` squared would be no
     square. As the initialiser of a `const double` it is one number.
@@ -700,7 +682,10 @@ def name_constants(prefix: str, symbols: Iterable[str]) -> dict[str, str]:
 def map_graph_symbols(
     joints: int, symbols: dict[str, str], arrays: Iterable[str]
 ) -> dict[str, str]:
-    """C text of every graph symbol: entries of arrays as they are named, geometric symbols."""
+    """Returns C text of every graph symbol.
+
+    Entries of arrays as they are named, geometric symbols.
+    """
     kinds = ("q", "qd", "qdd", "dq", "v", "a", "tau")
     inputs = [f"{kind}[{i}]" for kind in kinds for i in range(joints)]
     return {**symbols, **{name: name for name in (*inputs, *arrays)}}

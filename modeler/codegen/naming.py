@@ -35,16 +35,23 @@ class Naming:
         letters: those that occur.
     """
 
-    def __init__(self, graph: Graph, nodes: Mapping[str, int], lines: Iterable[str]) -> None:
-        """Name them.
+    def __init__(
+        self,
+        graph: Graph,
+        labels: Mapping[int, Label],
+        nodes: Mapping[str, int],
+        lines: Iterable[str],
+    ) -> None:
+        """Names them.
 
         Args:
-            graph: with the labels.
+            graph: of the nodes.
+            labels: of nodes.
             nodes: {short name, `t7`: its node}.
             lines: of the function, with short names.
         """
         self._links = graph.links
-        self._labels = {s: graph.labels[k] for s, k in nodes.items() if k in graph.labels}
+        self._labels = {s: labels[k] for s, k in nodes.items() if k in labels}
         self.letters = frozenset((e.quantity, _find_kind(e), e.step) for e in self._labels.values())
         self._names: dict[str, str] = {}
         self._announced: set[Letters] = set()
@@ -58,7 +65,7 @@ class Naming:
             self._names[short] = name
 
     def write_names(self, lines: Sequence[str], remark: str) -> tuple[str, ...]:
-        """The lines with the names, a comment before the first of each quantity of a link.
+        """Returns the lines with the names, a comment before the first of each quantity of a link.
 
         As many as before: a comment, and what a line is too long for, stand within the line.
 
@@ -118,7 +125,7 @@ def _wrap_line(line: str, width: int = _WIDTH) -> str:
 
 
 def format_legend(letters: Iterable[Letters]) -> list[str]:
-    """What the letters are, a line for each that occurs; none where nothing is named.
+    """Returns what the letters are, a line for each that occurs; none where nothing is named.
 
     Args:
         letters: of the functions of a file.

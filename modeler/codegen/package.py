@@ -11,6 +11,7 @@ from typing import Any
 import jinja2
 
 from modeler import __version__
+from modeler.codegen.functions import read_catalogue
 from modeler.codegen.vectors import PRODUCTS, TURNING
 from modeler.core.errors import ModelerError
 from modeler.core.files import locate_resources, write_atomically, write_files
@@ -31,9 +32,8 @@ from modeler.core.manifest import (
 FOLDER = "programs"
 """Of a module's folder, so that all C files beside the library's are the library's."""
 
-EXAMPLES = (
-    "example_computed_torque", "example_residual_observer", "example_cartesian", "example_adaptive",
-)  # fmt: skip
+_EXAMPLES: Mapping[str, Any] = read_catalogue()["examples"]
+EXAMPLES = tuple(_EXAMPLES)
 """Templates, and names of the programs."""
 
 SELF_CHECK = "self_check"
@@ -56,12 +56,14 @@ Record = Mapping[str, frozenset[str]]
 
 
 def hash_content(content: bytes) -> str:
-    """SHA-256, in hexadecimal digits."""
+    """Returns SHA-256, in hexadecimal digits."""
     return hashlib.sha256(content).hexdigest()
 
 
 def read_record(folder: Path) -> Record | None:
-    """What was written into the folder; empty if nothing is known; None if that file is no record.
+    """Returns what was written into the folder.
+
+    Empty if nothing is known; None if that file is no record.
 
     Raises:
         OSError: the record cannot be read.
@@ -81,7 +83,7 @@ def read_record(folder: Path) -> Record | None:
 
 
 def format_record(record: Record) -> str:
-    """The record as a file."""
+    """Returns the record as a file."""
     lines = [f"{sum_}  {name}" for name in sorted(record) for sum_ in sorted(record[name])]
     return "".join(f"{line}\n" for line in lines)
 
@@ -90,12 +92,12 @@ def format_record(record: Record) -> str:
 
 
 def write_emitted(emitted: EmittedModule, folder: Path, force: bool = False) -> tuple[str, ...]:
-    """Names of the files that were written: those that are new or have changed.
+    """Returns names of the files that were written: those that are new or have changed.
 
     A file that says the same already keeps its time, so that `make` has nothing to do. Other files
     of the folder are left alone: it may be the user's controller. What is written is recorded
     beside it (`generated.sha256`), so that the next run knows its own files from the user's. What
-    had the values of a model goes where none are emitted, unless it was edited (`list_leftovers`).
+    had the values of a model goes where none are emitted, unless it was edited (`leftovers`).
 
     Args:
         emitted: the files.
@@ -146,7 +148,9 @@ def _list_unwanted(emitted: EmittedModule) -> set[str]:
 
 
 def list_leftovers(emitted: EmittedModule, folder: str | Path) -> list[str]:
-    """Files with a model's values that are not emitted now, and stay because they were edited.
+    """Returns files with a model's values that are not emitted now.
+
+    And stay because they were edited.
 
     Args:
         emitted: what `write_emitted` wrote.
@@ -214,7 +218,7 @@ def _get_environment() -> jinja2.Environment:
 
 
 def render(template: str, **values: Any) -> str:
-    """Text of `templates/<template>.jinja` with these values."""
+    """Returns text of `templates/<template>.jinja` with these values."""
     return _get_environment().get_template(f"{template}.jinja").render(**values)
 
 
@@ -227,12 +231,17 @@ LICENSE = "MIT"
 
 
 def make_origin() -> OriginSpec:
-    """What the manifest and a header say of this version; the other files are the robot's alone."""
+    """Returns what the manifest and a header say of this version.
+
+    The other files are the robot's alone.
+    """
     return OriginSpec(C_INTERFACE, f"modeler {__version__}", LICENSE)
 
 
 def format_package_version(signature: str) -> str:
-    """`2.4660.22136.43981`: the C interface, then 48 bits of the signature, 16 in each number.
+    """Returns `2.4660.22136.43981`.
+
+    The C interface, then 48 bits of the signature, 16 in each number.
 
     Build systems compare numbers, not digests: so `find_package(arm 2.4660.22136.43981)` and
     `pkg-config 'arm = 2.4660.22136.43981'` find this code and no other. There is no order among
@@ -248,7 +257,7 @@ def format_package_version(signature: str) -> str:
 def build_package_files(
     spec: ModuleSpec, code: Mapping[str, str], values: Mapping[str, Any]
 ) -> dict[str, str]:
-    """{name: text} of what builds, checks, installs and explains the library.
+    """Returns {name: text} of what builds, checks, installs and explains the library.
 
     Args:
         spec: the manifest.
@@ -356,40 +365,30 @@ def _describe_package(spec: ModuleSpec, code: Mapping[str, str]) -> dict[str, An
 
 
 def _sum_operations(functions: Sequence[Any], *names: str) -> dict[str, int]:
-    """Operations of the functions of these names together."""
-    kinds = ("additions", "multiplications")
-    return {k: sum(getattr(f, k) for f in functions if f.name in names) for k in kinds}
+    """Returns the operations of the functions of these names together."""
+    blocks = [f.block for f in functions if f.name in names]
+    return {
+        "additions": sum(block.additions for block in blocks),
+        "multiplications": sum(block.multiplications for block in blocks),
+    }
 
 
 # The example programs of a fitted module: which there are, and their calls as finished strings.
 
 
-_CALLED = {
-    "example_computed_torque": ("fitted_inverse_dynamics", "fitted_friction"),
-    "example_residual_observer": (
-        "fitted_momentum", "fitted_coriolis_transpose", "fitted_gravity", "fitted_friction",
-    ),
-    "example_cartesian": (
-        "pose", "jacobian_dot_qd", "fitted_operational_inverse", "fitted_inverse_dynamics",
-    ),
-    "example_adaptive": (
-        "slotine_li_regressor", "momentum_regressor", "momentum_rest_regressor",
-    ),
-}  # fmt: skip
-
-
 def select_examples(spec: ModuleSpec) -> tuple[str, ...]:
-    """Those whose functions a module has; none where a joint of q has no motor to obey."""
+    """Returns the programs whose functions a module has; none where a joint of q has no motor."""
     roles = {f.name.removeprefix(f"{spec.prefix}_") for f in spec.every_function}
     if not all(joint.actuated for joint in spec.joints):
         return ()
-    examples = tuple(name for name in EXAMPLES if roles.issuperset(_CALLED[name]))
+    called = {n: {role for role, _ in row["calls"].values()} for n, row in _EXAMPLES.items()}
+    examples = tuple(name for name in EXAMPLES if called[name] <= roles)
     # A path in space is followed without what friction remembers.
     return tuple(name for name in examples if name != "example_cartesian" or not spec.signals)
 
 
 def count_values(spec: ModuleSpec) -> dict[str, Any] | None:
-    """What the template of the program that counts instructions needs besides.
+    """Returns what the template of the program that counts instructions needs besides.
 
     None of a robot with loops: how many turns of Newton close them depends on the posture.
     """
@@ -416,65 +415,31 @@ def count_values(spec: ModuleSpec) -> dict[str, Any] | None:
     }
 
 
-_LINES = {
-    "example_computed_torque": "q, qd, commanded q, qd, qdd",
-    "example_residual_observer": "q, qd, tau",
-    "example_cartesian": "q, qd, commanded [R | p], twist, acceleration",
-    "example_adaptive": "q, qd, commanded q, qd, qdd",
-}
-
-
 def build_example_values(spec: ModuleSpec, name: str) -> dict[str, Any]:
-    """What the template of an example needs besides the values of all templates."""
+    """Returns what the template of an example needs besides the values of all templates."""
     roles = {f.name.removeprefix(f"{spec.prefix}_"): f for f in spec.every_function}
     measured = [k for k, signal in enumerate(spec.signals) if signal.kind == "temperature"]
-    line = _LINES[name]
 
-    def format_call(role: str, **named: str) -> str:
-        return format_call_head(
-            roles[role], {"q": "now->q", "qd": "now->qd", "s": "own->s", **named}
-        )
+    def format_call(role: str, named: str) -> str:
+        words = f"q=now->q qd=now->qd s=own->s {named}".split()
+        return format_call_head(roles[role], dict(word.split("=", 1) for word in words))
 
-    values: dict[str, Any] = {"temperatures": measured}
-    if spec.signals:
-        values["advance"] = format_call("advance", dt="&dt", qdd="a") + ", after)"
-        values["lags"] = [k for k, signal in enumerate(spec.signals) if signal.kind == "lag"]
-    values["line"] = f"{line}, temperatures" if measured else line
-    if name == "example_adaptive":
-        return {
-            **values,
-            "line": line,
-            "regressor": format_call("slotine_li_regressor"),
-            "momentum": format_call("momentum_regressor"),
-            "rest": format_call("momentum_rest_regressor"),
-        }
-    if name == "example_cartesian":
-        return {
-            **values,
-            "pose": format_call("pose"),
-            "rest": format_call("jacobian_dot_qd"),
-            "inverse": format_call("fitted_operational_inverse", damping="&own->damping"),
-            "torque": format_call("fitted_inverse_dynamics", qdd="v"),
-        }
-    if name == "example_computed_torque":
-        return {
-            **values,
-            "torque": format_call("fitted_inverse_dynamics", qdd="v"),
-            "friction": format_call("fitted_friction", qdd="v"),
-            "friction_d": format_call("fitted_friction", qd="now->qd_d", qdd="v"),
-        }
-    reads = {argument.name for argument in roles["fitted_friction"].inputs}
-    return {
-        **values,
-        **{role: format_call_head(roles[f"fitted_{role}"], {"qdd": "a", "s": "own->s"})
-           for role in ("momentum", "coriolis_transpose", "gravity", "friction")},
+    row, friction = _EXAMPLES[name], roles.get("fitted_friction")
+    reads = {argument.name for argument in friction.inputs} if friction is not None else set()
+    values: dict[str, Any] = {
+        "temperatures": measured,
+        "line": row["line"] + ", temperatures" * (bool(measured) and name != EXAMPLES[-1]),
         "friction_reads_acceleration": "qdd" in reads,
         "uses_own": "s" in reads,
-    }  # fmt: skip
+    }
+    if spec.signals:
+        values["advance"] = format_call("advance", "dt=&dt qdd=a") + ", after)"
+        values["lags"] = [k for k, signal in enumerate(spec.signals) if signal.kind == "lag"]
+    return values | {word: format_call(*each) for word, each in row["calls"].items()}
 
 
 def format_call_head(function: FunctionSpec, named: Mapping[str, str] | None = None) -> str:
-    """The call up to its output: `wrist_gravity(q, beta`.
+    """Returns the call up to its output: `wrist_gravity(q, beta`.
 
     Args:
         function: that is called.

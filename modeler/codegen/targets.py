@@ -13,7 +13,8 @@ from fractions import Fraction
 from types import MappingProxyType
 from typing import Any
 
-from modeler.core.errors import EmitError, Precision
+from modeler.core.choices import Precision
+from modeler.core.errors import EmitError
 
 FUNCTIONS = ("sin", "cos", "tan", "sqrt", "exp", "tanh", "abs", "pow", "sign")
 """Functions of the graph: those of math.h, and the sign of modeler_runtime.h."""
@@ -66,11 +67,11 @@ class Target:
 
     @property
     def constant_target(self) -> "Target":
-        """The target of constants of the geometry."""
+        """Returns the target of constants of the geometry."""
         return self.constant or self
 
     def round_number(self, value: Fraction) -> float:
-        """The double next to a number that this target can hold.
+        """Returns the double next to a number that this target can hold.
 
         Raises:
             EmitError: it is too large or too small; says what the target holds.
@@ -86,7 +87,7 @@ class Target:
         return float(value)
 
     def format_literal(self, value: float) -> str:
-        """A number as C has it.
+        """Returns a number as C has it.
 
         Raises:
             EmitError: it is too large or too small.
@@ -99,7 +100,7 @@ class Target:
 
     @property
     def template_words(self) -> dict[str, Any]:
-        """What templates write numbers with."""
+        """Returns what templates write numbers with."""
         single = self.precision == "single"
         return {
             "single": single,

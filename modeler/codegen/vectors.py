@@ -13,9 +13,10 @@ from typing import Any
 
 import numpy as np
 
-from modeler.codegen.closed_control import AtState
+from modeler.codegen.control import AtState
 from modeler.codegen.functions import CFunction, Closed, wrap_names
 from modeler.codegen.targets import Target
+from modeler.codegen.thresholds import THRESHOLDS
 from modeler.core.errors import EmitError
 from modeler.derivation import (
     Ball,
@@ -42,10 +43,7 @@ _ROWS = {"rows": "base_regressor"}
 _DIRECT = Closed("poses", "", "q")
 """Stands for what a tree's functions are: no loops are closed."""
 
-_BITS = 192
 _MANY, _DIGITS, _MANY_BITS = 50, 50, 448
-_FINE = 2.0**-14  # rad or m
-_REACHES = (0.1, 0.02, 0.004)  # rad, or share of the robot's size; near a singularity, the last
 _SEED = 5
 
 Table = list[list[float]]
@@ -58,7 +56,9 @@ Balls = list[list[Ball]]
 def build_stored_states(
     model: SymbolicModel, functions: Sequence[CFunction], target: Target, roles: Collection[str]
 ) -> dict[str, Any]:
-    """What the template of the check stores: `tables` by name, and how many `states` they hold.
+    """Returns what the template of the check stores.
+
+    `tables` by name, and how many `states` they hold.
 
     Args:
         model: as derived.
@@ -69,7 +69,7 @@ def build_stored_states(
     Raises:
         EmitError: a number is none of the target, or the loops do not close beside home.
     """
-    with load_flint().ctx.workprec(_BITS):
+    with load_flint().ctx.workprec(THRESHOLDS.state_bits):
         inputs, balls = _evaluate_tables(model, functions, STATES)
     expected = {role: [_round_balls(row) for row in rows] for role, rows in balls.items()}
     products = {role for role in roles if role in PRODUCTS}
@@ -91,7 +91,9 @@ def build_stored_states(
 def format_vectors(
     prefix: str, model: SymbolicModel, functions: Sequence[CFunction], roles: Collection[str]
 ) -> str:
-    """`vectors.csv`: in each line name, state and numbers of an input, or of what a function gives.
+    """Returns `vectors.csv`.
+
+    In each line name, state and numbers of an input, or of what a function gives.
 
     The last line says how many lines of outputs there are.
 
@@ -387,7 +389,7 @@ def _sample_postures(
     """Closed postures around home, their coordinates rounded."""
     enclosures = Enclosures(model, symbols)
     home, independent = np.array(closure.home), list(closure.actuated)
-    for reach in _REACHES:
+    for reach in THRESHOLDS.posture_reaches:
         random = np.random.default_rng(_SEED)
         near = draw_nearby_postures(closure, home, random, states, reach)
         with suppress(EnclosureError):
@@ -414,7 +416,7 @@ def _name_entries(**arrays: Sequence[float]) -> dict[str, Ball]:
 
 
 def _round_fine(x: float) -> float:
-    return float(round(x / _FINE) * _FINE)
+    return float(round(x / THRESHOLDS.posture_grid) * THRESHOLDS.posture_grid)
 
 
 def _round_balls(balls: Sequence[Ball]) -> list[float]:

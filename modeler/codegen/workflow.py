@@ -5,7 +5,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from modeler.core.errors import Machine, Precision
+from modeler.core.choices import Machine, Precision
 from modeler.core.formula import Formulas
 from modeler.core.manifest import EmittedModule, FittedSpec
 from modeler.core.result import Result
@@ -35,17 +35,19 @@ class Derivation(Result):
 
     @property
     def relations(self) -> Formulas:
-        """The base parameters as sums of standard ones; a notebook typesets them."""
+        """Returns the base parameters as sums of standard ones; a notebook typesets them."""
         title = f"base parameters of {self.robot.name}"
         forms = (relations.format_base_parameters(self.base, form) for form in _FORMS)
         return Formulas(title, *forms)
 
     def to_json(self) -> dict[str, Any]:
-        """What scripts read: base parameters, their sums, the proof."""
+        """Returns what scripts read: base parameters, their sums, the proof."""
         return relations.serialise_base_parameters(self.robot.name, self.base)
 
     def closed_form(self, nonzero: bool = False) -> Formulas:
-        """J(q), S(q), g(q) and e of tau = J qdd + S [qd qd] + g + e, e all effects but rotors.
+        """Returns j(q), S(q), g(q) and e of tau = J qdd + S [qd qd] + g + e.
+
+        E all effects but rotors.
 
         Args:
             nonzero: True to leave out parameters that the robot file states as 0.
@@ -56,7 +58,7 @@ class Derivation(Result):
         return derive_short_form(self.model, base).format_formulas()
 
     def regressor(self, nonzero: bool = False) -> Formulas:
-        """The columns phi of tau = phi beta.
+        """Returns the columns phi of tau = phi beta.
 
         Args:
             nonzero: as of `closed_form`.
@@ -68,7 +70,7 @@ class Derivation(Result):
 
 
 def derive(robot: Robot) -> Derivation:
-    r"""The symbolic model and the base parameters with their proof.
+    r"""Returns the symbolic model and the base parameters with their proof.
 
     >>> derivation = derive(read_robot("two-link"))
     >>> derivation.base.rank, found.base.proof.kind
@@ -90,7 +92,7 @@ def generate(
     control: "Control | None" = None,
     measure: Machine | None = None,
 ) -> EmittedModule:
-    """The C module; written to `folder` if one is given, with the controller's unit.
+    """Returns the C module; written to `folder` if one is given, with the controller's unit.
 
     Args:
         derivation: of the robot.

@@ -3,11 +3,7 @@
 from collections.abc import Collection, Mapping
 from typing import Any
 
-LONGEST = 160
-"""Characters of the line, the name of the class aside."""
-
-_TEXT = 40  # characters of a text
-_FEW = 4  # entries of a tuple that are shown
+from modeler.core.thresholds import THRESHOLDS
 
 
 class ShortRepr:
@@ -20,13 +16,16 @@ class ShortRepr:
 
 
 def format_repr(thing: object) -> str:
-    """`Name(field=value, ...)` as far as it fits; arrays by their shape, many entries counted."""
+    """Returns `Name(field=value, ...)` as far as it fits.
+
+    Arrays by their shape, many entries counted.
+    """
     name, line = type(thing).__name__, ""
     for key, value in vars(thing).items():
         if key.startswith("_"):
             continue
         part = f"{', ' if line else ''}{key}={_format_value(value)}"
-        if len(line) + len(part) > LONGEST:
+        if len(line) + len(part) > THRESHOLDS.max_repr_length:
             return f"{name}({line}, ...)"
         line += part
     return f"{name}({line})"
@@ -35,7 +34,11 @@ def format_repr(thing: object) -> str:
 def _format_value(value: Any) -> str:
     if isinstance(value, str):
         text = repr(value)
-        return text if len(text) <= _TEXT else f"{text[: _TEXT - 4]}...'"
+        return (
+            text
+            if len(text) <= THRESHOLDS.max_repr_text
+            else f"{text[: THRESHOLDS.max_repr_text - 4]}...'"
+        )
     if value is None or isinstance(value, bool | int):
         return repr(value)
     if isinstance(value, float):
@@ -50,8 +53,10 @@ def _format_value(value: Any) -> str:
 
 
 def _format_items(items: Collection[Any]) -> str:
-    if len(items) <= _FEW and all(isinstance(x, str | int | float) for x in items):
+    if len(items) <= THRESHOLDS.max_repr_items and all(
+        isinstance(x, str | int | float) for x in items
+    ):
         text = f"({', '.join(_format_value(x) for x in items)})"
-        if len(text) <= _TEXT:
+        if len(text) <= THRESHOLDS.max_repr_text:
             return text
     return f"<{len(items)} items>"

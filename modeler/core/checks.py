@@ -8,7 +8,7 @@ from modeler.core.errors import ShapeError
 
 
 def check_samples(value: Any, name: str, joints: int, finite: bool = True) -> np.ndarray:
-    """`value` as a C-contiguous float64 array (n, joints).
+    """Returns `value` as a C-contiguous float64 array (n, joints).
 
     A copy only if it is not that already.
 
@@ -37,7 +37,7 @@ def check_samples(value: Any, name: str, joints: int, finite: bool = True) -> np
 
 
 def check_mask(value: Any, name: str, shape: tuple[int, ...]) -> np.ndarray:
-    """`value` as a C-contiguous bool array of that shape.
+    """Returns `value` as a C-contiguous bool array of that shape.
 
     Raises:
         ShapeError: another shape, or anything but True and False.
@@ -51,7 +51,7 @@ def check_mask(value: Any, name: str, shape: tuple[int, ...]) -> np.ndarray:
 
 
 def reject_signals(value: Any, robot: str) -> None:
-    """Nothing, for a robot whose effects read no signals: `value` must hold none.
+    """Checks that `value` holds no signals, for a robot whose effects read none.
 
     Raises:
         ShapeError: it holds some.
@@ -61,7 +61,7 @@ def reject_signals(value: Any, robot: str) -> None:
 
 
 def check_vector(value: Any, name: str, length: int) -> np.ndarray:
-    """`value` as a C-contiguous float64 array (length,).
+    """Returns `value` as a C-contiguous float64 array (length,).
 
     Raises:
         ShapeError: another shape, not real numbers, or a value that is not finite.
@@ -79,7 +79,7 @@ def check_vector(value: Any, name: str, length: int) -> np.ndarray:
 
 
 def check_sample_counts(arrays: dict[str, np.ndarray]) -> int:
-    """Number of samples that all arrays (n, ...) have.
+    """Returns the number of samples that all arrays (n, ...) have.
 
     Raises:
         ShapeError: they differ; says all names and numbers.

@@ -1,31 +1,193 @@
-"""The little expression language of robot files and effect equations.
-
-`"q1 + pi/2"`, `"-b3"`, `"sqrt(a**2 + b**2)"`: numbers, names, `pi`, `+ - * / **`, parentheses and
-the functions below; `90 deg` is 90*pi/180, `60 mm` is 0.06. An `Expression` is parsed and checked
-once, and then folded over any algebra: numbers, numpy arrays, sympy, or the expression graph.
-"""
+"""Expressions of robot files and effect equations, learned laws, exactly rounded functions."""
 
 import ast
 import math
 import operator
 import re
-from collections.abc import Callable, Collection, Mapping
+from collections.abc import Callable, Collection, Mapping, Sequence
 from dataclasses import dataclass, field
 from fractions import Fraction
-from functools import partial
-from typing import Any
+from functools import cache, cached_property, partial
+from typing import TYPE_CHECKING, Any
 
-from modeler.core import rounded
-from modeler.core.law import Law
+if TYPE_CHECKING:
+    import numpy as np
+
+_DIGITS = 40
+
+
+@cache
+def get_precise_context() -> Any:
+    """Returns arithmetic with 40 digits, a context of mpmath of its own.
+
+    No global precision is touched.
+    """
+    # Only here: most robot files have no sine among their numbers.
+    import mpmath
+
+    context = mpmath.MPContext()
+    context.dps = _DIGITS
+    return context
+
+
+def compute_power(base: float, exponent: float) -> Any:
+    """Returns the double next to base**exponent.
+
+    What Python gives where that is no finite real number.
+
+    Raises:
+        ArithmeticError: 0 to a negative power, or an overflow.
+    """
+    rough = base**exponent
+    if isinstance(rough, complex) or not math.isfinite(rough):
+        return rough
+    return float(
+        get_precise_context().power(
+            get_precise_context().mpf(base), get_precise_context().mpf(exponent)
+        )
+    )
+
+
+def _round_function(name: str, rough: Callable[[float], float]) -> Callable[[float], float]:
+    def evaluate(x: float) -> float:
+        value = rough(x)  # raises what an argument outside the domain raises
+        if not math.isfinite(value):
+            return value
+        return float(getattr(get_precise_context(), name)(get_precise_context().mpf(x)))
+
+    return evaluate
+
+
+ROUNDED: Mapping[str, Callable[[float], float]] = {
+    "sin": _round_function("sin", math.sin),
+    "cos": _round_function("cos", math.cos),
+    "tan": _round_function("tan", math.tan),
+    "sqrt": math.sqrt,
+    "exp": _round_function("exp", math.exp),
+    "abs": abs,
+    "sign": lambda x: float((x > 0) - (x < 0)),
+    "tanh": _round_function("tanh", math.tanh),
+}
+"""The functions of the expression language, of doubles."""
+
+
+# Expressions of robot files and effect equations, and laws that were learned.
+
+
+BESIDE = 3
+"""Coefficients along an axis more than cells."""
+
+MOST = 10_000
+"""Coefficients of a law."""
+
+
+@dataclass(frozen=True)
+class Law:
+    """A table of one or two quantities; d axes.
+
+    Attributes:
+        low, high: (d,) ends of each axis, SI.
+        cells: (d,) of equal width.
+        values: (prod(cells + 3),) coefficients, the last axis first.
+    """
+
+    low: tuple[float, ...]
+    high: tuple[float, ...]
+    cells: tuple[int, ...]
+    values: tuple[float, ...] = field(repr=False)
+
+    @property
+    def scales(self) -> tuple[float, ...]:
+        """Returns the cells per unit, by axis."""
+        ends = zip(self.low, self.high, self.cells, strict=True)
+        return tuple(count / (high - low) for low, high, count in ends)
+
+    @cached_property
+    def coefficients(self) -> "np.ndarray":
+        """Returns the coefficients, (cells + 3, ...) by axis."""
+        import numpy as np  # robot files without laws do without it
+
+        return np.array(self.values).reshape([count + BESIDE for count in self.cells])
+
+    def __call__(self, *x: "np.ndarray | float", along: int | None = None) -> "np.ndarray":
+        """Its values at x, arrays of one shape; not a number where one of x is not finite.
+
+        Args:
+            x: one for each axis.
+            along: the derivative along this axis; None: the law itself.
+        """
+        import numpy as np
+
+        every = np.broadcast_arrays(*x)
+        places = [
+            self.locate_cells(axis, points, along == axis) for axis, points in enumerate(every)
+        ]
+        total = np.zeros(every[0].shape)
+        if len(places) == 1:
+            ((k, weights),) = places
+            for m, weight in enumerate(weights):
+                total += weight * self.coefficients[k + m]
+            return total
+        (k, first), (l, second) = places
+        for m, weight in enumerate(first):
+            inner = sum(w * self.coefficients[k + m, l + n] for n, w in enumerate(second))
+            total += weight * inner
+        return total
+
+    def locate_cells(
+        self, axis: int, x: "np.ndarray", slope: bool = False
+    ) -> tuple["np.ndarray", Sequence["np.ndarray"]]:
+        """Returns the cell of each x (n,), and the weights of its four coefficients.
+
+        Or their slopes.
+        """
+        import numpy as np
+
+        scale, count = self.scales[axis], self.cells[axis]
+        free = (x - self.low[axis]) * scale
+        u = np.clip(free, 0.0, count)
+        k = np.minimum(np.where(np.isnan(u), 0.0, u).astype(int), count - 1)
+        with np.errstate(invalid="ignore"):
+            f = u - k + (x - x)
+        if not slope:
+            return k, _compute_weights(f)
+        rate = np.where(u == free, scale, 0.0)  # beyond the ends it is held
+        return k, [rate * w for w in _compute_slopes(f)]
+
+
+def _compute_weights(f: "np.ndarray") -> tuple["np.ndarray", ...]:
+    g = 1.0 - f
+    f2 = f * f
+    first, last = g * g * g / 6.0, f2 * f / 6.0
+    second = 2.0 / 3.0 - f2 + 0.5 * f2 * f
+    return first, second, 1.0 - first - second - last, last
+
+
+def _compute_slopes(f: "np.ndarray") -> tuple["np.ndarray", ...]:
+    """Derivatives of the weights by f."""
+    g = 1.0 - f
+    first, second, last = -0.5 * g * g, f * (1.5 * f - 2.0), 0.5 * f * f
+    return first, second, -first - second - last, last
+
+
+# The little expression language of robot files and effect equations.
+#
+# `"q1 + pi/2"`, `"-b3"`, `"sqrt(a**2 + b**2)"`: numbers, names, `pi`, `+ - * / **`, parentheses and
+# the functions below; `90 deg` is 90*pi/180, `60 mm` is 0.06. An `Expression` is parsed and checked
+# once, and then folded over any algebra: numbers, numpy arrays, sympy, or the expression graph.
+
 
 FUNCTIONS = ("sin", "cos", "tan", "sqrt", "exp", "abs", "sign", "tanh")
 LAW = "law"
 """The function of a table, of as many arguments as the table has axes."""
 _KNOWN = (*FUNCTIONS, LAW, "pi")
 _BINARY: Mapping[type[ast.operator], Callable[[Any, Any], Any]] = {
-    ast.Add: operator.add, ast.Sub: operator.sub, ast.Mult: operator.mul,
-    ast.Div: operator.truediv, ast.Pow: operator.pow,
-}  # fmt: skip
+    ast.Add: operator.add,
+    ast.Sub: operator.sub,
+    ast.Mult: operator.mul,
+    ast.Div: operator.truediv,
+    ast.Pow: operator.pow,
+}
 
 _PRINTED = str.maketrans({"\u2212": "-", "\u00b7": "*", "\u00d7": "*", "\u03c0": "pi"})
 """Signs of books as we write them."""
@@ -64,23 +226,25 @@ class Expression:
 
     @property
     def uses_pi(self) -> bool:
-        """True if pi, or degrees, stand in it."""
+        """Returns True if pi, or degrees, stand in it."""
         return any(isinstance(n, ast.Name) and n.id == "pi" for n in ast.walk(self._tree))
 
     @property
     def decimals(self) -> frozenset[Fraction]:
-        """The numbers with a decimal point in it, exactly."""
+        """Returns the numbers with a decimal point in it, exactly."""
         nodes = (node for node in ast.walk(self._tree) if isinstance(node, ast.Constant))
         return frozenset(_parse_fraction(n, self.text) for n in nodes if isinstance(n.value, float))
 
     def rewrite(self, change: Callable[[ast.expr], ast.expr]) -> "Expression":
-        """The expression with a changed tree; itself if nothing was changed."""
+        """Returns the expression with a changed tree; itself if nothing was changed."""
         tree = change(self._tree)
         same = ast.dump(tree) == ast.dump(self._tree)
         return self if same else parse_expression(format_tree(tree), self.law)
 
     def infer_units(self, name_units: Mapping[str, Collection[str]]) -> set[str]:
-        """What it is measured in: "rad" of degrees, "m"; not what stands in a function.
+        """Returns the units it is measured in: "rad" of degrees, "m".
+
+        Not what stands in a function.
 
         Args:
             name_units: the same of the names in it.
@@ -92,14 +256,15 @@ class Expression:
 
     @property
     def is_zero(self) -> bool:
-        """True if it is a number and that number is 0."""
+        """Returns True if it is a number and that number is 0."""
         return not self.names and self.evaluate() == 0.0
 
     def evaluate(self, values: Mapping[str, float] | None = None) -> float:
-        """Its value in floating point, with `values` for the names; the same on every machine."""
-        return float(
-            self.fold(values or {}, rounded.FUNCTIONS, math.pi, float, rounded.compute_power)
-        )
+        """Returns its value in floating point, with `values` for the names.
+
+        The same on every machine.
+        """
+        return float(self.fold(values or {}, ROUNDED, math.pi, float, compute_power))
 
     def fold(
         self,
@@ -109,7 +274,7 @@ class Expression:
         constant: Callable[[Fraction], Any],
         power: Callable[[Any, Any], Any] = operator.pow,
     ) -> Any:
-        """Evaluate over any algebra with Python operators.
+        """Evaluates over any algebra with Python operators.
 
         Args:
             values: what stands for each name.
@@ -161,7 +326,7 @@ class _Algebra:
 
 
 def parse_expression(value: str | int | float, law: Law | None = None) -> Expression:
-    """An `Expression` from a TOML cell (text or number).
+    """Returns an `Expression` from a TOML cell (text or number).
 
     Args:
         value: the cell.
@@ -209,12 +374,14 @@ def _expand_unit(match: re.Match[str]) -> str:
 
 
 def format_tree(tree: ast.expr) -> str:
-    """The expression of a tree as text: `b**2 + pi/2`."""
+    """Returns the expression of a tree as text: `b**2 + pi/2`."""
     return re.sub(r" (\*\*|\*|/) ", r"\1", ast.unparse(tree))
 
 
 def format_decimal(value: Fraction, halves: bool = False) -> str | None:
-    """`0.1564`, exactly; None for a whole number and what has no end as a decimal, such as 1/3.
+    """Returns `0.1564`, exactly.
+
+    None for a whole number and what has no end as a decimal, such as 1/3.
 
     Args:
         value: the number.

@@ -16,6 +16,7 @@ from pathlib import Path
 from typing import Literal
 
 from modeler.core.errors import DataError, ModelerError
+from modeler.core.thresholds import THRESHOLDS
 
 # Where a write to a path lands: its links followed, and what is there now.
 
@@ -23,7 +24,6 @@ from modeler.core.errors import DataError, ModelerError
 # Files that a process has open, by number. These look like links, and lead to a place that may be
 # a pipe without a name, or a file at whose end we stand already: they are written to, not followed.
 _OPEN_FILES = re.compile(r"(?:/proc/(\d+)(?:/task/\d+)?|/dev)/fd")
-_MOST_LINKS = 40  # as in Linux
 
 
 class DestinationKind(enum.Enum):
@@ -40,7 +40,7 @@ class Destination:
     """The place that a path leads to.
 
     Attributes:
-        place: with all links followed.
+        path: with all links followed.
         kind: what is there.
         status: of what is there; None if it is new.
     """
@@ -51,12 +51,15 @@ class Destination:
 
     @property
     def descriptor(self) -> int:
-        """The number of our open file; only of kind DESCRIPTOR."""
+        """Returns the number of our open file; only of kind DESCRIPTOR."""
         return int(self.path.name)
 
     @property
     def identity(self) -> object:
-        """Equal for two paths that lead to one file, by any link; None for a device."""
+        """Returns a value that is equal for two paths to one file, by any link.
+
+        None for a device.
+        """
         if self.status is None:
             return self.path
         if self.kind is DestinationKind.NODE and not stat.S_ISFIFO(self.status.st_mode):
@@ -65,7 +68,7 @@ class Destination:
 
 
 def resolve_destination(path: Path) -> Destination:
-    """Where a write to `path` lands.
+    """Resolves where a write to `path` lands.
 
     Raises:
         ModelerError: a folder or a socket is there.
@@ -91,7 +94,7 @@ def resolve_destination(path: Path) -> Destination:
 
 
 def _follow_links(path: Path) -> Path:
-    for _ in range(_MOST_LINKS):
+    for _ in range(THRESHOLDS.max_links):
         place = Path(os.path.realpath(path.parent), path.name)
         if _OPEN_FILES.fullmatch(str(place.parent)) or not place.is_symlink():
             return place
@@ -123,7 +126,7 @@ UNPACKED = 256 * 2**20
 
 
 def read_file(path: Path, most: int = LARGEST) -> bytes:
-    """Content of a regular file of at most so many bytes.
+    """Reads a regular file of at most so many bytes.
 
     Raises:
         OSError: it cannot be read, is a pipe or device, which may never end, or is larger.
@@ -139,7 +142,7 @@ def read_file(path: Path, most: int = LARGEST) -> bytes:
 
 
 def read_text(path: Path) -> str:
-    r"""The same as text in UTF-8, a byte order mark taken off; line ends are `\n`.
+    r"""Reads a text in UTF-8, a byte order mark taken off; line ends are `\n`.
 
     Raises:
         OSError: as `read_file`.
@@ -149,7 +152,7 @@ def read_text(path: Path) -> str:
 
 
 def compute_checksum(path: Path) -> str:
-    """SHA-256 of the bytes of a file, or of the names and bytes of the files in a folder.
+    """Returns SHA-256 of the bytes of a file, or of the names and bytes of the files in a folder.
 
     Raises:
         OSError: it cannot be read.
@@ -175,7 +178,7 @@ def _hash_file(path: Path, size: int, written: int) -> str:
 
 
 def check_unpacked_size(path: Path, size: int) -> None:
-    """Refuse a log that would fill the memory, before it is unpacked to so many bytes.
+    """Refuses a log that would fill the memory, before it is unpacked to so many bytes.
 
     Raises:
         DataError: more than `PACKED` times its file, and more than `UNPACKED`.
@@ -185,13 +188,13 @@ def check_unpacked_size(path: Path, size: int) -> None:
     if size > max(UNPACKED, PACKED * packed):
         raise DataError(
             f"{path}: unpacks to {size / 2**20:,.0f} MiB or more from {packed / 2**20:.3g} MiB; "
-            f"expected at most {PACKED} times the file, or {UNPACKED >> 20} MiB: no measurement "
-            "packs like that; write it again with the samples of the motion alone"
+            f"expected at most {PACKED} times the file, or {UNPACKED >> 20} MiB; save only the "
+            "samples of the motion"
         )
 
 
 def write_atomically(path: Path, content: bytes | str) -> None:
-    r"""Write `content` to `path`; readers of a file see the old one or the new one.
+    r"""Writes `content` to `path`; readers of a file see the old one or the new one.
 
     A regular file, or none, is written beside its place and renamed: through symbolic links, with
     the permissions of the old file, or those that the umask leaves to a new one. Devices, pipes
@@ -209,7 +212,7 @@ def write_atomically(path: Path, content: bytes | str) -> None:
 
 
 def write_without_overwriting(path: Path, content: bytes | str, force: bool) -> None:
-    """The same, but over a file with another content only if told to.
+    """Writes a file, but over one with another content only with `force`.
 
     Raises:
         DataError: there is such a file.
@@ -219,7 +222,7 @@ def write_without_overwriting(path: Path, content: bytes | str, force: bool) -> 
 
 
 def write_all_without_overwriting(files: list[tuple[Path, bytes | str]], force: bool) -> None:
-    """The same of several files: all, or none.
+    """Writes several files, all or none, as `write_unless_other` does.
 
     Raises:
         DataError, ModelerError, BrokenPipeError: as above.
@@ -236,7 +239,7 @@ def write_all_without_overwriting(files: list[tuple[Path, bytes | str]], force: 
 
 
 def write_files(files: Iterable[tuple[Path, bytes | str]], removed: Iterable[Path] = ()) -> None:
-    """The same of several files, in their order: an interrupt leaves all as it was, or all new.
+    """Writes several files in their order: an interrupt leaves all as it was, or all new.
 
     All are written beside their places first; then nothing stops their renaming but the end of the
     process at once (SIGKILL, a power cut).
@@ -281,7 +284,7 @@ def write_files(files: Iterable[tuple[Path, bytes | str]], removed: Iterable[Pat
 
 @contextlib.contextmanager
 def defer_signals() -> Iterator[None]:
-    """Signals that end a program wait until this is over."""
+    """Delays signals that end a program until this is over."""
     names = ("SIGINT", "SIGTERM", "SIGHUP")
     here = threading.current_thread() is threading.main_thread()  # who alone hears of signals
     numbers = [getattr(signal, name) for name in names if here and hasattr(signal, name)]
@@ -299,7 +302,9 @@ def defer_signals() -> Iterator[None]:
 
 
 def check_writable(path: Path) -> None:
-    """Refuse a place that cannot be written, before the work that it is for; nothing is left there.
+    """Refuses a place that cannot be written, before the work that it is for.
+
+    Nothing is left there.
 
     Raises:
         ModelerError: it is a folder or a socket, or write-protected, or its folder is missing and
@@ -320,7 +325,7 @@ def check_writable(path: Path) -> None:
 
 
 def check_folder_writable(folder: Path) -> None:
-    """Refuse a folder that cannot be made, or that new files cannot be put into; leaves nothing.
+    """Refuses a folder that cannot be made, or that new files cannot be put into; leaves nothing.
 
     Raises:
         ModelerError: says why.
@@ -331,7 +336,9 @@ def check_folder_writable(folder: Path) -> None:
 
 
 def resolve_page_path(path: Path, name: str) -> Path:
-    """Where a page goes that is given as an `.html` file, as a pipe or device, or as a folder.
+    """Returns where a page goes that is given as an `.html` file, as a pipe or device.
+
+    Or as a folder.
 
     In a folder, which need not be there yet, it is called `name`.
     """
@@ -439,7 +446,10 @@ _PACKAGE = Path(__file__).resolve().parents[1]
 
 
 def locate_resources(kind: Literal["templates", "csrc"]) -> Path:
-    """Folder of shipped data: inside the wheel (`_templates`), or at the top of a checkout."""
+    """Returns folder of shipped data.
+
+    Inside the wheel (`_templates`), or at the top of a checkout.
+    """
     for place in (_PACKAGE / f"_{kind}", _PACKAGE.parent / kind):
         if place.is_dir():
             return place

@@ -4,8 +4,16 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field, fields
 from typing import Any, get_args
 
-from modeler.core.errors import GAIN_METHOD, LOW_SPEED, TWO_STEPS, Derivatives, Method, ModelKind
-from modeler.core.estimators import ABOUT, APART
+from modeler.core.choices import (
+    ABOUT,
+    APART,
+    GAIN_METHOD,
+    LOW_SPEED,
+    TWO_STEPS,
+    Derivatives,
+    Method,
+    ModelKind,
+)
 
 METHODS = (*get_args(Method), GAIN_METHOD, TWO_STEPS)
 """Ids of all estimators of `modeler fit`."""

@@ -15,6 +15,7 @@ from typing import TYPE_CHECKING, Any, TypeVar
 from modeler import __version__
 from modeler.core.errors import DataError, suggest_install
 from modeler.core.files import defer_signals
+from modeler.core.thresholds import THRESHOLDS
 
 if TYPE_CHECKING:
     from distributed import Client
@@ -32,7 +33,7 @@ Done = Callable[[float], None]
 
 
 def ignore_progress(share: float) -> None:
-    """Nobody wants to know it."""
+    """Ignores the share of the jobs that are done."""
 
 
 LOCAL = "local"
@@ -49,7 +50,7 @@ class Workers:
     def map_jobs(
         self, work: Callable[[S, J], R], shared: S, jobs: Sequence[J], done: Done = ignore_progress
     ) -> list[R]:
-        """What `work` makes of each job, in the order of the jobs.
+        """Returns what `work` makes of each job, in the order of the jobs.
 
         Args:
             work: of what all share, and a job.
@@ -69,7 +70,9 @@ class Workers:
     def start_merge(
         self, work: Callable[[S, J], R], shared: S, jobs: Sequence[J], merge: Callable[[R, R], R]
     ) -> Callable[[], R]:
-        """All results merged in pairs of neighbours, pairs of pairs, and so on: begun.
+        """Begins all jobs, whose results are merged in pairs of neighbours, pairs of pairs.
+
+        And so on.
 
         The pairs are the same whoever works, and so is the result, to the last bit, on machines
         that compute alike. This process does nothing before the result is asked for.
@@ -81,7 +84,7 @@ class Workers:
             merge: of two results, the earlier first.
 
         Returns:
-            what waits for the result; raises as `map_jobs` does.
+            what waits for the result; raises as `each` does.
         """
         return lambda: merge_pairwise([work(shared, job) for job in jobs], merge)
 
@@ -108,7 +111,7 @@ def open_workers(dask: str | None = None, processes: int = 1) -> Iterator[Worker
 
 
 def merge_pairwise(results: Sequence[R], merge: Callable[[R, R], R]) -> R:
-    """Results merged as `list_merge_pairs` says."""
+    """Results merged as `pairs` says."""
     merged = list(results)
     for left, right in list_merge_pairs(len(merged)):
         merged[left] = merge(merged[left], merged[right])
@@ -116,7 +119,9 @@ def merge_pairwise(results: Sequence[R], merge: Callable[[R, R], R]) -> R:
 
 
 def list_merge_pairs(count: int) -> Iterator[tuple[int, int]]:
-    """(left, right) of neighbours to merge, in order; each result stands at left, the last at 0.
+    """Yields (left, right) of neighbours to merge, in order.
+
+    Each result stands at left, the last at 0.
 
     Two subtrees of one height as soon as both are there; the rest at the end, the last first.
 
@@ -137,9 +142,6 @@ def list_merge_pairs(count: int) -> Iterator[tuple[int, int]]:
         yield waiting[-1][1], right
 
 
-_ANSWER = 10.0  # s, in which a scheduler must answer and have a worker
-
-
 class Cluster(Workers):
     """The workers of a scheduler.
 
@@ -152,7 +154,7 @@ class Cluster(Workers):
     def map_jobs(
         self, work: Callable[[S, J], R], shared: S, jobs: Sequence[J], done: Done = ignore_progress
     ) -> list[R]:
-        """See `Workers`."""
+        """Returns the results, as `Workers.each`."""
         futures = self._submit_jobs(work, shared, jobs)
         from distributed import as_completed
 
@@ -167,7 +169,10 @@ class Cluster(Workers):
     def start_merge(
         self, work: Callable[[S, J], R], shared: S, jobs: Sequence[J], merge: Callable[[R, R], R]
     ) -> Callable[[], R]:
-        """See `Workers`; merged where the results are, only the last one travels here."""
+        """Begins all jobs, as `Workers.begun`.
+
+        Merged where the results are, only the last travels here.
+        """
         futures = self._submit_jobs(work, shared, jobs)
         for left, right in list_merge_pairs(len(jobs)):
             futures[left] = self._client.submit(merge, futures[left], futures[right], pure=False)
@@ -181,7 +186,7 @@ class Cluster(Workers):
 
 @contextmanager
 def open_cluster(address: str) -> Iterator[Cluster]:
-    """The cluster behind a scheduler, or one of this machine that ends with the work.
+    """Opens the cluster behind a scheduler, or one of this machine that ends with the work.
 
     Args:
         address: "local", or as tcp://host:8786.
@@ -193,8 +198,8 @@ def open_cluster(address: str) -> Iterator[Cluster]:
         from distributed import Client, LocalCluster
     except ImportError:
         raise DataError(
-            f"--dask {address}: Dask is not installed; {suggest_install('dask')}, or leave --dask "
-            "out"
+            f"--dask {address}: Dask is not installed; {suggest_install('dask')}, or leave "
+            "--dask out"
         ) from None
     for name in ("distributed", "distributed.worker", "distributed.nanny", "distributed.scheduler"):
         logging.getLogger(name).setLevel(logging.CRITICAL)
@@ -208,10 +213,10 @@ def open_cluster(address: str) -> Iterator[Cluster]:
             yield _check_workers(client, address)
         return
     try:
-        client = Client(address, timeout=_ANSWER)
+        client = Client(address, timeout=THRESHOLDS.scheduler_timeout)
     except (OSError, ValueError, TimeoutError) as error:
         raise DataError(
-            f"--dask {address}: no scheduler answers there ({error or 'time is up'}); expected an "
+            f"--dask {address}: no scheduler answers there ({error or 'timeout'}); expected an "
             "address such as tcp://host:8786, as `dask scheduler` prints it, or local"
         ) from None
     with client:
@@ -221,7 +226,7 @@ def open_cluster(address: str) -> Iterator[Cluster]:
 def _check_workers(client: "Client", address: str) -> Cluster:
     """The cluster, if it has workers and they have this version of this package."""
     try:
-        client.wait_for_workers(1, timeout=_ANSWER)
+        client.wait_for_workers(1, timeout=THRESHOLDS.scheduler_timeout)
     except TimeoutError:
         raise DataError(
             f"--dask {address}: the scheduler has no workers; start some, as `dask worker ADDRESS`"
@@ -249,12 +254,12 @@ def _wait_result(future: Any) -> Any:
 
 
 def return_same(thing: S) -> S:
-    """That thing, where it is called."""
+    """Returns the argument, where it is called."""
     return thing
 
 
 def get_version() -> str:
-    """That of this package, where it is called."""
+    """Returns the version of this package, where it is called."""
     return __version__
 
 
@@ -287,13 +292,13 @@ class Processes(Workers):
     def map_jobs(
         self, work: Callable[[S, J], R], shared: S, jobs: Sequence[J], done: Done = ignore_progress
     ) -> list[R]:
-        """See `Workers`."""
+        """Returns the results, as `Workers.each`."""
         return _gather_results(self._submit_jobs(work, shared, jobs), done)
 
     def start_merge(
         self, work: Callable[[S, J], R], shared: S, jobs: Sequence[J], merge: Callable[[R, R], R]
     ) -> Callable[[], R]:
-        """See `Workers`; merged in this process."""
+        """Begins all jobs, as `Workers.begun`; merged in this process."""
         futures = self._submit_jobs(work, shared, jobs)
         return lambda: merge_pairwise(_gather_results(futures, ignore_progress), merge)
 
@@ -322,7 +327,7 @@ def _gather_results(futures: "Sequence[Future[R]]", done: Done) -> list[R]:
 
 
 def exit_with_parent() -> None:
-    """A process ends, without a word, when the one that started it has: even if that was killed."""
+    """Ends this process when the one that started it has ended, even if that was killed."""
     parent = multiprocessing.parent_process()
     assert parent is not None
 
@@ -335,7 +340,7 @@ def exit_with_parent() -> None:
 
 @contextmanager
 def block_interrupts() -> Iterator[None]:
-    """What is started meanwhile leaves Ctrl-C, which a terminal sends to all, to this process."""
+    """Blocks SIGINT in what is started meanwhile: Ctrl-C reaches this process alone."""
     mask = getattr(signal, "pthread_sigmask", None)
     before = mask(signal.SIG_BLOCK, {signal.SIGINT}) if mask else ()
     try:
@@ -347,7 +352,7 @@ def block_interrupts() -> Iterator[None]:
 
 @contextmanager
 def open_processes(count: int) -> Iterator[Processes]:
-    """A pool of so many fresh processes; what they inherit is one thread each."""
+    """Opens a pool of so many fresh processes; what they inherit is one thread each."""
     before = {name: os.environ.get(name) for name in (*_THREADS, _WARNINGS)}
     os.environ.update(dict.fromkeys(_THREADS, "1"))
     # Where this process is killed, a helper of Python's counts what it could not give back.

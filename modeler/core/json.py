@@ -27,7 +27,7 @@ class TomlError(ValueError):
 
 
 def parse_json(data: bytes | str) -> Any:
-    """The value of a JSON text in UTF-8.
+    """Returns the value of a JSON text in UTF-8.
 
     Stricter than `json.loads`: what is no number (NaN, Infinity), what no double or 64-bit integer
     holds, an entry given twice, and half a character are refused.
@@ -59,7 +59,7 @@ def parse_json(data: bytes | str) -> Any:
 
 
 def convert_to_plain(content: Any) -> Any:
-    """Plain data with null for every number that is not finite.
+    """Returns plain data with null for every number that is not finite.
 
     Arrays and tuples become lists; a result is what its `to_json` says, another dataclass an
     object with its fields.
@@ -82,7 +82,7 @@ def select_attributes(thing: Any, names: str) -> dict[str, Any]:
 
 
 def parse_toml(text: str) -> dict[str, Any]:
-    """The table of a TOML text.
+    """Returns the table of a TOML text.
 
     Raises:
         TomlError: not such a text; says why, where if that is known.
@@ -92,14 +92,14 @@ def parse_toml(text: str) -> dict[str, Any]:
     except tomllib.TOMLDecodeError as error:
         raise TomlError(str(error)) from None
     except RecursionError:
-        raise TomlError("lists or tables are nested hundreds deep; write them flat") from None
+        raise TomlError("lists or tables are nested too deep; write them flat") from None
     except ValueError:  # the one that is left: Python's limit against endless conversions
         most = sys.get_int_max_str_digits()
         raise TomlError(f"an integer has more than {most} digits; write a shorter one") from None
 
 
 def shorten_value(value: Any) -> str:
-    """The value for a message: short, however long it is."""
+    """Returns the value for a message: short, however long it is."""
     return reprlib.repr(value)
 
 
@@ -109,7 +109,7 @@ def _decode_text(data: bytes) -> str:
     try:
         return data.decode("utf-8-sig")
     except UnicodeDecodeError as error:
-        raise JsonError(f"is no text in UTF-8 from byte {error.start + 1} on") from None
+        raise JsonError(f"is not valid UTF-8 (byte {error.start + 1})") from None
 
 
 def _parse_integer(text: str) -> int:
@@ -128,7 +128,7 @@ def _parse_float(text: str) -> float:
 
 
 def _reject_constant(text: str) -> float:
-    raise JsonError(f"has {text}, which is no number of JSON")
+    raise JsonError(f"has {text}, which is not a JSON number")
 
 
 def _parse_object(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
@@ -148,7 +148,7 @@ class SchemaError(ValueError):
 
 
 def build_instance(cls: type[T], raw: Any, place: str = "") -> T:
-    """An instance of a dataclass from a mapping, as JSON has it; lists become tuples.
+    """Returns an instance of a dataclass from a mapping, as JSON has it; lists become tuples.
 
     Args:
         cls: with fields of plain types: text, numbers, truth values, None, tuples, mappings,
@@ -175,7 +175,7 @@ def build_instance(cls: type[T], raw: Any, place: str = "") -> T:
 
 
 def check_fields(instance: Any, place: str = "") -> None:
-    """Refuse an instance of a dataclass whose fields are not of the types that it declares.
+    """Refuses an instance of a dataclass whose fields are not of the types that it declares.
 
     Raises:
         PlainError: names the first.
@@ -186,7 +186,7 @@ def check_fields(instance: Any, place: str = "") -> None:
 
 
 def convert_value(hint: Any, value: Any, place: str) -> Any:
-    """`value` as the type `hint`; other types than those of `build_instance` are not looked into.
+    """Returns `value` as the type `hint`; other types than those of `built` are not looked into.
 
     Raises:
         PlainError: it is none.

@@ -14,7 +14,8 @@ from functools import cached_property
 from typing import Any
 
 from modeler.core.brief import ShortRepr
-from modeler.core.errors import ManifestError, Precision
+from modeler.core.choices import Precision
+from modeler.core.errors import ManifestError
 from modeler.core.json import JsonError, SchemaError, build_instance, parse_json, shorten_value
 from modeler.core.result import Result
 
@@ -27,10 +28,15 @@ BATCH_RUNTIME = ("modeler_batch.h", "modeler_batch.c")
 """Loops over samples, which a controller has no use for."""
 
 CLOSURE_RUNTIME = (
-    "modeler_status.h", "modeler_solve.h", "modeler_kept.h", "modeler_closure.h",
+    "modeler_status.h",
+    "modeler_solve.h",
+    "modeler_kept.h",
+    "modeler_closure.h",
     "modeler_workspace.h",
-    "modeler_closure.c", "modeler_closure_factor.c", "modeler_closure_motion.c",
-)  # fmt: skip
+    "modeler_closure.c",
+    "modeler_closure_factor.c",
+    "modeler_closure_motion.c",
+)
 """Those that stand beside a robot with loops."""
 
 CONTROL_RUNTIME = ("modeler_status.h", "modeler_solve.h")
@@ -44,9 +50,7 @@ LAW_TILE_RUNTIME = ("modeler_law_lanes.h",)
 CUDA_THREADS = 128
 """Threads of a block of the emitted kernels."""
 
-TILE_RUNTIME = (
-    "modeler_tile.h", "modeler_lanes.h", "modeler_versions.h", "modeler_tile.c",
-)  # fmt: skip
+TILE_RUNTIME = ("modeler_tile.h", "modeler_lanes.h", "modeler_versions.h", "modeler_tile.c")
 """Those that stand beside tiles."""
 
 CLOSING_RUNTIME = ("modeler_closing.h",)
@@ -67,7 +71,7 @@ class ArgumentSpec:
 
     @property
     def size(self) -> int:
-        """How many numbers it holds."""
+        """Returns how many numbers it holds."""
         return math.prod(self.shape)
 
 
@@ -166,13 +170,14 @@ class SymbolSpec:
 
 
 SIGNALS = {
-    "time": "s", "temperature": "K or degC",
+    "time": "s",
+    "temperature": "K or degC",
     "slip": "1",  # bristle of a joint, z' = (v/d)(1 - z sign v)
     "direction": "1",  # sign: which way a joint goes; size: 1 less the share of the way back
     "since": "s",  # time since it last turned back, by the direction before it
     "followed": "SI",  # what the lag after it follows
     "lag": "SI",  # z' = (x - z)/tau of the entry before it
-}  # fmt: skip
+}
 """Kind of a signal -> its unit."""
 
 
@@ -189,7 +194,7 @@ class SignalSpec:
 
     @property
     def is_internal_state(self) -> bool:
-        """True of a state that is stepped along the motion."""
+        """Returns True of a state that is stepped along the motion."""
         return self.kind not in ("time", "temperature")
 
 
@@ -257,7 +262,7 @@ class ModuleSpec(ShortRepr):
     functions: tuple[FunctionSpec, ...]
     closure: ClosureSpec | None = None
     signals: tuple[SignalSpec, ...] = ()
-    code: str = ""  # digest of the sources, their signature left out: see `digest_code`
+    code: str = ""  # digest of the sources, their signature left out: see `code_digest`
     fitted: FittedSpec | None = None  # where it was generated from a model
     precision: Precision = "double"  # of all numbers of the C
     inertial_uncertainty: float | None = None  # of every body, over its scale
@@ -268,13 +273,15 @@ class ModuleSpec(ShortRepr):
 
     @property
     def every_function(self) -> tuple[FunctionSpec, ...]:
-        """Those of the robot, of the fitted values, of the controller's unit."""
+        """Returns the functions of the robot, of the fitted values, of the controller's unit."""
         more = (unit.functions for unit in (self.fitted, self.control) if unit is not None)
         return (*self.functions, *(function for unit in more for function in unit))
 
     @property
     def nonzeros(self) -> tuple[tuple[int, int], ...]:
-        """(joint, base column) of the structural nonzeros of the base regressor, row after row.
+        """Returns (joint, base column) of the structural nonzeros of the base regressor.
+
+        Row after row.
 
         The order of the values of `<prefix>_base_regressor_nonzeros`.
         """
@@ -286,13 +293,13 @@ class ModuleSpec(ShortRepr):
         )
 
     def has_unit(self, unit: str) -> bool:
-        """True if the C file of that name, after the robot's, is part of the module."""
+        """Returns True if the C file of that name, after the robot's, is part of the module."""
         there = {"_fitted": self.fitted, "_control": self.control, "_loops": self.closure}
         return (self.units is None or unit in self.units) and there.get(unit, self) is not None
 
     @property
     def controller_sources(self) -> tuple[str, ...]:
-        """Names of the C files of the controller's library, headers included."""
+        """Returns names of the C files of the controller's library, headers included."""
         units = [".h", ".c"]
         units += [f"{unit}.c" for unit in ("_regressor", "_base_regressor") if self.has_unit(unit)]
         headed = [unit for unit in ("_fitted", "_control") if self.has_unit(unit)]
@@ -308,13 +315,16 @@ class ModuleSpec(ShortRepr):
 
     @property
     def sources(self) -> tuple[str, ...]:
-        """Names of the C files that Python compiles: those, and the loops over samples."""
+        """Returns names of the C files that Python compiles: those, and the loops over samples."""
         units = [f"{self.prefix}_batch.{kind}" for kind in "hc" if self.has_unit("_batch")]
         return (*self.controller_sources, *units, *BATCH_RUNTIME)
 
     @property
     def tile_sources(self) -> tuple[str, ...]:
-        """Names of the C files of the tiles, which can be a library of their own; () if none."""
+        """Returns names of the C files of the tiles, which can be a library of their own.
+
+        () if none.
+        """
         if not self.has_unit("_batch"):
             return ()
         units = (f"{self.prefix}_tile.h", f"{self.prefix}_tile.c")
@@ -325,12 +335,12 @@ class ModuleSpec(ShortRepr):
 
     @property
     def tile_runtime(self) -> tuple[str, ...]:
-        """Hand-written files of the tiles alone."""
+        """Returns hand-written files of the tiles alone."""
         more = CLOSING_RUNTIME if self.closure is not None else ()
         return (*TILE_RUNTIME, *more, *(LAW_TILE_RUNTIME if self.laws else ()))
 
     def to_json(self) -> str:
-        """Stable text: sorted as declared, no date, no version."""
+        """Returns stable text: sorted as declared, no date, no version."""
         return self._json_text
 
     @cached_property
@@ -353,7 +363,7 @@ class ModuleSpec(ShortRepr):
         return json.dumps(entries, indent=1) + "\n"
 
     def compute_signature(self) -> str:
-        """Hash that the emitted library repeats, so that a stale library is noticed.
+        """Returns hash that the emitted library repeats, so that a stale library is noticed.
 
         Of the whole manifest but the fitted values, which have a signature of their own, and the
         controller's unit, and with it of the whole C text but these: two robots of the same
@@ -365,12 +375,14 @@ class ModuleSpec(ShortRepr):
 
 
 def digest_text(text: str) -> str:
-    """The sixteen digits that a signature is."""
+    """Returns the sixteen digits that a signature is."""
     return hashlib.sha256(text.encode()).hexdigest()[:16]
 
 
 def digest_code(sources: Mapping[str, str]) -> str:
-    """Digest of the C files of a module, tiles included, with an empty text for the signature.
+    """Returns digest of the C files of a module, tiles included.
+
+    With an empty text for the signature.
 
     The signature stands in the C itself, so it is put there last: it covers all the rest.
     """
@@ -396,13 +408,13 @@ class EmittedModule(Result):
 
     @property
     def code(self) -> dict[str, str]:
-        """The files that the library and its tiles are compiled from."""
+        """Returns the files that the library and its tiles are compiled from."""
         names = (*self.spec.sources, *self.spec.tile_sources)
         return {name: self.files[name] for name in names if name in self.files}
 
 
 def parse_manifest(text: bytes | str, where: str) -> ModuleSpec:
-    """Read a manifest back.
+    """Reads a manifest back.
 
     Raises:
         ManifestError: not a manifest, or of another format; `where` names the file.
@@ -414,17 +426,17 @@ def parse_manifest(text: bytes | str, where: str) -> ModuleSpec:
 
 
 def build_manifest(raw: Any, where: str) -> ModuleSpec:
-    """A manifest from its JSON value.
+    """Returns a manifest from its JSON value.
 
     Raises:
-        ManifestError: as `parse_manifest`.
+        ManifestError: as `module_from_json`.
     """
     if not isinstance(raw, dict) or "format" not in raw:
         raise ManifestError(f"{where}: not a manifest; expected the output of `modeler generate`")
     if raw["format"] != FORMAT:
         raise ManifestError(
-            f"{where}: manifest format {shorten_value(raw['format'])}, expected {FORMAT}; generate "
-            "it again"
+            f"{where}: manifest format {shorten_value(raw['format'])}, expected {FORMAT}; "
+            "generate it again"
         )
     try:
         return build_instance(ModuleSpec, raw)

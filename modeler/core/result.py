@@ -1,6 +1,6 @@
 """What every result says of itself: a line, a summary, tables, frames, figures, pages, files.
 
-A result states what it holds; how it is shown stands in one room, `modeler.views.notebook`, which
+A result states what it holds; how it is shown stands in one room, `modeler.report.notebook`, which
 is told by `modeler.api`, and says it by a `Presentation` for each class when one is first shown.
 """
 
@@ -59,15 +59,12 @@ def register_presentations(presentations: Mapping[type, Presentation]) -> None:
 
 
 def register_lazily(names: Iterable[str], load: Callable[[], None]) -> None:
-    """Says what calls `register_presentations` for classes of these names.
-
-    It runs when one is " "first shown.
-    """
+    """Says what calls `present` for classes of these names; it runs when one is first shown."""
     _LATER.update(dict.fromkeys(names, load))
 
 
 def find_presentation(kind: type) -> Presentation | None:
-    """How the objects of a class, or of one that it derives from, are shown."""
+    """Returns how the objects of a class, or of one that it derives from, are shown."""
     for name in (k.__name__ for k in kind.__mro__):
         if name in _LATER:
             _LATER.pop(name)()
@@ -78,11 +75,11 @@ class Result(ShortRepr):
     """A base class of results."""
 
     def summary(self) -> str:
-        """What it is and what it found, in some lines of text."""
+        """Returns in some lines of text what it is and what was found."""
         return _get_presentation(self).summary(self)
 
     def table(self, name: str = "") -> Table:
-        """One of its tables.
+        """Returns one of its tables.
 
         Args:
             name: which; the main one if left out. `docs/reference/python.md` lists them.
@@ -93,7 +90,7 @@ class Result(ShortRepr):
         return _select_item(self, "table", name, _get_presentation(self).tables(self))
 
     def to_frame(self, name: str = "") -> Any:
-        """That table as a pandas DataFrame.
+        """Returns that table as a pandas DataFrame.
 
         Raises:
             DataError: no such table, or pandas is not installed.
@@ -101,7 +98,9 @@ class Result(ShortRepr):
         return self.table(name).to_frame()
 
     def plot(self, name: str = "") -> Any:
-        """One of its figures, a matplotlib Figure; a notebook draws it, `savefig` writes it.
+        """Returns one of its figures, a matplotlib Figure.
+
+        A notebook draws it, `savefig` writes it.
 
         Args:
             name: which; the main one if left out. `docs/reference/python.md` lists them.
@@ -112,7 +111,7 @@ class Result(ShortRepr):
         return _select_item(self, "plot", name, _get_presentation(self).figures(self))
 
     def to_dict(self) -> dict[str, Any]:
-        """Plain data: what `--json` writes of it, or else its tables."""
+        """Returns plain data: what `--json` writes of it, or else its tables."""
         if hasattr(self, "to_json"):
             return dict(convert_to_plain(self.to_json()))
         tables = {
@@ -121,7 +120,7 @@ class Result(ShortRepr):
         return dict(convert_to_plain(tables))
 
     def to_html(self) -> str:
-        """A page of HTML that needs no other file."""
+        """Returns a page of HTML that needs no other file."""
         presentation = _get_presentation(self)
         if presentation.document is not None:
             return str(presentation.document(self, ()))
@@ -133,7 +132,7 @@ class Result(ShortRepr):
         )
 
     def save(self, path: str | Path) -> Path:
-        """Write it to a file, in the way that its ending says.
+        """Writes it to a file, in the way that its ending says.
 
         Args:
             path: .json for plain data, .html for its page, .csv .md .tex for its main table,
@@ -153,8 +152,8 @@ class Result(ShortRepr):
             write_atomically(path, _WRITTEN[ending](self))
         else:
             raise DataError(
-                f'{path}: got the ending "{ending}"; {_get_presentation(self).noun} is saved as '
-                "one of "
+                f'{path}: got the ending "{ending}"; {_get_presentation(self).noun} is saved '
+                "as one of "
                 f"{' '.join(sorted({*writers, *_WRITTEN}))}"
             )
         return path
@@ -194,7 +193,7 @@ def _get_presentation(thing: Result) -> Presentation:
     presentation = find_presentation(type(thing))
     if presentation is None:
         raise DataError(
-            f"{type(thing).__name__}: nobody has said how it is shown; import modeler.api"
+            f"{type(thing).__name__}: no presentation is registered; import modeler.api"
         )
     return presentation
 

@@ -14,8 +14,7 @@ from typing import Any
 from modeler.core.brief import ShortRepr
 from modeler.core.errors import DataError, suggest_install
 from modeler.core.formula import escape_latex
-
-_SHOWN = 60  # rows of a long table on a page: half of them from each end
+from modeler.core.thresholds import THRESHOLDS
 
 
 @dataclass(frozen=True)
@@ -56,7 +55,10 @@ class Table(ShortRepr):
     def build(
         cls, title: str, head: str | Iterable[str], rows: Iterable[Iterable[Any]], note: str = ""
     ) -> "Table":
-        """A table whose head is written as "name, mass [kg]", or as such names one by one."""
+        """Returns a table whose head is written as "name, mass [kg]".
+
+        Or as such names one by one.
+        """
         columns = []
         for text in head.split(", ") if isinstance(head, str) else head:
             name, _, unit = text.removesuffix("]").rpartition(" [")
@@ -75,7 +77,7 @@ class Table(ShortRepr):
         return self.to_text()
 
     def to_text(self) -> str:
-        """Aligned columns of plain text, every row; numbers to the right."""
+        """Returns aligned columns of plain text, every row; numbers to the right."""
         head = tuple(_format_head(name, unit) for name, unit in self.columns)
         cells = [head, *(tuple(_format_cell(cell) for cell in row) for row in self.rows)]
         left = [k for k in range(len(head)) if not self._is_numeric(k)]
@@ -83,15 +85,23 @@ class Table(ShortRepr):
         return "\n".join([self.title, *lines, *([self.note] if self.note else [])])
 
     def to_html(self) -> str:
-        """An HTML table; of a long one its first and last rows, and how many are left out."""
+        """Returns an HTML table.
+
+        Of a long one its first and last rows, and how many are left out.
+        """
         head = "".join(f"<th>{html.escape(_format_head(*column))}</th>" for column in self.columns)
-        half = _SHOWN // 2
+        half = THRESHOLDS.max_page_rows // 2
         rows = [
             f"<tr>{''.join(f'<td>{html.escape(_format_formula(cell))}</td>' for cell in row)}</tr>"
-            for row in (self.rows if len(self) <= _SHOWN else self.rows[:half] + self.rows[-half:])
+            for row in (
+                self.rows
+                if len(self) <= THRESHOLDS.max_page_rows
+                else self.rows[:half] + self.rows[-half:]
+            )
         ]
-        if len(self) > _SHOWN:
-            gap = f'<tr><td colspan="{len(self.columns)}">... {len(self) - _SHOWN} rows more'
+        if len(self) > THRESHOLDS.max_page_rows:
+            hidden = len(self) - THRESHOLDS.max_page_rows
+            gap = f'<tr><td colspan="{len(self.columns)}">... {hidden} rows more'
             rows.insert(half, f"{gap} ...</td></tr>")
         caption = f"<caption>{html.escape(self.title)}</caption>" if self.title else ""
         note = f"<p>{html.escape(self.note)}</p>" if self.note else ""
@@ -102,7 +112,7 @@ class Table(ShortRepr):
         return self.to_html()
 
     def to_markdown(self) -> str:
-        """A Markdown table."""
+        """Returns a Markdown table."""
         cells = [[_format_head(*column) for column in self.columns], ["---"] * len(self.columns)]
         for row in self.rows:
             cells.append(
@@ -111,7 +121,7 @@ class Table(ShortRepr):
         return "\n".join("| " + " | ".join(row) + " |" for row in cells)
 
     def to_latex(self) -> str:
-        """A tabular environment; formulas in dollars."""
+        """Returns a tabular environment; formulas in dollars."""
         kinds = "".join("r" if self._is_numeric(k) else "l" for k in range(len(self.columns)))
         cells = [[escape_latex(_format_head(*column)) for column in self.columns]]
         for row in self.rows:
@@ -125,7 +135,10 @@ class Table(ShortRepr):
         return "\n".join([*lines, r"\end{tabular}"])
 
     def to_csv(self) -> str:
-        """Comma-separated, the names with their units; texts that need it are quoted."""
+        """Returns comma-separated values, the names with their units.
+
+        Texts that need it are quoted.
+        """
         import csv
 
         written = io.StringIO()
@@ -137,14 +150,16 @@ class Table(ShortRepr):
         return written.getvalue()
 
     def to_dict(self) -> dict[str, Any]:
-        """Plain data: title, units, and the cells of every column by its name."""
+        """Returns plain data: title, units, and the cells of every column by its name."""
         names = [name for name, _ in self.columns]
         cells = zip(*([_get_value(cell) for cell in row] for row in self.rows), strict=True)
         columns = dict(zip(names, map(list, cells), strict=True)) if self.rows else {}
         return {"title": self.title, "units": dict(self.columns), "columns": columns}
 
     def to_frame(self) -> Any:
-        """A pandas DataFrame: columns by name without units, `frame.attrs["units"]` has them.
+        """Returns a pandas DataFrame.
+
+        Columns by name without units, `frame.attrs["units"]` has them.
 
         Raises:
             DataError: pandas is not installed.
@@ -162,7 +177,7 @@ class Table(ShortRepr):
         return frame
 
     def column(self, name: str) -> list[Cell]:
-        """The cells of one column.
+        """Returns the cells of one column.
 
         Raises:
             DataError: no such column.
@@ -178,7 +193,7 @@ class Table(ShortRepr):
 
 
 def align_columns(rows: Sequence[Sequence[str]], left: Sequence[int]) -> list[str]:
-    """Columns as wide as what stands in them, two spaces between; numbers to the right."""
+    """Returns columns as wide as what stands in them, two spaces between; numbers to the right."""
     widths = [max(len(row[k]) for row in rows) for k in range(len(rows[0]))]
     return [
         "  ".join(
@@ -213,7 +228,9 @@ def _format_formula(cell: Cell) -> str:
 
 
 def label_values(values: Any, index: Any, columns: Sequence[str] | None = None) -> Any:
-    """Numbers by name: a Series or DataFrame of pandas where that is installed, else bare ones.
+    """Returns numbers by name.
+
+    A Series or DataFrame of pandas where that is installed, else bare ones.
 
     Args:
         values: (n,), or (n, m) with columns.
@@ -250,7 +267,9 @@ Part = tuple[str, float, float]
 
 
 def pool_errors_by_unit(parts: Iterable[Part]) -> dict[str, float]:
-    """||residual|| / ||effort|| over all joints of one unit, by unit; N m first, NaN without any.
+    """Returns ||residual|| / ||effort|| over all joints of one unit, by unit.
+
+    N m first, NaN without any.
 
     Args:
         parts: of the joints.
@@ -266,7 +285,10 @@ def pool_errors_by_unit(parts: Iterable[Part]) -> dict[str, float]:
 
 
 def format_errors_by_unit(errors: Mapping[str, float]) -> str:
-    """Errors as text: "2.1 % of the torques (N m), 3 % of the forces (N)"; of one unit: "2.1 %"."""
+    """Returns errors as text: "2.1 % of the torques (N m), 3 % of the forces (N)".
+
+    Of one unit: "2.1 %".
+    """
     if len(errors) == 1:
         return format_percent(next(iter(errors.values())))
     return ", ".join(
@@ -286,7 +308,7 @@ DIGITS = 4
 
 
 def format_percent(share: float | None, digits: int = 3) -> str:
-    """A share in percent, as in "3.41 %"; "-" where it is not known.
+    """Returns a share in percent, as in "3.41 %"; "-" where it is not known.
 
     What is less than a part in a million is 0: no measurement tells it.
     """
@@ -297,7 +319,7 @@ def format_percent(share: float | None, digits: int = 3) -> str:
 
 
 def format_error_pair(before: float, after: float) -> tuple[str, str]:
-    """Two errors in percent, with a digit more where they are alike in three."""
+    """Returns two errors in percent, with a digit more where they are alike in three."""
     pair, finer = (
         (format_percent(before, digits), format_percent(after, digits)) for digits in (3, DIGITS)
     )

@@ -9,13 +9,11 @@ from dataclasses import dataclass
 from typing import Any
 
 from modeler.core.errors import RobotError
-from modeler.core.expression import Expression, ExpressionError, parse_expression
-from modeler.core.law import Law
+from modeler.core.expression import Expression, ExpressionError, Law, parse_expression
+from modeler.core.thresholds import THRESHOLDS
 
 LARGEST = 1e12
 """Size of any number, in SI units: squares and products of larger ones leave double precision."""
-
-_LONGEST = 60  # letters of the user's text that are quoted
 
 
 @dataclass(frozen=True)
@@ -30,25 +28,30 @@ class TomlCell:
     value: Any = None
 
     def enter(self, spot: str, value: Any = None) -> "TomlCell":
-        """The place inside this one."""
+        """Returns the place inside this one."""
         return TomlCell(self.file, f"{self.location}, {spot}" if self.location else spot, value)
 
     def with_value(self, value: Any) -> "TomlCell":
-        """The same place with another value: one of the entries that stand there."""
+        """Returns the same place with another value: one of the entries that stand there."""
         return TomlCell(self.file, self.location, value)
 
     def make_error(self, what: str) -> RobotError:
-        """The error to raise: the place and `what`, as one line."""
+        """Returns the error to raise: the place and `what`, as one line."""
         where = f"{self.file}: {self.location}" if self.location else self.file
-        words = (w if len(w) <= _LONGEST else f"{w[:_LONGEST]}..." for w in what.split())
+        words = (
+            w
+            if len(w) <= THRESHOLDS.max_quoted_letters
+            else f"{w[: THRESHOLDS.max_quoted_letters]}..."
+            for w in what.split()
+        )
         return RobotError(" ".join([*f"{where}:".split(), *words]))
 
     def make_mismatch(self, expected: str) -> RobotError:
-        """The error to raise where something else stands than is expected."""
+        """Returns the error to raise where something else stands than is expected."""
         return self.make_error(f"got {quote_value(self.value)}; expected {expected}")
 
     def read_expression(self, law: Law | None = None) -> Expression:
-        """An `Expression` or a number; names are not checked. `law` may stand in it."""
+        """Returns an `Expression` or a number; names are not checked. `law` may stand in it."""
         try:
             return parse_expression(self.value, law)
         except ExpressionError as error:
@@ -60,7 +63,7 @@ class TomlCell:
             raise self.make_error(message) from None
 
     def read_number(self, example: str) -> float:
-        """A finite number, not an expression."""
+        """Returns a finite number, not an expression."""
         if isinstance(self.value, bool) or not isinstance(self.value, int | float):
             raise self.make_mismatch(f"a number such as {example}")
         try:
@@ -74,13 +77,13 @@ class TomlCell:
         return number
 
     def read_text(self, example: str) -> str:
-        """A TOML string that is not empty."""
+        """Returns a TOML string that is not empty."""
         if not isinstance(self.value, str) or not self.value.strip():
             raise self.make_mismatch(f"text such as {example}")
         return self.value
 
     def read_list(self, example: str, length: int | None = None) -> list[Any]:
-        """A TOML array, of `length` entries if that is given."""
+        """Returns a TOML array, of `length` entries if that is given."""
         if not isinstance(self.value, list):
             raise self.make_mismatch(f"a list such as {example}")
         count = len(self.value)
@@ -92,20 +95,20 @@ class TomlCell:
         return self.value
 
     def read_table(self, example: str) -> dict[str, Any]:
-        """A TOML table."""
+        """Returns a TOML table."""
         if not isinstance(self.value, dict):
             raise self.make_mismatch(f"a table, as in {example}")
         return self.value
 
     def read_items(self, example: str) -> "Iterator[tuple[str, TomlCell]]":
-        """The keys of a TOML table, each with what stands there."""
+        """Returns the keys of a TOML table, each with what stands there."""
         for key, value in self.read_table(example).items():
             yield key, self.enter(quote_value(key), value)
 
     def read_checked_table(
         self, keys: Collection[str], example: str, unknown: str = "", missing: str = ""
     ) -> dict[str, Any]:
-        """A TOML table with the keys that it may have and those that it needs.
+        """Returns a TOML table with the keys that it may have and those that it needs.
 
         Args:
             keys: that it may have.
@@ -127,7 +130,7 @@ class TomlCell:
 
 
 def quote_value(value: Any) -> str:
-    """The user's value as he wrote it, shortened: `"q1"`, `1.57`, `[1, 2]`."""
+    """Returns the user's value as he wrote it, shortened: `"q1"`, `1.57`, `[1, 2]`."""
     if isinstance(value, bool):
         text = str(value).lower()
     elif isinstance(value, str):
@@ -137,16 +140,20 @@ def quote_value(value: Any) -> str:
             text = f"{value!r}"
         except ValueError:  # Python prints no integer of more than 4300 digits
             text = "a number of thousands of digits"
-    return text if len(text) <= _LONGEST else f"{text[: _LONGEST - 4]} ..."
+    return (
+        text
+        if len(text) <= THRESHOLDS.max_quoted_letters
+        else f"{text[: THRESHOLDS.max_quoted_letters - 4]} ..."
+    )
 
 
 def join_names(names: Iterable[str]) -> str:
-    """`a, b, c`; `none` if there is nothing to list."""
+    """Returns `a, b, c`; `none` if there is nothing to list."""
     return ", ".join(names) or "none"
 
 
 def suggest_name(name: Any, names: Iterable[str]) -> str:
-    """` (did you mean "viscous"?)` for a misspelt name, else nothing."""
+    """Returns ` (did you mean "viscous"?)` for a misspelt name, else nothing."""
     if not isinstance(name, str):
         return ""
     # Letter case is the commonest slip: d3 for D3.
@@ -158,7 +165,7 @@ def suggest_name(name: Any, names: Iterable[str]) -> str:
 
 
 def format_toml(value: object) -> str:
-    """A value as it stands in a robot file."""
+    """Returns a value as it stands in a robot file."""
     if isinstance(value, str):
         return json.dumps(value, ensure_ascii=False)
     if isinstance(value, bool):
@@ -174,5 +181,5 @@ def format_toml(value: object) -> str:
 
 
 def format_toml_key(key: str) -> str:
-    """A key as it stands there, in quotes where it needs them."""
+    """Returns a key as it stands there, in quotes where it needs them."""
     return key if re.fullmatch(r"[A-Za-z0-9_-]+", key) else json.dumps(key, ensure_ascii=False)

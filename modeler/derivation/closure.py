@@ -17,7 +17,7 @@ import numpy as np
 
 from modeler.core.brief import ShortRepr
 from modeler.core.errors import LoopError
-from modeler.core.rounded import get_precise_context
+from modeler.core.expression import get_precise_context
 from modeler.derivation.geometry import Geometry
 from modeler.derivation.graph import Expr, Graph, differentiate
 from modeler.derivation.kinematics import (

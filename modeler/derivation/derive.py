@@ -16,8 +16,7 @@ from typing import Any
 
 import numpy as np
 
-from modeler.core.expression import Expression, parse_expression
-from modeler.core.rounded import get_precise_context
+from modeler.core.expression import Expression, get_precise_context, parse_expression
 from modeler.derivation.assembly_modes import _build_model, resolve_home
 from modeler.derivation.closure import Closure
 from modeler.derivation.model import SymbolicModel

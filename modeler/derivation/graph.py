@@ -12,8 +12,7 @@ from typing import Any, NamedTuple, Union
 import numpy as np
 
 from modeler.core.errors import DerivationError
-from modeler.core.expression import FUNCTIONS, LAW
-from modeler.core.law import Law
+from modeler.core.expression import FUNCTIONS, LAW, Law
 from modeler.derivation.thresholds import THRESHOLDS
 
 

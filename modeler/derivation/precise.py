@@ -14,8 +14,7 @@ from fractions import Fraction
 from functools import cache
 from typing import Any
 
-from modeler.core.expression import FUNCTIONS, LAW
-from modeler.core.rounded import get_precise_context
+from modeler.core.expression import FUNCTIONS, LAW, get_precise_context
 from modeler.derivation.graph import OPERATIONS, Arithmetic, Expr, Graph, Plan, Table
 from modeler.robot import Robot
 
@@ -146,7 +145,7 @@ def is_surely_zero(expression: Expr, robot: Robot) -> bool:
 
 
 Number = Any
-"""A number of the context `modeler.core.rounded.precise()`."""
+"""A number of the context `modeler.core.expression.precise()`."""
 
 
 def evaluate_precisely(

@@ -16,14 +16,15 @@ from modeler.core.brief import ShortRepr
 from modeler.core.errors import DerivationError
 from modeler.core.expression import format_decimal, parse_expression
 from modeler.core.formula import (
+    DisplayedEquation,
     Formula,
+    format_display,
     format_latex_name,
     make_name,
     make_number,
     make_operator,
     make_row,
 )
-from modeler.core.latex_display import DisplayedEquation, format_display
 from modeler.derivation.model import StandardColumn
 
 

@@ -23,7 +23,7 @@ from scipy.sparse import csr_array, eye_array, kron, vstack
 
 from modeler.core.brief import ShortRepr
 from modeler.core.errors import DataError, RobotError
-from modeler.core.law import Law
+from modeler.core.expression import Law
 from modeler.core.toml_cells import TomlCell
 from modeler.diagnosis.candidates import Candidate
 from modeler.diagnosis.effect_columns import evaluate_equations

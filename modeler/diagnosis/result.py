@@ -8,11 +8,12 @@ from typing import Any
 
 import numpy as np
 
-from modeler.core.brief import LONGEST, ShortRepr
+from modeler.core.brief import ShortRepr
 from modeler.core.json import convert_to_plain, select_attributes
 from modeler.core.manifest import ModuleSpec
 from modeler.core.result import Result
 from modeler.core.table import format_error_pair, format_percent
+from modeler.core.thresholds import THRESHOLDS as CORE_THRESHOLDS
 from modeler.core.toml_cells import format_toml
 from modeler.diagnosis.candidates import Candidate
 from modeler.diagnosis.cross_checks import CrossCheck, Key, ParameterChange
@@ -450,7 +451,9 @@ class Diagnosis(Result):
     errors: Mapping[str, float] = field(default_factory=dict)
 
     def __repr__(self) -> str:
-        headline = textwrap.shorten(self.sentences[0], LONGEST, placeholder=" ...")
+        headline = textwrap.shorten(
+            self.sentences[0], CORE_THRESHOLDS.max_repr_length, placeholder=" ..."
+        )
         return f"Diagnosis({self.robot}: {headline})"
 
     def __len__(self) -> int:

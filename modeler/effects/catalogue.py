@@ -10,8 +10,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from modeler.core.expression import FUNCTIONS, LAW, Expression
-from modeler.core.law import BESIDE, MOST as MOST_VALUES, Law
+from modeler.core.expression import BESIDE, FUNCTIONS, LAW, MOST as MOST_VALUES, Expression, Law
 from modeler.core.toml_cells import LARGEST, TomlCell, join_names, quote_value, suggest_name
 from modeler.effects.effect import (
     MOTION,

@@ -6,7 +6,8 @@ from typing import Literal
 
 import numpy as np
 
-from modeler.core.errors import DataError, Method
+from modeler.core.choices import Method
+from modeler.core.errors import DataError
 from modeler.core.table import format_percent
 from modeler.estimation.covariance import estimate_autocorrelation, sum_lagged_products
 from modeler.estimation.identify import (

@@ -8,8 +8,8 @@ from typing import Any
 
 import numpy as np
 
-from modeler.core.errors import DataError, Method
-from modeler.core.estimators import ABOUT, EstimatorInfo
+from modeler.core.choices import ABOUT, EstimatorInfo, Method
+from modeler.core.errors import DataError
 from modeler.core.json import select_attributes
 from modeler.estimation import instrumental
 from modeler.estimation.covariance import HalvesComparison, compare_halves, estimate_hac_covariance

@@ -9,7 +9,8 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from modeler.core.errors import DataError, Method
+from modeler.core.choices import Method
+from modeler.core.errors import DataError
 from modeler.core.table import format_percent
 from modeler.estimation.thresholds import THRESHOLDS
 from modeler.numerics.least_squares import (

@@ -16,7 +16,8 @@ from typing import Any
 
 import numpy as np
 
-from modeler.core.errors import DataError, LoopError, Method
+from modeler.core.choices import Method
+from modeler.core.errors import DataError, LoopError
 from modeler.estimation.identify import (
     build_base_equations,
     find_disconnected_joints,

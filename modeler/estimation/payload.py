@@ -7,7 +7,8 @@ from typing import TypeVar
 
 import numpy as np
 
-from modeler.core.errors import DataError, Method
+from modeler.core.choices import Method
+from modeler.core.errors import DataError
 from modeler.core.manifest import ModuleSpec
 from modeler.core.table import format_percent
 from modeler.estimation.identify import Equations, build_base_equations, fit_equations

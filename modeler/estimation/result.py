@@ -316,7 +316,7 @@ class FitResult(Result):
 
     Attributes:
         robot: name.
-        method: id of the estimator, see `core.estimators`.
+        method: id of the estimator, see `core.choices`.
         status: "ok" | "rank deficient" | "not settled".
         samples: after decimation.
         rows: of W.

@@ -8,8 +8,8 @@ from typing import Any
 import numpy as np
 
 from modeler.core.brief import ShortRepr
-from modeler.core.errors import Method, ModelerError
-from modeler.core.estimators import ABOUT
+from modeler.core.choices import ABOUT, Method
+from modeler.core.errors import ModelerError
 from modeler.core.json import select_attributes
 from modeler.core.result import Result
 from modeler.estimation.identify import identify

@@ -17,7 +17,8 @@ from typing import Any
 import numpy as np
 from scipy.linalg import cholesky, solve_triangular
 
-from modeler.core.errors import TWO_STEPS, DataError
+from modeler.core.choices import TWO_STEPS
+from modeler.core.errors import DataError
 from modeler.core.json import select_attributes
 from modeler.core.table import format_percent
 from modeler.estimation.covariance import estimate_autocorrelation

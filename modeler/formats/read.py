@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
-from modeler.core.builtin import OTHER_PROGRAMS, list_builtin_robots
+from modeler.core.choices import OTHER_PROGRAMS, list_builtin_robots
 from modeler.core.errors import RobotError
 from modeler.core.files import read_file, write_without_overwriting
 from modeler.robot import (

@@ -9,7 +9,7 @@ from typing import Any
 
 from modeler.core.errors import RobotError
 from modeler.core.expression import Expression
-from modeler.core.latex_display import DisplayedEquation, format_display
+from modeler.core.formula import DisplayedEquation, format_display
 from modeler.derivation import (
     BaseParameters,
     LinearRelations,

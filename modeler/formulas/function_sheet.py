@@ -15,8 +15,7 @@ from dataclasses import dataclass, replace
 from fractions import Fraction
 from typing import Any, Literal
 
-from modeler.core.formula import format_latex_name
-from modeler.core.latex_display import DisplayedEquation, format_display
+from modeler.core.formula import DisplayedEquation, format_display, format_latex_name
 from modeler.derivation import Expr, Graph, Node
 from modeler.formulas.ring import LATEX, TEXT, TextStyle, format_signed_sum
 from modeler.formulas.thresholds import THRESHOLDS

@@ -13,8 +13,7 @@ from typing import Any, Literal
 import numpy as np
 
 from modeler.core.errors import DataError, ModelerError
-from modeler.core.formula import escape_latex, format_latex_name
-from modeler.core.latex_display import DisplayedEquation, format_display
+from modeler.core.formula import DisplayedEquation, escape_latex, format_display, format_latex_name
 from modeler.derivation import collect_powers, evaluate_modulo
 from modeler.formulas.physical_system import NumericPolynomial, PhysicalSystem
 from modeler.formulas.ring import (

@@ -6,18 +6,15 @@ from .blocks import (
     read_windows as read_windows,
 )
 from .columns import Columns as Columns
-from .frames import (
-    Frame as Frame,
-    InMemory as InMemory,
-    build_frame_columns as build_frame_columns,
-    split_joints as split_joints,
-)
 from .guess import EITHER as EITHER, split_label as split_label
 from .inspect import (
     Clock as Clock,
     LogInspection as LogInspection,
+    Mark as Mark,
     Positions as Positions,
+    find_marks as find_marks,
     inspect_table as inspect_table,
+    keep_longest as keep_longest,
 )
 from .log_table import LogTable as LogTable
 from .mapping import (
@@ -28,7 +25,6 @@ from .mapping import (
     parse_map_options as parse_map_options,
     resolve_si_unit as resolve_si_unit,
 )
-from .marks import Mark as Mark, find_marks as find_marks, keep_longest as keep_longest
 from .rates import (
     describe_clock_factor as describe_clock_factor,
     describe_repeats as describe_repeats,
@@ -36,4 +32,10 @@ from .rates import (
     is_derivative as is_derivative,
     is_moving as is_moving,
 )
-from .stamps import describe_coarse_clock as describe_coarse_clock
+from .readers import (
+    Frame as Frame,
+    InMemory as InMemory,
+    build_frame_columns as build_frame_columns,
+    split_joints as split_joints,
+)
+from .times import describe_coarse_clock as describe_coarse_clock

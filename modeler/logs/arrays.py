@@ -27,12 +27,12 @@ from modeler.logs.columns import (
     wrap_read_errors,
 )
 from modeler.logs.guess import guess_role
-from modeler.logs.stamps import join_stamps
+from modeler.logs.thresholds import THRESHOLDS
+from modeler.logs.times import join_stamps
 
 LEAST_ROWS = 10
 """A log of fewer rows carries no motion: fifth of a second at the slowest usual rate."""
 
-_SHOWN = 8  # names in a note
 _EPISODE = re.compile(r"(|.*?[./])([A-Za-z_]*)(\d+)[./](.+)", re.DOTALL)
 _EPISODES = re.compile(
     r"(?i)(?:demo|demonstration|episode|ep|traj|trajectory|rollout|run|trial|sequence|seq)_?$"
@@ -59,12 +59,12 @@ class NamedArray:
 
     @property
     def shape(self) -> tuple[int, ...]:
-        """As the user wrote it."""
+        """Returns the shape as the user wrote it."""
         return tuple(self.data.shape[::-1] if self.flipped else self.data.shape)
 
 
 @dataclass(frozen=True, eq=False)
-class _SlicedColumn:
+class _SlicedColumn(Column):
     """One column of an array; `values` reads one, and keeps the last: its columns follow."""
 
     values: Callable[[NamedArray], np.ndarray]
@@ -94,7 +94,7 @@ def build_columns(
     wanted: ColumnRequest,
     notes: Sequence[str] = (),
 ) -> Columns:
-    """The columns of arrays: (n,) one, (n, k) and (k, n) k of them, `name[1]` to `name[k]`.
+    """Returns the columns of arrays: (n,) one, (n, k) and (k, n) k of them, `name[1]` to `name[k]`.
 
     n is the length that most arrays share; the others are left out, and told.
 
@@ -188,8 +188,10 @@ class _ConcatenatedArray:
 
     def __getitem__(self, key: tuple[()]) -> np.ndarray:
         whole = [np.asarray(part.data[()]).astype(self.dtype) for part in self.parts]
-        values = [episode.T if part.flipped else episode for episode, part in zip(whole, self.parts,
-                                                                     strict=True)]  # fmt: skip
+        values = [
+            episode.T if part.flipped else episode
+            for episode, part in zip(whole, self.parts, strict=True)
+        ]
         if guess_role(self.parts[0].name) == "time":
             for before, episode in itertools.pairwise(
                 episode for episode in values if episode.size > 1
@@ -215,8 +217,10 @@ def _concatenate_episodes(arrays: Sequence[NamedArray]) -> tuple[list[NamedArray
             episode_arrays[match[1] + match[4]] = array
     for group, numbered in groups.items():
         episodes = dict(sorted(numbered.items()))
-        rows = [Counter(a.shape[0] for a in episode_arrays.values()).most_common(1)[0][0]
-                for episode_arrays in episodes.values()]  # fmt: skip
+        rows = [
+            Counter(a.shape[0] for a in episode_arrays.values()).most_common(1)[0][0]
+            for episode_arrays in episodes.values()
+        ]
         if len(rows) < 2 or not (_EPISODES.search(group) or len({*rows}) > 1):
             continue
         inside = {
@@ -266,7 +270,7 @@ def _slice_columns(
 
 
 def expand_fields(name: str, data: Any, **more: Any) -> list[NamedArray]:
-    """An array, or those of its fields where its rows are records."""
+    """Returns an array, or those of its fields where its rows are records."""
     if data.dtype.names is None:
         return [NamedArray(name, data, **more)]
     head = f"{name}." if name else ""
@@ -300,12 +304,16 @@ def _describe_array(held: NamedArray) -> str:
 
 
 def _join_names(names: Sequence[str]) -> str:
-    more = f" and {len(names) - _SHOWN} more" if len(names) > _SHOWN else ""
-    return ", ".join(names[:_SHOWN]) + more
+    more = (
+        f" and {len(names) - THRESHOLDS.max_listed_names} more"
+        if len(names) > THRESHOLDS.max_listed_names
+        else ""
+    )
+    return ", ".join(names[: THRESHOLDS.max_listed_names]) + more
 
 
 def read_numpy(path: Path, wanted: ColumnRequest) -> Columns:
-    """The columns of the arrays of an .npz file, or of the fields of an .npy file.
+    """Returns the columns of the arrays of an .npz file, or of the fields of an .npy file.
 
     Arrays of Python objects are refused: reading them would run what the file says.
     """
@@ -329,10 +337,7 @@ def read_numpy(path: Path, wanted: ColumnRequest) -> Columns:
 _UNITS = ("units", "unit", "Units", "Unit")  # attributes in use
 
 _HDF5 = b"\x89HDF\r\n\x1a\n"
-_DEEPEST = 20  # structs in structs
 _PIECE = 2**24  # bytes that are unpacked at a time, to be counted
-_DEFLATE = 1032  # bytes at most that zlib unpacks from one (RFC 1951: 258 from 2 bits)
-_FILTERS = 64  # bytes that other filters add to a chunk, as checksums do
 
 
 @dataclass(frozen=True, eq=False)
@@ -354,7 +359,10 @@ class _StoredDataset:
 
 
 def read_hdf5(path: Path, wanted: ColumnRequest) -> Columns:
-    """The columns of all datasets, by their path: `arm/q[1]`; a `units` attribute is kept."""
+    """Returns the columns of all datasets, by their path: `arm/q[1]`.
+
+    A `units` attribute is kept.
+    """
     with wrap_read_errors(path, "HDF5"):
         stored = _list_datasets(path, "an HDF5 file")
         held = [held for one in stored for held in expand_fields(one.name, one, unit=one.unit)]
@@ -362,7 +370,7 @@ def read_hdf5(path: Path, wanted: ColumnRequest) -> Columns:
 
 
 def read_mat73(path: Path, wanted: ColumnRequest) -> Columns:
-    """The same of a MAT file of version 7.3: fields of structs as `data.q[1]`."""
+    """Returns the same of a MAT file of version 7.3: fields of structs as `data.q[1]`."""
     what, arrays, opaque = "MAT 7.3 file", list[NamedArray](), list[str]()
     with wrap_read_errors(path, what):
         for one in _list_datasets(path, "a MAT file of version 7.3"):
@@ -415,14 +423,14 @@ def _check_chunks(path: Path, item: Any) -> None:
     check_unpacked_size(path, size)
     for at in range(item.id.get_num_chunks()) if item.compression == "gzip" else ():
         chunk = item.id.get_chunk_info(at)
-        if chunk.filter_mask or chunk.size * _DEFLATE <= UNPACKED:
+        if chunk.filter_mask or chunk.size * THRESHOLDS.max_deflate_ratio <= UNPACKED:
             continue
         packed = item.id.read_direct_chunk(chunk.chunk_offset)[1]
         length, unpacking = 0, zlib.decompressobj()
         while not unpacking.eof and packed:
             length += len(unpacking.decompress(packed, _PIECE))
             packed = unpacking.unconsumed_tail
-            if length > size + _FILTERS:
+            if length > size + THRESHOLDS.max_filter_bytes:
                 raise ValueError("a chunk unpacks to more than it states")
 
 
@@ -438,7 +446,7 @@ def _decode_text(value: Any) -> str:
 
 
 def read_mat(path: Path, wanted: ColumnRequest) -> Columns:
-    """The columns of a MAT file, versions 4 to 7, and 7.3 where h5py is installed."""
+    """Returns the columns of a MAT file, versions 4 to 7, and 7.3 where h5py is installed."""
     with wrap_read_errors(path, "MAT file"), path.open("rb") as file:
         header = file.read(520)
     if header.startswith((b"MATLAB 7.3", _HDF5)) or _HDF5 in header:
@@ -488,7 +496,7 @@ def _check_size(path: Path) -> None:
 
 def _list_values(content: Any, name: str = "", depth: int = 0) -> Iterator[tuple[str, Any]]:
     """Every value and its name: fields after a point, entries of lists counted from 1."""
-    if depth > _DEEPEST:
+    if depth > THRESHOLDS.max_struct_depth:
         return
     if isinstance(content, dict):
         for key, value in content.items():

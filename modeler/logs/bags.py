@@ -1,13 +1,11 @@
-"""Messages of a recording as columns: numeric fields by topic and name, on the clock of one topic.
+"""ROS bags and MCAP files: messages as columns on the clock of one topic."""
 
-The clock is the topic whose messages are the rows, as a rule a sensor_msgs/JointState with its
-header stamps. What other topics said stands in the rows from the moment it was said: nothing is
-interpolated.
-"""
-
+import json
 import os
 import struct
-from collections.abc import Mapping, Sequence
+import zlib
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from contextlib import suppress
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
@@ -26,21 +24,143 @@ from modeler.logs.columns import (
     make_package_error,
     wrap_read_errors,
 )
-from modeler.logs.mcap import read_mcap_messages, read_mcap_records, unpack_bytes
+from modeler.logs.thresholds import THRESHOLDS
+
+_MAGIC = b"\x89MCAP0\r\n"
+_SCHEMA, _CHANNEL, _MESSAGE, _CHUNK, _END = 3, 4, 5, 6, (2, 15)  # footer, end of data
+
+Read = Callable[[bytes], Any]
+
+
+def read_mcap_messages(path: Path) -> Iterator[tuple[str, str, int, Any]]:
+    """Returns topic, type, time of receipt [ns] and content of all messages.
+
+    In the order of the file.
+
+    The content of a message that is not read is None; its encoding stands before its type.
+
+    Raises:
+        DataError: the file unpacks to more than a log does.
+        Exception: whatever a damaged file leads to.
+    """
+    from rosbags.typesys import Stores, get_typestore
+
+    stores = {"ros1": get_typestore(Stores.EMPTY), "cdr": get_typestore(Stores.EMPTY)}
+    schemas: dict[int, tuple[str, str, bytes]] = {}
+    channels: dict[int, tuple[str, str, Read | None]] = {}
+    for kind, body in read_mcap_records(path):
+        number = struct.unpack_from("<H", body)[0] if len(body) > 1 else 0
+        if kind == _SCHEMA:
+            name, at = _read_text(body, 2)
+            form, at = _read_text(body, at)
+            schemas[number] = name, form, body[at + 4 :]
+        elif kind == _CHANNEL:
+            topic, at = _read_text(body, 4)
+            encoding, _ = _read_text(body, at)
+            schema = schemas.get(struct.unpack_from("<H", body, 2)[0], ("", "", b""))
+            read = json.loads if encoding == "json" else _find_reader(stores.get(encoding), *schema)
+            channels[number] = topic, schema[0] if read else f"{encoding} {schema[0]}".strip(), read
+        elif kind == _MESSAGE:
+            topic, name, read = channels[number]
+            content = None if read is None else read(body[22:])
+            yield topic, name, struct.unpack_from("<Q", body, 6)[0], content
+
+
+def _find_reader(store: Any, name: str, form: str, definition: bytes) -> Read | None:
+    """Of messages of a type of ROS, by its definition or by its name; None of others."""
+    from rosbags.typesys import Stores, TypesysError, get_typestore
+    from rosbags.typesys import get_types_from_idl, get_types_from_msg  # isort: skip
+
+    if store is None or form not in ("ros1msg", "ros2msg", "ros2idl", "omgidl", ""):
+        return None
+    kind, text = name if "/msg/" in name else name.replace("/", "/msg/"), definition.decode()
+    with suppress(TypesysError):  # a definition that is not understood
+        if form.endswith("idl"):
+            for part in filter(str.strip, text.split("=" * 80 + "\n")):
+                idl_text = part.partition("\n")[2] if part.startswith("IDL:") else part
+                store.register(get_types_from_idl(idl_text))
+        elif text:
+            store.register(get_types_from_msg(text, kind))
+        else:
+            store = get_typestore(Stores.LATEST)
+    read = store.deserialize_ros1 if form == "ros1msg" else store.deserialize_cdr
+    return (lambda data: read(data, kind)) if kind in store.fielddefs else None
+
+
+def read_mcap_records(path: Path) -> Iterator[tuple[int, bytes]]:
+    """Returns type and content of every record, of chunks those inside.
+
+    A chunk is unpacked to the size that it states and no further.
+    """
+    size = kind = 0
+    with path.open("rb") as file:
+        if file.read(len(_MAGIC)) != _MAGIC:
+            raise ValueError("it does not begin as an MCAP file")
+        while kind not in _END:
+            head = file.read(9)
+            kind, length = struct.unpack("<BQ", head) if len(head) == 9 else (0, 1)
+            start = file.read(min(length, 28))
+            if kind == _CHUNK and len(start) >= 24:
+                size += struct.unpack_from("<Q", start, 16)[0]
+                check_unpacked_size(path, size)
+            body = start + file.read(length - len(start))
+            if len(body) < length:
+                raise ValueError(f"it ends within a record, at byte {file.tell()}")
+            yield from _read_chunk(body) if kind == _CHUNK else ((kind, body),)
+
+
+def _read_chunk(body: bytes) -> Iterator[tuple[int, bytes]]:
+    size, checksum = struct.unpack_from("<QI", body, 16)
+    packing, at = _read_text(body, 28)
+    data, at = unpack_bytes(body[at + 8 :], packing, size), 0
+    if checksum and zlib.crc32(data) != checksum:
+        raise ValueError("a chunk has another checksum than it states")
+    while at < size:
+        kind, length = struct.unpack_from("<BQ", data, at)
+        if (end := at + 9 + length) > size:
+            raise ValueError("a record is longer than its chunk")
+        yield kind, data[at + 9 : end]
+        at = end
+
+
+def _read_text(body: bytes, at: int) -> tuple[str, int]:
+    """A text after its length, and where what follows begins."""
+    end = at + 4 + struct.unpack_from("<I", body, at)[0]
+    return body[at + 4 : end].decode(), end
+
+
+def unpack_bytes(data: bytes, packing: str, size: int) -> bytes:
+    """Returns so many bytes; never more are unpacked.
+
+    Raises:
+        ValueError: it unpacks to more or less.
+    """
+    if packing not in ("", "none"):
+        data = pa.CompressedInputStream(pa.BufferReader(data), packing).read(size + 1)
+    if len(data) != size:
+        raise ValueError("a chunk unpacks to another size than it states")
+    return data
+
+
+# Messages of a recording as columns: numeric fields by topic and name, on the clock of one topic.
+#
+# The clock is the topic whose messages are the rows, as a rule a sensor_msgs/JointState with its
+# header stamps. What other topics said stands in the rows from the moment it was said: nothing is
+# interpolated.
+
 
 LONGEST = 64
 """Entries of an array that become columns; longer ones are images and the like."""
 
 STATES = (
-    "sensor_msgs/JointState", "control_msgs/DynamicJointState",
+    "sensor_msgs/JointState",
+    "control_msgs/DynamicJointState",
     "control_msgs/JointTrajectoryControllerState",
-)  # fmt: skip
+)
 """Types of the topics that are taken as the clock where none is asked for, the first before all."""
 
 _NAMES = ("name", "joint_names")  # lists of text that say which entry of an array is whose
-_LEAST = 10
 _PIECE = 2**24  # bytes that are unpacked at a time, to be counted
-_HEADER = 4096  # bytes of the longest header of a record
 
 
 @dataclass(eq=False)
@@ -65,11 +185,11 @@ class TopicMessages:
 
     @property
     def has_stamps(self) -> bool:
-        """True if the headers tell the time: all of them do, and it passes."""
+        """Returns True if the headers tell the time: all of them do, and it passes."""
         return min(self.headers) > 0 and (len(self.headers) < 2 or len({*self.headers}) > 1)
 
     def get_stamps(self, by_header: bool) -> np.ndarray:
-        """(n,) ns, by the headers or as they were received."""
+        """Returns (n,) ns, by the headers or as they were received."""
         return np.array(self.headers if by_header else self.received, dtype=np.int64)
 
 
@@ -82,11 +202,11 @@ class Recording:
 
     @property
     def is_empty(self) -> bool:
-        """True if no message had numbers."""
+        """Returns True if no message had numbers."""
         return not self._parts
 
     def add_message(self, topic: str, kind: str, received: int, message: Any) -> bool:
-        """One message; False if it has no numbers to keep."""
+        """Adds one message; returns False if it has no numbers to keep."""
         fields, stamp = _get_fields(message), _read_stamp(message)
         if isinstance(points := fields.get("points"), list) and _find_names(fields):
             for point in points:  # of a planned trajectory, each at its own time
@@ -99,9 +219,15 @@ class Recording:
         return self._add_values(topic, kind, received, stamp, message, "", _find_names(fields))
 
     def _add_values(
-        self, topic: str, kind: str, received: int, stamp: int, message: Any, head: str,
+        self,
+        topic: str,
+        kind: str,
+        received: int,
+        stamp: int,
+        message: Any,
+        head: str,
         names: Sequence[str],
-    ) -> bool:  # fmt: skip
+    ) -> bool:
         labels: list[str] = []
         values: list[float] = []
         _flatten_message(message, head, names, labels, values)
@@ -120,7 +246,7 @@ class Recording:
         return True
 
     def build_columns(self, path: object, wanted: ColumnRequest) -> Columns:
-        """All topics on the clock of one.
+        """Returns all topics on the clock of one.
 
         Raises:
             DataError: none can be the clock, or several can.
@@ -161,7 +287,7 @@ def _choose_clock(
     path: object, parts: Sequence[TopicMessages], wanted: ColumnRequest
 ) -> TopicMessages:
     """The topic that is asked for, else the only JointState, else the only one."""
-    parts = [part for part in parts if len(part.rows) >= _LEAST] or list(parts)
+    parts = [part for part in parts if len(part.rows) >= THRESHOLDS.min_messages] or list(parts)
     topics = [part.topic for part in parts]
     listed = ", ".join(dict.fromkeys(topics)) or "none with numbers"
     if wanted.topic:
@@ -217,8 +343,10 @@ def _read_stamp(message: Any) -> int:
 def _read_nanoseconds(time: Any) -> int:
     """Of a time of ROS; 0 without one."""
     fields = _get_fields(time)
-    of = [next((fields[n] for n in field_names if n in fields), 0)
-          for field_names in (("sec", "secs"), ("nanosec", "nsec", "nsecs"))]  # fmt: skip
+    of = [
+        next((fields[n] for n in field_names if n in fields), 0)
+        for field_names in (("sec", "secs"), ("nanosec", "nsec", "nsecs"))
+    ]
     return int(of[0]) * 1_000_000_000 + int(of[1])
 
 
@@ -270,7 +398,7 @@ def _flatten_message(
 
 
 def read_bag(path: Path, wanted: ColumnRequest) -> Columns:
-    """The columns of the messages of a bag; of each topic that has numbers."""
+    """Returns the columns of the messages of a bag; of each topic that has numbers."""
     kind = path.suffix.lower()
     what = "ROS bag" if kind != ".mcap" else "MCAP"
     repair = {".mcap": "mcap recover", ".bag": "rosbag reindex"}.get(kind, "ros2 bag reindex")
@@ -330,7 +458,7 @@ def _check_packed(path: Path, file: Path) -> None:
         with file.open("rb") as raw:
             raw.seek(13)
             while len(head := raw.read(4)) == 4:
-                header = raw.read(min(struct.unpack("<I", head)[0], _HEADER))
+                header = raw.read(min(struct.unpack("<I", head)[0], THRESHOLDS.max_header_bytes))
                 length = int.from_bytes(raw.read(4), "little")
                 if b"op=\x05" not in header:
                     raw.seek(length, os.SEEK_CUR)
@@ -338,6 +466,7 @@ def _check_packed(path: Path, file: Path) -> None:
                 at = header.find(b"size=") + 5
                 size += (stated := int.from_bytes(header[at : at + 4], "little"))
                 check_unpacked_size(path, size)
-                packing = next((p for p in ("lz4", "bz2") if f"compression={p}".encode() in header),
-                               "")  # fmt: skip
+                packing = next(
+                    (p for p in ("lz4", "bz2") if f"compression={p}".encode() in header), ""
+                )
                 unpack_bytes(raw.read(length), packing, stated)

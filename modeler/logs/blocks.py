@@ -1,8 +1,10 @@
-"""Parquet and CSV files: whole, or block by block, so that one of any length fits in memory."""
+"""Parquet, CSV files and spreadsheets: whole, or block by block."""
 
 import dataclasses
 import os
 import re
+import sys
+import zipfile
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
@@ -18,19 +20,16 @@ import pyarrow.parquet
 
 from modeler.core.errors import DataError
 from modeler.core.files import check_unpacked_size
-from modeler.logs.clock_times import (
-    convert_times,
-    find_origins,
-    find_stated_units,
-    is_beyond,
-    is_moment,
-)
 from modeler.logs.columns import (
+    Column,
     ColumnRequest,
     Columns,
     ColumnValues,
     NotNumericError,
+    Stream,
+    make_package_error,
     make_read_error,
+    wrap_read_errors,
 )
 from modeler.logs.datasets import (
     Dataset,
@@ -40,8 +39,19 @@ from modeler.logs.datasets import (
     rename_by_joint_names,
     select_needed_columns,
 )
-from modeler.logs.dialect import TEXTS, detect_dialect, strip_quotes
-from modeler.logs.stamps import find_stamp_pairs, join_stamps
+from modeler.logs.dialect import TEXTS, detect_dialect, detect_head, parse_decimal, strip_quotes
+from modeler.logs.thresholds import THRESHOLDS
+from modeler.logs.times import (
+    convert_times,
+    find_origins,
+    find_stamp_pairs,
+    find_stated_units,
+    is_beyond,
+    is_clock,
+    is_moment,
+    join_stamps,
+    parse_moment,
+)
 
 pc: Any = lazy_loader.load("pyarrow.compute", suppress_warning=True)  # it takes long
 
@@ -51,12 +61,11 @@ _UNEVEN = re.compile(r"Row #(\d+): Expected (\d+) columns, got (\d+): (.*)", re.
 State = tuple[int, int]
 """Bytes of a file, and when it was last written to."""
 
-_LINES = 200  # by whose length the rows of the file are counted
 _BYTES = 1 << 20  # of a file at a time
 
 
 @dataclass(frozen=True, eq=False)
-class _ArrowColumn:
+class _ArrowColumn(Column):
     """A column of a table of Arrow.
 
     Attributes:
@@ -71,7 +80,6 @@ class _ArrowColumn:
 
     @property
     def is_time(self) -> bool:
-        """True of dates and times of day, which nothing but `time` may be."""
         kind = self.column.type
         return self.origin is not None and (is_moment(kind) or pa.types.is_string(kind))
 
@@ -112,7 +120,7 @@ class _ArrowColumn:
 
 
 def read_csv(path: Path, wanted: ColumnRequest) -> Columns:
-    """The columns of a text file."""
+    """Returns the columns of a text file."""
     del wanted  # one table, no parts
     with wrap_arrow_errors(path, "CSV"):
         text = _TextFile(path)
@@ -122,7 +130,7 @@ def read_csv(path: Path, wanted: ColumnRequest) -> Columns:
 
 
 def read_parquet(path: Path, wanted: ColumnRequest) -> Columns:
-    """The columns of a Parquet file."""
+    """Returns the columns of a Parquet file."""
     del wanted
     with wrap_arrow_errors(path, "PARQUET"):
         table = decode_texts(path, open_parquet(path).read())  # read_table refuses equal names
@@ -130,7 +138,7 @@ def read_parquet(path: Path, wanted: ColumnRequest) -> Columns:
 
 
 def read_dataset(folder: Path, wanted: ColumnRequest) -> Columns:
-    """The columns of all Parquet files of a LeRobot dataset, one after the other."""
+    """Returns the columns of all Parquet files of a LeRobot dataset, one after the other."""
     del wanted
     places = sorted((folder / "data").rglob("*.parquet"))
     if not places:
@@ -141,9 +149,12 @@ def read_dataset(folder: Path, wanted: ColumnRequest) -> Columns:
 
 
 def _build_parquet_columns(
-    table: pa.Table, dataset: Dataset | None, origins: Mapping[str, int], before: int = 0,
+    table: pa.Table,
+    dataset: Dataset | None,
+    origins: Mapping[str, int],
+    before: int = 0,
     names: Sequence[str] = (),
-) -> Columns:  # fmt: skip
+) -> Columns:
     """With entries of lists as columns, and the clock of a dataset."""
     table, clock_notes = join_episodes(table, dataset, origins.get("index", 0))
     counted_from = {n: first for n, first in origins.items() if n != "index" or is_beyond(first)}
@@ -158,7 +169,7 @@ def _build_parquet_columns(
 
 
 def open_parquet(path: Path, **how: Any) -> pa.parquet.ParquetFile:
-    """A Parquet file whose columns have room.
+    """Returns a Parquet file whose columns have room.
 
     Raises:
         DataError: it unpacks to more than a log does.
@@ -173,7 +184,9 @@ def open_parquet(path: Path, **how: Any) -> pa.parquet.ParquetFile:
 
 
 def decode_texts(path: Path, table: pa.Table) -> pa.Table:
-    """The table with texts as such, which are read as numbers of a list of them: one may be long.
+    """Returns the table with texts as such, which are read as numbers of a list of them.
+
+    One may be long.
 
     Raises:
         DataError: they unpack to more than a log does.
@@ -191,7 +204,7 @@ def decode_texts(path: Path, table: pa.Table) -> pa.Table:
 
 @contextmanager
 def wrap_arrow_errors(path: Path, what: str) -> Iterator[None]:
-    """Errors of Arrow as one line."""
+    """Raises errors of Arrow as one line."""
     try:
         yield
     except (pa.ArrowException, OSError) as error:
@@ -224,9 +237,10 @@ class _TextFile:
         names = [name for name in self.names if not wanted or made or name in wanted]
         parse = pa.csv.ParseOptions(delimiter=dialect.delimiter)
         convert = pa.csv.ConvertOptions(
-            decimal_point=dialect.decimal, include_columns=names,
+            decimal_point=dialect.decimal,
+            include_columns=names,
             column_types=dict.fromkeys(dialect.clocks, pa.string()),
-        )  # fmt: skip
+        )
         if not text.strip():
             table = pa.table({name: pa.nulls(0) for name in dict.fromkeys(names)})
         else:
@@ -269,7 +283,7 @@ class _TextFile:
 def build_arrow_columns(
     table: pa.Table, before: int = 0, origins: Mapping[str, int] = MappingProxyType({})
 ) -> Columns:
-    """The columns of a table; `before` rows of its file stand before it.
+    """Returns the columns of a table; `before` rows of its file stand before it.
 
     Args:
         table: of some rows.
@@ -287,19 +301,19 @@ def build_arrow_columns(
 
 
 def select_columns(columns: Columns, names: Sequence[str]) -> Columns:
-    """The columns of these names, where only some are wanted."""
+    """Returns the columns of these names, where only some are wanted."""
     some = tuple(entry for entry in columns.columns if entry[0] in names)
     return dataclasses.replace(columns, columns=some) if names else columns
 
 
 def get_file_state(path: Path) -> State:
-    """Of a file that is there."""
+    """Returns the state of a file that is there."""
     state = path.stat()
     return state.st_size, state.st_mtime_ns
 
 
 def check_unchanged(path: Path, before: State) -> None:
-    """A file that is written while it is read has no one content.
+    """Refuses a file that was written to while it was read.
 
     Raises:
         DataError: it is another than before.
@@ -308,7 +322,7 @@ def check_unchanged(path: Path, before: State) -> None:
         now = get_file_state(path)
     except OSError as error:
         raise DataError(
-            f"{path}: went away while it was read ({error.strerror}); expected it to stay; run "
+            f"{path}: was removed while it was read ({error.strerror}); expected it to stay; run "
             "this again"
         ) from None
     if now != before:
@@ -327,7 +341,11 @@ class CsvBlocks:
             self._text = _TextFile(path)
             self._start, self.lists = self._text.dialect.start, self._text.dialect.lists
             with self._open_rows() as file:
-                lines = [line for _, line in zip(range(_LINES), file, strict=False) if line.strip()]
+                lines = [
+                    line
+                    for _, line in zip(range(THRESHOLDS.sampled_lines), file, strict=False)
+                    if line.strip()
+                ]
                 self._size = file.seek(0, os.SEEK_END)
         self._line = max(1.0, sum(map(len, lines)) / max(1, len(lines)))  # bytes
 
@@ -338,11 +356,11 @@ class CsvBlocks:
 
     @property
     def rows(self) -> int:
-        """About as many as the file has."""
+        """Returns about as many rows as the file has."""
         return round((self._size - self._start) / self._line)
 
     def read_blocks(self, size: int, names: Sequence[str] = ()) -> Iterator[Columns]:
-        """All rows in their order, about `size` at a time.
+        """Yields all rows in their order, about `size` at a time.
 
         Args:
             size: rows of a block.
@@ -369,7 +387,7 @@ class CsvBlocks:
         check_unchanged(self._path, self._state)
 
     def read_window(self, share: float, size: int, names: Sequence[str] = ()) -> Columns:
-        """Up to `size` rows from about a share of the file on."""
+        """Returns up to `size` rows from about a share of the file on."""
         room = int(size * self._line)
         start = max(self._start, min(self._start + int(share * self._size), self._size - room))
         with wrap_arrow_errors(self._path, "CSV"), self._open_rows() as file:
@@ -411,7 +429,7 @@ class ParquetBlocks:
             self._origins = find_origins(next(self._read_tables(0, 1, [*dict.fromkeys(timed)])))
 
     def read_blocks(self, size: int, names: Sequence[str] = ()) -> Iterator[Columns]:
-        """All rows in their order, `size` at a time."""
+        """Yields all rows in their order, `size` at a time."""
         read = 0
         for table in self._read_tables(0, size, names):
             yield _build_parquet_columns(table, self._dataset, self._origins, read, names)
@@ -419,7 +437,7 @@ class ParquetBlocks:
         check_unchanged(self._path, self._state)
 
     def read_window(self, share: float, size: int, names: Sequence[str] = ()) -> Columns:
-        """Up to `size` rows from about a share of the file on."""
+        """Returns up to `size` rows from about a share of the file on."""
         start = max(0, min(int(share * self.rows), self.rows - size))
         at = int(np.argmax(self._starts[1:] > start))
         parts, rows, skip = list[pa.Table](), 0, start - int(self._starts[at])
@@ -460,7 +478,7 @@ Blocks = CsvBlocks | ParquetBlocks
 
 
 def open_blocks(path: Path) -> Blocks | None:
-    """The blocks of a Parquet or CSV file; None of a format that is read whole.
+    """Returns the blocks of a Parquet or CSV file; None of a format that is read whole.
 
     Raises:
         DataError: the file is damaged.
@@ -486,3 +504,115 @@ def read_windows(blocks: Blocks, count: int, size: int) -> Columns:
     rows = len(values[0][1].values) if values else 0
     first = blocks.read_window(0.0, 1)
     return Columns(values, rows, first.units, reading_notes=first.reading_notes, rate=first.rate)
+
+
+# Spreadsheets (.xlsx and what else calamine reads), by the rules of text files.
+
+
+_PIECE = 2**22  # bytes that are unpacked at a time, to be counted
+_TAG = re.compile(rb"<(?:\w+:)?(row|c)((?:\s[^>]*)?)>")
+_PLACE = re.compile(rb"""\sr=["']([A-Z]{0,3})(\d{1,7})["']""")
+
+
+def read_sheets(path: Path, wanted: ColumnRequest) -> Columns:
+    """Returns the columns of the sheet of that topic, or of the first one with a row of numbers.
+
+    Raises:
+        DataError: python-calamine is not installed, no such sheet, none with numbers, or damaged.
+    """
+    try:
+        from python_calamine import CalamineWorkbook
+    except ModuleNotFoundError:
+        raise make_package_error(path, "a spreadsheet", "python-calamine") from None
+    with wrap_read_errors(path, "spreadsheet", "save it again as .xlsx, or as CSV"):
+        _check_room(path)
+        book = CalamineWorkbook.from_path(str(path))
+        cells = {
+            n: book.get_sheet_by_name(n).to_python()
+            for n in book.sheet_names
+            if wanted.topic in ("", n)
+        }
+        sheets = {n: [[str(c).strip() for c in row] for row in rows] for n, rows in cells.items()}
+    if not sheets:
+        raise DataError(
+            f"{path}: topic {wanted.topic}: no sheet of that name; the sheets are "
+            f"{', '.join(book.sheet_names)}"
+        )
+    name = next((n for n, rows in sheets.items() if _has_numbers(rows)), None)
+    if name is None:
+        raise DataError(
+            f"{path}: no sheet with rows of numbers; expected the samples of a motion, one column "
+            "each; save the values of the formulas, or as CSV"
+        )
+    rows = sheets[name]
+    head = detect_head(["\t".join(row) for row in rows], rows, "\t", "", f"{path}, sheet {name}")
+    first, columns = rows[head.first], zip(*filter(any, rows[head.first :]), strict=True)
+    clocks = {n: parse_moment(c) for n, c in zip(head.names, first, strict=True) if is_clock(c)}
+    arrays = [_build_array(c, n in clocks) for n, c in zip(head.names, columns, strict=True)]
+    table = pa.table(arrays, names=list(head.names))
+    table_columns = build_arrow_columns(table, 0, clocks)
+    notes = [f"sheet {name}"] * (len(book.sheet_names) > 1) + [*head.notes]
+    notes += [f"{n} counted from the first row" for n in clocks]
+    read = (f"read with {', '.join(notes)}",) if notes else ()
+    streams = tuple(Stream(n, "sheet", len(r), n == name) for n, r in sheets.items())
+    streams *= len(streams) > 1
+    return Columns(
+        table_columns.columns,
+        table_columns.rows,
+        head.units,
+        (),
+        streams,
+        head.rate,
+        reading_notes=read,
+    )
+
+
+def _check_room(path: Path) -> None:
+    """Refuse a workbook that unpacks, or whose cells fill their rows and columns, to too much.
+
+    Office Open XML (ECMA-376), part 1, section 18.3: a sheet lists the cells that hold something by
+    their places; readers make a table as large as the farthest of them. Of the texts that cells
+    share, each has a copy.
+    """
+    size = cells = longest = shared = 0
+    with zipfile.ZipFile(path) as book:
+        for part in book.infolist():
+            part.file_size = sys.maxsize  # what it states: it is unpacked to its end
+            text, row, column, ends = b"", 0, 0, [0, 0]
+            with book.open(part) as file:
+                while piece := file.read(_PIECE):
+                    size += len(piece)
+                    check_unpacked_size(path, size)
+                    text = text[text.rfind(b"<") :] + piece
+                    if "sharedStrings" in part.filename:
+                        longest = max(longest, *map(len, text.split(b"</si>")))
+                    for tag in _TAG.finditer(text[: text.rfind(b"<")]):
+                        of_row, attributes = tag[1] == b"row", tag[2]
+                        row, column = (row + 1, 0) if of_row else (row, column + 1)
+                        if place := _PLACE.search(attributes):
+                            row, column = int(place[2]), _parse_column_number(place[1])
+                        if not of_row and not attributes.endswith(b"/"):
+                            ends = [max(ends[0], row), max(ends[1], column)]
+                            shared += b't="s"' in attributes
+            cells += ends[0] * ends[1]
+        check_unpacked_size(path, max(THRESHOLDS.bytes_per_cell * cells, longest * shared))
+
+
+def _parse_column_number(letters: bytes) -> int:
+    """The number of a column: 1 of `A`, 28 of `AB`."""
+    return sum((letter - 64) * 26**k for k, letter in enumerate(reversed(letters)))
+
+
+def _has_numbers(rows: Sequence[Sequence[str]]) -> bool:
+    last = [row for row in rows if any(row)][-1:]
+    return len(rows) >= THRESHOLDS.min_sheet_rows and any(
+        parse_decimal(e) is not None for row in last for e in row
+    )
+
+
+def _build_array(entries: Sequence[str], clock: bool) -> pa.Array:
+    """Numbers; texts where one is none, or of times."""
+    numbers = [parse_decimal(entry) for entry in entries]
+    if clock or any(n is None and e for n, e in zip(numbers, entries, strict=True)):
+        return pa.array([entry or None for entry in entries], pa.string())
+    return pa.array(numbers, pa.float64())

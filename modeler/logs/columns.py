@@ -6,7 +6,6 @@ from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Protocol
 
 import numpy as np
 
@@ -14,19 +13,31 @@ from modeler.core.errors import DataError, is_out_of_memory, suggest_install
 from modeler.core.files import PACKED, UNPACKED
 
 
-class Column(Protocol):
+class Column:
     """One column: whether it holds numbers, and those."""
 
     @property
+    def origin(self) -> float | None:
+        """Returns what a time is counted from; None of what is none."""
+        return None
+
+    @property
+    def is_time(self) -> bool:
+        """Returns True of dates and times of day, which nothing but `time` may be."""
+        return False
+
+    @property
     def is_numeric(self) -> bool:
-        """True if it holds numbers, or nothing at all."""
+        """Returns True if it holds numbers, or nothing at all."""
+        return True
 
     def read_numbers(self) -> np.ndarray:
-        """(rows,) floats, a copy; what is missing is NaN.
+        """Returns (rows,) floats, a copy; what is missing is NaN.
 
         Raises:
             NotNumbers: it holds something else.
         """
+        raise NotImplementedError
 
 
 class NotNumericError(Exception):
@@ -59,7 +70,7 @@ class Columns:
         rows: of every column.
         units: that the file states: name -> text.
         notes: what was left out or joined, one sentence each.
-        told: how it was read, one sentence each: nothing to doubt.
+        reading_notes: how it was read, one sentence each: nothing to doubt.
         streams: topics or groups, if the file has such.
         rate: Hz, that the file states of its rows; None if it does not.
     """
@@ -89,24 +100,24 @@ class ColumnRequest:
 
 
 @dataclass(frozen=True, eq=False)
-class ColumnValues:
+class ColumnValues(Column):
     """A column that is in memory already."""
 
     values: np.ndarray
 
     @property
     def is_numeric(self) -> bool:
-        """True for integers and floats."""
+        """Returns True for integers and floats."""
         return self.values.dtype.kind in "iuf"
 
     def read_numbers(self) -> np.ndarray:
-        """A copy as floats."""
+        """Returns a copy as floats."""
         return np.array(self.values, dtype=float)
 
 
 @contextmanager
 def wrap_read_errors(path: Path, what: str, advice: str = "write the file again") -> Iterator[None]:
-    """Whatever another's reader raises about a damaged file, as one line.
+    """Raises whatever another's reader raises about a damaged file as one line.
 
     Raises:
         DataError: it raised anything; the file is at fault.
@@ -122,11 +133,11 @@ def wrap_read_errors(path: Path, what: str, advice: str = "write the file again"
 
 
 def make_read_error(path: Path, what: str, error: Exception, advice: str) -> DataError:
-    """What another's reader raised, as one line."""
+    """Returns the error for what another's reader raised, as one line."""
     short = is_out_of_memory(error)
     if short and (path.is_dir() or path.stat().st_size > UNPACKED / PACKED):
         return DataError(
-            f"{path}: more memory is asked for than there is; expected {what} that fits; raise the "
+            f"{path}: not enough memory; expected {what} that fits; raise the "
             "limit (ulimit -v) or free some"
         )
     words = " ".join(str(error).split(": (")[0].split())[:200] or "its structure is broken"
@@ -142,6 +153,6 @@ READERS = {"h5py": "hdf5", "rosbags": "rosbags", "python-calamine": "excel"}
 
 
 def make_package_error(path: Path, what: str, package: str) -> DataError:
-    """The error of a format whose reader is not installed."""
+    """Returns the error of a format whose reader is not installed."""
     part = READERS.get(package, package)
     return DataError(f"{path}: {what} needs the package {package}; run: {suggest_install(part)}")

@@ -16,12 +16,11 @@ from modeler.core.errors import DataError
 from modeler.core.files import read_file
 from modeler.core.json import JsonError, parse_json
 from modeler.logs.guess import split_label
+from modeler.logs.thresholds import THRESHOLDS
 
 pc: Any = lazy_loader.load("pyarrow.compute", suppress_warning=True)  # it takes long
 
 INFO = "meta/info.json"
-_FOLDERS = 4  # data/chunk-000/ and what may stand between
-_WIDEST = 256  # entries of a list that are columns
 _NAMES = re.compile(r"(.*?)(?:joint_?)?names?(?:\{\}|\[\{\}\])", re.IGNORECASE | re.DOTALL)
 _CLOCK = ("timestamp", "index", "episode_index")
 
@@ -31,7 +30,7 @@ class Dataset:
     """What a dataset says of its files.
 
     Attributes:
-        place: its `info.json`.
+        info_path: its `info.json`.
         fps: Hz; None if it does not say.
         names: of the entries of columns of lists.
     """
@@ -42,12 +41,12 @@ class Dataset:
 
 
 def find_dataset(path: Path) -> Dataset | None:
-    """The dataset that a file or a folder belongs to; None without any.
+    """Returns the dataset that a file or a folder belongs to; None without any.
 
     Raises:
         DataError: its `info.json` is damaged.
     """
-    for folder in [path, *path.absolute().parents][: _FOLDERS + 1]:
+    for folder in [path, *path.absolute().parents][: THRESHOLDS.max_parent_folders + 1]:
         place = folder / INFO
         if place.is_file():
             break
@@ -77,7 +76,7 @@ def _collect_texts(names: Any) -> list[str]:
 
 
 def flatten_table(table: pa.Table, dataset: Dataset | None) -> pa.Table:
-    """Every entry of a column of lists as a column, `observation.state[shoulder_pan]`.
+    """Returns every entry of a column of lists as a column, `observation.state[shoulder_pan]`.
 
     Fields of structs are columns too, `state.q`.
     """
@@ -101,7 +100,11 @@ def _count_entries(column: pa.ChunkedArray) -> int:
     if not lists or not any(is_one(kind.value_type) for is_one in held):
         return 0
     ends = pc.min_max(pc.list_value_length(column)).as_py()
-    return ends["max"] or 0 if ends["min"] == ends["max"] and (ends["max"] or 0) <= _WIDEST else 0
+    return (
+        ends["max"] or 0
+        if ends["min"] == ends["max"] and (ends["max"] or 0) <= THRESHOLDS.max_list_entries
+        else 0
+    )
 
 
 def join_episodes(
@@ -132,7 +135,7 @@ def join_episodes(
 
 
 def select_needed_columns(names: list[str], stored: list[str]) -> list[str]:
-    """The columns of the file that hold these; none where it takes others to know."""
+    """Returns the columns of the file that hold these; none where it takes others to know."""
     whole = [n if n in stored else n.rpartition("[")[0] for n in names]
     if not whole or {*whole} - {*stored}:
         return []
@@ -142,7 +145,7 @@ def select_needed_columns(names: list[str], stored: list[str]) -> list[str]:
 
 
 def rename_by_joint_names(table: pa.Table) -> tuple[pa.Table, tuple[str, ...]]:
-    """Columns by the names that columns of text state, in whatever order each row has them.
+    """Returns columns by the names that columns of text state, in whatever order each row has them.
 
     `name[1]` that holds "elbow" makes `position[1]` to `position[elbow]`.
 
@@ -171,8 +174,10 @@ def rename_by_joint_names(table: pa.Table) -> tuple[pa.Table, tuple[str, ...]]:
         for other in others:
             values = [table.column(name) for name in families[other].values()]
             for name, joint in zip(families[other].values(), joints, strict=True):
-                candidates = [pc.if_else(pc.equal(text, joint), value, None)
-                       for text, value in zip(texts, values, strict=True)]  # fmt: skip
+                candidates = [
+                    pc.if_else(pc.equal(text, joint), value, None)
+                    for text, value in zip(texts, values, strict=True)
+                ]
                 head = other.partition("{}")[0].removesuffix("[")
                 at = table.column_names.index(name)
                 table = table.set_column(at, f"{head}[{joint}]", pc.coalesce(*candidates))

@@ -12,21 +12,16 @@ from pathlib import Path
 from typing import BinaryIO
 
 from modeler.core.errors import DataError
-from modeler.logs.clock_times import is_beyond, is_clock, parse_moment
 from modeler.logs.mapping import find_unit
-from modeler.logs.stamps import find_first_seconds
+from modeler.logs.thresholds import THRESHOLDS
+from modeler.logs.times import find_first_seconds, is_beyond, is_clock, parse_moment
 
 TEXTS = (".csv", ".txt", ".dat", ".tsv", ".log", ".asc", ".lvm")
 """How the names of text files end."""
 
-_SAMPLE = 2**16  # bytes by which a file is judged
-_LINE = 2**24  # bytes of the longest line that is looked at
-_JUDGED = 50  # rows by which the columns are told
 _BLANKS = " "
 _ENTRY = "\x1f"  # between entries of a list, while columns are counted
-_DELIMITERS = {
-    ",": "commas", ";": ";", "\t": "tabs", "|": "|", _BLANKS: "blanks",
-}  # fmt: skip
+_DELIMITERS = {",": "commas", ";": ";", "\t": "tabs", "|": "|", _BLANKS: "blanks"}
 _EPOCH = (10**9, 4 * 10**9)  # s since 1970, 2001 to 2096
 _WHOLE = re.compile(r"(?:\d{17,18}|[1-8]\d{18})$")  # that no float holds
 _EMPTY = {"", "null", "none", "na", "n/a", "#n/a", "nan", "-nan", "+nan"}
@@ -61,7 +56,7 @@ class TableHead:
         first: line of the first row, counted from 0.
         units: that a line under the names states, by column.
         rate: Hz, that a line before them states.
-        told: what was found, in words; nothing of names in the first line.
+        notes: what was found, in words; nothing of names in the first line.
     """
 
     names: tuple[str, ...]
@@ -97,25 +92,29 @@ class Dialect:
 
     @property
     def reading_notes(self) -> tuple[str, ...]:
-        """What is unlike commas, points, and names in the first line: one sentence, or nothing."""
+        """Returns what is unlike commas, points, and names in the first line.
+
+        One sentence, or nothing.
+        """
         counted = [*self.clocks, *(n for n, first in self.wholes.items() if is_beyond(first))]
         parts = [
             *([f"{_DELIMITERS[self.delimiter]} between columns"] * (self.delimiter != ",")),
-            *(["decimal commas"] * (self.decimal == ",")), *self.head.notes,
+            *(["decimal commas"] * (self.decimal == ",")),
+            *self.head.notes,
             *(["a column for each entry of lists"] * self.lists),
             *([f"in {self.encoding}"] * (not self.encoding.startswith("utf-8"))),
             *([f"{', '.join(counted)} counted from the first row"] * bool(counted)),
-        ]  # fmt: skip
+        ]
         return (f"read with {', '.join(parts)}",) if parts else ()
 
     def open_text(self, path: Path) -> BinaryIO:
-        """The file as bytes of UTF-8, or of an encoding that has the same digits."""
+        """Returns the file as bytes of UTF-8, or of an encoding that has the same digits."""
         if self.encoding.startswith("utf-16"):
             return io.BytesIO(path.read_bytes().decode(self.encoding, "replace").encode())
         return path.open("rb")
 
     def normalise_rows(self, text: bytes) -> bytes:
-        """Whole lines with one mark between their columns."""
+        """Returns whole lines with one mark between their columns."""
         if self.lists:
             text = expand_lists(text, self.delimiter.encode())
         if self.delimiter != _BLANKS:
@@ -127,16 +126,16 @@ class Dialect:
 
 
 def detect_dialect(path: Path) -> Dialect:
-    """What the first lines of a text file say of all others.
+    """Returns what the first lines of a text file say of all others.
 
     Raises:
         DataError: it is no text, a quote is left open, or names and rows are of other numbers.
         OSError: it cannot be read.
     """
     with path.open("rb") as file:
-        raw = file.read(_SAMPLE)
-        while raw.count(b"\n") + raw.count(b"\r") < 2 and len(raw) < _LINE:
-            if not (more := file.read(_SAMPLE)):
+        raw = file.read(THRESHOLDS.sampled_bytes)
+        while raw.count(b"\n") + raw.count(b"\r") < 2 and len(raw) < THRESHOLDS.max_line_bytes:
+            if not (more := file.read(THRESHOLDS.sampled_bytes)):
                 break
             raw += more
         whole = not file.read(1)
@@ -148,7 +147,7 @@ def detect_dialect(path: Path) -> Dialect:
     if b"\0" in raw:
         line = raw[: raw.index(b"\0")].count(b"\n") + 1
         raise DataError(
-            f"{path}: line {line} holds bytes that no text has; expected a text with columns of "
+            f"{path}: line {line} holds bytes that are not text; expected a text with columns of "
             "numbers; it is damaged, or another kind of file: give it the ending of its format"
         )
     lists = _LIST.search(raw) is not None
@@ -160,8 +159,8 @@ def detect_dialect(path: Path) -> Dialect:
         encoding, text = "latin-1", joined.decode("latin-1").split("\n")
     if not any(line.strip() for line in lines):
         raise DataError(
-            f"{path}: the first line does not end within {_LINE >> 20} MiB, or is empty; expected "
-            "the names of the columns; write the file again"
+            f"{path}: the first line does not end within {THRESHOLDS.max_line_bytes >> 20} MiB, or "
+            "is empty; expected the names of the columns; write the file again"
         )
     plain = [re.sub(f"{_ENTRY}[^{_ENTRY},;|\t]*", "", line) for line in text] if lists else text
     delimiter, decimal = _detect_marks(plain, path)
@@ -198,7 +197,7 @@ def _split_lines(raw: bytes, whole: bool) -> tuple[list[bytes], list[int]]:
 
 
 def split_entries(line: str, delimiter: str) -> list[str]:
-    """The entries of a line, without blanks and quotes around them."""
+    """Returns the entries of a line, without blanks and quotes around them."""
     if delimiter == _BLANKS:
         return line.split()
     entries = (
@@ -208,7 +207,7 @@ def split_entries(line: str, delimiter: str) -> list[str]:
 
 
 def strip_quotes(name: str) -> str:
-    """A text without blanks and quotes around it: `"time", "q1"` leaves both."""
+    """Returns a text without blanks and quotes around it: `"time", "q1"` leaves both."""
     name = name.strip()
     if len(name) > 1 and name[0] == name[-1] and name[0] in "\"'":
         name = name[1:-1].strip()
@@ -216,7 +215,7 @@ def strip_quotes(name: str) -> str:
 
 
 def parse_decimal(entry: str) -> float | None:
-    """The number that an entry is, with a decimal point or comma; None if it is none."""
+    """Returns the number that an entry is, with a decimal point or comma; None if it is none."""
     known = _NUMBERS[""].fullmatch(entry.lower()) is not None
     return float(entry.replace(",", ".")) if known else None
 
@@ -228,7 +227,7 @@ def _is_value(entry: str, decimal: str) -> bool:
 
 def _detect_marks(lines: Sequence[str], path: Path) -> tuple[str, str]:
     """What stands between columns, and before decimals: where most entries become numbers."""
-    last = [line for line in lines if line.strip()][-_JUDGED:]
+    last = [line for line in lines if line.strip()][-THRESHOLDS.sampled_rows :]
 
     def compute_score(marks: tuple[str, str]) -> tuple[float, ...]:
         delimiter, decimal = marks
@@ -246,7 +245,7 @@ def _detect_marks(lines: Sequence[str], path: Path) -> tuple[str, str]:
     if delimiter != "," and decimal == "." and not re.search(r"\d\.\d", "\n".join(last)):
         with path.open("rb") as file:  # whole numbers here: others may tell
             file.seek(path.stat().st_size // 2)
-            later = file.read(_SAMPLE)
+            later = file.read(THRESHOLDS.sampled_bytes)
         if re.search(rb"\d,\d", later):
             return delimiter, ","
     return delimiter, decimal
@@ -255,7 +254,7 @@ def _detect_marks(lines: Sequence[str], path: Path) -> tuple[str, str]:
 def detect_head(
     lines: Sequence[str], rows: Sequence[Sequence[str]], delimiter: str, decimal: str, where: str
 ) -> TableHead:
-    """Where the rows of numbers begin, and what stands above them.
+    """Finds where the rows of numbers begin, and what stands above them.
 
     Args:
         lines: of the file, from the first on.
@@ -267,7 +266,7 @@ def detect_head(
     Raises:
         DataError: a quote is left open, or names and rows are of other numbers.
     """
-    last = [row for row in rows if any(row)][-_JUDGED:]
+    last = [row for row in rows if any(row)][-THRESHOLDS.sampled_rows :]
     valued = [row for row in last if any(_is_value(e, decimal) for e in row)] or last
     width = Counter(map(len, valued)).most_common(1)[0][0]
     even = [row for row in valued if len(row) == width]
@@ -297,7 +296,7 @@ def detect_head(
         numbered = first == 0 and len(rows) > 1 and [*rows[0]] == [str(k) for k in range(width)]
         names = tuple(f"c{k + 1}" for k in range(width))
         if (echoed := _name_echo_columns(rows[first] if first < len(rows) else [], names)) != names:
-            notes.append("names as of messages with a header, for want of any")
+            notes.append("columns named as in ROS messages with a header")
             return TableHead(echoed, first, rate=rate, notes=tuple(notes))
         notes.append(f"no names: columns are called c1 to c{width}" if width > 1 else "no name: c1")
         return TableHead(names, first + numbered, rate=rate, notes=tuple(notes))
@@ -382,10 +381,13 @@ def _find_names_line(
 ) -> int | None:
     """The line of the names: the last one whose entries differ; else the last of so many."""
     words = [
-        i for i, row in enumerate(above)
-        if row is not None and i != units and len(row) > 0
+        i
+        for i, row in enumerate(above)
+        if row is not None
+        and i != units
+        and len(row) > 0
         and 2 * sum(bool(e) and not _is_value(e, decimal) for e in row) > len(row)
-    ]  # fmt: skip
+    ]
     unlike = [i for i in words if len({e for e in above[i] or () if e}) >= len(above[i] or ()) - 1]
     return max(unlike or words, default=None)
 
@@ -419,7 +421,7 @@ def _parse_rate(lines: Sequence[str]) -> float | None:
 
 
 def expand_lists(text: bytes, between: bytes) -> bytes:
-    r"""The text with the entries of each list in place of it, something between them.
+    r"""Returns the text with the entries of each list in place of it, something between them.
 
     >>> with_lists_as(b'0.1,"[1.0, 2.0]",[3. 4.\n 5.]', b",")
     b'0.1,1.0,2.0,3.,4.,5.'

@@ -13,6 +13,7 @@ import numpy as np
 from modeler.core.manifest import JointSpec
 from modeler.logs.mapping import ANGLE, CURRENT, FORCE, LENGTH, TIME, TORQUE, Powers, find_unit
 from modeler.logs.rates import RatePair, infer_units, pair_rates
+from modeler.logs.thresholds import THRESHOLDS
 
 _WORDS: Mapping[str, str] = {
     "time": "t time timestamp stamp clock zeit temps sec seconds",
@@ -24,11 +25,17 @@ _WORDS: Mapping[str, str] = {
     "qd": "qd dq qdot geschwindigkeit drehzahl vel velocity velocities speed speeds omega",
     "q": "q winkel pos position positions angle angles theta enc encoder x state",
 }
-_KIND_OF = {word: own for own, words in _WORDS.items() for word in words.split()}
+_KIND_OF = {word: quantity for quantity, words in _WORDS.items() for word in words.split()}
 _KINDS: Mapping[Powers, str] = {
-    TIME: "time", ANGLE: "q", LENGTH: "q", (0, 0, -1, 1, 0, 0): "qd", (1, 0, -1, 0, 0, 0): "qd",
-    TORQUE: "tau", FORCE: "tau", CURRENT: "current",
-}  # fmt: skip
+    TIME: "time",
+    ANGLE: "q",
+    LENGTH: "q",
+    (0, 0, -1, 1, 0, 0): "qd",
+    (1, 0, -1, 0, 0, 0): "qd",
+    TORQUE: "tau",
+    FORCE: "tau",
+    CURRENT: "current",
+}
 _ASKED = (
     "qc cmd cmds command commands commanded cmptd computed desired des target targets ref "
     "reference set setpoint setpoints goal action planned plan points nominal demand soll"
@@ -47,15 +54,6 @@ _LABEL = re.compile(r"\[([^\[\]]+)\]$|(\d+)(?!.*\d)|(?<=[ _.])([A-Z])$")
 _UNIT = re.compile(r"\s+[\[(]([^\[\]()]+)[\])]$")
 _SPLIT = re.compile(r"[^A-Za-zµ°]+|(?<=[a-z])(?=[A-Z])")
 _WORD = re.compile(r"[A-Za-z\u00c0-\u024f]+")
-_COUNTS = 5000.0  # span of whole numbers from which on a position is in counts
-_TURNS = 7.0  # rad; a joint that goes further in either way is likely in degrees
-_LONG = 3.0  # m; an axis that is longer is likely in mm
-_FAR = 30.0  # rad; with a speed that agrees: nearly five turns
-_STRONG = 200.0  # A
-_HUNDRED = 100.5  # parts of a normalised range
-_SHARES = 2.5  # span of a duty from -1 to 1, and a little more
-_HEAVY = 1e4  # N m
-_MIGHTY = 1e6  # N
 
 
 @dataclass(frozen=True)
@@ -63,7 +61,7 @@ class Guess:
     """Columns that look like one quantity of all joints.
 
     Attributes:
-        own: our name of it: "time", "q", "tau", ...
+        quantity: our name of it: "time", "q", "tau", ...
         template: name of the columns, "{}" for what tells joints apart.
         labels: of the columns, in their order; ("",) without.
         units: of the columns, guessed or stated; "" for SI.
@@ -80,21 +78,23 @@ class Guess:
 
     @property
     def columns(self) -> tuple[str, ...]:
-        """Names in the file."""
+        """Returns names in the file."""
         return tuple(self.others.get(x) or self.template.replace("{}", x) for x in self.labels)
 
     def drop_range_units(self) -> "Guess":
-        """The same, without units that rest on a range."""
+        """Returns the same, without units that rest on a range."""
         if self.why != "by its range":
             return self
         return dataclasses.replace(self, units=("",) * len(self.labels), why="")
 
 
 def guess_columns(
-    columns: Mapping[str, np.ndarray], stated: Mapping[str, str],
-    joints: Sequence[JointSpec] = (), names: Mapping[str, str] = MappingProxyType({}),
-) -> list[Guess]:  # fmt: skip
-    """What the columns of a file look like; each of ours once.
+    columns: Mapping[str, np.ndarray],
+    stated: Mapping[str, str],
+    joints: Sequence[JointSpec] = (),
+    names: Mapping[str, str] = MappingProxyType({}),
+) -> list[Guess]:
+    """Returns what the columns of a file look like; each of ours once.
 
     Args:
         columns: (n,) each, as in the file.
@@ -155,13 +155,17 @@ def guess_columns(
 
 
 def flag_prismatic_columns(
-    labels: Sequence[str], joints: Sequence[JointSpec],
+    labels: Sequence[str],
+    joints: Sequence[JointSpec],
     names: Mapping[str, str] = MappingProxyType({}),
-) -> list[bool]:  # fmt: skip
-    """Whether each column is of a prismatic joint; by name, else by its place."""
+) -> list[bool]:
+    """Returns whether each column is of a prismatic joint; by name, else by its place."""
     named = bool(names) and {*names.values()} <= {*labels}
-    by = {names[j.name] if named else j.name: j.unit == "m" for j in joints
-          if not named or j.name in names}  # fmt: skip
+    by = {
+        names[j.name] if named else j.name: j.unit == "m"
+        for j in joints
+        if not named or j.name in names
+    }
     if not set(by) <= set(labels):
         by = {label: joint.unit == "m" for label, joint in zip(labels, joints, strict=False)}
     return [by.get(label, False) for label in labels]
@@ -188,14 +192,14 @@ def _compute_rates(
 
 
 def pair_speeds(guesses: Iterable[Guess]) -> list[tuple[str, str]]:
-    """Columns of position and speed of the joints that have both."""
+    """Returns columns of position and speed of the joints that have both."""
     by = {one.quantity: dict(zip(one.labels, one.columns, strict=True)) for one in guesses}
     positions, speeds = by.get("q", {}), by.get("qd", {})
     return [(q, speeds[label]) for label, q in positions.items() if label in speeds]
 
 
 def split_label(name: str, joints: Iterable[str] = ()) -> tuple[str, str]:
-    """`pos[elbow]` -> `pos[{}]`, `elbow`; `joint3_pos` -> `joint{}_pos`, `3`.
+    """Returns `pos[elbow]` -> `pos[{}]`, `elbow`; `joint3_pos` -> `joint{}_pos`, `3`.
 
     Names of joints that are known go before, the longest first: `elbow_effort` -> `{}_effort`.
     """
@@ -299,7 +303,10 @@ def _rank_columns(quantity: str, template: str, labels: Sequence[str]) -> tuple[
 
 
 def guess_role(name: str) -> str:
-    """What a column of that name looks like: "time", "q", "tau" ...; "" for nothing of ours."""
+    """Returns what a column of that name looks like: "time", "q", "tau" ....
+
+    "" for nothing of ours.
+    """
     return _guess_template_role(split_label(name)[0])
 
 
@@ -310,9 +317,12 @@ def _is_increasing(values: np.ndarray) -> bool:
 
 
 def _add_units(
-    one: Guess, columns: Mapping[str, np.ndarray], stated: Mapping[str, str],
-    slides: Sequence[bool], rates: Mapping[str, RatePair],
-) -> Guess:  # fmt: skip
+    one: Guess,
+    columns: Mapping[str, np.ndarray],
+    stated: Mapping[str, str],
+    slides: Sequence[bool],
+    rates: Mapping[str, RatePair],
+) -> Guess:
     """The guess with its units: what names or the file say, else what speeds or ranges suggest."""
     stated_units = tuple(stated.get(name) or _find_unit_in_name(name) for name in one.columns)
     if any(stated_units):
@@ -347,7 +357,7 @@ def _choose_unit_by_rate(pair: RatePair | None, unit: str, values: np.ndarray) -
     if units is None or unit in ("mm", "rev/COUNTS"):
         return unit
     if units == ("", ""):
-        return unit if float(np.ptp(values)) > _FAR else ""
+        return unit if float(np.ptp(values)) > THRESHOLDS.max_agreeing_angle else ""
     return "" if units[0] == "rad" else units[0]
 
 
@@ -378,22 +388,31 @@ def _guess_unit_by_range(quantity: str, values: np.ndarray, slides: bool) -> str
         step = float(np.median(np.diff(values))) if len(values) > 1 else 0.0
         return "" if step <= 0.2 else "ms" if step < 100 else "us" if step < 1e5 else "ns"
     if quantity in ("q", "qc"):
-        if span > _COUNTS and (values == np.round(values)).all():
+        if span > THRESHOLDS.min_count_span and (values == np.round(values)).all():
             return "rev/COUNTS"
         if slides:
-            return "mm" if span > _LONG else ""
-        return "deg" if float(np.abs(values).max()) > _TURNS else ""
+            return "mm" if span > THRESHOLDS.max_axis_length else ""
+        return "deg" if float(np.abs(values).max()) > THRESHOLDS.max_revolute_angle else ""
     if quantity == "tau":
-        return ("mN" if slides else "mN m") if span > (_MIGHTY if slides else _HEAVY) else ""
+        return (
+            ("mN" if slides else "mN m")
+            if span > (THRESHOLDS.max_force if slides else THRESHOLDS.max_torque)
+            else ""
+        )
     if quantity == "duty":
-        return "" if span <= _SHARES else "%" if span <= 100.0 * _SHARES else "0.1 %"
-    return "mA" if quantity == "current" and span > _STRONG else ""
+        return (
+            ""
+            if span <= THRESHOLDS.max_duty_span
+            else "%"
+            if span <= 100.0 * THRESHOLDS.max_duty_span
+            else "0.1 %"
+        )
+    return "mA" if quantity == "current" and span > THRESHOLDS.max_current else ""
 
 
 # The guesses as lines: a [log] to paste, units that are unlike SI, columns that are missing.
 
 
-_SHOWN = 24  # columns of a skeleton
 _MISSING = {"q": "positions", "tau": "torques"}
 
 
@@ -410,7 +429,7 @@ def find_absent_roles(guesses: Sequence[Guess]) -> list[str]:
 
 
 def describe_non_si_columns(guesses: Sequence[Guess]) -> list[str]:
-    """Columns whose range looks like another unit than SI, where nobody states one."""
+    """Returns columns whose range looks like another unit than SI, where nobody states one."""
     lines = []
     for one in (one for one in guesses if one.why == "by its range"):
         for unit in dict.fromkeys(filter(None, one.units)):
@@ -432,7 +451,7 @@ EITHER = "degrees, or -100..100 of each joint's calibrated range"
 def describe_doubtful_degrees(
     guesses: Sequence[Guess], columns: Mapping[str, np.ndarray]
 ) -> list[str]:
-    """Positions of LeRobot that look like degrees and never leave -100..100."""
+    """Returns positions of LeRobot that look like degrees and never leave -100..100."""
     return [
         f"{one.template.replace('{}', '*')} may be {EITHER}: the data set does not say which; for "
         "the latter, one of 200 parts is (range_max - range_min) / 200 of a unit rev/4096"
@@ -441,15 +460,18 @@ def describe_doubtful_degrees(
         and one.template.startswith("observation.state")
         and "deg" in one.units
         and one.why == "by its range"
-        and max(np.nanmax(np.abs(columns[name])) for name in one.columns) <= _HUNDRED
+        and max(np.nanmax(np.abs(columns[name])) for name in one.columns)
+        <= THRESHOLDS.max_normalised
     ]
 
 
 def format_log_table(
-    guesses: Sequence[Guess], joints: Sequence[JointSpec] = (), columns: Sequence[str] = (),
+    guesses: Sequence[Guess],
+    joints: Sequence[JointSpec] = (),
+    columns: Sequence[str] = (),
     names: Mapping[str, str] = MappingProxyType({}),
-) -> str:  # fmt: skip
-    """The guesses as a table [log] to paste; "" if there are none, or all is ours already.
+) -> str:
+    """Returns the guesses as a table [log] to paste; "" if there are none, or all is ours already.
 
     Args:
         guesses: the guesses.
@@ -466,7 +488,10 @@ def format_log_table(
         )
     if find_absent_roles(guesses):
         there = {one.quantity for one in guesses}
-        lines.append(f"# columns of the file: {', '.join(map(_quote_text, columns[:_SHOWN]))}")
+        lines.append(
+            "# columns of the file: "
+            + ", ".join(map(_quote_text, columns[: THRESHOLDS.max_listed_columns]))
+        )
         if "q" not in there:
             lines.append('# "q<j>" = "?"  # the position of each joint, such as "COLUMN{n} [deg]"')
         if not there & {"tau", "current", "duty"}:

@@ -1,7 +1,7 @@
-"""What is in a log: clock, channels, doubts; numbers only, whoever shows them."""
+"""What is in a log: clock, channels, doubts and where they lie."""
 
 import dataclasses
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -21,20 +21,18 @@ from modeler.logs.guess import (
     flag_prismatic_columns,
     format_log_table,
     guess_columns,
+    guess_role,
     pair_speeds,
 )
 from modeler.logs.log_table import LogTable
 from modeler.logs.mapping import LENGTH, LogMap, find_unit, parse_unit
 from modeler.logs.rates import check_rates, describe_repeats, is_moving, is_on_grid
-from modeler.logs.stamps import describe_coarse_clock
+from modeler.logs.thresholds import THRESHOLDS
+from modeler.logs.times import describe_coarse_clock
 from modeler.numerics.noise import estimate_hold_length, estimate_lattice_step, find_repeated_rows
 
 GAP = 1.5  # of a usual step
-_USUAL = 0.95  # quantile of the steps of an uneven clock
 HELD = 3  # rows in a row at the extreme value that make it a limit
-_STUCK = 0.005  # share of the rows
-_SLOW = 0.2  # share of rows in such runs, at any value, from which on a channel is only slow
-_JITTER = 0.05
 _MEASURED = ("q", "qd", "qdd", "tau", "current")
 _TOLD = (
     "long log: all {} rows are read for ranges, missing values, limits, gaps and pictures, {} of "
@@ -123,10 +121,10 @@ class LogInspection(Result):
         channels: in the order of the file.
         streams: topics or groups.
         notes: of reading.
-        doubts: what contradicts itself or looks like another unit.
+        warnings: what contradicts itself or looks like another unit.
         suggested: a [log] to paste, guessed; "" if a mapping is there already.
-        plain: the same without what ranges say of positions.
-        ranged: doubts about positions that rest on their range alone.
+        suggested_without_ranges: the same without what ranges say of positions.
+        range_warnings: doubts about positions that rest on their range alone.
         time: (n,) s, or row numbers without a clock; of a long log at the extremes of each block.
         steps: (2, m) times, and steps of the clock up to them, s; of a long log the extremes.
         values: (n,) of every channel, in its unit.
@@ -150,19 +148,24 @@ class LogInspection(Result):
     positions: Positions | None = None
 
     def to_json(self) -> dict[str, Any]:
-        """Plain data, without the values; a number that is not there is null."""
-        return convert_to_plain({
-            "log": self.name,
-            "rows": self.rows,
-            "clock": None if self.clock is None else dataclasses.asdict(self.clock)
-            | {"tick": self.clock.tick or None},
-            "channels": [dataclasses.asdict(channel) | {"resolution": channel.resolution or None}
-                         for channel in self.channels],
-            "streams": [dataclasses.asdict(stream) for stream in self.streams],
-            "notes": list(self.notes),
-            "doubts": list(self.warnings),
-            "suggested": self.suggested,
-        })  # fmt: skip
+        """Returns plain data, without the values; a number that is not there is null."""
+        return convert_to_plain(
+            {
+                "log": self.name,
+                "rows": self.rows,
+                "clock": None
+                if self.clock is None
+                else dataclasses.asdict(self.clock) | {"tick": self.clock.tick or None},
+                "channels": [
+                    dataclasses.asdict(channel) | {"resolution": channel.resolution or None}
+                    for channel in self.channels
+                ],
+                "streams": [dataclasses.asdict(stream) for stream in self.streams],
+                "notes": list(self.notes),
+                "doubts": list(self.warnings),
+                "suggested": self.suggested,
+            }
+        )
 
 
 def inspect_table(
@@ -172,7 +175,7 @@ def inspect_table(
     span: tuple[float | None, float | None] = (None, None),
     every: Iterable[LogTable] | None = None,
 ) -> LogInspection:
-    """What is in a log.
+    """Returns what is in a log.
 
     Args:
         table: of the file, read with `mapping`; of a long one of windows, by which rate, units,
@@ -247,15 +250,18 @@ def inspect_table(
     doubts += check_rates(pairs, values, time)
     doubts += _find_repeats(guesses, values, rows, clock, table.format_name)
     still = [
-        channel.name for channel, name in zip(channels, shown, strict=True)
+        channel.name
+        for channel, name in zip(channels, shown, strict=True)
         if channel.constant and not (name in rest and channel.low == 0.0)
-    ]  # fmt: skip
+    ]
     if still:
         verb = "never changes: is it" if len(still) == 1 else "never change: are they"
         doubts.append(f"{', '.join(still)} {verb} connected?")
     bare = [one.drop_range_units() if one.quantity in ("q", "qc") else one for one in guesses]
-    suggested, plain = ("" if mapping.layers else format_log_table(f, joints, tuple(values), names)
-                        for f in (guesses, bare))  # fmt: skip
+    suggested, plain = (
+        "" if mapping.layers else format_log_table(f, joints, tuple(values), names)
+        for f in (guesses, bare)
+    )
     ranged = tuple(
         line
         for line in describe_non_si_columns(guesses)
@@ -278,9 +284,13 @@ def inspect_table(
 
 
 def _build_positions(
-    table: LogTable, values: Mapping[str, np.ndarray], guesses: Sequence[Guess],
-    joints: Sequence[JointSpec], names: Mapping[str, str], time: np.ndarray,
-) -> Positions | None:  # fmt: skip
+    table: LogTable,
+    values: Mapping[str, np.ndarray],
+    guesses: Sequence[Guess],
+    joints: Sequence[JointSpec],
+    names: Mapping[str, str],
+    time: np.ndarray,
+) -> Positions | None:
     one = next((one for one in guesses if one.quantity == "q"), None)
     if one is None:
         return None
@@ -300,9 +310,12 @@ def _build_positions(
 
 
 def _find_repeats(
-    guesses: Sequence[Guess], values: Mapping[str, np.ndarray], rows: int, clock: Clock | None,
+    guesses: Sequence[Guess],
+    values: Mapping[str, np.ndarray],
+    rows: int,
+    clock: Clock | None,
     called: Callable[[str], str],
-) -> list[str]:  # fmt: skip
+) -> list[str]:
     """Rows that a recorder wrote again, and channels that are sampled more slowly than the log.
 
     By the rows of the windows of a long log.
@@ -321,8 +334,8 @@ def _find_repeats(
             held.setdefault(estimate_hold_length(values[name][~again]), []).append(called(name))
     rate = clock.rate * (1.0 - float(again.mean()))
     return [describe_repeats(count, rows, clock.rate)] * bool(count) + [
-        f"{', '.join(names)}: holds each value for {entry} rows: sampled at {rate / entry:.3g} Hz, "
-        "not "
+        f"{', '.join(names)}: holds each value for {entry} rows: sampled at {rate / entry:.3g} "
+        "Hz, not "
         f"{rate:.4g} Hz"
         for entry, names in held.items()
         if entry > 1
@@ -330,9 +343,11 @@ def _find_repeats(
 
 
 def _select_span(
-    table: LogTable, guesses: Sequence[Guess], blocks: Iterable[dict[str, np.ndarray]],
+    table: LogTable,
+    guesses: Sequence[Guess],
+    blocks: Iterable[dict[str, np.ndarray]],
     span: tuple[float | None, float | None],
-) -> dict[str, np.ndarray]:  # fmt: skip
+) -> dict[str, np.ndarray]:
     """The rows of a span of time."""
     low = -np.inf if span[0] is None else span[0]
     high = np.inf if span[1] is None else span[1]
@@ -370,9 +385,12 @@ Drawn = tuple[np.ndarray, np.ndarray, dict[str, np.ndarray]]
 
 
 def _scan_rows(
-    table: LogTable, blocks: Iterable[dict[str, np.ndarray]], guesses: Sequence[Guess],
-    seen: Clock | None, whole: bool,
-) -> tuple[int, Clock | None, dict[str, list[_Extent]], Drawn]:  # fmt: skip
+    table: LogTable,
+    blocks: Iterable[dict[str, np.ndarray]],
+    guesses: Sequence[Guess],
+    seen: Clock | None,
+    whole: bool,
+) -> tuple[int, Clock | None, dict[str, list[_Extent]], Drawn]:
     """Rows, clock, extents by channel, and what is drawn; `seen`: of the windows of a long log."""
     counts, clocks, extents, drawn = list[int](), list[Clock](), list[dict](), list[Drawn]()
     last: dict[str, np.ndarray] = {}  # a block knows the row before it: one step more
@@ -396,9 +414,12 @@ def _scan_rows(
         sum(counts),
         None if seen is None else _merge_clocks(seen, clocks, time),
         {name: [block[name] for block in extents] for name in last},
-        (time, np.concatenate(steps, axis=1),
-         {name: np.concatenate([block[name] for block in values_drawn]) for name in last}),
-    )  # fmt: skip
+        (
+            time,
+            np.concatenate(steps, axis=1),
+            {name: np.concatenate([block[name] for block in values_drawn]) for name in last},
+        ),
+    )
 
 
 def _find_extremes(time: np.ndarray, steps: np.ndarray, values: Mapping[str, np.ndarray]) -> Drawn:
@@ -428,9 +449,11 @@ def _merge_clocks(seen: Clock, clocks: Sequence[Clock], time: np.ndarray) -> Clo
 
 
 def _measure_clock(
-    table: LogTable, values: Mapping[str, np.ndarray], guesses: Sequence[Guess],
+    table: LogTable,
+    values: Mapping[str, np.ndarray],
+    guesses: Sequence[Guess],
     seen: Clock | None = None,
-) -> tuple[np.ndarray, Clock | None]:  # fmt: skip
+) -> tuple[np.ndarray, Clock | None]:
     """Times of rows, and their clock, by the usual step of `seen` or their own."""
     guess = next((one for one in guesses if one.quantity == "time"), None)
     name = guess.columns[0] if guess is not None else "time"
@@ -464,9 +487,11 @@ def _measure_clock(
 
 
 def find_usual_step(steps: np.ndarray, step: float) -> float:
-    """Longest step, s, of an uneven clock but for the rarest; `step` of an even one."""
+    """Returns longest step, s, of an uneven clock but for the rarest; `step` of an even one."""
     known = steps[steps > 0.0]
-    return max(step, float(np.quantile(known, _USUAL))) if len(known) else step
+    return (
+        max(step, float(np.quantile(known, THRESHOLDS.usual_step_quantile))) if len(known) else step
+    )
 
 
 def _find_tick(steps: np.ndarray, step: float) -> float:
@@ -501,10 +526,12 @@ def _find_limits(
     Not at the beginning or the end, where a robot stands still; and not of a channel that stays
     anywhere, because it is slower than the log.
     """
-    if not limits[0] < limits[1] or held.sum() > _SLOW * rows:
+    if not limits[0] < limits[1] or held.sum() > THRESHOLDS.max_held_share * rows:
         return ()
     counts = [(end, int(held[ends == end].sum())) for end in limits]
-    return tuple((end, count / rows) for end, count in counts if count > _STUCK * rows)
+    return tuple(
+        (end, count / rows) for end, count in counts if count > THRESHOLDS.min_limit_share * rows
+    )
 
 
 def _describe_clock(clock: Clock | None, coarse: str) -> list[str]:
@@ -515,16 +542,108 @@ def _describe_clock(clock: Clock | None, coarse: str) -> list[str]:
         return [f"{clock.column}: {coarse}"]
     lines = []
     if clock.back:
-        lines.append(f"{clock.column} goes back in {clock.back} rows: sort or split the log")
+        lines.append(f"{clock.column} decreases in {clock.back} rows: sort or split the log")
     if clock.repeated:
-        lines.append(f"{clock.column} repeats itself in {clock.repeated} rows: delete them")
+        lines.append(f"{clock.column} is repeated in {clock.repeated} rows: delete them")
     if clock.gaps:
         lines.append(
             f"{clock.column} has {clock.gaps} gap{'s' * (clock.gaps > 1)}, the widest "
             f"{clock.largest:.4g} s at {clock.at:.4g} s"
         )
-    if clock.jitter > max(_JITTER, clock.tick * clock.rate):
+    if clock.jitter > max(THRESHOLDS.max_jitter, clock.tick * clock.rate):
         lines.append(
-            f"{clock.column} is uneven: its steps differ by {format_percent(clock.jitter)}"
+            f"{clock.column} is not uniform: steps deviate by {format_percent(clock.jitter)} (rms)"
         )
     return lines
+
+
+# Where in a log what is doubtful lies: stretches of its time.
+
+
+MOST = 100
+"""Marks of one kind in one channel; of more, the longest."""
+
+DRIVEN = ("tau", "current", "duty")
+"""What has a limit of the drive; that a position stays at an end is as a rule rest."""
+
+
+@dataclass(frozen=True)
+class Mark:
+    """A stretch of a log of which something is said.
+
+    Attributes:
+        kind: "gap", "back", "repeated", "missing", "limit" of what drives; of a robot also what
+            none does: "spike", "frozen", "clipped", "wrap", "zero", "lost", "open".
+        channel: that it is seen in.
+        start, end: s; alike where it is one row.
+        line: what it is.
+    """
+
+    kind: str
+    channel: str
+    start: float
+    end: float
+    line: str
+
+
+def find_marks(seen: LogInspection) -> list[Mark]:
+    """Gaps and faults of the clock, missing values, ends of a range at which a channel stays.
+
+    Of a long log, of which not all rows are kept, the clock alone.
+    """
+    if seen.clock is None:
+        return []
+    marks = [*_mark_clock(seen)]
+    if seen.time.size == seen.rows:
+        marks += _mark_channels(seen)
+    return keep_longest(marks)
+
+
+def _mark_clock(seen: LogInspection) -> Iterator[Mark]:
+    assert seen.clock is not None
+    time, step = seen.steps
+    usual, name = 1.0 / seen.clock.rate if seen.clock.rate > 0.0 else np.inf, seen.clock.column
+    if seen.time.size == seen.rows:
+        usual = find_usual_step(step, usual)
+    for k in np.flatnonzero(step > GAP * usual):
+        line = f"{name}: no rows for {step[k]:.4g} s"
+        yield Mark("gap", name, float(time[k] - step[k]), float(time[k]), line)
+    for k in np.flatnonzero(step < 0.0):
+        line = f"{name} decreases by {-step[k]:.4g} s: sort or split the log"
+        yield Mark("back", name, float(time[k]), float(time[k] - step[k]), line)
+    for k in np.flatnonzero(step == 0.0):
+        yield Mark("repeated", name, float(time[k]), float(time[k]), f"{name} is repeated")
+
+
+def _mark_channels(seen: LogInspection) -> Iterator[Mark]:
+    for channel, (name, values) in zip(seen.channels, seen.values.items(), strict=True):
+        for start, end in _find_runs(np.isnan(values) & np.isfinite(seen.time), seen.time, 1):
+            line = f"{channel.name} has no value for {end - start:.4g} s"
+            yield Mark("missing", channel.name, start, end, line)
+        for value, _ in channel.limits if guess_role(name) in DRIVEN else ():
+            for start, end in _find_runs(values == value, seen.time, HELD):
+                what = f"{value:.4g} {channel.unit}".rstrip()
+                line = f"{channel.name} stays at its limit {what} for {end - start:.4g} s: clipped?"
+                yield Mark("limit", channel.name, start, end, line)
+
+
+def _find_runs(flags: np.ndarray, time: np.ndarray, least: int) -> Iterator[tuple[float, float]]:
+    """First and last time of so many flagged rows one after the other; near ones are one."""
+    rows = np.flatnonzero(flags)
+    for run in np.split(rows, np.flatnonzero(np.diff(rows) > THRESHOLDS.max_merged_gap) + 1):
+        if run.size >= least:
+            yield float(time[run[0]]), float(time[run[-1]])
+
+
+def keep_longest(marks: Iterable[Mark]) -> list[Mark]:
+    """Returns marks in the order of time; of a kind in a channel the longest ones."""
+    by: dict[tuple[str, str], list[Mark]] = {}
+    for mark in marks:
+        by.setdefault((mark.kind, mark.channel), []).append(mark)
+    longest = (
+        sorted(channel_marks, key=lambda one: one.start - one.end)[:MOST]
+        for channel_marks in by.values()
+    )
+    return sorted(
+        (one for channel_marks in longest for one in channel_marks), key=lambda one: one.start
+    )

@@ -19,16 +19,19 @@ from modeler.logs.mapping import (
     suggest_name,
 )
 from modeler.logs.readers import read_columns
+from modeler.logs.thresholds import THRESHOLDS
 
 _TINY, _HUGE = 1e-100, 1e100  # in any unit; squares of what is beyond are no numbers any more
 _SHOWN = 40  # names of columns that a message lists
-_FEW = 6
 
 
 def _list_motion_names(joints: Sequence[JointSpec]) -> set[str]:
     """Our names of what is measured of joints."""
-    return {f"{kind}{joint.name}" for kind in ("q", "qd", "qdd", "qc", "tau", "current")
-            for joint in joints}  # fmt: skip
+    return {
+        f"{kind}{joint.name}"
+        for kind in ("q", "qd", "qdd", "qc", "tau", "current")
+        for joint in joints
+    }
 
 
 class LogTable:
@@ -42,7 +45,7 @@ class LogTable:
         rated: True if time is counted from the rate, for want of a column.
         rows: of every column.
         notes: what reading left out, one sentence each.
-        told: how it was read, one sentence each: nothing to doubt.
+        reading_notes: how it was read, one sentence each: nothing to doubt.
     """
 
     def __init__(
@@ -118,8 +121,8 @@ class LogTable:
             first = next(o for o, c in matched.items() if c == taken)
             if first != our_name and self._entries[our_name].has_same_scale(self._entries[first]):
                 raise DataError(
-                    f"{self.path}: column {taken} is taken as {first} and as {our_name}; expected "
-                    "a "
+                    f"{self.path}: column {taken} is taken as {first} and as {our_name}; "
+                    "expected a "
                     "column for each; correct [log] or --map"
                 )
         for our_name, entry in self._entries.items():
@@ -158,7 +161,8 @@ class LogTable:
         ]
         if unknown:
             named = ", ".join(
-                f'{name} "{self.file_columns.units[name]}"' for name in unknown[:_FEW]
+                f'{name} "{self.file_columns.units[name]}"'
+                for name in unknown[: THRESHOLDS.max_listed_units]
             )
             lines.append(f"the file states units that are not understood, taken as SI: {named}")
         return lines
@@ -181,46 +185,51 @@ class LogTable:
         return name in self._units
 
     def find_file_column(self, name: str) -> str:
-        """The file's own name of a column of ours."""
+        """Returns the file's own name of a column of ours."""
         return self._taken.get(name, name)
 
     def format_name(self, name: str) -> str:
-        """A column as the user knows it: `t (time)`, or `time` if that is its name in the file."""
+        """Returns a column as the user knows it.
+
+        `t (time)`, or `time` if that is its name in the file.
+        """
         column = self._taken.get(name, name)
         if column == name and name in self._entries and name not in self._columns:
             column = self._entries[name].columns[0]
         return name if column == name else f"{column} ({name})"
 
     def get_unit(self, name: str) -> str:
-        """What a column is known to be converted from; "" if nobody said."""
+        """Returns what a column is known to be converted from; "" if nobody said."""
         unit = self._units[name]
         return "" if unit is None else unit.text
 
     def convert_to_unit(self, name: str, values: np.ndarray) -> np.ndarray:
-        """SI values of a column in the unit that it is known to be in."""
+        """Returns SI values of a column in the unit that it is known to be in."""
         unit = self._units[name]
         return values if unit is None else values / unit.factor - unit.zero
 
     def convert_to_logged(self, name: str, values: np.ndarray) -> np.ndarray:
-        """The same as the file has it: with its sign, scale and offset too."""
+        """Returns SI values as the file has them: with sign, scale, offset and unit."""
         entry, values = self._entries.get(name), self.convert_to_unit(name, values)
         if entry is None or name not in self._taken:
             return values
         return (values - entry.offset) / (entry.sign * entry.scale)
 
     def describe_source(self, name: str) -> str:
-        """The same, ours first: `tau2`, or `tau2 from moment_b`."""
+        """Returns the name of a column, ours first: `tau2`, or `tau2 from moment_b`."""
         column = self.find_file_column(name)
         return name if column == name else f"{name} from {column}"
 
     def is_numeric(self, name: str) -> bool:
-        """True if the column holds numbers (or nothing at all)."""
+        """Returns True if the column holds numbers (or nothing at all)."""
         if name == "time" and self._rate:
             return True
         return self._columns[self._taken.get(name, name)].is_numeric
 
     def read_numbers(self, name: str) -> np.ndarray:
-        """The column as floats in SI units, (rows,); null, NaN and infinite entries are NaN.
+        """Returns the column as floats in SI units, (rows,).
+
+        Null, NaN and infinite entries are NaN.
 
         Raises:
             DataError: the column is missing or holds something else than numbers.
@@ -230,7 +239,7 @@ class LogTable:
         if name == "time" and self._rate:
             return np.arange(self.before, self.before + self.rows) / self._rate
         column = self._columns[self._taken.get(name, name)]
-        if getattr(column, "is_time", False) and name in _list_motion_names(self._joints):
+        if column.is_time and name in _list_motion_names(self._joints):
             raise DataError(
                 f"{self.path}: column {self.format_name(name)} holds dates or times of day; "
                 "expected "
@@ -258,7 +267,10 @@ class LogTable:
         return values
 
     def read_measured(self, name: str) -> np.ndarray:
-        """The same of something that was measured: specks are 0, what is beyond all measure NaN."""
+        """Returns a measured column in SI units.
+
+        Specks are 0, values beyond all measure are refused.
+        """
         values = self.read_numbers(name)
         values[np.abs(values) < _TINY] = 0.0
         if (beyond := np.abs(values) > _HUGE).any():

@@ -4,16 +4,17 @@ import dataclasses
 import difflib
 import math
 import re
-from collections.abc import Mapping, Sequence
+import tomllib
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
-from types import MappingProxyType
 from typing import Any
 
 from modeler.core.errors import DataError
 from modeler.core.files import read_text
 from modeler.core.json import parse_toml, shorten_value
 from modeler.core.manifest import JointSpec
+from modeler.logs.thresholds import THRESHOLDS
 
 # Units by name, as factors to SI (`deg`, `N m`, `rev/8192`), and which a column may be in.
 
@@ -24,59 +25,25 @@ GRAVITY = 9.80665
 Powers = tuple[int, ...]
 """Exponents of (m, kg, s, rad, A, K)."""
 
-NONE: Powers = (0, 0, 0, 0, 0, 0)
-LENGTH: Powers = (1, 0, 0, 0, 0, 0)
-MASS: Powers = (0, 1, 0, 0, 0, 0)
-TIME: Powers = (0, 0, 1, 0, 0, 0)
-ANGLE: Powers = (0, 0, 0, 1, 0, 0)
-CURRENT: Powers = (0, 0, 0, 0, 1, 0)
-HEAT: Powers = (0, 0, 0, 0, 0, 1)
-FORCE: Powers = (1, 1, -2, 0, 0, 0)
-TORQUE: Powers = (2, 1, -2, 0, 0, 0)
-VOLTAGE: Powers = (2, 1, -3, 0, -1, 0)
+_UNITS: Mapping[str, Any] = tomllib.loads(Path(__file__).with_name("units.toml").read_text("utf-8"))
 
-_KINDS: Mapping[Powers, str] = {
-    NONE: "a plain number", LENGTH: "a length", MASS: "a mass", TIME: "a time", ANGLE: "an angle",
-    CURRENT: "a current", HEAT: "a temperature", FORCE: "a force", TORQUE: "a torque",
-    VOLTAGE: "a voltage",
-}  # fmt: skip
+_POWERS: Mapping[str, Powers] = {name: tuple(p) for name, p in _UNITS["powers"].items()}
+NONE, LENGTH = _POWERS["plain number"], _POWERS["length"]
+TIME, ANGLE, HEAT = _POWERS["time"], _POWERS["angle"], _POWERS["temperature"]
+CURRENT, VOLTAGE = _POWERS["current"], _POWERS["voltage"]
+FORCE, TORQUE = _POWERS["force"], _POWERS["torque"]
 
-_INCH, _POUND = 0.0254, 0.45359237  # m, kg; exact (international yard and pound, 1959)
-_WORDS = {
-    "degree": "deg", "degrees": "deg", "radian": "rad", "radians": "rad", "revolution": "rev",
-    "revolutions": "rev", "turns": "rev", "second": "s", "seconds": "s", "minutes": "min",
-    "millisecond": "ms", "milliseconds": "ms", "meter": "m", "meters": "m", "metre": "m",
-    "metres": "m", "millimeter": "mm", "millimeters": "mm", "newton": "N", "newtons": "N",
-    "ampere": "A", "amperes": "A", "amps": "A", "volt": "V", "volts": "V", "celsius": "degC",
-    "nmm": "mNm", "sekunden": "s", "newtonmeter": "Nm",
-}  # fmt: skip
-_PREFIXES = {
-    "n": 1e-9, "u": 1e-6, "µ": 1e-6, "μ": 1e-6, "m": 1e-3, "c": 1e-2, "k": 1e3, "M": 1e6,
-}  # fmt: skip
-_DECADES = 100  # that no unit is away from SI
+_KINDS = {
+    powers: f"an {name}" if name[0] == "a" else f"a {name}"
+    for name, powers in list(_POWERS.items())[:10]
+}
+
 _PREFIXED = {"m", "g", "s", "rad", "deg", "A", "V", "N", "Nm", "Hz"}
 _FACTOR = re.compile(
     r"\s*([*/·.]?)\s*([A-Za-zµμ°%]+|\d+(?:\.\d*)?(?:[eE][+-]?\d+)?)(?:\^?(-?\d+))?"
 )
 EXAMPLES = "deg, rev, rpm, deg/s, mm, ms, us, N m, mN m, kN, kg cm, lb in, mA, A, rev/8192"
 """Units that a message names."""
-
-_EFFORTS = {
-    "N m": (TORQUE, "a torque", "N m, mN m, kg cm, lb in"),
-    "N": (FORCE, "a force", "N, kN, kgf, lbf"),
-}
-_MOTION: Mapping[str, Mapping[str, tuple[Powers, str, str]]] = {
-    "rad": {
-        "q": (ANGLE, "a position", "deg, rad, rev"), "qc": (ANGLE, "a position", "deg, rad, rev"),
-        "qd": ((0, 0, -1, 1, 0, 0), "a speed", "deg/s, rad/s, rev/s, rpm"),
-        "qdd": ((0, 0, -2, 1, 0, 0), "an acceleration", "deg/s^2, rad/s^2, rev/s^2"),
-    },
-    "m": {
-        "q": (LENGTH, "a position", "mm, m, in"), "qc": (LENGTH, "a position", "mm, m, in"),
-        "qd": ((1, 0, -1, 0, 0, 0), "a speed", "mm/s, m/s, in/s"),
-        "qdd": ((1, 0, -2, 0, 0, 0), "an acceleration", "mm/s^2, m/s^2, in/s^2"),
-    },
-}  # fmt: skip
 
 
 @dataclass(frozen=True)
@@ -97,7 +64,7 @@ class Unit:
 
     @property
     def kind(self) -> str:
-        """What it measures, in words."""
+        """Returns what it measures, in words."""
         if self.powers in _KINDS:
             return _KINDS[self.powers]
         return "a " + " ".join(
@@ -107,7 +74,7 @@ class Unit:
         )
 
     def convert_to_quantity(self, powers: Powers) -> "Unit | None":
-        """The unit as one of that quantity; None if it measures something else.
+        """Returns the unit as one of that quantity; None if it measures something else.
 
         A kg or lb where a force is due means its weight.
         """
@@ -123,52 +90,18 @@ def _make_unit(factor: float, powers: Powers, zero: float = 0.0) -> Unit:
     return Unit("", factor, powers, zero)
 
 
-_TABLE: Mapping[str, Unit] = MappingProxyType(
-    {
-        "m": _make_unit(1.0, LENGTH),
-        "in": _make_unit(_INCH, LENGTH),
-        "inch": _make_unit(_INCH, LENGTH),
-        "ft": _make_unit(12.0 * _INCH, LENGTH),
-        "g": _make_unit(1e-3, MASS),
-        "lb": _make_unit(_POUND, MASS),
-        "oz": _make_unit(_POUND / 16.0, MASS),
-        "s": _make_unit(1.0, TIME),
-        "sec": _make_unit(1.0, TIME),
-        "min": _make_unit(60.0, TIME),
-        "h": _make_unit(3600.0, TIME),
-        "Hz": _make_unit(1.0, (0, 0, -1, 0, 0, 0)),
-        "rad": _make_unit(1.0, ANGLE),
-        "deg": _make_unit(math.pi / 180.0, ANGLE),
-        "Grad": _make_unit(
-            math.pi / 180.0, ANGLE
-        ),  # German; an English "grad" may be a gon, and is none
-        "°": _make_unit(math.pi / 180.0, ANGLE),
-        "rev": _make_unit(2.0 * math.pi, ANGLE),
-        "turn": _make_unit(2.0 * math.pi, ANGLE),
-        "arcmin": _make_unit(math.pi / 10800.0, ANGLE),
-        "arcsec": _make_unit(math.pi / 648000.0, ANGLE),
-        "rpm": _make_unit(math.pi / 30.0, (0, 0, -1, 1, 0, 0)),
-        "A": _make_unit(1.0, CURRENT),
-        "V": _make_unit(1.0, VOLTAGE),
-        "N": _make_unit(1.0, FORCE),
-        "Nm": _make_unit(1.0, TORQUE),
-        "kgf": _make_unit(GRAVITY, FORCE),
-        "kp": _make_unit(GRAVITY, FORCE),
-        "lbf": _make_unit(_POUND * GRAVITY, FORCE),
-        "ozf": _make_unit(_POUND / 16.0 * GRAVITY, FORCE),
-        "degC": _make_unit(1.0, HEAT),
-        "°C": _make_unit(1.0, HEAT),
-        "K": _make_unit(1.0, HEAT, -273.15),
-        "degF": _make_unit(5.0 / 9.0, HEAT, -32.0),
-        "°F": _make_unit(5.0 / 9.0, HEAT, -32.0),
-        "percent": _make_unit(0.01, NONE),
-        "%": _make_unit(0.01, NONE),
-    }
-)
+def _units() -> Iterator[tuple[str, Unit]]:
+    for quantity, names in _UNITS["units"].items():
+        for name, factor in names.items():
+            numbers = factor if isinstance(factor, list) else [factor]
+            yield name, _make_unit(numbers[0], _POWERS[quantity], *numbers[1:])
+
+
+_TABLE: Mapping[str, Unit] = dict(_units())
 
 
 def parse_unit(text: str) -> Unit:
-    """The unit of that text: names with products, quotients and powers, `deg/s^2`, `rev/8192`.
+    """Returns the unit of a text: names with products, quotients and powers, `deg/s^2`, `rev/8192`.
 
     Raises:
         DataError: a name that is unknown; says which units there are.
@@ -180,7 +113,7 @@ def parse_unit(text: str) -> Unit:
 
 
 def find_unit(text: str) -> Unit | None:
-    """The same; None if it is no unit."""
+    """Returns the unit of that text; None if it is no unit."""
     at, factor, powers, zero = 0, 1.0, NONE, 0.0
     text, count = text.strip().replace("²", "^2"), 0
     while at < len(text):
@@ -191,7 +124,7 @@ def find_unit(text: str) -> Unit | None:
         if len(match[3] or "") > len("-9") or abs(int(match[3] or 1)) > 9:
             return None
         power = int(match[3] or 1) * (-1 if match[1] == "/" else 1)
-        if abs(power * math.log10(one.factor)) > _DECADES:
+        if abs(power * math.log10(one.factor)) > THRESHOLDS.max_unit_decades:
             return None
         factor *= one.factor**power
         powers = tuple(a + power * b for a, b in zip(powers, one.powers, strict=True))
@@ -206,18 +139,18 @@ def _parse_simple_unit(name: str) -> Unit | None:
     """A number, a unit of the table, or one with a prefix."""
     if name[0].isdigit():
         return _make_unit(float(name), NONE) if float(name) > 0.0 else None
-    name = _WORDS.get(name.lower(), name)
+    name = _UNITS["synonyms"].get(name.lower(), name)
     if name in _TABLE:
         return _TABLE[name]
     prefix, rest = name[0], name[1:]
-    if prefix in _PREFIXES and rest in _PREFIXED:
+    if prefix in _UNITS["prefixes"] and rest in _PREFIXED:
         base = _TABLE[rest]
-        return _make_unit(_PREFIXES[prefix] * base.factor, base.powers)
+        return _make_unit(_UNITS["prefixes"][prefix] * base.factor, base.powers)
     return None
 
 
 def resolve_si_unit(our_name: str, where: str, unit: Unit, joints: Sequence[JointSpec]) -> Unit:
-    """The unit of an entry as one of what our column measures.
+    """Returns the unit of an entry as one of what our column measures.
 
     Raises:
         DataError: it measures something else; names the entry, the joint and what was expected.
@@ -245,19 +178,17 @@ def _find_expected(our_name: str, joints: Sequence[JointSpec]) -> tuple[Powers |
         return HEAT, "a temperature", "degC, K, degF"
     for joint in joints:
         of_joint = {
-            "current": (CURRENT, "a current", "mA, A, V, %"),
-            "duty": (NONE, "a share of the supply voltage", "%, 0.1 %"),
-            "voltage": (VOLTAGE, "a voltage", "V, mV"),
-            "tau": _EFFORTS[joint.effort_unit],
-            **_MOTION[joint.unit],
+            name: row
+            for key in ("drive", joint.effort_unit, joint.unit)
+            for name, row in _UNITS["columns"][key].items()
         }
         for prefix, (powers, what, example) in of_joint.items():
             if our_name == f"{prefix}{joint.name}":
-                return powers, f"{what} of joint {joint.name}, which is {joint.kind}", example
+                what = f"{what} of joint {joint.name}, which is {joint.kind}"
+                return _POWERS[powers], what, example
     return None, "", ""
 
 
-_LARGEST = 1e100  # beyond, products are no numbers any more
 _KEYS = ("column", "unit", "sign", "scale", "offset")
 _SETTINGS = ("topic", "names", "rate", "files")
 AUTO = "auto"
@@ -290,12 +221,12 @@ class MappedColumn:
     strict: bool = False
 
     def has_same_scale(self, other: "MappedColumn") -> bool:
-        """True if the same number means the same to both."""
+        """Returns True if the same number means the same to both."""
         scale_fields = ("unit", "sign", "scale", "offset")
         return all(getattr(self, name) == getattr(other, name) for name in scale_fields)
 
     def expand_for_joint(self, joint: str, place: int, name: str) -> "MappedColumn":
-        """The entry of a pattern for one joint."""
+        """Returns the entry of a pattern for one joint."""
 
         def replace_token(token: re.Match[str]) -> str:
             words = {"{j}": joint, "{name}": name}
@@ -305,13 +236,17 @@ class MappedColumn:
         return dataclasses.replace(self, columns=tuple(written))
 
     def build_table(self) -> str | dict[str, Any]:
-        """The entry as [log] has it."""
+        """Returns the entry as [log] has it."""
         column = self.columns[0]
         if (self.sign, self.scale, self.offset) == (1.0, 1.0, 0.0):
             plain_name = self.unit is None or len(self.columns) > 1  # its name ends in its unit
             return column if plain_name else f"{column} [{self.unit.text}]"  # type: ignore[union-attr]
-        said = {"unit": self.unit and self.unit.text, "sign": int(self.sign), "scale": self.scale,
-                "offset": self.offset}  # fmt: skip
+        said = {
+            "unit": self.unit and self.unit.text,
+            "sign": int(self.sign),
+            "scale": self.scale,
+            "offset": self.offset,
+        }
         plain = {"unit": None, "sign": 1, "scale": 1.0, "offset": 0.0}
         return {"column": column} | {k: v for k, v in said.items() if v != plain[k]}
 
@@ -327,7 +262,7 @@ class LogMap:
         rate: Hz, of a log without a time column.
         files: of logs in several files, our name -> how the name of the file ends.
         auto: what these leave open is to be guessed.
-        told: what was guessed, one line each.
+        guess_notes: what was guessed, one line each.
     """
 
     layers: tuple[Mapping[str, MappedColumn], ...] = ()
@@ -339,7 +274,7 @@ class LogMap:
     guess_notes: tuple[str, ...] = ()
 
     def merge_over(self, other: "LogMap") -> "LogMap":
-        """This one, and under it another."""
+        """Returns this map laid over another."""
         return LogMap(
             (*other.layers, *self.layers),
             {**other.names, **self.names},
@@ -351,7 +286,7 @@ class LogMap:
         )
 
     def build_table(self, joints: Sequence[JointSpec] = ()) -> dict[str, Any]:
-        """What is said, as one table [log]: `build_map` of it reads logs alike.
+        """Returns what is said, as one table [log]: `map_from_table` of it reads logs alike.
 
         A pattern of a layer goes before entries of lower layers for single joints of a robot.
         """
@@ -361,14 +296,21 @@ class LogMap:
                 for joint_key in (key.replace(JOINT, joint.name) for joint in joints):
                     entries.pop(joint_key, None)
             entries |= layer
-        said = {"topic": self.topic, "rate": self.rate, "names": dict(self.names),
-                "files": dict(self.files)}  # fmt: skip
+        said = {
+            "topic": self.topic,
+            "rate": self.rate,
+            "names": dict(self.names),
+            "files": dict(self.files),
+        }
         return {k: v for k, v in said.items() if v} | {
             k: e.build_table() for k, e in entries.items()
         }
 
     def expand_entries(self, joints: Sequence[JointSpec]) -> dict[str, MappedColumn]:
-        """Our name -> entry, for the joints of a robot; an entry of its own beats a pattern."""
+        """Returns our name -> entry, for the joints of a robot.
+
+        An entry of its own beats a pattern.
+        """
         entries: dict[str, MappedColumn] = {}
         for layer in self.layers:
             for key in sorted(layer, key=lambda key: JOINT not in key):
@@ -383,7 +325,7 @@ class LogMap:
 
 
 def build_map(table: Any, where: str, strict: bool = False) -> LogMap:
-    """The map that a table [log] states.
+    """Returns the map that a table [log] states.
 
     Args:
         table: {our name: "column", "column [unit]", or {column, unit, sign, scale, offset}}, and
@@ -417,8 +359,8 @@ def build_map(table: Any, where: str, strict: bool = False) -> LogMap:
     files = table.get("files", {})
     if not isinstance(files, Mapping) or not all(map(_is_ending, files.values())):
         raise DataError(
-            f"{where}, files: got {shorten_value(files)}; expected how the names of the files of "
-            "one log "
+            f"{where}, files: got {shorten_value(files)}; expected how the names of the files "
+            "of one log "
             'end, such as {q = "_q.csv", tau = "_tau.csv"}'
         )
     named = {str(joint): name for joint, name in names.items()}
@@ -431,7 +373,7 @@ def _is_ending(name: Any) -> bool:
 
 
 def parse_map_options(words: Sequence[str]) -> LogMap:
-    """The map that `--map` states, several times over: FILE.toml, or NAME=COLUMN[:UNIT].
+    """Returns the map that `--map` states, several times over: FILE.toml, or NAME=COLUMN[:UNIT].
 
     Raises:
         DataError: a word that is neither, or a file that cannot be read.
@@ -493,8 +435,8 @@ def _parse_entry(value: Any, where: str, key: str) -> MappedColumn:
     table = {"column": value} if isinstance(value, str) else value
     if not isinstance(table, Mapping):
         raise DataError(
-            f"{where}: got {shorten_value(value)}; expected the name of a column, or a table such "
-            "as "
+            f"{where}: got {shorten_value(value)}; expected the name of a column, or a table "
+            "such as "
             '{column = "position_2", unit = "deg", sign = -1}'
         )
     for name in table:
@@ -530,12 +472,12 @@ def _parse_entry(value: Any, where: str, key: str) -> MappedColumn:
 def _parse_float(table: Mapping[str, Any], name: str, where: str) -> float:
     value = table.get(name, 0.0 if name == "offset" else 1.0)
     number = isinstance(value, int | float) and not isinstance(value, bool)
-    if not number or not -_LARGEST <= value <= _LARGEST:
+    if not number or not -THRESHOLDS.max_scale <= value <= THRESHOLDS.max_scale:
         raise DataError(f"{where}: {name} is {shorten_value(value)}; expected a number")
     return float(value)
 
 
 def suggest_name(name: str, names: Sequence[str]) -> str:
-    """` (did you mean q1?)` for a misspelt name, else nothing."""
+    """Returns ` (did you mean q1?)` for a misspelt name, else nothing."""
     matches = difflib.get_close_matches(name, names, n=2, cutoff=0.6)
     return f" (did you mean {' or '.join(matches)}?)" if matches else ""

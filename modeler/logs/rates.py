@@ -7,19 +7,16 @@ from itertools import permutations
 import numpy as np
 
 from modeler.core.table import format_percent
+from modeler.logs.thresholds import THRESHOLDS
 from modeler.numerics.noise import estimate_channel_noise
 
 RATES: Mapping[str, float] = {
-    "rad/s": 1.0, "deg/s": np.pi / 180.0, "rpm": np.pi / 30.0, "rev/s": 2.0 * np.pi,
-}  # fmt: skip
+    "rad/s": 1.0,
+    "deg/s": np.pi / 180.0,
+    "rpm": np.pi / 30.0,
+    "rev/s": 2.0 * np.pi,
+}
 """Units of speeds of revolute joints, in rad/s."""
-
-_LIKE = 0.9  # correlation from which on a speed is the derivative of a position
-_NEAR = 0.1  # relative; of a ratio that is a matter of units
-_MOVES = 100.0  # times its noise from which on a joint moves
-_LEAST = 10  # rows
-_CLEAR = 0.1  # of the spread of the slopes: their noise in windows that are long enough
-_NEARBY = 3.0  # usual windows: a longer one lies across a gap
 
 
 @dataclass(frozen=True)
@@ -39,11 +36,14 @@ class RatePair:
 def pair_rates(
     names: Sequence[tuple[str, str]], values: Mapping[str, np.ndarray], time: np.ndarray
 ) -> list[RatePair]:
-    """The ratio of every speed to the derivative of its position."""
+    """Returns the ratio of every speed to the derivative of its position."""
     pairs = []
     for position, speed in names:
         slope, mean = compare_slopes(values[position], values[speed], time)
-        like = is_moving(values[position]) and abs(_correlate(slope, mean)) >= _LIKE
+        like = (
+            is_moving(values[position])
+            and abs(_correlate(slope, mean)) >= THRESHOLDS.min_derivative_correlation
+        )
         pairs.append(RatePair(position, speed, _fit_ratio(slope, mean) if like else np.nan))
     return pairs
 
@@ -51,14 +51,14 @@ def pair_rates(
 def compare_slopes(
     position: np.ndarray, speed: np.ndarray, time: np.ndarray
 ) -> tuple[np.ndarray, np.ndarray]:
-    """Slopes of a position over windows, and means of a speed over the same; (m,) each.
+    """Returns slopes of a position over windows, and means of a speed over the same; (m,) each.
 
     The windows are as short as resolution and noise of both let a slope be seen.
     """
     there = np.flatnonzero(np.isfinite(time) & np.isfinite(position) & np.isfinite(speed))
     there = there[np.diff(np.maximum.accumulate(time[there]), prepend=-np.inf) > 0.0]
     t, q, v = time[there], position[there], speed[there]
-    if len(t) < _LEAST:
+    if len(t) < THRESHOLDS.min_compared_rows:
         return np.zeros(0), np.zeros(0)
     noise = [estimate_channel_noise(x) for x in (q, v)]
     area = np.append(0.0, np.cumsum(0.5 * np.diff(t) * (v[1:] + v[:-1])))
@@ -66,40 +66,40 @@ def compare_slopes(
         long = t[rows:] - t[:-rows]
         slope, mean = ((x[rows:] - x[:-rows]) / long for x in (q, area))
         doubtful = noise[0] * np.sqrt(2.0) / np.median(long) + noise[1] / np.sqrt(rows)
-        if doubtful < _CLEAR * np.std(slope) or 4 * rows > len(t):
+        if doubtful < THRESHOLDS.max_slope_noise * np.std(slope) or 4 * rows > len(t):
             break
-    near = long < _NEARBY * np.median(long)  # not across gaps
+    near = long < THRESHOLDS.max_window_ratio * np.median(long)  # not across gaps
     return slope[near], mean[near]
 
 
 def is_derivative(position: np.ndarray, speed: np.ndarray, time: np.ndarray) -> bool:
-    """False if a joint moves, and its speed does not follow."""
+    """Returns False if a joint moves, and its speed does not follow."""
     alike = abs(_correlate(*compare_slopes(position, speed, time)))
-    return not is_moving(position) or not alike < _LIKE
+    return not is_moving(position) or not alike < THRESHOLDS.min_derivative_correlation
 
 
 def is_moving(values: np.ndarray) -> bool:
-    """True of a position that goes beyond its resolution and its noise.
+    """Returns True of a position that goes beyond its resolution and its noise.
 
     The noise is that of third differences, the median of their size: a motion has none.
     """
     known = values[np.isfinite(values)]
-    if len(known) < _LEAST:
+    if len(known) < THRESHOLDS.min_compared_rows:
         return False
-    return float(np.ptp(known)) > _MOVES * estimate_channel_noise(known)
+    return float(np.ptp(known)) > THRESHOLDS.min_motion_to_noise * estimate_channel_noise(known)
 
 
 def is_on_grid(steps: np.ndarray, step: float) -> bool:
-    """True if steps, but for a tenth of them, are whole multiples of one."""
+    """Returns True if steps, but for a tenth of them, are whole multiples of one."""
     off = np.abs(steps / step - np.round(steps / step))
     return float(np.quantile(off, 0.9)) < 0.05
 
 
 def infer_units(ratio: float) -> tuple[str, str] | None:
-    """Units of position and speed that such a ratio looks like; ("", "") if they agree."""
+    """Returns units of position and speed that such a ratio looks like; ("", "") if they agree."""
     if not np.isfinite(ratio):
         return None
-    if abs(abs(ratio) - 1.0) < _NEAR:
+    if abs(abs(ratio) - 1.0) < THRESHOLDS.max_ratio_deviation:
         return "", ""
     tried = [
         (abs(abs(ratio) * RATES[b] / RATES[a] - 1.0), a.removesuffix("/s"), b)
@@ -107,13 +107,13 @@ def infer_units(ratio: float) -> tuple[str, str] | None:
         if a != "rpm"
     ]
     off, first, second = min(tried)
-    return (first, second) if off < _NEAR else None
+    return (first, second) if off < THRESHOLDS.max_ratio_deviation else None
 
 
 def check_rates(
     names: Sequence[tuple[str, str]], values: Mapping[str, np.ndarray], time: np.ndarray
 ) -> list[str]:
-    """Speeds that are not the derivative of their position, of the joints that move."""
+    """Returns speeds that are not the derivative of their position, of the joints that move."""
     names = [(q, qd) for q, qd in names if is_moving(values[q])]
     lines, pairs = list[str](), pair_rates(names, values, time)
     factor = find_common_factor([pair.ratio for pair in pairs])
@@ -131,7 +131,9 @@ def check_rates(
 
 
 def find_common_factor(ratios: Sequence[float]) -> float | None:
-    """By what all speeds are off the derivatives of their positions; None if by 1, or not alike.
+    """Returns by what all speeds are off the derivatives of their positions.
+
+    None if by 1, or not alike.
 
     Args:
         ratios: of speeds to derivatives, of the joints that move.
@@ -140,12 +142,15 @@ def find_common_factor(ratios: Sequence[float]) -> float | None:
     if not known.size or known.size < len(ratios) or not (known > 0.0).all():
         return None
     factor = float(np.median(known))
-    alike = np.all(np.abs(known / factor - 1.0) < _NEAR) and abs(factor - 1.0) > 2.0 * _NEAR
+    alike = (
+        np.all(np.abs(known / factor - 1.0) < THRESHOLDS.max_ratio_deviation)
+        and abs(factor - 1.0) > 2.0 * THRESHOLDS.max_ratio_deviation
+    )
     return factor if alike else None
 
 
 def describe_clock_factor(factor: float, rate: float) -> str:
-    """What one factor on all joints means.
+    """Returns what one factor on all joints means.
 
     Args:
         factor: of the speeds to the derivatives.
@@ -163,7 +168,7 @@ def describe_clock_factor(factor: float, rate: float) -> str:
 
 
 def describe_repeats(repeated: int, rows: int, rate: float) -> str:
-    """What rows that repeat the one before them in all channels mean.
+    """Returns what rows that repeat the one before them in all channels mean.
 
     Args:
         repeated: rows.
@@ -171,8 +176,8 @@ def describe_repeats(repeated: int, rows: int, rate: float) -> str:
         rate: of them, Hz.
     """
     return (
-        f"all channels: {repeated} rows ({format_percent(repeated / rows)}) repeat the row before "
-        "them: "
+        f"all channels: {repeated} rows ({format_percent(repeated / rows)}) repeat the row "
+        "before them: "
         "the recorder is faster than the robot, which gave about "
         f"{rate * (1.0 - repeated / rows):.3g} rows a second; repeats are left out; record at the "
         "rate of the robot"
@@ -192,7 +197,7 @@ def _describe_mismatch(
         return ""
     others = {q: abs(other) for q, other in like.items()}
     other = max(others, key=lambda q: np.nan_to_num(others[q]), default="")
-    if other and others[other] > _LIKE:
+    if other and others[other] > THRESHOLDS.min_derivative_correlation:
         return (
             f"{pair.speed} is the derivative of {other}, not of {pair.position}: are columns "
             "exchanged?"
@@ -202,9 +207,9 @@ def _describe_mismatch(
 
 def _describe_ratio(pair: RatePair) -> str:
     """What a speed is times the derivative of its position, if not 1, and what that looks like."""
-    if abs(pair.ratio - 1.0) < _NEAR:
+    if abs(pair.ratio - 1.0) < THRESHOLDS.max_ratio_deviation:
         return ""
-    if abs(pair.ratio + 1.0) < _NEAR:
+    if abs(pair.ratio + 1.0) < THRESHOLDS.max_ratio_deviation:
         return f"{pair.speed} has the other sign of the derivative of {pair.position}"
     units = infer_units(pair.ratio)
     words = f": {pair.position} in {units[0]} and {pair.speed} in {units[1]}?" if units else ""
@@ -213,7 +218,7 @@ def _describe_ratio(pair: RatePair) -> str:
 
 def _correlate(a: np.ndarray, b: np.ndarray) -> float:
     both = np.isfinite(a) & np.isfinite(b)
-    if both.sum() < _LEAST:
+    if both.sum() < THRESHOLDS.min_compared_rows:
         return np.nan
     with np.errstate(all="ignore"):
         if not a[both].std() > 0.0 or not b[both].std() > 0.0:

@@ -10,7 +10,7 @@ from scipy.linalg.lapack import sposv
 from scipy.optimize import nnls
 from scipy.sparse import csr_array, diags_array
 
-from modeler.core.law import BESIDE, Law
+from modeler.core.expression import BESIDE, Law
 from modeler.numerics.thresholds import THRESHOLDS
 
 LEAST = 100

@@ -11,9 +11,8 @@ from dataclasses import replace
 import numpy as np
 
 from modeler.codegen import derive, generate
-from modeler.core.builtin import read_builtin_robot
-from modeler.core.figure import Curve, Panel, Picture
-from modeler.core.style import BLACK, ORANGE, SKY, Style
+from modeler.core.choices import read_builtin_robot
+from modeler.core.figure import BLACK, ORANGE, SKY, Curve, Panel, Picture, Style
 from modeler.core.table import format_percent
 from modeler.estimation import GainFit, Payload, identify_gains, identify_with_payloads
 from modeler.papers.methods import (

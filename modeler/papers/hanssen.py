@@ -12,10 +12,9 @@ import numpy as np
 
 from modeler import formulas
 from modeler.codegen import Derivation, derive, generate
-from modeler.core.builtin import read_builtin_robot
+from modeler.core.choices import read_builtin_robot
 from modeler.core.expression import parse_expression
-from modeler.core.figure import Curve, Panel, Picture
-from modeler.core.style import BLUE, GREEN, GREY, VERMILLION, Style
+from modeler.core.figure import BLUE, GREEN, GREY, VERMILLION, Curve, Panel, Picture, Style
 from modeler.core.table import format_percent
 from modeler.estimation import JointDirections, TwoStepFit, identify_in_two_steps
 from modeler.papers.methods import (

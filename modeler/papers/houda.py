@@ -10,7 +10,7 @@ from dataclasses import replace
 import numpy as np
 
 from modeler.codegen import derive, generate
-from modeler.core.builtin import read_builtin_robot
+from modeler.core.choices import read_builtin_robot
 from modeler.estimation import FitResult, compute_friction_by_direction, identify, identify_energy
 from modeler.papers.methods import (
     MethodRow,

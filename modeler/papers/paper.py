@@ -25,7 +25,7 @@ import numpy as np
 import sympy
 
 from modeler import derivation, formulas
-from modeler.core.builtin import list_papers
+from modeler.core.choices import list_papers
 from modeler.core.errors import RobotError
 from modeler.core.expression import parse_expression
 from modeler.core.json import build_instance

@@ -11,8 +11,14 @@ from decimal import Decimal
 from fractions import Fraction
 from typing import Any
 
-from modeler.core import rounded
-from modeler.core.expression import FUNCTIONS, LARGEST_EXPONENT, Expression, parse_expression
+from modeler.core.expression import (
+    FUNCTIONS,
+    LARGEST_EXPONENT,
+    ROUNDED,
+    Expression,
+    compute_power,
+    parse_expression,
+)
 from modeler.core.toml_cells import LARGEST, TomlCell, join_names, quote_value, suggest_name
 from modeler.robot.thresholds import THRESHOLDS
 
@@ -185,7 +191,7 @@ class Linear:
         power = exponent if isinstance(exponent, int) else exponent._get_constant()
         if abs(power) > LARGEST_EXPONENT:
             raise HighPower
-        value = rounded.compute_power(self._get_constant(), power)
+        value = compute_power(self._get_constant(), power)
         if isinstance(value, complex):
             raise ArithmeticError
         return Linear(float(value))
@@ -221,7 +227,7 @@ def extract_linear_form(expression: Expression, symbols: Mapping[str, float]) ->
 
 
 def _lift_function(name: str) -> Callable[["Linear"], "Linear"]:
-    function = rounded.FUNCTIONS[name]
+    function = ROUNDED[name]
 
     def apply_function(argument: Linear) -> Linear:
         try:

@@ -12,7 +12,7 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
-from modeler.core.builtin import TEMPLATES, list_builtin_robots, read_builtin_robot, read_template
+from modeler.core.choices import TEMPLATES, list_builtin_robots, read_builtin_robot, read_template
 from modeler.core.errors import DataError, RobotError
 from modeler.core.files import DestinationKind, read_text, resolve_destination, write_atomically
 from modeler.core.json import TomlError, parse_toml

@@ -4,7 +4,7 @@ import math
 from collections.abc import Collection, Iterator, Mapping
 from typing import Any, get_args
 
-from modeler.core.errors import GAIN_METHOD, TWO_STEPS, Derivatives, Method
+from modeler.core.choices import GAIN_METHOD, TWO_STEPS, Derivatives, Method
 from modeler.core.expression import Expression
 from modeler.core.manifest import DriveSpec
 from modeler.core.toml_cells import TomlCell, join_names, quote_value, suggest_name

@@ -2,6 +2,7 @@ from .build import (
     build_portable_library as build_portable_library,
     find_cache_folder as find_cache_folder,
     find_toolchain as find_toolchain,
+    map_parts as map_parts,
 )
 from .fused import (
     NonzeroPattern as NonzeroPattern,
@@ -16,4 +17,3 @@ from .model import (
     load_folder as load_folder,
     load_module as load_module,
 )
-from .threads import map_parts as map_parts

@@ -15,28 +15,6 @@ from modeler.core.files import locate_resources
 from modeler.core.manifest import FunctionSpec, ModuleSpec
 from modeler.runtime.build import build_library
 
-FUNCTIONS = {
-    "regressor": 3, "base_regressor": 3, "base_regressor_nonzeros": 3, "inverse_dynamics": 4,
-    "inertia_matrix": 2, "gravity": 2, "coriolis": 3, "friction": 2, "base_parameters": 1,
-    "forward_kinematics": 1,
-}  # fmt: skip
-"""Functions that every module has, and how many inputs they read."""
-
-LOOP_FUNCTIONS = {
-    **{role: count for role, count in FUNCTIONS.items() if role != "base_regressor_nonzeros"},
-    "friction": 3, "close": 1, "close_from": 2, "coupling": 1,
-}  # fmt: skip
-"""Those of a robot with loops."""
-
-PLATFORM_FUNCTIONS = {
-    "platform_base_regressor": 3, "platform_inverse_dynamics": 4, "platform_close": 1,
-    "platform_close_from": 2, "platform_coupling": 1,
-}  # fmt: skip
-"""Those of a robot with loops and a platform besides."""
-
-READ_SIGNALS = ("regressor", "base_regressor", "base_regressor_nonzeros", "inverse_dynamics")
-"""Functions with one input more where effects read signals."""
-
 _INPUT = "typedef struct { const double *data; size_t step; } modeler_input;"
 _BATCH = "void modeler_batch_{}(void *, size_t, const modeler_input *, double *, size_t{});"
 
@@ -55,6 +33,10 @@ def _open_library(declared: str, path: Path) -> tuple[cffi.FFI, Any]:
         raise BuildError(
             f"{path}: the compiled library cannot be loaded ({error}); delete it and try again"
         ) from error
+
+
+def _declared(name: str) -> str:
+    return Path(__file__).with_name(f"{name}_functions.h").read_text("utf-8")
 
 
 class _ArrayLibrary:
@@ -112,7 +94,7 @@ class Library(_ArrayLibrary):
     """
 
     def __init__(self, spec: ModuleSpec, path: Path) -> None:
-        """Load the library at `path`.
+        """Loads the library at `path`.
 
         Raises:
             BuildError: it cannot be loaded.
@@ -138,16 +120,21 @@ class Library(_ArrayLibrary):
         return getattr(self._library, f"{self.spec.prefix}_{role}")
 
     def find_address(self, name: str) -> int:
-        """Where a function of the library stands, for C that calls it; the caller holds this."""
+        """Returns the address of a function, for C that calls it; the caller holds this."""
         return int(self._ffi.cast("uintptr_t", getattr(self._library, name)))
 
     @property
     def closing_addresses(self) -> list[int]:
-        """Where C stands that closes loops: tables, and functions as the unit of tiles has them."""
+        """Returns addresses of the C that closes loops.
+
+        Tables and functions, as the tiles need them.
+        """
         names = [f"{self.spec.prefix}_{name}" for name in ("loops", "posed", "tree_next")]
         names.append(f"{self._runtime}_eliminated")
-        return [int(self._ffi.cast("uintptr_t", self._ffi.addressof(self._library, name)))
-                for name in names]  # fmt: skip
+        return [
+            int(self._ffi.cast("uintptr_t", self._ffi.addressof(self._library, name)))
+            for name in names
+        ]
 
     def run_batch(
         self,
@@ -156,7 +143,7 @@ class Library(_ArrayLibrary):
         out: np.ndarray,
         status: np.ndarray | None = None,
     ) -> None:
-        """Call `function` for every sample.
+        """Calls `function` for every sample.
 
         Args:
             function: of the manifest.
@@ -207,7 +194,7 @@ class Library(_ArrayLibrary):
     def fill_observation(
         self, states: Sequence[np.ndarray], W: np.ndarray, status: np.ndarray | None = None
     ) -> None:
-        """Fill W, (n*joints, columns).
+        """Fills W, (n*joints, columns).
 
         Args:
             states: (n, joints) q, qd, qdd and, for effects that read any, (n, signals) s.
@@ -224,7 +211,7 @@ class Library(_ArrayLibrary):
     def fill_base_parameters(
         self, function: FunctionSpec, chi: np.ndarray, beta: np.ndarray
     ) -> None:
-        """Fill beta from chi by the grouping relations."""
+        """Fills beta from chi by the grouping relations."""
         (parameters,), result = self._prepare_inputs([chi]), self._prepare_output(beta)
         getattr(self._library, function.name)(
             self._cast_numbers(parameters), self._cast_numbers(result)
@@ -233,33 +220,17 @@ class Library(_ArrayLibrary):
 
 
 def check_names(spec: ModuleSpec) -> None:
-    """Refuse manifests whose functions could not be declared, or that lack one.
+    """Refuses manifests whose functions could not be declared.
 
-    Files are named after the prefix, so this comes before any is read or written.
+    Files are named after the prefix, so this comes before any is read or written. What a manifest
+    says of functions that the code has not is refused by its signature.
 
     Raises:
-        ManifestError: a name is no C name, or a function is missing.
+        ManifestError: a name is no C name.
     """
-    inputs = {function.name: len(function.inputs) for function in spec.every_function}
-    for name in (spec.prefix, *inputs):
+    for name in (spec.prefix, *(function.name for function in spec.every_function)):
         if not re.fullmatch(r"[A-Za-z_][A-Za-z0-9_]*", name):
             raise ManifestError(f'{spec.robot}: got the name "{name}", expected a C name')
-    wanted = FUNCTIONS
-    if spec.closure is not None:
-        wanted = LOOP_FUNCTIONS | (PLATFORM_FUNCTIONS if spec.closure.platform else {})
-    more = int(bool(spec.signals))
-    for role, count in wanted.items():
-        got = inputs.get(f"{spec.prefix}_{role}")
-        if got is None and spec.units is not None:
-            continue
-        count += more if role in READ_SIGNALS else 0
-        if role == "friction" and got == 4 + more:  # effects that read positions or loads
-            continue
-        if got != count:
-            raise ManifestError(
-                f"{spec.robot}: the manifest names {got or 'no'} inputs of {role}, expected "
-                f"{count}; generate it again"
-            )
 
 
 def _write_declarations(spec: ModuleSpec) -> str:
@@ -292,38 +263,15 @@ def _write_declarations(spec: ModuleSpec) -> str:
 
 _SOURCES = ("modeler_fused.c",)
 _HEADERS = (
-    "modeler_fused.h", "modeler_fused_body.h", "modeler_tile.h", "modeler_batch.h",
-    "modeler_runtime.h", "modeler_real.h",
-)  # fmt: skip
+    "modeler_fused.h",
+    "modeler_fused_body.h",
+    "modeler_tile.h",
+    "modeler_batch.h",
+    "modeler_runtime.h",
+    "modeler_real.h",
+)
 _DECISIVE = ("CC", "CFLAGS", "PATH", "MODELER_CACHE", "XDG_CACHE_HOME", "HOME")
 """Variables that decide which library is meant, and where it is kept."""
-
-_FUSED_DECLARED = """
-typedef struct {
-    int joints, signals, nonzeros;
-    const int *row;
-    void *tile, *entries, *entries_signals;
-} modeler_source;
-typedef struct {
-    const double *q, *qd, *qdd, *s, *tau;
-    const unsigned char *use;
-    const double *weight;
-} modeler_samples;
-typedef struct {
-    size_t rows, step, y_step, use_step;
-    int columns;
-    const int *column;
-    const double *W, *y;
-    const unsigned char *use;
-} modeler_rows;
-int modeler_fused_level(int);
-size_t modeler_fused_work(const modeler_source *);
-size_t modeler_fused_triangles(const modeler_source *, size_t, const modeler_samples *, int,
-                               double *, size_t *, unsigned char *, void *);
-void modeler_fused_merge(const modeler_source *, int, double *, const double *, void *);
-size_t modeler_rows_work(int);
-size_t modeler_rows_triangle(const modeler_rows *, int, double *, size_t *, void *);
-"""
 
 
 class EntryFunctions(NamedTuple):
@@ -352,7 +300,7 @@ class SampleArrays(NamedTuple):
     weight: np.ndarray | None
 
     def select_block(self, block: slice) -> "SampleArrays":
-        """The samples of a block."""
+        """Returns the samples of a block."""
         return SampleArrays._make(None if array is None else array[block] for array in self)
 
 
@@ -360,15 +308,15 @@ class FusedLibrary:
     """The loaded library; its functions release the interpreter lock and keep nothing."""
 
     def __init__(self, path: Path) -> None:
-        """Load the library at `path`.
+        """Loads the library at `path`.
 
         Raises:
             BuildError: it cannot be loaded.
         """
-        self._ffi, self._library = _open_library(_FUSED_DECLARED, path)
+        self._ffi, self._library = _open_library(_declared("fused"), path)
 
     def resolve_level(self, wanted: int = 0) -> int:
-        """Which instructions a wanted level means here; 0: the best.
+        """Returns the instructions that a wanted level means here; 0: the best.
 
         1: those of every processor of its kind, 2: AVX2, 3: AVX-512.
         """
@@ -383,7 +331,7 @@ class FusedLibrary:
         state: np.ndarray,
         rows: np.ndarray,
     ) -> np.ndarray:
-        """Add samples to a state; (samples,) True for those that were left out.
+        """Adds samples to a state; returns (samples,) True for those that were left out.
 
         Args:
             rows_of_entries: (entries,) C int, row after row.
@@ -411,7 +359,7 @@ class FusedLibrary:
     def merge_states(
         self, rows_of_entries: np.ndarray, joints: int, state: np.ndarray, other: np.ndarray
     ) -> None:
-        """Add the rows of another state to a state."""
+        """Adds the rows of another state to a state."""
         source = self._make_source(rows_of_entries, EntryFunctions(0), joints)
         work = self._allocate_work(self._library.modeler_fused_work(source))
         self._library.modeler_fused_merge(
@@ -423,10 +371,15 @@ class FusedLibrary:
         )
 
     def add_rows(
-        self, W: np.ndarray, y: np.ndarray, use: np.ndarray | None, columns: np.ndarray,
-        level: int, triangle: np.ndarray,
-    ) -> tuple[int, int]:  # fmt: skip
-        """Add rows that stand in memory to one triangle; rows added, rows left out.
+        self,
+        W: np.ndarray,
+        y: np.ndarray,
+        use: np.ndarray | None,
+        columns: np.ndarray,
+        level: int,
+        triangle: np.ndarray,
+    ) -> tuple[int, int]:
+        """Adds rows that stand in memory to one triangle; returns rows added and rows left out.
 
         Args:
             W: (rows, c) rows one after another in memory, any step.
@@ -451,9 +404,12 @@ class FusedLibrary:
         added = np.zeros(1, dtype=np.uintp)
         work = self._allocate_work(self._library.modeler_rows_work(len(columns)))
         left = self._library.modeler_rows_triangle(
-            self._ffi.new("modeler_rows *", fields), level, self._make_pointer(triangle),
-            self._make_pointer(added), self._make_pointer(work),
-        )  # fmt: skip
+            self._ffi.new("modeler_rows *", fields),
+            level,
+            self._make_pointer(triangle),
+            self._make_pointer(added),
+            self._make_pointer(work),
+        )
         return int(added[0]), int(left)
 
     def _make_source(
@@ -463,13 +419,15 @@ class FusedLibrary:
         return self._ffi.new(
             "modeler_source *",
             {
-                "joints": joints, "signals": reads, "nonzeros": len(rows_of_entries),
+                "joints": joints,
+                "signals": reads,
+                "nonzeros": len(rows_of_entries),
                 "row": self._make_pointer(rows_of_entries),
                 "tile": self._ffi.cast("void *", functions.tile),
                 "entries": self._ffi.cast("void *", 0 if reads else plain),
                 "entries_signals": self._ffi.cast("void *", plain if reads else 0),
             },
-        )  # fmt: skip
+        )
 
     def _make_samples(self, samples: SampleArrays) -> Any:
         arrays = {name: self._make_pointer(array) for name, array in samples._asdict().items()}
@@ -485,7 +443,7 @@ class FusedLibrary:
 
 
 def load_fused_library() -> FusedLibrary:
-    """The library, compiled once per machine and then taken from the cache.
+    """Returns the library, compiled once per machine and then taken from the cache.
 
     Raises:
         BuildError: no compiler, or it refused.
@@ -507,39 +465,17 @@ def _load_cached(environment: tuple[str, ...]) -> FusedLibrary:
 # It is a library of its own, which is compiled when it is first asked for: small work does without.
 
 
-_TILE_DECLARED = """
-typedef struct {{
-    int joints, columns, signals, nonzeros;
-    const int *row, *column;
-    void *tile, *closing;
-    size_t room;
-    const void *singles;
-}} modeler_tiled;
-const modeler_tiled *{prefix}_tiled(void);
-const char *{prefix}_tile_signature(void);
-size_t modeler_tile_work(const modeler_tiled *);
-void modeler_tile_observation(const modeler_tiled *, size_t, const double *, const double *,
-                              const double *, const double *, double *, void *);
-void modeler_tile_nonzeros(const modeler_tiled *, size_t, const double *, const double *,
-                           const double *, const double *, double *, void *);
-void modeler_tile_columns(const modeler_tiled *, size_t, const double *, const double *,
-                          const double *, const double *, double *, size_t, void *);
-void modeler_tile_closed(const modeler_tiled *, size_t, const double *, const double *,
-                         const double *, double *, size_t, int *, void *);
-"""
-
-
 class TileLibrary(_ArrayLibrary):
     """A loaded library; its functions release the interpreter lock and may run in threads."""
 
     def __init__(self, spec: ModuleSpec, path: Path, library: Library) -> None:
-        """Load the library at `path`; `library` has what closes loops one after another.
+        """Loads the library at `path`; `library` has what closes loops one after another.
 
         Raises:
             BuildError: it cannot be loaded.
             ManifestError: it was emitted with another manifest.
         """
-        super().__init__(spec, _TILE_DECLARED.format(prefix=spec.prefix), path)
+        super().__init__(spec, _declared("tile").replace("PREFIX", spec.prefix), path)
         answer = getattr(self._library, f"{spec.prefix}_tile_signature")()
         if (got := self._ffi.string(answer).decode()) != spec.compute_signature():
             raise ManifestError(
@@ -550,18 +486,24 @@ class TileLibrary(_ArrayLibrary):
         self._tiled = self._ffi.new(f"{self._runtime}_tiled *", tiled[0])
         if spec.closure is not None:
             self._singles = self._ffi.new("uintptr_t[]", library.closing_addresses)
-            self._tiled.singles = self._singles
+            self._tiled.closing_addresses = self._singles
 
     @property
     def tile_address(self) -> int:
-        """Where the function of one tile stands, for C that calls it; the caller holds this."""
+        """Returns the address of the function of one tile, for C that calls it.
+
+        The caller holds this.
+        """
         return int(self._ffi.cast("uintptr_t", self._tiled.tile))
 
     def fill_samples(
-        self, inputs: Sequence[np.ndarray], out: np.ndarray, dense: bool,
+        self,
+        inputs: Sequence[np.ndarray],
+        out: np.ndarray,
+        dense: bool,
         status: np.ndarray | None = None,
-    ) -> None:  # fmt: skip
-        """Evaluate samples.
+    ) -> None:
+        """Evaluates samples.
 
         Args:
             inputs: q, qd, qdd and, with signals, s: (n, ...), C-contiguous.
@@ -594,7 +536,7 @@ class TileLibrary(_ArrayLibrary):
 
 
 def load_tile_library(spec: ModuleSpec, files: Mapping[str, str], library: Library) -> TileLibrary:
-    """The library of these files, compiled once and then taken from the cache.
+    """Returns the library of these files, compiled once and then taken from the cache.
 
     Args:
         spec: the manifest.

@@ -1,21 +1,96 @@
-"""Compiling on this machine: the C compiler, its flags, the cache of libraries."""
+"""Compiling on this machine: compiler, flags, threads, the cache of libraries."""
 
 import dataclasses
 import hashlib
 import os
 import shlex
 import shutil
+import struct
 import subprocess
 import sys
 import tempfile
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 from functools import lru_cache
+from itertools import pairwise
 from pathlib import Path
+from typing import TypeVar
 
 from modeler.core.errors import BuildError
-from modeler.runtime import microsoft
-from modeler.runtime.threads import map_parts
+
+A = TypeVar("A")
+T = TypeVar("T")
+
+
+def count_processors() -> int:
+    """Returns how many this process may use."""
+    if hasattr(os, "sched_getaffinity"):
+        return len(os.sched_getaffinity(0))
+    return os.cpu_count() or 1
+
+
+def split_samples(samples: int, least: int) -> list[slice]:
+    """Returns the samples in about equal parts, one for each thread that is worth starting.
+
+    Args:
+        samples: how many.
+        least: that a thread is worth starting for.
+    """
+    count = max(1, min(count_processors(), samples // least))
+    borders = [samples * k // count for k in range(count + 1)]
+    return [slice(a, b) for a, b in pairwise(borders)]
+
+
+def map_parts(function: Callable[[A], T], parts: Sequence[A]) -> Iterator[T]:
+    """Yields the function of each part, in their order; in threads where there are several."""
+    threads = min(len(parts), count_processors())
+    if threads < 2:
+        yield from map(function, parts)
+        return
+    with ThreadPoolExecutor(threads) as pool:
+        yield from pool.map(function, parts)
+
+
+# Microsoft's compiler and linker: the flags that they take, and what a library of theirs exports.
+#
+# Only what a list names is exported. `clang` for that system writes the same objects.
+
+
+MICROSOFT_BANNER = "Microsoft (R)"
+"""What `cl` says of itself when it is started alone."""
+
+MICROSOFT_ALWAYS = ("/nologo", "/std:c11", "/utf-8")
+MICROSOFT_PORTABLE = (*MICROSOFT_ALWAYS, "/O2", "/fp:precise")
+MICROSOFT_WANTED = ("/fp:contract",)
+"""Fused multiply-add, where /arch allows it; cl of before 2022 does not know it."""
+
+_EXTERNAL = 2  # IMAGE_SYM_CLASS_EXTERNAL
+
+
+def read_exported_names(coff: bytes) -> list[str]:
+    """Returns functions and tables that an object defines for others.
+
+    From its symbol table, as in "PE Format", sections "COFF File Header" and "COFF Symbol Table":
+    18 bytes each, long names in the table of strings after them.
+    """
+    start, count = struct.unpack_from("<II", coff, 8)
+    names, k = list[str](), 0
+    while k < count:
+        at = start + 18 * k
+        short, _, section, _, storage, more = struct.unpack_from("<8sIhHBB", coff, at)
+        if short[:4] == bytes(4):
+            first = start + 18 * count + int.from_bytes(short[4:], "little")
+            short = coff[first : coff.index(b"\0", first)]
+        name = short.rstrip(b"\0").decode()
+        if storage == _EXTERNAL and section > 0 and name.isidentifier():  # no `__real@...`
+            names.append(name)
+        k += 1 + more  # what follows a symbol tells more of it
+    return names
+
+
+# Compiling on this machine: the C compiler, its flags, the cache of libraries.
+
 
 _WINDOWS = sys.platform == "win32"
 
@@ -61,7 +136,7 @@ class Toolchain:
 
 
 def find_toolchain() -> Toolchain:
-    """The compiler named by the environment variable CC, else the first of cc, gcc, clang.
+    """Returns the compiler named by the environment variable CC, else the first of cc, gcc, clang.
 
     On Windows cl, Microsoft's, comes after them.
 
@@ -104,8 +179,8 @@ def _examine_compiler(command: tuple[str, ...], user_flags: tuple[str, ...]) -> 
     macros = _run_compiler(command, [*used, "-dM", "-E", "-x", "c", os.devnull])
     if macros.returncode != 0 and not _can_use(command, []):
         alone = _run_compiler(command, [])
-        if microsoft.BANNER in (banner := alone.stderr + alone.stdout):
-            flags = (*microsoft.ALWAYS, *(user_flags or ("/O2", *_find_microsoft_flags(command))))
+        if MICROSOFT_BANNER in (banner := alone.stderr + alone.stdout):
+            flags = (*MICROSOFT_ALWAYS, *(user_flags or ("/O2", *_find_microsoft_flags(command))))
             return Toolchain(command, flags, banner, microsoft=True)
     elif user_flags and macros.returncode != 0:
         message = macros.stderr.strip().partition("\n")[0]
@@ -123,8 +198,8 @@ def _find_microsoft_flags(command: tuple[str, ...]) -> list[str]:
         empty = Path(scratch) / "empty.c"
         empty.touch()
         tried = {
-            f: _run_compiler(command, microsoft.build_check_arguments(f, empty))
-            for f in microsoft.WANTED
+            flag: _run_compiler(command, [*MICROSOFT_ALWAYS, flag, "/Zs", str(empty)])
+            for flag in MICROSOFT_WANTED
         }
     return [flag for flag, ended in tried.items() if ended.returncode == 0]
 
@@ -172,7 +247,7 @@ def _run_compiler(
 
 
 def compile_library(tools: Toolchain, folder: Path, sources: Sequence[str], output: Path) -> None:
-    """Compile C files of `folder` into the shared library `output`; one compiler per processor.
+    """Compiles C files of `folder` into the shared library `output`; one compiler per processor.
 
     Raises:
         BuildError: the compiler refused; quotes its own words.
@@ -181,7 +256,8 @@ def compile_library(tools: Toolchain, folder: Path, sources: Sequence[str], outp
     def compile_one(source: str) -> str:
         result = str(folder / f"{source}.obj")
         if tools.microsoft:
-            _run_checked(tools, microsoft.build_compile_arguments(folder, folder / source, result))
+            words = ["/I", str(folder), "/c", f"/Fo{result}", str(folder / source)]
+            _run_checked(tools, words)
         else:
             _run_checked(tools, ["-I", str(folder), "-c", "-o", result, str(folder / source)])
         return result
@@ -191,7 +267,7 @@ def compile_library(tools: Toolchain, folder: Path, sources: Sequence[str], outp
     _run_checked(tools, _build_link_arguments(tools, folder / "exports.def", objects, output))
     if not output.is_file():
         raise BuildError(
-            f"C compiler: {shlex.join(tools.command)} ended without a mistake, and made nothing; "
+            f"C compiler: {shlex.join(tools.command)} succeeded but wrote no library; "
             "expected a C compiler, such as gcc; correct CC"
         )
 
@@ -201,9 +277,10 @@ def _build_link_arguments(
 ) -> Sequence[str]:
     if not (tools.microsoft or "#define _MSC_VER " in tools.identity):
         return ["-shared", "-o", str(output), *objects, "-lm"]
-    export_list.write_text(microsoft.format_exports(objects), encoding="ascii")
+    names = {name for place in objects for name in read_exported_names(Path(place).read_bytes())}
+    export_list.write_text("\n".join(["EXPORTS", *sorted(names), ""]), encoding="ascii")
     if tools.microsoft:
-        return microsoft.build_link_arguments(objects, output, export_list)
+        return ["/LD", *objects, f"/Fe{output}", "/link", f"/DEF:{export_list}"]
     return ["-shared", "-o", str(output), *objects, f"-Wl,/DEF:{export_list}"]
 
 
@@ -211,7 +288,7 @@ def _run_checked(tools: Toolchain, arguments: Sequence[str]) -> None:
     result = _run_compiler([*tools.command, *tools.flags], arguments)
     if result.returncode != 0:
         words = result.stderr.strip() or result.stdout.strip()  # cl writes there
-        words = words or f"exit status {result.returncode}, without a word"
+        words = words or f"exit status {result.returncode}, no output"
         raise BuildError(
             f"C compiler: {shlex.join(tools.command)} refused the emitted code:\n{words}\n"
             "(check it, or name another one in CC)"
@@ -222,7 +299,7 @@ _PORTABLE = (*_ALWAYS, "-O2", "-ffp-contract=off", "-fvisibility=hidden")
 
 
 def build_portable_library(sources: Mapping[str, str]) -> bytes:
-    """A shared library of these C files that runs on any processor of this kind.
+    """Returns a shared library of these C files that runs on any processor of this kind.
 
     Args:
         sources: {file name: text}, headers included.
@@ -231,7 +308,7 @@ def build_portable_library(sources: Mapping[str, str]) -> bytes:
         BuildError: no compiler, or it refused.
     """
     tools = find_toolchain()
-    flags = microsoft.PORTABLE if tools.microsoft else _PORTABLE
+    flags = MICROSOFT_PORTABLE if tools.microsoft else _PORTABLE
     tools = dataclasses.replace(tools, flags=flags)
     with tempfile.TemporaryDirectory() as scratch:
         for name, text in sources.items():
@@ -241,13 +318,14 @@ def build_portable_library(sources: Mapping[str, str]) -> bytes:
         return made.read_bytes()
 
 
-# The folder of compiled libraries: one folder for each, named by a hash of all that can change it.
-# Nothing is removed from it: it grows, and may be deleted at any time. A library that a process has
-# loaded may go: the system keeps its content until the process ends.
+# The folder of compiled libraries: one file for each, named by a hash of all that can change it.
+#
+# It grows, and may be deleted at any time: the system keeps the content of a library that a process
+# has loaded until the process ends. Any number of processes may use and build libraries at once.
 
 
 def find_cache_folder() -> Path:
-    """$MODELER_CACHE, else $XDG_CACHE_HOME/modeler, else where the system keeps caches.
+    """Returns $MODELER_CACHE, else $XDG_CACHE_HOME/modeler, else where the system keeps caches.
 
     That is ~/.cache/modeler, ~/Library/Caches/modeler on macOS, %LOCALAPPDATA%/modeler on Windows.
     """
@@ -260,44 +338,27 @@ def find_cache_folder() -> Path:
     return (Path(shared) if shared else Path.home() / usual) / "modeler"
 
 
-def list_libraries(folder: Path) -> list[Path]:
-    """The libraries of an entry; none where there is no entry."""
-    try:
-        return sorted(path for path in folder.iterdir() if path.suffix == SUFFIX)
-    except FileNotFoundError:
-        return []
-
-
 def is_intact(library: Path) -> bool:
-    """True for a library that is what was built: its name is the hash of its content.
+    """Returns True for a library that is what was built: its name ends in the hash of its content.
 
     False too where another process has removed it.
     """
     try:
-        return hashlib.sha256(library.read_bytes()).hexdigest() == library.stem
+        digest = hashlib.sha256(library.read_bytes()).hexdigest()
     except FileNotFoundError:
         return False
-
-
-def move_into_cache(made: Path, final: Path) -> None:
-    """Moves a library into its folder."""
-    final.parent.mkdir(exist_ok=True)
-    try:
-        made.replace(final)
-    except PermissionError:  # Windows: a process has it loaded, who built the same
-        if not is_intact(final):
-            raise
+    return digest == library.stem.partition("-")[2]
 
 
 # A shared library from emitted files, kept in a cache.
 #
 # The cache is keyed by everything that can change the library: sources, flags, compiler, processor.
-# The library's file name is the hash of its own bytes, so a damaged one is noticed and built again;
+# The library's name has the hash of its own bytes too, so a damaged one is noticed and built again;
 # it is renamed into place, so that any number of processes may build the same robot at once.
 
 
 def build_library(sources: Mapping[str, str]) -> Path:
-    """Path of the shared library of these C files, compiled unless the cache has it.
+    """Returns path of the shared library of these C files, compiled unless the cache has it.
 
     Args:
         sources: {file name: text}, headers included.
@@ -306,10 +367,10 @@ def build_library(sources: Mapping[str, str]) -> Path:
         BuildError: no compiler, the compiler refused, or the cache cannot be written.
     """
     tools = find_toolchain()
-    folder = find_cache_folder() / _compute_key(sources, tools)
+    folder, key = find_cache_folder(), _compute_key(sources, tools)
     try:
-        cached = _find_intact_library(folder)
-        return cached if cached is not None else _build_entry(sources, tools, folder)
+        cached = _find_intact_library(folder, key)
+        return cached if cached is not None else _build_entry(sources, tools, folder, key)
     except IsADirectoryError as error:
         raise BuildError(
             f"{error.filename}: is a folder; expected a compiled library of the cache; remove it"
@@ -330,13 +391,12 @@ def _compute_key(sources: Mapping[str, str], tools: Toolchain) -> str:
     return hashlib.sha256(text.encode()).hexdigest()
 
 
-def _find_intact_library(folder: Path) -> Path | None:
-    """The library of `folder`, if it is still what was built."""
-    return next((path for path in list_libraries(folder) if is_intact(path)), None)
+def _find_intact_library(cache: Path, key: str) -> Path | None:
+    """Returns the library of that key, if it is still what was built."""
+    return next((path for path in sorted(cache.glob(f"{key}-*")) if is_intact(path)), None)
 
 
-def _build_entry(sources: Mapping[str, str], tools: Toolchain, folder: Path) -> Path:
-    cache = folder.parent
+def _build_entry(sources: Mapping[str, str], tools: Toolchain, cache: Path, key: str) -> Path:
     cache.mkdir(parents=True, exist_ok=True)
     with tempfile.TemporaryDirectory(dir=cache, prefix=".build-") as scratch:
         for name, text in sources.items():
@@ -344,9 +404,14 @@ def _build_entry(sources: Mapping[str, str], tools: Toolchain, folder: Path) -> 
         made = Path(scratch) / f"library{SUFFIX}"
         units = [name for name in sorted(sources) if name.endswith(".c")]
         compile_library(tools, Path(scratch), units, made)
-        final = folder / f"{hashlib.sha256(made.read_bytes()).hexdigest()}{SUFFIX}"
-        move_into_cache(made, final)
-    for other in list_libraries(folder):
+        digest = hashlib.sha256(made.read_bytes()).hexdigest()
+        final = cache / f"{key}-{digest}{SUFFIX}"
+        try:
+            made.replace(final)
+        except PermissionError:  # Windows: a process has it loaded, who built the same
+            if not is_intact(final):
+                raise
+    for other in cache.glob(f"{key}-*"):
         if other != final and not is_intact(other):
             other.unlink(missing_ok=True)
     return final

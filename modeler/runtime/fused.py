@@ -18,7 +18,7 @@ from modeler.core.errors import ManifestError, ShapeError
 from modeler.core.manifest import FunctionSpec, ModuleSpec
 from modeler.runtime import bind
 from modeler.runtime.bind import EntryFunctions, FusedLibrary, Library, SampleArrays, TileLibrary
-from modeler.runtime.threads import map_parts, split_samples
+from modeler.runtime.build import map_parts, split_samples
 
 BLOCK = 16384
 """Samples that are reduced by themselves."""
@@ -40,25 +40,28 @@ class NonzeroPattern(ShortRepr):
 
     @cached_property
     def sizes(self) -> list[int]:
-        """Of the packed triangles: columns and torque, then zeros up to a multiple of 4."""
+        """Returns the sizes of the packed triangles.
+
+        Columns and torque, then zeros up to a multiple of 4.
+        """
         return [(len(joint_columns) + 1 + 3) // 4 * 4 for joint_columns in self.columns]
 
     @cached_property
     def rows_of_entries(self) -> np.ndarray:
-        """(entries,) joint of each entry, joint after joint."""
+        """Returns (entries,) joint of each entry, joint after joint."""
         counts = [len(joint_columns) for joint_columns in self.columns]
         return np.repeat(np.arange(len(counts), dtype=np.intc), counts)
 
     @cached_property
     def spans(self) -> list[slice]:
-        """Of each joint, from its first column to its last; all others are 0."""
+        """Returns the columns of each joint from its first to its last; all others are 0."""
         return [
             slice(joint_columns[0], joint_columns[-1] + 1) if joint_columns.size else slice(0)
             for joint_columns in self.columns
         ]
 
     def split_triangles(self, packed: np.ndarray) -> list[np.ndarray]:
-        """The square triangle of each joint, views."""
+        """Returns the square triangle of each joint, views."""
         ends = np.cumsum([size * size for size in self.sizes])
         return [
             part.reshape(size, size)
@@ -67,7 +70,7 @@ class NonzeroPattern(ShortRepr):
 
 
 def build_pattern(entries: Sequence[tuple[int, int]], joints: int, width: int) -> NonzeroPattern:
-    """The pattern of (joint, column) entries."""
+    """Returns the pattern of (joint, column) entries."""
     columns = [sorted(c for joint, c in entries if joint == j) for j in range(joints)]
     return NonzeroPattern(
         tuple(np.array(joint_columns, dtype=np.intc) for joint_columns in columns), width
@@ -92,7 +95,9 @@ class Triangles:
 
     @property
     def triangles(self) -> np.ndarray:
-        """(n, c + 1, c + 1) over all columns and the torque; 0 for columns a joint does not have.
+        """Returns (n, c + 1, c + 1) over all columns and the torque.
+
+        0 for columns a joint does not have.
 
         ||y_j - W_j beta|| = ||R_j [-beta; 1]||.
         """
@@ -106,7 +111,7 @@ class Triangles:
 
 
 def make_empty_triangles(pattern: NonzeroPattern) -> Triangles:
-    """The triangles of no rows."""
+    """Returns the triangles of no rows."""
     packed = np.zeros(sum(size * size for size in pattern.sizes))
     rows = np.zeros(len(pattern.columns), dtype=np.uintp)
     return Triangles(pattern, packed, rows, np.zeros(0, dtype=bool))
@@ -176,9 +181,13 @@ def reduce_dense_samples(
 
 
 def reduce_rows(
-    pattern: NonzeroPattern, phi: np.ndarray, y: np.ndarray, use: np.ndarray | None,
-    state: Triangles | None = None, level: int = 0,
-) -> Triangles:  # fmt: skip
+    pattern: NonzeroPattern,
+    phi: np.ndarray,
+    y: np.ndarray,
+    use: np.ndarray | None,
+    state: Triangles | None = None,
+    level: int = 0,
+) -> Triangles:
     """Triangles of rows that stand in memory.
 
     Args:
@@ -241,7 +250,7 @@ _SLICE = 2**14  # samples that a thread is worth starting for
 
 
 def check_output(out: np.ndarray, shape: tuple[int, int], columns: bool = False) -> np.ndarray:
-    """`out`, if it can be filled; `columns`: it may be Fortran-contiguous too.
+    """Checks that `out` can be filled and returns it; `columns`: it may be Fortran-contiguous too.
 
     Raises:
         ShapeError: says what it must be.
@@ -271,7 +280,7 @@ class BatchEvaluator:
     def nonzeros(
         self, q: Any, qd: Any, qdd: Any, s: Any = None, out: np.ndarray | None = None
     ) -> np.ndarray:
-        """The entries of the base regressor that are not always 0, (n, len(spec.nonzeros)).
+        """Returns the entries of the base regressor that are not always 0, (n, len(spec.nonzeros)).
 
         values[:, k] = phi[:, joint, column] with (joint, column) = spec.nonzeros[k].
 
@@ -298,9 +307,12 @@ class BatchEvaluator:
         return values
 
     def _fill_by_tiles(
-        self, inputs: Sequence[np.ndarray], out: np.ndarray, dense: bool,
+        self,
+        inputs: Sequence[np.ndarray],
+        out: np.ndarray,
+        dense: bool,
         status: np.ndarray | None = None,
-    ) -> bool:  # fmt: skip
+    ) -> bool:
         """Fill `out` by tiles; False, and nothing done, for few samples or without tiles.
 
         With loops one sample starts from another: all in one thread, and `status` is filled.
@@ -357,10 +369,19 @@ class BatchEvaluator:
     # Least squares while samples pass: neither W nor a part of it is kept.
 
     def triangles(
-        self, q: Any, qd: Any, qdd: Any, tau: Any, use: Any = None, s: Any = None,
-        weight: Any = None, state: Triangles | None = None,
-    ) -> Triangles:  # fmt: skip
-        """R of [W_j tau_j] = Q R for the rows of each joint, without W, by Householder reflections.
+        self,
+        q: Any,
+        qd: Any,
+        qdd: Any,
+        tau: Any,
+        use: Any = None,
+        s: Any = None,
+        weight: Any = None,
+        state: Triangles | None = None,
+    ) -> Triangles:
+        """Returns R of [W_j tau_j] = Q R for the rows of each joint, without W.
+
+        By Householder reflections.
 
         The singular values of R are those of [W_j tau_j] up to rounding of the largest, also where
         W^T W has lost the small ones (Golub and Van Loan 2013, Matrix Computations, section 5.2).
@@ -451,5 +472,5 @@ class BatchEvaluator:
 
     @cached_property
     def pattern(self) -> NonzeroPattern:
-        """Which columns can enter the torque of each joint."""
+        """Returns which columns can enter the torque of each joint."""
         return build_pattern(self.spec.nonzeros, self._joints, len(self.spec.base))

@@ -32,7 +32,7 @@ class GpuModel:
     """
 
     def __init__(self, spec: ModuleSpec, source: str) -> None:
-        """Compile the kernels.
+        """Compiles the kernels.
 
         Raises:
             BuildError: no CuPy, no graphics processor, or the compiler refused.
@@ -48,7 +48,7 @@ class GpuModel:
             raise BuildError(f"GPU: the emitted kernels do not compile:\n{error}") from None
 
     def nonzeros(self, q: Any, qd: Any, qdd: Any, s: Any = None) -> Any:
-        """Entries of the base regressor that are not always 0, a CuPy array (nonzeros, n).
+        """Returns entries of the base regressor that are not always 0, a CuPy array (nonzeros, n).
 
         Row k holds phi[i, joint, column] of all samples i with (joint, column) =
         `spec.nonzeros[k]`.
@@ -65,7 +65,7 @@ class GpuModel:
     def gram(
         self, q: Any, qd: Any, qdd: Any, tau: Any, use: Any = None, s: Any = None
     ) -> list[np.ndarray]:
-        """[W_j tau_j]' [W_j tau_j] of every joint j, summed over samples, without a W.
+        """Returns [W_j tau_j]' [W_j tau_j] of every joint j, summed over samples, without a W.
 
         W_j has the columns `columns[j]`, those that can enter the torque of joint j; the last row
         and column are those of tau. It loses half of the digits of a QR decomposition: a condition
@@ -97,7 +97,7 @@ class GpuModel:
 
     @property
     def columns(self) -> tuple[tuple[int, ...], ...]:
-        """Columns of the base regressor that can enter the torque of each joint."""
+        """Returns columns of the base regressor that can enter the torque of each joint."""
         joints = range(len(self.spec.joints))
         return tuple(tuple(c for row, c in self.spec.nonzeros if row == joint) for joint in joints)
 
@@ -131,7 +131,7 @@ class GpuModel:
 
 
 def load_gpu(emitted: EmittedModule) -> GpuModel:
-    """The kernels of a module, compiled for the graphics processor of this machine.
+    """Returns the kernels of a module, compiled for the graphics processor of this machine.
 
     Raises:
         ManifestError: the module was emitted without them.

@@ -82,21 +82,29 @@ class CompiledModel(BatchEvaluator, Result):
         return load_module, (self.spec, dict(self._tile_files), self.log)
 
     def base_regressor(self, q: Any, qd: Any, qdd: Any, s: Any = None) -> np.ndarray:
-        """Phi of the base parameters, (n, joints, c): tau = phi beta.
+        """Returns Phi of the base parameters, (n, joints, c): tau = phi beta.
 
         Large batches are evaluated as those of `observation` and `nonzeros`.
         """
         return self._evaluate_function("base_regressor", {"q": q, "qd": qd, "qdd": qdd}, s=s)
 
     def regressor(self, q: Any, qd: Any, qdd: Any, s: Any = None) -> np.ndarray:
-        """Phi of the standard parameters, (n, joints, p): tau = phi chi."""
+        """Returns Phi of the standard parameters, (n, joints, p): tau = phi chi."""
         return self._evaluate_function("regressor", {"q": q, "qd": qd, "qdd": qdd}, s=s)
 
     def observation(
-        self, q: Any, qd: Any, qdd: Any, out: np.ndarray | None = None, s: Any = None,
-        *, order: Literal["C", "F"] = "C",
-    ) -> np.ndarray:  # fmt: skip
-        """W, (n*joints, c): y = W beta with y = tau.reshape(-1), joint after joint in each sample.
+        self,
+        q: Any,
+        qd: Any,
+        qdd: Any,
+        out: np.ndarray | None = None,
+        s: Any = None,
+        *,
+        order: Literal["C", "F"] = "C",
+    ) -> np.ndarray:
+        """Returns w, (n*joints, c).
+
+        Y = W beta with y = tau.reshape(-1), joint after joint in each sample.
 
         Args:
             q: positions.
@@ -122,25 +130,25 @@ class CompiledModel(BatchEvaluator, Result):
         return W
 
     def inverse_dynamics(self, q: Any, qd: Any, qdd: Any, beta: Any, s: Any = None) -> np.ndarray:
-        """Tau, (n, joints), by the Newton-Euler recursion."""
+        """Returns tau, (n, joints), by the Newton-Euler recursion."""
         return self._evaluate_function("inverse_dynamics", {"q": q, "qd": qd, "qdd": qdd}, beta, s)
 
     def inertia_matrix(self, q: Any, beta: Any) -> np.ndarray:
-        """M(q), (n, joints, joints), rotor inertias included."""
+        """Returns m(q), (n, joints, joints), rotor inertias included."""
         return self._evaluate_function("inertia_matrix", {"q": q}, beta)
 
     def gravity(self, q: Any, beta: Any) -> np.ndarray:
-        """g(q), (n, joints)."""
+        """Returns g(q), (n, joints)."""
         return self._evaluate_function("gravity", {"q": q}, beta)
 
     def coriolis(self, q: Any, qd: Any, beta: Any) -> np.ndarray:
-        """c(q, qd), (n, joints): Coriolis and centripetal torques."""
+        """Returns c(q, qd), (n, joints): Coriolis and centripetal torques."""
         return self._evaluate_function("coriolis", {"q": q, "qd": qd}, beta)
 
     def friction(
         self, qd: Any, beta: Any, q: Any = None, qdd: Any = None, s: Any = None
     ) -> np.ndarray:
-        """f(qd), (n, joints): all effects but rotor inertias, offsets included.
+        """Returns f(qd), (n, joints): all effects but rotor inertias, offsets included.
 
         With loops f(q, qd): passive joints rub too, and how fast they move depends on q. Effects
         that read positions, loads or signals need q, qdd and s.
@@ -155,7 +163,9 @@ class CompiledModel(BatchEvaluator, Result):
         return self._evaluate_function("friction", states, beta, s)
 
     def close(self, q: Any) -> np.ndarray:
-        """All free variables u of the opened tree, (n, len(u)), in the order of the manifest.
+        """Returns all free variables u of the opened tree, (n, len(u)).
+
+        In the order of the manifest.
 
         Raises:
             LoopError: the loops cannot be closed; names the sample.
@@ -167,7 +177,10 @@ class CompiledModel(BatchEvaluator, Result):
         )
 
     def closing_status(self, q: Any) -> np.ndarray:
-        """(n,) 0 where the loops close, else the status of the C code; never raises for loops."""
+        """Returns (n,) 0 where the loops close, else the status of the C code.
+
+        Never raises for loops.
+        """
         positions = self._check_states({"q": q})["q"]
         status = np.zeros(len(positions), dtype=np.intc)
         if self._has_loops:
@@ -176,35 +189,35 @@ class CompiledModel(BatchEvaluator, Result):
         return status
 
     def coupling(self, q: Any) -> np.ndarray:
-        """G of ud = G qd, (n, len(u), joints); rows of the platform are its Jacobian."""
+        """Returns G of ud = G qd, (n, len(u), joints); rows of the platform are its Jacobian."""
         if not self._has_loops:
             n = len(self._check_states({"q": q})["q"])
             return np.broadcast_to(np.eye(self._joints), (n, self._joints, self._joints)).copy()
         return self._evaluate_function("coupling", {"q": q})
 
     def platform_close(self, x: Any) -> np.ndarray:
-        """U, (n, len(u)), from the platform's coordinates."""
+        """Returns u, (n, len(u)), from the platform's coordinates."""
         return self._evaluate_function("platform_close", {"x": x})
 
     def platform_base_regressor(self, x: Any, xd: Any, xdd: Any) -> np.ndarray:
-        """Phi of f = phi beta, (n, joints, c): forces along the platform's coordinates."""
+        """Returns Phi of f = phi beta, (n, joints, c): forces along the platform's coordinates."""
         return self._evaluate_function("platform_base_regressor", {"x": x, "xd": xd, "xdd": xdd})
 
     def platform_inverse_dynamics(self, x: Any, xd: Any, xdd: Any, beta: Any) -> np.ndarray:
-        """f, (n, joints), along the platform's coordinates."""
+        """Returns f, (n, joints), along the platform's coordinates."""
         return self._evaluate_function(
             "platform_inverse_dynamics", {"x": x, "xd": xd, "xdd": xdd}, beta
         )
 
     def forward_kinematics(self, q: Any) -> np.ndarray:
-        """[R | p] of the frame of every moving row in frame 0, (n, rows, 3, 4); p in m.
+        """Returns [R | p] of the frame of every moving row in frame 0, (n, rows, 3, 4); p in m.
 
         Columns of R are the frame's axes: a point x of frame j stands at R x + p.
         """
         return self._evaluate_function("forward_kinematics", {"q": q})
 
     def base_parameters(self, chi: Any) -> np.ndarray:
-        """Beta, (c,), from chi, (p,), by the grouping relations."""
+        """Returns beta, (c,), from chi, (p,), by the grouping relations."""
         function = self._functions["base_parameters"]
         parameters = check_vector(chi, "chi", len(self.spec.standard))
         beta = np.empty(len(self.spec.base))
@@ -214,7 +227,9 @@ class CompiledModel(BatchEvaluator, Result):
     def advance(
         self, dq: Any, dt: float, s: Any, q: Any = None, qd: Any = None, qdd: Any = None
     ) -> np.ndarray:
-        """The signals of effects one sample later, as s: time and inner states; see the header.
+        """Returns the signals of effects one sample later, as s: time and inner states.
+
+        See the header.
 
         Args:
             dq: (joints,) or (n, joints) travel since the last sample.
@@ -229,12 +244,12 @@ class CompiledModel(BatchEvaluator, Result):
         arguments = {"dq": dq, "dt": [dt], "s": s, "q": q, "qd": qd, "qdd": qdd}
         wanted = [argument.name for argument in self._functions["advance"].inputs]
         if missing := [name for name in wanted if arguments[name] is None]:
-            raise ShapeError(f"{self.spec.robot}: its effects lag; give {', '.join(missing)}")
+            raise ShapeError(f"{self.spec.robot}: its effects have lags; give {', '.join(missing)}")
         after = self.evaluate("advance", **{name: arguments[name] for name in wanted})
         return after if np.ndim(s) == 2 else after[0]
 
     def evaluate(self, role: str, **arrays: Any) -> np.ndarray:
-        """What an emitted function gives, (n, ...) by its output's shape.
+        """Returns what an emitted function gives, (n, ...) by its output's shape.
 
         Args:
             role: its name without the robot's, as in the manifest: "coriolis_matrix".
@@ -251,7 +266,10 @@ class CompiledModel(BatchEvaluator, Result):
         return out
 
     def evaluate_status(self, role: str, **arrays: Any) -> np.ndarray:
-        """(n,) what an emitted function returns for each sample; as `evaluate`, never refused."""
+        """Returns (n,) what an emitted function returns for each sample.
+
+        As `evaluate`, never refused.
+        """
         _, status, inputs = self._call_function(role, arrays)
         return np.zeros(len(inputs[0]), dtype=np.intc) if status is None else status
 
@@ -331,7 +349,7 @@ class CompiledModel(BatchEvaluator, Result):
 def load_module(
     spec: ModuleSpec, files: Mapping[str, str], log: Mapping[str, object] | None = None
 ) -> CompiledModel:
-    """The compiled model of an emitted module; compiled once, then taken from the cache.
+    """Returns the compiled model of an emitted module; compiled once, then taken from the cache.
 
     Args:
         spec: the manifest.
@@ -355,7 +373,7 @@ def load_module(
 
 
 def load_folder(folder: Path | str) -> CompiledModel:
-    """The compiled model of a folder that `modeler generate` wrote.
+    """Returns the compiled model of a folder that `modeler generate` wrote.
 
     Raises:
         ManifestError: the folder holds no module, or a part of it is missing or damaged.
@@ -393,10 +411,10 @@ _MODELS: dict[str, CompiledModel] = {}  # of this process, by signature
 
 
 def load_cached_model(emitted: EmittedModule) -> CompiledModel:
-    """The compiled model of an emitted module; the same object every time.
+    """Returns the compiled model of an emitted module; the same object every time.
 
     Raises:
-        BuildError: see `load_module`.
+        BuildError: see `load`.
     """
     signature = emitted.spec.compute_signature()
     if signature not in _MODELS:

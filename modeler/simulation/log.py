@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from modeler.core.brief import ShortRepr
-from modeler.core.builtin import MOST_SAMPLES, MOTIONS
+from modeler.core.choices import MOST_SAMPLES, MOTIONS
 from modeler.core.errors import DataError
 from modeler.core.files import write_atomically
 from modeler.core.json import convert_to_plain

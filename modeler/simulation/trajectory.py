@@ -12,7 +12,7 @@ import pyarrow.csv as pacsv
 import pyarrow.parquet as pq
 from scipy.interpolate import BPoly, make_interp_spline
 
-from modeler.core.builtin import MOST_SAMPLES
+from modeler.core.choices import MOST_SAMPLES
 from modeler.core.errors import DataError, RobotError
 from modeler.core.files import check_unpacked_size, read_file
 from modeler.robot import Limits, Robot

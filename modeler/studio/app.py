@@ -14,7 +14,7 @@ from fastapi import FastAPI, Response
 from fastapi.responses import FileResponse, HTMLResponse
 from nicegui import Client, app as nicegui_app, background_tasks, ui
 
-from modeler.core.builtin import read_builtin_robot
+from modeler.core.choices import read_builtin_robot
 from modeler.core.errors import ModelerError
 from modeler.core.files import locate_resources, read_text, write_atomically
 from modeler.studio import (

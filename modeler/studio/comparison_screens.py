@@ -9,7 +9,7 @@ from nicegui import ui
 from nicegui.elements.plotly import Plotly
 
 from modeler.core.errors import ModelerError
-from modeler.core.picture_file import read_pictures
+from modeler.core.figure import read_pictures
 from modeler.core.table import format_percent
 from modeler.studio import commands, figures
 from modeler.studio.elements import (

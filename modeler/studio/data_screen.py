@@ -7,7 +7,7 @@ from pathlib import Path
 from nicegui import background_tasks, ui
 from nicegui.element import Element
 
-from modeler.core.builtin import LOG_ENDINGS
+from modeler.core.choices import LOG_ENDINGS
 from modeler.core.errors import ModelerError
 from modeler.studio import commands
 from modeler.studio.elements import add_card, draw_head

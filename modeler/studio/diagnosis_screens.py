@@ -10,8 +10,7 @@ from typing import Any
 from nicegui import ui
 
 from modeler.core.errors import ModelerError
-from modeler.core.figure import Picture
-from modeler.core.picture_file import read_pictures
+from modeler.core.figure import Picture, read_pictures
 from modeler.core.table import format_error_pair, format_percent
 from modeler.effects import CATALOGUE, find_effect
 from modeler.estimation import format_spread

@@ -5,9 +5,7 @@ from typing import Any
 
 from nicegui import ui
 
-from modeler.core.builtin import EFFECTS
-from modeler.core.errors import TWO_STEPS
-from modeler.core.estimators import ABOUT, APART
+from modeler.core.choices import ABOUT, APART, EFFECTS, TWO_STEPS
 from modeler.core.json import build_instance
 from modeler.core.manifest import BaseSpec
 from modeler.core.table import format_percent

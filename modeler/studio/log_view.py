@@ -11,11 +11,21 @@ from nicegui import ui
 from nicegui.element import Element
 
 from modeler.core.errors import ModelerError
-from modeler.core.figure import Curve, Panel, Picture
+from modeler.core.figure import (
+    BLACK,
+    BLUE,
+    GREEN,
+    ORANGE,
+    PINK,
+    VERMILLION,
+    Curve,
+    Panel,
+    Picture,
+    Style,
+)
 from modeler.core.files import locate_resources, read_text
 from modeler.core.json import parse_toml
 from modeler.core.manifest import JointSpec
-from modeler.core.style import BLACK, BLUE, GREEN, ORANGE, PINK, VERMILLION, Style
 from modeler.studio import figures, timeline
 from modeler.studio.elements import (
     add_card,

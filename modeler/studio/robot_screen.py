@@ -12,7 +12,7 @@ from typing import Any
 
 from nicegui import background_tasks, ui
 
-from modeler.core.builtin import CONVENTIONS, TEMPLATES, list_builtin_robots, read_builtin_robot
+from modeler.core.choices import CONVENTIONS, TEMPLATES, list_builtin_robots, read_builtin_robot
 from modeler.core.errors import ModelerError
 from modeler.core.files import write_atomically
 from modeler.robot import (

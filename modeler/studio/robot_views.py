@@ -13,10 +13,9 @@ import numpy as np
 
 from modeler import excitation, simulation
 from modeler.core.errors import ModelerError
-from modeler.core.figure import Curve, Panel, Picture
+from modeler.core.figure import COLORS, GREY, Curve, Panel, Picture, Style
 from modeler.core.files import read_file
 from modeler.core.json import parse_json
-from modeler.core.style import COLORS, GREY, Style
 from modeler.formats import read_robot
 from modeler.robot import (
     Robot,

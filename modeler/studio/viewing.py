@@ -15,11 +15,28 @@ import numpy as np
 from modeler import validation
 from modeler.api import checks, log_maps, workflow
 from modeler.core.errors import DataError
-from modeler.core.figure import Curve, Heat, Means, Panel, Picture, Points, Series
+from modeler.core.figure import (
+    BLACK,
+    BLUE,
+    GREEN,
+    GREY,
+    ORANGE,
+    PINK,
+    SKY,
+    VERMILLION,
+    Curve,
+    Heat,
+    Means,
+    Panel,
+    Picture,
+    Points,
+    Series,
+    Style,
+    thin_curves,
+    thin_points,
+)
 from modeler.core.manifest import JointSpec
-from modeler.core.style import BLACK, BLUE, GREEN, GREY, ORANGE, PINK, SKY, VERMILLION, Style
 from modeler.core.table import WORDS
-from modeler.core.thinning import thin_curves, thin_points
 from modeler.estimation import IdentifiedModel, load_model
 from modeler.formats import read_robot
 from modeler.logs import (

@@ -7,12 +7,20 @@ from typing import Any
 import numpy as np
 
 from modeler.core.brief import ShortRepr
-from modeler.core.figure import Curve, Panel, Picture
+from modeler.core.figure import (
+    BLACK,
+    GREY,
+    ORANGE,
+    VERMILLION,
+    Curve,
+    Panel,
+    Picture,
+    Style,
+    thin_curves,
+)
 from modeler.core.json import convert_to_plain, select_attributes
 from modeler.core.result import Result
-from modeler.core.style import BLACK, GREY, ORANGE, VERMILLION, Style
 from modeler.core.table import DIGITS, format_percent
-from modeler.core.thinning import thin_curves
 from modeler.validation.forward_dynamics import Stability
 
 

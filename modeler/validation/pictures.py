@@ -5,8 +5,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from modeler.core.figure import Band, Bars, Curve, Heat, Means, Panel, Picture, Points, Series, Span
-from modeler.core.style import (
+from modeler.core.figure import (
     BLACK,
     BLUE,
     COLOR_NAMES,
@@ -18,10 +17,21 @@ from modeler.core.style import (
     SKY,
     SLATE,
     VERMILLION,
+    Band,
+    Bars,
+    Curve,
+    Heat,
+    Means,
+    Panel,
+    Picture,
+    Points,
+    Series,
+    Span,
     Style,
+    thin_curves,
+    thin_points,
 )
 from modeler.core.table import WORDS, format_percent
-from modeler.core.thinning import thin_curves, thin_points
 from modeler.regression import MASKS, WHY, find_runs
 from modeler.validation.comparison import METHODS, REGIONS, WINDOW, Comparison, JointComparison
 from modeler.validation.prediction import Prediction, compute_residual

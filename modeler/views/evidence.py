@@ -8,8 +8,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from modeler import diagnosis, validation
-from modeler.core.figure import Band, Curve, Means, Panel, Picture, Points, Series
-from modeler.core.style import (
+from modeler.core.figure import (
     BLACK,
     BLUE,
     COLOR_NAMES,
@@ -19,6 +18,13 @@ from modeler.core.style import (
     SHADE,
     SKY,
     VERMILLION,
+    Band,
+    Curve,
+    Means,
+    Panel,
+    Picture,
+    Points,
+    Series,
     Style,
 )
 from modeler.core.table import WORDS, format_percent

@@ -9,8 +9,19 @@ from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.colors import LinearSegmentedColormap
 from matplotlib.figure import Figure
 
-from modeler.core.figure import Band, Bars, Curve, Heat, Means, Panel, Picture, Points, Series
-from modeler.core.style import BLUE, SHADE
+from modeler.core.figure import (
+    BLUE,
+    SHADE,
+    Band,
+    Bars,
+    Curve,
+    Heat,
+    Means,
+    Panel,
+    Picture,
+    Points,
+    Series,
+)
 
 _BESIDE = 4  # entries of a legend that leave room for the title
 _SETTINGS: Any = {

@@ -10,10 +10,19 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from modeler.core.figure import Bars, Curve, Panel, Picture
+from modeler.core.figure import (
+    BLUE,
+    COLORS,
+    LIMIT,
+    ORANGE,
+    Bars,
+    Curve,
+    Panel,
+    Picture,
+    Style,
+    thin_curves,
+)
 from modeler.core.result import Figures
-from modeler.core.style import BLUE, COLORS, ORANGE, Style
-from modeler.core.thinning import LIMIT, thin_curves
 from modeler.estimation import FitResult
 from modeler.robot import Robot
 from modeler.views.robot_page import show

@@ -6,7 +6,7 @@ from functools import partial
 import numpy as np
 
 from modeler import estimation
-from modeler.core.estimators import find_estimator_title
+from modeler.core.choices import find_estimator_title
 from modeler.core.result import Figures, Presentation, Tables
 from modeler.core.table import Table, format_percent
 from modeler.estimation import (

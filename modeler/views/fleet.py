@@ -6,9 +6,8 @@ from operator import attrgetter
 
 import numpy as np
 
-from modeler.core.figure import Curve, Heat, Means, Panel, Picture
+from modeler.core.figure import BLUE, COLORS, GREY, Curve, Heat, Means, Panel, Picture, Style
 from modeler.core.result import Figures, Presentation, Tables
-from modeler.core.style import BLUE, COLORS, GREY, Style
 from modeler.core.table import Table, format_percent
 from modeler.fleet import Fleet, FleetFinding, QuantityHistory, QuantityValues, result
 from modeler.views import page

@@ -5,9 +5,20 @@ from collections.abc import Mapping, Sequence
 
 import numpy as np
 
-from modeler.core.figure import Bars, Curve, Panel, Picture
+from modeler.core.figure import (
+    BLUE,
+    GREEN,
+    ORANGE,
+    PINK,
+    SKY,
+    VERMILLION,
+    Bars,
+    Curve,
+    Panel,
+    Picture,
+    Style,
+)
 from modeler.core.manifest import BaseSpec, TermSpec
-from modeler.core.style import BLUE, GREEN, ORANGE, PINK, SKY, VERMILLION, Style
 from modeler.core.table import DIGITS, WORDS, format_error_pair, format_percent
 from modeler.effects import Effect, find_effect
 from modeler.estimation import (

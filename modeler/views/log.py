@@ -5,11 +5,26 @@ from functools import partial
 
 import numpy as np
 
-from modeler.core.figure import Curve, Panel, Picture, Points, Series, Span
+from modeler.core.figure import (
+    BLACK,
+    BLUE,
+    GREEN,
+    ORANGE,
+    PALE,
+    PINK,
+    SLATE,
+    VERMILLION,
+    Curve,
+    Panel,
+    Picture,
+    Points,
+    Series,
+    Span,
+    Style,
+    thin_points,
+)
 from modeler.core.result import Figures, Presentation, Tables
-from modeler.core.style import BLACK, BLUE, GREEN, ORANGE, PALE, PINK, SLATE, VERMILLION, Style
 from modeler.core.table import Cell, Table, format_percent
-from modeler.core.thinning import thin_points
 from modeler.excitation import ExcitingMotion
 from modeler.logs import Clock, LogInspection, split_label
 from modeler.regression import (

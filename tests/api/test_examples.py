@@ -14,7 +14,7 @@ OFFERED = {name: thing for name in api.__all__ if inspect.isroutine(thing := get
 MODULES = sorted(
     {
         "modeler.core.table",
-        "modeler.logs.frames",
+        "modeler.logs.readers",
         "modeler.api.model",
         *(thing.__module__ for thing in OFFERED.values()),
     }

@@ -14,7 +14,7 @@ import numpy as np
 import pyarrow as pa
 import pyarrow.parquet as pq
 
-from modeler.core.builtin import list_builtin_robots, read_builtin_robot
+from modeler.core.choices import list_builtin_robots, read_builtin_robot
 from tests.bad_input.judge import clear, inside, run_here, within
 from tests.bad_input.mutants import NUMBERS, VALUES_DRAWN, edited_bytes, edited_structure, toml_text
 from tests.bad_input.workdir import Inputs, Workdir, csv_text

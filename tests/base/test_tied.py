@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 import sympy
 
-from modeler.core.builtin import read_builtin_robot
+from modeler.core.choices import read_builtin_robot
 from modeler.derivation.base_parameters import derive_column_relations
 from modeler.derivation.derive import derive_model
 from modeler.derivation.field import CoefficientTooLarge, build_geometry_field, reduce_sparse_rows

@@ -8,7 +8,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from modeler import compare, compare_models, identify, open_robot
+from modeler import compare, compare_models, identify
+from modeler.api.model import open_robot
 from modeler.cli import main
 
 INERTIAL = """<inertial><origin xyz="{centre} 0 0.01"/><mass value="{mass}"/>

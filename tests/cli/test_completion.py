@@ -14,8 +14,7 @@ import pytest
 
 from modeler.cli import build_parser
 from modeler.cli.completion import complete_words
-from modeler.core.builtin import list_builtin_robots
-from modeler.core.estimators import ABOUT
+from modeler.core.choices import ABOUT, list_builtin_robots
 from modeler.effects.catalogue import CATALOGUE
 
 

@@ -4,7 +4,7 @@ import json
 
 import pytest
 
-from modeler.core.builtin import read_builtin_robot
+from modeler.core.choices import read_builtin_robot
 from modeler.formats import read_robot
 from tests.cli.running import answer, refusal, run
 from tests.robot.par_files import par_text

@@ -8,7 +8,7 @@ import pyarrow as pa
 import pyarrow.parquet as pq
 import pytest
 
-from modeler.core.builtin import read_builtin_robot
+from modeler.core.choices import read_builtin_robot
 from modeler.estimation.model_file import load_model
 from tests.cli.inputs import folder_after
 from tests.cli.running import answer, complaint, run

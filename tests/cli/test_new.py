@@ -9,7 +9,7 @@ import pytest
 
 from modeler import api
 from modeler.api import new_robot
-from modeler.core.builtin import CONVENTIONS, TEMPLATES
+from modeler.core.choices import CONVENTIONS, TEMPLATES
 from modeler.core.errors import RobotError
 from modeler.robot.read import read_robot
 from modeler.robot.table import CONVENTIONS as LETTERS

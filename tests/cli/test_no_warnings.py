@@ -6,7 +6,9 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from modeler import identify, open_robot, save, simulate
+from modeler import identify, simulate
+from modeler.api.model import open_robot
+from modeler.api.workflow import save
 from modeler.cli import main
 
 NAMES = ("rest", "idle", "missing", "pieces")

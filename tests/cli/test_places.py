@@ -24,7 +24,7 @@ from modeler.cli.places import (
     parse_model_or_log,
 )
 from modeler.codegen.package import write_emitted
-from modeler.core.builtin import locate_builtin_robot
+from modeler.core.choices import locate_builtin_robot
 from tests.cli.running import refusal
 from tests.modules import module
 

@@ -9,7 +9,7 @@ import pytest
 
 from modeler.api import load, show
 from modeler.cli import main
-from modeler.core.builtin import read_builtin_robot
+from modeler.core.choices import read_builtin_robot
 from modeler.core.errors import DataError
 from modeler.derivation.assembly_modes import complete_home
 from modeler.robot.read import read_robot

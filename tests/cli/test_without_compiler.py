@@ -8,7 +8,7 @@ import pytest
 import modeler.runtime.model as compiled_model
 from modeler.cli import main
 from modeler.cli.parser import read_commands
-from modeler.core.builtin import read_builtin_robot
+from modeler.core.choices import read_builtin_robot
 from tests.rotation import rotating
 
 WORKS = {

@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 
 from modeler.codegen.emit import emit
-from modeler.core.builtin import read_builtin_robot
+from modeler.core.choices import read_builtin_robot
 from modeler.core.manifest import (
     ArgumentSpec,
     EmittedModule,

@@ -10,7 +10,7 @@ import pytest
 import modeler.runtime.fused as tiling
 from modeler.codegen.control import Control
 from modeler.codegen.emit import emit
-from modeler.core.law import Law
+from modeler.core.expression import Law
 from modeler.core.manifest import EmittedModule
 from modeler.derivation.base_parameters import derive_base_parameters
 from modeler.derivation.derive import derive_model

@@ -7,7 +7,7 @@ import pytest
 
 from modeler.codegen.control import Control
 from modeler.codegen.emit import emit
-from modeler.codegen.fmu import build_fmu_files
+from modeler.codegen.wrappers import build_fmu_files
 from tests.codegen.fitted_library import fitted_of, robot_module
 from tests.codegen.misra import violations
 from tests.repository import ROOT

@@ -7,7 +7,7 @@ import pytest
 
 from modeler.codegen.control import Control
 from modeler.codegen.emit import emit
-from modeler.codegen.structured_text import make_identifier
+from modeler.codegen.printers import make_identifier
 from modeler.core.errors import EmitError
 from tests.codegen.fitted_library import Functions, fitted_of, motion, robot_module
 from tests.codegen.structured_text import Program, TextError

@@ -8,10 +8,10 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from modeler.codegen.context import find_deciding_symbols
 from modeler.codegen.emit import emit
 from modeler.codegen.package import write_emitted
-from modeler.codegen.symbols import find_deciding_symbols
-from modeler.core.builtin import read_builtin_robot
+from modeler.core.choices import read_builtin_robot
 from modeler.core.manifest import EmittedModule
 from modeler.derivation.base_parameters import derive_base_parameters
 from modeler.derivation.derive import derive_model

@@ -18,8 +18,7 @@ import pytest
 from known_defects import first_joint, prediction
 
 from modeler.cli.places import PictureFolder
-from modeler.core.figure import Band, Bars, Heat, Panel, Picture
-from modeler.core.thinning import LIMIT, thin_curves, thin_points
+from modeler.core.figure import LIMIT, Band, Bars, Heat, Panel, Picture, thin_curves, thin_points
 from modeler.regression.observation import MASKS
 from modeler.validation.comparison import Comparison, compare
 from modeler.validation.pictures import (

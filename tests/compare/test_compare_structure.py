@@ -8,7 +8,7 @@ import pytest
 from known_defects import NOISE, PERIOD, Defect, judged_alone, prediction
 from scipy.signal import lfilter
 
-from modeler.core.style import BLACK, BLUE, GREY, ORANGE, SLATE, VERMILLION
+from modeler.core.figure import BLACK, BLUE, GREY, ORANGE, SLATE, VERMILLION
 from modeler.core.table import format_percent
 from modeler.numerics.spectra import compute_order_spectrum
 from modeler.numerics.splines import build_hat_functions, fit_nonparametric_baseline

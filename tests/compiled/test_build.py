@@ -33,7 +33,7 @@ def emps():
 
 
 def libraries(cache: Path) -> list[Path]:
-    return sorted(cache.glob("*/*.so"))
+    return sorted(cache.glob("*.so"))
 
 
 def works(model) -> None:
@@ -49,7 +49,7 @@ def test_a_second_load_does_not_compile_and_other_text_is_another_library(cache,
         patch.setattr(build, "compile_library", lambda *_: pytest.fail("compiled again"))
         works(load_module(emps.spec, emps.files))
     assert len(libraries(cache)) == 1
-    assert not list(cache.glob("*/.build-*")), "the scratch folder is left"
+    assert not list(cache.glob(".build-*")), "the scratch folder is left"
     load_module(emps.spec, {**emps.files, "emps.c": emps.files["emps.c"] + "\n"})
     monkeypatch.setenv("CC", compiler("clang"))
     works(load_module(emps.spec, emps.files))
@@ -161,7 +161,7 @@ def test_code_and_manifest_that_do_not_fit_are_refused(cache, emps):
          "code answers .*one of them is older, generate both"),
         (spec, lacking, "lacks what its manifest names"),
         (dataclasses.replace(spec, functions=functions[1:]), files,
-         "names no inputs of regressor, expected 3"),
+         "code answers .*one of them is older, generate both"),
         (dataclasses.replace(spec, functions=(no_name, *functions)), files, "expected a C name"),
     ):  # fmt: skip
         with pytest.raises(ManifestError, match=says):

@@ -77,7 +77,7 @@ def test_every_entry_of_a_manifest_is_checked(value):
     ("name", "content", "says"),
     [
         ("manifest.json", b"", "manifest.json: is empty; generate it again"),
-        ("manifest.json", b"PAR1\xff\x00", "manifest.json: is no text in UTF-8"),
+        ("manifest.json", b"PAR1\xff\x00", "manifest.json: is not valid UTF-8"),
         ("manifest.json", b"[" * 100_000, "manifest.json: is nested too deep"),
         ("emps.c", b"\xff\xfe\x00", "emps.c: no text; generate it again"),
         ("emps_regressor.c", None, "emps: the module lacks emps_regressor.c; generate it again"),

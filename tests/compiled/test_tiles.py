@@ -8,8 +8,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+import modeler.runtime.build as threads
 import modeler.runtime.fused as tiling
-import modeler.runtime.threads as threads
 from modeler.codegen.emit import emit
 from modeler.codegen.package import write_emitted
 from modeler.core.errors import LoopError, ManifestError, ShapeError

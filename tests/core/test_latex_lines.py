@@ -3,8 +3,14 @@
 import numpy as np
 import pytest
 
-from modeler.core.formula import escape_latex, format_latex_name
-from modeler.core.latex_display import DisplayedEquation, break_lines, format_display, measure_width
+from modeler.core.formula import (
+    DisplayedEquation,
+    break_lines,
+    escape_latex,
+    format_display,
+    format_latex_name,
+    measure_width,
+)
 from tests.base.formulas import written_value
 
 LETTERS = {"a": 0.7, r"\mathit{MX}_{31c}": -1.3, r"\theta_{2}": 0.4, "D_{4}": 2.1, "s_{1-2}": 0.6}

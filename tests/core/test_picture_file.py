@@ -10,7 +10,7 @@ import pytest
 
 from modeler.cli import main
 from modeler.core.errors import DataError
-from modeler.core.picture_file import format_pictures, read_pictures
+from modeler.core.figure import format_pictures, read_pictures
 from tests.json_schemas import check_schema
 from tests.studio.drawn import EVERY_KIND
 

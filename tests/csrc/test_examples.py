@@ -9,9 +9,8 @@ import pytest
 
 from modeler.codegen.control import Control
 from modeler.codegen.emit import emit
-from modeler.core.builtin import read_builtin_robot
-from modeler.core.figure import Curve, Panel, Picture
-from modeler.core.style import BLUE, GREEN, VERMILLION, Style
+from modeler.core.choices import read_builtin_robot
+from modeler.core.figure import BLUE, GREEN, VERMILLION, Curve, Panel, Picture, Style
 from modeler.robot.edit import replace_effects
 from modeler.robot.read import parse_robot_text, read_robot
 from modeler.runtime import load_folder

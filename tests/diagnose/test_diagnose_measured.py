@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 
 from modeler.api import compare, diagnose, read_logs
-from modeler.core.builtin import read_builtin_robot
+from modeler.core.choices import read_builtin_robot
 from modeler.diagnosis.add import add_effect
 from modeler.diagnosis.added_model import LogSplit
 from modeler.diagnosis.result import Diagnosis

@@ -15,7 +15,7 @@ from docsite.gallery import exhibit, gallery_front
 from docsite.hooks import on_config
 from modeler.cli import main
 from modeler.cli.parser import build_parser
-from modeler.core.builtin import read_builtin_robot
+from modeler.core.choices import read_builtin_robot
 from modeler.effects import CATALOGUE, Effect
 from modeler.robot import parse_robot_text, replace_effects
 from modeler.simulation import HIDDEN

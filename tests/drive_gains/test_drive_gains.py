@@ -8,7 +8,7 @@ import pytest
 from scipy.optimize import least_squares as nonlinear
 
 from modeler.api import compile_model, derive, generate, load, read_currents
-from modeler.core.builtin import read_builtin_robot
+from modeler.core.choices import read_builtin_robot
 from modeler.core.errors import DataError, RobotError
 from modeler.estimation import Payload, check_known_quantities, describe_deviations
 from modeler.estimation.drive_gains import identify_gains, solve_mixed_tls

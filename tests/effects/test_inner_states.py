@@ -107,7 +107,7 @@ def test_the_c_steps_lags_as_the_equations_say(precision: Literal["double", "sin
     ago = np.minimum(s[:, 2] + 0.02, 0.04 * (1.0 + np.abs(dq[:, 1] / 3e-3 + s[:, 1]))
                      / np.abs(dq[:, 1] / 3e-3))  # fmt: skip
     np.testing.assert_allclose(since, np.where(way < 0.0, ago, s[:, 2] + 0.02), rtol=1e-4)
-    with pytest.raises(ShapeError, match="its effects lag; give q, qd, qdd"):
+    with pytest.raises(ShapeError, match="its effects have lags; give q, qd, qdd"):
         compiled.advance(dq[0], 0.02, s[0])
 
     # Along a motion: the log as it is read, and the C one sample after the other.

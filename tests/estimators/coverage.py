@@ -14,7 +14,7 @@ from multiprocessing import get_context
 import numpy as np
 
 from modeler import api
-from modeler.core.builtin import read_builtin_robot
+from modeler.core.choices import read_builtin_robot
 from modeler.core.errors import DataError
 from modeler.estimation.identify import identify
 from modeler.regression.log import Log

@@ -4,8 +4,8 @@ from typing import get_args
 
 import pytest
 
-from modeler.core.errors import DataError, Method
-from modeler.core.estimators import ABOUT, find_estimator_title
+from modeler.core.choices import ABOUT, Method, find_estimator_title
+from modeler.core.errors import DataError
 from modeler.estimation.identify import METHODS, find_method, find_methods
 from tests.repository import ROOT
 

@@ -6,7 +6,7 @@ from functools import cache
 import numpy as np
 import pytest
 
-from modeler.core.builtin import read_builtin_robot
+from modeler.core.choices import read_builtin_robot
 from modeler.estimation import identify, judge_fit, solve_least_squares
 from modeler.estimation.parameters import select_essential_parameters
 from modeler.estimation.result import read_fit

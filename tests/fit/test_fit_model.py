@@ -274,7 +274,7 @@ TEXTS = {
     "digits": (b'{"format": -' + b"9" * 10_000 + b"}", "a whole number of 10000 digits"),
     "integer": (b'{"format": 99999999999999999999}', "a whole number of 20 digits"),
     "decimals": (b'{"format": 1e999}', "'1e999', too large for double precision"),
-    "NaN": (b'{"format": NaN}', "has NaN, which is no number of JSON"),
+    "NaN": (b'{"format": NaN}', "has NaN, which is not a JSON number"),
     "twice": (b'{"format": {"a": 1, "b": 2, "a": 3}}', "has the entry 'a' twice"),
     "half": (b'{"kind": "\\ud800"}', "half a character"),
     "TOML": (b'name = "arm"', "is not JSON, or cut off: Expecting value, line 1, column 1"),

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from modeler.cli import main
-from modeler.core.estimators import ABOUT
+from modeler.core.choices import ABOUT
 from tests.modules import compiled
 from tests.rotation import ROTATING
 

@@ -11,7 +11,7 @@ import scipy.io
 
 from modeler.api import compile_model, derive, generate, load, read_logs
 from modeler.cli import main
-from modeler.core.builtin import read_builtin_robot
+from modeler.core.choices import read_builtin_robot
 from modeler.regression.log import Log
 from modeler.runtime.model import CompiledModel
 from modeler.simulation import SimulationSettings, simulate

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from modeler.api import read_logs
-from modeler.core.builtin import read_builtin_robot
+from modeler.core.choices import read_builtin_robot
 from modeler.core.errors import DataError, RobotError
 from modeler.estimation import load_model
 from modeler.logs.mapping import build_map

@@ -177,7 +177,7 @@ def test_a_file_that_changes_while_it_is_read_is_refused(ending, what, tmp_path,
             os.ftruncate(file.fileno(), size // 2 if what == "shrinks" else size)
             file.seek(0, 2)
             file.write(b"\n" if what == "grows" else b"")
-    expected = "went away while it was read" if what == "goes" else "was written to while it was"
+    expected = "was removed while it was read" if what == "goes" else "was written to while it was"
     with pytest.raises(DataError, match=expected):
         list(blocks)
 

@@ -149,7 +149,7 @@ READ = """
 import resource, sys
 from pathlib import Path
 from modeler.core.errors import DataError
-from modeler.logs.columns import Wanted
+from modeler.logs.columns import ColumnRequest
 from modeler.logs.readers import read_columns
 import h5py, python_calamine, pyarrow.parquet, rosbags.highlevel, scipy.io
 import modeler.core.files, modeler.logs.arrays
@@ -157,8 +157,8 @@ modeler.core.files.UNPACKED = modeler.logs.arrays.UNPACKED = 2**24
 before = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
 for place in sys.argv[1:]:
     try:
-        for name, column in read_columns(Path(place), Wanted()).columns:
-            column.numbers()
+        for name, column in read_columns(Path(place), ColumnRequest()).columns:
+            column.read_numbers()
         print("read", place)
     except DataError as error:
         print(error)

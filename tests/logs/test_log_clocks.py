@@ -12,7 +12,7 @@ from modeler.logs.columns import ColumnRequest
 from modeler.logs.log_table import LogTable
 from modeler.logs.mapping import parse_map_options
 from modeler.logs.readers import read_columns
-from modeler.logs.stamps import describe_coarse_clock, find_stamp_pairs
+from modeler.logs.times import describe_coarse_clock, find_stamp_pairs
 from modeler.regression.read import open_source
 from tests.logs.writers import START, joined, stamps
 

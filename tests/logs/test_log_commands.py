@@ -8,7 +8,7 @@ import pytest
 from scipy.signal import butter, sosfilt
 
 from modeler.api import add, compare, remove_last
-from modeler.core.builtin import read_builtin_robot
+from modeler.core.choices import read_builtin_robot
 from modeler.estimation.model_file import load_model
 from tests.logs.conftest import MAT
 from tests.rotation import rotating

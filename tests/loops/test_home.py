@@ -7,7 +7,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from modeler.core.builtin import read_builtin_robot
+from modeler.core.choices import read_builtin_robot
 from modeler.core.errors import LoopError
 from modeler.derivation.assembly_modes import ClosedHome, HomeModes, complete_home, find_modes_near
 from modeler.derivation.derive import derive_model

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 from modeler.codegen.emit import emit
-from modeler.core.builtin import read_builtin_robot
+from modeler.core.choices import read_builtin_robot
 from modeler.core.errors import LoopError
 from modeler.derivation.base_parameters import derive_base_parameters
 from modeler.derivation.derive import derive_model

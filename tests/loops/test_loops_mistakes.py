@@ -3,7 +3,7 @@
 import pytest
 
 from modeler.cli import main
-from modeler.core.builtin import read_builtin_robot
+from modeler.core.choices import read_builtin_robot
 from modeler.core.errors import LoopError
 from modeler.derivation.derive import derive_model
 from modeler.derivation.geometry import build_exact_geometry

@@ -6,7 +6,7 @@ from pathlib import Path
 import pytest
 import sympy
 
-from modeler.core.builtin import read_builtin_robot
+from modeler.core.choices import read_builtin_robot
 from modeler.derivation.base_parameters import derive_base_parameters
 from modeler.derivation.derive import derive_model
 from modeler.robot.read import parse_robot_text

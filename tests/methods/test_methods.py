@@ -8,7 +8,7 @@ import pytest
 
 from modeler.cli import main
 from modeler.cli.demonstrations import METHODS
-from modeler.core.builtin import list_papers
+from modeler.core.choices import list_papers
 from modeler.core.errors import RobotError
 from modeler.papers.methods import (
     MethodRow,

@@ -5,7 +5,7 @@ from typing import Any
 
 import pytest
 
-from modeler.core.builtin import list_papers
+from modeler.core.choices import list_papers
 from modeler.papers.paper import DerivedRobot, derive_robot, read_paper
 from modeler.robot.read import read_robot
 from tests.modules import module

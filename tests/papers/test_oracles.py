@@ -5,7 +5,7 @@ from itertools import islice
 
 import pytest
 
-from modeler.core.builtin import list_papers
+from modeler.core.choices import list_papers
 from modeler.papers.paper import read_paper
 from modeler.papers.readings import LineVerdict, check_line, expand_legs
 from modeler.papers.wrist import collect_coefficient_quotations

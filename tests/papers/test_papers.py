@@ -8,7 +8,7 @@ from functools import cache
 import pytest
 
 from modeler.cli import main
-from modeler.core.builtin import list_papers
+from modeler.core.choices import list_papers
 from modeler.papers.paper import PrintedLine, read_paper
 from modeler.papers.quotation import QuotationError, format_sum, read_numbers, read_sum
 from modeler.papers.readings import LineVerdict, check_line, check_paper

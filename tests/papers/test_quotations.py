@@ -8,7 +8,7 @@ from pathlib import Path
 
 import pytest
 
-from modeler.core.builtin import list_papers
+from modeler.core.choices import list_papers
 from modeler.papers.paper import read_paper
 from modeler.papers.wrist import collect_coefficient_quotations
 from tests.papers.derived_papers import robots_of

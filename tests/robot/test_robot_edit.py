@@ -4,7 +4,7 @@ import tomllib
 
 import pytest
 
-from modeler.core.builtin import list_builtin_robots
+from modeler.core.choices import list_builtin_robots
 from modeler.core.errors import RobotError
 from modeler.robot.edit import replace_effects, replace_parameters
 from modeler.robot.read import parse_robot_text, read_robot

@@ -4,7 +4,7 @@ import random
 
 import pytest
 
-from modeler.core.builtin import list_builtin_robots, read_builtin_robot
+from modeler.core.choices import list_builtin_robots, read_builtin_robot
 from modeler.core.errors import RobotError
 from modeler.formats import read_robot
 from modeler.formats.par_convert import convert_par_file

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from modeler.core.builtin import read_builtin_robot
+from modeler.core.choices import read_builtin_robot
 from modeler.derivation.base_parameters import derive_base_parameters
 from modeler.derivation.derive import derive_model
 from modeler.derivation.numeric_rank import evaluate_regressor

@@ -8,7 +8,7 @@ import pytest
 from modeler.api import define_effect, load
 from modeler.codegen.workflow import derive
 from modeler.core.errors import DerivationError, RobotError
-from modeler.core.law import MOST
+from modeler.core.expression import MOST
 from modeler.effects.catalogue import CATALOGUE, find_effect
 from modeler.effects.effect import EffectTarget
 from modeler.robot.edit import insert_effect, replace_effects

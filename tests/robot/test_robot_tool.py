@@ -2,7 +2,7 @@
 
 import pytest
 
-from modeler.core.builtin import read_builtin_robot
+from modeler.core.choices import read_builtin_robot
 from modeler.core.errors import RobotError
 from modeler.robot import insert_effect, parse_robot_text
 from tests.robot.texts import ARM

@@ -5,7 +5,7 @@ from pathlib import Path
 
 import pytest
 
-from modeler.core.builtin import read_builtin_robot
+from modeler.core.choices import read_builtin_robot
 from modeler.core.errors import RobotError
 from modeler.robot.edit import replace_effects
 from modeler.robot.read import parse_robot_text

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from modeler.api import compile_model, derive, generate, read_logs
-from modeler.core.builtin import read_builtin_robot
+from modeler.core.choices import read_builtin_robot
 from modeler.core.errors import DataError, RobotError
 from modeler.estimation import check_currents
 from modeler.regression import Processing, observe

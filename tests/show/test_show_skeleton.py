@@ -6,7 +6,7 @@ import casadi as ca
 import numpy as np
 import pytest
 
-from modeler.core.builtin import read_builtin_robot
+from modeler.core.choices import read_builtin_robot
 from modeler.robot.read import parse_robot_text, read_robot
 from modeler.simulation.closing import build_constraints, compute_closed_postures
 from modeler.simulation.rigid import compute_world_frames

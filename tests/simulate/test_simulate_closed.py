@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from closed_robots import LOOPS, RELATIONS
 
-from modeler.core.builtin import read_builtin_robot
+from modeler.core.choices import read_builtin_robot
 from modeler.core.errors import DataError, RobotError
 from modeler.robot.read import parse_robot_text, read_robot
 from modeler.simulation import (

@@ -5,7 +5,7 @@ import dataclasses
 import numpy as np
 import pytest
 
-from modeler.core.builtin import list_builtin_robots
+from modeler.core.choices import list_builtin_robots
 from modeler.core.errors import RobotError
 from modeler.robot.read import read_robot
 from modeler.robot.robot import INERTIAL, Limits

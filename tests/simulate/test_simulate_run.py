@@ -11,7 +11,7 @@ import pytest
 from closed_robots import LOOPS, RELATIONS, energies, without_effects
 
 import modeler.simulation
-from modeler.core.builtin import EFFECTS, MOTIONS, SIMULATED
+from modeler.core.choices import EFFECTS, MOTIONS, SIMULATED
 from modeler.core.errors import DataError, ModelerError
 from modeler.effects.catalogue import CATALOGUE
 from modeler.robot.read import read_robot

@@ -10,7 +10,7 @@ from pathlib import Path
 import pytest
 
 from modeler.cli import main
-from modeler.core.builtin import read_builtin_robot
+from modeler.core.choices import read_builtin_robot
 from modeler.studio.project import FOLDERS, Project, ProjectLog, Workspace
 from modeler.studio.tasks import TimeRange
 from tests.coroutines import run_coroutine

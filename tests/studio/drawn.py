@@ -2,8 +2,23 @@
 
 import numpy as np
 
-from modeler.core.figure import Band, Bars, Curve, Heat, Means, Panel, Picture, Points, Span
-from modeler.core.style import BLACK, BLUE, ORANGE, PALE, SKY, Style
+from modeler.core.figure import (
+    BLACK,
+    BLUE,
+    ORANGE,
+    PALE,
+    SKY,
+    Band,
+    Bars,
+    Curve,
+    Heat,
+    Means,
+    Panel,
+    Picture,
+    Points,
+    Span,
+    Style,
+)
 
 X = np.linspace(0.0, 6.0, 61)
 Y = np.where(np.abs(X - 3.0) < 0.35, np.nan, np.sin(X) / 3.0)

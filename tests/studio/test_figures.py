@@ -5,8 +5,7 @@ from typing import Any
 
 import numpy as np
 
-from modeler.core.figure import Curve, Panel, Picture, Points
-from modeler.core.style import BLUE, Style
+from modeler.core.figure import BLUE, Curve, Panel, Picture, Points, Style
 from modeler.studio.figures import build_figure, read_x_range
 from tests.studio.drawn import CLOUD, EVERY_KIND, SHARED, X, Y
 

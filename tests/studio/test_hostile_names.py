@@ -5,7 +5,7 @@ from pathlib import Path
 
 import pytest
 
-from modeler.core.builtin import read_builtin_robot
+from modeler.core.choices import read_builtin_robot
 from modeler.studio import commands
 from modeler.studio.project import Project, ProjectLog, Workspace
 from modeler.studio.tasks import TimeRange

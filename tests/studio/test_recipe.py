@@ -12,7 +12,7 @@ import pytest
 
 from modeler.api import load, simulate
 from modeler.cli.parser import build_parser
-from modeler.core.builtin import read_builtin_robot
+from modeler.core.choices import read_builtin_robot
 from modeler.studio import commands, export_screen
 from modeler.studio.project import Project, ProjectLog, Workspace
 from modeler.studio.tasks import LogPart, Step, Task, TimeRange, build_bookkeeping_words

@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from modeler.core.builtin import read_builtin_robot
+from modeler.core.choices import read_builtin_robot
 from modeler.robot.read import parse_robot_text
 from modeler.views.robot_page import build_page_content, render_robot_page, serialise_posture
 from modeler.views.robot_skeleton import Skeleton, build_skeleton, compute_gaps, find_home_posture

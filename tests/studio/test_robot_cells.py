@@ -5,7 +5,7 @@ import tomllib
 import numpy as np
 import pytest
 
-from modeler.core.builtin import list_builtin_robots, read_builtin_robot
+from modeler.core.choices import list_builtin_robots, read_builtin_robot
 from modeler.core.errors import RobotError
 from modeler.robot import (
     find_table_text,

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 from modeler.cli import build_parser
-from modeler.core.builtin import read_builtin_robot
+from modeler.core.choices import read_builtin_robot
 from modeler.robot import parse_robot_text
 from modeler.studio.commands import build_command_words
 from modeler.studio.project import Project, Workspace

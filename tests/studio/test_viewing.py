@@ -19,8 +19,7 @@ import pytest
 from modeler.api import checks
 from modeler.cli import main
 from modeler.core.errors import DataError, ModelerError
-from modeler.core.figure import Curve, Means
-from modeler.core.thinning import thin_curves
+from modeler.core.figure import Curve, Means, thin_curves
 from modeler.estimation import load_model
 from modeler.regression import LONG
 from modeler.studio import viewing

@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from modeler.core.builtin import read_builtin_robot
+from modeler.core.choices import read_builtin_robot
 from modeler.studio import commands
 from modeler.studio.commands import build_command_words
 from modeler.studio.processes import Outcome

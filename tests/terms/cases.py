@@ -2,7 +2,7 @@
 
 from functools import cache
 
-from modeler.core.builtin import read_builtin_robot
+from modeler.core.choices import read_builtin_robot
 from modeler.derivation.base_parameters import derive_base_parameters
 from modeler.derivation.derive import derive_model
 from modeler.derivation.model import SymbolicModel

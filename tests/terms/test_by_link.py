@@ -130,7 +130,7 @@ def test_the_command_prints_and_writes_both(capsys, tmp_path):
 
 
 def test_triads_are_three_axes():
-    from modeler.core.builtin import read_builtin_robot
+    from modeler.core.choices import read_builtin_robot
 
     for wrong in ('["a3", "a2"]', "3", '["a3", "-", "a1"]'):
         text = read_builtin_robot("wrist").replace('["a3", "-a2", "a1"]', wrong)

@@ -10,7 +10,7 @@ from sympy.polys.domains import QQ
 from sympy.polys.orderings import lex
 from sympy.polys.rings import PolyRing
 
-from modeler.core.builtin import read_builtin_robot
+from modeler.core.choices import read_builtin_robot
 from modeler.core.errors import RobotError
 from modeler.derivation.base_parameters import derive_base_parameters
 from modeler.derivation.derive import derive_model

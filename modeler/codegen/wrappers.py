@@ -1,17 +1,14 @@
-"""A Functional Mock-up Unit of FMI 3.0: the emitted C, what wraps it, and what describes it.
-
-Equations: M(q) qdd = tau - c(q, qd) - g(q) - f(qd), sign(v) of dry friction as tanh(v/width).
-"""
+"""Packages around the emitted C: a Functional Mock-up Unit, a controller for ROS 2."""
 
 import re
 from collections import Counter
 from collections.abc import Sequence
 from xml.sax.saxutils import escape
 
-from modeler.codegen.forward import build_efforts
-from modeler.codegen.functions import format_grouping_relation, make_beta_symbols
-from modeler.codegen.package import render
-from modeler.codegen.parameter_set import SMOOTH, list_turning_joints
+from modeler.codegen.control import SMOOTH, build_efforts, list_turning_joints
+from modeler.codegen.functions import format_comment, format_grouping_relation, make_beta_symbols
+from modeler.codegen.package import format_package_version, render
+from modeler.codegen.thresholds import THRESHOLDS
 from modeler.core.errors import EmitError
 from modeler.core.files import locate_resources
 from modeler.core.manifest import EmittedModule, ModuleSpec, digest_text
@@ -20,21 +17,25 @@ from modeler.derivation import BaseParameters, SymbolicModel
 HEADERS = ("fmi3Functions.h", "fmi3FunctionTypes.h", "fmi3PlatformTypes.h")
 """Of FMI 3.0, as they were published; see templates/fmi3."""
 
-STEP = 1e-3
-"""Largest step of co-simulation at the start, s."""
-
-WIDTH = 1e-2
-"""Widths of Coulomb friction at the start, rad/s or m/s."""
 
 _BASE = {
-    "kg": "kg", "m": "m", "s": "s", "A": "A", "K": "K", "rad": "rad", "N": "kg m s-2",
-    "J": "kg m2 s-2", "W": "kg m2 s-3", "V": "kg m2 s-3 A-1", "1": "",
-}  # fmt: skip
+    "kg": "kg",
+    "m": "m",
+    "s": "s",
+    "A": "A",
+    "K": "K",
+    "rad": "rad",
+    "N": "kg m s-2",
+    "J": "kg m2 s-2",
+    "W": "kg m2 s-3",
+    "V": "kg m2 s-3 A-1",
+    "1": "",
+}
 """Units as products of those that FMI knows."""
 
 
 def find_fmu_roles(model: SymbolicModel, base: BaseParameters) -> tuple[str, ...]:
-    """The functions of the C that an FMU calls.
+    """Returns the functions of the C that an FMU calls.
 
     Raises:
         EmitError: dry friction in loops; effects that read accelerations.
@@ -58,10 +59,10 @@ def find_fmu_roles(model: SymbolicModel, base: BaseParameters) -> tuple[str, ...
 def build_fmu_files(
     emitted: EmittedModule, model: SymbolicModel, base: BaseParameters, beta: Sequence[float]
 ) -> dict[str, str]:
-    """{place in the unit: text} of all but the binary.
+    """Returns {place in the unit: text} of all but the binary.
 
     Args:
-        emitted: the functions of `find_fmu_roles`.
+        emitted: the functions of `fmu_roles`.
         model: as derived.
         base: the base parameters of the same model.
         beta: their values at the start.
@@ -89,8 +90,8 @@ def build_fmu_files(
         "title": escape(spec.title or spec.robot, {'"': "&quot;"}),
         "prefix": spec.prefix,
         "token": f"{{{token}}}",
-        "step": STEP,
-        "width": WIDTH,
+        "step": THRESHOLDS.max_fmu_step,
+        "width": THRESHOLDS.fmu_friction_width,
         "joints": n,
         "widths": len(widths),
         "beta": beta,
@@ -126,9 +127,12 @@ def _format_lines(numbers: Sequence[float]) -> list[str]:
 
 
 def _list_variables(
-    spec: ModuleSpec, base: BaseParameters, widths: Sequence[str], home: Sequence[float],
+    spec: ModuleSpec,
+    base: BaseParameters,
+    widths: Sequence[str],
+    home: Sequence[float],
     beta: Sequence[float],
-) -> list[dict[str, str]]:  # fmt: skip
+) -> list[dict[str, str]]:
     """Attributes of all, in the order of the array of modeler_fmu.c."""
     n, variables = len(spec.joints), list[dict[str, str]]()
 
@@ -151,13 +155,14 @@ def _list_variables(
         add_variable(name, unit, about, "parameter", initial="exact", start=start)
 
     add_variable("time", "s", "time", "independent")
-    add_parameter("step", "s", "largest step of co-simulation", STEP)
+    add_parameter("step", "s", "largest step of co-simulation", THRESHOLDS.max_fmu_step)
     for name, about, kind, per, start in (
-        ("q", "position", "output", "", home), ("qd", "speed", "output", "/s", [0.0] * n),
+        ("q", "position", "output", "", home),
+        ("qd", "speed", "output", "/s", [0.0] * n),
         ("dq", "derivative of the position", "local", "/s", None),
         ("qdd", "acceleration", "output", "/s2", None),
         ("tau", "effort of the drive", "input", "", [0.0] * n),
-    ):  # fmt: skip
+    ):
         for k, joint in enumerate(spec.joints):
             more: dict[str, object] = {} if start is None else {"start": float(start[k])}
             if kind != "input":
@@ -173,7 +178,9 @@ def _list_variables(
     units = {joint.name: joint.unit for joint in spec.joints}
     for name in widths:
         about = f"width over which the Coulomb friction of joint {name} turns"
-        add_parameter(f"width{name}", f"{units.get(name, 'rad')}/s", about, WIDTH)
+        add_parameter(
+            f"width{name}", f"{units.get(name, 'rad')}/s", about, THRESHOLDS.fmu_friction_width
+        )
     return variables
 
 
@@ -183,7 +190,7 @@ def _format_unit(unit: str) -> str:
 
 
 def _parse_unit_powers(unit: str) -> dict[str, int]:
-    """Of base units, of a unit as `_format_unit` gives it; empty where one is not known."""
+    """Of base units, of a unit as `_name` gives it; empty where one is not known."""
     powers: Counter[str] = Counter()
     over, *under = unit.split("/")
     for text, sign in [(over, 1), *((part, -1) for part in under)]:
@@ -195,3 +202,82 @@ def _parse_unit_powers(unit: str) -> dict[str, int]:
                 letters, power = re.fullmatch(r"([A-Za-z]+)(-?\d*)", base).groups()  # type: ignore[union-attr]
                 powers[letters] += sign * int(match[2] or 1) * int(power or 1)
     return {name: power for name, power in powers.items() if power}
+
+
+# A package for ROS 2: computed torque with the emitted C as a chainable controller.
+
+
+_PLACES = {
+    "package.xml": "",
+    "CMakeLists.txt": "",
+    "plugin.xml": "",
+    "README.md": "",
+    "controller.yaml": "config/",
+    "computed_torque.hpp": "src/",
+    "controller.hpp": "src/",
+    "controller.cpp": "src/",
+}
+"""{template of templates/ros2: where it goes}."""
+
+
+def build_ros2_files(emitted: EmittedModule, beta: Sequence[float], source: str) -> dict[str, str]:
+    """Returns {place in the package: text}.
+
+    Args:
+        emitted: the module.
+        beta: its base parameters.
+        source: where they are from, one phrase.
+
+    Raises:
+        EmitError: effects that read signals, which no hardware interface gives.
+    """
+    spec = emitted.spec
+    if spec.signals:
+        raise EmitError(
+            f"{spec.robot}: its effects read {spec.signals[0].kind}, which a controller of "
+            "ros2_control is not given; leave them out of [effects]"
+        )
+    roles = {f.name.removeprefix(f"{spec.prefix}_"): f for f in spec.functions}
+    status = roles["inverse_dynamics"].status
+    calls: list[str] = []
+    for role, out, speed in (
+        ("inverse_dynamics", "tau", "qd"),
+        ("friction", "f", "qd"),
+        ("friction", "f_d", "wanted.qd"),
+    ):
+        c_names = {"q": "q", "qd": speed, "qdd": "v", "beta": "beta"}
+        words = [f"{c_names[argument.name]}.data()" for argument in roles[role].inputs]
+        call = f"{roles[role].name}({', '.join(words)}, {out}.data())"
+        if status:
+            call = (
+                f"int status = {call}" if not calls else f"status = status != 0 ? status : {call}"
+            )
+        calls.append(f"{call};")
+    names = [joint.name for joint in spec.joints]
+    title = spec.title or spec.robot
+    code = {name: emitted.files[name] for name in spec.controller_sources}
+    values = {
+        "title": format_comment(title),
+        "xml_title": escape(title),
+        "name": spec.robot,
+        "prefix": spec.prefix,
+        "macro": spec.prefix.upper(),
+        "calls": calls,
+        "status": status,
+        "package": re.sub("_+", "_", f"{spec.prefix}_computed_torque"),
+        "names": names,
+        "version": ".".join(format_package_version(spec.compute_signature()).split(".")[:3]),
+        "source": source,
+        "beta": [
+            f"{float(x)!r},  /* {base.name}, {base.unit} */"
+            for base, x in zip(spec.base, beta, strict=True)
+        ],
+        "effort": " or ".join(dict.fromkeys(joint.effort_unit for joint in spec.joints)),
+        "kp": ", ".join([f"{THRESHOLDS.controller_bandwidth**2:.1f}"] * len(names)),
+        "kd": ", ".join([f"{2 * THRESHOLDS.controller_bandwidth:.1f}"] * len(names)),
+        "sources": sorted(name for name in code if name.endswith(".c")),
+    }
+    return {
+        **{f"{place}{name}": render(f"ros2/{name}", **values) for name, place in _PLACES.items()},
+        **{f"src/{name}": text for name, text in code.items()},
+    }
