@@ -18,12 +18,7 @@ from .candidates import (
 )
 from .diagnosis import diagnose as diagnose
 from .effect_columns import evaluate_columns as evaluate_columns
-from .events import (
-    AFTER as AFTER,
-    MARGIN as MARGIN,
-    PushWindow as PushWindow,
-    find_load_reversals as find_load_reversals,
-)
+from .events import PushWindow as PushWindow, find_load_reversals as find_load_reversals
 from .judge import ScoredCandidate as ScoredCandidate
 from .learn import (
     ANY_LAW as ANY_LAW,
@@ -54,3 +49,4 @@ from .state import (
     build_columns as build_columns,
     build_state as build_state,
 )
+from .thresholds import THRESHOLDS as THRESHOLDS

@@ -32,7 +32,6 @@ from modeler.diagnosis.learn import ANY_LAW, LawRequest, LearnedLaw, learn_law
 from modeler.diagnosis.plausible import find_caveat
 from modeler.diagnosis.profile import describe_values
 from modeler.diagnosis.result import (
-    HIDDEN,
     JOINTED,
     FittedCandidate,
     explain_exclusion,
@@ -49,6 +48,7 @@ from modeler.diagnosis.score import (
 from modeler.diagnosis.search import extend_state, scan_candidates, scan_catalogue
 from modeler.diagnosis.sentences import format_location
 from modeler.diagnosis.state import SearchData, State, analyse_logs, build_state
+from modeler.diagnosis.thresholds import THRESHOLDS
 from modeler.diagnosis.timing import estimate_instrumental
 from modeler.effects import Effect, EffectTarget, find_effect
 from modeler.estimation import Addition, IdentifiedModel, collect_provenance, identify, judge_fit
@@ -193,9 +193,13 @@ def add_effect(
 
 @threadpool_limits.wrap(limits=1, user_api="blas")
 def add_learned_law(
-    model: IdentifiedModel, compiled: CompiledModel, joint: str | None, logs: LogSplit,
-    request: LawRequest = ANY_LAW, progress: Callable[[float], None] | None = None,
-) -> IdentifiedModel:  # fmt: skip
+    model: IdentifiedModel,
+    compiled: CompiledModel,
+    joint: str | None,
+    logs: LogSplit,
+    request: LawRequest = ANY_LAW,
+    progress: Callable[[float], None] | None = None,
+) -> IdentifiedModel:
     """The model with a learned law more, fitted together with its parameters.
 
     Args:
@@ -238,7 +242,11 @@ def add_learned_law(
         )
     *steps, last = after.model.history
     moved = _compute_parameter_shifts(model, after.model)
-    far = [f"{entry} by {moved[entry]:.2g}" for entry in moved if moved[entry] > MOVED]
+    far = [
+        f"{entry} by {moved[entry]:.2g}"
+        for entry in moved
+        if moved[entry] > THRESHOLDS.max_parameter_shift
+    ]
     doubt = (
         f"it moves {join_names(far)} of their sigmas: the law says what these said" if far else ""
     )
@@ -267,17 +275,14 @@ def add_learned_laws(
     return model, tuple(left)
 
 
-MOVED = 2.0
-"""Sigmas beyond which a law that is learned changes what a parameter means."""
-
-
 def _compute_parameter_shifts(before: IdentifiedModel, after: IdentifiedModel) -> dict[str, float]:
     """Of every base parameter of both, how many of its sigmas it moved."""
     now = {p.name: p.value for p in after.fit.parameters}
     return {
         p.name: abs(now[p.name] - p.value) / p.sigma
-        for p in before.fit.parameters if p.sigma and p.name in now
-    }  # fmt: skip
+        for p in before.fit.parameters
+        if p.sigma and p.name in now
+    }
 
 
 def _explain_weak_evidence(pick: FittedCandidate, score: Score) -> str:
@@ -310,8 +315,9 @@ def add_findings(
     """
     left = [
         f"left out: {f.effect}, {format_location(f.joint)} (perhaps and no more: {f.doubt})"
-        for f in findings if f.doubt
-    ]  # fmt: skip
+        for f in findings
+        if f.doubt
+    ]
     best = _FittedModel(model, build_rows(compiled, logs, model.processing))
     best, rest = _add_drive_gains(best, [f for f in findings if not f.doubt])
     for finding in rest:
@@ -429,7 +435,9 @@ def _select_candidate(before: _FittedModel, effect: Effect, joint: str | None) -
 def _score_addition(before: _FittedModel, pick: FittedCandidate) -> tuple[_FittedModel, Score]:
     """The model with the effect, and whether it is the better one."""
     effect = pick.candidate.effect
-    if pick.visible_share < HIDDEN:  # it would take its values from the model that is there
+    if (
+        pick.visible_share < THRESHOLDS.min_addable_share
+    ):  # it would take its values from the model that is there
         raise DataError(
             f"{effect.id}: cannot be told from what the model has on these logs "
             f"({format_percent(pick.visible_share)} of it is left); {effect.look_alikes}"

@@ -16,6 +16,7 @@ from modeler.diagnosis.score import Residuals, explain_no_improvement, format_er
 from modeler.diagnosis.sentences import format_location
 from modeler.diagnosis.signals import SignalReference, compute_tilt_axes
 from modeler.diagnosis.state import SearchData, State, build_columns, build_state
+from modeler.diagnosis.thresholds import THRESHOLDS
 from modeler.effects import PASSIVE_FRICTION, PASSIVE_FRICTION_IS, Effect, EffectTarget, find_effect
 from modeler.estimation import (
     Addition,
@@ -244,9 +245,13 @@ def insert_law(
         "columns": {prefix: learned.coordinates.equation},
         "unit": state.spec.joints[j].effort_unit.replace(" ", "*"),
         **learned.coordinates.further,
-        "law": {"low": list(law.low), "high": list(law.high), "cells": list(law.cells),
-                "values": list(law.values)},
-    }  # fmt: skip
+        "law": {
+            "low": list(law.low),
+            "high": list(law.high),
+            "cells": list(law.cells),
+            "values": list(law.values),
+        },
+    }
     text = insert_own_effect(text, name, definition)
     effect = find_effect(name, parse_robot_text(text, "robot with a law").catalogue)
     assert effect is not None
@@ -305,15 +310,15 @@ def describe_last_addition(model: IdentifiedModel) -> list[str]:
         lines.append("with " + ", ".join(texts))
     if last.moved:
         order = sorted(last.moved, key=lambda name: -last.moved[name])
-        shifts = [f"{name} {last.moved[name]:.2g}" for name in order[:_SHOWN]]
-        if len(order) > _SHOWN:
-            shifts.append(f"all others less than {last.moved[order[_SHOWN - 1]]:.2g}")
+        shifts = [
+            f"{name} {last.moved[name]:.2g}" for name in order[: THRESHOLDS.max_listed_shifts]
+        ]
+        if len(order) > THRESHOLDS.max_listed_shifts:
+            shifts.append(
+                f"all others less than {last.moved[order[THRESHOLDS.max_listed_shifts - 1]]:.2g}"
+            )
         lines.append(f"moved by it, in their sigmas: {', '.join(shifts)}")
     return lines
-
-
-_SHOWN = 8
-"""Parameters of which is told by how much they moved."""
 
 
 def _find_parameters(model: IdentifiedModel, step: Addition) -> list[ParameterEstimate]:

@@ -10,13 +10,8 @@ import numpy as np
 
 from modeler.core.brief import ShortRepr
 from modeler.diagnosis.candidates import Candidate
-from modeler.diagnosis.cross_checks import CrossCheck, ParameterChange
-from modeler.diagnosis.data_checks import (
-    SHORT,
-    collect_warnings,
-    compute_duration,
-    find_single_speed,
-)
+from modeler.diagnosis.cross_checks import CrossCheck, Key, ParameterChange
+from modeler.diagnosis.data_checks import collect_warnings, compute_duration, find_single_speed
 from modeler.diagnosis.detected import detect_events
 from modeler.diagnosis.drive_gains import compute_gain_deviations, compute_gain_visibility, is_gain
 from modeler.diagnosis.events import PushWindow
@@ -35,13 +30,11 @@ from modeler.diagnosis.profile import (
     describe_values,
     find_nonlinear_units,
 )
-from modeler.diagnosis.ranking import VISIBLE
 from modeler.diagnosis.result import (
     Diagnosis,
     Finding,
     FittedCandidate,
     JointState,
-    Key,
     compute_explained_fraction,
     compute_mean_square,
     explain_weak_evidence,
@@ -50,14 +43,12 @@ from modeler.diagnosis.score import ErrorChange, Residuals, Score, compute_error
 from modeler.diagnosis.search import Search, SearchStep, Tick, extend_state
 from modeler.diagnosis.sentences import NOT_JUDGED, add_sentences, describe_evidence
 from modeler.diagnosis.state import SearchData, State, build_state, get_cutoff
+from modeler.diagnosis.thresholds import THRESHOLDS
 from modeler.diagnosis.timing import estimate_instrumental
 from modeler.effects import EffectTarget, find_effect
 from modeler.estimation import IdentifiedModel
 from modeler.regression import DataWarning
 from modeler.runtime import map_parts
-
-LOST = 1.0
-"""Held-out error from which on a model says nothing about that motion, nor what it lacks."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -112,7 +103,7 @@ def evaluate_search(
     for k, step in enumerate(search.steps):
         touched = find_affected_joints(step.score, *chain[k : k + 2])
         score = compare_residuals(residuals[k], residuals[k + 1], touched, search.end)
-        if score.is_better and score.whole.after <= LOST:
+        if score.is_better and score.whole.after <= THRESHOLDS.max_predictive_error:
             closed = min(
                 compute_explained_fraction(values[k:], touched, share, chain[k].sigma)
                 for values, share in zip(squares, shares, strict=True)
@@ -140,9 +131,12 @@ def _build_share_function(
 
 
 def assemble_diagnosis(
-    model: IdentifiedModel, bands: Sequence[BandSearch], window: PushWindow | None,
-    faults: Sequence[DataWarning] = (), changed_parameters: Sequence[ParameterChange] = (),
-) -> Diagnosis:  # fmt: skip
+    model: IdentifiedModel,
+    bands: Sequence[BandSearch],
+    window: PushWindow | None,
+    faults: Sequence[DataWarning] = (),
+    changed_parameters: Sequence[ParameterChange] = (),
+) -> Diagnosis:
     """The diagnosis.
 
     Args:
@@ -254,9 +248,14 @@ def _add_event_caveat(finding: Finding, joints: Mapping[str, JointState]) -> Fin
 
 
 def _build_finding(
-    search: Search, k: int, touched: Sequence[int], change: ErrorChange, closed: float,
-    checks: tuple[CrossCheck, ...], after: Sequence[float],
-) -> Finding:  # fmt: skip
+    search: Search,
+    k: int,
+    touched: Sequence[int],
+    change: ErrorChange,
+    closed: float,
+    checks: tuple[CrossCheck, ...],
+    after: Sequence[float],
+) -> Finding:
     """What the k-th step put in."""
     step, end, first = search.steps[k], search.end, k == 0 and not search.prior_steps
     k += len(search.prior_steps)
@@ -340,8 +339,9 @@ def _summarise_joints(
     states, ends = {}, [compute_errors(residuals[k]) for k in (0, -1)]
     shown = [j for j, y in enumerate(search.start.rows.y) if y.size]
     # what all joints share is made by the first
-    shares = dict(zip(shown, [*map(systematic, shown[:1]), *map_parts(systematic, shown[1:])],
-                      strict=True))  # fmt: skip
+    shares = dict(
+        zip(shown, [*map(systematic, shown[:1]), *map_parts(systematic, shown[1:])], strict=True)
+    )
     for j, joint in enumerate(search.spec.joints):
         if j not in shares:
             continue
@@ -373,9 +373,11 @@ def decide_verdict(
     """
     if effects:
         return "missing" if effects[0].is_confirmed else "closest description"
-    if compute_duration(search.start) < SHORT or not any(y.size > 100 for y in search.start.y):
+    if compute_duration(search.start) < THRESHOLDS.min_duration or not any(
+        y.size > 100 for y in search.start.y
+    ):
         return "cannot tell"
-    if any(state.error_after > LOST for state in joints.values()):
+    if any(state.error_after > THRESHOLDS.max_predictive_error for state in joints.values()):
         return "cannot tell"
     if any(state.is_unexplained for state in joints.values()):
         return "unexplained"
@@ -399,7 +401,10 @@ def list_undetectable_effects(search: Search) -> tuple[Key, ...]:
     hidden += _list_unmoved(search.start)
     shown = [key for key in hidden if not is_ruled_out(*key, search.without)]
     named_keys = {pick.key for step in search.steps for pick in (step.score, *step.equivalents)}
-    every = [*(j.key for j in candidate_scores if j.visible_share < 2.0 * VISIBLE), *shown]
+    every = [
+        *(j.key for j in candidate_scores if j.visible_share < 2.0 * THRESHOLDS.min_visible_share),
+        *shown,
+    ]
     undetectable = [key for key in dict.fromkeys(every) if key not in named_keys]
     assert all(find_effect(name, search.catalogue) is not None for name, _ in undetectable)
     return tuple(undetectable)
@@ -415,10 +420,11 @@ def _list_unmoved(state: State) -> list[Key]:
     if not any(steady) and all(y.size for y in state.rows.y):
         return []
     return [
-        candidate.key for candidate in generate_candidates(state)
+        candidate.key
+        for candidate in generate_candidates(state)
         if candidate.effect.acts in joint_actions
         and (
             not state.rows.y[candidate.index].size
             or (steady[candidate.index] and candidate.form.names == {"v"})
         )
-    ]  # fmt: skip
+    ]

@@ -51,10 +51,13 @@ class JointScale:
         """What 1 means in the grid of a shape parameter, SI."""
         travel = 1.0 if self.angular else self.range / 3.0
         units = {
-            "speed": self.speed, "travel": travel, "place": travel, "bend": travel**-2,
+            "speed": self.speed,
+            "travel": travel,
+            "place": travel,
+            "bend": travel**-2,
             "turn": 1.0 if self.angular else 2.0 * np.pi / self.range,
             "load": self.load,
-        }  # fmt: skip
+        }
         return units.get(shape.scale, 1.0)
 
     def scale_value(self, shape: NonlinearParameter, entry: float) -> float:
@@ -224,9 +227,8 @@ def _has_logged_others(form: Form, joint: str, spec: ModuleSpec) -> bool:
 
 
 def _is_representative(
-    effect: Effect, joint: str, known: StatedEffects,
-    allowed: Callable[[str, str | None], bool],
-) -> bool:  # fmt: skip
+    effect: Effect, joint: str, known: StatedEffects, allowed: Callable[[str, str | None], bool]
+) -> bool:
     """True if it stands for those that no data tell from it: the first that is not ruled out."""
     for other in known.catalogue:
         if other is effect:

@@ -19,7 +19,6 @@ from modeler.diagnosis.candidates import Candidate
 from modeler.diagnosis.effect_columns import expand_columns
 from modeler.diagnosis.generate import generate_candidates, is_ruled_out
 from modeler.diagnosis.judge import (
-    NEARLY,
     ScoredCandidate,
     compute_holdout_residuals,
     count_free_numbers,
@@ -31,13 +30,10 @@ from modeler.diagnosis.judge import (
 from modeler.diagnosis.score import Residuals, compute_errors
 from modeler.diagnosis.search import Search, SearchStep, Tick, linearise_state, scan_candidates
 from modeler.diagnosis.state import SearchData, State, build_columns, build_state
+from modeler.diagnosis.thresholds import THRESHOLDS
 from modeler.diagnosis.timing import smooth_rows
 from modeler.estimation import IdentifiedModel, identify
 from modeler.regression import Log, build_observation, prepare_logs
-
-RIVALS = 8
-"""Effects that are asked again in the other looks: those that came nearest."""
-
 
 Key = tuple[str, str | None]
 """Effect and joint; the joint of an effect of the whole robot is None."""
@@ -116,12 +112,15 @@ def _check_excluded(search: Search, step: SearchStep) -> list[CrossCheck]:
         return []
     asked = scan_candidates(state, [step.candidate, *barred]).judge_candidates()
     same_effect = [j for j in asked.ranked if j.key == step.candidate.key]
-    least = NEARLY * same_effect[0].total_reduction if same_effect else 0.0
+    least = THRESHOLDS.parsimony_share * same_effect[0].total_reduction if same_effect else 0.0
     alike = (
-        j for j in asked.ranked
-        if j not in same_effect and j.is_significant and j.total_reduction >= least
+        j
+        for j in asked.ranked
+        if j not in same_effect
+        and j.is_significant
+        and j.total_reduction >= least
         and count_free_numbers(j.candidate) <= count_free_numbers(step.candidate)
-    )  # fmt: skip
+    )
     best = next(alike, asked.best)
     if best is None or best.key == step.candidate.key:
         return []
@@ -177,7 +176,9 @@ def _is_logged(data: SearchData, candidate: Candidate) -> bool:
 def _rescan_candidates(state: State, step: SearchStep, search: Search) -> list[ScoredCandidate]:
     """The effect and its nearest rivals, each at the best of its shapes."""
     refused = {j.key for j in search.vetoed_candidates}
-    rivals = [j.candidate for j in step.alternatives if j.key not in refused][:RIVALS]
+    rivals = [j.candidate for j in step.alternatives if j.key not in refused][
+        : THRESHOLDS.max_rechecked_alternatives
+    ]
     first = [step.candidate, *rivals]
     keys = {c.key for c in first}
     again = [c for c in generate_candidates(state, None, search.without, keys) if c.key in keys]
@@ -187,17 +188,6 @@ def _rescan_candidates(state: State, step: SearchStep, search: Search) -> list[S
 
 
 # Is the machine of the held-out logs that of the training logs?
-
-
-DIFFERS = 2.0
-"""Ratio of the held-out error of a joint to that of a fit to the held-out logs alone, and to that
-of the training logs (both cross-validated), from which on the machine may differ."""
-
-MOVED = 5.0
-"""Standard deviations of the difference from which on a parameter has changed."""
-
-FELT = 0.005
-"""Least rms torque of its change, over that of a joint, on the held-out logs."""
 
 
 @dataclass(frozen=True)
@@ -237,7 +227,10 @@ def find_changed_parameters(
     alone, training = (
         compute_errors(compute_holdout_residuals(state, None)) for state in (there, search.end)
     )
-    most = {joint: DIFFERS * max(alone[joint], training.get(joint, 0.0)) for joint in alone}
+    most = {
+        joint: THRESHOLDS.min_machine_error_ratio * max(alone[joint], training.get(joint, 0.0))
+        for joint in alone
+    }
     misses = any(error > most.get(joint, math.inf) for joint, error in compute_errors(left).items())
     if not misses or other.fixed_parameters is not None:
         return ()
@@ -250,9 +243,9 @@ def find_changed_parameters(
             abs(change) * float(np.linalg.norm(w[:, i])) / (float(np.linalg.norm(y)) or math.inf)
             for w, y in zip(there.rows.W, there.rows.y, strict=True)
         )
-        if a.sigma is None or b.sigma is None or share < FELT:
+        if a.sigma is None or b.sigma is None or share < THRESHOLDS.min_changed_torque_share:
             continue
-        if abs(change) > MOVED * math.hypot(a.sigma, b.sigma):
+        if abs(change) > THRESHOLDS.min_changed_parameter_t * math.hypot(a.sigma, b.sigma):
             changes.append(
                 ParameterChange(a.name, a.value, b.value, a.sigma, b.sigma, a.unit, share)
             )

@@ -12,24 +12,16 @@ from modeler.core.table import format_percent
 from modeler.diagnosis.candidates import StatedEffects
 from modeler.diagnosis.drive_gains import is_gain
 from modeler.diagnosis.events import PushWindow
-from modeler.diagnosis.plausible import SMOOTH, is_torque_computed
+from modeler.diagnosis.plausible import is_torque_computed
 from modeler.diagnosis.search import Search
 from modeler.diagnosis.state import SearchData, State, build_state, is_visible
-from modeler.diagnosis.timing import CONVENTION
+from modeler.diagnosis.thresholds import THRESHOLDS
 from modeler.effects import Effect, EffectTarget
 from modeler.estimation import IdentifiedModel, find_log_faults
 from modeler.regression import TREMBLES, DataWarning, Observation, compute_chatter_ratios
 
 if TYPE_CHECKING:
     from modeler.runtime import CompiledModel
-
-SHORT = 5.0
-"""s of motion in all below which nothing can be ruled out."""
-
-_STILL = {"rad": 1e-3, "m": 1e-4}  # stroke below which a joint does not move
-_ONE_WAY = 0.98  # of the moving rows
-_ONE_SPEED = 1.3  # ratio of the 90 % and 10 % quantiles of the speed
-_SLOW = 0.01  # of a joint's torque that inertia makes
 
 
 def compute_duration(state: State) -> float:
@@ -46,7 +38,7 @@ def describe_data_problems(state: State) -> tuple[str, ...]:
         state: the model as given.
     """
     lines, total = list[str](), compute_duration(state)
-    if total < SHORT:
+    if total < THRESHOLDS.min_duration:
         lines.append(f"{total:.1f} s of motion in all; expected 20 s or more: record longer")
     driven = {j: joint for j, joint in enumerate(state.spec.joints) if joint.actuated}
     for j, joint in driven.items():
@@ -63,7 +55,7 @@ def describe_data_problems(state: State) -> tuple[str, ...]:
 def _check_joint_motion(state: State, j: int, joint: JointSpec) -> list[str]:
     signals = state.rows.signals
     q = np.concatenate([s.q[:, j] for s in signals])
-    if np.ptp(q) < _STILL[joint.unit]:
+    if np.ptp(q) < THRESHOLDS.min_stroke[joint.unit]:
         return [f"joint {joint.name} never moves: nothing can be said of its effects; move it"]
     v = state.rows.filter_samples(j, [s.v[:, j] for s in signals])
     if not v.size:
@@ -73,7 +65,7 @@ def _check_joint_motion(state: State, j: int, joint: JointSpec) -> list[str]:
         ]
     forward = float(np.mean(v > 0.0))
     lines = []
-    if max(forward, 1.0 - forward) > _ONE_WAY:
+    if max(forward, 1.0 - forward) > THRESHOLDS.max_one_way_share:
         lines.append(
             f"joint {joint.name} moves one way only: Coulomb friction and offset are one column; "
             "move it both ways"
@@ -93,7 +85,7 @@ def find_single_speed(state: State, j: int) -> float | None:
     if not v.size:
         return None
     low, high = np.quantile(np.abs(v), [0.1, 0.9])
-    return float(high) if high < _ONE_SPEED * low else None
+    return float(high) if high < THRESHOLDS.max_single_speed_ratio * low else None
 
 
 def _compute_rms(values: np.ndarray) -> float:
@@ -105,9 +97,9 @@ def _check_inertia_torque(state: State, joints: Mapping[int, JointSpec]) -> list
     lines = []
     for j, joint in joints.items():
         moved = [s.load[:, j] - s.static[:, j] for s in state.rows.signals]
-        if _compute_rms(state.rows.filter_samples(j, moved)) < _SLOW * _compute_rms(
-            state.rows.y[j]
-        ):
+        if _compute_rms(
+            state.rows.filter_samples(j, moved)
+        ) < THRESHOLDS.min_inertia_share * _compute_rms(state.rows.y[j]):
             v = state.rows.filter_samples(j, [s.v[:, j] for s in state.rows.signals])
             top = float(np.max(np.abs(v), initial=0.0))
             lines.append(
@@ -123,7 +115,7 @@ def _check_computed_torque(state: State) -> list[str]:
         return []
     return [
         "no joint rubs: friction is less than "
-        f"{format_percent(SMOOTH)} of the torque, which it is on no robot with gears: these "
+        f"{format_percent(THRESHOLDS.min_friction_share)} of the torque, which it is on no robot with gears: these "
         "torques were "
         "computed from the motion, and not measured; only "
         f"{', '.join(effect.id for effect in catalogue)} are looked for"
@@ -170,19 +162,6 @@ def _check_chatter(state: State) -> list[str]:
 
 
 # All that may be wrong with the logs of a diagnosis, the gravest first.
-
-
-MENDED = 0.25
-"""Share of a joint's squared residual: with less of it left, its torque has the scale it should."""
-
-
-LATE_SHARE = 0.2
-"""Least share of the error variance left that the shift of one position explains."""
-
-AHEAD = 1.5
-"""Least ratio of what it explains to what the best effect of the catalogue would."""
-
-_SURE = 4.5  # falls over their standard error
 
 
 def collect_warnings(
@@ -232,7 +211,7 @@ def _is_explained(search: Search, j: int) -> bool:
     if any(map(is_gain, search.end.picks)):
         return True
     before, after = (float(np.mean(s.residual[j] ** 2)) for s in (search.start, search.end))
-    return after < MENDED * before
+    return after < THRESHOLDS.max_explained_residual_share * before
 
 
 def _describe_delay_shift(model: IdentifiedModel, data: SearchData) -> list[str]:
@@ -254,9 +233,10 @@ def _check_temperature(state: State, other: SearchData) -> list[str]:
     for k, log in enumerate(other.observation.logs):
         extra = [s.segment.extra for s in other.rows.signals if s.segment.run == k]
         lacking = [
-            joint for joint in known
+            joint
+            for joint in known
             if not all({f"temperature{joint}", "temperature"} & part.keys() for part in extra)
-        ]  # fmt: skip
+        ]
         if lacking:
             lines.append(
                 f"held out: {log} has no temperature of joint {', '.join(lacking)}: taken as the "
@@ -311,9 +291,14 @@ def _check_position_delay(search: Search) -> list[str]:
     step = float(np.median([s.segment.logged_step for s in rows.signals]))
     late, joint = float(ranking.value[best][0]), state.joint_names[list(columns)[best]]
     shown = drop[best] >= max(
-        LATE_SHARE * float(ranking.before.sum()), AHEAD * max(rivals, default=0.0)
+        THRESHOLDS.min_delay_share * float(ranking.before.sum()),
+        THRESHOLDS.min_delay_lead * max(rivals, default=0.0),
     )
-    if not shown or ranking.t_ratios[best] < _SURE or abs(late) < CONVENTION * step:
+    if (
+        not shown
+        or ranking.t_ratios[best] < THRESHOLDS.min_delay_t_ratio
+        or abs(late) < THRESHOLDS.max_logger_delay * step
+    ):
         return []
     return [
         f"joint {joint}: its position comes {1e3 * abs(late):.2g} ms too "

@@ -8,34 +8,18 @@ import numpy as np
 
 from modeler.core.table import format_error_pair, format_percent
 from modeler.diagnosis.candidates import Candidate
-from modeler.diagnosis.events import BURST, LOUD, PushWindow, compute_burst_ratio
+from modeler.diagnosis.events import PushWindow, compute_burst_ratio
 from modeler.diagnosis.generate import is_ruled_out
-from modeler.diagnosis.judge import GATE, NAMED_T_RATIO, ScoredCandidate
+from modeler.diagnosis.judge import ScoredCandidate
 from modeler.diagnosis.orders import compute_burst_share
 from modeler.diagnosis.result import Finding
 from modeler.diagnosis.score import Score
 from modeler.diagnosis.search import Search
 from modeler.diagnosis.state import State
+from modeler.diagnosis.thresholds import THRESHOLDS
 from modeler.effects import Effect, EffectTarget
 
-KNOCKS = 0.85
-"""Share of a residual's energy in outbursts from which on something knocks."""
-
-FAINT = 4.0
-"""Ratio of the bursts from which on there is play where its column explains something too."""
-
-BESIDE = 5.0
-"""The same beside other effects, which may leave bursts of their own."""
-
-AGAIN = 5.0
-"""Held-out error over that of the rest of the training logs from which on it came again."""
-
-_LEAST = 1e-3  # share that counts for a column of play that explains nothing
-
 _NO_FALL = "no column of play surely lowers the error"
-
-WEAK = 0.5
-"""Gain of a column below which play that is heard without it comes first."""
 
 
 def detect_events(
@@ -61,24 +45,26 @@ def detect_events(
     contact = [] if window is None else _detect_contact(search, window, errors)
     alone = all(f.is_refinement for f in findings)
     rings = any(_is_ringing(f) for f in findings)
-    least = FAINT if alone else BESIDE
-    play = _detect_backlash(search, search.end, BURST) or _detect_faint_backlash(
-        search, least, knocks=not rings
-    )
+    least = THRESHOLDS.min_faint_burst_ratio if alone else THRESHOLDS.min_faint_burst_ratio_beside
+    play = _detect_backlash(
+        search, search.end, THRESHOLDS.min_burst_ratio
+    ) or _detect_faint_backlash(search, least, knocks=not rings)
     if play is not None:
         beside = [
             dataclasses.replace(
-                f, is_refinement=f.is_refinement or (_is_ringing(f) and f.gain < WEAK)
+                f,
+                is_refinement=f.is_refinement
+                or (_is_ringing(f) and f.gain < THRESHOLDS.max_weak_gain),
             )
             for f in findings
         ]
         return [*beside, *contact, _score_backlash(search, play, errors, score_candidate)]
-    play = _detect_backlash(search, search.start, LOUD)
+    play = _detect_backlash(search, search.start, THRESHOLDS.min_loud_burst_ratio)
     if play is None or contact:
         return [*findings, *contact]
     play = _score_backlash(search, play, errors, score_candidate)
     same_joint = [f for f in findings if f.joint == play.joint]
-    if any(f.gain > WEAK and not f.is_refinement for f in same_joint):
+    if any(f.gain > THRESHOLDS.max_weak_gain and not f.is_refinement for f in same_joint):
         return list(findings)
     rest = [dataclasses.replace(f, is_refinement=True) if f in same_joint else f for f in findings]
     return [play, *rest] if same_joint or alone else [*rest, play]
@@ -106,7 +92,11 @@ def _detect_contact(
     for name, y, r in zip(
         search.end.joint_names, search.end.rows.y, search.end.residual, strict=True
     ):
-        least = AGAIN * np.linalg.norm(r) / max(float(np.linalg.norm(y)), 1e-300)
+        least = (
+            THRESHOLDS.min_recurrence_ratio
+            * np.linalg.norm(r)
+            / max(float(np.linalg.norm(y)), 1e-300)
+        )
         if y.size and errors.get(name, 0.0) > least and not doubt:
             doubt = f"something unexplained acts on joint {name} in the held-out motion too"
     text = (
@@ -117,16 +107,21 @@ def _detect_contact(
     )
     values = {"t0": window.start, "t1": window.end} | torque
     units = {"t0": "s", "t1": "s"} | units
-    return [Finding(event.id, None, *ends, values, {}, units, (), text, None, False, doubt,
-                    is_event=True)]  # fmt: skip
+    return [
+        Finding(
+            event.id, None, *ends, values, {}, units, (), text, None, False, doubt, is_event=True
+        )
+    ]
 
 
 def _list_backlash_joints(search: Search) -> list[int]:
     """Joints whose gear may have play."""
     return [
-        j for j, joint in enumerate(search.spec.joints) for effect in _find_impact_effects(search)
+        j
+        for j, joint in enumerate(search.spec.joints)
+        for effect in _find_impact_effects(search)
         if joint.actuated and not is_ruled_out(effect.id, joint.name, search.without)
-    ]  # fmt: skip
+    ]
 
 
 def _detect_backlash(search: Search, state: State, least: float) -> Finding | None:
@@ -139,7 +134,9 @@ def _detect_backlash(search: Search, state: State, least: float) -> Finding | No
         k: candidate_score.total_variance_reduction
         for k, candidate_score in _collect_backlash_columns(search).items()
     }
-    j = max(bursting, key=lambda k: ratios[k] * max(shares.get(k, 0.0), _LEAST))
+    j = max(
+        bursting, key=lambda k: ratios[k] * max(shares.get(k, 0.0), THRESHOLDS.floor_backlash_share)
+    )
     return _build_backlash_finding(search, [j, *bursting], _format_burst_ratio(ratios[j]))
 
 
@@ -167,14 +164,14 @@ def _detect_faint_backlash(search: Search, least: float, knocks: bool) -> Findin
         j: candidate_score.total_variance_reduction
         for j, candidate_score in _collect_backlash_columns(search).items()
         if j in _list_backlash_joints(search)
-        and candidate_score.variance_reduction > GATE
-        and candidate_score.t_ratio > NAMED_T_RATIO
+        and candidate_score.variance_reduction > THRESHOLDS.min_variance_reduction
+        and candidate_score.t_ratio > THRESHOLDS.min_t_ratio
     }
     for j in sorted(shares, key=lambda j: -shares[j]):
         ratio, share = compute_burst_ratio(search.end, j), compute_burst_share(search.end, j)
         if ratio > least:
             return _build_backlash_finding(search, [j], _format_burst_ratio(ratio))
-        if knocks and share > KNOCKS:
+        if knocks and share > THRESHOLDS.min_burst_share:
             text = f"{format_percent(share)} of the residual's energy comes in brief outbursts"
             doubt = "its outbursts do not follow the sign of the load"
             return _build_backlash_finding(search, [j], text, doubt)
@@ -188,15 +185,27 @@ def _build_backlash_finding(
     (effect,), names, first = _find_impact_effects(search), search.end.joint_names, bursting[0]
     others = tuple((effect.id, names[k]) for k in bursting if k != first)
     return Finding(
-        effect.id, names[first], math.nan, math.nan, {}, {}, {}, others,
-        f"joint {names[first]}: {text}", None, False, objection,
-    )  # fmt: skip
+        effect.id,
+        names[first],
+        math.nan,
+        math.nan,
+        {},
+        {},
+        {},
+        others,
+        f"joint {names[first]}: {text}",
+        None,
+        False,
+        objection,
+    )
 
 
 def _score_backlash(
-    search: Search, play: Finding, errors: Mapping[str, float],
+    search: Search,
+    play: Finding,
+    errors: Mapping[str, float],
     score_candidate: Callable[[Candidate], Score],
-) -> Finding:  # fmt: skip
+) -> Finding:
     """Play with its errors; where its column does not lower them, it is a description at most."""
     column = _collect_backlash_columns(search).get(search.end.joint_names.index(str(play.joint)))
     score = None if column is None else score_candidate(column.candidate)

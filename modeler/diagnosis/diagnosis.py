@@ -19,8 +19,6 @@ from modeler.diagnosis.cross_checks import (
 from modeler.diagnosis.data_checks import exclude_friction, find_faults
 from modeler.diagnosis.effect_columns import thin_samples
 from modeler.diagnosis.events import (
-    BURST,
-    MARGIN,
     PushWindow,
     compute_burst_ratio,
     find_contact_window,
@@ -31,9 +29,8 @@ from modeler.diagnosis.judge import make_veto
 from modeler.diagnosis.plausible import find_gravity_confounders
 from modeler.diagnosis.proposals import discover_equations
 from modeler.diagnosis.result import Diagnosis
-from modeler.diagnosis.search import MOST, Search, SearchStep, search_effects
+from modeler.diagnosis.search import Search, SearchStep, search_effects
 from modeler.diagnosis.state import (
-    BAND,
     SearchData,
     analyse_logs,
     build_state,
@@ -43,6 +40,7 @@ from modeler.diagnosis.state import (
     observe_in_band,
     observe_logs,
 )
+from modeler.diagnosis.thresholds import THRESHOLDS
 from modeler.diagnosis.timing import estimate_logger_shift
 from modeler.effects import Effect, EffectTarget, Requirement, find_effect
 from modeler.estimation import IdentifiedModel, compute_relative_errors
@@ -51,14 +49,8 @@ from modeler.regression import Log, LogRepair, Observation, build_observation, p
 if TYPE_CHECKING:
     from modeler.runtime import CompiledModel
 
-CHANGED = 1.3
-"""Ratio of the residual variances with kept and with refitted parameters from which on the robot
-has changed since the fit."""
 
 _READ, _SEARCHED, _NAMED = 0.05, 0.7, 0.75  # shares of the work when these are done
-
-
-_STRIDE = 0.04  # of what is left of a stage
 
 
 class Progress:
@@ -82,17 +74,22 @@ class Progress:
 
     def advance(self) -> None:
         """A piece of work is done: nearer to the end of the stage, never there."""
-        self._share += _STRIDE * (self._end - self._share)
+        self._share += THRESHOLDS.progress_step * (self._end - self._share)
         self._tell(self._share)
 
 
 @threadpool_limits.wrap(limits=1, user_api="blas")  # small matrices: a second thread only waits
 def diagnose(
-    model: IdentifiedModel, compiled: "CompiledModel", logs: Sequence[Log],
-    holdout: Sequence[Log] = (), without: Sequence[str] = (), most: int = MOST,
-    progress: Callable[[float], None] | None = None, known: StatedEffects | None = None,
+    model: IdentifiedModel,
+    compiled: "CompiledModel",
+    logs: Sequence[Log],
+    holdout: Sequence[Log] = (),
+    without: Sequence[str] = (),
+    most: int = THRESHOLDS.max_effects,
+    progress: Callable[[float], None] | None = None,
+    known: StatedEffects | None = None,
     equations: bool = False,
-) -> Diagnosis:  # fmt: skip
+) -> Diagnosis:
     """The effects that the model lacks on these logs, with what they would gain.
 
     Args:
@@ -205,18 +202,14 @@ def diagnose(
     return dataclasses.replace(diagnosis, sentences=sentences, errors=errors)
 
 
-WIDER = 1.3
-"""Ratio of two cut-offs from which on one shows what the other does not."""
-
-
 def _find_other_band(
     data: SearchData, model: IdentifiedModel, repair: LogRepair
 ) -> SearchData | None:
     """The same logs in a wider band, or else in that of the motion; None if none differs."""
-    for band in (0.8 * BAND, 0.0):
+    for band in (0.8 * THRESHOLDS.max_band, 0.0):
         prepared = choose_band(data.compiled, repair.logs, model.processing, band, repair=repair)
         other = prepared.processing.parallel_cutoff or 0.0
-        if max(other / get_cutoff(data), get_cutoff(data) / other) > WIDER:
+        if max(other / get_cutoff(data), get_cutoff(data) / other) > THRESHOLDS.min_cutoff_ratio:
             observation = thin_samples(
                 observe_logs(data.compiled, repair.logs, prepared), data.compiled
             )
@@ -301,14 +294,17 @@ def find_fixed_parameters(
         float(np.sum(((y - w @ model.beta) / s) ** 2))
         for y, w, s in zip(free.rows.y, free.rows.W, free.sigma, strict=True)
     )
-    return model.beta if fixed_cost > CHANGED * fitted else None
+    return model.beta if fixed_cost > THRESHOLDS.min_refit_variance_ratio * fitted else None
 
 
 def _detect_push(search: Search) -> PushWindow | None:
     """When something pushed; with its first part left out of the fit, more of it may show."""
     end, data = search.end, search.start.data
     # a gear may have so much play that one of its knocks looks like a push
-    rattles = any(compute_burst_ratio(end, j) > BURST for j in range(end.rows.joint_count))
+    rattles = any(
+        compute_burst_ratio(end, j) > THRESHOLDS.min_burst_ratio
+        for j in range(end.rows.joint_count)
+    )
     window = more = None if rattles or not search.last.ranked else find_contact_window(end)
     if window is None:
         return None
@@ -324,7 +320,9 @@ def _detect_push(search: Search) -> PushWindow | None:
 def _mask_window(data: SearchData, window: PushWindow) -> SearchData:
     """The data without the rows of a window, and a little around it."""
     observation = data.observation
-    hit = (observation.run == window.log) & (observation.time > window.start - MARGIN)
-    hit &= observation.time < window.end + MARGIN
+    hit = (observation.run == window.log) & (
+        observation.time > window.start - THRESHOLDS.push_margin
+    )
+    hit &= observation.time < window.end + THRESHOLDS.push_margin
     rest = observation.select_rows(observation.used & ~hit[:, None])
     return dataclasses.replace(data, observation=rest)

@@ -24,36 +24,11 @@ from modeler.diagnosis.expressions import Formula, Term, list_factors
 from modeler.diagnosis.judge import ScoredCandidate, fit_candidates, score_candidates, select_best
 from modeler.diagnosis.orders import compute_joint_order_spectrum
 from modeler.diagnosis.state import State, build_all_columns, build_columns, build_state, is_visible
+from modeler.diagnosis.thresholds import THRESHOLDS
 from modeler.estimation import estimate_correlation
 from modeler.numerics.spectra import compute_order_spectrum as spectrum_of
 from modeler.runtime import map_parts
 
-PRICE = 4.0
-"""Nats of a symbol, which is one of about fifty, and of a free number: 1/2 ln n (Schwarz 1978)."""
-
-SAME = 0.003
-"""Share of its torque by which a formula must differ from a better one to be another."""
-
-MORE = 0.9**2
-"""Share of the squared residual that a second term must fall below: a tenth of the error."""
-
-ALIKE = 0.995
-"""Correlation of two columns, off the model, from which on the shorter one stands for both."""
-
-NEAR = 0.97
-"""The same where shapes are refined still."""
-
-_AT_ONCE = 16  # columns, each with all factors
-_MANY = 512  # columns
-_BEAM = 30  # products of two that get a third factor
-_HINTS = 4  # products that are judged before all else
-_EXACT = 40  # columns that are made anew
-_REFINED = 12
-_FIRSTS = 4  # columns that get a second one beside them
-_SECONDS = 1500  # products of two that are tried there
-_BESIDE = 8
-_STEPS = 20  # of refining
-_NEAR, _ROUNDS, _CHANGED = 3, 3, 14
 _PLAIN = ("sign(v)", "v", "abs(v)", "v*abs(v)", "load", "abs(load)")
 _LOW = (0.5, 1.0, 1.5, 2.0, 2.5)  # waves in the stroke that no spectrum shows
 
@@ -116,7 +91,9 @@ class JointSearch:
     def compute_cost(self, left: np.ndarray | float, symbols: np.ndarray | int) -> np.ndarray:
         """Nats of what is left of the squared residual by a formula of so many symbols."""
         share = np.maximum(np.asarray(left) / self.before, 1e-12)
-        return np.asarray(0.5 * self.count * np.log(share) + PRICE * np.asarray(symbols))
+        return np.asarray(
+            0.5 * self.count * np.log(share) + THRESHOLDS.nats_per_symbol * np.asarray(symbols)
+        )
 
     # Factors at the rows of the joint, and products of them.
 
@@ -167,8 +144,9 @@ class JointSearch:
         state, j = self.state, self.j
         residual_spectrum = compute_joint_order_spectrum(state, j)
         orders = list(residual_spectrum.peaks) if residual_spectrum is not None else []
-        x = state.rows.filter_samples(j, [np.column_stack([s.q[:, j], s.v[:, j], s.load[:, j]])
-                                    for s in state.rows.signals])  # fmt: skip
+        x = state.rows.filter_samples(
+            j, [np.column_stack([s.q[:, j], s.v[:, j], s.load[:, j]]) for s in state.rows.signals]
+        )
         cutoff = state.data.observation.report.processing.parallel_cutoff or 1e9
         reached = 2.0 * np.pi * cutoff / max(float(np.quantile(np.abs(x[:, 1]), 0.1)), 1e-9)
         for turned in (np.sign(x[:, 1]), x[:, 1], x[:, 2], np.abs(x[:, 2])):
@@ -191,9 +169,12 @@ class JointSearch:
         }
 
     def rank_products(
-        self, left: Sequence[_ProductColumn], right: Sequence[_ProductColumn], keep: int,
+        self,
+        left: Sequence[_ProductColumn],
+        right: Sequence[_ProductColumn],
+        keep: int,
         state: State | None = None,
-    ) -> list[_Priced]:  # fmt: skip
+    ) -> list[_Priced]:
         """The cheapest products of a column and a factor that an effect can hold.
 
         Args:
@@ -220,7 +201,10 @@ class JointSearch:
             return [(float(costs[k]), column, right[factor_indices[k]]) for k in best]
 
         ranked: list[_Priced] = []
-        for some in (left[k : k + _AT_ONCE] for k in range(0, len(left), _AT_ONCE)):
+        for some in (
+            left[k : k + THRESHOLDS.product_chunk]
+            for k in range(0, len(left), THRESHOLDS.product_chunk)
+        ):
             for batch in map_parts(rank_column, some):
                 ranked += batch
             ranked = sorted(ranked, key=lambda item: item[0])[:keep]
@@ -253,21 +237,22 @@ class JointSearch:
     ) -> list[_Priced]:
         """Columns as they are, the cheapest first."""
         ranked: list[_Priced] = []
-        for k in range(0, len(columns), _MANY):
-            some = columns[k : k + _MANY]
+        for k in range(0, len(columns), THRESHOLDS.column_chunk):
+            some = columns[k : k + THRESHOLDS.column_chunk]
             for count in (1, 2):
                 same_width = [c for c in some if len(c.values.T) == count]
                 if same_width:
                     made = np.stack([c.values.T for c in same_width])
-                    costs = self.estimate_costs(state or self.state, made,
-                                        np.array([c.symbols for c in same_width]))  # fmt: skip
+                    costs = self.estimate_costs(
+                        state or self.state, made, np.array([c.symbols for c in same_width])
+                    )
                     ranked += [
                         (float(cost), c, None) for cost, c in zip(costs, same_width, strict=True)
                     ]
         return sorted(ranked, key=lambda item: item[0])
 
     def select_distinct(
-        self, ranked: Sequence[_Priced], keep: int, alike: float = ALIKE
+        self, ranked: Sequence[_Priced], keep: int, alike: float = THRESHOLDS.max_column_correlation
     ) -> list[_ProductColumn]:
         """The cheapest that are not alike."""
         base = self.state.gram_blocks.whitened_columns[self.j]
@@ -277,8 +262,10 @@ class JointSearch:
             c = column.values
             basis = np.vstack([c, 1j * (base.T @ c)])  # products are those of columns off the model
             basis = basis @ _compute_whitening((basis.T @ basis).real)
-            shared = (float(np.linalg.norm((basis.T @ x).real) ** 2 / min(len(basis.T), len(x.T)))
-                      for x, _ in selected)  # fmt: skip
+            shared = (
+                float(np.linalg.norm((basis.T @ x).real) ** 2 / min(len(basis.T), len(x.T)))
+                for x, _ in selected
+            )
             if basis.size and all(share < alike**2 for share in shared):
                 selected.append((basis, column))
             if len(selected) == keep:
@@ -337,7 +324,10 @@ class JointSearch:
             return np.asarray(e - off @ np.linalg.lstsq(off, e, rcond=1e-9)[0])
 
         solution = least_squares(
-            compute_residual, np.zeros(start.size), diff_step=1e-3, max_nfev=_STEPS
+            compute_residual,
+            np.zeros(start.size),
+            diff_step=1e-3,
+            max_nfev=THRESHOLDS.max_formula_evaluations,
         )
         self._tick()
         again = self.score_formulas([apply_values(solution.x)])
@@ -347,11 +337,13 @@ class JointSearch:
         """True if a product surely explains something: laws resolve no waves, and forget."""
         every = [
             *self.rank_columns(self.factor_columns),
-            *self.rank_products(self.factor_columns, self.wave_free_columns, _EXACT),
+            *self.rank_products(
+                self.factor_columns, self.wave_free_columns, THRESHOLDS.max_exact_columns
+            ),
         ]
         ranked = sorted(every, key=lambda item: item[0])
         few = self.score_formulas(
-            [Formula((c.term,)) for c in self.select_distinct(ranked, _HINTS)]
+            [Formula((c.term,)) for c in self.select_distinct(ranked, THRESHOLDS.max_hint_products)]
         )
         return any(self.judge_candidate(item.candidate) is not None for item in few)
 
@@ -363,22 +355,39 @@ class JointSearch:
     def find_formulas(self) -> list[ScoredFormula]:
         """Formulas that say more than they cost, the cheapest first; no two are alike."""
         atoms = self.wave_free_columns
-        doubles = self.rank_products(self.factor_columns, atoms, _SECONDS)
-        triples = self.rank_products(self.select_distinct(doubles, _BEAM), atoms, _SECONDS)
-        ranked = sorted([*self.rank_columns(self.factor_columns), *doubles, *triples],
-                        key=lambda item: item[0])  # fmt: skip
-        leading = [Formula((c.term,)) for c in self.select_distinct(ranked, _EXACT, NEAR)]
-        single = self.refine_best(self.score_formulas(leading), _REFINED)
+        doubles = self.rank_products(self.factor_columns, atoms, THRESHOLDS.max_second_products)
+        triples = self.rank_products(
+            self.select_distinct(doubles, THRESHOLDS.beam_width),
+            atoms,
+            THRESHOLDS.max_second_products,
+        )
+        ranked = sorted(
+            [*self.rank_columns(self.factor_columns), *doubles, *triples], key=lambda item: item[0]
+        )
+        leading = [
+            Formula((c.term,))
+            for c in self.select_distinct(
+                ranked, THRESHOLDS.max_exact_columns, THRESHOLDS.max_start_correlation
+            )
+        ]
+        single = self.refine_best(self.score_formulas(leading), THRESHOLDS.max_refined_formulas)
         # what explains little alone may do so beside the first
         plain = [self.plain_factors[text] for text in _PLAIN if text in self.plain_factors]
         further = [(0.0, c, p) for c in self.factor_columns for p in (None, *plain) if p is not c]
-        seconds = [left if right is None else self._multiply_columns(left, right)
-                   for _, left, right in [*ranked[:_SECONDS], *further]]  # fmt: skip
-        pairs = [pair for first in single[:_FIRSTS] for pair in self.search_sums(first, seconds)]
-        double = self.refine_best(pairs, _REFINED)
+        seconds = [
+            left if right is None else self._multiply_columns(left, right)
+            for _, left, right in [*ranked[: THRESHOLDS.max_second_products], *further]
+        ]
+        pairs = [
+            pair
+            for first in single[: THRESHOLDS.max_first_terms]
+            for pair in self.search_sums(first, seconds)
+        ]
+        double = self.refine_best(pairs, THRESHOLDS.max_refined_formulas)
         for term in double[0].formula.terms if double else ():  # each again beside the other
             double += self.refine_best(
-                self.search_sums(self.score_formulas([Formula((term,))])[0], seconds), _NEAR
+                self.search_sums(self.score_formulas([Formula((term,))])[0], seconds),
+                THRESHOLDS.max_varied_formulas,
             )
         formulas = self.improve_formulas([*single, *double])
         return self.drop_equivalent(self.update_costs(formulas))
@@ -388,30 +397,46 @@ class JointSearch:
     ) -> list[ScoredFormula]:
         """A formula and a second term that surely adds to it."""
         beside = JointSearch(self._extend_state(first.candidate), self.j, self._tick)
-        near = self.select_distinct(self.rank_columns(seconds, beside.state), _BESIDE, NEAR)
+        near = self.select_distinct(
+            self.rank_columns(seconds, beside.state),
+            THRESHOLDS.max_second_terms,
+            THRESHOLDS.max_start_correlation,
+        )
         others = beside.refine_best(
-            beside.score_formulas([Formula((c.term,)) for c in near]), _BESIDE
+            beside.score_formulas([Formula((c.term,)) for c in near]), THRESHOLDS.max_second_terms
         )
         sums = [Formula((*first.formula.terms, *s.formula.terms)) for s in others]
-        return [s for s in self.score_formulas(sums) if s.left < MORE * first.left]
+        return [
+            s
+            for s in self.score_formulas(sums)
+            if s.left < THRESHOLDS.max_second_term_residual * first.left
+        ]
 
     def improve_formulas(self, formulas: Sequence[ScoredFormula]) -> list[ScoredFormula]:
         """Formulas and their neighbours, as long as these are better."""
         known_texts, first = set[str](), np.inf
-        for _ in range(_ROUNDS):
+        for _ in range(THRESHOLDS.max_variation_rounds):
             formulas = sorted(formulas, key=lambda s: s.cost)
             if not formulas or formulas[0].cost >= first:
                 break
             first, near = formulas[0].cost, list[list[ScoredFormula]]()
             for kind in zip(
-                *(self.list_neighbours(item.formula) for item in formulas[:_NEAR]), strict=True
+                *(
+                    self.list_neighbours(item.formula)
+                    for item in formulas[: THRESHOLDS.max_varied_formulas]
+                ),
+                strict=True,
             ):
                 new = {f.text: f for group in kind for f in group if f.text not in known_texts}
                 known_texts |= new.keys()
                 near.append(self.score_formulas([*new.values()]))
             formulas = [
                 *formulas,
-                *(item for group in near for item in self.refine_best(group, _CHANGED)),
+                *(
+                    item
+                    for group in near
+                    for item in self.refine_best(group, THRESHOLDS.max_refined_neighbours)
+                ),
             ]
         return list(formulas)
 
@@ -423,8 +448,11 @@ class JointSearch:
             for i in range(len(term)):
                 rest = (*term[:i], *term[i + 1 :])
                 taken = [part.equations[0] for part in term]
-                plain = [self.plain_factors[text].term for text in _PLAIN
-                         if text in self.plain_factors and text not in taken]  # fmt: skip
+                plain = [
+                    self.plain_factors[text].term
+                    for text in _PLAIN
+                    if text in self.plain_factors and text not in taken
+                ]
                 for new in ((), *plain) if rest else plain:
                     terms = (*formula.terms[:k], (*new, *rest), *formula.terms[k + 1 :])
                     (others if new else shorter).append(Formula(terms))
@@ -457,7 +485,7 @@ class JointSearch:
         And whose second term adds to the best of one term.
         """
         one = [item.left for item in ranked if len(item.formula.terms) == 1]
-        most = MORE * min(one, default=np.inf)
+        most = THRESHOLDS.max_second_term_residual * min(one, default=np.inf)
         selected: list[tuple[np.ndarray, ScoredFormula]] = []
         for item in ranked:
             if item.cost >= 0.0:
@@ -465,8 +493,11 @@ class JointSearch:
             if len(item.formula.terms) > 1 and item.left > most:
                 continue
             torque = self.compute_torque(item.candidate)
-            if all(np.linalg.norm(torque - other) > SAME * np.linalg.norm(other)
-                   for other, _ in selected):  # fmt: skip
+            if all(
+                np.linalg.norm(torque - other)
+                > THRESHOLDS.min_formula_difference * np.linalg.norm(other)
+                for other, _ in selected
+            ):
                 selected.append((torque, item))
         return [item for _, item in selected]
 

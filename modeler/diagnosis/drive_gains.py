@@ -18,20 +18,9 @@ import numpy as np
 from modeler.diagnosis.candidates import Candidate
 from modeler.diagnosis.effect_columns import Columns, expand_columns
 from modeler.diagnosis.state import State, build_all_columns
+from modeler.diagnosis.thresholds import THRESHOLDS
 
-TENFOLD = 10.0
-"""A drive gain that is wrong by more, either way, is a matter of units."""
-
-_PASSES = 60
-_SETTLED = 1e-8
-_WEIGHINGS = 5
-_LEAST = 1e-6  # of a joint's torque: it leaves no less
-_CLOSE = 1e-3  # what is moved less than this at the end is used still
-_STEP = 0.5  # largest change of a g at once, as a share of it
-_FARTHEST = 1e3  # a g is sought from there on
 _GRID = tuple(np.geomspace(1e-3, 1e3, 37))
-_RIDGE = 1e-10
-_SAME = 0.01  # weights that change by less are settled
 _SCALES = frozenset({"torque"})
 
 
@@ -166,48 +155,50 @@ class _GainProblem:
     def solve(self, g: np.ndarray) -> _GainSolution | None:
         """All parameters and gains; None where they do not come to rest."""
         g, values, step = g.copy(), self._solve_values(g), np.inf
-        for _ in range(_PASSES):
+        for _ in range(THRESHOLDS.max_gain_iterations):
             matrix, right = self._build_equations(g, values)
             change = _solve_ridge(matrix, right)
-            most = _STEP * np.maximum(np.abs(g[self.gains]), 0.1)
+            most = THRESHOLDS.max_gain_step * np.maximum(np.abs(g[self.gains]), 0.1)
             step_g = np.clip(change[len(self.free) :], -most, most)
             g[self.gains] += step_g
             values = self._solve_values(g)
             step = float(np.max(np.abs(step_g) / np.maximum(np.abs(g[self.gains]), 1e-3)))
-            if step < _SETTLED:
+            if step < THRESHOLDS.gain_tolerance:
                 break
-        if not step < _CLOSE:
+        if not step < THRESHOLDS.max_gain_change:
             return None
         beta = values[: self.size].copy()
         for column, j in self.robot_gains.items():
             beta[column] = 1.0 - g[j]
         left = self._compute_squares(g, values)
-        wrong = np.log(np.maximum(np.abs(g), 1.0 / _FARTHEST))  # of equals, those that are least so
+        wrong = np.log(
+            np.maximum(np.abs(g), 1.0 / THRESHOLDS.max_sought_gain)
+        )  # of equals, those that are least so
         return _GainSolution(beta, g, left, self._compute_score(left) + float(wrong @ wrong))
 
     def _compute_score(self, left: np.ndarray) -> float:
         """Minus twice the log likelihood of what is left, each joint with its own sigma."""
         is_used = (self.rows > 0) & (self.torque_squares > 0.0)
-        floor = _LEAST**2 * self.torque_squares
+        floor = THRESHOLDS.min_gain_residual_share**2 * self.torque_squares
         variance = np.where(is_used, np.maximum(left, floor) / np.maximum(self.rows, 1), 1.0)
         return float(np.sum(self.rows * np.log(variance * self.sigma**2)))
 
     def solve_reweighted(self, g: np.ndarray) -> _GainSolution | None:
         """The same with the weight of each joint from what it leaves."""
         problem, solution = self, self.solve(g)
-        for _ in range(_WEIGHINGS):
+        for _ in range(THRESHOLDS.max_gain_reweightings):
             if solution is None:
                 break
             before, problem = problem.sigma, problem.update_weights(solution.left)
             solution = problem.solve(solution.g)
-            if np.max(np.abs(problem.sigma / before - 1.0)) < _SAME:
+            if np.max(np.abs(problem.sigma / before - 1.0)) < THRESHOLDS.weight_tolerance:
                 break
         return solution
 
     def update_weights(self, left: np.ndarray) -> "_GainProblem":
         """With sigma of each joint so that it leaves one for each row."""
         rows = np.maximum(self.rows, 1)
-        least = _LEAST * np.sqrt(self.torque_squares / rows)
+        least = THRESHOLDS.min_gain_residual_share * np.sqrt(self.torque_squares / rows)
         ratio = np.where(self.torque_squares > 0.0, np.maximum(np.sqrt(left / rows), least), 1.0)
         grams = self.grams / ratio[:, None, None] ** 2
         return dataclasses.replace(self, grams=grams, sigma=self.sigma * ratio)
@@ -225,7 +216,7 @@ class _GainProblem:
         values, c = self._solve_values(g), self.size
         matrix, _ = self._build_equations(g, values)
         length = np.sqrt(np.maximum(np.diag(matrix), 1e-300))
-        inverse = np.linalg.pinv(matrix / np.outer(length, length), rcond=_RIDGE)
+        inverse = np.linalg.pinv(matrix / np.outer(length, length), rcond=THRESHOLDS.gain_ridge)
         inverse = (inverse / np.outer(length, length))[len(self.free) :]
         sums = np.zeros(
             (max(int(joint_rows.max(initial=0)) for joint_rows in block) + 1, len(matrix))
@@ -309,7 +300,7 @@ class _GainProblem:
 
 def _solve_ridge(matrix: np.ndarray, right: np.ndarray) -> np.ndarray:
     """With a ridge in place of the rank: products of columns of length one."""
-    ridge = _RIDGE * np.maximum(np.diag(matrix), 1.0)
+    ridge = THRESHOLDS.gain_ridge * np.maximum(np.diag(matrix), 1.0)
     return np.linalg.solve(matrix + np.diag(ridge), right)
 
 

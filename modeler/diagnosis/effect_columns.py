@@ -12,7 +12,8 @@ from scipy.sparse import csr_array
 from modeler.core.brief import ShortRepr
 from modeler.core.manifest import ParameterSpec
 from modeler.diagnosis.candidates import Candidate, list_links
-from modeler.diagnosis.signals import EVERY, WINDOW, SignalReference, Signals, compute_tilt_columns
+from modeler.diagnosis.signals import EVERY, SignalReference, Signals, compute_tilt_columns
+from modeler.diagnosis.thresholds import THRESHOLDS
 from modeler.effects import NOISE, TURN, EffectTarget
 from modeler.numerics.filters import SPREAD, restrict_weights
 from modeler.regression import FilteredSegment, Observation, compute_signals, rebuild_observation
@@ -24,12 +25,15 @@ if TYPE_CHECKING:
 
 
 FUNCTIONS = {
-    "sin": np.sin, "cos": np.cos, "tan": np.tan, "sqrt": np.sqrt, "exp": np.exp,
-    "abs": np.abs, "sign": np.sign, "tanh": np.tanh,
-}  # fmt: skip
-
-UNFELT = 1e-12
-"""Columns that are nowhere larger are felt by no joint."""
+    "sin": np.sin,
+    "cos": np.cos,
+    "tan": np.tan,
+    "sqrt": np.sqrt,
+    "exp": np.exp,
+    "abs": np.abs,
+    "sign": np.sign,
+    "tanh": np.tanh,
+}
 
 
 def evaluate_equations(
@@ -134,7 +138,8 @@ def _find_inertial_parameters(
     return [
         (i, p)
         for i, p in enumerate(spec.standard)
-        if (p.effect, p.joint) == link_key and signals.column_maxima[i] > UNFELT
+        if (p.effect, p.joint) == link_key
+        and signals.column_maxima[i] > THRESHOLDS.min_parameter_column
     ]
 
 
@@ -197,8 +202,9 @@ class Rows(ShortRepr):
 
     def filter_samples(self, j: int, values: Sequence[np.ndarray]) -> np.ndarray:
         """(rows_j, ...) of values (samples, ...) by stretch, on joint j."""
-        return np.concatenate([block.filters[j] @ values[i][block.window]
-                               for i, block in self._numbered_blocks])  # fmt: skip
+        return np.concatenate(
+            [block.filters[j] @ values[i][block.window] for i, block in self._numbered_blocks]
+        )
 
     def build_columns(self, candidate: Candidate) -> Columns:
         """The columns of a candidate on these rows."""
@@ -224,10 +230,12 @@ class Rows(ShortRepr):
         size = len(first.form.columns)
         # a candidate may leave joints alone that its neighbours move
         return [
-            tuple(None if c is None or not c[k : k + size].any() else c[k : k + size].T
-                  for c in columns)
+            tuple(
+                None if c is None or not c[k : k + size].any() else c[k : k + size].T
+                for c in columns
+            )
             for k in range(0, size * len(candidates), size)
-        ]  # fmt: skip
+        ]
 
     def _build_stacked(self, candidates: Sequence[Candidate]) -> Columns:
         """Columns of candidates of one effect on its joint, beside each other."""
@@ -339,7 +347,7 @@ def build_base_columns(
 
 def _split_blocks(filters: Sequence[csr_array], samples: int) -> tuple[RowBlock, ...]:
     """Of one stretch: the rows whose first sample lies in one window, for one after the other."""
-    starts = np.arange(0, samples, WINDOW)
+    starts = np.arange(0, samples, THRESHOLDS.sample_window)
     edges = []
     for weights in filters:
         first = weights.indices[weights.indptr[:-1]]

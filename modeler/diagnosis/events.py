@@ -9,19 +9,9 @@ import numpy as np
 from modeler.diagnosis.judge import compare_residuals, compute_residuals
 from modeler.diagnosis.score import ErrorChange
 from modeler.diagnosis.state import SearchData, State
+from modeler.diagnosis.thresholds import THRESHOLDS
 
-MARGIN = 0.5
-"""s before and after a push that are left out with it."""
-
-_CELL = 0.1  # s
-_PART = 0.05  # s of a window that are predicted from those beside
-_BESIDE = 4  # parts before and after
 _LENGTHS = range(2, 31)  # cells of a window; one of the longest is no push
-_APART = 2.0  # s between a push and what counts as elsewhere: the torque turns as the robot moves
-_STANDS_OUT = 4.0  # energy over the largest elsewhere; 1 to 2 without a push, whatever is hidden
-_ALSO = 2.0  # energy of what adjoins a push and is part of it, over the largest elsewhere
-_GAP = 0.15  # s
-_BEGINNING = 2.0  # s of a log in which inner states of friction and cables are not known yet
 
 
 @dataclass(frozen=True, eq=False)
@@ -46,7 +36,10 @@ class PushWindow:
 
     def merge_part(self, other: "PushWindow") -> "PushWindow | None":
         """The push together with a part of it that was found later; None if it is another push."""
-        near = other.start < self.end + _APART and other.end > self.start - _APART
+        near = (
+            other.start < self.end + THRESHOLDS.push_separation
+            and other.end > self.start - THRESHOLDS.push_separation
+        )
         if other.log != self.log or not near:
             return None
         start, end = min(self.start, other.start), max(self.end, other.end)
@@ -82,14 +75,23 @@ def find_contact_window(state: State) -> PushWindow | None:
     top = int(np.argmax(windows.energy))
     run, start, end = int(windows.run[top]), float(windows.start[top]), float(windows.end[top])
     same = windows.run == run
-    near = same & (windows.end > start - _APART) & (windows.start < end + _APART)
+    near = (
+        same
+        & (windows.end > start - THRESHOLDS.push_separation)
+        & (windows.start < end + THRESHOLDS.push_separation)
+    )
     elsewhere = max(float(windows.energy[~near].max(initial=0.0)), 1e-300)
     ratio = float(windows.energy[top]) / elsewhere
-    if ratio < _STANDS_OUT or near.all():
+    if ratio < THRESHOLDS.min_push_ratio or near.all():
         return None
-    start, end = _extend_window(windows, same & (windows.energy > _ALSO * elsewhere), start, end)
+    start, end = _extend_window(
+        windows, same & (windows.energy > THRESHOLDS.min_adjoining_ratio * elsewhere), start, end
+    )
     began = float(windows.start[same].min())
-    if start - began < _BEGINNING or end - start >= _LENGTHS[-1] * _CELL:
+    if (
+        start - began < THRESHOLDS.settling_time
+        or end - start >= _LENGTHS[-1] * THRESHOLDS.push_cell
+    ):
         return None
     return PushWindow(run, start, end, ratio)
 
@@ -99,14 +101,17 @@ def _extend_window(
 ) -> tuple[float, float]:
     """The push with what adjoins it: as the robot moves, the torque of a push changes its sign."""
     while True:
-        after = loud & (np.abs(windows.start - end) < _GAP)
-        before = loud & (np.abs(windows.end - start) < _GAP)
+        after = loud & (np.abs(windows.start - end) < THRESHOLDS.max_push_gap)
+        before = loud & (np.abs(windows.end - start) < THRESHOLDS.max_push_gap)
         if not (after | before).any():
             return start, end
         best = int(np.argmax(np.where(after | before, windows.energy, 0.0)))
         start = min(start, float(windows.start[best]))
         end = max(end, float(windows.end[best]))
-        loud = loud & ((windows.end <= start + _GAP) | (windows.start >= end - _GAP))
+        loud = loud & (
+            (windows.end <= start + THRESHOLDS.max_push_gap)
+            | (windows.start >= end - THRESHOLDS.max_push_gap)
+        )
 
 
 def _enumerate_windows(state: State) -> _WindowEnergies | None:
@@ -121,7 +126,7 @@ def _enumerate_windows(state: State) -> _WindowEnergies | None:
         count = rows[last + 1] - rows[first]
         square = (total[last + 1] - total[first]) ** 2
         energy = np.divide(square, count, out=np.zeros_like(square), where=count > 0).sum(axis=1)
-        start, end = number[first] * _CELL, (number[last] + 1) * _CELL
+        start, end = number[first] * THRESHOLDS.push_cell, (number[last] + 1) * THRESHOLDS.push_cell
         parts.append((run[first], start, end, energy))
     windows = _WindowEnergies(*(np.concatenate(part) for part in zip(*parts, strict=True)))
     return windows if len(windows.run) else None
@@ -131,7 +136,7 @@ def _accumulate_cells(state: State) -> tuple[np.ndarray, np.ndarray, np.ndarray,
     """Log and number of each cell (cells,); sums before it of residuals and rows (cells + 1, J)."""
     rows = state.rows
     cell_keys = [
-        np.column_stack([run, np.floor(time / _CELL).astype(int)])
+        np.column_stack([run, np.floor(time / THRESHOLDS.push_cell).astype(int)])
         for run, time in zip(rows.run, rows.time, strict=True)
     ]
     cells, place = np.unique(np.concatenate(cell_keys), axis=0, return_inverse=True)
@@ -165,7 +170,7 @@ def fit_push_torque(window: PushWindow, state: State, data: SearchData) -> PushW
     for rest, time, rows in zip(after, left.time, inside, strict=True):
         rest[rows] -= _predict_from_neighbours(time[rows] - window.start, rest[rows])
     pushed = dataclasses.replace(left, residual=tuple(after))
-    score = compare_residuals(left, pushed, range(len(after)), state, _PART)
+    score = compare_residuals(left, pushed, range(len(after)), state, THRESHOLDS.prediction_cell)
     if not score.is_better:
         return window
     parts = zip(left.names, left.residual, inside, strict=True)
@@ -175,28 +180,15 @@ def fit_push_torque(window: PushWindow, state: State, data: SearchData) -> PushW
 
 def _predict_from_neighbours(since: np.ndarray, values: np.ndarray) -> np.ndarray:
     """(r,) what a straight line through the values in the cells around says of those in one."""
-    cell, line = np.floor(since / _PART), np.vander(since, 2)
+    cell, line = np.floor(since / THRESHOLDS.prediction_cell), np.vander(since, 2)
     prediction = np.zeros(len(values))
     for c in np.unique(cell):
-        out, beside = cell == c, (cell != c) & (np.abs(cell - c) <= _BESIDE)
+        out, beside = cell == c, (cell != c) & (np.abs(cell - c) <= THRESHOLDS.prediction_reach)
         prediction[out] = line[out] @ np.linalg.lstsq(line[beside], values[beside], rcond=None)[0]
     return prediction
 
 
 # Play in a gear: bursts of the residual where the load changes sign, not the speed.
-
-
-AFTER = 0.1
-"""s: how long a burst lasts."""
-
-BURST = 11.0
-"""Energy within that time over that elsewhere from which on play is named."""
-
-LOUD = 30.0
-"""The same where columns are named that take the bursts away."""
-
-EVENTS = 5
-"""Least number of sign changes of the load."""
 
 
 def compute_burst_ratio(state: State, j: int) -> float:
@@ -212,13 +204,13 @@ def compute_burst_ratio(state: State, j: int) -> float:
         int
     )
     for k, (s, turns) in enumerate(zip(signals, find_load_reversals(state, j), strict=True)):
-        span = max(1, round(AFTER / s.step))
+        span = max(1, round(THRESHOLDS.burst_duration / s.step))
         flags = np.zeros(len(s.q))
         for turn in turns:
             events += 1
             flags[turn : turn + span] = events
         event.append(flags[middle[state.rows.segment[j] == k].clip(0, len(flags) - 1)])
-    if events < EVENTS:
+    if events < THRESHOLDS.min_load_reversals:
         return 0.0
     return _compute_energy_ratio(state.residual[j] ** 2, np.concatenate(event), events)
 
@@ -227,7 +219,10 @@ def find_load_reversals(state: State, j: int) -> list[np.ndarray]:
     """Samples, by stretch, where the load on joint j changes sign while the joint moves on."""
     reversals = []
     for s in state.rows.signals:
-        span, least = max(1, round(AFTER / s.step)), 0.02 * state.joint_scales[j].speed
+        span, least = (
+            max(1, round(THRESHOLDS.burst_duration / s.step)),
+            0.02 * state.joint_scales[j].speed,
+        )
         turns = np.flatnonzero(np.diff(np.sign(s.load[:, j])) != 0)
         speed = np.abs(s.v[:, j])
         moving = [turn for turn in turns if speed[turn : turn + span].min() > least]
@@ -238,7 +233,7 @@ def find_load_reversals(state: State, j: int) -> list[np.ndarray]:
 def _compute_energy_ratio(square: np.ndarray, event: np.ndarray, events: int) -> float:
     loud = np.sort([square[event == k].mean() for k in range(1, events + 1) if (event == k).any()])
     quiet = np.sort(square[event == 0])
-    if len(loud) < EVENTS or len(quiet) < 8:
+    if len(loud) < THRESHOLDS.min_load_reversals or len(quiet) < 8:
         return 0.0
     trimmed_loud = loud[: len(loud) - max(1, len(loud) // 5)]
     rest = quiet[: len(quiet) - len(quiet) // 100]

@@ -18,13 +18,11 @@ from modeler.core.brief import ShortRepr
 from modeler.core.manifest import ModuleSpec
 from modeler.core.toml_cells import TomlCell
 from modeler.diagnosis.candidates import Candidate, JointScale
+from modeler.diagnosis.thresholds import THRESHOLDS
 from modeler.effects import Effect, NonlinearParameter, read_definition
 
 _SYMBOL = re.compile(r"sign\(\w+\)|[A-Za-z_]\w*|[0-9.]+")  # a direction is one
 _SPEEDS = {"v", "a"}  # what equations of robots with loops may read
-_MOST_SHAPES = 4
-_LARGER = 1.37
-_ROUND = 6  # digits of an exponent
 
 
 @dataclass(frozen=True)
@@ -112,8 +110,11 @@ class Formula(ShortRepr):
     @cached_property
     def nonlinear_parameters(self) -> dict[str, float]:
         """Values by their names in it."""
-        return {names[key]: value for part, names in self.named_factors
-                for key, value in part.nonlinear_parameters.items()}  # fmt: skip
+        return {
+            names[key]: value
+            for part, names in self.named_factors
+            for key, value in part.nonlinear_parameters.items()
+        }
 
     @cached_property
     def equations(self) -> list[str]:
@@ -159,13 +160,15 @@ class Formula(ShortRepr):
     @property
     def is_definable(self) -> bool:
         """True if a definition can hold it: one inner state, few shapes."""
-        few = len(self.nonlinear_parameters) <= _MOST_SHAPES
+        few = len(self.nonlinear_parameters) <= THRESHOLDS.max_formula_parameters
         return few and sum(part.has_memory for part, _ in self.named_factors) < 2
 
     def replace_nonlinear_parameters(self, shapes: Mapping[str, float]) -> "Formula":
         """The same at other values of its shapes, by their names in it."""
-        every = iter(part.clip_parameters({key: shapes[name] for key, name in names.items()})
-                     for part, names in self.named_factors)  # fmt: skip
+        every = iter(
+            part.clip_parameters({key: shapes[name] for key, name in names.items()})
+            for part, names in self.named_factors
+        )
         return Formula(tuple(tuple(next(every) for _ in term) for term in self.terms))
 
     def build_definition(self, prefixes: Sequence[str]) -> dict[str, Any]:
@@ -282,8 +285,17 @@ def derive_parameter_unit(
     linear = spec.joints[j].unit == "m"
     effort, place = ("N", "m") if linear else ("N*m", "rad")
     equation, memory = candidate.form.columns[column].equation, candidate.form.internal_state
-    units = {"q": place, "v": f"{place}/s", "a": f"{place}/s^2", "load": effort, "static": effort,
-             "t": "s", "since": "s", "T": "K", **shapes}  # fmt: skip
+    units = {
+        "q": place,
+        "v": f"{place}/s",
+        "a": f"{place}/s^2",
+        "load": effort,
+        "static": effort,
+        "t": "s",
+        "since": "s",
+        "T": "K",
+        **shapes,
+    }
     for joint in spec.joints:
         joint_unit = "m" if joint.unit == "m" else "rad"
         units |= {f"q{joint.name}": joint_unit, f"v{joint.name}": f"{joint_unit}/s"}
@@ -293,16 +305,18 @@ def derive_parameter_unit(
     exponents = parse_unit(effort)
     for unit in _UNITS:
         sizes = []
-        for scale in (1.0, _LARGER):
-            now = {name: value * scale ** _find_exponent(units.get(name, "1"), unit, equation.text)
-                   for name, value in values.items()}  # fmt: skip
+        for scale in (1.0, THRESHOLDS.unit_scale):
+            now = {
+                name: value * scale ** _find_exponent(units.get(name, "1"), unit, equation.text)
+                for name, value in values.items()
+            }
             if memory is not None and memory.lagged_input is not None:
                 now["z"] = memory.lagged_input.evaluate(now)
             sizes.append(equation.evaluate(now))
         exponents[unit] = exponents.get(unit, 0.0) - math.log(sizes[1] / sizes[0]) / math.log(
-            _LARGER
+            THRESHOLDS.unit_scale
         )
-    every = {unit: round(power, _ROUND) for unit, power in exponents.items()}
+    every = {unit: round(power, THRESHOLDS.exponent_digits) for unit, power in exponents.items()}
     above = [_format_power(unit, power) for unit, power in every.items() if power > 0.0]
     below = [_format_power(unit, -power) for unit, power in every.items() if power < 0.0]
     return "/".join(["*".join(above) or "1", *below])

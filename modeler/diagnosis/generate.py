@@ -6,13 +6,16 @@ from collections.abc import Sequence, Set
 from modeler.diagnosis.candidates import Candidate, list_candidates, list_links
 from modeler.diagnosis.orders import list_ripple_candidates
 from modeler.diagnosis.state import State
+from modeler.diagnosis.thresholds import THRESHOLDS
 from modeler.effects import EffectTarget
 
 
 def generate_candidates(
-    state: State, only: str | None = None, without: Sequence[str] = (),
+    state: State,
+    only: str | None = None,
+    without: Sequence[str] = (),
     keys: Set[tuple[str, str | None]] | None = None,
-) -> list[Candidate]:  # fmt: skip
+) -> list[Candidate]:
     """What could be missing in this state, without what was put in already.
 
     Args:
@@ -43,9 +46,11 @@ def generate_candidates(
     if changed:
         results += list_load_candidates(state)
     taken = {
-        (same, pick.joint) for pick in state.picks if not pick.effect.several
+        (same, pick.joint)
+        for pick in state.picks
+        if not pick.effect.several
         for same in (pick.effect.id, *pick.effect.same_as)
-    }  # fmt: skip
+    }
     results = [c for c in results if only in (None, c.effect.id) and is_allowed(*c.key)]
     return [c for c in results if c.key not in taken]
 
@@ -55,13 +60,9 @@ def is_ruled_out(effect: str, joint: str | None, without: Sequence[str]) -> bool
     return effect in without or f"{effect}@{joint}" in without
 
 
-ABOVE = 3.0
-"""Times the band of the motion, below which all parts of a joint move along."""
-
-
 def find_slowest_ringing(state: State) -> float:
     """Hz from which on an elastic joint may ring."""
-    return ABOVE * state.data.observation.report.band
+    return THRESHOLDS.min_resonance_ratio * state.data.observation.report.band
 
 
 def list_load_candidates(state: State) -> list[Candidate]:
@@ -72,6 +73,8 @@ def list_load_candidates(state: State) -> list[Candidate]:
     last = carrier or links[-1]
     return [
         Candidate(effect, effect.forms[0], None if effect.last_link else link, place, {})
-        for effect in state.data.stated_effects.catalogue if effect.acts is EffectTarget.LINK
-        for place, link in enumerate(links) if effect.last_link is (link == last)
-    ]  # fmt: skip
+        for effect in state.data.stated_effects.catalogue
+        if effect.acts is EffectTarget.LINK
+        for place, link in enumerate(links)
+        if effect.last_link is (link == last)
+    ]

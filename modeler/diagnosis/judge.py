@@ -9,28 +9,12 @@ import numpy as np
 from modeler.core.brief import ShortRepr
 from modeler.diagnosis.candidates import Candidate
 from modeler.diagnosis.effect_columns import Columns
-from modeler.diagnosis.ranking import VISIBLE, Ranking, build_batch, compute_total_reductions
-from modeler.diagnosis.score import STANDARD_ERRORS, Residuals, Score, compute_t_ratio, score_change
+from modeler.diagnosis.ranking import Ranking, build_batch, compute_total_reductions
+from modeler.diagnosis.score import Residuals, Score, compute_t_ratio, score_change
 from modeler.diagnosis.state import SearchData, State, collect_pick_columns
+from modeler.diagnosis.thresholds import THRESHOLDS
 from modeler.diagnosis.timing import is_confirmed
 from modeler.effects import EffectTarget
-
-GATE = 0.03
-"""Least share of the residual variance on held-out motion that is worth a name."""
-
-FELT = 0.002
-"""Least fall of the error, as a share of the rms torque of its joints: filters distort as much."""
-
-NAMED_T_RATIO = 4.5
-"""Least ratio of a fall to its standard error over blocks: random signs of the blocks reach it by
-chance with one candidate in a hundred thousand."""
-
-SAME = 0.3
-"""Share of its fall that may be left for either with the other put in, if both explain the same."""
-
-NEARLY = 0.95
-"""Share of the best fall with which a simpler effect is preferred, if the data do not tell."""
-
 
 PLAIN = ("coulomb", "viscous")
 """Friction that all other friction refines."""
@@ -110,11 +94,16 @@ class ScoredCandidate(ShortRepr):
     def is_significant(self) -> bool:
         """True if it is worth a name."""
         big = (
-            self.variance_reduction > GATE
-            and self.t_ratio > NAMED_T_RATIO
-            and self.torque_share > FELT
+            self.variance_reduction > THRESHOLDS.min_variance_reduction
+            and self.t_ratio > THRESHOLDS.min_t_ratio
+            and self.torque_share > THRESHOLDS.min_torque_share
         )
-        return big and self.is_possible and self.is_confirmed and self.visible_share > VISIBLE
+        return (
+            big
+            and self.is_possible
+            and self.is_confirmed
+            and self.visible_share > THRESHOLDS.min_visible_share
+        )
 
 
 @dataclass(frozen=True, eq=False)
@@ -232,10 +221,6 @@ def select_best(state: State, candidate_scores: list[ScoredCandidate]) -> Ranked
     return RankedCandidates(tuple(candidate_scores), None)
 
 
-STEM = 0.5
-"""Share of what finer friction explains with which the plain one that is absent goes before it."""
-
-
 def is_refinement(finer: Candidate, plain: Candidate) -> bool:
     """True for what says more of a joint than a law that every joint has.
 
@@ -260,11 +245,18 @@ def _find_plain_friction(
     """Dry or viscous friction of a joint that has none, before friction that refines it."""
     if best.candidate.effect.family != "friction":
         return None
-    return next((
-        j for j in candidate_scores
-        if j.candidate.effect.id in PLAIN and is_refinement(best.candidate, j.candidate)
-        and j.is_significant and j.total_variance_reduction > STEM * best.total_variance_reduction
-    ), None)  # fmt: skip
+    return next(
+        (
+            j
+            for j in candidate_scores
+            if j.candidate.effect.id in PLAIN
+            and is_refinement(best.candidate, j.candidate)
+            and j.is_significant
+            and j.total_variance_reduction
+            > THRESHOLDS.plain_friction_share * best.total_variance_reduction
+        ),
+        None,
+    )
 
 
 def _select_simplest(
@@ -278,10 +270,12 @@ def _select_simplest(
     """
     timing = best.candidate.effect.timing
     near = [
-        other for other in find_equivalents(best, candidate_scores)
-        if other.is_significant and (timing or not other.candidate.effect.timing)
-        and other.total_reduction > NEARLY * best.total_reduction
-    ]  # fmt: skip
+        other
+        for other in find_equivalents(best, candidate_scores)
+        if other.is_significant
+        and (timing or not other.candidate.effect.timing)
+        and other.total_reduction > THRESHOLDS.parsimony_share * best.total_reduction
+    ]
 
     def compute_sort_key(j: ScoredCandidate) -> tuple[bool, bool, float, float]:
         return (
@@ -326,7 +320,7 @@ def select_alternatives(
     return [
         o
         for o in find_equivalents(best, others)
-        if left.get(o.key, 0.0) < SAME * o.total_reduction
+        if left.get(o.key, 0.0) < THRESHOLDS.equivalence_share * o.total_reduction
         and not is_refinement(o.candidate, best.candidate)
     ]
 
@@ -337,12 +331,17 @@ def find_equivalents(
     """Those that explain as much as the best: paired differences over blocks decide."""
     equivalents = []
     for other in others:
-        if other is best or not other.is_possible or other.variance_reduction < GATE:
+        if (
+            other is best
+            or not other.is_possible
+            or other.variance_reduction < THRESHOLDS.min_variance_reduction
+        ):
             continue
         same = other.candidate.effect.id in best.candidate.effect.same_as
         if (
             same
-            or compute_t_ratio(best.block_reductions - other.block_reductions) <= STANDARD_ERRORS
+            or compute_t_ratio(best.block_reductions - other.block_reductions)
+            <= THRESHOLDS.max_chance_t
         ):
             equivalents.append(other)
     return equivalents
@@ -404,13 +403,6 @@ def compare_residuals(
     return score_change(before, after, weights, block)
 
 
-KEPT = 0.2
-"""Share of the expected gain that must come true on held-out motion, which may excite it less."""
-
-TOUCHED = 0.1
-"""Least fall of a joint's squared residual, as a share of the largest, that counts as touched."""
-
-
 def find_affected_joints(
     candidate_score: ScoredCandidate, before: State, after: State
 ) -> list[int]:
@@ -421,7 +413,7 @@ def find_affected_joints(
     fall = np.array([float(np.sum((b / s) ** 2) - np.sum((a / s) ** 2)) for b, a, s in sizes])
     if fall.max() <= 0.0:
         return [int(np.argmax(fall))]
-    return [int(j) for j in np.flatnonzero(fall >= TOUCHED * fall.max())]
+    return [int(j) for j in np.flatnonzero(fall >= THRESHOLDS.min_affected_share * fall.max())]
 
 
 def make_veto(other: SearchData | None) -> Callable[[State, State, ScoredCandidate], bool]:
@@ -449,7 +441,7 @@ def make_veto(other: SearchData | None) -> Callable[[State, State, ScoredCandida
                 for s in (before, after)
             )
             expected = 1.0 - last / max(first, 1e-300)
-        least = 0.0 if other is None else KEPT * expected
+        least = 0.0 if other is None else THRESHOLDS.min_confirmed_share * expected
         return not score.is_better or score.whole.variance_reduction < least
 
     return is_vetoed

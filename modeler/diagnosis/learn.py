@@ -27,10 +27,10 @@ from modeler.core.law import Law
 from modeler.core.toml_cells import TomlCell
 from modeler.diagnosis.candidates import Candidate
 from modeler.diagnosis.effect_columns import evaluate_equations
-from modeler.diagnosis.judge import FELT, GATE, NEARLY
 from modeler.diagnosis.orders import compute_joint_order_spectrum
-from modeler.diagnosis.score import STANDARD_ERRORS, compute_t_ratio
+from modeler.diagnosis.score import compute_t_ratio
 from modeler.diagnosis.state import State
+from modeler.diagnosis.thresholds import THRESHOLDS
 from modeler.diagnosis.timing import smooth_rows
 from modeler.effects import TURN, read_definition
 from modeler.numerics.splines import (
@@ -43,23 +43,14 @@ from modeler.numerics.splines import (
 CELLS = (40, 14)
 """Of one axis alone, and of each of two."""
 
-SURE = 3.0
-"""Least fall of the error, in standard errors, where a law was not fitted; it is judged again."""
 
-_WAVE = 8  # cells for each wave that stands out in the residual
-_FINE, _MOST_CELLS, _FEW = 100, 240, 5
 _TRAVELS = (0.003, 0.03)
 """After a reversal, of the range of motion: over which z turns, and what is a reversal at all."""
 
 _LAGS = (0.1, 0.4, 1.6)  # s
-_FACTOR = 1.1  # steps of these that are not worth a look
 
 _SMOOTH = tuple(10.0**power for power in range(-5, 4))
 _FIRST = (1e-2, 1.0)  # smoothness in which coordinates are compared
-_RIDGE = 1e-4  # of the mean square of a spline
-_ENDS = 1e-3  # share of the samples beyond either end
-_DIGITS = 6
-_NEAR = 4  # coordinates that are looked at closely
 
 
 @dataclass(frozen=True)
@@ -147,7 +138,11 @@ class LearnedLaw(ShortRepr):
     @property
     def is_significant(self) -> bool:
         """True if it is worth a place in a model."""
-        return self.variance_reduction > GATE and self.t_ratio > SURE and self.torque_share > FELT
+        return (
+            self.variance_reduction > THRESHOLDS.min_variance_reduction
+            and self.t_ratio > THRESHOLDS.min_law_t_ratio
+            and self.torque_share > THRESHOLDS.min_torque_share
+        )
 
 
 @dataclass(frozen=True)
@@ -244,7 +239,9 @@ def learn_law(state: State, j: int, request: LawRequest = ANY_LAW) -> LearnedLaw
             )
     ranked.sort(key=lambda item: -item[0])
     near = [
-        s for _, option in ranked[:_NEAR] if (s := _build_splines(state, j, option)) is not None
+        s
+        for _, option in ranked[: THRESHOLDS.max_refined_coordinates]
+        if (s := _build_splines(state, j, option)) is not None
     ]
     if not near:
         return None
@@ -262,7 +259,7 @@ def _refine_coordinates(
     """At a travel or a time of what remembers that loses less: steps by factors, ever smaller."""
     for name in splines.coordinates.further.get("shapes", {}):
         factor = 2.0
-        while factor > _FACTOR:
+        while factor > THRESHOLDS.min_refinement_factor:
             for times in (factor, 1.0 / factor):
                 scaled_splines = _build_splines(
                     state, j, splines.coordinates.scale_parameter(name, times)
@@ -284,8 +281,10 @@ def generate_coordinates(state: State, j: int) -> Iterator[LawCoordinates]:
     """
     peaks = [] if (spectrum := compute_joint_order_spectrum(state, j)) is None else spectrum.peaks
     turns = state.joint_scales[j].range / (2.0 * np.pi)
-    fine = min(_MOST_CELLS, round(_WAVE * max(peaks, default=0.0) * turns))
-    waves = [0, _FINE] + ([fine] if fine > _FINE else [])
+    fine = min(
+        THRESHOLDS.max_cells, round(THRESHOLDS.cells_per_wave * max(peaks, default=0.0) * turns)
+    )
+    waves = [0, THRESHOLDS.fine_cells] + ([fine] if fine > THRESHOLDS.fine_cells else [])
     quantities = _list_quantities(state, j)
     for x, further in quantities:
         for cells in waves if x == "q" else [0]:
@@ -298,7 +297,7 @@ def generate_coordinates(state: State, j: int) -> Iterator[LawCoordinates]:
         if x not in ("q", "v") and not further:
             yield LawCoordinates(("q", x))
         for cells in waves[1:] if x in ("load", "T") else []:
-            yield LawCoordinates(("q", x), cells=(cells, _FEW))
+            yield LawCoordinates(("q", x), cells=(cells, THRESHOLDS.few_cells))
 
 
 def _list_quantities(state: State, j: int) -> list[tuple[str, Mapping[str, Any]]]:
@@ -333,10 +332,14 @@ def _select_simplest(
     best = max(fits, key=lambda item: float(item[0].block_reductions.sum()))
     total = float(best[0].block_reductions.sum())
     near = [
-        item for item in fits
-        if item is best or (item[0].block_reductions.sum() > NEARLY * total
-                            and compute_t_ratio(item[0].after - best[0].after) <= STANDARD_ERRORS)
-    ]  # fmt: skip
+        item
+        for item in fits
+        if item is best
+        or (
+            item[0].block_reductions.sum() > THRESHOLDS.parsimony_share * total
+            and compute_t_ratio(item[0].after - best[0].after) <= THRESHOLDS.max_chance_t
+        )
+    ]
     return min(
         near, key=lambda item: (len(item[1].cell_counts), -float(item[0].block_reductions.sum()))
     )
@@ -375,7 +378,7 @@ def _build_splines(state: State, j: int, coordinates: LawCoordinates) -> _Spline
         return None
     ends = []
     for x, count in zip(every.T, coordinates.cell_counts, strict=True):
-        low, high = np.quantile(x, [_ENDS, 1.0 - _ENDS])
+        low, high = np.quantile(x, [THRESHOLDS.outlying_share, 1.0 - THRESHOLDS.outlying_share])
         if not high > low:
             return None
         ends.append(extend_axis(float(low), float(high), count))
@@ -388,9 +391,7 @@ def _build_splines(state: State, j: int, coordinates: LawCoordinates) -> _Spline
     rough = [(d.T @ d) for d in (build_second_differences(t) for t in flat)]
     eyes = [eye_array(t.shape[1]) for t in flat]
     total = rough[0] if len(flat) == 1 else kron(rough[0], eyes[1]) + kron(eyes[0], rough[1])
-    return _SplineBasis(
-        coordinates, tuple(ends), free, vstack(filtered).toarray(), total.toarray()
-    )  # fmt: skip
+    return _SplineBasis(coordinates, tuple(ends), free, vstack(filtered).toarray(), total.toarray())
 
 
 @dataclass(frozen=True, eq=False)
@@ -429,7 +430,7 @@ class _SplineProblem:
         self.B, self.parts = B, parts
         mean = float(np.trace(self.BB.sum(axis=0))) / B.shape[1]
         self.rough = splines.rough * (mean * B.shape[1] / max(float(np.trace(splines.rough)), 1e-9))
-        self.ridge = _RIDGE * mean * np.eye(B.shape[1])
+        self.ridge = THRESHOLDS.spline_ridge * mean * np.eye(B.shape[1])
 
     @cached_property
     def full_fit(self) -> tuple[np.ndarray, np.ndarray]:
@@ -517,12 +518,22 @@ def _build_law(state: State, j: int, splines: _SplineBasis, fit: _SplineFit) -> 
         return None
     values = splines.free @ fit.c / size
     low, high = zip(*splines.ends, strict=True)
-    law = Law(low, high, splines.cell_counts, tuple(float(f"{v:.{_DIGITS}g}") for v in values))
+    law = Law(
+        low,
+        high,
+        splines.cell_counts,
+        tuple(float(f"{v:.{THRESHOLDS.law_digits}g}") for v in values),
+    )
     before = float(np.sum(state.gram_blocks.cross_validated_residuals[j] ** 2))
     torque_square = float(np.sum((state.rows.y[j] / state.sigma[j]) ** 2))
     fall = float(fit.block_reductions.sum())
     return LearnedLaw(
-        splines.coordinates, law, size, torque, fit.block_reductions, fit.t_ratio,
+        splines.coordinates,
+        law,
+        size,
+        torque,
+        fit.block_reductions,
+        fit.t_ratio,
         variance_reduction=min(1.0, fall / max(before, 1e-300)),
         torque_share=float(np.sqrt(max(0.0, fall) / (torque_square + 1e-300))),
-    )  # fmt: skip
+    )

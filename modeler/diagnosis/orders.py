@@ -10,6 +10,7 @@ from modeler.diagnosis.candidates import Candidate
 from modeler.diagnosis.effect_columns import Rows, evaluate_columns, evaluate_equations
 from modeler.diagnosis.signals import simulate_resonance
 from modeler.diagnosis.state import State, make_column_key
+from modeler.diagnosis.thresholds import THRESHOLDS
 from modeler.diagnosis.timing import smooth_rows
 from modeler.numerics.noise import (
     compute_noise_memory,
@@ -110,7 +111,6 @@ def list_ripple_candidates(
 # How much of a residual is physics of whatever cause: predictable, back in every lap, no noise.
 
 
-_LIGHT = 0.1  # damping ratio of what rings
 _RINGING = (0.7, 1.5, 3.0, 6.0, 12.0)
 """Hz of the oscillators that the motion excites: sloshing, swinging, springs."""
 
@@ -178,7 +178,7 @@ def _collect_signals(rows: Rows) -> list[np.ndarray]:
     for s in rows.signals:
         z = np.column_stack(
             [
-                simulate_resonance(a, s.step, frequency, _LIGHT)
+                simulate_resonance(a, s.step, frequency, THRESHOLDS.baseline_damping)
                 for a in s.a.T
                 for frequency in _RINGING
             ]

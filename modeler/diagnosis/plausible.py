@@ -7,11 +7,11 @@ import numpy as np
 
 from modeler.core.table import format_percent
 from modeler.diagnosis.candidates import Candidate
-from modeler.diagnosis.drive_gains import TENFOLD
 from modeler.diagnosis.effect_columns import expand_columns, list_body_parameters
-from modeler.diagnosis.judge import GATE, PLAIN
+from modeler.diagnosis.judge import PLAIN
 from modeler.diagnosis.profile import ProfileProblem, find_effect_columns
 from modeler.diagnosis.state import State, build_all_columns, build_columns, build_state, is_visible
+from modeler.diagnosis.thresholds import THRESHOLDS
 from modeler.effects import Requirement
 from modeler.estimation import define_body, project_parameters
 
@@ -61,24 +61,19 @@ def has_friction(state: State, j: int) -> bool:
 def _list_friction_picks(state: State, j: int) -> list[int]:
     """Places of the picks that are friction of that joint without memory."""
     return [
-        k for k, pick in enumerate(state.picks)
-        if pick.effect.family == "friction" and pick.is_local and pick.form.internal_state is None
+        k
+        for k, pick in enumerate(state.picks)
+        if pick.effect.family == "friction"
+        and pick.is_local
+        and pick.form.internal_state is None
         and pick.index == j
-    ]  # fmt: skip
+    ]
 
 
 def compute_largest_friction(state: State, j: int) -> float:
     """The largest friction torque of joint j on its rows, but for one in fifty, N m or N."""
     torque = np.abs(_compute_friction(state, j, _list_friction_picks(state, j)))
     return float(np.quantile(torque, 0.98)) if torque.size else 0.0
-
-
-SMOOTH = 0.035
-"""Coulomb and viscous friction over the torque, rms: no robot with gears rubs so little (the lowest
-that was measured has 0.11) ..."""
-
-FELT = 2.0
-"""... and over what is left of the torque: friction that is felt so clearly was measured."""
 
 
 def is_torque_computed(state: State) -> bool:
@@ -91,9 +86,11 @@ def is_torque_computed(state: State) -> bool:
     plain = [e for e in state.data.stated_effects.catalogue if e.id in PLAIN]
     moved = [j for j, joint in enumerate(state.spec.joints) if joint.actuated and state.y[j].size]
     picks = [
-        Candidate(effect, effect.forms[0], name, j) for j in moved for effect in plain
+        Candidate(effect, effect.forms[0], name, j)
+        for j in moved
+        for effect in plain
         if (effect.id, name := state.joint_names[j]) not in present
-    ]  # fmt: skip
+    ]
     shown = [p for p in picks if is_visible(build_columns(state.rows, p))]
     full = build_state(state.data, [*state.picks, *shown], state.beta)
     sizes = [
@@ -111,7 +108,10 @@ def is_torque_computed(state: State) -> bool:
     if not sizes:  # friction in loops is no column of one joint alone
         return False
     friction, torque, left = np.maximum(np.array(sizes).T, 1e-300)
-    return bool(np.median(friction / torque) < SMOOTH and np.median(friction / left) < FELT)
+    return bool(
+        np.median(friction / torque) < THRESHOLDS.min_friction_share
+        and np.median(friction / left) < THRESHOLDS.min_friction_residual_ratio
+    )
 
 
 def _compute_driving_torque(state: State, j: int, picks: Sequence[int]) -> float:
@@ -139,23 +139,6 @@ def _compute_friction(state: State, j: int, picks: Sequence[int]) -> np.ndarray:
     return torque
 
 
-LOOSE = 5.0
-"""Ratio of the inertia that an elastic joint rings with to that of the model, either way, from
-which on it is not this joint that rings."""
-
-LOST = 0.3
-"""Share, of the rms that a body on a link explains, that one that can be built may miss."""
-
-MORE = 1.3
-"""Of the whole friction of a joint, more than which no part of it is, however badly known."""
-
-ALIKE = 0.1
-"""Share of the torque of a balancing spring that is its own, below which it looks like gravity."""
-
-WEIGHTLESS = 0.02
-"""Gravity over torque, rms, below which a joint has nothing to balance."""
-
-
 def find_caveat(state: State, pick: Candidate, parameters: Mapping[str, float]) -> str:
     """Why the values cannot be those of the effect named; empty if they can.
 
@@ -180,7 +163,7 @@ def _check_friction_size(state: State, pick: Candidate, parameters: Mapping[str,
         "N m" if _is_revolute(state, pick) else "N",
     )
     whole = compute_largest_friction(state, pick.index)
-    if part <= MORE * whole:
+    if part <= THRESHOLDS.max_friction_part * whole:
         return ""
     return f"all friction of its joint is {whole:.3g} {unit}, and this part of it {part:.3g} {unit}"
 
@@ -221,7 +204,9 @@ def _check_body(state: State, pick: Candidate, parameters: Mapping[str, float]) 
     body_specs = list_body_parameters(pick, state.rows.signals[0])
     values = np.array([parameters[name] for name in list(parameters)[: len(body_specs)]])
     nearest = project_parameters(define_body(body_specs), values, root)
-    if nearest is None or nearest.distance < LOST * float(np.linalg.norm(root @ values)):
+    if nearest is None or nearest.distance < THRESHOLDS.max_body_misfit * float(
+        np.linalg.norm(root @ values)
+    ):
         return ""
     return "no body has these inertial parameters: its pseudo-inertia would be negative"
 
@@ -229,7 +214,7 @@ def _check_body(state: State, pick: Candidate, parameters: Mapping[str, float]) 
 def _check_gain(state: State, pick: Candidate, parameters: Mapping[str, float]) -> str:
     """A torque of the other sign, or off by that much, is no matter of its torque constant."""
     eps = parameters[pick.list_parameter_names()[0]]
-    if 1.0 / TENFOLD < 1.0 - eps < TENFOLD:
+    if 1.0 / THRESHOLDS.max_gain_factor < 1.0 - eps < THRESHOLDS.max_gain_factor:
         return ""
     true = f"{1.0 / (1.0 - eps):.2g} times" if eps != 1.0 else "infinitely many times"
     return f"the true gain would be {true} the given one: check sign and unit of that torque"
@@ -244,9 +229,6 @@ def _check_tilt(state: State, pick: Candidate, parameters: Mapping[str, float]) 
         f"gravity would change by {change:.3g} {column.unit_revolute}, and a tilted base turns it"
     )
 
-
-AS_WELL = 1.1
-"""Ratio of two squared residuals below which the data do not tell two filters apart."""
 
 EITHER = "describes it as well"
 """Ends the objection to a filter that these data do not tell from a delay."""
@@ -272,10 +254,16 @@ def _check_lag(state: State, pick: Candidate, parameters: Mapping[str, float]) -
         )
 
     (filtered, _), (late, half) = minimise_squares(1.0), minimise_squares(2.0)
-    if late < AS_WELL * filtered:
-        how = EITHER if filtered < AS_WELL * late else "describes it better"
+    if late < THRESHOLDS.max_equal_residual_ratio * filtered:
+        how = (
+            EITHER
+            if filtered < THRESHOLDS.max_equal_residual_ratio * late
+            else "describes it better"
+        )
         return f"a pure delay of {2e3 * half:.2g} ms {how}"
-    if filtered > AS_WELL * problem.compute_squares(pick, np.array([share])):
+    if filtered > THRESHOLDS.max_equal_residual_ratio * problem.compute_squares(
+        pick, np.array([share])
+    ):
         return (
             f"a filter that only {format_percent(share)} of the torque passes describes it better"
         )
@@ -297,7 +285,10 @@ def find_gravity_confounders(start: State, candidates: Sequence[Candidate]) -> l
         columns = [c for c in build_all_columns(start.rows, joint_candidates) if is_visible(c)]
         if joint is None or not columns or _check_gravity_load(start, joint_candidates[0], {}):
             continue
-        if float(np.median(start.rank_columns(columns).visible_shares)) < ALIKE:
+        if (
+            float(np.median(start.rank_columns(columns).visible_shares))
+            < THRESHOLDS.min_balance_share
+        ):
             joints.append(joint)
     return joints
 
@@ -306,7 +297,7 @@ def _check_gravity_load(state: State, pick: Candidate, parameters: Mapping[str, 
     """A lever with a spring is built where gravity turns a joint."""
     weight = np.concatenate([s.static[::20, pick.index] for s in state.rows.signals])
     torque = state.rows.y[pick.index]
-    if np.mean(weight**2) > WEIGHTLESS**2 * np.mean(torque**2):
+    if np.mean(weight**2) > THRESHOLDS.min_gravity_share**2 * np.mean(torque**2):
         return ""
     return f"gravity does not turn joint {pick.joint}, so no spring balances it"
 
@@ -322,7 +313,11 @@ def _check_lever(state: State, pick: Candidate, parameters: Mapping[str, float])
     torque = column @ [parameters[name] for name in pick.list_parameter_names()]
     line = np.vander(state.rows.filter_samples(j, [s.q[:, j] for s in state.rows.signals]), 2)
     nonlinear_part = torque - line @ np.linalg.lstsq(line, torque, rcond=None)[0]
-    least = GATE if state.data.prior and state.data.prior.has_bodies else 1.0
+    least = (
+        THRESHOLDS.min_variance_reduction
+        if state.data.prior and state.data.prior.has_bodies
+        else 1.0
+    )
     if np.mean(nonlinear_part**2) > least * np.mean(state.residual[j] ** 2):
         return ""
     return "over this stroke its torque is a straight line in q: another spring gives it too"
@@ -334,7 +329,10 @@ def _check_oscillator(state: State, pick: Candidate, parameters: Mapping[str, fl
     inertia = state.data.compiled.inertia_matrix(q, state.reference.link_parameters)
     link_inertia = float(np.median(inertia[:, pick.index, pick.index]))
     rings = 1.0 / max(compliance * (2.0 * np.pi * parameters["f"]) ** 2, 1e-300)
-    if link_inertia <= 0.0 or max(rings / link_inertia, link_inertia / rings) < LOOSE:
+    if (
+        link_inertia <= 0.0
+        or max(rings / link_inertia, link_inertia / rings) < THRESHOLDS.max_inertia_ratio
+    ):
         return ""
     unit = "kg m2" if _is_revolute(state, pick) else "kg"
     return (

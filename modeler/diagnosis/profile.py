@@ -30,6 +30,7 @@ from modeler.diagnosis.effect_columns import expand_columns, list_body_parameter
 from modeler.diagnosis.ranking import build_time_blocks
 from modeler.diagnosis.signals import compute_tilt_axes
 from modeler.diagnosis.state import State
+from modeler.diagnosis.thresholds import THRESHOLDS
 from modeler.effects import EffectTarget, NonlinearParameter
 from modeler.estimation import estimate_autocorrelation, sum_lagged_products
 from modeler.numerics.least_squares import compute_joint_whitening
@@ -142,20 +143,6 @@ class ProfileProblem:
         )
 
 
-CHI2_95 = 3.841458820694124
-"""95 % quantile of chi-square with one degree of freedom."""
-
-REFUSED = 9.0
-"""Rise from which on a shape is out of the question: three standard deviations."""
-
-_FINE = 0.03  # share of all likelihood that a cell may hold
-_MOST = 64  # shapes looked at along one line
-_LINE = 7  # values per shape where there are several
-_REACHED = 3.0  # standard deviations to which those reach
-_BESIDE = 6  # half waves in the stroke, to which other orders of a ripple are looked at
-_STEP = 1e-3  # of a coded shape, for slopes
-
-
 @dataclass(frozen=True, eq=False)
 class Profile:
     """The likelihood of an effect along its shapes.
@@ -189,7 +176,7 @@ class Profile:
         weight = np.array([point.weight for point in self.points]) * np.exp(
             -0.5 * self.squares_rise
         )
-        weight = np.where(self.squares_rise < REFUSED, weight, 0.0)
+        weight = np.where(self.squares_rise < THRESHOLDS.max_rise, weight, 0.0)
         return np.asarray(weight / weight.sum())
 
     def compute_deviations(self) -> np.ndarray:
@@ -207,10 +194,10 @@ class Profile:
         """(k, 2) 95 % intervals of the parameters, shapes included."""
         every = [*self.points, self.reported_point]
         rise = np.append(self.squares_rise, 0.0)
-        half = np.sqrt(np.maximum(CHI2_95 - rise, 0.0))[:, None] * self.factor
+        half = np.sqrt(np.maximum(THRESHOLDS.chi2_95 - rise, 0.0))[:, None] * self.factor
         values = np.vstack([self.values, self.reported_point.values])
         reach = half * np.array([point.deviations for point in every])
-        allowed = rise < CHI2_95
+        allowed = rise < THRESHOLDS.chi2_95
         low, high = (values - reach)[allowed], (values + reach)[allowed]
         return np.column_stack([low.min(axis=0), high.max(axis=0)])
 
@@ -229,7 +216,9 @@ class Profile:
     def compute_nonlinear_intervals(self) -> dict[str, tuple[float, float]]:
         """95 % intervals of the shapes by name: all that the data do not refuse."""
         allowed = [
-            p for p, rise in zip(self.points, self.squares_rise, strict=True) if rise < CHI2_95
+            p
+            for p, rise in zip(self.points, self.squares_rise, strict=True)
+            if rise < THRESHOLDS.chi2_95
         ]
         values_by_name = {
             n: [p.nonlinear_parameters[n] for p in (self.reported_point, *allowed)]
@@ -314,7 +303,11 @@ def _build_line(scale: JointScale, start: Candidate, shape: NonlinearParameter) 
     """Coded values of one shape to begin with, ascending; the told one among them."""
     coded_value = encode_parameter(shape, start.nonlinear_parameters[shape.name])
     if shape.scale == "waves":
-        near = coded_value + np.pi / scale.range * np.linspace(-_BESIDE, _BESIDE, 4 * _BESIDE + 1)
+        near = coded_value + np.pi / scale.range * np.linspace(
+            -THRESHOLDS.neighbouring_orders,
+            THRESHOLDS.neighbouring_orders,
+            4 * THRESHOLDS.neighbouring_orders + 1,
+        )
         return [float(m) for m in near if m > 0.0]
     low, high, *inner = (
         encode_parameter(shape, scale.scale_value(shape, entry))
@@ -328,7 +321,7 @@ def _refine_line(
 ) -> list[ProfilePoint]:
     """Points along one shape, closest where the likelihood is: the biggest cell is halved."""
     points_by_value = {x: at(x) for x in line}
-    while len(points_by_value) < _MOST:
+    while len(points_by_value) < THRESHOLDS.max_line_points:
         x = np.array(sorted(points_by_value))
         points = [points_by_value[value] for value in x]
         squares = np.array([np.inf if point is None else point.squares for point in points])
@@ -338,7 +331,11 @@ def _refine_line(
         biggest = int(np.argmax(cells))
         ends = x[biggest], x[biggest + 1]
         middle = 0.5 * (ends[0] + ends[1])
-        if not cells[biggest] > 0.0 or cells[biggest] < _FINE * cells.sum() or middle in ends:
+        if (
+            not cells[biggest] > 0.0
+            or cells[biggest] < THRESHOLDS.max_cell_share * cells.sum()
+            or middle in ends
+        ):
             break
         points_by_value[middle] = at(middle)
     x = np.array(sorted(points_by_value))
@@ -360,8 +357,8 @@ def _scan_grid(
     _, slopes = _compute_slopes(problem, start, smooth)
     values, vectors = np.linalg.eigh(slopes.T @ slopes)
     floor = 1e-9 * max(float(values.max(initial=0.0)), 1e-300)
-    axes = vectors / np.sqrt(np.maximum(values, floor)) * _REACHED
-    steps = np.linspace(-1.0, 1.0, _LINE)
+    axes = vectors / np.sqrt(np.maximum(values, floor)) * THRESHOLDS.grid_reach
+    steps = np.linspace(-1.0, 1.0, THRESHOLDS.grid_points)
     places = [middle + axes @ np.array(z) for z in itertools.product(steps, repeat=len(smooth))]
     inside = [x for x in places if np.all((low <= x) & (x <= high))]
     points = [problem.fit_candidate(start.replace_nonlinear_parameters(smooth, x)) for x in inside]
@@ -379,13 +376,13 @@ def _compute_slopes(
     assert here is not None
     columns = problem.compute_residual_columns(candidate)
     middle, slope = _encode_parameters(smooth, candidate), np.zeros((len(columns), len(smooth)))
-    for i, step in enumerate(_STEP * np.eye(len(smooth))):
+    for i, step in enumerate(THRESHOLDS.slope_step * np.eye(len(smooth))):
         ends = (
             candidate.replace_nonlinear_parameters(smooth, x)
             for x in (middle - step, middle + step)
         )
         low, high = (problem.compute_residual_columns(end) @ here.values for end in ends)
-        slope[:, i] = (high - low) / (2.0 * _STEP)
+        slope[:, i] = (high - low) / (2.0 * THRESHOLDS.slope_step)
     return columns, slope - columns @ np.linalg.lstsq(columns, slope, rcond=1e-9)[0]
 
 

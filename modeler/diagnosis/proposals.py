@@ -14,7 +14,6 @@ from modeler.diagnosis.discover import JointSearch, ScoredFormula
 from modeler.diagnosis.effect_columns import expand_columns
 from modeler.diagnosis.expressions import Formula, count_symbols, derive_parameter_unit
 from modeler.diagnosis.judge import (
-    GATE,
     ScoredCandidate,
     compare_residuals,
     compute_holdout_residuals,
@@ -34,24 +33,16 @@ from modeler.diagnosis.state import (
     build_state,
     is_visible,
 )
+from modeler.diagnosis.thresholds import THRESHOLDS
 from modeler.effects import EffectTarget, read_definition
-
-MOST = 3
-"""Equations offered on a joint."""
-
-ALMOST = 0.98
-"""Share of a column that another explains from which on they are nearly the same."""
-
-LEAST = 0.01
-"""Share by which one with more columns must be nearer."""
-
-_JUDGED = 8  # formulas, the cheapest first, that are judged
 
 
 def discover_equations(
-    effect_search: Search, stated: Sequence[tuple[str, str | None]], other: SearchData | None,
+    effect_search: Search,
+    stated: Sequence[tuple[str, str | None]],
+    other: SearchData | None,
     tick: Callable[[], None] = lambda: None,
-) -> tuple[JointDiscovery, ...]:  # fmt: skip
+) -> tuple[JointDiscovery, ...]:
     """Equations for what the effects with names leave, by joint.
 
     On a joint where these are no more than a description, formulas are tried in their place too.
@@ -84,8 +75,11 @@ def _search_joint(
     explanations = [_explain_residual(state, j) for state in states]
     tick()
     searches = [JointSearch(state, j, tick) for state in states]
-    searches = [search for search, (share, _) in zip(searches, explanations, strict=True)
-                if share > 0.0 or search.has_significant_product()]  # fmt: skip
+    searches = [
+        search
+        for search, (share, _) in zip(searches, explanations, strict=True)
+        if share > 0.0 or search.has_significant_product()
+    ]
     if not searches:
         why = "nothing to find: neither a learned law nor a product says more than chance of it"
         return JointDiscovery(name, 0.0, "", (), why)
@@ -114,7 +108,11 @@ def _explain_residual(state: State, j: int) -> tuple[float, str]:
     law, baseline = learn_law(state, j), fit_residual_baseline(state, j, state.residual[j])
     if law is not None and law.is_significant:
         return law.variance_reduction, law.coordinates.description
-    return (baseline.share, "") if baseline.is_significant and baseline.share > GATE else (0.0, "")
+    return (
+        (baseline.share, "")
+        if baseline.is_significant and baseline.share > THRESHOLDS.min_variance_reduction
+        else (0.0, "")
+    )
 
 
 @dataclass(frozen=True, eq=False)
@@ -136,14 +134,14 @@ def _select_formulas(
         search.count, search.before = max(s.count for s in searches), searches[0].before
     every.sort(key=lambda pair: _compute_total_cost(*pair))
     veto, accepted_formulas, texts = make_veto(other), list[_AcceptedFormula](), set[str]()
-    for search, item in every[:_JUDGED]:
+    for search, item in every[: THRESHOLDS.max_scored_formulas]:
         state = search.state
         best, later = search.judge_candidate(item.candidate), extend_state(state, item.candidate)
         if best is None or item.formula.text in texts or veto(state, later, best):
             continue
         texts.add(item.formula.text)
         accepted_formulas.append(_AcceptedFormula(state, later, item, best))
-        if len(accepted_formulas) == MOST:
+        if len(accepted_formulas) == THRESHOLDS.max_proposals:
             break
     return _sort_by_held_out_error(accepted_formulas, other)
 
@@ -168,8 +166,9 @@ def _sort_by_held_out_error(
 
 def _compute_total_cost(search: JointSearch, item: ScoredFormula) -> float:
     """Nats with the price of the effects of the catalogue beside which the formula stands."""
-    named = [c.equation.text for p in search.state.picks for c in p.form.columns
-             if p.index == search.j]  # fmt: skip
+    named = [
+        c.equation.text for p in search.state.picks for c in p.form.columns if p.index == search.j
+    ]
     symbols = item.formula.symbol_count + sum(map(count_symbols, named))
     return float(search.compute_cost(item.left, symbols))
 
@@ -189,11 +188,16 @@ def _build_proposal(
     prefixes = {c.prefix for e in known for form in e.forms for c in form.columns}
     labels = [choose_free_name(f"X{chr(97 + j % 26)}{'abc'[rank]}{x}", prefixes) for x in "abcd"]
     shapes = formula.find_nonlinear_units(state.spec.joints[j].unit == "m")
-    units = [derive_parameter_unit(state.spec, j, item.candidate, i, shapes)
-             for i in range(len(formula.equations))]  # fmt: skip
+    units = [
+        derive_parameter_unit(state.spec, j, item.candidate, i, shapes)
+        for i in range(len(formula.equations))
+    ]
     table = formula.build_definition(labels)
-    definition = {"title": formula.title, **table, "unit": units[0] if len(set(units)) == 1
-                  else dict(zip(labels, units, strict=False))}  # fmt: skip
+    definition = {
+        "title": formula.title,
+        **table,
+        "unit": units[0] if len(set(units)) == 1 else dict(zip(labels, units, strict=False)),
+    }
     place = TomlCell("discover", value=definition)
     effect = read_definition(name, place, {}, joints=state.joint_names)
     candidate = dataclasses.replace(item.candidate, effect=effect, form=effect.forms[0])
@@ -259,7 +263,7 @@ def _describe_nearest(
     named = _list_catalogue_columns(state, candidate.index)
     near, share = _find_nearest(_build_joint_columns(state, candidate) @ values, named)
     nearest_text = f"{near.effect.title} ({near.effect.id})" if near is not None else "nothing"
-    matches = [(share, f"nearly {nearest_text}")] if share > ALMOST else []
+    matches = [(share, f"nearly {nearest_text}")] if share > THRESHOLDS.min_likeness else []
     for term in formula.terms if len(formula.terms) == 1 else ():
         for i, part in enumerate(term):
             rest = Formula(((*term[:i], *term[i + 1 :]),))
@@ -268,7 +272,7 @@ def _describe_nearest(
                     state, rest.build_candidate(state.joint_names, candidate.index)
                 )
                 head, alike = _find_nearest(column[:, 0], named)
-                if head is not None and alike > ALMOST:
+                if head is not None and alike > THRESHOLDS.min_likeness:
                     near, more = near or head, f", times {part.effect.title}"
                     matches.append((alike, f"{head.effect.title} ({head.effect.id}){more}"))
     far = f"nearest is {nearest_text}, which explains {format_percent(share)} of it"
@@ -280,11 +284,12 @@ def _list_catalogue_columns(state: State, j: int) -> list[tuple[Candidate, np.nd
     name, warm = state.joint_names[j], state.joint_names[j] in state.reference.temperature
     every = [
         candidate
-        for effect in state.data.stated_effects.catalogue if effect.acts is EffectTarget.JOINT
+        for effect in state.data.stated_effects.catalogue
+        if effect.acts is EffectTarget.JOINT
         for form in effect.forms
         if (warm or "T" not in form.names) and not form.other_joint_names
         for candidate in expand_grid(effect, form, name, j, state.joint_scales[j])
-    ]  # fmt: skip
+    ]
     columns = build_all_columns(state.rows, every)
     return [
         (c, expand_columns(effect_columns, j, len(state.y[j])))
@@ -303,7 +308,7 @@ def _find_nearest(
         if np.isfinite(columns).all():
             q = np.linalg.lstsq(columns, torque, rcond=1e-9)[0]
             explained = 1.0 - float(np.sum((torque - columns @ q) ** 2)) / size
-            if explained > share + LEAST:
+            if explained > share + THRESHOLDS.min_nearer_share:
                 best, share = candidate, explained
     return best, share
 
@@ -321,21 +326,27 @@ def _add_discriminating_motions(
     """Each with the motion that tells it from the next, the last from the first."""
     if len(proposals) < 2:
         return tuple(proposals)
-    torques = [_build_joint_columns(state, p.finding.pick.candidate) @ p.finding.pick.values
-               for p, state in zip(proposals, states, strict=True)
-               if p.finding.pick is not None]  # fmt: skip
+    torques = [
+        _build_joint_columns(state, p.finding.pick.candidate) @ p.finding.pick.values
+        for p, state in zip(proposals, states, strict=True)
+        if p.finding.pick is not None
+    ]
     rows, joint = states[0].rows, states[0].spec.joints[j]
-    motion = rows.filter_samples(j, [np.column_stack([s.q[:, j], s.v[:, j], s.load[:, j]])
-                               for s in rows.signals])  # fmt: skip
+    motion = rows.filter_samples(
+        j, [np.column_stack([s.q[:, j], s.v[:, j], s.load[:, j]]) for s in rows.signals]
+    )
     unit, effort, results = joint.unit, joint.effort_unit, list[EquationProposal]()
     for k, proposal in enumerate(proposals):
         other = (k + 1) % len(proposals)
         apart = np.abs(torques[k] - torques[other])
         q, v, load = motion[int(np.argmax(apart))]
         pair = ",".join(f"{proposals[i].finding.effect}@{joint.name}" for i in (k, other))
-        results.append(dataclasses.replace(
-            proposal, apart=f"modeler excite ROBOT.toml --between {pair} --out apart.csv",
-            where=f"they differ most, by {apart.max():.3g} {effort}, near q = {q:.3g} {unit}, "
-            f"v = {v:.3g} {unit}/s, load = {load:.3g} {effort}",
-        ))  # fmt: skip
+        results.append(
+            dataclasses.replace(
+                proposal,
+                apart=f"modeler excite ROBOT.toml --between {pair} --out apart.csv",
+                where=f"they differ most, by {apart.max():.3g} {effort}, near q = {q:.3g} {unit}, "
+                f"v = {v:.3g} {unit}/s, load = {load:.3g} {effort}",
+            )
+        )
     return tuple(results)

@@ -15,18 +15,10 @@ import numpy as np
 
 from modeler.core.brief import ShortRepr
 from modeler.diagnosis.effect_columns import Columns, count_columns
+from modeler.diagnosis.thresholds import THRESHOLDS
 from modeler.numerics.least_squares import ReducedRows, compute_joint_whitening, compute_whitening
 from modeler.numerics.spectra import estimate_lap_period
 from modeler.regression import Observation
-
-RIDGE = 1e-10
-"""Of the orthonormal base: rounding in a fold that misses a direction stays harmless."""
-
-_AT_ONCE = 48
-"""Candidates whose columns are multiplied at once: they stay in the cache."""
-
-VISIBLE = 0.005
-"""A direction of candidate columns that the base hides beyond this share is not seen."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -137,7 +129,11 @@ def leave_one_fold_out(values: np.ndarray, place: np.ndarray, count: int) -> np.
 
 def solve_grams(G: np.ndarray, u: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """(F, r, r) and (F, r) inverses of Gram matrices of the base, and parameters."""
-    inverse = np.linalg.inv(G + RIDGE * np.eye(G.shape[1])) if G.shape[1] else np.zeros_like(G)
+    inverse = (
+        np.linalg.inv(G + THRESHOLDS.gram_ridge * np.eye(G.shape[1]))
+        if G.shape[1]
+        else np.zeros_like(G)
+    )
     return inverse, np.einsum("frs,fs->fr", inverse, u)
 
 
@@ -237,16 +233,27 @@ def build_batch(base: GramBlocks, every: Sequence[Columns]) -> CandidateBatch:
     first = np.cumsum(sizes) - sizes
     owner = np.repeat(np.arange(len(sizes)), sizes)
     K, r = len(owner), base.whitening_matrix.shape[1]
-    pairs = np.array(
-        [(f + i, f + k) for f, size in zip(first, sizes, strict=True)
-         for i in range(size) for k in range(size)]
-    ).reshape(-1, 2).astype(int)  # fmt: skip
+    pairs = (
+        np.array(
+            [
+                (f + i, f + k)
+                for f, size in zip(first, sizes, strict=True)
+                for i in range(size)
+                for k in range(size)
+            ]
+        )
+        .reshape(-1, 2)
+        .astype(int)
+    )
     T, w = np.zeros((base.block_count, r, K)), np.zeros((base.block_count, K))
     D, square = np.zeros((base.block_count, len(pairs))), np.zeros(K)
     pool = CandidateBatch(owner, sizes, first, np.ones(K), T, w, pairs, D)
     for j in range(len(base.sigma)):
         active = [i for i, columns in enumerate(every) if columns[j] is not None]
-        for some in (active[k : k + _AT_ONCE] for k in range(0, len(active), _AT_ONCE)):
+        for some in (
+            active[k : k + THRESHOLDS.candidate_chunk]
+            for k in range(0, len(active), THRESHOLDS.candidate_chunk)
+        ):
             if not base.y[j].size:
                 continue
             places = np.concatenate([np.arange(first[i], first[i] + sizes[i]) for i in some])
@@ -298,8 +305,9 @@ def estimate_sigma(rows: ReducedRows, prior: np.ndarray | None = None) -> np.nda
     grams = [w.T @ w for w in rows.W]
     sides = [w.T @ y for w, y in zip(rows.W, rows.y, strict=True)]
     if prior is not None:
-        grams, sides = ([*x, prior[:, :-1].T @ y] for x, y in
-                        ((grams, prior[:, :-1]), (sides, prior[:, -1])))  # fmt: skip
+        grams, sides = (
+            [*x, prior[:, :-1].T @ y] for x, y in ((grams, prior[:, :-1]), (sides, prior[:, -1]))
+        )
     weights = np.ones(len(grams))
     for _ in range(50):
         weights[: len(sigma)] = sigma
@@ -339,15 +347,6 @@ def _solve_least_squares(
 # Blocks of time, and folds that hold out different motion.
 
 
-BLOCK = 0.5
-"""s; longer where logs are long: statistics over blocks need no more than `MOST`."""
-
-MOST = 120
-
-
-FOLDS = 8
-
-
 @dataclass(frozen=True, eq=False)
 class TimeBlocks(ShortRepr):
     """Of an observation.
@@ -371,7 +370,7 @@ def build_time_blocks(observation: Observation) -> TimeBlocks:
     """
     time, run = observation.time, observation.run
     total = float(sum(np.ptp(time[run == log]) for log in np.unique(run)))
-    length = max(BLOCK, total / MOST)
+    length = max(THRESHOLDS.block_duration, total / THRESHOLDS.max_blocks)
     number = np.zeros(len(time), dtype=int)
     folds: list[int] = []
     periods = []
@@ -390,7 +389,7 @@ def build_time_blocks(observation: Observation) -> TimeBlocks:
         np.add.at(middle, block, phase)
         middle /= np.bincount(block)
         number[log_rows] = block + len(folds)
-        folds += [(int(FOLDS * min(m, 0.999)) + log) % FOLDS for m in middle]
+        folds += [(int(THRESHOLDS.folds * min(m, 0.999)) + log) % THRESHOLDS.folds for m in middle]
     return TimeBlocks(number, np.array(folds), tuple(periods))
 
 
@@ -511,7 +510,7 @@ def _solve_batch(
         square = pool.first_pairs[same_size][:, None] + np.arange(size**2)
         matrix = M[:, square].reshape(len(h), -1, size, size)
         values, vectors = np.linalg.eigh(0.5 * (matrix + matrix.swapaxes(2, 3)))
-        is_resolved = values > VISIBLE**2
+        is_resolved = values > THRESHOLDS.min_visible_share**2
         inverted = np.where(is_resolved, 1.0 / np.where(is_resolved, values, 1.0), 0.0)
         turned = np.einsum("fnij,fni->fnj", vectors, h[:, places])
         gamma[:, places] = np.einsum("fnij,fnj->fni", vectors, inverted * turned)

@@ -18,23 +18,20 @@ from modeler.diagnosis.candidates import Candidate
 from modeler.diagnosis.cross_checks import CrossCheck, Key, ParameterChange
 from modeler.diagnosis.drive_gains import is_gain
 from modeler.diagnosis.events import PushWindow
-from modeler.diagnosis.judge import KEPT
 from modeler.diagnosis.search import Search
 from modeler.diagnosis.state import State
+from modeler.diagnosis.thresholds import THRESHOLDS
 from modeler.effects import MOTION, Effect, EffectTarget
 
 # Does an effect explain what is systematic, or only part of it?
 
 
-CLOSED = 0.95
-"""Share of what is systematic that an effect must explain to be stated as the cause."""
-
-
 def compute_explained_fraction(
-    squares: Sequence[Sequence[float]], touched: Sequence[int],
+    squares: Sequence[Sequence[float]],
+    touched: Sequence[int],
     systematic: Callable[[int], float],
     sigma: np.ndarray,
-) -> float:  # fmt: skip
+) -> float:
     """What one effect explains, over that, what later ones explain and what stays systematic.
 
     Squared residuals of the joints it touches, in units of their first residual. What a wrong name
@@ -64,32 +61,20 @@ def compute_mean_square(values: np.ndarray) -> float:
 # Is an effect named? One rule, of `diagnose`, `add` and `auto`.
 
 
-SMALL = 0.1
-"""Least fall of the error of the joints that an effect touches, as a share of it; less only where
-nothing systematic is left with it."""
-
-MOST_LEFT = 0.5
-"""Error of a joint with the effect from which on the fit does not determine that joint: of 139
-joints of measured logs, 34 of 41 with more predict other motion of the machine to no better than
-60 %."""
-
-SHOWN = 0.02
-"""Fall of the residual variance that an effect lets expect in another look, from which on it must
-show a part of it there."""
-
-COUNTED = 3.0
-"""Standard deviations from a whole number of waves per turn from which on they are no teeth."""
-
-
 _NONE: Mapping[str, float] = {}
 
 
 def explain_weak_evidence(
-    pick: Candidate, errors: tuple[float, float], objection: str = "",
-    sigmas: Mapping[str, float] = _NONE, closed: float | None = None,
-    checks: Sequence[CrossCheck] = (), ties: Sequence[Candidate] = (), refines: bool = False,
+    pick: Candidate,
+    errors: tuple[float, float],
+    objection: str = "",
+    sigmas: Mapping[str, float] = _NONE,
+    closed: float | None = None,
+    checks: Sequence[CrossCheck] = (),
+    ties: Sequence[Candidate] = (),
+    refines: bool = False,
     left: Sequence[float] = (),
-) -> str:  # fmt: skip
+) -> str:
     """Why an effect is perhaps missing and no more; empty if it is named.
 
     Args:
@@ -106,16 +91,18 @@ def explain_weak_evidence(
     before, after = errors
     worst = max([after, *left])
     reasons = [objection] if objection and not is_gain(pick) else []
-    if worst > MOST_LEFT:
+    if worst > THRESHOLDS.max_joint_error:
         reasons.append(
             f"with it the error is {format_percent(worst)} still, so the fit does not determine a "
             "joint"
         )
-    small = not refines and (closed is None or closed < CLOSED)
-    if small and after > (1.0 - SMALL) * before:
-        reasons.append(f"the error falls by less than {format_percent(SMALL)} of itself")
+    small = not refines and (closed is None or closed < THRESHOLDS.min_explained_fraction)
+    if small and after > (1.0 - THRESHOLDS.min_error_reduction) * before:
+        reasons.append(
+            f"the error falls by less than {format_percent(THRESHOLDS.min_error_reduction)} of itself"
+        )
     if pick.effect.orders and pick.effect.orders[1] < math.inf:
-        spread = COUNTED * max(
+        spread = THRESHOLDS.max_order_deviation * max(
             sigmas.get(shape.name, math.inf) for shape in pick.form.nonlinear_parameters
         )
         if abs(pick.wave_order - round(pick.wave_order)) > spread:
@@ -130,16 +117,13 @@ def explain_weak_evidence(
     for check in () if unit else checks:
         if not check.agrees and check.leads is not None:
             reasons.append(f"{check.leads[0]} explains its joint better ({check.what})")
-        if check.expected > SHOWN and check.gain < KEPT * check.expected and not is_gain(pick):
+        if (
+            check.expected > THRESHOLDS.min_expected_reduction
+            and check.gain < THRESHOLDS.min_confirmed_share * check.expected
+            and not is_gain(pick)
+        ):
             reasons.append(f"it explains nothing {check.what}")
     return "; ".join(reasons)
-
-
-FELT = 0.005
-"""Of the torque's rms: what is systematic below is not worth a word."""
-
-LEFT = 0.15
-"""Share of the residual's variance that must be systematic before an unnamed cause is reported."""
 
 
 def explain_exclusion(effect: Effect, spec: ModuleSpec) -> str:
@@ -159,10 +143,6 @@ def explain_exclusion(effect: Effect, spec: ModuleSpec) -> str:
 
 JOINTED = (EffectTarget.JOINT, EffectTarget.MOTOR, EffectTarget.POSITION, EffectTarget.PASSIVE)
 """Effects that act on a joint."""
-
-
-HIDDEN = 0.01
-"""Share of its columns below which the logs do not show an effect."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -231,7 +211,7 @@ class Finding(ShortRepr):
     @property
     def is_confirmed(self) -> bool:
         """True if it is the cause, or one of those that these data do not tell apart."""
-        closed = self.closure is None or self.closure >= CLOSED
+        closed = self.closure is None or self.closure >= THRESHOLDS.min_explained_fraction
         sure = not self.doubt and not self.objection and not math.isnan(self.gain)
         return closed and sure and self.is_first
 
@@ -319,8 +299,11 @@ class EquationProposal(ShortRepr):
         instead = f", in place of {', '.join(self.instead)}" if self.instead else ""
         law = f"{format_percent(self.explained)} of what a learned law explains"
         law = "a learned law explains nothing" if math.isnan(self.explained) else law
-        lines = [f"joint {f.joint}: {self.equation}: error {change}{instead}; {law}",
-                 f"  {values}", f"  {self.differs}"]  # fmt: skip
+        lines = [
+            f"joint {f.joint}: {self.equation}: error {change}{instead}; {law}",
+            f"  {values}",
+            f"  {self.differs}",
+        ]
         if self.apart:
             lines += [f"  told from the next by: {self.apart}", f"  {self.where}"]
         return lines
@@ -370,8 +353,10 @@ class JointDiscovery(ShortRepr):
 
     def to_json(self) -> dict[str, Any]:
         """Plain data."""
-        return {**select_attributes(self, "joint share law why"),
-                "proposals": [p.to_json() for p in self.proposals]}  # fmt: skip
+        return {
+            **select_attributes(self, "joint share law why"),
+            "proposals": [p.to_json() for p in self.proposals],
+        }
 
 
 @dataclass(frozen=True)
@@ -401,7 +386,9 @@ class JointState(ShortRepr):
     def is_unexplained(self) -> bool:
         """True if what is left of physics is worth a word."""
         left = self.systematic + self.noise
-        return self.systematic > max(FELT**2, LEFT * left)
+        return self.systematic > max(
+            THRESHOLDS.min_systematic_torque**2, THRESHOLDS.min_systematic_share * left
+        )
 
 
 @dataclass(frozen=True, eq=False)
@@ -475,11 +462,14 @@ class Diagnosis(Result):
         spec = self.search.spec
         has = {(p.effect, p.joint) for p in spec.standard}
         return tuple(
-            f for f in self.effects
-            if f.pick is not None and f.pick.visible_share >= HIDDEN and not self.machine_changed
+            f
+            for f in self.effects
+            if f.pick is not None
+            and f.pick.visible_share >= THRESHOLDS.min_addable_share
+            and not self.machine_changed
             and not explain_exclusion(f.pick.candidate.effect, spec)
             and ((f.effect, f.joint) not in has or f.pick.candidate.effect.several)
-        )  # fmt: skip
+        )
 
     @property
     def changed(self) -> bool:
@@ -488,21 +478,26 @@ class Diagnosis(Result):
 
     def to_json(self) -> dict[str, Any]:
         """The `diagnose` object that scripts read; numbers that mean nothing are null."""
-        return convert_to_plain({
-            **select_attributes(self, "robot verdict effects refinements"),
-            "rivals": [
-                {"effect": effect, "joint": joint, "gain": gain}
-                for effect, joint, gain in self.rivals
-            ],
-            "blind_spots": [
-                {"effect": effect, "joint": joint} for effect, joint in self.blind_spots
-            ],
-            "joints": {
-                name: {"relative_error": self.errors.get(name), **vars(joint)}
-                for name, joint in self.joints.items()
-            },
-            **select_attributes(self, "unmoved held_out sentences band fit_band data changed"),
-            **select_attributes(self, "contradicted machine_changed"),
-            **({} if self.discoveries is None else {
-                "discoveries": [discovery.to_json() for discovery in self.discoveries]}),
-        })  # fmt: skip
+        return convert_to_plain(
+            {
+                **select_attributes(self, "robot verdict effects refinements"),
+                "rivals": [
+                    {"effect": effect, "joint": joint, "gain": gain}
+                    for effect, joint, gain in self.rivals
+                ],
+                "blind_spots": [
+                    {"effect": effect, "joint": joint} for effect, joint in self.blind_spots
+                ],
+                "joints": {
+                    name: {"relative_error": self.errors.get(name), **vars(joint)}
+                    for name, joint in self.joints.items()
+                },
+                **select_attributes(self, "unmoved held_out sentences band fit_band data changed"),
+                **select_attributes(self, "contradicted machine_changed"),
+                **(
+                    {}
+                    if self.discoveries is None
+                    else {"discoveries": [discovery.to_json() for discovery in self.discoveries]}
+                ),
+            }
+        )

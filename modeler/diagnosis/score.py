@@ -11,16 +11,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from modeler.core.table import format_error_pair
-from modeler.diagnosis.ranking import BLOCK, MOST
-
-STANDARD_ERRORS = 2.0
-"""Standard errors beyond which differences over blocks of time are more than chance."""
-
-LEAST = 1e-3
-"""Relative errors below are as good as none."""
-
-WORSE = math.sqrt(2.0)
-"""Ratio of the errors of a joint from which on more comes on top than its own noise."""
+from modeler.diagnosis.thresholds import THRESHOLDS
 
 
 @dataclass(frozen=True, eq=False)
@@ -65,12 +56,20 @@ class ErrorChange:
     @property
     def is_reduced(self) -> bool:
         """True if the error surely falls."""
-        return self.t_ratio > STANDARD_ERRORS and self.is_different and self.after < self.before
+        return (
+            self.t_ratio > THRESHOLDS.max_chance_t
+            and self.is_different
+            and self.after < self.before
+        )
 
     @property
     def is_increased(self) -> bool:
         """True if it surely rises."""
-        return self.t_ratio < -STANDARD_ERRORS and self.is_different and self.after > self.before
+        return (
+            self.t_ratio < -THRESHOLDS.max_chance_t
+            and self.is_different
+            and self.after > self.before
+        )
 
     @property
     def variance_reduction(self) -> float:
@@ -80,7 +79,9 @@ class ErrorChange:
     @property
     def error_ratio(self) -> float:
         """After over before."""
-        return max(self.after, LEAST) / max(self.before, LEAST)
+        return max(self.after, THRESHOLDS.negligible_error) / max(
+            self.before, THRESHOLDS.negligible_error
+        )
 
 
 @dataclass(frozen=True)
@@ -103,7 +104,8 @@ class Score:
         effects leave of other joints may be more than all of it.
         """
         is_reduced = any(
-            change.is_reduced and change.error_ratio < 1.0 / WORSE for change in self.joints
+            change.is_reduced and change.error_ratio < 1.0 / THRESHOLDS.min_spoiling_ratio
+            for change in self.joints
         )
         mends = is_reduced and not any(change.is_increased for change in self.joints)
         return mends or (self.whole.is_reduced and not self.has_spoilt_joint)
@@ -111,7 +113,10 @@ class Score:
     @property
     def has_spoilt_joint(self) -> bool:
         """True if the error of a joint surely rises by more than its noise."""
-        return any(change.is_increased and change.error_ratio > WORSE for change in self.joints)
+        return any(
+            change.is_increased and change.error_ratio > THRESHOLDS.min_spoiling_ratio
+            for change in self.joints
+        )
 
     @property
     def errors(self) -> dict[str, tuple[float, float]]:
@@ -153,8 +158,9 @@ def score_change(
     old, new = compute_errors(before), compute_errors(after)
     shares = {
         name: (by_block(before, j), by_block(after, j))
-        for j, name in enumerate(before.names) if name in old and name in new
-    }  # fmt: skip
+        for j, name in enumerate(before.names)
+        if name in old and name in new
+    }
     changes = tuple(
         ErrorChange(name, old[name], new[name], compute_t_ratio(np.sqrt(a) - np.sqrt(b)))
         for name, (a, b) in shares.items()
@@ -191,8 +197,10 @@ def compute_rms_error(errors: Iterable[float]) -> float:
 
 def compute_errors(residuals: Residuals) -> dict[str, float]:
     """Relative error of every joint that has a torque."""
-    sizes = [(float(np.linalg.norm(e)), float(np.linalg.norm(y)))
-             for e, y in zip(residuals.residual, residuals.torque, strict=True)]  # fmt: skip
+    sizes = [
+        (float(np.linalg.norm(e)), float(np.linalg.norm(y)))
+        for e, y in zip(residuals.residual, residuals.torque, strict=True)
+    ]
     return {name: e / y for name, (e, y) in zip(residuals.names, sizes, strict=True) if y > 0.0}
 
 
@@ -205,8 +213,9 @@ def format_error_changes(joints: Mapping[str, tuple[float, float]], changed: Seq
     """
     pairs = {name: " -> ".join(format_error_pair(*joints[name])) for name in changed}
     rising = [name for name in changed if joints[name][1] > joints[name][0]]
-    parts = [", ".join(f"joint {name} {text}" for name, text in pairs.items()
-                       if name not in rising)]  # fmt: skip
+    parts = [
+        ", ".join(f"joint {name} {text}" for name, text in pairs.items() if name not in rising)
+    ]
     parts += [f"joint {name} rises, {pairs[name]}" for name in rising]
     if len(changed) < len(joints):
         parts.append("other joints unchanged" if changed else "no joint changes")
@@ -221,7 +230,10 @@ def explain_no_improvement(
         format_error_changes(joints, changed),
         list(zip(*joints.values(), strict=True)),
     )
-    if any(ErrorChange(name, *joints[name], 0.0).error_ratio > WORSE for name in changed):
+    if any(
+        ErrorChange(name, *joints[name], 0.0).error_ratio > THRESHOLDS.min_spoiling_ratio
+        for name in changed
+    ):
         return f"the error rises: {changes}"
     total = " -> ".join(format_error_pair(*map(compute_rms_error, errors)))
     return f"the error does not fall by more than chance: {total} over all joints; {changes}"
@@ -235,7 +247,12 @@ def _build_block_function(logs: Residuals, block: float) -> Callable[[Residuals,
     """
     run, time = np.concatenate(logs.run), np.concatenate(logs.time)
     spans = {int(r): (time[run == r].min(), time[run == r].max()) for r in np.unique(run)}
-    length = float(block or max(BLOCK, sum(b - a for a, b in spans.values()) / MOST))
+    length = float(
+        block
+        or max(
+            THRESHOLDS.block_duration, sum(b - a for a, b in spans.values()) / THRESHOLDS.max_blocks
+        )
+    )
     count, ends = 0, {}
     for r, (a, b) in spans.items():  # numbers of the first and the last block of a log
         last = count + int((b - a) / length)

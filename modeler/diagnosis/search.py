@@ -20,8 +20,6 @@ from modeler.diagnosis.drive_gains import (
 )
 from modeler.diagnosis.generate import find_slowest_ringing, generate_candidates
 from modeler.diagnosis.judge import (
-    NEARLY,
-    SAME,
     CandidateFit,
     RankedCandidates,
     ScoredCandidate,
@@ -34,14 +32,8 @@ from modeler.diagnosis.judge import (
 from modeler.diagnosis.plausible import DRIVES, EITHER, find_caveat, is_friction_driving
 from modeler.diagnosis.profile import build_reduction_function, describe_values
 from modeler.diagnosis.state import SearchData, State, batch_candidates, build_state, is_visible
+from modeler.diagnosis.thresholds import THRESHOLDS
 from modeler.effects import Effect, NonlinearParameter, Requirement
-
-_STEPS = 8
-_TURNS = 5
-
-WHOLE = 0.85
-"""Share of the best fall with which a whole number of waves per turn is preferred: teeth, poles and
-rollers are counted."""
 
 
 def refine_nonlinear_parameters(
@@ -90,18 +82,23 @@ def refine_nonlinear_parameters(
             lambda x: compute_loss(np.array([x])),
             bounds=(max(start[0] - reach[0], low[0]), min(start[0] + reach[0], high[0])),
             method="bounded",
-            options={"maxiter": _STEPS},
+            options={"maxiter": THRESHOLDS.refinement_steps},
         )
         x, score = np.array([solution.x]), float(solution.fun)
         whole = np.round(x)
-        if smooth[0].scale == "waves" and compute_loss(whole) < WHOLE * score:
+        if (
+            smooth[0].scale == "waves"
+            and compute_loss(whole) < THRESHOLDS.whole_order_share * score
+        ):
             return candidate.replace_nonlinear_parameters(smooth, whole)
     else:
         corners = np.vstack([start, start + 0.5 * np.diag(reach)])
         solution = minimize(
-            compute_loss, start, method="Nelder-Mead",
-            options={"maxfev": _STEPS * 4, "initial_simplex": corners},
-        )  # fmt: skip
+            compute_loss,
+            start,
+            method="Nelder-Mead",
+            options={"maxfev": THRESHOLDS.refinement_steps * 4, "initial_simplex": corners},
+        )
         x, score = solution.x, float(solution.fun)
     better = score < compute_loss(start)
     return (
@@ -145,27 +142,6 @@ def _compute_reduction(state: State, candidate: Candidate) -> float:
 Tick = Callable[[], None]
 """Called whenever something is done."""
 
-STARTS = 4
-"""Grid values from which an effect with two shapes is refined: its fit has several summits."""
-
-AT_ONCE = 96
-"""Candidates whose columns are in memory together."""
-
-NEAR = 0.95
-"""Share of the best fall with which another fixed shape of an effect is refined too."""
-
-CLOSE = 0.7
-"""Rivals with this share of the best fall are refined before the best is chosen: up to `MANY`."""
-
-MANY = 5
-
-BETTER = 0.5
-"""What a refused effect may leave, over what it left then, to be asked for again: of two wrong
-drive gains, the second mends the first."""
-
-WORTH = 0.02
-"""Gain below which nothing is refined."""
-
 
 @dataclass(frozen=True, eq=False)
 class CandidateScan:
@@ -192,7 +168,8 @@ class CandidateScan:
             j
             for j in refused
             if j.refines_model_term
-            or 1.0 - gains.get(j.key, 0.0) > BETTER * (1.0 - j.variance_reduction)
+            or 1.0 - gains.get(j.key, 0.0)
+            > THRESHOLDS.max_reconsidered_residual * (1.0 - j.variance_reduction)
         ]
 
     def exclude_vetoed(self, vetoed: Sequence[ScoredCandidate]) -> "CandidateScan":
@@ -215,10 +192,11 @@ class CandidateScan:
         left = self.exclude_vetoed(vetoed)
         close = [
             j
-            for j in left.best[:MANY]
+            for j in left.best[: THRESHOLDS.max_refined_alternatives]
             if j.is_possible
-            and j.total_variance_reduction > CLOSE * left.best[0].total_variance_reduction
-            and j.variance_reduction > WORTH
+            and j.total_variance_reduction
+            > THRESHOLDS.refinement_share * left.best[0].total_variance_reduction
+            and j.variance_reduction > THRESHOLDS.min_refined_gain
         ]
         # Of effects that were not refined, only the best shapes may win still.
         refined = {}
@@ -266,11 +244,11 @@ class CandidateScan:
         every = [t for t in self.fits if t.candidate.key == first.key]
         possible_fits = [t for t in every if t.is_possible] or every
         falls = np.array([trial.total_reduction for trial in possible_fits])
-        least = NEAR * float(falls.max()) if len(refined) == 1 else -np.inf
+        least = THRESHOLDS.start_share * float(falls.max()) if len(refined) == 1 else -np.inf
         near = [possible_fits[k].candidate for k in np.argsort(-falls) if falls[k] >= least]
         order = [first, *(c for c in near if c is not first)]
         if len(refined) > 1:
-            return order[:STARTS]
+            return order[: THRESHOLDS.max_starts]
         best: dict[tuple[float, ...], Candidate] = {}
         for c in order:
             best.setdefault(
@@ -292,7 +270,9 @@ def scan_candidates(state: State, candidates: Sequence[Candidate]) -> CandidateS
     """Some candidates in a state; those that show."""
     trials, best = dict[int, CandidateFit](), dict[int, ScoredCandidate]()
     place = {id(candidate): k for k, candidate in enumerate(candidates)}
-    for some in batch_candidates(candidates, AT_ONCE):  # their columns are never there all at once
+    for some in batch_candidates(
+        candidates, THRESHOLDS.scan_chunk
+    ):  # their columns are never there all at once
         every = zip(some, compute_candidate_columns(state, some), strict=True)
         shown = {id(fits[0]): fits for fits in every if is_visible(fits[1])}
         fits = fit_candidates(state, [*shown.values()]) if shown else []
@@ -316,23 +296,9 @@ def is_vetoed(candidate: Candidate, vetoed: Sequence[ScoredCandidate]) -> bool:
     return any(abs(order - m) < 0.1 * m for m in orders)
 
 
-MOST = 8
-"""Effects named in one diagnosis."""
-
-MUCH = 0.15
-"""Gain from which on an effect whose values are not those of this robot is a description still."""
-
-ASKED = 20
-"""Effects that are refused in one diagnosis before it ends: where held-out motion refuses that
-many, it is other motion, or the logs hold nothing that returns."""
-
-
 Veto = Callable[[State, State, ScoredCandidate], bool]
 """True if an effect does not lower the error on held-out logs: state without it, with it, the
 effect as it was judged."""
-
-CLEAR = 1.01
-"""Ratio of two errors that decides."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -399,7 +365,7 @@ def search_effects(
     data: SearchData,
     beta: np.ndarray,
     without: Sequence[str] = (),
-    most: int = MOST,
+    most: int = THRESHOLDS.max_effects,
     veto: Veto | None = None,
     tick: Tick = lambda: None,
     prior_steps: Sequence[SearchStep] = (),
@@ -425,7 +391,9 @@ def search_effects(
         )
     survey = scan_catalogue(state, without)
     judgement = survey.judge_candidates((), tick)
-    while judgement.best is not None and len(steps) < most and len(every) < ASKED:
+    while (
+        judgement.best is not None and len(steps) < most and len(every) < THRESHOLDS.max_rejections
+    ):
         best = _choose_likeliest_gain(state, judgement.best, refused, without)
         best, later = accept_candidate(
             state, _choose_beside_prior(state, best, judgement, refused), veto
@@ -456,7 +424,10 @@ def search_effects(
 def _is_covered(state: State, other: ScoredCandidate, best: ScoredCandidate) -> bool:
     """True if with the other effect put in, little is left for the best one."""
     beside = build_state(state.data, [*state.picks, other.candidate], state.beta)
-    return _score_candidate(beside, best.candidate).total_reduction < SAME * best.total_reduction
+    return (
+        _score_candidate(beside, best.candidate).total_reduction
+        < THRESHOLDS.equivalence_share * best.total_reduction
+    )
 
 
 def _find_displaced_candidates(
@@ -467,14 +438,10 @@ def _find_displaced_candidates(
         candidate_score
         for candidate_score in refused
         if candidate_score.reason not in ("", DRIVES)
-        and NEARLY * candidate_score.total_variance_reduction
+        and THRESHOLDS.parsimony_share * candidate_score.total_variance_reduction
         < best.total_variance_reduction
-        < candidate_score.total_variance_reduction / NEARLY
+        < candidate_score.total_variance_reduction / THRESHOLDS.parsimony_share
     ]
-
-
-SHORT = 0.01
-"""s: a delay of all torques below is linear in the band of a diagnosis, and has a name there."""
 
 
 def accept_candidate(
@@ -496,7 +463,9 @@ def accept_candidate(
     why = find_caveat(later, pick, effect_values.value | dict(pick.nonlinear_parameters))
     lags = Requirement.LAG in pick.effect.needs
     short = (
-        lags and pick.joint is None and float(values[0]) * pick.nonlinear_parameters["tau"] < SHORT
+        lags
+        and pick.joint is None
+        and float(values[0]) * pick.nonlinear_parameters["tau"] < THRESHOLDS.max_short_delay
     )
     # A lag of no certain kind would take the place of what rounds torques too.
     if why and (short or why.endswith(EITHER) or Requirement.TILT in pick.effect.needs):
@@ -518,13 +487,14 @@ def _choose_alternative(
     if later is not None and not candidate_score.reason:
         return None
     without = survey.judge_candidates([*refused, candidate_score], tick)
-    if later is None or candidate_score.variance_reduction < MUCH:
+    if later is None or candidate_score.variance_reduction < THRESHOLDS.min_description_gain:
         return without
     best = without.best
     return (
         without
         if best is not None
-        and best.total_variance_reduction > NEARLY * candidate_score.total_variance_reduction
+        and best.total_variance_reduction
+        > THRESHOLDS.parsimony_share * candidate_score.total_variance_reduction
         else None
     )
 
@@ -546,7 +516,9 @@ def _choose_beside_prior(
     near = [
         j
         for j in judgement.ranked
-        if j.is_significant and j.total_variance_reduction > CLOSE * first.total_variance_reduction
+        if j.is_significant
+        and j.total_variance_reduction
+        > THRESHOLDS.refinement_share * first.total_variance_reduction
     ]
     every = {j.key: j for j in (best, first, *near) if not is_vetoed(j.candidate, vetoed)}
     if state.data.prior is None or not best.candidate.is_local:
@@ -567,7 +539,10 @@ def _choose_beside_prior(
         return best
     likely = first.key if first.key in errors_by_key else best.key
     key = min(
-        errors_by_key, key=lambda key: errors_by_key[key][0] * (1.0 if key == likely else CLEAR)
+        errors_by_key,
+        key=lambda key: (
+            errors_by_key[key][0] * (1.0 if key == likely else THRESHOLDS.min_clear_ratio)
+        ),
     )
     return _score_candidate(state, errors_by_key[key][1])
 
@@ -671,7 +646,9 @@ def _refine_steps(
             picks = [*prior_picks, *(item.candidate for item in refined_steps)]
             whole = build_state(state.data, picks, state.beta)
             explained, pick = build_reduction_function(whole, len(prior_picks) + i), step.candidate
-            for _ in range(_TURNS):  # each begins with steps as large as those of the grid
+            for _ in range(
+                THRESHOLDS.refinement_turns
+            ):  # each begins with steps as large as those of the grid
                 pick, last = refine_nonlinear_parameters(whole, pick, explained), pick
                 if pick == last:
                     break

@@ -3,21 +3,17 @@
 import dataclasses
 
 from modeler.core.table import format_error_pair, format_percent
+from modeler.diagnosis.cross_checks import Key
 from modeler.diagnosis.orders import compute_burst_share
-from modeler.diagnosis.result import Diagnosis, Finding, Key
+from modeler.diagnosis.result import Diagnosis, Finding
 from modeler.diagnosis.search import SearchStep
+from modeler.diagnosis.thresholds import THRESHOLDS
 from modeler.effects import Effect, Requirement, find_effect
 from modeler.estimation import format_spread
-
-TOLD = 0.15
-"""Gain from which on an effect is mentioned that was refused."""
-
-MOST_REFUSED = 3
 
 NOT_JUDGED = "the machine differs between the training and the held-out logs"
 """Why no effect is judged where parameters have changed."""
 
-_MOST_MOVED = 8  # parameters that are listed
 
 _ONLY_HERE = "of these logs' error, but that of motion left out does not surely fall with it"
 _PART = "it explains only part of what is systematic"
@@ -63,9 +59,10 @@ def describe_evidence(step: SearchStep, before: float, after: float) -> str:
         "that was held out"
     )
     rivals = [
-        r for r in step.alternatives
+        r
+        for r in step.alternatives
         if r.is_possible and r.is_confirmed and r.candidate.key != candidate_score.candidate.key
-    ]  # fmt: skip
+    ]
     if (
         rivals
         and rivals[0].total_variance_reduction > 0.0
@@ -114,7 +111,7 @@ def _list_changes(diagnosis: Diagnosis) -> list[str]:
     lines = [
         f"{p.name}: {p.before:.4g} +- {p.sigma_before:.2g} -> {p.after:.4g} +- "
         f"{p.sigma_after:.2g} {p.unit} (fitted to the held-out logs alone)"
-        for p in diagnosis.machine_changed[:_MOST_MOVED]
+        for p in diagnosis.machine_changed[: THRESHOLDS.max_listed_changes]
     ]
     more = len(diagnosis.machine_changed) - len(lines)
     return lines + [f"{more} other parameters differ too"] * (more > 0)
@@ -145,7 +142,8 @@ def describe_rejected(diagnosis: Diagnosis) -> list[str]:
             key = candidate_score.candidate.key
             if (
                 key not in named
-                and candidate_score.variance_reduction > lines.get(key, (TOLD, ""))[0]
+                and candidate_score.variance_reduction
+                > lines.get(key, (THRESHOLDS.min_mentioned_gain, ""))[0]
             ):
                 text = (
                     f"not named: {candidate_score.candidate.effect.title} ({key[0]}), "
@@ -156,7 +154,9 @@ def describe_rejected(diagnosis: Diagnosis) -> list[str]:
                     f"{text}explains {format_percent(candidate_score.variance_reduction)} "
                     f"{because}",
                 )
-    return [line for _, line in sorted(lines.values(), reverse=True)[:MOST_REFUSED]]
+    return [
+        line for _, line in sorted(lines.values(), reverse=True)[: THRESHOLDS.max_listed_rejections]
+    ]
 
 
 def _describe_bursts(diagnosis: Diagnosis, name: str) -> str:
@@ -292,8 +292,10 @@ def format_lines(diagnosis: Diagnosis) -> list[str]:
         f"joint {name} {format_percent(error)}" for name, error in diagnosis.errors.items()
     )
     lines += ["", f"error of the model on these logs, up to {diagnosis.fit_band:.3g} Hz: {entry}"]
-    lines.append(f"{'joint':<6}{'before':>9}{'with effects':>14}  ({source} error, up to "
-                 f"{diagnosis.band:.3g} Hz)")  # fmt: skip
+    lines.append(
+        f"{'joint':<6}{'before':>9}{'with effects':>14}  ({source} error, up to "
+        f"{diagnosis.band:.3g} Hz)"
+    )
     for name, joint in diagnosis.joints.items():
         before, after = format_error_pair(joint.error_before, joint.error_after)
         lines.append(f"{name:<6}{before:>9}{after:>14}")

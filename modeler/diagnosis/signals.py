@@ -9,6 +9,7 @@ import numpy as np
 from scipy.linalg import expm
 
 from modeler.core.brief import ShortRepr
+from modeler.diagnosis.thresholds import THRESHOLDS
 from modeler.effects import InternalState
 from modeler.numerics.filters import apply_biquad
 from modeler.regression import (
@@ -23,14 +24,8 @@ if TYPE_CHECKING:
     from modeler.runtime import CompiledModel
 
 
-_STEP = 1e-5  # rad or m, of central differences
-_BESIDE = 2  # samples to both sides that a difference quotient of another reads
-
 EVERY = slice(None)
 """All samples of a stretch."""
-
-WINDOW = 2048
-"""Samples that are evaluated at a time."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -116,7 +111,10 @@ class Signals(ShortRepr):
     @cached_property
     def column_maxima(self) -> np.ndarray:
         """(p,) magnitude that each column of a standard parameter reaches."""
-        windows = [slice(k, k + WINDOW) for k in range(0, len(self.q), WINDOW)]
+        windows = [
+            slice(k, k + THRESHOLDS.sample_window)
+            for k in range(0, len(self.q), THRESHOLDS.sample_window)
+        ]
         return np.asarray(
             np.max([np.abs(self.compute_regressor(w)).max(axis=(0, 1)) for w in windows], axis=0)
         )
@@ -215,7 +213,7 @@ class Signals(ShortRepr):
 
     def _compute_slope(self, j: int, kind: int) -> np.ndarray:
         model, beta = self.reference.compiled, self.reference.link_parameters
-        size = (_STEP, 1.0, 1.0)[kind]
+        size = (THRESHOLDS.position_step, 1.0, 1.0)[kind]
         step = np.zeros(self.q.shape[1])
         step[j] = size
         ahead, behind = [self.q, self.v, self.a], [self.q, self.v, self.a]
@@ -249,8 +247,11 @@ class Signals(ShortRepr):
             window: m of the samples.
         """
         start, stop, _ = window.indices(len(dq))
-        first = max(0, start - _BESIDE)
-        dq, inside = dq[first : stop + _BESIDE], slice(start - first, stop - first)
+        first = max(0, start - THRESHOLDS.difference_reach)
+        dq, inside = (
+            dq[first : stop + THRESHOLDS.difference_reach],
+            slice(start - first, stop - first),
+        )
         torque = np.zeros((self.q.shape[1], stop - start, dq.shape[1]))
         if not dq.any():
             return torque.swapaxes(0, 1)
@@ -316,11 +317,6 @@ def _discretise_oscillator(
 # Gravity from another direction: torques for unit gravity across the one the model has.
 
 
-_STATES = 64
-_TILT_STEP = 1e-5  # rad or m, of central differences
-_SEEN = 1e-6
-
-
 def compute_tilt_columns(signals: Signals, window: slice = slice(None)) -> np.ndarray:
     """(n, J, k): first the torques of unit gravity along two axes across the model's gravity.
 
@@ -339,9 +335,9 @@ def compute_frame_slopes(model: "CompiledModel", q: np.ndarray) -> np.ndarray:
     """(n, J, rows, 3, 4) d/dq_j of [R | p] of every moving row, by differences; q is (n, J)."""
     slopes = [
         model.forward_kinematics(q + step) - model.forward_kinematics(q - step)
-        for step in _TILT_STEP * np.eye(q.shape[1])
+        for step in THRESHOLDS.tilt_step * np.eye(q.shape[1])
     ]
-    return np.stack(slopes, axis=1) / (2.0 * _TILT_STEP)
+    return np.stack(slopes, axis=1) / (2.0 * THRESHOLDS.tilt_step)
 
 
 def compute_gravity_torque(slopes: np.ndarray, axis: np.ndarray, chi: np.ndarray) -> np.ndarray:
@@ -372,12 +368,17 @@ def compute_tilt_basis(reference: SignalReference) -> list[tuple[np.ndarray, np.
     for base, value in zip(model.spec.base, reference.link_parameters, strict=True):
         if base.column_of in place:
             chi[place[base.column_of]] = value
-    q = np.random.default_rng(3).uniform(-1.5, 1.5, (_STATES, len(model.spec.joints)))
+    q = np.random.default_rng(3).uniform(
+        -1.5, 1.5, (THRESHOLDS.tilt_states, len(model.spec.joints))
+    )
     unit = np.eye(3)
     slopes = compute_frame_slopes(model, q)
     along = np.column_stack([compute_gravity_torque(slopes, e, chi).ravel() for e in unit])
     target = model.gravity(q, reference.link_parameters).ravel()
-    if np.linalg.norm(target) <= _SEEN or np.linalg.norm(along) <= _SEEN:
+    if (
+        np.linalg.norm(target) <= THRESHOLDS.min_tilt_torque
+        or np.linalg.norm(along) <= THRESHOLDS.min_tilt_torque
+    ):
         return None
     gravity = np.linalg.lstsq(along, target, rcond=None)[0]
     down = gravity / np.linalg.norm(gravity)
@@ -387,7 +388,9 @@ def compute_tilt_basis(reference: SignalReference) -> list[tuple[np.ndarray, np.
     axes = (across, np.cross(down, across))
     # an arm that moves in a plane does not feel gravity across it
     effective_axes = [
-        axis for axis in axes if np.linalg.norm(compute_gravity_torque(slopes, axis, chi)) > _SEEN
+        axis
+        for axis in axes
+        if np.linalg.norm(compute_gravity_torque(slopes, axis, chi)) > THRESHOLDS.min_tilt_torque
     ]
     return [(axis, chi) for axis in effective_axes] + _find_hidden_moments(
         slopes, axes, down, len(rows)
@@ -414,7 +417,10 @@ def _find_hidden_moments(
         for k in (1, 2, 3):
             chi = np.zeros((rows, 4))
             chi[r, k] = 1.0
-            if np.linalg.norm(compute_gravity_torque(slopes, down, chi)) > _SEEN:
+            if (
+                np.linalg.norm(compute_gravity_torque(slopes, down, chi))
+                > THRESHOLDS.min_tilt_torque
+            ):
                 continue
             for axis in axes:
                 column = compute_gravity_torque(slopes, axis, chi).ravel()

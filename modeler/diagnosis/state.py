@@ -31,6 +31,7 @@ from modeler.diagnosis.ranking import (
     rank_candidates,
 )
 from modeler.diagnosis.signals import SignalReference
+from modeler.diagnosis.thresholds import THRESHOLDS
 from modeler.effects import EffectTarget
 from modeler.estimation import Prior, build_prior, estimate_correlation
 from modeler.numerics.least_squares import (
@@ -98,7 +99,7 @@ class SearchData(ShortRepr):
         key = reference.beta.tobytes(), _make_clock_key(reference)
         rows = self._row_cache.pop(key, None) or self.rows.replace_reference(reference)
         self._row_cache[key] = rows
-        if len(self._row_cache) > _REMEMBERED:
+        if len(self._row_cache) > THRESHOLDS.cached_references:
             del self._row_cache[next(iter(self._row_cache))]
         return rows
 
@@ -140,10 +141,6 @@ class SearchData(ShortRepr):
 
 
 _FREE = ("friction", "offset")
-
-_STRONGER = 12  # times twice
-
-_REMEMBERED = 3  # references: that of a state, and those of the next
 
 
 def _make_clock_key(reference: SignalReference) -> tuple[Any, ...]:
@@ -251,7 +248,7 @@ class State(ShortRepr):
                 sums.append(max(1.0, 2.0 * float(r.sum()) - 1.0))
         repeats = float(np.median(sums[1:] or sums))
         tight: dict[str, float] = {}
-        for _ in range(_STRONGER):
+        for _ in range(THRESHOLDS.max_prior_steps):
             rows = known.scale_sigmas(tight).extend_rows(lengths) * repeats**0.5
             nearer = known.find_unlikely_groups(
                 self._solve_with_prior(rows)[: len(self.data.free_columns)]
@@ -288,8 +285,10 @@ class State(ShortRepr):
         if not whitening_matrix.shape[1]:
             return np.zeros(len(whitening_matrix))
         G, u = 1e-12 * np.eye(whitening_matrix.shape[1]), np.zeros(whitening_matrix.shape[1])
-        every = [*zip(self.reduced_rows.W, self.reduced_rows.y, sigma, strict=True),
-                 (prior[:, :-1], prior[:, -1], 1.0)]  # fmt: skip
+        every = [
+            *zip(self.reduced_rows.W, self.reduced_rows.y, sigma, strict=True),
+            (prior[:, :-1], prior[:, -1], 1.0),
+        ]
         for w, y, s in every:
             columns = w @ (whitening_matrix / s)
             G, u = G + columns.T @ columns, u + columns.T @ (y / s)
@@ -379,9 +378,10 @@ def build_columns(rows: Rows, candidate: Candidate) -> Columns:
 def build_all_columns(rows: Rows, candidates: Sequence[Candidate]) -> list[Columns]:
     """The columns of many candidates: the shapes of one effect at once."""
     columns = {
-        id(c): rows.cache[key] for c in candidates
+        id(c): rows.cache[key]
+        for c in candidates
         if _is_model_independent(c) and (key := make_column_key(rows, c)) in rows.cache
-    }  # fmt: skip
+    }
     for every in _group_candidates([c for c in candidates if id(c) not in columns]):
         made = rows.build_batch(every) if len(every) > 1 else [rows.build_columns(every[0])]
         for candidate, candidate_columns in zip(every, made, strict=True):
@@ -391,16 +391,13 @@ def build_all_columns(rows: Rows, candidates: Sequence[Candidate]) -> list[Colum
     return [columns[id(candidate)] for candidate in candidates]
 
 
-KEPT = 2**27
-"""Bytes of columns that do not depend on the model, remembered for the next state."""
-
 _HELD = "bytes held"
 
 
 def _cache_columns(cache: dict[Any, Any], key: Any, columns: Columns) -> None:
     """As long as there is room for them."""
     held = cache.get(_HELD, 0) + sum(8 * c.size for c in columns if c is not None)
-    if held <= KEPT:
+    if held <= THRESHOLDS.max_cached_bytes:
         cache |= {_HELD: held, key: columns}
 
 
@@ -477,15 +474,14 @@ def _find_references(observation: Observation) -> tuple[float, Mapping[str, floa
 # The logs as a diagnosis sees them: as far up as positions are more than noise, and quiet.
 
 
-BAND = 30.0
-"""Hz: highest cut-off of the parallel filter. Fits use a narrow band, where torque noise is least;
-ripple, elasticity, delays and reversals show above it."""
-
-
 def analyse_logs(
-    compiled: "CompiledModel", logs: Sequence[Log], fitted: Processing, band: float | None = None,
-    prepared: PreparedLogs | None = None, repair: LogRepair | None = None,
-) -> Observation:  # fmt: skip
+    compiled: "CompiledModel",
+    logs: Sequence[Log],
+    fitted: Processing,
+    band: float | None = None,
+    prepared: PreparedLogs | None = None,
+    repair: LogRepair | None = None,
+) -> Observation:
     """The observation of a diagnosis.
 
     With f0 where the positions drown in their noise, and c the parallel cut-off that the motion
@@ -513,9 +509,13 @@ def observe_logs(
 
 
 def choose_band(
-    compiled: "CompiledModel", logs: Sequence[Log], fitted: Processing, band: float | None,
-    prepared: PreparedLogs | None = None, repair: LogRepair | None = None,
-) -> PreparedLogs:  # fmt: skip
+    compiled: "CompiledModel",
+    logs: Sequence[Log],
+    fitted: Processing,
+    band: float | None,
+    prepared: PreparedLogs | None = None,
+    repair: LogRepair | None = None,
+) -> PreparedLogs:
     """The logs, with the band that `analyse_logs` chooses."""
     prepared = (prepared or prepare_logs(compiled.spec, logs, fitted, repair)).drop_commands()
     noise = prepared.noise
@@ -529,7 +529,7 @@ def choose_band(
     motion = wide.parallel_cutoff
     highest = user_cutoff or HIGHEST / max(piece.step for piece in prepared.pieces)
     if band is None:
-        parallel = max(motion, min(BAND, 0.5 * highest, 0.5 * noise.cutoff))
+        parallel = max(motion, min(THRESHOLDS.max_band, 0.5 * highest, 0.5 * noise.cutoff))
         position = max(wide.position_cutoff, 2.0 * parallel)
     else:
         parallel = max(motion, min(band, 0.8 * highest))

@@ -11,17 +11,9 @@ from modeler.diagnosis.effect_columns import Rows, build_base_columns, count_col
 from modeler.diagnosis.ranking import find_block_runs
 from modeler.diagnosis.signals import Signals
 from modeler.diagnosis.state import State, collect_pick_columns
+from modeler.diagnosis.thresholds import THRESHOLDS
 from modeler.effects import Requirement
 from modeler.regression import apply_low_pass, find_nearest_closed
-
-DELAY_T_RATIO = 4.0
-"""Least ratio of the instrumental estimate to its standard error."""
-
-SLOWEST = 0.5
-"""Hz: no motion is smoothed as if it were slower."""
-
-CONVENTION = 0.55
-"""Delays below this share of a sample are a convention of the logger, not an effect."""
 
 
 def is_confirmed(state: State, candidate: Candidate, values: np.ndarray) -> bool:
@@ -57,11 +49,13 @@ def _check_smooth_motion(
 ) -> tuple[np.ndarray, bool, bool]:
     """Values by instruments, whether these support the effect, and whether it is a convention."""
     estimates, error = estimate_instrumental(state, candidate)
-    sure = bool(np.max(np.abs(estimates) / np.maximum(error, 1e-300)) > DELAY_T_RATIO)
+    sure = bool(
+        np.max(np.abs(estimates) / np.maximum(error, 1e-300)) > THRESHOLDS.min_instrumental_t
+    )
     step = float(np.median([s.segment.logged_step for s in state.rows.signals]))
     small = (
         abs(float(estimates[0])) * candidate.nonlinear_parameters.get("tau", 1.0)
-        < CONVENTION * step
+        < THRESHOLDS.max_logger_delay * step
     )
     timed = candidate.is_delay or Requirement.LAG in candidate.effect.needs
     supported = sure and bool(np.sum(estimates * values) > 0.0)
@@ -125,7 +119,7 @@ def smooth_rows(state: State) -> Rows:
     """
     known, cache, key = state.rows.reference_cache, state.rows.cache, "smooth motion"
     if key not in cache:
-        cutoff = 3.0 * max(SLOWEST, state.data.observation.report.band)  # Hz
+        cutoff = 3.0 * max(THRESHOLDS.min_motion_band, state.data.observation.report.band)  # Hz
         cache[key] = tuple(_smooth_signals(s, cutoff) for s in state.rows.signals)  # of all states
     if key not in known:
         signals = tuple(dataclasses.replace(s, reference=state.reference) for s in cache[key])

@@ -1,6 +1,5 @@
 from .clearance import (
     BASE as BASE,
-    SAMPLES as SAMPLES,
     Clearance as Clearance,
     ClosestApproach as ClosestApproach,
     CollisionGeometry as CollisionGeometry,

@@ -8,13 +8,11 @@ from typing import Any
 import numpy as np
 
 from modeler.core.brief import ShortRepr
+from modeler.excitation.thresholds import THRESHOLDS
 from modeler.runtime import CompiledModel
 
 BASE = -1
 """Carrier of what stands still."""
-
-_ALWAYS = 0.95  # of drawn postures: links that are too near in so many are so by their shapes
-_POSTURES = 500
 
 
 @dataclass(frozen=True, eq=False)
@@ -125,9 +123,13 @@ class ClosestApproach(ShortRepr):
     def to_json(self) -> dict[str, Any]:
         """Plain data."""
         return {
-            "pair": list(self.pair), "distance": self.distance, "bound": self.bound,
-            "time": self.time, "posture": dict(self.posture), "points": self.points.tolist(),
-        }  # fmt: skip
+            "pair": list(self.pair),
+            "distance": self.distance,
+            "bound": self.bound,
+            "time": self.time,
+            "posture": dict(self.posture),
+            "points": self.points.tolist(),
+        }
 
 
 @dataclass(frozen=True, eq=False)
@@ -208,9 +210,12 @@ class Clearance(ShortRepr):
 
 
 def exclude_neighbours(
-    compiled: CompiledModel, solids: CollisionGeometry, margin: float, ranges: np.ndarray,
+    compiled: CompiledModel,
+    solids: CollisionGeometry,
+    margin: float,
+    ranges: np.ndarray,
     home: np.ndarray | None,
-) -> Clearance:  # fmt: skip
+) -> Clearance:
     """A clearance without the pairs that no motion can keep apart.
 
     These are nearer than `margin` in 95 % of 500 postures that close or, where loops are closed
@@ -223,11 +228,13 @@ def exclude_neighbours(
         ranges: (2, J) lower and upper limits, in which postures are drawn.
         home: (J,) of a robot with loops.
     """
-    q = np.random.default_rng(0).uniform(ranges[0], ranges[1], (_POSTURES, ranges.shape[1]))
+    q = np.random.default_rng(0).uniform(
+        ranges[0], ranges[1], (THRESHOLDS.contact_postures, ranges.shape[1])
+    )
     q = np.vstack([q[compiled.closing_status(q) == 0], *([] if home is None else [home])])
     near = Clearance(solids, margin).compute_shares(compiled, q) > 1.0
     often, at_home = near.mean(axis=0), near[-1] & (home is not None)
-    out = at_home | (often > _ALWAYS)
+    out = at_home | (often > THRESHOLDS.max_contact_share)
     reasons = {
         solids.get_pair_names(int(k)): "at home"
         if at_home[k]
@@ -241,18 +248,13 @@ def exclude_neighbours(
 # A whole motion, also between its samples.
 
 
-SAMPLES = 1500
-"""Of a motion, between which it is looked at more closely where links come near."""
-
-_SHARP = 2e-3  # of the middle radius, to which the least distance is found
-_ROUNDS = 20  # of halved intervals
-_MOST = 200_000  # samples
-
-
 def find_closest_approach(
-    compiled: CompiledModel, solids: CollisionGeometry, path: Callable[[np.ndarray], np.ndarray],
-    duration: float, samples: int = SAMPLES,
-) -> ClosestApproach:  # fmt: skip
+    compiled: CompiledModel,
+    solids: CollisionGeometry,
+    path: Callable[[np.ndarray], np.ndarray],
+    duration: float,
+    samples: int = THRESHOLDS.clearance_samples,
+) -> ClosestApproach:
     """The least distance along a motion, by intervals that are halved where it may lie.
 
     Seen from the other one, the ends of an axis leave their chords within an interval h by
@@ -268,7 +270,7 @@ def find_closest_approach(
     """
     one, other = solids.pairs.T
     times, bend = np.linspace(0.0, duration, samples), np.zeros(0)
-    for _ in range(_ROUNDS):
+    for _ in range(THRESHOLDS.max_halvings):
         at, q = times, path(times)
         poses = compiled.forward_kinematics(q)
         ends, frames = solids.place_capsules(poses), solids.select_frames(poses)[:, other]
@@ -284,8 +286,8 @@ def find_closest_approach(
             )
         travel = np.linalg.norm(np.diff(relative_ends, axis=0), axis=3).max(axis=2)
         low = 0.5 * (gaps[1:] + gaps[:-1] - travel) - bend * h[:, None] ** 2 / 8.0
-        near = low.min(axis=1) < gaps.min() - _SHARP * solids.median_radius
-        if not near.any() or len(times) > _MOST:
+        near = low.min(axis=1) < gaps.min() - THRESHOLDS.clearance_tolerance * solids.median_radius
+        if not near.any() or len(times) > THRESHOLDS.max_clearance_samples:
             break
         times = np.sort(np.append(times, times[:-1][near] + 0.5 * h[near]))
     row, pair = (int(k) for k in np.unravel_index(np.argmin(gaps), gaps.shape))

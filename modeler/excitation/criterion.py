@@ -5,15 +5,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from modeler.excitation.thresholds import THRESHOLDS
 from modeler.regression import compute_signals_along
 from modeler.runtime import CompiledModel
-
-NEAR_REST = 1e-7
-"""Of the top speed: so slow that dry friction alone is left of what speeds do."""
-
-_STEP = 1e-5  # of positions, in half ranges; of speeds, in top speeds
-_STATES = 3
-_ALIKE = 1e-6
 
 
 @dataclass(frozen=True, eq=False)
@@ -45,9 +39,13 @@ class MotionColumns:
         return self.compiled.base_regressor(q, qd, qdd, s)
 
     def evaluate_smooth(
-        self, q: np.ndarray, qd: np.ndarray, qdd: np.ndarray, s: np.ndarray | None,
+        self,
+        q: np.ndarray,
+        qd: np.ndarray,
+        qdd: np.ndarray,
+        s: np.ndarray | None,
         out: np.ndarray | None = None,
-    ) -> np.ndarray:  # fmt: skip
+    ) -> np.ndarray:
         """(n, J, c) phi with every jump at rest made a slope; in `out`, (n J, c), if given."""
         phi = self.compiled.observation(q, qd, qdd, out, s).reshape(*q.shape, -1)
         for j in np.flatnonzero(self.half_jumps.any(axis=(1, 2))):
@@ -71,7 +69,11 @@ class MotionColumns:
         n, joints = motion[0].shape
         central = self.compiled.spec.closure is None
         sides = (1.0, -1.0) if central else (1.0,)
-        sizes = (_STEP * self.half_range, _STEP * self.speed, np.ones(joints))
+        sizes = (
+            THRESHOLDS.difference_step * self.half_range,
+            THRESHOLDS.difference_step * self.speed,
+            np.ones(joints),
+        )
         count = 3 * len(sides)
         repeated_signals = None if s is None else np.vstack([s] * count)
         # One place for all of phi: fresh memory takes longer than what is written into it.
@@ -104,19 +106,21 @@ def build_motion_columns(
     """The columns of a robot, with the jumps found by looking at both sides of rest."""
     joints, wide = len(half), len(compiled.spec.base)
     rng = np.random.default_rng(0)
-    near = middle + 0.1 * half * rng.uniform(-1, 1, (_STATES, joints))
+    near = middle + 0.1 * half * rng.uniform(-1, 1, (THRESHOLDS.jump_states, joints))
     flips = np.zeros((joints, joints, wide))
-    read = compute_signals(compiled, (near, 0.0 * near, 0.0 * near), np.zeros(_STATES))
+    read = compute_signals(
+        compiled, (near, 0.0 * near, 0.0 * near), np.zeros(THRESHOLDS.jump_states)
+    )
     for j in range(joints):
-        qd = 0.5 * speed * rng.uniform(0.2, 1.0, (_STATES, joints))
+        qd = 0.5 * speed * rng.uniform(0.2, 1.0, (THRESHOLDS.jump_states, joints))
         sides = []
         for sign in (1.0, -1.0):
-            qd[:, j] = sign * NEAR_REST * speed[j]
+            qd[:, j] = sign * THRESHOLDS.rest_speed * speed[j]
             sides.append(compiled.base_regressor(near, qd, np.zeros_like(qd), read))
         jump = 0.5 * (sides[0] - sides[1])
         # A jump that hangs on the posture, as of joints without motor, is left as it is.
-        if np.ptp(jump, axis=0).max() < _ALIKE:
-            flips[j] = np.where(np.abs(jump[0]) > _ALIKE, jump[0], 0.0)
+        if np.ptp(jump, axis=0).max() < THRESHOLDS.jump_tolerance:
+            flips[j] = np.where(np.abs(jump[0]) > THRESHOLDS.jump_tolerance, jump[0], 0.0)
     return MotionColumns(compiled, half, speed, flips)
 
 
@@ -133,9 +137,6 @@ def compute_signals(
 Criterion = Callable[[np.ndarray], tuple[float, np.ndarray]]
 """From W (rows, c) to a value and its derivative by W; infinite if W lacks rank."""
 
-_SHARP = 8  # power of the norm that stands for the largest singular value
-_RANK = 1e-13
-
 
 def compute_log_condition(W: np.ndarray) -> tuple[float, np.ndarray]:
     """About log cond(W) with columns of length one; smooth.
@@ -148,12 +149,14 @@ def compute_log_condition(W: np.ndarray) -> tuple[float, np.ndarray]:
         return np.inf, W
     scaled = W / lengths
     sizes, turn = _compute_singular_values(scaled)
-    if not sizes[-1] > _RANK * sizes[0]:
+    if not sizes[-1] > THRESHOLDS.rank_tolerance * sizes[0]:
         return np.inf, W
-    large = np.sum(sizes**_SHARP)
-    small = np.sum((sizes[-1] / sizes) ** _SHARP)
-    value = (np.log(large) + np.log(small)) / _SHARP - np.log(sizes[-1])
-    slope = sizes ** (_SHARP - 1) / large - (sizes[-1] / sizes) ** _SHARP / (sizes * small)
+    large = np.sum(sizes**THRESHOLDS.norm_power)
+    small = np.sum((sizes[-1] / sizes) ** THRESHOLDS.norm_power)
+    value = (np.log(large) + np.log(small)) / THRESHOLDS.norm_power - np.log(sizes[-1])
+    slope = sizes ** (THRESHOLDS.norm_power - 1) / large - (
+        sizes[-1] / sizes
+    ) ** THRESHOLDS.norm_power / (sizes * small)
     pull = scaled @ (turn * (slope / sizes)) @ turn.T
     # Lengths are one whatever W is: what changes them has no effect.
     return value, (pull - scaled * np.sum(pull * scaled, axis=0)) / lengths
@@ -166,7 +169,7 @@ def compute_lost_information(W: np.ndarray) -> tuple[float, np.ndarray]:
         return np.inf, W
     R = np.linalg.qr(W, mode="r")
     diagonal = np.abs(np.diagonal(R))
-    if not diagonal.min() > _RANK * diagonal.max():
+    if not diagonal.min() > THRESHOLDS.rank_tolerance * diagonal.max():
         return np.inf, W
     inverse = np.linalg.solve(R, np.eye(columns))
     value = -float(np.sum(np.log(diagonal))) / columns

@@ -7,9 +7,7 @@ import numpy as np
 from scipy.interpolate import BSpline, PPoly
 
 from modeler.core.brief import ShortRepr
-
-DENSE = 32
-"""Samples per period of the highest harmonic."""
+from modeler.excitation.thresholds import THRESHOLDS
 
 
 @dataclass(frozen=True, eq=False)
@@ -49,9 +47,12 @@ class MotionSeries(ShortRepr):
 
 
 def build_series(
-    duration: float, harmonics: int, times: np.ndarray | None = None, dense: int = DENSE,
+    duration: float,
+    harmonics: int,
+    times: np.ndarray | None = None,
+    dense: int = THRESHOLDS.samples_per_wave,
     family: str = "fourier",
-) -> MotionSeries:  # fmt: skip
+) -> MotionSeries:
     """A family over a lap, at even times; at `times` (s) if given."""
     if times is None:
         return _sample_series(family, duration, harmonics, dense * harmonics)
@@ -66,12 +67,15 @@ def _sample_series(family: str, duration: float, harmonics: int, count: int) -> 
         parts = count_pieces(harmonics)
         each = _EIGHT * -(-count // (_EIGHT * parts))
         count = each * parts
-        room = 1.0 if family == "trapezoid" else 1.0 - min(_MARKOV / each**2, _USUAL)
+        room = (
+            1.0
+            if family == "trapezoid"
+            else 1.0 - min(THRESHOLDS.markov_bound / each**2, THRESHOLDS.usual_excess)
+        )
     times = np.arange(count) * (duration / count)
     return MotionSeries(
-        family, duration, harmonics, times,
-        *FAMILIES[family](duration, harmonics, times), room=room,
-    )  # fmt: skip
+        family, duration, harmonics, times, *FAMILIES[family](duration, harmonics, times), room=room
+    )
 
 
 def count_pieces(harmonics: int) -> int:
@@ -116,11 +120,6 @@ def _build_rest_basis(harmonics: int) -> np.ndarray:
 
 DEGREE = 5
 """Of B-splines: the jerk is continuous."""
-
-_MARKOV = 100.0
-"""h^2 / 8 max|p''| of a quintic on a span of m samples is at most this / m^2 of max|p| (Markov)."""
-
-_USUAL = 0.01  # of what is met in a search; the last check takes enough samples for the bound
 
 
 def _build_bspline(duration: float, harmonics: int, times: np.ndarray) -> _Waves:
@@ -171,8 +170,10 @@ def _build_trapezoid(duration: float, harmonics: int, times: np.ndarray) -> _Wav
 
 
 FAMILIES: dict[str, Callable[[float, int, np.ndarray], _Waves]] = {
-    "fourier": _build_fourier, "bspline": _build_bspline, "trapezoid": _build_trapezoid,
-}  # fmt: skip
+    "fourier": _build_fourier,
+    "bspline": _build_bspline,
+    "trapezoid": _build_trapezoid,
+}
 """By the name that a user gives."""
 
 
@@ -191,8 +192,11 @@ def export_coefficients(
     q = motion.resample_at(np.arange(count) * (motion.duration / count)).values @ x.T
     wave = 2.0 * np.fft.rfft(q, axis=0)[: K + 1].T / count
     waves = {
-        name: {"constant": float(entry[0].real) / 2.0, "cos": entry.real[1:].tolist(),
-               "sin": (-entry.imag[1:]).tolist()}
+        name: {
+            "constant": float(entry[0].real) / 2.0,
+            "cos": entry.real[1:].tolist(),
+            "sin": (-entry.imag[1:]).tolist(),
+        }
         for name, entry in zip(joints, wave, strict=True)
-    }  # fmt: skip
+    }
     return {**header, "coefficients": waves}

@@ -8,14 +8,7 @@ import numpy as np
 from modeler.core.brief import ShortRepr
 from modeler.core.json import select_attributes
 from modeler.excitation.motion import MotionBounds
-
-WINDOW = 0.02
-"""s, over which speed and acceleration are means of positions; of shorter ones little is left but
-the last digits of a file."""
-
-EXCESS = 1e-3
-"""Share of a limit that is no excess: what a search on samples leaves between them."""
-_MOST_DIGITS = 9  # after the point; of more, the last is no acceleration
+from modeler.excitation.thresholds import THRESHOLDS
 
 
 @dataclass(frozen=True)
@@ -57,9 +50,12 @@ class LimitExcess(ShortRepr):
 
 
 def find_exceeded_limits(
-    bounds: MotionBounds, units: tuple[str, ...], time: np.ndarray, q: np.ndarray,
+    bounds: MotionBounds,
+    units: tuple[str, ...],
+    time: np.ndarray,
+    q: np.ndarray,
     stated: tuple[np.ndarray, np.ndarray] | None,
-) -> list[LimitExcess]:  # fmt: skip
+) -> list[LimitExcess]:
     """Where each joint exceeds each of its limits most, first by time.
 
     Mean speeds over a window, and their mean change, are never above the largest ones between. A
@@ -73,8 +69,12 @@ def find_exceeded_limits(
         stated: speeds and accelerations (n, J) of the file; None: it has none.
     """
     step = float(np.median(np.diff(time)))
-    k = min(math.ceil(WINDOW / step), (len(time) - 1) // 2)
-    rounded = (10.0**-n for n in range(_MOST_DIGITS) if np.allclose(q, q.round(n), 0.0, 1e-12))
+    k = min(math.ceil(THRESHOLDS.derivative_window / step), (len(time) - 1) // 2)
+    rounded = (
+        10.0**-n
+        for n in range(THRESHOLDS.max_file_digits)
+        if np.allclose(q, q.round(n), 0.0, 1e-12)
+    )
     digit = next(rounded, 0.0)
     v = (q[k:] - q[:-k]) / (time[k:] - time[:-k])[:, None]
     a = 2.0 * (v[k:] - v[:-k]) / (time[2 * k :] - time[: -2 * k])[:, None]
@@ -83,7 +83,9 @@ def find_exceeded_limits(
     def check_limit(
         what: str, at: np.ndarray, values: np.ndarray, most: np.ndarray, per: str, slack: float
     ) -> None:
-        for j in np.flatnonzero(np.abs(values).max(axis=0) > (1.0 + EXCESS) * most + slack):
+        for j in np.flatnonzero(
+            np.abs(values).max(axis=0) > (1.0 + THRESHOLDS.limit_tolerance) * most + slack
+        ):
             i = int(np.abs(values[:, j]).argmax())
             place, step, value = at[i], None, float(values[i, j])
             if values is v:
@@ -95,7 +97,9 @@ def find_exceeded_limits(
             excesses.append(LimitExcess(bounds.joints[j], what, *excess))
 
     reach = bounds.half_range
-    for j in np.flatnonzero((np.abs(q - bounds.mid_range) > (1.0 + EXCESS) * reach).any(axis=0)):
+    for j in np.flatnonzero(
+        (np.abs(q - bounds.mid_range) > (1.0 + THRESHOLDS.limit_tolerance) * reach).any(axis=0)
+    ):
         i = int(np.abs(q[:, j] - bounds.mid_range[j]).argmax())
         limit = bounds.upper[j] if q[i, j] > bounds.mid_range[j] else bounds.lower[j]
         details = float(time[i]), float(q[i, j]), float(limit), units[j]

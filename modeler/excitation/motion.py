@@ -9,6 +9,7 @@ import numpy as np
 from modeler.core.brief import ShortRepr
 from modeler.core.errors import DataError, LoopError
 from modeler.excitation.clearance import Clearance
+from modeler.excitation.thresholds import THRESHOLDS
 from modeler.runtime import CompiledModel
 
 
@@ -102,12 +103,6 @@ def check_bounds(bounds: MotionBounds) -> None:
             )
 
 
-FARTHEST = 2.0
-"""Times that of home: how fast the joints that follow may be, per speed of the motors."""
-
-_STEP = 1e-5  # of the half ranges
-
-
 @dataclass(frozen=True, eq=False)
 class PostureLimits:
     """Shares of limits that hang on the positions alone.
@@ -157,15 +152,15 @@ class PostureLimits:
     def compute_coupling_sizes(self, q: np.ndarray) -> np.ndarray:
         """(n, groups) sizes of G of the joints that follow."""
         G = self.compiled.coupling(q) * self.bounds.half_range
-        return np.column_stack([
-            np.sqrt(np.sum(G[:, places] ** 2, axis=(1, 2))) for places in self.kinds
-        ])  # fmt: skip
+        return np.column_stack(
+            [np.sqrt(np.sum(G[:, places] ** 2, axis=(1, 2))) for places in self.kinds]
+        )
 
     def pull_back_gradient(self, q: np.ndarray, pull: np.ndarray) -> np.ndarray:
         """(n, J) derivative by q of a number whose derivative by `compute_shares` is `pull`."""
         slope, steps, clearance = (
             np.zeros_like(q),
-            _STEP * self.bounds.half_range,
+            THRESHOLDS.posture_step * self.bounds.half_range,
             self.bounds.clearance,
         )
         if clearance is not None:
@@ -202,7 +197,7 @@ def build_posture_limits(compiled: CompiledModel, bounds: MotionBounds) -> Postu
     kinds = tuple(group for group in places if len(group))
     loops = PostureLimits(compiled, bounds, kinds, ())
     home = loops.compute_coupling_sizes(bounds.home[None, :])[0]
-    limits = PostureLimits(compiled, bounds, kinds, tuple(FARTHEST * home))
+    limits = PostureLimits(compiled, bounds, kinds, tuple(THRESHOLDS.max_coupling_ratio * home))
     at_home = limits.compute_shares(bounds.home[None, :])
     if not np.abs(at_home).max(initial=0.0) < 1.0:
         raise DataError(

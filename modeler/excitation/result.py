@@ -19,10 +19,8 @@ from modeler.excitation.clearance import ClosestApproach
 from modeler.excitation.criterion import compute_signals
 from modeler.excitation.families import MotionSeries, export_coefficients
 from modeler.excitation.motion import MotionBounds
+from modeler.excitation.thresholds import THRESHOLDS
 from modeler.runtime import CompiledModel
-
-_TOLD = 12  # parameters of a gain, for people
-_DIGITS = 13  # after the point: rest is 0, not a rounding of it
 
 
 @dataclass(frozen=True)
@@ -88,13 +86,20 @@ class InformationGain(ShortRepr):
             gain = a / b if a and b else np.inf if b else 1.0
             rows.append((gain, (name, *cells, unit, f"/ {gain:.3g}" if a and b else "")))
         rows.sort(key=lambda row: -row[0])
-        head, shown = ("parameter", "sigma before", "expected after", "unit", ""), rows[:_TOLD]
+        head, shown = (
+            ("parameter", "sigma before", "expected after", "unit", ""),
+            rows[: THRESHOLDS.max_listed_parameters],
+        )
         table = align_columns([head, *(cells for _, cells in shown)], (0, 3))
         return [
             f"beside {', '.join(self.logs)}: condition number with columns of length one "
             "{:.4g} before, {:.4g} with it; it sharpens".format(*self.condition),
             *(line.rstrip() for line in table),
-            *([f"and {len(rows) - _TOLD} others, less"] if len(rows) > _TOLD else []),
+            *(
+                [f"and {len(rows) - THRESHOLDS.max_listed_parameters} others, less"]
+                if len(rows) > THRESHOLDS.max_listed_parameters
+                else []
+            ),
         ]
 
     def to_json(self) -> dict[str, Any]:
@@ -158,7 +163,7 @@ class ExcitingMotion(Result):
         here, columns = self.series.resample_at(place).evaluate_motion(self.x), {"time": times}
         for prefix, values in zip(("q", "qd", "qdd"), here, strict=True):
             for j, name in enumerate(self.bounds.joints):
-                columns[f"{prefix}{name}"] = np.round(values[:, j], _DIGITS) + 0.0
+                columns[f"{prefix}{name}"] = np.round(values[:, j], THRESHOLDS.sample_digits) + 0.0
         return columns
 
     def format_lines(self) -> list[str]:
@@ -275,15 +280,19 @@ def _format_range(low: float, high: float) -> str:
 
 KINDS = ("png", "svg", "pdf")
 
-_SAMPLES = 800
 _SETTINGS: Any = {
-    "font.size": 9, "axes.spines.top": False, "axes.spines.right": False,
-    "axes.titlelocation": "left", "axes.titlesize": 9.5, "svg.hashsalt": "modeler",
-}  # fmt: skip
+    "font.size": 9,
+    "axes.spines.top": False,
+    "axes.spines.right": False,
+    "axes.titlelocation": "left",
+    "axes.titlesize": 9.5,
+    "svg.hashsalt": "modeler",
+}
 _NO_DATE: dict[str, dict[str, None]] = {
-    "png": {"Software": None}, "svg": {"Date": None, "Creator": None},
+    "png": {"Software": None},
+    "svg": {"Date": None, "Creator": None},
     "pdf": {"CreationDate": None, "Producer": None, "Creator": None},
-}  # fmt: skip
+}
 
 
 def check_picture_kind(name: str) -> str:
@@ -313,7 +322,7 @@ def draw_motion(motion: ExcitingMotion, compiled: CompiledModel, kind: str) -> b
         figure = Figure(figsize=(10.0, 1.0 + 1.9 * len(panels)), layout="constrained")
         FigureCanvasAgg(figure)
         axes = np.atleast_1d(figure.subplots(len(panels), 1, sharex=True))
-        time = np.linspace(0.0, motion.series.duration, _SAMPLES)
+        time = np.linspace(0.0, motion.series.duration, THRESHOLDS.picture_samples)
         for axis, (title, shares) in zip(axes, panels, strict=True):
             for wall in (-1.0, 1.0):
                 axis.axhline(wall, color="0.4", linewidth=0.8, linestyle="--")
@@ -327,8 +336,11 @@ def draw_motion(motion: ExcitingMotion, compiled: CompiledModel, kind: str) -> b
         figure.suptitle(
             f"{motion.robot}: condition number {motion.quality.condition:.3g}, best of "
             f"{motion.random_count} random {motion.random[0]:.3g}",
-            x=0.01, ha="left", fontweight="bold", fontsize=11,
-        )  # fmt: skip
+            x=0.01,
+            ha="left",
+            fontweight="bold",
+            fontsize=11,
+        )
         stream = io.BytesIO()
         figure.savefig(stream, format=kind, dpi=120, metadata=_NO_DATE[kind])
         return stream.getvalue()
@@ -336,7 +348,7 @@ def draw_motion(motion: ExcitingMotion, compiled: CompiledModel, kind: str) -> b
 
 def _build_panels(motion: ExcitingMotion, compiled: CompiledModel) -> list[tuple[str, np.ndarray]]:
     b = motion.bounds
-    time = np.linspace(0.0, motion.series.duration, _SAMPLES)
+    time = np.linspace(0.0, motion.series.duration, THRESHOLDS.picture_samples)
     q, qd, qdd = motion.series.resample_at(time).evaluate_motion(motion.x)
     panels = [
         ("position: -1 and 1 are the ends of the range", (q - b.mid_range) / b.half_range),

@@ -21,27 +21,13 @@ from modeler.excitation.criterion import (
     compute_condition,
     compute_log_det,
 )
-from modeler.excitation.families import DENSE, FAMILIES, build_series
+from modeler.excitation.families import FAMILIES, build_series
 from modeler.excitation.motion import MotionBounds, build_posture_limits, check_bounds
 from modeler.excitation.result import ExcitingMotion, LimitUsage, MotionQuality
 from modeler.excitation.task import BarrierProblem, ExcitationTask
+from modeler.excitation.thresholds import THRESHOLDS
 from modeler.numerics.optimize import ObjectiveFunction, minimise_bfgs
 from modeler.runtime import CompiledModel
-
-RANDOM = 50
-"""Random motions that the result is compared with; the best of them are improved."""
-
-_STAGES = ((0.1, 0.1, 80), (0.01, 0.03, 120), (0.001, 0.01, 300))
-"""Height of the barrier, softness of dry friction, steps at most."""
-
-_SETTLED = 5e-4  # of the criterion, in ten steps
-_DENSE_LOOPS = 16  # samples per period of the highest harmonic, where loops are closed for each
-_FINER = 10  # times as many samples for the last check
-_NEARLY = 0.999  # of the limits, at these samples
-_DRAWN = 0.995  # of the size, as often as links come too near between them
-_INWARD = 20  # steps of a tenth towards rest, where smooth dry friction breaks a limit of torque
-
-_FULL = 0.95  # of the limits, of random motions
 
 Item = TypeVar("Item")
 
@@ -110,12 +96,12 @@ def design_motion(
 
     values = [evaluate_motion(x) for x in deadline.iterate_in_time(x for x, _ in random_motions)]
     best = sorted(range(len(values)), key=lambda k: values[k])[: request.starts]
-    candidates, parts = [], len(best) * len(_STAGES)
+    candidates, parts = [], len(best) * len(THRESHOLDS.stages)
     for n, k in enumerate(best):
         x, _ = random_motions[k]
-        for m, stage in enumerate(_STAGES):
+        for m, stage in enumerate(THRESHOLDS.stages):
             x = improve_motion(task, x, stage, deadline)
-            progress((n * len(_STAGES) + m + 1) / parts)
+            progress((n * len(THRESHOLDS.stages) + m + 1) / parts)
         candidates.append(x)
     return build_result(
         task, min(candidates, key=evaluate_motion), request, random_motions, deadline
@@ -149,7 +135,7 @@ def draw_motions(
 ) -> list[tuple[np.ndarray, MotionQuality]]:
     """Random motions, 50 where there is time, and how good each is."""
     random_motions = []
-    for _ in deadline.iterate_in_time(range(RANDOM)):
+    for _ in deadline.iterate_in_time(range(THRESHOLDS.random_motions)):
         x = draw_random_motion(task, rng)
         random_motions.append((x, compute_quality(task, x)))
     return random_motions
@@ -173,12 +159,14 @@ def build_result(
     clearance, near = task.bounds.clearance, None
     while clearance is not None and len(clearance.solids.pairs):
         near = find_closest_approach(
-            task.columns.compiled, clearance.solids,
-            lambda t, x=x: task.series.resample_at(t).evaluate_motion(x)[0], request.duration,  # type: ignore[misc]
-        )  # fmt: skip
+            task.columns.compiled,
+            clearance.solids,
+            lambda t, x=x: task.series.resample_at(t).evaluate_motion(x)[0],
+            request.duration,  # type: ignore[misc]
+        )
         if near.bound >= clearance.margin:
             break
-        x = task.rest_motion + _DRAWN * (x - task.rest_motion)
+        x = task.rest_motion + THRESHOLDS.clearance_shrinkage * (x - task.rest_motion)
     spec = task.columns.compiled.spec
     conditions = sorted(q.condition for _, q in random_motions)
     return ExcitingMotion(
@@ -220,17 +208,26 @@ def build_task(
             f"{compiled.spec.robot}: limits of torques need values of the parameters; expected a "
             "MODEL, or a robot file with all [parameters]"
         )
-    dense = DENSE if compiled.spec.closure is None else _DENSE_LOOPS
+    dense = (
+        THRESHOLDS.samples_per_wave
+        if compiled.spec.closure is None
+        else THRESHOLDS.samples_per_wave_in_loops
+    )
     motion = build_series(request.duration, request.harmonics, None, dense, request.family)
     criterion = CRITERIA[request.criterion]
     if prior_information is not None:
         each = request.laps * request.duration * prior_information.rate / len(motion.time)
         criterion = prior_information.extend_criterion(criterion, each)
     return ExcitationTask(
-        columns, bounds, motion, criterion,
+        columns,
+        bounds,
+        motion,
+        criterion,
         np.ones(len(bounds.joints)) if sigma is None else 1.0 / sigma,
-        column_indices, build_posture_limits(compiled, bounds), beta,
-    )  # fmt: skip
+        column_indices,
+        build_posture_limits(compiled, bounds),
+        beta,
+    )
 
 
 def _check_request(request: MotionRequest) -> None:
@@ -242,7 +239,12 @@ def _check_request(request: MotionRequest) -> None:
         raise DataError(f"family: got {request.family}; expected one of {', '.join(FAMILIES)}")
     if not (math.isfinite(request.duration) and 0.0 < request.duration <= 3600.0):
         raise DataError(f"duration: got {request.duration:g} s; expected more than 0, at most 3600")
-    ranges = (("harmonics", 2, 40), ("starts", 1, RANDOM), ("seed", 0, 2**63), ("laps", 1, 1000))
+    ranges = (
+        ("harmonics", 2, 40),
+        ("starts", 1, THRESHOLDS.random_motions),
+        ("seed", 0, 2**63),
+        ("laps", 1, 1000),
+    )
     for name, least, most in ranges:
         value = getattr(request, name)
         if not least <= value <= most:
@@ -276,12 +278,14 @@ def improve_motion(
             reshape_coefficients(flat), reshape_coefficients(way)
         ),
     )
-    for _ in range(_INWARD):
+    for _ in range(THRESHOLDS.max_retreats):
         start = (x / unit).ravel()
         if not has_time():
             break
         if np.isfinite(landscape.value(start)):
-            return reshape_coefficients(minimise_bfgs(landscape, start, steps, _SETTLED, has_time))
+            return reshape_coefficients(
+                minimise_bfgs(landscape, start, steps, THRESHOLDS.criterion_tolerance, has_time)
+            )
         x = task.rest_motion + 0.9 * (x - task.rest_motion)
     return x
 
@@ -304,7 +308,11 @@ def compute_quality(task: ExcitationTask, x: np.ndarray) -> MotionQuality:
 
 def refine_task(task: ExcitationTask) -> ExcitationTask:
     """The same with ten times the samples, and nearly all of the limits."""
-    return dataclasses.replace(task, series=task.series.refine_samples(_FINER), share=_NEARLY)
+    return dataclasses.replace(
+        task,
+        series=task.series.refine_samples(THRESHOLDS.check_refinement),
+        share=THRESHOLDS.checked_share,
+    )
 
 
 def compute_usage(task: ExcitationTask, x: np.ndarray) -> LimitUsage:
@@ -317,10 +325,14 @@ def compute_usage(task: ExcitationTask, x: np.ndarray) -> LimitUsage:
         loads = np.abs(fine.columns.evaluate_exact(q, qd, qdd, s) @ task.beta).max(axis=0)
     posture = fine.posture.compute_shares(q)
     return LimitUsage(
-        q.min(axis=0), q.max(axis=0), np.abs(qd).max(axis=0), np.abs(qdd).max(axis=0), loads,
+        q.min(axis=0),
+        q.max(axis=0),
+        np.abs(qd).max(axis=0),
+        np.abs(qdd).max(axis=0),
+        loads,
         float(np.abs(posture).max()) if posture.size else None,
         float(posture[:, : len(fine.posture.kinds)].max()) if fine.posture.kinds else None,
-    )  # fmt: skip
+    )
 
 
 def draw_random_motion(task: ExcitationTask, rng: np.random.Generator) -> np.ndarray:
@@ -339,10 +351,15 @@ def draw_random_motion(task: ExcitationTask, rng: np.random.Generator) -> np.nda
     for j in range(joints):
         q = s.values[:, 1:] @ x[j, 1:]
         extent = 0.5 * np.ptp(q)
-        shares = (extent / b.half_range[j], np.abs(s.slopes @ x[j]).max() / b.speed[j],
-                  np.abs(s.bends @ x[j]).max() / b.acceleration[j])  # fmt: skip
-        x[j] *= _FULL * s.room / max(shares)
+        shares = (
+            extent / b.half_range[j],
+            np.abs(s.slopes @ x[j]).max() / b.speed[j],
+            np.abs(s.bends @ x[j]).max() / b.acceleration[j],
+        )
+        x[j] *= THRESHOLDS.random_share * s.room / max(shares)
         q = s.values[:, 1:] @ x[j, 1:]
-        least, most = _FULL * s.room * b.half_range[j] * np.array([-1, 1]) + b.mid_range[j]
+        least, most = (
+            THRESHOLDS.random_share * s.room * b.half_range[j] * np.array([-1, 1]) + b.mid_range[j]
+        )
         x[j, 0] = rng.uniform(least - q.min(), max(most - q.max(), least - q.min()))
     return task.shrink_to_limits(x)

@@ -30,14 +30,10 @@ from modeler.excitation.search import (
     draw_motions,
 )
 from modeler.excitation.task import ExcitationTask
+from modeler.excitation.thresholds import THRESHOLDS
 from modeler.numerics.optimize import minimise_cma_es
 from modeler.regression import Segment
 from modeler.runtime import CompiledModel
-
-_GENERATIONS = 150
-_FIRST = 0.15  # of the half ranges: size of the first steps
-_ENTRIES = 5  # shapes of an effect that are looked at, spread over its grid
-_NOTHING = 1e-14  # share of a column that is rounding
 
 Whose = tuple[Effect, str]
 """An effect on a joint."""
@@ -126,7 +122,7 @@ def design_discriminating_motion(
     best = min(deadline.iterate_in_time(x for x, _ in random_motions), key=columns.evaluate_motion)
 
     def report_progress(generation: int) -> bool:
-        progress(generation / _GENERATIONS)
+        progress(generation / THRESHOLDS.discrimination_generations)
         return deadline()
 
     unit = task.bounds.half_range[:, None]
@@ -136,8 +132,12 @@ def design_discriminating_motion(
 
     solution = minimise_cma_es(
         lambda flat: columns.evaluate_motion(restrict_motion(flat)),
-        (best / unit).ravel(), _FIRST, _GENERATIONS, rng, report_progress,
-    )  # fmt: skip
+        (best / unit).ravel(),
+        THRESHOLDS.first_step,
+        THRESHOLDS.discrimination_generations,
+        rng,
+        report_progress,
+    )
     motion = build_result(task, restrict_motion(solution), request, random_motions, deadline)
     x = motion.x
     (here, size), (there, before) = columns.compute_remainder(x), columns.compute_remainder(best)
@@ -181,11 +181,14 @@ class _EffectColumns:
             )
         j = bounds.joints.index(joint)
         scale = JointScale(
-            float(bounds.speed[j]), float(2.0 * bounds.half_range[j]), float(load[j]) or 1.0,
-            spec.joints[j].unit == "rad", float(bounds.mid_range[j]),
-        )  # fmt: skip
+            float(bounds.speed[j]),
+            float(2.0 * bounds.half_range[j]),
+            float(load[j]) or 1.0,
+            spec.joints[j].unit == "rad",
+            float(bounds.mid_range[j]),
+        )
         every = list(expand_grid(effect, form, joint, j, scale))
-        places = np.unique(np.linspace(0, len(every) - 1, _ENTRIES).astype(int))
+        places = np.unique(np.linspace(0, len(every) - 1, THRESHOLDS.grid_entries).astype(int))
         return [every[k] for k in places]
 
     def _compute_signals(self, x: np.ndarray) -> Signals:
@@ -195,9 +198,17 @@ class _EffectColumns:
         step = self.task.series.duration / len(self.task.series.time)
         time = np.arange(len(q)) * step
         segment = Segment(
-            0, time, step, q, qd, qdd, 0.0 * q, {},
-            np.ones(len(q), dtype=bool), np.full(q.shape, -1),
-        )  # fmt: skip
+            0,
+            time,
+            step,
+            q,
+            qd,
+            qdd,
+            0.0 * q,
+            {},
+            np.ones(len(q), dtype=bool),
+            np.full(q.shape, -1),
+        )
         return Signals(segment, segment.valid, q, qd, qdd, self._reference)
 
     def _compute_blocks(self, x: np.ndarray) -> list[list[np.ndarray]]:
@@ -222,19 +233,21 @@ class _EffectColumns:
         beyond = [[block - Q @ (Q.T @ block) for block in group] for group in blocks]
         bases = [[np.linalg.qr(block)[0] for block in group] for group in beyond]
         squares = [
-            np.array([
-                min(np.sum((block - Q @ (Q.T @ block)) ** 2) for Q in bases[1 - k])
-                for block in beyond[k]
-            ])
+            np.array(
+                [
+                    min(np.sum((block - Q @ (Q.T @ block)) ** 2) for Q in bases[1 - k])
+                    for block in beyond[k]
+                ]
+            )
             for k in range(2)
-        ]  # fmt: skip
+        ]
         return blocks, squares
 
     def evaluate_motion(self, x: np.ndarray) -> float:
         """Small where both are well told apart."""
         _, squares = self._compute_unexplained(x)
         shares = itertools.chain(*(s / u for s, u in zip(squares, self._usual, strict=True)))
-        return -float(np.mean([np.log(max(share, _NOTHING)) for share in shares]))
+        return -float(np.mean([np.log(max(share, THRESHOLDS.rounding_share)) for share in shares]))
 
     def compute_remainder(self, x: np.ndarray) -> tuple[tuple[float, float], tuple[float, float]]:
         """Of each effect, the share of its columns that is left, and its size; means of shapes."""
@@ -248,10 +261,6 @@ class _EffectColumns:
 
 
 # Which of given motions to take: the subset with the smallest condition number.
-
-
-_ALL = 20_000
-"""Subsets that are looked at one by one; of more, the best is built up and exchanged."""
 
 
 @dataclass(frozen=True)
@@ -294,7 +303,7 @@ def choose_motions(rows: Sequence[np.ndarray], count: int) -> MotionSubset:
     def compute_subset_condition(places: Sequence[int]) -> float:
         return compute_condition(np.vstack([triangles[k] for k in places]))
 
-    exhaustive = math.comb(len(rows), count) <= _ALL
+    exhaustive = math.comb(len(rows), count) <= THRESHOLDS.max_subsets
     if exhaustive:
         best = min(itertools.combinations(range(len(rows)), count), key=compute_subset_condition)
     else:
@@ -341,8 +350,10 @@ def _exchange_motions(
     while improving:
         trials = [
             sorted([*(c for c in chosen if c != out), into])
-            for out in chosen for into in left if into not in chosen
-        ]  # fmt: skip
+            for out in chosen
+            for into in left
+            if into not in chosen
+        ]
         best = min(trials, key=compute_subset_condition)
         improving = compute_subset_condition(best) < here * (1.0 - 1e-12)
         if improving:

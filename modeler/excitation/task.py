@@ -6,15 +6,11 @@ from functools import cached_property
 import numpy as np
 
 from modeler.core.errors import DataError, LoopError
-from modeler.excitation.criterion import NEAR_REST, Criterion, MotionColumns
+from modeler.excitation.criterion import Criterion, MotionColumns
 from modeler.excitation.families import MotionSeries
 from modeler.excitation.motion import MotionBounds, PostureLimits
+from modeler.excitation.thresholds import THRESHOLDS
 from modeler.numerics.optimize import minimise_cma_es
-
-_POSTURES = 200  # drawn, to rest in
-_GENERATIONS = 40  # of evolution from the best of them
-_MIDST = 0.9  # of the ranges: how far a robot may rest from their middle
-_HALVINGS = 5  # of a motion's size, to come near the largest
 
 Motion = tuple[np.ndarray, np.ndarray, np.ndarray]
 """(n, J) q, qd and qdd."""
@@ -105,13 +101,26 @@ class ExcitationTask:
         """
         b = self.bounds
         middle = b.mid_range if b.home is None else b.home
-        place = np.clip((middle - b.mid_range) / b.half_range, -_MIDST, _MIDST)
+        place = np.clip(
+            (middle - b.mid_range) / b.half_range,
+            -THRESHOLDS.max_rest_offset,
+            THRESHOLDS.max_rest_offset,
+        )
         if self._compute_rest_load(place) > 0.0:
             rng = np.random.default_rng(0)
-            postures = rng.uniform(-_MIDST, _MIDST, (_POSTURES, len(place)))
+            postures = rng.uniform(
+                -THRESHOLDS.max_rest_offset,
+                THRESHOLDS.max_rest_offset,
+                (THRESHOLDS.rest_postures, len(place)),
+            )
             place = min((place, *postures), key=self._compute_rest_load)
             place = minimise_cma_es(
-                self._compute_rest_load, place, 0.1, _GENERATIONS, rng, lambda generation: True
+                self._compute_rest_load,
+                place,
+                0.1,
+                THRESHOLDS.rest_generations,
+                rng,
+                lambda generation: True,
             )
         x = np.zeros((len(place), self.series.values.shape[1]))
         x[:, 0] = b.mid_range + b.half_range * place
@@ -135,10 +144,10 @@ class ExcitationTask:
             place: (J,) the posture, in half ranges from their middle.
         """
         b, J = self.bounds, len(place)
-        if np.abs(place).max() > _MIDST:
+        if np.abs(place).max() > THRESHOLDS.max_rest_offset:
             return np.inf
         q = np.tile(b.mid_range + b.half_range * place, (2 * J + 1, 1))
-        qd = np.vstack([np.zeros(J), np.eye(J), -np.eye(J)]) * NEAR_REST * b.speed
+        qd = np.vstack([np.zeros(J), np.eye(J), -np.eye(J)]) * THRESHOLDS.rest_speed * b.speed
         # Effects of time grow one way.
         ends = (0.0, self.series.duration) if self.columns.compiled.spec.signals else (0.0,)
         try:
@@ -176,7 +185,7 @@ class ExcitationTask:
         while not is_feasible(self.rest_motion + size * direction):
             size *= 0.5
         more = size
-        for _ in range(_HALVINGS if size < whole else 0):
+        for _ in range(THRESHOLDS.size_halvings if size < whole else 0):
             more *= 0.5
             size += more * is_feasible(self.rest_motion + (size + more) * direction)
         return self.rest_motion + size * direction

@@ -227,8 +227,11 @@ def _collect_notes(tests: QuantityTests, logs: Sequence[LogSummary]) -> list[str
             f"{len(machines)} machine{'s' * (len(machines) > 1)}: an odd one among fewer than "
             f"{LEAST} is not told"
         )
-    blind = [q.parameter for i, q in enumerate(tests.quantities)
-             if not np.isfinite(tests.values[:, i]).any()]  # fmt: skip
+    blind = [
+        q.parameter
+        for i, q in enumerate(tests.quantities)
+        if not np.isfinite(tests.values[:, i]).any()
+    ]
     if blind:
         notes.append(f"{', '.join(blind)}: no log tells it from the other parameters")
     return notes
@@ -244,8 +247,12 @@ FEW = 5
 def describe_undetectable_drifts(tests: QuantityTests, logs: Sequence[LogSummary]) -> list[str]:
     """A sentence on each machine that would hide a drift which the others would show."""
     names = list(dict.fromkeys(each.log_name.machine for each in logs))
-    sigmas = np.array([[_compute_usual_sigma(tests, m, i) for i in range(len(tests.quantities))]
-                       for m in range(tests.machine_count)])  # fmt: skip
+    sigmas = np.array(
+        [
+            [_compute_usual_sigma(tests, m, i) for i in range(len(tests.quantities))]
+            for m in range(tests.machine_count)
+        ]
+    )
     sentences = []
     for m, name in enumerate(names):
         hidden = []

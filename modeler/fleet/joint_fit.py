@@ -106,9 +106,16 @@ def build_layout(spec: ModuleSpec) -> FleetLayout:
         whose = standard[base.column_of]
         place = joints.get(whose.joint, -1)
         drifting.append(
-            Quantity(whose.effect, whose.joint, base.name, base.unit, column, place,
-                     is_of_joint=base.rows == (place,))
-        )  # fmt: skip
+            Quantity(
+                whose.effect,
+                whose.joint,
+                base.name,
+                base.unit,
+                column,
+                place,
+                is_of_joint=base.rows == (place,),
+            )
+        )
     if common.any():
         drifting += [
             Quantity(GAIN, joint.name, f"gain {joint.name}", "%", -1, j)
@@ -125,10 +132,13 @@ def _build_load_columns(spec: ModuleSpec) -> np.ndarray:
     columns: list[np.ndarray] = []
     basis = np.zeros((len(spec.base), 0))
     for letters in _LOAD_ORDER:
-        column = np.array([
-            sum(term.value for term in base.terms if term.parameter == f"{letters}{link}")
-            for base in spec.base
-        ], dtype=float)  # fmt: skip
+        column = np.array(
+            [
+                sum(term.value for term in base.terms if term.parameter == f"{letters}{link}")
+                for base in spec.base
+            ],
+            dtype=float,
+        )
         length = float(np.linalg.norm(column))
         if length == 0.0 and letters == "M":
             break

@@ -193,11 +193,13 @@ def _build_finding_json(finding: FleetFinding) -> dict[str, Any]:
         **select_attributes(finding, "before change"),
         "change_percent": finding.change_percent,
         **select_attributes(finding, "sigma score chance"),
-        "temperature": temperature and {
+        "temperature": temperature
+        and {
             **select_attributes(temperature, "lowest highest correlation"),
-            "moves_along": temperature.is_correlated, "others_alike": temperature.is_shared,
+            "moves_along": temperature.is_correlated,
+            "others_alike": temperature.is_shared,
         },
-    }  # fmt: skip
+    }
 
 
 def _build_history_json(each: QuantityHistory) -> dict[str, Any]:

@@ -1,5 +1,6 @@
 """Torque and residual before and after an effect, where the model without it is worst."""
 
+from modeler.diagnosis import THRESHOLDS
 import itertools
 from dataclasses import replace
 
@@ -8,7 +9,7 @@ import numpy as np
 from modeler.core.figure import Curve, Panel, Picture
 from modeler.core.style import BLACK, COLOR_NAMES, COLORS, GREEN, SHADE, VERMILLION, Style
 from modeler.core.table import WORDS
-from modeler.diagnosis import AFTER, MARGIN, PushWindow, State, find_load_reversals
+from modeler.diagnosis import PushWindow, State, find_load_reversals
 from modeler.validation import WINDOW, break_at_gaps
 from modeler.views.effect_evidence import Evidence
 from modeler.views.evidence import MEANS, ROWS, build_scatter_panel
@@ -133,7 +134,7 @@ def draw_play_picture(state: State, j: int) -> Picture:
         "", "time since the load changed its sign [s]", f"|residual| [{joint.effort_unit}]",
         since[near], np.abs(state.residual[j][near]), state.gram_blocks.block[j][near],
     )  # fmt: skip
-    panel = replace(panel, shade=(0.0, AFTER))
+    panel = replace(panel, shade=(0.0, THRESHOLDS.burst_duration))
     return Picture(
         f"evidence_backlash_{joint.name}",
         f"Play in the gear: joint {joint.name}",
@@ -173,7 +174,9 @@ def draw_push_picture(state: State, window: PushWindow) -> Picture:
     left = seen.torque - seen.predict(state.beta)
     shown = (seen.run == window.log) & (seen.time > window.start - _BESIDE)
     shown &= seen.time < window.end + _BESIDE
-    masked = (seen.time > window.start - MARGIN) & (seen.time < window.end + MARGIN)
+    masked = (seen.time > window.start - THRESHOLDS.push_margin) & (
+        seen.time < window.end + THRESHOLDS.push_margin
+    )
     left[~(seen.used | masked[:, None])] = np.nan  # reversals of a joint: nobody looks at them
     size = np.sqrt(np.mean(seen.torque**2, axis=0))
     curves = tuple(
