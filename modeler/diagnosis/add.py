@@ -24,12 +24,18 @@ from modeler.diagnosis.added_model import (
     is_unneeded,
     read_catalogue,
 )
-from modeler.diagnosis.candidates import Candidate, StatedEffects, find_passive_joints, list_links
+from modeler.diagnosis.candidates import (
+    Candidate,
+    StatedEffects,
+    find_passive_joints,
+    list_body_parameters,
+    list_links,
+)
 from modeler.diagnosis.diagnosis import find_fixed_parameters
-from modeler.diagnosis.drive_gains import compute_gain_visibility, is_gain
-from modeler.diagnosis.effect_columns import list_body_parameters
+from modeler.diagnosis.generation import estimate_instrumental
 from modeler.diagnosis.learn import ANY_LAW, LawRequest, LearnedLaw, learn_law
-from modeler.diagnosis.plausible import find_caveat
+from modeler.diagnosis.messages import format_location
+from modeler.diagnosis.plausibility import compute_gain_visibility, find_caveat, is_gain
 from modeler.diagnosis.profile import describe_values
 from modeler.diagnosis.result import (
     JOINTED,
@@ -37,7 +43,7 @@ from modeler.diagnosis.result import (
     explain_exclusion,
     explain_weak_evidence,
 )
-from modeler.diagnosis.score import (
+from modeler.diagnosis.scoring import (
     Residuals,
     Score,
     compute_errors,
@@ -46,10 +52,8 @@ from modeler.diagnosis.score import (
     score_change,
 )
 from modeler.diagnosis.search import extend_state, scan_candidates, scan_catalogue
-from modeler.diagnosis.sentences import format_location
 from modeler.diagnosis.state import SearchData, State, analyse_logs, build_state
 from modeler.diagnosis.thresholds import THRESHOLDS
-from modeler.diagnosis.timing import estimate_instrumental
 from modeler.effects import Effect, EffectTarget, find_effect
 from modeler.estimation import Addition, IdentifiedModel, collect_provenance, identify, judge_fit
 from modeler.robot import join_names, parse_robot_text, suggest_name

@@ -9,11 +9,11 @@ import numpy as np
 from modeler.core.errors import DataError, RobotError
 from modeler.diagnosis.candidates import Candidate
 from modeler.diagnosis.learn import LEARNED, LearnedLaw, choose_free_name, make_effect_id
+from modeler.diagnosis.messages import format_location
 from modeler.diagnosis.profile import Profile, compute_profile, is_prismatic
 from modeler.diagnosis.ranking import build_gram_blocks, build_time_blocks
 from modeler.diagnosis.result import FittedCandidate
-from modeler.diagnosis.score import Residuals, explain_no_improvement, format_error_changes
-from modeler.diagnosis.sentences import format_location
+from modeler.diagnosis.scoring import Residuals, explain_no_improvement, format_error_changes
 from modeler.diagnosis.signals import SignalReference, compute_tilt_axes
 from modeler.diagnosis.state import SearchData, State, build_columns, build_state
 from modeler.diagnosis.thresholds import THRESHOLDS

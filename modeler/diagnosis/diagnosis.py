@@ -8,27 +8,22 @@ import numpy as np
 from threadpoolctl import threadpool_limits
 
 from modeler.core.errors import DataError
-from modeler.diagnosis.assemble import BandSearch, assemble_diagnosis, evaluate_search
-from modeler.diagnosis.candidates import StatedEffects
-from modeler.diagnosis.cross_checks import (
+from modeler.diagnosis.candidates import StatedEffects, thin_samples
+from modeler.diagnosis.equations import discover_equations
+from modeler.diagnosis.events import compute_burst_ratio, find_contact_window, fit_push_torque
+from modeler.diagnosis.findings import (
+    BandSearch,
     CrossCheckData,
-    ParameterChange,
+    assemble_diagnosis,
     cross_check_effects,
+    evaluate_search,
     find_changed_parameters,
 )
-from modeler.diagnosis.data_checks import exclude_friction, find_faults
-from modeler.diagnosis.effect_columns import thin_samples
-from modeler.diagnosis.events import (
-    PushWindow,
-    compute_burst_ratio,
-    find_contact_window,
-    fit_push_torque,
-)
-from modeler.diagnosis.generate import generate_candidates
-from modeler.diagnosis.judge import make_veto
-from modeler.diagnosis.plausible import find_gravity_confounders
-from modeler.diagnosis.proposals import discover_equations
-from modeler.diagnosis.result import Diagnosis
+from modeler.diagnosis.generation import estimate_logger_shift, generate_candidates
+from modeler.diagnosis.messages import exclude_friction, find_faults
+from modeler.diagnosis.plausibility import find_gravity_confounders
+from modeler.diagnosis.result import Diagnosis, ParameterChange, PushWindow
+from modeler.diagnosis.scoring import make_veto
 from modeler.diagnosis.search import Search, SearchStep, search_effects
 from modeler.diagnosis.state import (
     SearchData,
@@ -41,7 +36,6 @@ from modeler.diagnosis.state import (
     observe_logs,
 )
 from modeler.diagnosis.thresholds import THRESHOLDS
-from modeler.diagnosis.timing import estimate_logger_shift
 from modeler.effects import Effect, EffectTarget, Requirement, find_effect
 from modeler.estimation import IdentifiedModel, compute_relative_errors
 from modeler.regression import Log, LogRepair, Observation, build_observation, prepare_logs

@@ -25,13 +25,11 @@ from modeler.core.brief import ShortRepr
 from modeler.core.errors import DataError, RobotError
 from modeler.core.law import Law
 from modeler.core.toml_cells import TomlCell
-from modeler.diagnosis.candidates import Candidate
-from modeler.diagnosis.effect_columns import evaluate_equations
-from modeler.diagnosis.orders import compute_joint_order_spectrum
-from modeler.diagnosis.score import compute_t_ratio
+from modeler.diagnosis.candidates import Candidate, evaluate_equations
+from modeler.diagnosis.generation import compute_joint_order_spectrum, smooth_rows
+from modeler.diagnosis.scoring import compute_t_ratio
 from modeler.diagnosis.state import State
 from modeler.diagnosis.thresholds import THRESHOLDS
-from modeler.diagnosis.timing import smooth_rows
 from modeler.effects import TURN, read_definition
 from modeler.numerics.splines import (
     build_flat_ends,

@@ -25,8 +25,13 @@ from functools import cached_property
 import numpy as np
 
 from modeler.core.manifest import ModuleSpec
-from modeler.diagnosis.candidates import Candidate, JointScale, encode_parameter
-from modeler.diagnosis.effect_columns import expand_columns, list_body_parameters
+from modeler.diagnosis.candidates import (
+    Candidate,
+    JointScale,
+    encode_parameter,
+    expand_columns,
+    list_body_parameters,
+)
 from modeler.diagnosis.ranking import build_time_blocks
 from modeler.diagnosis.signals import compute_tilt_axes
 from modeler.diagnosis.state import State

@@ -1,5 +1,6 @@
 """What a diagnosis says, as plain data; the share of the error that its effects close."""
 
+import dataclasses
 import math
 import textwrap
 from collections.abc import Callable, Iterator, Mapping, Sequence
@@ -15,15 +16,98 @@ from modeler.core.result import Result
 from modeler.core.table import format_error_pair, format_percent
 from modeler.core.toml_cells import format_toml
 from modeler.diagnosis.candidates import Candidate
-from modeler.diagnosis.cross_checks import CrossCheck, Key, ParameterChange
-from modeler.diagnosis.drive_gains import is_gain
-from modeler.diagnosis.events import PushWindow
+from modeler.diagnosis.plausibility import is_gain
+from modeler.diagnosis.scoring import ErrorChange
 from modeler.diagnosis.search import Search
 from modeler.diagnosis.state import State
 from modeler.diagnosis.thresholds import THRESHOLDS
 from modeler.effects import MOTION, Effect, EffectTarget
 
 # Does an effect explain what is systematic, or only part of it?
+
+
+Key = tuple[str, str | None]
+"""Effect and joint; the joint of an effect of the whole robot is None."""
+
+
+@dataclass(frozen=True)
+class CrossCheck:
+    """What another look says of one effect.
+
+    Attributes:
+        what: which look, in words.
+        leads: effect and joint that lead there on its joint; None if nothing surely does.
+        agrees: True if that is the effect, if the data there do not tell it from the effect, or if
+            nothing is sure there.
+        gain: fall of the residual variance of its joints there, cross-validated; NaN if unknown.
+        expected: what the values that it was named with let expect of it there; 0 if unknown.
+    """
+
+    what: str
+    leads: Key | None
+    agrees: bool
+    gain: float = math.nan
+    expected: float = 0.0
+
+    def to_json(self) -> dict[str, Any]:
+        """Plain data."""
+        leads = (
+            None if self.leads is None else dict(zip(("effect", "joint"), self.leads, strict=True))
+        )
+        return {"leads": leads, **select_attributes(self, "what agrees gain expected")}
+
+
+@dataclass(frozen=True)
+class ParameterChange:
+    """A base parameter that differs between the training and the held-out logs.
+
+    Attributes:
+        name: of the parameter.
+        before, after: fitted to the training logs, and to the held-out logs alone.
+        sigma_before, sigma_after: standard deviations.
+        unit: of all four.
+        share: rms torque of the change over that of the joint where it is largest.
+    """
+
+    name: str
+    before: float
+    after: float
+    sigma_before: float
+    sigma_after: float
+    unit: str
+    share: float
+
+
+@dataclass(frozen=True, eq=False)
+class PushWindow:
+    """When it pushed.
+
+    Attributes:
+        log: index.
+        start, end: s.
+        ratio: energy of the steady torque there over the largest in any window elsewhere.
+        torque: its mean by joint, N m or N.
+        change: of the error of all joints by it, over all rows of the logs; None for what comes
+            only once as well, but is no steady torque: a spike, a shock.
+    """
+
+    log: int
+    start: float
+    end: float
+    ratio: float
+    torque: Mapping[str, float] = field(default_factory=dict)
+    change: ErrorChange | None = None
+
+    def merge_part(self, other: "PushWindow") -> "PushWindow | None":
+        """The push together with a part of it that was found later; None if it is another push."""
+        near = (
+            other.start < self.end + THRESHOLDS.push_separation
+            and other.end > self.start - THRESHOLDS.push_separation
+        )
+        if other.log != self.log or not near:
+            return None
+        start, end = min(self.start, other.start), max(self.end, other.end)
+        return dataclasses.replace(self, start=start, end=end)
 
 
 def compute_explained_fraction(

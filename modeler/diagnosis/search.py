@@ -12,14 +12,19 @@ from scipy.optimize import minimize, minimize_scalar
 from modeler.core.brief import ShortRepr
 from modeler.core.manifest import ModuleSpec
 from modeler.diagnosis.candidates import Candidate, encode_parameter
-from modeler.diagnosis.drive_gains import (
+from modeler.diagnosis.generation import find_slowest_ringing, generate_candidates
+from modeler.diagnosis.plausibility import (
+    DRIVES,
+    EITHER,
     compute_candidate_columns,
+    find_caveat,
+    is_friction_driving,
     is_gain,
     select_likeliest,
     solve_parameters,
 )
-from modeler.diagnosis.generate import find_slowest_ringing, generate_candidates
-from modeler.diagnosis.judge import (
+from modeler.diagnosis.profile import build_reduction_function, describe_values
+from modeler.diagnosis.scoring import (
     CandidateFit,
     RankedCandidates,
     ScoredCandidate,
@@ -29,8 +34,6 @@ from modeler.diagnosis.judge import (
     select_best,
     select_best_fits,
 )
-from modeler.diagnosis.plausible import DRIVES, EITHER, find_caveat, is_friction_driving
-from modeler.diagnosis.profile import build_reduction_function, describe_values
 from modeler.diagnosis.state import SearchData, State, batch_candidates, build_state, is_visible
 from modeler.diagnosis.thresholds import THRESHOLDS
 from modeler.effects import Effect, NonlinearParameter, Requirement

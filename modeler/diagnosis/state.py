@@ -11,11 +11,14 @@ import numpy as np
 
 from modeler.core.brief import ShortRepr
 from modeler.core.manifest import ModuleSpec
-from modeler.diagnosis.candidates import Candidate, JointScale, StatedEffects, compute_scales
-from modeler.diagnosis.effect_columns import (
+from modeler.diagnosis.candidates import (
+    Candidate,
     Columns,
+    JointScale,
     Rows,
+    StatedEffects,
     build_rows,
+    compute_scales,
     count_columns,
     expand_columns,
 )

@@ -15,10 +15,8 @@ from modeler.core.errors import DataError
 from modeler.core.result import Result
 from modeler.core.table import align_columns
 from modeler.core.toml_cells import join_names
-from modeler.excitation.clearance import ClosestApproach
-from modeler.excitation.criterion import compute_signals
-from modeler.excitation.families import MotionSeries, export_coefficients
-from modeler.excitation.motion import MotionBounds
+from modeler.excitation.limits import ClosestApproach, MotionBounds
+from modeler.excitation.series import MotionSeries, compute_signals, export_coefficients
 from modeler.excitation.thresholds import THRESHOLDS
 from modeler.runtime import CompiledModel
 

@@ -19,17 +19,17 @@ from modeler.diagnosis import (
     expand_grid,
 )
 from modeler.effects import Effect, EffectTarget
-from modeler.excitation.criterion import compute_condition
-from modeler.excitation.motion import MotionBounds
+from modeler.excitation.limits import MotionBounds
 from modeler.excitation.result import ExcitingMotion
 from modeler.excitation.search import (
     Deadline,
+    ExcitationTask,
     MotionRequest,
     build_result,
     build_task,
     draw_motions,
 )
-from modeler.excitation.task import ExcitationTask
+from modeler.excitation.series import compute_condition
 from modeler.excitation.thresholds import THRESHOLDS
 from modeler.numerics.optimize import minimise_cma_es
 from modeler.regression import Segment

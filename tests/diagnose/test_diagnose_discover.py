@@ -13,9 +13,8 @@ from modeler.api.improve import add_proposals
 from modeler.diagnosis import proposals
 from modeler.diagnosis.added_model import LogSplit
 from modeler.diagnosis.diagnosis import diagnose
-from modeler.diagnosis.discover import JointSearch
+from modeler.diagnosis.equations import JointSearch, discover_equations
 from modeler.diagnosis.expressions import Factor, Formula, derive_parameter_unit, list_factors
-from modeler.diagnosis.proposals import discover_equations
 from modeler.diagnosis.result import Diagnosis, EquationProposal
 from modeler.diagnosis.signals import SignalReference
 from modeler.diagnosis.state import SearchData, State, analyse_logs, build_state

@@ -7,21 +7,21 @@ import numpy as np
 import pytest
 
 from modeler.diagnosis import data_checks, judge as errors, search
-from modeler.diagnosis.assemble import _add_event_caveat, decide_verdict
 from modeler.diagnosis.candidates import Candidate, StatedEffects, compute_scales, list_candidates
-from modeler.diagnosis.cross_checks import CrossCheck
-from modeler.diagnosis.judge import (
+from modeler.diagnosis.findings import _add_event_caveat, decide_verdict
+from modeler.diagnosis.messages import describe_rejected
+from modeler.diagnosis.plausibility import DRIVES
+from modeler.diagnosis.result import CrossCheck, Finding, explain_weak_evidence
+from modeler.diagnosis.scoring import (
+    ErrorChange,
     RankedCandidates,
+    Score,
     ScoredCandidate,
     is_possible,
     select_alternatives,
     select_best,
 )
-from modeler.diagnosis.plausible import DRIVES
-from modeler.diagnosis.result import Finding, explain_weak_evidence
-from modeler.diagnosis.score import ErrorChange, Score
 from modeler.diagnosis.search import CandidateScan
-from modeler.diagnosis.sentences import describe_rejected
 from modeler.effects.catalogue import find_effect
 from modeler.regression.channels import DataWarning
 from tests.diagnose.conftest import Case

@@ -7,7 +7,7 @@ import pytest
 
 from modeler.diagnosis import plausible
 from modeler.diagnosis.candidates import Candidate, JointScale
-from modeler.diagnosis.plausible import find_caveat
+from modeler.diagnosis.plausibility import find_caveat
 from modeler.diagnosis.signals import SignalReference, compute_tilt_axes
 from modeler.effects.catalogue import find_effect
 from tests.chain import chain_of

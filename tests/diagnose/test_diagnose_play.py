@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 
 from modeler.diagnosis import detected as module
-from modeler.diagnosis.detected import detect_events
 from modeler.diagnosis.diagnosis import diagnose
-from modeler.diagnosis.score import ErrorChange, Score
+from modeler.diagnosis.events import detect_events
+from modeler.diagnosis.scoring import ErrorChange, Score
 from modeler.effects.catalogue import CATALOGUE, find_effect
 from modeler.views.torque_picture import draw_play_picture
 from tests.diagnose.conftest import Case, motion, on_joint

@@ -9,8 +9,8 @@ from scipy.signal import cont2discrete, lfilter
 
 from modeler.core.expression import parse_expression
 from modeler.diagnosis import effect_columns as rows_module, signals as signals_module
-from modeler.diagnosis.effect_columns import thin_samples
-from modeler.diagnosis.generate import generate_candidates
+from modeler.diagnosis.candidates import thin_samples
+from modeler.diagnosis.generation import generate_candidates
 from modeler.diagnosis.ranking import estimate_sigma
 from modeler.diagnosis.state import SearchData, analyse_logs, build_all_columns, build_state
 from modeler.numerics.least_squares import ReducedRows

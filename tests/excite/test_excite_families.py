@@ -8,9 +8,8 @@ import pytest
 from modeler.api.motion import excite as next_to
 from modeler.cli import main
 from modeler.estimation import identify
-from modeler.excitation.criterion import CRITERIA, PriorInformation
-from modeler.excitation.families import FAMILIES, build_series
 from modeler.excitation.search import MotionRequest, build_task, design_motion, draw_random_motion
+from modeler.excitation.series import CRITERIA, FAMILIES, PriorInformation, build_series
 from modeler.regression import Log, observe
 from modeler.robot import read_robot
 from modeler.simulation import build_curve, read_motion

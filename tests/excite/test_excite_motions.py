@@ -8,8 +8,7 @@ import pytest
 from modeler.api.motion import build_bounds, build_subject
 from modeler.core.errors import DataError
 from modeler.excitation import MotionRequest, build_task, design_motion, draw_random_motion
-from modeler.excitation.criterion import MotionColumns, compute_condition
-from modeler.excitation.families import build_series
+from modeler.excitation.series import MotionColumns, build_series, compute_condition
 from modeler.robot.edit import replace_gravity
 from modeler.robot.read import parse_robot_text, read_builtin_robot
 from modeler.simulation.closing import (

@@ -8,14 +8,14 @@ from scipy.optimize import minimize, rosen, rosen_der
 
 from modeler.core.errors import DataError
 from modeler.excitation import choose_motions, draw_random_motion, separate as choosing
-from modeler.excitation.criterion import (
+from modeler.excitation.search import BarrierProblem
+from modeler.excitation.series import (
     CRITERIA,
+    build_series,
     compute_condition,
     compute_log_condition,
     compute_log_det,
 )
-from modeler.excitation.families import build_series
-from modeler.excitation.task import BarrierProblem
 from modeler.numerics.optimize import ObjectiveFunction, minimise_bfgs, minimise_cma_es
 from tests.excite.robots_to_excite import limits_of, small_task
 
