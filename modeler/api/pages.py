@@ -8,10 +8,9 @@ from modeler.core.files import write_atomically
 from modeler.core.result import find_presentation
 from modeler.diagnosis import Diagnosis
 from modeler.estimation import IdentifiedModel, MethodComparison
-from modeler.fleet import Fleet
 from modeler.logs import LogInspection
 from modeler.robot import Robot
-from modeler.validation import Comparison, ModelComparison
+from modeler.validation import Comparison, Fleet, ModelComparison
 
 Reported = (
     Robot

@@ -10,11 +10,14 @@ from modeler.estimation import (
     Payload as Payload,
 )
 from modeler.exports import Exported as Exported
-from modeler.fleet import Fleet as Fleet
 from modeler.regression import Log as Log, Observation as Observation, Processing as Processing
 from modeler.robot import Robot as Robot
 from modeler.runtime import CompiledModel as CompiledModel, GpuModel as GpuModel
-from modeler.validation import Comparison as Comparison, FreeRunSettings as FreeRunSettings
+from modeler.validation import (
+    Comparison as Comparison,
+    Fleet as Fleet,
+    FreeRunSettings as FreeRunSettings,
+)
 from modeler.views import show as show
 
 Asked = FreeRunSettings

@@ -12,6 +12,7 @@ from modeler.codegen import derive, generate
 from modeler.core.errors import DataError, RobotError
 from modeler.core.manifest import ModuleSpec
 from modeler.core.table import format_percent
+from modeler.diagnosis import scoring
 from modeler.diagnosis.added_model import (
     LogRows,
     LogSplit,
@@ -42,14 +43,6 @@ from modeler.diagnosis.result import (
     FittedCandidate,
     explain_exclusion,
     explain_weak_evidence,
-)
-from modeler.diagnosis.scoring import (
-    Residuals,
-    Score,
-    compute_errors,
-    compute_rms_error,
-    explain_no_improvement,
-    score_change,
 )
 from modeler.diagnosis.search import extend_state, scan_candidates, scan_catalogue
 from modeler.diagnosis.state import SearchData, State, analyse_logs, build_state
@@ -154,7 +147,7 @@ class _FittedModel:
     rows: LogRows
     free: np.ndarray | None = None
 
-    def compute_held_out_residuals(self, refitted: bool) -> Residuals:
+    def compute_held_out_residuals(self, refitted: bool) -> scoring.Residuals:
         """What it leaves of held-out logs; where there are none, of its own logs in turn."""
         if not self.rows.logs.held_out and (refitted or self.free is not None):
             return cross_validate_residuals(self.model, self.rows.fit_observation, self.free)
@@ -242,7 +235,7 @@ def add_learned_law(
         raise DataError(
             f"learned: nothing is added: with a law of {law.coordinates.description} on "
             f"{format_location(name)} "
-            f"{explain_no_improvement(score.errors, score.changed_joints)}"
+            f"{scoring.explain_no_improvement(score.errors, score.changed_joints)}"
         )
     *steps, last = after.model.history
     moved = _compute_parameter_shifts(model, after.model)
@@ -289,7 +282,7 @@ def _compute_parameter_shifts(before: IdentifiedModel, after: IdentifiedModel) -
     }
 
 
-def _explain_weak_evidence(pick: FittedCandidate, score: Score) -> str:
+def _explain_weak_evidence(pick: FittedCandidate, score: scoring.Score) -> str:
     """Why an effect that was asked for is no more than a perhaps; empty if it may be named."""
     candidate, whole = pick.candidate, score.whole
     errors = score.errors.get(candidate.joint or "", (whole.before, whole.after))
@@ -335,7 +328,7 @@ def add_findings(
         if score.is_better:
             best = after
         else:
-            why = explain_no_improvement(score.errors, score.changed_joints)
+            why = scoring.explain_no_improvement(score.errors, score.changed_joints)
             left.append(f"left out: {finding.effect}, {format_location(finding.joint)} ({why})")
     if best.model is model:
         return model, tuple(left)
@@ -367,7 +360,7 @@ def _add_drive_gains(
             after = _score_addition(after, finding.pick)[0]
     except (DataError, RobotError):
         return before, findings
-    if not score_change(
+    if not scoring.score_change(
         before.compute_held_out_residuals(True), after.compute_held_out_residuals(True)
     ).is_better:
         return before, findings
@@ -436,7 +429,9 @@ def _select_candidate(before: _FittedModel, effect: Effect, joint: str | None) -
     return FittedCandidate(candidate, later.values[0], later, visible)
 
 
-def _score_addition(before: _FittedModel, pick: FittedCandidate) -> tuple[_FittedModel, Score]:
+def _score_addition(
+    before: _FittedModel, pick: FittedCandidate
+) -> tuple[_FittedModel, scoring.Score]:
     """The model with the effect, and whether it is the better one."""
     effect = pick.candidate.effect
     if (
@@ -447,7 +442,7 @@ def _score_addition(before: _FittedModel, pick: FittedCandidate) -> tuple[_Fitte
             f"({format_percent(pick.visible_share)} of it is left); {effect.look_alikes}"
         )
     after, refitted = _fit_with_candidate(before, pick), effect.acts is not EffectTarget.LINK
-    score = score_change(
+    score = scoring.score_change(
         before.compute_held_out_residuals(refitted), after.compute_held_out_residuals(refitted)
     )
     if not score.joints:
@@ -474,15 +469,15 @@ def _build_history_step(fitted: _FittedModel, errors: Mapping[str, float]) -> Ad
         fitted: it.
         errors: relative, by joint, on unseen motion.
     """
-    training = compute_errors(
+    training = scoring.compute_errors(
         compute_residuals(fitted.model, fitted.rows.compiled, fitted.rows.fit_observation)
     )
     return Addition(
         effect="",
         joint=None,
         shapes={},
-        error=compute_rms_error(errors.values()),
-        training_error=compute_rms_error(training.values()),
+        error=scoring.compute_rms_error(errors.values()),
+        training_error=scoring.compute_rms_error(training.values()),
         held_out=tuple(log.name for log in fitted.rows.logs.held_out),
         robot_text=fitted.model.robot_text,
         delay=fitted.model.processing.delay,

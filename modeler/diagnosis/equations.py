@@ -12,6 +12,7 @@ from scipy.optimize import least_squares
 from modeler.core.brief import ShortRepr
 from modeler.core.table import format_percent
 from modeler.core.toml_cells import TomlCell, format_toml
+from modeler.diagnosis import scoring
 from modeler.diagnosis.candidates import Candidate, expand_columns, expand_grid
 from modeler.diagnosis.expressions import (
     Formula,
@@ -24,16 +25,6 @@ from modeler.diagnosis.generation import compute_joint_order_spectrum, fit_resid
 from modeler.diagnosis.learn import choose_free_name, learn_law, make_effect_id
 from modeler.diagnosis.profile import compute_effect_profile, describe_values
 from modeler.diagnosis.result import EquationProposal, Finding, FittedCandidate, JointDiscovery
-from modeler.diagnosis.scoring import (
-    ScoredCandidate,
-    compare_residuals,
-    compute_errors,
-    compute_holdout_residuals,
-    fit_candidates,
-    make_veto,
-    score_candidates,
-    select_best,
-)
 from modeler.diagnosis.search import Search, SearchStep, extend_state
 from modeler.diagnosis.state import (
     SearchData,
@@ -305,7 +296,7 @@ class JointSearch:
         pairs = [triple for triple in pairs if is_visible(triple[2])]
         if not pairs:
             return []
-        trials = fit_candidates(self.state, [(c, columns) for _, c, columns in pairs])
+        trials = scoring.fit_candidates(self.state, [(c, columns) for _, c, columns in pairs])
         unit = float(self.state.sigma[self.j] ** 2)
         scores = []
         for (formula, candidate, _), trial in zip(pairs, trials, strict=True):
@@ -367,10 +358,10 @@ class JointSearch:
         )
         return any(self.judge_candidate(item.candidate) is not None for item in few)
 
-    def judge_candidate(self, candidate: Candidate) -> ScoredCandidate | None:
+    def judge_candidate(self, candidate: Candidate) -> scoring.ScoredCandidate | None:
         """It as an effect of the catalogue is judged; None if it is worth no name."""
         pair = candidate, build_columns(self.state.rows, candidate)
-        return select_best(self.state, score_candidates(self.state, [pair])).best
+        return scoring.select_best(self.state, scoring.score_candidates(self.state, [pair])).best
 
     def find_formulas(self) -> list[ScoredFormula]:
         """Formulas that say more than they cost, the cheapest first; no two are alike."""
@@ -524,7 +515,7 @@ class JointSearch:
     def compute_torque(self, candidate: Candidate) -> np.ndarray:
         """(rows_j,) what it adds, off the model."""
         columns = expand_columns(build_columns(self.state.rows, candidate), self.j, self._row_count)
-        (candidate_score,) = score_candidates(
+        (candidate_score,) = scoring.score_candidates(
             self.state, [(candidate, build_columns(self.state.rows, candidate))]
         )
         whole = columns @ candidate_score.values
@@ -624,7 +615,7 @@ class _AcceptedFormula:
     state: State
     later: State
     item: ScoredFormula
-    score: ScoredCandidate
+    score: scoring.ScoredCandidate
 
 
 def _select_formulas(
@@ -635,7 +626,7 @@ def _select_formulas(
     for search in searches:  # costs beside one and the same model
         search.count, search.before = max(s.count for s in searches), searches[0].before
     every.sort(key=lambda pair: _compute_total_cost(*pair))
-    veto, accepted_formulas, texts = make_veto(other), list[_AcceptedFormula](), set[str]()
+    veto, accepted_formulas, texts = scoring.make_veto(other), list[_AcceptedFormula](), set[str]()
     for search, item in every[: THRESHOLDS.max_scored_formulas]:
         state = search.state
         best, later = search.judge_candidate(item.candidate), extend_state(state, item.candidate)
@@ -654,13 +645,13 @@ def _sort_by_held_out_error(
     """The least held-out error first; of those that it does not surely beat, the shortest."""
     if len(formulas) < 2:
         return formulas
-    left = [compute_holdout_residuals(formula.later, other) for formula in formulas]
+    left = [scoring.compute_holdout_residuals(formula.later, other) for formula in formulas]
     j, state = formulas[0].item.candidate.index, formulas[0].state
-    errors = [compute_errors(residuals)[state.joint_names[j]] for residuals in left]
+    errors = [scoring.compute_errors(residuals)[state.joint_names[j]] for residuals in left]
     best = left[int(np.argmin(errors))]
 
     def compute_sort_key(k: int) -> tuple[bool, float, float]:
-        worse = compare_residuals(left[k], best, [j], state).whole.is_reduced
+        worse = scoring.compare_residuals(left[k], best, [j], state).whole.is_reduced
         return worse, errors[k] if worse else formulas[k].item.formula.symbol_count, errors[k]
 
     return [formulas[k] for k in sorted(range(len(formulas)), key=compute_sort_key)]
@@ -712,8 +703,8 @@ def _build_proposal(
     effect_values = describe_values(
         later, candidate, values, deviations if along is None else along.compute_deviations()
     )
-    before, after = (compute_holdout_residuals(s, other) for s in (state, later))
-    change = compare_residuals(before, after, [j], state).whole
+    before, after = (scoring.compute_holdout_residuals(s, other) for s in (state, later))
+    change = scoring.compare_residuals(before, after, [j], state).whole
     finding = Finding(
         effect=name,
         joint=joint,

@@ -9,6 +9,7 @@ from functools import cache
 import numpy as np
 
 from modeler.core.brief import ShortRepr
+from modeler.diagnosis import profile, result
 from modeler.diagnosis.candidates import Candidate, expand_columns
 from modeler.diagnosis.events import detect_events
 from modeler.diagnosis.generation import (
@@ -31,25 +32,6 @@ from modeler.diagnosis.plausibility import (
     compute_gain_visibility,
     find_caveat,
     is_gain,
-)
-from modeler.diagnosis.profile import (
-    collect_intervals,
-    compute_effect_profile,
-    describe_values,
-    find_nonlinear_units,
-)
-from modeler.diagnosis.result import (
-    CrossCheck,
-    Diagnosis,
-    Finding,
-    FittedCandidate,
-    JointState,
-    Key,
-    ParameterChange,
-    PushWindow,
-    compute_explained_fraction,
-    compute_mean_square,
-    explain_weak_evidence,
 )
 from modeler.diagnosis.scoring import (
     ErrorChange,
@@ -99,7 +81,7 @@ class CrossCheckData:
 
 def cross_check_effects(
     search: Search, data_sets: Sequence[CrossCheckData], tick: Tick = lambda: None
-) -> list[tuple[CrossCheck, ...]]:
+) -> list[tuple[result.CrossCheck, ...]]:
     """What the other looks say of every effect that was put in, in order.
 
     Args:
@@ -107,7 +89,7 @@ def cross_check_effects(
         data_sets: others.
         tick: called after each.
     """
-    checks_by_step: list[list[CrossCheck]] = [[] for _ in search.steps]
+    checks_by_step: list[list[result.CrossCheck]] = [[] for _ in search.steps]
     for data_set in data_sets:
         for place, step_checks in enumerate(checks_by_step):
             step_checks.append(_cross_check_step(data_set, search, place))
@@ -118,7 +100,7 @@ def cross_check_effects(
     ]
 
 
-def _check_excluded(search: Search, step: SearchStep) -> list[CrossCheck]:
+def _check_excluded(search: Search, step: SearchStep) -> list[result.CrossCheck]:
     """What would have been named had the user ruled nothing out, or explains as much as simply."""
     if not search.without:
         return []
@@ -140,14 +122,14 @@ def _check_excluded(search: Search, step: SearchStep) -> list[CrossCheck]:
     best = next(alike, asked.best)
     if best is None or best.key == step.candidate.key:
         return []
-    return [CrossCheck("ruled out", best.key, False)]
+    return [result.CrossCheck("ruled out", best.key, False)]
 
 
-def _cross_check_step(data_set: CrossCheckData, search: Search, place: int) -> CrossCheck:
+def _cross_check_step(data_set: CrossCheckData, search: Search, place: int) -> result.CrossCheck:
     what, data, step = data_set.what, data_set.data, search.steps[place]
     picks = [*search.start.picks, *(s.candidate for s in search.steps[: place + 1])]
     if not all(_is_logged(data, pick) for pick in picks):
-        return CrossCheck(what, None, True)
+        return result.CrossCheck(what, None, True)
     # the state in which the effect was chosen, from other data
     state = linearise_state(build_state(data, picks[:-1], step.before.beta))
     candidate_scores = _rescan_candidates(state, step, search)
@@ -158,11 +140,11 @@ def _cross_check_step(data_set: CrossCheckData, search: Search, place: int) -> C
     near = [j for j in candidate_scores if joint is None or j.key[1] in (None, joint)]
     best = select_best(state, near).best
     if best is None:
-        return CrossCheck(what, None, True, gain, expected)
+        return result.CrossCheck(what, None, True, gain, expected)
     alike = {best.key, *(j.key for j in find_equivalents(best, candidate_scores))}
     if is_refinement(best.candidate, step.candidate):
         alike.add(step.candidate.key)
-    return CrossCheck(what, best.key, step.candidate.key in alike, gain, expected)
+    return result.CrossCheck(what, best.key, step.candidate.key in alike, gain, expected)
 
 
 def _compute_expected_gain(state: State, step: SearchStep) -> float:
@@ -208,7 +190,7 @@ def _rescan_candidates(state: State, step: SearchStep, search: Search) -> list[S
 
 def find_changed_parameters(
     model: IdentifiedModel, search: Search, other: SearchData, left: Residuals, logs: Sequence[Log]
-) -> tuple[ParameterChange, ...]:
+) -> tuple[result.ParameterChange, ...]:
     """Parameters in which the machine of the held-out logs differs, the most important first.
 
     Args:
@@ -242,7 +224,7 @@ def find_changed_parameters(
             continue
         if abs(change) > THRESHOLDS.min_changed_parameter_t * math.hypot(a.sigma, b.sigma):
             changes.append(
-                ParameterChange(a.name, a.value, b.value, a.sigma, b.sigma, a.unit, share)
+                result.ParameterChange(a.name, a.value, b.value, a.sigma, b.sigma, a.unit, share)
             )
     return tuple(sorted(changes, key=lambda training: -training.share))
 
@@ -263,7 +245,7 @@ class BandSearch(ShortRepr):
     other: SearchData | None
     held_out_residuals: Sequence[Residuals]
     share: Callable[[int], float]
-    findings: Sequence[Finding]
+    findings: Sequence[result.Finding]
 
     @property
     def named_steps(self) -> tuple[SearchStep, ...]:
@@ -273,7 +255,10 @@ class BandSearch(ShortRepr):
 
 
 def evaluate_search(
-    search: Search, other: SearchData | None, checks: Sequence[tuple[CrossCheck, ...]], tick: Tick
+    search: Search,
+    other: SearchData | None,
+    checks: Sequence[tuple[result.CrossCheck, ...]],
+    tick: Tick,
 ) -> BandSearch:
     """The findings of a search.
 
@@ -294,14 +279,16 @@ def evaluate_search(
     shares = [
         _build_share_function(state, left[-1], tick) for state, left in looks_at
     ]  # what is asked for
-    squares = [[[*map(compute_mean_square, values)] for values in left] for _, left in looks_at]
-    findings = list[Finding]()
+    squares = [
+        [[*map(result.compute_mean_square, values)] for values in left] for _, left in looks_at
+    ]
+    findings = list[result.Finding]()
     for k, step in enumerate(search.steps):
         touched = find_affected_joints(step.score, *chain[k : k + 2])
         score = compare_residuals(residuals[k], residuals[k + 1], touched, search.end)
         if score.is_better and score.whole.after <= THRESHOLDS.max_predictive_error:
             closed = min(
-                compute_explained_fraction(values[k:], touched, share, chain[k].sigma)
+                result.compute_explained_fraction(values[k:], touched, share, chain[k].sigma)
                 for values, share in zip(squares, shares, strict=True)
             )
             names = [search.end.joint_names[j] for j in touched]
@@ -329,10 +316,10 @@ def _build_share_function(
 def assemble_diagnosis(
     model: IdentifiedModel,
     bands: Sequence[BandSearch],
-    window: PushWindow | None,
+    window: result.PushWindow | None,
     faults: Sequence[DataWarning] = (),
-    changed_parameters: Sequence[ParameterChange] = (),
-) -> Diagnosis:
+    changed_parameters: Sequence[result.ParameterChange] = (),
+) -> result.Diagnosis:
     """The diagnosis.
 
     Args:
@@ -353,7 +340,7 @@ def assemble_diagnosis(
             last.held_out_residuals[-1], after, [candidate.index], last.search.end
         )
 
-    every: list[Finding] = []
+    every: list[result.Finding] = []
     end, residuals = search.end, first.held_out_residuals[-1]
     if not contradicted:
         every = _deduplicate_findings([finding for band in bands for finding in band.findings])
@@ -367,7 +354,7 @@ def assemble_diagnosis(
         every = [dataclasses.replace(finding, doubt=NOT_JUDGED) for finding in every]
     every.sort(key=lambda finding: finding.status == "perhaps")
     effects, refinements = (tuple(f for f in every if f.is_refinement is r) for r in (False, True))
-    diagnosis = Diagnosis(
+    diagnosis = result.Diagnosis(
         robot=model.spec.robot,
         verdict="cannot tell"
         if contradicted or changed_parameters
@@ -390,9 +377,9 @@ def assemble_diagnosis(
     return add_sentences(diagnosis)
 
 
-def _deduplicate_findings(findings: Sequence[Finding]) -> list[Finding]:
+def _deduplicate_findings(findings: Sequence[result.Finding]) -> list[result.Finding]:
     """What two bands say of an effect: as it is named, if it is, or as it was seen first."""
-    unique: dict[tuple[object, ...], Finding] = {}
+    unique: dict[tuple[object, ...], result.Finding] = {}
     for k, finding in enumerate(findings):
         several = finding.pick is not None and finding.pick.candidate.effect.several
         key = (finding.effect, finding.joint, k if several else 0)
@@ -402,8 +389,8 @@ def _deduplicate_findings(findings: Sequence[Finding]) -> list[Finding]:
 
 
 def _evaluate_in_table_band(
-    every: Sequence[Finding], bands: Sequence[BandSearch]
-) -> tuple[list[Finding], State, Residuals]:
+    every: Sequence[result.Finding], bands: Sequence[BandSearch]
+) -> tuple[list[result.Finding], State, Residuals]:
     """Findings of the wider band with the errors that they have in the band of the table.
 
     And the state with all that is named, and what it leaves of unseen motion.
@@ -432,7 +419,9 @@ def _evaluate_in_table_band(
     return updated_findings, state, residuals
 
 
-def _add_event_caveat(finding: Finding, joints: Mapping[str, JointState]) -> Finding:
+def _add_event_caveat(
+    finding: result.Finding, joints: Mapping[str, result.JointState]
+) -> result.Finding:
     """An event, where something acts all the time: what stood out of it may be none."""
     if (
         not finding.is_event
@@ -449,9 +438,9 @@ def _build_finding(
     touched: Sequence[int],
     change: ErrorChange,
     closed: float,
-    checks: tuple[CrossCheck, ...],
+    checks: tuple[result.CrossCheck, ...],
     after: Sequence[float],
-) -> Finding:
+) -> result.Finding:
     """What the k-th step put in."""
     step, end, first = search.steps[k], search.end, k == 0 and not search.prior_steps
     k += len(search.prior_steps)
@@ -464,10 +453,10 @@ def _build_finding(
     visible = candidate_score.visible_share
     if is_gain(pick):
         deviations, visible = compute_gain_deviations(end, k), compute_gain_visibility(end, k)
-    along = compute_effect_profile(end, k)
+    along = profile.compute_effect_profile(end, k)
     if along is not None:
         deviations = along.compute_deviations()
-    effect_values = describe_values(end, pick, values, deviations)
+    effect_values = profile.describe_values(end, pick, values, deviations)
     parameters = effect_values.value | dict(pick.nonlinear_parameters)
     rivals = [tie.candidate for tie in step.equivalents]
     ties = [*(rival.key for rival in rivals), *_list_equivalents(pick, search)]
@@ -477,30 +466,30 @@ def _build_finding(
         {} if along is None else along.compute_nonlinear_deviations()
     )
     errors = (change.before, change.after)
-    return Finding(
+    return result.Finding(
         effect=pick.effect.id,
         joint=pick.joint,
         error_before=change.before,
         error_after=change.after,
         parameters=parameters,
         sigmas=sigmas,
-        intervals={} if along is None else collect_intervals(along, effect_values),
-        units=effect_values.unit | find_nonlinear_units(end, pick),
+        intervals={} if along is None else profile.collect_intervals(along, effect_values),
+        units=effect_values.unit | profile.find_nonlinear_units(end, pick),
         equivalents=tuple(dict.fromkeys(ties)),
         evidence=describe_evidence(step, change.before, change.after),
         closure=closed,
         is_refinement=refines,
         objection=against,
         cross_checks=checks,
-        doubt=explain_weak_evidence(
+        doubt=result.explain_weak_evidence(
             pick, errors, against, sigmas, closed, checks, rivals, refines, after
         ),
         is_first=first,
-        pick=FittedCandidate(pick, values, end, visible),
+        pick=result.FittedCandidate(pick, values, end, visible),
     )
 
 
-def _list_equivalents(pick: Candidate, search: Search) -> list[Key]:
+def _list_equivalents(pick: Candidate, search: Search) -> list[result.Key]:
     """Effects that no data tell from it."""
     same = [(other, pick.joint) for other in pick.effect.same_as]
     return [key for key in same if not is_ruled_out(*key, search.without)]
@@ -531,7 +520,7 @@ def _is_refinement(search: Search, k: int) -> bool:
 
 def _summarise_joints(
     search: Search, end: State, residuals: Sequence[Residuals], systematic: Callable[[int], float]
-) -> dict[str, JointState]:
+) -> dict[str, result.JointState]:
     states, ends = {}, [compute_errors(residuals[k]) for k in (0, -1)]
     shown = [j for j, y in enumerate(search.start.rows.y) if y.size]
     # what all joints share is made by the first
@@ -541,10 +530,10 @@ def _summarise_joints(
     for j, joint in enumerate(search.spec.joints):
         if j not in shares:
             continue
-        size = compute_mean_square(search.start.rows.y[j])
-        before, after = (compute_mean_square(s.residual[j]) for s in (search.start, end))
+        size = result.compute_mean_square(search.start.rows.y[j])
+        before, after = (result.compute_mean_square(s.residual[j]) for s in (search.start, end))
         share = after / size if size > 0.0 else math.nan
-        states[joint.name] = JointState(
+        states[joint.name] = result.JointState(
             error_before=ends[0].get(joint.name, math.nan),
             error_after=ends[1].get(joint.name, math.nan),
             unit=joint.effort_unit,
@@ -558,7 +547,7 @@ def _summarise_joints(
 
 
 def decide_verdict(
-    effects: Sequence[Finding], joints: dict[str, JointState], search: Search
+    effects: Sequence[result.Finding], joints: dict[str, result.JointState], search: Search
 ) -> str:
     """One of the five answers.
 
@@ -580,12 +569,12 @@ def decide_verdict(
     return "nothing significant"
 
 
-def list_undetectable_effects(search: Search) -> tuple[Key, ...]:
+def list_undetectable_effects(search: Search) -> tuple[result.Key, ...]:
     """Effects that these data cannot show: hidden by the model, or on joints that do not move."""
     has = {(p.effect, p.joint) for p in search.spec.standard}
     candidate_scores = [j for j in search.ranked if j.key not in has]
     shown_keys = {j.key for j in candidate_scores}
-    hidden: list[Key] = [
+    hidden: list[result.Key] = [
         (effect.id, joint.name)
         for joint in search.spec.joints
         if joint.actuated
@@ -606,7 +595,7 @@ def list_undetectable_effects(search: Search) -> tuple[Key, ...]:
     return tuple(undetectable)
 
 
-def _list_unmoved(state: State) -> list[Key]:
+def _list_unmoved(state: State) -> list[result.Key]:
     """All that could be on joints of which no row can be used, or that have one speed only.
 
     At one speed, functions of the speed are one column: only the moments of reversal differ.

@@ -11,18 +11,9 @@ from scipy.optimize import minimize, minimize_scalar
 
 from modeler.core.brief import ShortRepr
 from modeler.core.manifest import ModuleSpec
+from modeler.diagnosis import plausibility
 from modeler.diagnosis.candidates import Candidate, encode_parameter
 from modeler.diagnosis.generation import find_slowest_ringing, generate_candidates
-from modeler.diagnosis.plausibility import (
-    DRIVES,
-    EITHER,
-    compute_candidate_columns,
-    find_caveat,
-    is_friction_driving,
-    is_gain,
-    select_likeliest,
-    solve_parameters,
-)
 from modeler.diagnosis.profile import build_reduction_function, describe_values
 from modeler.diagnosis.scoring import (
     CandidateFit,
@@ -182,7 +173,7 @@ class CandidateScan:
             return self
         left = [t for t in self.fits if not is_vetoed(t.candidate, vetoed)]
         again = [t.candidate for t in select_best_fits(left) if t.candidate.key in touched]
-        columns = compute_candidate_columns(self.state, again)
+        columns = plausibility.compute_candidate_columns(self.state, again)
         candidate_scores = score_candidates(self.state, [*zip(again, columns, strict=True)])
         best = [*(j for j in self.best if j.key not in touched), *candidate_scores]
         best.sort(key=lambda j: -j.total_reduction)
@@ -230,7 +221,7 @@ class CandidateScan:
             None,
         )
         if columns is None:
-            (columns,) = compute_candidate_columns(state, [best.candidate])
+            (columns,) = plausibility.compute_candidate_columns(state, [best.candidate])
         return score_candidates(state, [(best.candidate, columns)])[0]
 
     def list_starts(self, first: Candidate) -> list[Candidate]:
@@ -276,7 +267,7 @@ def scan_candidates(state: State, candidates: Sequence[Candidate]) -> CandidateS
     for some in batch_candidates(
         candidates, THRESHOLDS.scan_chunk
     ):  # their columns are never there all at once
-        every = zip(some, compute_candidate_columns(state, some), strict=True)
+        every = zip(some, plausibility.compute_candidate_columns(state, some), strict=True)
         shown = {id(fits[0]): fits for fits in every if is_visible(fits[1])}
         fits = fit_candidates(state, [*shown.values()]) if shown else []
         trials |= {place[id(t.candidate)]: t for t in fits}
@@ -440,7 +431,7 @@ def _find_displaced_candidates(
     return [
         candidate_score
         for candidate_score in refused
-        if candidate_score.reason not in ("", DRIVES)
+        if candidate_score.reason not in ("", plausibility.DRIVES)
         and THRESHOLDS.parsimony_share * candidate_score.total_variance_reduction
         < best.total_variance_reduction
         < candidate_score.total_variance_reduction / THRESHOLDS.parsimony_share
@@ -455,15 +446,19 @@ def accept_candidate(
     The state is None where it is refused: `why` says why, if it is not by held-out motion.
     """
     later = extend_state(state, best.candidate)
-    if is_friction_driving(state, later, best.candidate):
-        return dataclasses.replace(best, is_possible=False, reason=DRIVES), None
+    if plausibility.is_friction_driving(state, later, best.candidate):
+        return dataclasses.replace(best, is_possible=False, reason=plausibility.DRIVES), None
     if veto is not None and veto(state, later, best):
         return best, None
-    if is_gain(best.candidate):  # of all, the likeliest; a unit or a sign is told with it
+    if plausibility.is_gain(
+        best.candidate
+    ):  # of all, the likeliest; a unit or a sign is told with it
         return best, later
     pick, values = later.picks[-1], later.values[-1]
     effect_values = describe_values(later, pick, values, np.zeros(len(values)))
-    why = find_caveat(later, pick, effect_values.value | dict(pick.nonlinear_parameters))
+    why = plausibility.find_caveat(
+        later, pick, effect_values.value | dict(pick.nonlinear_parameters)
+    )
     lags = Requirement.LAG in pick.effect.needs
     short = (
         lags
@@ -471,7 +466,9 @@ def accept_candidate(
         and float(values[0]) * pick.nonlinear_parameters["tau"] < THRESHOLDS.max_short_delay
     )
     # A lag of no certain kind would take the place of what rounds torques too.
-    if why and (short or why.endswith(EITHER) or Requirement.TILT in pick.effect.needs):
+    if why and (
+        short or why.endswith(plausibility.EITHER) or Requirement.TILT in pick.effect.needs
+    ):
         return dataclasses.replace(best, reason=why), None
     return dataclasses.replace(best, reason=why) if why else best, later
 
@@ -557,28 +554,28 @@ def _choose_likeliest_gain(
 
     Ranks weigh the joints by what a model bent by a wrong gain leaves.
     """
-    if not is_gain(best.candidate):
+    if not plausibility.is_gain(best.candidate):
         return best
     every = generate_candidates(state, best.candidate.effect.id, without)
     gains = [c for c in every if not is_vetoed(c, vetoed)]
-    return _score_candidate(state, select_likeliest(state, gains) or best.candidate)
+    return _score_candidate(state, plausibility.select_likeliest(state, gains) or best.candidate)
 
 
 def _score_candidate(state: State, candidate: Candidate) -> ScoredCandidate:
-    (columns,) = compute_candidate_columns(state, [candidate])
+    (columns,) = plausibility.compute_candidate_columns(state, [candidate])
     return select_best(state, score_candidates(state, [(candidate, columns)])).ranked[0]
 
 
 def extend_state(state: State, pick: Candidate) -> State:
     """The state with one effect more, linearised about its own parameters."""
-    picks, about = (*state.picks, pick), solve_parameters(state, pick)
+    picks, about = (*state.picks, pick), plausibility.solve_parameters(state, pick)
     once = build_state(state.data, picks, state.beta if about is None else about)
     return linearise_state(once)
 
 
 def linearise_state(state: State) -> State:
     """The state linearised about its own parameters."""
-    about = solve_parameters(state)
+    about = plausibility.solve_parameters(state)
     return build_state(state.data, state.picks, state.beta if about is None else about)
 
 

@@ -9,8 +9,10 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from modeler import regression
 from modeler.core.brief import ShortRepr
 from modeler.core.manifest import ModuleSpec
+from modeler.diagnosis import ranking
 from modeler.diagnosis.candidates import (
     Candidate,
     Columns,
@@ -22,17 +24,6 @@ from modeler.diagnosis.candidates import (
     count_columns,
     expand_columns,
 )
-from modeler.diagnosis.ranking import (
-    GramBlocks,
-    Ranking,
-    TimeBlocks,
-    build_batch,
-    build_gram_blocks,
-    build_time_blocks,
-    estimate_sigma,
-    merge_blocks,
-    rank_candidates,
-)
 from modeler.diagnosis.signals import SignalReference
 from modeler.diagnosis.thresholds import THRESHOLDS
 from modeler.effects import EffectTarget
@@ -42,19 +33,6 @@ from modeler.numerics.least_squares import (
     Reduction,
     compute_joint_whitening,
     reduce_rows,
-)
-from modeler.regression import (
-    HIGHEST,
-    ChosenProcessing,
-    CutoffSearch,
-    Log,
-    LogRepair,
-    Observation,
-    PreparedLogs,
-    Processing,
-    build_observation,
-    choose_cutoffs,
-    prepare_logs,
 )
 
 if TYPE_CHECKING:
@@ -74,7 +52,7 @@ class SearchData(ShortRepr):
     """
 
     compiled: "CompiledModel"
-    observation: Observation
+    observation: regression.Observation
     fixed_parameters: np.ndarray | None = None
     stated_effects: StatedEffects = field(default_factory=StatedEffects)
 
@@ -84,9 +62,9 @@ class SearchData(ShortRepr):
         return self.compiled.spec
 
     @cached_property
-    def time_blocks(self) -> TimeBlocks:
+    def time_blocks(self) -> ranking.TimeBlocks:
         """Blocks and folds."""
-        return build_time_blocks(self.observation)
+        return ranking.build_time_blocks(self.observation)
 
     @cached_property
     def rows(self) -> Rows:
@@ -202,17 +180,17 @@ class State(ShortRepr):
         return self.data.y
 
     @cached_property
-    def gram_blocks(self) -> GramBlocks:
+    def gram_blocks(self) -> ranking.GramBlocks:
         """Of the model so far."""
         numbers, fold = self.data.block_numbers, self.data.time_blocks.fold
-        return build_gram_blocks(
+        return ranking.build_gram_blocks(
             self.W, self.y, self.sigma, numbers, fold, self.whitening_matrix, self.prior
         )
 
     @cached_property
-    def fold_grams(self) -> GramBlocks:
+    def fold_grams(self) -> ranking.GramBlocks:
         """The same by folds."""
-        return merge_blocks(self.gram_blocks)
+        return ranking.merge_blocks(self.gram_blocks)
 
     @cached_property
     def reduced_rows(self) -> ReducedRows:
@@ -239,7 +217,7 @@ class State(ShortRepr):
         columns, known = self.reduced_rows.W[0].shape[1], self.data.prior
         if known is None:
             return np.zeros((0, columns + 1))
-        every = zip(self.reduced_rows.W, estimate_sigma(self.reduced_rows), strict=True)
+        every = zip(self.reduced_rows.W, ranking.estimate_sigma(self.reduced_rows), strict=True)
         lengths = np.sqrt(sum(np.sum((w / s) ** 2, axis=0) for w, s in every))
         rows, observation = known.extend_rows(lengths), self.data.observation
         solution, sums = self._solve_with_prior(rows), [1.0]
@@ -265,7 +243,7 @@ class State(ShortRepr):
     def sigma(self) -> np.ndarray:
         """(J,) rms residual of each joint."""
         return (
-            estimate_sigma(self.reduced_rows, prior=self.prior)
+            ranking.estimate_sigma(self.reduced_rows, prior=self.prior)
             if not self.adopted_weights
             else self.adopted_weights[0]
         )
@@ -299,7 +277,7 @@ class State(ShortRepr):
 
     def _solve_with_prior(self, prior: np.ndarray) -> np.ndarray:
         """The solution beside such rows of a prior."""
-        sigma = estimate_sigma(self.reduced_rows, prior=prior)
+        sigma = ranking.estimate_sigma(self.reduced_rows, prior=prior)
         whitening_matrix = compute_joint_whitening(
             [*self.reduced_rows.W, prior[:, :-1]], np.append(sigma, 1.0)
         )
@@ -352,9 +330,11 @@ class State(ShortRepr):
         )
         return compute_scales(self.spec, *motion)
 
-    def rank_columns(self, every: Sequence[Columns]) -> Ranking:
+    def rank_columns(self, every: Sequence[Columns]) -> ranking.Ranking:
         """Candidates by their columns."""
-        return rank_candidates(self.gram_blocks, build_batch(self.gram_blocks, every))
+        return ranking.rank_candidates(
+            self.gram_blocks, ranking.build_batch(self.gram_blocks, every)
+        )
 
 
 def build_state(data: SearchData, picks: Sequence[Candidate], beta: np.ndarray) -> State:
@@ -461,7 +441,7 @@ def is_visible(columns: Columns) -> bool:
     return bool(np.isfinite(square).all() and np.all(square > 0.0))
 
 
-def _find_references(observation: Observation) -> tuple[float, Mapping[str, float]]:
+def _find_references(observation: regression.Observation) -> tuple[float, Mapping[str, float]]:
     """The first time, and the mean temperature by joint where one is logged."""
     segments = [part.segment for part in observation.stretches]
     temperature = {}
@@ -479,12 +459,12 @@ def _find_references(observation: Observation) -> tuple[float, Mapping[str, floa
 
 def analyse_logs(
     compiled: "CompiledModel",
-    logs: Sequence[Log],
-    fitted: Processing,
+    logs: Sequence[regression.Log],
+    fitted: regression.Processing,
     band: float | None = None,
-    prepared: PreparedLogs | None = None,
-    repair: LogRepair | None = None,
-) -> Observation:
+    prepared: regression.PreparedLogs | None = None,
+    repair: regression.LogRepair | None = None,
+) -> regression.Observation:
     """The observation of a diagnosis.
 
     With f0 where the positions drown in their noise, and c the parallel cut-off that the motion
@@ -505,22 +485,26 @@ def analyse_logs(
 
 
 def observe_logs(
-    compiled: "CompiledModel", logs: Sequence[Log], prepared: PreparedLogs
-) -> Observation:
+    compiled: "CompiledModel", logs: Sequence[regression.Log], prepared: regression.PreparedLogs
+) -> regression.Observation:
     """The observation of logs whose band is chosen."""
-    return _select_whole_rows(build_observation(compiled, logs, prepared, every_joint=True))
+    return _select_whole_rows(
+        regression.build_observation(compiled, logs, prepared, every_joint=True)
+    )
 
 
 def choose_band(
     compiled: "CompiledModel",
-    logs: Sequence[Log],
-    fitted: Processing,
+    logs: Sequence[regression.Log],
+    fitted: regression.Processing,
     band: float | None,
-    prepared: PreparedLogs | None = None,
-    repair: LogRepair | None = None,
-) -> PreparedLogs:
+    prepared: regression.PreparedLogs | None = None,
+    repair: regression.LogRepair | None = None,
+) -> regression.PreparedLogs:
     """The logs, with the band that `analyse_logs` chooses."""
-    prepared = (prepared or prepare_logs(compiled.spec, logs, fitted, repair)).drop_commands()
+    prepared = (
+        prepared or regression.prepare_logs(compiled.spec, logs, fitted, repair)
+    ).drop_commands()
     noise = prepared.noise
     if "parallel_cutoff" not in fitted.chosen or not noise.moving:
         return prepared
@@ -528,9 +512,9 @@ def choose_band(
     asked = dataclasses.replace(
         fitted, position_cutoff=user_cutoff, parallel_cutoff=None, decimation=None, edge=None
     )
-    wide, _ = choose_cutoffs(asked, prepared.pieces, noise)
+    wide, _ = regression.choose_cutoffs(asked, prepared.pieces, noise)
     motion = wide.parallel_cutoff
-    highest = user_cutoff or HIGHEST / max(piece.step for piece in prepared.pieces)
+    highest = user_cutoff or regression.HIGHEST / max(piece.step for piece in prepared.pieces)
     if band is None:
         parallel = max(motion, min(THRESHOLDS.max_band, 0.5 * highest, 0.5 * noise.cutoff))
         position = max(wide.position_cutoff, 2.0 * parallel)
@@ -539,21 +523,25 @@ def choose_band(
         position = 1.25 * parallel if band else wide.position_cutoff
     prepared = dataclasses.replace(prepared, processing=wide)
     prepared = prepared.set_cutoffs(user_cutoff or min(position, highest), parallel)
-    quiet_cutoffs = CutoffSearch(compiled, prepared).find_chatter_free(
+    quiet_cutoffs = regression.CutoffSearch(compiled, prepared).find_chatter_free(
         motion, user_cutoff is not None
     )
     prepared = prepared.set_cutoffs(quiet_cutoffs.position, quiet_cutoffs.parallel)
     if any(log.check is not None for log in prepared.logs):  # in the band of the rows
-        prepared = prepare_logs(compiled.spec, logs, prepared.processing, repair).drop_commands()
+        prepared = regression.prepare_logs(
+            compiled.spec, logs, prepared.processing, repair
+        ).drop_commands()
     return prepared
 
 
 def observe_in_band(
-    compiled: "CompiledModel", logs: Sequence[Log], processing: ChosenProcessing
-) -> Observation:
+    compiled: "CompiledModel",
+    logs: Sequence[regression.Log],
+    processing: regression.ChosenProcessing,
+) -> regression.Observation:
     """Other logs in the band of a diagnosis."""
     return observe_logs(
-        compiled, logs, prepare_logs(compiled.spec, logs, processing).drop_commands()
+        compiled, logs, regression.prepare_logs(compiled.spec, logs, processing).drop_commands()
     )
 
 
@@ -562,7 +550,7 @@ def get_cutoff(data: SearchData) -> float:
     return data.observation.report.processing.parallel_cutoff or 0.0
 
 
-def describe_bands(fitted: Processing, processing: Processing) -> list[str]:
+def describe_bands(fitted: regression.Processing, processing: regression.Processing) -> list[str]:
     """A sentence on the band of a diagnosis where it is not that of the fit."""
     if processing.parallel_cutoff == fitted.parallel_cutoff:
         return []
@@ -583,7 +571,7 @@ def describe_bands(fitted: Processing, processing: Processing) -> list[str]:
     ]
 
 
-def _select_whole_rows(observation: Observation) -> Observation:
+def _select_whole_rows(observation: regression.Observation) -> regression.Observation:
     """Only whole rows, if there are any."""
     used = observation.whole
     return observation.select_rows(used) if used.any() else observation

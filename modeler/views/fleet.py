@@ -9,7 +9,19 @@ from modeler.core.figure import Curve, Heat, Means, Panel, Picture
 from modeler.core.result import Figures, Presentation, Tables
 from modeler.core.style import BLUE, COLORS, GREY, Style
 from modeler.core.table import Table, format_percent
-from modeler.fleet import Fleet, FleetFinding, QuantityHistory, QuantityValues, result
+from modeler.validation import (
+    HEAD,
+    Fleet,
+    FleetFinding,
+    QuantityHistory,
+    QuantityValues,
+    build_table_rows,
+    describe_finding,
+    format_effect_title,
+    format_fleet,
+    format_headline,
+    format_skipped,
+)
 from modeler.views.blocks import Figure, Items, JudgedLine, PageTable, Paragraph, Verdict
 from modeler.views.figures import collect_figures
 from modeler.views.page import Origin, Page, Section
@@ -23,7 +35,7 @@ def build_fleet_page(fleet: Fleet, provenance: Sequence[str] = ()) -> Page:
     """The page of a fleet; `provenance` are lines on how the data came about."""
     return Page(
         title=f"{fleet.robot}: what drifts where",
-        headline=result.format_headline(fleet),
+        headline=format_headline(fleet),
         sections=_build_sections(fleet),
         origin=Origin(fleet.robot, [f"{name}: {len(p)}" for name, p in fleet.machines.items()]),
         facts=[
@@ -31,7 +43,7 @@ def build_fleet_page(fleet: Fleet, provenance: Sequence[str] = ()) -> Page:
             ("logs", str(fleet.logs)),
             ("chance of any finding where nothing drifts", format_percent(fleet.false_alarm)),
         ],
-        provenance=[*fleet.notes, *result.format_skipped(fleet), *provenance],
+        provenance=[*fleet.notes, *format_skipped(fleet), *provenance],
         command="fleet",
     )
 
@@ -43,7 +55,7 @@ def _build_sections(fleet: Fleet) -> list[Section]:
         Section(
             f"Machine {one.machine}, {one.quantity.parameter}",
             [
-                Paragraph(f"{result.describe_finding(one, fleet.unit)}."),
+                Paragraph(f"{describe_finding(one, fleet.unit)}."),
                 Figure(draw_finding_picture(fleet, one), False),
             ],
             _build_section_id(k),
@@ -70,10 +82,10 @@ def _build_verdict(fleet: Fleet) -> Verdict | Paragraph:
     lines = []
     for k, one in enumerate(fleet.findings):
         joint = "" if one.quantity.joint is None else f"joint {one.quantity.joint}, "
-        head = f"{one.machine}, {joint}{result.format_effect_title(one.quantity)}"
+        head = f"{one.machine}, {joint}{format_effect_title(one.quantity)}"
         link = _build_section_id(k) if k < _PICTURES else ""
         lines.append(
-            JudgedLine("pattern", one.shape, head, result.describe_finding(one, fleet.unit), link)
+            JudgedLine("pattern", one.shape, head, describe_finding(one, fleet.unit), link)
         )
     return Verdict(lines)
 
@@ -100,7 +112,7 @@ def draw_finding_picture(fleet: Fleet, one: FleetFinding) -> Picture:
     label = f"{one.quantity.parameter} [{one.quantity.unit}]"
     panel = Panel("", f"time [{fleet.unit}]", label, tuple(series))
     caption = (
-        f"{result.format_effect_title(one.quantity)} of {one.quantity.description}, log by log: "
+        f"{format_effect_title(one.quantity)} of {one.quantity.description}, log by log: "
         "blue the "
         "machine of this finding, with two standard deviations (scatter from period to period "
         "included), grey all others."
@@ -124,7 +136,7 @@ def draw_quantity_picture(fleet: Fleet, each: QuantityHistory) -> Picture:
     label = f"{each.quantity.parameter} [{each.quantity.unit}]"
     panel = Panel("", f"time [{fleet.unit}]", label, series)
     caption = (
-        f"{result.format_effect_title(each.quantity)} of {each.quantity.description}, log by log, "
+        f"{format_effect_title(each.quantity)} of {each.quantity.description}, log by log, "
         "one line a "
         "machine; whiskers: two standard deviations, scatter from period to period included."
     )
@@ -169,7 +181,7 @@ def _draw_map(fleet: Fleet, machines: Sequence[str], number: int) -> Picture:
 
 
 def _tabulate_followed(fleet: Fleet) -> PageTable:
-    head, *rows = result.build_table_rows(fleet)
+    head, *rows = build_table_rows(fleet)
     return PageTable(
         head,
         rows,
@@ -223,11 +235,11 @@ def _tabulate_values(fleet: Fleet) -> Table:
 
 def _tabulate_quantities(fleet: Fleet) -> Table:
     rows = [
-        (each.quantity.joint, result.format_effect_title(each.quantity), each.quantity.parameter,
+        (each.quantity.joint, format_effect_title(each.quantity), each.quantity.parameter,
          each.level, each.quantity.unit, each.factor, each.smallest_detectable)
         for each in fleet.histories
     ]  # fmt: skip
-    return Table.build("what may drift", result.HEAD, rows)
+    return Table.build("what may drift", HEAD, rows)
 
 
 def _collect_figures(fleet: Fleet) -> Figures:
@@ -244,7 +256,7 @@ def _collect_figures(fleet: Fleet) -> Figures:
 PRESENTATIONS = {
     Fleet: Presentation(
         "a fleet",
-        lambda f: "\n".join(result.format_fleet(f)),
+        lambda f: "\n".join(format_fleet(f)),
         _collect_tables,
         _collect_figures,
         document=build_fleet_page,

@@ -1,6 +1,5 @@
 """Torque and residual before and after an effect, where the model without it is worst."""
 
-from modeler.diagnosis import THRESHOLDS
 import itertools
 from dataclasses import replace
 
@@ -9,7 +8,7 @@ import numpy as np
 from modeler.core.figure import Curve, Panel, Picture
 from modeler.core.style import BLACK, COLOR_NAMES, COLORS, GREEN, SHADE, VERMILLION, Style
 from modeler.core.table import WORDS
-from modeler.diagnosis import PushWindow, State, find_load_reversals
+from modeler.diagnosis import THRESHOLDS, PushWindow, State, find_load_reversals
 from modeler.validation import WINDOW, break_at_gaps
 from modeler.views.effect_evidence import Evidence
 from modeler.views.evidence import MEANS, ROWS, build_scatter_panel

@@ -9,11 +9,10 @@ from scipy.signal import lfilter
 
 from modeler.codegen.workflow import derive, generate, load
 from modeler.core.manifest import EmittedModule
-from modeler.fleet.naming import LogName
-from modeler.fleet.summary import LogSummary, summarise_log
 from modeler.regression.log import Log
 from modeler.regression.settings import Processing
 from modeler.runtime.model import CompiledModel
+from modeler.validation.fleet_logs import LogName, LogSummary, summarise_log
 
 RATE = 100.0  # Hz
 
@@ -161,7 +160,7 @@ def summaries(scene: Scene, seed: int, robot: str = "two-link") -> tuple[LogSumm
     """
     model, processing = compiled(robot), PROCESSING
     found: list[LogSummary] = []
-    with patch("modeler.fleet.summary.log_findings", return_value=()):
+    with patch("modeler.validation.fleet_logs.log_findings", return_value=()):
         for named, log in logs(scene, seed, robot):
             found.append(summarise_log(model, log, named, processing))
             processing = found[0].processing or processing
