@@ -1,8 +1,7 @@
 """One effect more: described, derived, emitted, fitted, and judged on other motion."""
 
-import dataclasses
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -155,8 +154,8 @@ class _FittedModel:
 
     def replace_history(self, steps: tuple[Addition, ...]) -> "_FittedModel":
         """The same model by these steps."""
-        model = dataclasses.replace(self.model, history=steps)
-        return dataclasses.replace(self, model=model)
+        model = replace(self.model, history=steps)
+        return replace(self, model=model)
 
 
 @threadpool_limits.wrap(limits=1, user_api="blas")  # small matrices: a second thread only waits
@@ -184,7 +183,7 @@ def add_effect(
     after, score = _score_addition(before, pick)
     *steps, last = after.model.history
     moved = _compute_parameter_shifts(model, after.model) if effect.is_learned else {}
-    last = dataclasses.replace(last, moved=moved, doubt=_explain_weak_evidence(pick, score))
+    last = replace(last, moved=moved, doubt=_explain_weak_evidence(pick, score))
     return _complete_model(after.replace_history((*steps, last)))
 
 
@@ -227,9 +226,9 @@ def add_learned_law(
             f"learned: nothing is added: no law{request.description} explains more than chance on "
             f"{place}"
         )
-    name, law = max(laws, key=lambda pair: float(pair[1].block_reductions.sum()))
+    name, law = max(laws, key=lambda pair: float(pair[1].reductions.sum()))
     text, pick = insert_law(model.robot_text, state, name, law)
-    named = dataclasses.replace(before, model=dataclasses.replace(model, robot_text=text))
+    named = replace(before, model=replace(model, robot_text=text))
     after, score = _score_addition(named, pick)
     if not score.is_better:
         raise DataError(
@@ -247,9 +246,7 @@ def add_learned_law(
     doubt = (
         f"it moves {join_names(far)} of their sigmas: the law says what these said" if far else ""
     )
-    return _complete_model(
-        after.replace_history((*steps, dataclasses.replace(last, moved=moved, doubt=doubt)))
-    )
+    return _complete_model(after.replace_history((*steps, replace(last, moved=moved, doubt=doubt))))
 
 
 def add_learned_laws(
@@ -365,7 +362,7 @@ def _add_drive_gains(
     ).is_better:
         return before, findings
     steps = after.model.history
-    done = [dataclasses.replace(step, falls=True) for step in steps[-len(gains) :]]
+    done = [replace(step, falls=True) for step in steps[-len(gains) :]]
     after = after.replace_history((*steps[: -len(gains)], *done))
     return after, [f for f in findings if f not in gains]
 
@@ -379,7 +376,7 @@ def remove_last_effect(model: IdentifiedModel, logs: LogSplit) -> IdentifiedMode
     if len(model.history) < 2:
         raise DataError("undo: no effect was added to this model; name one to add")
     before = model.history[-2]
-    processing = dataclasses.replace(model.processing, delay=before.delay)
+    processing = replace(model.processing, delay=before.delay)
     fitted = _fit_robot_file(
         model, before.robot_text, lambda made: build_rows(made, LogSplit(logs.training), processing)
     )
@@ -408,7 +405,7 @@ def _select_candidate(before: _FittedModel, effect: Effect, joint: str | None) -
     place = find_passive_joints(state.spec).get(joint or "")
     if place is not None and is_speed_effect(effect):
         if state.spec.closure is not None:  # felt by all motors, by the speed that loops give it
-            effect = dataclasses.replace(effect, acts=EffectTarget.PASSIVE)
+            effect = replace(effect, acts=EffectTarget.PASSIVE)
         scan = scan_candidates(state, [Candidate(effect, effect.forms[0], joint, place)])
     else:
         scan = scan_catalogue(state, only=effect.id, joint=joint)
@@ -450,7 +447,7 @@ def _score_addition(
     history = before.model.history or (
         _build_history_step(before, {n: a for n, (a, _) in score.errors.items()}),
     )
-    step = dataclasses.replace(
+    step = replace(
         _build_history_step(after, {n: b for n, (_, b) in score.errors.items()}),
         effect=effect.id,
         joint=pick.candidate.joint,
@@ -496,12 +493,12 @@ def _fit_with_candidate(before: _FittedModel, pick: FittedCandidate) -> _FittedM
         chi = np.eye(len(names))[[names.index(name) for name in parameter_names]]
         free = np.column_stack([rows.compiled.base_parameters(one) for one in chi])
         pairs = zip(model.fit.parameters, model.beta + free @ pick.values, strict=True)
-        parameters = tuple(dataclasses.replace(p, value=float(v)) for p, v in pairs)
-        fit = dataclasses.replace(model.fit, parameters=parameters)
-        return _FittedModel(dataclasses.replace(model, fit=fit), rows, free)
+        parameters = tuple(replace(p, value=float(v)) for p, v in pairs)
+        fit = replace(model.fit, parameters=parameters)
+        return _FittedModel(replace(model, fit=fit), rows, free)
     if effect.acts is EffectTarget.TORQUE:
         seen = pick.state.data.observation.report.processing
-        processing = dataclasses.replace(model.processing, delay=seen.delay + float(pick.values[0]))
+        processing = replace(model.processing, delay=seen.delay + float(pick.values[0]))
         return _fit_robot_file(
             model, model.robot_text, lambda made: build_rows(made, rows.logs, processing)
         )
@@ -517,7 +514,7 @@ def _complete_model(fitted: _FittedModel) -> IdentifiedModel:
     )
     model = add_nonlinear_uncertainty(model, rows.compiled, wide)
     fit = judge_fit(rows.compiled, rows.fit_observation, model.fit)
-    return dataclasses.replace(model, fit=fit)
+    return replace(model, fit=fit)
 
 
 def _fit_robot_file(

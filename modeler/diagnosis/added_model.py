@@ -1,8 +1,7 @@
 """The model with an effect: its robot file, its rows, how sure its values are, notes on it."""
 
-import dataclasses
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -73,12 +72,12 @@ def add_nonlinear_uncertainty(
         if along is None:
             continue
         model = _widen_covariance(model, along, effect_columns)
-        history[i] = dataclasses.replace(
+        history[i] = replace(
             step,
             shape_sigmas=along.compute_nonlinear_deviations(),
             shape_intervals=along.compute_nonlinear_intervals(),
         )
-    return dataclasses.replace(model, history=tuple(history))
+    return replace(model, history=tuple(history))
 
 
 def read_catalogue(model: IdentifiedModel) -> tuple[Effect, ...]:
@@ -136,13 +135,11 @@ def _widen_covariance(
     ends = [(float(low), float(high)) for low, high in along.compute_intervals() + moved[:, None]]
     intervals, sigma = dict(zip(effect_columns, ends, strict=True)), np.sqrt(np.diag(covariance))
     parameters = tuple(
-        dataclasses.replace(p, sigma=float(sigma[i]), interval=intervals.get(i, p.interval))
-        if known[i]
-        else p
+        replace(p, sigma=float(sigma[i]), interval=intervals.get(i, p.interval)) if known[i] else p
         for i, p in enumerate(fit.parameters)
     )
-    better = dataclasses.replace(fit, parameters=parameters, covariance=covariance)
-    return dataclasses.replace(model, fit=better)
+    better = replace(fit, parameters=parameters, covariance=covariance)
+    return replace(model, fit=better)
 
 
 # The robot file with one effect more.
@@ -424,7 +421,7 @@ class LogRows:
             seen = tuple(
                 rebuild_observation(compiled, observation) for observation in self.observations
             )
-            return dataclasses.replace(self, compiled=compiled, observations=seen)
+            return replace(self, compiled=compiled, observations=seen)
         return _observe_rows(compiled, self.logs, self.prepared)
 
 
@@ -485,7 +482,7 @@ def cross_validate_residuals(
     number = [blocks.number[used_rows] for used_rows in used]
     base = build_gram_blocks(W, y, sigma, number, blocks.fold, prior=known)
     return _build_residuals(
-        observation, [s * e for s, e in zip(sigma, base.cross_validated_residuals, strict=True)]
+        observation, [s * e for s, e in zip(sigma, base.out_of_fold, strict=True)]
     )
 
 

@@ -1,9 +1,8 @@
 """What could be missing: effects on joints over their grids, and their columns on the rows."""
 
-import dataclasses
 import itertools
 from collections.abc import Callable, Iterator, Mapping, Sequence, Set
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from itertools import pairwise
 from typing import TYPE_CHECKING, Any
 
@@ -139,16 +138,14 @@ class Candidate(ShortRepr):
             return self.nonlinear_parameters[shape.name] not in shape.grid
         return shape.is_continuous
 
-    def replace_nonlinear_parameters(
+    def set_parameters(
         self, shapes: Sequence[NonlinearParameter], x: Sequence[float] | np.ndarray
     ) -> "Candidate":
         """The same effect with other coded values of some shapes."""
         values = {
             shape.name: decode_parameter(shape, v) for shape, v in zip(shapes, x, strict=True)
         }
-        return dataclasses.replace(
-            self, nonlinear_parameters={**self.nonlinear_parameters, **values}
-        )
+        return replace(self, nonlinear_parameters={**self.nonlinear_parameters, **values})
 
     def list_affected_joints(self, joints: int) -> list[int]:
         """Indices of the joints whose errors it is there to explain."""
@@ -221,7 +218,7 @@ def list_candidates(
                     if form is not None and _has_logged_others(form, joint.name, spec):
                         results += expand_grid(effect, form, joint.name, j, scales[j])
             if Requirement.LAG in effect.needs and len(spec.joints) > 1:
-                whole = dataclasses.replace(effect, acts=EffectTarget.TORQUE)
+                whole = replace(effect, acts=EffectTarget.TORQUE)
                 results += expand_grid(whole, whole.forms[0], None, -1, scales[0])
         elif effect.acts in (EffectTarget.TORQUE, EffectTarget.GRAVITY):
             results.append(Candidate(effect, effect.forms[0], None, -1))
@@ -484,8 +481,8 @@ class Rows(ShortRepr):
 
     def replace_reference(self, reference: SignalReference) -> "Rows":
         """The same rows with effects linearised about another reference of the same robot."""
-        signals = tuple(dataclasses.replace(s, reference=reference) for s in self.signals)
-        return dataclasses.replace(self, signals=signals, reference_cache={})
+        signals = tuple(replace(s, reference=reference) for s in self.signals)
+        return replace(self, signals=signals, reference_cache={})
 
     def filter_samples(self, j: int, values: Sequence[np.ndarray]) -> np.ndarray:
         """(rows_j, ...) of values (samples, ...) by stretch, on joint j."""
@@ -500,7 +497,7 @@ class Rows(ShortRepr):
         if (
             candidate.effect.acts is EffectTarget.TORQUE and not candidate.is_delay
         ):  # alike on every joint
-            alone = [dataclasses.replace(candidate, index=j) for j in range(self.joint_count)]
+            alone = [replace(candidate, index=j) for j in range(self.joint_count)]
             values = [
                 np.stack([evaluate_equations([c], s) for c in alone], axis=1) for s in self.signals
             ]
@@ -570,7 +567,7 @@ def count_columns(columns: Columns) -> int:
     return next(c.shape[1] for c in columns if c is not None)
 
 
-def expand_columns(columns: Columns, j: int, rows: int) -> np.ndarray:
+def to_dense(columns: Columns, j: int, rows: int) -> np.ndarray:
     """(rows, k) columns on joint j; zeros where there are none."""
     here = columns[j]
     return np.zeros((rows, count_columns(columns))) if here is None else here
@@ -616,7 +613,7 @@ def thin_samples(observation: Observation, compiled: "CompiledModel") -> Observa
         every = max(1, int(SPREAD / (cutoff * part.segment.step))) if cutoff > 0.0 else 1
         read = compute_signals(compiled, part.segment)
         parts.append(part.thin_samples(every, read) if every > 1 else part)
-    return rebuild_observation(compiled, dataclasses.replace(observation, stretches=tuple(parts)))
+    return rebuild_observation(compiled, replace(observation, stretches=tuple(parts)))
 
 
 def build_base_columns(

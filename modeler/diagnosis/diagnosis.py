@@ -1,7 +1,7 @@
 """Which physical effect is missing: from a model and logs to a diagnosis."""
 
-import dataclasses
 from collections.abc import Callable, Sequence
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -116,12 +116,12 @@ def diagnose(
         compiled, observation, find_fixed_parameters(model, compiled, logs, observation), known
     )
     if (fewer := exclude_friction(data, model.beta)) is not None:
-        data = dataclasses.replace(data, stated_effects=fewer)
+        data = replace(data, stated_effects=fewer)
     other = None
     if holdout:
         held = observe_in_band(compiled, holdout, observation.report.processing)
         faults += find_faults(model, compiled, held, "held out: ")
-        other = dataclasses.replace(data, observation=thin_samples(held, compiled))
+        other = replace(data, observation=thin_samples(held, compiled))
         del held
     beyond = _find_other_band(data, model, repair)
     repair = LogRepair(logs, compiled.spec)  # pieces and spectra have served
@@ -186,14 +186,14 @@ def diagnose(
         discoveries = discover_equations(
             band_searches[0].search, facts, band_searches[0].other, stages.advance
         )
-        diagnosis = dataclasses.replace(diagnosis, discoveries=discoveries)
+        diagnosis = replace(diagnosis, discoveries=discoveries)
     if progress is not None:
         progress(1.0)
 
     line = describe_bands(model.processing, data.observation.report.processing)
     line += _describe_gravity_confounders(diagnosis, band_searches[0].search, without)
     sentences = (*diagnosis.sentences, *line)
-    return dataclasses.replace(diagnosis, sentences=sentences, errors=errors)
+    return replace(diagnosis, sentences=sentences, errors=errors)
 
 
 def _find_other_band(
@@ -207,7 +207,7 @@ def _find_other_band(
             observation = thin_samples(
                 observe_logs(data.compiled, repair.logs, prepared), data.compiled
             )
-            return dataclasses.replace(data, observation=observation)
+            return replace(data, observation=observation)
     return None
 
 
@@ -247,9 +247,9 @@ def _align_logger_delay(
     )
     if shift == 0.0:
         return None
-    processing = dataclasses.replace(model.processing, delay=model.processing.delay + shift)
+    processing = replace(model.processing, delay=model.processing.delay + shift)
     observation = analyse_logs(data.compiled, repair.logs, processing, repair=repair)
-    return dataclasses.replace(data, observation=thin_samples(observation, data.compiled))
+    return replace(data, observation=thin_samples(observation, data.compiled))
 
 
 def _resolve_ids(without: Sequence[str], catalogue: Sequence[Effect]) -> tuple[str, ...]:
@@ -273,7 +273,7 @@ def _prepare_holdout(data: SearchData, holdout: Sequence[Log]) -> SearchData | N
         return None
     processing = data.observation.report.processing
     observation = observe_in_band(data.compiled, holdout, processing)
-    return dataclasses.replace(data, observation=thin_samples(observation, data.compiled))
+    return replace(data, observation=thin_samples(observation, data.compiled))
 
 
 def find_fixed_parameters(
@@ -319,4 +319,4 @@ def _mask_window(data: SearchData, window: PushWindow) -> SearchData:
     )
     hit &= observation.time < window.end + THRESHOLDS.push_margin
     rest = observation.select_rows(observation.used & ~hit[:, None])
-    return dataclasses.replace(data, observation=rest)
+    return replace(data, observation=rest)

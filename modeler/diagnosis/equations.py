@@ -1,9 +1,8 @@
 """Equations for what has no name: search, scores, proposals."""
 
-import dataclasses
 import math
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
@@ -13,7 +12,7 @@ from modeler.core.brief import ShortRepr
 from modeler.core.table import format_percent
 from modeler.core.toml_cells import TomlCell, format_toml
 from modeler.diagnosis import scoring
-from modeler.diagnosis.candidates import Candidate, expand_columns, expand_grid
+from modeler.diagnosis.candidates import Candidate, expand_grid, to_dense
 from modeler.diagnosis.expressions import (
     Formula,
     Term,
@@ -86,9 +85,7 @@ class JointSearch:
     def __init__(self, state: State, j: int, tick: Callable[[], None] = lambda: None) -> None:
         self.state, self.j, self._tick = state, j, tick
         self.joint = state.spec.joints[j]
-        self.before = float(
-            state.sigma[j] ** 2 * np.sum(state.fold_grams.cross_validated_residuals[j] ** 2)
-        )
+        self.before = float(state.sigma[j] ** 2 * np.sum(state.fold_grams.out_of_fold[j] ** 2))
         noise = np.random.default_rng(0).normal(size=len(state.y[j]))
         self.count = self._count_rows(noise)  # what is missing is remembered, noise is not
 
@@ -118,14 +115,13 @@ class JointSearch:
         for factors in list_factors(state.spec, state.joint_scales, self.j, warm, waves):
             first = Formula(((factors[0],),)).build_candidate(state.joint_names, self.j)
             every = [
-                dataclasses.replace(first, nonlinear_parameters=dict(part.nonlinear_parameters))
+                replace(first, nonlinear_parameters=dict(part.nonlinear_parameters))
                 for part in factors
             ]
             made = build_all_columns(state.rows, every)
             shown = [pair for pair in zip(factors, made, strict=True) if is_visible(pair[1])]
             columns += [
-                self._make_column((p,), expand_columns(c, self.j, self._row_count))
-                for p, c in shown
+                self._make_column((p,), to_dense(c, self.j, self._row_count)) for p, c in shown
             ]
             self._tick()
         return columns
@@ -319,18 +315,18 @@ class JointSearch:
         base, e = self.state.gram_blocks.whitened_columns[self.j], self.state.residual[self.j]
 
         def apply_values(x: np.ndarray) -> Formula:
-            return formula.replace_nonlinear_parameters(
+            return formula.set_parameters(
                 dict(zip(formula.nonlinear_parameters, start + sizes * x, strict=True))
             )
 
         def compute_residual(x: np.ndarray) -> np.ndarray:
-            candidate = dataclasses.replace(
+            candidate = replace(
                 item.candidate, nonlinear_parameters=apply_values(x).nonlinear_parameters
             )
             columns = self.state.rows.build_columns(candidate)
             if not is_visible(columns):
                 return e
-            c = expand_columns(columns, self.j, self._row_count)
+            c = to_dense(columns, self.j, self._row_count)
             off = c - base @ (base.T @ c)
             return np.asarray(e - off @ np.linalg.lstsq(off, e, rcond=1e-9)[0])
 
@@ -480,8 +476,7 @@ class JointSearch:
             best = self._extend_state(min(every, key=lambda s: s.left).candidate)
             self.count = self._count_rows(best.residual[self.j])
         again = [
-            dataclasses.replace(s, cost=float(self.compute_cost(s.left, s.formula.symbol_count)))
-            for s in every
+            replace(s, cost=float(self.compute_cost(s.left, s.formula.symbol_count))) for s in every
         ]
         return sorted(again, key=lambda s: s.cost)
 
@@ -514,7 +509,7 @@ class JointSearch:
 
     def compute_torque(self, candidate: Candidate) -> np.ndarray:
         """(rows_j,) what it adds, off the model."""
-        columns = expand_columns(build_columns(self.state.rows, candidate), self.j, self._row_count)
+        columns = to_dense(build_columns(self.state.rows, candidate), self.j, self._row_count)
         (candidate_score,) = scoring.score_candidates(
             self.state, [(candidate, build_columns(self.state.rows, candidate))]
         )
@@ -693,7 +688,7 @@ def _build_proposal(
     }
     place = TomlCell("discover", value=definition)
     effect = read_definition(name, place, {}, joints=state.joint_names)
-    candidate = dataclasses.replace(item.candidate, effect=effect, form=effect.forms[0])
+    candidate = replace(item.candidate, effect=effect, form=effect.forms[0])
     left, along, values = (
         later.residual[j] / state.sigma[j],
         compute_effect_profile(later, k),
@@ -725,7 +720,7 @@ def _build_proposal(
         "joint": joint,
         **{key: float(f"{x:.6g}") for key, x in candidate.nonlinear_parameters.items()},
     }
-    candidate_score = dataclasses.replace(accepted.score, candidate=candidate)
+    candidate_score = replace(accepted.score, candidate=candidate)
     steps = (
         *(s for s in effect_search.steps if s.candidate in state.picks),
         SearchStep(candidate_score, (), state),
@@ -742,7 +737,7 @@ def _build_proposal(
         relative=relative,
         likeness=likeness,
         differs=differs,
-        final_search=dataclasses.replace(effect_search, steps=steps, end=later),
+        final_search=replace(effect_search, steps=steps, end=later),
     )
 
 
@@ -785,7 +780,7 @@ def _list_catalogue_columns(state: State, j: int) -> list[tuple[Candidate, np.nd
     ]
     columns = build_all_columns(state.rows, every)
     return [
-        (c, expand_columns(effect_columns, j, len(state.y[j])))
+        (c, to_dense(effect_columns, j, len(state.y[j])))
         for c, effect_columns in zip(every, columns, strict=True)
         if is_visible(effect_columns)
     ]
@@ -808,7 +803,7 @@ def _find_nearest(
 
 def _build_joint_columns(state: State, candidate: Candidate) -> np.ndarray:
     """(rows_j, k) on its joint."""
-    return expand_columns(
+    return to_dense(
         build_columns(state.rows, candidate), candidate.index, len(state.y[candidate.index])
     )
 
@@ -835,7 +830,7 @@ def _add_discriminating_motions(
         q, v, load = motion[int(np.argmax(apart))]
         pair = ",".join(f"{proposals[i].finding.effect}@{joint.name}" for i in (k, other))
         results.append(
-            dataclasses.replace(
+            replace(
                 proposal,
                 apart=f"modeler excite ROBOT.toml --between {pair} --out apart.csv",
                 where=f"they differ most, by {apart.max():.3g} {effort}, near q = {q:.3g} {unit}, "

@@ -1,9 +1,8 @@
 """Findings that occur only once or in bursts: pushes, backlash."""
 
-import dataclasses
 import math
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -143,13 +142,13 @@ def fit_push_torque(window: PushWindow, state: State, data: SearchData) -> PushW
     after = [residual.copy() for residual in left.residual]
     for rest, time, rows in zip(after, left.time, inside, strict=True):
         rest[rows] -= _predict_from_neighbours(time[rows] - window.start, rest[rows])
-    pushed = dataclasses.replace(left, residual=tuple(after))
+    pushed = replace(left, residual=tuple(after))
     score = compare_residuals(left, pushed, range(len(after)), state, THRESHOLDS.prediction_cell)
     if not score.is_better:
         return window
     parts = zip(left.names, left.residual, inside, strict=True)
     torque = {name: float(np.mean(residual[rows])) for name, residual, rows in parts if rows.size}
-    return dataclasses.replace(window, torque=torque, change=score.whole)
+    return replace(window, torque=torque, change=score.whole)
 
 
 def _predict_from_neighbours(since: np.ndarray, values: np.ndarray) -> np.ndarray:
@@ -246,7 +245,7 @@ def detect_events(
     ) or _detect_faint_backlash(search, least, knocks=not rings)
     if play is not None:
         beside = [
-            dataclasses.replace(
+            replace(
                 f,
                 is_refinement=f.is_refinement
                 or (_is_ringing(f) and f.gain < THRESHOLDS.max_weak_gain),
@@ -261,7 +260,7 @@ def detect_events(
     same_joint = [f for f in findings if f.joint == play.joint]
     if any(f.gain > THRESHOLDS.max_weak_gain and not f.is_refinement for f in same_joint):
         return list(findings)
-    rest = [dataclasses.replace(f, is_refinement=True) if f in same_joint else f for f in findings]
+    rest = [replace(f, is_refinement=True) if f in same_joint else f for f in findings]
     return [play, *rest] if same_joint or alone else [*rest, play]
 
 
@@ -326,7 +325,7 @@ def _detect_backlash(search: Search, state: State, least: float) -> Finding | No
     if not bursting:
         return None
     shares = {
-        k: candidate_score.total_variance_reduction
+        k: candidate_score.total_share
         for k, candidate_score in _collect_backlash_columns(search).items()
     }
     j = max(
@@ -356,7 +355,7 @@ def _detect_faint_backlash(search: Search, least: float, knocks: bool) -> Findin
         knocks: False where something else may knock.
     """
     shares = {
-        j: candidate_score.total_variance_reduction
+        j: candidate_score.total_share
         for j, candidate_score in _collect_backlash_columns(search).items()
         if j in _list_backlash_joints(search)
         and candidate_score.variance_reduction > THRESHOLDS.min_variance_reduction
@@ -407,6 +406,6 @@ def _score_backlash(
     if score is not None and score.is_better:
         ends = score.whole.before, score.whole.after
         text = f"{play.evidence}; error {' -> '.join(format_error_pair(*ends))}"
-        return dataclasses.replace(play, error_before=ends[0], error_after=ends[1], evidence=text)
+        return replace(play, error_before=ends[0], error_after=ends[1], evidence=text)
     before, doubt = errors.get(str(play.joint), math.nan), play.objection or _NO_FALL
-    return dataclasses.replace(play, error_before=before, objection=doubt)
+    return replace(play, error_before=before, objection=doubt)

@@ -163,7 +163,7 @@ class Formula(ShortRepr):
         few = len(self.nonlinear_parameters) <= THRESHOLDS.max_formula_parameters
         return few and sum(part.has_memory for part, _ in self.named_factors) < 2
 
-    def replace_nonlinear_parameters(self, shapes: Mapping[str, float]) -> "Formula":
+    def set_parameters(self, shapes: Mapping[str, float]) -> "Formula":
         """The same at other values of its shapes, by their names in it."""
         every = iter(
             part.clip_parameters({key: shapes[name] for key, name in names.items()})

@@ -1,16 +1,15 @@
 """From a search to findings: other data, held-out errors, equivalents, verdict."""
 
-import dataclasses
 import math
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cache
 
 import numpy as np
 
 from modeler.core.brief import ShortRepr
 from modeler.diagnosis import profile, result
-from modeler.diagnosis.candidates import Candidate, expand_columns
+from modeler.diagnosis.candidates import Candidate, to_dense
 from modeler.diagnosis.events import detect_events
 from modeler.diagnosis.generation import (
     compute_systematic_share,
@@ -154,7 +153,7 @@ def _compute_expected_gain(state: State, step: SearchStep) -> float:
     """
     columns, base = build_columns(smooth_rows(state), step.candidate), state.gram_blocks
     torques = [
-        expand_columns(columns, j, len(y)) @ step.score.values / s
+        to_dense(columns, j, len(y)) @ step.score.values / s
         for j, (y, s) in enumerate(zip(base.y, base.sigma, strict=True))
     ]
     hidden = sum(
@@ -351,7 +350,7 @@ def assemble_diagnosis(
     joints = _summarise_joints(search, end, (first.held_out_residuals[0], residuals), first.share)
     every = [_add_event_caveat(finding, joints) for finding in every]
     if changed_parameters:
-        every = [dataclasses.replace(finding, doubt=NOT_JUDGED) for finding in every]
+        every = [replace(finding, doubt=NOT_JUDGED) for finding in every]
     every.sort(key=lambda finding: finding.status == "perhaps")
     effects, refinements = (tuple(f for f in every if f.is_refinement is r) for r in (False, True))
     diagnosis = result.Diagnosis(
@@ -413,7 +412,7 @@ def _evaluate_in_table_band(
         else:
             why = f"the error falls only up to {get_cutoff(wider.start.data):.2g} Hz"
         text = describe_evidence(step, *ends)
-        updated_findings[i] = dataclasses.replace(
+        updated_findings[i] = replace(
             finding, error_before=ends[0], error_after=ends[1], doubt=why, evidence=text
         )
     return updated_findings, state, residuals
@@ -429,7 +428,7 @@ def _add_event_caveat(
         or not any(j.is_unexplained for j in joints.values())
     ):
         return finding
-    return dataclasses.replace(finding, objection="something unexplained acts all the time")
+    return replace(finding, objection="something unexplained acts all the time")
 
 
 def _build_finding(

@@ -1,7 +1,7 @@
 """Candidates that the data suggest: smooth motion, order spectrum, baseline, ripples, loads."""
 
-import dataclasses
 from collections.abc import Callable, Sequence, Set
+from dataclasses import replace
 from functools import lru_cache
 from typing import cast
 
@@ -14,9 +14,9 @@ from modeler.diagnosis.candidates import (
     count_columns,
     evaluate_columns,
     evaluate_equations,
-    expand_columns,
     list_candidates,
     list_links,
+    to_dense,
 )
 from modeler.diagnosis.ranking import find_block_runs
 from modeler.diagnosis.signals import Signals, simulate_resonance
@@ -99,10 +99,8 @@ def estimate_instrumental(state: State, candidate: Candidate) -> tuple[np.ndarra
     X, Z = [], []
     for j, sigma in enumerate(state.sigma):
         W, base = state.W[j], cache["smooth columns"][j][:, state.data.free_columns]
-        X.append(np.hstack([W, expand_columns(raw_columns, j, len(W))]) / sigma)
-        Z.append(
-            np.hstack([base, *(expand_columns(columns, j, len(W)) for columns in extra)]) / sigma
-        )
+        X.append(np.hstack([W, to_dense(raw_columns, j, len(W))]) / sigma)
+        Z.append(np.hstack([base, *(to_dense(columns, j, len(W)) for columns in extra)]) / sigma)
     return _solve_instrumental(state, X, Z, count_columns(raw_columns))
 
 
@@ -146,10 +144,8 @@ def smooth_rows(state: State) -> Rows:
         cutoff = 3.0 * max(THRESHOLDS.min_motion_band, state.data.observation.report.band)  # Hz
         cache[key] = tuple(_smooth_signals(s, cutoff) for s in state.rows.signals)  # of all states
     if key not in known:
-        signals = tuple(dataclasses.replace(s, reference=state.reference) for s in cache[key])
-        known[key] = dataclasses.replace(
-            state.rows, W=(), signals=signals, reference_cache={}, cache={}
-        )
+        signals = tuple(replace(s, reference=state.reference) for s in cache[key])
+        known[key] = replace(state.rows, W=(), signals=signals, reference_cache={}, cache={})
     return cast(Rows, known[key])
 
 
@@ -160,7 +156,7 @@ def _smooth_signals(signals: Signals, cutoff: float) -> Signals:
     v = np.gradient(q, step, axis=0)
     nearest = find_nearest_closed(signals.reference.compiled, q)
     q = signals.q if nearest is None else q[nearest]
-    return dataclasses.replace(signals, q=q, v=v, a=np.gradient(v, step, axis=0))
+    return replace(signals, q=q, v=v, a=np.gradient(v, step, axis=0))
 
 
 def compute_joint_order_spectrum(state: State, j: int) -> OrderSpectrum | None:
@@ -350,7 +346,7 @@ def generate_candidates(
     present = set() if changed else {(p.effect, p.joint) for p in spec.standard}
     every = state.data.stated_effects.catalogue
     asked = [e for e in every if (only is None and not e.is_learned) or e.id == only]
-    known = dataclasses.replace(state.data.stated_effects, catalogue=asked)
+    known = replace(state.data.stated_effects, catalogue=asked)
 
     def is_allowed(effect: str, joint: str | None) -> bool:
         return not is_ruled_out(effect, joint, without)

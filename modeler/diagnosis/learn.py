@@ -9,10 +9,9 @@ Marx 1996). The smoothness s, and the coordinates where none are asked for, are 
 least on folds of time that were not fitted. A little r gives to physics what both could explain.
 """
 
-import dataclasses
 import re
 from collections.abc import Collection, Iterator, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import cached_property, reduce
 from typing import Any
 
@@ -87,7 +86,7 @@ class LawCoordinates(ShortRepr):
         """The same with another value of a shape of what it reads."""
         (value,) = self.further["shapes"][name]
         shapes = self.further["shapes"] | {name: [float(f"{value * factor:.4g}")]}
-        return dataclasses.replace(self, further=dict(self.further) | {"shapes": shapes})
+        return replace(self, further=dict(self.further) | {"shapes": shapes})
 
     def evaluate_samples(self, state: State, j: int) -> list[np.ndarray]:
         """(samples, arguments + 1) by stretch: the arguments, then the factor.
@@ -128,7 +127,7 @@ class LearnedLaw(ShortRepr):
     law: Law
     size: float
     torque: np.ndarray
-    block_reductions: np.ndarray
+    reductions: np.ndarray
     t_ratio: float
     variance_reduction: float
     torque_share: float
@@ -228,9 +227,7 @@ def learn_law(state: State, j: int, request: LawRequest = ANY_LAW) -> LearnedLaw
             ranked.append(
                 (
                     float(
-                        _SplineProblem(state, j, splines)
-                        .fit_smoothness(_FIRST)
-                        .block_reductions.sum()
+                        _SplineProblem(state, j, splines).fit_smoothness(_FIRST).reductions.sum()
                     ),
                     option,
                 )
@@ -327,20 +324,18 @@ def _select_simplest(
     fits: Sequence[tuple["_SplineFit", "_SplineBasis"]],
 ) -> tuple["_SplineFit", "_SplineBasis"]:
     """Of those that the data do not tell from the best, the one with the fewest axes."""
-    best = max(fits, key=lambda item: float(item[0].block_reductions.sum()))
-    total = float(best[0].block_reductions.sum())
+    best = max(fits, key=lambda item: float(item[0].reductions.sum()))
+    total = float(best[0].reductions.sum())
     near = [
         item
         for item in fits
         if item is best
         or (
-            item[0].block_reductions.sum() > THRESHOLDS.parsimony_share * total
+            item[0].reductions.sum() > THRESHOLDS.parsimony_share * total
             and compute_t_ratio(item[0].after - best[0].after) <= THRESHOLDS.max_chance_t
         )
     ]
-    return min(
-        near, key=lambda item: (len(item[1].cell_counts), -float(item[0].block_reductions.sum()))
-    )
+    return min(near, key=lambda item: (len(item[1].cell_counts), -float(item[0].reductions.sum())))
 
 
 @dataclass(frozen=True, eq=False)
@@ -401,7 +396,7 @@ class _SplineFit(ShortRepr):
     after: np.ndarray
 
     @property
-    def block_reductions(self) -> np.ndarray:
+    def reductions(self) -> np.ndarray:
         """(blocks,) fall of the squared residuals."""
         return self.before - self.after
 
@@ -488,13 +483,7 @@ class _SplineProblem:
         before = np.zeros(base.block_count)
         fits = [self.solve(f, smooth, rising) for f in range(len(self.parts))]
         for k, (X, y, block, left) in enumerate(
-            zip(
-                base.whitened_columns,
-                base.y,
-                base.block,
-                base.cross_validated_residuals,
-                strict=True,
-            )
+            zip(base.whitened_columns, base.y, base.block, base.out_of_fold, strict=True)
         ):
             e = left.copy()
             for f, fold_fit in enumerate(fits):
@@ -522,15 +511,15 @@ def _build_law(state: State, j: int, splines: _SplineBasis, fit: _SplineFit) -> 
         splines.cell_counts,
         tuple(float(f"{v:.{THRESHOLDS.law_digits}g}") for v in values),
     )
-    before = float(np.sum(state.gram_blocks.cross_validated_residuals[j] ** 2))
+    before = float(np.sum(state.gram_blocks.out_of_fold[j] ** 2))
     torque_square = float(np.sum((state.rows.y[j] / state.sigma[j]) ** 2))
-    fall = float(fit.block_reductions.sum())
+    fall = float(fit.reductions.sum())
     return LearnedLaw(
         splines.coordinates,
         law,
         size,
         torque,
-        fit.block_reductions,
+        fit.reductions,
         fit.t_ratio,
         variance_reduction=min(1.0, fall / max(before, 1e-300)),
         torque_share=float(np.sqrt(max(0.0, fall) / (torque_square + 1e-300))),

@@ -1,7 +1,7 @@
 """Sentences of a diagnosis: the data, the findings, the errors."""
 
-import dataclasses
 from collections.abc import Mapping, Sequence
+from dataclasses import replace
 from functools import partial
 from typing import TYPE_CHECKING
 
@@ -142,7 +142,7 @@ def exclude_friction(data: SearchData, beta: np.ndarray) -> StatedEffects | None
     effects = tuple(
         effect for effect in data.stated_effects.catalogue if _is_model_difference(effect)
     )
-    return dataclasses.replace(data.stated_effects, catalogue=effects)
+    return replace(data.stated_effects, catalogue=effects)
 
 
 def _check_chatter(state: State) -> list[str]:
@@ -281,7 +281,7 @@ def _check_position_delay(search: Search) -> list[str]:
     if not columns:
         return []
     ranking = state.rank_columns(list(columns.values()))
-    drop = ranking.block_reductions.sum(axis=0)
+    drop = ranking.reductions.sum(axis=0)
     best = int(np.argmax(drop))
     rivals = [
         candidate_score.total_reduction
@@ -315,7 +315,7 @@ def find_faults(
 ) -> tuple[DataWarning, ...]:
     """Of some logs; which are said before every line, if not those that are explained."""
     faults = find_log_faults(compiled, observation, model)
-    return tuple(dataclasses.replace(fault, line=f"{which}{fault.line}") for fault in faults)
+    return tuple(replace(fault, line=f"{which}{fault.line}") for fault in faults)
 
 
 NOT_JUDGED = "the machine differs between the training and the held-out logs"
@@ -370,13 +370,9 @@ def describe_evidence(step: SearchStep, before: float, after: float) -> str:
         for r in step.alternatives
         if r.is_possible and r.is_confirmed and r.candidate.key != candidate_score.candidate.key
     ]
-    if (
-        rivals
-        and rivals[0].total_variance_reduction > 0.0
-        and candidate_score.total_variance_reduction > 0.0
-    ):
+    if rivals and rivals[0].total_share > 0.0 and candidate_score.total_share > 0.0:
         other = rivals[0]
-        share = other.total_variance_reduction / candidate_score.total_variance_reduction
+        share = other.total_share / candidate_score.total_share
         text += (
             f". Runner-up: {other.candidate.effect.title} "
             f"({format_location(other.candidate.joint)}), which "
@@ -410,7 +406,7 @@ def add_sentences(diagnosis: Diagnosis) -> Diagnosis:
             "no held-out logs: errors are cross-validated within the logs, which flatters effects "
             "that depend on the path; give other motion with --holdout"
         )
-    return dataclasses.replace(diagnosis, sentences=tuple(lines))
+    return replace(diagnosis, sentences=tuple(lines))
 
 
 def _list_changes(diagnosis: Diagnosis) -> list[str]:

@@ -1,14 +1,13 @@
 """Do the values of an effect belong to this robot? Drive gains, friction, bodies, springs."""
 
-import dataclasses
 from collections.abc import Callable, Iterable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property, lru_cache
 
 import numpy as np
 
 from modeler.core.table import format_percent
-from modeler.diagnosis.candidates import Candidate, Columns, expand_columns, list_body_parameters
+from modeler.diagnosis.candidates import Candidate, Columns, list_body_parameters, to_dense
 from modeler.diagnosis.profile import ProfileProblem, find_effect_columns
 from modeler.diagnosis.scoring import PLAIN
 from modeler.diagnosis.state import State, build_all_columns, build_columns, build_state, is_visible
@@ -197,7 +196,7 @@ class _GainProblem:
         least = THRESHOLDS.min_gain_residual_share * np.sqrt(self.torque_squares / rows)
         ratio = np.where(self.torque_squares > 0.0, np.maximum(np.sqrt(left / rows), least), 1.0)
         grams = self.grams / ratio[:, None, None] ** 2
-        return dataclasses.replace(self, grams=grams, sigma=self.sigma * ratio)
+        return replace(self, grams=grams, sigma=self.sigma * ratio)
 
     def compute_deviations(
         self, g: np.ndarray, weighted: Sequence[np.ndarray], block: Sequence[np.ndarray]
@@ -306,7 +305,7 @@ def _build_weighted_rows(state: State) -> list[np.ndarray]:
     extra = [e for e, pick in zip(state.extra, state.picks, strict=True) if not is_gain(pick)]
     weighted_rows = []
     for j, (base, y) in enumerate(zip(rows.W, rows.y, strict=True)):
-        parts = [expand_columns(e, j, len(y)) for e in extra]
+        parts = [to_dense(e, j, len(y)) for e in extra]
         weighted_rows.append(np.hstack([base, *parts, y[:, None]]) / state.sigma[j])
     return weighted_rows
 
@@ -529,7 +528,7 @@ def _check_body(state: State, pick: Candidate, parameters: Mapping[str, float]) 
     weighted = list(zip(state.rows.W, state.sigma, strict=True))
     columns = build_columns(state.rows, pick)
     weighted_columns = np.vstack(
-        [expand_columns(columns, j, len(w)) / s for j, (w, s) in enumerate(weighted)]
+        [to_dense(columns, j, len(w)) / s for j, (w, s) in enumerate(weighted)]
     )
     others = np.vstack([w[:, state.data.free_columns] / s for w, s in weighted])
     left = (
@@ -582,9 +581,7 @@ def _check_lag(state: State, pick: Candidate, parameters: Mapping[str, float]) -
 
     def minimise_squares(lag: float) -> tuple[float, float]:
         every = share * tau / lag * np.geomspace(0.5, 2.0, 25)
-        picks = (
-            (dataclasses.replace(pick, nonlinear_parameters={"tau": float(x)}), x) for x in every
-        )
+        picks = ((replace(pick, nonlinear_parameters={"tau": float(x)}), x) for x in every)
         return min(
             (problem.compute_squares(lagged_pick, np.array([lag])), float(x))
             for lagged_pick, x in picks

@@ -16,10 +16,9 @@ Seber and Wild 1989, section 5.4). The standard deviation is that of the mixture
 weighted by L, about the value that is told; for a narrow L it is that of the delta method.
 """
 
-import dataclasses
 import itertools
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
@@ -29,8 +28,8 @@ from modeler.diagnosis.candidates import (
     Candidate,
     JointScale,
     encode_parameter,
-    expand_columns,
     list_body_parameters,
+    to_dense,
 )
 from modeler.diagnosis.ranking import build_time_blocks
 from modeler.diagnosis.signals import compute_tilt_axes
@@ -139,9 +138,7 @@ class ProfileProblem:
     def compute_residual_columns(self, candidate: Candidate) -> np.ndarray:
         """(rows of all joints, k) what all else leaves of the columns, divided by sigma."""
         columns = self.rows.build_columns(candidate)
-        joint_columns = [
-            expand_columns(columns, j, len(t)) / self.sigma[j] for j, t in enumerate(self.y)
-        ]
+        joint_columns = [to_dense(columns, j, len(t)) / self.sigma[j] for j, t in enumerate(self.y)]
         T = sum(q.T @ c for q, c in zip(self.weighted_base[0], joint_columns, strict=True))
         return np.concatenate(
             [c - q @ T for q, c in zip(self.weighted_base[0], joint_columns, strict=True)]
@@ -263,9 +260,7 @@ def compute_profile(
     points: list[ProfilePoint] = []
     for values in itertools.product(*fixed.values()):
         chosen = dict(zip(fixed, values, strict=True))
-        here = dataclasses.replace(
-            candidate, nonlinear_parameters={**candidate.nonlinear_parameters, **chosen}
-        )
+        here = replace(candidate, nonlinear_parameters={**candidate.nonlinear_parameters, **chosen})
         points += _scan_nonlinear(problem, here, smooth, first.squares)
     points = [p for p in points if _is_possible(candidate, p)] or [first]
     factors = _compute_factors(problem, candidate, smooth, first)
@@ -291,9 +286,7 @@ def _scan_nonlinear(
     lines = [_build_line(problem.scale, start, shape) for shape in smooth]
     if len(smooth) == 1:
         return _refine_line(
-            lambda x: problem.fit_candidate(start.replace_nonlinear_parameters(smooth, [x])),
-            lines[0],
-            least,
+            lambda x: problem.fit_candidate(start.set_parameters(smooth, [x])), lines[0], least
         )
     return _scan_grid(problem, start, smooth, lines)
 
@@ -346,7 +339,7 @@ def _refine_line(
     x = np.array(sorted(points_by_value))
     edges = np.concatenate([x[:1], 0.5 * (x[1:] + x[:-1]), x[-1:]])
     weighted_points = zip((points_by_value[value] for value in x), np.diff(edges), strict=True)
-    return [dataclasses.replace(p, weight=float(w)) for p, w in weighted_points if p is not None]
+    return [replace(p, weight=float(w)) for p, w in weighted_points if p is not None]
 
 
 def _scan_grid(
@@ -366,7 +359,7 @@ def _scan_grid(
     steps = np.linspace(-1.0, 1.0, THRESHOLDS.grid_points)
     places = [middle + axes @ np.array(z) for z in itertools.product(steps, repeat=len(smooth))]
     inside = [x for x in places if np.all((low <= x) & (x <= high))]
-    points = [problem.fit_candidate(start.replace_nonlinear_parameters(smooth, x)) for x in inside]
+    points = [problem.fit_candidate(start.set_parameters(smooth, x)) for x in inside]
     return [point for point in points if point is not None]
 
 
@@ -382,10 +375,7 @@ def _compute_slopes(
     columns = problem.compute_residual_columns(candidate)
     middle, slope = _encode_parameters(smooth, candidate), np.zeros((len(columns), len(smooth)))
     for i, step in enumerate(THRESHOLDS.slope_step * np.eye(len(smooth))):
-        ends = (
-            candidate.replace_nonlinear_parameters(smooth, x)
-            for x in (middle - step, middle + step)
-        )
+        ends = (candidate.set_parameters(smooth, x) for x in (middle - step, middle + step))
         low, high = (problem.compute_residual_columns(end) @ here.values for end in ends)
         slope[:, i] = (high - low) / (2.0 * THRESHOLDS.slope_step)
     return columns, slope - columns @ np.linalg.lstsq(columns, slope, rcond=1e-9)[0]

@@ -3,9 +3,8 @@
 The rows are there as small matrices by block of time.
 """
 
-import dataclasses
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from itertools import pairwise
 from typing import ClassVar
@@ -39,7 +38,7 @@ class GramBlocks(ShortRepr):
 
     source: "WhitenedColumns"
     y: tuple[np.ndarray, ...]
-    whitening_matrix: np.ndarray
+    whitener: np.ndarray
     sigma: np.ndarray
     block: tuple[np.ndarray, ...]
     fold: np.ndarray
@@ -74,7 +73,7 @@ class GramBlocks(ShortRepr):
         return FoldFits(place, inverse, beta)
 
     @cached_property
-    def cross_validated_residuals(self) -> tuple[np.ndarray, ...]:
+    def out_of_fold(self) -> tuple[np.ndarray, ...]:
         """(rows_j,) by joint, weighted: each row less what the fit to the other folds predicts."""
         fits = self.fold_fits
         return tuple(
@@ -143,7 +142,7 @@ def build_gram_blocks(
     sigma: np.ndarray,
     block: Sequence[np.ndarray],
     fold: np.ndarray,
-    whitening_matrix: np.ndarray | None = None,
+    whitener: np.ndarray | None = None,
     prior: np.ndarray | None = None,
 ) -> GramBlocks:
     """The weighted base.
@@ -154,21 +153,21 @@ def build_gram_blocks(
         sigma: (J,) of each joint.
         block: (rows_j,) by joint.
         fold: (blocks,) of each block.
-        whitening_matrix: (c, r) of the columns, where it is known.
+        whitener: (c, r) of the columns, where it is known.
         prior: (k, c + 1) rows of what is known beforehand, of weight 1; None: nothing.
     """
     prior = np.zeros((0, W[0].shape[1] + 1)) if prior is None else prior
-    if whitening_matrix is None:
-        whitening_matrix = compute_joint_whitening([*W, prior[:, :-1]], np.append(sigma, 1.0))
+    if whitener is None:
+        whitener = compute_joint_whitening([*W, prior[:, :-1]], np.append(sigma, 1.0))
     target = tuple(t / s for t, s in zip(y, sigma, strict=True))
     G, u = (
-        np.zeros((len(fold), *whitening_matrix.shape[1:] * 2)),
-        np.zeros((len(fold), whitening_matrix.shape[1])),
+        np.zeros((len(fold), *whitener.shape[1:] * 2)),
+        np.zeros((len(fold), whitener.shape[1])),
     )
-    known = np.column_stack([prior[:, :-1] @ whitening_matrix, prior[:, -1]])
+    known = np.column_stack([prior[:, :-1] @ whitener, prior[:, -1]])
     known = known[:, :-1].T @ known
-    source = WhitenedColumns(W, whitening_matrix, sigma)
-    base = GramBlocks(source, target, whitening_matrix, sigma, tuple(block), fold, G, u, known)
+    source = WhitenedColumns(W, whitener, sigma)
+    base = GramBlocks(source, target, whitener, sigma, tuple(block), fold, G, u, known)
     for w, t, slices in zip(base.whitened_columns, target, base.row_slices, strict=True):
         for b, rows in slices:
             G[b] += w[rows].T @ w[rows]
@@ -181,7 +180,7 @@ def merge_blocks(base: GramBlocks) -> GramBlocks:
     place, count = base.fold_fits.fold_index, len(base.fold_fits.beta)
     block = tuple(place[joint_blocks] for joint_blocks in base.block)
     G, u = (np.stack([x[place == f].sum(axis=0) for f in range(count)]) for x in (base.G, base.u))
-    return dataclasses.replace(base, block=block, fold=np.arange(count), G=G, u=u)
+    return replace(base, block=block, fold=np.arange(count), G=G, u=u)
 
 
 def find_block_runs(block: np.ndarray) -> list[tuple[int, slice]]:
@@ -232,7 +231,7 @@ def build_batch(base: GramBlocks, every: Sequence[Columns]) -> CandidateBatch:
     sizes = np.array([count_columns(columns) for columns in every], dtype=int)
     first = np.cumsum(sizes) - sizes
     owner = np.repeat(np.arange(len(sizes)), sizes)
-    K, r = len(owner), base.whitening_matrix.shape[1]
+    K, r = len(owner), base.whitener.shape[1]
     pairs = (
         np.array(
             [
@@ -410,7 +409,7 @@ class Ranking:
         visible: (N,) share of the columns that the base does not hide.
     """
 
-    block_reductions: np.ndarray
+    reductions: np.ndarray
     before: np.ndarray
     t_ratios: np.ndarray
     value: Sequence[np.ndarray]
@@ -434,7 +433,7 @@ def rank_candidates(base: GramBlocks, pool: CandidateBatch) -> Ranking:
     score = np.sum((cross - square) ** 2, axis=0)
     return Ranking(
         compute_reductions(base, pool),
-        np.array([float(left @ left) for left in base.cross_validated_residuals]),
+        np.array([float(left @ left) for left in base.out_of_fold]),
         every.fitted[0] / np.sqrt(np.maximum(score, 1e-300)),
         np.split(every.gamma[0] / pool.scale, pool.first[1:]),
         np.split(every.deviation[0] / pool.scale, pool.first[1:]),
@@ -445,7 +444,7 @@ def rank_candidates(base: GramBlocks, pool: CandidateBatch) -> Ranking:
 def compute_reductions(base: GramBlocks, pool: CandidateBatch) -> np.ndarray:
     """(blocks, N) fall of the squared residual in blocks that were held out.
 
-    " "`Ranking.block_reductions`.
+    " "`Ranking.reductions`.
     """
     crossed = base.fold_fits
     at = (crossed.fold_index, len(crossed.beta))

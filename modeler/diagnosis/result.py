@@ -1,10 +1,9 @@
 """What a diagnosis says, as plain data; the share of the error that its effects close."""
 
-import dataclasses
 import math
 import textwrap
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import Any
 
 import numpy as np
@@ -107,7 +106,7 @@ class PushWindow:
         if other.log != self.log or not near:
             return None
         start, end = min(self.start, other.start), max(self.end, other.end)
-        return dataclasses.replace(self, start=start, end=end)
+        return replace(self, start=start, end=end)
 
 
 def compute_explained_fraction(

@@ -1,9 +1,8 @@
 """From a ranking to a choice: errors on other motion, what is significant, what is equivalent."""
 
-import dataclasses
 import math
 from collections.abc import Callable, Iterable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -301,8 +300,8 @@ class ScoredCandidate(ShortRepr):
 
     candidate: Candidate
     variance_reduction: float
-    total_variance_reduction: float
-    block_reductions: np.ndarray
+    total_share: float
+    reductions: np.ndarray
     values: np.ndarray
     deviations: np.ndarray
     t_ratio: float
@@ -320,7 +319,7 @@ class ScoredCandidate(ShortRepr):
     @property
     def total_reduction(self) -> float:
         """Of the squared residual on held-out motion, weighted."""
-        return float(self.block_reductions.sum())
+        return float(self.reductions.sum())
 
     @property
     def is_local(self) -> bool:
@@ -422,7 +421,7 @@ def score_candidates(
 
 def _build_score(state: State, candidate: Candidate, ranking: Ranking, i: int) -> ScoredCandidate:
     drop, concerned = (
-        ranking.block_reductions[:, i],
+        ranking.reductions[:, i],
         candidate.list_affected_joints(len(ranking.before)),
     )
     fall, at_stake = float(drop.sum()), float(ranking.before[concerned].sum())
@@ -430,8 +429,8 @@ def _build_score(state: State, candidate: Candidate, ranking: Ranking, i: int) -
     return ScoredCandidate(
         candidate=candidate,
         variance_reduction=min(1.0, fall / max(at_stake, 1e-300)),
-        total_variance_reduction=fall / max(float(ranking.before.sum()), 1e-300),
-        block_reductions=drop,
+        total_share=fall / max(float(ranking.before.sum()), 1e-300),
+        reductions=drop,
         values=ranking.value[i],
         deviations=ranking.deviation[i],
         t_ratio=float(ranking.t_ratios[i]),
@@ -470,7 +469,7 @@ def select_best(state: State, candidate_scores: list[ScoredCandidate]) -> Ranked
         if stem is not None:
             return RankedCandidates(tuple(candidate_scores), stem)
         if item.candidate.effect.timing and not is_confirmed(state, item.candidate, item.values):
-            candidate_scores[place] = dataclasses.replace(item, is_confirmed=False)
+            candidate_scores[place] = replace(item, is_confirmed=False)
             continue
         return RankedCandidates(
             tuple(candidate_scores), _select_simplest(state, item, candidate_scores)
@@ -509,8 +508,7 @@ def _find_plain_friction(
             if j.candidate.effect.id in PLAIN
             and is_refinement(best.candidate, j.candidate)
             and j.is_significant
-            and j.total_variance_reduction
-            > THRESHOLDS.plain_friction_share * best.total_variance_reduction
+            and j.total_share > THRESHOLDS.plain_friction_share * best.total_share
         ),
         None,
     )
@@ -595,11 +593,7 @@ def find_equivalents(
         ):
             continue
         same = other.candidate.effect.id in best.candidate.effect.same_as
-        if (
-            same
-            or compute_t_ratio(best.block_reductions - other.block_reductions)
-            <= THRESHOLDS.max_chance_t
-        ):
+        if same or compute_t_ratio(best.reductions - other.reductions) <= THRESHOLDS.max_chance_t:
             equivalents.append(other)
     return equivalents
 
@@ -616,9 +610,7 @@ def compute_holdout_residuals(state: State, other: SearchData | None) -> Residua
     """
     if other is not None:
         return compute_residuals(state, other)
-    left = (
-        s * e for s, e in zip(state.sigma, state.gram_blocks.cross_validated_residuals, strict=True)
-    )
+    left = (s * e for s, e in zip(state.sigma, state.gram_blocks.out_of_fold, strict=True))
     return _build_residuals(state.data, tuple(left))
 
 

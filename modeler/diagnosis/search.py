@@ -1,8 +1,7 @@
 """The search: name the best effect, refine it, put it in, look again; drop what is not needed."""
 
-import dataclasses
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import partial
 from typing import Any
 
@@ -67,9 +66,7 @@ def refine_nonlinear_parameters(
             low = np.maximum(low, [_find_lower_bound(state, shape) for shape in smooth])
 
     def compute_loss(x: np.ndarray) -> float:
-        return -compute_reduction(
-            candidate.replace_nonlinear_parameters(smooth, np.clip(x, low, high))
-        )
+        return -compute_reduction(candidate.set_parameters(smooth, np.clip(x, low, high)))
 
     if len(smooth) == 1:
         solution = minimize_scalar(
@@ -84,7 +81,7 @@ def refine_nonlinear_parameters(
             smooth[0].scale == "waves"
             and compute_loss(whole) < THRESHOLDS.whole_order_share * score
         ):
-            return candidate.replace_nonlinear_parameters(smooth, whole)
+            return candidate.set_parameters(smooth, whole)
     else:
         corners = np.vstack([start, start + 0.5 * np.diag(reach)])
         solution = minimize(
@@ -95,11 +92,7 @@ def refine_nonlinear_parameters(
         )
         x, score = solution.x, float(solution.fun)
     better = score < compute_loss(start)
-    return (
-        candidate.replace_nonlinear_parameters(smooth, np.clip(x, low, high))
-        if better
-        else candidate
-    )
+    return candidate.set_parameters(smooth, np.clip(x, low, high)) if better else candidate
 
 
 def _find_lower_bound(state: State, shape: NonlinearParameter) -> float:
@@ -188,8 +181,7 @@ class CandidateScan:
             j
             for j in left.best[: THRESHOLDS.max_refined_alternatives]
             if j.is_possible
-            and j.total_variance_reduction
-            > THRESHOLDS.refinement_share * left.best[0].total_variance_reduction
+            and j.total_share > THRESHOLDS.refinement_share * left.best[0].total_share
             and j.variance_reduction > THRESHOLDS.min_refined_gain
         ]
         # Of effects that were not refined, only the best shapes may win still.
@@ -432,9 +424,9 @@ def _find_displaced_candidates(
         candidate_score
         for candidate_score in refused
         if candidate_score.reason not in ("", plausibility.DRIVES)
-        and THRESHOLDS.parsimony_share * candidate_score.total_variance_reduction
-        < best.total_variance_reduction
-        < candidate_score.total_variance_reduction / THRESHOLDS.parsimony_share
+        and THRESHOLDS.parsimony_share * candidate_score.total_share
+        < best.total_share
+        < candidate_score.total_share / THRESHOLDS.parsimony_share
     ]
 
 
@@ -447,7 +439,7 @@ def accept_candidate(
     """
     later = extend_state(state, best.candidate)
     if plausibility.is_friction_driving(state, later, best.candidate):
-        return dataclasses.replace(best, is_possible=False, reason=plausibility.DRIVES), None
+        return replace(best, is_possible=False, reason=plausibility.DRIVES), None
     if veto is not None and veto(state, later, best):
         return best, None
     if plausibility.is_gain(
@@ -469,8 +461,8 @@ def accept_candidate(
     if why and (
         short or why.endswith(plausibility.EITHER) or Requirement.TILT in pick.effect.needs
     ):
-        return dataclasses.replace(best, reason=why), None
-    return dataclasses.replace(best, reason=why) if why else best, later
+        return replace(best, reason=why), None
+    return replace(best, reason=why) if why else best, later
 
 
 def _choose_alternative(
@@ -493,8 +485,7 @@ def _choose_alternative(
     return (
         without
         if best is not None
-        and best.total_variance_reduction
-        > THRESHOLDS.parsimony_share * candidate_score.total_variance_reduction
+        and best.total_share > THRESHOLDS.parsimony_share * candidate_score.total_share
         else None
     )
 
@@ -516,9 +507,7 @@ def _choose_beside_prior(
     near = [
         j
         for j in judgement.ranked
-        if j.is_significant
-        and j.total_variance_reduction
-        > THRESHOLDS.refinement_share * first.total_variance_reduction
+        if j.is_significant and j.total_share > THRESHOLDS.refinement_share * first.total_share
     ]
     every = {j.key: j for j in (best, first, *near) if not is_vetoed(j.candidate, vetoed)}
     if state.data.prior is None or not best.candidate.is_local:
@@ -533,7 +522,7 @@ def _choose_beside_prior(
             least = scan.best[0]
             again = scan.refine_candidate(least, scan.list_starts(least.candidate)).candidate
             later = extend_state(state, again)
-            error = float(np.linalg.norm(later.gram_blocks.cross_validated_residuals[again.index]))
+            error = float(np.linalg.norm(later.gram_blocks.out_of_fold[again.index]))
             errors_by_key[key] = error * float(later.sigma[again.index]), again
     if not errors_by_key:
         return best
@@ -655,7 +644,7 @@ def _refine_steps(
             candidate_score = _score_candidate(
                 _remove_step(state, prior_picks, refined_steps, refined_steps[i]), pick
             )
-            refined_steps[i] = dataclasses.replace(step, score=candidate_score)
+            refined_steps[i] = replace(step, score=candidate_score)
             tick()
     return refined_steps
 
@@ -682,7 +671,7 @@ def _eliminate_backward(
         )
     if len(remaining_steps) < len(steps):
         remaining_steps = [
-            dataclasses.replace(s, score=_score_step(state, prior_picks, remaining_steps, s))
+            replace(s, score=_score_step(state, prior_picks, remaining_steps, s))
             for s in remaining_steps
         ]
     return remaining_steps, state

@@ -1,8 +1,7 @@
 """The analysis at one point of the search: what is in the model so far, and what it leaves."""
 
-import dataclasses
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 from itertools import pairwise
 from typing import TYPE_CHECKING, Any
@@ -22,7 +21,7 @@ from modeler.diagnosis.candidates import (
     build_rows,
     compute_scales,
     count_columns,
-    expand_columns,
+    to_dense,
 )
 from modeler.diagnosis.signals import SignalReference
 from modeler.diagnosis.thresholds import THRESHOLDS
@@ -166,10 +165,7 @@ class State(ShortRepr):
             return self.rows.W
         return tuple(
             np.hstack(
-                [
-                    base[:, self.data.free_columns],
-                    *(expand_columns(e, j, len(base)) for e in self.extra),
-                ]
+                [base[:, self.data.free_columns], *(to_dense(e, j, len(base)) for e in self.extra)]
             )
             for j, base in enumerate(self.rows.W)
         )
@@ -184,7 +180,7 @@ class State(ShortRepr):
         """Of the model so far."""
         numbers, fold = self.data.block_numbers, self.data.time_blocks.fold
         return ranking.build_gram_blocks(
-            self.W, self.y, self.sigma, numbers, fold, self.whitening_matrix, self.prior
+            self.W, self.y, self.sigma, numbers, fold, self.whitener, self.prior
         )
 
     @cached_property
@@ -201,7 +197,7 @@ class State(ShortRepr):
         """The same beside the residuals and the prior of a state with more effects."""
         first = self.prior.shape[1] - 1
         prior = later.prior[:, [*range(first), -1]]
-        return dataclasses.replace(self, adopted_weights=(later.sigma, prior))
+        return replace(self, adopted_weights=(later.sigma, prior))
 
     @cached_property
     def prior(self) -> np.ndarray:
@@ -249,7 +245,7 @@ class State(ShortRepr):
         )
 
     @cached_property
-    def whitening_matrix(self) -> np.ndarray:
+    def whitener(self) -> np.ndarray:
         """(f + extra, r) to orthonormal weighted columns."""
         return compute_joint_whitening(
             [*self.reduced_rows.W, self.prior[:, :-1]], np.append(self.sigma, 1.0)
@@ -258,30 +254,30 @@ class State(ShortRepr):
     @cached_property
     def solution(self) -> np.ndarray:
         """(f + extra,) parameters on all rows, SI; first the base parameters that are fitted."""
-        return self._solve_weighted(self.whitening_matrix, self.sigma, self.prior)
+        return self._solve_weighted(self.whitener, self.sigma, self.prior)
 
     def _solve_weighted(
-        self, whitening_matrix: np.ndarray, sigma: np.ndarray, prior: np.ndarray
+        self, whitener: np.ndarray, sigma: np.ndarray, prior: np.ndarray
     ) -> np.ndarray:
-        if not whitening_matrix.shape[1]:
-            return np.zeros(len(whitening_matrix))
-        G, u = 1e-12 * np.eye(whitening_matrix.shape[1]), np.zeros(whitening_matrix.shape[1])
+        if not whitener.shape[1]:
+            return np.zeros(len(whitener))
+        G, u = 1e-12 * np.eye(whitener.shape[1]), np.zeros(whitener.shape[1])
         every = [
             *zip(self.reduced_rows.W, self.reduced_rows.y, sigma, strict=True),
             (prior[:, :-1], prior[:, -1], 1.0),
         ]
         for w, y, s in every:
-            columns = w @ (whitening_matrix / s)
+            columns = w @ (whitener / s)
             G, u = G + columns.T @ columns, u + columns.T @ (y / s)
-        return np.asarray(whitening_matrix @ np.linalg.solve(G, u))
+        return np.asarray(whitener @ np.linalg.solve(G, u))
 
     def _solve_with_prior(self, prior: np.ndarray) -> np.ndarray:
         """The solution beside such rows of a prior."""
         sigma = ranking.estimate_sigma(self.reduced_rows, prior=prior)
-        whitening_matrix = compute_joint_whitening(
+        whitener = compute_joint_whitening(
             [*self.reduced_rows.W, prior[:, :-1]], np.append(sigma, 1.0)
         )
-        return self._solve_weighted(whitening_matrix, sigma, prior)
+        return self._solve_weighted(whitener, sigma, prior)
 
     @cached_property
     def beta(self) -> np.ndarray:
@@ -339,7 +335,7 @@ class State(ShortRepr):
 
 def build_state(data: SearchData, picks: Sequence[Candidate], beta: np.ndarray) -> State:
     """The analysis with these effects, linearised about beta (c,)."""
-    rows = data.linearise_rows(dataclasses.replace(data.rows.signals[0].reference, beta=beta))
+    rows = data.linearise_rows(replace(data.rows.signals[0].reference, beta=beta))
     return State(
         data, tuple(picks), rows.signals[0].reference, rows, collect_pick_columns(rows, picks)
     )
@@ -509,7 +505,7 @@ def choose_band(
     if "parallel_cutoff" not in fitted.chosen or not noise.moving:
         return prepared
     user_cutoff = None if "position_cutoff" in fitted.chosen else fitted.position_cutoff
-    asked = dataclasses.replace(
+    asked = replace(
         fitted, position_cutoff=user_cutoff, parallel_cutoff=None, decimation=None, edge=None
     )
     wide, _ = regression.choose_cutoffs(asked, prepared.pieces, noise)
@@ -521,7 +517,7 @@ def choose_band(
     else:
         parallel = max(motion, min(band, 0.8 * highest))
         position = 1.25 * parallel if band else wide.position_cutoff
-    prepared = dataclasses.replace(prepared, processing=wide)
+    prepared = replace(prepared, processing=wide)
     prepared = prepared.set_cutoffs(user_cutoff or min(position, highest), parallel)
     quiet_cutoffs = regression.CutoffSearch(compiled, prepared).find_chatter_free(
         motion, user_cutoff is not None
