@@ -59,7 +59,7 @@ if TYPE_CHECKING:
 
 
 def is_speed_effect(effect: Effect) -> bool:
-    """True for effects of a joint that read its speed and have no shapes."""
+    """Tells whether an effect of a joint depends on its speed alone."""
     form = effect.forms[0]
     return (
         effect.acts is EffectTarget.JOINT and not form.nonlinear_parameters and form.names <= {"v"}
@@ -70,7 +70,7 @@ def is_speed_effect(effect: Effect) -> bool:
 
 
 def resolve_effect(model: IdentifiedModel, name: str, joint: str | None) -> Effect:
-    """The effect of that name, if it can go into the model on that joint.
+    """Returns the effect of that name, if it can go into the model on that joint.
 
     Args:
         model: as it is.
@@ -147,13 +147,13 @@ class _FittedModel:
     free: np.ndarray | None = None
 
     def compute_held_out_residuals(self, refitted: bool) -> scoring.Residuals:
-        """What it leaves of held-out logs; where there are none, of its own logs in turn."""
+        """Returns residuals on held-out logs; without any, cross-validated ones of its own logs."""
         if not self.rows.logs.held_out and (refitted or self.free is not None):
             return cross_validate_residuals(self.model, self.rows.fit_observation, self.free)
         return compute_residuals(self.model, self.rows.compiled, self.rows.observations[-1])
 
     def replace_history(self, steps: tuple[Addition, ...]) -> "_FittedModel":
-        """The same model by these steps."""
+        """Returns the same model with this history."""
         model = replace(self.model, history=steps)
         return replace(self, model=model)
 
@@ -162,7 +162,7 @@ class _FittedModel:
 def add_effect(
     model: IdentifiedModel, compiled: CompiledModel, name: str, joint: str | None, logs: LogSplit
 ) -> IdentifiedModel:
-    """The model with one effect more, fitted to the logs.
+    """Adds one effect to the model and fits it to the logs.
 
     Its shapes are those that explain the logs best.
 
@@ -196,7 +196,7 @@ def add_learned_law(
     request: LawRequest = ANY_LAW,
     progress: Callable[[float], None] | None = None,
 ) -> IdentifiedModel:
-    """The model with a learned law more, fitted together with its parameters.
+    """Adds a learned law to the model and fits both together.
 
     Args:
         model: as it is.
@@ -252,7 +252,7 @@ def add_learned_law(
 def add_learned_laws(
     model: IdentifiedModel, compiled: CompiledModel, logs: LogSplit
 ) -> tuple[IdentifiedModel, tuple[str, ...]]:
-    """The model with a learned law on every joint where that lowers the error; why not on others.
+    """Adds a learned law on every joint where it lowers the error; says why not on others.
 
     One after the other, each judged beside those that were put in before it.
     """
@@ -298,7 +298,7 @@ def _explain_weak_evidence(pick: FittedCandidate, score: scoring.Score) -> str:
 def add_findings(
     model: IdentifiedModel, compiled: CompiledModel, findings: Sequence["Finding"], logs: LogSplit
 ) -> tuple[IdentifiedModel, tuple[str, ...]]:
-    """The model with the effects of a diagnosis that lower the error; why others are left out.
+    """Adds the effects of a diagnosis that lower the error; says why others are left out.
 
     What a diagnosis says with a doubt is left out. One after the other; each is judged beside those
     that were put in before it, by `score_change`. Drive gains come first and are judged together
@@ -368,7 +368,7 @@ def _add_drive_gains(
 
 
 def remove_last_effect(model: IdentifiedModel, logs: LogSplit) -> IdentifiedModel:
-    """The model without the effect that was added last, fitted again.
+    """Removes the effect that was added last and fits the rest again.
 
     Raises:
         DataError: none was added.

@@ -50,7 +50,7 @@ from modeler.runtime import CompiledModel
 def add_nonlinear_uncertainty(
     model: IdentifiedModel, compiled: CompiledModel, observation: Observation
 ) -> IdentifiedModel:
-    """The model with standard deviations that know that shapes were fitted too.
+    """Adds the uncertainty of fitted nonlinear parameters to all standard deviations.
 
     Covariance, sigmas of all parameters, intervals of the parameters and shapes of the effects in
     its history. The shapes of one effect are varied at a time.
@@ -81,7 +81,7 @@ def add_nonlinear_uncertainty(
 
 
 def read_catalogue(model: IdentifiedModel) -> tuple[Effect, ...]:
-    """The effects that there are for its robot."""
+    """Reads the effects that exist for its robot."""
     return parse_robot_text(model.robot_text, "robot of the model").catalogue
 
 
@@ -148,7 +148,7 @@ def _widen_covariance(
 def insert_candidate(
     text: str, pick: Candidate, values: np.ndarray, reference: SignalReference
 ) -> str:
-    """The robot file with the effect.
+    """Inserts the effect into the robot file.
 
     Args:
         text: as it is.
@@ -225,7 +225,7 @@ def _build_reference(reference: SignalReference) -> dict[str, float]:
 def insert_law(
     text: str, state: State, joint: str, learned: LearnedLaw
 ) -> tuple[str, FittedCandidate]:
-    """The robot file with the definition of a law, and the law as an effect to be put in.
+    """Inserts a law into the robot file; returns the text, and the law as a fitted candidate.
 
     Args:
         text: of the robot file.
@@ -286,7 +286,7 @@ def _insert_coupling(text: str, pick: Candidate, reference: SignalReference) -> 
 
 
 def describe_last_addition(model: IdentifiedModel) -> list[str]:
-    """Parameters that the step added last put into the model, with their units and shapes."""
+    """Describes the parameters that the last step added, with units."""
     if len(model.history) < 2:
         return []
     last = model.history[-1]
@@ -328,7 +328,7 @@ def _find_parameters(model: IdentifiedModel, step: Addition) -> list[ParameterEs
 
 
 def is_unneeded(model: IdentifiedModel, step: Addition) -> bool:
-    """True of an effect whose parameters are all below their sigmas, beside all in the model."""
+    """Tells whether all parameters of an effect are below their standard deviations."""
     estimates = _find_parameters(model, step)
     return bool(estimates) and all(abs(p.value) <= (p.sigma or 0.0) for p in estimates)
 
@@ -343,7 +343,7 @@ def _format_nonlinear_units(model: IdentifiedModel, step: Addition) -> dict[str,
 
 
 def describe_additions(model: IdentifiedModel, since: int = -1) -> list[str]:
-    """Sentences on steps that were added: which errors fall, and what is not as asked.
+    """Describes added steps: which errors fall, and what differs from the request.
 
     Args:
         model: with its history.
@@ -390,7 +390,7 @@ class LogSplit:
 
     @property
     def log_sets(self) -> list[Sequence[Log]]:
-        """Those that hold logs: the fitted ones first."""
+        """Returns the sets that hold logs: the training logs first."""
         return [self.training, self.held_out] if self.held_out else [self.training]
 
 
@@ -412,11 +412,11 @@ class LogRows:
 
     @property
     def fit_observation(self) -> Observation:
-        """What a model is fitted to."""
+        """Returns the observation that a model is fitted to."""
         return self.observations[0]
 
     def rebuild_for(self, compiled: CompiledModel) -> "LogRows":
-        """The rows of the same robot with other effects; nothing is filtered again."""
+        """Returns the rows of the same robot with other effects; nothing is filtered again."""
         if find_shafts(compiled) == find_shafts(self.compiled):
             seen = tuple(
                 rebuild_observation(compiled, observation) for observation in self.observations
@@ -426,7 +426,7 @@ class LogRows:
 
 
 def build_rows(compiled: CompiledModel, logs: LogSplit, processing: Processing) -> LogRows:
-    """The rows of logs.
+    """Builds the rows of logs.
 
     Args:
         compiled: the robot.
@@ -452,7 +452,7 @@ def _observe_rows(
 def compute_residuals(
     model: IdentifiedModel, compiled: CompiledModel, observation: Observation
 ) -> Residuals:
-    """What it leaves of logs."""
+    """Computes the residuals of the model on logs."""
     left = observation.torque - compute_model_torque(observation, compiled, model.beta)
     return _build_residuals(
         observation, [left[used_rows, j] for j, used_rows in enumerate(observation.used.T)]
@@ -462,7 +462,7 @@ def compute_residuals(
 def cross_validate_residuals(
     model: IdentifiedModel, observation: Observation, free: np.ndarray | None = None
 ) -> Residuals:
-    """What it leaves of its own logs, each eighth predicted from a fit to the others.
+    """Computes cross-validated residuals: each eighth predicted from a fit to the others.
 
     Args:
         model: fitted.

@@ -59,7 +59,7 @@ class JointScale:
     middle: float = 0.0
 
     def get_unit(self, shape: NonlinearParameter) -> float:
-        """What 1 means in the grid of a shape parameter, SI."""
+        """Returns the SI value of 1 in the grid of a nonlinear parameter."""
         travel = 1.0 if self.angular else self.range / 3.0
         units = {
             "speed": self.speed,
@@ -72,7 +72,7 @@ class JointScale:
         return units.get(shape.scale, 1.0)
 
     def scale_value(self, shape: NonlinearParameter, entry: float) -> float:
-        """Of a shape parameter from an entry of its grid or limits, SI."""
+        """Converts an entry of a grid or a limit of a nonlinear parameter to SI."""
         start = self.middle if shape.scale == "place" else 0.0
         return start + entry * self.get_unit(shape)
 
@@ -99,12 +99,12 @@ class Candidate(ShortRepr):
 
     @property
     def key(self) -> tuple[str, str | None]:
-        """Effect and joint: what a diagnosis names."""
+        """Returns effect and joint, which a diagnosis names."""
         return self.effect.id, self.joint
 
     @property
     def wave_order(self) -> float:
-        """Waves per turn, or per 2 pi m; 0 if it has none."""
+        """Returns waves per turn, or per 2 pi m; 0 without any."""
         waves = [
             self.nonlinear_parameters[shape.name]
             for shape in self.form.nonlinear_parameters
@@ -114,26 +114,26 @@ class Candidate(ShortRepr):
 
     @property
     def is_local(self) -> bool:
-        """True if it enters the torque of its own joint only."""
+        """Tells whether it enters the torque of its own joint only."""
         return self.effect.acts is EffectTarget.JOINT
 
     @property
     def is_delay(self) -> bool:
-        """True if it shifts all torques in time."""
+        """Tells whether it shifts all torques in time."""
         return "rate" in self.form.names
 
     @property
     def scale_index(self) -> int:
-        """Index of the joint whose scale its shapes have; 0 for what sits on no joint of q."""
+        """Returns the index of the joint that scales its parameters; 0 without one."""
         of_joints = (EffectTarget.JOINT, EffectTarget.MOTOR, EffectTarget.POSITION)
         return max(self.index, 0) if self.effect.acts in of_joints else 0
 
     def list_parameter_names(self) -> list[str]:
-        """Of its columns, as in a robot file."""
+        """Lists the names of its columns, as in a robot file."""
         return [f"{column.prefix}{self.joint or ''}" for column in self.form.columns]
 
     def can_refine(self, shape: NonlinearParameter) -> bool:
-        """True if values beside that of the candidate make sense: of waves, if no grid gave it."""
+        """Tells whether values off the grid are possible; of waves, if no grid gave the order."""
         if shape.scale == "waves":
             return self.nonlinear_parameters[shape.name] not in shape.grid
         return shape.is_continuous
@@ -141,14 +141,14 @@ class Candidate(ShortRepr):
     def set_parameters(
         self, shapes: Sequence[NonlinearParameter], x: Sequence[float] | np.ndarray
     ) -> "Candidate":
-        """The same effect with other coded values of some shapes."""
+        """Returns the same effect with other encoded values of some parameters."""
         values = {
             shape.name: decode_parameter(shape, v) for shape, v in zip(shapes, x, strict=True)
         }
         return replace(self, nonlinear_parameters={**self.nonlinear_parameters, **values})
 
     def list_affected_joints(self, joints: int) -> list[int]:
-        """Indices of the joints whose errors it is there to explain."""
+        """Lists the indices of the joints whose errors it can explain."""
         if self.is_local:
             return [self.index]
         if self.effect.acts is EffectTarget.MOTOR:
@@ -159,12 +159,12 @@ class Candidate(ShortRepr):
 
 
 def list_links(spec: ModuleSpec) -> list[str]:
-    """Names of the links that have inertial parameters."""
+    """Lists the names of the links that have inertial parameters."""
     return list(dict.fromkeys(p.joint for p in spec.standard if p.effect == "rigid_body"))
 
 
 def find_passive_joints(spec: ModuleSpec) -> dict[str, int]:
-    """Joints without motor by name, and their places among the variables of the loops.
+    """Finds joints without motor: names, and places among the variables of the loops.
 
     In a robot without loops, their places among the joints.
     """
@@ -175,12 +175,12 @@ def find_passive_joints(spec: ModuleSpec) -> dict[str, int]:
 
 
 def encode_parameter(shape: NonlinearParameter, value: float) -> float:
-    """Positive shapes by their logarithm."""
+    """Encodes a positive parameter by its logarithm."""
     return float(np.log(value)) if shape.limits[0] > 0.0 else value
 
 
 def decode_parameter(shape: NonlinearParameter, x: float) -> float:
-    """The value of a coded shape."""
+    """Decodes an encoded parameter."""
     return float(np.exp(x)) if shape.limits[0] > 0.0 else float(x)
 
 
@@ -192,7 +192,7 @@ def list_candidates(
     known: StatedEffects,
     allowed: Callable[[str, str | None], bool] = lambda effect, joint: True,
 ) -> list[Candidate]:
-    """All that can be written as columns from the catalogue alone.
+    """Lists all candidates that the catalogue alone determines.
 
     Loads, contacts and ripples whose order is not known yet come from elsewhere.
 
@@ -250,7 +250,7 @@ def _is_representative(
 def expand_grid(
     effect: Effect, form: Form, joint: str | None, index: int, scale: JointScale
 ) -> Iterator[Candidate]:
-    """An effect on a joint with all combinations of its shapes."""
+    """Expands an effect on a joint over the grids of its parameters."""
     names = [shape.name for shape in form.nonlinear_parameters]
     grids = [
         [scale.scale_value(shape, entry) for entry in shape.grid]
@@ -291,7 +291,7 @@ def _generate_passive_candidates(
 def compute_scales(
     spec: ModuleSpec, q: Sequence[np.ndarray], v: Sequence[np.ndarray], load: Sequence[np.ndarray]
 ) -> list[JointScale]:
-    """Of every joint, from samples (n, J) of all stretches."""
+    """Computes the scale of every joint from samples (n, J) of all segments."""
     positions, speeds, loads = (np.concatenate(list(x)) for x in (q, v, load))
     return [
         JointScale(
@@ -323,7 +323,7 @@ FUNCTIONS = {
 def evaluate_equations(
     candidates: Sequence[Candidate], signals: Signals, window: slice = EVERY
 ) -> np.ndarray:
-    """(n, k) equations of candidates of one form on one joint, that of the first, then the next.
+    """Evaluates the equations of candidates of one form on one joint, (n, k), side by side.
 
     Over a window of the samples.
     """
@@ -367,7 +367,7 @@ def evaluate_equations(
 
 
 def evaluate_columns(candidate: Candidate, signals: Signals, window: slice = EVERY) -> np.ndarray:
-    """(n, J, k) torques of its columns on every joint, over a window of the samples."""
+    """Evaluates the torques of its columns on every joint, (n, J, k), over a window."""
     acts = candidate.effect.acts
     if candidate.is_delay:
         return signals.rate[window, :, None]
@@ -409,7 +409,7 @@ def _evaluate_shaft(
 
 
 def list_body_parameters(candidate: Candidate, signals: Signals) -> list[ParameterSpec]:
-    """The standard parameters of the columns of a body on a link."""
+    """Lists the standard parameters of the columns of a body on a link."""
     return [parameter for _, parameter in _find_inertial_parameters(candidate, signals)]
 
 
@@ -476,22 +476,22 @@ class Rows(ShortRepr):
 
     @property
     def joint_count(self) -> int:
-        """Number of joints, J."""
+        """Returns the number of joints, J."""
         return len(self.y)
 
     def replace_reference(self, reference: SignalReference) -> "Rows":
-        """The same rows with effects linearised about another reference of the same robot."""
+        """Returns the same rows with effects linearised about another reference."""
         signals = tuple(replace(s, reference=reference) for s in self.signals)
         return replace(self, signals=signals, reference_cache={})
 
     def filter_samples(self, j: int, values: Sequence[np.ndarray]) -> np.ndarray:
-        """(rows_j, ...) of values (samples, ...) by stretch, on joint j."""
+        """Filters values (samples, ...) by segment to the rows of joint j, (rows_j, ...)."""
         return np.concatenate(
             [block.filters[j] @ values[i][block.window] for i, block in self._numbered_blocks]
         )
 
     def build_columns(self, candidate: Candidate) -> Columns:
-        """The columns of a candidate on these rows."""
+        """Builds the columns of a candidate on these rows."""
         if candidate.is_local or candidate.effect.acts is EffectTarget.POSITION:
             return self._build_stacked([candidate])
         if (
@@ -505,7 +505,7 @@ class Rows(ShortRepr):
         return self.filter_joints(lambda i, w: evaluate_columns(candidate, self.signals[i], w))
 
     def build_batch(self, candidates: Sequence[Candidate]) -> list[Columns]:
-        """The columns of several candidates of one effect on one joint."""
+        """Builds the columns of several candidates of one effect on one joint."""
         first = candidates[0]
         if not first.is_local and first.effect.acts is not EffectTarget.POSITION:
             return [self.build_columns(candidate) for candidate in candidates]
@@ -543,7 +543,7 @@ class Rows(ShortRepr):
         return tuple(columns)
 
     def filter_joints(self, evaluate: Evaluate) -> Columns:
-        """Columns from values (samples, J, k); None on joints where they are 0 throughout."""
+        """Filters values (samples, J, k) to columns; None on joints where they are zero."""
         parts: list[list[np.ndarray]] = [[] for _ in range(self.joint_count)]
         shown = np.zeros(self.joint_count, dtype=bool)
         for i, block in self._numbered_blocks:
@@ -563,18 +563,18 @@ class Rows(ShortRepr):
 
 
 def count_columns(columns: Columns) -> int:
-    """k of columns that are not zero on all joints."""
+    """Returns k of columns that are not zero on all joints."""
     return next(c.shape[1] for c in columns if c is not None)
 
 
 def to_dense(columns: Columns, j: int, rows: int) -> np.ndarray:
-    """(rows, k) columns on joint j; zeros where there are none."""
+    """Returns the columns on joint j, (rows, k); zeros where there are none."""
     here = columns[j]
     return np.zeros((rows, count_columns(columns))) if here is None else here
 
 
 def build_rows(observation: Observation, reference: SignalReference) -> Rows:
-    """The rows of an observation.
+    """Builds the rows of an observation.
 
     Args:
         observation: of the analysis.
@@ -603,7 +603,7 @@ def build_rows(observation: Observation, reference: SignalReference) -> Rows:
 
 
 def thin_samples(observation: Observation, compiled: "CompiledModel") -> Observation:
-    """The same rows by fewer samples: columns are smooth beside the filter of the rows.
+    """Thins the samples of rows: columns are smooth beside the filter of the rows.
 
     Its Gaussian needs one sample per width.
     """
@@ -619,7 +619,7 @@ def thin_samples(observation: Observation, compiled: "CompiledModel") -> Observa
 def build_base_columns(
     blocks: Sequence[Sequence[RowBlock]], signals: Sequence[Signals]
 ) -> tuple[np.ndarray, ...]:
-    """(rows_j, c) by joint, of the motion of some signals."""
+    """Builds the base columns of the motion of some signals, (rows_j, c) by joint."""
     parts: list[list[np.ndarray]] = [[] for _ in blocks[0][0].filters]
     for group, s in zip(blocks, signals, strict=True):
         for block in group:

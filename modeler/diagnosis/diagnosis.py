@@ -61,13 +61,13 @@ class Progress:
         self._tell(0.0)
 
     def begin_stage(self, end: float) -> None:
-        """What comes next ends at that share; nothing changes if it is the same stage again."""
+        """Begins a stage that ends at that share; a stage that has begun goes on."""
         if end > self._end:
             self._share, self._end = self._end, end
         self._tell(self._share)
 
     def advance(self) -> None:
-        """A piece of work is done: nearer to the end of the stage, never there."""
+        """Advances towards the end of the stage, never to it."""
         self._share += THRESHOLDS.progress_step * (self._end - self._share)
         self._tell(self._share)
 
@@ -84,7 +84,7 @@ def diagnose(
     known: StatedEffects | None = None,
     equations: bool = False,
 ) -> Diagnosis:
-    """The effects that the model lacks on these logs, with what they would gain.
+    """Finds the effects that the model lacks on these logs, and what each would gain.
 
     Args:
         model: fitted.
@@ -137,7 +137,7 @@ def diagnose(
         )
 
     def search_bands() -> list[BandSearch]:
-        """The search in the band of the diagnosis, and that in a wider one, with what is named."""
+        """Searches the band of the diagnosis, then a wider one with all that is named."""
         made: list[BandSearch] = []
         far = beyond if beyond is not None and get_cutoff(beyond) > get_cutoff(data) else None
         for band_data, held in (
@@ -279,7 +279,7 @@ def _prepare_holdout(data: SearchData, holdout: Sequence[Log]) -> SearchData | N
 def find_fixed_parameters(
     model: IdentifiedModel, compiled: "CompiledModel", logs: Sequence[Log], observation: Observation
 ) -> np.ndarray | None:
-    """The model's parameters if these logs are of a robot that has changed since; else None."""
+    """Returns the model's parameters if the robot has changed since its fit; else None."""
     if any(used.has_rows_of(log) for used in model.logs for log in logs):
         return None
     free = build_state(SearchData(compiled, observation), (), model.beta)

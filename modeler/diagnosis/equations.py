@@ -97,7 +97,7 @@ class JointSearch:
         return len(rows) / max(1.0, 2.0 * float(r.sum()) - 1.0)
 
     def compute_cost(self, left: np.ndarray | float, symbols: np.ndarray | int) -> np.ndarray:
-        """Nats of what is left of the squared residual by a formula of so many symbols."""
+        """Computes the nats of a squared residual and of so many symbols."""
         share = np.maximum(np.asarray(left) / self.before, 1e-12)
         return np.asarray(
             0.5 * self.count * np.log(share) + THRESHOLDS.nats_per_symbol * np.asarray(symbols)
@@ -107,7 +107,7 @@ class JointSearch:
 
     @cached_property
     def factor_columns(self) -> list[_ProductColumn]:
-        """Every factor at the first values of its shapes."""
+        """Evaluates every factor at the first values of its parameters."""
         state, columns = self.state, list[_ProductColumn]()
         warm = self.joint.name in state.reference.temperature
         stroke = 2.0 * np.pi / state.joint_scales[self.j].range
@@ -128,7 +128,7 @@ class JointSearch:
 
     @cached_property
     def wave_free_columns(self) -> list[_ProductColumn]:
-        """Those that are no waves."""
+        """Returns the factors that are no waves."""
         return [column for column in self.factor_columns if column.values.shape[1] == 1]
 
     @property
@@ -147,7 +147,7 @@ class JointSearch:
         return _ProductColumn(term, a.values * b.values, Formula((term,)).symbol_count)
 
     def find_orders(self) -> list[float]:
-        """Waves that stand out in the residual, and in it turned by the motion or the load."""
+        """Finds waves that stand out in the residual, also in its products with motion and load."""
         state, j = self.state, self.j
         residual_spectrum = compute_joint_order_spectrum(state, j)
         orders = list(residual_spectrum.peaks) if residual_spectrum is not None else []
@@ -168,7 +168,7 @@ class JointSearch:
 
     @cached_property
     def plain_factors(self) -> dict[str, _ProductColumn]:
-        """Factors without shapes, by their text."""
+        """Returns factors without parameters, by their text."""
         return {
             c.term[0].equations[0]: c
             for c in self.wave_free_columns
@@ -182,7 +182,7 @@ class JointSearch:
         keep: int,
         state: State | None = None,
     ) -> list[_Priced]:
-        """The cheapest products of a column and a factor that an effect can hold.
+        """Ranks the cheapest products of a column and a factor that an effect can hold.
 
         Args:
             left: columns; of those among the factors, only with later factors.
@@ -219,13 +219,13 @@ class JointSearch:
         return ranked
 
     def estimate_costs(self, state: State, made: np.ndarray, symbols: np.ndarray) -> np.ndarray:
-        """(K,) nats of columns (K, k, rows_j) by what they explain of all rows beside a state."""
+        """Estimates the nats (K,) of columns (K, k, rows_j) by what they explain of all rows."""
         whole = float(np.sum(state.residual[self.j] ** 2))
         fall = float(state.sigma[self.j] ** 2) * self.compute_falls(state, made)
         return self.compute_cost(whole - np.clip(fall, 0.0, whole), symbols)
 
     def compute_falls(self, state: State, made: np.ndarray) -> np.ndarray:
-        """(K,) fall of the squared residual, weighted, by columns (K, k, rows_j), on all rows."""
+        """Computes the fall (K,) of the weighted squared residual by columns (K, k, rows_j)."""
         base, e = (
             state.gram_blocks.whitened_columns[self.j],
             state.residual[self.j] / state.sigma[self.j],
@@ -242,7 +242,7 @@ class JointSearch:
     def rank_columns(
         self, columns: Sequence[_ProductColumn], state: State | None = None
     ) -> list[_Priced]:
-        """Columns as they are, the cheapest first."""
+        """Ranks columns as they are, the cheapest first."""
         ranked: list[_Priced] = []
         for k in range(0, len(columns), THRESHOLDS.column_chunk):
             some = columns[k : k + THRESHOLDS.column_chunk]
@@ -261,7 +261,7 @@ class JointSearch:
     def select_distinct(
         self, ranked: Sequence[_Priced], keep: int, alike: float = THRESHOLDS.max_column_correlation
     ) -> list[_ProductColumn]:
-        """The cheapest that are not alike."""
+        """Selects the cheapest columns that are not alike."""
         base = self.state.gram_blocks.whitened_columns[self.j]
         selected: list[tuple[np.ndarray, _ProductColumn]] = []
         for _, left, right in ranked:
@@ -282,7 +282,7 @@ class JointSearch:
     # Formulas, as effects.
 
     def score_formulas(self, formulas: Sequence[Formula]) -> list[ScoredFormula]:
-        """Formulas by the columns that they have as effects, the cheapest first."""
+        """Scores formulas by the columns that they have as effects, the cheapest first."""
         made = [
             (f, f.build_candidate(self.state.joint_names, self.j))
             for f in formulas
@@ -305,7 +305,7 @@ class JointSearch:
         return sorted(scores, key=lambda s: s.cost)
 
     def refine_formula(self, item: ScoredFormula) -> ScoredFormula:
-        """The same at its best shapes: variable projection (Kaufman 1975), on all rows."""
+        """Refines its parameters on all rows by variable projection (Kaufman 1975)."""
         formula, start = item.formula, np.array([*item.formula.nonlinear_parameters.values()])
         if not start.size:
             return item
@@ -341,7 +341,7 @@ class JointSearch:
         return again[0] if again and again[0].cost < item.cost else item
 
     def has_significant_product(self) -> bool:
-        """True if a product surely explains something: laws resolve no waves, and forget."""
+        """Tells whether a product is significant: laws resolve no waves and no memory."""
         every = [
             *self.rank_columns(self.factor_columns),
             *self.rank_products(
@@ -355,12 +355,12 @@ class JointSearch:
         return any(self.judge_candidate(item.candidate) is not None for item in few)
 
     def judge_candidate(self, candidate: Candidate) -> scoring.ScoredCandidate | None:
-        """It as an effect of the catalogue is judged; None if it is worth no name."""
+        """Scores it as an effect of the catalogue; None if it is not significant."""
         pair = candidate, build_columns(self.state.rows, candidate)
         return scoring.select_best(self.state, scoring.score_candidates(self.state, [pair])).best
 
     def find_formulas(self) -> list[ScoredFormula]:
-        """Formulas that say more than they cost, the cheapest first; no two are alike."""
+        """Finds formulas that gain more than they cost, the cheapest first; no two are alike."""
         atoms = self.wave_free_columns
         doubles = self.rank_products(self.factor_columns, atoms, THRESHOLDS.max_second_products)
         triples = self.rank_products(
@@ -402,7 +402,7 @@ class JointSearch:
     def search_sums(
         self, first: ScoredFormula, seconds: Sequence[_ProductColumn]
     ) -> list[ScoredFormula]:
-        """A formula and a second term that surely adds to it."""
+        """Searches a second term that adds significantly to a formula."""
         beside = JointSearch(self._extend_state(first.candidate), self.j, self._tick)
         near = self.select_distinct(
             self.rank_columns(seconds, beside.state),
@@ -420,7 +420,7 @@ class JointSearch:
         ]
 
     def improve_formulas(self, formulas: Sequence[ScoredFormula]) -> list[ScoredFormula]:
-        """Formulas and their neighbours, as long as these are better."""
+        """Improves formulas by their neighbours, as long as these are better."""
         known_texts, first = set[str](), np.inf
         for _ in range(THRESHOLDS.max_variation_rounds):
             formulas = sorted(formulas, key=lambda s: s.cost)
@@ -448,7 +448,7 @@ class JointSearch:
         return list(formulas)
 
     def list_neighbours(self, formula: Formula) -> tuple[list[Formula], list[Formula]]:
-        """It without a part or a term; with a plain factor in place of a part."""
+        """Lists it without a factor or a term, and with a plain factor in place of one."""
         shorter = [Formula((term,)) for term in formula.terms if len(formula.terms) > 1]
         others = list[Formula]()
         for k, term in enumerate(formula.terms):
@@ -466,12 +466,12 @@ class JointSearch:
         return shorter, [f for f in others if f.is_definable]
 
     def refine_best(self, ranked: Sequence[ScoredFormula], count: int) -> list[ScoredFormula]:
-        """The cheapest at their best shapes."""
+        """Refines the cheapest formulas."""
         first = sorted(ranked, key=lambda s: s.cost)[:count]
         return sorted((self.refine_formula(item) for item in first), key=lambda s: s.cost)
 
     def update_costs(self, every: Sequence[ScoredFormula]) -> list[ScoredFormula]:
-        """The cheapest first, by how many rows there are in what the best leaves."""
+        """Updates all costs by the independent rows of what the best leaves."""
         if every:
             best = self._extend_state(min(every, key=lambda s: s.left).candidate)
             self.count = self._count_rows(best.residual[self.j])
@@ -486,7 +486,7 @@ class JointSearch:
         return build_state(state.data, [*state.picks, candidate], state.beta)
 
     def drop_equivalent(self, ranked: Sequence[ScoredFormula]) -> list[ScoredFormula]:
-        """Those below no cost whose torques differ from those of all cheaper ones.
+        """Drops formulas that cost, and those whose torque equals that of a cheaper one.
 
         And whose second term adds to the best of one term.
         """
@@ -508,7 +508,7 @@ class JointSearch:
         return [item for _, item in selected]
 
     def compute_torque(self, candidate: Candidate) -> np.ndarray:
-        """(rows_j,) what it adds, off the model."""
+        """Computes the torque (rows_j,) that it adds, off the model."""
         columns = to_dense(build_columns(self.state.rows, candidate), self.j, self._row_count)
         (candidate_score,) = scoring.score_candidates(
             self.state, [(candidate, build_columns(self.state.rows, candidate))]
@@ -531,7 +531,7 @@ def discover_equations(
     other: SearchData | None,
     tick: Callable[[], None] = lambda: None,
 ) -> tuple[JointDiscovery, ...]:
-    """Equations for what the effects with names leave, by joint.
+    """Proposes equations, by joint, for what the named effects leave.
 
     On a joint where these are no more than a description, formulas are tried in their place too.
 

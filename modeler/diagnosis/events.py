@@ -36,7 +36,7 @@ class _WindowEnergies:
 
 
 def find_contact_window(state: State) -> PushWindow | None:
-    """The window in which a steady torque stands out from that in any other; None if none does.
+    """Finds the window in which a steady torque stands out; None if none does.
 
     A push gives joint j a mean residual m_j over the n_j rows of its window, of energy
     sum_j n_j m_j^2 / s_j^2 (s_j the joint's median residual): largest over the very window of the
@@ -124,7 +124,7 @@ def _accumulate_cells(state: State) -> tuple[np.ndarray, np.ndarray, np.ndarray,
 
 
 def fit_push_torque(window: PushWindow, state: State, data: SearchData) -> PushWindow:
-    """The push with its torques, if these surely lower the error (`scored`).
+    """Fits the torques of a push, if they lower the error significantly.
 
     A torque of each joint that changes steadily is fitted to the residuals of the window, that of
     each twentieth of a second to those around.
@@ -165,7 +165,7 @@ def _predict_from_neighbours(since: np.ndarray, values: np.ndarray) -> np.ndarra
 
 
 def compute_burst_ratio(state: State, j: int) -> float:
-    """Mean squared residual within 0.1 s after sign changes of the load, over that elsewhere.
+    """Computes the mean squared residual just after sign changes of the load, over the rest.
 
     The loudest fifth of the events, and of the rows elsewhere the loudest hundredth, are left out:
     play bursts every time. 0 where the load changes sign, far from speed reversals, less than
@@ -189,7 +189,7 @@ def compute_burst_ratio(state: State, j: int) -> float:
 
 
 def find_load_reversals(state: State, j: int) -> list[np.ndarray]:
-    """Samples, by stretch, where the load on joint j changes sign while the joint moves on."""
+    """Finds samples, by segment, where the load changes sign while the joint moves on."""
     reversals = []
     for s in state.rows.signals:
         span, least = (
@@ -223,7 +223,7 @@ def detect_events(
     score_candidate: Callable[[Candidate], Score],
     findings: Sequence[Finding],
 ) -> list[Finding]:
-    """The findings with contact and play among them.
+    """Adds contact and backlash to the findings.
 
     Its knocks ring like a spring: where there is play, elasticity that explains little is no effect
     of its own. Play that is heard only before columns on its joint were put in goes ahead of those

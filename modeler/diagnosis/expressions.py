@@ -41,12 +41,12 @@ class Factor(ShortRepr):
 
     @property
     def equations(self) -> list[str]:
-        """Its equations: one, or the sine and the cosine of a wave."""
+        """Returns its equations: one, or the sine and the cosine of a wave."""
         return [column.equation.text for column in self.effect.columns]
 
     @property
     def lag_text(self) -> str:
-        """What z follows; empty without a lag."""
+        """Returns what z follows; empty without a lag."""
         memory = self.effect.forms[0].internal_state
         return (
             memory.lagged_input.text
@@ -56,11 +56,11 @@ class Factor(ShortRepr):
 
     @property
     def has_memory(self) -> bool:
-        """True if it has the inner state z: an effect has one."""
+        """Tells whether it has the inner state z; an effect has one at most."""
         return self.effect.forms[0].internal_state is not None
 
     def compute_step_sizes(self) -> list[float]:
-        """What is a large change of each of its shapes."""
+        """Computes a large change of each of its parameters."""
         return [
             self._compute_step_size(shape) for shape in self.effect.forms[0].nonlinear_parameters
         ]
@@ -73,12 +73,12 @@ class Factor(ShortRepr):
         return self.scale.range * (shape.grid[1] - shape.grid[0])
 
     def list_first_values(self, shape: NonlinearParameter) -> list[float]:
-        """The value found between two neighbours, six digits: what a definition tries first."""
+        """Lists the value and its two neighbours, six digits, as a definition tries them."""
         value, size = self.nonlinear_parameters[shape.name], self._compute_step_size(shape)
         return [float(f"{x:.6g}") for x in (value - size, value, value + size)]
 
     def clip_parameters(self, shapes: Mapping[str, float]) -> "Factor":
-        """The same with other values of its shapes, as far as they make sense."""
+        """Returns the same with other values of its parameters, within their limits."""
         clipped_values = dict(shapes)
         for shape in self.effect.forms[0].nonlinear_parameters:
             if shape.scale != "waves":
@@ -99,7 +99,7 @@ class Formula(ShortRepr):
 
     @cached_property
     def named_factors(self) -> list[tuple[Factor, dict[str, str]]]:
-        """Its parts, and the names of their shapes in it: of two vs the second is vs2."""
+        """Returns its factors with the names of their parameters: of two vs the second is vs2."""
         entries, taken = [], list[str]()
         for part in itertools.chain(*self.terms):
             taken += part.nonlinear_parameters
@@ -109,7 +109,7 @@ class Formula(ShortRepr):
 
     @cached_property
     def nonlinear_parameters(self) -> dict[str, float]:
-        """Values by their names in it."""
+        """Returns values by their names in it."""
         return {
             names[key]: value
             for part, names in self.named_factors
@@ -118,7 +118,7 @@ class Formula(ShortRepr):
 
     @cached_property
     def equations(self) -> list[str]:
-        """Its equations."""
+        """Returns its equations."""
         equations, every = list[str](), iter(self.named_factors)
         for term in self.terms:
             named = []
@@ -132,22 +132,22 @@ class Formula(ShortRepr):
 
     @property
     def lag_text(self) -> str:
-        """What its inner state follows; empty without a lag."""
+        """Returns what its inner state follows; empty without a lag."""
         return "".join(part.lag_text for part, _ in self.named_factors)
 
     @property
     def text(self) -> str:
-        """Its columns."""
+        """Returns its columns as text."""
         return " + ".join([*self.equations, *([f"z of {self.lag_text}"] if self.lag_text else [])])
 
     @property
     def title(self) -> str:
-        """In plain words."""
+        """Returns its title in words."""
         return " and ".join(" times ".join(p.effect.title for p in term) for term in self.terms)
 
     @property
     def symbol_count(self) -> int:
-        """Names and numbers in it, of what z stands for too, and free numbers: what has a price."""
+        """Counts names, numbers and free numbers, which have a price."""
         texts = [*self.equations, *([self.lag_text] if self.lag_text else [])]
         texts += [
             key
@@ -159,12 +159,12 @@ class Formula(ShortRepr):
 
     @property
     def is_definable(self) -> bool:
-        """True if a definition can hold it: one inner state, few shapes."""
+        """Tells whether a definition can hold it: one inner state, few parameters."""
         few = len(self.nonlinear_parameters) <= THRESHOLDS.max_formula_parameters
         return few and sum(part.has_memory for part, _ in self.named_factors) < 2
 
     def set_parameters(self, shapes: Mapping[str, float]) -> "Formula":
-        """The same at other values of its shapes, by their names in it."""
+        """Returns the same with other values of its parameters."""
         every = iter(
             part.clip_parameters({key: shapes[name] for key, name in names.items()})
             for part, names in self.named_factors
@@ -172,7 +172,7 @@ class Formula(ShortRepr):
         return Formula(tuple(tuple(next(every) for _ in term) for term in self.terms))
 
     def build_definition(self, prefixes: Sequence[str]) -> dict[str, Any]:
-        """Its table of `[own_effects]` but for title and units."""
+        """Builds its table of `[own_effects]` but for title and units."""
         table: dict[str, Any] = {"columns": dict(zip(prefixes, self.equations, strict=False))}
         if self.lag_text:
             table["lag"] = self.lag_text
@@ -185,14 +185,14 @@ class Formula(ShortRepr):
         return table
 
     def build_candidate(self, names: Sequence[str], j: int) -> Candidate:
-        """It as an effect of joint j of those with the names; its id is its equation."""
+        """Builds the effect of joint j; its id is its equation."""
         # whether it is finite everywhere is asked of those that are offered: it takes long
         place = TomlCell("discover", value=self.build_definition(["Xa", "Xb", "Xc", "Xd"]))
         effect = read_definition(self.text, place, {}, False, names)
         return Candidate(effect, effect.forms[0], names[j], j, dict(self.nonlinear_parameters))
 
     def find_nonlinear_units(self, linear: bool) -> dict[str, str]:
-        """Units of its shapes, on a prismatic joint or on one that turns."""
+        """Finds the units of its parameters on a prismatic or revolute joint."""
         stroke_units = dict.fromkeys(("stroke", "stretch"), ("rad", "m")[linear])
         return {
             names[shape.name]: stroke_units.get(shape.scale) or shape.get_unit(linear)
@@ -202,12 +202,12 @@ class Formula(ShortRepr):
 
 
 def count_symbols(text: str) -> int:
-    """Names, directions and numbers in a column, and its parameter."""
+    """Counts names, directions and numbers in a column, and its parameter."""
     return 1 + len(_SYMBOL.findall(text))
 
 
 def scale_entry(scale: JointScale, shape: NonlinearParameter, entry: float) -> float:
-    """Of a shape from an entry of its grid or limits, SI, also in parts of a stroke."""
+    """Converts an entry of a grid or a limit to SI, also one in parts of a stroke."""
     if shape.scale in ("stroke", "stretch"):
         return (shape.scale == "stroke") * scale.middle + scale.range * entry
     return scale.scale_value(shape, entry)
@@ -219,7 +219,7 @@ def scale_entry(scale: JointScale, shape: NonlinearParameter, entry: float) -> f
 def list_factors(
     spec: ModuleSpec, scales: Sequence[JointScale], j: int, warm: bool, waves: Sequence[float]
 ) -> Iterator[list[Factor]]:
-    """The parts that every factor gives on joint j at the first values of its shapes.
+    """Lists the factors on joint j at the first values of their parameters.
 
     Args:
         spec: the robot.
@@ -273,7 +273,7 @@ _UNITS = ("N", "m", "s", "rad", "K")
 def derive_parameter_unit(
     spec: ModuleSpec, j: int, candidate: Candidate, column: int, shapes: Mapping[str, str]
 ) -> str:
-    """The unit of the parameter of a column, torque over column: "N*m*s/rad".
+    """Derives the unit of the parameter of a column, torque over column: "N*m*s/rad".
 
     Args:
         spec: the robot.
@@ -323,7 +323,7 @@ def derive_parameter_unit(
 
 
 def parse_unit(unit: str) -> dict[str, float]:
-    """Exponents of "N*m/s^2"."""
+    """Parses the exponents of "N*m/s^2"."""
     exponents, sign = dict[str, float](), 1.0
     for mark, name, power in re.findall(r"([*/]?)([A-Za-z]+)\^?([0-9.]*)", unit.replace(" ", "*")):
         sign = -1.0 if mark == "/" else 1.0

@@ -81,7 +81,7 @@ class CrossCheckData:
 def cross_check_effects(
     search: Search, data_sets: Sequence[CrossCheckData], tick: Tick = lambda: None
 ) -> list[tuple[result.CrossCheck, ...]]:
-    """What the other looks say of every effect that was put in, in order.
+    """Checks on other data every effect that was put in, in order.
 
     Args:
         search: the search in the first look.
@@ -190,7 +190,7 @@ def _rescan_candidates(state: State, step: SearchStep, search: Search) -> list[S
 def find_changed_parameters(
     model: IdentifiedModel, search: Search, other: SearchData, left: Residuals, logs: Sequence[Log]
 ) -> tuple[result.ParameterChange, ...]:
-    """Parameters in which the machine of the held-out logs differs, the most important first.
+    """Finds parameters in which the machine of the held-out logs differs, largest change first.
 
     Args:
         model: as given.
@@ -248,7 +248,7 @@ class BandSearch(ShortRepr):
 
     @property
     def named_steps(self) -> tuple[SearchStep, ...]:
-        """The steps whose effects are named."""
+        """Returns the steps whose effects are named."""
         named = {(f.effect, f.joint) for f in self.findings if not f.doubt}
         return tuple(step for step in self.search.steps if step.candidate.key in named)
 
@@ -259,7 +259,7 @@ def evaluate_search(
     checks: Sequence[tuple[result.CrossCheck, ...]],
     tick: Tick,
 ) -> BandSearch:
-    """The findings of a search.
+    """Evaluates the effects of a search on held-out data.
 
     Args:
         search: of the training logs.
@@ -319,7 +319,7 @@ def assemble_diagnosis(
     faults: Sequence[DataWarning] = (),
     changed_parameters: Sequence[result.ParameterChange] = (),
 ) -> result.Diagnosis:
-    """The diagnosis.
+    """Assembles the diagnosis.
 
     Args:
         model: as given.
@@ -548,7 +548,7 @@ def _summarise_joints(
 def decide_verdict(
     effects: Sequence[result.Finding], joints: dict[str, result.JointState], search: Search
 ) -> str:
-    """One of the five answers.
+    """Decides one of the five verdicts.
 
     Args:
         effects: that are named, best first.
@@ -569,7 +569,7 @@ def decide_verdict(
 
 
 def list_undetectable_effects(search: Search) -> tuple[result.Key, ...]:
-    """Effects that these data cannot show: hidden by the model, or on joints that do not move."""
+    """Lists effects that these data cannot show."""
     has = {(p.effect, p.joint) for p in search.spec.standard}
     candidate_scores = [j for j in search.ranked if j.key not in has]
     shown_keys = {j.key for j in candidate_scores}

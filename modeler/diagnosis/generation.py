@@ -41,7 +41,7 @@ from modeler.regression import apply_low_pass, compute_bristle_state, find_neare
 
 
 def is_confirmed(state: State, candidate: Candidate, values: np.ndarray) -> bool:
-    """True if the smooth motion speaks for the effect too, and it is no convention of the logger.
+    """Tells whether the smooth motion supports the effect, and no convention explains it.
 
     Noise of the encoder runs through the controller into the torque: least squares then see delays
     and elasticity that are not there. Instruments are the same columns built from a motion without
@@ -57,7 +57,7 @@ def is_confirmed(state: State, candidate: Candidate, values: np.ndarray) -> bool
 
 
 def estimate_logger_shift(state: State, candidate: Candidate, values: np.ndarray) -> float:
-    """s of a delay of about half a sample: which of two samples a torque belongs to; else 0.
+    """Estimates a delay, s, of about half a sample that a logger causes; else 0.
 
     Args:
         state: without the candidate.
@@ -87,7 +87,7 @@ def _check_smooth_motion(
 
 
 def estimate_instrumental(state: State, candidate: Candidate) -> tuple[np.ndarray, np.ndarray]:
-    """Estimate of the candidate's parameters by instrumental variables, and standard errors.
+    """Estimates the candidate's parameters by instrumental variables, with standard errors.
 
     theta = (Z^T X)^-1 Z^T y; errors from sums over blocks, so that coloured residuals count.
     """
@@ -135,7 +135,7 @@ def _solve_instrumental(
 
 
 def smooth_rows(state: State) -> Rows:
-    """The same rows of the motion without the noise of its sensors: smoothed to 3 of its bands.
+    """Returns the rows of the motion, smoothed to three times its bandwidth.
 
     Its base columns are not there.
     """
@@ -160,7 +160,7 @@ def _smooth_signals(signals: Signals, cutoff: float) -> Signals:
 
 
 def compute_joint_order_spectrum(state: State, j: int) -> OrderSpectrum | None:
-    """Of the moving samples of joint j, at full rate; None if it rests."""
+    """Computes the order spectrum of joint j at full rate; None if it rests."""
     key = "order spectrum", j
     if key not in state.derived_cache:
         q, r = _collect_samples(state, j)
@@ -212,7 +212,7 @@ def _compute_added_torque(state: State, number: int, j: int) -> np.ndarray:
 def list_ripple_candidates(
     state: State, allowed: Callable[[str, str | None], bool], joints: Set[str | None] | None = None
 ) -> list[Candidate]:
-    """Waves at the orders that stand out on each joint, and at the whole numbers next to them.
+    """Lists waves at the orders that stand out, and at the whole numbers next to them.
 
     Args:
         state: it.
@@ -246,7 +246,7 @@ _RINGING = (0.7, 1.5, 3.0, 6.0, 12.0)
 
 
 def compute_systematic_share(state: State, j: int, residual: np.ndarray) -> float:
-    """Share of the variance of a residual of joint j (rows_j,) that surely is no noise."""
+    """Computes the share of the variance of a residual (rows_j,) that is certainly no noise."""
     rows = state.rows
     log = rows.time[j], residual, rows.run[j]
     cutoff = state.data.observation.report.processing.parallel_cutoff
@@ -259,12 +259,12 @@ def compute_systematic_share(state: State, j: int, residual: np.ndarray) -> floa
 
 
 def compute_burst_share(state: State, j: int) -> float:
-    """Share of the energy of joint j's residual in outbursts."""
+    """Computes the share of the energy of joint j's residual in bursts."""
     return estimate_burst_share(state.residual[j], state.data.block_numbers[j])
 
 
 def fit_residual_baseline(state: State, j: int, residual: np.ndarray) -> NonparametricBaseline:
-    """What a flexible function of all that was measured says of a residual of joint j (rows_j,).
+    """Fits the nonparametric baseline to a residual of joint j (rows_j,).
 
     It reads the smooth motion: what the noise of the positions makes of the columns of the model is
     in the residual, and in the motion as it was measured too, which would seem to predict it.
@@ -332,7 +332,7 @@ def generate_candidates(
     without: Sequence[str] = (),
     keys: Set[tuple[str, str | None]] | None = None,
 ) -> list[Candidate]:
-    """What could be missing in this state, without what was put in already.
+    """Generates the candidates of this state, without those that were put in.
 
     Args:
         state: it.
@@ -372,17 +372,17 @@ def generate_candidates(
 
 
 def is_ruled_out(effect: str, joint: str | None, without: Sequence[str]) -> bool:
-    """True if the user rules out the effect, everywhere or on that joint."""
+    """Tells whether the user rules out the effect, everywhere or on that joint."""
     return effect in without or f"{effect}@{joint}" in without
 
 
 def find_slowest_ringing(state: State) -> float:
-    """Hz from which on an elastic joint may ring."""
+    """Returns the frequency, Hz, from which an elastic joint may resonate."""
     return THRESHOLDS.min_resonance_ratio * state.data.observation.report.band
 
 
 def list_load_candidates(state: State) -> list[Candidate]:
-    """A body on the last link, or on another: only where the links' parameters are kept."""
+    """Lists bodies on a link, where the links' parameters are fixed."""
     spec = state.spec
     links = list_links(spec)
     carrier = spec.closure.carrier if spec.closure is not None else ""

@@ -68,28 +68,28 @@ class LawCoordinates(ShortRepr):
 
     @property
     def equation(self) -> str:
-        """As it stands in the column of the effect."""
+        """Returns the column of the effect."""
         law = f"law({', '.join(self.arguments)})"
         return f"{self.factor}*{law}" if self.factor else law
 
     @property
     def description(self) -> str:
-        """For people: "abs(v) and q, odd in v"."""
+        """Describes the arguments: "abs(v) and q, times sign(v)"."""
         return " and ".join(self.arguments) + (", times " + self.factor if self.factor else "")
 
     @property
     def cell_counts(self) -> tuple[int, ...]:
-        """Cells along each axis."""
+        """Returns the cells along each axis."""
         return self.cells or (CELLS[len(self.arguments) - 1],) * len(self.arguments)
 
     def scale_parameter(self, name: str, factor: float) -> "LawCoordinates":
-        """The same with another value of a shape of what it reads."""
+        """Returns the same with a parameter of what it reads multiplied."""
         (value,) = self.further["shapes"][name]
         shapes = self.further["shapes"] | {name: [float(f"{value * factor:.4g}")]}
         return replace(self, further=dict(self.further) | {"shapes": shapes})
 
     def evaluate_samples(self, state: State, j: int) -> list[np.ndarray]:
-        """(samples, arguments + 1) by stretch: the arguments, then the factor.
+        """Evaluates arguments, then the factor, (samples, arguments + 1) by segment.
 
         Of the smooth motion: what the noise of positions makes of the columns of the model is in
         the residual, and the measured motion would seem to predict it.
@@ -134,7 +134,7 @@ class LearnedLaw(ShortRepr):
 
     @property
     def is_significant(self) -> bool:
-        """True if it is worth a place in a model."""
+        """Tells whether it is significant."""
         return (
             self.variance_reduction > THRESHOLDS.min_variance_reduction
             and self.t_ratio > THRESHOLDS.min_law_t_ratio
@@ -158,11 +158,11 @@ class LawRequest(ShortRepr):
 
     @property
     def description(self) -> str:
-        """Behind "law": " of q and v"; empty where nothing is asked for."""
+        """Describes the request behind "law": " of q and v"; empty without one."""
         return f" of {' and '.join(self.of)}" if self.of else ""
 
     def list_coordinates(self, state: State, j: int) -> list[LawCoordinates]:
-        """To choose from.
+        """Lists the coordinates to choose from.
 
         Raises:
             DataError: more than two variables, or such as laws cannot read in loops.
@@ -196,18 +196,18 @@ LEARNED = "learned"
 
 
 def make_effect_id(stem: str, joint: str, taken: Collection[str]) -> str:
-    """Id of an effect of a joint that no other has: learned_2."""
+    """Makes an id of an effect of a joint that no other has: learned_2."""
     return choose_free_name(f"{stem}_{re.sub(r'[^a-z0-9]', '_', joint.lower())}", taken)
 
 
 def choose_free_name(stem: str, taken: Collection[str]) -> str:
-    """The stem, with a letter behind it if it is taken."""
+    """Returns the stem, with a letter behind it if it is taken."""
     names = (stem, *(f"{stem}{letter}" for letter in "bcdefghijklmnopqrstuvwxyz"))
     return next(name for name in names if name not in taken)
 
 
 def learn_law(state: State, j: int, request: LawRequest = ANY_LAW) -> LearnedLaw | None:
-    """The law of joint j that loses least on motion it was not fitted to; None without any.
+    """Learns the law of joint j with the least cross-validated error; None without any.
 
     Args:
         state: what is in the model.
@@ -270,7 +270,7 @@ def _refine_coordinates(
 
 
 def generate_coordinates(state: State, j: int) -> Iterator[LawCoordinates]:
-    """Those that make sense on a joint: of every quantity alone, and beside v or q.
+    """Generates the coordinates that make sense on a joint.
 
     Odd in v, and not.
     """
@@ -358,7 +358,7 @@ class _SplineBasis(ShortRepr):
 
     @property
     def cell_counts(self) -> tuple[int, ...]:
-        """Cells along each axis."""
+        """Returns the cells along each axis."""
         return self.coordinates.cell_counts
 
 
@@ -397,12 +397,12 @@ class _SplineFit(ShortRepr):
 
     @property
     def reductions(self) -> np.ndarray:
-        """(blocks,) fall of the squared residuals."""
+        """Returns the fall of the squared residuals, (blocks,)."""
         return self.before - self.after
 
     @property
     def t_ratio(self) -> float:
-        """Fall of the error over its standard error."""
+        """Returns the fall of the error over its standard error."""
         return compute_t_ratio(np.sqrt(self.before) - np.sqrt(self.after))
 
 
@@ -427,7 +427,7 @@ class _SplineProblem:
 
     @cached_property
     def full_fit(self) -> tuple[np.ndarray, np.ndarray]:
-        """(r, r) and (r,) inverse of the model's Gram matrix on all rows, and its parameters."""
+        """Returns the inverse Gram matrix (r, r) of the model and its parameters (r,), all rows."""
         base = self.state.gram_blocks
         G = base.G.sum(axis=0) + base.prior[:, :-1]
         inverse = np.linalg.inv(G + 1e-10 * np.eye(len(G)))
@@ -436,7 +436,7 @@ class _SplineProblem:
     def solve(
         self, f: int | None, smooth: float, rising: int = 0
     ) -> tuple[np.ndarray, np.ndarray] | None:
-        """Coefficients and parameters (r,) by all folds but f; None: by all."""
+        """Solves for coefficients and parameters (r,) by all folds but f; None: by all."""
         weight = 0.0 if f is None else 1.0
         BB, XB, By = (
             x.sum(axis=0) - weight * (x[f] if f is not None else 0.0)
@@ -469,7 +469,7 @@ class _SplineProblem:
         return np.asarray(turn @ coefficients)
 
     def fit_smoothness(self, grid: Sequence[float], rising: int = 0) -> _SplineFit:
-        """At the smoothness of the grid that loses least on rows that were not fitted."""
+        """Fits with the smoothness of least cross-validated error."""
         every = [(*self._cross_validate(smooth, rising), smooth) for smooth in grid]
         before, after, smooth = min(every, key=lambda item: float(item[1].sum()))
         solution = self.solve(None, smooth, rising)

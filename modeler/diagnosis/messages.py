@@ -25,14 +25,14 @@ if TYPE_CHECKING:
 
 
 def compute_duration(state: State) -> float:
-    """s of motion in all logs."""
+    """Computes the s of motion in all logs."""
     observation = state.data.observation
     runs = [observation.time[observation.run == k] for k in range(len(observation.logs))]
     return sum(float(np.ptp(time)) for time in runs if time.size)
 
 
 def describe_data_problems(state: State) -> tuple[str, ...]:
-    """Doubts about the motion of the logs: what it shows too little of.
+    """Describes what the motion of the logs shows too little of.
 
     Args:
         state: the model as given.
@@ -80,7 +80,7 @@ def _check_joint_motion(state: State, j: int, joint: JointSpec) -> list[str]:
 
 
 def find_single_speed(state: State, j: int) -> float | None:
-    """The speed of a joint that has but one between its reversals, rad/s or m/s; else None."""
+    """Returns the speed of a joint that has only one, rad/s or m/s; else None."""
     v = state.rows.filter_samples(j, [s.v[:, j] for s in state.rows.signals])
     if not v.size:
         return None
@@ -132,7 +132,7 @@ def _is_model_difference(effect: Effect) -> bool:
 
 
 def exclude_friction(data: SearchData, beta: np.ndarray) -> StatedEffects | None:
-    """What may be missing where torques were computed, and not measured; None where they rub.
+    """Excludes effects that computed torques cannot have; None where friction is measured.
 
     No robot with gears is without friction: a torque that is was computed from the motion by some
     model, and differs from this one by delays, offsets, a tilt, a load.
@@ -171,7 +171,7 @@ def collect_warnings(
     contradictions: Sequence[DataWarning],
     window: PushWindow | None = None,
 ) -> tuple[str, ...]:
-    """Sentences on the logs.
+    """Collects the warnings about the logs.
 
     Args:
         model: as given.
@@ -269,7 +269,7 @@ def _check_position_delay(search: Search) -> list[str]:
     rows, driven = state.rows, [j for j, joint in enumerate(state.spec.joints) if joint.actuated]
 
     def compute_delay_column(j: int, stretch: int, window: slice) -> np.ndarray:
-        """(n, J, 1) torque by the delay of the position of joint j."""
+        """Computes the torque (n, J, 1) by the delay of the position of joint j."""
         signals = rows.signals[stretch]
         return signals.compute_displacement_torque(j, signals.v[:, [j]], True, window)
 
@@ -313,7 +313,7 @@ def _check_position_delay(search: Search) -> list[str]:
 def find_faults(
     model: IdentifiedModel, compiled: "CompiledModel", observation: Observation, which: str = ""
 ) -> tuple[DataWarning, ...]:
-    """Of some logs; which are said before every line, if not those that are explained."""
+    """Finds the faults of some logs, each with a prefix."""
     faults = find_log_faults(compiled, observation, model)
     return tuple(replace(fault, line=f"{which}{fault.line}") for fault in faults)
 
@@ -332,12 +332,12 @@ _ONLY_TIMING = (
 
 
 def format_location(joint: str | None) -> str:
-    """The joint, or the whole robot."""
+    """Names the joint, or the whole robot."""
     return f"joint {joint}" if joint is not None else "the whole robot"
 
 
 def describe_undetectable(diagnosis: Diagnosis) -> list[tuple[str, str]]:
-    """What the logs cannot show, and why: (effect and joint, sentence).
+    """Describes what the logs cannot show, and why: (effect and joint, sentence).
 
     A joint of which no row can be used stands there once, for all its effects.
     """
@@ -352,7 +352,7 @@ def describe_undetectable(diagnosis: Diagnosis) -> list[tuple[str, str]]:
 
 
 def describe_evidence(step: SearchStep, before: float, after: float) -> str:
-    """Why this effect, in one or two sentences.
+    """Describes why this effect was chosen.
 
     Args:
         step: that put it in.
@@ -382,7 +382,7 @@ def describe_evidence(step: SearchStep, before: float, after: float) -> str:
 
 
 def add_sentences(diagnosis: Diagnosis) -> Diagnosis:
-    """The diagnosis with its sentences."""
+    """Adds the sentences to the diagnosis."""
     lines = [
         _write_headline(diagnosis),
         *(_describe_effect(f, diagnosis) for f in diagnosis.effects),
@@ -421,7 +421,7 @@ def _list_changes(diagnosis: Diagnosis) -> list[str]:
 
 
 def describe_rejected(diagnosis: Diagnosis) -> list[str]:
-    """What explains much of these logs and is not named all the same, the best first."""
+    """Describes rejected effects that explain much, the best first."""
     search = diagnosis.search
     timing = [
         candidate_score
@@ -514,14 +514,14 @@ def _write_headline(diagnosis: Diagnosis) -> str:
 
 
 def format_equivalents(finding: Finding) -> str:
-    """What the data do not tell from it; empty without any."""
+    """Formats the effects that the data do not distinguish from it; empty without any."""
     return ", ".join(
         f"{effect} on {format_location(joint)}" for effect, joint in finding.equivalents
     )
 
 
 def describe_equivalents(finding: Finding) -> str:
-    """Behind its name: what it may be as well."""
+    """Describes these behind its name."""
     return (
         f", or {format_equivalents(finding)} (these data do not tell which)"
         if finding.equivalents
@@ -579,7 +579,7 @@ def _format_spread(finding: Finding, name: str) -> str:
 
 
 def format_unit(finding: Finding, name: str) -> str:
-    """The unit behind a value; nothing for a plain number."""
+    """Formats the unit behind a value; empty for a plain number."""
     of = finding.units.get(name, "1")
     return f" {of}" if of != "1" else ""
 
@@ -588,7 +588,7 @@ def format_unit(finding: Finding, name: str) -> str:
 
 
 def format_lines(diagnosis: Diagnosis) -> list[str]:
-    """The verdict, what was found, the errors of all joints, and what the logs cannot show."""
+    """Formats verdict, findings, errors of all joints, and what the logs cannot show."""
     lines = list(diagnosis.sentences)
     source = "held-out" if diagnosis.held_out else "cross-validated"
     entry = ", ".join(

@@ -20,12 +20,12 @@ _SCALES = frozenset({"torque"})
 
 
 def is_gain(candidate: Candidate) -> bool:
-    """True for an effect that scales the torque of its joint."""
+    """Tells whether an effect scales the torque of its joint."""
     return candidate.is_local and candidate.form.names == _SCALES
 
 
 def compute_candidate_columns(state: State, candidates: Sequence[Candidate]) -> list[Columns]:
-    """The columns of candidates; those of a gain about the model with that gain."""
+    """Computes the columns of candidates; those of a gain about the model with that gain."""
     every = build_all_columns(state.rows, candidates)
     for i, candidate in enumerate(candidates):
         beta = solve_parameters(state, candidate) if is_gain(candidate) else None
@@ -42,7 +42,7 @@ def _list_gain_joints(picks: Iterable[Candidate]) -> list[int]:
 
 
 def solve_parameters(state: State, candidate: Candidate | None = None) -> np.ndarray | None:
-    """(c,) base parameters about which the gains among the picks and a candidate are linear.
+    """Solves for the base parameters (c,) about which all gains are linear.
 
     Gains that the robot has already count among them. None without a gain, or without an answer.
     """
@@ -52,7 +52,7 @@ def solve_parameters(state: State, candidate: Candidate | None = None) -> np.nda
 
 
 def select_likeliest(state: State, candidates: Sequence[Candidate]) -> Candidate | None:
-    """Of gains of several joints the one that leaves least; each joint weighs by what it leaves.
+    """Selects, of gains of several joints, the likeliest; None where none has a solution.
 
     Where a wrong gain bends the model, the weights of the state say more of the bend than of the
     joints. None where no gain can be settled.
@@ -76,7 +76,7 @@ def _solve_best(problem: "_GainProblem") -> "_GainSolution | None":
 
 
 def compute_gain_deviations(state: State, place: int) -> np.ndarray:
-    """(1,) standard deviation of the eps of one pick, of a state about its own parameters.
+    """Computes the standard deviation (1,) of the eps of one pick.
 
     From sums over blocks, so that coloured residuals count, and with all that beta may be.
     """
@@ -88,7 +88,7 @@ def compute_gain_deviations(state: State, place: int) -> np.ndarray:
 
 
 def compute_gain_visibility(state: State, place: int) -> float:
-    """Share of the column of one pick that all else does not hide, of a state about itself."""
+    """Computes the share of the column of one pick that nothing else hides."""
     problem = _build_problem(state, _list_gain_joints(state.picks))
     return problem.compute_visibility(state.picks[place].index)
 
@@ -129,12 +129,12 @@ class _GainProblem:
 
     @cached_property
     def column_lengths(self) -> np.ndarray:
-        """(free,) lengths of the columns."""
+        """Returns the lengths of the columns, (free,)."""
         square = np.einsum("jkk->k", self.grams)[self.free]
         return np.sqrt(np.where(square > 0.0, square, 1.0))
 
     def choose_start(self) -> np.ndarray:
-        """(J,) of g: as given; of a new one the best of a grid."""
+        """Chooses the first g, (J,): as given; of a new gain the best of a grid."""
         start = self.initial_gains.copy()
         for j in self.gains:
             if self.initial_gains[j] == 1.0:
@@ -148,7 +148,7 @@ class _GainProblem:
         return start
 
     def solve(self, g: np.ndarray) -> _GainSolution | None:
-        """All parameters and gains; None where they do not come to rest."""
+        """Solves for all parameters and gains; None without convergence."""
         g, values, step = g.copy(), self._solve_values(g), np.inf
         for _ in range(THRESHOLDS.max_gain_iterations):
             matrix, right = self._build_equations(g, values)
@@ -179,7 +179,7 @@ class _GainProblem:
         return float(np.sum(self.rows * np.log(variance * self.sigma**2)))
 
     def solve_reweighted(self, g: np.ndarray) -> _GainSolution | None:
-        """The same with the weight of each joint from what it leaves."""
+        """Solves with the weight of each joint from its residual."""
         problem, solution = self, self.solve(g)
         for _ in range(THRESHOLDS.max_gain_reweightings):
             if solution is None:
@@ -191,7 +191,7 @@ class _GainProblem:
         return solution
 
     def update_weights(self, left: np.ndarray) -> "_GainProblem":
-        """With sigma of each joint so that it leaves one for each row."""
+        """Updates the sigma of each joint to its residual."""
         rows = np.maximum(self.rows, 1)
         least = THRESHOLDS.min_gain_residual_share * np.sqrt(self.torque_squares / rows)
         ratio = np.where(self.torque_squares > 0.0, np.maximum(np.sqrt(left / rows), least), 1.0)
@@ -201,7 +201,7 @@ class _GainProblem:
     def compute_deviations(
         self, g: np.ndarray, weighted: Sequence[np.ndarray], block: Sequence[np.ndarray]
     ) -> np.ndarray:
-        """(gains,) standard deviations of g, from sums over blocks.
+        """Computes the standard deviations of g, (gains,), from sums over blocks.
 
         Args:
             g: (J,).
@@ -226,7 +226,7 @@ class _GainProblem:
         return np.asarray(np.sqrt(np.sum((sums @ inverse.T) ** 2, axis=0)))
 
     def compute_visibility(self, joint: int) -> float:
-        """Share of the column of a gain that the others do not hide."""
+        """Computes the share of the column of a gain that the others do not hide."""
         values, n, i = (
             self._solve_values(self.initial_gains),
             len(self.free),
@@ -289,7 +289,7 @@ class _GainProblem:
 
     @property
     def torque_squares(self) -> np.ndarray:
-        """(J,) squares of the torque, in units of sigma."""
+        """Returns the squares of the torque, (J,), in units of sigma."""
         return self.grams[:, -1, -1]
 
 
@@ -369,7 +369,7 @@ FADES = frozenset({"t", "load", "static"})
 
 
 def is_friction_driving(before: State, after: State, pick: Candidate) -> bool:
-    """True if friction drives with the effect by more than the model leaves, and not without it.
+    """Tells whether friction would drive with the effect, and does not without it.
 
     Args:
         before: the state without the effect.
@@ -390,7 +390,7 @@ def is_friction_driving(before: State, after: State, pick: Candidate) -> bool:
 
 
 def has_friction(state: State, j: int) -> bool:
-    """True if the model has friction of joint j alone."""
+    """Tells whether the model has friction of joint j alone."""
     return bool(_find_friction_columns(state, j))
 
 
@@ -407,13 +407,13 @@ def _list_friction_picks(state: State, j: int) -> list[int]:
 
 
 def compute_largest_friction(state: State, j: int) -> float:
-    """The largest friction torque of joint j on its rows, but for one in fifty, N m or N."""
+    """Computes the 98 % quantile of the friction torque of joint j, N m or N."""
     torque = np.abs(_compute_friction(state, j, _list_friction_picks(state, j)))
     return float(np.quantile(torque, 0.98)) if torque.size else 0.0
 
 
 def is_torque_computed(state: State) -> bool:
-    """True if no joint rubs: the torques were computed from the motion.
+    """Tells whether torques were computed from the motion: no joint has friction.
 
     By medians over the joints of Coulomb and viscous friction; those that the model lacks are
     fitted beside it.
@@ -476,7 +476,7 @@ def _compute_friction(state: State, j: int, picks: Sequence[int]) -> np.ndarray:
 
 
 def find_caveat(state: State, pick: Candidate, parameters: Mapping[str, float]) -> str:
-    """Why the values cannot be those of the effect named; empty if they can.
+    """Explains why the values cannot be those of the effect; empty if they can.
 
     A joint of stiffness K rings, with its motor held, at f = sqrt(K/J)/(2 pi), J the inertia that
     the model has on its axis: something else that rings (a sloshing load, a soft base) has another
@@ -605,7 +605,7 @@ def _check_lag(state: State, pick: Candidate, parameters: Mapping[str, float]) -
 
 
 def find_gravity_confounders(start: State, candidates: Sequence[Candidate]) -> list[str]:
-    """Joints on which the links' own gravity imitates what balances it, most of it at any shape.
+    """Finds joints on which gravity of the links imitates what balances it.
 
     Of most shapes, less than a tenth of the torque is left beside inertias that are free.
 

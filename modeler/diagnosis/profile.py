@@ -85,7 +85,7 @@ class ProfileProblem:
 
     @cached_property
     def weighted_base(self) -> tuple[tuple[np.ndarray, ...], np.ndarray]:
-        """Weighted columns of all else by joint, with the prior orthonormal, and (c, r): W turn."""
+        """Returns orthonormal weighted columns of all else by joint, and the transform (c, r)."""
         turn = compute_joint_whitening(
             [*self.others, self.prior[:, :-1]], np.append(self.sigma, 1.0)
         )
@@ -94,7 +94,7 @@ class ProfileProblem:
 
     @cached_property
     def weighted_target(self) -> tuple[tuple[np.ndarray, ...], np.ndarray, float]:
-        """Weighted y by joint, its products with the base, and what the base leaves of y.y."""
+        """Returns weighted y by joint, its products with the base, and what the base leaves."""
         scaled = tuple(t / s for t, s in zip(self.y, self.sigma, strict=True))
         known = self.prior[:, -1]
         u = sum(q.T @ t for q, t in zip(self.weighted_base[0], scaled, strict=True))
@@ -102,7 +102,7 @@ class ProfileProblem:
         return scaled, u, float(sum(t @ t for t in scaled) + known @ known - u @ u)
 
     def fit_candidate(self, candidate: Candidate) -> ProfilePoint | None:
-        """The fit with these shapes; None where the columns cannot be told from all else."""
+        """Fits these parameters; None where the columns are not identifiable beside all else."""
         columns = enumerate(self.rows.build_columns(candidate))
         columns_by_joint = {j: np.asarray(c) / self.sigma[j] for j, c in columns if c is not None}
         if not columns_by_joint or not all(np.isfinite(c).all() for c in columns_by_joint.values()):
@@ -129,14 +129,14 @@ class ProfileProblem:
         )
 
     def compute_squares(self, candidate: Candidate, values: np.ndarray) -> float:
-        """S with these shapes and these values (k,) of the effect; all else is fitted."""
+        """Computes S with these parameters and values (k,) of the effect; all else is fitted."""
         torque = self.compute_residual_columns(candidate) @ values
         return self.weighted_target[2] + float(
             torque @ torque - 2.0 * torque @ np.concatenate(self.weighted_target[0])
         )
 
     def compute_residual_columns(self, candidate: Candidate) -> np.ndarray:
-        """(rows of all joints, k) what all else leaves of the columns, divided by sigma."""
+        """Computes what all else leaves of the columns over sigma, (rows of all joints, k)."""
         columns = self.rows.build_columns(candidate)
         joint_columns = [to_dense(columns, j, len(t)) / self.sigma[j] for j, t in enumerate(self.y)]
         T = sum(q.T @ c for q, c in zip(self.weighted_base[0], joint_columns, strict=True))
@@ -163,18 +163,18 @@ class Profile:
 
     @cached_property
     def values(self) -> np.ndarray:
-        """(points, k) parameters."""
+        """Returns the parameters, (points, k)."""
         return np.array([point.values for point in self.points])
 
     @cached_property
     def squares_rise(self) -> np.ndarray:
-        """(points,) (S - S*) / f^2."""
+        """Returns (S - S*) / f^2, (points,)."""
         squares = np.array([point.squares for point in self.points])
         return (squares - squares.min()) / self.nonlinear_factor**2
 
     @cached_property
     def likelihood_share(self) -> np.ndarray:
-        """(points,) of the likelihood, summing to one."""
+        """Returns the shares of the likelihood, (points,), which sum to one."""
         weight = np.array([point.weight for point in self.points]) * np.exp(
             -0.5 * self.squares_rise
         )
@@ -182,7 +182,7 @@ class Profile:
         return np.asarray(weight / weight.sum())
 
     def compute_deviations(self) -> np.ndarray:
-        """(k,) standard deviations of the parameters, shapes included.
+        """Computes standard deviations of the parameters, (k,), over all nonlinear parameters.
 
         Never more than the interval reaches: where an effect all but vanishes from the rows, its
         parameter may be anything.
@@ -193,7 +193,7 @@ class Profile:
         return np.minimum(np.sqrt(self.likelihood_share @ (point_deviations**2 + apart**2)), reach)
 
     def compute_intervals(self) -> np.ndarray:
-        """(k, 2) 95 % intervals of the parameters, shapes included."""
+        """Computes 95 % intervals of the parameters, (k, 2), over all nonlinear parameters."""
         every = [*self.points, self.reported_point]
         rise = np.append(self.squares_rise, 0.0)
         half = np.sqrt(np.maximum(THRESHOLDS.chi2_95 - rise, 0.0))[:, None] * self.factor
@@ -204,7 +204,7 @@ class Profile:
         return np.column_stack([low.min(axis=0), high.max(axis=0)])
 
     def compute_nonlinear_deviations(self) -> dict[str, float]:
-        """Standard deviations of the shapes by name."""
+        """Computes standard deviations of the nonlinear parameters by name."""
         return {
             name: float(
                 np.sqrt(
@@ -216,7 +216,7 @@ class Profile:
         }
 
     def compute_nonlinear_intervals(self) -> dict[str, tuple[float, float]]:
-        """95 % intervals of the shapes by name: all that the data do not refuse."""
+        """Computes 95 % intervals of the nonlinear parameters by name."""
         allowed = [
             p
             for p, rise in zip(self.points, self.squares_rise, strict=True)
@@ -229,7 +229,7 @@ class Profile:
         return {name: (min(values), max(values)) for name, values in values_by_name.items()}
 
     def compute_extra_covariance(self) -> np.ndarray:
-        """(c + k,) squared: what the shapes add to the covariance; all else first, then own."""
+        """Computes what nonlinear parameters add to the covariance, (c + k,) squared, own last."""
         every = np.array([np.concatenate([p.others, p.values]) for p in self.points])
         apart = every - np.concatenate([self.reported_point.others, self.reported_point.values])
         return np.asarray((apart * self.likelihood_share[:, None]).T @ apart)
@@ -238,7 +238,7 @@ class Profile:
 def compute_profile(
     state: State, candidate: Candidate, effect_columns: slice | list[int]
 ) -> Profile | None:
-    """The likelihood along the shapes of an effect; None if it has none that could be others.
+    """Computes the likelihood along the nonlinear parameters of an effect; None without any.
 
     Args:
         state: the rows.
@@ -430,7 +430,7 @@ class EffectValues:
 def describe_values(
     state: State, pick: Candidate, values: np.ndarray, deviations: np.ndarray
 ) -> EffectValues:
-    """What people read of an effect.
+    """Names the values of an effect, with units.
 
     A body on a link has its mass and the inertial parameters that the robot feels; a tilted base
     the change of gravity in frame 0, m/s^2.
@@ -456,7 +456,7 @@ def describe_values(
 
 
 def compute_effect_profile(state: State, place: int) -> Profile | None:
-    """The likelihood along the shapes of an effect that was put in.
+    """Computes the likelihood along the nonlinear parameters of an effect of a state.
 
     Args:
         state: with the effect.
@@ -466,14 +466,14 @@ def compute_effect_profile(state: State, place: int) -> Profile | None:
 
 
 def find_effect_columns(state: State, place: int) -> slice:
-    """The columns of an effect of the state."""
+    """Returns the columns of an effect of the state."""
     sizes = [len(values) for values in state.values]
     first = state.W[0].shape[1] - sum(sizes[place:])
     return slice(first, first + sizes[place])
 
 
 def build_reduction_function(state: State, place: int) -> Callable[[Candidate], float]:
-    """The fall of S with an effect that was put in, by its shapes; 0 where physics forbids it."""
+    """Builds the function from a candidate to the fall of S; 0 where physics forbids it."""
     problem = ProfileProblem(state, state.picks[place], find_effect_columns(state, place))
 
     def compute_reduction(candidate: Candidate) -> float:
@@ -487,7 +487,7 @@ def build_reduction_function(state: State, place: int) -> Callable[[Candidate], 
 def collect_intervals(
     along: Profile, effect_values: EffectValues
 ) -> dict[str, tuple[float, float]]:
-    """95 % intervals of the parameters and shapes of an effect, by name."""
+    """Collects the 95 % intervals of all parameters of an effect, by name."""
     pairs = zip(effect_values.value, along.compute_intervals().tolist(), strict=False)
     return {name: (low, high) for name, (low, high) in pairs} | along.compute_nonlinear_intervals()
 
@@ -509,11 +509,11 @@ def _list_units(state: State, pick: Candidate) -> dict[str, str]:
 
 
 def is_prismatic(spec: ModuleSpec, joint: str | None) -> bool:
-    """True of a prismatic joint."""
+    """Tells whether a joint is prismatic."""
     return any(joint_spec.name == joint and joint_spec.unit == "m" for joint_spec in spec.joints)
 
 
 def find_nonlinear_units(state: State, pick: Candidate) -> dict[str, str]:
-    """Units of the shapes, by name."""
+    """Finds the units of the nonlinear parameters, by name."""
     linear = is_prismatic(state.spec, pick.joint)
     return {shape.name: shape.get_unit(linear) for shape in pick.form.nonlinear_parameters}

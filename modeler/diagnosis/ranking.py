@@ -48,22 +48,22 @@ class GramBlocks(ShortRepr):
 
     @property
     def whitened_columns(self) -> tuple[np.ndarray, ...]:
-        """(rows_j, r) by joint, weighted: W turn / sigma; those of the last base are kept."""
+        """Returns W turn / sigma, (rows_j, r) by joint; those of the last base are cached."""
         return self.source.compute_columns()
 
     @property
     def block_count(self) -> int:
-        """How many blocks of time there are."""
+        """Returns the number of blocks of time."""
         return len(self.fold)
 
     @cached_property
     def row_slices(self) -> list[list[tuple[int, slice]]]:
-        """Blocks and their rows, by joint."""
+        """Returns blocks and their rows, by joint."""
         return [find_block_runs(joint_blocks) for joint_blocks in self.block]
 
     @cached_property
     def fold_fits(self) -> "FoldFits":
-        """Fits of the base to all folds but one."""
+        """Fits the base to all folds but one."""
         place = np.unique(self.fold, return_inverse=True)[1]
         count = int(place.max()) + 1
         u = leave_one_fold_out(self.u, place, count) + self.prior[:, -1]
@@ -74,7 +74,7 @@ class GramBlocks(ShortRepr):
 
     @cached_property
     def out_of_fold(self) -> tuple[np.ndarray, ...]:
-        """(rows_j,) by joint, weighted: each row less what the fit to the other folds predicts."""
+        """Computes weighted cross-validated residuals, (rows_j,) by joint."""
         fits = self.fold_fits
         return tuple(
             y - np.einsum("ij,ij->i", columns, fits.beta[fits.fold_index[block]])
@@ -94,7 +94,7 @@ class WhitenedColumns:
         self._of, self._made = (W, turn, sigma), tuple[np.ndarray, ...]()
 
     def compute_columns(self) -> tuple[np.ndarray, ...]:
-        """(rows_j, r) by joint."""
+        """Computes the columns, (rows_j, r) by joint."""
         if not self._made:
             for other in list(self._last):
                 other._made = ()
@@ -121,13 +121,13 @@ class FoldFits(ShortRepr):
 
 
 def leave_one_fold_out(values: np.ndarray, place: np.ndarray, count: int) -> np.ndarray:
-    """(F, ...) sums of values (blocks, ...) over all folds but one."""
+    """Computes sums (F, ...) of values (blocks, ...) over all folds but one."""
     fold_sums = np.stack([values[place == f].sum(axis=0) for f in range(count)])
     return np.asarray(fold_sums.sum(axis=0) - fold_sums)
 
 
 def solve_grams(G: np.ndarray, u: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """(F, r, r) and (F, r) inverses of Gram matrices of the base, and parameters."""
+    """Computes inverses (F, r, r) of Gram matrices of the base, and parameters (F, r)."""
     inverse = (
         np.linalg.inv(G + THRESHOLDS.gram_ridge * np.eye(G.shape[1]))
         if G.shape[1]
@@ -145,7 +145,7 @@ def build_gram_blocks(
     whitener: np.ndarray | None = None,
     prior: np.ndarray | None = None,
 ) -> GramBlocks:
-    """The weighted base.
+    """Builds the weighted base.
 
     Args:
         W: (rows_j, c) by joint.
@@ -176,7 +176,7 @@ def build_gram_blocks(
 
 
 def merge_blocks(base: GramBlocks) -> GramBlocks:
-    """The same with whole folds as blocks: enough where only sums over all blocks count."""
+    """Merges blocks to whole folds, where only sums over all blocks count."""
     place, count = base.fold_fits.fold_index, len(base.fold_fits.beta)
     block = tuple(place[joint_blocks] for joint_blocks in base.block)
     G, u = (np.stack([x[place == f].sum(axis=0) for f in range(count)]) for x in (base.G, base.u))
@@ -184,7 +184,7 @@ def merge_blocks(base: GramBlocks) -> GramBlocks:
 
 
 def find_block_runs(block: np.ndarray) -> list[tuple[int, slice]]:
-    """The runs of equal block number, in row order."""
+    """Finds the runs of equal block number, in row order."""
     if not block.size:
         return []
     edges = [0, *(np.flatnonzero(np.diff(block)) + 1).tolist(), block.size]
@@ -217,17 +217,17 @@ class CandidateBatch:
 
     @property
     def candidate_count(self) -> int:
-        """Number of candidates, N."""
+        """Returns the number of candidates, N."""
         return len(self.first)
 
     @cached_property
     def first_pairs(self) -> np.ndarray:
-        """(N,) first pair of each candidate."""
+        """Returns the first pair of each candidate, (N,)."""
         return np.cumsum(self.sizes**2) - self.sizes**2
 
 
 def build_batch(base: GramBlocks, every: Sequence[Columns]) -> CandidateBatch:
-    """The Gram matrices of candidates' columns, all of them finite and none zero."""
+    """Builds the Gram matrices of candidates' columns, all of them finite and none zero."""
     sizes = np.array([count_columns(columns) for columns in every], dtype=int)
     first = np.cumsum(sizes) - sizes
     owner = np.repeat(np.arange(len(sizes)), sizes)
@@ -286,7 +286,7 @@ def _add_joint(
 
 
 def estimate_sigma(rows: ReducedRows, prior: np.ndarray | None = None) -> np.ndarray:
-    """(J,) rms residual of each joint after weighted least squares iterated to its fixed point.
+    """Estimates the rms residual of each joint, (J,), by iterated weighted least squares.
 
     Rows 0 = W_j beta of a joint without a motor, which beta = 0 would satisfy, weigh as those of a
     fit (see `estimation.least_squares`): their sigma beside the torques that cancel in them is at
@@ -362,7 +362,7 @@ class TimeBlocks(ShortRepr):
 
 
 def build_time_blocks(observation: Observation) -> TimeBlocks:
-    """Blocks of half a second, and eight folds.
+    """Builds blocks of half a second, and eight folds.
 
     Each log is cut into eight stretches; where its motion repeats, one lap is, and the same phase
     of all laps is held out together: neighbouring laps would give the answer away.
@@ -418,7 +418,7 @@ class Ranking:
 
 
 def rank_candidates(base: GramBlocks, pool: CandidateBatch) -> Ranking:
-    """Blocked cross-validation of every candidate beside the base.
+    """Ranks candidates by blocked cross-validation beside the base.
 
     Candidates are projected off the base: what the base can imitate is not theirs. For each fold,
     base and candidate are fitted on the others, and the fall of the squared residual is counted
@@ -442,7 +442,7 @@ def rank_candidates(base: GramBlocks, pool: CandidateBatch) -> Ranking:
 
 
 def compute_reductions(base: GramBlocks, pool: CandidateBatch) -> np.ndarray:
-    """(blocks, N) fall of the squared residual in blocks that were held out.
+    """Computes the fall of the squared residual in held-out blocks, (blocks, N).
 
     " "`Ranking.reductions`.
     """
@@ -461,7 +461,7 @@ def compute_reductions(base: GramBlocks, pool: CandidateBatch) -> np.ndarray:
 def compute_total_reductions(
     base: GramBlocks, pool: CandidateBatch
 ) -> tuple[np.ndarray, list[np.ndarray]]:
-    """`rank_candidates` in sums, where base and pool are those of whole folds.
+    """Computes the total fall, and parameters, where base and pool are those of whole folds.
 
     What chooses among shapes.
 

@@ -98,7 +98,7 @@ class PushWindow:
     change: ErrorChange | None = None
 
     def merge_part(self, other: "PushWindow") -> "PushWindow | None":
-        """The push together with a part of it that was found later; None if it is another push."""
+        """Merges the push with a part of it; None if that is another push."""
         near = (
             other.start < self.end + THRESHOLDS.push_separation
             and other.end > self.start - THRESHOLDS.push_separation
@@ -115,7 +115,7 @@ def compute_explained_fraction(
     systematic: Callable[[int], float],
     sigma: np.ndarray,
 ) -> float:
-    """What one effect explains, over that, what later ones explain and what stays systematic.
+    """Computes what one effect explains, over that and what stays systematic.
 
     Squared residuals of the joints it touches, in units of their first residual. What a wrong name
     leaves, others are found to mend; so what they explain there counts as left.
@@ -137,7 +137,7 @@ def compute_explained_fraction(
 
 
 def compute_mean_square(values: np.ndarray) -> float:
-    """0 of none."""
+    """Computes the mean square; 0 of none."""
     return float(np.mean(values**2)) if values.size else 0.0
 
 
@@ -158,7 +158,7 @@ def explain_weak_evidence(
     refines: bool = False,
     left: Sequence[float] = (),
 ) -> str:
-    """Why an effect is perhaps missing and no more; empty if it is named.
+    """Explains why an effect is possible only; empty if it is named.
 
     Args:
         pick: the effect, with its shapes.
@@ -210,7 +210,7 @@ def explain_weak_evidence(
 
 
 def explain_exclusion(effect: Effect, spec: ModuleSpec) -> str:
-    """Why an effect cannot go into a model of this robot; empty if it can."""
+    """Explains why an effect cannot go into a model of this robot; empty if it can."""
     if effect.hindrance:
         return effect.hindrance
     moved = all(name.startswith(MOTION) for name in effect.forms[0].names)
@@ -293,14 +293,14 @@ class Finding(ShortRepr):
 
     @property
     def is_confirmed(self) -> bool:
-        """True if it is the cause, or one of those that these data do not tell apart."""
+        """Tells whether it is the cause, or one of those that these data do not distinguish."""
         closed = self.closure is None or self.closure >= THRESHOLDS.min_explained_fraction
         sure = not self.doubt and not self.objection and not math.isnan(self.gain)
         return closed and sure and self.is_first
 
     @property
     def status(self) -> str:
-        """What is stated as missing is a "fact", else "named" or "perhaps"; a tie is no fact."""
+        """Returns "fact" of what is stated as missing, else "named" or "perhaps"."""
         if self.doubt:
             return "perhaps"
         return (
@@ -311,7 +311,7 @@ class Finding(ShortRepr):
 
     @property
     def gain(self) -> float:
-        """Fall of the residual variance of its joints: 1 - (error_after / error_before)^2."""
+        """Returns the variance reduction of its joints, 1 - (error_after / error_before)^2."""
         before = self.error_before
         return 1.0 - (self.error_after / before) ** 2 if before > 0.0 else math.nan
 
@@ -364,14 +364,14 @@ class EquationProposal(ShortRepr):
 
     @property
     def text(self) -> str:
-        """To be pasted into a robot file; the line of `[effects]` is behind it, as a comment."""
+        """Returns the text for a robot file, with the line of `[effects]` as a comment."""
         lines = (f"{key} = {format_toml(value)}" for key, value in self.definition.items())
         line = f"# [effects] {self.effects_line}"
         return "\n".join([f"[own_effects.{self.finding.effect}]", *lines, line])
 
     @property
     def summary_lines(self) -> list[str]:
-        """What people read."""
+        """Returns the lines for people."""
         f = self.finding
         units = {name: f" {unit}" for name, unit in f.units.items() if unit != "1"}
         values = ", ".join(
@@ -392,7 +392,7 @@ class EquationProposal(ShortRepr):
         return lines
 
     def format_lines(self) -> list[str]:
-        """The same, and the text to paste."""
+        """Formats these, and the text to paste."""
         return [*self.summary_lines, *(f"    {line}" for line in self.text.splitlines())]
 
     def to_json(self) -> dict[str, Any]:
@@ -429,7 +429,7 @@ class JointDiscovery(ShortRepr):
     why: str = ""
 
     def format_lines(self) -> list[str]:
-        """For people."""
+        """Formats the lines for people."""
         if not self.proposals:
             return [f"joint {self.joint}: {self.why}"]
         return [line for proposal in self.proposals for line in proposal.format_lines()]
@@ -467,7 +467,7 @@ class JointState(ShortRepr):
 
     @property
     def is_unexplained(self) -> bool:
-        """True if what is left of physics is worth a word."""
+        """Tells whether a significant systematic residual remains."""
         left = self.systematic + self.noise
         return self.systematic > max(
             THRESHOLDS.min_systematic_torque**2, THRESHOLDS.min_systematic_share * left
@@ -535,13 +535,13 @@ class Diagnosis(Result):
 
     @property
     def band(self) -> float:
-        """Hz up to which residuals were looked at; values are those of this band too."""
+        """Returns the band of the residuals, Hz; values are those of this band too."""
         observation = self.search.start.data.observation
         return observation.report.processing.parallel_cutoff
 
     @property
     def addable_findings(self) -> tuple[Finding, ...]:
-        """The effects that `modeler add` puts in."""
+        """Returns the effects that `modeler add` puts in."""
         spec = self.search.spec
         has = {(p.effect, p.joint) for p in spec.standard}
         return tuple(
@@ -556,7 +556,7 @@ class Diagnosis(Result):
 
     @property
     def changed(self) -> bool:
-        """True if the base parameters were kept and the robot has changed since."""
+        """Tells whether the robot has changed since the fit, so that parameters were fixed."""
         return self.search.start.data.fixed_parameters is not None
 
     def to_json(self) -> dict[str, Any]:

@@ -52,12 +52,12 @@ class ErrorChange:
 
     @property
     def is_different(self) -> bool:
-        """True if the two printed numbers differ."""
+        """Tells whether the two printed numbers differ."""
         return len(set(format_error_pair(self.before, self.after))) > 1
 
     @property
     def is_reduced(self) -> bool:
-        """True if the error surely falls."""
+        """Tells whether the error falls significantly."""
         return (
             self.t_ratio > THRESHOLDS.max_chance_t
             and self.is_different
@@ -66,7 +66,7 @@ class ErrorChange:
 
     @property
     def is_increased(self) -> bool:
-        """True if it surely rises."""
+        """Tells whether it rises significantly."""
         return (
             self.t_ratio < -THRESHOLDS.max_chance_t
             and self.is_different
@@ -75,12 +75,12 @@ class ErrorChange:
 
     @property
     def variance_reduction(self) -> float:
-        """Fall of the squared error, as a share of it."""
+        """Returns the relative fall of the squared error."""
         return 1.0 - (self.after / self.before) ** 2 if self.before > 0.0 else 0.0
 
     @property
     def error_ratio(self) -> float:
-        """After over before."""
+        """Returns the ratio of the errors, after over before."""
         return max(self.after, THRESHOLDS.negligible_error) / max(
             self.before, THRESHOLDS.negligible_error
         )
@@ -100,7 +100,7 @@ class Score:
 
     @property
     def is_better(self) -> bool:
-        """True if the printed error surely falls, and no joint is spoilt.
+        """Tells whether the printed error falls significantly, and no joint is spoilt.
 
         Or if that of a joint surely falls by more than its noise, and none rises: what other
         effects leave of other joints may be more than all of it.
@@ -114,7 +114,7 @@ class Score:
 
     @property
     def has_spoilt_joint(self) -> bool:
-        """True if the error of a joint surely rises by more than its noise."""
+        """Tells whether the error of a joint rises by more than its noise."""
         return any(
             change.is_increased and change.error_ratio > THRESHOLDS.min_spoiling_ratio
             for change in self.joints
@@ -122,12 +122,12 @@ class Score:
 
     @property
     def errors(self) -> dict[str, tuple[float, float]]:
-        """Before and after, by joint."""
+        """Returns errors before and after, by joint."""
         return {change.joint: (change.before, change.after) for change in self.joints}
 
     @property
     def changed_joints(self) -> tuple[str, ...]:
-        """Joints whose error falls or rises."""
+        """Returns the joints whose error falls or rises."""
         return tuple(
             change.joint for change in self.joints if change.is_reduced or change.is_increased
         )
@@ -139,7 +139,7 @@ def score_change(
     weights: Mapping[str, float] | None = None,
     block: float = 0.0,
 ) -> Score:
-    """The score of a change.
+    """Scores a change.
 
     With S_jb and T_jb the sums of the squared residuals of joint j over block b of time, before and
     after, and Y_j those of its torque over all B blocks, the squared relative errors of the joint
@@ -184,7 +184,7 @@ def score_change(
 
 
 def compute_t_ratio(differences: np.ndarray) -> float:
-    """The sum of differences (blocks,) over its standard error; 0 of fewer than two blocks."""
+    """Computes the sum of differences (blocks,) over its standard error; 0 below two blocks."""
     count = len(differences)
     spread = float(np.std(differences)) * count / math.sqrt(max(1, count - 1))
     total = float(np.sum(differences))
@@ -192,13 +192,13 @@ def compute_t_ratio(differences: np.ndarray) -> float:
 
 
 def compute_rms_error(errors: Iterable[float]) -> float:
-    """Root mean square of relative errors over joints."""
+    """Computes the root mean square of relative errors over joints."""
     values = list(errors)
     return float(np.sqrt(np.mean(np.square(values)))) if values else 0.0
 
 
 def compute_errors(residuals: Residuals) -> dict[str, float]:
-    """Relative error of every joint that has a torque."""
+    """Computes the relative error of every joint that has a torque."""
     sizes = [
         (float(np.linalg.norm(e)), float(np.linalg.norm(y)))
         for e, y in zip(residuals.residual, residuals.torque, strict=True)
@@ -207,7 +207,7 @@ def compute_errors(residuals: Residuals) -> dict[str, float]:
 
 
 def format_error_changes(joints: Mapping[str, tuple[float, float]], changed: Sequence[str]) -> str:
-    """The errors that change: "joint 7 11.4 % -> 7.1 %; joint 2 rises, 3 % -> 3.2 %".
+    """Formats the errors that change: "joint 7 11.4 % -> 7.1 %; joint 2 rises, 3 % -> 3.2 %".
 
     Args:
         joints: error before and after, by joint.
@@ -227,7 +227,7 @@ def format_error_changes(joints: Mapping[str, tuple[float, float]], changed: Seq
 def explain_no_improvement(
     joints: Mapping[str, tuple[float, float]], changed: Sequence[str]
 ) -> str:
-    """Why a change is none for the better, of errors as for `format_error_changes`."""
+    """Explains why a change is no improvement."""
     changes, errors = (
         format_error_changes(joints, changed),
         list(zip(*joints.values(), strict=True)),
@@ -313,17 +313,17 @@ class ScoredCandidate(ShortRepr):
 
     @property
     def key(self) -> tuple[str, str | None]:
-        """Effect and joint."""
+        """Returns effect and joint."""
         return self.candidate.key
 
     @property
     def total_reduction(self) -> float:
-        """Of the squared residual on held-out motion, weighted."""
+        """Returns the fall of the weighted squared residual on held-out motion."""
         return float(self.reductions.sum())
 
     @property
     def is_local(self) -> bool:
-        """True if only its own joint feels it.
+        """Tells whether it acts on its own joint only.
 
         A drive gain is a matter of all joints that share parameters, and so is what explains more
         than there is to explain on its joint.
@@ -337,18 +337,18 @@ class ScoredCandidate(ShortRepr):
 
     @property
     def refines_model_term(self) -> bool:
-        """True if its sign says that it mends the form of a law in the model."""
+        """Tells whether its sign shows that it corrects the form of a term of the model."""
         return self.candidate.effect.refines_model_term(float(self.values[0]))
 
     @property
     def is_unlikely(self) -> bool:
-        """True if it is possible, but rare, or its sign is."""
+        """Tells whether it, or its sign, is possible but rare."""
         effect = self.candidate.effect
         return effect.rare or (effect.rarely_negative and float(self.values[0]) < 0.0)
 
     @property
     def is_significant(self) -> bool:
-        """True if it is worth a name."""
+        """Tells whether it is significant."""
         big = (
             self.variance_reduction > THRESHOLDS.min_variance_reduction
             and self.t_ratio > THRESHOLDS.min_t_ratio
@@ -386,7 +386,7 @@ class CandidateFit(ShortRepr):
 
 
 def fit_candidates(state: State, pairs: Sequence[tuple[Candidate, Columns]]) -> list[CandidateFit]:
-    """All candidates, each with its columns."""
+    """Fits all candidates, each with its columns."""
     pool = build_batch(state.fold_grams, [columns for _, columns in pairs])
     return [
         CandidateFit(candidate, is_possible(candidate, value), float(fall))
@@ -397,7 +397,7 @@ def fit_candidates(state: State, pairs: Sequence[tuple[Candidate, Columns]]) -> 
 
 
 def select_best_fits(trials: Sequence[CandidateFit]) -> list[CandidateFit]:
-    """The best shapes of every effect on every joint."""
+    """Selects the best fit of every effect on every joint."""
     best: dict[tuple[str, str | None], CandidateFit] = {}
     for trial in trials:
         other = best.setdefault(trial.candidate.key, trial)
@@ -409,7 +409,7 @@ def select_best_fits(trials: Sequence[CandidateFit]) -> list[CandidateFit]:
 def score_candidates(
     state: State, pairs: Sequence[tuple[Candidate, Columns]]
 ) -> list[ScoredCandidate]:
-    """Some of the candidates judged, each with its columns; best first."""
+    """Scores candidates, each with its columns; best first."""
     if not pairs:
         return []
     ranking = state.rank_columns([columns for _, columns in pairs])
@@ -441,7 +441,7 @@ def _build_score(state: State, candidate: Candidate, ranking: Ranking, i: int) -
 
 
 def is_possible(candidate: Candidate, values: np.ndarray) -> bool:
-    """False for a sign or a size of the candidate's parameters that physics forbids.
+    """Tells whether physics allows the signs and sizes of the candidate's parameters.
 
     With l the length of a spring on a lever, Gamma = k (l - l0) dl/dq for a helical one and F dl/dq
     for one of constant force: in sin(q - q0) / l the first has the coefficient -k l0 b, the second
@@ -458,7 +458,7 @@ def is_possible(candidate: Candidate, values: np.ndarray) -> bool:
 
 
 def select_best(state: State, candidate_scores: list[ScoredCandidate]) -> RankedCandidates:
-    """The first that passes, or a simpler one that the data do not tell from it.
+    """Selects the first significant candidate, or an equivalent simpler one.
 
     Timing-like ones are confirmed only when they lead.
     """
@@ -478,7 +478,7 @@ def select_best(state: State, candidate_scores: list[ScoredCandidate]) -> Ranked
 
 
 def is_refinement(finer: Candidate, plain: Candidate) -> bool:
-    """True for what says more of a joint than a law that every joint has.
+    """Tells whether it refines a law that every joint has.
 
     It is friction too, or has more free numbers: where it explains no more, it is no rival.
     """
@@ -549,7 +549,7 @@ def _select_simplest(
 
 
 def count_free_numbers(candidate: Candidate) -> float:
-    """Free numbers: parameters, and shapes that are refined."""
+    """Counts free numbers: parameters, and nonlinear parameters that are refined."""
     shapes = candidate.form.nonlinear_parameters
     free = sum(
         s.is_continuous or candidate.nonlinear_parameters[s.name] not in s.grid for s in shapes
@@ -561,7 +561,7 @@ def count_free_numbers(candidate: Candidate) -> float:
 def select_alternatives(
     best: ScoredCandidate, others: Sequence[ScoredCandidate], after: RankedCandidates
 ) -> list[ScoredCandidate]:
-    """Tied ones that explain the same: with the best put in, little is left for them.
+    """Selects equivalents that explain the same: little is left for them beside the best.
 
     What only refines a law that every joint has is none.
 
@@ -583,7 +583,7 @@ def select_alternatives(
 def find_equivalents(
     best: ScoredCandidate, others: Sequence[ScoredCandidate]
 ) -> list[ScoredCandidate]:
-    """Those that explain as much as the best: paired differences over blocks decide."""
+    """Finds candidates that explain as much as the best, by paired differences over blocks."""
     equivalents = []
     for other in others:
         if (
@@ -602,7 +602,7 @@ def find_equivalents(
 
 
 def compute_holdout_residuals(state: State, other: SearchData | None) -> Residuals:
-    """What a state leaves of held-out logs; without any, of its own, each fold from the others.
+    """Computes residuals on held-out logs; without any, cross-validated ones.
 
     Args:
         state: fitted.
@@ -615,13 +615,13 @@ def compute_holdout_residuals(state: State, other: SearchData | None) -> Residua
 
 
 def fit_on_logs(state: State, data: SearchData) -> State:
-    """A state fitted to other logs, linearised about the same reference."""
+    """Fits a state to other logs, linearised about the same reference."""
     rows = data.linearise_rows(state.reference)
     return State(data, state.picks, state.reference, rows, collect_pick_columns(rows, state.picks))
 
 
 def compute_residuals(state: State, data: SearchData) -> Residuals:
-    """What a state leaves of logs, with its parameters as they are."""
+    """Computes the residuals of a state on logs, with its parameters as they are."""
     there = fit_on_logs(state, data)
     rows = there.rows
     residuals = [y - W @ state.beta for y, W in zip(rows.y, rows.W, strict=True)]
@@ -640,7 +640,7 @@ def _build_residuals(data: SearchData, left: tuple[np.ndarray, ...]) -> Residual
 def compare_residuals(
     before: Residuals, after: Residuals, concerned: Sequence[int], state: State, block: float = 0.0
 ) -> Score:
-    """The score of an effect on the joints that it concerns, in blocks of some s.
+    """Scores an effect on the joints that it concerns, in blocks of some s.
 
     The torque of each counts in units of what the state leaves of it, so that N m and N are never
     added.
@@ -655,7 +655,7 @@ def compare_residuals(
 def find_affected_joints(
     candidate_score: ScoredCandidate, before: State, after: State
 ) -> list[int]:
-    """Joints whose residuals an effect explains: its own, or all where they fall most."""
+    """Finds the joints that an effect explains: its own, or all where residuals fall most."""
     if candidate_score.is_local:
         return [candidate_score.candidate.index]
     sizes = zip(before.residual, after.residual, before.sigma, strict=True)
@@ -666,7 +666,7 @@ def find_affected_joints(
 
 
 def make_veto(other: SearchData | None) -> Callable[[State, State, ScoredCandidate], bool]:
-    """A veto by unseen motion: True if a state with an effect more is not the better one there.
+    """Makes a veto by unseen motion: True if a state with one more effect is not better.
 
     The error of the joints that it touches must surely fall (`score_change`), and on held-out logs
     by a good part of what the effect lets expect.

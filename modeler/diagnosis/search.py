@@ -34,7 +34,7 @@ def refine_nonlinear_parameters(
     candidate: Candidate,
     compute_reduction: Callable[[Candidate], float] | None = None,
 ) -> Candidate:
-    """The candidate at the shapes that explain most: variable projection.
+    """Refines the nonlinear parameters by variable projection.
 
     Args:
         state: of the model.
@@ -147,7 +147,7 @@ class CandidateScan:
     refined_scores: dict[tuple[Any, ...], ScoredCandidate] = field(default_factory=dict)
 
     def list_still_refused(self, refused: Sequence[ScoredCandidate]) -> list[ScoredCandidate]:
-        """Vetoed effects that have not become far better by the effect put in since."""
+        """Lists vetoed effects that have not become far better since."""
         gains = {
             candidate_score.key: candidate_score.variance_reduction for candidate_score in self.best
         }
@@ -160,7 +160,7 @@ class CandidateScan:
         ]
 
     def exclude_vetoed(self, vetoed: Sequence[ScoredCandidate]) -> "CandidateScan":
-        """The same without what was vetoed."""
+        """Returns the same without what was vetoed."""
         touched = {t.candidate.key for t in self.fits if is_vetoed(t.candidate, vetoed)}
         if not touched:
             return self
@@ -175,7 +175,7 @@ class CandidateScan:
     def judge_candidates(
         self, vetoed: Sequence[ScoredCandidate] = (), tick: Tick = lambda: None
     ) -> RankedCandidates:
-        """All but what was vetoed; the leading ones refined, with a tick after each."""
+        """Ranks all but what was vetoed; the leading ones are refined, with a tick after each."""
         left = self.exclude_vetoed(vetoed)
         close = [
             j
@@ -199,7 +199,7 @@ class CandidateScan:
     def refine_candidate(
         self, candidate_score: ScoredCandidate, starts: Sequence[Candidate]
     ) -> ScoredCandidate:
-        """An effect with its best shapes refined, or with the next best if these do better."""
+        """Refines the best parameters of an effect, or takes the next best."""
         state, first = self.state, candidate_score.candidate
         better = [refine_nonlinear_parameters(state, start) for start in starts]
         if better == [first]:
@@ -217,7 +217,7 @@ class CandidateScan:
         return score_candidates(state, [(best.candidate, columns)])[0]
 
     def list_starts(self, first: Candidate) -> list[Candidate]:
-        """Shapes of one effect from which refining starts, the best first.
+        """Lists the parameters of one effect from which refining starts, the best first.
 
         With one shape to refine, the best for each value of the others, if it comes near; with
         more, the best few.
@@ -246,14 +246,14 @@ class CandidateScan:
 def scan_catalogue(
     state: State, without: Sequence[str] = (), only: str | None = None, joint: str | None = None
 ) -> CandidateScan:
-    """All candidates in a state, or those of one effect, or of one joint."""
+    """Scans all candidates in a state, or those of one effect, or of one joint."""
     return scan_candidates(
         state, [c for c in generate_candidates(state, only, without) if joint in (None, c.joint)]
     )
 
 
 def scan_candidates(state: State, candidates: Sequence[Candidate]) -> CandidateScan:
-    """Some candidates in a state; those that show."""
+    """Scans some candidates in a state."""
     trials, best = dict[int, CandidateFit](), dict[int, ScoredCandidate]()
     place = {id(candidate): k for k, candidate in enumerate(candidates)}
     for some in batch_candidates(
@@ -273,7 +273,7 @@ def scan_candidates(state: State, candidates: Sequence[Candidate]) -> CandidateS
 
 
 def is_vetoed(candidate: Candidate, vetoed: Sequence[ScoredCandidate]) -> bool:
-    """True if it was vetoed; of ripples, all orders that differ by less than a tenth."""
+    """Tells whether it was vetoed; of ripples, all orders within a tenth."""
     others = [candidate_score.candidate for candidate_score in vetoed]
     if not candidate.effect.several:
         return any(c.key == candidate.key for c in others if not c.effect.several)
@@ -305,7 +305,7 @@ class SearchStep(ShortRepr):
 
     @property
     def candidate(self) -> Candidate:
-        """The effect on its joint, with its shapes."""
+        """Returns the effect on its joint, with its parameters."""
         return self.score.candidate
 
 
@@ -333,17 +333,17 @@ class Search(ShortRepr):
 
     @property
     def spec(self) -> ModuleSpec:
-        """What the robot is made of."""
+        """Returns the manifest of the robot."""
         return self.start.spec
 
     @property
     def catalogue(self) -> Sequence[Effect]:
-        """The effects that may be missing."""
+        """Returns the effects that may be missing."""
         return self.start.data.stated_effects.catalogue
 
     @property
     def ranked(self) -> tuple[ScoredCandidate, ...]:
-        """Rivals of the first effect that was put in, or all where none was; best first."""
+        """Returns alternatives of the first effect, or all where none was put in; best first."""
         return self.steps[0].alternatives if self.steps else self.last.ranked
 
 
@@ -356,7 +356,7 @@ def search_effects(
     tick: Tick = lambda: None,
     prior_steps: Sequence[SearchStep] = (),
 ) -> Search:
-    """Effects that the model lacks, one by one.
+    """Searches the effects that the model lacks, one by one.
 
     Args:
         data: training logs.
@@ -433,7 +433,7 @@ def _find_displaced_candidates(
 def accept_candidate(
     state: State, best: ScoredCandidate, veto: Veto | None
 ) -> tuple[ScoredCandidate, State | None]:
-    """An effect that led, with what speaks against its values, and the state with it.
+    """Returns a leading effect with its caveat, and the state with it.
 
     The state is None where it is refused: `why` says why, if it is not by held-out motion.
     """
@@ -556,14 +556,14 @@ def _score_candidate(state: State, candidate: Candidate) -> ScoredCandidate:
 
 
 def extend_state(state: State, pick: Candidate) -> State:
-    """The state with one effect more, linearised about its own parameters."""
+    """Extends the state by one effect, linearised about its own parameters."""
     picks, about = (*state.picks, pick), plausibility.solve_parameters(state, pick)
     once = build_state(state.data, picks, state.beta if about is None else about)
     return linearise_state(once)
 
 
 def linearise_state(state: State) -> State:
-    """The state linearised about its own parameters."""
+    """Linearises the state about its own parameters."""
     about = plausibility.solve_parameters(state)
     return build_state(state.data, state.picks, state.beta if about is None else about)
 

@@ -46,18 +46,18 @@ class SignalReference(ShortRepr):
 
     @cached_property
     def link_parameters(self) -> np.ndarray:
-        """(c,) beta of the links alone: no friction, rotors, offsets."""
+        """Returns beta of the links alone, (c,): no friction, rotors, offsets."""
         kinds = [base.kind for base in self.compiled.spec.base]
         return np.where([kind == "inertial" for kind in kinds], self.beta, 0.0)
 
     @cached_property
     def tilt_directions(self) -> list[tuple[np.ndarray, np.ndarray]] | None:
-        """`compute_tilt_basis` about this model."""
+        """Returns the basis of a tilt about this model."""
         return compute_tilt_basis(self)
 
     @cached_property
     def drive_parameters(self) -> np.ndarray:
-        """(2, J) viscous friction and rotor inertia of each joint, where they stand alone."""
+        """Returns viscous friction and rotor inertia of each joint, (2, J)."""
         spec = self.compiled.spec
         owner = {p.name: (p.effect, p.joint) for p in spec.standard}
         values = {
@@ -88,20 +88,20 @@ class Signals(ShortRepr):
 
     @property
     def step(self) -> float:
-        """Between samples, s."""
+        """Returns the time between samples, s."""
         return self.segment.step
 
     @cached_property
     def model_signals(self) -> np.ndarray | None:
-        """(n, m) what effects of the model read besides the motion."""
+        """Returns what effects of the model read besides the motion, (n, m)."""
         return compute_signals(self.reference.compiled, self.segment)
 
     def compute_base_regressor(self, window: slice) -> np.ndarray:
-        """(n, J, c) of the model, over a window of the samples."""
+        """Computes the base regressor (n, J, c) over a window of the samples."""
         return self.reference.compiled.base_regressor(*self._select_states(window))
 
     def compute_regressor(self, window: slice) -> np.ndarray:
-        """(n, J, p) by standard parameters."""
+        """Computes the regressor (n, J, p) by standard parameters."""
         return self.reference.compiled.regressor(*self._select_states(window))
 
     def _select_states(self, window: slice) -> tuple[np.ndarray | None, ...]:
@@ -110,7 +110,7 @@ class Signals(ShortRepr):
 
     @cached_property
     def column_maxima(self) -> np.ndarray:
-        """(p,) magnitude that each column of a standard parameter reaches."""
+        """Returns the largest magnitude of each column of a standard parameter, (p,)."""
         windows = [
             slice(k, k + THRESHOLDS.sample_window)
             for k in range(0, len(self.q), THRESHOLDS.sample_window)
@@ -121,7 +121,7 @@ class Signals(ShortRepr):
 
     @cached_property
     def load(self) -> np.ndarray:
-        """(n, J) torque of the links, inertia and gravity."""
+        """Returns the torque (n, J) of the links, inertia and gravity."""
         ref = self.reference
         return ref.compiled.inverse_dynamics(
             self.q, self.v, self.a, ref.link_parameters, self.model_signals
@@ -129,22 +129,22 @@ class Signals(ShortRepr):
 
     @cached_property
     def static(self) -> np.ndarray:
-        """(n, J) torque of gravity."""
+        """Returns the torque (n, J) of gravity."""
         return self.reference.compiled.gravity(self.q, self.reference.link_parameters)
 
     @cached_property
     def torque(self) -> np.ndarray:
-        """(n, J) torque of the whole model, friction by the measured speeds."""
+        """Returns the torque (n, J) of the whole model, friction by the measured speeds."""
         ref = self.reference
         return ref.compiled.inverse_dynamics(self.q, self.v, self.a, ref.beta, self.model_signals)
 
     @cached_property
     def rate(self) -> np.ndarray:
-        """(n, J) time derivative of `torque`."""
+        """Returns the time derivative of `torque`, (n, J)."""
         return np.gradient(self.torque, self.step, axis=0)
 
     def compute_reversal_time(self, j: int, back: float) -> np.ndarray:
-        """(n,) s since joint j last turned back, by more than `back`."""
+        """Computes s (n,) since joint j last turned back, by more than `back`."""
         if (j, back) not in self._reversal_times:
             self._reversal_times[j, back] = compute_time_since_reversal(
                 self.q[:, j], self.step, back
@@ -157,16 +157,16 @@ class Signals(ShortRepr):
 
     @cached_property
     def coupling(self) -> np.ndarray:
-        """(n, variables, J) G of ud = G qd; only for robots with loops."""
+        """Returns G of ud = G qd, (n, variables, J); only for robots with loops."""
         return self.reference.compiled.coupling(self.q)
 
     @cached_property
     def time(self) -> np.ndarray:
-        """(n,) s."""
+        """Returns the time of effects, s, (n,)."""
         return self.segment.time - self.reference.time
 
     def select_other(self, name: str) -> np.ndarray:
-        """(n,) `v3`: position, speed or acceleration of a joint by its name."""
+        """Returns `v3`, (n,): position, speed or acceleration of a joint by its name."""
         motion, joints = (
             {"q": self.q, "v": self.v, "a": self.a},
             self.reference.compiled.spec.joints,
@@ -174,7 +174,7 @@ class Signals(ShortRepr):
         return motion[name[0]][:, [joint.name for joint in joints].index(name[1:])]
 
     def compute_temperature(self, joint: str) -> np.ndarray | None:
-        """(n,) K above the reference; None where the training logs have no such column.
+        """Computes K above the reference, (n,); None where training logs have no such column.
 
         0 where only another log lacks it: nobody knows better.
         """
@@ -188,7 +188,7 @@ class Signals(ShortRepr):
     def compute_memory_state(
         self, memory: InternalState, j: int, shapes: Mapping[str, float], followed: np.ndarray
     ) -> np.ndarray:
-        """(n,) inner state z on joint j, for shape parameters by name; what a lag follows, (n,)."""
+        """Computes inner state z (n,) on joint j from parameters and what a lag follows (n,)."""
         if memory.kind == "lag":
             return apply_lag(followed, self.step, shapes[memory.parameter])
         if memory.kind == "slip":
@@ -198,7 +198,7 @@ class Signals(ShortRepr):
         )
 
     def compute_slopes(self, j: int) -> tuple[np.ndarray, ...]:
-        """(n, J) derivatives of the links' torque by q, v and a of joint j.
+        """Computes derivatives (n, J) of the links' torque by q, v and a of joint j.
 
         The torque is quadratic in v and linear in a: there differences are exact.
         """
@@ -236,7 +236,7 @@ class Signals(ShortRepr):
     def compute_displacement_torque(
         self, j: int, dq: np.ndarray, whole: bool = False, window: slice = EVERY
     ) -> np.ndarray:
-        """(m, J, k) torques that follow k small changes dq (n, k) of the position of joint j.
+        """Computes torques (m, J, k) that k small changes dq (n, k) of joint j cause.
 
         The derivative of the inverse dynamics of the links along (dq, dq', dq'').
 
@@ -271,7 +271,7 @@ class Signals(ShortRepr):
 
 
 def apply_lag(x: np.ndarray, step: float, tau: float) -> np.ndarray:
-    """(n,) z of z' = (x - z)/tau, at rest under the first x; x is straight between its points.
+    """Returns z (n,) of z' = (x - z)/tau, at rest under the first x; x is piecewise linear.
 
     With p = exp(-step/tau), r = (1 - p) tau/step: z_k = p z_(k-1) + (1 - r) x_k + (r - p) x_(k-1).
     """
@@ -284,7 +284,7 @@ def apply_lag(x: np.ndarray, step: float, tau: float) -> np.ndarray:
 def simulate_resonance(
     load: np.ndarray, step: float, frequency: float, damping: float
 ) -> np.ndarray:
-    """(n,) z of z'' = w^2 (load - z) - 2 zeta w z', at rest under the first load."""
+    """Returns z (n,) of z'' = w^2 (load - z) - 2 zeta w z', at rest under the first load."""
     numerator, denominator = _discretise_oscillator(step, frequency, damping)
     return np.asarray(load[0] + apply_biquad(load - load[0], numerator, denominator))
 
@@ -318,7 +318,7 @@ def _discretise_oscillator(
 
 
 def compute_tilt_columns(signals: Signals, window: slice = slice(None)) -> np.ndarray:
-    """(n, J, k): first the torques of unit gravity along two axes across the model's gravity.
+    """Computes torques (n, J, k) of unit gravity along two axes across gravity, then others.
 
     Of an arm that moves in a plane, along the one that it feels.
     The others belong to first moments that the model's gravity hides (those of a vertical first
@@ -332,7 +332,7 @@ def compute_tilt_columns(signals: Signals, window: slice = slice(None)) -> np.nd
 
 
 def compute_frame_slopes(model: "CompiledModel", q: np.ndarray) -> np.ndarray:
-    """(n, J, rows, 3, 4) d/dq_j of [R | p] of every moving row, by differences; q is (n, J)."""
+    """Computes d/dq_j of [R | p] of every moving row, (n, J, rows, 3, 4), by differences."""
     slopes = [
         model.forward_kinematics(q + step) - model.forward_kinematics(q - step)
         for step in THRESHOLDS.tilt_step * np.eye(q.shape[1])
@@ -341,7 +341,7 @@ def compute_frame_slopes(model: "CompiledModel", q: np.ndarray) -> np.ndarray:
 
 
 def compute_gravity_torque(slopes: np.ndarray, axis: np.ndarray, chi: np.ndarray) -> np.ndarray:
-    """(n, J) torque for gravity `axis`: -d/dq of axis . sum (M p + R MS).
+    """Computes the torque (n, J) for gravity `axis`: -d/dq of axis . sum (M p + R MS).
 
     Args:
         slopes: (n, J, rows, 3, 4) of `compute_frame_slopes`.
@@ -354,7 +354,7 @@ def compute_gravity_torque(slopes: np.ndarray, axis: np.ndarray, chi: np.ndarray
 
 
 def compute_tilt_basis(reference: SignalReference) -> list[tuple[np.ndarray, np.ndarray]] | None:
-    """Axes and first moments of the columns of `compute_tilt_columns`."""
+    """Computes axes and first moments of the columns of `compute_tilt_columns`."""
     model = reference.compiled
     if model.spec.closure is not None:
         return None

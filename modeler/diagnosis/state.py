@@ -57,17 +57,17 @@ class SearchData(ShortRepr):
 
     @property
     def spec(self) -> ModuleSpec:
-        """What the robot is made of."""
+        """Returns the manifest of the robot."""
         return self.compiled.spec
 
     @cached_property
     def time_blocks(self) -> ranking.TimeBlocks:
-        """Blocks and folds."""
+        """Returns blocks and folds."""
         return ranking.build_time_blocks(self.observation)
 
     @cached_property
     def rows(self) -> Rows:
-        """All rows; effects are not linearised about anything yet."""
+        """Returns all rows; effects are not linearised about anything yet."""
         beta = np.zeros(len(self.spec.base))
         return build_rows(
             self.observation,
@@ -75,7 +75,7 @@ class SearchData(ShortRepr):
         )
 
     def linearise_rows(self, reference: SignalReference) -> Rows:
-        """The rows with effects linearised about a reference; the last few are remembered."""
+        """Returns the rows with effects linearised about a reference; the last few are cached."""
         key = reference.beta.tobytes(), _make_clock_key(reference)
         rows = self._row_cache.pop(key, None) or self.rows.replace_reference(reference)
         self._row_cache[key] = rows
@@ -89,14 +89,14 @@ class SearchData(ShortRepr):
 
     @cached_property
     def free_columns(self) -> np.ndarray:
-        """Indices of the base columns that are fitted."""
+        """Returns the indices of the base columns that are fitted."""
         base = self.spec.base
         free = [i for i, b in enumerate(base) if self.fixed_parameters is None or b.kind in _FREE]
         return np.array(free, dtype=int)
 
     @cached_property
     def y(self) -> tuple[np.ndarray, ...]:
-        """(rows_j,) by joint: torques, less those of base parameters that are kept."""
+        """Returns torques, (rows_j,) by joint, less those of fixed base parameters."""
         if self.fixed_parameters is None:
             return self.rows.y
         fixed = self.fixed_parameters.copy()
@@ -105,17 +105,17 @@ class SearchData(ShortRepr):
 
     @cached_property
     def reduction(self) -> Reduction:
-        """Of the base columns that are fitted, and y."""
+        """Returns the reduction of the fitted base columns, and y."""
         return reduce_rows([w[:, self.free_columns] for w in self.rows.W], self.y)
 
     @cached_property
     def prior(self) -> Prior | None:
-        """What is known beforehand of the base parameters; None where they are kept."""
+        """Returns the prior of the base parameters; None where they are fixed."""
         return build_prior(self.spec) if self.fixed_parameters is None else None
 
     @cached_property
     def block_numbers(self) -> tuple[np.ndarray, ...]:
-        """(rows_j,) by joint, number of the block of time."""
+        """Returns the number of the block of time, (rows_j,) by joint."""
         used = self.observation.used
         return tuple(self.time_blocks.number[used[:, j]] for j in range(self.rows.joint_count))
 
@@ -150,17 +150,17 @@ class State(ShortRepr):
 
     @property
     def spec(self) -> ModuleSpec:
-        """What the robot is made of."""
+        """Returns the manifest of the robot."""
         return self.data.spec
 
     @property
     def joint_names(self) -> list[str]:
-        """Of the joints."""
+        """Returns the names of the joints."""
         return [joint.name for joint in self.spec.joints]
 
     @cached_property
     def W(self) -> tuple[np.ndarray, ...]:
-        """(rows_j, f + extra) by joint: base columns that are fitted, then the picks'."""
+        """Returns fitted base columns, then the picks', (rows_j, f + extra) by joint."""
         if not self.extra and self.data.fixed_parameters is None:
             return self.rows.W
         return tuple(
@@ -172,12 +172,12 @@ class State(ShortRepr):
 
     @property
     def y(self) -> tuple[np.ndarray, ...]:
-        """(rows_j,) by joint: torques, less those of base parameters that are kept."""
+        """Returns torques, (rows_j,) by joint, less those of fixed base parameters."""
         return self.data.y
 
     @cached_property
     def gram_blocks(self) -> ranking.GramBlocks:
-        """Of the model so far."""
+        """Returns the Gram matrices of the model so far, by block."""
         numbers, fold = self.data.block_numbers, self.data.time_blocks.fold
         return ranking.build_gram_blocks(
             self.W, self.y, self.sigma, numbers, fold, self.whitener, self.prior
@@ -185,23 +185,23 @@ class State(ShortRepr):
 
     @cached_property
     def fold_grams(self) -> ranking.GramBlocks:
-        """The same by folds."""
+        """Returns the same by folds."""
         return ranking.merge_blocks(self.gram_blocks)
 
     @cached_property
     def reduced_rows(self) -> ReducedRows:
-        """The rows of the model so far, reduced to few."""
+        """Returns the rows of the model so far, reduced to few."""
         return self.data.reduction.append_columns(self.extra)
 
     def replace_weights(self, later: "State") -> "State":
-        """The same beside the residuals and the prior of a state with more effects."""
+        """Returns the same with residuals and prior of a state with more effects."""
         first = self.prior.shape[1] - 1
         prior = later.prior[:, [*range(first), -1]]
         return replace(self, adopted_weights=(later.sigma, prior))
 
     @cached_property
     def prior(self) -> np.ndarray:
-        """(k, f + extra + 1) rows of what is known beforehand, beside rows that repeat each other.
+        """Returns rows of prior knowledge, (k, f + extra + 1), beside autocorrelated rows.
 
         Rows of the logs count as if they were independent, and the prior as much more instead: by
         the sum of the autocorrelation of the residual, 1 + 2 sum_k r(k), of the middle joint. Where
@@ -237,7 +237,7 @@ class State(ShortRepr):
 
     @cached_property
     def sigma(self) -> np.ndarray:
-        """(J,) rms residual of each joint."""
+        """Returns the rms residual of each joint, (J,)."""
         return (
             ranking.estimate_sigma(self.reduced_rows, prior=self.prior)
             if not self.adopted_weights
@@ -246,14 +246,14 @@ class State(ShortRepr):
 
     @cached_property
     def whitener(self) -> np.ndarray:
-        """(f + extra, r) to orthonormal weighted columns."""
+        """Returns the transform to orthonormal weighted columns, (f + extra, r)."""
         return compute_joint_whitening(
             [*self.reduced_rows.W, self.prior[:, :-1]], np.append(self.sigma, 1.0)
         )
 
     @cached_property
     def solution(self) -> np.ndarray:
-        """(f + extra,) parameters on all rows, SI; first the base parameters that are fitted."""
+        """Returns the parameters on all rows (f + extra,), SI; first the fitted base parameters."""
         return self._solve_weighted(self.whitener, self.sigma, self.prior)
 
     def _solve_weighted(
@@ -281,7 +281,7 @@ class State(ShortRepr):
 
     @cached_property
     def beta(self) -> np.ndarray:
-        """(c,) base parameters."""
+        """Returns the base parameters, (c,)."""
         beta = (
             np.zeros(self.rows.W[0].shape[1])
             if self.data.fixed_parameters is None
@@ -293,18 +293,18 @@ class State(ShortRepr):
 
     @cached_property
     def values(self) -> list[np.ndarray]:
-        """Parameters of each pick, SI."""
+        """Returns the parameters of each pick, SI."""
         ends = np.cumsum([len(self.data.free_columns), *map(count_columns, self.extra)])
         return [self.solution[first:last] for first, last in pairwise(ends)]
 
     @cached_property
     def residual(self) -> tuple[np.ndarray, ...]:
-        """(rows_j,) by joint, N m or N."""
+        """Returns the residuals, (rows_j,) by joint, N m or N."""
         return tuple(y - w @ self.solution for y, w in zip(self.y, self.W, strict=True))
 
     @property
     def torque(self) -> np.ndarray:
-        """(s, n) of the model, beside the rows that are used; of the others the measured one."""
+        """Returns the model's torque, (s, n), on used rows; elsewhere the measured one."""
         torque = self.data.observation.torque.copy()
         for j, (used, left) in enumerate(
             zip(self.data.observation.used.T, self.residual, strict=True)
@@ -314,12 +314,12 @@ class State(ShortRepr):
 
     @cached_property
     def derived_cache(self) -> dict[Any, Any]:
-        """What was made of it, by name."""
+        """Returns what was derived from it, by name."""
         return {}
 
     @cached_property
     def joint_scales(self) -> list[JointScale]:
-        """What is large on each joint."""
+        """Returns the scale of each joint."""
         motion = (
             [getattr(s, name)[s.segment.whole] for s in self.rows.signals]
             for name in ("q", "v", "load")
@@ -327,14 +327,14 @@ class State(ShortRepr):
         return compute_scales(self.spec, *motion)
 
     def rank_columns(self, every: Sequence[Columns]) -> ranking.Ranking:
-        """Candidates by their columns."""
+        """Ranks candidates by their columns."""
         return ranking.rank_candidates(
             self.gram_blocks, ranking.build_batch(self.gram_blocks, every)
         )
 
 
 def build_state(data: SearchData, picks: Sequence[Candidate], beta: np.ndarray) -> State:
-    """The analysis with these effects, linearised about beta (c,)."""
+    """Builds the analysis with these effects, linearised about beta (c,)."""
     rows = data.linearise_rows(replace(data.rows.signals[0].reference, beta=beta))
     return State(
         data, tuple(picks), rows.signals[0].reference, rows, collect_pick_columns(rows, picks)
@@ -342,7 +342,7 @@ def build_state(data: SearchData, picks: Sequence[Candidate], beta: np.ndarray) 
 
 
 def collect_pick_columns(rows: Rows, picks: Sequence[Candidate]) -> tuple[Columns, ...]:
-    """The columns of what was put in: remembered for every reference."""
+    """Collects the columns of what was put in, cached for every reference."""
     for pick in picks:
         if make_column_key(rows, pick) not in rows.reference_cache:
             rows.reference_cache[make_column_key(rows, pick)] = build_columns(rows, pick)
@@ -350,12 +350,12 @@ def collect_pick_columns(rows: Rows, picks: Sequence[Candidate]) -> tuple[Column
 
 
 def build_columns(rows: Rows, candidate: Candidate) -> Columns:
-    """The candidate's columns; those that do not depend on the model are computed once."""
+    """Builds the candidate's columns; those that do not depend on the model are cached."""
     return build_all_columns(rows, [candidate])[0]
 
 
 def build_all_columns(rows: Rows, candidates: Sequence[Candidate]) -> list[Columns]:
-    """The columns of many candidates: the shapes of one effect at once."""
+    """Builds the columns of many candidates: all parameters of one effect at once."""
     columns = {
         id(c): rows.cache[key]
         for c in candidates
@@ -381,7 +381,7 @@ def _cache_columns(cache: dict[Any, Any], key: Any, columns: Columns) -> None:
 
 
 def batch_candidates(candidates: Sequence[Candidate], most: int) -> Iterator[list[Candidate]]:
-    """Candidates whose columns are made together, about so many at a time."""
+    """Yields candidates whose columns are made together, about so many at a time."""
     some: list[Candidate] = []
     for group in _group_candidates(candidates):
         if some and len(some) + len(group) > most:
@@ -414,7 +414,7 @@ def _is_model_independent(candidate: Candidate) -> bool:
 
 
 def make_column_key(rows: Rows, candidate: Candidate) -> tuple[Any, ...]:
-    """What columns that do not depend on the model depend on."""
+    """Makes the key of columns that do not depend on the model."""
     shapes = tuple(sorted(candidate.nonlinear_parameters.items()))
     clock = (
         ()
@@ -429,7 +429,7 @@ _FIXED = (EffectTarget.JOINT, EffectTarget.MOTOR, EffectTarget.PASSIVE, EffectTa
 
 
 def is_visible(columns: Columns) -> bool:
-    """True if the columns are finite and none of them is zero throughout."""
+    """Tells whether the columns are finite and none of them is zero throughout."""
     parts = [c.T for c in columns if c is not None]
     if not parts or not len(parts[0]):
         return False
@@ -461,7 +461,7 @@ def analyse_logs(
     prepared: regression.PreparedLogs | None = None,
     repair: regression.LogRepair | None = None,
 ) -> regression.Observation:
-    """The observation of a diagnosis.
+    """Returns the observation of a diagnosis.
 
     With f0 where the positions drown in their noise, and c the parallel cut-off that the motion
     asks for, the parallel filter is at f0/2 within c and `BAND`, that of the positions at f0 and at
@@ -483,7 +483,7 @@ def analyse_logs(
 def observe_logs(
     compiled: "CompiledModel", logs: Sequence[regression.Log], prepared: regression.PreparedLogs
 ) -> regression.Observation:
-    """The observation of logs whose band is chosen."""
+    """Returns the observation of logs whose band is chosen."""
     return _select_whole_rows(
         regression.build_observation(compiled, logs, prepared, every_joint=True)
     )
@@ -497,7 +497,7 @@ def choose_band(
     prepared: regression.PreparedLogs | None = None,
     repair: regression.LogRepair | None = None,
 ) -> regression.PreparedLogs:
-    """The logs, with the band that `analyse_logs` chooses."""
+    """Prepares the logs in the band that `analyse_logs` chooses."""
     prepared = (
         prepared or regression.prepare_logs(compiled.spec, logs, fitted, repair)
     ).drop_commands()
@@ -535,19 +535,19 @@ def observe_in_band(
     logs: Sequence[regression.Log],
     processing: regression.ChosenProcessing,
 ) -> regression.Observation:
-    """Other logs in the band of a diagnosis."""
+    """Returns other logs in the band of a diagnosis."""
     return observe_logs(
         compiled, logs, regression.prepare_logs(compiled.spec, logs, processing).drop_commands()
     )
 
 
 def get_cutoff(data: SearchData) -> float:
-    """Hz of the parallel filter."""
+    """Returns the cut-off of the parallel filter, Hz."""
     return data.observation.report.processing.parallel_cutoff or 0.0
 
 
 def describe_bands(fitted: regression.Processing, processing: regression.Processing) -> list[str]:
-    """A sentence on the band of a diagnosis where it is not that of the fit."""
+    """Describes the band of a diagnosis where it is not that of the fit."""
     if processing.parallel_cutoff == fitted.parallel_cutoff:
         return []
     if (processing.parallel_cutoff or 0.0) < (fitted.parallel_cutoff or 0.0):

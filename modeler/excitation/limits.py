@@ -42,21 +42,21 @@ class CollisionGeometry(ShortRepr):
 
     @property
     def median_radius(self) -> float:
-        """The middle radius of capsules, m."""
+        """Returns the median radius of capsules, m."""
         return float(np.median(self.radius[: len(self.ends)]))
 
     def get_pair_names(self, pair: int) -> tuple[str, str]:
-        """The names of a pair."""
+        """Returns the names of a pair."""
         one, other = self.pairs[pair]
         return self.names[one], self.names[other]
 
     def select_frames(self, poses: np.ndarray) -> np.ndarray:
-        """(n, k + m, 3, 4) of the carriers, of poses (n, rows, 3, 4)."""
+        """Selects the frames of the carriers, (n, k + m, 3, 4), of poses (n, rows, 3, 4)."""
         still = np.eye(3, 4)[None, None].repeat(len(poses), axis=0)
         return np.concatenate([poses, still], axis=1)[:, self.carriers]
 
     def place_capsules(self, poses: np.ndarray) -> np.ndarray:
-        """(n, k, 2, 3) ends in frame 0, of poses (n, rows, 3, 4)."""
+        """Places the ends in frame 0, (n, k, 2, 3), of poses (n, rows, 3, 4)."""
         capsule_frames = self.select_frames(poses)[:, : len(self.ends)]
         return (
             np.einsum("nkab,ksb->nksa", capsule_frames[..., :3], self.ends)
@@ -64,7 +64,7 @@ class CollisionGeometry(ShortRepr):
         )
 
     def compute_distances(self, ends: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """(n, p) m, below 0 where two meet, and (n, p, 2, 3) the nearest points of axes and planes.
+        """Computes distances (n, p), m, and nearest points of axes and planes (n, p, 2, 3).
 
         Args:
             ends: (n, k, 2, 3) of `place_capsules`.
@@ -84,7 +84,7 @@ class CollisionGeometry(ShortRepr):
 
 
 def find_nearest_points(one: np.ndarray, other: np.ndarray) -> np.ndarray:
-    """(..., 2, 3) where two segments, (..., 2, 3) ends each, come nearest to each other.
+    """Finds where two segments, (..., 2, 3) ends each, come nearest, (..., 2, 3).
 
     Ericson 2005, Real-Time Collision Detection, section 5.1.9.
     """
@@ -151,7 +151,7 @@ class Clearance(ShortRepr):
     left_out: tuple[tuple[str, str, str], ...] = ()
 
     def format_line(self, near: ClosestApproach | None) -> str:
-        """What a motion keeps of it, as a sentence."""
+        """Formats what a motion keeps of it."""
         out = ", ".join(f"{a} and {b} ({why})" for a, b, why in self.left_out)
         excluded_text = f"; not looked at: {out}" if out else ""
         if near is None:
@@ -171,7 +171,7 @@ class Clearance(ShortRepr):
         }
 
     def compute_shares(self, compiled: CompiledModel, q: np.ndarray) -> np.ndarray:
-        """(n, pairs) exp((margin - distance) / middle radius): below 1 where they are far apart."""
+        """Computes exp((margin - distance) / median radius), (n, pairs): < 1 where far apart."""
         ends = self.solids.place_capsules(compiled.forward_kinematics(q))
         return np.exp(
             (self.margin - self.solids.compute_distances(ends)[0]) / self.solids.median_radius
@@ -180,7 +180,7 @@ class Clearance(ShortRepr):
     def pull_back_gradient(
         self, compiled: CompiledModel, q: np.ndarray, pull: np.ndarray, steps: np.ndarray
     ) -> np.ndarray:
-        """(n, J) derivative by q of a number whose derivative by `compute_shares` is `pull`.
+        """Computes the derivative by q, (n, J), of a number with derivative `pull` by the shares.
 
         For distances above 0. Nearest points are taken as fixed on their links: by how little they
         slide, the distance does not change. The links' motion is by central differences of `steps`
@@ -220,7 +220,7 @@ def exclude_neighbours(
     ranges: np.ndarray,
     home: np.ndarray | None,
 ) -> Clearance:
-    """A clearance without the pairs that no motion can keep apart.
+    """Excludes the pairs that no motion can keep apart.
 
     These are nearer than `margin` in 95 % of 500 postures that close or, where loops are closed
     from home, at home.
@@ -259,7 +259,7 @@ def find_closest_approach(
     duration: float,
     samples: int = THRESHOLDS.clearance_samples,
 ) -> ClosestApproach:
-    """The least distance along a motion, by intervals that are halved where it may lie.
+    """Finds the least distance along a motion, by halving intervals where it may lie.
 
     Seen from the other one, the ends of an axis leave their chords within an interval h by
     A h^2 / 8 at most, A twice the largest second difference of the samples. On the chords the
@@ -360,17 +360,17 @@ class MotionBounds(ShortRepr):
 
     @property
     def mid_range(self) -> np.ndarray:
-        """(J,) of the ranges."""
+        """Returns the middle of the ranges, (J,)."""
         return 0.5 * (self.lower + self.upper)
 
     @property
     def half_range(self) -> np.ndarray:
-        """(J,) half of the ranges."""
+        """Returns half of the ranges, (J,)."""
         return 0.5 * (self.upper - self.lower)
 
 
 def check_bounds(bounds: MotionBounds) -> None:
-    """Nothing, if some motion may keep to them.
+    """Checks that some motion may keep to them.
 
     Raises:
         DataError: names the joint, what was got and what is expected.
@@ -424,7 +424,7 @@ class PostureLimits:
     fastest: tuple[float, ...] = ()
 
     def compute_shares(self, q: np.ndarray) -> np.ndarray:
-        """(n, r) numbers that must stay between -1 and 1.
+        """Computes numbers (n, r) that must stay between -1 and 1.
 
         Raises:
             LoopError: a posture does not close.
@@ -435,7 +435,7 @@ class PostureLimits:
         return np.hstack(parts)
 
     def compute_stated_shares(self, q: np.ndarray) -> np.ndarray:
-        """(n, r) those of loops, joints that follow and boxes."""
+        """Computes those of loops, passive joints and boxes, (n, r)."""
         parts = []
         if self.kinds:
             parts.append(self.compute_coupling_sizes(q) / np.array(self.fastest))
@@ -451,14 +451,14 @@ class PostureLimits:
         return np.hstack(parts) if parts else np.zeros((len(q), 0))
 
     def compute_coupling_sizes(self, q: np.ndarray) -> np.ndarray:
-        """(n, groups) sizes of G of the joints that follow."""
+        """Computes the sizes of G of the passive joints, (n, groups)."""
         G = self.compiled.coupling(q) * self.bounds.half_range
         return np.column_stack(
             [np.sqrt(np.sum(G[:, places] ** 2, axis=(1, 2))) for places in self.kinds]
         )
 
     def pull_back_gradient(self, q: np.ndarray, pull: np.ndarray) -> np.ndarray:
-        """(n, J) derivative by q of a number whose derivative by `compute_shares` is `pull`."""
+        """Computes the derivative by q, (n, J), of one with derivative `pull` by the shares."""
         slope, steps, clearance = (
             np.zeros_like(q),
             THRESHOLDS.posture_step * self.bounds.half_range,
@@ -481,7 +481,7 @@ class PostureLimits:
 
 
 def build_posture_limits(compiled: CompiledModel, bounds: MotionBounds) -> PostureLimits:
-    """What the positions of a robot must keep to.
+    """Builds what the positions of a robot must keep to.
 
     Raises:
         DataError: home itself is outside.
@@ -530,7 +530,7 @@ class LimitExcess(ShortRepr):
     step: tuple[float, float] | None = None
 
     def format_line(self) -> str:
-        """As a sentence."""
+        """Formats it as a sentence."""
         step = ""
         if self.step is not None:
             distance, seconds = self.step
@@ -553,7 +553,7 @@ def find_exceeded_limits(
     q: np.ndarray,
     stated: tuple[np.ndarray, np.ndarray] | None,
 ) -> list[LimitExcess]:
-    """Where each joint exceeds each of its limits most, first by time.
+    """Finds where each joint exceeds each of its limits most, first by time.
 
     Mean speeds over a window, and their mean change, are never above the largest ones between. A
     motion that begins or ends faster than its acceleration reaches in a window is not at rest.

@@ -77,7 +77,7 @@ class InformationGain(ShortRepr):
     condition: tuple[float, float]
 
     def format_lines(self) -> list[str]:
-        """Lines of text: what gains most, first."""
+        """Formats lines of text: what gains most, first."""
         rows = []
         for name, unit, a, b in zip(self.names, self.units, self.before, self.after, strict=True):
             cells = ["not told" if value is None else f"{value:.3g}" for value in (a, b)]
@@ -152,7 +152,7 @@ class ExcitingMotion(Result):
     gain: InformationGain | None = None
 
     def sample_motion(self, rate: float) -> dict[str, np.ndarray]:
-        """Columns by name: time, q, qd and qdd of every joint, from rest to rest."""
+        """Samples time, q, qd and qdd of every joint, from rest to rest, by name."""
         laps, period = int(self.request["laps"]), self.series.duration
         count = int(np.ceil(laps * period * rate - 1e-9)) + 1
         times = np.arange(count) / rate
@@ -165,7 +165,7 @@ class ExcitingMotion(Result):
         return columns
 
     def format_lines(self) -> list[str]:
-        """Lines of text."""
+        """Formats lines of text."""
         best, median = self.random
         lines = [
             f"condition number {self.quality.condition:.4g} with columns of length one "
@@ -242,14 +242,14 @@ class ExcitingMotion(Result):
 
 
 def encode_parquet(columns: Mapping[str, np.ndarray]) -> bytes:
-    """Columns as Parquet."""
+    """Encodes columns as Parquet."""
     buffer = io.BytesIO()
     pq.write_table(pa.table({name: pa.array(values) for name, values in columns.items()}), buffer)
     return buffer.getvalue()
 
 
 def format_csv(columns: Mapping[str, np.ndarray]) -> str:
-    """Columns as CSV, every digit that counts."""
+    """Formats columns as CSV, twelve digits."""
     out = io.StringIO()
     writer = csv.writer(out, lineterminator="\n")
     writer.writerow(columns)
@@ -294,7 +294,7 @@ _NO_DATE: dict[str, dict[str, None]] = {
 
 
 def check_picture_kind(name: str) -> str:
-    """The kind of picture that a file name asks for.
+    """Returns the kind of picture that a file name asks for.
 
     Raises:
         DataError: none of ours.
@@ -306,7 +306,7 @@ def check_picture_kind(name: str) -> str:
 
 
 def draw_motion(motion: ExcitingMotion, compiled: CompiledModel, kind: str) -> bytes:
-    """Position, speed, acceleration and torque of every joint, each as a share of its limit.
+    """Draws position, speed, acceleration and torque of every joint as shares of limits.
 
     Torques have a panel where parameters are known; where a joint has no limit they are shown as
     shares of their largest value.

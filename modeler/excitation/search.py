@@ -66,13 +66,13 @@ class ExcitationTask:
     share: float = 0.98
 
     def compute_kinematic_shares(self, x: np.ndarray) -> np.ndarray:
-        """(3, n, J) position, speed and acceleration as shares of their limits: |.| <= room."""
+        """Computes position, speed, acceleration as shares of limits, (3, n, J): |.| <= room."""
         b = self.bounds
         q, qd, qdd = self.series.evaluate_motion(x)
         return np.stack([(q - b.mid_range) / b.half_range, qd / b.speed, qdd / b.acceleration])
 
     def compute_reach(self, x: np.ndarray, direction: np.ndarray) -> float:
-        """How many lengths of `direction` may be gone until a kinematic limit."""
+        """Computes how many lengths of `direction` are possible until a kinematic limit."""
         here = self.compute_kinematic_shares(x)
         turn = self.compute_kinematic_shares(x + direction) - here
         with np.errstate(divide="ignore", invalid="ignore"):
@@ -82,28 +82,28 @@ class ExcitationTask:
         return float(left.min())
 
     def compute_columns(self, motion: Motion) -> np.ndarray:
-        """(n, J, c) the columns of the model, with dry friction as it is."""
+        """Computes the columns of the model, (n, J, c), with dry friction as it is."""
         s = self.columns.read_signals(motion, self.series.time)
         return self.columns.evaluate_exact(*motion, s)
 
     def weigh_columns(self, phi: np.ndarray) -> np.ndarray:
-        """(n J, k) weighted rows of the kept columns."""
+        """Weighs the rows of the selected columns, (n J, k)."""
         return (phi[:, :, self.column_indices] * self.weights[:, None]).reshape(
             -1, len(self.column_indices)
         )
 
     def compute_rows(self, motion: Motion) -> np.ndarray:
-        """(n J, k) the same of a motion."""
+        """Computes the weighted rows of a motion, (n J, k)."""
         return self.weigh_columns(self.compute_columns(motion))
 
     def compute_torque_shares(self, phi: np.ndarray) -> np.ndarray:
-        """(n, J) as shares of their limits: |.| < share; (n, 0) where none is limited."""
+        """Computes torques as shares of limits, (n, J): |.| < share; (n, 0) without limits."""
         if self.beta is None or not np.isfinite(self.bounds.torque).any():
             return np.zeros((len(phi), 0))
         return phi @ self.beta / self.bounds.torque
 
     def is_feasible(self, x: np.ndarray) -> bool:
-        """True if no limit is broken at the samples."""
+        """Tells whether no limit is broken at the samples."""
         motion = self.series.evaluate_motion(x)
         if np.abs(self.compute_kinematic_shares(x)).max() >= self.series.room:
             return False
@@ -117,7 +117,7 @@ class ExcitationTask:
 
     @cached_property
     def rest_motion(self) -> np.ndarray:
-        """(J, 2 K - 1) the motion that rests where limits leave most room for small ones.
+        """Finds the rest motion, (J, 2 K - 1), with most room around it.
 
         Raises:
             DataError: they leave none anywhere.
@@ -228,7 +228,7 @@ class BarrierProblem:
     _state: tuple = field(default=(), init=False, repr=False)
 
     def compute_value(self, flat: np.ndarray) -> float:
-        """Infinite where a limit is broken."""
+        """Computes the criterion with barriers; infinite where a limit is broken."""
         task = self.task
         x = flat.reshape(len(task.bounds.joints), -1)
         shares = task.compute_kinematic_shares(x) / task.series.room
@@ -254,7 +254,7 @@ class BarrierProblem:
         return float(value + self.height * walls / len(motion[0]))
 
     def compute_gradient(self) -> np.ndarray:
-        """The gradient at the point whose value was asked for last."""
+        """Computes the gradient at the point whose value was asked for last."""
         task = self.task
         motion, s, phi, pull, shares, posture, loads = self._state
         n = len(motion[0])
@@ -319,7 +319,7 @@ def design_motion(
     progress: Callable[[float], None] = lambda share: None,
     prior_information: PriorInformation | None = None,
 ) -> ExcitingMotion:
-    """A motion within limits along which parameters are well told apart.
+    """Designs a motion within limits along which parameters are identifiable.
 
     Minimises log cond(W) with columns of length one (Gautier and Khalil 1992), or the mean log
     sigma of the parameters, -log det(W^T W) / (2 c) (Swevers et al. 1997), or their sum, over
@@ -370,11 +370,11 @@ class Deadline:
         return self.get_elapsed() < self._limit
 
     def get_elapsed(self) -> float:
-        """Seconds since it was made."""
+        """Returns seconds since it was made."""
         return time.monotonic() - self._begun
 
     def iterate_in_time(self, items: Iterable[Item]) -> Iterator[Item]:
-        """The first of the items, and the others as long as there is time."""
+        """Yields the first of the items, and the others as long as there is time."""
         for k, item in enumerate(items):
             if k and not self():
                 return
@@ -384,7 +384,7 @@ class Deadline:
 def draw_motions(
     task: ExcitationTask, rng: np.random.Generator, deadline: Deadline
 ) -> list[tuple[np.ndarray, MotionQuality]]:
-    """Random motions, 50 where there is time, and how good each is."""
+    """Draws random motions, 50 where there is time, with the quality of each."""
     random_motions = []
     for _ in deadline.iterate_in_time(range(THRESHOLDS.random_motions)):
         x = draw_random_motion(task, rng)
@@ -399,7 +399,7 @@ def build_result(
     random_motions: list[tuple[np.ndarray, MotionQuality]],
     deadline: Deadline,
 ) -> ExcitingMotion:
-    """The result of a search, beside the random motions that it began with.
+    """Builds the result of a search, beside the random motions that it began with.
 
     Ranges, speeds and accelerations hold between the samples by `Series.room`; torques, boxes and
     loops are looked at ten times as densely, and the motion is drawn in until they hold there;
@@ -448,7 +448,7 @@ def build_task(
     beta: np.ndarray | None,
     prior_information: PriorInformation | None = None,
 ) -> ExcitationTask:
-    """The search of a wish."""
+    """Builds the search of a request."""
     _check_request(request)
     check_bounds(bounds)
     columns = build_motion_columns(compiled, bounds.mid_range, bounds.half_range, bounds.speed)
@@ -510,7 +510,7 @@ def improve_motion(
     stage: tuple[float, float, int],
     has_time: Callable[[], bool],
 ) -> np.ndarray:
-    """The motion after one stage of descent."""
+    """Improves the motion by one stage of descent."""
     height, soft, steps = stage
     softer = dataclasses.replace(task, columns=dataclasses.replace(task.columns, softness=soft))
     walled = BarrierProblem(softer, height)
@@ -542,7 +542,7 @@ def improve_motion(
 
 
 def choose_harmonics(bounds: MotionBounds, duration: float) -> int:
-    """As many as reach what the slowest joint can swing by an eighth of its range, 5 to 10."""
+    """Chooses 5 to 10 harmonics: as many as the slowest joint can follow."""
     part = 0.25 * bounds.half_range
     swing = np.minimum(bounds.speed / part, np.sqrt(bounds.acceleration / part)) / (2.0 * np.pi)
     waves = duration * float(swing.min())
@@ -550,7 +550,7 @@ def choose_harmonics(bounds: MotionBounds, duration: float) -> int:
 
 
 def compute_quality(task: ExcitationTask, x: np.ndarray) -> MotionQuality:
-    """How good a motion is."""
+    """Computes the quality of a motion."""
     W = task.compute_rows(task.series.evaluate_motion(x))
     return MotionQuality(
         compute_condition(W), compute_condition(W, scaled=False), compute_log_det(W)
@@ -558,7 +558,7 @@ def compute_quality(task: ExcitationTask, x: np.ndarray) -> MotionQuality:
 
 
 def refine_task(task: ExcitationTask) -> ExcitationTask:
-    """The same with ten times the samples, and nearly all of the limits."""
+    """Returns the same with ten times the samples, and nearly all of the limits."""
     return dataclasses.replace(
         task,
         series=task.series.refine_samples(THRESHOLDS.check_refinement),
@@ -567,7 +567,7 @@ def refine_task(task: ExcitationTask) -> ExcitationTask:
 
 
 def compute_usage(task: ExcitationTask, x: np.ndarray) -> LimitUsage:
-    """What of each limit a motion uses, ten times as densely as it was searched."""
+    """Computes what of each limit a motion uses, ten times as densely as it was searched."""
     fine = refine_task(task)
     q, qd, qdd = fine.series.evaluate_motion(x)
     loads = None
@@ -587,7 +587,7 @@ def compute_usage(task: ExcitationTask, x: np.ndarray) -> LimitUsage:
 
 
 def draw_random_motion(task: ExcitationTask, rng: np.random.Generator) -> np.ndarray:
-    """(J, 2 K - 1) a series with random coefficients, as large as the limits let it be.
+    """Draws random coefficients, (J, 2 K - 1), as large as the limits allow.
 
     Each joint by itself is made as large as its range, speed and acceleration allow, around a
     random place; where a torque, a box or a loop is in the way, all shrink towards rest.

@@ -72,7 +72,7 @@ class Discrimination:
     gain: tuple[float, float]
 
     def format_lines(self) -> list[str]:
-        """Lines of text."""
+        """Formats lines of text."""
         return [
             f"{name}: {format_percent(here)} of its torque is explained by neither the model nor "
             f"{other}; "
@@ -105,7 +105,7 @@ def design_discriminating_motion(
     question: DiscriminationProblem,
     progress: Callable[[float], None] = lambda share: None,
 ) -> tuple[ExcitingMotion, Discrimination]:
-    """The motion along which two effects are least alike.
+    """Designs the motion along which two effects are least alike.
 
     Maximises what is left of each effect's columns after projection on the columns of the model
     and of the other effect, for the shapes of the other that leave least: geometric mean over
@@ -244,13 +244,13 @@ class _EffectColumns:
         return blocks, squares
 
     def evaluate_motion(self, x: np.ndarray) -> float:
-        """Small where both are well told apart."""
+        """Returns a number that is small where both effects are discriminated."""
         _, squares = self._compute_unexplained(x)
         shares = itertools.chain(*(s / u for s, u in zip(squares, self._usual, strict=True)))
         return -float(np.mean([np.log(max(share, THRESHOLDS.rounding_share)) for share in shares]))
 
     def compute_remainder(self, x: np.ndarray) -> tuple[tuple[float, float], tuple[float, float]]:
-        """Of each effect, the share of its columns that is left, and its size; means of shapes."""
+        """Computes, of each effect, the share of its columns that is left, and its size."""
         blocks, squares = self._compute_unexplained(x)
         shares, sizes = [], []
         for k in range(2):
@@ -283,7 +283,7 @@ class MotionSubset:
 
 
 def choose_motions(rows: Sequence[np.ndarray], count: int) -> MotionSubset:
-    """The `count` motions whose rows together have the smallest condition number.
+    """Chooses the `count` motions whose rows together have the smallest condition number.
 
     How Guegan, Khalil and Lemoine 2003 (section 5) and Gautier and Khalil 1992 choose
     trajectories. All subsets where there are at most 20 000, else one motion after the other and

@@ -31,13 +31,13 @@ class MotionColumns:
     softness: float = 0.03
 
     def read_signals(self, motion: Sequence[np.ndarray], time: np.ndarray) -> np.ndarray | None:
-        """(n, m) what effects of the model read besides q, qd, qdd."""
+        """Reads what effects of the model need besides q, qd, qdd, (n, m)."""
         return compute_signals(self.compiled, motion, time)
 
     def evaluate_exact(
         self, q: np.ndarray, qd: np.ndarray, qdd: np.ndarray, s: np.ndarray | None
     ) -> np.ndarray:
-        """(n, J, c) phi as it is."""
+        """Evaluates phi (n, J, c) as it is."""
         return self.compiled.base_regressor(q, qd, qdd, s)
 
     def evaluate_smooth(
@@ -48,7 +48,7 @@ class MotionColumns:
         s: np.ndarray | None,
         out: np.ndarray | None = None,
     ) -> np.ndarray:
-        """(n, J, c) phi with every jump at rest made a slope; in `out`, (n J, c), if given."""
+        """Evaluates phi (n, J, c) with every jump at rest made a slope; in `out` if given."""
         phi = self.compiled.observation(q, qd, qdd, out, s).reshape(*q.shape, -1)
         for j in np.flatnonzero(self.half_jumps.any(axis=(1, 2))):
             v = qd[:, j] / (self.softness * self.speed[j])
@@ -64,7 +64,7 @@ class MotionColumns:
         s: np.ndarray | None,
         pull: np.ndarray,
     ) -> list[np.ndarray]:
-        """(n, J) derivatives by q, qd and qdd of a number whose derivative by phi is `pull`.
+        """Computes derivatives by q, qd, qdd, (n, J), of a number with derivative `pull` by phi.
 
         By differences: central ones, one-sided where loops are closed for each.
         """
@@ -105,7 +105,7 @@ class MotionColumns:
 def build_motion_columns(
     compiled: CompiledModel, middle: np.ndarray, half: np.ndarray, speed: np.ndarray
 ) -> MotionColumns:
-    """The columns of a robot, with the jumps found by looking at both sides of rest."""
+    """Builds the columns of a robot, with the jumps at rest."""
     joints, wide = len(half), len(compiled.spec.base)
     rng = np.random.default_rng(0)
     near = middle + 0.1 * half * rng.uniform(-1, 1, (THRESHOLDS.jump_states, joints))
@@ -129,7 +129,7 @@ def build_motion_columns(
 def compute_signals(
     compiled: CompiledModel, motion: Sequence[np.ndarray], time: np.ndarray
 ) -> np.ndarray | None:
-    """(n, m) what effects read besides the motion, at the temperature of their reference."""
+    """Computes what effects read besides the motion, (n, m), at their reference temperature."""
     return compute_signals_along(compiled, motion, time, lambda joint: np.zeros(len(time)))
 
 
@@ -141,7 +141,7 @@ Criterion = Callable[[np.ndarray], tuple[float, np.ndarray]]
 
 
 def compute_log_condition(W: np.ndarray) -> tuple[float, np.ndarray]:
-    """About log cond(W) with columns of length one; smooth.
+    """Computes a smooth bound of log cond(W) with columns of length one.
 
     The p-norms of the singular values and of their inverses, p = 8, stand for the largest and the
     inverse of the smallest: log cond <= value <= log cond + log(c) / 4.
@@ -165,7 +165,7 @@ def compute_log_condition(W: np.ndarray) -> tuple[float, np.ndarray]:
 
 
 def compute_lost_information(W: np.ndarray) -> tuple[float, np.ndarray]:
-    """-log det(W^T W) / (2 c): the mean log of the standard deviations, but for a constant."""
+    """Computes -log det(W^T W) / (2 c): the mean log sigma, but for a constant."""
     columns = W.shape[1]
     if len(W) < columns:
         return np.inf, W
@@ -179,7 +179,7 @@ def compute_lost_information(W: np.ndarray) -> tuple[float, np.ndarray]:
 
 
 def compute_balanced_criterion(W: np.ndarray) -> tuple[float, np.ndarray]:
-    """The sum of both: well conditioned, and not by moving little."""
+    """Computes the sum of both: well conditioned, and not by small motion."""
     (first, pull), (second, more) = compute_log_condition(W), compute_lost_information(W)
     return first + second, pull + more
 
@@ -205,7 +205,7 @@ class PriorInformation:
     rate: float
 
     def extend_criterion(self, criterion: Criterion, each: float) -> Criterion:
-        """The criterion of all rows: R, and those of a motion, `each` of which stands for so many.
+        """Extends the criterion to R and the rows of a motion, each of which counts `each` times.
 
         Of the information that is a sum: W'S^-1 W of the logs, and that of the motion.
         """
@@ -219,7 +219,7 @@ class PriorInformation:
 
 
 def compute_condition(W: np.ndarray, scaled: bool = True) -> float:
-    """cond(W), with columns of length one if `scaled`."""
+    """Computes cond(W), with columns of length one if `scaled`."""
     lengths = np.linalg.norm(W, axis=0) if scaled else np.ones(W.shape[1])
     if len(W) < W.shape[1] or not lengths.min() > 0.0:
         return float("inf")
@@ -228,7 +228,7 @@ def compute_condition(W: np.ndarray, scaled: bool = True) -> float:
 
 
 def compute_log_det(W: np.ndarray) -> float:
-    """log det(W^T W), of the information matrix where rows are divided by their sigma."""
+    """Computes log det(W^T W) of the information matrix; rows are divided by their sigma."""
     with np.errstate(divide="ignore"):
         return 2.0 * float(np.sum(np.log(np.abs(np.diagonal(np.linalg.qr(W, mode="r"))))))
 
@@ -262,15 +262,15 @@ class MotionSeries(ShortRepr):
     room: float
 
     def evaluate_motion(self, x: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-        """(n, joints) q, qd and qdd of (joints, 2 K - 1) coefficients."""
+        """Evaluates q, qd and qdd, (n, joints), of (joints, 2 K - 1) coefficients."""
         return self.values @ x.T, self.slopes @ x.T, self.bends @ x.T
 
     def resample_at(self, times: np.ndarray) -> "MotionSeries":
-        """The same at other times, s."""
+        """Returns the same at other times, s."""
         return build_series(self.duration, self.harmonics, times, family=self.family)
 
     def refine_samples(self, times: int) -> "MotionSeries":
-        """The same with so many times as many samples."""
+        """Returns the same with so many times as many samples."""
         count = times * len(self.time)
         return _sample_series(self.family, self.duration, self.harmonics, count)
 
@@ -282,7 +282,7 @@ def build_series(
     dense: int = THRESHOLDS.samples_per_wave,
     family: str = "fourier",
 ) -> MotionSeries:
-    """A family over a lap, at even times; at `times` (s) if given."""
+    """Builds a family over a lap, at even times; at `times` (s) if given."""
     if times is None:
         return _sample_series(family, duration, harmonics, dense * harmonics)
     waves = FAMILIES[family](duration, harmonics, np.asarray(times, dtype=float))
@@ -308,7 +308,7 @@ def _sample_series(family: str, duration: float, harmonics: int, count: int) -> 
 
 
 def count_pieces(harmonics: int) -> int:
-    """Spans between knots of a B-spline, moves of a trapezoid."""
+    """Counts spans between knots of a B-spline, or moves of a trapezoid."""
     return 2 * harmonics - 1
 
 
@@ -409,7 +409,7 @@ FAMILIES: dict[str, Callable[[float, int, np.ndarray], _Waves]] = {
 def export_coefficients(
     motion: MotionSeries, x: np.ndarray, joints: tuple[str, ...]
 ) -> dict[str, object]:
-    """What a controller needs to compute the motion itself, by joint."""
+    """Exports what a controller needs to compute the motion, by joint."""
     K, header = motion.harmonics, {"family": motion.family, "period": motion.duration}
     if motion.family != "fourier":
         spline = motion.family == "bspline"

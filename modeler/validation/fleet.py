@@ -88,7 +88,7 @@ class FleetFinding(ShortRepr):
 
     @property
     def change_percent(self) -> float | None:
-        """The change in % of the value before; None of what has no size of its own."""
+        """Returns the change in % of the value before; None of what has no size of its own."""
         if self.quantity.unit == "%":
             return self.change
         if self.quantity.effect in ("payload", "offset") or self.before == 0.0:
@@ -164,12 +164,12 @@ class Fleet(Result):
 
     @property
     def logs(self) -> int:
-        """Logs that were used."""
+        """Returns the number of logs that were used."""
         return sum(len(periods) for periods in self.machines.values())
 
     @property
     def verdict(self) -> str:
-        """Either "drift", "odd machine" or "nothing drifts"."""
+        """Returns "drift", "odd machine" or "nothing drifts"."""
         if any(finding.shape != "odd machine" for finding in self.findings):
             return "drift"
         return "odd machine" if self.findings else "nothing drifts"
@@ -238,7 +238,7 @@ def _build_history_json(each: QuantityHistory) -> dict[str, Any]:
 
 
 def format_effect_title(quantity: Quantity) -> str:
-    """What drifts, in words of the catalogue."""
+    """Formats what drifts, in words of the catalogue."""
     if quantity.effect == GAIN:
         return "drive gain"
     if quantity.effect == LOAD:
@@ -248,7 +248,7 @@ def format_effect_title(quantity: Quantity) -> str:
 
 
 def describe_finding(finding: FleetFinding, unit: Unit) -> str:
-    """One finding, with what it may be instead."""
+    """Describes one finding, with what it may be instead."""
     quantity = finding.quantity
     where = f"machine {finding.machine}" + (
         "" if quantity.joint is None else f", joint {quantity.joint}"
@@ -293,7 +293,7 @@ def _describe_change(finding: FleetFinding, unit: Unit) -> str:
 
 
 def format_headline(fleet: Fleet) -> tuple[str, str]:
-    """A figure and what it is."""
+    """Formats a figure and what it is."""
     machines = f"{len(fleet.machines)} machine{'s' * (len(fleet.machines) != 1)}"
     less = ""
     if fleet.skipped_logs:
@@ -305,7 +305,7 @@ def format_headline(fleet: Fleet) -> tuple[str, str]:
 
 
 def format_fleet(fleet: Fleet) -> list[str]:
-    """All of it, for people."""
+    """Formats all of it, for people."""
     figure, what = format_headline(fleet)
     lines = [f"{fleet.robot}: {figure} {what}"]
     lines += [f"  {describe_finding(one, fleet.unit)}" for one in fleet.findings]
@@ -327,7 +327,7 @@ def format_fleet(fleet: Fleet) -> list[str]:
 
 
 def format_skipped(fleet: Fleet) -> list[str]:
-    """Logs that were not used, and why; most reasons begin with the place already."""
+    """Formats the logs that were not used, and why."""
     return [
         f"left out: {why if place in why else f'{place}: {why}'}"
         for place, why in fleet.skipped_logs
@@ -339,7 +339,7 @@ HEAD = "joint, effect, parameter, level, unit, scatter, told"
 
 
 def build_table_rows(fleet: Fleet) -> list[list[str]]:
-    """Header, and a row for each quantity."""
+    """Builds the header, and a row for each quantity."""
     return [
         HEAD.split(", "),
         *(
@@ -358,7 +358,7 @@ def build_table_rows(fleet: Fleet) -> list[list[str]]:
 
 
 def analyse_fleet(spec: ModuleSpec, summaries: Sequence[LogSummary | SkippedLog]) -> Fleet:
-    """What drifts where, from the summaries of all logs.
+    """Finds what drifts where, from the summaries of all logs.
 
     Each log k and joint j obeys y_kj = W_j (theta + D phi_k) + gamma_kj W_j theta with theta of the
     whole fleet; phi_k (friction, offset) and gamma_k (gain) of a machine over its periods are then
@@ -576,7 +576,7 @@ def _collect_notes(tests: QuantityTests, logs: Sequence[LogSummary]) -> list[str
 
 
 def describe_undetectable_drifts(tests: QuantityTests, logs: Sequence[LogSummary]) -> list[str]:
-    """A sentence on each machine that would hide a drift which the others would show."""
+    """Describes each machine whose logs hide a drift that those of others would show."""
     names = list(dict.fromkeys(each.log_name.machine for each in logs))
     sigmas = np.array(
         [
@@ -619,7 +619,7 @@ def _compute_usual_sigma(tests: QuantityTests, m: int, i: int) -> float:
 
 
 def describe_unknown_scatter(tests: QuantityTests, logs: int) -> list[str]:
-    """A sentence if the scatter from period to period comes from few changes."""
+    """Describes that the scatter from period to period comes from few changes."""
     count = max(
         sum(len(tests.get_series(m, i).standardised_changes) for m in range(tests.machine_count))
         for i in range(len(tests.quantities))
@@ -642,7 +642,7 @@ Machine = tuple[Sequence[LogSummary], np.ndarray]
 def compare_temperature(
     machine: Machine, joint: str | None, line: np.ndarray, others: Sequence[Machine]
 ) -> TemperatureEffect | None:
-    """The temperature beside the values of one machine; None where a log has none.
+    """Compares the temperature with the values of one machine; None where a log has none.
 
     It moves along if a straight line in it explains nearly as much as the shape that was found. If
     other machines warm too, it may be the cause only if they change with it.

@@ -40,7 +40,7 @@ class PeriodSeries:
 
     @property
     def standardised_changes(self) -> np.ndarray:
-        """From each period to the next, in standard deviations, the machine's usual one taken out.
+        """Returns changes between periods, in standard deviations, less their median.
 
         With three periods, what a straight line leaves; with two, the change itself.
         """
@@ -68,12 +68,12 @@ class Scatter:
     factor: float
 
     def compute_sigmas(self, series: PeriodSeries) -> np.ndarray:
-        """(p,) standard deviations of the values of a series that stays."""
+        """Computes standard deviations, (p,), of the values of a series that stays."""
         return np.hypot(series.sigmas, self.extra)
 
 
 def estimate_scatters(groups: Sequence[Sequence[PeriodSeries]]) -> list[Scatter]:
-    """The scatter of each quantity, from all machines, moderated by all other quantities.
+    """Estimates the scatter of each quantity, from all machines, moderated by all quantities.
 
     Few changes say little of a variance: that of each quantity is drawn to the usual one, the more
     the less they differ (Smyth 2004, Stat. Appl. Genet. Mol. Biol. 3(1), section 6.2; trimmed
@@ -151,7 +151,7 @@ class Drift:
 
 
 def fit_drift(series: PeriodSeries, scatter: Scatter) -> Drift | None:
-    """The best description of what a series does; None for one period.
+    """Fits the best description of what a series does; None for one period.
 
     Weighted least squares of a constant and one shape, each shape in turn; the chance is that of
     one shape, Student's t, times their number (Bonferroni).
@@ -189,13 +189,13 @@ def _fit_shape(
 
 
 def compute_line(move: Drift, at: np.ndarray) -> np.ndarray:
-    """(p,) what a move adds to the level at each period."""
+    """Computes what a drift adds to the level at each period, (p,)."""
     columns = {(shape, begin): column for shape, begin, column in _build_shapes(at)}
     return move.change * columns[move.shape, move.begin]
 
 
 def compute_smallest_detectable(series: PeriodSeries, scatter: Scatter, level: float) -> float:
-    """The smallest straight drift over all periods that would be told at this chance.
+    """Computes the smallest straight drift that is detected at this chance.
 
     Args:
         series: of two periods and more.
@@ -208,7 +208,7 @@ def compute_smallest_detectable(series: PeriodSeries, scatter: Scatter, level: f
 
 
 def compute_quantile(degrees: float, chance: float) -> float:
-    """|t| that Student's t exceeds with that chance, both sides together."""
+    """Computes the |t| that Student's t exceeds with that chance, both sides together."""
     return float(-stdtrit(degrees, 0.5 * chance))
 
 
@@ -225,7 +225,7 @@ _DAY = 86400.0  # s
 
 
 def arrange_by_time(summaries: Sequence[LogSummary]) -> tuple[list[LogSummary], np.ndarray, Unit]:
-    """The logs machine after machine in order of time, when each is, and in what that counts.
+    """Arranges the logs by machine and time; returns when each is, and the unit.
 
     Dates in the names of all periods rule; else the clocks of the logs, where those of each machine
     do not overlap (logs that each begin at 0 do); else the names in natural order.
@@ -245,7 +245,7 @@ def arrange_by_time(summaries: Sequence[LogSummary]) -> tuple[list[LogSummary], 
 
 
 def parse_date(period: str) -> datetime.datetime | None:
-    """The day, and hour if it is there, that a name says, as 2026-03-01 or 20260301_0930."""
+    """Parses the day, and hour if any, of a name such as 2026-03-01 or 20260301_0930."""
     match = _DATE.search(period)
     if match is None:
         return None
@@ -298,7 +298,7 @@ class Outlier:
 
 
 def compute_critical_deviate(count: int, step: int, chance: float) -> float:
-    """What the most extreme of `count` normal numbers less `step` - 1 exceeds with that chance.
+    """Computes what the most extreme of `count` less `step` - 1 normal numbers exceeds.
 
     (Rosner 1983, eq. 2.5), lambda = (n - i) t / sqrt((n - i - 1 + t^2) (n - i + 1)), t with
     n - i - 1 degrees of freedom at chance / 2 (n - i + 1).
@@ -316,7 +316,7 @@ def compute_critical_deviate(count: int, step: int, chance: float) -> float:
 def find_outlying_machines(
     values: np.ndarray, sigmas: np.ndarray, chance: float
 ) -> tuple[Outlier, ...]:
-    """Machines apart, by the generalized extreme Studentized deviate.
+    """Finds outlying machines by the generalized extreme Studentized deviate.
 
     The most extreme machine is taken away, then the next, up to three and every fifth; the odd ones
     are all up to the last whose deviate exceeds its critical value, so that two do not hide each
@@ -387,11 +387,11 @@ class QuantityTests:
 
     @property
     def machine_count(self) -> int:
-        """How many."""
+        """Returns the number of machines."""
         return int(self.machine.max()) + 1
 
     def can_report(self, m: int, i: int) -> bool:
-        """False of a load in a machine that gains describe better: it would be told twice."""
+        """Tells whether a quantity counts: no load in a machine that gains describe better."""
         return (
             self.loaded_machines is None
             or self.quantities[i].effect != LOAD
@@ -399,18 +399,18 @@ class QuantityTests:
         )
 
     def find_logs(self, m: int, i: int) -> np.ndarray:
-        """Indices of the logs of a machine that tell a quantity."""
+        """Finds the indices of the logs of a machine that determine a quantity."""
         return np.flatnonzero((self.machine == m) & np.isfinite(self.values[:, i]))
 
     def get_series(self, m: int, i: int) -> PeriodSeries:
-        """A quantity of a machine."""
+        """Returns a quantity of a machine."""
         log_indices = self.find_logs(m, i)
         return PeriodSeries(
             self.at[log_indices], self.values[log_indices, i], self.sigmas[log_indices, i]
         )
 
     def find_smallest_drift(self, i: int) -> float | None:
-        """The smallest straight drift that the machine seen best would show."""
+        """Finds the smallest straight drift that the best observed machine would show."""
         limits = [
             compute_smallest_detectable(series, self.scatters[i], self.significance_level)
             for m in range(self.machine_count)
@@ -420,14 +420,14 @@ class QuantityTests:
 
     @property
     def significance_level(self) -> float:
-        """The chance that one series may have."""
+        """Returns the chance that one series may have."""
         return 0.5 * FLEET_THRESHOLDS.false_alarm / (self.machine_count * len(self.quantities))
 
 
 def evaluate_quantities(
     layout: FleetLayout, fit: FleetFit, logs: Sequence[LogSummary], at: np.ndarray
 ) -> QuantityTests:
-    """Tests all quantities of all machines; look-alikes are told by what they explain.
+    """Tests all quantities of all machines; confounders by what they explain.
 
     A load enters the torques of several joints, a gain those of one: of machines whose load seems
     to change, the one that leaves less unexplained holds for all their logs, and the other is no

@@ -103,7 +103,7 @@ class LogName:
 
 
 def name_logs(places: Sequence[tuple[str, str]], pattern: str | None = None) -> tuple[LogName, ...]:
-    """Logs with machine and period, those of one machine together, periods in natural order.
+    """Names logs by machine and period, those of one machine together, in natural order.
 
     A log that the pattern does not fit is an error: a log that is left out unsaid looks like a
     machine that is well.
@@ -136,7 +136,7 @@ def name_logs(places: Sequence[tuple[str, str]], pattern: str | None = None) -> 
 
 
 def arrange_logs(log_names: Iterable[LogName]) -> tuple[LogName, ...]:
-    """Machine after machine, period after period; numbers within names count as numbers.
+    """Arranges logs by machine and period; numbers within names count as numbers.
 
     Raises:
         DataError: two logs of one machine and period.
@@ -155,7 +155,7 @@ def arrange_logs(log_names: Iterable[LogName]) -> tuple[LogName, ...]:
 
 
 def make_natural_key(text: str) -> list[tuple[int, int, str]]:
-    """A key that sorts day2 before day10."""
+    """Makes a key that sorts day2 before day10."""
     return [
         (0, int(part), part) if part.isdecimal() else (1, 0, part)
         for part in re.split(r"(\d+)", text)
@@ -193,7 +193,7 @@ def _build_expression(pattern: str) -> str:
 
 
 def read_log_list(path: Path) -> tuple[LogName, ...]:
-    """Logs of a list: CSV with the columns machine, period, log; or TOML with [[log]] tables.
+    """Reads a list of logs: CSV with machine, period, log; or TOML with [[log]] tables.
 
     Places are relative to the folder of the list.
 
@@ -309,7 +309,7 @@ class SkippedLog:
 
 
 def reduce_log(emitted: EmittedModule, job: LogJob) -> LogSummary | SkippedLog:
-    """The summary of one log; pure, so that it can run anywhere and be run again.
+    """Reduces one log to its summary; it can run anywhere and be run again.
 
     Args:
         emitted: the C of the robot, which is compiled here, or taken from the cache.
@@ -328,7 +328,7 @@ def reduce_log(emitted: EmittedModule, job: LogJob) -> LogSummary | SkippedLog:
 def summarise_log(
     model: CompiledModel, log: Log, log_name: LogName, processing: Processing | None = None
 ) -> LogSummary:
-    """The summary of a log that was read.
+    """Summarises a log that was read.
 
     Raises:
         ModelerError: it has no usable rows, or contradicts the robot beyond doubt.
@@ -396,7 +396,7 @@ def _find_extra_joints(columns: Iterable[str]) -> tuple[str, ...]:
 def separate_foreign_logs(
     used: Sequence[LogSummary],
 ) -> tuple[list[LogSummary], list[SkippedLog], list[str]]:
-    """The logs to compare, those that are left out, and what is to be said of the others.
+    """Separates the logs to compare from those of another robot; describes doubtful ones.
 
     A log with positions and torques of more joints than the robot has is left out where more than
     half of all logs have other joints than it; where no such half is, or it has them too, it is
@@ -459,7 +459,7 @@ class Quantity(ShortRepr):
 
     @property
     def description(self) -> str:
-        """In words: "joint 2"."""
+        """Returns where it is: "joint 2"."""
         return "the load" if self.joint is None else f"joint {self.joint}"
 
 
@@ -483,22 +483,22 @@ class FleetLayout:
 
     @property
     def quantities(self) -> tuple[Quantity, ...]:
-        """All that is looked at: what may drift, and a load if one can be told."""
+        """Returns all quantities: what may drift, and an identifiable load."""
         return (*self.drifting, _LOAD) if self.load.shape[1] else self.drifting
 
     @property
     def drift_columns(self) -> list[int]:
-        """Base parameters that may drift."""
+        """Returns the base parameters that may drift."""
         return [q.column for q in self.drifting if q.column >= 0]
 
     @property
     def gain_joints(self) -> list[int]:
-        """Joints that have a gain, in the order in which these stand."""
+        """Returns the joints that have a gain, in order."""
         return [q.place for q in self.drifting if q.effect == GAIN]
 
 
 def build_layout(spec: ModuleSpec) -> FleetLayout:
-    """What may drift of a robot."""
+    """Builds what may drift of a robot."""
     joints = {joint.name: j for j, joint in enumerate(spec.joints)}
     standard = {parameter.name: parameter for parameter in spec.standard}
     drifting = []
@@ -590,7 +590,7 @@ class FleetFit:
 
 
 def fit_fleet(layout: FleetLayout, summaries: Sequence[LogSummary]) -> FleetFit:
-    """The fit of all logs together.
+    """Fits all logs together.
 
     Raises:
         DataError: the logs tell no common parameter, or nothing that may drift.
