@@ -1,6 +1,7 @@
 """The parts of the search against other ways to compute the same."""
 
 import itertools
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -124,7 +125,7 @@ def test_the_choice_is_the_best_of_all_subsets(monkeypatch):
 
     every = sorted(value(places) for places in itertools.combinations(range(9), 3))
     assert choice.exhaustive and choice.condition == pytest.approx(every[0])
-    monkeypatch.setattr(choosing, "_ALL", 1)
+    monkeypatch.setattr(choosing, "THRESHOLDS", replace(choosing.THRESHOLDS, max_subsets=1))
     quick = choose_motions(rows, 3)
     assert not quick.exhaustive and quick.condition <= every[3]
     with pytest.raises(DataError, match="got 10 of 9"):
