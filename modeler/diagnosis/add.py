@@ -36,7 +36,7 @@ from modeler.diagnosis.generation import estimate_instrumental
 from modeler.diagnosis.learn import ANY_LAW, LawRequest, LearnedLaw, learn_law
 from modeler.diagnosis.messages import format_location
 from modeler.diagnosis.plausibility import compute_gain_visibility, find_caveat, is_gain
-from modeler.diagnosis.profile import describe_values
+from modeler.diagnosis.profile import name_parameters
 from modeler.diagnosis.result import (
     JOINTED,
     FittedCandidate,
@@ -285,12 +285,8 @@ def _explain_weak_evidence(pick: FittedCandidate, score: scoring.Score) -> str:
     errors = score.errors.get(candidate.joint or "", (whole.before, whole.after))
     against = ""
     if candidate in pick.state.picks:
-        effect_values = describe_values(
-            pick.state, candidate, pick.values, np.zeros(len(pick.values))
-        )
-        against = find_caveat(
-            pick.state, candidate, effect_values.value | dict(candidate.nonlinear_parameters)
-        )
+        parameters = name_parameters(pick.state, candidate, pick.values)
+        against = find_caveat(pick.state, candidate, parameters)
     return explain_weak_evidence(candidate, errors, against)
 
 

@@ -1,7 +1,8 @@
 """Equations for what has no name: search, scores, proposals."""
 
+import itertools
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 
@@ -22,7 +23,7 @@ from modeler.diagnosis.expressions import (
 )
 from modeler.diagnosis.generation import compute_joint_order_spectrum, fit_residual_baseline
 from modeler.diagnosis.learn import choose_free_name, learn_law, make_effect_id
-from modeler.diagnosis.profile import compute_effect_profile, describe_values
+from modeler.diagnosis.profile import estimate_effect
 from modeler.diagnosis.result import EquationProposal, Finding, FittedCandidate, JointDiscovery
 from modeler.diagnosis.search import Search, SearchStep, extend_state
 from modeler.diagnosis.state import (
@@ -48,7 +49,7 @@ class ScoredFormula(ShortRepr):
     """A formula on its joint.
 
     Attributes:
-        formula: terms and shapes.
+        formula: terms and nonlinear parameters.
         candidate: the same as an effect.
         left: squared residual of the joint on motion that was held out, (N m)^2 or N^2.
         cost: nats, beside that of the model without it.
@@ -66,11 +67,32 @@ class _ProductColumn:
 
     term: Term
     values: np.ndarray
-    symbols: int
+
+    @cached_property
+    def formula(self) -> Formula:
+        return Formula((self.term,))
+
+    @cached_property
+    def symbols(self) -> int:
+        return self.formula.symbol_count
+
+    def __mul__(self, other: "_ProductColumn | None") -> "_ProductColumn":
+        """With a factor that is no wave, if any."""
+        if other is None:
+            return self
+        return _ProductColumn((*self.term, *other.term), self.values * other.values)
 
 
 _Priced = tuple[float, _ProductColumn, _ProductColumn | None]
 """Nats, a column, and the factor that it is multiplied by."""
+
+
+def _by_cost(formulas: Iterable[ScoredFormula]) -> list[ScoredFormula]:
+    return sorted(formulas, key=lambda item: item.cost)
+
+
+def _by_price(*ranked: Iterable[_Priced]) -> list[_Priced]:
+    return sorted(itertools.chain(*ranked), key=lambda item: item[0])
 
 
 class JointSearch:
@@ -87,10 +109,15 @@ class JointSearch:
         self.joint = state.spec.joints[j]
         self.before = float(state.sigma[j] ** 2 * np.sum(state.fold_grams.out_of_fold[j] ** 2))
         noise = np.random.default_rng(0).normal(size=len(state.y[j]))
-        self.count = self._count_rows(noise)  # what is missing is remembered, noise is not
+        self.count = self._count_rows(noise)  # what is missing is autocorrelated, noise is not
+
+    @property
+    def base(self) -> np.ndarray:
+        """Returns the orthonormal base columns of the joint, weighted, (rows_j, r)."""
+        return self.state.gram_blocks.whitened_columns[self.j]
 
     def _count_rows(self, left: np.ndarray) -> float:
-        """Rows of the joint that do not repeat each other, by what is left of it (rows_j,)."""
+        """Independent rows of the joint, by what is left of it (rows_j,)."""
         observation = self.state.data.observation
         rows = np.flatnonzero(observation.used[:, self.j])
         r = estimate_correlation(observation, left, rows)
@@ -99,9 +126,8 @@ class JointSearch:
     def compute_cost(self, left: np.ndarray | float, symbols: np.ndarray | int) -> np.ndarray:
         """Computes the nats of a squared residual and of so many symbols."""
         share = np.maximum(np.asarray(left) / self.before, 1e-12)
-        return np.asarray(
-            0.5 * self.count * np.log(share) + THRESHOLDS.nats_per_symbol * np.asarray(symbols)
-        )
+        price = THRESHOLDS.nats_per_symbol * np.asarray(symbols)
+        return np.asarray(0.5 * self.count * np.log(share) + price)
 
     # Factors at the rows of the joint, and products of them.
 
@@ -114,15 +140,14 @@ class JointSearch:
         waves = [*(stroke * x for x in _LOW), *self.find_orders()]
         for factors in list_factors(state.spec, state.joint_scales, self.j, warm, waves):
             first = Formula(((factors[0],),)).build_candidate(state.joint_names, self.j)
-            every = [
-                replace(first, nonlinear_parameters=dict(part.nonlinear_parameters))
-                for part in factors
-            ]
-            made = build_all_columns(state.rows, every)
-            shown = [pair for pair in zip(factors, made, strict=True) if is_visible(pair[1])]
-            columns += [
-                self._make_column((p,), to_dense(c, self.j, self._row_count)) for p, c in shown
-            ]
+            values = [dict(part.nonlinear_parameters) for part in factors]
+            every = [replace(first, nonlinear_parameters=value) for value in values]
+            for part, made in zip(factors, build_all_columns(state.rows, every), strict=True):
+                if is_visible(made):
+                    column = to_dense(made, self.j, len(state.y[self.j]))
+                    size = np.sqrt(np.mean(column**2, axis=0))
+                    size = np.where(size > 0.0, size, 1.0)
+                    columns.append(_ProductColumn((part,), column / size))
             self._tick()
         return columns
 
@@ -131,34 +156,18 @@ class JointSearch:
         """Returns the factors that are no waves."""
         return [column for column in self.factor_columns if column.values.shape[1] == 1]
 
-    @property
-    def _row_count(self) -> int:
-        return len(self.state.y[self.j])
-
-    def _make_column(self, term: Term, values: np.ndarray) -> _ProductColumn:
-        size = np.sqrt(np.mean(values**2, axis=0))
-        return _ProductColumn(
-            term, values / np.where(size > 0.0, size, 1.0), Formula((term,)).symbol_count
-        )
-
-    def _multiply_columns(self, a: _ProductColumn, b: _ProductColumn) -> _ProductColumn:
-        """Of a column and a factor that is no wave."""
-        term = (*a.term, *b.term)
-        return _ProductColumn(term, a.values * b.values, Formula((term,)).symbol_count)
-
     def find_orders(self) -> list[float]:
         """Finds waves that stand out in the residual, also in its products with motion and load."""
         state, j = self.state, self.j
-        residual_spectrum = compute_joint_order_spectrum(state, j)
-        orders = list(residual_spectrum.peaks) if residual_spectrum is not None else []
-        x = state.rows.filter_samples(
-            j, [np.column_stack([s.q[:, j], s.v[:, j], s.load[:, j]]) for s in state.rows.signals]
-        )
+        first = compute_joint_order_spectrum(state, j)
+        orders = list(first.peaks) if first is not None else []
+        motion = [np.column_stack([s.q[:, j], s.v[:, j], s.load[:, j]]) for s in state.rows.signals]
+        q, v, load = state.rows.filter_samples(j, motion).T
         cutoff = state.data.observation.report.processing.parallel_cutoff or 1e9
-        reached = 2.0 * np.pi * cutoff / max(float(np.quantile(np.abs(x[:, 1]), 0.1)), 1e-9)
-        for turned in (np.sign(x[:, 1]), x[:, 1], x[:, 2], np.abs(x[:, 2])):
-            r = state.residual[j] * turned
-            spectrum = spectrum_of(x[:, 0], r - r.mean(), self.joint.unit, reached)
+        reached = 2.0 * np.pi * cutoff / max(float(np.quantile(np.abs(v), 0.1)), 1e-9)
+        for factor in (np.sign(v), v, load, np.abs(load)):
+            r = state.residual[j] * factor
+            spectrum = spectrum_of(q, r - r.mean(), self.joint.unit, reached)
             orders += spectrum.peaks if spectrum is not None else ()
         once: list[float] = []
         for order in orders:
@@ -168,28 +177,22 @@ class JointSearch:
 
     @cached_property
     def plain_factors(self) -> dict[str, _ProductColumn]:
-        """Returns factors without parameters, by their text."""
-        return {
-            c.term[0].equations[0]: c
-            for c in self.wave_free_columns
-            if not c.term[0].nonlinear_parameters
-        }
+        """Returns the plain factors, by their text."""
+        parameter_free = (c for c in self.wave_free_columns if not c.term[0].nonlinear_parameters)
+        columns = {c.term[0].equations[0]: c for c in parameter_free}
+        return {text: columns[text] for text in _PLAIN if text in columns}
 
     def rank_products(
-        self,
-        left: Sequence[_ProductColumn],
-        right: Sequence[_ProductColumn],
-        keep: int,
-        state: State | None = None,
+        self, left: Sequence[_ProductColumn], keep: int, state: State | None = None
     ) -> list[_Priced]:
-        """Ranks the cheapest products of a column and a factor that an effect can hold.
+        """Ranks the cheapest products of a column and a wave-free factor.
 
         Args:
             left: columns; of those among the factors, only with later factors.
-            right: factors.
             keep: how many.
             state: what they stand beside; None: the model.
         """
+        right = self.wave_free_columns
         state, place = state or self.state, {id(c): k for k, c in enumerate(right)}
         values = np.stack([c.values[:, 0] for c in right])
         symbols = np.array([c.symbols for c in right])
@@ -198,23 +201,15 @@ class JointSearch:
         def rank_column(column: _ProductColumn) -> list[_Priced]:
             first = place.get(id(column), -1) + 1
             fit = ~np.isin(texts[first:], [part.equations[0] for part in column.term])
-            factor_indices = first + np.flatnonzero(fit)
-            made = column.values.T[None] * values[factor_indices][:, None]
-            count = len(column.values.T)
-            costs = self.estimate_costs(
-                state, made, column.symbols + count * (symbols[factor_indices] - 1)
-            )
-            best = np.argsort(costs)[:keep]
-            return [(float(costs[k]), column, right[factor_indices[k]]) for k in best]
+            factors = first + np.flatnonzero(fit)
+            made = column.values.T[None] * values[factors][:, None]
+            count = column.symbols + len(column.values.T) * (symbols[factors] - 1)
+            costs = self.estimate_costs(state, made, count)
+            return [(float(costs[k]), column, right[factors[k]]) for k in np.argsort(costs)[:keep]]
 
-        ranked: list[_Priced] = []
-        for some in (
-            left[k : k + THRESHOLDS.product_chunk]
-            for k in range(0, len(left), THRESHOLDS.product_chunk)
-        ):
-            for batch in map_parts(rank_column, some):
-                ranked += batch
-            ranked = sorted(ranked, key=lambda item: item[0])[:keep]
+        ranked, chunk = list[_Priced](), THRESHOLDS.product_chunk
+        for some in (left[k : k + chunk] for k in range(0, len(left), chunk)):
+            ranked = _by_price(ranked, *map_parts(rank_column, some))[:keep]
             self._tick()
         return ranked
 
@@ -226,11 +221,8 @@ class JointSearch:
 
     def compute_falls(self, state: State, made: np.ndarray) -> np.ndarray:
         """Computes the fall (K,) of the weighted squared residual by columns (K, k, rows_j)."""
-        base, e = (
-            state.gram_blocks.whitened_columns[self.j],
-            state.residual[self.j] / state.sigma[self.j],
-        )
-        T = made @ base
+        e = state.residual[self.j] / state.sigma[self.j]
+        T = made @ state.gram_blocks.whitened_columns[self.j]
         gram = made @ made.swapaxes(1, 2) - T @ T.swapaxes(1, 2)
         length = np.einsum("kii->ki", gram) + 1e-6 * np.einsum("kin,kin->ki", made, made) + 1e-30
         side = (made @ e) / np.sqrt(length)
@@ -243,29 +235,23 @@ class JointSearch:
         self, columns: Sequence[_ProductColumn], state: State | None = None
     ) -> list[_Priced]:
         """Ranks columns as they are, the cheapest first."""
-        ranked: list[_Priced] = []
-        for k in range(0, len(columns), THRESHOLDS.column_chunk):
-            some = columns[k : k + THRESHOLDS.column_chunk]
-            for count in (1, 2):
-                same_width = [c for c in some if len(c.values.T) == count]
-                if same_width:
-                    made = np.stack([c.values.T for c in same_width])
-                    costs = self.estimate_costs(
-                        state or self.state, made, np.array([c.symbols for c in same_width])
-                    )
-                    ranked += [
-                        (float(cost), c, None) for cost, c in zip(costs, same_width, strict=True)
-                    ]
-        return sorted(ranked, key=lambda item: item[0])
+        ranked, chunk = list[_Priced](), THRESHOLDS.column_chunk
+        for k, width in itertools.product(range(0, len(columns), chunk), (1, 2)):
+            some = [c for c in columns[k : k + chunk] if len(c.values.T) == width]
+            if some:
+                made = np.stack([c.values.T for c in some])
+                symbols = np.array([c.symbols for c in some])
+                costs = self.estimate_costs(state or self.state, made, symbols)
+                ranked += [(float(cost), c, None) for cost, c in zip(costs, some, strict=True)]
+        return _by_price(ranked)
 
     def select_distinct(
         self, ranked: Sequence[_Priced], keep: int, alike: float = THRESHOLDS.max_column_correlation
     ) -> list[_ProductColumn]:
         """Selects the cheapest columns that are not alike."""
-        base = self.state.gram_blocks.whitened_columns[self.j]
-        selected: list[tuple[np.ndarray, _ProductColumn]] = []
+        base, selected = self.base, list[tuple[np.ndarray, _ProductColumn]]()
         for _, left, right in ranked:
-            column = left if right is None else self._multiply_columns(left, right)
+            column = left * right
             c = column.values
             basis = np.vstack([c, 1j * (base.T @ c)])  # products are those of columns off the model
             basis = basis @ _compute_whitening((basis.T @ basis).real)
@@ -281,77 +267,59 @@ class JointSearch:
 
     # Formulas, as effects.
 
-    def score_formulas(self, formulas: Sequence[Formula]) -> list[ScoredFormula]:
+    def score_formulas(self, formulas: Iterable[Formula]) -> list[ScoredFormula]:
         """Scores formulas by the columns that they have as effects, the cheapest first."""
-        made = [
-            (f, f.build_candidate(self.state.joint_names, self.j))
-            for f in formulas
-            if f.is_definable
-        ]
-        pairs = [(f, c, self.state.rows.build_columns(c)) for f, c in made]
-        pairs = [triple for triple in pairs if is_visible(triple[2])]
-        if not pairs:
+        possible = [f for f in formulas if f.is_definable]
+        made = [f.build_candidate(self.state.joint_names, self.j) for f in possible]
+        pairs = [(c, self.state.rows.build_columns(c)) for c in made]
+        shown = [k for k, (_, columns) in enumerate(pairs) if is_visible(columns)]
+        if not shown:
             return []
-        trials = scoring.fit_candidates(self.state, [(c, columns) for _, c, columns in pairs])
-        unit = float(self.state.sigma[self.j] ** 2)
-        scores = []
-        for (formula, candidate, _), trial in zip(pairs, trials, strict=True):
+        unit, scores = float(self.state.sigma[self.j] ** 2), []
+        trials = scoring.fit_candidates(self.state, [pairs[k] for k in shown])
+        for k, trial in zip(shown, trials, strict=True):
             left = self.before - unit * trial.total_reduction
-            scores.append(
-                ScoredFormula(
-                    formula, candidate, left, float(self.compute_cost(left, formula.symbol_count))
-                )
-            )
-        return sorted(scores, key=lambda s: s.cost)
+            cost = float(self.compute_cost(left, possible[k].symbol_count))
+            scores.append(ScoredFormula(possible[k], made[k], left, cost))
+        return _by_cost(scores)
+
+    def score_columns(self, columns: Iterable[_ProductColumn]) -> list[ScoredFormula]:
+        """Scores columns as formulas of one term."""
+        return self.score_formulas(column.formula for column in columns)
 
     def refine_formula(self, item: ScoredFormula) -> ScoredFormula:
         """Refines its parameters on all rows by variable projection (Kaufman 1975)."""
         formula, start = item.formula, np.array([*item.formula.nonlinear_parameters.values()])
         if not start.size:
             return item
-        sizes = np.array(
-            [size for part, names in formula.named_factors for size in part.compute_step_sizes()]
-        )
-        base, e = self.state.gram_blocks.whitened_columns[self.j], self.state.residual[self.j]
+        steps = [size for part, _ in formula.named_factors for size in part.compute_step_sizes()]
+        base, e, sizes = self.base, self.state.residual[self.j], np.array(steps)
 
         def apply_values(x: np.ndarray) -> Formula:
-            return formula.set_parameters(
-                dict(zip(formula.nonlinear_parameters, start + sizes * x, strict=True))
-            )
+            values = zip(formula.nonlinear_parameters, start + sizes * x, strict=True)
+            return formula.set_parameters(dict(values))
 
         def compute_residual(x: np.ndarray) -> np.ndarray:
-            candidate = replace(
-                item.candidate, nonlinear_parameters=apply_values(x).nonlinear_parameters
-            )
+            values = apply_values(x).nonlinear_parameters
+            candidate = replace(item.candidate, nonlinear_parameters=values)
             columns = self.state.rows.build_columns(candidate)
             if not is_visible(columns):
                 return e
-            c = to_dense(columns, self.j, self._row_count)
+            c = to_dense(columns, self.j, len(e))
             off = c - base @ (base.T @ c)
             return np.asarray(e - off @ np.linalg.lstsq(off, e, rcond=1e-9)[0])
 
-        solution = least_squares(
-            compute_residual,
-            np.zeros(start.size),
-            diff_step=1e-3,
-            max_nfev=THRESHOLDS.max_formula_evaluations,
-        )
+        most = THRESHOLDS.max_formula_evaluations
+        x = least_squares(compute_residual, 0.0 * start, diff_step=1e-3, max_nfev=most).x
         self._tick()
-        again = self.score_formulas([apply_values(solution.x)])
+        again = self.score_formulas([apply_values(x)])
         return again[0] if again and again[0].cost < item.cost else item
 
     def has_significant_product(self) -> bool:
         """Tells whether a product is significant: laws resolve no waves and no memory."""
-        every = [
-            *self.rank_columns(self.factor_columns),
-            *self.rank_products(
-                self.factor_columns, self.wave_free_columns, THRESHOLDS.max_exact_columns
-            ),
-        ]
-        ranked = sorted(every, key=lambda item: item[0])
-        few = self.score_formulas(
-            [Formula((c.term,)) for c in self.select_distinct(ranked, THRESHOLDS.max_hint_products)]
-        )
+        columns, most = self.factor_columns, THRESHOLDS.max_exact_columns
+        ranked = _by_price(self.rank_columns(columns), self.rank_products(columns, most))
+        few = self.score_columns(self.select_distinct(ranked, THRESHOLDS.max_hint_products))
         return any(self.judge_candidate(item.candidate) is not None for item in few)
 
     def judge_candidate(self, candidate: Candidate) -> scoring.ScoredCandidate | None:
@@ -361,41 +329,25 @@ class JointSearch:
 
     def find_formulas(self) -> list[ScoredFormula]:
         """Finds formulas that gain more than they cost, the cheapest first; no two are alike."""
-        atoms = self.wave_free_columns
-        doubles = self.rank_products(self.factor_columns, atoms, THRESHOLDS.max_second_products)
-        triples = self.rank_products(
-            self.select_distinct(doubles, THRESHOLDS.beam_width),
-            atoms,
-            THRESHOLDS.max_second_products,
-        )
-        ranked = sorted(
-            [*self.rank_columns(self.factor_columns), *doubles, *triples], key=lambda item: item[0]
-        )
-        leading = [
-            Formula((c.term,))
-            for c in self.select_distinct(
-                ranked, THRESHOLDS.max_exact_columns, THRESHOLDS.max_start_correlation
-            )
-        ]
-        single = self.refine_best(self.score_formulas(leading), THRESHOLDS.max_refined_formulas)
+        limits, columns = THRESHOLDS, self.factor_columns
+        doubles = self.rank_products(columns, limits.max_second_products)
+        beam = self.select_distinct(doubles, limits.beam_width)
+        triples = self.rank_products(beam, limits.max_second_products)
+        ranked = _by_price(self.rank_columns(columns), doubles, triples)
+        alike = limits.max_start_correlation
+        leading = self.score_columns(self.select_distinct(ranked, limits.max_exact_columns, alike))
+        single = self.refine_best(leading, limits.max_refined_formulas)
         # what explains little alone may do so beside the first
-        plain = [self.plain_factors[text] for text in _PLAIN if text in self.plain_factors]
-        further = [(0.0, c, p) for c in self.factor_columns for p in (None, *plain) if p is not c]
-        seconds = [
-            left if right is None else self._multiply_columns(left, right)
-            for _, left, right in [*ranked[: THRESHOLDS.max_second_products], *further]
-        ]
-        pairs = [
-            pair
-            for first in single[: THRESHOLDS.max_first_terms]
-            for pair in self.search_sums(first, seconds)
-        ]
-        double = self.refine_best(pairs, THRESHOLDS.max_refined_formulas)
+        plain = self.plain_factors.values()
+        further = [(0.0, c, p) for c in columns for p in (None, *plain) if p is not c]
+        products = [*ranked[: limits.max_second_products], *further]
+        seconds = [left * right for _, left, right in products]
+        firsts = single[: limits.max_first_terms]
+        pairs = [pair for first in firsts for pair in self.search_sums(first, seconds)]
+        double = self.refine_best(pairs, limits.max_refined_formulas)
         for term in double[0].formula.terms if double else ():  # each again beside the other
-            double += self.refine_best(
-                self.search_sums(self.score_formulas([Formula((term,))])[0], seconds),
-                THRESHOLDS.max_varied_formulas,
-            )
+            (first,) = self.score_formulas([Formula((term,))])[:1]
+            double += self.refine_best(self.search_sums(first, seconds), limits.max_varied_formulas)
         formulas = self.improve_formulas([*single, *double])
         return self.drop_equivalent(self.update_costs(formulas))
 
@@ -404,47 +356,28 @@ class JointSearch:
     ) -> list[ScoredFormula]:
         """Searches a second term that adds significantly to a formula."""
         beside = JointSearch(self._extend_state(first.candidate), self.j, self._tick)
-        near = self.select_distinct(
-            self.rank_columns(seconds, beside.state),
-            THRESHOLDS.max_second_terms,
-            THRESHOLDS.max_start_correlation,
-        )
-        others = beside.refine_best(
-            beside.score_formulas([Formula((c.term,)) for c in near]), THRESHOLDS.max_second_terms
-        )
+        ranked, keep = self.rank_columns(seconds, beside.state), THRESHOLDS.max_second_terms
+        near = self.select_distinct(ranked, keep, THRESHOLDS.max_start_correlation)
+        others = beside.refine_best(beside.score_columns(near), keep)
         sums = [Formula((*first.formula.terms, *s.formula.terms)) for s in others]
-        return [
-            s
-            for s in self.score_formulas(sums)
-            if s.left < THRESHOLDS.max_second_term_residual * first.left
-        ]
+        most = THRESHOLDS.max_second_term_residual * first.left
+        return [item for item in self.score_formulas(sums) if item.left < most]
 
     def improve_formulas(self, formulas: Sequence[ScoredFormula]) -> list[ScoredFormula]:
         """Improves formulas by their neighbours, as long as these are better."""
         known_texts, first = set[str](), np.inf
         for _ in range(THRESHOLDS.max_variation_rounds):
-            formulas = sorted(formulas, key=lambda s: s.cost)
+            formulas = _by_cost(formulas)
             if not formulas or formulas[0].cost >= first:
                 break
-            first, near = formulas[0].cost, list[list[ScoredFormula]]()
-            for kind in zip(
-                *(
-                    self.list_neighbours(item.formula)
-                    for item in formulas[: THRESHOLDS.max_varied_formulas]
-                ),
-                strict=True,
-            ):
+            first, near = formulas[0].cost, list[ScoredFormula]()
+            best = formulas[: THRESHOLDS.max_varied_formulas]
+            for kind in zip(*(self.list_neighbours(item.formula) for item in best), strict=True):
                 new = {f.text: f for group in kind for f in group if f.text not in known_texts}
                 known_texts |= new.keys()
-                near.append(self.score_formulas([*new.values()]))
-            formulas = [
-                *formulas,
-                *(
-                    item
-                    for group in near
-                    for item in self.refine_best(group, THRESHOLDS.max_refined_neighbours)
-                ),
-            ]
+                scores = self.score_formulas(new.values())
+                near += self.refine_best(scores, THRESHOLDS.max_refined_neighbours)
+            formulas = [*formulas, *near]
         return list(formulas)
 
     def list_neighbours(self, formula: Formula) -> tuple[list[Formula], list[Formula]]:
@@ -452,14 +385,10 @@ class JointSearch:
         shorter = [Formula((term,)) for term in formula.terms if len(formula.terms) > 1]
         others = list[Formula]()
         for k, term in enumerate(formula.terms):
+            taken = [part.equations[0] for part in term]
+            plain = [c.term for text, c in self.plain_factors.items() if text not in taken]
             for i in range(len(term)):
                 rest = (*term[:i], *term[i + 1 :])
-                taken = [part.equations[0] for part in term]
-                plain = [
-                    self.plain_factors[text].term
-                    for text in _PLAIN
-                    if text in self.plain_factors and text not in taken
-                ]
                 for new in ((), *plain) if rest else plain:
                     terms = (*formula.terms[:k], (*new, *rest), *formula.terms[k + 1 :])
                     (others if new else shorter).append(Formula(terms))
@@ -467,28 +396,24 @@ class JointSearch:
 
     def refine_best(self, ranked: Sequence[ScoredFormula], count: int) -> list[ScoredFormula]:
         """Refines the cheapest formulas."""
-        first = sorted(ranked, key=lambda s: s.cost)[:count]
-        return sorted((self.refine_formula(item) for item in first), key=lambda s: s.cost)
+        return _by_cost(self.refine_formula(item) for item in _by_cost(ranked)[:count])
 
     def update_costs(self, every: Sequence[ScoredFormula]) -> list[ScoredFormula]:
         """Updates all costs by the independent rows of what the best leaves."""
         if every:
             best = self._extend_state(min(every, key=lambda s: s.left).candidate)
             self.count = self._count_rows(best.residual[self.j])
-        again = [
-            replace(s, cost=float(self.compute_cost(s.left, s.formula.symbol_count))) for s in every
-        ]
-        return sorted(again, key=lambda s: s.cost)
+        costs = [float(self.compute_cost(s.left, s.formula.symbol_count)) for s in every]
+        return _by_cost(replace(s, cost=cost) for s, cost in zip(every, costs, strict=True))
 
     def _extend_state(self, candidate: Candidate) -> State:
-        """The model with it."""
         state = self.state
         return build_state(state.data, [*state.picks, candidate], state.beta)
 
     def drop_equivalent(self, ranked: Sequence[ScoredFormula]) -> list[ScoredFormula]:
         """Drops formulas that cost, and those whose torque equals that of a cheaper one.
 
-        And whose second term adds to the best of one term.
+        And those whose second term does not add to the best of one term.
         """
         one = [item.left for item in ranked if len(item.formula.terms) == 1]
         most = THRESHOLDS.max_second_term_residual * min(one, default=np.inf)
@@ -498,23 +423,16 @@ class JointSearch:
                 break
             if len(item.formula.terms) > 1 and item.left > most:
                 continue
-            torque = self.compute_torque(item.candidate)
-            if all(
-                np.linalg.norm(torque - other)
-                > THRESHOLDS.min_formula_difference * np.linalg.norm(other)
-                for other, _ in selected
-            ):
+            torque, least = self.compute_torque(item.candidate), THRESHOLDS.min_formula_difference
+            if all(np.linalg.norm(torque - x) > least * np.linalg.norm(x) for x, _ in selected):
                 selected.append((torque, item))
         return [item for _, item in selected]
 
     def compute_torque(self, candidate: Candidate) -> np.ndarray:
         """Computes the torque (rows_j,) that it adds, off the model."""
-        columns = to_dense(build_columns(self.state.rows, candidate), self.j, self._row_count)
-        (candidate_score,) = scoring.score_candidates(
-            self.state, [(candidate, build_columns(self.state.rows, candidate))]
-        )
-        whole = columns @ candidate_score.values
-        base = self.state.gram_blocks.whitened_columns[self.j]
+        columns, base = build_columns(self.state.rows, candidate), self.base
+        (score,) = scoring.score_candidates(self.state, [(candidate, columns)])
+        whole = to_dense(columns, self.j, len(base)) @ score.values
         return np.asarray(whole - base @ (base.T @ whole))
 
 
@@ -556,39 +474,31 @@ def _search_joint(
     tick: Callable[[], None],
 ) -> JointDiscovery:
     end, name = effect_search.end, effect_search.end.joint_names[j]
-    other_picks = tuple(p for p in end.picks if p.index != j or not p.is_local or p.key in stated)
-    states = [end] + (
-        [build_state(end.data, other_picks, end.beta)] if len(other_picks) < len(end.picks) else []
+    states, picks = (
+        [end],
+        [p for p in end.picks if p.index != j or not p.is_local or p.key in stated],
     )
+    if len(picks) < len(end.picks):
+        states.append(build_state(end.data, picks, end.beta))
     explanations = [_explain_residual(state, j) for state in states]
     tick()
     searches = [JointSearch(state, j, tick) for state in states]
-    searches = [
-        search
-        for search, (share, _) in zip(searches, explanations, strict=True)
-        if share > 0.0 or search.has_significant_product()
-    ]
+    pairs = zip(searches, explanations, strict=True)
+    searches = [s for s, (share, _) in pairs if share > 0.0 or s.has_significant_product()]
     if not searches:
         why = "nothing to find: neither a learned law nor a product says more than chance of it"
         return JointDiscovery(name, 0.0, "", (), why)
     share, law = max(explanations)
-    accepted_formulas = _select_formulas(searches, other)
+    accepted = _select_formulas(searches, other)
     proposals = [
-        _build_proposal(effect_search, formula, share, k, other)
-        for k, formula in enumerate(accepted_formulas)
+        _build_proposal(effect_search, item, share, k, other) for k, item in enumerate(accepted)
     ]
     if not proposals:
-        why = (
-            f"no small expression says what a learned law does ({format_percent(share)} of "
-            "what is left)"
-        )
+        left = f"{format_percent(share)} of what is left"
+        why = f"no small expression says what a learned law does ({left})"
         return JointDiscovery(name, share, law, (), why)
-    return JointDiscovery(
-        name,
-        share,
-        law,
-        _add_discriminating_motions(proposals, [o.state for o in accepted_formulas], j),
-    )
+    states = [item.state for item in accepted]
+    return JointDiscovery(name, share, law, _add_discriminating_motions(proposals, states, j))
 
 
 def _explain_residual(state: State, j: int) -> tuple[float, str]:
@@ -596,16 +506,13 @@ def _explain_residual(state: State, j: int) -> tuple[float, str]:
     law, baseline = learn_law(state, j), fit_residual_baseline(state, j, state.residual[j])
     if law is not None and law.is_significant:
         return law.variance_reduction, law.coordinates.description
-    return (
-        (baseline.share, "")
-        if baseline.is_significant and baseline.share > THRESHOLDS.min_variance_reduction
-        else (0.0, "")
-    )
+    large = baseline.is_significant and baseline.share > THRESHOLDS.min_variance_reduction
+    return (baseline.share if large else 0.0), ""
 
 
 @dataclass(frozen=True, eq=False)
 class _AcceptedFormula:
-    """A formula that was judged well."""
+    """A significant formula, the states without and with it, its score as an effect."""
 
     state: State
     later: State
@@ -621,17 +528,17 @@ def _select_formulas(
     for search in searches:  # costs beside one and the same model
         search.count, search.before = max(s.count for s in searches), searches[0].before
     every.sort(key=lambda pair: _compute_total_cost(*pair))
-    veto, accepted_formulas, texts = scoring.make_veto(other), list[_AcceptedFormula](), set[str]()
+    veto, accepted, texts = scoring.make_veto(other), list[_AcceptedFormula](), set[str]()
     for search, item in every[: THRESHOLDS.max_scored_formulas]:
-        state = search.state
-        best, later = search.judge_candidate(item.candidate), extend_state(state, item.candidate)
-        if best is None or item.formula.text in texts or veto(state, later, best):
+        best = search.judge_candidate(item.candidate)
+        later = extend_state(search.state, item.candidate)
+        if best is None or item.formula.text in texts or veto(search.state, later, best):
             continue
         texts.add(item.formula.text)
-        accepted_formulas.append(_AcceptedFormula(state, later, item, best))
-        if len(accepted_formulas) == THRESHOLDS.max_proposals:
+        accepted.append(_AcceptedFormula(search.state, later, item, best))
+        if len(accepted) == THRESHOLDS.max_proposals:
             break
-    return _sort_by_held_out_error(accepted_formulas, other)
+    return _sort_by_held_out_error(accepted, other)
 
 
 def _sort_by_held_out_error(
@@ -654,11 +561,9 @@ def _sort_by_held_out_error(
 
 def _compute_total_cost(search: JointSearch, item: ScoredFormula) -> float:
     """Nats with the price of the effects of the catalogue beside which the formula stands."""
-    named = [
-        c.equation.text for p in search.state.picks for c in p.form.columns if p.index == search.j
-    ]
-    symbols = item.formula.symbol_count + sum(map(count_symbols, named))
-    return float(search.compute_cost(item.left, symbols))
+    picks = [p for p in search.state.picks if p.index == search.j]
+    symbols = sum(count_symbols(c.equation.text) for p in picks for c in p.form.columns)
+    return float(search.compute_cost(item.left, item.formula.symbol_count + symbols))
 
 
 def _build_proposal(
@@ -668,47 +573,41 @@ def _build_proposal(
     rank: int,
     other: SearchData | None,
 ) -> EquationProposal:
-    """An offer with its values, as text, and what it is near to."""
-    state, later, item, k = accepted.state, accepted.later, accepted.item, len(accepted.state.picks)
-    j, joint, formula = item.candidate.index, item.candidate.joint or "", item.formula
+    """A proposal with its values, as text, and the effect that it is near to."""
+    state, later, item, formula = (
+        accepted.state,
+        accepted.later,
+        accepted.item,
+        accepted.item.formula,
+    )
+    j, joint, k = item.candidate.index, item.candidate.joint or "", len(state.picks)
     known = state.data.stated_effects.catalogue
     name = make_effect_id("found", f"{joint}{'abc'[rank]}", {e.id for e in known})
     prefixes = {c.prefix for e in known for form in e.forms for c in form.columns}
     labels = [choose_free_name(f"X{chr(97 + j % 26)}{'abc'[rank]}{x}", prefixes) for x in "abcd"]
     shapes = formula.find_nonlinear_units(state.spec.joints[j].unit == "m")
-    units = [
-        derive_parameter_unit(state.spec, j, item.candidate, i, shapes)
-        for i in range(len(formula.equations))
-    ]
-    table = formula.build_definition(labels)
-    definition = {
-        "title": formula.title,
-        **table,
-        "unit": units[0] if len(set(units)) == 1 else dict(zip(labels, units, strict=False)),
-    }
-    place = TomlCell("discover", value=definition)
-    effect = read_definition(name, place, {}, joints=state.joint_names)
-    candidate = replace(item.candidate, effect=effect, form=effect.forms[0])
-    left, along, values = (
-        later.residual[j] / state.sigma[j],
-        compute_effect_profile(later, k),
+    columns = range(len(formula.equations))
+    units = [derive_parameter_unit(state.spec, j, item.candidate, i, shapes) for i in columns]
+    unit = units[0] if len(set(units)) == 1 else dict(zip(labels, units, strict=False))
+    definition = {"title": formula.title, **formula.build_definition(labels), "unit": unit}
+    cell = TomlCell("discover", value=definition)
+    effect = read_definition(name, cell, {}, joints=state.joint_names)
+    candidate, values = (
+        replace(item.candidate, effect=effect, form=effect.forms[0]),
         later.values[k],
     )
-    deviations = accepted.score.deviations * float(np.sqrt(np.mean(left**2)))
-    effect_values = describe_values(
-        later, candidate, values, deviations if along is None else along.compute_deviations()
-    )
+    rms = float(np.sqrt(np.mean((later.residual[j] / state.sigma[j]) ** 2)))
+    estimate = estimate_effect(later, k, candidate, values, accepted.score.deviations * rms)
     before, after = (scoring.compute_holdout_residuals(s, other) for s in (state, later))
     change = scoring.compare_residuals(before, after, [j], state).whole
     finding = Finding(
-        effect=name,
-        joint=joint,
-        error_before=change.before,
-        error_after=change.after,
-        parameters=effect_values.value | dict(candidate.nonlinear_parameters),
-        sigmas=effect_values.deviation
-        | ({} if along is None else along.compute_nonlinear_deviations()),
-        units=dict(zip(effect_values.value, units, strict=True)) | shapes,
+        name,
+        joint,
+        change.before,
+        change.after,
+        estimate.parameters,
+        estimate.sigmas,
+        units=dict(zip(estimate.units, units, strict=False)) | shapes,
         equivalents=(),
         evidence=formula.title,
         closure=None,
@@ -716,16 +615,10 @@ def _build_proposal(
         pick=FittedCandidate(candidate, values, later, accepted.score.visible_share),
     )
     relative, likeness, differs = _describe_nearest(state, formula, candidate, values)
-    stated = {
-        "joint": joint,
-        **{key: float(f"{x:.6g}") for key, x in candidate.nonlinear_parameters.items()},
-    }
-    candidate_score = replace(accepted.score, candidate=candidate)
-    steps = (
-        *(s for s in effect_search.steps if s.candidate in state.picks),
-        SearchStep(candidate_score, (), state),
-    )
-    entry = stated if candidate.nonlinear_parameters else joint
+    rounded = {key: float(f"{x:.6g}") for key, x in candidate.nonlinear_parameters.items()}
+    entry = {"joint": joint, **rounded} if rounded else joint
+    steps = [s for s in effect_search.steps if s.candidate in state.picks]
+    steps.append(SearchStep(replace(accepted.score, candidate=candidate), (), state))
     return EquationProposal(
         finding=finding,
         definition=definition,
@@ -737,7 +630,7 @@ def _build_proposal(
         relative=relative,
         likeness=likeness,
         differs=differs,
-        final_search=replace(effect_search, steps=steps, end=later),
+        final_search=replace(effect_search, steps=tuple(steps), end=later),
     )
 
 
@@ -748,42 +641,37 @@ def _describe_nearest(
     state: State, formula: Formula, candidate: Candidate, values: np.ndarray
 ) -> tuple[str, float, str]:
     """Id of the nearest effect of the catalogue, how near, and what differs."""
-    named = _list_catalogue_columns(state, candidate.index)
+    named, least = _list_catalogue_columns(state, candidate.index), THRESHOLDS.min_likeness
     near, share = _find_nearest(_build_joint_columns(state, candidate) @ values, named)
     nearest_text = f"{near.effect.title} ({near.effect.id})" if near is not None else "nothing"
-    matches = [(share, f"nearly {nearest_text}")] if share > THRESHOLDS.min_likeness else []
-    for term in formula.terms if len(formula.terms) == 1 else ():
-        for i, part in enumerate(term):
-            rest = Formula(((*term[:i], *term[i + 1 :]),))
-            if rest.terms[0]:
-                column = _build_joint_columns(
-                    state, rest.build_candidate(state.joint_names, candidate.index)
-                )
-                head, alike = _find_nearest(column[:, 0], named)
-                if head is not None and alike > THRESHOLDS.min_likeness:
-                    near, more = near or head, f", times {part.effect.title}"
-                    matches.append((alike, f"{head.effect.title} ({head.effect.id}){more}"))
+    matches = [(share, f"nearly {nearest_text}")] if share > least else []
+    (term,) = formula.terms if len(formula.terms) == 1 else ((),)
+    for i, part in enumerate(term) if len(term) > 1 else ():
+        rest = Formula(((*term[:i], *term[i + 1 :]),))
+        rest_effect = rest.build_candidate(state.joint_names, candidate.index)
+        head, alike = _find_nearest(_build_joint_columns(state, rest_effect)[:, 0], named)
+        if head is not None and alike > least:
+            near = near or head
+            text = f"{head.effect.title} ({head.effect.id}), times {part.effect.title}"
+            matches.append((alike, text))
     far = f"nearest is {nearest_text}, which explains {format_percent(share)} of it"
     return near.effect.id if near is not None else "", share, max(matches)[1] if matches else far
 
 
 def _list_catalogue_columns(state: State, j: int) -> list[tuple[Candidate, np.ndarray]]:
     """Effects of the catalogue on a joint over their grids, with their columns."""
-    name, warm = state.joint_names[j], state.joint_names[j] in state.reference.temperature
+    name, scale = state.joint_names[j], state.joint_scales[j]
+    lacking = set() if name in state.reference.temperature else {"T"}
     every = [
         candidate
         for effect in state.data.stated_effects.catalogue
         if effect.acts is EffectTarget.JOINT
         for form in effect.forms
-        if (warm or "T" not in form.names) and not form.other_joint_names
-        for candidate in expand_grid(effect, form, name, j, state.joint_scales[j])
+        if not lacking & form.names and not form.other_joint_names
+        for candidate in expand_grid(effect, form, name, j, scale)
     ]
-    columns = build_all_columns(state.rows, every)
-    return [
-        (c, to_dense(effect_columns, j, len(state.y[j])))
-        for c, effect_columns in zip(every, columns, strict=True)
-        if is_visible(effect_columns)
-    ]
+    pairs = zip(every, build_all_columns(state.rows, every), strict=True)
+    return [(c, to_dense(made, j, len(state.y[j]))) for c, made in pairs if is_visible(made)]
 
 
 def _find_nearest(
@@ -792,7 +680,7 @@ def _find_nearest(
     """The one whose columns explain most of a torque, and the share."""
     best, share = None, 0.0
     size = float(torque @ torque) or 1.0
-    for candidate, columns in sorted(named, key=lambda explained: explained[1].shape[1]):
+    for candidate, columns in sorted(named, key=lambda pair: pair[1].shape[1]):
         if np.isfinite(columns).all():
             q = np.linalg.lstsq(columns, torque, rcond=1e-9)[0]
             explained = 1.0 - float(np.sum((torque - columns @ q) ** 2)) / size
@@ -803,9 +691,8 @@ def _find_nearest(
 
 def _build_joint_columns(state: State, candidate: Candidate) -> np.ndarray:
     """(rows_j, k) on its joint."""
-    return to_dense(
-        build_columns(state.rows, candidate), candidate.index, len(state.y[candidate.index])
-    )
+    j = candidate.index
+    return to_dense(build_columns(state.rows, candidate), j, len(state.y[j]))
 
 
 def _add_discriminating_motions(
@@ -814,27 +701,19 @@ def _add_discriminating_motions(
     """Each with the motion that tells it from the next, the last from the first."""
     if len(proposals) < 2:
         return tuple(proposals)
-    torques = [
-        _build_joint_columns(state, p.finding.pick.candidate) @ p.finding.pick.values
-        for p, state in zip(proposals, states, strict=True)
-        if p.finding.pick is not None
-    ]
-    rows, joint = states[0].rows, states[0].spec.joints[j]
-    motion = rows.filter_samples(
-        j, [np.column_stack([s.q[:, j], s.v[:, j], s.load[:, j]]) for s in rows.signals]
-    )
-    unit, effort, results = joint.unit, joint.effort_unit, list[EquationProposal]()
+    pairs = [(p.finding.pick, s) for p, s in zip(proposals, states, strict=True)]
+    torques = [_build_joint_columns(s, p.candidate) @ p.values for p, s in pairs if p is not None]
+    rows, joint, results = states[0].rows, states[0].spec.joints[j], list[EquationProposal]()
+    motion = [np.column_stack([s.q[:, j], s.v[:, j], s.load[:, j]]) for s in rows.signals]
+    motion = rows.filter_samples(j, motion)
+    unit, effort = joint.unit, joint.effort_unit
     for k, proposal in enumerate(proposals):
         other = (k + 1) % len(proposals)
         apart = np.abs(torques[k] - torques[other])
         q, v, load = motion[int(np.argmax(apart))]
         pair = ",".join(f"{proposals[i].finding.effect}@{joint.name}" for i in (k, other))
-        results.append(
-            replace(
-                proposal,
-                apart=f"modeler excite ROBOT.toml --between {pair} --out apart.csv",
-                where=f"they differ most, by {apart.max():.3g} {effort}, near q = {q:.3g} {unit}, "
-                f"v = {v:.3g} {unit}/s, load = {load:.3g} {effort}",
-            )
-        )
+        command = f"modeler excite ROBOT.toml --between {pair} --out apart.csv"
+        place = f"q = {q:.3g} {unit}, v = {v:.3g} {unit}/s, load = {load:.3g} {effort}"
+        where = f"they differ most, by {apart.max():.3g} {effort}, near {place}"
+        results.append(replace(proposal, apart=command, where=where))
     return tuple(results)

@@ -8,7 +8,7 @@ from functools import cache
 import numpy as np
 
 from modeler.core.brief import ShortRepr
-from modeler.diagnosis import profile, result
+from modeler.diagnosis import result
 from modeler.diagnosis.candidates import Candidate, to_dense
 from modeler.diagnosis.events import detect_events
 from modeler.diagnosis.generation import (
@@ -32,6 +32,7 @@ from modeler.diagnosis.plausibility import (
     find_caveat,
     is_gain,
 )
+from modeler.diagnosis.profile import estimate_effect
 from modeler.diagnosis.scoring import (
     ErrorChange,
     Residuals,
@@ -440,58 +441,42 @@ def _build_finding(
     checks: tuple[result.CrossCheck, ...],
     after: Sequence[float],
 ) -> result.Finding:
-    """What the k-th step put in."""
+    """The finding of the k-th step."""
     step, end, first = search.steps[k], search.end, k == 0 and not search.prior_steps
     k += len(search.prior_steps)
-    candidate_score, pick, before = step.score, step.candidate, step.before
-    left = [end.residual[j] / before.sigma[j] for j in touched]
-    values = end.values[k]
-    deviations = candidate_score.deviations * float(np.sqrt(np.mean(np.concatenate(left) ** 2)))
+    pick, before, visible = step.candidate, step.before, step.score.visible_share
+    left = np.concatenate([end.residual[j] / before.sigma[j] for j in touched])
+    values, deviations = end.values[k], step.score.deviations * float(np.sqrt(np.mean(left**2)))
     if pick.is_delay:  # least squares make delays too small
         values, deviations = estimate_instrumental(before, pick)
-    visible = candidate_score.visible_share
     if is_gain(pick):
         deviations, visible = compute_gain_deviations(end, k), compute_gain_visibility(end, k)
-    along = profile.compute_effect_profile(end, k)
-    if along is not None:
-        deviations = along.compute_deviations()
-    effect_values = profile.describe_values(end, pick, values, deviations)
-    parameters = effect_values.value | dict(pick.nonlinear_parameters)
-    rivals = [tie.candidate for tie in step.equivalents]
-    ties = [*(rival.key for rival in rivals), *_list_equivalents(pick, search)]
-    refines = _is_refinement(search, k)
-    against = find_caveat(end, pick, parameters)
-    sigmas = effect_values.deviation | (
-        {} if along is None else along.compute_nonlinear_deviations()
+    estimate = estimate_effect(end, k, pick, values, deviations)
+    rivals, refines = [tie.candidate for tie in step.equivalents], _is_refinement(search, k)
+    same = [(other, pick.joint) for other in pick.effect.same_as]  # no data distinguish these
+    same = [key for key in same if not is_ruled_out(*key, search.without)]
+    against, errors = find_caveat(end, pick, estimate.parameters), (change.before, change.after)
+    doubt = result.explain_weak_evidence(
+        pick, errors, against, estimate.sigmas, closed, checks, rivals, refines, after
     )
-    errors = (change.before, change.after)
     return result.Finding(
-        effect=pick.effect.id,
-        joint=pick.joint,
-        error_before=change.before,
-        error_after=change.after,
-        parameters=parameters,
-        sigmas=sigmas,
-        intervals={} if along is None else profile.collect_intervals(along, effect_values),
-        units=effect_values.unit | profile.find_nonlinear_units(end, pick),
-        equivalents=tuple(dict.fromkeys(ties)),
-        evidence=describe_evidence(step, change.before, change.after),
+        pick.effect.id,
+        pick.joint,
+        *errors,
+        estimate.parameters,
+        estimate.sigmas,
+        estimate.units,
+        equivalents=tuple(dict.fromkeys([*(rival.key for rival in rivals), *same])),
+        evidence=describe_evidence(step, *errors),
         closure=closed,
         is_refinement=refines,
         objection=against,
+        intervals=estimate.intervals,
         cross_checks=checks,
-        doubt=result.explain_weak_evidence(
-            pick, errors, against, sigmas, closed, checks, rivals, refines, after
-        ),
+        doubt=doubt,
         is_first=first,
         pick=result.FittedCandidate(pick, values, end, visible),
     )
-
-
-def _list_equivalents(pick: Candidate, search: Search) -> list[result.Key]:
-    """Effects that no data tell from it."""
-    same = [(other, pick.joint) for other in pick.effect.same_as]
-    return [key for key in same if not is_ruled_out(*key, search.without)]
 
 
 def _is_refinement(search: Search, k: int) -> bool:

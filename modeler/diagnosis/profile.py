@@ -419,40 +419,76 @@ def _compute_factors(
 
 
 @dataclass(frozen=True)
-class EffectValues:
-    """By name of the parameter: value, its standard deviation, unit; SI."""
+class EffectEstimate:
+    """The parameters of an effect by name, SI; nonlinear ones behind the others.
 
-    value: dict[str, float]
-    deviation: dict[str, float]
-    unit: dict[str, str]
+    Attributes:
+        parameters: values.
+        sigmas: standard deviations.
+        intervals: 95 %; empty without nonlinear parameters.
+        units: of all.
+    """
+
+    parameters: dict[str, float]
+    sigmas: dict[str, float]
+    intervals: dict[str, tuple[float, float]]
+    units: dict[str, str]
 
 
-def describe_values(
+def _name_values(
     state: State, pick: Candidate, values: np.ndarray, deviations: np.ndarray
-) -> EffectValues:
-    """Names the values of an effect, with units.
+) -> tuple[dict[str, float], dict[str, float], dict[str, str]]:
+    """Values, deviations and units by name.
 
-    A body on a link has its mass and the inertial parameters that the robot feels; a tilted base
-    the change of gravity in frame 0, m/s^2.
-
-    Args:
-        state: with the effect.
-        pick: it.
-        values: of its columns.
-        deviations: theirs.
+    A body on a link has its mass and the inertial parameters that have an effect on the robot; a
+    tilted base the change of gravity in frame 0, m/s^2.
     """
     if pick.effect.acts is EffectTarget.GRAVITY:
         axes = compute_tilt_axes(state.reference)
         values, deviations = (x[: len(axes)] for x in (values, deviations))
         values, deviations = values @ axes, np.sqrt(deviations**2 @ axes**2)
         units = dict.fromkeys(("gx", "gy", "gz"), "m/s^2")
+    elif pick.effect.acts is EffectTarget.LINK:
+        specs = list_body_parameters(pick, state.rows.signals[0])
+        names = (p.name.removesuffix(p.joint) for p in specs)
+        units = {"mass" if n == "M" else n: p.unit for n, p in zip(names, specs, strict=True)}
     else:
-        units = _list_units(state, pick)
-    return EffectValues(
-        dict(zip(units, map(float, values), strict=True)),
-        dict(zip(units, map(float, deviations), strict=False)),
-        units,
-    )
+        unit = "unit_prismatic" if is_prismatic(state.spec, pick.joint) else "unit_revolute"
+        columns = zip(pick.list_parameter_names(), pick.form.columns, strict=True)
+        units = {name: getattr(column, unit) for name, column in columns}
+    value = dict(zip(units, map(float, values), strict=True))
+    return value, dict(zip(units, map(float, deviations), strict=False)), units
+
+
+def name_parameters(state: State, pick: Candidate, values: np.ndarray) -> dict[str, float]:
+    """Names the parameters of an effect of a state, values (k,) and nonlinear ones."""
+    return _name_values(state, pick, values, 0.0 * values)[0] | dict(pick.nonlinear_parameters)
+
+
+def estimate_effect(
+    state: State, place: int, pick: Candidate, values: np.ndarray, deviations: np.ndarray
+) -> EffectEstimate:
+    """Estimates the parameters of an effect of a state, the nonlinear ones included.
+
+    Args:
+        state: with the effect.
+        place: of it among the effects of the state.
+        pick: it.
+        values: of its columns.
+        deviations: theirs, if it has no nonlinear parameters.
+    """
+    along = compute_effect_profile(state, place)
+    if along is not None:
+        deviations = along.compute_deviations()
+    value, sigmas, units = _name_values(state, pick, values, deviations)
+    linear, intervals = is_prismatic(state.spec, pick.joint), {}
+    if along is not None:
+        ends = zip(value, along.compute_intervals().tolist(), strict=False)
+        intervals = {name: (low, high) for name, (low, high) in ends}
+        intervals |= along.compute_nonlinear_intervals()
+        sigmas |= along.compute_nonlinear_deviations()
+    units |= {shape.name: shape.get_unit(linear) for shape in pick.form.nonlinear_parameters}
+    return EffectEstimate(value | dict(pick.nonlinear_parameters), sigmas, intervals, units)
 
 
 def compute_effect_profile(state: State, place: int) -> Profile | None:
@@ -484,36 +520,6 @@ def build_reduction_function(state: State, place: int) -> Callable[[Candidate], 
     return compute_reduction
 
 
-def collect_intervals(
-    along: Profile, effect_values: EffectValues
-) -> dict[str, tuple[float, float]]:
-    """Collects the 95 % intervals of all parameters of an effect, by name."""
-    pairs = zip(effect_values.value, along.compute_intervals().tolist(), strict=False)
-    return {name: (low, high) for name, (low, high) in pairs} | along.compute_nonlinear_intervals()
-
-
-def _list_units(state: State, pick: Candidate) -> dict[str, str]:
-    """Names of the parameters, in the order of the columns, and their units."""
-    if pick.effect.acts is EffectTarget.LINK:
-        body_specs = list_body_parameters(pick, state.rows.signals[0])
-        names = [p.name.removesuffix(p.joint) for p in body_specs]
-        return {
-            "mass" if name == "M" else name: p.unit
-            for name, p in zip(names, body_specs, strict=True)
-        }
-    linear = is_prismatic(state.spec, pick.joint)
-    return {
-        name: column.unit_prismatic if linear else column.unit_revolute
-        for name, column in zip(pick.list_parameter_names(), pick.form.columns, strict=True)
-    }
-
-
 def is_prismatic(spec: ModuleSpec, joint: str | None) -> bool:
     """Tells whether a joint is prismatic."""
     return any(joint_spec.name == joint and joint_spec.unit == "m" for joint_spec in spec.joints)
-
-
-def find_nonlinear_units(state: State, pick: Candidate) -> dict[str, str]:
-    """Finds the units of the nonlinear parameters, by name."""
-    linear = is_prismatic(state.spec, pick.joint)
-    return {shape.name: shape.get_unit(linear) for shape in pick.form.nonlinear_parameters}

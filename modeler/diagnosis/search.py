@@ -13,7 +13,7 @@ from modeler.core.manifest import ModuleSpec
 from modeler.diagnosis import plausibility
 from modeler.diagnosis.candidates import Candidate, encode_parameter
 from modeler.diagnosis.generation import find_slowest_ringing, generate_candidates
-from modeler.diagnosis.profile import build_reduction_function, describe_values
+from modeler.diagnosis.profile import build_reduction_function, name_parameters
 from modeler.diagnosis.scoring import (
     CandidateFit,
     RankedCandidates,
@@ -442,21 +442,14 @@ def accept_candidate(
         return replace(best, is_possible=False, reason=plausibility.DRIVES), None
     if veto is not None and veto(state, later, best):
         return best, None
-    if plausibility.is_gain(
-        best.candidate
-    ):  # of all, the likeliest; a unit or a sign is told with it
+    if plausibility.is_gain(best.candidate):  # a unit or a sign is reported with it
         return best, later
     pick, values = later.picks[-1], later.values[-1]
-    effect_values = describe_values(later, pick, values, np.zeros(len(values)))
-    why = plausibility.find_caveat(
-        later, pick, effect_values.value | dict(pick.nonlinear_parameters)
-    )
-    lags = Requirement.LAG in pick.effect.needs
-    short = (
-        lags
-        and pick.joint is None
-        and float(values[0]) * pick.nonlinear_parameters["tau"] < THRESHOLDS.max_short_delay
-    )
+    why = plausibility.find_caveat(later, pick, name_parameters(later, pick, values))
+    short = Requirement.LAG in pick.effect.needs and pick.joint is None
+    if short:
+        delay = float(values[0]) * pick.nonlinear_parameters["tau"]
+        short = delay < THRESHOLDS.max_short_delay
     # A lag of no certain kind would take the place of what rounds torques too.
     if why and (
         short or why.endswith(plausibility.EITHER) or Requirement.TILT in pick.effect.needs
