@@ -76,7 +76,10 @@ def find_nearest_along(
     """The nearest two along a motion; None if there are none to look at."""
     if not len(clearance.solids.pairs):
         return None
-    curve, samples = simulation.build_curve(motion), max(excitation.SAMPLES, 2 * len(motion.time))
+    curve, samples = (
+        simulation.build_curve(motion),
+        max(excitation.THRESHOLDS.clearance_samples, 2 * len(motion.time)),
+    )
     return excitation.find_closest_approach(
         compiled, clearance.solids, curve, float(motion.time[-1]), samples
     )

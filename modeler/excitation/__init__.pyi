@@ -37,3 +37,4 @@ from .series import (
     compute_condition as compute_condition,
     compute_signals as compute_signals,
 )
+from .thresholds import THRESHOLDS as THRESHOLDS

@@ -195,6 +195,6 @@ def test_every_loop_asks_for_the_time(monkeypatch, steps):
         monkeypatch.setattr(MotionColumns, name, counted)
     monkeypatch.setattr("modeler.excitation.search.time.monotonic", lambda: clock[0])
     before = clock[0]
-    motion = subject.search(bounds, MotionRequest(6.0, 4, seed=1, time_limit=before + steps))
+    motion = subject.search_motion(bounds, MotionRequest(6.0, 4, seed=1, time_limit=before + steps))
     assert motion.ended_early and clock[0] < before + steps + 700
     assert (motion.drawn == 1) == (steps == 1)

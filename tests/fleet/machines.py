@@ -160,7 +160,7 @@ def summaries(scene: Scene, seed: int, robot: str = "two-link") -> tuple[LogSumm
     """
     model, processing = compiled(robot), PROCESSING
     found: list[LogSummary] = []
-    with patch("modeler.validation.fleet_logs.log_findings", return_value=()):
+    with patch("modeler.validation.fleet_logs.find_log_faults", return_value=()):
         for named, log in logs(scene, seed, robot):
             found.append(summarise_log(model, log, named, processing))
             processing = found[0].processing or processing
