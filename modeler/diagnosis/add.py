@@ -86,8 +86,7 @@ def resolve_effect(model: IdentifiedModel, name: str, joint: str | None) -> Effe
     if effect is None:
         raise DataError(
             f"{name}: no such effect{suggest_name(name, [known.id for known in catalogue])}; "
-            "`modeler "
-            "effects` lists them, with --robot FILE those of a robot file too"
+            "`modeler effects` lists them, with --robot FILE those of a robot file too"
         )
     if why := explain_exclusion(effect, model.spec):
         raise DataError(f"{effect.id}: cannot be added ({why})")
@@ -127,8 +126,7 @@ def _check_joint(spec: ModuleSpec, effect: Effect, joint: str) -> None:
     if read := effect.forms[0].find_references_to(joint):
         raise DataError(
             f"--joint {joint}: {effect.id} reads {join_names(read)} of it as of another joint; "
-            "name "
-            "another, or leave --joint out"
+            "name another, or leave --joint out"
         )
 
 

@@ -114,11 +114,10 @@ def _check_computed_torque(state: State) -> list[str]:
     if not all(map(_is_model_difference, catalogue)):
         return []
     return [
-        "no joint rubs: friction is less than "
-        f"{format_percent(THRESHOLDS.min_friction_share)} of the torque, which it is on no robot with gears: these "
-        "torques were "
-        "computed from the motion, and not measured; only "
-        f"{', '.join(effect.id for effect in catalogue)} are looked for"
+        f"no joint rubs: friction is less than {format_percent(THRESHOLDS.min_friction_share)} of "
+        "the torque, which it is on no robot with gears: these torques were computed from the "
+        f"motion, and not measured; only {', '.join(effect.id for effect in catalogue)} are looked "
+        "for"
     ]
 
 
@@ -154,10 +153,8 @@ def _check_chatter(state: State) -> list[str]:
     cutoff = state.data.observation.report.processing.position_cutoff
     return [
         f"joint{'s' if len(joint_ratios) > 1 else ''} {', '.join(joint_ratios)}: the model's "
-        "torque trembles up "
-        f"to {max(joint_ratios.values()):.0f} times as much as the measured one: noise of the "
-        "positions; "
-        f"fit again with a --cutoff below {cutoff:.3g} Hz"
+        f"torque trembles up to {max(joint_ratios.values()):.0f} times as much as the measured "
+        f"one: noise of the positions; fit again with a --cutoff below {cutoff:.3g} Hz"
     ]
 
 
@@ -362,8 +359,7 @@ def describe_evidence(step: SearchStep, before: float, after: float) -> str:
     candidate_score = step.score
     text = (
         f"{candidate_score.candidate.effect.title}: error "
-        f"{' -> '.join(format_error_pair(before, after))} on motion "
-        "that was held out"
+        f"{' -> '.join(format_error_pair(before, after))} on motion that was held out"
     )
     rivals = [
         r
@@ -470,8 +466,7 @@ def _describe_bursts(diagnosis: Diagnosis, name: str) -> str:
         return ""
     return (
         f"; {format_percent(share)} of its energy comes in brief outbursts: play, a loose part, or "
-        "a log "
-        "that begins before the motion has settled"
+        "a log that begins before the motion has settled"
     )
 
 
@@ -489,9 +484,8 @@ def _write_headline(diagnosis: Diagnosis) -> str:
         reason = first.doubt or first.objection or _PART
         return (
             "closest description: "
-            f"{perhaps}{_format_effect(first, diagnosis)}"
-            f"{describe_equivalents(first)}; {reason}, so "
-            "the cause may be outside the catalogue"
+            f"{perhaps}{_format_effect(first, diagnosis)}{describe_equivalents(first)}; {reason}, "
+            "so the cause may be outside the catalogue"
         )
     if diagnosis.verdict == "unexplained":
         return "unexplained: the error is systematic, and nothing in the catalogue describes it"

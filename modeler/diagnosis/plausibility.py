@@ -671,8 +671,7 @@ def _check_oscillator(state: State, pick: Candidate, parameters: Mapping[str, fl
     unit = "kg m2" if _is_revolute(state, pick) else "kg"
     return (
         f"what rings has {rings:.3g} {unit} on this axis, and the links have {link_inertia:.3g} "
-        f"{unit}: "
-        "something else rings"
+        f"{unit}: something else rings"
     )
 
 

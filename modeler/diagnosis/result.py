@@ -182,7 +182,8 @@ def explain_weak_evidence(
     small = not refines and (closed is None or closed < THRESHOLDS.min_explained_fraction)
     if small and after > (1.0 - THRESHOLDS.min_error_reduction) * before:
         reasons.append(
-            f"the error falls by less than {format_percent(THRESHOLDS.min_error_reduction)} of itself"
+            "the error falls by less than "
+            f"{format_percent(THRESHOLDS.min_error_reduction)} of itself"
         )
     if pick.effect.orders and pick.effect.orders[1] < math.inf:
         spread = THRESHOLDS.max_order_deviation * max(

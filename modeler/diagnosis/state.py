@@ -562,8 +562,7 @@ def describe_bands(fitted: regression.Processing, processing: regression.Process
         )
     return [
         f"errors and values are those up to {processing.parallel_cutoff:.3g} Hz, beside all "
-        "effects "
-        f"named; `modeler fit` and `add` fit up to {fitted.parallel_cutoff:g} Hz: {why}"
+        f"effects named; `modeler fit` and `add` fit up to {fitted.parallel_cutoff:g} Hz: {why}"
     ]
 
 

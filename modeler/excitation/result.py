@@ -172,8 +172,7 @@ class ExcitingMotion(Result):
             f"({self.quality.condition_raw:.4g} as they are); best of {self.random_count} random "
             f"motions {best:.4g}, median {median:.4g}",
             f"log det of the information {self.quality.log_det:.5g}, best of {self.random_count} "
-            "random "
-            f"{self.random_log_det:.5g}",
+            f"random {self.random_log_det:.5g}",
             f"{'joint':<6}{'positions':>20}{'of limits':>20}{'speed':>14}{'acceleration':>16}"
             f"{'torque':>16}",
         ]
@@ -191,8 +190,7 @@ class ExcitingMotion(Result):
         if b.assumed:
             lines.append(
                 f"no limits are stated for {join_names(b.assumed)}: those above are assumed; "
-                "correct "
-                "them by [limits] or --limit before a robot moves"
+                "correct them by [limits] or --limit before a robot moves"
             )
         if u.loops is not None:
             lines.append(

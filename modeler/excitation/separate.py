@@ -75,9 +75,8 @@ class Discrimination:
         """Formats lines of text."""
         return [
             f"{name}: {format_percent(here)} of its torque is explained by neither the model nor "
-            f"{other}; "
-            f"best of the random motions {format_percent(there)}; that part is {gain:.3g} times as "
-            "large"
+            f"{other}; best of the random motions {format_percent(there)}; that part is {gain:.3g} "
+            "times as large"
             for name, other, here, there, gain in zip(
                 self.names,
                 self.names[::-1],

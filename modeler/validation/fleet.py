@@ -417,9 +417,8 @@ def _check_logs(used: Sequence[LogSummary], left: Sequence[tuple[str, str]]) -> 
     if len(machines) == len(used) and len(machines) < FLEET_THRESHOLDS.min_machines:
         raise DataError(
             f"fleet: got one log each of {', '.join(machines)}{skipped_text}; expected two periods "
-            "of a "
-            f"machine, or {FLEET_THRESHOLDS.min_machines} machines; the folder of a log is its machine unless --name or "
-            "--list says otherwise"
+            f"of a machine, or {FLEET_THRESHOLDS.min_machines} machines; the folder of a log is "
+            "its machine unless --name or --list says otherwise"
         )
     for k, each in enumerate(used):
         for other in used[:k]:
@@ -427,8 +426,7 @@ def _check_logs(used: Sequence[LogSummary], left: Sequence[tuple[str, str]]) -> 
             if each.content and each.content == other.content and overlap:
                 raise DataError(
                     f"{each.log_name.place}: got rows of {other.log_name.place} again; expected "
-                    "each row "
-                    "once; leave one of the two out"
+                    "each row once; leave one of the two out"
                 )
 
 

@@ -409,8 +409,7 @@ def separate_foreign_logs(
         if each.extra_joints and 2 * others > len(used):
             why = (
                 f"has joint{'s' * (len(each.extra_joints) > 1)} {', '.join(each.extra_joints)} "
-                "besides, which "
-                "most logs have not; a log of another robot? name the right one"
+                "besides, which most logs have not; a log of another robot? name the right one"
             )
             left.append(SkippedLog(each.log_name, f"{each.log_name.place}: {why}"))
             continue
