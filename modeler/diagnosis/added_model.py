@@ -402,7 +402,7 @@ class LogRows:
         logs: they.
         compiled: the robot.
         prepared: filtered and differentiated; those that are held out second, if there are any.
-        seen: the observations, in that order.
+        observations: the observations, in that order.
     """
 
     logs: LogSplit

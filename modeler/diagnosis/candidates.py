@@ -86,8 +86,8 @@ class Candidate(ShortRepr):
         form: which of its forms.
         joint: name; None for an effect of the whole robot.
         index: of the joint among those of the model, or of the row that has no motor; -1 without.
-        shapes: values by name, SI.
-        turn: of a motor that turns with several joints, {index of a joint: coefficient}.
+        nonlinear_parameters: values by name, SI.
+        coupling: of a motor that turns with several joints, {index of a joint: coefficient}.
     """
 
     effect: Effect
@@ -460,7 +460,7 @@ class Rows(ShortRepr):
         segment: (rows_j,) by joint.
         blocks: filters (rows_j, samples) in pieces, by stretch.
         signals: by stretch.
-        known: what was made of them for this reference, by name.
+        reference_cache: what was made of them for this reference, by name.
         cache: columns that do not depend on the model, shared by all references.
     """
 

@@ -30,9 +30,9 @@ class Factor(ShortRepr):
     """A factor with values of its shapes.
 
     Attributes:
-        factor: as an effect would be.
+        effect: as an effect would be.
         scale: of the joint that it reads.
-        shapes: SI.
+        nonlinear_parameters: SI.
     """
 
     effect: Effect

@@ -71,7 +71,7 @@ class CrossCheckData:
     Attributes:
         what: which, in words.
         data: the logs in it.
-        asks: True if an effect must show there; held-out logs have vetoed what does not.
+        is_required: True if an effect must show there; held-out logs have vetoed what does not.
     """
 
     what: str
@@ -234,9 +234,9 @@ class BandSearch(ShortRepr):
     """A search in one band, and what is made of it.
 
     Attributes:
-        found: of the training logs.
+        search: of the training logs.
         other: held-out ones in that band.
-        seen: what the states of the search leave of these.
+        held_out_residuals: what the states of the search leave of these.
         share: systematic share of what the last leaves on a joint.
         findings: its effects.
     """

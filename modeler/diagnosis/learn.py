@@ -116,11 +116,11 @@ class LearnedLaw(ShortRepr):
         law: the table; the rms of its column over the rows is 1.
         size: N m or N, times which it is the torque.
         torque: (rows_j,) N m or N, with the columns of the model fitted beside it.
-        drop: (blocks,) fall of the squared residuals, weighted, on folds that were not fitted.
-        sure: fall of the error over its standard error, paired over blocks (see
+        reductions: (blocks,) fall of the squared residuals, weighted, on folds not fitted.
+        t_ratio: fall of the error over its standard error, paired over blocks (see
             `score.score_change`).
-        gain: fall of the squared residual, as a share of that of its joint.
-        felt: rms of what it explains over the rms torque of its joint.
+        variance_reduction: fall of the squared residual, as a share of that of its joint.
+        torque_share: rms of what it explains over the rms torque of its joint.
     """
 
     coordinates: LawCoordinates

@@ -112,9 +112,9 @@ class _GainProblem:
         fixed: (z,) values of the others.
         gains: joints with a g.
         size: c.
-        given: (J,) g of the robot's own gains and of the last fit.
-        had: base columns that are gains which the robot has, and their joints.
-        spread: (J,) sigma.
+        initial_gains: (J,) g of the robot's own gains and of the last fit.
+        robot_gains: base columns that are gains which the robot has, and their joints.
+        sigma: (J,) sigma.
     """
 
     rows: np.ndarray

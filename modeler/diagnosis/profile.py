@@ -47,7 +47,7 @@ class ProfilePoint:
     """One set of shapes, and the fit with it.
 
     Attributes:
-        shapes: values by name, SI.
+        nonlinear_parameters: values by name, SI.
         squares: S, weighted.
         values: (k,) parameters of the effect.
         deviations: (k,) theirs, for white residuals of variance 1.
@@ -151,9 +151,9 @@ class Profile:
 
     Attributes:
         points: shapes that were looked at.
-        told: shapes and values that are told.
+        reported_point: shapes and values that are told.
         factor: (k,) of the deviations: residuals that remember.
-        shape_factor: f.
+        nonlinear_factor: f.
     """
 
     points: tuple[ProfilePoint, ...]

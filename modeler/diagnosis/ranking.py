@@ -27,7 +27,7 @@ class GramBlocks(ShortRepr):
     Attributes:
         source: of the columns.
         y: (rows_j,) by joint, weighted.
-        turn: (c, r) of the base columns W.
+        whitener: (c, r) of the base columns W.
         sigma: (J,) rms residual of each joint, N m or N: the weights are its inverse.
         block: (rows_j,) by joint, number of the block of time.
         fold: (blocks,) number of the fold of each block.
@@ -110,7 +110,7 @@ class FoldFits(ShortRepr):
     """Fits of the base to all folds but one, F of them.
 
     Attributes:
-        place: (blocks,) index of the fit that a block is held out of.
+        fold_index: (blocks,) index of the fit that a block is held out of.
         inverse: (F, r, r) of the Gram matrices.
         beta: (F, r) parameters.
     """
@@ -400,13 +400,13 @@ class Ranking:
     """Of N candidates; weighted units: the residual of each joint has variance about 1.
 
     Attributes:
-        drop: (blocks, N) fall of the squared residual in blocks that were held out.
+        reductions: (blocks, N) fall of the squared residual in blocks that were held out.
         before: (J,) squared residual there without any candidate.
-        sure: (N,) fall fitted on all rows over its standard error: sums over blocks of what the
+        t_ratios: (N,) fall fitted on all rows over its standard error: sums over blocks of what the
             candidate explains and what it leaves, so that coloured residuals count.
         value: by candidate, its parameters on all rows, SI.
         deviation: their standard deviation for white residuals of variance 1, SI.
-        visible: (N,) share of the columns that the base does not hide.
+        visible_shares: (N,) share of the columns that the base does not hide.
     """
 
     reductions: np.ndarray

@@ -237,7 +237,7 @@ class FittedCandidate(ShortRepr):
         candidate: effect, joint, shapes.
         values: (k,) of its columns, SI; a delay is that of the logs as they are.
         state: the model with all effects that were found, about which it is linearised.
-        visible: share of its columns that the model does not hide.
+        visible_share: share of its columns that the model does not hide.
     """
 
     candidate: Candidate
@@ -259,18 +259,18 @@ class Finding(ShortRepr):
         sigmas: standard deviations of the parameters and shapes; those of an effect with shapes
             hold for all shapes that the data do not refuse.
         units: of the parameters and shapes.
-        ties: effects that the data do not tell from it.
+        equivalents: effects that the data do not tell from it.
         evidence: why, in one or two sentences.
         closure: share of what is systematic on its joints that it explains itself; None for
             contacts and play, which are no columns of the model.
-        refines: True if it refines a law of the model, or an effect named before on its joint.
+        is_refinement: true if it refines a law of the model, or an effect named before.
         objection: why its values cannot be those of this robot; empty if they can.
         intervals: 95 % intervals of the parameters and shapes of an effect with shapes.
-        looks: what other logs and another band say of it; empty for contacts and play.
+        cross_checks: what other logs and another band say of it; empty for contacts and play.
         doubt: why it is no more than a perhaps; empty if it is named.
-        first: True if nothing was named before it.
+        is_first: True if nothing was named before it.
         pick: what `modeler add` puts in; None for contacts and play.
-        event: True if it came once.
+        is_event: True if it came once.
     """
 
     effect: str
@@ -344,7 +344,7 @@ class EquationProposal(ShortRepr):
         relative: id of the nearest effect with a name.
         likeness: share of its torque that this explains.
         differs: what differs, in plain words.
-        drawn: the search with it as its last step, for pictures.
+        final_search: the search with it as its last step, for pictures.
         apart: the command that looks for a motion which tells it from the next.
         where: the state of the joint in these logs in which they differ most.
     """

@@ -42,7 +42,7 @@ class ErrorChange:
     Attributes:
         joint: name.
         before, after: relative error on unseen motion; NaN where none is known.
-        scatter: fall of the error in blocks of time over the standard error of that.
+        t_ratio: fall of the error in blocks of time over the standard error of that.
     """
 
     joint: str
@@ -285,17 +285,17 @@ class ScoredCandidate(ShortRepr):
 
     Attributes:
         candidate: effect, joint, shapes.
-        gain: expected fall of the residual variance of its joints on other motion.
-        share: the same of all joints.
-        drop: (blocks,) fall there of the squared residual, weighted.
+        variance_reduction: expected fall of the residual variance of its joints on other motion.
+        total_share: the same of all joints.
+        reductions: (blocks,) fall there of the squared residual, weighted.
         values: of its parameters, SI.
         deviations: their standard deviations for residuals of the size that the state has, SI.
-        sure: fall over its standard error.
-        felt: rms of what it explains over the rms torque of its joints.
-        visible: share that the model does not hide.
-        possible: False for a sign or a size that physics forbids.
-        confirmed: False if only errors of timing speak for it.
-        why: physics forbids it on this robot, if it does.
+        t_ratio: fall over its standard error.
+        torque_share: rms of what it explains over the rms torque of its joints.
+        visible_share: share that the model does not hide.
+        is_possible: False for a sign or a size that physics forbids.
+        is_confirmed: False if only errors of timing speak for it.
+        reason: physics forbids it on this robot, if it does.
     """
 
     candidate: Candidate
@@ -376,8 +376,8 @@ class CandidateFit(ShortRepr):
 
     Attributes:
         candidate: effect, joint, shapes.
-        possible: False for a sign or a size that physics forbids.
-        fall: of the squared residual on held-out motion, weighted.
+        is_possible: False for a sign or a size that physics forbids.
+        total_reduction: of the squared residual on held-out motion, weighted.
     """
 
     candidate: Candidate

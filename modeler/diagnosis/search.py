@@ -136,9 +136,9 @@ class CandidateScan:
 
     Attributes:
         state: it.
-        trials: candidates that show.
+        fits: candidates that show.
         best: every effect on every joint at the best of its shapes, none refined, best first.
-        refined: effects that were refined, by the shapes that this began with.
+        refined_scores: effects that were refined, by the shapes that this began with.
     """
 
     state: State
@@ -292,10 +292,10 @@ class SearchStep(ShortRepr):
     """One effect that was put in.
 
     Attributes:
-        judged: the effect, and its numbers when it was chosen.
-        rivals: the others then, best first.
+        score: the effect, and its numbers when it was chosen.
+        alternatives: the others then, best first.
         before: the state it was chosen in.
-        ties: rivals that the data do not tell from it.
+        equivalents: rivals that the data do not tell from it.
     """
 
     score: ScoredCandidate
@@ -318,9 +318,9 @@ class Search(ShortRepr):
         steps: effects put in, in order; those that later ones made unnecessary are left out.
         end: the model with them.
         last: the judgement that ended it.
-        vetoed: effects that would have raised the error on held-out logs, when they led.
+        vetoed_candidates: effects that would have raised the error on held-out logs, when they led.
         without: what the user ruled out.
-        given: effects put in before, in another look; the start has them.
+        prior_steps: effects put in before, in another look; the start has them.
     """
 
     start: State

@@ -45,9 +45,9 @@ class SearchData(ShortRepr):
     Attributes:
         compiled: the robot.
         observation: of the training logs, in the band of the analysis.
-        kept: (c,) base parameters where the robot has changed since their fit: those of the
+        fixed_parameters: (c,) base parameters where the robot has changed since the fit: those of
             links are not fitted again, friction and offsets are; None: all are fitted.
-        known: the effects that may be missing, and how motors are coupled.
+        stated_effects: the effects that may be missing, and how motors are coupled.
     """
 
     compiled: "CompiledModel"
@@ -138,7 +138,7 @@ class State(ShortRepr):
         reference: where effects are linearised.
         rows: motion, torque, base columns.
         extra: columns of the picks.
-        weighed: sigma and prior of another state, which are taken; None: its own.
+        adopted_weights: sigma and prior of another state, which are taken; None: its own.
     """
 
     data: SearchData

@@ -118,19 +118,19 @@ class ExcitingMotion(Result):
     Attributes:
         robot: name.
         bounds: its limits.
-        wish: what was asked for.
+        request: what was asked for.
         series: of the motion.
         x: (J, 2 K - 1) its coefficients.
         quality: of it.
-        drawn: random motions that it is compared with, as large as limits allow.
+        random_count: random motions that it is compared with, as large as limits allow.
         random: best and median condition number of them.
         random_log_det: the best of them.
-        used: of the limits.
+        usage: of the limits.
         columns: names of the parameters that count.
         beta: (c,) for torques; None where unknown.
         ended_early: True if the time limit ended the search.
         seconds: that it took.
-        nearest: where links come closest; None where they are not looked at.
+        closest_approach: where links come closest; None where they are not looked at.
         gain: what it adds to logs; None without.
     """
 

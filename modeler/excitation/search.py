@@ -49,7 +49,7 @@ class ExcitationTask:
         series: the basis, over one period.
         criterion: of the rows of `column_indices` columns, weighted.
         weights: (J,) of the rows of each joint: one over the sigma of its torque.
-        kept: (k,) columns that matter.
+        column_indices: (k,) columns that matter.
         posture: what positions alone must keep to, besides their ranges.
         beta: (c,) for torques; None where no parameters are known.
         share: (J,) of the torque limits that is used, to be sure between samples.

@@ -60,9 +60,9 @@ class Discrimination:
 
     Attributes:
         names: of the effects.
-        left: of the torque of each, the share (of its norm) that neither the model nor the other
+        unexplained_share: of the torque of each, the share that neither model nor other
             effect can explain; for the shapes of the other that explain most.
-        random: the same of the best of the random motions.
+        random_share: the same of the best of the random motions.
         gain: by how much the unexplained torque itself is larger than on that motion.
     """
 

@@ -18,10 +18,10 @@ class MotionColumns:
 
     Attributes:
         compiled: the robot.
-        half: (J,) half of the range of each joint, rad or m.
+        half_range: (J,) half of the range of each joint, rad or m.
         speed: (J,) its top speed.
-        flips: (J, J, c) half the jump of phi where the speed of a joint (first index) changes sign.
-        soft: of the top speed, over which `evaluate_smooth` spreads a jump.
+        half_jumps: (J, J, c) half the jump of phi at reversals of a joint (first index).
+        softness: of the top speed, over which `evaluate_smooth` spreads a jump.
     """
 
     compiled: CompiledModel

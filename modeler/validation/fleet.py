@@ -40,8 +40,8 @@ class TemperatureEffect:
     Attributes:
         lowest, highest: means of the logs, in the unit of their column.
         correlation: with the values of the machine.
-        along: True if it moves along, so that it may be the cause.
-        shared: True if other machines that warm alike change alike, False if they do not; None
+        is_correlated: True if it moves along, so that it may be the cause.
+        is_shared: True if other machines that warm alike change alike, False if they do not; None
             where too few of them warm.
     """
 
@@ -68,7 +68,7 @@ class FleetFinding(ShortRepr):
         sigma: of the change.
         score: change in sigmas.
         chance: that a fleet in which nothing drifts shows this, all that was looked at counted.
-        warmth: None where no temperature was logged.
+        temperature: None where no temperature was logged.
         since: periods from begin on; a jump stays if it is in two.
     """
 
@@ -121,7 +121,7 @@ class QuantityHistory(ShortRepr):
         quantity: what.
         level: median over machines and periods; NaN if no log tells it.
         factor: by which it scatters from one period to the next more than its rows say; 1: no more.
-        told: the smallest change over all periods that would be told; None with one period.
+        smallest_detectable: the smallest detectable change over all periods; None with one period.
         machines: its values by machine.
         scores: its greatest change in sigmas, by machine with two periods and more.
     """
@@ -143,10 +143,10 @@ class Fleet(Result):
         unit: of times: "days" or "periods".
         machines: names and their periods, in order.
         findings: the surest first.
-        followed: all that was looked at, and a load if one could be told.
+        histories: all that was looked at, and a load if one could be told.
         false_alarm: chance that a fleet in which nothing drifts has any finding, at most.
-        aside: common parameters that the logs cannot tell.
-        left: logs that were not used, and why.
+        unidentified: common parameters that the logs cannot tell.
+        skipped_logs: logs that were not used, and why.
         doubts: what is wrong with the measurements.
         notes: what a reader must know.
     """

@@ -368,10 +368,10 @@ class QuantityTests:
         values: (k, d) of gains in %; NaN where a log does not tell it.
         sigmas: (k, d) by the rows of each log.
         scatters: (d,) from period to period.
-        moves: (machine, quantity) of those that drift, and how.
-        odd: (machine, quantity) of those apart from the others.
+        drifts: (machine, quantity) of those that drift, and how.
+        outliers: (machine, quantity) of those apart from the others.
         scores: (machine, quantity) of the greatest change of every series, in sigmas.
-        loaded: machines whose deviations a load describes better than gains; None: not known yet.
+        loaded_machines: machines that a load describes better than gains; None: not known yet.
     """
 
     quantities: tuple[Quantity, ...]

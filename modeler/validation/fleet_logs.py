@@ -257,7 +257,7 @@ class LogJob:
     """What a worker needs to reduce a log; it can be sent to another process or machine.
 
     Attributes:
-        named: machine, period and place.
+        log_name: machine, period and place.
         path: the file.
         span: seconds of it that count; None: all.
         processing: None: chosen from this log.
@@ -276,7 +276,7 @@ class LogSummary:
     """A log, reduced; n joints, c base parameters.
 
     Attributes:
-        named: machine, period and place.
+        log_name: machine, period and place.
         content: fingerprint of the file's measurements.
         span: first and last time, s.
         samples: after decimation.
@@ -285,7 +285,7 @@ class LogSummary:
         temperatures: mean of each column, by the joint that its name ends in; "" for all.
         processing: with all choices filled in.
         doubts: what is wrong with the measurements.
-        beyond: joints with a position and a torque that the robot has not.
+        extra_joints: joints with a position and a torque that the robot has not.
     """
 
     log_name: LogName
@@ -445,7 +445,7 @@ class Quantity(ShortRepr):
         unit: of its value.
         column: base parameter; -1 for a gain or a load.
         place: index of the joint; -1 for a load.
-        own: its column enters the torque of its joint only.
+        is_of_joint: its column enters the torque of its joint only.
     """
 
     effect: str
@@ -577,9 +577,9 @@ class FleetFit:
 
     Attributes:
         theta: (c,) common parameters; 0 where a base parameter may drift.
-        aside: names of common parameters that the logs cannot tell; 0.
+        unidentified: names of common parameters that the logs cannot tell; 0.
         logs: with friction, offset and gains.
-        loaded: with friction, offset and a load in place of gains; empty if none can be told.
+        load_fits: with friction, offset and a load in place of gains; empty if none can be told.
     """
 
     theta: np.ndarray

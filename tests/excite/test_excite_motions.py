@@ -197,4 +197,4 @@ def test_every_loop_asks_for_the_time(monkeypatch, steps):
     before = clock[0]
     motion = subject.search_motion(bounds, MotionRequest(6.0, 4, seed=1, time_limit=before + steps))
     assert motion.ended_early and clock[0] < before + steps + 700
-    assert (motion.drawn == 1) == (steps == 1)
+    assert (motion.random_count == 1) == (steps == 1)
