@@ -94,10 +94,8 @@ def cross_check_effects(
         for place, step_checks in enumerate(checks_by_step):
             step_checks.append(_cross_check_step(data_set, search, place))
             tick()
-    return [
-        (*step_checks, *_check_excluded(search, s))
-        for step_checks, s in zip(checks_by_step, search.steps, strict=True)
-    ]
+    pairs = zip(checks_by_step, search.steps, strict=True)
+    return [(*checks, *_check_excluded(search, step)) for checks, step in pairs]
 
 
 def _check_excluded(search: Search, step: SearchStep) -> list[result.CrossCheck]:
@@ -111,14 +109,9 @@ def _check_excluded(search: Search, step: SearchStep) -> list[result.CrossCheck]
     asked = scan_candidates(state, [step.candidate, *barred]).judge_candidates()
     same_effect = [j for j in asked.ranked if j.key == step.candidate.key]
     least = THRESHOLDS.parsimony_share * same_effect[0].total_reduction if same_effect else 0.0
-    alike = (
-        j
-        for j in asked.ranked
-        if j not in same_effect
-        and j.is_significant
-        and j.total_reduction >= least
-        and count_free_numbers(j.candidate) <= count_free_numbers(step.candidate)
-    )
+    numbers = count_free_numbers(step.candidate)
+    others = (j for j in asked.ranked if j not in same_effect and j.total_reduction >= least)
+    alike = (j for j in others if j.is_significant and count_free_numbers(j.candidate) <= numbers)
     best = next(alike, asked.best)
     if best is None or best.key == step.candidate.key:
         return []
@@ -157,9 +150,8 @@ def _compute_expected_gain(state: State, step: SearchStep) -> float:
         to_dense(columns, j, len(y)) @ step.score.values / s
         for j, (y, s) in enumerate(zip(base.y, base.sigma, strict=True))
     ]
-    hidden = sum(
-        basis.T @ torque for basis, torque in zip(base.whitened_columns, torques, strict=True)
-    )
+    pairs = zip(base.whitened_columns, torques, strict=True)
+    hidden = sum(basis.T @ torque for basis, torque in pairs)
     fall = sum(float(torque @ torque) for torque in torques) - float(np.sum(hidden**2))
     before = state.rank_columns([]).before[step.candidate.list_affected_joints(len(torques))]
     return fall / max(float(before.sum()), 1e-300)
@@ -174,15 +166,12 @@ def _is_logged(data: SearchData, candidate: Candidate) -> bool:
 def _rescan_candidates(state: State, step: SearchStep, search: Search) -> list[ScoredCandidate]:
     """The effect and its nearest rivals, each at the best of its shapes."""
     refused = {j.key for j in search.vetoed_candidates}
-    rivals = [j.candidate for j in step.alternatives if j.key not in refused][
-        : THRESHOLDS.max_rechecked_alternatives
-    ]
-    first = [step.candidate, *rivals]
+    rivals = [j.candidate for j in step.alternatives if j.key not in refused]
+    first = [step.candidate, *rivals[: THRESHOLDS.max_rechecked_alternatives]]
     keys = {c.key for c in first}
     again = [c for c in generate_candidates(state, None, search.without, keys) if c.key in keys]
-    return list(
-        scan_candidates(state, [c for c in (*first, *again) if _is_logged(state.data, c)]).best
-    )
+    logged = [c for c in (*first, *again) if _is_logged(state.data, c)]
+    return list(scan_candidates(state, logged).best)
 
 
 # Is the machine of the held-out logs that of the training logs?
@@ -200,33 +189,27 @@ def find_changed_parameters(
         left: what the model with all effects leaves of these.
         logs: the same logs.
     """
-    there = fit_on_logs(search.end, other)
+    there, ratio = fit_on_logs(search.end, other), THRESHOLDS.min_machine_error_ratio
     alone, training = (
         compute_errors(compute_holdout_residuals(state, None)) for state in (there, search.end)
     )
-    most = {
-        joint: THRESHOLDS.min_machine_error_ratio * max(alone[joint], training.get(joint, 0.0))
-        for joint in alone
-    }
+    most = {joint: ratio * max(alone[joint], training.get(joint, 0.0)) for joint in alone}
     misses = any(error > most.get(joint, math.inf) for joint, error in compute_errors(left).items())
     if not misses or other.fixed_parameters is not None:
         return ()
     rows = build_observation(other.compiled, logs, prepare_logs(other.spec, logs, model.processing))
     fitted = identify(rows, "weighted", other.compiled).parameters
-    changes = []
+    changes, norm = list[result.ParameterChange](), np.linalg.norm
     for i, (a, b) in enumerate(zip(model.fit.parameters, fitted, strict=True)):
-        change = b.value - a.value
-        share = max(
-            abs(change) * float(np.linalg.norm(w[:, i])) / (float(np.linalg.norm(y)) or math.inf)
-            for w, y in zip(there.rows.W, there.rows.y, strict=True)
-        )
+        change, pairs = abs(b.value - a.value), zip(there.rows.W, there.rows.y, strict=True)
+        shares = (change * float(norm(w[:, i])) / (float(norm(y)) or math.inf) for w, y in pairs)
+        share = max(shares)
         if a.sigma is None or b.sigma is None or share < THRESHOLDS.min_changed_torque_share:
             continue
-        if abs(change) > THRESHOLDS.min_changed_parameter_t * math.hypot(a.sigma, b.sigma):
-            changes.append(
-                result.ParameterChange(a.name, a.value, b.value, a.sigma, b.sigma, a.unit, share)
-            )
-    return tuple(sorted(changes, key=lambda training: -training.share))
+        if change > THRESHOLDS.min_changed_parameter_t * math.hypot(a.sigma, b.sigma):
+            values = a.name, a.value, b.value, a.sigma, b.sigma, a.unit, share
+            changes.append(result.ParameterChange(*values))
+    return tuple(sorted(changes, key=lambda item: -item.share))
 
 
 @dataclass(frozen=True, eq=False)
@@ -276,12 +259,8 @@ def evaluate_search(
     looks_at = [(search.end, [state.residual for state in chain])]
     if other is not None:
         looks_at.append((fit_on_logs(search.end, other), [left.residual for left in residuals]))
-    shares = [
-        _build_share_function(state, left[-1], tick) for state, left in looks_at
-    ]  # what is asked for
-    squares = [
-        [[*map(result.compute_mean_square, values)] for values in left] for _, left in looks_at
-    ]
+    shares = [_build_share_function(state, left[-1], tick) for state, left in looks_at]
+    squares = [[[*map(result.compute_mean_square, r)] for r in left] for _, left in looks_at]
     findings = list[result.Finding]()
     for k, step in enumerate(search.steps):
         touched = find_affected_joints(step.score, *chain[k : k + 2])
@@ -292,10 +271,9 @@ def evaluate_search(
                 for values, share in zip(squares, shares, strict=True)
             )
             names = [search.end.joint_names[j] for j in touched]
-            left = [change.after for change in score.joints if change.joint in names]
-            findings.append(
-                _build_finding(search, k, touched, score.whole, closed, checks[k], left)
-            )
+            after = [change.after for change in score.joints if change.joint in names]
+            finding = _build_finding(search, k, touched, score.whole, closed, checks[k], after)
+            findings.append(finding)
         tick()
     return BandSearch(search, other, residuals, shares[0], findings)
 
