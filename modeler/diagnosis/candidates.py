@@ -147,6 +147,11 @@ class Candidate(ShortRepr):
         }
         return replace(self, nonlinear_parameters={**self.nonlinear_parameters, **values})
 
+    def encode_parameters(self, shapes: Sequence[NonlinearParameter]) -> np.ndarray:
+        """Encodes the values of some parameters."""
+        values = self.nonlinear_parameters
+        return np.array([encode_parameter(shape, values[shape.name]) for shape in shapes])
+
     def list_affected_joints(self, joints: int) -> list[int]:
         """Lists the indices of the joints whose errors it can explain."""
         if self.is_local:

@@ -24,8 +24,8 @@ def is_gain(candidate: Candidate) -> bool:
     return candidate.is_local and candidate.form.names == _SCALES
 
 
-def compute_candidate_columns(state: State, candidates: Sequence[Candidate]) -> list[Columns]:
-    """Computes the columns of candidates; those of a gain about the model with that gain."""
+def pair_columns(state: State, candidates: Sequence[Candidate]) -> list[tuple[Candidate, Columns]]:
+    """Pairs candidates with their columns; those of a gain about the model with that gain."""
     every = build_all_columns(state.rows, candidates)
     for i, candidate in enumerate(candidates):
         beta = solve_parameters(state, candidate) if is_gain(candidate) else None
@@ -33,7 +33,7 @@ def compute_candidate_columns(state: State, candidates: Sequence[Candidate]) -> 
             joint_columns: list[np.ndarray | None] = [None] * state.rows.joint_count
             joint_columns[candidate.index] = -(state.rows.W[candidate.index] @ beta)[:, None]
             every[i] = tuple(joint_columns)
-    return every
+    return [*zip(candidates, every, strict=True)]
 
 
 def _list_gain_joints(picks: Iterable[Candidate]) -> list[int]:

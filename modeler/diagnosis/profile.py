@@ -291,12 +291,6 @@ def _scan_nonlinear(
     return _scan_grid(problem, start, smooth, lines)
 
 
-def _encode_parameters(shapes: Sequence[NonlinearParameter], candidate: Candidate) -> np.ndarray:
-    return np.array(
-        [encode_parameter(shape, candidate.nonlinear_parameters[shape.name]) for shape in shapes]
-    )
-
-
 def _build_line(scale: JointScale, start: Candidate, shape: NonlinearParameter) -> list[float]:
     """Coded values of one shape to begin with, ascending; the told one among them."""
     coded_value = encode_parameter(shape, start.nonlinear_parameters[shape.name])
@@ -349,7 +343,7 @@ def _scan_grid(
     lines: Sequence[Sequence[float]],
 ) -> list[ProfilePoint]:
     """Points on a grid about the told shapes, along the axes of the likelihood there."""
-    middle = _encode_parameters(smooth, start)
+    middle = start.encode_parameters(smooth)
     low, high = (np.array([line[end] for line in lines]) for end in (0, -1))
     # a root of the covariance of the coded shapes, by the slopes of the columns
     _, slopes = _compute_slopes(problem, start, smooth)
@@ -373,7 +367,7 @@ def _compute_slopes(
     here = problem.fit_candidate(candidate)
     assert here is not None
     columns = problem.compute_residual_columns(candidate)
-    middle, slope = _encode_parameters(smooth, candidate), np.zeros((len(columns), len(smooth)))
+    middle, slope = candidate.encode_parameters(smooth), np.zeros((len(columns), len(smooth)))
     for i, step in enumerate(THRESHOLDS.slope_step * np.eye(len(smooth))):
         ends = (candidate.set_parameters(smooth, x) for x in (middle - step, middle + step))
         low, high = (problem.compute_residual_columns(end) @ here.values for end in ends)

@@ -346,6 +346,10 @@ class ScoredCandidate(ShortRepr):
         effect = self.candidate.effect
         return effect.rare or (effect.rarely_negative and float(self.values[0]) < 0.0)
 
+    def is_near(self, best: "ScoredCandidate") -> bool:
+        """Tells whether it explains nearly as much as the best: both are then refined."""
+        return self.total_share > THRESHOLDS.refinement_share * best.total_share
+
     @property
     def is_significant(self) -> bool:
         """Tells whether it is significant."""

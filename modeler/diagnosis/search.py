@@ -46,50 +46,36 @@ def refine_nonlinear_parameters(
     if not smooth:
         return candidate
     scale = state.joint_scales[candidate.scale_index]
-    start = np.array(
-        [encode_parameter(shape, candidate.nonlinear_parameters[shape.name]) for shape in smooth]
-    )
+    start = candidate.encode_parameters(smooth)
     reach = np.array([_compute_search_range(state, candidate, shape) for shape in smooth])
     if smooth[0].scale == "waves":
         low, high = np.zeros(1), np.full(1, np.inf)
     else:
-        low, high = (
-            np.array(
-                [
-                    encode_parameter(shape, scale.scale_value(shape, shape.limits[k]))
-                    for shape in smooth
-                ]
-            )
-            for k in (0, 1)
-        )
+        limits = [[scale.scale_value(shape, x) for x in shape.limits] for shape in smooth]
+        pairs = list(zip(smooth, limits, strict=True))
+        low, high = (np.array([encode_parameter(s, x[k]) for s, x in pairs]) for k in (0, 1))
         if candidate.effect.is_oscillator:
             low = np.maximum(low, [_find_lower_bound(state, shape) for shape in smooth])
 
     def compute_loss(x: np.ndarray) -> float:
         return -compute_reduction(candidate.set_parameters(smooth, np.clip(x, low, high)))
 
+    steps = THRESHOLDS.refinement_steps
     if len(smooth) == 1:
         solution = minimize_scalar(
             lambda x: compute_loss(np.array([x])),
-            bounds=(max(start[0] - reach[0], low[0]), min(start[0] + reach[0], high[0])),
             method="bounded",
-            options={"maxiter": THRESHOLDS.refinement_steps},
+            options={"maxiter": steps},
+            bounds=(max(start[0] - reach[0], low[0]), min(start[0] + reach[0], high[0])),
         )
         x, score = np.array([solution.x]), float(solution.fun)
-        whole = np.round(x)
-        if (
-            smooth[0].scale == "waves"
-            and compute_loss(whole) < THRESHOLDS.whole_order_share * score
-        ):
+        whole, share = np.round(x), THRESHOLDS.whole_order_share
+        if smooth[0].scale == "waves" and compute_loss(whole) < share * score:
             return candidate.set_parameters(smooth, whole)
     else:
         corners = np.vstack([start, start + 0.5 * np.diag(reach)])
-        solution = minimize(
-            compute_loss,
-            start,
-            method="Nelder-Mead",
-            options={"maxfev": THRESHOLDS.refinement_steps * 4, "initial_simplex": corners},
-        )
+        options = {"maxfev": 4 * steps, "initial_simplex": corners}
+        solution = minimize(compute_loss, start, method="Nelder-Mead", options=options)
         x, score = solution.x, float(solution.fun)
     better = score < compute_loss(start)
     return candidate.set_parameters(smooth, np.clip(x, low, high)) if better else candidate
@@ -97,9 +83,9 @@ def refine_nonlinear_parameters(
 
 def _find_lower_bound(state: State, shape: NonlinearParameter) -> float:
     """Coded; of a frequency the least at which a joint rings."""
-    return (
-        encode_parameter(shape, find_slowest_ringing(state)) if shape.scale == "hertz" else -np.inf
-    )
+    if shape.scale != "hertz":
+        return -np.inf
+    return encode_parameter(shape, find_slowest_ringing(state))
 
 
 def _compute_search_range(state: State, candidate: Candidate, shape: NonlinearParameter) -> float:
@@ -148,16 +134,14 @@ class CandidateScan:
 
     def list_still_refused(self, refused: Sequence[ScoredCandidate]) -> list[ScoredCandidate]:
         """Lists vetoed effects that have not become far better since."""
-        gains = {
-            candidate_score.key: candidate_score.variance_reduction for candidate_score in self.best
-        }
-        return [
-            j
-            for j in refused
-            if j.refines_model_term
-            or 1.0 - gains.get(j.key, 0.0)
-            > THRESHOLDS.max_reconsidered_residual * (1.0 - j.variance_reduction)
-        ]
+        gains = {score.key: score.variance_reduction for score in self.best}
+        most = THRESHOLDS.max_reconsidered_residual
+
+        def is_refused(score: ScoredCandidate) -> bool:
+            left = 1.0 - gains.get(score.key, 0.0)
+            return score.refines_model_term or left > most * (1.0 - score.variance_reduction)
+
+        return [score for score in refused if is_refused(score)]
 
     def exclude_vetoed(self, vetoed: Sequence[ScoredCandidate]) -> "CandidateScan":
         """Returns the same without what was vetoed."""
@@ -166,9 +150,8 @@ class CandidateScan:
             return self
         left = [t for t in self.fits if not is_vetoed(t.candidate, vetoed)]
         again = [t.candidate for t in select_best_fits(left) if t.candidate.key in touched]
-        columns = plausibility.compute_candidate_columns(self.state, again)
-        candidate_scores = score_candidates(self.state, [*zip(again, columns, strict=True)])
-        best = [*(j for j in self.best if j.key not in touched), *candidate_scores]
+        scores = score_candidates(self.state, plausibility.pair_columns(self.state, again))
+        best = [*(j for j in self.best if j.key not in touched), *scores]
         best.sort(key=lambda j: -j.total_reduction)
         return CandidateScan(self.state, left, best, self.refined_scores)
 
@@ -177,13 +160,12 @@ class CandidateScan:
     ) -> RankedCandidates:
         """Ranks all but what was vetoed; the leading ones are refined, with a tick after each."""
         left = self.exclude_vetoed(vetoed)
-        close = [
-            j
-            for j in left.best[: THRESHOLDS.max_refined_alternatives]
-            if j.is_possible
-            and j.total_share > THRESHOLDS.refinement_share * left.best[0].total_share
-            and j.variance_reduction > THRESHOLDS.min_refined_gain
-        ]
+        leading, least = (
+            left.best[: THRESHOLDS.max_refined_alternatives],
+            THRESHOLDS.min_refined_gain,
+        )
+        close = [j for j in leading if j.is_possible and j.is_near(leading[0])]
+        close = [j for j in close if j.variance_reduction > least]
         # Of effects that were not refined, only the best shapes may win still.
         refined = {}
         for item in close:
@@ -208,13 +190,10 @@ class CandidateScan:
         pairs = [(candidate, state.rows.build_columns(candidate)) for candidate in better]
         shown = [pair for pair in pairs if is_visible(pair[1])]
         (best,) = select_best_fits([*fit_candidates(state, shown), *others])
-        columns = next(
-            (shown_columns for candidate, shown_columns in shown if candidate is best.candidate),
-            None,
-        )
-        if columns is None:
-            (columns,) = plausibility.compute_candidate_columns(state, [best.candidate])
-        return score_candidates(state, [(best.candidate, columns)])[0]
+        pair = next((pair for pair in shown if pair[0] is best.candidate), None)
+        if pair is None:
+            (pair,) = plausibility.pair_columns(state, [best.candidate])
+        return score_candidates(state, [pair])[0]
 
     def list_starts(self, first: Candidate) -> list[Candidate]:
         """Lists the parameters of one effect from which refining starts, the best first.
@@ -222,10 +201,9 @@ class CandidateScan:
         With one shape to refine, the best for each value of the others, if it comes near; with
         more, the best few.
         """
-        refined = [
-            s.name for s in first.form.nonlinear_parameters if s.is_continuous and len(s.grid) > 1
-        ]
-        if len(first.form.nonlinear_parameters) < 2 or not refined:
+        shapes = first.form.nonlinear_parameters
+        refined = [s.name for s in shapes if s.is_continuous and len(s.grid) > 1]
+        if len(shapes) < 2 or not refined:
             return [first]
         every = [t for t in self.fits if t.candidate.key == first.key]
         possible_fits = [t for t in every if t.is_possible] or every
@@ -237,9 +215,8 @@ class CandidateScan:
             return order[: THRESHOLDS.max_starts]
         best: dict[tuple[float, ...], Candidate] = {}
         for c in order:
-            best.setdefault(
-                tuple(v for n, v in c.nonlinear_parameters.items() if n != refined[0]), c
-            )
+            others = (v for n, v in c.nonlinear_parameters.items() if n != refined[0])
+            best.setdefault(tuple(others), c)
         return list(best.values())
 
 
@@ -247,26 +224,21 @@ def scan_catalogue(
     state: State, without: Sequence[str] = (), only: str | None = None, joint: str | None = None
 ) -> CandidateScan:
     """Scans all candidates in a state, or those of one effect, or of one joint."""
-    return scan_candidates(
-        state, [c for c in generate_candidates(state, only, without) if joint in (None, c.joint)]
-    )
+    every = generate_candidates(state, only, without)
+    return scan_candidates(state, [c for c in every if joint in (None, c.joint)])
 
 
 def scan_candidates(state: State, candidates: Sequence[Candidate]) -> CandidateScan:
     """Scans some candidates in a state."""
     trials, best = dict[int, CandidateFit](), dict[int, ScoredCandidate]()
     place = {id(candidate): k for k, candidate in enumerate(candidates)}
-    for some in batch_candidates(
-        candidates, THRESHOLDS.scan_chunk
-    ):  # their columns are never there all at once
-        every = zip(some, plausibility.compute_candidate_columns(state, some), strict=True)
-        shown = {id(fits[0]): fits for fits in every if is_visible(fits[1])}
+    for some in batch_candidates(candidates, THRESHOLDS.scan_chunk):  # memory
+        pairs = plausibility.pair_columns(state, some)
+        shown = {id(pair[0]): pair for pair in pairs if is_visible(pair[1])}
         fits = fit_candidates(state, [*shown.values()]) if shown else []
         trials |= {place[id(t.candidate)]: t for t in fits}
-        candidate_scores = score_candidates(
-            state, [shown[id(t.candidate)] for t in select_best_fits(fits)]
-        )
-        best |= {id(j.candidate): j for j in candidate_scores}
+        leading = [shown[id(t.candidate)] for t in select_best_fits(fits)]
+        best |= {id(j.candidate): j for j in score_candidates(state, leading)}
     in_order = [trials[k] for k in sorted(trials)]
     first = [best[id(t.candidate)] for t in select_best_fits(in_order)]
     return CandidateScan(state, in_order, sorted(first, key=lambda j: -j.total_reduction))
@@ -367,39 +339,30 @@ def search_effects(
         tick: called whenever something is done.
         prior_steps: effects that another look has put in.
     """
-    start = state = linearise_state(
-        build_state(data, [step.candidate for step in prior_steps], beta)
-    )
+    picks, nothing = [step.candidate for step in prior_steps], RankedCandidates((), None)
+    start = state = linearise_state(build_state(data, picks, beta))
     steps, refused, every = list[SearchStep](), list[ScoredCandidate](), list[ScoredCandidate]()
     if not most:
-        return Search(
-            start, (), state, RankedCandidates((), None), (), tuple(without), tuple(prior_steps)
-        )
+        return Search(start, (), state, nothing, (), tuple(without), tuple(prior_steps))
     survey = scan_catalogue(state, without)
     judgement = survey.judge_candidates((), tick)
-    while (
-        judgement.best is not None and len(steps) < most and len(every) < THRESHOLDS.max_rejections
-    ):
+    limit = THRESHOLDS.max_rejections
+    while judgement.best is not None and len(steps) < most and len(every) < limit:
         best = _choose_likeliest_gain(state, judgement.best, refused, without)
-        best, later = accept_candidate(
-            state, _choose_beside_prior(state, best, judgement, refused), veto
-        )
+        best = _choose_beside_prior(state, best, judgement, refused)
+        best, later = accept_candidate(state, best, veto)
         other = _choose_alternative(survey, refused, best, later, tick)
         if other is not None or later is None:
             refused, every = [*refused, best], [*every, best]
-            judgement = other or RankedCandidates((), None)
+            judgement = other or nothing
             continue
         survey = scan_catalogue(later, without)
-        doubted, refused = (
-            _find_displaced_candidates(refused, best),
-            survey.list_still_refused(refused),
-        )
+        doubted = _find_displaced_candidates(refused, best)
+        refused = survey.list_still_refused(refused)
         after = survey.judge_candidates(refused, tick)
         rivals = tuple(j for j in judgement.ranked if j.key != best.key)
-        equals = [
-            o for o in select_alternatives(best, rivals, after) if _is_covered(state, o, best)
-        ]
-        ties = (*equals, *doubted)
+        equals = select_alternatives(best, rivals, after)
+        ties = (*(other for other in equals if _is_covered(state, other, best)), *doubted)
         steps.append(SearchStep(best, rivals, state, ties))
         state, judgement = later, after
     needed_steps, state = _prune_steps(state, steps, start.picks, tick)
@@ -410,24 +373,17 @@ def search_effects(
 def _is_covered(state: State, other: ScoredCandidate, best: ScoredCandidate) -> bool:
     """True if with the other effect put in, little is left for the best one."""
     beside = build_state(state.data, [*state.picks, other.candidate], state.beta)
-    return (
-        _score_candidate(beside, best.candidate).total_reduction
-        < THRESHOLDS.equivalence_share * best.total_reduction
-    )
+    left = _score_candidate(beside, best.candidate).total_reduction
+    return left < THRESHOLDS.equivalence_share * best.total_reduction
 
 
 def _find_displaced_candidates(
     refused: Sequence[ScoredCandidate], best: ScoredCandidate
 ) -> list[ScoredCandidate]:
     """What gave way to an effect that explains as much: for the data it is a tie."""
-    return [
-        candidate_score
-        for candidate_score in refused
-        if candidate_score.reason not in ("", plausibility.DRIVES)
-        and THRESHOLDS.parsimony_share * candidate_score.total_share
-        < best.total_share
-        < candidate_score.total_share / THRESHOLDS.parsimony_share
-    ]
+    least, share = THRESHOLDS.parsimony_share, best.total_share
+    doubted = [score for score in refused if score.reason not in ("", plausibility.DRIVES)]
+    return [s for s in doubted if least * s.total_share < share < s.total_share / least]
 
 
 def accept_candidate(
@@ -451,9 +407,8 @@ def accept_candidate(
         delay = float(values[0]) * pick.nonlinear_parameters["tau"]
         short = delay < THRESHOLDS.max_short_delay
     # A lag of no certain kind would take the place of what rounds torques too.
-    if why and (
-        short or why.endswith(plausibility.EITHER) or Requirement.TILT in pick.effect.needs
-    ):
+    unsure = short or why.endswith(plausibility.EITHER)
+    if why and (unsure or Requirement.TILT in pick.effect.needs):
         return replace(best, reason=why), None
     return replace(best, reason=why) if why else best, later
 
@@ -475,12 +430,8 @@ def _choose_alternative(
     if later is None or candidate_score.variance_reduction < THRESHOLDS.min_description_gain:
         return without
     best = without.best
-    return (
-        without
-        if best is not None
-        and best.total_share > THRESHOLDS.parsimony_share * candidate_score.total_share
-        else None
-    )
+    least = THRESHOLDS.parsimony_share * candidate_score.total_share
+    return without if best is not None and best.total_share > least else None
 
 
 def _choose_beside_prior(
@@ -497,11 +448,7 @@ def _choose_beside_prior(
     """
     first = judgement.best
     assert first is not None
-    near = [
-        j
-        for j in judgement.ranked
-        if j.is_significant and j.total_share > THRESHOLDS.refinement_share * first.total_share
-    ]
+    near = [j for j in judgement.ranked if j.is_significant and j.is_near(first)]
     every = {j.key: j for j in (best, first, *near) if not is_vetoed(j.candidate, vetoed)}
     if state.data.prior is None or not best.candidate.is_local:
         return best
@@ -520,13 +467,9 @@ def _choose_beside_prior(
     if not errors_by_key:
         return best
     likely = first.key if first.key in errors_by_key else best.key
-    key = min(
-        errors_by_key,
-        key=lambda key: (
-            errors_by_key[key][0] * (1.0 if key == likely else THRESHOLDS.min_clear_ratio)
-        ),
-    )
-    return _score_candidate(state, errors_by_key[key][1])
+    ratio = THRESHOLDS.min_clear_ratio
+    ends = [(e * (1.0 if key == likely else ratio), c) for key, (e, c) in errors_by_key.items()]
+    return _score_candidate(state, min(ends, key=lambda pair: pair[0])[1])
 
 
 def _choose_likeliest_gain(
@@ -544,8 +487,8 @@ def _choose_likeliest_gain(
 
 
 def _score_candidate(state: State, candidate: Candidate) -> ScoredCandidate:
-    (columns,) = plausibility.compute_candidate_columns(state, [candidate])
-    return select_best(state, score_candidates(state, [(candidate, columns)])).ranked[0]
+    pairs = plausibility.pair_columns(state, [candidate])
+    return select_best(state, score_candidates(state, pairs)).ranked[0]
 
 
 def extend_state(state: State, pick: Candidate) -> State:
