@@ -1,6 +1,6 @@
 """The search: name the best effect, refine it, put it in, look again; drop what is not needed."""
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, field, replace
 from functools import partial
 from typing import Any
@@ -504,125 +504,91 @@ def linearise_state(state: State) -> State:
     return build_state(state.data, state.picks, state.beta if about is None else about)
 
 
+class _Pruning:
+    """Drops and refines steps of a search beside picks that stay."""
+
+    def __init__(self, state: State, prior_picks: Sequence[Candidate], tick: Tick) -> None:
+        self.state, self.prior_picks, self.tick = state, prior_picks, tick
+
+    def build_state(self, steps: Iterable[SearchStep]) -> State:
+        """Builds the state with these steps."""
+        picks = [*self.prior_picks, *(step.candidate for step in steps)]
+        return build_state(self.state.data, picks, self.state.beta)
+
+    def score_step(
+        self, steps: Sequence[SearchStep], step: SearchStep, candidate: Candidate | None = None
+    ) -> ScoredCandidate:
+        """Scores one of the steps, or another candidate in its place, beside the others."""
+        others = self.build_state(item for item in steps if item is not step)
+        return _score_candidate(others, candidate or step.candidate)
+
+    def drop_unneeded(self, steps: Sequence[SearchStep]) -> list[SearchStep]:
+        """Drops steps that the others made unnecessary, the weakest first, and scores the rest."""
+        needed = list(steps)
+        while needed and len(needed) + len(self.prior_picks) > 1:
+            scores = []
+            for step in needed:
+                scores.append(self.score_step(needed, step))
+                self.tick()
+            weakest = int(np.argmin([score.variance_reduction for score in scores]))
+            if scores[weakest].is_significant:
+                break
+            del needed[weakest]
+            self.state = self.build_state(needed)
+        if len(needed) < len(steps):
+            needed = [replace(s, score=self.score_step(needed, s)) for s in needed]
+        return needed
+
+    def drop_weakest(self, steps: Sequence[SearchStep]) -> list[SearchStep] | None:
+        """Drops the weakest step that others describe at other parameters; None without any."""
+        for step in sorted(steps, key=lambda step: step.score.variance_reduction):
+            rest = [item for item in steps if item is not step]
+            refined = [s for s in rest if s.candidate.joint == step.candidate.joint and _is_free(s)]
+            if refined:
+                rest = self.refine(rest, refined)
+                beside = self.build_state(rest)
+                candidate = refine_nonlinear_parameters(beside, step.candidate)
+                if not _score_candidate(beside, candidate).is_significant:
+                    return rest
+        return None
+
+    def refine(self, steps: Sequence[SearchStep], which: Sequence[SearchStep]) -> list[SearchStep]:
+        """Refines the parameters of some steps beside the others, in turn."""
+        refined = list(steps)
+        for i, step in enumerate(steps):
+            if step not in which:
+                continue
+            whole, candidate = self.build_state(refined), step.candidate
+            reduction = build_reduction_function(whole, len(self.prior_picks) + i)
+            for _ in range(THRESHOLDS.refinement_turns):  # each begins with large steps again
+                last = candidate
+                candidate = refine_nonlinear_parameters(whole, candidate, reduction)
+                if candidate == last:
+                    break
+            score = self.score_step(refined, refined[i], candidate)
+            refined[i] = replace(step, score=score)
+            self.tick()
+        return refined
+
+
+def _is_free(step: SearchStep) -> bool:
+    return any(step.candidate.can_refine(s) for s in step.candidate.form.nonlinear_parameters)
+
+
 def _prune_steps(
     state: State, steps: Sequence[SearchStep], prior_picks: Sequence[Candidate], tick: Tick
 ) -> tuple[list[SearchStep], State]:
-    """The effects that are needed, each at the shapes that are best beside all the others.
+    """The effects that are needed, each at the parameters that are best beside all the others.
 
-    A shape that was sought while others were missing leaves what one more effect describes: that is
-    dropped if the others on its joint, at shapes sought again without it, leave it nothing.
+    Parameters that were sought while others were missing leave what one more effect describes: that
+    is dropped if the others on its joint, refined again without it, leave it nothing.
     """
-    needed_steps, state = _eliminate_backward(state, steps, prior_picks, tick)
-    while (fewer := _drop_weakest(state, prior_picks, needed_steps, tick)) is not None:
-        needed_steps = fewer
-    if len(needed_steps) + len(prior_picks) > 1:
-        needed_steps = _refine_steps(
-            state,
-            prior_picks,
-            needed_steps,
-            [item for item in needed_steps if _has_free_shapes(item.candidate)],
-            tick,
-        )
-    picks = [*prior_picks, *(step.candidate for step in needed_steps)]
-    return needed_steps, state if picks == list(state.picks) else build_state(
-        state.data, picks, state.beta
-    )
-
-
-def _drop_weakest(
-    state: State, prior_picks: Sequence[Candidate], steps: Sequence[SearchStep], tick: Tick
-) -> list[SearchStep] | None:
-    """Without the weakest effect that others describe at other shapes; None if there is none."""
-    for step in sorted(steps, key=lambda step: step.score.variance_reduction):
-        rest = [item for item in steps if item is not step]
-        steps_to_refine = [
-            item
-            for item in rest
-            if item.candidate.joint == step.candidate.joint and _has_free_shapes(item.candidate)
-        ]
-        if steps_to_refine:
-            rest = _refine_steps(state, prior_picks, rest, steps_to_refine, tick)
-            beside = build_state(
-                state.data, [*prior_picks, *(s.candidate for s in rest)], state.beta
-            )
-            if not _score_candidate(
-                beside, refine_nonlinear_parameters(beside, step.candidate)
-            ).is_significant:
-                return rest
-    return None
-
-
-def _has_free_shapes(pick: Candidate) -> bool:
-    """True if its shapes may be others."""
-    return any(pick.can_refine(shape) for shape in pick.form.nonlinear_parameters)
-
-
-def _refine_steps(
-    state: State,
-    prior_picks: Sequence[Candidate],
-    steps: Sequence[SearchStep],
-    steps_to_refine: Sequence[SearchStep],
-    tick: Tick,
-) -> list[SearchStep]:
-    """The effects kept; some of them at their best shapes beside the others, in turn."""
-    refined_steps = list(steps)
-    for i, step in enumerate(steps):
-        if step in steps_to_refine:
-            picks = [*prior_picks, *(item.candidate for item in refined_steps)]
-            whole = build_state(state.data, picks, state.beta)
-            explained, pick = build_reduction_function(whole, len(prior_picks) + i), step.candidate
-            for _ in range(
-                THRESHOLDS.refinement_turns
-            ):  # each begins with steps as large as those of the grid
-                pick, last = refine_nonlinear_parameters(whole, pick, explained), pick
-                if pick == last:
-                    break
-            candidate_score = _score_candidate(
-                _remove_step(state, prior_picks, refined_steps, refined_steps[i]), pick
-            )
-            refined_steps[i] = replace(step, score=candidate_score)
-            tick()
-    return refined_steps
-
-
-def _eliminate_backward(
-    state: State, steps: Sequence[SearchStep], prior_picks: Sequence[Candidate], tick: Tick
-) -> tuple[list[SearchStep], State]:
-    """Drops effects that the others made unnecessary, the weakest first; those given stay.
-
-    What the others gain is judged again then, beside those that are left.
-    """
-    remaining_steps = list(steps)
-    while remaining_steps and len(remaining_steps) + len(prior_picks) > 1:
-        candidate_scores = []
-        for step in remaining_steps:
-            candidate_scores.append(_score_step(state, prior_picks, remaining_steps, step))
-            tick()
-        weakest = int(np.argmin([j.variance_reduction for j in candidate_scores]))
-        if candidate_scores[weakest].is_significant:
-            break
-        del remaining_steps[weakest]
-        state = build_state(
-            state.data, [*prior_picks, *(s.candidate for s in remaining_steps)], state.beta
-        )
-    if len(remaining_steps) < len(steps):
-        remaining_steps = [
-            replace(s, score=_score_step(state, prior_picks, remaining_steps, s))
-            for s in remaining_steps
-        ]
-    return remaining_steps, state
-
-
-def _score_step(
-    state: State, prior_picks: Sequence[Candidate], steps: Sequence[SearchStep], step: SearchStep
-) -> ScoredCandidate:
-    """One of the effects, judged in the model with the others."""
-    return _score_candidate(_remove_step(state, prior_picks, steps, step), step.candidate)
-
-
-def _remove_step(
-    state: State, prior_picks: Sequence[Candidate], steps: Sequence[SearchStep], step: SearchStep
-) -> State:
-    """The state with all of the effects but one."""
-    others = [*prior_picks, *(s.candidate for s in steps if s is not step)]
-    return build_state(state.data, others, state.beta)
+    pruning = _Pruning(state, prior_picks, tick)
+    needed = pruning.drop_unneeded(steps)
+    while (fewer := pruning.drop_weakest(needed)) is not None:
+        needed = fewer
+    if len(needed) + len(prior_picks) > 1:
+        needed = pruning.refine(needed, [step for step in needed if _is_free(step)])
+    picks = [*prior_picks, *(step.candidate for step in needed)]
+    unchanged = picks == list(pruning.state.picks)
+    return needed, pruning.state if unchanged else pruning.build_state(needed)
