@@ -48,23 +48,17 @@ def find_contact_window(state: State) -> PushWindow | None:
     top = int(np.argmax(windows.energy))
     run, start, end = int(windows.run[top]), float(windows.start[top]), float(windows.end[top])
     same = windows.run == run
-    near = (
-        same
-        & (windows.end > start - THRESHOLDS.push_separation)
-        & (windows.start < end + THRESHOLDS.push_separation)
-    )
+    apart = THRESHOLDS.push_separation
+    near = same & (windows.end > start - apart) & (windows.start < end + apart)
     elsewhere = max(float(windows.energy[~near].max(initial=0.0)), 1e-300)
     ratio = float(windows.energy[top]) / elsewhere
     if ratio < THRESHOLDS.min_push_ratio or near.all():
         return None
-    start, end = _extend_window(
-        windows, same & (windows.energy > THRESHOLDS.min_adjoining_ratio * elsewhere), start, end
-    )
+    adjoining = same & (windows.energy > THRESHOLDS.min_adjoining_ratio * elsewhere)
+    start, end = _extend_window(windows, adjoining, start, end)
     began = float(windows.start[same].min())
-    if (
-        start - began < THRESHOLDS.settling_time
-        or end - start >= _LENGTHS[-1] * THRESHOLDS.push_cell
-    ):
+    longest = _LENGTHS[-1] * THRESHOLDS.push_cell
+    if start - began < THRESHOLDS.settling_time or end - start >= longest:
         return None
     return PushWindow(run, start, end, ratio)
 
@@ -81,10 +75,8 @@ def _extend_window(
         best = int(np.argmax(np.where(after | before, windows.energy, 0.0)))
         start = min(start, float(windows.start[best]))
         end = max(end, float(windows.end[best]))
-        loud = loud & (
-            (windows.end <= start + THRESHOLDS.max_push_gap)
-            | (windows.start >= end - THRESHOLDS.max_push_gap)
-        )
+        gap = THRESHOLDS.max_push_gap
+        loud = loud & ((windows.end <= start + gap) | (windows.start >= end - gap))
 
 
 def _enumerate_windows(state: State) -> _WindowEnergies | None:
@@ -173,9 +165,8 @@ def compute_burst_ratio(state: State, j: int) -> float:
     """
     event, events = [], 0  # of each row, 0 for none: that of the sample amid its weights
     signals = state.rows.signals
-    middle = np.round(state.rows.filter_samples(j, [np.arange(len(s.q)) for s in signals])).astype(
-        int
-    )
+    numbers = state.rows.filter_samples(j, [np.arange(len(s.q)) for s in signals])
+    middle = np.round(numbers).astype(int)
     for k, (s, turns) in enumerate(zip(signals, find_load_reversals(state, j), strict=True)):
         span = max(1, round(THRESHOLDS.burst_duration / s.step))
         flags = np.zeros(len(s.q))
@@ -192,10 +183,8 @@ def find_load_reversals(state: State, j: int) -> list[np.ndarray]:
     """Finds samples, by segment, where the load changes sign while the joint moves on."""
     reversals = []
     for s in state.rows.signals:
-        span, least = (
-            max(1, round(THRESHOLDS.burst_duration / s.step)),
-            0.02 * state.joint_scales[j].speed,
-        )
+        span = max(1, round(THRESHOLDS.burst_duration / s.step))
+        least = 0.02 * state.joint_scales[j].speed
         turns = np.flatnonzero(np.diff(np.sign(s.load[:, j])) != 0)
         speed = np.abs(s.v[:, j])
         moving = [turn for turn in turns if speed[turn : turn + span].min() > least]
@@ -240,18 +229,12 @@ def detect_events(
     alone = all(f.is_refinement for f in findings)
     rings = any(_is_ringing(f) for f in findings)
     least = THRESHOLDS.min_faint_burst_ratio if alone else THRESHOLDS.min_faint_burst_ratio_beside
-    play = _detect_backlash(
-        search, search.end, THRESHOLDS.min_burst_ratio
-    ) or _detect_faint_backlash(search, least, knocks=not rings)
+    play = _detect_backlash(search, search.end, THRESHOLDS.min_burst_ratio)
+    play = play or _detect_faint_backlash(search, least, knocks=not rings)
     if play is not None:
-        beside = [
-            replace(
-                f,
-                is_refinement=f.is_refinement
-                or (_is_ringing(f) and f.gain < THRESHOLDS.max_weak_gain),
-            )
-            for f in findings
-        ]
+        weak = [_is_ringing(f) and f.gain < THRESHOLDS.max_weak_gain for f in findings]
+        pairs = zip(findings, weak, strict=True)
+        beside = [replace(f, is_refinement=f.is_refinement or is_weak) for f, is_weak in pairs]
         return [*beside, *contact, _score_backlash(search, play, errors, score_candidate)]
     play = _detect_backlash(search, search.start, THRESHOLDS.min_loud_burst_ratio)
     if play is None or contact:
@@ -283,14 +266,9 @@ def _detect_contact(
     units = {f"tau{j.name}": j.effort_unit for j in search.spec.joints}
     torque = {f"tau{name}": value for name, value in window.torque.items()}
     ends, doubt = (window.change.before, window.change.after), ""
-    for name, y, r in zip(
-        search.end.joint_names, search.end.rows.y, search.end.residual, strict=True
-    ):
-        least = (
-            THRESHOLDS.min_recurrence_ratio
-            * np.linalg.norm(r)
-            / max(float(np.linalg.norm(y)), 1e-300)
-        )
+    end, ratio = search.end, THRESHOLDS.min_recurrence_ratio
+    for name, y, r in zip(end.joint_names, end.rows.y, end.residual, strict=True):
+        least = ratio * np.linalg.norm(r) / max(float(np.linalg.norm(y)), 1e-300)
         if y.size and errors.get(name, 0.0) > least and not doubt:
             doubt = f"something unexplained acts on joint {name} in the held-out motion too"
     text = (
@@ -310,12 +288,9 @@ def _detect_contact(
 
 def _list_backlash_joints(search: Search) -> list[int]:
     """Joints whose gear may have play."""
-    return [
-        j
-        for j, joint in enumerate(search.spec.joints)
-        for effect in _find_impact_effects(search)
-        if joint.actuated and not is_ruled_out(effect.id, joint.name, search.without)
-    ]
+    joints = [(j, joint.name) for j, joint in enumerate(search.spec.joints) if joint.actuated]
+    ids = [effect.id for effect in _find_impact_effects(search)]
+    return [j for j, name in joints for x in ids if not is_ruled_out(x, name, search.without)]
 
 
 def _detect_backlash(search: Search, state: State, least: float) -> Finding | None:
@@ -324,13 +299,9 @@ def _detect_backlash(search: Search, state: State, least: float) -> Finding | No
     bursting = [j for j, ratio in ratios.items() if ratio > least]
     if not bursting:
         return None
-    shares = {
-        k: candidate_score.total_share
-        for k, candidate_score in _collect_backlash_columns(search).items()
-    }
-    j = max(
-        bursting, key=lambda k: ratios[k] * max(shares.get(k, 0.0), THRESHOLDS.floor_backlash_share)
-    )
+    columns, floor = _collect_backlash_columns(search), THRESHOLDS.floor_backlash_share
+    shares = {k: score.total_share for k, score in columns.items()}
+    j = max(bursting, key=lambda k: ratios[k] * max(shares.get(k, 0.0), floor))
     return _build_backlash_finding(search, [j, *bursting], _format_burst_ratio(ratios[j]))
 
 
@@ -354,13 +325,11 @@ def _detect_faint_backlash(search: Search, least: float, knocks: bool) -> Findin
         least: ratio of the bursts.
         knocks: False where something else may knock.
     """
-    shares = {
-        j: candidate_score.total_share
-        for j, candidate_score in _collect_backlash_columns(search).items()
-        if j in _list_backlash_joints(search)
-        and candidate_score.variance_reduction > THRESHOLDS.min_variance_reduction
-        and candidate_score.t_ratio > THRESHOLDS.min_t_ratio
-    }
+    joints, columns = _list_backlash_joints(search), _collect_backlash_columns(search).items()
+    large = [(j, score) for j, score in columns if score.t_ratio > THRESHOLDS.min_t_ratio]
+    smallest = THRESHOLDS.min_variance_reduction
+    large = [(j, score) for j, score in large if score.variance_reduction > smallest]
+    shares = {j: score.total_share for j, score in large if j in joints}
     for j in sorted(shares, key=lambda j: -shares[j]):
         ratio, share = compute_burst_ratio(search.end, j), compute_burst_share(search.end, j)
         if ratio > least:
@@ -378,20 +347,9 @@ def _build_backlash_finding(
     """Play on the first of some joints; any of the others may be the one."""
     (effect,), names, first = _find_impact_effects(search), search.end.joint_names, bursting[0]
     others = tuple((effect.id, names[k]) for k in bursting if k != first)
-    return Finding(
-        effect.id,
-        names[first],
-        math.nan,
-        math.nan,
-        {},
-        {},
-        {},
-        others,
-        f"joint {names[first]}: {text}",
-        None,
-        False,
-        objection,
-    )
+    joint, text = names[first], f"joint {names[first]}: {text}"
+    errors: tuple[float, float] = (math.nan, math.nan)
+    return Finding(effect.id, joint, *errors, {}, {}, {}, others, text, None, False, objection)
 
 
 def _score_backlash(

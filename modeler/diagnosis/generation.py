@@ -1,5 +1,6 @@
 """Candidates that the data suggest: smooth motion, order spectrum, baseline, ripples, loads."""
 
+import itertools
 from collections.abc import Callable, Sequence, Set
 from dataclasses import replace
 from functools import lru_cache
@@ -73,14 +74,11 @@ def _check_smooth_motion(
 ) -> tuple[np.ndarray, bool, bool]:
     """Values by instruments, whether these support the effect, and whether it is a convention."""
     estimates, error = estimate_instrumental(state, candidate)
-    sure = bool(
-        np.max(np.abs(estimates) / np.maximum(error, 1e-300)) > THRESHOLDS.min_instrumental_t
-    )
+    t_ratio = float(np.max(np.abs(estimates) / np.maximum(error, 1e-300)))
+    sure = t_ratio > THRESHOLDS.min_instrumental_t
     step = float(np.median([s.segment.logged_step for s in state.rows.signals]))
-    small = (
-        abs(float(estimates[0])) * candidate.nonlinear_parameters.get("tau", 1.0)
-        < THRESHOLDS.max_logger_delay * step
-    )
+    delay = abs(float(estimates[0])) * candidate.nonlinear_parameters.get("tau", 1.0)
+    small = delay < THRESHOLDS.max_logger_delay * step
     timed = candidate.is_delay or Requirement.LAG in candidate.effect.needs
     supported = sure and bool(np.sum(estimates * values) > 0.0)
     return estimates, supported, small and timed
@@ -119,9 +117,8 @@ def _solve_instrumental(
     length, size = np.where(is_used, length, 1.0), np.where(is_used, size, 1.0)
     products = sum(z.T @ x for z, x in zip(Z, X, strict=True)) / np.outer(size, length)
     inverse = np.zeros((c, c))
-    inverse[np.ix_(is_used, is_used)] = np.linalg.pinv(
-        products[np.ix_(is_used, is_used)], rcond=1e-9
-    )
+    used = np.ix_(is_used, is_used)
+    inverse[used] = np.linalg.pinv(products[used], rcond=1e-9)
     sums = np.zeros((max(int(part_rows.max(initial=0)) for part_rows in block) + 1, c))
     theta = inverse @ (sum(z.T @ t for z, t in zip(Z, y, strict=True)) / size)
     for x, z, t, part_rows in zip(X, Z, y, block, strict=True):
@@ -279,10 +276,9 @@ def _collect_measurements(state: State, j: int) -> Measurements:
     every = rows.filter_samples(j, _collect_signals(rows))
     q, v, a, load, torque = np.split(every[:, : 5 * J], 5, axis=1)
     direction = [np.sign(s.v[:, j]) for s in rows.signals]
+    travels = [share * state.joint_scales[j].range for share in SLIPS]
     slips = [
-        np.column_stack(
-            [compute_bristle_state(s.q[:, j], d * state.joint_scales[j].range) for d in SLIPS]
-        )
+        np.column_stack([compute_bristle_state(s.q[:, j], d) for d in travels])
         for s in rows.signals
     ]
     return Measurements(
@@ -306,13 +302,8 @@ def _collect_signals(rows: Rows) -> list[np.ndarray]:
     """
     every = []
     for s in rows.signals:
-        z = np.column_stack(
-            [
-                simulate_resonance(a, s.step, frequency, THRESHOLDS.baseline_damping)
-                for a in s.a.T
-                for frequency in _RINGING
-            ]
-        )
+        damping, pairs = THRESHOLDS.baseline_damping, itertools.product(s.a.T, _RINGING)
+        z = np.column_stack([simulate_resonance(a, s.step, f, damping) for a, f in pairs])
         every.append(np.hstack([s.q, s.v, s.a, s.load, s.torque, z, np.gradient(z, axis=0)]))
     return every
 
@@ -361,12 +352,8 @@ def generate_candidates(
         results += list_ripple_candidates(state, is_allowed, waves)
     if changed:
         results += list_load_candidates(state)
-    taken = {
-        (same, pick.joint)
-        for pick in state.picks
-        if not pick.effect.several
-        for same in (pick.effect.id, *pick.effect.same_as)
-    }
+    single = [pick for pick in state.picks if not pick.effect.several]
+    taken = {(x, p.joint) for p in single for x in (p.effect.id, *p.effect.same_as)}
     results = [c for c in results if only in (None, c.effect.id) and is_allowed(*c.key)]
     return [c for c in results if c.key not in taken]
 

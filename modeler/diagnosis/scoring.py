@@ -58,20 +58,14 @@ class ErrorChange:
     @property
     def is_reduced(self) -> bool:
         """Tells whether the error falls significantly."""
-        return (
-            self.t_ratio > THRESHOLDS.max_chance_t
-            and self.is_different
-            and self.after < self.before
-        )
+        lower = self.is_different and self.after < self.before
+        return lower and self.t_ratio > THRESHOLDS.max_chance_t
 
     @property
     def is_increased(self) -> bool:
         """Tells whether it rises significantly."""
-        return (
-            self.t_ratio < -THRESHOLDS.max_chance_t
-            and self.is_different
-            and self.after > self.before
-        )
+        higher = self.is_different and self.after > self.before
+        return higher and self.t_ratio < -THRESHOLDS.max_chance_t
 
     @property
     def variance_reduction(self) -> float:
@@ -81,9 +75,8 @@ class ErrorChange:
     @property
     def error_ratio(self) -> float:
         """Returns the ratio of the errors, after over before."""
-        return max(self.after, THRESHOLDS.negligible_error) / max(
-            self.before, THRESHOLDS.negligible_error
-        )
+        least = THRESHOLDS.negligible_error
+        return max(self.after, least) / max(self.before, least)
 
 
 @dataclass(frozen=True)
@@ -105,20 +98,16 @@ class Score:
         Or if that of a joint surely falls by more than its noise, and none rises: what other
         effects leave of other joints may be more than all of it.
         """
-        is_reduced = any(
-            change.is_reduced and change.error_ratio < 1.0 / THRESHOLDS.min_spoiling_ratio
-            for change in self.joints
-        )
+        least = 1.0 / THRESHOLDS.min_spoiling_ratio
+        is_reduced = any(c.is_reduced and c.error_ratio < least for c in self.joints)
         mends = is_reduced and not any(change.is_increased for change in self.joints)
         return mends or (self.whole.is_reduced and not self.has_spoilt_joint)
 
     @property
     def has_spoilt_joint(self) -> bool:
         """Tells whether the error of a joint rises by more than its noise."""
-        return any(
-            change.is_increased and change.error_ratio > THRESHOLDS.min_spoiling_ratio
-            for change in self.joints
-        )
+        most = THRESHOLDS.min_spoiling_ratio
+        return any(c.is_increased and c.error_ratio > most for c in self.joints)
 
     @property
     def errors(self) -> dict[str, tuple[float, float]]:
@@ -128,9 +117,7 @@ class Score:
     @property
     def changed_joints(self) -> tuple[str, ...]:
         """Returns the joints whose error falls or rises."""
-        return tuple(
-            change.joint for change in self.joints if change.is_reduced or change.is_increased
-        )
+        return tuple(c.joint for c in self.joints if c.is_reduced or c.is_increased)
 
 
 def score_change(
@@ -158,11 +145,8 @@ def score_change(
     """
     by_block = _build_block_function(before, block)
     old, new = compute_errors(before), compute_errors(after)
-    shares = {
-        name: (by_block(before, j), by_block(after, j))
-        for j, name in enumerate(before.names)
-        if name in old and name in new
-    }
+    known = [(j, name) for j, name in enumerate(before.names) if name in old and name in new]
+    shares = {name: (by_block(before, j), by_block(after, j)) for j, name in known}
     changes = tuple(
         ErrorChange(name, old[name], new[name], compute_t_ratio(np.sqrt(a) - np.sqrt(b)))
         for name, (a, b) in shares.items()
@@ -174,12 +158,8 @@ def score_change(
     first, last = (
         math.sqrt(sum(share[name] * of[name] ** 2 for name in shares) / total) for of in (old, new)
     )
-    a, b = (
-        np.sqrt(
-            np.sum([share[name] * joint_shares[k] for name, joint_shares in shares.items()], axis=0)
-        )
-        for k in (0, 1)
-    )
+    weighted = [[share[name] * x for x in pair] for name, pair in shares.items()]
+    a, b = (np.sqrt(np.sum([pair[k] for pair in weighted], axis=0)) for k in (0, 1))
     return Score(changes, ErrorChange("", first, last, compute_t_ratio(a - b)))
 
 
@@ -199,11 +179,11 @@ def compute_rms_error(errors: Iterable[float]) -> float:
 
 def compute_errors(residuals: Residuals) -> dict[str, float]:
     """Computes the relative error of every joint that has a torque."""
-    sizes = [
-        (float(np.linalg.norm(e)), float(np.linalg.norm(y)))
-        for e, y in zip(residuals.residual, residuals.torque, strict=True)
-    ]
-    return {name: e / y for name, (e, y) in zip(residuals.names, sizes, strict=True) if y > 0.0}
+    lefts, torques = (
+        [float(np.linalg.norm(x)) for x in part] for part in (residuals.residual, residuals.torque)
+    )
+    rows = zip(residuals.names, lefts, torques, strict=True)
+    return {name: left / torque for name, left, torque in rows if torque > 0.0}
 
 
 def format_error_changes(joints: Mapping[str, tuple[float, float]], changed: Sequence[str]) -> str:
@@ -215,9 +195,8 @@ def format_error_changes(joints: Mapping[str, tuple[float, float]], changed: Seq
     """
     pairs = {name: " -> ".join(format_error_pair(*joints[name])) for name in changed}
     rising = [name for name in changed if joints[name][1] > joints[name][0]]
-    parts = [
-        ", ".join(f"joint {name} {text}" for name, text in pairs.items() if name not in rising)
-    ]
+    falling = [f"joint {name} {text}" for name, text in pairs.items() if name not in rising]
+    parts = [", ".join(falling)]
     parts += [f"joint {name} rises, {pairs[name]}" for name in rising]
     if len(changed) < len(joints):
         parts.append("other joints unchanged" if changed else "no joint changes")
@@ -228,14 +207,9 @@ def explain_no_improvement(
     joints: Mapping[str, tuple[float, float]], changed: Sequence[str]
 ) -> str:
     """Explains why a change is no improvement."""
-    changes, errors = (
-        format_error_changes(joints, changed),
-        list(zip(*joints.values(), strict=True)),
-    )
-    if any(
-        ErrorChange(name, *joints[name], 0.0).error_ratio > THRESHOLDS.min_spoiling_ratio
-        for name in changed
-    ):
+    changes, errors = format_error_changes(joints, changed), zip(*joints.values(), strict=True)
+    ratios = (ErrorChange(name, *joints[name], 0.0).error_ratio for name in changed)
+    if any(ratio > THRESHOLDS.min_spoiling_ratio for ratio in ratios):
         return f"the error rises: {changes}"
     total = " -> ".join(format_error_pair(*map(compute_rms_error, errors)))
     return f"the error does not fall by more than chance: {total} over all joints; {changes}"
@@ -249,12 +223,8 @@ def _build_block_function(logs: Residuals, block: float) -> Callable[[Residuals,
     """
     run, time = np.concatenate(logs.run), np.concatenate(logs.time)
     spans = {int(r): (time[run == r].min(), time[run == r].max()) for r in np.unique(run)}
-    length = float(
-        block
-        or max(
-            THRESHOLDS.block_duration, sum(b - a for a, b in spans.values()) / THRESHOLDS.max_blocks
-        )
-    )
+    total = sum(b - a for a, b in spans.values())
+    length = float(block or max(THRESHOLDS.block_duration, total / THRESHOLDS.max_blocks))
     count, ends = 0, {}
     for r, (a, b) in spans.items():  # numbers of the first and the last block of a log
         last = count + int((b - a) / length)
@@ -329,11 +299,8 @@ class ScoredCandidate(ShortRepr):
         than there is to explain on its joint.
         """
         candidate = self.candidate
-        return (
-            candidate.is_local
-            and "torque" not in candidate.form.names
-            and self.variance_reduction < 1.0
-        )
+        alone = candidate.is_local and "torque" not in candidate.form.names
+        return alone and self.variance_reduction < 1.0
 
     @property
     def refines_model_term(self) -> bool:
@@ -353,17 +320,11 @@ class ScoredCandidate(ShortRepr):
     @property
     def is_significant(self) -> bool:
         """Tells whether it is significant."""
-        big = (
-            self.variance_reduction > THRESHOLDS.min_variance_reduction
-            and self.t_ratio > THRESHOLDS.min_t_ratio
-            and self.torque_share > THRESHOLDS.min_torque_share
-        )
-        return (
-            big
-            and self.is_possible
-            and self.is_confirmed
-            and self.visible_share > THRESHOLDS.min_visible_share
-        )
+        big = self.variance_reduction > THRESHOLDS.min_variance_reduction
+        big = big and self.torque_share > THRESHOLDS.min_torque_share
+        shown = self.visible_share > THRESHOLDS.min_visible_share
+        certain = self.t_ratio > THRESHOLDS.min_t_ratio and self.is_confirmed
+        return big and shown and certain and self.is_possible
 
 
 @dataclass(frozen=True, eq=False)
@@ -392,12 +353,9 @@ class CandidateFit(ShortRepr):
 def fit_candidates(state: State, pairs: Sequence[tuple[Candidate, Columns]]) -> list[CandidateFit]:
     """Fits all candidates, each with its columns."""
     pool = build_batch(state.fold_grams, [columns for _, columns in pairs])
-    return [
-        CandidateFit(candidate, is_possible(candidate, value), float(fall))
-        for (candidate, _), fall, value in zip(
-            pairs, *compute_total_reductions(state.fold_grams, pool), strict=True
-        )
-    ]
+    falls, values = compute_total_reductions(state.fold_grams, pool)
+    rows = zip((candidate for candidate, _ in pairs), values, map(float, falls), strict=True)
+    return [CandidateFit(c, is_possible(c, value), fall) for c, value, fall in rows]
 
 
 def select_best_fits(trials: Sequence[CandidateFit]) -> list[CandidateFit]:
@@ -417,17 +375,13 @@ def score_candidates(
     if not pairs:
         return []
     ranking = state.rank_columns([columns for _, columns in pairs])
-    candidate_scores = [
-        _build_score(state, candidate, ranking, i) for i, (candidate, _) in enumerate(pairs)
-    ]
-    return sorted(candidate_scores, key=lambda j: -j.total_reduction)
+    scores = (_build_score(state, c, ranking, i) for i, (c, _) in enumerate(pairs))
+    return sorted(scores, key=lambda score: -score.total_reduction)
 
 
 def _build_score(state: State, candidate: Candidate, ranking: Ranking, i: int) -> ScoredCandidate:
-    drop, concerned = (
-        ranking.reductions[:, i],
-        candidate.list_affected_joints(len(ranking.before)),
-    )
+    drop = ranking.reductions[:, i]
+    concerned = candidate.list_affected_joints(len(ranking.before))
     fall, at_stake = float(drop.sum()), float(ranking.before[concerned].sum())
     torque = sum(float(np.sum((state.rows.y[j] / state.sigma[j]) ** 2)) for j in concerned)
     return ScoredCandidate(
@@ -475,9 +429,8 @@ def select_best(state: State, candidate_scores: list[ScoredCandidate]) -> Ranked
         if item.candidate.effect.timing and not is_confirmed(state, item.candidate, item.values):
             candidate_scores[place] = replace(item, is_confirmed=False)
             continue
-        return RankedCandidates(
-            tuple(candidate_scores), _select_simplest(state, item, candidate_scores)
-        )
+        simplest = _select_simplest(state, item, candidate_scores)
+        return RankedCandidates(tuple(candidate_scores), simplest)
     return RankedCandidates(tuple(candidate_scores), None)
 
 
@@ -487,16 +440,10 @@ def is_refinement(finer: Candidate, plain: Candidate) -> bool:
     It is friction too, or has more free numbers: where it explains no more, it is no rival.
     """
     laws = plain.effect.id in EVERY and finer.effect.id not in EVERY
-    is_same_joint = finer.joint == plain.joint and finer.effect.acts in (
-        EffectTarget.JOINT,
-        EffectTarget.MOTOR,
-    )
+    on_joint = finer.effect.acts in (EffectTarget.JOINT, EffectTarget.MOTOR)
     friction = finer.effect.family == plain.effect.family == "friction"
-    return (
-        laws
-        and is_same_joint
-        and (friction or count_free_numbers(finer) > count_free_numbers(plain))
-    )
+    more = friction or count_free_numbers(finer) > count_free_numbers(plain)
+    return laws and on_joint and finer.joint == plain.joint and more
 
 
 def _find_plain_friction(
@@ -505,17 +452,10 @@ def _find_plain_friction(
     """Dry or viscous friction of a joint that has none, before friction that refines it."""
     if best.candidate.effect.family != "friction":
         return None
-    return next(
-        (
-            j
-            for j in candidate_scores
-            if j.candidate.effect.id in PLAIN
-            and is_refinement(best.candidate, j.candidate)
-            and j.is_significant
-            and j.total_share > THRESHOLDS.plain_friction_share * best.total_share
-        ),
-        None,
-    )
+    least = THRESHOLDS.plain_friction_share * best.total_share
+    plain = (j for j in candidate_scores if j.candidate.effect.id in PLAIN and j.is_significant)
+    plain = (j for j in plain if is_refinement(best.candidate, j.candidate))
+    return next((j for j in plain if j.total_share > least), None)
 
 
 def _select_simplest(
@@ -528,21 +468,13 @@ def _select_simplest(
     A timing-like effect may stand for another timing-like one only.
     """
     timing = best.candidate.effect.timing
-    near = [
-        other
-        for other in find_equivalents(best, candidate_scores)
-        if other.is_significant
-        and (timing or not other.candidate.effect.timing)
-        and other.total_reduction > THRESHOLDS.parsimony_share * best.total_reduction
-    ]
+    least = THRESHOLDS.parsimony_share * best.total_reduction
+    near = [j for j in find_equivalents(best, candidate_scores) if j.total_reduction > least]
+    near = [j for j in near if j.is_significant and (timing or not j.candidate.effect.timing)]
 
     def compute_sort_key(j: ScoredCandidate) -> tuple[bool, bool, float, float]:
-        return (
-            j.refines_model_term,
-            j.is_unlikely,
-            count_free_numbers(j.candidate),
-            -j.total_reduction,
-        )
+        numbers = count_free_numbers(j.candidate)
+        return j.refines_model_term, j.is_unlikely, numbers, -j.total_reduction
 
     order = sorted([best, *near], key=compute_sort_key)
     return next(
@@ -555,9 +487,8 @@ def _select_simplest(
 def count_free_numbers(candidate: Candidate) -> float:
     """Counts free numbers: parameters, and nonlinear parameters that are refined."""
     shapes = candidate.form.nonlinear_parameters
-    free = sum(
-        s.is_continuous or candidate.nonlinear_parameters[s.name] not in s.grid for s in shapes
-    )
+    values = candidate.nonlinear_parameters
+    free = sum(s.is_continuous or values[s.name] not in s.grid for s in shapes)
     ratios = len(candidate.nonlinear_parameters) - len(shapes)
     return len(candidate.form.columns) + free + 0.5 * ratios
 
@@ -576,12 +507,9 @@ def select_alternatives(
         after: the judgement with it.
     """
     left = {j.key: j.total_reduction for j in after.ranked}
-    return [
-        o
-        for o in find_equivalents(best, others)
-        if left.get(o.key, 0.0) < THRESHOLDS.equivalence_share * o.total_reduction
-        and not is_refinement(o.candidate, best.candidate)
-    ]
+    share, equals = THRESHOLDS.equivalence_share, find_equivalents(best, others)
+    equals = [o for o in equals if left.get(o.key, 0.0) < share * o.total_reduction]
+    return [o for o in equals if not is_refinement(o.candidate, best.candidate)]
 
 
 def find_equivalents(
@@ -590,11 +518,8 @@ def find_equivalents(
     """Finds candidates that explain as much as the best, by paired differences over blocks."""
     equivalents = []
     for other in others:
-        if (
-            other is best
-            or not other.is_possible
-            or other.variance_reduction < THRESHOLDS.min_variance_reduction
-        ):
+        large = other.variance_reduction >= THRESHOLDS.min_variance_reduction
+        if other is best or not other.is_possible or not large:
             continue
         same = other.candidate.effect.id in best.candidate.effect.same_as
         if same or compute_t_ratio(best.reductions - other.reductions) <= THRESHOLDS.max_chance_t:
@@ -681,12 +606,8 @@ def make_veto(other: SearchData | None) -> Callable[[State, State, ScoredCandida
 
     def is_vetoed(before: State, after: State, candidate_score: ScoredCandidate) -> bool:
         touched = find_affected_joints(candidate_score, before, after)
-        score = compare_residuals(
-            compute_holdout_residuals(before, other),
-            compute_holdout_residuals(after, other),
-            touched,
-            before,
-        )
+        unseen = [compute_holdout_residuals(state, other) for state in (before, after)]
+        score = compare_residuals(*unseen, touched, before)
         expected = candidate_score.variance_reduction
         if not candidate_score.is_local:  # what is gone of the squared residuals of these joints
             first, last = (
