@@ -105,11 +105,8 @@ class Candidate(ShortRepr):
     @property
     def wave_order(self) -> float:
         """Returns waves per turn, or per 2 pi m; 0 without any."""
-        waves = [
-            self.nonlinear_parameters[shape.name]
-            for shape in self.form.nonlinear_parameters
-            if shape.scale == "waves"
-        ]
+        names = [s.name for s in self.form.nonlinear_parameters if s.scale == "waves"]
+        waves = [self.nonlinear_parameters[name] for name in names]
         return waves[0] if waves else 0.0
 
     @property
@@ -142,9 +139,8 @@ class Candidate(ShortRepr):
         self, shapes: Sequence[NonlinearParameter], x: Sequence[float] | np.ndarray
     ) -> "Candidate":
         """Returns the same effect with other encoded values of some parameters."""
-        values = {
-            shape.name: decode_parameter(shape, v) for shape, v in zip(shapes, x, strict=True)
-        }
+        pairs = zip(shapes, x, strict=True)
+        values = {shape.name: decode_parameter(shape, v) for shape, v in pairs}
         return replace(self, nonlinear_parameters={**self.nonlinear_parameters, **values})
 
     def encode_parameters(self, shapes: Sequence[NonlinearParameter]) -> np.ndarray:
@@ -257,10 +253,8 @@ def expand_grid(
 ) -> Iterator[Candidate]:
     """Expands an effect on a joint over the grids of its parameters."""
     names = [shape.name for shape in form.nonlinear_parameters]
-    grids = [
-        [scale.scale_value(shape, entry) for entry in shape.grid]
-        for shape in form.nonlinear_parameters
-    ]
+    shapes = form.nonlinear_parameters
+    grids = [[scale.scale_value(shape, entry) for entry in shape.grid] for shape in shapes]
     for values in itertools.product(*grids):
         yield Candidate(effect, form, joint, index, dict(zip(names, values, strict=True)))
 
@@ -275,9 +269,8 @@ def _generate_motor_candidates(
             continue
         form = effect.forms[0]
         if here.name in known.coupling:
-            coefficients = {
-                place[name]: factor for name, factor in known.coupling[here.name].items()
-            }
+            pairs = known.coupling[here.name].items()
+            coefficients = {place[name]: factor for name, factor in pairs}
             yield Candidate(effect, form, here.name, j, {}, coefficients)
         elif j > 0 and here.unit == spec.joints[j - 1].unit:
             for ratio in (1.0, -1.0):
@@ -341,16 +334,14 @@ def evaluate_equations(
     span = window if memory is None else EVERY  # what remembers reads the stretch from its start
     read = ("q", "v", "a", *(names & {"load", "static", "torque", "rate"}))
     values |= {name: getattr(signals, name)[span, j, None] for name in read}
-    values |= {
-        name: signals.select_other(name)[span, None] for name in first.form.other_joint_names
-    }
+    others = first.form.other_joint_names
+    values |= {name: signals.select_other(name)[span, None] for name in others}
     if "t" in names:
         values["t"] = signals.time[span, None]
     if "since" in names:
         backs = [candidate.nonlinear_parameters.get(TURN, NOISE) for candidate in candidates]
-        values["since"] = np.column_stack(
-            [signals.compute_reversal_time(j, back)[span] for back in backs]
-        )
+        times = [signals.compute_reversal_time(j, back)[span] for back in backs]
+        values["since"] = np.column_stack(times)
     if "T" in names and (warmth := signals.compute_temperature(first.joint or "")) is not None:
         values["T"] = warmth[span, None]
     with np.errstate(all="ignore"):  # columns that are not finite are not looked at
@@ -379,9 +370,8 @@ def evaluate_columns(candidate: Candidate, signals: Signals, window: slice = EVE
     if acts is EffectTarget.GRAVITY:
         return compute_tilt_columns(signals, window)
     if acts is EffectTarget.LINK:
-        return signals.compute_regressor(window)[
-            :, :, [i for i, _ in _find_inertial_parameters(candidate, signals)]
-        ]
+        places = [i for i, _ in _find_inertial_parameters(candidate, signals)]
+        return signals.compute_regressor(window)[:, :, places]
     if acts is EffectTarget.MOTOR:
         turn = np.zeros(signals.q.shape[1])
         turn[list(candidate.coupling)] = list(candidate.coupling.values())
@@ -394,9 +384,8 @@ def evaluate_columns(candidate: Candidate, signals: Signals, window: slice = EVE
         return columns[:, None, :] * row[:, :, None]
     if acts is EffectTarget.POSITION:
         dq = evaluate_equations([candidate], signals)
-        return signals.compute_displacement_torque(
-            candidate.index, dq, candidate.effect.whole_axis, window
-        )
+        whole = candidate.effect.whole_axis
+        return signals.compute_displacement_torque(candidate.index, dq, whole, window)
     columns = evaluate_equations([candidate], signals, window)
     result = np.zeros((len(columns), signals.q.shape[1], columns.shape[1]))
     result[:, candidate.index] = columns
@@ -408,9 +397,8 @@ def _evaluate_shaft(
 ) -> np.ndarray:
     """(n, k) equations of a shaft that is no joint of the model."""
     values = {"v": speed, "a": acceleration}
-    return np.column_stack(
-        [c.equation.fold(values, FUNCTIONS, np.pi, float) for c in candidate.form.columns]
-    )
+    equations = (column.equation for column in candidate.form.columns)
+    return np.column_stack([e.fold(values, FUNCTIONS, np.pi, float) for e in equations])
 
 
 def list_body_parameters(candidate: Candidate, signals: Signals) -> list[ParameterSpec]:
@@ -424,12 +412,9 @@ def _find_inertial_parameters(
     """Inertial parameters of the link that a candidate loads that any joint feels; their places."""
     spec = signals.reference.compiled.spec
     link_key = "rigid_body", list_links(spec)[candidate.index]
-    return [
-        (i, p)
-        for i, p in enumerate(spec.standard)
-        if (p.effect, p.joint) == link_key
-        and signals.column_maxima[i] > THRESHOLDS.min_parameter_column
-    ]
+    every = [(i, p) for i, p in enumerate(spec.standard) if (p.effect, p.joint) == link_key]
+    least = THRESHOLDS.min_parameter_column
+    return [(i, p) for i, p in every if signals.column_maxima[i] > least]
 
 
 Columns = tuple[np.ndarray | None, ...]
@@ -491,9 +476,8 @@ class Rows(ShortRepr):
 
     def filter_samples(self, j: int, values: Sequence[np.ndarray]) -> np.ndarray:
         """Filters values (samples, ...) by segment to the rows of joint j, (rows_j, ...)."""
-        return np.concatenate(
-            [block.filters[j] @ values[i][block.window] for i, block in self._numbered_blocks]
-        )
+        blocks = self._numbered_blocks
+        return np.concatenate([b.filters[j] @ values[i][b.window] for i, b in blocks])
 
     def build_columns(self, candidate: Candidate) -> Columns:
         """Builds the columns of a candidate on these rows."""
@@ -503,9 +487,8 @@ class Rows(ShortRepr):
             candidate.effect.acts is EffectTarget.TORQUE and not candidate.is_delay
         ):  # alike on every joint
             alone = [replace(candidate, index=j) for j in range(self.joint_count)]
-            values = [
-                np.stack([evaluate_equations([c], s) for c in alone], axis=1) for s in self.signals
-            ]
+            each = ([evaluate_equations([c], s) for c in alone] for s in self.signals)
+            values = [np.stack(columns, axis=1) for columns in each]
             return self.filter_joints(lambda i, w: values[i][w])
         return self.filter_joints(lambda i, w: evaluate_columns(candidate, self.signals[i], w))
 
@@ -542,9 +525,8 @@ class Rows(ShortRepr):
     def _filter_joint(self, j: int, evaluate: Evaluate) -> Columns:
         """Columns of one joint from its values (samples, k)."""
         columns: list[np.ndarray | None] = [None] * self.joint_count
-        columns[j] = np.concatenate(
-            [block.filters[j] @ evaluate(i, block.window) for i, block in self._numbered_blocks]
-        )
+        blocks = self._numbered_blocks
+        columns[j] = np.concatenate([b.filters[j] @ evaluate(i, b.window) for i, b in blocks])
         return tuple(columns)
 
     def filter_joints(self, evaluate: Evaluate) -> Columns:
@@ -556,10 +538,8 @@ class Rows(ShortRepr):
             shown |= values.any(axis=(0, 2))
             for j, weights in enumerate(block.filters):
                 parts[j].append(weights @ values[:, j])
-        return tuple(
-            np.concatenate(joint_parts) if is_shown else None
-            for joint_parts, is_shown in zip(parts, shown, strict=True)
-        )
+        pairs = zip(parts, shown, strict=True)
+        return tuple(np.concatenate(part) if is_shown else None for part, is_shown in pairs)
 
     @property
     def _numbered_blocks(self) -> list[tuple[int, RowBlock]]:
@@ -590,10 +570,8 @@ def build_rows(observation: Observation, reference: SignalReference) -> Rows:
         s = part.segment
         signals.append(Signals(s, part.usable, s.q, s.qd, s.qdd, reference))
         pairs = zip(part.used.T, part.usable.T, strict=True)
-        joint_filters = [
-            _normalise_rows(restrict_weights(part.rows.weights, usable)[used])
-            for used, usable in pairs
-        ]
+        filters = (restrict_weights(part.rows.weights, usable)[used] for used, usable in pairs)
+        joint_filters = [_normalise_rows(weights) for weights in filters]
         blocks.append(_split_blocks(joint_filters, s.samples))
     counted = list(observation.used.T)
     return Rows(

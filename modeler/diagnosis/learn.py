@@ -99,9 +99,8 @@ class LawCoordinates(ShortRepr):
         """
         columns = {f"x{chr(97 + k)}": text for k, text in enumerate(self.arguments)}
         table = {"columns": columns | {"by": self.factor or "1"}, **self.further}
-        effect = read_definition(
-            "law", TomlCell("law").with_value(table), {}, joints=state.joint_names
-        )
+        cell = TomlCell("law").with_value(table)
+        effect = read_definition("law", cell, {}, joints=state.joint_names)
         shapes = {shape.name: shape.grid[0] for shape in effect.forms[0].nonlinear_parameters}
         candidate = Candidate(effect, effect.forms[0], state.joint_names[j], j, shapes)
         return [evaluate_equations([candidate], signals) for signals in smooth_rows(state).signals]
@@ -135,11 +134,9 @@ class LearnedLaw(ShortRepr):
     @property
     def is_significant(self) -> bool:
         """Tells whether it is significant."""
-        return (
-            self.variance_reduction > THRESHOLDS.min_variance_reduction
-            and self.t_ratio > THRESHOLDS.min_law_t_ratio
-            and self.torque_share > THRESHOLDS.min_torque_share
-        )
+        large = self.variance_reduction > THRESHOLDS.min_variance_reduction
+        large = large and self.torque_share > THRESHOLDS.min_torque_share
+        return large and self.t_ratio > THRESHOLDS.min_law_t_ratio
 
 
 @dataclass(frozen=True)
@@ -182,10 +179,8 @@ class LawRequest(ShortRepr):
             arguments, factor = tuple("abs(v)" if x == "v" else x for x in self.of), "sign(v)"
         if "z" not in self.of:
             return [LawCoordinates(arguments, factor)]
-        return [
-            LawCoordinates(arguments, factor, further)
-            for further in _list_bristle_definitions(state, j)
-        ]
+        definitions = _list_bristle_definitions(state, j)
+        return [LawCoordinates(arguments, factor, further) for further in definitions]
 
 
 ANY_LAW = LawRequest()
@@ -224,26 +219,15 @@ def learn_law(state: State, j: int, request: LawRequest = ANY_LAW) -> LearnedLaw
         except RobotError as error:
             raise DataError(f"--of {','.join(request.of)}: {error}") from None
         if splines is not None:
-            ranked.append(
-                (
-                    float(
-                        _SplineProblem(state, j, splines).fit_smoothness(_FIRST).reductions.sum()
-                    ),
-                    option,
-                )
-            )
+            fit = _SplineProblem(state, j, splines).fit_smoothness(_FIRST)
+            ranked.append((float(fit.reductions.sum()), option))
     ranked.sort(key=lambda item: -item[0])
-    near = [
-        s
-        for _, option in ranked[: THRESHOLDS.max_refined_coordinates]
-        if (s := _build_splines(state, j, option)) is not None
-    ]
+    leading = [option for _, option in ranked[: THRESHOLDS.max_refined_coordinates]]
+    near = [s for c in leading if (s := _build_splines(state, j, c)) is not None]
     if not near:
         return None
-    closely = [
-        (_SplineProblem(state, j, option).fit_smoothness(_SMOOTH, request.rising), option)
-        for option in near
-    ]
+    fits = [_SplineProblem(state, j, s).fit_smoothness(_SMOOTH, request.rising) for s in near]
+    closely = list(zip(fits, near, strict=True))
     fit, splines = _refine_coordinates(state, j, *_select_simplest(closely), request.rising)
     return _build_law(state, j, splines, fit)
 
@@ -256,9 +240,8 @@ def _refine_coordinates(
         factor = 2.0
         while factor > THRESHOLDS.min_refinement_factor:
             for times in (factor, 1.0 / factor):
-                scaled_splines = _build_splines(
-                    state, j, splines.coordinates.scale_parameter(name, times)
-                )
+                scaled = splines.coordinates.scale_parameter(name, times)
+                scaled_splines = _build_splines(state, j, scaled)
                 if scaled_splines is not None:
                     other = _SplineProblem(state, j, scaled_splines).fit_smoothness(_SMOOTH, rising)
                     if other.after.sum() < fit.after.sum():
@@ -276,9 +259,8 @@ def generate_coordinates(state: State, j: int) -> Iterator[LawCoordinates]:
     """
     peaks = [] if (spectrum := compute_joint_order_spectrum(state, j)) is None else spectrum.peaks
     turns = state.joint_scales[j].range / (2.0 * np.pi)
-    fine = min(
-        THRESHOLDS.max_cells, round(THRESHOLDS.cells_per_wave * max(peaks, default=0.0) * turns)
-    )
+    fine = round(THRESHOLDS.cells_per_wave * max(peaks, default=0.0) * turns)
+    fine = min(THRESHOLDS.max_cells, fine)
     waves = [0, THRESHOLDS.fine_cells] + ([fine] if fine > THRESHOLDS.fine_cells else [])
     quantities = _list_quantities(state, j)
     for x, further in quantities:
@@ -326,15 +308,11 @@ def _select_simplest(
     """Of those that the data do not tell from the best, the one with the fewest axes."""
     best = max(fits, key=lambda item: float(item[0].reductions.sum()))
     total = float(best[0].reductions.sum())
-    near = [
-        item
-        for item in fits
-        if item is best
-        or (
-            item[0].reductions.sum() > THRESHOLDS.parsimony_share * total
-            and compute_t_ratio(item[0].after - best[0].after) <= THRESHOLDS.max_chance_t
-        )
-    ]
+    least, most = THRESHOLDS.parsimony_share * total, THRESHOLDS.max_chance_t
+    near = [item for item in fits if item is best or item[0].reductions.sum() > least]
+    t_ratios = [compute_t_ratio(item[0].after - best[0].after) for item in near]
+    pairs = zip(near, t_ratios, strict=True)
+    near = [item for item, t_ratio in pairs if item is best or t_ratio <= most]
     return min(near, key=lambda item: (len(item[1].cell_counts), -float(item[0].reductions.sum())))
 
 
@@ -463,9 +441,8 @@ class _SplineProblem:
         rest = others[0] if others else 1
         turn = np.column_stack([turn, -turn[:, :rest]])  # where it begins may have either sign
         root = np.tril(factor)
-        coefficients, _ = nnls(
-            root.T @ turn, np.linalg.solve(root, side), maxiter=100 * turn.shape[1]
-        )
+        target, most = np.linalg.solve(root, side), 100 * turn.shape[1]
+        coefficients, _ = nnls(root.T @ turn, target, maxiter=most)
         return np.asarray(turn @ coefficients)
 
     def fit_smoothness(self, grid: Sequence[float], rising: int = 0) -> _SplineFit:
@@ -482,9 +459,8 @@ class _SplineProblem:
         after = np.zeros(base.block_count)
         before = np.zeros(base.block_count)
         fits = [self.solve(f, smooth, rising) for f in range(len(self.parts))]
-        for k, (X, y, block, left) in enumerate(
-            zip(base.whitened_columns, base.y, base.block, base.out_of_fold, strict=True)
-        ):
+        rows = zip(base.whitened_columns, base.y, base.block, base.out_of_fold, strict=True)
+        for k, (X, y, block, left) in enumerate(rows):
             e = left.copy()
             for f, fold_fit in enumerate(fits):
                 if fold_fit is None:
@@ -505,22 +481,12 @@ def _build_law(state: State, j: int, splines: _SplineBasis, fit: _SplineFit) -> 
         return None
     values = splines.free @ fit.c / size
     low, high = zip(*splines.ends, strict=True)
-    law = Law(
-        low,
-        high,
-        splines.cell_counts,
-        tuple(float(f"{v:.{THRESHOLDS.law_digits}g}") for v in values),
-    )
+    rounded = tuple(float(f"{v:.{THRESHOLDS.law_digits}g}") for v in values)
+    law = Law(low, high, splines.cell_counts, rounded)
     before = float(np.sum(state.gram_blocks.out_of_fold[j] ** 2))
     torque_square = float(np.sum((state.rows.y[j] / state.sigma[j]) ** 2))
     fall = float(fit.reductions.sum())
-    return LearnedLaw(
-        splines.coordinates,
-        law,
-        size,
-        torque,
-        fit.reductions,
-        fit.t_ratio,
-        variance_reduction=min(1.0, fall / max(before, 1e-300)),
-        torque_share=float(np.sqrt(max(0.0, fall) / (torque_square + 1e-300))),
-    )
+    reduction = min(1.0, fall / max(before, 1e-300))
+    share = float(np.sqrt(max(0.0, fall) / (torque_square + 1e-300)))
+    numbers = fit.reductions, fit.t_ratio, reduction, share
+    return LearnedLaw(splines.coordinates, law, size, torque, *numbers)

@@ -57,19 +57,15 @@ def select_likeliest(state: State, candidates: Sequence[Candidate]) -> Candidate
     Where a wrong gain bends the model, the weights of the state say more of the bend than of the
     joints. None where no gain can be settled.
     """
-    each = (
-        (c, _solve_best(_build_problem(state, _list_gain_joints((*state.picks, c)))))
-        for c in candidates
-    )
+    joints = [(c, _list_gain_joints((*state.picks, c))) for c in candidates]
+    each = ((c, _solve_best(_build_problem(state, gains))) for c, gains in joints)
     scores = [(candidate, best.score) for candidate, best in each if best is not None]
     return min(scores, key=lambda pair: pair[1])[0] if scores else None
 
 
 def _solve_best(problem: "_GainProblem") -> "_GainSolution | None":
     """The likelier of the solutions with the weights given and with none."""
-    level = problem.update_weights(
-        problem.torque_squares
-    )  # every joint weighs by its torque: no model bent it
+    level = problem.update_weights(problem.torque_squares)  # by torques, which no model bent
     every = [p.solve_reweighted(p.choose_start()) for p in (problem, level)]
     solutions = [f for f in every if f is not None]
     return min(solutions, key=lambda f: f.score) if solutions else None
@@ -82,9 +78,8 @@ def compute_gain_deviations(state: State, place: int) -> np.ndarray:
     """
     problem = _build_problem(state, _list_gain_joints(state.picks))
     gain_index = [problem.gains.index(state.picks[place].index)]
-    return problem.compute_deviations(
-        problem.initial_gains, _build_weighted_rows(state), state.gram_blocks.block
-    )[gain_index]
+    rows, block = _build_weighted_rows(state), state.gram_blocks.block
+    return problem.compute_deviations(problem.initial_gains, rows, block)[gain_index]
 
 
 def compute_gain_visibility(state: State, place: int) -> float:
@@ -139,12 +134,8 @@ class _GainProblem:
         for j in self.gains:
             if self.initial_gains[j] == 1.0:
                 grid = [np.where(np.arange(len(start)) == j, g, start) for g in _GRID]
-                start = min(
-                    grid,
-                    key=lambda g: self._compute_score(
-                        self._compute_squares(g, self._solve_values(g))
-                    ),
-                )
+                left = [self._compute_squares(g, self._solve_values(g)) for g in grid]
+                start = grid[int(np.argmin([self._compute_score(x) for x in left]))]
         return start
 
     def solve(self, g: np.ndarray) -> _GainSolution | None:
@@ -166,9 +157,8 @@ class _GainProblem:
         for column, j in self.robot_gains.items():
             beta[column] = 1.0 - g[j]
         left = self._compute_squares(g, values)
-        wrong = np.log(
-            np.maximum(np.abs(g), 1.0 / THRESHOLDS.max_sought_gain)
-        )  # of equals, those that are least so
+        least = 1.0 / THRESHOLDS.max_sought_gain
+        wrong = np.log(np.maximum(np.abs(g), least))  # of equals, the least wrong gains
         return _GainSolution(beta, g, left, self._compute_score(left) + float(wrong @ wrong))
 
     def _compute_score(self, left: np.ndarray) -> float:
@@ -213,25 +203,19 @@ class _GainProblem:
         length = np.sqrt(np.maximum(np.diag(matrix), 1e-300))
         inverse = np.linalg.pinv(matrix / np.outer(length, length), rcond=THRESHOLDS.gain_ridge)
         inverse = (inverse / np.outer(length, length))[len(self.free) :]
-        sums = np.zeros(
-            (max(int(joint_rows.max(initial=0)) for joint_rows in block) + 1, len(matrix))
-        )
+        sums = np.zeros((max(int(b.max(initial=0)) for b in block) + 1, len(matrix)))
         for j, joint_rows in enumerate(weighted):
             base, rest = joint_rows[:, :c] @ values[:c], joint_rows[:, c:-1] @ values[c:]
             more = [base if j == k else np.zeros(len(joint_rows)) for k in self.gains]
             instruments = np.column_stack([joint_rows[:, self.free] / self.column_lengths, *more])
-            np.add.at(
-                sums, block[j], instruments * (joint_rows[:, -1] - g[j] * base - rest)[:, None]
-            )
+            left = joint_rows[:, -1] - g[j] * base - rest
+            np.add.at(sums, block[j], instruments * left[:, None])
         return np.asarray(np.sqrt(np.sum((sums @ inverse.T) ** 2, axis=0)))
 
     def compute_visibility(self, joint: int) -> float:
         """Computes the share of the column of a gain that the others do not hide."""
-        values, n, i = (
-            self._solve_values(self.initial_gains),
-            len(self.free),
-            self.gains.index(joint),
-        )
+        values = self._solve_values(self.initial_gains)
+        n, i = len(self.free), self.gains.index(joint)
         matrix, _ = self._build_equations(self.initial_gains, values)
         scaled = self._build_multipliers(self.initial_gains)
         whole = np.einsum("jkl,jk,jl->kl", self.grams[:, :-1, :-1], scaled, scaled)
@@ -256,9 +240,8 @@ class _GainProblem:
         right = P[:, :-1, -1].sum(axis=0) - matrix @ self.fixed
         free_block = np.ix_(self.free, self.free)
         scale = self.column_lengths
-        scaled_values = _solve_ridge(
-            matrix[free_block] / np.outer(scale, scale), right[self.free] / scale
-        )
+        scaled = matrix[free_block] / np.outer(scale, scale)
+        scaled_values = _solve_ridge(scaled, right[self.free] / scale)
         values = self.fixed.copy()
         values[self.free] = scaled_values / scale
         return values
@@ -269,9 +252,8 @@ class _GainProblem:
         scaled = self._build_multipliers(g)
         matrix, right = np.zeros((n + len(self.gains),) * 2), np.zeros(n + len(self.gains))
         whole = np.einsum("jkl,jl->kl", P[:, :-1, :-1], scaled)
-        matrix[:n, :n] = whole[np.ix_(free, free)] / np.outer(
-            self.column_lengths, self.column_lengths
-        )
+        lengths = self.column_lengths
+        matrix[:n, :n] = whole[np.ix_(free, free)] / np.outer(lengths, lengths)
         right[:n] = (P[:, :-1, -1].sum(axis=0) - whole @ values)[free] / self.column_lengths
         base = np.where(np.arange(len(values)) < self.size, values, 0.0)
         for i, j in enumerate(self.gains, start=n):
@@ -321,9 +303,8 @@ def _build_problem(state: State, gains: Sequence[int]) -> _GainProblem:
     owner = {p.name: (p.effect, p.joint) for p in state.spec.standard}
     scales = {e.id for e in state.data.stated_effects.catalogue if e.forms[0].names == _SCALES}
     of = [owner[base.column_of] for base in state.spec.base]
-    robot_gains = {
-        i: state.joint_names.index(j) for i, (effect, j) in enumerate(of) if effect in scales
-    }
+    scaled = [(i, joint) for i, (effect, joint) in enumerate(of) if effect in scales]
+    robot_gains = {i: state.joint_names.index(joint) for i, joint in scaled}
     grams = _compute_grams(state)
     size, every = len(state.beta), grams.shape[1] - 1
     fixed = np.zeros(every)
@@ -396,14 +377,9 @@ def has_friction(state: State, j: int) -> bool:
 
 def _list_friction_picks(state: State, j: int) -> list[int]:
     """Places of the picks that are friction of that joint without memory."""
-    return [
-        k
-        for k, pick in enumerate(state.picks)
-        if pick.effect.family == "friction"
-        and pick.is_local
-        and pick.form.internal_state is None
-        and pick.index == j
-    ]
+    local = [k for k, pick in enumerate(state.picks) if pick.is_local and pick.index == j]
+    friction = [k for k in local if state.picks[k].effect.family == "friction"]
+    return [k for k in friction if state.picks[k].form.internal_state is None]
 
 
 def compute_largest_friction(state: State, j: int) -> float:
@@ -421,41 +397,29 @@ def is_torque_computed(state: State) -> bool:
     present = {(p.effect, p.joint) for p in state.spec.standard}
     plain = [e for e in state.data.stated_effects.catalogue if e.id in PLAIN]
     moved = [j for j, joint in enumerate(state.spec.joints) if joint.actuated and state.y[j].size]
-    picks = [
-        Candidate(effect, effect.forms[0], name, j)
-        for j in moved
-        for effect in plain
-        if (effect.id, name := state.joint_names[j]) not in present
-    ]
+    pairs = [(j, state.joint_names[j], effect) for j in moved for effect in plain]
+    lacking = [(j, name, effect) for j, name, effect in pairs if (effect.id, name) not in present]
+    picks = [Candidate(effect, effect.forms[0], name, j) for j, name, effect in lacking]
     shown = [p for p in picks if is_visible(build_columns(state.rows, p))]
     full = build_state(state.data, [*state.picks, *shown], state.beta)
-    sizes = [
-        [
-            np.linalg.norm(x)
-            for x in (
-                _compute_friction(full, j, _list_friction_picks(full, j)),
-                y,
-                full.residual[j],
-            )
-        ]
-        for j in moved
-        if (y := state.y[j]).any() and (has_friction(full, j) or _list_friction_picks(full, j))
-    ]
+    sizes = []
+    for j in moved:
+        rubbing = _list_friction_picks(full, j)
+        if state.y[j].any() and (has_friction(full, j) or rubbing):
+            torques = _compute_friction(full, j, rubbing), state.y[j], full.residual[j]
+            sizes.append([np.linalg.norm(torque) for torque in torques])
     if not sizes:  # friction in loops is no column of one joint alone
         return False
     friction, torque, left = np.maximum(np.array(sizes).T, 1e-300)
-    return bool(
-        np.median(friction / torque) < THRESHOLDS.min_friction_share
-        and np.median(friction / left) < THRESHOLDS.min_friction_residual_ratio
-    )
+    low = np.median(friction / torque) < THRESHOLDS.min_friction_share
+    return bool(low and np.median(friction / left) < THRESHOLDS.min_friction_residual_ratio)
 
 
 def _compute_driving_torque(state: State, j: int, picks: Sequence[int]) -> float:
     """Rms of the friction torque of joint j where it drives, N m or N; with some of the picks."""
     direction = np.sign(state.rows.filter_samples(j, [s.v[:, j] for s in state.rows.signals]))
-    return float(
-        np.sqrt(np.mean(np.minimum(0.0, _compute_friction(state, j, picks) * direction) ** 2))
-    )
+    driving = np.minimum(0.0, _compute_friction(state, j, picks) * direction)
+    return float(np.sqrt(np.mean(driving**2)))
 
 
 def _find_friction_columns(state: State, j: int) -> list[int]:
@@ -494,10 +458,8 @@ def find_caveat(state: State, pick: Candidate, parameters: Mapping[str, float]) 
 
 def _check_friction_size(state: State, pick: Candidate, parameters: Mapping[str, float]) -> str:
     """A part of the friction that is larger than all of it."""
-    part, unit = (
-        parameters[pick.list_parameter_names()[0]],
-        "N m" if _is_revolute(state, pick) else "N",
-    )
+    part = parameters[pick.list_parameter_names()[0]]
+    unit = "N m" if _is_revolute(state, pick) else "N"
     whole = compute_largest_friction(state, pick.index)
     if part <= THRESHOLDS.max_friction_part * whole:
         return ""
@@ -512,9 +474,8 @@ def _check_rest_position(state: State, pick: Candidate, parameters: Mapping[str,
     """Far from its rest a spring is a constant torque, unless the model has one already."""
     having = {(p.effect, p.joint) for p in state.spec.standard}
     scale = state.joint_scales[pick.index]
-    if ("offset", pick.joint) in having or abs(
-        pick.nonlinear_parameters["q0"] - scale.middle
-    ) < 0.5 * scale.range:
+    near = abs(pick.nonlinear_parameters["q0"] - scale.middle) < 0.5 * scale.range
+    if ("offset", pick.joint) in having or near:
         return ""
     return f"its rest lies outside of all that joint {pick.joint} moves over: a constant torque"
 
@@ -527,22 +488,17 @@ def _check_body(state: State, pick: Candidate, parameters: Mapping[str, float]) 
     # a root of the information on its parameters, beside all else
     weighted = list(zip(state.rows.W, state.sigma, strict=True))
     columns = build_columns(state.rows, pick)
-    weighted_columns = np.vstack(
-        [to_dense(columns, j, len(w)) / s for j, (w, s) in enumerate(weighted)]
-    )
+    stacked = [to_dense(columns, j, len(w)) / s for j, (w, s) in enumerate(weighted)]
+    left = np.vstack(stacked)
     others = np.vstack([w[:, state.data.free_columns] / s for w, s in weighted])
-    left = (
-        weighted_columns - others @ np.linalg.lstsq(others, weighted_columns, rcond=None)[0]
-        if others.size
-        else weighted_columns
-    )
+    if others.size:
+        left = left - others @ np.linalg.lstsq(others, left, rcond=None)[0]
     root = np.asarray(np.linalg.qr(left, mode="r"))
     body_specs = list_body_parameters(pick, state.rows.signals[0])
     values = np.array([parameters[name] for name in list(parameters)[: len(body_specs)]])
     nearest = project_parameters(define_body(body_specs), values, root)
-    if nearest is None or nearest.distance < THRESHOLDS.max_body_misfit * float(
-        np.linalg.norm(root @ values)
-    ):
+    most = THRESHOLDS.max_body_misfit * float(np.linalg.norm(root @ values))
+    if nearest is None or nearest.distance < most:
         return ""
     return "no body has these inertial parameters: its pseudo-inertia would be negative"
 
@@ -582,25 +538,17 @@ def _check_lag(state: State, pick: Candidate, parameters: Mapping[str, float]) -
     def minimise_squares(lag: float) -> tuple[float, float]:
         every = share * tau / lag * np.geomspace(0.5, 2.0, 25)
         picks = ((replace(pick, nonlinear_parameters={"tau": float(x)}), x) for x in every)
-        return min(
-            (problem.compute_squares(lagged_pick, np.array([lag])), float(x))
-            for lagged_pick, x in picks
-        )
+        gain = np.array([lag])
+        return min((problem.compute_squares(lagged, gain), float(x)) for lagged, x in picks)
 
     (filtered, _), (late, half) = minimise_squares(1.0), minimise_squares(2.0)
-    if late < THRESHOLDS.max_equal_residual_ratio * filtered:
-        how = (
-            EITHER
-            if filtered < THRESHOLDS.max_equal_residual_ratio * late
-            else "describes it better"
-        )
+    ratio = THRESHOLDS.max_equal_residual_ratio
+    if late < ratio * filtered:
+        how = EITHER if filtered < ratio * late else "describes it better"
         return f"a pure delay of {2e3 * half:.2g} ms {how}"
-    if filtered > THRESHOLDS.max_equal_residual_ratio * problem.compute_squares(
-        pick, np.array([share])
-    ):
-        return (
-            f"a filter that only {format_percent(share)} of the torque passes describes it better"
-        )
+    if filtered > ratio * problem.compute_squares(pick, np.array([share])):
+        part = format_percent(share)
+        return f"a filter that only {part} of the torque passes describes it better"
     return ""
 
 
@@ -619,10 +567,8 @@ def find_gravity_confounders(start: State, candidates: Sequence[Candidate]) -> l
         columns = [c for c in build_all_columns(start.rows, joint_candidates) if is_visible(c)]
         if joint is None or not columns or _check_gravity_load(start, joint_candidates[0], {}):
             continue
-        if (
-            float(np.median(start.rank_columns(columns).visible_shares))
-            < THRESHOLDS.min_balance_share
-        ):
+        shares = start.rank_columns(columns).visible_shares
+        if float(np.median(shares)) < THRESHOLDS.min_balance_share:
             joints.append(joint)
     return joints
 
@@ -647,11 +593,8 @@ def _check_lever(state: State, pick: Candidate, parameters: Mapping[str, float])
     torque = column @ [parameters[name] for name in pick.list_parameter_names()]
     line = np.vander(state.rows.filter_samples(j, [s.q[:, j] for s in state.rows.signals]), 2)
     nonlinear_part = torque - line @ np.linalg.lstsq(line, torque, rcond=None)[0]
-    least = (
-        THRESHOLDS.min_variance_reduction
-        if state.data.prior and state.data.prior.has_bodies
-        else 1.0
-    )
+    bodies = state.data.prior is not None and state.data.prior.has_bodies
+    least = THRESHOLDS.min_variance_reduction if bodies else 1.0
     if np.mean(nonlinear_part**2) > least * np.mean(state.residual[j] ** 2):
         return ""
     return "over this stroke its torque is a straight line in q: another spring gives it too"
@@ -663,10 +606,8 @@ def _check_oscillator(state: State, pick: Candidate, parameters: Mapping[str, fl
     inertia = state.data.compiled.inertia_matrix(q, state.reference.link_parameters)
     link_inertia = float(np.median(inertia[:, pick.index, pick.index]))
     rings = 1.0 / max(compliance * (2.0 * np.pi * parameters["f"]) ** 2, 1e-300)
-    if (
-        link_inertia <= 0.0
-        or max(rings / link_inertia, link_inertia / rings) < THRESHOLDS.max_inertia_ratio
-    ):
+    most = THRESHOLDS.max_inertia_ratio
+    if link_inertia <= 0.0 or max(rings / link_inertia, link_inertia / rings) < most:
         return ""
     unit = "kg m2" if _is_revolute(state, pick) else "kg"
     return (

@@ -79,16 +79,14 @@ class ProfileProblem:
     def __init__(self, state: State, pick: Candidate, effect_columns: slice | list[int]) -> None:
         self.rows, self.observation = state.rows, state.data.observation
         self.scale, self.y, self.sigma = state.joint_scales[pick.scale_index], state.y, state.sigma
-        *self.others, self.prior = (
-            np.delete(w, effect_columns, axis=1) for w in (*state.W, state.prior)
-        )
+        every = (np.delete(w, effect_columns, axis=1) for w in (*state.W, state.prior))
+        *self.others, self.prior = every
 
     @cached_property
     def weighted_base(self) -> tuple[tuple[np.ndarray, ...], np.ndarray]:
         """Returns orthonormal weighted columns of all else by joint, and the transform (c, r)."""
-        turn = compute_joint_whitening(
-            [*self.others, self.prior[:, :-1]], np.append(self.sigma, 1.0)
-        )
+        blocks, sigma = [*self.others, self.prior[:, :-1]], np.append(self.sigma, 1.0)
+        turn = compute_joint_whitening(blocks, sigma)
         every = zip(self.others, self.sigma, strict=True)
         return tuple(w @ (turn / s) for w, s in every), turn
 
@@ -120,29 +118,22 @@ class ProfileProblem:
         values = inverse @ h
         others = self.weighted_base[1] @ (u - T @ values)
         deviations = np.sqrt(np.maximum(np.diag(inverse), 0.0))
-        return ProfilePoint(
-            dict(candidate.nonlinear_parameters),
-            left - float(h @ values),
-            values,
-            deviations,
-            others,
-        )
+        parameters, squares = dict(candidate.nonlinear_parameters), left - float(h @ values)
+        return ProfilePoint(parameters, squares, values, deviations, others)
 
     def compute_squares(self, candidate: Candidate, values: np.ndarray) -> float:
         """Computes S with these parameters and values (k,) of the effect; all else is fitted."""
         torque = self.compute_residual_columns(candidate) @ values
-        return self.weighted_target[2] + float(
-            torque @ torque - 2.0 * torque @ np.concatenate(self.weighted_target[0])
-        )
+        scaled, _, left = self.weighted_target
+        return left + float(torque @ torque - 2.0 * torque @ np.concatenate(scaled))
 
     def compute_residual_columns(self, candidate: Candidate) -> np.ndarray:
         """Computes what all else leaves of the columns over sigma, (rows of all joints, k)."""
         columns = self.rows.build_columns(candidate)
         joint_columns = [to_dense(columns, j, len(t)) / self.sigma[j] for j, t in enumerate(self.y)]
         T = sum(q.T @ c for q, c in zip(self.weighted_base[0], joint_columns, strict=True))
-        return np.concatenate(
-            [c - q @ T for q, c in zip(self.weighted_base[0], joint_columns, strict=True)]
-        )
+        pairs = zip(self.weighted_base[0], joint_columns, strict=True)
+        return np.concatenate([c - q @ T for q, c in pairs])
 
 
 @dataclass(frozen=True, eq=False)
@@ -175,9 +166,8 @@ class Profile:
     @cached_property
     def likelihood_share(self) -> np.ndarray:
         """Returns the shares of the likelihood, (points,), which sum to one."""
-        weight = np.array([point.weight for point in self.points]) * np.exp(
-            -0.5 * self.squares_rise
-        )
+        weight = np.array([point.weight for point in self.points])
+        weight = weight * np.exp(-0.5 * self.squares_rise)
         weight = np.where(self.squares_rise < THRESHOLDS.max_rise, weight, 0.0)
         return np.asarray(weight / weight.sum())
 
@@ -205,27 +195,18 @@ class Profile:
 
     def compute_nonlinear_deviations(self) -> dict[str, float]:
         """Computes standard deviations of the nonlinear parameters by name."""
-        return {
-            name: float(
-                np.sqrt(
-                    self.likelihood_share
-                    @ [(p.nonlinear_parameters[name] - value) ** 2 for p in self.points]
-                )
-            )
-            for name, value in self.reported_point.nonlinear_parameters.items()
-        }
+        deviations = {}
+        for name, value in self.reported_point.nonlinear_parameters.items():
+            squares = [(p.nonlinear_parameters[name] - value) ** 2 for p in self.points]
+            deviations[name] = float(np.sqrt(self.likelihood_share @ squares))
+        return deviations
 
     def compute_nonlinear_intervals(self) -> dict[str, tuple[float, float]]:
         """Computes 95 % intervals of the nonlinear parameters by name."""
-        allowed = [
-            p
-            for p, rise in zip(self.points, self.squares_rise, strict=True)
-            if rise < THRESHOLDS.chi2_95
-        ]
-        values_by_name = {
-            n: [p.nonlinear_parameters[n] for p in (self.reported_point, *allowed)]
-            for n in self.reported_point.nonlinear_parameters
-        }
+        pairs = zip(self.points, self.squares_rise, strict=True)
+        allowed = [point for point, rise in pairs if rise < THRESHOLDS.chi2_95]
+        sets = [point.nonlinear_parameters for point in (self.reported_point, *allowed)]
+        values_by_name = {name: [values[name] for values in sets] for name in sets[0]}
         return {name: (min(values), max(values)) for name, values in values_by_name.items()}
 
     def compute_extra_covariance(self) -> np.ndarray:
@@ -247,13 +228,10 @@ def compute_profile(
     """
     problem = ProfileProblem(state, candidate, effect_columns)
     smooth = [shape for shape in candidate.form.nonlinear_parameters if candidate.can_refine(shape)]
-    fixed = {  # shapes of which only some values make sense
-        shape.name: shape.grid
-        for shape in candidate.form.nonlinear_parameters
-        if shape not in smooth
-        and len(shape.grid) > 1
-        and candidate.nonlinear_parameters[shape.name] in shape.grid
-    }
+    values = candidate.nonlinear_parameters  # of the others only some values make sense
+    others = [shape for shape in candidate.form.nonlinear_parameters if shape not in smooth]
+    others = [s for s in others if len(s.grid) > 1 and values[s.name] in s.grid]
+    fixed = {shape.name: shape.grid for shape in others}
     first = problem.fit_candidate(candidate)
     if first is None or not (smooth or fixed):
         return None
@@ -271,10 +249,8 @@ def compute_profile(
 
 def _is_possible(candidate: Candidate, point: ProfilePoint) -> bool:
     """False where physics forbids the sign of a value."""
-    return all(
-        value >= 0.0 or not column.nonnegative
-        for value, column in zip(point.values, candidate.form.columns, strict=False)
-    )
+    pairs = zip(point.values, candidate.form.columns, strict=False)
+    return all(value >= 0.0 or not column.nonnegative for value, column in pairs)
 
 
 def _scan_nonlinear(
@@ -285,9 +261,11 @@ def _scan_nonlinear(
         return [point for point in [problem.fit_candidate(start)] if point is not None]
     lines = [_build_line(problem.scale, start, shape) for shape in smooth]
     if len(smooth) == 1:
-        return _refine_line(
-            lambda x: problem.fit_candidate(start.set_parameters(smooth, [x])), lines[0], least
-        )
+
+        def fit(x: float) -> ProfilePoint | None:
+            return problem.fit_candidate(start.set_parameters(smooth, [x]))
+
+        return _refine_line(fit, lines[0], least)
     return _scan_grid(problem, start, smooth, lines)
 
 
@@ -295,11 +273,8 @@ def _build_line(scale: JointScale, start: Candidate, shape: NonlinearParameter) 
     """Coded values of one shape to begin with, ascending; the told one among them."""
     coded_value = encode_parameter(shape, start.nonlinear_parameters[shape.name])
     if shape.scale == "waves":
-        near = coded_value + np.pi / scale.range * np.linspace(
-            -THRESHOLDS.neighbouring_orders,
-            THRESHOLDS.neighbouring_orders,
-            4 * THRESHOLDS.neighbouring_orders + 1,
-        )
+        count = THRESHOLDS.neighbouring_orders
+        near = coded_value + np.pi / scale.range * np.linspace(-count, count, 4 * count + 1)
         return [float(m) for m in near if m > 0.0]
     low, high, *inner = (
         encode_parameter(shape, scale.scale_value(shape, entry))
@@ -323,11 +298,8 @@ def _refine_line(
         biggest = int(np.argmax(cells))
         ends = x[biggest], x[biggest + 1]
         middle = 0.5 * (ends[0] + ends[1])
-        if (
-            not cells[biggest] > 0.0
-            or cells[biggest] < THRESHOLDS.max_cell_share * cells.sum()
-            or middle in ends
-        ):
+        small = cells[biggest] < THRESHOLDS.max_cell_share * cells.sum()
+        if not cells[biggest] > 0.0 or small or middle in ends:
             break
         points_by_value[middle] = at(middle)
     x = np.array(sorted(points_by_value))
