@@ -90,9 +90,8 @@ def _rebuild_candidate(model: IdentifiedModel, step: Addition) -> Candidate | No
     effect = find_effect(step.effect, read_catalogue(model))
     if effect is None or effect.acts is not EffectTarget.JOINT or not step.shapes:
         return None
-    forms = [
-        f for f in effect.forms if {s.name for s in f.nonlinear_parameters} == set(step.shapes)
-    ]
+    names = [({shape.name for shape in f.nonlinear_parameters}, f) for f in effect.forms]
+    forms = [form for shapes, form in names if shapes == set(step.shapes)]
     names = [joint.name for joint in model.spec.joints]
     if not forms or step.joint not in names:
         return None
@@ -109,9 +108,8 @@ def _find_effect_columns(model: IdentifiedModel, state: State, pick: Candidate) 
     if joint_columns is None or len(free) < joint_columns.shape[1]:
         return []
     base = state.rows.W[pick.index][:, free]
-    alike = (joint_columns / compute_column_norms(joint_columns)).T @ (
-        base / compute_column_norms(base)
-    )
+    left, right = (x / compute_column_norms(x) for x in (joint_columns, base))
+    alike = left.T @ right
     return [free[i] for i in linear_sum_assignment(-np.abs(alike))[1]]
 
 
@@ -172,13 +170,11 @@ def insert_candidate(
         return text
     if effect.acts is EffectTarget.MOTOR:
         text = _insert_coupling(text, pick, reference)
-    changed = insert_effect(
-        text, effect.id, pick.joint, _collect_nonlinear_parameters(pick, reference)
-    )
+    values = _collect_nonlinear_parameters(pick, reference)
+    changed = insert_effect(text, effect.id, pick.joint, values)
     names = frozenset().union(*(form.names for form in effect.forms))
-    depends = effect.acts is EffectTarget.POSITION or not names.isdisjoint(
-        {"load", "static", "torque"}
-    )
+    depends = not names.isdisjoint({"load", "static", "torque"})
+    depends = depends or effect.acts is EffectTarget.POSITION
     return replace_reference(changed, _build_reference(reference)) if depends else changed
 
 
@@ -215,11 +211,8 @@ def _build_reference(reference: SignalReference) -> dict[str, float]:
     """Standard parameters with the torques of the model: each base parameter in its own column."""
     known = ("rigid_body", "rotor_inertia", "viscous", "coulomb", "offset")
     effects = {p.name: p.effect for p in reference.compiled.spec.standard}
-    return {
-        base.column_of: float(f"{value:.9g}")
-        for base, value in zip(reference.compiled.spec.base, reference.beta, strict=True)
-        if effects[base.column_of] in known
-    }
+    pairs = zip((b.column_of for b in reference.compiled.spec.base), reference.beta, strict=True)
+    return {name: float(f"{value:.9g}") for name, value in pairs if effects[name] in known}
 
 
 def insert_law(
@@ -242,12 +235,7 @@ def insert_law(
         "columns": {prefix: learned.coordinates.equation},
         "unit": state.spec.joints[j].effort_unit.replace(" ", "*"),
         **learned.coordinates.further,
-        "law": {
-            "low": list(law.low),
-            "high": list(law.high),
-            "cells": list(law.cells),
-            "values": list(law.values),
-        },
+        "law": {name: list(getattr(law, name)) for name in ("low", "high", "cells", "values")},
     }
     text = insert_own_effect(text, name, definition)
     effect = find_effect(name, parse_robot_text(text, "robot with a law").catalogue)
@@ -295,11 +283,8 @@ def describe_last_addition(model: IdentifiedModel) -> list[str]:
         for p in _find_parameters(model, last)
     ]
     if lines and last.shapes:
-        units, sigmas, ends = (
-            _format_nonlinear_units(model, last),
-            last.shape_sigmas,
-            last.shape_intervals,
-        )
+        units, sigmas = _format_nonlinear_units(model, last), last.shape_sigmas
+        ends = last.shape_intervals
         texts = [
             f"{k} = {v:.4g}{format_spread(v, sigmas.get(k, 0.0), ends.get(k))}{units.get(k, '')}"
             for k, v in last.shapes.items()
@@ -307,22 +292,18 @@ def describe_last_addition(model: IdentifiedModel) -> list[str]:
         lines.append("with " + ", ".join(texts))
     if last.moved:
         order = sorted(last.moved, key=lambda name: -last.moved[name])
-        shifts = [
-            f"{name} {last.moved[name]:.2g}" for name in order[: THRESHOLDS.max_listed_shifts]
-        ]
-        if len(order) > THRESHOLDS.max_listed_shifts:
-            shifts.append(
-                f"all others less than {last.moved[order[THRESHOLDS.max_listed_shifts - 1]]:.2g}"
-            )
+        count = THRESHOLDS.max_listed_shifts
+        shifts = [f"{name} {last.moved[name]:.2g}" for name in order[:count]]
+        if len(order) > count:
+            shifts.append(f"all others less than {last.moved[order[count - 1]]:.2g}")
         lines.append(f"moved by it, in their sigmas: {', '.join(shifts)}")
     return lines
 
 
 def _find_parameters(model: IdentifiedModel, step: Addition) -> list[ParameterEstimate]:
     """Base parameters that are an effect's own."""
-    standard_names = {
-        p.name for p in model.spec.standard if (p.effect, p.joint) == (step.effect, step.joint)
-    }
+    key = step.effect, step.joint
+    standard_names = {p.name for p in model.spec.standard if (p.effect, p.joint) == key}
     base = {b.name for b in model.spec.base if b.column_of in standard_names}
     return [p for p in model.fit.parameters if p.name in base]
 
@@ -357,9 +338,8 @@ def describe_additions(model: IdentifiedModel, since: int = -1) -> list[str]:
         assert effect is not None
         name = f"{effect.id}, {format_location(step.joint)}"
         usual = effect.forms[0]
-        if "T" in usual.names and {shape.name for shape in usual.nonlinear_parameters} != set(
-            step.shapes
-        ):
+        shapes = {shape.name for shape in usual.nonlinear_parameters}
+        if "T" in usual.names and shapes != set(step.shapes):
             lines.append(
                 f"{name}: the logs have no column temperature{step.joint} or temperature, so the "
                 "time since their start stands for it; log it to know more"
@@ -418,9 +398,7 @@ class LogRows:
     def rebuild_for(self, compiled: CompiledModel) -> "LogRows":
         """Returns the rows of the same robot with other effects; nothing is filtered again."""
         if find_shafts(compiled) == find_shafts(self.compiled):
-            seen = tuple(
-                rebuild_observation(compiled, observation) for observation in self.observations
-            )
+            seen = tuple(rebuild_observation(compiled, x) for x in self.observations)
             return replace(self, compiled=compiled, observations=seen)
         return _observe_rows(compiled, self.logs, self.prepared)
 
@@ -444,9 +422,8 @@ def _observe_rows(
     compiled: CompiledModel, logs: LogSplit, prepared: tuple[PreparedLogs, ...]
 ) -> LogRows:
     pairs = zip(logs.log_sets, prepared, strict=True)
-    return LogRows(
-        logs, compiled, prepared, tuple(build_observation(compiled, *pair) for pair in pairs)
-    )
+    observations = tuple(build_observation(compiled, *pair) for pair in pairs)
+    return LogRows(logs, compiled, prepared, observations)
 
 
 def compute_residuals(
@@ -454,9 +431,8 @@ def compute_residuals(
 ) -> Residuals:
     """Computes the residuals of the model on logs."""
     left = observation.torque - compute_model_torque(observation, compiled, model.beta)
-    return _build_residuals(
-        observation, [left[used_rows, j] for j, used_rows in enumerate(observation.used.T)]
-    )
+    parts = [left[used, j] for j, used in enumerate(observation.used.T)]
+    return _build_residuals(observation, parts)
 
 
 def cross_validate_residuals(
@@ -481,9 +457,8 @@ def cross_validate_residuals(
         known = prior.extend_rows(np.linalg.norm(weighted, axis=0))
     number = [blocks.number[used_rows] for used_rows in used]
     base = build_gram_blocks(W, y, sigma, number, blocks.fold, prior=known)
-    return _build_residuals(
-        observation, [s * e for s, e in zip(sigma, base.out_of_fold, strict=True)]
-    )
+    parts = [s * e for s, e in zip(sigma, base.out_of_fold, strict=True)]
+    return _build_residuals(observation, parts)
 
 
 def _build_residuals(observation: Observation, left: list[np.ndarray]) -> Residuals:

@@ -109,12 +109,9 @@ def diagnose(
     observation = analyse_logs(compiled, logs, model.processing, prepared=prepared, repair=repair)
     del prepared
     faults = find_faults(model, compiled, observation)
-    observation = thin_samples(
-        observation, compiled
-    )  # all samples, and all columns of a log, are there but once
-    data = SearchData(
-        compiled, observation, find_fixed_parameters(model, compiled, logs, observation), known
-    )
+    observation = thin_samples(observation, compiled)  # all samples are in memory but once
+    fixed = find_fixed_parameters(model, compiled, logs, observation)
+    data = SearchData(compiled, observation, fixed, known)
     if (fewer := exclude_friction(data, model.beta)) is not None:
         data = replace(data, stated_effects=fewer)
     other = None
@@ -132,25 +129,22 @@ def diagnose(
     ) -> Search:
         stages.begin_stage(_SEARCHED)
         most = limit - len(named_steps) if limit else 0
-        return search_effects(
-            data, model.beta, without, most, make_veto(other), stages.advance, named_steps
-        )
+        veto = make_veto(other)
+        return search_effects(data, model.beta, without, most, veto, stages.advance, named_steps)
 
     def search_bands() -> list[BandSearch]:
         """Searches the band of the diagnosis, then a wider one with all that is named."""
         made: list[BandSearch] = []
         far = beyond if beyond is not None and get_cutoff(beyond) > get_cutoff(data) else None
-        for band_data, held in (
-            (data, other),
-            (far, None if far is None else _prepare_holdout(far, holdout)),
-        ):
+        far_held_out = None if far is None else _prepare_holdout(far, holdout)
+        for band_data, held in ((data, other), (far, far_held_out)):
             if band_data is None:
                 continue
             band_search = run_search(band_data, held, made[0].named_steps if made else ())
             second = data if made else beyond
-            check_data = (
-                [] if held is None else [CrossCheckData("in the held-out logs", held, False)]
-            )
+            check_data = list[CrossCheckData]()
+            if held is not None:
+                check_data.append(CrossCheckData("in the held-out logs", held, False))
             if second is not None:
                 check_data.append(CrossCheckData(f"up to {get_cutoff(second):.2g} Hz", second))
             checks = cross_check_effects(band_search, check_data, stages.advance)
@@ -163,11 +157,8 @@ def diagnose(
         data, other = aligned, _prepare_holdout(aligned, holdout)
         beyond = _find_other_band(data, model, repair)
         band_searches = search_bands()
-    may_push = [
-        e
-        for e in data.stated_effects.catalogue
-        if e.acts is EffectTarget.WINDOW and e.id not in without
-    ]
+    pushes = [e for e in data.stated_effects.catalogue if e.acts is EffectTarget.WINDOW]
+    may_push = [effect for effect in pushes if effect.id not in without]
     window = _detect_push(band_searches[-1].search) if may_push else None
     if window is not None:
         data = _mask_window(data, window)
@@ -176,16 +167,14 @@ def diagnose(
     stages.begin_stage(_NAMED if equations else 1.0)
     changed_parameters = tuple[ParameterChange, ...]()
     if other is not None and limit:
-        changed_parameters = find_changed_parameters(
-            model, band_searches[0].search, other, band_searches[0].held_out_residuals[-1], holdout
-        )
+        first, left = band_searches[0].search, band_searches[0].held_out_residuals[-1]
+        changed_parameters = find_changed_parameters(model, first, other, left, holdout)
     diagnosis = assemble_diagnosis(model, band_searches, window, faults, changed_parameters)
     if equations and limit:
         stages.begin_stage(1.0)
         facts = [(f.effect, f.joint) for f in diagnosis.effects if f.status == "fact"]
-        discoveries = discover_equations(
-            band_searches[0].search, facts, band_searches[0].other, stages.advance
-        )
+        band = band_searches[0]
+        discoveries = discover_equations(band.search, facts, band.other, stages.advance)
         diagnosis = replace(diagnosis, discoveries=discoveries)
     if progress is not None:
         progress(1.0)
@@ -204,9 +193,8 @@ def _find_other_band(
         prepared = choose_band(data.compiled, repair.logs, model.processing, band, repair=repair)
         other = prepared.processing.parallel_cutoff or 0.0
         if max(other / get_cutoff(data), get_cutoff(data) / other) > THRESHOLDS.min_cutoff_ratio:
-            observation = thin_samples(
-                observe_logs(data.compiled, repair.logs, prepared), data.compiled
-            )
+            observation = observe_logs(data.compiled, repair.logs, prepared)
+            observation = thin_samples(observation, data.compiled)
             return replace(data, observation=observation)
     return None
 
@@ -240,11 +228,9 @@ def _align_logger_delay(
 ) -> SearchData | None:
     """The data without a delay that is a convention of the logger; None if there is none."""
     delays = [j for j in search.ranked if j.candidate.is_delay and not j.is_confirmed]
-    shift = (
-        estimate_logger_shift(search.start, delays[0].candidate, delays[0].values)
-        if delays
-        else 0.0
-    )
+    if not delays:
+        return None
+    shift = estimate_logger_shift(search.start, delays[0].candidate, delays[0].values)
     if shift == 0.0:
         return None
     processing = replace(model.processing, delay=model.processing.delay + shift)
@@ -284,10 +270,8 @@ def find_fixed_parameters(
         return None
     free = build_state(SearchData(compiled, observation), (), model.beta)
     fitted = float(free.rank_columns([]).before.sum())
-    fixed_cost = sum(
-        float(np.sum(((y - w @ model.beta) / s) ** 2))
-        for y, w, s in zip(free.rows.y, free.rows.W, free.sigma, strict=True)
-    )
+    rows = zip(free.rows.y, free.rows.W, free.sigma, strict=True)
+    fixed_cost = sum(float(np.sum(((y - w @ model.beta) / s) ** 2)) for y, w, s in rows)
     return model.beta if fixed_cost > THRESHOLDS.min_refit_variance_ratio * fitted else None
 
 
@@ -295,10 +279,8 @@ def _detect_push(search: Search) -> PushWindow | None:
     """When something pushed; with its first part left out of the fit, more of it may show."""
     end, data = search.end, search.start.data
     # a gear may have so much play that one of its knocks looks like a push
-    rattles = any(
-        compute_burst_ratio(end, j) > THRESHOLDS.min_burst_ratio
-        for j in range(end.rows.joint_count)
-    )
+    most, joints = THRESHOLDS.min_burst_ratio, range(end.rows.joint_count)
+    rattles = any(compute_burst_ratio(end, j) > most for j in joints)
     window = more = None if rattles or not search.last.ranked else find_contact_window(end)
     if window is None:
         return None
@@ -306,17 +288,15 @@ def _detect_push(search: Search) -> PushWindow | None:
         window = more
         later = find_contact_window(build_state(_mask_window(data, window), end.picks, end.beta))
         more = window.merge_part(later) if later is not None else None
-    return fit_push_torque(
-        window, build_state(_mask_window(data, window), end.picks, end.beta), data
-    )
+    masked = build_state(_mask_window(data, window), end.picks, end.beta)
+    return fit_push_torque(window, masked, data)
 
 
 def _mask_window(data: SearchData, window: PushWindow) -> SearchData:
     """The data without the rows of a window, and a little around it."""
     observation = data.observation
-    hit = (observation.run == window.log) & (
-        observation.time > window.start - THRESHOLDS.push_margin
-    )
+    first = window.start - THRESHOLDS.push_margin
+    hit = (observation.run == window.log) & (observation.time > first)
     hit &= observation.time < window.end + THRESHOLDS.push_margin
     rest = observation.select_rows(observation.used & ~hit[:, None])
     return replace(data, observation=rest)

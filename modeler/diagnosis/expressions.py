@@ -48,11 +48,8 @@ class Factor(ShortRepr):
     def lag_text(self) -> str:
         """Returns what z follows; empty without a lag."""
         memory = self.effect.forms[0].internal_state
-        return (
-            memory.lagged_input.text
-            if memory is not None and memory.lagged_input is not None
-            else ""
-        )
+        source = None if memory is None else memory.lagged_input
+        return "" if source is None else source.text
 
     @property
     def has_memory(self) -> bool:
@@ -61,9 +58,7 @@ class Factor(ShortRepr):
 
     def compute_step_sizes(self) -> list[float]:
         """Computes a large change of each of its parameters."""
-        return [
-            self._compute_step_size(shape) for shape in self.effect.forms[0].nonlinear_parameters
-        ]
+        return list(map(self._compute_step_size, self.effect.forms[0].nonlinear_parameters))
 
     def _compute_step_size(self, shape: NonlinearParameter) -> float:
         if shape.scale == "waves":
@@ -110,11 +105,8 @@ class Formula(ShortRepr):
     @cached_property
     def nonlinear_parameters(self) -> dict[str, float]:
         """Returns values by their names in it."""
-        return {
-            names[key]: value
-            for part, names in self.named_factors
-            for key, value in part.nonlinear_parameters.items()
-        }
+        pairs = ((names, part.nonlinear_parameters) for part, names in self.named_factors)
+        return {names[key]: value for names, values in pairs for key, value in values.items()}
 
     @cached_property
     def equations(self) -> list[str]:
@@ -149,12 +141,8 @@ class Formula(ShortRepr):
     def symbol_count(self) -> int:
         """Counts names, numbers and free numbers, which have a price."""
         texts = [*self.equations, *([self.lag_text] if self.lag_text else [])]
-        texts += [
-            key
-            for part, _ in self.named_factors
-            if part.has_memory
-            for key in part.nonlinear_parameters
-        ]
+        for part, _ in self.named_factors:
+            texts += part.nonlinear_parameters if part.has_memory else ()
         return len(self.nonlinear_parameters) + sum(map(count_symbols, texts))
 
     @property
@@ -234,29 +222,20 @@ def list_factors(
         others = name.startswith("other_")
         for k in [k for k in joints if k != j] if others else [j]:
             entry = _assign_joint(table, joints[k]) if others else table
-            factor = read_definition(
-                name, TomlCell(file.name, name, entry), {}, False, [*joints.values()]
-            )
+            cell = TomlCell(file.name, name, entry)
+            factor = read_definition(name, cell, {}, False, [*joints.values()])
             (form, *_), scale = factor.forms, scales[k]
             read = form.names
-            loops = spec.closure is not None and (
-                not read <= _SPEEDS or form.internal_state is not None
-            )
+            more = not read <= _SPEEDS or form.internal_state is not None
+            loops = spec.closure is not None and more
             if loops or (factor.turns and not scale.angular) or ("T" in read and not warm):
                 continue
-            grids = [
-                [scale_entry(scale, shape, x) for x in shape.grid] or waves
-                for shape in form.nonlinear_parameters
-            ]
+            shapes = form.nonlinear_parameters
+            grids = [[scale_entry(scale, s, x) for x in s.grid] or waves for s in shapes]
             values = itertools.product(*grids)
-            yield [
-                Factor(
-                    factor,
-                    scale,
-                    dict(zip((s.name for s in form.nonlinear_parameters), entry, strict=True)),
-                )
-                for entry in values
-            ]
+            names = [shape.name for shape in shapes]
+            named = (dict(zip(names, value, strict=True)) for value in values)
+            yield [Factor(factor, scale, value) for value in named]
 
 
 def _assign_joint(table: Mapping[str, Any], name: str) -> dict[str, Any]:
@@ -299,23 +278,21 @@ def derive_parameter_unit(
     for joint in spec.joints:
         joint_unit = "m" if joint.unit == "m" else "rad"
         units |= {f"q{joint.name}": joint_unit, f"v{joint.name}": f"{joint_unit}/s"}
-    values = {name: 0.7 + 0.01 * i for i, name in enumerate([*units, "z"])} | dict(
-        candidate.nonlinear_parameters
-    )
+    values = {name: 0.7 + 0.01 * i for i, name in enumerate([*units, "z"])}
+    values |= candidate.nonlinear_parameters
     exponents = parse_unit(effort)
     for unit in _UNITS:
         sizes = []
         for scale in (1.0, THRESHOLDS.unit_scale):
-            now = {
-                name: value * scale ** _find_exponent(units.get(name, "1"), unit, equation.text)
-                for name, value in values.items()
-            }
+            now = {}
+            for name, value in values.items():
+                exponent = _find_exponent(units.get(name, "1"), unit, equation.text)
+                now[name] = value * scale**exponent
             if memory is not None and memory.lagged_input is not None:
                 now["z"] = memory.lagged_input.evaluate(now)
             sizes.append(equation.evaluate(now))
-        exponents[unit] = exponents.get(unit, 0.0) - math.log(sizes[1] / sizes[0]) / math.log(
-            THRESHOLDS.unit_scale
-        )
+        exponent = math.log(sizes[1] / sizes[0]) / math.log(THRESHOLDS.unit_scale)
+        exponents[unit] = exponents.get(unit, 0.0) - exponent
     every = {unit: round(power, THRESHOLDS.exponent_digits) for unit, power in exponents.items()}
     above = [_format_power(unit, power) for unit, power in every.items() if power > 0.0]
     below = [_format_power(unit, -power) for unit, power in every.items() if power < 0.0]

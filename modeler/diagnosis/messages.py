@@ -44,12 +44,8 @@ def describe_data_problems(state: State) -> tuple[str, ...]:
     for j, joint in driven.items():
         lines += _check_joint_motion(state, j, joint)
     used_joints = {j: joint for j, joint in driven.items() if state.rows.y[j].size}
-    return (
-        *lines,
-        *_check_inertia_torque(state, used_joints),
-        *_check_chatter(state),
-        *_check_computed_torque(state),
-    )
+    lines += _check_inertia_torque(state, used_joints)
+    return (*lines, *_check_chatter(state), *_check_computed_torque(state))
 
 
 def _check_joint_motion(state: State, j: int, joint: JointSpec) -> list[str]:
@@ -97,9 +93,8 @@ def _check_inertia_torque(state: State, joints: Mapping[int, JointSpec]) -> list
     lines = []
     for j, joint in joints.items():
         moved = [s.load[:, j] - s.static[:, j] for s in state.rows.signals]
-        if _compute_rms(
-            state.rows.filter_samples(j, moved)
-        ) < THRESHOLDS.min_inertia_share * _compute_rms(state.rows.y[j]):
+        least = THRESHOLDS.min_inertia_share * _compute_rms(state.rows.y[j])
+        if _compute_rms(state.rows.filter_samples(j, moved)) < least:
             v = state.rows.filter_samples(j, [s.v[:, j] for s in state.rows.signals])
             top = float(np.max(np.abs(v), initial=0.0))
             lines.append(
@@ -123,11 +118,8 @@ def _check_computed_torque(state: State) -> list[str]:
 
 def _is_model_difference(effect: Effect) -> bool:
     """True for what the model that torques were computed by may have otherwise."""
-    whole = (
-        effect.acts in (EffectTarget.TORQUE, EffectTarget.GRAVITY, EffectTarget.LINK)
-        or effect.whole_axis
-    )
-    return whole or effect.id == "offset"
+    targets = (EffectTarget.TORQUE, EffectTarget.GRAVITY, EffectTarget.LINK)
+    return effect.acts in targets or effect.whole_axis or effect.id == "offset"
 
 
 def exclude_friction(data: SearchData, beta: np.ndarray) -> StatedEffects | None:
@@ -138,9 +130,7 @@ def exclude_friction(data: SearchData, beta: np.ndarray) -> StatedEffects | None
     """
     if not is_torque_computed(build_state(data, (), beta)):
         return None
-    effects = tuple(
-        effect for effect in data.stated_effects.catalogue if _is_model_difference(effect)
-    )
+    effects = tuple(filter(_is_model_difference, data.stated_effects.catalogue))
     return replace(data.stated_effects, catalogue=effects)
 
 
@@ -178,11 +168,8 @@ def collect_warnings(
         window: that was left out.
     """
     lines = [f.line for f in contradictions if f.is_certain or not _is_explained(search, f.joint)]
-    lines += (
-        []
-        if any(f.is_certain or " late" in f.line for f in contradictions)
-        else _check_position_delay(search)
-    )
+    if not any(f.is_certain or " late" in f.line for f in contradictions):
+        lines += _check_position_delay(search)
     if window is not None and window.change is None:
         log = search.start.data.observation.logs[window.log]
         lines.append(
@@ -190,10 +177,8 @@ def collect_warnings(
             f"{window.ratio:.0f} times the energy of any other window, and are no steady push: a "
             "shock, or a spike of the measurement; left out of everything"
         )
-    lines += [
-        *_describe_delay_shift(model, search.start.data),
-        *describe_data_problems(search.start),
-    ]
+    lines += _describe_delay_shift(model, search.start.data)
+    lines += describe_data_problems(search.start)
     lines += search.start.data.observation.report.collect_notes()
     if other is not None:
         lines += other.observation.report.collect_notes()
@@ -229,11 +214,8 @@ def _check_temperature(state: State, other: SearchData) -> list[str]:
     lines = []
     for k, log in enumerate(other.observation.logs):
         extra = [s.segment.extra for s in other.rows.signals if s.segment.run == k]
-        lacking = [
-            joint
-            for joint in known
-            if not all({f"temperature{joint}", "temperature"} & part.keys() for part in extra)
-        ]
+        names = {joint: {f"temperature{joint}", "temperature"} for joint in known}
+        lacking = [j for j, pair in names.items() if not all(pair & x.keys() for x in extra)]
         if lacking:
             lines.append(
                 f"held out: {log} has no temperature of joint {', '.join(lacking)}: taken as the "
@@ -247,11 +229,9 @@ def _check_reused_logs(model: IdentifiedModel, other: SearchData) -> list[str]:
     cost = "its errors there are too small"
     if other.fixed_parameters is None:
         cost = "here it is fitted to the other logs only"
-    return [
-        f"held out: the model was fitted to {log.name}; {cost}"
-        for log in other.observation.report.logs
-        if any(used.has_rows_of(log) for used in model.logs)
-    ]
+    logs = other.observation.report.logs
+    known = [log for log in logs if any(used.has_rows_of(log) for used in model.logs)]
+    return [f"held out: the model was fitted to {log.name}; {cost}" for log in known]
 
 
 def _check_position_delay(search: Search) -> list[str]:
@@ -270,32 +250,20 @@ def _check_position_delay(search: Search) -> list[str]:
         signals = rows.signals[stretch]
         return signals.compute_displacement_torque(j, signals.v[:, [j]], True, window)
 
-    columns = {
-        j: delay_columns
-        for j in driven
-        if is_visible(delay_columns := rows.filter_joints(partial(compute_delay_column, j)))
-    }
+    every = {j: rows.filter_joints(partial(compute_delay_column, j)) for j in driven}
+    columns = {j: column for j, column in every.items() if is_visible(column)}
     if not columns:
         return []
     ranking = state.rank_columns(list(columns.values()))
     drop = ranking.reductions.sum(axis=0)
     best = int(np.argmax(drop))
-    rivals = [
-        candidate_score.total_reduction
-        for candidate_score in search.last.ranked
-        if candidate_score.is_possible
-    ]
+    rivals = [score.total_reduction for score in search.last.ranked if score.is_possible]
     step = float(np.median([s.segment.logged_step for s in rows.signals]))
     late, joint = float(ranking.value[best][0]), state.joint_names[list(columns)[best]]
-    shown = drop[best] >= max(
-        THRESHOLDS.min_delay_share * float(ranking.before.sum()),
-        THRESHOLDS.min_delay_lead * max(rivals, default=0.0),
-    )
-    if (
-        not shown
-        or ranking.t_ratios[best] < THRESHOLDS.min_delay_t_ratio
-        or abs(late) < THRESHOLDS.max_logger_delay * step
-    ):
+    least = THRESHOLDS.min_delay_share * float(ranking.before.sum())
+    least = max(least, THRESHOLDS.min_delay_lead * max(rivals, default=0.0))
+    sure = ranking.t_ratios[best] >= THRESHOLDS.min_delay_t_ratio
+    if drop[best] < least or not sure or abs(late) < THRESHOLDS.max_logger_delay * step:
         return []
     return [
         f"joint {joint}: its position comes {1e3 * abs(late):.2g} ms too "
@@ -357,36 +325,26 @@ def describe_evidence(step: SearchStep, before: float, after: float) -> str:
         after: that with it.
     """
     candidate_score = step.score
-    text = (
-        f"{candidate_score.candidate.effect.title}: error "
-        f"{' -> '.join(format_error_pair(before, after))} on motion that was held out"
-    )
-    rivals = [
-        r
-        for r in step.alternatives
-        if r.is_possible and r.is_confirmed and r.candidate.key != candidate_score.candidate.key
-    ]
+    change = " -> ".join(format_error_pair(before, after))
+    text = f"{step.candidate.effect.title}: error {change} on motion that was held out"
+    rivals = [r for r in step.alternatives if r.is_possible and r.is_confirmed]
+    rivals = [r for r in rivals if r.key != step.candidate.key]
     if rivals and rivals[0].total_share > 0.0 and candidate_score.total_share > 0.0:
         other = rivals[0]
         share = other.total_share / candidate_score.total_share
-        text += (
-            f". Runner-up: {other.candidate.effect.title} "
-            f"({format_location(other.candidate.joint)}), which "
-            f"explains {format_percent(share)} of what it does within these logs"
-        )
+        name = f"{other.candidate.effect.title} ({format_location(other.candidate.joint)})"
+        part = f"explains {format_percent(share)} of what it does within these logs"
+        text += f". Runner-up: {name}, which {part}"
     return text
 
 
 def add_sentences(diagnosis: Diagnosis) -> Diagnosis:
     """Adds the sentences to the diagnosis."""
-    lines = [
-        _write_headline(diagnosis),
-        *(_describe_effect(f, diagnosis) for f in diagnosis.effects),
-    ]
+    lines = [_write_headline(diagnosis)]
+    lines += [_describe_effect(finding, diagnosis) for finding in diagnosis.effects]
     lines += [_describe_refinement(f, diagnosis) for f in diagnosis.refinements]
-    reported_joints = (
-        {} if diagnosis.contradicted or diagnosis.machine_changed else diagnosis.joints
-    )
+    void = diagnosis.contradicted or diagnosis.machine_changed
+    reported_joints = {} if void else diagnosis.joints
     lines += describe_rejected(diagnosis) if reported_joints else []
     for name, joint in reported_joints.items():
         if joint.is_unexplained:
@@ -419,43 +377,21 @@ def _list_changes(diagnosis: Diagnosis) -> list[str]:
 def describe_rejected(diagnosis: Diagnosis) -> list[str]:
     """Describes rejected effects that explain much, the best first."""
     search = diagnosis.search
-    timing = [
-        candidate_score
-        for candidate_score in search.last.ranked
-        if not candidate_score.is_confirmed
-        and Requirement.LAG not in candidate_score.candidate.effect.needs
-    ]
+    timing = [score for score in search.last.ranked if not score.is_confirmed]
+    timing = [s for s in timing if Requirement.LAG not in s.candidate.effect.needs]
     named = {(f.effect, f.joint) for f in (*diagnosis.effects, *diagnosis.refinements)}
     dropped_scores = [step.score for step in search.steps if step.candidate.key not in named]
     lines: dict[Key, tuple[float, str]] = {}
-    for refused, why in (
-        ((*search.vetoed_candidates, *dropped_scores), ""),
-        (timing, _ONLY_TIMING),
-    ):
-        for candidate_score in refused:
-            because = why or (
-                f"of the error, but {candidate_score.reason}"
-                if candidate_score.reason
-                else _ONLY_HERE
-            )
-            key = candidate_score.candidate.key
-            if (
-                key not in named
-                and candidate_score.variance_reduction
-                > lines.get(key, (THRESHOLDS.min_mentioned_gain, ""))[0]
-            ):
-                text = (
-                    f"not named: {candidate_score.candidate.effect.title} ({key[0]}), "
-                    f"{format_location(key[1])}, "
-                )
-                lines[key] = (
-                    candidate_score.variance_reduction,
-                    f"{text}explains {format_percent(candidate_score.variance_reduction)} "
-                    f"{because}",
-                )
-    return [
-        line for _, line in sorted(lines.values(), reverse=True)[: THRESHOLDS.max_listed_rejections]
-    ]
+    every = [(score, "") for score in (*search.vetoed_candidates, *dropped_scores)]
+    for score, why in [*every, *((score, _ONLY_TIMING) for score in timing)]:
+        reason = f"of the error, but {score.reason}" if score.reason else _ONLY_HERE
+        key, gain = score.candidate.key, score.variance_reduction
+        if key not in named and gain > lines.get(key, (THRESHOLDS.min_mentioned_gain, ""))[0]:
+            effect = f"{score.candidate.effect.title} ({key[0]}), {format_location(key[1])}"
+            explained = f"explains {format_percent(gain)} {why or reason}"
+            lines[key] = gain, f"not named: {effect}, {explained}"
+    ranked = sorted(lines.values(), reverse=True)
+    return [line for _, line in ranked[: THRESHOLDS.max_listed_rejections]]
 
 
 def _describe_bursts(diagnosis: Diagnosis, name: str) -> str:
@@ -492,9 +428,8 @@ def _write_headline(diagnosis: Diagnosis) -> str:
     if diagnosis.contradicted:
         return "cannot tell: channels of the logs contradict the model; mend them first"
     if diagnosis.verdict == "cannot tell":
-        unpredicted_joints = [
-            name for name, joint in diagnosis.joints.items() if joint.error_after > 1.0
-        ]
+        joints = diagnosis.joints.items()
+        unpredicted_joints = [name for name, joint in joints if joint.error_after > 1.0]
         if unpredicted_joints:
             return (
                 f"cannot tell: what is fitted to the logs says nothing of the held-out motion of "
@@ -509,25 +444,19 @@ def _write_headline(diagnosis: Diagnosis) -> str:
 
 def format_equivalents(finding: Finding) -> str:
     """Formats the effects that the data do not distinguish from it; empty without any."""
-    return ", ".join(
-        f"{effect} on {format_location(joint)}" for effect, joint in finding.equivalents
-    )
+    pairs = finding.equivalents
+    return ", ".join(f"{effect} on {format_location(joint)}" for effect, joint in pairs)
 
 
 def describe_equivalents(finding: Finding) -> str:
     """Describes these behind its name."""
-    return (
-        f", or {format_equivalents(finding)} (these data do not tell which)"
-        if finding.equivalents
-        else ""
-    )
+    names = format_equivalents(finding)
+    return f", or {names} (these data do not tell which)" if names else ""
 
 
 def _describe_refinement(finding: Finding, diagnosis: Diagnosis) -> str:
-    line = (
-        f"refinement on {format_location(finding.joint)}: {finding.effect}, gain "
-        f"{format_percent(finding.gain)}"
-    )
+    place, gain = format_location(finding.joint), format_percent(finding.gain)
+    line = f"refinement on {place}: {finding.effect}, gain {gain}"
     effect = _find_effect(finding.effect, diagnosis)
     first = next(iter(finding.parameters.values()), 0.0)
     return f"{line}: {effect.negative}" if effect.refines_model_term(first) else line
@@ -553,11 +482,8 @@ def _describe_effect(finding: Finding, diagnosis: Diagnosis) -> str:
     )
     if finding.closure is None:
         return f"{format_location(finding.joint)}: {finding.effect} ({values}): {finding.evidence}"
-    tail = (
-        f"; these data do not tell it from {format_equivalents(finding)}"
-        if finding.equivalents
-        else ""
-    )
+    names = format_equivalents(finding)
+    tail = f"; these data do not tell it from {names}" if names else ""
     for why in dict.fromkeys((finding.doubt, finding.objection)):
         tail += f"; {why}" if why else ""
     change = " -> ".join(format_error_pair(finding.error_before, finding.error_after))
@@ -585,9 +511,8 @@ def format_lines(diagnosis: Diagnosis) -> list[str]:
     """Formats verdict, findings, errors of all joints, and what the logs cannot show."""
     lines = list(diagnosis.sentences)
     source = "held-out" if diagnosis.held_out else "cross-validated"
-    entry = ", ".join(
-        f"joint {name} {format_percent(error)}" for name, error in diagnosis.errors.items()
-    )
+    pairs = diagnosis.errors.items()
+    entry = ", ".join(f"joint {name} {format_percent(error)}" for name, error in pairs)
     lines += ["", f"error of the model on these logs, up to {diagnosis.fit_band:.3g} Hz: {entry}"]
     lines.append(
         f"{'joint':<6}{'before':>9}{'with effects':>14}  ({source} error, up to "

@@ -67,19 +67,17 @@ class GramBlocks(ShortRepr):
         place = np.unique(self.fold, return_inverse=True)[1]
         count = int(place.max()) + 1
         u = leave_one_fold_out(self.u, place, count) + self.prior[:, -1]
-        inverse, beta = solve_grams(
-            leave_one_fold_out(self.G, place, count) + self.prior[:, :-1], u
-        )
+        G = leave_one_fold_out(self.G, place, count) + self.prior[:, :-1]
+        inverse, beta = solve_grams(G, u)
         return FoldFits(place, inverse, beta)
 
     @cached_property
     def out_of_fold(self) -> tuple[np.ndarray, ...]:
         """Computes weighted cross-validated residuals, (rows_j,) by joint."""
         fits = self.fold_fits
-        return tuple(
-            y - np.einsum("ij,ij->i", columns, fits.beta[fits.fold_index[block]])
-            for columns, y, block in zip(self.whitened_columns, self.y, self.block, strict=True)
-        )
+        betas = (fits.beta[fits.fold_index[block]] for block in self.block)
+        rows = zip(self.y, self.whitened_columns, betas, strict=True)
+        return tuple(y - np.einsum("ij,ij->i", columns, beta) for y, columns, beta in rows)
 
 
 class WhitenedColumns:
@@ -128,11 +126,8 @@ def leave_one_fold_out(values: np.ndarray, place: np.ndarray, count: int) -> np.
 
 def solve_grams(G: np.ndarray, u: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """Computes inverses (F, r, r) of Gram matrices of the base, and parameters (F, r)."""
-    inverse = (
-        np.linalg.inv(G + THRESHOLDS.gram_ridge * np.eye(G.shape[1]))
-        if G.shape[1]
-        else np.zeros_like(G)
-    )
+    ridge = THRESHOLDS.gram_ridge * np.eye(G.shape[1])
+    inverse = np.linalg.inv(G + ridge) if G.shape[1] else np.zeros_like(G)
     return inverse, np.einsum("frs,fs->fr", inverse, u)
 
 
@@ -160,10 +155,8 @@ def build_gram_blocks(
     if whitener is None:
         whitener = compute_joint_whitening([*W, prior[:, :-1]], np.append(sigma, 1.0))
     target = tuple(t / s for t, s in zip(y, sigma, strict=True))
-    G, u = (
-        np.zeros((len(fold), *whitener.shape[1:] * 2)),
-        np.zeros((len(fold), whitener.shape[1])),
-    )
+    r = whitener.shape[1]
+    G, u = np.zeros((len(fold), r, r)), np.zeros((len(fold), r))
     known = np.column_stack([prior[:, :-1] @ whitener, prior[:, -1]])
     known = known[:, :-1].T @ known
     source = WhitenedColumns(W, whitener, sigma)
@@ -232,27 +225,17 @@ def build_batch(base: GramBlocks, every: Sequence[Columns]) -> CandidateBatch:
     first = np.cumsum(sizes) - sizes
     owner = np.repeat(np.arange(len(sizes)), sizes)
     K, r = len(owner), base.whitener.shape[1]
-    pairs = (
-        np.array(
-            [
-                (f + i, f + k)
-                for f, size in zip(first, sizes, strict=True)
-                for i in range(size)
-                for k in range(size)
-            ]
-        )
-        .reshape(-1, 2)
-        .astype(int)
-    )
+    blocks = [
+        f + np.indices((size, size)).reshape(2, -1) for f, size in zip(first, sizes, strict=True)
+    ]
+    pairs = np.concatenate([np.zeros((2, 0), dtype=int), *blocks], axis=1).T
     T, w = np.zeros((base.block_count, r, K)), np.zeros((base.block_count, K))
     D, square = np.zeros((base.block_count, len(pairs))), np.zeros(K)
     pool = CandidateBatch(owner, sizes, first, np.ones(K), T, w, pairs, D)
     for j in range(len(base.sigma)):
         active = [i for i, columns in enumerate(every) if columns[j] is not None]
-        for some in (
-            active[k : k + THRESHOLDS.candidate_chunk]
-            for k in range(0, len(active), THRESHOLDS.candidate_chunk)
-        ):
+        chunk = THRESHOLDS.candidate_chunk
+        for some in (active[k : k + chunk] for k in range(0, len(active), chunk)):
             if not base.y[j].size:
                 continue
             places = np.concatenate([np.arange(first[i], first[i] + sizes[i]) for i in some])
@@ -315,9 +298,8 @@ def estimate_sigma(rows: ReducedRows, prior: np.ndarray | None = None) -> np.nda
         updated = np.array([_compute_rms(y - w @ beta, n) if n else 1.0 for y, w, n in every])
         if free.any() and not free.all():
             error = float(np.sqrt(np.mean((updated[~free] / size[~free]) ** 2)))
-            parts = [
-                np.diag(gram) @ beta**2 / max(n, 1) for gram, n in zip(grams, count, strict=False)
-            ]
+            pairs = zip(grams, count, strict=False)
+            parts = [np.diag(gram) @ beta**2 / max(n, 1) for gram, n in pairs]
             updated = np.where(free, np.maximum(updated, error * np.sqrt(parts)), updated)
         updated = np.maximum(updated, floor)
         settled = np.all(np.abs(updated / sigma - 1.0) < 1e-4)
@@ -499,10 +481,7 @@ def _solve_batch(
     M = D - np.einsum("fri,fri->fi", T[:, :, i], A[:, :, k])
     h = w - np.einsum("frk,fr->fk", A, u)
     gamma, deviation = np.zeros(h.shape), np.zeros(h.shape)
-    visible, fitted = (
-        np.zeros((len(h), pool.candidate_count)),
-        np.zeros((len(h), pool.candidate_count)),
-    )
+    visible, fitted = np.zeros((2, len(h), pool.candidate_count))
     for size in np.unique(pool.sizes):
         same_size = np.flatnonzero(pool.sizes == size)
         places = pool.first[same_size][:, None] + np.arange(size)

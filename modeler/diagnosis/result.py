@@ -29,6 +29,10 @@ Key = tuple[str, str | None]
 """Effect and joint; the joint of an effect of the whole robot is None."""
 
 
+def _describe_key(key: Key) -> dict[str, str | None]:
+    return dict(zip(("effect", "joint"), key, strict=True))
+
+
 @dataclass(frozen=True)
 class CrossCheck:
     """What another look says of one effect.
@@ -50,9 +54,7 @@ class CrossCheck:
 
     def to_json(self) -> dict[str, Any]:
         """Plain data."""
-        leads = (
-            None if self.leads is None else dict(zip(("effect", "joint"), self.leads, strict=True))
-        )
+        leads = None if self.leads is None else _describe_key(self.leads)
         return {"leads": leads, **select_attributes(self, "what agrees gain expected")}
 
 
@@ -99,10 +101,8 @@ class PushWindow:
 
     def merge_part(self, other: "PushWindow") -> "PushWindow | None":
         """Merges the push with a part of it; None if that is another push."""
-        near = (
-            other.start < self.end + THRESHOLDS.push_separation
-            and other.end > self.start - THRESHOLDS.push_separation
-        )
+        apart = THRESHOLDS.push_separation
+        near = other.start < self.end + apart and other.end > self.start - apart
         if other.log != self.log or not near:
             return None
         start, end = min(self.start, other.start), max(self.end, other.end)
@@ -186,9 +186,8 @@ def explain_weak_evidence(
             f"{format_percent(THRESHOLDS.min_error_reduction)} of itself"
         )
     if pick.effect.orders and pick.effect.orders[1] < math.inf:
-        spread = THRESHOLDS.max_order_deviation * max(
-            sigmas.get(shape.name, math.inf) for shape in pick.form.nonlinear_parameters
-        )
+        sigma = max(sigmas.get(s.name, math.inf) for s in pick.form.nonlinear_parameters)
+        spread = THRESHOLDS.max_order_deviation * sigma
         if abs(pick.wave_order - round(pick.wave_order)) > spread:
             reasons.append(f"{pick.wave_order:.1f} waves a turn are no number of teeth or poles")
     joints = sorted({tie.joint for tie in ties if tie.joint not in (None, pick.joint)})
@@ -201,11 +200,8 @@ def explain_weak_evidence(
     for check in () if unit else checks:
         if not check.agrees and check.leads is not None:
             reasons.append(f"{check.leads[0]} explains its joint better ({check.what})")
-        if (
-            check.expected > THRESHOLDS.min_expected_reduction
-            and check.gain < THRESHOLDS.min_confirmed_share * check.expected
-            and not is_gain(pick)
-        ):
+        expected = check.expected > THRESHOLDS.min_expected_reduction and not is_gain(pick)
+        if expected and check.gain < THRESHOLDS.min_confirmed_share * check.expected:
             reasons.append(f"it explains nothing {check.what}")
     return "; ".join(reasons)
 
@@ -304,11 +300,8 @@ class Finding(ShortRepr):
         """Returns "fact" of what is stated as missing, else "named" or "perhaps"."""
         if self.doubt:
             return "perhaps"
-        return (
-            "fact"
-            if self.is_confirmed and not self.is_refinement and not self.equivalents
-            else "named"
-        )
+        alone = not self.is_refinement and not self.equivalents
+        return "fact" if self.is_confirmed and alone else "named"
 
     @property
     def gain(self) -> float:
@@ -319,11 +312,9 @@ class Finding(ShortRepr):
     def to_json(self) -> dict[str, Any]:
         """Plain data."""
         return {
-            **select_attributes(
-                self, "effect joint status gain error_before error_after parameters sigmas"
-            ),
-            **select_attributes(self, "intervals units"),
-            "ties": [{"effect": effect, "joint": joint} for effect, joint in self.equivalents],
+            **select_attributes(self, "effect joint status gain error_before error_after"),
+            **select_attributes(self, "parameters sigmas intervals units"),
+            "ties": list(map(_describe_key, self.equivalents)),
             **select_attributes(self, "evidence closure objection doubt"),
             "looks": [check.to_json() for check in self.cross_checks],
         }
@@ -399,15 +390,10 @@ class EquationProposal(ShortRepr):
     def to_json(self) -> dict[str, Any]:
         """Plain data."""
         return {
-            **select_attributes(
-                self.finding, "effect joint error_before error_after gain parameters sigmas"
-            ),
-            **select_attributes(self.finding, "intervals units"),
-            "text": self.text,
-            **select_attributes(
-                self, "equation effects_line explained symbols instead relative likeness"
-            ),
-            **select_attributes(self, "differs apart where"),
+            **select_attributes(self.finding, "effect joint error_before error_after gain"),
+            **select_attributes(self.finding, "parameters sigmas intervals units"),
+            **select_attributes(self, "text equation effects_line explained symbols instead"),
+            **select_attributes(self, "relative likeness differs apart where"),
         }
 
 
@@ -470,9 +456,8 @@ class JointState(ShortRepr):
     def is_unexplained(self) -> bool:
         """Tells whether a significant systematic residual remains."""
         left = self.systematic + self.noise
-        return self.systematic > max(
-            THRESHOLDS.min_systematic_torque**2, THRESHOLDS.min_systematic_share * left
-        )
+        share = THRESHOLDS.min_systematic_share * left
+        return self.systematic > max(THRESHOLDS.min_systematic_torque**2, share)
 
 
 @dataclass(frozen=True, eq=False)
@@ -545,15 +530,16 @@ class Diagnosis(Result):
         """Returns the effects that `modeler add` puts in."""
         spec = self.search.spec
         has = {(p.effect, p.joint) for p in spec.standard}
-        return tuple(
-            f
-            for f in self.effects
-            if f.pick is not None
-            and f.pick.visible_share >= THRESHOLDS.min_addable_share
-            and not self.machine_changed
-            and not explain_exclusion(f.pick.candidate.effect, spec)
-            and ((f.effect, f.joint) not in has or f.pick.candidate.effect.several)
-        )
+        least = THRESHOLDS.min_addable_share
+
+        def can_add(finding: Finding) -> bool:
+            if finding.pick is None or finding.pick.visible_share < least:
+                return False
+            effect = finding.pick.candidate.effect
+            new = (finding.effect, finding.joint) not in has or effect.several
+            return new and not explain_exclusion(effect, spec)
+
+        return () if self.machine_changed else tuple(filter(can_add, self.effects))
 
     @property
     def changed(self) -> bool:
@@ -562,26 +548,16 @@ class Diagnosis(Result):
 
     def to_json(self) -> dict[str, Any]:
         """The `diagnose` object that scripts read; numbers that mean nothing are null."""
+        joints = self.joints.items()
+        proposed = self.discoveries
         return convert_to_plain(
             {
                 **select_attributes(self, "robot verdict effects refinements"),
-                "rivals": [
-                    {"effect": effect, "joint": joint, "gain": gain}
-                    for effect, joint, gain in self.rivals
-                ],
-                "blind_spots": [
-                    {"effect": effect, "joint": joint} for effect, joint in self.blind_spots
-                ],
-                "joints": {
-                    name: {"relative_error": self.errors.get(name), **vars(joint)}
-                    for name, joint in self.joints.items()
-                },
+                "rivals": [_describe_key(key) | {"gain": gain} for *key, gain in self.rivals],
+                "blind_spots": list(map(_describe_key, self.blind_spots)),
+                "joints": {n: {"relative_error": self.errors.get(n), **vars(j)} for n, j in joints},
                 **select_attributes(self, "unmoved held_out sentences band fit_band data changed"),
                 **select_attributes(self, "contradicted machine_changed"),
-                **(
-                    {}
-                    if self.discoveries is None
-                    else {"discoveries": [discovery.to_json() for discovery in self.discoveries]}
-                ),
+                **({} if proposed is None else {"discoveries": [d.to_json() for d in proposed]}),
             }
         )

@@ -193,9 +193,8 @@ class Signals(ShortRepr):
             return apply_lag(followed, self.step, shapes[memory.parameter])
         if memory.kind == "slip":
             return compute_bristle_state(self.q[:, j], shapes[memory.parameter])
-        return simulate_resonance(
-            self.load[:, j], self.step, shapes[memory.parameter], shapes[memory.damping]
-        )
+        frequency, damping = shapes[memory.parameter], shapes[memory.damping]
+        return simulate_resonance(self.load[:, j], self.step, frequency, damping)
 
     def compute_slopes(self, j: int) -> tuple[np.ndarray, ...]:
         """Computes derivatives (n, J) of the links' torque by q, v and a of joint j.
@@ -219,10 +218,8 @@ class Signals(ShortRepr):
         ahead, behind = [self.q, self.v, self.a], [self.q, self.v, self.a]
         ahead[kind] = ahead[kind] + step
         if kind == 2:
-            return (
-                model.inverse_dynamics(self.q, self.v, ahead[2], beta, self.model_signals)
-                - self.load
-            )
+            signals = self.model_signals
+            return model.inverse_dynamics(self.q, self.v, ahead[2], beta, signals) - self.load
         behind[kind] = behind[kind] - step
         if kind == 0:  # beside the last posture that closes the loops may be one that does not
             nearest = find_nearest_closed(model, ahead[0], behind[0])
@@ -248,10 +245,8 @@ class Signals(ShortRepr):
         """
         start, stop, _ = window.indices(len(dq))
         first = max(0, start - THRESHOLDS.difference_reach)
-        dq, inside = (
-            dq[first : stop + THRESHOLDS.difference_reach],
-            slice(start - first, stop - first),
-        )
+        dq = dq[first : stop + THRESHOLDS.difference_reach]
+        inside = slice(start - first, stop - first)
         torque = np.zeros((self.q.shape[1], stop - start, dq.shape[1]))
         if not dq.any():
             return torque.swapaxes(0, 1)
@@ -368,17 +363,13 @@ def compute_tilt_basis(reference: SignalReference) -> list[tuple[np.ndarray, np.
     for base, value in zip(model.spec.base, reference.link_parameters, strict=True):
         if base.column_of in place:
             chi[place[base.column_of]] = value
-    q = np.random.default_rng(3).uniform(
-        -1.5, 1.5, (THRESHOLDS.tilt_states, len(model.spec.joints))
-    )
+    size, least = (THRESHOLDS.tilt_states, len(model.spec.joints)), THRESHOLDS.min_tilt_torque
+    q = np.random.default_rng(3).uniform(-1.5, 1.5, size)
     unit = np.eye(3)
     slopes = compute_frame_slopes(model, q)
     along = np.column_stack([compute_gravity_torque(slopes, e, chi).ravel() for e in unit])
     target = model.gravity(q, reference.link_parameters).ravel()
-    if (
-        np.linalg.norm(target) <= THRESHOLDS.min_tilt_torque
-        or np.linalg.norm(along) <= THRESHOLDS.min_tilt_torque
-    ):
+    if np.linalg.norm(target) <= least or np.linalg.norm(along) <= least:
         return None
     gravity = np.linalg.lstsq(along, target, rcond=None)[0]
     down = gravity / np.linalg.norm(gravity)
@@ -387,14 +378,9 @@ def compute_tilt_basis(reference: SignalReference) -> list[tuple[np.ndarray, np.
     across = across / np.linalg.norm(across)
     axes = (across, np.cross(down, across))
     # an arm that moves in a plane does not feel gravity across it
-    effective_axes = [
-        axis
-        for axis in axes
-        if np.linalg.norm(compute_gravity_torque(slopes, axis, chi)) > THRESHOLDS.min_tilt_torque
-    ]
-    return [(axis, chi) for axis in effective_axes] + _find_hidden_moments(
-        slopes, axes, down, len(rows)
-    )
+    torques = [(axis, compute_gravity_torque(slopes, axis, chi)) for axis in axes]
+    basis = [(axis, chi) for axis, torque in torques if np.linalg.norm(torque) > least]
+    return basis + _find_hidden_moments(slopes, axes, down, len(rows))
 
 
 def compute_tilt_axes(reference: SignalReference) -> np.ndarray:
@@ -417,10 +403,8 @@ def _find_hidden_moments(
         for k in (1, 2, 3):
             chi = np.zeros((rows, 4))
             chi[r, k] = 1.0
-            if (
-                np.linalg.norm(compute_gravity_torque(slopes, down, chi))
-                > THRESHOLDS.min_tilt_torque
-            ):
+            torque = compute_gravity_torque(slopes, down, chi)
+            if np.linalg.norm(torque) > THRESHOLDS.min_tilt_torque:
                 continue
             for axis in axes:
                 column = compute_gravity_torque(slopes, axis, chi).ravel()

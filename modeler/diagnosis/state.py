@@ -69,10 +69,8 @@ class SearchData(ShortRepr):
     def rows(self) -> Rows:
         """Returns all rows; effects are not linearised about anything yet."""
         beta = np.zeros(len(self.spec.base))
-        return build_rows(
-            self.observation,
-            SignalReference(self.compiled, beta, *_find_references(self.observation)),
-        )
+        reference = SignalReference(self.compiled, beta, *_find_references(self.observation))
+        return build_rows(self.observation, reference)
 
     def linearise_rows(self, reference: SignalReference) -> Rows:
         """Returns the rows with effects linearised about a reference; the last few are cached."""
@@ -163,12 +161,11 @@ class State(ShortRepr):
         """Returns fitted base columns, then the picks', (rows_j, f + extra) by joint."""
         if not self.extra and self.data.fixed_parameters is None:
             return self.rows.W
-        return tuple(
-            np.hstack(
-                [base[:, self.data.free_columns], *(to_dense(e, j, len(base)) for e in self.extra)]
-            )
-            for j, base in enumerate(self.rows.W)
-        )
+        free, blocks = self.data.free_columns, []
+        for j, base in enumerate(self.rows.W):
+            extra = (to_dense(columns, j, len(base)) for columns in self.extra)
+            blocks.append(np.hstack([base[:, free], *extra]))
+        return tuple(blocks)
 
     @property
     def y(self) -> tuple[np.ndarray, ...]:
@@ -179,9 +176,8 @@ class State(ShortRepr):
     def gram_blocks(self) -> ranking.GramBlocks:
         """Returns the Gram matrices of the model so far, by block."""
         numbers, fold = self.data.block_numbers, self.data.time_blocks.fold
-        return ranking.build_gram_blocks(
-            self.W, self.y, self.sigma, numbers, fold, self.whitener, self.prior
-        )
+        known = numbers, fold, self.whitener, self.prior
+        return ranking.build_gram_blocks(self.W, self.y, self.sigma, *known)
 
     @cached_property
     def fold_grams(self) -> ranking.GramBlocks:
@@ -219,17 +215,15 @@ class State(ShortRepr):
         solution, sums = self._solve_with_prior(rows), [1.0]
         for j, (y, w) in enumerate(zip(self.y, self.W, strict=True)):
             if y.any():
-                r = estimate_correlation(
-                    observation, y - w @ solution, np.flatnonzero(observation.used[:, j])
-                )
+                used = np.flatnonzero(observation.used[:, j])
+                r = estimate_correlation(observation, y - w @ solution, used)
                 sums.append(max(1.0, 2.0 * float(r.sum()) - 1.0))
         repeats = float(np.median(sums[1:] or sums))
         tight: dict[str, float] = {}
         for _ in range(THRESHOLDS.max_prior_steps):
             rows = known.scale_sigmas(tight).extend_rows(lengths) * repeats**0.5
-            nearer = known.find_unlikely_groups(
-                self._solve_with_prior(rows)[: len(self.data.free_columns)]
-            )
+            solution = self._solve_with_prior(rows)
+            nearer = known.find_unlikely_groups(solution[: len(self.data.free_columns)])
             if not nearer:
                 break
             tight |= {name: 0.5 * tight.get(name, 1.0) for name in nearer}
@@ -238,18 +232,14 @@ class State(ShortRepr):
     @cached_property
     def sigma(self) -> np.ndarray:
         """Returns the rms residual of each joint, (J,)."""
-        return (
-            ranking.estimate_sigma(self.reduced_rows, prior=self.prior)
-            if not self.adopted_weights
-            else self.adopted_weights[0]
-        )
+        if self.adopted_weights:
+            return self.adopted_weights[0]
+        return ranking.estimate_sigma(self.reduced_rows, prior=self.prior)
 
     @cached_property
     def whitener(self) -> np.ndarray:
         """Returns the transform to orthonormal weighted columns, (f + extra, r)."""
-        return compute_joint_whitening(
-            [*self.reduced_rows.W, self.prior[:, :-1]], np.append(self.sigma, 1.0)
-        )
+        return self._compute_whitener(self.sigma, self.prior)
 
     @cached_property
     def solution(self) -> np.ndarray:
@@ -262,32 +252,28 @@ class State(ShortRepr):
         if not whitener.shape[1]:
             return np.zeros(len(whitener))
         G, u = 1e-12 * np.eye(whitener.shape[1]), np.zeros(whitener.shape[1])
-        every = [
-            *zip(self.reduced_rows.W, self.reduced_rows.y, sigma, strict=True),
-            (prior[:, :-1], prior[:, -1], 1.0),
-        ]
+        every = list(zip(self.reduced_rows.W, self.reduced_rows.y, sigma, strict=True))
+        every.append((prior[:, :-1], prior[:, -1], 1.0))
         for w, y, s in every:
             columns = w @ (whitener / s)
             G, u = G + columns.T @ columns, u + columns.T @ (y / s)
         return np.asarray(whitener @ np.linalg.solve(G, u))
 
+    def _compute_whitener(self, sigma: np.ndarray, prior: np.ndarray) -> np.ndarray:
+        blocks = [*self.reduced_rows.W, prior[:, :-1]]
+        return compute_joint_whitening(blocks, np.append(sigma, 1.0))
+
     def _solve_with_prior(self, prior: np.ndarray) -> np.ndarray:
         """The solution beside such rows of a prior."""
         sigma = ranking.estimate_sigma(self.reduced_rows, prior=prior)
-        whitener = compute_joint_whitening(
-            [*self.reduced_rows.W, prior[:, :-1]], np.append(sigma, 1.0)
-        )
+        whitener = self._compute_whitener(sigma, prior)
         return self._solve_weighted(whitener, sigma, prior)
 
     @cached_property
     def beta(self) -> np.ndarray:
         """Returns the base parameters, (c,)."""
-        beta = (
-            np.zeros(self.rows.W[0].shape[1])
-            if self.data.fixed_parameters is None
-            else self.data.fixed_parameters
-        )
-        beta = beta.copy()
+        fixed = self.data.fixed_parameters
+        beta = np.zeros(self.rows.W[0].shape[1]) if fixed is None else fixed.copy()
         beta[self.data.free_columns] = self.solution[: len(self.data.free_columns)]
         return beta
 
@@ -306,9 +292,8 @@ class State(ShortRepr):
     def torque(self) -> np.ndarray:
         """Returns the model's torque, (s, n), on used rows; elsewhere the measured one."""
         torque = self.data.observation.torque.copy()
-        for j, (used, left) in enumerate(
-            zip(self.data.observation.used.T, self.residual, strict=True)
-        ):
+        pairs = zip(self.data.observation.used.T, self.residual, strict=True)
+        for j, (used, left) in enumerate(pairs):
             torque[used, j] -= left
         return torque
 
@@ -328,17 +313,15 @@ class State(ShortRepr):
 
     def rank_columns(self, every: Sequence[Columns]) -> ranking.Ranking:
         """Ranks candidates by their columns."""
-        return ranking.rank_candidates(
-            self.gram_blocks, ranking.build_batch(self.gram_blocks, every)
-        )
+        base = self.gram_blocks
+        return ranking.rank_candidates(base, ranking.build_batch(base, every))
 
 
 def build_state(data: SearchData, picks: Sequence[Candidate], beta: np.ndarray) -> State:
     """Builds the analysis with these effects, linearised about beta (c,)."""
     rows = data.linearise_rows(replace(data.rows.signals[0].reference, beta=beta))
-    return State(
-        data, tuple(picks), rows.signals[0].reference, rows, collect_pick_columns(rows, picks)
-    )
+    columns = collect_pick_columns(rows, picks)
+    return State(data, tuple(picks), rows.signals[0].reference, rows, columns)
 
 
 def collect_pick_columns(rows: Rows, picks: Sequence[Candidate]) -> tuple[Columns, ...]:
@@ -416,11 +399,8 @@ def _is_model_independent(candidate: Candidate) -> bool:
 def make_column_key(rows: Rows, candidate: Candidate) -> tuple[Any, ...]:
     """Makes the key of columns that do not depend on the model."""
     shapes = tuple(sorted(candidate.nonlinear_parameters.items()))
-    clock = (
-        ()
-        if candidate.form.names.isdisjoint({"t", "T"})
-        else _make_clock_key(rows.signals[0].reference)
-    )
+    timed = not candidate.form.names.isdisjoint({"t", "T"})
+    clock = _make_clock_key(rows.signals[0].reference) if timed else ()
     return candidate.effect.id, candidate.joint, shapes, clock
 
 
@@ -484,9 +464,8 @@ def observe_logs(
     compiled: "CompiledModel", logs: Sequence[regression.Log], prepared: regression.PreparedLogs
 ) -> regression.Observation:
     """Returns the observation of logs whose band is chosen."""
-    return _select_whole_rows(
-        regression.build_observation(compiled, logs, prepared, every_joint=True)
-    )
+    every = regression.build_observation(compiled, logs, prepared, every_joint=True)
+    return _select_whole_rows(every)
 
 
 def choose_band(
@@ -498,9 +477,8 @@ def choose_band(
     repair: regression.LogRepair | None = None,
 ) -> regression.PreparedLogs:
     """Prepares the logs in the band that `analyse_logs` chooses."""
-    prepared = (
-        prepared or regression.prepare_logs(compiled.spec, logs, fitted, repair)
-    ).drop_commands()
+    prepared = prepared or regression.prepare_logs(compiled.spec, logs, fitted, repair)
+    prepared = prepared.drop_commands()
     noise = prepared.noise
     if "parallel_cutoff" not in fitted.chosen or not noise.moving:
         return prepared
@@ -519,14 +497,12 @@ def choose_band(
         position = 1.25 * parallel if band else wide.position_cutoff
     prepared = replace(prepared, processing=wide)
     prepared = prepared.set_cutoffs(user_cutoff or min(position, highest), parallel)
-    quiet_cutoffs = regression.CutoffSearch(compiled, prepared).find_chatter_free(
-        motion, user_cutoff is not None
-    )
+    cutoffs = regression.CutoffSearch(compiled, prepared)
+    quiet_cutoffs = cutoffs.find_chatter_free(motion, user_cutoff is not None)
     prepared = prepared.set_cutoffs(quiet_cutoffs.position, quiet_cutoffs.parallel)
     if any(log.check is not None for log in prepared.logs):  # in the band of the rows
-        prepared = regression.prepare_logs(
-            compiled.spec, logs, prepared.processing, repair
-        ).drop_commands()
+        again = regression.prepare_logs(compiled.spec, logs, prepared.processing, repair)
+        prepared = again.drop_commands()
     return prepared
 
 
@@ -536,9 +512,8 @@ def observe_in_band(
     processing: regression.ChosenProcessing,
 ) -> regression.Observation:
     """Returns other logs in the band of a diagnosis."""
-    return observe_logs(
-        compiled, logs, regression.prepare_logs(compiled.spec, logs, processing).drop_commands()
-    )
+    prepared = regression.prepare_logs(compiled.spec, logs, processing)
+    return observe_logs(compiled, logs, prepared.drop_commands())
 
 
 def get_cutoff(data: SearchData) -> float:
